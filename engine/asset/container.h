@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/core/hash.h"
+
+namespace rowland::asset {
+
+/// What a cooked file says of itself before its payload.
+struct Header {
+    std::string type;                ///< "probe", "material", ...
+    std::uint32_t type_version = 0;  ///< version of the payload's layout
+    Hash128 content_hash;            ///< over source, settings and tool version: equal hash, equal payload
+};
+
+struct CookedAsset {
+    Header header;
+    std::vector<std::byte> payload;
+};
+
+/// The bytes of a cooked file: magic, container version, header, payload (zstd) and its checksum. The same input gives
+/// the same bytes on every machine.
+std::vector<std::byte> pack(const CookedAsset& asset);
+
+/// Inverse of pack for bytes that may be hostile. Throws Error (input) naming `file` and the place.
+CookedAsset unpack(std::span<const std::byte> bytes, const std::string& file);
+
+/// True if the bytes begin with the container's magic.
+bool is_cooked(std::span<const std::byte> bytes);
+
+/// Reads a cooked file of the given type and version. A wrong type or version is an Error that names the file, what was
+/// found, what was expected and the command that recooks it.
+CookedAsset load(const std::filesystem::path& path, const std::string& type, std::uint32_t type_version);
+
+}  // namespace rowland::asset

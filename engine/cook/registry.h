@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace rowland::cook {
+
+/// What one cook reads: every file goes through here, so that the dependency file is complete.
+class Context {
+   public:
+    explicit Context(std::filesystem::path source) : source_(std::move(source)) { depend_on(source_); }
+
+    const std::filesystem::path& source() const { return source_; }
+    /// A path named inside the source, relative to the source's folder.
+    std::filesystem::path beside_source(const std::string& name) const { return source_.parent_path() / name; }
+    /// Records that the result depends on `path`. Call it before reading.
+    void depend_on(const std::filesystem::path& path) { dependencies_.push_back(path); }
+    const std::vector<std::filesystem::path>& dependencies() const { return dependencies_; }
+
+    /// Reads the source, or another file, and records it.
+    std::vector<std::byte> read(const std::filesystem::path& path, std::uint64_t max_bytes);
+    /// The source parsed as JSON (depth-limited). Throws Error (input).
+    nlohmann::json read_json(const std::filesystem::path& path);
+
+   private:
+    std::filesystem::path source_;
+    std::vector<std::filesystem::path> dependencies_;
+};
+
+/// How one kind of source becomes one kind of cooked asset. Registered by the engine's parts and by modules.
+struct AssetType {
+    std::string name;           ///< "probe", "material", "mesh"
+    std::uint32_t version = 1;  ///< raise it whenever the payload's layout or the bake's result changes
+    std::string extension;      ///< of the cooked file, with the dot
+    bool in_container = true;   ///< false: the payload is a file format of its own (GLB) and is written as it is
+
+    /// Whether a source is of this type. `json` is the parsed source if its extension is .json, else null.
+    std::function<bool(const std::filesystem::path& source, const nlohmann::json* json)> recognises;
+    /// Source → payload. Deterministic: the same sources give the same bytes with any number of threads.
+    /// Empty if sources of this type are only ever checked, not cooked.
+    std::function<std::vector<std::byte>(Context&)> cook;
+    /// Loads a source as the engine would; throws Error (input) if it is refused.
+    std::function<void(Context&)> check;
+    /// Parses a cooked payload fully and describes it, a "name: value" line each. Throws Error (input).
+    std::function<std::string(std::span<const std::byte> payload, const std::string& file)> describe;
+};
+
+class Registry {
+   public:
+    /// Adds a type; its name must be new.
+    void add(AssetType type);
+    const std::vector<AssetType>& types() const { return types_; }
+    /// The type of a source file. Throws Error (input) listing what is known if there is none.
+    const AssetType& type_of_source(const std::filesystem::path& source) const;
+    /// The type called `name`, or null.
+    const AssetType* find(const std::string& name) const;
+
+   private:
+    std::vector<AssetType> types_;
+};
+
+}  // namespace rowland::cook

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace rowland {
+
+/// Who is at fault: the user's input or arguments (exit code 2), or the system under us (exit code 1).
+enum class Fault { Input, System };
+
+/// What a user needs in order to mend a failure. Empty fields are left out of the message.
+struct ErrorInfo {
+    std::string file;      ///< the file (or option) at fault, as the user named it
+    std::string place;     ///< where in it: line and column, JSON pointer, byte offset, row
+    std::string found;     ///< what was there
+    std::string expected;  ///< what should have been there
+    std::string remedy;    ///< what to do about it
+    Fault fault = Fault::Input;
+};
+
+/// The one exception type: bad input or a failing system. Logic errors are ROWLAND_CHECKs, not exceptions.
+/// what() is one line: "file: place: found X; expected Y; remedy".
+class Error : public std::runtime_error {
+   public:
+    explicit Error(ErrorInfo info);
+
+    const ErrorInfo& info() const { return info_; }
+
+   private:
+    ErrorInfo info_;
+};
+
+}  // namespace rowland

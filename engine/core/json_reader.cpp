@@ -1,0 +1,238 @@
+#include "engine/core/json_reader.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/error.h"
+
+namespace rowland {
+
+namespace {
+
+constexpr int kMaximumDepth = 64;
+
+/// What a value is, for messages: short, whatever the value's size.
+std::string describe(const nlohmann::json& value) {
+    std::string text = value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    if (text.size() > 40) text = text.substr(0, 37) + "...";
+    return text;
+}
+
+std::string describe(const NumberRange& range) {
+    const bool bounded_below = std::isfinite(range.minimum);
+    const bool bounded_above = std::isfinite(range.maximum);
+    if (bounded_below && bounded_above)
+        return fmt::format("a number in {}{}, {}{}", range.minimum_open ? '(' : '[', range.minimum, range.maximum,
+                           range.maximum_open ? ')' : ']');
+    if (bounded_below) return fmt::format("a number {} {}", range.minimum_open ? ">" : ">=", range.minimum);
+    if (bounded_above) return fmt::format("a number {} {}", range.maximum_open ? "<" : "<=", range.maximum);
+    return "a number";
+}
+
+bool inside(double x, const NumberRange& range) {
+    return std::isfinite(x) && (range.minimum_open ? x > range.minimum : x >= range.minimum) &&
+           (range.maximum_open ? x < range.maximum : x <= range.maximum);
+}
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t substitution = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+            diagonal = row[j];
+            row[j] = std::min({substitution, row[j] + 1, row[j - 1] + 1});
+        }
+    }
+    return row.back();
+}
+
+/// Depth is checked before parsing, so that nothing recursive ever sees a deep document.
+void check_depth(std::string_view text, const std::string& file) {
+    int depth = 0;
+    bool in_string = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (in_string) {
+            if (c == '\\') ++i;
+            if (c == '"') in_string = false;
+        } else if (c == '"') {
+            in_string = true;
+        } else if (c == '{' || c == '[') {
+            if (++depth > kMaximumDepth)
+                throw Error({.file = file,
+                             .place = fmt::format("byte {}", i),
+                             .found = "JSON nested too deep",
+                             .expected = fmt::format("at most {} levels", kMaximumDepth),
+                             .remedy = {}});
+        } else if (c == '}' || c == ']') {
+            --depth;
+        }
+    }
+}
+
+}  // namespace
+
+nlohmann::json parse_json(std::string_view text, const std::string& file) {
+    check_depth(text, file);
+    try {
+        return nlohmann::json::parse(text);
+    } catch (const nlohmann::json::parse_error& error) {
+        const std::size_t end = std::min(error.byte == 0 ? 0 : error.byte - 1, text.size());
+        const std::string_view before = text.substr(0, end);
+        const auto line = std::count(before.begin(), before.end(), '\n') + 1;
+        const auto line_start = before.rfind('\n');
+        const std::size_t column = before.size() - (line_start == std::string_view::npos ? 0 : line_start + 1) + 1;
+        // The library's text after "- " says what it met; its prefix repeats the position.
+        std::string reason = error.what();
+        if (const auto dash = reason.find(": "); dash != std::string::npos) reason = reason.substr(dash + 2);
+        throw Error({.file = file,
+                     .place = fmt::format("line {}, column {}", line, column),
+                     .found = reason,
+                     .expected = "valid JSON",
+                     .remedy = {}});
+    }
+}
+
+JsonReader::JsonReader(const nlohmann::json& value, std::string file, std::string pointer)
+    : value_(&value), file_(std::move(file)), pointer_(std::move(pointer)) {
+    if (!value.is_object())
+        throw Error({.file = file_,
+                     .place = pointer_.empty() ? "/" : pointer_,
+                     .found = describe(value),
+                     .expected = "an object",
+                     .remedy = {}});
+}
+
+bool JsonReader::has(const std::string& key) {
+    known_.insert(key);
+    return value_->contains(key);
+}
+
+const nlohmann::json& JsonReader::require(const std::string& key) {
+    known_.insert(key);
+    const auto it = value_->find(key);
+    if (it != value_->end()) return *it;
+    // A misspelt key explains a missing one.
+    std::vector<std::string> unasked;
+    for (const auto& [name, ignored] : value_->items()) unasked.push_back(name);
+    const auto near = nearest_word(key, unasked);
+    fail(key, "missing", "a value", near ? fmt::format("is \"{}\" meant to be \"{}\"?", *near, key) : "add it");
+}
+
+double JsonReader::number(const std::string& key, NumberRange range) {
+    const nlohmann::json& value = require(key);
+    if (!value.is_number() || !inside(value.get<double>(), range)) fail(key, describe(value), describe(range));
+    return value.get<double>();
+}
+
+double JsonReader::number_or(const std::string& key, double fallback, NumberRange range) {
+    return has(key) ? number(key, range) : fallback;
+}
+
+std::int64_t JsonReader::integer(const std::string& key, std::int64_t minimum, std::int64_t maximum) {
+    const nlohmann::json& value = require(key);
+    const std::string expected = fmt::format("a whole number in [{}, {}]", minimum, maximum);
+    if (value.is_number_unsigned()) {
+        const auto x = value.get<std::uint64_t>();
+        if (maximum < 0 || x > static_cast<std::uint64_t>(maximum)) fail(key, describe(value), expected);
+    }
+    if (!value.is_number_integer()) fail(key, describe(value), expected);
+    const auto x = value.get<std::int64_t>();
+    if (x < minimum || x > maximum) fail(key, describe(value), expected);
+    return x;
+}
+
+std::int64_t JsonReader::integer_or(const std::string& key, std::int64_t fallback, std::int64_t minimum,
+                                    std::int64_t maximum) {
+    return has(key) ? integer(key, minimum, maximum) : fallback;
+}
+
+std::string JsonReader::text(const std::string& key) {
+    const nlohmann::json& value = require(key);
+    if (!value.is_string()) fail(key, describe(value), "a string");
+    return value.get<std::string>();
+}
+
+bool JsonReader::boolean_or(const std::string& key, bool fallback) {
+    if (!has(key)) return fallback;
+    const nlohmann::json& value = require(key);
+    if (!value.is_boolean()) fail(key, describe(value), "true or false");
+    return value.get<bool>();
+}
+
+std::vector<double> JsonReader::numbers(const std::string& key, std::size_t count, NumberRange range) {
+    const nlohmann::json& value = require(key);
+    if (!value.is_array() || value.size() != count) fail(key, describe(value), fmt::format("{} numbers", count));
+    std::vector<double> result;
+    for (const nlohmann::json& element : value) {
+        if (!element.is_number() || !inside(element.get<double>(), range))
+            fail(fmt::format("{}/{}", key, result.size()), describe(element), describe(range));
+        result.push_back(element.get<double>());
+    }
+    return result;
+}
+
+std::string JsonReader::choice(const std::string& key, std::initializer_list<std::string_view> choices) {
+    std::string word = text(key);
+    if (std::find(choices.begin(), choices.end(), word) != choices.end()) return word;
+    const auto near = nearest_word(word, {choices.begin(), choices.end()});
+    fail(key, fmt::format("\"{}\"", word), fmt::format("one of {}", fmt::join(choices, ", ")),
+         near ? fmt::format("is \"{}\" meant?", *near) : "");
+}
+
+std::string JsonReader::choice_or(const std::string& key, std::string fallback,
+                                  std::initializer_list<std::string_view> choices) {
+    return has(key) ? choice(key, choices) : fallback;
+}
+
+JsonReader JsonReader::object(const std::string& key) { return {require(key), file_, pointer_to(key)}; }
+
+const nlohmann::json& JsonReader::raw(const std::string& key) { return require(key); }
+
+std::vector<JsonReader> JsonReader::objects(const std::string& key) {
+    const nlohmann::json& value = require(key);
+    if (!value.is_array()) fail(key, describe(value), "an array of objects");
+    std::vector<JsonReader> result;
+    for (std::size_t i = 0; i < value.size(); ++i)
+        result.emplace_back(value[i], file_, fmt::format("{}/{}", pointer_to(key), i));
+    return result;
+}
+
+void JsonReader::finish() const {
+    for (const auto& [key, ignored] : value_->items()) {
+        if (known_.contains(key)) continue;
+        const std::vector<std::string> valid(known_.begin(), known_.end());
+        const auto near = nearest_word(key, valid);
+        fail(key, "unknown key", fmt::format("one of {}", fmt::join(valid, ", ")),
+             near ? fmt::format("is \"{}\" meant?", *near) : "remove it");
+    }
+}
+
+void JsonReader::fail(const std::string& key, std::string found, std::string expected, std::string remedy) const {
+    throw Error({.file = file_,
+                 .place = pointer_to(key),
+                 .found = std::move(found),
+                 .expected = std::move(expected),
+                 .remedy = std::move(remedy)});
+}
+
+std::optional<std::string> nearest_word(std::string_view word, const std::vector<std::string>& candidates) {
+    std::optional<std::string> best;
+    std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
+    for (const std::string& candidate : candidates) {
+        const std::size_t distance = edit_distance(word, candidate);
+        if (distance < best_distance) {
+            best_distance = distance;
+            best = candidate;
+        }
+    }
+    return best;
+}
+
+}  // namespace rowland

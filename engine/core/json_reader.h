@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <initializer_list>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rowland {
+
+/// Parses JSON text that may be hostile. Throws Error (input) with line and column for bad syntax, for nesting deeper
+/// than 64 and for invalid UTF-8.
+nlohmann::json parse_json(std::string_view text, const std::string& file);
+
+/// A number's domain; the message shows it as an interval. Open ends exclude the bound.
+struct NumberRange {
+    double minimum = -std::numeric_limits<double>::infinity();
+    double maximum = std::numeric_limits<double>::infinity();
+    bool minimum_open = false;
+    bool maximum_open = false;
+};
+
+/// Reads one JSON object strictly: every failure is an Error (input) that names the file, the JSON pointer, what was
+/// found and what was expected, and finish() refuses keys nobody asked for, naming the nearest valid one.
+class JsonReader {
+   public:
+    /// `value` must outlive the reader. Throws if it is not an object.
+    JsonReader(const nlohmann::json& value, std::string file, std::string pointer = "");
+
+    bool has(const std::string& key);
+    double number(const std::string& key, NumberRange range);
+    double number_or(const std::string& key, double fallback, NumberRange range);
+    std::int64_t integer(const std::string& key, std::int64_t minimum, std::int64_t maximum);
+    std::int64_t integer_or(const std::string& key, std::int64_t fallback, std::int64_t minimum, std::int64_t maximum);
+    std::string text(const std::string& key);
+    bool boolean_or(const std::string& key, bool fallback);
+    /// An array of exactly `count` numbers.
+    std::vector<double> numbers(const std::string& key, std::size_t count, NumberRange range);
+    /// One of `choices`; the message names the nearest.
+    std::string choice(const std::string& key, std::initializer_list<std::string_view> choices);
+    std::string choice_or(const std::string& key, std::string fallback, std::initializer_list<std::string_view> choices);
+    JsonReader object(const std::string& key);
+    /// The raw value, for shapes the calls above do not cover.
+    const nlohmann::json& raw(const std::string& key);
+    /// Array of objects under `key`.
+    std::vector<JsonReader> objects(const std::string& key);
+
+    /// Throws if the object holds a key that was not asked for. Call it last.
+    void finish() const;
+
+    [[noreturn]] void fail(const std::string& key, std::string found, std::string expected,
+                           std::string remedy = "") const;
+    const std::string& file() const { return file_; }
+    std::string pointer_to(const std::string& key) const { return pointer_ + "/" + key; }
+
+   private:
+    const nlohmann::json& require(const std::string& key);
+
+    const nlohmann::json* value_;
+    std::string file_;
+    std::string pointer_;
+    std::set<std::string> known_;
+};
+
+/// The candidate nearest to `word` by edit distance, or nothing if none is near enough to be a slip of the fingers.
+std::optional<std::string> nearest_word(std::string_view word, const std::vector<std::string>& candidates);
+
+}  // namespace rowland

@@ -1,0 +1,31 @@
+#include "engine/core/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace rowland {
+
+Progress::Progress(std::string label, std::size_t total)
+    : label_(std::move(label)), total_(std::max<std::size_t>(total, 1)), visible_(::isatty(STDERR_FILENO) == 1) {}
+
+Progress::~Progress() {
+    if (visible_ && drawn_ != Clock::time_point{}) fmt::print(stderr, "\r\033[K");
+}
+
+void Progress::advance(std::size_t steps) {
+    const std::size_t done = done_ += steps;
+    if (!visible_) return;
+    const std::unique_lock lock(drawing_, std::try_to_lock);
+    const Clock::time_point now = Clock::now();
+    if (!lock.owns_lock() || now - drawn_ < std::chrono::milliseconds(100)) return;
+    drawn_ = now;
+    const double elapsed_s = std::chrono::duration<double>(now - started_).count();
+    const double share = static_cast<double>(done) / static_cast<double>(total_);
+    fmt::print(stderr, "\r\033[K{} {:3.0f} % ({:.0f} s left)", label_, 100.0 * share, elapsed_s * (1.0 - share) / share);
+    std::fflush(stderr);
+}
+
+}  // namespace rowland
