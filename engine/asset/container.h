@@ -24,14 +24,21 @@ struct CookedAsset {
 };
 
 /// The bytes of a cooked file: magic, container version, header, payload (zstd) and its checksum. The same input gives
-/// the same bytes on every machine.
+/// the same bytes, on every machine with the same release of zstd. Throws Error (input) if the payload is over 1 GiB.
 std::vector<std::byte> pack(const CookedAsset& asset);
 
-/// Inverse of pack for bytes that may be hostile. Throws Error (input) naming `file` and the place.
+/// Inverse of pack for bytes that may be hostile: the checksum is over every other byte, and sizes are checked before
+/// anything is allocated. Throws Error (input) naming `file`, the place and the command that recooks it.
 CookedAsset unpack(std::span<const std::byte> bytes, const std::string& file);
 
 /// True if the bytes begin with the container's magic.
 bool is_cooked(std::span<const std::byte> bytes);
+
+/// Reads a cooked file of any type. Throws Error (input) as unpack does.
+CookedAsset load_any(const std::filesystem::path& path);
+
+/// Throws Error (input) unless `header` is of the given type and version; see load.
+void check_type(const Header& header, const std::string& type, std::uint32_t type_version, const std::string& file);
 
 /// Reads a cooked file of the given type and version. A wrong type or version is an Error that names the file, what was
 /// found, what was expected and the command that recooks it.

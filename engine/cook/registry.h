@@ -10,28 +10,35 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/hash.h"
+
 namespace rowland::cook {
 
 /// What one cook reads: every file goes through here, so that the dependency file is complete.
 class Context {
-   public:
+ public:
     explicit Context(std::filesystem::path source) : source_(std::move(source)) { depend_on(source_); }
 
     const std::filesystem::path& source() const { return source_; }
     /// A path named inside the source, relative to the source's folder.
     std::filesystem::path beside_source(const std::string& name) const { return source_.parent_path() / name; }
-    /// Records that the result depends on `path`. Call it before reading.
-    void depend_on(const std::filesystem::path& path) { dependencies_.push_back(path); }
+    /// Records that the result depends on `path`, and what the file holds now. Call it before reading. It throws
+    /// nothing: a file that cannot be read is for its reader to refuse, who knows why it is wanted.
+    void depend_on(const std::filesystem::path& path);
+    /// Each file once, in the order of the first mention; the source comes first.
     const std::vector<std::filesystem::path>& dependencies() const { return dependencies_; }
+    /// What each of `dependencies()` held when it was first mentioned; null if it could not be read then.
+    const std::vector<std::optional<Hash128>>& fingerprints() const { return fingerprints_; }
 
-    /// Reads the source, or another file, and records it.
+    /// Reads the source, or another file, and records it. Throws Error (input) as rowland::read_file does.
     std::vector<std::byte> read(const std::filesystem::path& path, std::uint64_t max_bytes);
-    /// The source parsed as JSON (depth-limited). Throws Error (input).
+    /// A file parsed as JSON (at most 16 MiB, depth-limited), and recorded. Throws Error (input).
     nlohmann::json read_json(const std::filesystem::path& path);
 
-   private:
+ private:
     std::filesystem::path source_;
     std::vector<std::filesystem::path> dependencies_;
+    std::vector<std::optional<Hash128>> fingerprints_;
 };
 
 /// How one kind of source becomes one kind of cooked asset. Registered by the engine's parts and by modules.
@@ -49,20 +56,22 @@ struct AssetType {
     /// Loads a source as the engine would; throws Error (input) if it is refused.
     std::function<void(Context&)> check;
     /// Parses a cooked payload fully and describes it, a "name: value" line each. Throws Error (input).
+    /// Empty only where `cook` is.
     std::function<std::string(std::span<const std::byte> payload, const std::string& file)> describe;
 };
 
 class Registry {
-   public:
-    /// Adds a type; its name must be new.
+ public:
+    /// Adds a type; its name must be new, and it must recognise and check its sources.
     void add(AssetType type);
     const std::vector<AssetType>& types() const { return types_; }
-    /// The type of a source file. Throws Error (input) listing what is known if there is none.
+    /// The type of a source file. Throws Error (input) listing what is known if there is none, and if two types claim
+    /// it.
     const AssetType& type_of_source(const std::filesystem::path& source) const;
     /// The type called `name`, or null.
     const AssetType* find(const std::string& name) const;
 
-   private:
+ private:
     std::vector<AssetType> types_;
 };
 

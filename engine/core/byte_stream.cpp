@@ -7,7 +7,7 @@
 namespace rowland {
 
 std::span<const std::byte> ByteReader::take(std::size_t size) {
-    if (size > remaining()) fail_truncated(size);
+    if (size > remaining()) fail_truncated(size, 1);
     const auto part = data_.subspan(offset_, size);
     offset_ += size;
     return part;
@@ -21,8 +21,16 @@ void ByteReader::fail(std::string found, std::string expected) const {
                  .remedy = {}});
 }
 
-void ByteReader::fail_truncated(std::uint64_t wanted) const {
-    fail(fmt::format("{} bytes left", remaining()), fmt::format("{} more", wanted));
+bool ByteReader::truth() {
+    const auto x = value<std::uint8_t>();
+    if (x <= 1) return x == 1;
+    --offset_;
+    fail(fmt::format("{}", x), "0 or 1");
+}
+
+void ByteReader::fail_truncated(std::uint64_t count, std::size_t element_size) const {
+    fail(fmt::format("{} bytes left", remaining()),
+         element_size == 1 ? fmt::format("{} bytes", count) : fmt::format("{} times {} bytes", count, element_size));
 }
 
 }  // namespace rowland

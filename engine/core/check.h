@@ -12,18 +12,18 @@ namespace rowland {
 }  // namespace rowland
 
 /// Contract: a logic error if it does not hold. Prints both operands. On in every build.
-#define ROWLAND_CHECK_OP(a, op, b)                                                                                   \
-    do {                                                                                                             \
-        const auto& rowland_check_a = (a);                                                                           \
-        const auto& rowland_check_b = (b);                                                                           \
-        if (!(rowland_check_a op rowland_check_b))                                                                   \
-            ::rowland::check_failed(                                                                                 \
-                __FILE__, __LINE__,                                                                                  \
-                fmt::format("{} {} {} with {} and {}", #a, #op, #b, rowland_check_a, rowland_check_b));              \
+#define ROWLAND_CHECK_OP(a, op, b)                                                                      \
+    do {                                                                                                \
+        const auto& rowland_check_a = (a);                                                              \
+        const auto& rowland_check_b = (b);                                                              \
+        if (!(rowland_check_a op rowland_check_b))                                                      \
+            ::rowland::check_failed(                                                                    \
+                __FILE__, __LINE__,                                                                     \
+                fmt::format("{} {} {} with {} and {}", #a, #op, #b, rowland_check_a, rowland_check_b)); \
     } while (false)
 
 /// Contract with a message that states what was violated.
-#define ROWLAND_CHECK(condition, message)                                                            \
-    do {                                                                                             \
-        if (!(condition)) ::rowland::check_failed(__FILE__, __LINE__, (message));                    \
+#define ROWLAND_CHECK(condition, message)                                         \
+    do {                                                                          \
+        if (!(condition)) ::rowland::check_failed(__FILE__, __LINE__, (message)); \
     } while (false)

@@ -19,14 +19,15 @@ struct ErrorInfo {
 };
 
 /// The one exception type: bad input or a failing system. Logic errors are ROWLAND_CHECKs, not exceptions.
-/// what() is one line: "file: place: found X; expected Y; remedy".
+/// what() is one line, "file: place: found; expected X; remedy": control characters in the fields are shown as \xNN
+/// and overlong fields are shortened.
 class Error : public std::runtime_error {
-   public:
+ public:
     explicit Error(ErrorInfo info);
 
     const ErrorInfo& info() const { return info_; }
 
-   private:
+ private:
     ErrorInfo info_;
 };
 

@@ -5,7 +5,9 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
+#include <random>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -26,16 +28,13 @@ namespace {
 }
 
 [[noreturn]] void fail_input(const std::filesystem::path& path, std::string found, std::string expected) {
-    throw Error({.file = path.string(),
-                 .place = {},
-                 .found = std::move(found),
-                 .expected = std::move(expected),
-                 .remedy = {}});
+    throw Error(
+        {.file = path.string(), .place = {}, .found = std::move(found), .expected = std::move(expected), .remedy = {}});
 }
 
 /// An open file descriptor.
 class Descriptor {
-   public:
+ public:
     explicit Descriptor(int fd) : fd_(fd) {}
     ~Descriptor() {
         if (fd_ >= 0) ::close(fd_);
@@ -44,13 +43,14 @@ class Descriptor {
     Descriptor& operator=(const Descriptor&) = delete;
     int get() const { return fd_; }
 
-   private:
+ private:
     int fd_;
 };
 
 template <typename Buffer>
 Buffer read_whole(const std::filesystem::path& path, std::uint64_t max_bytes) {
-    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    // Non-blocking: opening a pipe must not wait for a writer. It changes nothing for regular files.
+    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
     if (file.get() < 0) fail_input(path, fmt::format("cannot be opened: {}", std::strerror(errno)), "a readable file");
     struct stat status = {};
     if (::fstat(file.get(), &status) != 0) fail_system(path, "stat", errno);
@@ -70,6 +70,31 @@ Buffer read_whole(const std::filesystem::path& path, std::uint64_t max_bytes) {
     return data;
 }
 
+/// Creates a file of a new name in `folder`, with the permissions the user's mask grants any new file. (mkstemp's files
+/// are private, and the mask cannot be read without setting it for all threads.)
+int create_beside(const std::filesystem::path& path, const std::filesystem::path& folder,
+                  std::filesystem::path& temporary) {
+    std::random_device random;
+    for (int attempt = 0;; ++attempt) {
+        temporary = folder / fmt::format(".rowland-{:08x}{:08x}", random(), random());
+        const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (fd >= 0) return fd;
+        if (errno != EEXIST || attempt == 100) fail_system(path, "creating a temporary file beside it", errno);
+    }
+}
+
+/// False, with errno set, if not everything could be written.
+bool write_all(int fd, std::span<const std::byte> data) {
+    while (!data.empty()) {
+        const ssize_t count = ::write(fd, data.data(), data.size());
+        if (count >= 0)
+            data = data.subspan(static_cast<std::size_t>(count));
+        else if (errno != EINTR)
+            return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 std::vector<std::byte> read_file(const std::filesystem::path& path, std::uint64_t max_bytes) {
@@ -81,35 +106,22 @@ std::string read_text_file(const std::filesystem::path& path, std::uint64_t max_
 }
 
 void write_file_atomic(const std::filesystem::path& path, std::span<const std::byte> data) {
+    // Renaming over a device or a pipe would replace it by a file.
+    struct stat old = {};
+    if (::stat(path.c_str(), &old) == 0 && !S_ISREG(old.st_mode))
+        fail_input(path, "exists and is not a regular file", "a file to write");
+
     const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
     std::error_code code;
     std::filesystem::create_directories(folder, code);
     if (code) fail_system(folder, "creating the folder", code.value());
 
-    std::string temporary = path.string() + ".XXXXXX";
+    std::filesystem::path temporary;
     int error_number = 0;
     const char* action = nullptr;
     {
-        const Descriptor file(::mkostemp(temporary.data(), O_CLOEXEC));
-        if (file.get() < 0) fail_system(path, "creating a temporary file beside it", errno);
-        std::size_t done = 0;
-        while (done < data.size() && action == nullptr) {
-            const ssize_t count = ::write(file.get(), data.data() + done, data.size() - done);
-            if (count >= 0) {
-                done += static_cast<std::size_t>(count);
-            } else if (errno != EINTR) {
-                error_number = errno;
-                action = "writing";
-            }
-        }
-        // mkstemp makes files private; ours are as readable as any other output.
-        const mode_t mask = ::umask(0);
-        ::umask(mask);
-        if (action == nullptr && ::fchmod(file.get(), 0666 & ~mask) != 0) {
-            error_number = errno;
-            action = "setting permissions";
-        }
-        if (action == nullptr && ::fsync(file.get()) != 0) {
+        const Descriptor file(create_beside(path, folder, temporary));
+        if (!write_all(file.get(), data) || ::fsync(file.get()) != 0) {
             error_number = errno;
             action = "writing";
         }

@@ -10,12 +10,14 @@
 
 namespace rowland {
 
-/// Reads a whole file. Throws Error (input) if it is missing, not a regular file, unreadable or larger than `max_bytes`.
+/// Reads a whole file. Throws Error (input) if it is missing, not a regular file, unreadable or larger than
+/// `max_bytes`.
 std::vector<std::byte> read_file(const std::filesystem::path& path, std::uint64_t max_bytes);
 std::string read_text_file(const std::filesystem::path& path, std::uint64_t max_bytes);
 
 /// Writes to a temporary beside `path` and renames it: readers see the old file or the new one, whole. Creates the
-/// folder. Throws Error (system) and removes the temporary if anything fails.
+/// folder. Throws Error (system) and removes the temporary if anything fails, and Error (input) if `path` is a folder,
+/// a device or a pipe.
 void write_file_atomic(const std::filesystem::path& path, std::span<const std::byte> data);
 void write_file_atomic(const std::filesystem::path& path, std::string_view text);
 

@@ -7,7 +7,9 @@
 
 namespace rowland {
 
-std::string Hash128::hex() const { return fmt::format("{:016x}{:016x}", high, low); }
+std::string Hash128::hex() const {
+    return fmt::format("{:016x}{:016x}", high, low);
+}
 
 struct Hasher::State {
     XXH3_state_t* xxh;
@@ -18,7 +20,9 @@ Hasher::Hasher() : state_(std::make_unique<State>(State{XXH3_createState()})) {
     XXH3_128bits_reset(state_->xxh);
 }
 
-Hasher::~Hasher() { XXH3_freeState(state_->xxh); }
+Hasher::~Hasher() {
+    XXH3_freeState(state_->xxh);
+}
 
 Hasher& Hasher::bytes(std::span<const std::byte> data) {
     XXH3_128bits_update(state_->xxh, data.data(), data.size());

@@ -20,7 +20,7 @@ struct Hash128 {
 
 /// Incremental content hash. Strings are hashed with their length, so ("ab","c") differs from ("a","bc").
 class Hasher {
-   public:
+ public:
     Hasher();
     ~Hasher();
     Hasher(const Hasher&) = delete;
@@ -30,7 +30,7 @@ class Hasher {
     Hasher& text(std::string_view data);
     Hash128 digest() const;
 
-   private:
+ private:
     struct State;
     std::unique_ptr<State> state_;
 };

@@ -17,8 +17,10 @@ constexpr int kMaximumDepth = 64;
 /// What a value is, for messages: short, whatever the value's size.
 std::string describe(const nlohmann::json& value) {
     std::string text = value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-    if (text.size() > 40) text = text.substr(0, 37) + "...";
-    return text;
+    if (text.size() <= 40) return text;
+    std::size_t end = 37;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;  // whole UTF-8 characters only
+    return text.substr(0, end) + "...";
 }
 
 std::string describe(const NumberRange& range) {
@@ -76,6 +78,20 @@ void check_depth(std::string_view text, const std::string& file) {
     }
 }
 
+/// A key as a step of a JSON pointer (RFC 6901).
+std::string pointer_step(const std::string& key) {
+    std::string step;
+    for (const char c : key) {
+        if (c == '~')
+            step += "~0";
+        else if (c == '/')
+            step += "~1";
+        else
+            step += c;
+    }
+    return step;
+}
+
 }  // namespace
 
 nlohmann::json parse_json(std::string_view text, const std::string& file) {
@@ -96,6 +112,12 @@ nlohmann::json parse_json(std::string_view text, const std::string& file) {
                      .found = reason,
                      .expected = "valid JSON",
                      .remedy = {}});
+    } catch (const nlohmann::json::out_of_range& error) {
+        // The library says which number it is, but not where.
+        std::string reason = error.what();
+        if (const auto end = reason.find("] "); end != std::string::npos) reason = reason.substr(end + 2);
+        throw Error(
+            {.file = file, .place = {}, .found = reason, .expected = "numbers that fit a double", .remedy = {}});
     }
 }
 
@@ -188,12 +210,16 @@ std::string JsonReader::choice(const std::string& key, std::initializer_list<std
 
 std::string JsonReader::choice_or(const std::string& key, std::string fallback,
                                   std::initializer_list<std::string_view> choices) {
-    return has(key) ? choice(key, choices) : fallback;
+    return has(key) ? choice(key, choices) : std::move(fallback);
 }
 
-JsonReader JsonReader::object(const std::string& key) { return {require(key), file_, pointer_to(key)}; }
+JsonReader JsonReader::object(const std::string& key) {
+    return {require(key), file_, pointer_to(key)};
+}
 
-const nlohmann::json& JsonReader::raw(const std::string& key) { return require(key); }
+const nlohmann::json& JsonReader::raw(const std::string& key) {
+    return require(key);
+}
 
 std::vector<JsonReader> JsonReader::objects(const std::string& key) {
     const nlohmann::json& value = require(key);
@@ -209,7 +235,7 @@ void JsonReader::finish() const {
         if (known_.contains(key)) continue;
         const std::vector<std::string> valid(known_.begin(), known_.end());
         const auto near = nearest_word(key, valid);
-        fail(key, "unknown key", fmt::format("one of {}", fmt::join(valid, ", ")),
+        fail(pointer_step(key), "unknown key", fmt::format("one of {}", fmt::join(valid, ", ")),
              near ? fmt::format("is \"{}\" meant?", *near) : "remove it");
     }
 }
@@ -226,6 +252,9 @@ std::optional<std::string> nearest_word(std::string_view word, const std::vector
     std::optional<std::string> best;
     std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
     for (const std::string& candidate : candidates) {
+        // The lengths alone bound the distance from below; a hostile word may be megabytes long.
+        const std::size_t longer = std::max(word.size(), candidate.size());
+        if (longer - std::min(word.size(), candidate.size()) >= best_distance) continue;
         const std::size_t distance = edit_distance(word, candidate);
         if (distance < best_distance) {
             best_distance = distance;

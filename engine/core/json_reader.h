@@ -28,7 +28,7 @@ struct NumberRange {
 /// Reads one JSON object strictly: every failure is an Error (input) that names the file, the JSON pointer, what was
 /// found and what was expected, and finish() refuses keys nobody asked for, naming the nearest valid one.
 class JsonReader {
-   public:
+ public:
     /// `value` must outlive the reader. Throws if it is not an object.
     JsonReader(const nlohmann::json& value, std::string file, std::string pointer = "");
 
@@ -43,7 +43,8 @@ class JsonReader {
     std::vector<double> numbers(const std::string& key, std::size_t count, NumberRange range);
     /// One of `choices`; the message names the nearest.
     std::string choice(const std::string& key, std::initializer_list<std::string_view> choices);
-    std::string choice_or(const std::string& key, std::string fallback, std::initializer_list<std::string_view> choices);
+    std::string choice_or(const std::string& key, std::string fallback,
+                          std::initializer_list<std::string_view> choices);
     JsonReader object(const std::string& key);
     /// The raw value, for shapes the calls above do not cover.
     const nlohmann::json& raw(const std::string& key);
@@ -53,12 +54,13 @@ class JsonReader {
     /// Throws if the object holds a key that was not asked for. Call it last.
     void finish() const;
 
+    /// Throws for the value under `key`, or deeper: "key/0".
     [[noreturn]] void fail(const std::string& key, std::string found, std::string expected,
                            std::string remedy = "") const;
     const std::string& file() const { return file_; }
     std::string pointer_to(const std::string& key) const { return pointer_ + "/" + key; }
 
-   private:
+ private:
     const nlohmann::json& require(const std::string& key);
 
     const nlohmann::json* value_;

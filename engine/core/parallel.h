@@ -12,13 +12,13 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& bod
 
 /// While it lives, parallel_for uses at most `threads` threads (0: all cores). For main programs' --threads and tests.
 class ThreadLimit {
-   public:
+ public:
     explicit ThreadLimit(unsigned threads);
     ~ThreadLimit();
     ThreadLimit(const ThreadLimit&) = delete;
     ThreadLimit& operator=(const ThreadLimit&) = delete;
 
-   private:
+ private:
     struct State;
     std::unique_ptr<State> state_;
 };

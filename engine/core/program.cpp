@@ -1,5 +1,10 @@
 #include "engine/core/program.h"
 
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <exception>
 #include <new>
 
@@ -10,7 +15,16 @@ namespace rowland {
 
 int run_program(const std::function<int()>& body) {
     try {
-        return body();
+        const int code = body();
+        // A full disk or a closed pipe shows only when the results leave the buffer.
+        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+            throw Error({.file = "standard output",
+                         .place = {},
+                         .found = fmt::format("writing failed: {}", std::strerror(errno)),
+                         .expected = {},
+                         .remedy = {},
+                         .fault = Fault::System});
+        return code;
     } catch (const Error& error) {
         log_error("{}", error.what());
         return error.info().fault == Fault::Input ? 2 : 1;

@@ -24,7 +24,8 @@ void Progress::advance(std::size_t steps) {
     drawn_ = now;
     const double elapsed_s = std::chrono::duration<double>(now - started_).count();
     const double share = static_cast<double>(done) / static_cast<double>(total_);
-    fmt::print(stderr, "\r\033[K{} {:3.0f} % ({:.0f} s left)", label_, 100.0 * share, elapsed_s * (1.0 - share) / share);
+    fmt::print(stderr, "\r\033[K{} {:3.0f} % ({:.0f} s left)", label_, 100.0 * share,
+               elapsed_s * (1.0 - share) / share);
     std::fflush(stderr);
 }
 

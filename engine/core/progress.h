@@ -11,7 +11,7 @@ namespace rowland {
 /// One line of progress on standard error, redrawn in place; silent when standard error is not a terminal.
 /// Shows share done and remaining time. advance() may be called from many threads.
 class Progress {
-   public:
+ public:
     Progress(std::string label, std::size_t total);
     ~Progress();  ///< erases the line
     Progress(const Progress&) = delete;
@@ -19,7 +19,7 @@ class Progress {
 
     void advance(std::size_t steps = 1);
 
-   private:
+ private:
     using Clock = std::chrono::steady_clock;
 
     std::string label_;

@@ -13,10 +13,12 @@ struct Image {
     std::vector<glm::vec3> texels;  ///< width*height, row by row
 
     const glm::vec3& at(int column, int row) const {
-        return texels[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column)];
+        return texels[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+                      static_cast<std::size_t>(column)];
     }
     glm::vec3& at(int column, int row) {
-        return texels[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column)];
+        return texels[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+                      static_cast<std::size_t>(column)];
     }
 };
 

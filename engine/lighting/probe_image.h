@@ -13,7 +13,7 @@ namespace rowland::lighting {
 /// How a probe image covers the sphere.
 enum class Mapping {
     Equirectangular,  ///< top row +Y, centre −Z, right +X
-    Angular,          ///< Debevec's light probe: square, centre −Z, radius = angle/π; texels beyond radius 1 are no light
+    Angular,  ///< Debevec's light probe: square, centre −Z, radius = angle/π; texels beyond radius 1 are no light
 };
 
 /// "equirect" or "angular". Throws Error (input) otherwise.
@@ -29,9 +29,9 @@ struct TexelReport {
 
 /// A light probe at full resolution: an image, its mapping, and the lookup.
 class ProbeImage {
-   public:
-    /// Replaces NaN, infinite and negative components by 0 (see report()). Throws Error (input) if the image is empty, or
-    /// not square for an angular map; `file` names it in messages.
+ public:
+    /// Replaces NaN, infinite and negative components by 0 (see report()). Throws Error (input) if the image is empty,
+    /// or not square for an angular map; `file` names it in messages.
     ProbeImage(image::Image image, Mapping mapping, const std::string& file = "probe");
 
     const image::Image& image() const { return image_; }
@@ -42,15 +42,15 @@ class ProbeImage {
     /// centre). For an angular map outside the disc the result is meaningless; its solid angle is 0.
     glm::dvec3 direction(double x, double y) const;
 
-    /// Solid angle of a texel in steradians. Equirectangular: exact for the texel's rectangle on the sphere. Angular: the
-    /// exact integral over the texel, or the formula of PHYSICS §1 where that is within 1e-4; 0 outside the disc.
+    /// Solid angle of a texel in steradians. Equirectangular: exact for the texel's rectangle on the sphere. Angular:
+    /// the exact integral over the texel, or the formula of PHYSICS §1 where that is within 1e-4; 0 outside the disc.
     double solid_angle(int column, int row) const;
 
     /// Radiance from the unit vector `direction`: bilinear between texel centres; equirectangular wraps in columns and
     /// clamps in rows; an angular map uses only texels inside the disc (weights renormalised).
     glm::dvec3 radiance(const glm::dvec3& direction) const;
 
-   private:
+ private:
     image::Image image_;
     Mapping mapping_;
     TexelReport report_;

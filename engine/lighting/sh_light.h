@@ -3,6 +3,8 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "engine/math/sh_window.h"
+
 namespace rowland::lighting {
 
 /// Light from all directions as raw radiance SH coefficients: linear Rec.709/D65 RGB, world axes, no window, no cosine,
@@ -11,5 +13,8 @@ struct ShLight {
     int bands = 0;
     std::vector<glm::dvec3> coefficients;  ///< bands², index l(l+1)+m
 };
+
+/// The light in exactly `bands` ≥ 1 bands, under a window over those it has: more are dropped, missing ones are 0.
+ShLight limit_bands(const ShLight& light, int bands, math::SphericalWindow window = math::SphericalWindow::None);
 
 }  // namespace rowland::lighting

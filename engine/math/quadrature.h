@@ -5,7 +5,7 @@
 namespace rowland::math {
 
 struct QuadratureRule {
-    std::vector<double> nodes;    ///< ascending
+    std::vector<double> nodes;  ///< ascending
     std::vector<double> weights;
 };
 

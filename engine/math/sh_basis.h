@@ -11,10 +11,14 @@ namespace rowland::math {
 inline constexpr int kMaximumBands = 32;
 
 /// Number of coefficients of `bands` bands: bands².
-constexpr int sh_count(int bands) { return bands * bands; }
+constexpr int sh_count(int bands) {
+    return bands * bands;
+}
 
 /// Index of (l, m): l(l+1)+m.
-constexpr int sh_index(int l, int m) { return l * (l + 1) + m; }
+constexpr int sh_index(int l, int m) {
+    return l * (l + 1) + m;
+}
 
 /// Evaluates all `bands`² functions at the unit vector `direction` into `values` (size ≥ bands², 1 ≤ bands ≤ 32), by
 /// stable recurrences in l and m. Error < 1e-13 at 32 bands.

@@ -12,7 +12,7 @@ namespace rowland::math {
 /// Built per band by the recurrence of Ivanic & Ruedenberg (1996, with the 1998 corrections); no angles are taken, so
 /// identity and 180° turns are ordinary. Orthogonal to 1e-12 for bands ≤ 16.
 class ShRotation {
-   public:
+ public:
     /// `rotation` must be a proper rotation (determinant +1). 1 ≤ bands ≤ 32.
     ShRotation(const glm::dmat3& rotation, int bands);
 
@@ -24,7 +24,7 @@ class ShRotation {
     void apply(std::span<const double> in, std::span<double> out) const;
     void apply(std::span<const glm::dvec3> in, std::span<glm::dvec3> out) const;
 
-   private:
+ private:
     int bands_;
     std::vector<double> blocks_;  ///< band l: (2l+1)² entries, row-major, bands one after another
 };

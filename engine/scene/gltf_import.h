@@ -1,7 +1,7 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
-#include <functional>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -16,8 +16,8 @@
 
 namespace rowland::scene {
 
-/// glTF metallic-roughness material, linear factors. Unknown material extensions are kept as JSON for whoever registered
-/// a handler; the engine learns nothing of them.
+/// glTF metallic-roughness material, linear factors. Unknown material extensions are kept as JSON for whoever
+/// registered a handler; the engine learns nothing of them.
 struct MaterialDescription {
     std::string name;
     glm::vec4 base_colour{1.0F};
@@ -42,14 +42,19 @@ struct ImportedScene {
     std::vector<std::string> warnings;  ///< optional extensions we ignore, each once; attributes we repaired
 };
 
-/// Loads a .gltf or .glb file, Draco-compressed or not, from a possibly hostile file: sizes, offsets, indices and depths
-/// are checked before use. `handled_extensions` are material extensions someone has a handler for; any other *required*
-/// extension is refused by name. Missing normals and tangents are generated. Throws Error (input).
+/// Loads a .gltf or .glb file, Draco-compressed or not, from a possibly hostile file: sizes, offsets, indices and
+/// depths are checked before use. `handled_extensions` are material extensions someone has a handler for; any other
+/// *required* extension is refused by name. Missing normals and tangents are generated. Throws Error (input).
 /// `read_files`, if given, receives every file read (for dependency tracking).
 ImportedScene load_gltf(const std::filesystem::path& path, std::span<const std::string> handled_extensions = {},
                         std::vector<std::filesystem::path>* read_files = nullptr);
 
-/// All triangles of a scene in world space as one mesh (for previews with one material).
+/// The same for the bytes of a self-contained file; `file` is its name for messages.
+ImportedScene load_glb(std::span<const std::byte> bytes, const std::string& file,
+                       std::span<const std::string> handled_extensions = {});
+
+/// All triangles of a scene in world space as one mesh (for previews with one material). Mirrored instances keep their
+/// outside outside. Throws Error (input) if the copies together are unreasonably large.
 Mesh merge_instances(const ImportedScene& scene);
 
 }  // namespace rowland::scene

@@ -23,6 +23,7 @@ struct Bounds {
     glm::vec3 maximum{0.0F};
 };
 
+/// Of all positions; a point at the origin if there are none.
 Bounds bounds(const Mesh& mesh);
 
 }  // namespace rowland::scene

@@ -30,8 +30,12 @@ const std::string& Csv::text(std::size_t row, const std::string& column) const {
     return rows.at(row)[static_cast<std::size_t>(it - header.begin())];
 }
 
-double Csv::number(std::size_t row, const std::string& column) const { return std::stod(text(row, column)); }
-int Csv::integer(std::size_t row, const std::string& column) const { return std::stoi(text(row, column)); }
+double Csv::number(std::size_t row, const std::string& column) const {
+    return std::stod(text(row, column));
+}
+int Csv::integer(std::size_t row, const std::string& column) const {
+    return std::stoi(text(row, column));
+}
 
 Csv read_csv(const std::filesystem::path& path, char separator) {
     std::ifstream file(path);

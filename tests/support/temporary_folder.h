@@ -6,7 +6,7 @@ namespace rowland::test {
 
 /// A fresh folder, removed with everything in it at the end of the scope.
 class TemporaryFolder {
-   public:
+ public:
     TemporaryFolder();
     ~TemporaryFolder();
     TemporaryFolder(const TemporaryFolder&) = delete;
@@ -14,7 +14,7 @@ class TemporaryFolder {
 
     const std::filesystem::path& path() const { return path_; }
 
-   private:
+ private:
     std::filesystem::path path_;
 };
 

@@ -18,10 +18,10 @@ bool data_is_required();
 
 /// Declares `variable` as the path of a file of the test data. Missing: the test is skipped by name, or fails where
 /// the data is required.
-#define ROWLAND_TEST_DATA(variable, relative_path)                                                  \
-    const auto variable##_found = ::rowland::test::find_data(relative_path);                        \
-    if (!variable##_found) {                                                                        \
+#define ROWLAND_TEST_DATA(variable, relative_path)                                                      \
+    const auto variable##_found = ::rowland::test::find_data(relative_path);                            \
+    if (!variable##_found) {                                                                            \
         if (::rowland::test::data_is_required()) FAIL() << "test data is missing: " << (relative_path); \
-        GTEST_SKIP() << "test data is missing: " << (relative_path);                                \
-    }                                                                                               \
+        GTEST_SKIP() << "test data is missing: " << (relative_path);                                    \
+    }                                                                                                   \
     const std::filesystem::path& variable = *variable##_found

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+
+#include "engine/gpu/framebuffer.h"
+
+namespace rowland::demo {
+
+/// `path` with the frame's number before the extension if there is more than one frame.
+std::filesystem::path numbered(const std::filesystem::path& path, int frame, int frames);
+
+/// Writes a display-encoded framebuffer as PNG.
+void write_display_capture(const gpu::Framebuffer& display, const std::filesystem::path& path);
+
+/// Writes a scene-linear framebuffer as OpenEXR. Throws Error (system) if a pixel is not finite.
+void write_linear_capture(const gpu::Framebuffer& linear, const std::filesystem::path& path);
+
+}  // namespace rowland::demo

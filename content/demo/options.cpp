@@ -1,0 +1,71 @@
+#include "content/demo/options.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "engine/core/error.h"
+
+namespace rowland::demo {
+
+namespace {
+
+constexpr const char* kFooter =
+    "example:\n"
+    "  rowland-demo --headless --probe capture.hdr --probe-mapping angular --capture picture.png\n\n"
+    "Without --capture and --capture-linear, a picture for each of the shipped probes (or the one of --probe) is "
+    "written\n"
+    "to the output folder. With --frames above 1 the grating turns from frame to frame, and the frame's number is put\n"
+    "into the names of the files.";
+
+void add_options(CLI::App& app, Options& options) {
+    app.add_flag("--headless", options.headless, "Render without a window (so far the only way)");
+    app.add_option("--probe", options.probe, "Light probe: .hdr, .exr, a probe recipe (.json) or a cooked .probe");
+    app.add_option("--probe-mapping", options.probe_mapping, "How an image covers the sphere: equirect or angular")
+        ->capture_default_str();
+    app.add_option("--mesh", options.mesh, "glTF or GLB file to show as a grating in place of the CD");
+    app.add_option("--material", options.material, "Grating material: .json, or a cooked .material");
+    app.add_option("--ocio", options.ocio_config, "OpenColorIO config in place of $OCIO and the shipped one");
+    app.add_option("--width", options.width, "Width in pixels")->check(CLI::Range(1, 16384))->capture_default_str();
+    app.add_option("--height", options.height, "Height in pixels")->check(CLI::Range(1, 16384))->capture_default_str();
+    app.add_option("--frames", options.frames, "Frames to render, 1/30 s apart")
+        ->check(CLI::Range(1, 100000))
+        ->capture_default_str();
+    app.add_option("--light-window", options.light_window,
+                   "Window against ringing of the grating's light; auto: the mildest that does")
+        ->check(CLI::IsMember({"auto", "none", "lanczos", "hann"}))
+        ->capture_default_str();
+    app.add_option("--view", options.view, "View of the display (see --list-views)");
+    app.add_option("--exposure", options.exposure_stops, "Exposure in stops")
+        ->check(CLI::Range(-32.0F, 32.0F))
+        ->capture_default_str();
+    app.add_flag("--list-views", options.list_views, "List the views of the display and stop");
+    app.add_option("--capture", options.capture, "Write the picture as PNG");
+    app.add_option("--capture-linear", options.capture_linear, "Write the scene-linear picture as OpenEXR");
+    app.add_option("--output-folder", options.output_folder, "Where pictures without --capture go")
+        ->capture_default_str();
+    app.add_option("--cooked-folder", options.cooked_folder, "Cooked assets (default: ../cooked beside the program)");
+}
+
+}  // namespace
+
+std::optional<Options> parse_options(int argc, const char* const* argv) {
+    CLI::App app{"Rowland's demo: a grating under a light probe, shaded by Lindsay & Agu's method.", "rowland-demo"};
+    app.footer(kFooter);
+    Options options;
+    add_options(app, options);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+        std::fputs(app.help().c_str(), stdout);
+        return std::nullopt;
+    } catch (const CLI::ParseError& error) {
+        throw Error({.file = "rowland-demo",
+                     .place = {},
+                     .found = error.what(),
+                     .expected = {},
+                     .remedy = "see rowland-demo --help"});
+    }
+    return options;
+}
+
+}  // namespace rowland::demo

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace rowland::demo {
+
+/// What the command line asks for.
+struct Options {
+    std::optional<std::filesystem::path> probe;
+    std::string probe_mapping = "equirect";
+    std::optional<std::filesystem::path> mesh;
+    std::optional<std::filesystem::path> material;
+    std::optional<std::filesystem::path> ocio_config;
+    bool headless = true;
+    int width = 1280;
+    int height = 720;
+    int frames = 1;
+    std::string light_window = "auto";
+    std::string view;
+    float exposure_stops = 0.0F;
+    bool list_views = false;
+    std::optional<std::filesystem::path> capture;
+    std::optional<std::filesystem::path> capture_linear;
+    std::filesystem::path output_folder = "demo";
+    std::filesystem::path cooked_folder;
+};
+
+/// Parses the command line. Throws Error (input) for bad usage; nothing if it only asked for help, which is printed
+/// then.
+std::optional<Options> parse_options(int argc, const char* const* argv);
+
+}  // namespace rowland::demo

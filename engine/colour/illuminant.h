@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/colour/sampled_spectrum.h"
+
+namespace rowland::colour {
+
+/// A light source's relative spectral power S(λ); 0 where its table ends. Its scale does not matter.
+struct Illuminant {
+    std::string name;
+    SampledSpectrum power;
+};
+
+/// Illuminants that are built in: "A", "D65", "E", "F2", "F11", "LED-B3".
+std::vector<std::string> illuminant_names();
+
+/// A built-in illuminant. Throws Error (input) naming the ones there are.
+const Illuminant& illuminant(const std::string& name);
+
+/// CIE standard illuminant D65.
+const Illuminant& d65();
+
+/// An illuminant from CSV text `wavelength_nm,relative_power`. Throws Error (input) naming the file and the row for
+/// what parse_spectrum_csv() refuses, for negative power, and if the eye sees nothing of it (∫S ȳ dλ = 0).
+Illuminant parse_illuminant(std::string_view text, const std::string& file);
+
+/// The same from a file of at most 1 MiB.
+Illuminant load_illuminant(const std::filesystem::path& path);
+
+/// ∫S ȳ dλ over the visible range, trapezoid at 1 nm.
+double luminous_power(const Illuminant& illuminant);
+
+}  // namespace rowland::colour

@@ -1,0 +1,49 @@
+#include "engine/colour/metal.h"
+
+#include <array>
+#include <string_view>
+
+#include "engine/colour/embedded_tables.h"
+#include "engine/colour/sampled_spectrum.h"
+#include "engine/colour/spectrum_csv.h"
+
+namespace rowland::colour {
+
+namespace {
+
+constexpr std::array<std::string_view, 4> kNames = {"Al", "Ag", "Au", "Cu"};
+
+struct RefractiveIndex {
+    SampledSpectrum n;
+    SampledSpectrum k;
+};
+
+RefractiveIndex load_index(std::string_view text, std::string_view name) {
+    const SpectrumTable table = parse_spectrum_csv(text, std::string(name) + "_nk.csv", "wavelength_nm,n,k");
+    return {SampledSpectrum(table.wavelengths_nm, table.columns[0], Outside::Clamp),
+            SampledSpectrum(table.wavelengths_nm, table.columns[1], Outside::Clamp)};
+}
+
+}  // namespace
+
+std::optional<Metal> parse_metal(const std::string& name) {
+    for (std::size_t i = 0; i < kNames.size(); ++i)
+        if (name == kNames[i]) return static_cast<Metal>(i);
+    return std::nullopt;
+}
+
+std::string metal_name(Metal metal) {
+    return std::string(kNames[static_cast<std::size_t>(metal)]);
+}
+
+double metal_reflectance(Metal metal, double wavelength_nm) {
+    static const std::array<RefractiveIndex, 4> indices = {
+        load_index(embedded::kMetalAl, kNames[0]), load_index(embedded::kMetalAg, kNames[1]),
+        load_index(embedded::kMetalAu, kNames[2]), load_index(embedded::kMetalCu, kNames[3])};
+    const RefractiveIndex& index = indices[static_cast<std::size_t>(metal)];
+    const double n = index.n(wavelength_nm);
+    const double k = index.k(wavelength_nm);
+    return ((n - 1.0) * (n - 1.0) + k * k) / ((n + 1.0) * (n + 1.0) + k * k);
+}
+
+}  // namespace rowland::colour

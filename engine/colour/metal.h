@@ -1,0 +1,18 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace rowland::colour {
+
+enum class Metal { Al, Ag, Au, Cu };
+
+/// "Al", "Ag", "Au" or "Cu"; nothing for another name.
+std::optional<Metal> parse_metal(const std::string& name);
+std::string metal_name(Metal metal);
+
+/// R(λ) = ((n−1)² + k²) / ((n+1)² + k²): the share of power that a polished face reflects at normal incidence. n and k
+/// are linear between the table's samples and clamped outside 299–886 nm.
+double metal_reflectance(Metal metal, double wavelength_nm);
+
+}  // namespace rowland::colour

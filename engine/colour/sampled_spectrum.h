@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+namespace rowland::colour {
+
+/// The range all spectra are integrated over, by the trapezoid rule at 1 nm.
+inline constexpr int kVisibleMin = 380;
+inline constexpr int kVisibleMax = 780;
+
+/// What a spectrum is beyond its table.
+enum class Outside {
+    Zero,   ///< nothing was measured there: emission and sensitivity
+    Clamp,  ///< the nearest value: a property of a material, which does not stop
+};
+
+/// A function of wavelength given by samples, linear between them.
+class SampledSpectrum {
+ public:
+    /// `wavelengths_nm` ascends strictly and has as many elements (≥ 2) as `values`; both finite.
+    SampledSpectrum(std::vector<double> wavelengths_nm, std::vector<double> values, Outside outside);
+
+    double operator()(double wavelength_nm) const;
+
+    const std::vector<double>& wavelengths_nm() const { return wavelengths_nm_; }
+    const std::vector<double>& values() const { return values_; }
+
+ private:
+    std::vector<double> wavelengths_nm_;
+    std::vector<double> values_;
+    Outside outside_;
+    double even_step_nm_;  ///< distance of the samples where it is the same for all, else 0
+};
+
+}  // namespace rowland::colour

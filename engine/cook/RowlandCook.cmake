@@ -1,0 +1,51 @@
+# rowland_cook_assets(<target> ASSETS <source> <output> [<source> <output>]...)
+#
+# Cooks each source, a path relative to the current source folder, to ${ROWLAND_COOKED_DIR}/<output> whenever the
+# source, a file it names or the cooker has changed, and nothing else. <target>, part of `all`, brings them up to date.
+# Only what is listed is cooked, so list what a scene uses. The output is named, not derived, because what a source
+# becomes is the cooker's knowledge.
+#
+#   rowland_cook_assets(cooked_disc ASSETS materials/cd.json cd.material  meshes/disc.json disc.glb)
+#
+# CMake (3.25) loses the characters # and $ when it passes dependency files on, so a source that names a file with one of
+# them is cooked at every build.
+#
+# The cooker is the target `rowland-cook`. An asset may be listed once in the whole build; who shares it depends on the
+# target that lists it.
+function(rowland_cook_assets target)
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "ASSETS")
+  if(ARG_UNPARSED_ARGUMENTS OR NOT ARG_ASSETS)
+    message(FATAL_ERROR "rowland_cook_assets(${target} ...): expected ASSETS <source> <output>...")
+  endif()
+  set(outputs)
+  while(ARG_ASSETS)
+    list(LENGTH ARG_ASSETS left)
+    if(left EQUAL 1)
+      message(FATAL_ERROR "rowland_cook_assets(${target} ...): \"${ARG_ASSETS}\" has no output; expected pairs")
+    endif()
+    list(POP_FRONT ARG_ASSETS source output)
+    _rowland_cook_asset(${target} "${source}" "${output}")
+    list(APPEND outputs "${ROWLAND_COOKED_DIR}/${output}")
+  endwhile()
+  add_custom_target(${target} ALL DEPENDS ${outputs})
+endfunction()
+
+function(_rowland_cook_asset target source output)
+  get_property(owner GLOBAL PROPERTY "ROWLAND_COOKED_BY_${output}")
+  if(owner)
+    message(FATAL_ERROR "rowland_cook_assets(${target} ...): ${output} is cooked by ${owner}; depend on that instead")
+  endif()
+  set_property(GLOBAL PROPERTY "ROWLAND_COOKED_BY_${output}" ${target})
+
+  cmake_path(ABSOLUTE_PATH source OUTPUT_VARIABLE source_path)
+  set(output_path "${ROWLAND_COOKED_DIR}/${output}")
+  # Beside the build's own files, not beside the assets: those are shipped.
+  set(depfile "${CMAKE_CURRENT_BINARY_DIR}/cook/${output}.d")
+  add_custom_command(
+    OUTPUT "${output_path}"
+    COMMAND rowland-cook cook "${source_path}" -o "${output_path}" --depfile "${depfile}"
+    DEPENDS rowland-cook "${source_path}"
+    DEPFILE "${depfile}"
+    COMMENT "Cooking ${output}"
+    VERBATIM)
+endfunction()

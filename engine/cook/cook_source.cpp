@@ -1,0 +1,92 @@
+#include "engine/cook/cook_source.h"
+
+#include <fmt/format.h>
+
+#include "engine/cook/depfile.h"
+#include "engine/cook/foreign_failure.h"
+#include "engine/cook/source_file.h"
+#include "engine/core/error.h"
+#include "engine/core/file.h"
+
+namespace rowland::cook {
+
+namespace {
+
+[[noreturn]] void fail_changed(const std::filesystem::path& path) {
+    throw Error({.file = path.string(),
+                 .place = {},
+                 .found = "changed while it was being cooked",
+                 .expected = {},
+                 .remedy = "cook again",
+                 .fault = Fault::System});
+}
+
+/// Hash over everything the payload depends on. Throws if a file is not what it was when the bake first saw it.
+Hash128 content_hash(const Context& context, const AssetType& type) {
+    Hasher hasher;
+    hasher.text(tool_version()).text(type.name).text(std::to_string(type.version));
+    for (std::size_t i = 0; i < context.dependencies().size(); ++i) {
+        const std::filesystem::path& path = context.dependencies()[i];
+        const std::optional<Hash128> now = hash_file(path);
+        if (now != context.fingerprints()[i]) fail_changed(path);
+        if (!now)
+            throw Error({.file = path.string(),
+                         .place = {},
+                         .found = "an unreadable file",
+                         .expected = fmt::format("a file of at most {} bytes", kMaximumSourceBytes),
+                         .remedy = {}});
+        hasher.text(now->hex());
+    }
+    return hasher.digest();
+}
+
+/// A slip on the command line must not cost the user a source.
+void check_output_is_no_source(const std::filesystem::path& output, const std::filesystem::path& source) {
+    std::error_code missing;
+    if (!std::filesystem::equivalent(output, source, missing)) return;
+    throw Error({.file = output.string(),
+                 .place = {},
+                 .found = "the output is one of the sources",
+                 .expected = "a file of its own",
+                 .remedy = "name another output"});
+}
+
+}  // namespace
+
+std::string_view tool_version() {
+    return ROWLAND_VERSION;
+}
+
+BakedAsset bake_source(const Registry& registry, const std::filesystem::path& source) {
+    read_beginning(source, 1);  // nothing but a file is given to the types
+    const AssetType& type =
+        as_refusal_of(source, [&]() -> const AssetType& { return registry.type_of_source(source); });
+    if (!type.cook)
+        throw Error({.file = source.string(),
+                     .place = {},
+                     .found = fmt::format("a {}, which is only checked, never cooked", type.name),
+                     .expected = "a source that is cooked",
+                     .remedy = {}});
+    Context context(source);
+    BakedAsset baked;
+    baked.asset.payload = as_refusal_of(source, [&] { return type.cook(context); });
+    baked.asset.header = {type.name, type.version, content_hash(context, type)};
+    baked.in_container = type.in_container;
+    baked.dependencies = context.dependencies();
+    return baked;
+}
+
+BakedAsset cook_source(const Registry& registry, const std::filesystem::path& source,
+                       const std::filesystem::path& output, const CookSettings& settings) {
+    check_output_is_no_source(output, source);
+    BakedAsset baked = bake_source(registry, source);
+    for (const std::filesystem::path& dependency : baked.dependencies) check_output_is_no_source(output, dependency);
+    // Made before anything is written, since it may refuse a name.
+    const std::string depfile = settings.depfile ? depfile_text(output, baked.dependencies) : std::string();
+
+    write_file_atomic(output, baked.in_container ? asset::pack(baked.asset) : baked.asset.payload);
+    if (settings.depfile) write_file_atomic(*settings.depfile, depfile);
+    return baked;
+}
+
+}  // namespace rowland::cook

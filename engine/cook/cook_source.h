@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/asset/container.h"
+#include "engine/cook/registry.h"
+
+namespace rowland::cook {
+
+/// Version of the cooker, a part of every content hash.
+std::string_view tool_version();
+
+/// A source baked in memory.
+struct BakedAsset {
+    asset::CookedAsset asset;
+    bool in_container = true;  ///< false: the payload is the cooked file
+    std::vector<std::filesystem::path> dependencies;
+};
+
+/// Bakes `source`. The content hash is over the tool's version, the type's name and version and the bytes of all files
+/// read, in the order they were first mentioned; paths are no part of it, so that it is the same on every machine.
+/// Throws Error (input) if the source is refused, Error (system) if a file changed while it was being read.
+BakedAsset bake_source(const Registry& registry, const std::filesystem::path& source);
+
+struct CookSettings {
+    std::optional<std::filesystem::path> depfile;  ///< Makefile-syntax list of everything the output was made from
+};
+
+/// Bakes `source` and writes `output`, then the depfile: whole or, if anything fails, not at all. It always bakes:
+/// when to cook is the build system's decision, since only that knows whether the cooker itself is the one that wrote
+/// an existing output. Throws Error like bake_source and write_file_atomic, and if `output` is one of the sources.
+BakedAsset cook_source(const Registry& registry, const std::filesystem::path& source,
+                       const std::filesystem::path& output, const CookSettings& settings = {});
+
+}  // namespace rowland::cook

@@ -1,0 +1,78 @@
+#include "engine/cook/registry.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "engine/cook/source_file.h"
+#include "engine/core/check.h"
+#include "engine/core/error.h"
+#include "engine/core/file.h"
+#include "engine/core/json_reader.h"
+
+namespace rowland::cook {
+
+namespace {
+
+constexpr std::uint64_t kMaximumJsonBytes = std::uint64_t{16} << 20;
+
+bool is_json(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension == ".json";
+}
+
+}  // namespace
+
+void Context::depend_on(const std::filesystem::path& path) {
+    if (std::find(dependencies_.begin(), dependencies_.end(), path) != dependencies_.end()) return;
+    dependencies_.push_back(path);
+    fingerprints_.push_back(hash_file(path));
+}
+
+std::vector<std::byte> Context::read(const std::filesystem::path& path, std::uint64_t max_bytes) {
+    depend_on(path);
+    return read_file(path, max_bytes);
+}
+
+nlohmann::json Context::read_json(const std::filesystem::path& path) {
+    const std::vector<std::byte> bytes = read(path, kMaximumJsonBytes);
+    return parse_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string());
+}
+
+void Registry::add(AssetType type) {
+    ROWLAND_CHECK(!type.name.empty() && find(type.name) == nullptr, "asset type names are unique: " + type.name);
+    ROWLAND_CHECK(type.recognises && type.check, "recognises and checks its sources: " + type.name);
+    ROWLAND_CHECK(!type.cook || type.describe, "describes what it cooks: " + type.name);
+    types_.push_back(std::move(type));
+}
+
+const AssetType& Registry::type_of_source(const std::filesystem::path& source) const {
+    std::optional<nlohmann::json> json;
+    if (is_json(source)) json = parse_json(read_text_file(source, kMaximumJsonBytes), source.string());
+
+    std::vector<const AssetType*> claims;
+    for (const AssetType& type : types_)
+        if (type.recognises(source, json ? &*json : nullptr)) claims.push_back(&type);
+    if (claims.size() == 1) return *claims.front();
+
+    std::vector<std::string> names;
+    for (const AssetType& type : types_) names.push_back(type.name);
+    throw Error({.file = source.string(),
+                 .place = {},
+                 .found = claims.empty() ? "a source of no known type"
+                                         : fmt::format("claimed by {} and {}", claims[0]->name, claims[1]->name),
+                 .expected = fmt::format("one of {}", fmt::join(names, ", ")),
+                 .remedy = {}});
+}
+
+const AssetType* Registry::find(const std::string& name) const {
+    for (const AssetType& type : types_)
+        if (type.name == name) return &type;
+    return nullptr;
+}
+
+}  // namespace rowland::cook

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "engine/gpu/handle.h"
+
+namespace rowland::gpu {
+
+/// Whether a buffer's content may change after it is made.
+enum class BufferUse { Static, Dynamic };
+
+/// GPU memory of fixed size: vertices, indices, uniform blocks, shader storage.
+class Buffer {
+ public:
+    Buffer() = default;
+    explicit Buffer(std::span<const std::byte> data, BufferUse use = BufferUse::Static);
+    /// A buffer of `bytes` zeros.
+    explicit Buffer(std::size_t bytes, BufferUse use = BufferUse::Dynamic);
+
+    /// A buffer that holds `values` as they lie in memory.
+    template <typename T>
+    static Buffer of(std::span<const T> values, BufferUse use = BufferUse::Static) {
+        return Buffer(std::as_bytes(values), use);
+    }
+
+    /// Overwrites part of a dynamic buffer. It is a logic error if the buffer is static or the range does not fit.
+    void update(std::span<const std::byte> data, std::size_t offset = 0);
+    /// Overwrites the start of the buffer with one plain struct, such as a uniform block.
+    template <typename T>
+    void update_value(const T& value) {
+        update(std::as_bytes(std::span<const T>(&value, 1)));
+    }
+
+    void bind_uniform(unsigned binding) const;
+    void bind_storage(unsigned binding) const;
+
+    std::size_t size() const { return size_; }
+    GLuint id() const { return handle_.get(); }
+
+ private:
+    struct Release {
+        void operator()(GLuint name) const;
+    };
+    Handle<Release> handle_;
+    std::size_t size_ = 0;
+    BufferUse use_ = BufferUse::Static;
+};
+
+}  // namespace rowland::gpu

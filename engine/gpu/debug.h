@@ -1,0 +1,10 @@
+#pragma once
+
+namespace rowland::gpu {
+
+/// Routes the driver's messages (KHR_debug) to the log, synchronously, so that a debugger stops at the call at fault.
+/// Needs a debug context. Errors, undefined behaviour and deprecated use are logged as errors and, if `fatal`, end the
+/// program (tests run so); portability and performance notes are logged at most.
+void enable_debug_output(bool fatal);
+
+}  // namespace rowland::gpu

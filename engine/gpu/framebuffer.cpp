@@ -1,0 +1,129 @@
+#include "engine/gpu/framebuffer.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "engine/core/check.h"
+#include "engine/core/error.h"
+
+namespace rowland::gpu {
+
+namespace {
+
+GLuint create_framebuffer() {
+    GLuint name = 0;
+    glCreateFramebuffers(1, &name);
+    return name;
+}
+
+/// Turns rows given from the bottom up to rows from the top down.
+template <typename T>
+void flip_rows(std::vector<T>& values, int height) {
+    const std::size_t row = values.size() / static_cast<std::size_t>(height);
+    for (std::size_t top = 0, bottom = static_cast<std::size_t>(height) - 1; top < bottom; ++top, --bottom) {
+        const auto begin = values.begin() + static_cast<std::ptrdiff_t>(top * row);
+        std::swap_ranges(begin, begin + static_cast<std::ptrdiff_t>(row),
+                         values.begin() + static_cast<std::ptrdiff_t>(bottom * row));
+    }
+}
+
+}  // namespace
+
+void Framebuffer::Release::operator()(GLuint name) const {
+    glDeleteFramebuffers(1, &name);
+}
+
+Framebuffer::Framebuffer(const FramebufferDesc& desc) : handle_(create_framebuffer()), size_(desc.width, desc.height) {
+    std::vector<GLenum> draw_buffers;
+    for (const Format format : desc.colours) {
+        colours_.emplace_back(TextureDesc{.format = format, .width = desc.width, .height = desc.height});
+        draw_buffers.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(draw_buffers.size()));
+        glNamedFramebufferTexture(id(), draw_buffers.back(), colours_.back().id(), 0);
+    }
+    if (desc.depth) {
+        depth_.emplace(TextureDesc{.format = Format::Depth32F, .width = desc.width, .height = desc.height});
+        glNamedFramebufferTexture(id(), GL_DEPTH_ATTACHMENT, depth_->id(), 0);
+    }
+    glNamedFramebufferDrawBuffers(id(), static_cast<GLsizei>(draw_buffers.size()), draw_buffers.data());
+    require_complete();
+}
+
+Framebuffer Framebuffer::onto(const Texture& texture, int level, int layer) {
+    Framebuffer result;
+    result.handle_ = Handle<Release>(create_framebuffer());
+    result.size_ = texture.size(level);
+    const TextureKind kind = texture.desc().kind;
+    if (kind == TextureKind::Line || kind == TextureKind::Plane) {
+        glNamedFramebufferTexture(result.id(), GL_COLOR_ATTACHMENT0, texture.id(), level);
+    } else {
+        glNamedFramebufferTextureLayer(result.id(), GL_COLOR_ATTACHMENT0, texture.id(), level, layer);
+    }
+    result.require_complete();
+    return result;
+}
+
+void Framebuffer::require_complete() const {
+    const GLenum status = glCheckNamedFramebufferStatus(id(), GL_DRAW_FRAMEBUFFER);
+    if (status == GL_FRAMEBUFFER_COMPLETE) return;
+    throw Error({.file = "framebuffer",
+                 .place = fmt::format("{}x{}", size_.x, size_.y),
+                 .found = fmt::format("a combination of formats the driver refuses (status {:#x})", status),
+                 .expected = "colour formats that can be drawn into",
+                 .remedy = {},
+                 .fault = Fault::System});
+}
+
+void Framebuffer::bind() const {
+    glBindFramebuffer(GL_FRAMEBUFFER, id());
+    glViewport(0, 0, size_.x, size_.y);
+}
+
+void Framebuffer::clear(const glm::vec4& colour, unsigned attachment) const {
+    const std::array<float, 4> value{colour.r, colour.g, colour.b, colour.a};
+    glClearNamedFramebufferfv(id(), GL_COLOR, static_cast<GLint>(attachment), value.data());
+}
+
+void Framebuffer::clear_depth(float depth) const {
+    glDepthMask(GL_TRUE);  // a clear obeys the mask the last draw left behind
+    glClearNamedFramebufferfv(id(), GL_DEPTH, 0, &depth);
+}
+
+const Texture& Framebuffer::colour(unsigned attachment) const {
+    ROWLAND_CHECK_OP(attachment, <, colours_.size());
+    return colours_[attachment];
+}
+
+const Texture& Framebuffer::depth() const {
+    ROWLAND_CHECK(depth_.has_value(), "the framebuffer has no depth texture");
+    return *depth_;
+}
+
+void Framebuffer::read(unsigned attachment, GLenum type, void* pixels) const {
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glNamedFramebufferReadBuffer(id(), GL_COLOR_ATTACHMENT0 + attachment);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, id());
+    // By default reading from a fixed-point buffer clamps, reading floats does not.
+    glReadPixels(0, 0, size_.x, size_.y, GL_RGBA, type, pixels);
+}
+
+std::vector<glm::vec4> Framebuffer::read_rgba_float(unsigned attachment) const {
+    std::vector<glm::vec4> pixels(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y));
+    read(attachment, GL_FLOAT, pixels.data());
+    flip_rows(pixels, size_.y);
+    return pixels;
+}
+
+std::vector<std::uint8_t> Framebuffer::read_rgba8(unsigned attachment) const {
+    std::vector<std::uint8_t> pixels(4 * static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y));
+    read(attachment, GL_UNSIGNED_BYTE, pixels.data());
+    flip_rows(pixels, size_.y);
+    return pixels;
+}
+
+void bind_window_framebuffer(glm::ivec2 size) {
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glViewport(0, 0, size.x, size.y);
+}
+
+}  // namespace rowland::gpu

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+#include <optional>
+#include <vector>
+
+#include "engine/gpu/texture.h"
+
+namespace rowland::gpu {
+
+struct FramebufferDesc {
+    int width = 1;
+    int height = 1;
+    std::vector<Format> colours{Format::RGBA16F};  ///< one texture each, `layout(location = i) out` in GLSL
+    bool depth = false;                            ///< adds a Depth32F texture
+};
+
+/// Textures to draw into.
+class Framebuffer {
+ public:
+    Framebuffer() = default;
+    /// Makes its own textures (linear filter, clamped). Throws Error (system) if the driver refuses the combination.
+    explicit Framebuffer(const FramebufferDesc& desc);
+    /// Draws into one level and layer (slice, face) of a texture, which must outlive it.
+    static Framebuffer onto(const Texture& texture, int level = 0, int layer = 0);
+
+    /// Draws go here from now on, over the whole area.
+    void bind() const;
+    void clear(const glm::vec4& colour, unsigned attachment = 0) const;
+    void clear_depth(float depth = 1.0F) const;
+
+    /// The textures it made itself.
+    const Texture& colour(unsigned attachment = 0) const;
+    const Texture& depth() const;
+
+    /// Pixels, rows from the top of the picture down, as images and files have them. Waits for the GPU.
+    std::vector<glm::vec4> read_rgba_float(unsigned attachment = 0) const;
+    /// The same as 8-bit RGBA bytes, clamped to [0, 1] first.
+    std::vector<std::uint8_t> read_rgba8(unsigned attachment = 0) const;
+
+    glm::ivec2 size() const { return size_; }
+    GLuint id() const { return handle_.get(); }
+
+ private:
+    struct Release {
+        void operator()(GLuint name) const;
+    };
+    void require_complete() const;
+    void read(unsigned attachment, GLenum type, void* pixels) const;
+
+    Handle<Release> handle_;
+    glm::ivec2 size_{0};
+    std::vector<Texture> colours_;
+    std::optional<Texture> depth_;
+};
+
+/// Draws go to the window's own framebuffer from now on.
+void bind_window_framebuffer(glm::ivec2 size);
+
+}  // namespace rowland::gpu

@@ -1,0 +1,200 @@
+#include "engine/gpu/program.h"
+
+#include <fmt/format.h>
+
+#include <glm/gtc/type_ptr.hpp>
+
+#include "engine/core/error.h"
+#include "engine/gpu/compile_log.h"
+
+namespace rowland::gpu {
+
+namespace {
+
+struct ReleaseShader {
+    void operator()(GLuint name) const { glDeleteShader(name); }
+};
+using Shader = Handle<ReleaseShader>;
+
+std::string info_log(GLuint name, bool is_program) {
+    GLint length = 0;
+    (is_program ? glGetProgramiv : glGetShaderiv)(name, GL_INFO_LOG_LENGTH, &length);
+    std::string log(static_cast<std::size_t>(length), '\0');
+    (is_program ? glGetProgramInfoLog : glGetShaderInfoLog)(name, length, &length, log.data());
+    log.resize(static_cast<std::size_t>(length));
+    return log;
+}
+
+[[noreturn]] void fail_to_compile(const ShaderText& source, const std::string& log) {
+    const std::vector<CompileMessage> messages = parse_compile_log(log, source.files);
+    ErrorInfo info{.file = source.files.front(),
+                   .place = {},
+                   .found = "a shader the driver refuses without saying why",
+                   .expected = {},
+                   .remedy = {},
+                   .fault = Fault::System};
+    if (!messages.empty()) {
+        const CompileMessage& first = messages.front();
+        if (!first.file.empty()) info.file = first.file;
+        if (first.line > 0) info.place = fmt::format("line {}", first.line);
+        info.found = first.text;
+        for (std::size_t i = 1; i < messages.size(); ++i) {
+            info.found += fmt::format(" | {}:{}: {}", messages[i].file, messages[i].line, messages[i].text);
+        }
+    }
+    throw Error(std::move(info));
+}
+
+Shader compile(GLenum stage, const ShaderText& source) {
+    Shader shader(glCreateShader(stage));
+    const char* text = source.text.c_str();
+    glShaderSource(shader.get(), 1, &text, nullptr);
+    glCompileShader(shader.get());
+    GLint compiled = GL_FALSE;
+    glGetShaderiv(shader.get(), GL_COMPILE_STATUS, &compiled);
+    if (compiled != GL_TRUE) fail_to_compile(source, info_log(shader.get(), false));
+    return shader;
+}
+
+}  // namespace
+
+void Program::Release::operator()(GLuint name) const {
+    glDeleteProgram(name);
+}
+
+Program::Program(const ShaderLibrary& library, const ProgramDesc& desc) {
+    std::vector<Shader> shaders;
+    std::vector<GLuint> names;
+    std::string files;
+    const auto add = [&](GLenum stage, const std::string& file) {
+        if (file.empty()) return;
+        shaders.push_back(compile(stage, library.assemble(file, desc.defines)));
+        names.push_back(shaders.back().get());
+        files += (files.empty() ? "" : " + ") + file;
+    };
+    add(GL_VERTEX_SHADER, desc.vertex);
+    add(GL_FRAGMENT_SHADER, desc.fragment);
+    add(GL_COMPUTE_SHADER, desc.compute);
+    link(names, files);
+}
+
+Program::Program(const ShaderText& vertex, const ShaderText& fragment) {
+    const Shader vertex_shader = compile(GL_VERTEX_SHADER, vertex);
+    const Shader fragment_shader = compile(GL_FRAGMENT_SHADER, fragment);
+    const std::vector<GLuint> names{vertex_shader.get(), fragment_shader.get()};
+    link(names, vertex.files.front() + " + " + fragment.files.front());
+}
+
+void Program::link(std::span<const GLuint> shaders, const std::string& names) {
+    handle_ = Handle<Release>(glCreateProgram());
+    for (const GLuint shader : shaders) glAttachShader(id(), shader);
+    glLinkProgram(id());
+    for (const GLuint shader : shaders) glDetachShader(id(), shader);
+    GLint linked = GL_FALSE;
+    glGetProgramiv(id(), GL_LINK_STATUS, &linked);
+    if (linked != GL_TRUE) {
+        throw Error({.file = names,
+                     .place = "linking",
+                     .found = info_log(id(), true),
+                     .expected = {},
+                     .remedy = {},
+                     .fault = Fault::System});
+    }
+    find_uniforms();
+}
+
+void Program::find_uniforms() {
+    GLint count = 0;
+    GLint longest = 0;
+    glGetProgramiv(id(), GL_ACTIVE_UNIFORMS, &count);
+    glGetProgramiv(id(), GL_ACTIVE_UNIFORM_MAX_LENGTH, &longest);
+    std::string name;
+    for (GLint i = 0; i < count; ++i) {
+        name.resize(static_cast<std::size_t>(longest));
+        GLsizei length = 0;
+        GLint size = 0;
+        GLenum type = GL_NONE;
+        glGetActiveUniform(id(), static_cast<GLuint>(i), longest, &length, &size, &type, name.data());
+        name.resize(static_cast<std::size_t>(length));
+        const GLint place = glGetUniformLocation(id(), name.c_str());
+        if (place < 0) continue;  // a member of a block
+        if (name.ends_with("[0]")) name.resize(name.size() - 3);
+        uniforms_[name] = place;
+    }
+}
+
+GLint Program::location(std::string_view name) const {
+    const auto found = uniforms_.find(name);
+    return found == uniforms_.end() ? -1 : found->second;  // OpenGL ignores -1
+}
+
+bool Program::has_uniform(std::string_view name) const {
+    return uniforms_.find(name) != uniforms_.end();
+}
+
+void Program::use() const {
+    glUseProgram(id());
+}
+
+void Program::dispatch(unsigned groups_x, unsigned groups_y, unsigned groups_z) const {
+    use();
+    glDispatchCompute(groups_x, groups_y, groups_z);
+    glMemoryBarrier(GL_ALL_BARRIER_BITS);
+}
+
+void Program::set(std::string_view name, int value) const {
+    glProgramUniform1i(id(), location(name), value);
+}
+
+void Program::set(std::string_view name, float value) const {
+    glProgramUniform1f(id(), location(name), value);
+}
+
+void Program::set(std::string_view name, const glm::ivec2& value) const {
+    glProgramUniform2iv(id(), location(name), 1, glm::value_ptr(value));
+}
+
+void Program::set(std::string_view name, const glm::vec2& value) const {
+    glProgramUniform2fv(id(), location(name), 1, glm::value_ptr(value));
+}
+
+void Program::set(std::string_view name, const glm::vec3& value) const {
+    glProgramUniform3fv(id(), location(name), 1, glm::value_ptr(value));
+}
+
+void Program::set(std::string_view name, const glm::vec4& value) const {
+    glProgramUniform4fv(id(), location(name), 1, glm::value_ptr(value));
+}
+
+void Program::set(std::string_view name, const glm::mat3& value) const {
+    glProgramUniformMatrix3fv(id(), location(name), 1, GL_FALSE, glm::value_ptr(value));
+}
+
+void Program::set(std::string_view name, const glm::mat4& value) const {
+    glProgramUniformMatrix4fv(id(), location(name), 1, GL_FALSE, glm::value_ptr(value));
+}
+
+void Program::set(std::string_view name, std::span<const int> values) const {
+    glProgramUniform1iv(id(), location(name), static_cast<GLsizei>(values.size()), values.data());
+}
+
+void Program::set(std::string_view name, std::span<const float> values) const {
+    glProgramUniform1fv(id(), location(name), static_cast<GLsizei>(values.size()), values.data());
+}
+
+void Program::set(std::string_view name, std::span<const glm::vec3> values) const {
+    if (values.empty()) return;
+    glProgramUniform3fv(id(), location(name), static_cast<GLsizei>(values.size()), glm::value_ptr(values.front()));
+}
+
+void Program::set(std::string_view name, std::span<const glm::vec4> values) const {
+    if (values.empty()) return;
+    glProgramUniform4fv(id(), location(name), static_cast<GLsizei>(values.size()), glm::value_ptr(values.front()));
+}
+
+void Program::set_block_binding(std::string_view block, unsigned binding) const {
+    const GLuint index = glGetUniformBlockIndex(id(), std::string(block).c_str());
+    if (index != GL_INVALID_INDEX) glUniformBlockBinding(id(), index, binding);
+}
+
+}  // namespace rowland::gpu

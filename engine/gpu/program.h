@@ -1,0 +1,76 @@
+#pragma once
+
+#include <functional>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/gpu/handle.h"
+#include "engine/gpu/shader_library.h"
+
+namespace rowland::gpu {
+
+/// What a program is built from: file names for the library; those left empty are not used.
+struct ProgramDesc {
+    std::string vertex = {};
+    std::string fragment = {};
+    std::string compute = {};
+    std::vector<Define> defines = {};
+};
+
+/// A linked shader program.
+class Program {
+ public:
+    Program() = default;
+    /// Throws Error (system) with the file, the line in it and the driver's message if it does not compile or link.
+    Program(const ShaderLibrary& library, const ProgramDesc& desc);
+    /// From texts assembled elsewhere, such as code a library generated.
+    Program(const ShaderText& vertex, const ShaderText& fragment);
+
+    /// Draws use it from now on.
+    void use() const;
+    /// use(), then runs a compute program on so many groups, and waits for its writes before later reads.
+    void dispatch(unsigned groups_x, unsigned groups_y = 1, unsigned groups_z = 1) const;
+
+    /// Sets a uniform. One the compiler removed because nothing reads it is ignored: which those are differs by driver.
+    void set(std::string_view name, int value) const;
+    void set(std::string_view name, float value) const;
+    void set(std::string_view name, const glm::ivec2& value) const;
+    void set(std::string_view name, const glm::vec2& value) const;
+    void set(std::string_view name, const glm::vec3& value) const;
+    void set(std::string_view name, const glm::vec4& value) const;
+    void set(std::string_view name, const glm::mat3& value) const;
+    void set(std::string_view name, const glm::mat4& value) const;
+    void set(std::string_view name, std::span<const int> values) const;
+    void set(std::string_view name, std::span<const float> values) const;
+    void set(std::string_view name, std::span<const glm::vec3> values) const;
+    void set(std::string_view name, std::span<const glm::vec4> values) const;
+
+    /// Connects a uniform block to a binding point (Buffer::bind_uniform); `layout(binding = …)` makes this
+    /// unnecessary.
+    void set_block_binding(std::string_view block, unsigned binding) const;
+
+    /// Whether the linked program reads such a uniform outside of blocks.
+    bool has_uniform(std::string_view name) const;
+    GLuint id() const { return handle_.get(); }
+
+ private:
+    struct Release {
+        void operator()(GLuint name) const;
+    };
+    void link(std::span<const GLuint> shaders, const std::string& names);
+    void find_uniforms();
+    GLint location(std::string_view name) const;
+
+    Handle<Release> handle_;
+    std::map<std::string, GLint, std::less<>> uniforms_;
+};
+
+}  // namespace rowland::gpu

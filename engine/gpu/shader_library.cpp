@@ -1,0 +1,150 @@
+#include "engine/gpu/shader_library.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/core/error.h"
+#include "engine/core/file.h"
+#include "engine/core/json_reader.h"
+
+namespace rowland::gpu {
+
+namespace {
+
+constexpr std::uint64_t max_shader_bytes = 1 << 20;
+
+[[noreturn]] void fail(const std::string& file, std::size_t line, std::string found, std::string expected,
+                       std::string remedy = "") {
+    throw Error({.file = file,
+                 .place = line == 0 ? "" : fmt::format("line {}", line),
+                 .found = std::move(found),
+                 .expected = std::move(expected),
+                 .remedy = std::move(remedy),
+                 .fault = Fault::System});
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> lines;
+    for (std::size_t start = 0; start < text.size();) {
+        const std::size_t end = std::min(text.find('\n', start), text.size());
+        std::string line = text.substr(start, end - start);
+        if (!line.empty() && line.back() == '\r') line.pop_back();
+        lines.push_back(std::move(line));
+        start = end + 1;
+    }
+    return lines;
+}
+
+std::string_view without_leading_blanks(std::string_view text) {
+    return text.substr(std::min(text.find_first_not_of(" \t"), text.size()));
+}
+
+/// What follows `#name` on a line that is such a directive.
+std::optional<std::string_view> after_directive(std::string_view line, std::string_view name) {
+    line = without_leading_blanks(line);
+    if (!line.starts_with('#')) return std::nullopt;
+    line = without_leading_blanks(line.substr(1));
+    if (!line.starts_with(name)) return std::nullopt;
+    return without_leading_blanks(line.substr(name.size()));
+}
+
+/// The name in `#include "name"`. Includes in angle brackets are C++'s, in headers that both languages read.
+std::optional<std::string> included_name(std::string_view line) {
+    const std::optional<std::string_view> rest = after_directive(line, "include");
+    if (!rest || !rest->starts_with('"')) return std::nullopt;
+    const std::size_t end = rest->find('"', 1);
+    if (end == std::string_view::npos) return std::nullopt;
+    return std::string(rest->substr(1, end - 1));
+}
+
+bool is_version(std::string_view line) {
+    return after_directive(line, "version").has_value();
+}
+
+std::string defines_text(std::span<const Define> defines) {
+    std::string text;
+    for (const auto& [name, value] : defines) text += fmt::format("#define {} {}\n", name, value);
+    return text;
+}
+
+}  // namespace
+
+std::string line_directive(std::size_t file, std::size_t line) {
+    return fmt::format("#line {}\n", file * lines_per_file + line);
+}
+
+ShaderLibrary::ShaderLibrary() {
+    add_embedded(shader_files());
+}
+
+void ShaderLibrary::add_embedded(std::span<const EmbeddedFile> files) {
+    for (const EmbeddedFile& file : files) embedded_[std::string(file.name)] = file.text;
+}
+
+std::optional<std::string> ShaderLibrary::find(const std::string& name) const {
+    if (source_folder_ && std::filesystem::is_regular_file(*source_folder_ / name)) {
+        return read_text_file(*source_folder_ / name, max_shader_bytes);
+    }
+    const auto found = embedded_.find(name);
+    if (found == embedded_.end()) return std::nullopt;
+    return std::string(found->second);
+}
+
+std::string ShaderLibrary::read(const std::string& name) const {
+    if (std::optional<std::string> text = find(name)) return *std::move(text);
+    std::vector<std::string> names;
+    for (const auto& [known, text] : embedded_) names.push_back(known);
+    const std::optional<std::string> nearest = nearest_word(name, names);
+    fail(name, 0, "no such shader file", "a file built into the program or in the shader source folder",
+         nearest ? fmt::format("did you mean {}?", *nearest) : "");
+}
+
+std::string ShaderLibrary::resolve_include(const std::string& name, const std::string& includer,
+                                           std::size_t line) const {
+    const std::string sibling =
+        (std::filesystem::path(includer).parent_path() / name).lexically_normal().generic_string();
+    for (const std::string& candidate : {sibling, name}) {
+        if (find(candidate)) return candidate;
+    }
+    fail(includer, line, fmt::format("#include \"{}\"", name),
+         fmt::format("a file {} or {} built into the program or in the shader source folder", sibling, name));
+}
+
+void ShaderLibrary::paste(const std::string& name, std::span<const Define> defines, ShaderText& result) const {
+    const std::size_t index = result.files.size();
+    const bool is_root = index == 0;
+    result.files.push_back(name);
+    if (!is_root) result.text += line_directive(index, 1);
+
+    bool versioned = false;
+    std::size_t line_number = 0;
+    for (const std::string& line : lines_of(read(name))) {
+        ++line_number;
+        if (is_version(line)) {
+            if (!is_root) fail(name, line_number, line, "no #version in an included file");
+            versioned = true;
+            result.text += line + "\n" + defines_text(defines) + line_directive(index, line_number + 1);
+            continue;
+        }
+        const std::optional<std::string> include = included_name(line);
+        if (!include) {
+            result.text += line + "\n";
+            continue;
+        }
+        if (is_root && !versioned) fail(name, line_number, line, "#version as the first directive");
+        const std::string included = resolve_include(*include, name, line_number);
+        const bool is_new = std::find(result.files.begin(), result.files.end(), included) == result.files.end();
+        if (is_new) paste(included, {}, result);
+        result.text += line_directive(index, line_number + 1);
+    }
+    if (is_root && !versioned) fail(name, 1, "no #version", "#version 450 core as the first directive");
+}
+
+ShaderText ShaderLibrary::assemble(const std::string& name, std::span<const Define> defines) const {
+    ShaderText result;
+    paste(name, defines, result);
+    return result;
+}
+
+}  // namespace rowland::gpu

@@ -1,0 +1,195 @@
+#include "engine/gpu/texture.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "engine/core/check.h"
+
+namespace rowland::gpu {
+
+namespace {
+
+GLenum target_of(TextureKind kind) {
+    switch (kind) {
+        case TextureKind::Line:
+            return GL_TEXTURE_1D;
+        case TextureKind::Plane:
+            return GL_TEXTURE_2D;
+        case TextureKind::PlaneArray:
+            return GL_TEXTURE_2D_ARRAY;
+        case TextureKind::Volume:
+            return GL_TEXTURE_3D;
+        case TextureKind::CubeMap:
+            return GL_TEXTURE_CUBE_MAP;
+    }
+    check_failed(__FILE__, __LINE__, "unknown kind of texture");
+}
+
+GLint wrap_mode(Wrap wrap) {
+    switch (wrap) {
+        case Wrap::Clamp:
+            return GL_CLAMP_TO_EDGE;
+        case Wrap::Repeat:
+            return GL_REPEAT;
+        case Wrap::Mirror:
+            return GL_MIRRORED_REPEAT;
+    }
+    check_failed(__FILE__, __LINE__, "unknown wrap mode");
+}
+
+/// Checks the sizes and fills in the number of levels.
+TextureDesc complete(TextureDesc desc) {
+    ROWLAND_CHECK_OP(desc.width, >=, 1);
+    ROWLAND_CHECK_OP(desc.height, >=, 1);
+    ROWLAND_CHECK_OP(desc.depth, >=, 1);
+    ROWLAND_CHECK_OP(desc.levels, >=, 0);
+    if (desc.kind == TextureKind::Line) ROWLAND_CHECK_OP(desc.height, ==, 1);
+    if (desc.kind == TextureKind::CubeMap) ROWLAND_CHECK_OP(desc.width, ==, desc.height);
+    if (desc.kind != TextureKind::PlaneArray && desc.kind != TextureKind::Volume) ROWLAND_CHECK_OP(desc.depth, ==, 1);
+    const int volume_depth = desc.kind == TextureKind::Volume ? desc.depth : 1;
+    const auto longest = static_cast<unsigned>(std::max({desc.width, desc.height, volume_depth}));
+    const int full_chain = static_cast<int>(std::bit_width(longest));
+    ROWLAND_CHECK_OP(desc.levels, <=, full_chain);
+    if (desc.levels == 0) desc.levels = full_chain;
+    return desc;
+}
+
+/// How many slices a level has.
+int slice_count(const TextureDesc& desc, int level) {
+    if (desc.kind == TextureKind::CubeMap) return 6;
+    return desc.kind == TextureKind::Volume ? std::max(desc.depth >> level, 1) : desc.depth;
+}
+
+void allocate(GLuint name, const TextureDesc& desc) {
+    const GLenum format = internal_format(desc.format);
+    switch (desc.kind) {
+        case TextureKind::Line:
+            glTextureStorage1D(name, desc.levels, format, desc.width);
+            return;
+        case TextureKind::Plane:
+        case TextureKind::CubeMap:
+            glTextureStorage2D(name, desc.levels, format, desc.width, desc.height);
+            return;
+        case TextureKind::PlaneArray:
+        case TextureKind::Volume:
+            glTextureStorage3D(name, desc.levels, format, desc.width, desc.height, desc.depth);
+            return;
+    }
+}
+
+}  // namespace
+
+void Texture::Release::operator()(GLuint name) const {
+    glDeleteTextures(1, &name);
+}
+
+Texture::Texture(const TextureDesc& desc, const Sampling& sampling) : desc_(complete(desc)) {
+    GLuint name = 0;
+    glCreateTextures(target_of(desc_.kind), 1, &name);
+    handle_ = Handle<Release>(name);
+    allocate(name, desc_);
+    set_sampling(sampling);
+}
+
+glm::ivec2 Texture::size(int level) const {
+    return {std::max(desc_.width >> level, 1), std::max(desc_.height >> level, 1)};
+}
+
+std::size_t Texture::bytes() const {
+    std::size_t texels_total = 0;
+    for (int level = 0; level < desc_.levels; ++level) texels_total += texels({level, 0, slice_count(desc_, level)});
+    return texels_total * static_cast<std::size_t>(bytes_per_texel(desc_.format));
+}
+
+std::size_t Texture::texels(TextureSlice slice) const {
+    ROWLAND_CHECK_OP(slice.level, >=, 0);
+    ROWLAND_CHECK_OP(slice.level, <, desc_.levels);
+    ROWLAND_CHECK_OP(slice.layer, >=, 0);
+    ROWLAND_CHECK_OP(slice.layers, >=, 1);
+    ROWLAND_CHECK_OP(slice.layer + slice.layers, <=, slice_count(desc_, slice.level));
+    const glm::ivec2 area = size(slice.level);
+    return static_cast<std::size_t>(area.x) * static_cast<std::size_t>(area.y) * static_cast<std::size_t>(slice.layers);
+}
+
+void Texture::upload_typed(const void* data, std::size_t count, GLenum type, TextureSlice slice) {
+    const std::size_t texel_count = texels(slice);
+    ROWLAND_CHECK(count % texel_count == 0 && count / texel_count >= 1 && count / texel_count <= 4,
+                  fmt::format("{} values do not fill {} texels", count, texel_count));
+    constexpr std::array<GLenum, 4> layouts{GL_RED, GL_RG, GL_RGB, GL_RGBA};
+    const GLenum layout = desc_.format == Format::Depth32F ? GL_DEPTH_COMPONENT : layouts[count / texel_count - 1];
+    const glm::ivec2 area = size(slice.level);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    switch (desc_.kind) {
+        case TextureKind::Line:
+            glTextureSubImage1D(id(), slice.level, 0, area.x, layout, type, data);
+            return;
+        case TextureKind::Plane:
+            glTextureSubImage2D(id(), slice.level, 0, 0, area.x, area.y, layout, type, data);
+            return;
+        case TextureKind::PlaneArray:
+        case TextureKind::Volume:
+        case TextureKind::CubeMap:
+            glTextureSubImage3D(id(), slice.level, 0, 0, slice.layer, area.x, area.y, slice.layers, layout, type, data);
+            return;
+    }
+}
+
+void Texture::upload(std::span<const float> data, TextureSlice slice) {
+    upload_typed(data.data(), data.size(), GL_FLOAT, slice);
+}
+
+void Texture::upload(std::span<const std::uint8_t> data, TextureSlice slice) {
+    upload_typed(data.data(), data.size(), GL_UNSIGNED_BYTE, slice);
+}
+
+void Texture::upload(std::span<const std::uint16_t> data, TextureSlice slice) {
+    upload_typed(data.data(), data.size(), is_half_float(desc_.format) ? GL_HALF_FLOAT : GL_UNSIGNED_SHORT, slice);
+}
+
+void Texture::upload(std::span<const glm::vec3> data, TextureSlice slice) {
+    upload_typed(data.data(), 3 * data.size(), GL_FLOAT, slice);
+}
+
+void Texture::upload(std::span<const glm::vec4> data, TextureSlice slice) {
+    upload_typed(data.data(), 4 * data.size(), GL_FLOAT, slice);
+}
+
+void Texture::generate_levels() {
+    glGenerateTextureMipmap(id());
+}
+
+void Texture::set_sampling(const Sampling& sampling) {
+    const GLint magnify = sampling.filter == Filter::Nearest ? GL_NEAREST : GL_LINEAR;
+    const GLint minify = sampling.filter == Filter::Trilinear ? GL_LINEAR_MIPMAP_LINEAR : magnify;
+    glTextureParameteri(id(), GL_TEXTURE_MAG_FILTER, magnify);
+    glTextureParameteri(id(), GL_TEXTURE_MIN_FILTER, minify);
+    glTextureParameteri(id(), GL_TEXTURE_WRAP_S, wrap_mode(sampling.wrap_s));
+    glTextureParameteri(id(), GL_TEXTURE_WRAP_T, wrap_mode(sampling.wrap_t));
+    glTextureParameteri(id(), GL_TEXTURE_WRAP_R, wrap_mode(sampling.wrap_r));
+    if (epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) {
+        glTextureParameterf(id(), GL_TEXTURE_MAX_ANISOTROPY_EXT, sampling.anisotropy);
+    }
+    // Core in 3.2, but off by default: without it cube maps show the edges of their faces.
+    if (desc_.kind == TextureKind::CubeMap) glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+}
+
+void Texture::bind(unsigned unit) const {
+    glBindTextureUnit(unit, id());
+}
+
+std::vector<glm::vec4> Texture::read(TextureSlice slice) const {
+    std::vector<glm::vec4> result(texels(slice));
+    const glm::ivec2 area = size(slice.level);
+    const bool is_depth = desc_.format == Format::Depth32F;
+    std::vector<float> depths(is_depth ? result.size() : 0);
+    void* data = is_depth ? static_cast<void*>(depths.data()) : static_cast<void*>(result.data());
+    const std::size_t bytes_read = is_depth ? depths.size() * sizeof(float) : result.size() * sizeof(glm::vec4);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glGetTextureSubImage(id(), slice.level, 0, 0, slice.layer, area.x, area.y, slice.layers,
+                         is_depth ? GL_DEPTH_COMPONENT : GL_RGBA, GL_FLOAT, static_cast<GLsizei>(bytes_read), data);
+    for (std::size_t i = 0; i < depths.size(); ++i) result[i] = {depths[i], 0.0F, 0.0F, 1.0F};
+    return result;
+}
+
+}  // namespace rowland::gpu

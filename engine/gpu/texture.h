@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <span>
+#include <vector>
+
+#include "engine/gpu/format.h"
+#include "engine/gpu/handle.h"
+
+namespace rowland::gpu {
+
+enum class TextureKind { Line, Plane, PlaneArray, Volume, CubeMap };  ///< GLSL: sampler1D, 2D, 2DArray, 3D, Cube
+
+struct TextureDesc {
+    TextureKind kind = TextureKind::Plane;
+    Format format = Format::RGBA16F;
+    int width = 1;
+    int height = 1;  ///< 1 for a line; the width for a cube map
+    int depth = 1;   ///< layers of an array, slices of a volume; otherwise 1
+    int levels = 1;  ///< mip levels; 0: down to 1×1
+};
+
+enum class Filter { Nearest, Linear, Trilinear };
+enum class Wrap { Clamp, Repeat, Mirror };
+
+struct Sampling {
+    Filter filter = Filter::Linear;
+    Wrap wrap_s = Wrap::Clamp;
+    Wrap wrap_t = Wrap::Clamp;
+    Wrap wrap_r = Wrap::Clamp;
+    float anisotropy = 1.0F;
+};
+
+/// Which part of a texture an upload or a read means: all of a level's width and height, and `layers` layers (array),
+/// slices (volume) or faces (cube map: +X, −X, +Y, −Y, +Z, −Z) from `layer` on.
+struct TextureSlice {
+    int level = 0;
+    int layer = 0;
+    int layers = 1;
+};
+
+/// A texture of fixed size and format. Rows are uploaded as they come: the first lies at t = 0.
+class Texture {
+ public:
+    Texture() = default;
+    /// It is a logic error if a size is below 1 or does not suit the kind.
+    explicit Texture(const TextureDesc& desc, const Sampling& sampling = {});
+
+    /// Writes whole slices. The data's length tells the components of its texels (1 to 4, whatever the format has;
+    /// those missing become 0, alpha 1). 8- and 16-bit data is normalised, but for half-float formats 16-bit data is
+    /// the bits of the halves. It is a logic error if the length is not 1 to 4 times the texels of the slice.
+    void upload(std::span<const float> data, TextureSlice slice = {});
+    void upload(std::span<const std::uint8_t> data, TextureSlice slice = {});
+    void upload(std::span<const std::uint16_t> data, TextureSlice slice = {});
+    void upload(std::span<const glm::vec3> data, TextureSlice slice = {});
+    void upload(std::span<const glm::vec4> data, TextureSlice slice = {});
+
+    /// Fills the levels above 0 with box-filtered copies.
+    void generate_levels();
+    void set_sampling(const Sampling& sampling);
+    /// Binds to a texture unit, as `layout(binding = unit)` in GLSL.
+    void bind(unsigned unit) const;
+
+    /// Texels of whole slices as floats, RGBA, in the order of uploads. Waits for the GPU.
+    std::vector<glm::vec4> read(TextureSlice slice = {}) const;
+
+    const TextureDesc& desc() const { return desc_; }
+    int levels() const { return desc_.levels; }
+    glm::ivec2 size(int level = 0) const;
+    /// GPU memory of all levels and layers.
+    std::size_t bytes() const;
+    GLuint id() const { return handle_.get(); }
+
+ private:
+    struct Release {
+        void operator()(GLuint name) const;
+    };
+    void upload_typed(const void* data, std::size_t count, GLenum type, TextureSlice slice);
+    std::size_t texels(TextureSlice slice) const;
+
+    Handle<Release> handle_;
+    TextureDesc desc_;
+};
+
+}  // namespace rowland::gpu

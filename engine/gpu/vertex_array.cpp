@@ -1,0 +1,50 @@
+#include "engine/gpu/vertex_array.h"
+
+#include <cstdint>
+
+#include "engine/core/check.h"
+
+namespace rowland::gpu {
+
+void VertexArray::Release::operator()(GLuint name) const {
+    glDeleteVertexArrays(1, &name);
+}
+
+VertexArray::VertexArray() {
+    GLuint name = 0;
+    glCreateVertexArrays(1, &name);
+    handle_ = Handle<Release>(name);
+}
+
+void VertexArray::attach(const Buffer& buffer, int stride, std::initializer_list<VertexAttribute> attributes,
+                         bool per_instance) {
+    const unsigned binding = bindings_++;
+    glVertexArrayVertexBuffer(id(), binding, buffer.id(), 0, stride);
+    glVertexArrayBindingDivisor(id(), binding, per_instance ? 1 : 0);
+    for (const VertexAttribute& attribute : attributes) {
+        glEnableVertexArrayAttrib(id(), attribute.location);
+        glVertexArrayAttribFormat(id(), attribute.location, attribute.components, GL_FLOAT, GL_FALSE, attribute.offset);
+        glVertexArrayAttribBinding(id(), attribute.location, binding);
+    }
+}
+
+void VertexArray::attach_indices(const Buffer& buffer) {
+    glVertexArrayElementBuffer(id(), buffer.id());
+    indices_ = buffer.size() / sizeof(std::uint32_t);
+}
+
+void VertexArray::draw(int count, int instances) const {
+    glBindVertexArray(id());
+    glDrawArraysInstanced(GL_TRIANGLES, 0, count, instances);
+}
+
+void VertexArray::draw_indexed(int count, int first, int instances) const {
+    ROWLAND_CHECK_OP(first, >=, 0);
+    ROWLAND_CHECK_OP(count, >=, 0);
+    ROWLAND_CHECK_OP(static_cast<std::size_t>(first) + static_cast<std::size_t>(count), <=, indices_);
+    glBindVertexArray(id());
+    const auto offset = static_cast<std::uintptr_t>(first) * sizeof(std::uint32_t);
+    glDrawElementsInstanced(GL_TRIANGLES, count, GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset), instances);
+}
+
+}  // namespace rowland::gpu

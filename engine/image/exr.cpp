@@ -1,0 +1,262 @@
+#include "engine/image/exr.h"
+
+#include <ImfChannelList.h>
+#include <ImfChromaticitiesAttribute.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfIO.h>
+#include <ImfInputPart.h>
+#include <ImfMultiPartInputFile.h>
+#include <ImfOutputFile.h>
+#include <ImfStandardAttributes.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <exception>
+#include <new>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "engine/core/check.h"
+#include "engine/core/error.h"
+#include "engine/core/file.h"
+#include "engine/image/exr_header.h"
+#include "engine/image/limits.h"
+#include "engine/image/primaries.h"
+
+namespace rowland::image {
+
+namespace {
+
+/// Rows decoded at a time: a multiple of every compression's block, so that none is decoded twice.
+constexpr int kRowsAtATime = 256;
+
+[[noreturn]] void fail(const std::string& file, std::string place, std::string found, std::string expected,
+                       std::string remedy = "") {
+    throw Error({.file = file,
+                 .place = std::move(place),
+                 .found = std::move(found),
+                 .expected = std::move(expected),
+                 .remedy = std::move(remedy)});
+}
+
+/// OpenEXR's input, from memory.
+class SpanStream : public Imf::IStream {
+ public:
+    explicit SpanStream(std::span<const std::byte> bytes) : IStream("memory"), bytes_(bytes) {}
+
+    bool read(char target[], int count) override {
+        const auto size = static_cast<std::size_t>(std::max(count, 0));
+        if (count < 0 || position_ > bytes_.size() || size > bytes_.size() - position_)
+            throw std::runtime_error("the file is truncated");
+        std::memcpy(target, bytes_.data() + position_, size);
+        position_ += size;
+        return position_ < bytes_.size();
+    }
+    std::uint64_t tellg() override { return position_; }
+    void seekg(std::uint64_t position) override { position_ = position; }
+
+ private:
+    std::span<const std::byte> bytes_;
+    std::uint64_t position_ = 0;
+};
+
+/// OpenEXR's output, into memory.
+class VectorStream : public Imf::OStream {
+ public:
+    VectorStream() : OStream("memory") {}
+
+    void write(const char source[], int count) override {
+        const auto size = static_cast<std::size_t>(count);
+        bytes_.resize(std::max(bytes_.size(), position_ + size));
+        std::memcpy(bytes_.data() + position_, source, size);
+        position_ += size;
+    }
+    std::uint64_t tellp() override { return position_; }
+    void seekp(std::uint64_t position) override { position_ = position; }
+    const std::vector<std::byte>& bytes() const { return bytes_; }
+
+ private:
+    std::vector<std::byte> bytes_;
+    std::uint64_t position_ = 0;
+};
+
+/// The names of the channels that become red, green and blue.
+using ChannelNames = std::array<std::string, 3>;
+
+/// R, G and B of the unnamed layer, else Y, else of the first layer that has them.
+std::optional<ChannelNames> pick_channels(const Imf::ChannelList& channels) {
+    const auto layer = [&channels](const std::string& prefix) -> std::optional<ChannelNames> {
+        ChannelNames names = {prefix + "R", prefix + "G", prefix + "B"};
+        for (const std::string& name : names)
+            if (channels.findChannel(name) == nullptr) return std::nullopt;
+        return names;
+    };
+    if (auto names = layer("")) return names;
+    const bool chroma = channels.findChannel("RY") != nullptr || channels.findChannel("BY") != nullptr;
+    if (channels.findChannel("Y") != nullptr && !chroma) return ChannelNames{"Y", "Y", "Y"};
+    for (auto it = channels.begin(); it != channels.end(); ++it) {
+        const std::string name = it.name();
+        if (!name.ends_with(".R")) continue;
+        if (auto names = layer(name.substr(0, name.size() - 1))) return names;
+    }
+    return std::nullopt;
+}
+
+std::string list_channels(const Imf::ChannelList& channels) {
+    std::string text;
+    for (auto it = channels.begin(); it != channels.end() && text.size() < 80; ++it)
+        text += fmt::format("{}{}", text.empty() ? "" : ", ", it.name());
+    return text.empty() ? "no channels" : "channels " + text;
+}
+
+ChannelNames check_channels(const Imf::ChannelList& channels, const std::string& file) {
+    const auto names = pick_channels(channels);
+    if (!names) fail(file, "channels", list_channels(channels), "R, G and B, or Y");
+    for (const std::string& name : *names) {
+        const Imf::Channel& channel = channels[name];
+        if (channel.type != Imf::HALF && channel.type != Imf::FLOAT)
+            fail(file, "channel " + name, "integers", "half or float");
+        if (channel.xSampling != 1 || channel.ySampling != 1)
+            fail(file, "channel " + name, "a subsampled channel", "one sample a texel");
+    }
+    return *names;
+}
+
+/// Reads rows [first, last] of the data window into `rows`, the first row first.
+void read_rows(Imf::InputPart& part, const ChannelNames& names, const Imath::Box2i& window, int first, int last,
+               glm::vec3* rows) {
+    const auto width = static_cast<std::size_t>(window.max.x - window.min.x) + 1;
+    Imf::FrameBuffer buffer;
+    for (std::size_t c = 0; c < 3; ++c) {
+        if (c > 0 && names[c] == names[0]) break;
+        buffer.insert(names[c], Imf::Slice::Make(Imf::FLOAT, reinterpret_cast<float*>(rows) + c, {window.min.x, first},
+                                                 static_cast<std::int64_t>(width), last - first + 1, sizeof(glm::vec3),
+                                                 sizeof(glm::vec3) * width));
+    }
+    part.setFrameBuffer(buffer);
+    part.readPixels(first, last);
+    if (names[1] != names[0]) return;
+    const std::size_t count = width * (static_cast<std::size_t>(last - first) + 1);
+    for (std::size_t i = 0; i < count; ++i) rows[i] = glm::vec3(rows[i].x);
+}
+
+Image read_part(Imf::InputPart& part, const std::string& file) {
+    const Imf::Header& header = part.header();
+    const Imath::Box2i window = header.dataWindow();
+    if (window != header.displayWindow())
+        fail(file, "dataWindow", "a data window that is not the display window", "a whole image",
+             "crop or pad the image so that both agree");
+    const ChannelNames names = check_channels(header.channels(), file);
+
+    const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
+    const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
+    check_image_size(width, height, file, "dataWindow");
+    Image image{static_cast<int>(width), static_cast<int>(height), {}};
+    // Grows as rows are really there, so that a truncated file does not cost its whole claim.
+    for (std::int64_t row = 0; row < height; row += kRowsAtATime) {
+        const std::int64_t end = std::min<std::int64_t>(height, row + kRowsAtATime);
+        const auto before = image.texels.size();
+        image.texels.resize(before + static_cast<std::size_t>(width * (end - row)));
+        read_rows(part, names, window, static_cast<int>(window.min.y + row), static_cast<int>(window.min.y + end - 1),
+                  image.texels.data() + before);
+    }
+    return image;
+}
+
+void convert_to_rec709(Image& image, const Imf::Header& header, const std::string& file) {
+    if (!Imf::hasChromaticities(header)) return;
+    const Imf::Chromaticities& c = Imf::chromaticities(header);
+    const auto xy = [](const Imath::V2f& v) { return glm::dvec2(v.x, v.y); };
+    const Primaries primaries{xy(c.red), xy(c.green), xy(c.blue), xy(c.white)};
+    if (!is_usable(primaries))
+        fail(file, "chromaticities", "chromaticities of no colour space", "primaries that span a triangle");
+    if (const auto matrix = to_rec709(primaries)) transform_colours(image, *matrix);
+}
+
+/// Writes `count` floats a texel ("RGB" or "RGBA"). ZIP is deterministic and lossless.
+void write_floats(const std::filesystem::path& path, int width, int height, const float* texels, std::size_t count) {
+    ROWLAND_CHECK_OP(width, >=, 1);
+    ROWLAND_CHECK_OP(height, >=, 1);
+    constexpr std::array<const char*, 4> kNames = {"R", "G", "B", "A"};
+    try {
+        VectorStream stream;
+        {
+            Imf::Header header(width, height);
+            header.compression() = Imf::ZIP_COMPRESSION;
+            Imf::FrameBuffer buffer;
+            for (std::size_t c = 0; c < count; ++c) {
+                header.channels().insert(kNames[c], Imf::Channel(Imf::FLOAT));
+                buffer.insert(kNames[c],
+                              Imf::Slice::Make(Imf::FLOAT, texels + c, {0, 0}, width, height, sizeof(float) * count,
+                                               sizeof(float) * count * static_cast<std::size_t>(width)));
+            }
+            Imf::OutputFile file(stream, header, 0);
+            file.setFrameBuffer(buffer);
+            file.writePixels(height);
+        }
+        write_file_atomic(path, stream.bytes());
+    } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& error) {
+        throw Error({.file = path.string(),
+                     .place = {},
+                     .found = fmt::format("encoding OpenEXR failed: {}", error.what()),
+                     .expected = {},
+                     .remedy = {},
+                     .fault = Fault::System});
+    }
+}
+
+}  // namespace
+
+bool is_exr(std::span<const std::byte> bytes) {
+    constexpr std::array<std::uint8_t, 4> kMagic = {0x76, 0x2f, 0x31, 0x01};
+    return bytes.size() >= kMagic.size() && std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) == 0;
+}
+
+Image read_exr(std::span<const std::byte> bytes, const std::string& file) {
+    check_exr_header(bytes, file);
+    try {
+        SpanStream stream(bytes);
+        // No threads of the library's own, and no guessing at a broken offset table.
+        Imf::MultiPartInputFile input(stream, 0, false);
+        Imf::InputPart part(input, 0);
+        Image image = read_part(part, file);
+        convert_to_rec709(image, part.header(), file);
+        return image;
+    } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& error) {
+        std::string reason = error.what();
+        std::replace(reason.begin(), reason.end(), '\n', ' ');
+        fail(file, "", fmt::format("OpenEXR refuses it: {}", reason), "a sound OpenEXR image",
+             "the file is damaged or truncated; get it again");
+    }
+}
+
+Image read_exr(const std::filesystem::path& path) {
+    return read_exr(read_file(path, kMaximumFileBytes), path.string());
+}
+
+void write_exr(const std::filesystem::path& path, const Image& image) {
+    ROWLAND_CHECK_OP(image.texels.size(), ==,
+                     static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+    write_floats(path, image.width, image.height, reinterpret_cast<const float*>(image.texels.data()), 3);
+}
+
+void write_exr(const std::filesystem::path& path, int width, int height, std::span<const glm::vec4> texels) {
+    ROWLAND_CHECK_OP(texels.size(), ==, static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    write_floats(path, width, height, reinterpret_cast<const float*>(texels.data()), 4);
+}
+
+}  // namespace rowland::image

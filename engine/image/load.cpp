@@ -1,0 +1,25 @@
+#include "engine/image/load.h"
+
+#include "engine/core/error.h"
+#include "engine/core/file.h"
+#include "engine/image/exr.h"
+#include "engine/image/limits.h"
+#include "engine/image/radiance_hdr.h"
+
+namespace rowland::image {
+
+Image load_image(const std::filesystem::path& path) {
+    return decode_image(read_file(path, kMaximumFileBytes), path.string());
+}
+
+Image decode_image(std::span<const std::byte> bytes, const std::string& file) {
+    if (is_radiance_hdr(bytes)) return read_radiance_hdr(bytes, file);
+    if (is_exr(bytes)) return read_exr(bytes, file);
+    throw Error({.file = file,
+                 .place = "byte 0",
+                 .found = bytes.empty() ? "an empty file" : "an unknown image format",
+                 .expected = "Radiance (.hdr) or OpenEXR (.exr)",
+                 .remedy = "convert the image to one of them"});
+}
+
+}  // namespace rowland::image

@@ -1,0 +1,86 @@
+#include "engine/lighting/ambient.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "engine/math/sh_basis.h"
+#include "engine/math/sh_convolution.h"
+
+namespace rowland::lighting {
+
+namespace {
+
+constexpr int kBands = 3;
+
+double band_factor(const AmbientWindow& window, int l) {
+    return window.damping > 0 ? math::exponential_window_factor(window.damping, l)
+                              : math::window_factor(window.window, l, kBands);
+}
+
+AmbientLight convolve(const ShLight& light, const AmbientWindow& window) {
+    AmbientLight ambient;
+    ambient.window = window;
+    for (int l = 0; l < std::min(kBands, light.bands); ++l) {
+        const double factor = band_factor(window, l) * math::clamped_cosine_factor(l) / std::numbers::pi;
+        for (int m = -l; m <= l; ++m) {
+            const auto i = static_cast<std::size_t>(math::sh_index(l, m));
+            ambient.coefficients[i] = factor * light.coefficients[i];
+        }
+    }
+    return ambient;
+}
+
+/// Basis values of a set of directions spread over the sphere (a Fibonacci spiral). 4096 of them are 3° apart, where
+/// three bands vary by less than .5 % of their amplitude around an extremum.
+std::vector<std::array<double, 9>> spread_basis() {
+    constexpr int kCount = 4096;
+    std::vector<std::array<double, 9>> values(kCount);
+    for (int i = 0; i < kCount; ++i) {
+        const double z = 1 - (2 * i + 1.0) / kCount;
+        const double phi = 2 * std::numbers::pi * std::fmod(i * std::numbers::phi, 1.0);
+        const double r = std::sqrt(1 - z * z);
+        math::evaluate_sh({r * std::cos(phi), r * std::sin(phi), z}, kBands, values[static_cast<std::size_t>(i)]);
+    }
+    return values;
+}
+
+bool is_non_negative(const AmbientLight& ambient, const std::vector<std::array<double, 9>>& directions) {
+    // A probe that is dark on one side reaches zero; rounding may cross it.
+    const glm::dvec3 tolerance = -1e-12 * ambient.coefficients[0];
+    for (const auto& values : directions) {
+        glm::dvec3 sum(0.0);
+        for (std::size_t i = 0; i < values.size(); ++i) sum += values[i] * ambient.coefficients[i];
+        for (int c = 0; c < 3; ++c)
+            if (sum[c] < tolerance[c]) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+AmbientLight ambient_coefficients(const ShLight& light) {
+    const auto directions = spread_basis();
+    for (const auto window :
+         {math::SphericalWindow::None, math::SphericalWindow::Lanczos, math::SphericalWindow::Hann}) {
+        AmbientLight ambient = convolve(light, {window, 0});
+        if (is_non_negative(ambient, directions)) return ambient;
+    }
+    // At damping 4 band 1 keeps .0003 of itself: no light is left that could go negative.
+    for (double damping = 0.25; damping < 4; damping *= 1.25) {
+        AmbientLight ambient = convolve(light, {math::SphericalWindow::None, damping});
+        if (is_non_negative(ambient, directions)) return ambient;
+    }
+    return convolve(light, {math::SphericalWindow::None, 64});
+}
+
+glm::dvec3 evaluate_irradiance(const AmbientLight& ambient, const glm::dvec3& normal) {
+    std::array<double, 9> values{};
+    math::evaluate_sh(normal, kBands, values);
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = 0; i < values.size(); ++i) sum += values[i] * ambient.coefficients[i];
+    return sum;
+}
+
+}  // namespace rowland::lighting

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <glm/vec3.hpp>
+
+#include "engine/lighting/sh_light.h"
+#include "engine/math/sh_window.h"
+
+namespace rowland::lighting {
+
+/// What band factors keep the diffuse lobe from going negative.
+struct AmbientWindow {
+    math::SphericalWindow window = math::SphericalWindow::None;
+    double damping = 0;  ///< if > 0: exp(−damping·l(l+1)) in place of `window`
+};
+
+/// Diffuse light from all around in 9 SH coefficients of E(n)/π: the radiance that a white diffuse surface of normal n
+/// reflects. Linear Rec.709 RGB, world axes, index l(l+1)+m.
+struct AmbientLight {
+    std::array<glm::dvec3, 9> coefficients = {};
+    AmbientWindow window;
+};
+
+/// The first three bands convolved with the clamped cosine, under the mildest window (none, Lanczos or Hann over three
+/// bands, then exponentials of growing strength) that keeps E non-negative in every direction of a dense set
+/// (PHYSICS §7). Fewer than three bands count as zeros.
+AmbientLight ambient_coefficients(const ShLight& light);
+
+/// E(n)/π for the unit normal.
+glm::dvec3 evaluate_irradiance(const AmbientLight& ambient, const glm::dvec3& normal);
+
+}  // namespace rowland::lighting

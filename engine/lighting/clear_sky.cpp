@@ -1,0 +1,164 @@
+#include "engine/lighting/clear_sky.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/glm.hpp>
+#include <numbers>
+#include <vector>
+
+#include "engine/core/check.h"
+#include "engine/core/parallel.h"
+#include "engine/lighting/sphere_angles.h"
+
+namespace rowland::lighting {
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// Perez' five parameters of one quantity.
+struct Perez {
+    double a, b, c, d, e;
+
+    /// F(θ, γ): θ from the zenith, γ from the sun.
+    double operator()(double cos_theta, double gamma) const {
+        const double cos_gamma = std::cos(gamma);
+        return (1 + a * std::exp(b / std::max(cos_theta, 0.01))) *
+               (1 + c * std::exp(d * gamma) + e * cos_gamma * cos_gamma);
+    }
+};
+
+/// Y, x and y as linear functions of turbidity [Preetham et al. 1999, A.2].
+std::array<Perez, 3> perez_parameters(double t) {
+    return {Perez{0.1787 * t - 1.4630, -0.3554 * t + 0.4275, -0.0227 * t + 5.3251, 0.1206 * t - 2.5771,
+                  -0.0670 * t + 0.3703},
+            Perez{-0.0193 * t - 0.2592, -0.0665 * t + 0.0008, -0.0004 * t + 0.2125, -0.0641 * t - 0.8989,
+                  -0.0033 * t + 0.0452},
+            Perez{-0.0167 * t - 0.2608, -0.0950 * t + 0.0092, -0.0079 * t + 0.2102, -0.0441 * t - 1.6537,
+                  -0.0109 * t + 0.0529}};
+}
+
+/// Zenith luminance in kcd/m² and chromaticity; `s` is the sun's angle from the zenith [Preetham et al. 1999, A.2].
+std::array<double, 3> zenith_values(double t, double s) {
+    const double chi = (4.0 / 9 - t / 120) * (kPi - 2 * s);
+    const double luminance = (4.0453 * t - 4.9710) * std::tan(chi) - 0.2155 * t + 2.4192;
+    const auto cubic = [s](double k3, double k2, double k1, double k0) { return ((k3 * s + k2) * s + k1) * s + k0; };
+    const double x = t * t * cubic(0.00166, -0.00375, 0.00209, 0) + t * cubic(-0.02903, 0.06377, -0.03202, 0.00394) +
+                     cubic(0.11693, -0.21196, 0.06052, 0.25886);
+    const double y = t * t * cubic(0.00275, -0.00610, 0.00317, 0) + t * cubic(-0.04214, 0.08970, -0.04153, 0.00516) +
+                     cubic(0.15346, -0.26756, 0.06670, 0.26688);
+    return {luminance, x, y};
+}
+
+/// Linear Rec.709 of a colour, negative components cut [ITU-R BT.709-6; the inverse of its primaries' matrix].
+glm::dvec3 rec709(double luminance, double x, double y) {
+    const double big_x = luminance * x / y;
+    const double big_z = luminance * (1 - x - y) / y;
+    const glm::dvec3 rgb(3.2404542 * big_x - 1.5371385 * luminance - 0.4985314 * big_z,
+                         -0.9692660 * big_x + 1.8760108 * luminance + 0.0415560 * big_z,
+                         0.0556434 * big_x - 0.2040259 * luminance + 1.0572252 * big_z);
+    return glm::max(rgb, glm::dvec3(0.0));
+}
+
+glm::dvec3 sun_direction(const ClearSkyRecipe& recipe) {
+    return direction_at(glm::radians(recipe.sun_azimuth_deg), glm::radians(recipe.sun_elevation_deg));
+}
+
+double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
+    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+}
+
+/// Share of a texel that the sun's disc covers, by a grid of points; the disc never reaches below the horizon.
+double disc_coverage(const glm::dvec3& sun, double radius, int column, int row, int width) {
+    constexpr int kSteps = 32;
+    int hits = 0;
+    for (int j = 0; j < kSteps; ++j)
+        for (int i = 0; i < kSteps; ++i) {
+            const glm::dvec3 d =
+                equirectangular_direction(column + (i + 0.5) / kSteps, row + (j + 0.5) / kSteps, width);
+            if (d.y > 0 && angle_between(d, sun) <= radius) ++hits;
+        }
+    return static_cast<double>(hits) / (kSteps * kSteps);
+}
+
+double texel_solid_angle(int row, int width) {
+    const double theta = 2 * kPi * (row + 0.5) / width;
+    return 2 * kPi / width * 2 * std::sin(theta) * std::sin(kPi / width);
+}
+
+void add_sun(const ClearSkyRecipe& recipe, image::Image& image) {
+    struct Covered {
+        int column, row;
+        double share;
+    };
+    const glm::dvec3 sun = sun_direction(recipe);
+    const double radius = glm::radians(recipe.sun_angular_diameter_deg) / 2;
+    const double reach = radius + 2 * kPi / image.width;  // a texel's half diagonal is less
+    std::vector<Covered> covered;
+    double solid_angle = 0;
+    for (int row = 0; row < image.height / 2; ++row)
+        for (int column = 0; column < image.width; ++column) {
+            const glm::dvec3 centre = equirectangular_direction(column + 0.5, row + 0.5, image.width);
+            if (angle_between(centre, sun) > reach) continue;
+            const double share = disc_coverage(sun, radius, column, row, image.width);
+            if (share == 0) continue;
+            covered.push_back({column, row, share});
+            solid_angle += share * texel_solid_angle(row, image.width);
+        }
+    ROWLAND_CHECK_OP(solid_angle, >, 0.0);
+    // By the solid angle that the texels really cover, so that the irradiance is right however coarse they are.
+    const glm::dvec3 radiance = sun_irradiance(recipe) / solid_angle;
+    for (const Covered& texel : covered) image.at(texel.column, texel.row) += glm::vec3(texel.share * radiance);
+}
+
+}  // namespace
+
+glm::dvec3 sky_radiance(const ClearSkyRecipe& recipe, const glm::dvec3& direction) {
+    const double from_zenith = kPi / 2 - glm::radians(recipe.sun_elevation_deg);
+    const double gamma = angle_between(direction, sun_direction(recipe));
+    const auto perez = perez_parameters(recipe.turbidity);
+    const auto zenith = zenith_values(recipe.turbidity, from_zenith);
+    std::array<double, 3> value{};
+    for (std::size_t i = 0; i < 3; ++i) value[i] = zenith[i] * perez[i](direction.y, gamma) / perez[i](1, from_zenith);
+    return rec709(std::max(value[0], 0.0), value[1], value[2]);
+}
+
+glm::dvec3 sun_irradiance(const ClearSkyRecipe& recipe) {
+    const double elevation = recipe.sun_elevation_deg;
+    const double air_mass =
+        1 / (std::sin(glm::radians(elevation)) + 0.15 * std::pow(93.885 - (90 - elevation), -1.253));
+    const double aerosol = 0.04608 * recipe.turbidity - 0.04586;
+    glm::dvec3 colour(0.0);
+    const glm::dvec3 wavelength_um(0.610, 0.550, 0.465);  // where Rec.709's primaries lie
+    for (int c = 0; c < 3; ++c)
+        colour[c] = std::exp(
+            -air_mass * (0.008735 * std::pow(wavelength_um[c], -4.08) + aerosol * std::pow(wavelength_um[c], -1.3)));
+    const double luminance = glm::dot(colour, glm::dvec3(0.2126, 0.7152, 0.0722));
+    return colour / luminance * 127.5 * std::exp(-0.21 * air_mass);
+}
+
+image::Image render_clear_sky(const ClearSkyRecipe& recipe, int width) {
+    const int height = width / 2;
+    ROWLAND_CHECK(width % 4 == 0, "the horizon lies between two rows");
+    image::Image image{width, height, {}};
+    image.texels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    parallel_for(static_cast<std::size_t>(height / 2), [&](std::size_t task) {
+        const int row = static_cast<int>(task);
+        for (int column = 0; column < width; ++column)
+            image.at(column, row) =
+                glm::vec3(sky_radiance(recipe, equirectangular_direction(column + 0.5, row + 0.5, width)));
+    });
+    glm::dvec3 irradiance = sun_irradiance(recipe) * std::sin(glm::radians(recipe.sun_elevation_deg));
+    for (int row = 0; row < height / 2; ++row) {
+        const double cosine = equirectangular_direction(0.5, row + 0.5, width).y;
+        for (int column = 0; column < width; ++column)
+            irradiance += texel_solid_angle(row, width) * cosine * glm::dvec3(image.at(column, row));
+    }
+    const glm::vec3 ground(recipe.ground_albedo * irradiance / kPi);
+    std::fill(image.texels.begin() + static_cast<std::ptrdiff_t>(image.texels.size() / 2), image.texels.end(), ground);
+    add_sun(recipe, image);
+    return image;
+}
+
+}  // namespace rowland::lighting

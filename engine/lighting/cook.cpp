@@ -1,0 +1,71 @@
+#include "engine/lighting/cook.h"
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+#include <utility>
+
+#include "engine/image/limits.h"
+#include "engine/image/load.h"
+#include "engine/lighting/light_probe.h"
+#include "engine/lighting/probe_recipe.h"
+
+namespace rowland::lighting {
+
+namespace {
+
+bool is_image_file(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension == ".hdr" || extension == ".exr" || extension == ".pic";
+}
+
+image::Image read_image(cook::Context& context, const std::filesystem::path& path) {
+    return image::decode_image(context.read(path, image::kMaximumFileBytes), path.string());
+}
+
+/// The recipe and the probe it makes.
+std::pair<ProbeRecipe, ProbeImage> make_probe(cook::Context& context) {
+    const std::string file = context.source().string();
+    ProbeRecipe recipe = parse_probe_recipe(context.read_json(context.source()), file);
+    ProbeImage probe = render_recipe(
+        recipe, [&context](const std::string& name) { return read_image(context, context.beside_source(name)); }, file);
+    return {std::move(recipe), std::move(probe)};
+}
+
+cook::AssetType probe_type() {
+    cook::AssetType type;
+    type.name = "probe";
+    type.version = kLightProbeVersion;
+    type.extension = ".probe";
+    type.recognises = [](const std::filesystem::path&, const nlohmann::json* json) {
+        return json != nullptr && json->is_object() && json->contains("probe");
+    };
+    type.cook = [](cook::Context& context) {
+        const auto [recipe, probe] = make_probe(context);
+        return serialise(build_light_probe(probe, recipe.settings));
+    };
+    type.check = [](cook::Context& context) { make_probe(context); };
+    type.describe = [](std::span<const std::byte> payload, const std::string& file) {
+        return describe(deserialise(payload, file));
+    };
+    return type;
+}
+
+cook::AssetType probe_image_type() {
+    cook::AssetType type;
+    type.name = "probe image";
+    type.recognises = [](const std::filesystem::path& source, const nlohmann::json*) { return is_image_file(source); };
+    type.check = [](cook::Context& context) { read_image(context, context.source()); };
+    return type;
+}
+
+}  // namespace
+
+void register_cook_types(cook::Registry& registry) {
+    registry.add(probe_type());
+    registry.add(probe_image_type());
+}
+
+}  // namespace rowland::lighting

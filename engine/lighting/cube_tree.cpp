@@ -1,0 +1,90 @@
+#include "engine/lighting/cube_tree.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <glm/glm.hpp>
+
+#include "engine/core/check.h"
+#include "engine/lighting/environment_map.h"
+
+namespace rowland::lighting {
+
+namespace {
+
+using Node = CubeTree::Node;
+
+float luminance(const glm::vec3& rgb) {
+    return glm::dot(rgb, glm::vec3(0.2126f, 0.7152f, 0.0722f));
+}
+
+std::size_t node_index(int side, int face, int column, int row) {
+    const auto n = static_cast<std::size_t>(side);
+    return (static_cast<std::size_t>(face) * n + static_cast<std::size_t>(row)) * n + static_cast<std::size_t>(column);
+}
+
+std::vector<Node> make_leaves(std::span<const glm::vec3> texels, int side) {
+    std::vector<Node> leaves(texels.size());
+    for (int row = 0; row < side; ++row)
+        for (int column = 0; column < side; ++column) {
+            const double solid_angle = cube_solid_angle(side, column, row);
+            for (int face = 0; face < 6; ++face) {
+                const std::size_t i = node_index(side, face, column, row);
+                Node& leaf = leaves[i];
+                leaf.solid_angle = static_cast<float>(solid_angle);
+                leaf.size = static_cast<float>(std::sqrt(solid_angle));
+                leaf.flux = texels[i] * leaf.solid_angle;
+                leaf.centre = glm::vec3(
+                    glm::normalize(cube_direction(face, (2 * column + 1.0) / side - 1, (2 * row + 1.0) / side - 1)));
+                leaf.source = leaf.centre;
+            }
+        }
+    return leaves;
+}
+
+Node join(const Node* const (&children)[4]) {
+    Node node;
+    glm::vec3 source(0.0f);
+    glm::vec3 centre(0.0f);
+    for (const Node* child : children) {
+        node.flux += child->flux;
+        node.solid_angle += child->solid_angle;
+        source += luminance(child->flux) * child->source;
+        centre += child->solid_angle * child->centre;
+    }
+    node.size = std::sqrt(node.solid_angle);
+    node.centre = glm::normalize(centre);
+    const float length = glm::length(source);
+    node.source = length > 0 && std::isfinite(length) ? source / length : node.centre;
+    return node;
+}
+
+}  // namespace
+
+CubeTree::CubeTree(std::span<const glm::vec3> texels, int face_size) {
+    ROWLAND_CHECK(std::has_single_bit(static_cast<unsigned>(face_size)) && face_size >= kRootSide,
+                  "a cube tree's faces are powers of two of at least four texels");
+    ROWLAND_CHECK_OP(texels.size(), ==, std::size_t{6} * static_cast<std::size_t>(face_size * face_size));
+    levels_.push_back(make_leaves(texels, face_size));
+    for (int side = face_size / 2; side >= kRootSide; side /= 2) {
+        const std::vector<Node>& finer = levels_.back();
+        std::vector<Node> level(finer.size() / 4);
+        for (int face = 0; face < 6; ++face)
+            for (int row = 0; row < side; ++row)
+                for (int column = 0; column < side; ++column) {
+                    const auto child = [&](int i, int j) {
+                        return &finer[node_index(2 * side, face, 2 * column + i, 2 * row + j)];
+                    };
+                    level[node_index(side, face, column, row)] =
+                        join({child(0, 0), child(1, 0), child(0, 1), child(1, 1)});
+                }
+        levels_.push_back(std::move(level));
+    }
+    std::reverse(levels_.begin(), levels_.end());
+}
+
+const CubeTree::Node& CubeTree::node(int depth, int face, int column, int row) const {
+    return levels_[static_cast<std::size_t>(depth)][node_index(side(depth), face, column, row)];
+}
+
+}  // namespace rowland::lighting

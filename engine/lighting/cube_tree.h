@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+namespace rowland::lighting {
+
+/// The light of a cube map as a quadtree on each face: what a node sends, and from where. A sum over any cut through
+/// the tree counts each texel once, so it has neither gaps nor noise, however few and bright the lamps.
+class CubeTree {
+ public:
+    struct Node {
+        glm::vec3 flux{0.0f};    ///< radiance · solid angle of all its texels
+        float solid_angle = 0;   ///< steradians
+        glm::vec3 source{0.0f};  ///< unit vector to the light's centre, by luminance
+        float size = 0;          ///< about its side as an angle: √solid_angle
+        glm::vec3 centre{0.0f};  ///< unit vector to its solid angle's centre
+    };
+
+    /// `texels`: 6·face_size² of radiance in CubeLayout's order; face_size a power of two ≥ 4.
+    CubeTree(std::span<const glm::vec3> texels, int face_size);
+
+    /// Depth of the leaves, whose nodes are the texels; the roots (depth 0) are faces cut in 4 × 4.
+    int leaf_depth() const { return static_cast<int>(levels_.size()) - 1; }
+    /// Nodes a side of a face.
+    int side(int depth) const { return kRootSide << depth; }
+    const Node& node(int depth, int face, int column, int row) const;
+
+    static constexpr int kRootSide = 4;
+
+ private:
+    std::vector<std::vector<Node>> levels_;  ///< by depth; faces, rows, columns
+};
+
+}  // namespace rowland::lighting

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+namespace rowland::lighting {
+
+/// A cube map with levels. Faces in OpenGL's order +X, −X, +Y, −Y, +Z, −Z and orientation: with s, t in [−1, 1] growing
+/// with column and row, they look along (1,−t,−s), (−1,−t,s), (s,1,t), (s,−1,−t), (s,−t,1), (−s,−t,−1). So a level
+/// uploads as it is, and a shader samples it with a world direction.
+struct CubeLayout {
+    int face_size = 0;  ///< of level 0; a power of two
+    int levels = 0;     ///< level k has faces of face_size >> k
+
+    int size(int level) const { return face_size >> level; }
+    /// Index of a texel: levels one after another; in a level faces, rows, columns.
+    std::size_t index(int level, int face, int column, int row) const;
+    /// First texel of a level; offset(levels) is the number of texels.
+    std::size_t offset(int level) const;
+
+    friend bool operator==(const CubeLayout&, const CubeLayout&) = default;
+};
+
+/// Direction (not normalised) of the point (s, t) of a face.
+glm::dvec3 cube_direction(int face, double s, double t);
+
+struct CubePoint {
+    int face = 0;
+    double s = 0;
+    double t = 0;
+};
+/// Where a direction meets the cube: inverse of cube_direction.
+CubePoint cube_point(const glm::dvec3& direction);
+
+/// Exact solid angle of a texel of a face of `size` texels a side, in steradians.
+double cube_solid_angle(int size, int column, int row);
+
+/// A light probe prefiltered for glossy reflection, as linear Rec.709 radiance. Level k suits GGX of perceptual
+/// roughness k / (levels − 1), alpha = roughness²; level 0 is the probe itself.
+struct EnvironmentMap {
+    CubeLayout layout;
+    std::vector<glm::vec3> texels;
+};
+
+/// The same for storage and upload: half floats, three a texel, to be multiplied by `scale` (a power of two, so that
+/// nothing overflows and the multiplication is exact).
+struct PackedEnvironmentMap {
+    CubeLayout layout;
+    float scale = 1;
+    std::vector<std::uint16_t> halves;  ///< 3 · layout.offset(layout.levels)
+};
+
+/// Rounds to halves. Values must be finite and ≥ 0; the largest may be any float.
+PackedEnvironmentMap pack(const EnvironmentMap& map);
+EnvironmentMap unpack(const PackedEnvironmentMap& map);
+
+}  // namespace rowland::lighting

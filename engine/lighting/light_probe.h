@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/lighting/ambient.h"
+#include "engine/lighting/environment_map.h"
+#include "engine/lighting/prefilter.h"
+#include "engine/lighting/probe_image.h"
+#include "engine/lighting/sh_light.h"
+
+namespace rowland::lighting {
+
+struct LightProbeSettings {
+    int bands = 16;  ///< of the raw SH, 1 to 32; modules take what they need of them
+    PrefilterSettings prefilter;
+};
+
+/// The cooked probe: one source for the engine's ambient and reflections and for every module's lighting.
+struct LightProbe {
+    ShLight sh;                        ///< raw radiance
+    AmbientLight ambient;              ///< derived from sh, never stored
+    PackedEnvironmentMap environment;  ///< prefiltered for glossy reflection
+    TexelReport report;                ///< what the source image held that was not light
+};
+
+/// Version of serialise()'s layout and of what build_light_probe() computes; part of the cooked header.
+inline constexpr std::uint32_t kLightProbeVersion = 1;
+
+/// Deterministic for any number of threads.
+LightProbe build_light_probe(const ProbeImage& probe, const LightProbeSettings& settings = {});
+
+std::vector<std::byte> serialise(const LightProbe& probe);
+
+/// Inverse of serialise() for bytes that may be hostile; recomputes what is derived. Throws Error (input) naming `file`
+/// and the byte.
+LightProbe deserialise(std::span<const std::byte> bytes, const std::string& file);
+
+/// "name: value" lines.
+std::string describe(const LightProbe& probe);
+
+}  // namespace rowland::lighting

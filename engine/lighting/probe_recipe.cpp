@@ -1,0 +1,121 @@
+#include "engine/lighting/probe_recipe.h"
+
+#include <bit>
+#include <limits>
+#include <utility>
+
+#include "engine/core/json_reader.h"
+#include "engine/math/sh_basis.h"
+
+namespace rowland::lighting {
+
+namespace {
+
+constexpr NumberRange kRadiance{.minimum = 0, .maximum = 1e6};
+constexpr NumberRange kAzimuth{.minimum = -360, .maximum = 360};
+
+glm::dvec3 colour(JsonReader& reader, const std::string& key, NumberRange range) {
+    const auto values = reader.numbers(key, 3, range);
+    return {values[0], values[1], values[2]};
+}
+
+SoftBox parse_box(JsonReader& reader) {
+    SoftBox box;
+    box.azimuth_deg = reader.number("azimuth_deg", kAzimuth);
+    box.elevation_deg = reader.number("elevation_deg", {.minimum = -90, .maximum = 90});
+    box.roll_deg = reader.number_or("roll_deg", 0, kAzimuth);
+    const auto half = reader.numbers("half_size_deg", 2, {.minimum = 0.1, .maximum = 80});
+    box.half_width_deg = half[0];
+    box.half_height_deg = half[1];
+    box.soft_edge_deg = reader.number_or("soft_edge_deg", 0, {.minimum = 0, .maximum = 80});
+    box.radiance = colour(reader, "radiance", kRadiance);
+    reader.finish();
+    return box;
+}
+
+StudioRecipe parse_studio(JsonReader& reader) {
+    StudioRecipe studio;
+    studio.ceiling = colour(reader, "ceiling", kRadiance);
+    studio.wall = colour(reader, "wall", kRadiance);
+    studio.floor = colour(reader, "floor", kRadiance);
+    for (JsonReader& box : reader.objects("boxes")) {
+        studio.boxes.push_back(parse_box(box));
+        constexpr std::size_t kMaximumBoxes = 256;
+        if (studio.boxes.size() > kMaximumBoxes) reader.fail("boxes", "too many soft boxes", "at most 256");
+    }
+    return studio;
+}
+
+ClearSkyRecipe parse_clear_sky(JsonReader& reader) {
+    ClearSkyRecipe sky;
+    sky.sun_azimuth_deg = reader.number("sun_azimuth_deg", kAzimuth);
+    sky.sun_elevation_deg = reader.number("sun_elevation_deg", {.minimum = 1, .maximum = 90});
+    sky.sun_angular_diameter_deg =
+        reader.number_or("sun_angular_diameter_deg", sky.sun_angular_diameter_deg, {.minimum = 0.2, .maximum = 20});
+    sky.turbidity = reader.number_or("turbidity", sky.turbidity, {.minimum = 2, .maximum = 6});
+    if (reader.has("ground_albedo")) sky.ground_albedo = colour(reader, "ground_albedo", {.minimum = 0, .maximum = 1});
+    return sky;
+}
+
+ImageRecipe parse_image(JsonReader& reader) {
+    ImageRecipe recipe;
+    recipe.file = reader.text("file");
+    if (recipe.file.empty()) reader.fail("file", "an empty name", "a .hdr or .exr file beside the recipe");
+    recipe.mapping = parse_mapping(reader.choice_or("mapping", "equirect", {"equirect", "angular"}));
+    return recipe;
+}
+
+int parse_width(JsonReader& reader, int fallback) {
+    const auto width = static_cast<int>(reader.integer_or("width", fallback, 64, 8192));
+    if (width % 4 != 0) reader.fail("width", std::to_string(width), "a multiple of 4");
+    return width;
+}
+
+LightProbeSettings parse_settings(JsonReader& reader) {
+    LightProbeSettings settings;
+    settings.bands = static_cast<int>(reader.integer_or("bands", settings.bands, 1, math::kMaximumBands));
+    auto& size = settings.prefilter.face_size;
+    size = static_cast<int>(reader.integer_or("face_size", size, 16, 1024));
+    if (!std::has_single_bit(static_cast<unsigned>(size)))
+        reader.fail("face_size", std::to_string(size), "a power of two");
+    return settings;
+}
+
+image::Image load_scaled(const ProbeRecipe& recipe, const std::function<image::Image(const std::string&)>& load) {
+    if (const auto* studio = std::get_if<StudioRecipe>(&recipe.source)) return render_studio(*studio, recipe.width);
+    if (const auto* sky = std::get_if<ClearSkyRecipe>(&recipe.source)) return render_clear_sky(*sky, recipe.width);
+    return load(std::get<ImageRecipe>(recipe.source).file);
+}
+
+}  // namespace
+
+ProbeRecipe parse_probe_recipe(const nlohmann::json& json, const std::string& file) {
+    JsonReader document(json, file);
+    JsonReader reader = document.object("probe");
+    document.finish();
+    ProbeRecipe recipe;
+    const std::string type = reader.choice("type", {"studio", "clear_sky", "image"});
+    if (type == "studio")
+        recipe.source = parse_studio(reader);
+    else if (type == "clear_sky")
+        recipe.source = parse_clear_sky(reader);
+    else
+        recipe.source = parse_image(reader);
+    if (type != "image") recipe.width = parse_width(reader, recipe.width);
+    recipe.intensity = reader.number_or("intensity", 1, {.minimum = 1e-6, .maximum = 1e6});
+    recipe.settings = parse_settings(reader);
+    reader.finish();
+    return recipe;
+}
+
+ProbeImage render_recipe(const ProbeRecipe& recipe, const std::function<image::Image(const std::string&)>& load,
+                         const std::string& file) {
+    image::Image image = load_scaled(recipe, load);
+    if (recipe.intensity != 1)
+        for (glm::vec3& texel : image.texels) texel *= static_cast<float>(recipe.intensity);
+    const auto* capture = std::get_if<ImageRecipe>(&recipe.source);
+    if (capture == nullptr) return {std::move(image), Mapping::Equirectangular, file};
+    return {std::move(image), capture->mapping, capture->file};
+}
+
+}  // namespace rowland::lighting

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <functional>
+#include <glm/vec3.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "engine/lighting/clear_sky.h"
+#include "engine/lighting/light_probe.h"
+#include "engine/lighting/probe_image.h"
+#include "engine/lighting/studio.h"
+
+namespace rowland::lighting {
+
+/// A capture to be cooked as it is.
+struct ImageRecipe {
+    std::string file;  ///< .hdr or .exr, relative to the recipe
+    Mapping mapping = Mapping::Equirectangular;
+};
+
+/// How a probe is made: the source format { "probe": { "type": ..., ... } }.
+/// All types: "intensity" (1), "bands" (10), "face_size" (256; of the prefiltered cube map, a power of two).
+/// "studio": "ceiling", "wall", "floor" (radiance, three numbers each) and "boxes", objects with "azimuth_deg" (0 = −Z,
+///   90 = +X), "elevation_deg", "roll_deg" (0), "half_size_deg" (width and height), "soft_edge_deg" (0), "radiance".
+/// "clear_sky": "sun_azimuth_deg", "sun_elevation_deg" (1 to 90), "sun_angular_diameter_deg" (0.533), "turbidity"
+///   (3; 2 to 6), "ground_albedo" (0.2, 0.2, 0.2).
+/// "studio" and "clear_sky": "width" (1024; a multiple of 4).
+/// "image": "file" (.hdr or .exr, relative to the recipe), "mapping" ("equirect"; or "angular").
+struct ProbeRecipe {
+    std::variant<StudioRecipe, ClearSkyRecipe, ImageRecipe> source;
+    int width = 1024;      ///< of the equirectangular image rendered from a procedural recipe; its height is half
+    double intensity = 1;  ///< multiplies all radiance
+    LightProbeSettings settings;
+};
+
+/// Parses strictly: an unknown key, a wrong type or a number out of range is an Error (input) that names it.
+ProbeRecipe parse_probe_recipe(const nlohmann::json& json, const std::string& file);
+
+/// The probe at full resolution. `load` is called with ImageRecipe::file and returns its image; the cooker records what
+/// it read there. Errors (input) name `file`.
+ProbeImage render_recipe(const ProbeRecipe& recipe, const std::function<image::Image(const std::string&)>& load,
+                         const std::string& file);
+
+}  // namespace rowland::lighting

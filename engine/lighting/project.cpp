@@ -1,0 +1,142 @@
+#include <cmath>
+#include <glm/glm.hpp>
+#include <numbers>
+#include <vector>
+
+#include "engine/core/check.h"
+#include "engine/core/parallel.h"
+#include "engine/lighting/probe_image.h"
+#include "engine/math/sh_basis.h"
+#include "engine/math/sh_rotation.h"
+
+namespace rowland::lighting {
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+std::size_t to_size(int x) {
+    return static_cast<std::size_t>(x);
+}
+
+/// Fourier moments of one row over φ = 0 … 2π from the middle column: Σ L cos mφ for m ≥ 0, Σ L sin mφ for m < 0, at
+/// index m + bands − 1.
+using Moments = std::vector<glm::dvec3>;
+
+/// cos(mφ_c) and sin(mφ_c) of every column, m < bands.
+struct Waves {
+    int bands;
+    std::vector<double> cosine;
+    std::vector<double> sine;
+
+    Waves(int width, int bands_) : bands(bands_), cosine(to_size(width * bands_)), sine(to_size(width * bands_)) {
+        for (int m = 0; m < bands; ++m)
+            for (int column = 0; column < width; ++column) {
+                const double phi = 2 * kPi * ((column + 0.5) / width - 0.5);
+                cosine[to_size(m * width + column)] = std::cos(m * phi);
+                sine[to_size(m * width + column)] = std::sin(m * phi);
+            }
+    }
+};
+
+Moments row_moments(const image::Image& image, int row, const Waves& waves) {
+    Moments moments(to_size(2 * waves.bands - 1), glm::dvec3(0.0));
+    const auto width = to_size(image.width);
+    const glm::vec3* texels = image.texels.data() + to_size(row) * width;
+    for (int m = 0; m < waves.bands; ++m) {
+        const double* cosine = waves.cosine.data() + to_size(m) * width;
+        const double* sine = waves.sine.data() + to_size(m) * width;
+        glm::dvec3 even(0.0);
+        glm::dvec3 odd(0.0);
+        for (std::size_t column = 0; column < width; ++column) {
+            const glm::dvec3 texel(texels[column]);
+            even += cosine[column] * texel;
+            odd += sine[column] * texel;
+        }
+        moments[to_size(waves.bands - 1 + m)] = even;
+        if (m > 0) moments[to_size(waves.bands - 1 - m)] = odd;
+    }
+    return moments;
+}
+
+/// Rows are circles around the image's own axis +Y, where Y_lm is a Legendre function of the row times cos mφ or
+/// sin mφ of the column: 2n−1 sums a texel in place of n², then one rotation into world axes.
+std::vector<glm::dvec3> project_equirectangular(const ProbeImage& probe, int bands) {
+    const image::Image& image = probe.image();
+    const Waves waves(image.width, bands);
+    std::vector<Moments> rows(to_size(image.height));
+    parallel_for(rows.size(), [&](std::size_t row) { rows[row] = row_moments(image, static_cast<int>(row), waves); });
+
+    const auto count = to_size(math::sh_count(bands));
+    std::vector<glm::dvec3> in_image_frame(count, glm::dvec3(0.0));
+    std::vector<double> legendre(count);
+    for (int row = 0; row < image.height; ++row) {
+        const double theta = kPi * (row + 0.5) / image.height;
+        math::evaluate_sh({std::sin(theta), 0, std::cos(theta)}, bands, legendre);  // cos mφ = 1
+        const double weight = probe.solid_angle(0, row);
+        for (int l = 0; l < bands; ++l)
+            for (int m = -l; m <= l; ++m)
+                in_image_frame[to_size(math::sh_index(l, m))] += weight *
+                                                                 legendre[to_size(math::sh_index(l, std::abs(m)))] *
+                                                                 rows[to_size(row)][to_size(bands - 1 + m)];
+    }
+    // The image's frame in world axes: φ = 0 is −Z, the pole is +Y, and φ grows toward +X, which is left-handed. So the
+    // third axis is −X and odd terms change sign.
+    for (int l = 0; l < bands; ++l)
+        for (int m = -l; m < 0; ++m) in_image_frame[to_size(math::sh_index(l, m))] *= -1.0;
+    const glm::dmat3 to_world(glm::dvec3(0, 0, -1), glm::dvec3(-1, 0, 0), glm::dvec3(0, 1, 0));
+    std::vector<glm::dvec3> coefficients(count);
+    math::ShRotation(to_world, bands).apply(in_image_frame, coefficients);
+    return coefficients;
+}
+
+/// Sum of L Y ΔΩ over some rows, and of ΔΩ.
+struct RowSum {
+    std::vector<glm::dvec3> coefficients;
+    double solid_angle = 0;
+};
+
+RowSum sum_rows(const ProbeImage& probe, int first, int end, int bands) {
+    const auto count = to_size(math::sh_count(bands));
+    RowSum sum{std::vector<glm::dvec3>(count, glm::dvec3(0.0))};
+    std::vector<double> values(count);
+    for (int row = first; row < end; ++row)
+        for (int column = 0; column < probe.image().width; ++column) {
+            const double solid_angle = probe.solid_angle(column, row);
+            if (solid_angle == 0) continue;
+            sum.solid_angle += solid_angle;
+            math::evaluate_sh(probe.direction(column + 0.5, row + 0.5), bands, values);
+            const glm::dvec3 light = solid_angle * glm::dvec3(probe.image().at(column, row));
+            for (std::size_t i = 0; i < count; ++i) sum.coefficients[i] += values[i] * light;
+        }
+    return sum;
+}
+
+std::vector<glm::dvec3> project_angular(const ProbeImage& probe, int bands) {
+    constexpr int kRows = 16;  // a block: few enough sums to keep, whatever the number of threads
+    const int height = probe.image().height;
+    std::vector<RowSum> blocks(to_size((height + kRows - 1) / kRows));
+    parallel_for(blocks.size(), [&](std::size_t i) {
+        const int first = static_cast<int>(i) * kRows;
+        blocks[i] = sum_rows(probe, first, std::min(height, first + kRows), bands);
+    });
+    std::vector<glm::dvec3> coefficients(to_size(math::sh_count(bands)), glm::dvec3(0.0));
+    double solid_angle = 0;
+    for (const RowSum& block : blocks) {
+        solid_angle += block.solid_angle;
+        for (std::size_t i = 0; i < coefficients.size(); ++i) coefficients[i] += block.coefficients[i];
+    }
+    for (glm::dvec3& c : coefficients) c *= 4 * kPi / solid_angle;
+    return coefficients;
+}
+
+}  // namespace
+
+ShLight project(const ProbeImage& probe, int bands) {
+    ROWLAND_CHECK_OP(bands, >=, 1);
+    ROWLAND_CHECK_OP(bands, <=, math::kMaximumBands);
+    if (probe.mapping() == Mapping::Angular) return {bands, project_angular(probe, bands)};
+    return {bands, project_equirectangular(probe, bands)};  // these solid angles sum to 4π as they are
+}
+
+}  // namespace rowland::lighting

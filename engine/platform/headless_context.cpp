@@ -1,0 +1,177 @@
+#include "engine/platform/headless_context.h"
+
+#include <epoxy/egl.h>
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/error.h"
+
+namespace rowland::platform {
+
+namespace {
+
+constexpr const char* needed =
+    "a driver with EGL and OpenGL 4.5 core (any GPU of the last ten years, or Mesa's llvmpipe)";
+
+[[noreturn]] void fail(std::string found, std::string remedy = "") {
+    throw Error({.file = "OpenGL without a window",
+                 .place = {},
+                 .found = std::move(found),
+                 .expected = needed,
+                 .remedy = std::move(remedy),
+                 .fault = Fault::System});
+}
+
+bool has_word(const char* words, std::string_view word) {
+    const std::string_view text = words == nullptr ? "" : words;
+    for (std::size_t start = 0; start < text.size();) {
+        const std::size_t end = std::min(text.find(' ', start), text.size());
+        if (text.substr(start, end - start) == word) return true;
+        start = end + 1;
+    }
+    return false;
+}
+
+const char* client_extensions() {
+    return eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+}
+
+/// Displays on hardware devices, in the driver's order. Mesa lists its software rasteriser as a device too; that one is
+/// reached through the surfaceless platform, which every version of it has.
+std::vector<EGLDisplay> hardware_displays() {
+    const bool enumerable = has_word(client_extensions(), "EGL_EXT_device_enumeration") ||
+                            has_word(client_extensions(), "EGL_EXT_device_base");
+    if (!enumerable || !has_word(client_extensions(), "EGL_EXT_platform_device")) return {};
+    std::array<EGLDeviceEXT, 16> devices{};
+    EGLint count = 0;
+    if (eglQueryDevicesEXT(static_cast<EGLint>(devices.size()), devices.data(), &count) != EGL_TRUE) return {};
+    std::vector<EGLDisplay> displays;
+    for (EGLint i = 0; i < count; ++i) {
+        const EGLDeviceEXT device = devices[static_cast<std::size_t>(i)];
+        if (has_word(eglQueryDeviceStringEXT(device, EGL_EXTENSIONS), "EGL_MESA_device_software")) continue;
+        displays.push_back(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, nullptr));
+    }
+    return displays;
+}
+
+std::vector<EGLDisplay> candidate_displays() {
+    std::vector<EGLDisplay> displays = hardware_displays();
+    if (has_word(client_extensions(), "EGL_MESA_platform_surfaceless")) {
+        displays.push_back(eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
+    }
+    return displays;
+}
+
+/// A context on the display, or the reason why there is none.
+EGLContext create_context(EGLDisplay display, bool debug, std::string& reason) {
+    if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) != EGL_TRUE) {
+        reason = "an EGL display that does not initialise";
+        return EGL_NO_CONTEXT;
+    }
+    const char* extensions = eglQueryString(display, EGL_EXTENSIONS);
+    for (const char* extension : {"EGL_KHR_surfaceless_context", "EGL_KHR_create_context"}) {
+        if (!has_word(extensions, extension)) {
+            reason = fmt::format("an EGL display without {}", extension);
+            return EGL_NO_CONTEXT;
+        }
+    }
+    constexpr std::array config_attributes{EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
+    EGLConfig config = nullptr;
+    EGLint count = 0;
+    if (eglBindAPI(EGL_OPENGL_API) != EGL_TRUE ||
+        eglChooseConfig(display, config_attributes.data(), &config, 1, &count) != EGL_TRUE || count == 0) {
+        reason = "an EGL display without desktop OpenGL";
+        return EGL_NO_CONTEXT;
+    }
+    const std::array attributes{EGL_CONTEXT_MAJOR_VERSION_KHR,
+                                4,
+                                EGL_CONTEXT_MINOR_VERSION_KHR,
+                                5,
+                                EGL_CONTEXT_OPENGL_PROFILE_MASK_KHR,
+                                EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT_KHR,
+                                EGL_CONTEXT_FLAGS_KHR,
+                                debug ? EGL_CONTEXT_OPENGL_DEBUG_BIT_KHR : 0,
+                                EGL_NONE};
+    const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
+    if (context == EGL_NO_CONTEXT)
+        reason = fmt::format("{} without OpenGL 4.5 core", eglQueryString(display, EGL_VENDOR));
+    return context;
+}
+
+std::string gl_string(GLenum name) {
+    const GLubyte* text = glGetString(name);
+    return text == nullptr ? "" : reinterpret_cast<const char*>(text);
+}
+
+bool is_software_renderer(const std::string& renderer) {
+    constexpr std::array names{"llvmpipe", "softpipe", "swrast", "SWR", "Software Rasterizer"};
+    return std::any_of(names.begin(), names.end(),
+                       [&](const char* name) { return renderer.find(name) != std::string::npos; });
+}
+
+}  // namespace
+
+struct HeadlessContext::State {
+    EGLDisplay display = EGL_NO_DISPLAY;
+    EGLContext context = EGL_NO_CONTEXT;
+    std::string renderer;
+    std::string version;
+
+    State() = default;
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+    // The display is not terminated: EGL hands out one per device to the whole process, other contexts may use it too.
+    ~State() {
+        if (context == EGL_NO_CONTEXT) return;
+        if (eglGetCurrentContext() == context) {
+            eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        }
+        eglDestroyContext(display, context);
+    }
+};
+
+HeadlessContext::HeadlessContext(HeadlessOptions options) : state_(std::make_unique<State>()) {
+    if (!has_word(client_extensions(), "EGL_EXT_platform_base")) {
+        fail("an EGL library without EGL_EXT_platform_base, or none", "install a current libEGL and its driver");
+    }
+    std::string reason = "neither a hardware device nor the surfaceless platform of Mesa";
+    for (const EGLDisplay display : candidate_displays()) {
+        state_->context = create_context(display, options.debug, reason);
+        if (state_->context == EGL_NO_CONTEXT) continue;
+        state_->display = display;
+        make_current();
+        state_->renderer = gl_string(GL_RENDERER);
+        state_->version = gl_string(GL_VERSION);
+        return;
+    }
+    fail(reason, "install the GPU's driver, or Mesa's software renderer (Debian: libgl1-mesa-dri, libegl1)");
+}
+
+HeadlessContext::~HeadlessContext() = default;
+
+void HeadlessContext::make_current() {
+    if (eglBindAPI(EGL_OPENGL_API) != EGL_TRUE ||
+        eglMakeCurrent(state_->display, EGL_NO_SURFACE, EGL_NO_SURFACE, state_->context) != EGL_TRUE) {
+        fail("a context that cannot be made current on this thread", "it may still be current on another thread");
+    }
+}
+
+const std::string& HeadlessContext::renderer() const {
+    return state_->renderer;
+}
+
+const std::string& HeadlessContext::version() const {
+    return state_->version;
+}
+
+bool HeadlessContext::is_software() const {
+    return is_software_renderer(state_->renderer);
+}
+
+}  // namespace rowland::platform

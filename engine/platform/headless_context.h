@@ -1,0 +1,36 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+namespace rowland::platform {
+
+struct HeadlessOptions {
+    bool debug = true;  ///< a debug context: the driver reports errors through KHR_debug (see gpu/debug.h)
+};
+
+/// An OpenGL 4.5 core context without a window: EGL, no surface, so everything is drawn into framebuffer objects. Takes
+/// the first hardware device there is, else the software renderer; needs neither X nor Wayland. Current on the thread
+/// that made it, until another context is made current there; several may live in one process.
+class HeadlessContext {
+ public:
+    /// Throws Error (system) that names what is missing if no device gives OpenGL 4.5 core.
+    explicit HeadlessContext(HeadlessOptions options = {});
+    ~HeadlessContext();
+    HeadlessContext(const HeadlessContext&) = delete;
+    HeadlessContext& operator=(const HeadlessContext&) = delete;
+
+    /// Makes the context current on the calling thread. Throws Error (system).
+    void make_current();
+
+    const std::string& renderer() const;  ///< GL_RENDERER
+    const std::string& version() const;   ///< GL_VERSION
+    /// True on a CPU rasteriser (llvmpipe and its like), whose timings are those of a CPU.
+    bool is_software() const;
+
+ private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace rowland::platform

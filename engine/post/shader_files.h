@@ -1,0 +1,12 @@
+#pragma once
+
+#include <span>
+
+#include "engine/gpu/embedded_file.h"
+
+namespace rowland::post {
+
+/// The shaders of the post effects, for gpu::ShaderLibrary::add_embedded.
+std::span<const gpu::EmbeddedFile> shader_files();
+
+}  // namespace rowland::post

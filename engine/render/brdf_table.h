@@ -1,0 +1,13 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <vector>
+
+namespace rowland::render {
+
+/// Split-sum table of the GGX lobe [Karis 2013]: for n·v along columns and perceptual roughness along rows, texel
+/// centres at (i + ½)/size, (scale, bias) such that the directional albedo is f0·scale + bias. Deterministic
+/// quasi-Monte Carlo, error < 5e-3.
+std::vector<glm::vec2> bake_brdf_table(int size);
+
+}  // namespace rowland::render

@@ -1,0 +1,6 @@
+#version 450 core
+#include "engine/render/shaders/forward_vertex_interface.glsl"
+
+void material_vertex(vec3 position, vec3 g, vec3 h, vec3 n) {}
+
+#include "engine/render/shaders/forward_vertex_main.glsl"

@@ -1,0 +1,83 @@
+#include "engine/scene/cook.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "engine/scene/glb_write.h"
+#include "engine/scene/gltf_import.h"
+#include "engine/scene/mesh_recipe.h"
+
+namespace rowland::scene {
+
+namespace {
+
+Mesh build_source(cook::Context& context) {
+    const nlohmann::json document = context.read_json(context.source());
+    return build_mesh(parse_mesh_recipe(document, context.source().string()));
+}
+
+std::vector<std::byte> cook_mesh(cook::Context& context) {
+    const Mesh mesh = build_source(context);
+    return write_glb(mesh, {.name = context.source().stem().string()});
+}
+
+std::string describe_mesh(std::span<const std::byte> payload, const std::string& file) {
+    const Mesh mesh = merge_instances(load_glb(payload, file));
+    const Bounds box = bounds(mesh);
+    return fmt::format(
+        "format: glTF 2.0 binary, Draco\nvertices: {}\ntriangles: {}\nminimum: {} {} {}\nmaximum: {} {} {}\n",
+        mesh.positions.size(), mesh.indices.size() / 3, box.minimum.x, box.minimum.y, box.minimum.z, box.maximum.x,
+        box.maximum.y, box.maximum.z);
+}
+
+cook::AssetType mesh_type() {
+    cook::AssetType type;
+    type.name = "mesh";
+    type.version = 1;
+    type.extension = ".glb";
+    type.in_container = false;
+    type.recognises = [](const std::filesystem::path&, const nlohmann::json* json) {
+        return json != nullptr && is_mesh_recipe(*json);
+    };
+    type.cook = cook_mesh;
+    type.check = [](cook::Context& context) { build_source(context); };
+    type.describe = describe_mesh;
+    return type;
+}
+
+/// A path's extension in lower case.
+std::string lower_extension(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    for (char& c : extension)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return extension;
+}
+
+cook::AssetType gltf_type(std::vector<std::string> handled_extensions) {
+    cook::AssetType type;
+    type.name = "gltf";
+    type.version = 1;
+    type.extension = ".glb";
+    type.in_container = false;
+    type.recognises = [](const std::filesystem::path& source, const nlohmann::json*) {
+        const std::string extension = lower_extension(source);
+        return extension == ".gltf" || extension == ".glb";
+    };
+    type.check = [handled = std::move(handled_extensions)](cook::Context& context) {
+        std::vector<std::filesystem::path> files;
+        merge_instances(load_gltf(context.source(), handled, &files));
+        for (const std::filesystem::path& file : files) context.depend_on(file);
+    };
+    type.describe = describe_mesh;
+    return type;
+}
+
+}  // namespace
+
+void register_cook_types(cook::Registry& registry, std::vector<std::string> handled_extensions) {
+    registry.add(mesh_type());
+    registry.add(gltf_type(std::move(handled_extensions)));
+}
+
+}  // namespace rowland::scene

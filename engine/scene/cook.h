@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/cook/registry.h"
+
+namespace rowland::scene {
+
+/// Adds the asset types "mesh" (a recipe, a .json with the key "mesh", becomes a .glb) and "gltf" (.gltf and .glb
+/// files, only checked). `handled_extensions` are the material extensions that somebody has a handler for.
+void register_cook_types(cook::Registry& registry, std::vector<std::string> handled_extensions = {});
+
+}  // namespace rowland::scene

@@ -1,0 +1,193 @@
+#include "engine/scene/gltf_accessor.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <glm/vec2.hpp>
+#include <limits>
+#include <type_traits>
+
+#include "engine/core/check.h"
+#include "engine/core/error.h"
+
+namespace rowland::scene {
+
+namespace {
+
+std::string place_of(const char* array, std::size_t index) {
+    return fmt::format("/{}/{}", array, index);
+}
+
+[[noreturn]] void fail(const GltfDocument& document, std::string place, std::string found, std::string expected) {
+    throw Error({.file = document.file,
+                 .place = std::move(place),
+                 .found = std::move(found),
+                 .expected = std::move(expected),
+                 .remedy = {}});
+}
+
+std::size_t component_size(ComponentType type) {
+    switch (type) {
+        case ComponentType::Int8:
+        case ComponentType::Uint8:
+            return 1;
+        case ComponentType::Int16:
+        case ComponentType::Uint16:
+            return 2;
+        case ComponentType::Uint32:
+        case ComponentType::Float:
+            return 4;
+    }
+    ROWLAND_CHECK(false, "a component type that the JSON check lets through is unknown here");
+}
+
+std::size_t element_size(const GltfAccessor& accessor) {
+    std::size_t column = static_cast<std::size_t>(accessor.rows) * component_size(accessor.type);
+    // Columns of matrices begin on multiples of 4 bytes (glTF 2.0, 3.6.2.4).
+    if (accessor.columns > 1) column = (column + 3) / 4 * 4;
+    return column * static_cast<std::size_t>(accessor.columns);
+}
+
+/// Whether `count` > 0 elements of `size` bytes, `stride` apart and the first at `offset`, end within `length` bytes.
+bool fits(std::size_t offset, std::size_t stride, std::size_t count, std::size_t size, std::size_t length) {
+    if (offset > length || size > length - offset) return false;
+    return (count - 1) <= (length - offset - size) / stride;
+}
+
+std::size_t stride_of(const GltfDocument& document, const GltfAccessor& accessor) {
+    const std::size_t stride = document.views[*accessor.view].stride;
+    return stride == 0 ? element_size(accessor) : stride;
+}
+
+void check_sparse(const GltfDocument& document, const GltfAccessor& accessor, const std::string& place) {
+    const GltfSparse& sparse = *accessor.sparse;
+    const std::size_t index_size = component_size(sparse.index_type);
+    const std::size_t value_size = element_size(accessor);
+    if (sparse.count > accessor.count)
+        fail(document, place, fmt::format("{} sparse elements", sparse.count),
+             fmt::format("at most the accessor's {}", accessor.count));
+    if (!fits(sparse.index_offset, index_size, sparse.count, index_size, document.views[sparse.index_view].length) ||
+        !fits(sparse.value_offset, value_size, sparse.count, value_size, document.views[sparse.value_view].length))
+        fail(document, place, "sparse elements beyond their buffer views", "elements within them");
+}
+
+/// Calls visit(element, bytes) for each element of the accessor's base data, then for each sparse one.
+template <typename Visit>
+void for_each_element(const GltfDocument& document, std::size_t index, const Visit& visit) {
+    const GltfAccessor& accessor = document.accessors[index];
+    const std::size_t size = element_size(accessor);
+    if (accessor.view) {
+        const std::span<const std::byte> bytes = view_bytes(document, *accessor.view).subspan(accessor.offset);
+        const std::size_t stride = stride_of(document, accessor);
+        for (std::size_t i = 0; i < accessor.count; ++i) visit(i, bytes.subspan(i * stride, size).data());
+    }
+    if (!accessor.sparse) return;
+    const GltfSparse& sparse = *accessor.sparse;
+    const auto positions = view_bytes(document, sparse.index_view).subspan(sparse.index_offset);
+    const auto values = view_bytes(document, sparse.value_view).subspan(sparse.value_offset);
+    const std::size_t index_size = component_size(sparse.index_type);
+    for (std::size_t i = 0; i < sparse.count; ++i) {
+        std::uint32_t target = 0;  // little-endian, as all of glTF
+        std::memcpy(&target, positions.subspan(i * index_size, index_size).data(), index_size);
+        if (target >= accessor.count)
+            fail(document, place_of("accessors", index), fmt::format("sparse index {}", target),
+                 fmt::format("below the count, {}", accessor.count));
+        visit(target, values.subspan(i * size, size).data());
+    }
+}
+
+template <typename Integer>
+float to_float(const std::byte* bytes, bool normalised) {
+    Integer x;
+    std::memcpy(&x, bytes, sizeof x);
+    if (!normalised) return static_cast<float>(x);
+    // glTF 2.0, 3.6.2.2: signed types have two codes for −1.
+    return std::max(static_cast<float>(x) / static_cast<float>(std::numeric_limits<Integer>::max()), -1.0F);
+}
+
+float read_component(const std::byte* bytes, ComponentType type, bool normalised) {
+    switch (type) {
+        case ComponentType::Int8:
+            return to_float<std::int8_t>(bytes, normalised);
+        case ComponentType::Uint8:
+            return to_float<std::uint8_t>(bytes, normalised);
+        case ComponentType::Int16:
+            return to_float<std::int16_t>(bytes, normalised);
+        case ComponentType::Uint16:
+            return to_float<std::uint16_t>(bytes, normalised);
+        case ComponentType::Uint32:
+            return to_float<std::uint32_t>(bytes, normalised);
+        case ComponentType::Float:
+            break;
+    }
+    float x = 0.0F;
+    std::memcpy(&x, bytes, sizeof x);
+    return x;
+}
+
+}  // namespace
+
+void check_ranges(const GltfDocument& document) {
+    for (std::size_t i = 0; i < document.views.size(); ++i) {
+        const GltfBufferView& view = document.views[i];
+        const std::size_t size = document.buffers.at(view.buffer).bytes.size();
+        if (view.offset > size || view.length > size - view.offset)
+            fail(document, place_of("bufferViews", i), fmt::format("bytes {} + {}", view.offset, view.length),
+                 fmt::format("bytes within buffer {}, which has {}", view.buffer, size));
+    }
+    for (std::size_t i = 0; i < document.accessors.size(); ++i) {
+        const GltfAccessor& accessor = document.accessors[i];
+        const std::string place = place_of("accessors", i);
+        if (accessor.view && !fits(accessor.offset, stride_of(document, accessor), accessor.count,
+                                   element_size(accessor), document.views.at(*accessor.view).length))
+            fail(document, place,
+                 fmt::format("{} elements of {} bytes from offset {}", accessor.count, element_size(accessor),
+                             accessor.offset),
+                 fmt::format("elements within buffer view {}, which has {} bytes", *accessor.view,
+                             document.views[*accessor.view].length));
+        if (accessor.sparse) check_sparse(document, accessor, place);
+    }
+}
+
+std::span<const std::byte> view_bytes(const GltfDocument& document, std::size_t view) {
+    const GltfBufferView& at = document.views.at(view);
+    return document.buffers.at(at.buffer).bytes.subspan(at.offset, at.length);
+}
+
+template <typename Vector>
+std::vector<Vector> read_vectors(const GltfDocument& document, std::size_t index, MemoryBudget& budget) {
+    const GltfAccessor& accessor = document.accessors.at(index);
+    const std::string place = place_of("accessors", index);
+    if (accessor.columns != 1 || accessor.rows != Vector::length() || accessor.type == ComponentType::Uint32)
+        fail(document, place, "another type", fmt::format("vectors of {} components", Vector::length()));
+    budget.spend(accessor.count, sizeof(Vector), place);
+    std::vector<Vector> vectors(accessor.count, Vector(0.0F));
+    const std::size_t size = component_size(accessor.type);
+    for_each_element(document, index, [&](std::size_t element, const std::byte* bytes) {
+        for (int c = 0; c < Vector::length(); ++c)
+            vectors[element][c] =
+                read_component(bytes + static_cast<std::size_t>(c) * size, accessor.type, accessor.normalised);
+    });
+    return vectors;
+}
+template std::vector<glm::vec2> read_vectors<glm::vec2>(const GltfDocument&, std::size_t, MemoryBudget&);
+template std::vector<glm::vec3> read_vectors<glm::vec3>(const GltfDocument&, std::size_t, MemoryBudget&);
+template std::vector<glm::vec4> read_vectors<glm::vec4>(const GltfDocument&, std::size_t, MemoryBudget&);
+
+std::vector<std::uint32_t> read_indices(const GltfDocument& document, std::size_t index, MemoryBudget& budget) {
+    const GltfAccessor& accessor = document.accessors.at(index);
+    const std::string place = place_of("accessors", index);
+    const bool is_unsigned = accessor.type == ComponentType::Uint8 || accessor.type == ComponentType::Uint16 ||
+                             accessor.type == ComponentType::Uint32;
+    if (accessor.columns != 1 || accessor.rows != 1 || !is_unsigned)
+        fail(document, place, "another type", "indices: a scalar of unsigned integers");
+    budget.spend(accessor.count, sizeof(std::uint32_t), place);
+    std::vector<std::uint32_t> values(accessor.count, 0);
+    const std::size_t size = component_size(accessor.type);
+    for_each_element(document, index,
+                     [&](std::size_t element, const std::byte* bytes) { std::memcpy(&values[element], bytes, size); });
+    return values;
+}
+
+}  // namespace rowland::scene

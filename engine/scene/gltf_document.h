@@ -1,0 +1,102 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/scene/gltf_import.h"
+#include "engine/scene/gltf_source.h"
+
+namespace rowland::scene {
+
+/// glTF's component types, with glTF's numbers.
+enum class ComponentType : std::uint16_t {
+    Int8 = 5120,
+    Uint8 = 5121,
+    Int16 = 5122,
+    Uint16 = 5123,
+    Uint32 = 5125,
+    Float = 5126,
+};
+
+/// glTF's primitive modes, with glTF's numbers.
+enum class PrimitiveMode : std::uint8_t {
+    Points = 0,
+    Lines = 1,
+    LineLoop = 2,
+    LineStrip = 3,
+    Triangles = 4,
+    TriangleStrip = 5,
+    TriangleFan = 6,
+};
+
+struct GltfBufferView {
+    std::size_t buffer = 0;
+    std::size_t offset = 0;
+    std::size_t length = 0;
+    std::size_t stride = 0;  ///< 0: tightly packed
+};
+
+/// Elements that replace some of an accessor's.
+struct GltfSparse {
+    std::size_t count = 0;
+    std::size_t index_view = 0;
+    std::size_t index_offset = 0;
+    ComponentType index_type = ComponentType::Uint32;
+    std::size_t value_view = 0;
+    std::size_t value_offset = 0;
+};
+
+struct GltfAccessor {
+    std::optional<std::size_t> view;  ///< none: zeros, or the data is in a Draco stream
+    std::size_t offset = 0;
+    std::size_t count = 0;
+    ComponentType type = ComponentType::Float;
+    int rows = 1;     ///< components of a column
+    int columns = 1;  ///< more than 1 for matrices
+    bool normalised = false;
+    std::optional<GltfSparse> sparse;
+};
+
+struct GltfDraco {
+    std::size_t view = 0;
+    std::map<std::string, std::uint32_t> attributes;  ///< glTF attribute name → Draco's unique id
+};
+
+struct GltfPrimitive {
+    std::map<std::string, std::size_t> attributes;  ///< name → accessor
+    std::optional<std::size_t> indices;
+    std::optional<std::size_t> material;
+    PrimitiveMode mode = PrimitiveMode::Triangles;
+    std::optional<GltfDraco> draco;
+};
+
+struct GltfMesh {
+    std::string name;
+    std::vector<GltfPrimitive> primitives;
+};
+
+struct GltfNode {
+    std::string name;
+    glm::dmat4 local{1.0};
+    std::vector<std::size_t> children;
+    std::optional<std::size_t> mesh;
+};
+
+/// A parsed glTF file. All indices are in range and all offsets within their buffers once check_ranges has passed it.
+struct GltfDocument {
+    std::string file;
+    std::vector<GltfBuffer> buffers;
+    std::vector<GltfBufferView> views;
+    std::vector<GltfAccessor> accessors;
+    std::vector<GltfMesh> meshes;
+    std::vector<GltfNode> nodes;
+    std::vector<std::size_t> roots;  ///< nodes of the scene to show
+    std::vector<MaterialDescription> materials;
+};
+
+}  // namespace rowland::scene

@@ -1,0 +1,260 @@
+// The one translation unit that knows tinygltf. The library reads nothing but JSON here: buffers and images it would
+// open itself, and some index and Draco data it would read unchecked, so those parts never reach it.
+
+#include "engine/scene/gltf_parse.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fstream>  // tinygltf uses it even with TINYGLTF_NO_FS
+#include <glm/gtc/quaternion.hpp>
+
+#include "engine/core/error.h"
+
+// Draco's shared library exports another build of tinygltf under the same names.
+#define tinygltf rowland_tinygltf
+#define TINYGLTF_IMPLEMENTATION
+#define TINYGLTF_NO_FS
+#define TINYGLTF_NO_STB_IMAGE
+#define TINYGLTF_NO_STB_IMAGE_WRITE
+#define TINYGLTF_NO_EXTERNAL_IMAGE
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wshadow"
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wunused-parameter"
+#include <tiny_gltf.h>
+#pragma GCC diagnostic pop
+
+namespace rowland::scene {
+
+namespace {
+
+const char* const kDraco = "KHR_draco_mesh_compression";
+
+const nlohmann::json* draco_of(const nlohmann::json& primitive) {
+    const auto extensions = primitive.find("extensions");
+    if (extensions == primitive.end()) return nullptr;
+    const auto draco = extensions->find(kDraco);
+    return draco == extensions->end() ? nullptr : &*draco;
+}
+
+/// What of the file the parser is given. Left out: buffers and images (it would load them), everything we ignore, and
+/// the indices of Draco primitives (it refuses those, as their accessors have no buffer view).
+std::string text_for_parser(const nlohmann::json& checked) {
+    nlohmann::json reduced;
+    for (const char* part : {"asset", "bufferViews", "accessors", "meshes", "nodes", "scenes", "scene", "materials"})
+        if (const auto found = checked.find(part); found != checked.end()) reduced[part] = *found;
+    if (const auto meshes = reduced.find("meshes"); meshes != reduced.end())
+        for (nlohmann::json& mesh : *meshes)
+            for (nlohmann::json& primitive : mesh["primitives"])
+                if (draco_of(primitive)) primitive.erase("indices");
+    return reduced.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::optional<std::size_t> index_or_none(int index) {
+    if (index < 0) return std::nullopt;
+    return static_cast<std::size_t>(index);
+}
+
+GltfAccessor convert(const tinygltf::Accessor& from) {
+    GltfAccessor to;
+    to.view = index_or_none(from.bufferView);
+    to.offset = from.byteOffset;
+    to.count = from.count;
+    to.type = static_cast<ComponentType>(from.componentType);
+    to.normalised = from.normalized;
+    switch (from.type) {
+        case TINYGLTF_TYPE_VEC2:
+            to.rows = 2;
+            break;
+        case TINYGLTF_TYPE_VEC3:
+            to.rows = 3;
+            break;
+        case TINYGLTF_TYPE_VEC4:
+            to.rows = 4;
+            break;
+        case TINYGLTF_TYPE_MAT2:
+            to.rows = to.columns = 2;
+            break;
+        case TINYGLTF_TYPE_MAT3:
+            to.rows = to.columns = 3;
+            break;
+        case TINYGLTF_TYPE_MAT4:
+            to.rows = to.columns = 4;
+            break;
+        default:
+            break;
+    }
+    if (from.sparse.isSparse)
+        to.sparse = GltfSparse{.count = static_cast<std::size_t>(from.sparse.count),
+                               .index_view = static_cast<std::size_t>(from.sparse.indices.bufferView),
+                               .index_offset = static_cast<std::size_t>(from.sparse.indices.byteOffset),
+                               .index_type = static_cast<ComponentType>(from.sparse.indices.componentType),
+                               .value_view = static_cast<std::size_t>(from.sparse.values.bufferView),
+                               .value_offset = static_cast<std::size_t>(from.sparse.values.byteOffset)};
+    return to;
+}
+
+GltfPrimitive convert(const tinygltf::Primitive& from, const nlohmann::json& json) {
+    GltfPrimitive to;
+    for (const auto& [name, accessor] : from.attributes) to.attributes[name] = static_cast<std::size_t>(accessor);
+    if (const auto indices = json.find("indices"); indices != json.end()) to.indices = indices->get<std::size_t>();
+    to.material = index_or_none(from.material);
+    to.mode = static_cast<PrimitiveMode>(from.mode);
+    if (const nlohmann::json* draco = draco_of(json)) {
+        to.draco.emplace();
+        to.draco->view = draco->at("bufferView").get<std::size_t>();
+        for (const auto& [name, id] : draco->at("attributes").items())
+            to.draco->attributes[name] = id.get<std::uint32_t>();
+    }
+    return to;
+}
+
+glm::dmat4 local_transform(const tinygltf::Node& node, const std::string& file, std::size_t index) {
+    glm::dmat4 transform(1.0);
+    if (node.matrix.size() == 16) {
+        std::copy(node.matrix.begin(), node.matrix.end(), &transform[0][0]);
+        // The bottom row of an affine matrix; anything else glTF forbids, and perspective has no meaning here.
+        for (int column = 0; column < 4; ++column) transform[column][3] = column == 3 ? 1.0 : 0.0;
+        return transform;
+    }
+    if (node.rotation.size() == 4) {
+        const glm::dquat rotation(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
+        const double length = glm::length(rotation);
+        if (!(length > 1e-3))
+            throw Error({.file = file,
+                         .place = fmt::format("/nodes/{}/rotation", index),
+                         .found = "a zero quaternion",
+                         .expected = "a unit quaternion",
+                         .remedy = {}});
+        transform = glm::mat4_cast(rotation / length);
+    }
+    if (node.scale.size() == 3)
+        for (int column = 0; column < 3; ++column) transform[column] *= node.scale[static_cast<std::size_t>(column)];
+    if (node.translation.size() == 3)
+        transform[3] = glm::dvec4(node.translation[0], node.translation[1], node.translation[2], 1.0);
+    return transform;
+}
+
+MaterialDescription convert(const tinygltf::Material& from, const nlohmann::json& json) {
+    const auto share = [](double x) { return static_cast<float>(std::clamp(x, 0.0, 1.0)); };
+    MaterialDescription to;
+    to.name = from.name;
+    const auto& pbr = from.pbrMetallicRoughness;
+    for (int i = 0; i < 4; ++i) to.base_colour[i] = share(pbr.baseColorFactor.at(static_cast<std::size_t>(i)));
+    to.metallic = share(pbr.metallicFactor);
+    to.roughness = share(pbr.roughnessFactor);
+    for (int i = 0; i < 3; ++i)
+        to.emissive[i] = static_cast<float>(from.emissiveFactor.at(static_cast<std::size_t>(i)));
+    // As JSON, not as the parser's own value type: the handlers' readers check it and name places in it.
+    if (const auto extensions = json.find("extensions"); extensions != json.end())
+        for (const auto& [name, value] : extensions->items()) to.extensions[name] = value;
+    return to;
+}
+
+/// The nodes to start from: those of the default scene, of the first scene if none is the default, and without any
+/// scene those that are nobody's child.
+std::vector<std::size_t> find_roots(const tinygltf::Model& model) {
+    std::vector<std::size_t> roots;
+    if (!model.scenes.empty()) {
+        const auto scene = static_cast<std::size_t>(std::max(model.defaultScene, 0));
+        for (const int node : model.scenes.at(scene).nodes) roots.push_back(static_cast<std::size_t>(node));
+        return roots;
+    }
+    std::vector<bool> is_child(model.nodes.size(), false);
+    for (const tinygltf::Node& node : model.nodes)
+        for (const int child : node.children) is_child.at(static_cast<std::size_t>(child)) = true;
+    for (std::size_t i = 0; i < is_child.size(); ++i)
+        if (!is_child[i]) roots.push_back(i);
+    return roots;
+}
+
+tinygltf::Model run_parser(const nlohmann::json& checked, const std::string& file) {
+    const std::string text = text_for_parser(checked);
+    tinygltf::Model model;
+    tinygltf::TinyGLTF parser;
+    std::string error;
+    std::string warning;
+    if (!parser.LoadASCIIFromString(&model, &error, &warning, text.data(), static_cast<unsigned>(text.size()), ""))
+        throw Error({.file = file,
+                     .place = {},
+                     .found = error.substr(0, std::min(error.find('\n'), std::size_t{200})),
+                     .expected = "valid glTF 2.0",
+                     .remedy = {}});
+    return model;
+}
+
+std::size_t array_size(const nlohmann::json& json, const char* key) {
+    const auto found = json.find(key);
+    return found == json.end() ? 0 : found->size();
+}
+
+/// The parser drops what it cannot read. Nothing may be dropped, or the indices between the arrays would be wrong.
+void check_complete(const tinygltf::Model& model, const nlohmann::json& checked, const std::string& file) {
+    bool complete = model.bufferViews.size() == array_size(checked, "bufferViews") &&
+                    model.accessors.size() == array_size(checked, "accessors") &&
+                    model.materials.size() == array_size(checked, "materials") &&
+                    model.meshes.size() == array_size(checked, "meshes") &&
+                    model.nodes.size() == array_size(checked, "nodes") &&
+                    model.scenes.size() == array_size(checked, "scenes");
+    for (std::size_t i = 0; complete && i < model.meshes.size(); ++i)
+        complete = model.meshes[i].primitives.size() == checked.at("meshes")[i].at("primitives").size();
+    if (!complete)
+        throw Error({.file = file,
+                     .place = {},
+                     .found = "parts that cannot be read",
+                     .expected = "valid glTF 2.0",
+                     .remedy = "run a glTF validator on it"});
+}
+
+}  // namespace
+
+GltfDocument parse_gltf(const nlohmann::json& checked, const std::string& file) {
+    const tinygltf::Model model = run_parser(checked, file);
+    check_complete(model, checked, file);
+
+    GltfDocument document;
+    document.file = file;
+    for (const tinygltf::BufferView& view : model.bufferViews)
+        document.views.push_back(
+            {static_cast<std::size_t>(view.buffer), view.byteOffset, view.byteLength, view.byteStride});
+    for (const tinygltf::Accessor& accessor : model.accessors) document.accessors.push_back(convert(accessor));
+    for (std::size_t i = 0; i < model.materials.size(); ++i)
+        document.materials.push_back(convert(model.materials[i], checked.at("materials")[i]));
+    for (std::size_t i = 0; i < model.meshes.size(); ++i) {
+        GltfMesh& mesh = document.meshes.emplace_back();
+        mesh.name = model.meshes[i].name;
+        const nlohmann::json& primitives = checked.at("meshes")[i].at("primitives");
+        for (std::size_t k = 0; k < primitives.size(); ++k)
+            mesh.primitives.push_back(convert(model.meshes[i].primitives[k], primitives[k]));
+    }
+    for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+        GltfNode& node = document.nodes.emplace_back();
+        node.name = model.nodes[i].name;
+        node.local = local_transform(model.nodes[i], file, i);
+        node.mesh = index_or_none(model.nodes[i].mesh);
+        for (const int child : model.nodes[i].children) node.children.push_back(static_cast<std::size_t>(child));
+    }
+    document.roots = find_roots(model);
+    return document;
+}
+
+std::vector<std::byte> decode_data_uri(const std::string& uri) {
+    constexpr std::string_view kMarker = ";base64,";
+    const std::size_t comma = uri.find(',');
+    const std::size_t marker = uri.find(kMarker);
+    if (marker == std::string::npos || marker + kMarker.size() != comma + 1) return {};
+    // The parser knows a few media types only; what the bytes are is no concern of the decoding.
+    std::vector<unsigned char> data;
+    std::string media_type;
+    const std::string known = "data:application/octet-stream;base64," + uri.substr(comma + 1);
+    if (!tinygltf::DecodeDataURI(&data, media_type, known, 0, false)) return {};
+    std::vector<std::byte> bytes(data.size());
+    if (!data.empty()) std::memcpy(bytes.data(), data.data(), data.size());
+    return bytes;
+}
+
+}  // namespace rowland::scene

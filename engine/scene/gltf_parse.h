@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "engine/scene/gltf_document.h"
+
+namespace rowland::scene {
+
+/// Parses JSON that has passed check_gltf_json. Buffers are left empty. Throws Error (input).
+GltfDocument parse_gltf(const nlohmann::json& checked, const std::string& file);
+
+/// The bytes of a base64 data URI of any media type; empty if it is not one.
+std::vector<std::byte> decode_data_uri(const std::string& uri);
+
+}  // namespace rowland::scene

@@ -1,0 +1,53 @@
+#include "engine/scene/node_tree.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <ranges>
+
+#include "engine/core/error.h"
+
+namespace rowland::scene {
+
+namespace {
+
+[[noreturn]] void fail(const GltfDocument& document, std::size_t node, std::string found, std::string expected) {
+    throw Error({.file = document.file,
+                 .place = fmt::format("/nodes/{}", node),
+                 .found = std::move(found),
+                 .expected = std::move(expected),
+                 .remedy = {}});
+}
+
+bool fits_floats(const glm::dmat4& m) {
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row)
+            if (!(std::abs(m[column][row]) <= static_cast<double>(std::numeric_limits<float>::max()))) return false;
+    return true;
+}
+
+}  // namespace
+
+std::vector<PlacedNode> place_nodes(const GltfDocument& document) {
+    std::vector<PlacedNode> placed;
+    std::vector<bool> seen(document.nodes.size(), false);
+    // A stack of our own: a chain of nodes may be longer than the thread's stack is deep.
+    std::vector<PlacedNode> pending;
+    for (const std::size_t root : document.roots | std::views::reverse)
+        pending.push_back({root, document.nodes.at(root).local});
+    while (!pending.empty()) {
+        const PlacedNode current = pending.back();
+        pending.pop_back();
+        if (seen[current.node])
+            fail(document, current.node, "a node with two parents, or its own descendant", "a tree");
+        seen[current.node] = true;
+        if (!fits_floats(current.world)) fail(document, current.node, "a transform that overflows", "finite numbers");
+        placed.push_back(current);
+        for (const std::size_t child : document.nodes[current.node].children | std::views::reverse)
+            pending.push_back({child, current.world * document.nodes.at(child).local});
+    }
+    return placed;
+}
+
+}  // namespace rowland::scene

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine/math/quadrature.h"
+#include "engine/math/sh_rotation.h"
+#include "modules/diffraction/model/lobe.h"
+
+namespace rowland::diffraction {
+
+/// The SH coefficients of "all light that one arc gathers" (PHYSICS §5):
+/// C_i(a) = ½ ∫₀^π Y_i(a, r cos t, r sin t) · 2 D_h(r cos t + v_h) · r sin t dt, r = √(1−a²), in the frame (g, h, n).
+/// For light Σ l_i Y_i the arc profile is A(a) = Σ C_i(a) l_i. With the flat lobe 2 D_h = 1 and v_h does not matter.
+///
+/// Worked out in the arc frame (h, n, g), whose polar axis is the arcs' own axis: there Y_lm is a function of a alone
+/// times cos mt or sin |m|t, so that an arc takes 2n−1 moments and one evaluation of the basis. Sums over arcs are made
+/// in the arc frame and turned once, by to_tangent_frame().
+class ArcCoefficients {
+ public:
+    /// 1 ≤ bands ≤ 32. Flat lobe: 1e-14 exact. Others: 1e-9.
+    ArcCoefficients(int bands, const GrooveLobe& lobe);
+
+    /// Adds weight · C_i(a), in the arc frame, to `sum` (bands² entries); nothing for |a| ≥ 1.
+    void accumulate(double a, double v_h, double wavelength_nm, double weight, std::span<double> sum) const;
+
+    /// Coefficients in (h, n, g) → coefficients in (g, h, n), bands² entries each.
+    void to_tangent_frame(std::span<const double> arc_frame, std::span<double> tangent_frame) const;
+
+    int bands() const { return bands_; }
+
+ private:
+    struct Moments;
+    Moments moments(double r, double v_h, double wavelength_nm) const;
+
+    int bands_;
+    GrooveLobe lobe_;
+    math::QuadratureRule rule_;  ///< on [0, 1], stretched over the part of the arc that the lobe reaches
+    math::ShRotation to_tangent_frame_;
+};
+
+}  // namespace rowland::diffraction

@@ -1,0 +1,51 @@
+#include "modules/diffraction/bake/view_spectrum.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/core/check.h"
+#include "engine/core/error.h"
+#include "engine/math/sh_basis.h"
+#include "modules/diffraction/model/efficiency.h"
+
+namespace rowland::diffraction {
+
+ViewSpectrum::ViewSpectrum(const Grating& grating, int bands)
+    : pitch_nm_(grating.pitch_nm), orders_(grating.orders), arcs_(bands, grating.lobe) {
+    ROWLAND_CHECK_OP(grating.pitch_nm, >, 0.0);
+    if (grating.grooves < kManyGrooves)
+        throw Error({.file = {},
+                     .place = "grooves",
+                     .found = fmt::format("{}", grating.grooves),
+                     .expected = fmt::format("at least {} for a baked representation", kManyGrooves),
+                     .remedy = "use the method \"reference\", or more grooves"});
+    std::vector<double> totals(kWavelengths, 0.0);
+    for (const int order : orders_) {
+        for (std::size_t j = 0; j < kWavelengths; ++j) {
+            const double wavelength_nm = colour::kVisibleMin + static_cast<double>(j);
+            efficiencies_.push_back(order_efficiency(grating, order, wavelength_nm));
+            totals[j] += efficiencies_.back();
+        }
+    }
+    largest_efficiency_ = *std::max_element(totals.begin(), totals.end());
+}
+
+std::vector<double> ViewSpectrum::coefficients(double v_g, double v_h) const {
+    const auto count = static_cast<std::size_t>(math::sh_count(bands()));
+    std::vector<double> arcs(kWavelengths * count, 0.0);
+    for (std::size_t k = 0; k < orders_.size(); ++k) {
+        for (std::size_t j = 0; j < kWavelengths; ++j) {
+            const double wavelength_nm = colour::kVisibleMin + static_cast<double>(j);
+            arcs_.accumulate(orders_[k] * wavelength_nm / pitch_nm_ - v_g, v_h, wavelength_nm,
+                             efficiencies_[k * kWavelengths + j], std::span(arcs).subspan(j * count, count));
+        }
+    }
+    std::vector<double> result(arcs.size());
+    for (std::size_t j = 0; j < kWavelengths; ++j)
+        arcs_.to_tangent_frame(std::span<const double>(arcs).subspan(j * count, count),
+                               std::span(result).subspan(j * count, count));
+    return result;
+}
+
+}  // namespace rowland::diffraction

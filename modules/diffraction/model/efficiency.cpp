@@ -1,0 +1,37 @@
+#include "modules/diffraction/model/efficiency.h"
+
+#include "engine/core/check.h"
+
+namespace rowland::diffraction {
+
+namespace {
+
+double reflectance(const Grating& grating, double wavelength_nm) {
+    return grating.metal ? colour::metal_reflectance(*grating.metal, wavelength_nm) : 1.0;
+}
+
+/// The paper's peak form against the energy form: 2λ/(N d (b/d)²)·I₀, with I₀ such that it is 1 at 550 nm.
+double normalization_factor(const Grating& grating, double wavelength_nm) {
+    if (grating.normalization == Normalization::Energy) return 1.0;
+    ROWLAND_CHECK(std::holds_alternative<SlitProfile>(grating.profile), "the agu normalisation is for slits");
+    return wavelength_nm / kAguWavelength_nm;
+}
+
+}  // namespace
+
+double order_efficiency(const Grating& grating, int order, double wavelength_nm) {
+    return reflectance(grating, wavelength_nm) * normalization_factor(grating, wavelength_nm) *
+           profile_efficiency(grating.profile, grating.pitch_nm, order, wavelength_nm);
+}
+
+double fractional_order_efficiency(const Grating& grating, double fractional_order, double wavelength_nm) {
+    return reflectance(grating, wavelength_nm) * normalization_factor(grating, wavelength_nm) *
+           groove_spectrum(grating.profile, grating.pitch_nm, fractional_order, wavelength_nm);
+}
+
+double zero_order_efficiency(const Grating& grating, double wavelength_nm) {
+    return reflectance(grating, wavelength_nm) *
+           profile_efficiency(grating.profile, grating.pitch_nm, 0, wavelength_nm);
+}
+
+}  // namespace rowland::diffraction

@@ -1,0 +1,77 @@
+#include "modules/diffraction/reference/arc_profile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/matrix.hpp>
+#include <numbers>
+
+#include "engine/math/quadrature.h"
+
+namespace rowland::diffraction {
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// Even the shortest arc gets this many nodes or more: the midpoint rule's error is then under 1e-4 of the arc.
+constexpr int kMinimumNodes = 64;
+
+/// The share of the half circle that the lobe reaches.
+struct ArcSpan {
+    double begin = 0.0;
+    double end = kPi;
+};
+
+ArcSpan lobe_span(const GrooveLobe& lobe, double v_h, double r) {
+    const double half_width = lobe_half_width(lobe);
+    // s_h = r cos t falls with t.
+    return {std::acos(std::clamp((-v_h + half_width) / r, -1.0, 1.0)),
+            std::acos(std::clamp((-v_h - half_width) / r, -1.0, 1.0))};
+}
+
+/// Panels short enough for the light, and for the lobe: a sixth of its width a node, or a width where a panel is a
+/// many-node rule.
+int panel_count(const IncidentLight& light, const GrooveLobe& lobe, double r, double length) {
+    const double lobe_panel = lobe_feature_size(lobe) * (light.nodes_per_panel() > 1 ? 1.0 : 1.0 / 6.0);
+    const double panel = std::min(light.panel_angle(), lobe_panel);
+    const int minimum = (kMinimumNodes + light.nodes_per_panel() - 1) / light.nodes_per_panel();
+    return std::max(static_cast<int>(std::ceil(length * r / panel)), minimum);
+}
+
+const math::QuadratureRule& panel_rule(int nodes) {
+    static thread_local math::QuadratureRule rule;
+    if (rule.nodes.size() != static_cast<std::size_t>(nodes)) rule = math::gauss_legendre(nodes, 0.0, 1.0);
+    return rule;
+}
+
+}  // namespace
+
+glm::dvec3 arc_profile(const IncidentLight& light, const glm::dmat3& world_to_tangent, const GrooveLobe& lobe,
+                       const Arc& arc) {
+    if (std::abs(arc.a) >= 1.0) return glm::dvec3(0.0);
+    const double r = std::sqrt((1.0 - arc.a) * (1.0 + arc.a));
+    const ArcSpan span = lobe_span(lobe, arc.v_h, r);
+    const double length = span.end - span.begin;
+    if (length <= 0.0) return glm::dvec3(0.0);
+
+    const glm::dmat3 axes = glm::transpose(world_to_tangent);
+    const int panels = panel_count(light, lobe, r, length);
+    const double panel_length = length / panels;
+    const math::QuadratureRule& rule = panel_rule(light.nodes_per_panel());
+    const double shift = light.nodes_per_panel() == 1 ? arc.node_offset - 0.5 : 0.0;
+    const LobeDensity density(lobe, arc.wavelength_nm);
+    glm::dvec3 sum(0.0);
+    for (int panel = 0; panel < panels; ++panel) {
+        for (std::size_t node = 0; node < rule.nodes.size(); ++node) {
+            const double t = span.begin + (panel + rule.nodes[node] + shift) * panel_length;
+            const double s_h = r * std::cos(t);
+            const double s_n = r * std::sin(t);
+            const double spread = 2.0 * density(s_h + arc.v_h);
+            const glm::dvec3 direction = arc.a * axes[0] + s_h * axes[1] + s_n * axes[2];
+            sum += (rule.weights[node] * s_n * spread) * light.radiance(direction);
+        }
+    }
+    return 0.5 * panel_length * sum;
+}
+
+}  // namespace rowland::diffraction

@@ -1,0 +1,94 @@
+#include "modules/diffraction/reference/path_weights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/matrix.hpp>
+
+#include "engine/colour/observer.h"
+#include "engine/core/check.h"
+#include "engine/core/parallel.h"
+#include "modules/diffraction/model/efficiency.h"
+#include "modules/diffraction/model/fejer.h"
+#include "modules/diffraction/model/grating_equation.h"
+
+namespace rowland::diffraction {
+
+namespace {
+
+/// cmf_o(λ) E_c(λ) as a matrix from RGB to XYZ.
+glm::dmat3 observed_spectra(const colour::LightSpectra& spectra, double wavelength_nm) {
+    return glm::outerProduct(colour::cie_xyz(wavelength_nm), spectra(wavelength_nm));
+}
+
+/// Sharp orders: the light of order m and wavelength λ lies on one arc.
+std::vector<PathWeight> sharp_orders(const Grating& grating, const colour::LightSpectra& spectra, double largest_step) {
+    std::vector<PathWeight> weights;
+    constexpr int range_nm = colour::kVisibleMax - colour::kVisibleMin;
+    for (const int order : grating.orders) {
+        const double step_at_1nm = std::abs(order) / grating.pitch_nm;
+        const int nodes_per_nm = std::max(1, static_cast<int>(std::ceil(step_at_1nm / largest_step)));
+        const int last = range_nm * nodes_per_nm;
+        for (int i = 0; i <= last; ++i) {
+            const double wavelength_nm = colour::kVisibleMin + static_cast<double>(i) / nodes_per_nm;
+            const double step_nm = (i == 0 || i == last ? 0.5 : 1.0) / nodes_per_nm;
+            const double efficiency = order_efficiency(grating, order, wavelength_nm);
+            weights.push_back({order * wavelength_nm, wavelength_nm,
+                               step_nm * efficiency * observed_spectra(spectra, wavelength_nm)});
+        }
+    }
+    return weights;
+}
+
+/// The weight at one path difference of few grooves: every wavelength reaches it, by its Fejér ratio.
+glm::dmat3 blurred_weight(const Grating& grating, const std::vector<glm::dmat3>& observed, double path_nm) {
+    glm::dmat3 sum(0.0);
+    for (int wavelength_nm = colour::kVisibleMin; wavelength_nm <= colour::kVisibleMax; ++wavelength_nm) {
+        const double fractional_order = path_nm / wavelength_nm;
+        const double nearest = std::round(fractional_order);
+        const int order = static_cast<int>(nearest);
+        if (std::find(grating.orders.begin(), grating.orders.end(), order) == grating.orders.end()) continue;
+        if (!propagates(order, wavelength_nm, grating.pitch_nm)) continue;
+        const double step_nm = wavelength_nm == colour::kVisibleMin || wavelength_nm == colour::kVisibleMax ? 0.5 : 1.0;
+        const double density = grating.grooves / wavelength_nm * fejer(grating.grooves, fractional_order - nearest) *
+                               fractional_order_efficiency(grating, fractional_order, wavelength_nm);
+        sum += step_nm * density * observed[static_cast<std::size_t>(wavelength_nm - colour::kVisibleMin)];
+    }
+    return sum;
+}
+
+/// Wide orders. The lobe is taken at the middle of the range: none of the lobes that may be combined with few grooves
+/// depends on wavelength.
+std::vector<PathWeight> wide_orders(const Grating& grating, const colour::LightSpectra& spectra, double largest_step) {
+    std::vector<glm::dmat3> observed;
+    for (int wavelength_nm = colour::kVisibleMin; wavelength_nm <= colour::kVisibleMax; ++wavelength_nm)
+        observed.push_back(observed_spectra(spectra, wavelength_nm));
+    // An order is λ/N ≥ 7.7 nm wide in x.
+    const double step_nm = std::min(1.0, largest_step * grating.pitch_nm);
+    const double largest_path_nm = 2.0 * grating.pitch_nm;
+    const auto half_count = static_cast<std::size_t>(std::ceil(largest_path_nm / step_nm));
+    std::vector<PathWeight> weights(2 * half_count + 1);
+    parallel_for(weights.size(), [&](std::size_t i) {
+        const double path_nm = step_nm * (static_cast<double>(i) - static_cast<double>(half_count));
+        weights[i] = {path_nm, 0.5 * (colour::kVisibleMin + colour::kVisibleMax),
+                      step_nm * blurred_weight(grating, observed, path_nm)};
+    });
+    return weights;
+}
+
+bool is_zero(const PathWeight& term) {
+    return term.weight == glm::dmat3(0.0);
+}
+
+}  // namespace
+
+std::vector<PathWeight> path_weights(const Grating& grating, const colour::LightSpectra& spectra, double largest_step) {
+    ROWLAND_CHECK_OP(grating.pitch_nm, >, 0.0);
+    ROWLAND_CHECK_OP(grating.grooves, >=, 1.0);
+    ROWLAND_CHECK_OP(largest_step, >, 0.0);
+    auto weights = grating.grooves >= kManyGrooves ? sharp_orders(grating, spectra, largest_step)
+                                                   : wide_orders(grating, spectra, largest_step);
+    std::erase_if(weights, is_zero);
+    return weights;
+}
+
+}  // namespace rowland::diffraction

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <vector>
+
+#include "engine/colour/light_spectra.h"
+#include "modules/diffraction/model/grating.h"
+
+namespace rowland::diffraction {
+
+/// One term of the sum over wavelengths and orders: light on the arc s_g = path_nm/pitch − v_g adds weight · A to XYZ.
+struct PathWeight {
+    double path_nm = 0.0;        ///< x = mλ
+    double wavelength_nm = 0.0;  ///< λ, for the lobe
+    glm::dmat3 weight{0.0};      ///< ∫ η_m cmf_o E_c dλ of this node: RGB in, XYZ out
+};
+
+/// All terms of a grating under light of the given spectra. Orders are summed by the trapezoid rule at 1 nm, finer
+/// where 1 nm moves an arc by more than `largest_step` in s_g. For fewer than kManyGrooves grooves the nodes are even
+/// in x and every wavelength is spread by its Fejér ratio, (N/λ) F_N(x/λ), over the periods of the listed orders.
+std::vector<PathWeight> path_weights(const Grating& grating, const colour::LightSpectra& spectra, double largest_step);
+
+}  // namespace rowland::diffraction

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <vector>
+
+#include "engine/lighting/sh_light.h"
+#include "engine/scene/mesh.h"
+
+namespace rowland::diffraction {
+
+/// The tangent frame (g, h, n) of a vertex in world space, as rows.
+glm::dmat3 tangent_frame(const glm::vec3& normal, const glm::vec3& tangent, const glm::mat4& object_to_world);
+
+/// Step 1 of Lindsay & Agu 2006, fig. 5: the light's SH in every vertex's tangent frame. Returns vertices ×
+/// bands² × 3 floats (RGB innermost). Multithreaded.
+std::vector<float> rotate_to_vertices(const lighting::ShLight& light, const scene::Mesh& mesh,
+                                      const glm::mat4& object_to_world);
+
+}  // namespace rowland::diffraction

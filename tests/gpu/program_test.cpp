@@ -1,0 +1,169 @@
+#include "engine/gpu/program.h"
+
+#include <gmock/gmock.h>
+
+#include <array>
+
+#include "engine/core/error.h"
+#include "tests/gpu/gl_test.h"
+
+namespace rowland {
+
+namespace {
+
+using ProgramTest = test::GlTest;
+using ::testing::HasSubstr;
+
+constexpr std::array files{
+    gpu::EmbeddedFile{"t/broken.frag.glsl",
+                      "#version 450 core\n"
+                      "#include \"good.glsl\"\n"
+                      "#include \"broken.glsl\"\n"
+                      "layout(location = 0) out vec4 colour;\n"
+                      "void main() { colour = vec4(good() + broken()); }\n"},
+    gpu::EmbeddedFile{"t/broken_after_include.frag.glsl",
+                      "#version 450 core\n"
+                      "#include \"good.glsl\"\n"
+                      "layout(location = 0) out vec4 colour;\n"
+                      "void main() {\n"
+                      "    colour = vec4(nowhere);\n"
+                      "}\n"},
+    gpu::EmbeddedFile{"t/good.glsl", "float good() { return 1.0; }\n\n\n"},
+    gpu::EmbeddedFile{"t/broken.glsl", "// first\n\nfloat broken() {\n    return undeclared_name;\n}\n"},
+    gpu::EmbeddedFile{"t/unlinkable.frag.glsl",
+                      "#version 450 core\n"
+                      "layout(location = 0) out vec4 colour;\n"
+                      "vec4 never_defined();\n"
+                      "void main() { colour = never_defined(); }\n"},
+    gpu::EmbeddedFile{"t/defined.frag.glsl",
+                      "#version 450 core\n"
+                      "layout(location = 0) out vec4 colour;\n"
+                      "void main() { colour = vec4(VALUE); }\n"},
+};
+
+gpu::ShaderLibrary library() {
+    gpu::ShaderLibrary result;
+    result.add_embedded(files);
+    return result;
+}
+
+ErrorInfo failure(const std::string& fragment, std::vector<gpu::Define> defines = {}) {
+    try {
+        const gpu::Program program(
+            library(), {.vertex = gpu::full_screen_vertex_shader, .fragment = fragment, .defines = std::move(defines)});
+    } catch (const Error& error) {
+        return error.info();
+    }
+    return {};
+}
+
+TEST_F(ProgramTest, CompileErrorNamesTheIncludedFileAndItsLine) {
+    const ErrorInfo info = failure("t/broken.frag.glsl");
+    EXPECT_EQ(info.file, "t/broken.glsl");
+    EXPECT_EQ(info.place, "line 4");
+    EXPECT_THAT(info.found, HasSubstr("undeclared_name"));
+}
+
+TEST_F(ProgramTest, CompileErrorBelowAnIncludeNamesTheOuterFileAndLine) {
+    const ErrorInfo info = failure("t/broken_after_include.frag.glsl", {{"ONE", "1"}, {"TWO", "2"}});
+    EXPECT_EQ(info.file, "t/broken_after_include.frag.glsl");
+    EXPECT_EQ(info.place, "line 5");
+    EXPECT_THAT(info.found, HasSubstr("nowhere"));
+}
+
+TEST_F(ProgramTest, LinkErrorNamesTheFiles) {
+    const ErrorInfo info = failure("t/unlinkable.frag.glsl");
+    EXPECT_THAT(info.file, HasSubstr("t/unlinkable.frag.glsl"));
+    EXPECT_THAT(info.found, HasSubstr("never_defined"));
+}
+
+TEST_F(ProgramTest, DefinesReachTheShader) {
+    const gpu::Program program(
+        library(),
+        {.vertex = gpu::full_screen_vertex_shader, .fragment = "t/defined.frag.glsl", .defines = {{"VALUE", "0.75"}}});
+    const gpu::Framebuffer target(gpu::FramebufferDesc{});
+    gpu::FullScreenTriangle().draw(program, target);
+    EXPECT_EQ(target.read_rgba_float()[0].r, 0.75F);
+}
+
+TEST_F(ProgramTest, UniformsOfEveryTypeArrive) {
+    const gpu::Program program = build_full_screen(R"(#version 450 core
+uniform int a;
+uniform float b;
+uniform ivec2 c;
+uniform vec2 d;
+uniform vec3 e;
+uniform vec4 f;
+uniform mat3 g;
+uniform mat4 h;
+uniform float i[3];
+uniform vec3 j[2];
+uniform vec4 k[2];
+uniform int l[2];
+layout(location = 0) out vec4 scalars;
+layout(location = 1) out vec4 vectors;
+layout(location = 2) out vec4 arrays;
+void main() {
+    scalars = vec4(a, b, c.y, d.y);
+    vectors = vec4(e.z, f.w, g[2][1], h[3][0]);
+    arrays = vec4(i[2], j[1].y, k[1].w, l[1]);
+})");
+    const std::array i{1.0F, 2.0F, 3.0F};
+    const std::array j{glm::vec3(1, 2, 3), glm::vec3(4, 5, 6)};
+    const std::array k{glm::vec4(1), glm::vec4(2, 3, 4, 5)};
+    const std::array l{1, 2};
+    glm::mat3 g(0.0F);
+    g[2][1] = 9.0F;
+    glm::mat4 h(0.0F);
+    h[3][0] = 10.0F;
+    program.set("a", 1);
+    program.set("b", 2.5F);
+    program.set("c", glm::ivec2(3, 4));
+    program.set("d", glm::vec2(5, 6));
+    program.set("e", glm::vec3(0, 0, 7));
+    program.set("f", glm::vec4(0, 0, 0, 8));
+    program.set("g", g);
+    program.set("h", h);
+    program.set("i", std::span<const float>(i));
+    program.set("j", std::span<const glm::vec3>(j));
+    program.set("k", std::span<const glm::vec4>(k));
+    program.set("l", std::span<const int>(l));
+    const gpu::Framebuffer target({.colours = {gpu::Format::RGBA32F, gpu::Format::RGBA32F, gpu::Format::RGBA32F}});
+    gpu::FullScreenTriangle().draw(program, target);
+    EXPECT_EQ(target.read_rgba_float(0)[0], glm::vec4(1.0F, 2.5F, 4.0F, 6.0F));
+    EXPECT_EQ(target.read_rgba_float(1)[0], glm::vec4(7.0F, 8.0F, 9.0F, 10.0F));
+    EXPECT_EQ(target.read_rgba_float(2)[0], glm::vec4(3.0F, 5.0F, 5.0F, 2.0F));
+}
+
+TEST_F(ProgramTest, UniformsNothingReadsAreIgnored) {
+    const gpu::Program program = build_full_screen(R"(#version 450 core
+uniform float used;
+layout(location = 0) out vec4 colour;
+void main() { colour = vec4(used); })");
+    EXPECT_TRUE(program.has_uniform("used"));
+    EXPECT_FALSE(program.has_uniform("unused"));
+    program.set("unused", 1.0F);  // would end the program if it were an error of the driver
+}
+
+TEST_F(ProgramTest, BlocksAreConnectedByName) {
+    const gpu::Program program = build_full_screen(R"(#version 450 core
+layout(std140) uniform First { vec4 first; };
+layout(std140) uniform Second { vec4 second; };
+layout(location = 0) out vec4 colour;
+void main() { colour = first - second; })");
+    program.set_block_binding("First", 5);
+    program.set_block_binding("Second", 6);
+    gpu::Buffer first(sizeof(glm::vec4));
+    gpu::Buffer second(sizeof(glm::vec4));
+    first.update_value(glm::vec4(3.0F));
+    second.update_value(glm::vec4(1.0F));
+    first.bind_uniform(5);
+    second.bind_uniform(6);
+    const gpu::Framebuffer target(gpu::FramebufferDesc{});
+    gpu::FullScreenTriangle().draw(program, target);
+    EXPECT_EQ(target.read_rgba_float()[0].r, 2.0F);
+}
+
+}  // namespace
+
+}  // namespace rowland

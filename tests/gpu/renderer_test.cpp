@@ -1,0 +1,119 @@
+#include "engine/render/renderer.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "engine/core/json_reader.h"
+#include "engine/gpu/debug.h"
+#include "engine/image/image.h"
+#include "engine/lighting/probe_image.h"
+#include "engine/platform/headless_context.h"
+#include "engine/render/brdf_table.h"
+#include "engine/render/gpu_mesh.h"
+#include "engine/scene/mesh_recipe.h"
+#include "engine/scene/transform.h"
+#include "modules/diffraction/asset/cooked_material.h"
+#include "modules/diffraction/module.h"
+#include "modules/diffraction/runtime/spike_surface.h"
+
+namespace rowland::render {
+namespace {
+
+constexpr int kSize = 64;
+
+lighting::LightProbe uniform_probe(const glm::vec3& radiance) {
+    image::Image image{.width = 64, .height = 32, .texels = std::vector<glm::vec3>(64 * 32, radiance)};
+    return lighting::build_light_probe(lighting::ProbeImage(std::move(image), lighting::Mapping::Equirectangular),
+                                       {.prefilter = {.face_size = 16}});
+}
+
+/// A sphere that fills most of the frame, drawn with XYZ → working = identity.
+std::vector<glm::vec4> draw_sphere(const lighting::LightProbe& probe, const StandardMaterial& standard,
+                                   const std::optional<diffraction::CookedMaterial>& grating) {
+    const platform::HeadlessContext context;
+    gpu::enable_debug_output(true);
+    Renderer renderer(glm::dmat3(1.0));
+    diffraction::register_module(renderer);
+    renderer.set_probe(probe);
+    ecs::World world;
+    const ecs::Entity entity = world.create();
+    world.add(entity, scene::Transform{});
+    world.add(entity, make_mesh_instance(scene::build_mesh(scene::SphereRecipe{.radius = 1.0})));
+    world.add(entity, StandardMaterial(standard));
+    if (grating) {
+        const auto material = std::make_shared<const diffraction::GpuSpikeMaterial>(*grating, glm::dmat3(1.0));
+        world.add(entity, material->base());
+        world.add(entity, diffraction::SpikeSurface{material});
+    }
+    scene::update_world_matrices(world);
+    const scene::Camera camera{.eye = {0.0F, 0.0F, 3.0F}};
+    const gpu::Framebuffer target({.width = kSize, .height = kSize, .colours = {gpu::Format::RGBA32F}, .depth = true});
+    renderer.render(world, camera, target);
+    return target.read_rgba_float();
+}
+
+glm::vec3 centre(const std::vector<glm::vec4>& pixels) {
+    return glm::vec3(pixels[static_cast<std::size_t>(kSize / 2 * kSize + kSize / 2)]);
+}
+
+// In a furnace of radiance 1 the framebuffer holds XYZ of D65 white where light comes back whole. The half floats of
+// the environment and the fit of nine ambient terms bound it.
+constexpr float kFurnaceTolerance = 5e-3F;
+
+TEST(Renderer, SkyShowsTheProbesRadiance) {
+    const auto pixels = draw_sphere(uniform_probe(glm::vec3(1.0F)), {}, std::nullopt);
+    EXPECT_NEAR(pixels[0].y, 1.0F, kFurnaceTolerance);
+    EXPECT_NEAR(pixels[0].x, 0.9505F, kFurnaceTolerance);
+    EXPECT_NEAR(pixels[0].z, 1.089F, kFurnaceTolerance);
+}
+
+TEST(Renderer, MirrorSphereVanishesInAFurnace) {
+    const auto pixels =
+        draw_sphere(uniform_probe(glm::vec3(1.0F)),
+                    {.base_colour = glm::vec3(1.0F), .metallic = 1.0F, .roughness = 0.05F}, std::nullopt);
+    EXPECT_NEAR(centre(pixels).y, 1.0F, kFurnaceTolerance);
+    for (const glm::vec4& pixel : pixels) {
+        EXPECT_LE(pixel.y, 1.0F + kFurnaceTolerance);
+        EXPECT_GE(pixel.y, 0.93F);  // at the rim part of the lobe falls below the horizon and is lost
+    }
+}
+
+TEST(Renderer, DiffuseSphereReflectsItsAlbedoOfTheAmbientLight) {
+    const auto dark =
+        draw_sphere(uniform_probe(glm::vec3(2.0F)), {.base_colour = glm::vec3(0.0F), .roughness = 1.0F}, std::nullopt);
+    const auto grey =
+        draw_sphere(uniform_probe(glm::vec3(2.0F)), {.base_colour = glm::vec3(0.4F), .roughness = 1.0F}, std::nullopt);
+    // The difference leaves the specular layer out: 0.4 of radiance 2 is 0.8.
+    EXPECT_NEAR(centre(grey).y - centre(dark).y, 0.8F, kFurnaceTolerance);
+}
+
+TEST(Renderer, AGratingNeverReturnsMoreThanTheFurnaceSends) {
+    const char* text = R"({"grating": {"pitch_nm": 1600, "profile": {"type": "slit", "width_nm": 800}, "orders": "all"},
+                           "base": {"color": [1, 1, 1], "roughness": 1}})";
+    const auto pixels =
+        draw_sphere(uniform_probe(glm::vec3(1.0F)), {}, diffraction::cook_material(parse_json(text, "test"), "test"));
+    float largest = 0.0F;
+    for (const glm::vec4& pixel : pixels) largest = std::max(largest, pixel.y);
+    EXPECT_LT(largest, 1.0F + 0.04F + kFurnaceTolerance);  // 0.04: the base's Fresnel layer lies over its diffuse part
+    // Slit: 1/4 mirror + 1/4 in the orders + 1/2 base, of which some orders are evanescent.
+    EXPECT_GT(centre(pixels).y, 0.6F);
+}
+
+TEST(BrdfTable, WhiteMirrorKeepsAllLight) {
+    const int size = 16;
+    const auto table = bake_brdf_table(size);
+    // Smooth rows: scale + bias = 1 (no shadowing). Rough rows lose what scatters twice, never gain.
+    for (int column = 2; column < size; ++column)
+        EXPECT_NEAR(table[static_cast<std::size_t>(column)].x + table[static_cast<std::size_t>(column)].y, 1.0F, 0.01F);
+    for (const glm::vec2& entry : table) {
+        EXPECT_LE(entry.x + entry.y, 1.005F);
+        EXPECT_GE(entry.x, 0.0F);
+        EXPECT_GE(entry.y, 0.0F);
+    }
+}
+
+}  // namespace
+}  // namespace rowland::render

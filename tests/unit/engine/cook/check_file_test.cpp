@@ -1,0 +1,125 @@
+#include "engine/cook/check_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "engine/asset/container.h"
+#include "engine/cook/cook_source.h"
+#include "engine/core/error.h"
+#include "engine/core/file.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/engine/cook/tile_type.h"
+
+namespace rowland::cook {
+namespace {
+
+using test::refusal_of;
+using testing::HasSubstr;
+
+class CheckFileTest : public testing::Test {
+ protected:
+    CheckFileTest() { test::register_tile_types(registry_); }
+
+    std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
+
+    std::filesystem::path write(const std::string& name, std::string_view text) const {
+        write_file_atomic(path(name), text);
+        return path(name);
+    }
+
+    std::filesystem::path write_cooked(const asset::Header& header, std::size_t payload_size) const {
+        write_file_atomic(path("a.cooked"), asset::pack({header, std::vector<std::byte>(payload_size)}));
+        return path("a.cooked");
+    }
+
+    std::string refusal(const std::filesystem::path& file) const {
+        return refusal_of([&] { check_file(registry_, file); });
+    }
+
+    test::TemporaryFolder folder_;
+    Registry registry_;
+};
+
+TEST_F(CheckFileTest, SaneSourcesAndAssetsAreNamedByTheirKind) {
+    const auto source = write("a.tiles", "size 3");
+    EXPECT_EQ(check_file(registry_, source), "tiles source");
+    EXPECT_EQ(check_file(registry_, write("a.notes", "x")), "notes source");
+    cook_source(registry_, source, path("no_extension"));
+    EXPECT_EQ(check_file(registry_, path("no_extension")), "cooked tiles");
+}
+
+TEST_F(CheckFileTest, RefusedSourceSaysWhy) {
+    EXPECT_THAT(refusal(write("a.tiles", "size 3 sise")), HasSubstr("a.tiles: sise; expected size, include"));
+    EXPECT_THAT(refusal(write("a.tiles", "include b")), HasSubstr("/b: cannot be opened"));
+    EXPECT_THAT(refusal(write("a.txt", "x")), HasSubstr("no known type"));
+}
+
+TEST_F(CheckFileTest, LibraryFailuresAreRefusals) {
+    EXPECT_EQ(refusal(write("a.tiles", "crash")), path("a.tiles").string() + ": library failed; expected a sane file");
+    EXPECT_THAT(refusal(write("a.tiles", "exhaust")), HasSubstr("more memory than there is"));
+}
+
+TEST_F(CheckFileTest, CookedPayloadIsParsedByItsType) {
+    EXPECT_NO_THROW(check_file(registry_, write_cooked({.type = "tiles", .type_version = 2, .content_hash = {}}, 12)));
+    EXPECT_THAT(refusal(write_cooked({.type = "tiles", .type_version = 2, .content_hash = {}}, 13)),
+                HasSubstr("13 tiles"));
+}
+
+TEST_F(CheckFileTest, CookedAssetOfAnotherVersionNamesTheCommand) {
+    EXPECT_THAT(refusal(write_cooked({.type = "tiles", .type_version = 1, .content_hash = {}}, 1)),
+                HasSubstr("tiles version 1, older than this program's; expected version 2; "
+                          "cook it again: ./rowland cook"));
+}
+
+TEST_F(CheckFileTest, CookedAssetOfUnknownTypeIsRefused) {
+    for (const char* name : {"tapestry", "notes"})
+        EXPECT_THAT(refusal(write_cooked({.type = name, .type_version = 1, .content_hash = {}}, 1)),
+                    HasSubstr("unknown type \"" + std::string(name) + "\""));
+}
+
+TEST_F(CheckFileTest, DamagedAssetIsRefused) {
+    const auto file = write_cooked({.type = "tiles", .type_version = 2, .content_hash = {}}, 12);
+    std::string text = read_text_file(file, 1000);
+    text.back() = static_cast<char>(~text.back());
+    write_file_atomic(file, text);
+    EXPECT_THAT(refusal(file), HasSubstr("checksum"));
+    write_file_atomic(file, text.substr(0, 9));
+    EXPECT_THAT(refusal(file), HasSubstr("bytes left"));
+}
+
+TEST_F(CheckFileTest, WhatIsNoFileIsRefusedAtOnce) {
+    EXPECT_THAT(refusal(write("empty.notes", "")), HasSubstr("an empty file"));
+    EXPECT_THAT(refusal(path("missing.notes")), HasSubstr("No such file"));
+    std::filesystem::create_directory(path("folder.notes"));
+    EXPECT_THAT(refusal(path("folder.notes")), HasSubstr("not a regular file"));
+    ASSERT_EQ(::mkfifo(path("pipe.notes").c_str(), 0600), 0);
+    EXPECT_THAT(refusal(path("pipe.notes")), HasSubstr("not a regular file"));
+    EXPECT_THAT(refusal("/dev/zero"), HasSubstr("not a regular file"));
+    EXPECT_THAT(refusal(""), HasSubstr("No such file"));
+    std::filesystem::create_symlink("loop.notes", path("loop.notes"));
+    EXPECT_THAT(refusal(path("loop.notes")), HasSubstr("symbolic links"));
+}
+
+TEST_F(CheckFileTest, NamesNeedNotBeUtf8) {
+    EXPECT_EQ(check_file(registry_, write("\xff\xfe \n.notes", "x")), "notes source");
+    EXPECT_THAT(refusal(write("\xff\xfe.txt", "x")), HasSubstr("\xff\xfe.txt: a source of no known type"));
+}
+
+TEST_F(CheckFileTest, DescriptionShowsHeaderAndPayload) {
+    const auto file =
+        write_cooked({.type = "tiles", .type_version = 2, .content_hash = {.low = 0xab, .high = 0x12}}, 12);
+    EXPECT_EQ(describe_file(registry_, file),
+              "type: tiles\nversion: 2\ncontent hash: 000000000000001200000000000000ab\n"
+              "payload: 12 bytes\ntiles: 12");
+    EXPECT_EQ(describe_file(registry_, write("a.flat", "hello")), "type: plain\npayload: 5 bytes\nletters: 5\n");
+}
+
+TEST_F(CheckFileTest, SourceIsDescribedOnlyOnceCooked) {
+    const auto file = write("a.tiles", "size 1");
+    EXPECT_THAT(refusal_of([&] { describe_file(registry_, file); }),
+                HasSubstr("a tiles source; expected a cooked asset; cook it first: rowland-cook cook"));
+}
+
+}  // namespace
+}  // namespace rowland::cook

@@ -1,0 +1,145 @@
+#include "editor/cooker/cooker_program.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "engine/core/file.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/engine/cook/run_process.h"
+
+namespace rowland::editor {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+class CookerProgramTest : public testing::Test {
+ protected:
+    std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+
+    std::string write(const std::string& name, std::string_view text) const {
+        write_file_atomic(path(name), text);
+        return path(name);
+    }
+
+    static test::ProcessResult run(std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), ROWLAND_TEST_COOKER);
+        return test::run_process(arguments);
+    }
+
+    test::TemporaryFolder folder_;
+};
+
+std::ptrdiff_t lines(const std::string& text) {
+    return std::count(text.begin(), text.end(), '\n');
+}
+
+TEST_F(CookerProgramTest, CooksSilentlyWithDepfile) {
+    const auto source = write("a.tiles", "size 10");
+    const auto result =
+        run({"cook", source, "-o", path("out/a.cooked"), "--depfile", path("out/a.d"), "--threads", "1"});
+    EXPECT_EQ(result.code, 0);
+    EXPECT_EQ(result.out + result.err, "");
+    EXPECT_TRUE(std::filesystem::exists(path("out/a.cooked")));
+    EXPECT_THAT(read_text_file(path("out/a.d"), 1000), HasSubstr("a.tiles"));
+}
+
+TEST_F(CookerProgramTest, ThreadsDoNotChangeTheBytes) {
+    const auto source = write("a.tiles", "size 5000");
+    ASSERT_EQ(run({"cook", source, "-o", path("1"), "--threads", "1"}).code, 0);
+    ASSERT_EQ(run({"cook", source, "-o", path("2"), "--threads", "2"}).code, 0);
+    EXPECT_EQ(read_text_file(path("1"), 10'000), read_text_file(path("2"), 10'000));
+}
+
+TEST_F(CookerProgramTest, RefusedSourceIsCodeTwo) {
+    const auto result = run({"cook", write("a.tiles", "refuse"), "-o", path("a.cooked")});
+    EXPECT_EQ(result.code, 2);
+    EXPECT_EQ(result.err, "error: " + path("a.tiles") + ": refuse; expected size, include\n");
+    EXPECT_FALSE(std::filesystem::exists(path("a.cooked")));
+}
+
+TEST_F(CookerProgramTest, OutputThatCannotBeWrittenIsCodeOne) {
+    const auto source = write("a.tiles", "size 1");
+    EXPECT_EQ(run({"cook", source, "-o", source + "/a.cooked"}).code, 1);
+}
+
+TEST_F(CookerProgramTest, SourceThatChangesWhileCookingIsCodeOne) {
+    EXPECT_EQ(run({"cook", write("a.tiles", "change a.tiles"), "-o", path("a.cooked")}).code, 1);
+}
+
+TEST_F(CookerProgramTest, CheckPrintsALineForEachSaneFile) {
+    const auto a = write("a.tiles", "size 1");
+    const auto b = write("b.notes", "x");
+    const auto result = run({"check", a, b});
+    EXPECT_EQ(result.code, 0);
+    EXPECT_EQ(result.out, a + ": tiles source\n" + b + ": notes source\n");
+    EXPECT_EQ(result.err, "");
+}
+
+TEST_F(CookerProgramTest, CheckGoesOnAfterRefusals) {
+    const auto bad = write("a.tiles", "refuse");
+    const auto crash = write("b.tiles", "crash");
+    const auto odd_name = write("\xff\n.txt", "x");
+    const auto sane = write("c.tiles", "size 1");
+    ASSERT_EQ(::mkfifo(path("pipe.tiles").c_str(), 0600), 0);
+    const auto result = run({"check", bad, crash, path("missing"), odd_name, folder_.path(), path("pipe.tiles"), sane});
+    EXPECT_EQ(result.code, 2);
+    EXPECT_EQ(result.out, sane + ": tiles source\n");
+    EXPECT_EQ(lines(result.err), 6) << result.err;
+    EXPECT_THAT(result.err, StartsWith("error: " + bad + ": refuse"));
+}
+
+TEST_F(CookerProgramTest, CheckTakesNamesThatLookLikeOptionsAfterTwoDashes) {
+    EXPECT_THAT(run({"check", "--", "-x.notes"}).err, HasSubstr("-x.notes: cannot be opened"));
+}
+
+TEST_F(CookerProgramTest, InfoPrintsWhatAnAssetHolds) {
+    ASSERT_EQ(run({"cook", write("a.tiles", "size 7"), "-o", path("a.cooked")}).code, 0);
+    const auto result = run({"info", path("a.cooked")});
+    EXPECT_EQ(result.code, 0);
+    EXPECT_THAT(result.out, StartsWith("type: tiles\nversion: 2\ncontent hash: "));
+    EXPECT_THAT(result.out, testing::EndsWith("\npayload: 7 bytes\ntiles: 7\n"));
+    EXPECT_EQ(run({"info", path("a.tiles")}).code, 2);
+}
+
+TEST_F(CookerProgramTest, WrongUsageIsCodeTwoOnStandardError) {
+    const std::vector<std::vector<std::string>> wrong = {
+        {},
+        {"bake"},
+        {"cook", "a.tiles"},
+        {"cook", "-o", "x"},
+        {"check"},
+        {"info", "a", "b"},
+        {"cook", "a", "-o", "b", "--threads", "-1"},
+        {"check", "--fast", "x"},
+    };
+    for (const auto& arguments : wrong) {
+        const auto result = run(arguments);
+        EXPECT_EQ(result.code, 2) << testing::PrintToString(arguments);
+        EXPECT_EQ(result.out, "") << testing::PrintToString(arguments);
+        EXPECT_NE(result.err, "") << testing::PrintToString(arguments);
+    }
+}
+
+TEST_F(CookerProgramTest, HelpOfEveryCommandShowsAnExample) {
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"--help"}, {"cook", "--help"}, {"check", "--help"}, {"info", "--help"}}) {
+        const auto result = run(arguments);
+        EXPECT_EQ(result.code, 0);
+        EXPECT_THAT(result.out, HasSubstr("Example: rowland-cook " + (arguments.size() == 2 ? arguments[0] : "")));
+    }
+}
+
+TEST_F(CookerProgramTest, VersionIsPrinted) {
+    const auto result = run({"--version"});
+    EXPECT_EQ(result.code, 0);
+    EXPECT_THAT(result.out, testing::MatchesRegex("rowland-cook [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+}
+
+}  // namespace
+}  // namespace rowland::editor

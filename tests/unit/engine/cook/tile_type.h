@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "engine/cook/registry.h"
+#include "engine/core/error.h"
+
+namespace rowland::test {
+
+/// Registers "tiles" (.tiles → .cooked), a line-based source for tests:
+///   size N          the payload gets N bytes, computed in a parallel loop from all that is read
+///   include FILE    also reads FILE, beside the source
+///   refuse          the source is refused with an Error
+///   crash           a library throws std::runtime_error
+///   exhaust         a library runs out of memory
+///   change FILE     somebody else writes to FILE, beside the source, while it is being cooked
+/// and "notes" (.notes), which are only checked and always sane, and "plain" (.plain → .flat), which is cooked to its
+/// own bytes without a container.
+void register_tile_types(cook::Registry& registry);
+
+/// The message of the Error (input) that `action` throws.
+std::string refusal_of(const std::function<void()>& action);
+
+}  // namespace rowland::test

@@ -1,0 +1,231 @@
+#include "engine/image/exr.h"
+
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfOutputFile.h>
+#include <ImfStandardAttributes.h>
+#include <ImfTileDescriptionAttribute.h>
+#include <ImfTiledOutputFile.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+
+#include "engine/core/error.h"
+#include "engine/core/file.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/test_data.h"
+#include "tests/unit/engine/image/bytes.h"
+
+namespace rowland::image {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// Values of every size, with what HDR files really hold besides.
+Image made_image(int width, int height) {
+    Image image{width, height, {}};
+    for (int i = 0; i < width * height; ++i)
+        image.texels.emplace_back(std::ldexp(1.5f, i % 40 - 20), -1.0f * static_cast<float>(i), 0.25f);
+    image.texels[0] = {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN(), 1e30f};
+    return image;
+}
+
+bool same_bits(const Image& a, const Image& b) {
+    return a.width == b.width && a.height == b.height && a.texels.size() == b.texels.size() &&
+           std::memcmp(a.texels.data(), b.texels.data(), a.texels.size() * sizeof(glm::vec3)) == 0;
+}
+
+std::string refusal(std::span<const std::byte> bytes) {
+    try {
+        read_exr(bytes, "made.exr");
+    } catch (const Error& error) {
+        EXPECT_EQ(error.info().fault, Fault::Input);
+        return error.what();
+    }
+    ADD_FAILURE() << "was not refused";
+    return {};
+}
+
+/// A 4 × 2 file whose channels all hold 0.5, 1.5, 2.5, ...
+std::vector<std::byte> made_file(Imf::Header header, const std::vector<std::string>& channels, Imf::PixelType type,
+                                 const std::filesystem::path& path, bool tiled = false) {
+    const std::vector<float> floats = {0.5f, 1.5f, 2.5f, 3.5f, 4.5f, 5.5f, 6.5f, 7.5f};
+    std::vector<half> halves(floats.begin(), floats.end());
+    std::vector<unsigned> integers(8, 7);
+    Imf::FrameBuffer buffer;
+    for (const std::string& name : channels) {
+        header.channels().insert(name, Imf::Channel(type));
+        const void* data = type == Imf::FLOAT  ? static_cast<const void*>(floats.data())
+                           : type == Imf::HALF ? static_cast<const void*>(halves.data())
+                                               : static_cast<const void*>(integers.data());
+        buffer.insert(name, Imf::Slice::Make(type, data, header.dataWindow()));
+    }
+    if (tiled) {
+        header.setTileDescription(Imf::TileDescription(3, 2, Imf::ONE_LEVEL));
+        Imf::TiledOutputFile file(path.c_str(), header);
+        file.setFrameBuffer(buffer);
+        file.writeTiles(0, file.numXTiles() - 1, 0, file.numYTiles() - 1);
+    } else {
+        Imf::OutputFile file(path.c_str(), header);
+        file.setFrameBuffer(buffer);
+        file.writePixels(2);
+    }
+    return read_file(path, 1 << 20);
+}
+
+TEST(Exr, RoundTripKeepsEveryBit) {
+    const test::TemporaryFolder folder;
+    for (const auto& [width, height] : {std::pair{1, 1}, {7, 5}, {64, 600}}) {
+        const Image image = made_image(width, height);
+        write_exr(folder.path() / "a.exr", image);
+        EXPECT_TRUE(same_bits(read_exr(folder.path() / "a.exr"), image)) << width << " x " << height;
+    }
+}
+
+TEST(Exr, WritingIsDeterministic) {
+    const test::TemporaryFolder folder;
+    write_exr(folder.path() / "a.exr", made_image(33, 21));
+    write_exr(folder.path() / "b.exr", made_image(33, 21));
+    EXPECT_EQ(read_file(folder.path() / "a.exr", 1 << 20), read_file(folder.path() / "b.exr", 1 << 20));
+}
+
+TEST(Exr, AlphaIsWrittenAndIgnoredOnReading) {
+    const test::TemporaryFolder folder;
+    const std::vector<glm::vec4> texels = {{1, 2, 3, 0.5f}, {4, 5, 6, 0}};
+    write_exr(folder.path() / "a.exr", 2, 1, texels);
+    const Image image = read_exr(folder.path() / "a.exr");
+    EXPECT_EQ(image.at(0, 0), glm::vec3(1, 2, 3));
+    EXPECT_EQ(image.at(1, 0), glm::vec3(4, 5, 6));
+}
+
+TEST(Exr, FailingToWriteIsASystemError) {
+    const test::TemporaryFolder folder;
+    write_file_atomic(folder.path() / "file", std::string_view("x"));
+    try {
+        write_exr(folder.path() / "file" / "a.exr", made_image(2, 2));
+        FAIL() << "was written below a file";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.info().fault, Fault::System);
+    }
+}
+
+TEST(Exr, HalfFloatLuminanceLayersAndTilesAreRead) {
+    const test::TemporaryFolder folder;
+    const auto path = folder.path() / "a.exr";
+    for (const auto type : {Imf::HALF, Imf::FLOAT})
+        for (const bool tiled : {false, true})
+            for (const std::vector<std::string>& channels :
+                 {std::vector<std::string>{"R", "G", "B"}, {"Y"}, {"View.R", "View.G", "View.B", "Depth.Z"}}) {
+                const auto bytes = made_file(Imf::Header(4, 2), channels, type, path, tiled);
+                const Image image = read_exr(bytes, "a.exr");
+                ASSERT_EQ(image.width, 4);
+                ASSERT_EQ(image.height, 2);
+                for (int i = 0; i < 8; ++i)
+                    EXPECT_EQ(image.at(i % 4, i / 4), glm::vec3(static_cast<float>(i) + 0.5f)) << channels[0];
+            }
+}
+
+TEST(Exr, WindowAwayFromTheOriginIsRead) {
+    const test::TemporaryFolder folder;
+    const Imath::Box2i window({-5, 100}, {-2, 101});
+    const auto bytes = made_file(Imf::Header(window, window), {"R", "G", "B"}, Imf::FLOAT, folder.path() / "a.exr");
+    EXPECT_EQ(read_exr(bytes, "a.exr").at(3, 1).x, 7.5f);
+}
+
+TEST(Exr, ChromaticitiesAreConvertedToRec709) {
+    const test::TemporaryFolder folder;
+    Imf::Header header(4, 2);
+    Imf::addChromaticities(header, Imf::Chromaticities({0.713f, 0.293f}, {0.165f, 0.830f}, {0.128f, 0.044f},
+                                                       {0.32168f, 0.33767f}));  // ACEScg
+    const auto bytes = made_file(header, {"R", "G", "B"}, Imf::FLOAT, folder.path() / "a.exr");
+    const Image image = read_exr(bytes, "a.exr");
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(image.at(2, 0)[c], 2.5f, 1e-5f);  // neutral stays neutral
+}
+
+TEST(Exr, OtherChannelsAndWindowsAreRefused) {
+    const test::TemporaryFolder folder;
+    const auto path = folder.path() / "a.exr";
+    EXPECT_THAT(refusal(made_file(Imf::Header(4, 2), {"R", "G"}, Imf::HALF, path)), HasSubstr("channels G, R"));
+    EXPECT_THAT(refusal(made_file(Imf::Header(4, 2), {"Y", "RY", "BY"}, Imf::HALF, path)), HasSubstr("R, G and B"));
+    EXPECT_THAT(refusal(made_file(Imf::Header(4, 2), {"R", "G", "B"}, Imf::UINT, path)), HasSubstr("half or float"));
+    const Imf::Header cropped(Imath::Box2i({0, 0}, {9, 9}), Imath::Box2i({0, 0}, {3, 1}));
+    EXPECT_THAT(refusal(made_file(cropped, {"R", "G", "B"}, Imf::HALF, path)), HasSubstr("display window"));
+}
+
+TEST(Exr, HugeClaimsAreRefusedBeforeAllocating) {
+    const test::TemporaryFolder folder;
+    auto bytes = made_file(Imf::Header(4, 2), {"R", "G", "B"}, Imf::HALF, folder.path() / "a.exr");
+    const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const std::size_t window = text.find(std::string("dataWindow\0box2i\0", 17)) + 17 + 4;
+    const auto claim = [&](std::int32_t width, std::int32_t height) {
+        const std::int32_t corner[2] = {width - 1, height - 1};
+        auto changed = bytes;
+        std::memcpy(changed.data() + window + 8, corner, sizeof corner);
+        return changed;
+    };
+    EXPECT_NO_THROW(read_exr(claim(4, 2), "a.exr"));
+    EXPECT_THAT(refusal(claim(2147483647, 2147483647)), HasSubstr("sides in"));
+    EXPECT_THAT(refusal(claim(16384, 8192)), HasSubstr("at least"));  // possible, but not in a file of this size
+    EXPECT_THAT(refusal(claim(0, 2)), HasSubstr("sides in"));
+
+    const std::size_t channels = text.find(std::string("channels\0chlist\0", 16)) + 16;
+    auto changed = bytes;
+    const std::uint32_t size = 0x7fffffff;
+    std::memcpy(changed.data() + channels, &size, sizeof size);
+    EXPECT_THAT(refusal(changed), HasSubstr("attribute \"channels\""));
+}
+
+TEST(Exr, EveryTruncationIsRefused) {
+    const test::TemporaryFolder folder;
+    const auto bytes = made_file(Imf::Header(4, 2), {"R", "G", "B"}, Imf::HALF, folder.path() / "a.exr");
+    for (std::size_t size = 0; size < bytes.size(); ++size)
+        EXPECT_THROW(read_exr(std::span(bytes).first(size), "cut.exr"), Error) << size;
+}
+
+TEST(Exr, FlippedBytesNeverCrash) {
+    const test::TemporaryFolder folder;
+    std::mt19937 random(3);
+    for (const bool tiled : {false, true}) {
+        const auto original = made_file(Imf::Header(4, 2), {"R", "G", "B"}, Imf::HALF, folder.path() / "a.exr", tiled);
+        for (std::size_t i = 0; i < original.size(); ++i)
+            for (int round = 0; round < 4; ++round) {
+                auto bytes = original;
+                bytes[i] = static_cast<std::byte>(random());
+                try {
+                    const Image image = read_exr(bytes, "flipped.exr");
+                    EXPECT_EQ(image.texels.size(),
+                              static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+                } catch (const Error&) {
+                    // refused is fine
+                }
+            }
+    }
+}
+
+TEST(Exr, ProbesLoadWithTheirSizes) {
+    const struct {
+        const char* name;
+        int width, height;
+    } probes[] = {{"blender_city", 1024, 512},
+                  {"blender_studio", 1024, 512},
+                  {"blender_sunset", 1024, 512},
+                  {"pmndrs_studio", 512, 256},
+                  {"pmndrs_sunset", 512, 256}};
+    for (const auto& probe : probes) {
+        ROWLAND_TEST_DATA(path, std::string("probes/") + probe.name + ".exr");
+        const Image image = read_exr(path);
+        EXPECT_EQ(image.width, probe.width) << probe.name;
+        EXPECT_EQ(image.height, probe.height) << probe.name;
+        double sum = 0;
+        for (const glm::vec3& t : image.texels) sum += t.x + t.y + t.z;
+        EXPECT_GT(sum, 0) << probe.name;
+    }
+}
+
+}  // namespace
+}  // namespace rowland::image

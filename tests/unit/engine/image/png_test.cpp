@@ -1,0 +1,46 @@
+#include "engine/image/png.h"
+
+#include <gtest/gtest.h>
+#include <stb_image.h>
+
+#include <vector>
+
+#include "engine/core/error.h"
+#include "engine/core/file.h"
+#include "tests/support/temporary_folder.h"
+
+namespace rowland::image {
+namespace {
+
+TEST(Png, HoldsTheBytesItWasGiven) {
+    const test::TemporaryFolder folder;
+    std::vector<std::uint8_t> rgb;
+    for (int i = 0; i < 5 * 3 * 3; ++i) rgb.push_back(static_cast<std::uint8_t>(i * 37));
+    const auto path = folder.path() / "a.png";
+    write_png(path, 5, 3, rgb);
+    int width = 0;
+    int height = 0;
+    int channels = 0;
+    std::uint8_t* read = stbi_load(path.c_str(), &width, &height, &channels, 0);
+    ASSERT_NE(read, nullptr);
+    EXPECT_EQ(width, 5);
+    EXPECT_EQ(height, 3);
+    EXPECT_EQ(channels, 3);
+    EXPECT_EQ(std::vector<std::uint8_t>(read, read + rgb.size()), rgb);
+    stbi_image_free(read);
+}
+
+TEST(Png, FailingToWriteIsASystemError) {
+    const test::TemporaryFolder folder;
+    write_file_atomic(folder.path() / "file", std::string_view("x"));
+    const std::vector<std::uint8_t> rgb(3);
+    try {
+        write_png(folder.path() / "file" / "a.png", 1, 1, rgb);
+        FAIL() << "was written below a file";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.info().fault, Fault::System);
+    }
+}
+
+}  // namespace
+}  // namespace rowland::image

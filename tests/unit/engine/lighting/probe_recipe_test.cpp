@@ -1,0 +1,94 @@
+#include "engine/lighting/probe_recipe.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine/core/error.h"
+#include "engine/core/json_reader.h"
+
+namespace rowland::lighting {
+namespace {
+
+using ::testing::HasSubstr;
+
+ProbeRecipe parse(const std::string& text) {
+    return parse_probe_recipe(parse_json(text, "p.json"), "p.json");
+}
+
+std::string refusal(const std::string& text) {
+    try {
+        parse(text);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.info().fault, Fault::Input);
+        EXPECT_EQ(error.info().file, "p.json");
+        return error.what();
+    }
+    ADD_FAILURE() << "was not refused: " << text;
+    return {};
+}
+
+const std::string kRoom = R"("ceiling": [1,1,1], "wall": [1,1,1], "floor": [1,1,1])";
+
+TEST(ProbeRecipe, StudioIsParsedWhole) {
+    const ProbeRecipe recipe = parse(R"({"probe": {"type": "studio", )" + kRoom + R"(, "width": 128, "bands": 7,
+        "face_size": 32, "intensity": 2, "boxes": [{"azimuth_deg": 10, "elevation_deg": 20, "roll_deg": 5,
+        "half_size_deg": [3, 4], "soft_edge_deg": 1, "radiance": [7, 8, 9]}]}})");
+    const auto& studio = std::get<StudioRecipe>(recipe.source);
+    ASSERT_EQ(studio.boxes.size(), 1u);
+    EXPECT_EQ(studio.boxes[0].half_height_deg, 4);
+    EXPECT_EQ(studio.boxes[0].radiance, glm::dvec3(7, 8, 9));
+    EXPECT_EQ(recipe.width, 128);
+    EXPECT_EQ(recipe.settings.bands, 7);
+    EXPECT_EQ(recipe.settings.prefilter.face_size, 32);
+    const ProbeImage probe = render_recipe(recipe, {}, "p.json");
+    EXPECT_EQ(probe.image().width, 128);
+    EXPECT_NEAR(probe.radiance({0, -1, 0}).x, 2, 1e-6);  // intensity
+}
+
+TEST(ProbeRecipe, ClearSkyAndImageAreParsed) {
+    const ProbeRecipe sky =
+        parse(R"({"probe": {"type": "clear_sky", "sun_azimuth_deg": 10, "sun_elevation_deg": 20, "turbidity": 4}})");
+    EXPECT_EQ(std::get<ClearSkyRecipe>(sky.source).turbidity, 4);
+    EXPECT_EQ(sky.settings.bands, 16);
+
+    const ProbeRecipe capture = parse(R"({"probe": {"type": "image", "file": "x.hdr", "mapping": "angular"}})");
+    const ProbeImage probe = render_recipe(
+        capture,
+        [](const std::string& name) {
+            EXPECT_EQ(name, "x.hdr");
+            return image::Image{2, 2, std::vector<glm::vec3>(4, glm::vec3(3.0f))};
+        },
+        "p.json");
+    EXPECT_EQ(probe.mapping(), Mapping::Angular);
+    EXPECT_EQ(probe.radiance({0, 0, -1}).x, 3);
+}
+
+TEST(ProbeRecipe, MistakesAreNamed) {
+    EXPECT_THAT(refusal("[]"), HasSubstr("object"));
+    EXPECT_THAT(refusal("{}"), HasSubstr("probe"));
+    EXPECT_THAT(refusal(R"({"probe": {"type": "studoi"}})"), HasSubstr("\"studio\" meant"));
+    EXPECT_THAT(refusal(R"({"probe": {"type": "image", "file": "a.hdr"}, "x": 1})"), HasSubstr("/x"));
+    EXPECT_THAT(refusal(R"({"probe": {"type": "image", "file": "a.hdr", "mappin": "angular"}})"),
+                HasSubstr("\"mapping\" meant"));
+    EXPECT_THAT(refusal(R"({"probe": {"type": "image", "file": ""}})"), HasSubstr("/probe/file"));
+    EXPECT_THAT(refusal(R"({"probe": {"type": "image", "file": "a.hdr", "width": 64}})"), HasSubstr("/probe/width"));
+    EXPECT_THAT(refusal(R"({"probe": {"type": "image", "file": "a.hdr", "face_size": 100}})"),
+                HasSubstr("power of two"));
+    EXPECT_THAT(refusal(R"({"probe": {"type": "image", "file": "a.hdr", "bands": 33}})"), HasSubstr("/probe/bands"));
+    EXPECT_THAT(refusal(R"({"probe": {"type": "clear_sky", "sun_azimuth_deg": 0, "sun_elevation_deg": 0}})"),
+                HasSubstr("/probe/sun_elevation_deg"));
+    EXPECT_THAT(refusal(R"({"probe": {"type": "clear_sky", "sun_azimuth_deg": 0, "sun_elevation_deg": 9,
+                         "ground_albedo": [0.1, 1.2, 0]}})"),
+                HasSubstr("ground_albedo/1"));
+    EXPECT_THAT(refusal(R"({"probe": {"type": "studio", )" + kRoom + R"(, "width": 66, "boxes": []}})"),
+                HasSubstr("multiple of 4"));
+    EXPECT_THAT(refusal(R"({"probe": {"type": "studio", )" + kRoom + R"(, "boxes": [{"azimuth_deg": 1,
+                         "elevation_deg": 2, "half_size_deg": [3, 4], "radiance": [1, 1, 1], "rol_deg": 5}]}})"),
+                HasSubstr("/probe/boxes/0/rol_deg"));
+    EXPECT_THAT(refusal(R"({"probe": {"type": "studio", )" + kRoom + R"(, "boxes": [{"azimuth_deg": 1,
+                         "elevation_deg": 2, "half_size_deg": [3, 94], "radiance": [1, 1, 1]}]}})"),
+                HasSubstr("half_size_deg/1"));
+}
+
+}  // namespace
+}  // namespace rowland::lighting

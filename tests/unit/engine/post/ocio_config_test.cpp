@@ -1,0 +1,136 @@
+#include "engine/post/ocio_config.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "engine/core/error.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/test_data.h"
+#include "tests/unit/engine/post/config_variant.h"
+
+namespace rowland::post {
+
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+/// $OCIO for the length of a test.
+class OcioVariable {
+ public:
+    explicit OcioVariable(const std::string& value) {
+        if (const char* before = std::getenv("OCIO")) before_ = before;
+        setenv("OCIO", value.c_str(), 1);
+    }
+    ~OcioVariable() {
+        if (before_) {
+            setenv("OCIO", before_->c_str(), 1);
+        } else {
+            unsetenv("OCIO");
+        }
+    }
+    OcioVariable(const OcioVariable&) = delete;
+    OcioVariable& operator=(const OcioVariable&) = delete;
+
+ private:
+    std::optional<std::string> before_;
+};
+
+template <typename Load>
+std::string failure(const Load& load) {
+    try {
+        load();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.info().fault, Fault::Input);
+        return error.what();
+    }
+    return "no failure";
+}
+
+TEST(OcioConfig, ShippedOneHasItsDisplayViewsAndRoles) {
+    const OcioConfig config = OcioConfig::shipped();
+    EXPECT_THAT(config.displays(), ElementsAre("sRGB - Display"));
+    EXPECT_THAT(config.views("sRGB - Display"), ElementsAre("ACES 1.0 - SDR Video", "Un-tone-mapped", "Raw"));
+    EXPECT_EQ(config.default_display(), "sRGB - Display");
+    EXPECT_EQ(config.default_view("sRGB - Display"), "ACES 1.0 - SDR Video");
+    EXPECT_STREQ(config.ocio()->getColorSpace("scene_linear")->getName(), "ACEScg");
+    EXPECT_STREQ(config.ocio()->getColorSpace("aces_interchange")->getName(), "ACES2065-1");
+    EXPECT_TRUE(config.ocio()->getColorSpace("data")->isData());
+}
+
+TEST(OcioConfig, PathComesBeforeTheVariableBeforeTheShippedOne) {
+    const test::TemporaryFolder first;
+    const test::TemporaryFolder second;
+    const auto by_path = test::write_variant(first.path(), {{"name: rowland", "name: by path"}});
+    const auto by_variable = test::write_variant(second.path(), {{"name: rowland", "name: by variable"}});
+    {
+        const OcioVariable variable(by_variable.string());
+        EXPECT_STREQ(OcioConfig::choose(by_path).ocio()->getName(), "by path");
+        EXPECT_STREQ(OcioConfig::choose().ocio()->getName(), "by variable");
+        EXPECT_THAT(OcioConfig::choose().source(), HasSubstr("variant.ocio (named by $OCIO)"));
+    }
+    const OcioVariable empty("");
+    EXPECT_STREQ(OcioConfig::choose().ocio()->getName(), "rowland");
+}
+
+TEST(OcioConfig, MissingFileIsNamedWithWhereItsNameCameFrom) {
+    EXPECT_THAT(failure([] { OcioConfig::from_file("/no/such.ocio"); }), HasSubstr("/no/such.ocio: no such file"));
+    const OcioVariable variable("/no/such.ocio");
+    EXPECT_THAT(failure([] { OcioConfig::choose(); }), HasSubstr("/no/such.ocio (named by $OCIO): no such file"));
+}
+
+TEST(OcioConfig, LaterVersionIsRefusedWithBothVersions) {
+    const test::TemporaryFolder folder;
+    for (const auto& [line, found] : {std::pair{"ocio_profile_version: 2.99", "a configuration of version 2.99"},
+                                      std::pair{"ocio_profile_version: 3", "a configuration of version 3.0"}}) {
+        const auto path = test::write_variant(folder.path(), {{"ocio_profile_version: 2.1", line}});
+        const std::string message = failure([&] { OcioConfig::from_file(path); });
+        EXPECT_THAT(message, HasSubstr(found));
+        EXPECT_THAT(message,
+                    HasSubstr(std::string("the latest OpenColorIO ") + OCIO_NAMESPACE::GetVersion() + " reads"));
+        EXPECT_THAT(message, HasSubstr("variant.ocio"));
+    }
+}
+
+TEST(OcioConfig, BuiltInNamesAreExplainedWhereThereAreNone) {
+    if (OCIO_NAMESPACE::GetVersionHex() >= 0x02020000) GTEST_SKIP() << "this OpenColorIO has configurations built in";
+    const OcioVariable variable("ocio://default");
+    EXPECT_THAT(failure([] { OcioConfig::choose(); }), HasSubstr("has none built in"));
+}
+
+TEST(OcioConfig, WhatIsNoConfigurationIsRefused) {
+    const test::TemporaryFolder folder;
+    for (const char* text : {"", "not a configuration", "ocio_profile_version: [", "ocio_profile_version: 2.1\n",
+                             "ocio_profile_version: 2.1\nroles: {scene_linear: nowhere}\n", "{\"json\": 1}"}) {
+        write_file_atomic(folder.path() / "bad.ocio", text);
+        EXPECT_THAT(failure([&] { OcioConfig::from_file(folder.path() / "bad.ocio"); }), HasSubstr("bad.ocio")) << text;
+    }
+}
+
+TEST(OcioConfig, AViewWithoutItsColourSpaceIsRefusedAtOnce) {
+    const test::TemporaryFolder folder;
+    const auto path =
+        test::write_variant(folder.path(), {{"{name: Raw, colorspace: Raw}", "{name: Raw, colorspace: Row}"}});
+    EXPECT_THAT(failure([&] { OcioConfig::from_file(path); }), HasSubstr("Row"));
+}
+
+TEST(OcioConfig, UnknownDisplayListsThoseThereAre) {
+    const std::string message = failure([] { (void)OcioConfig::shipped().views("sRBG - Display"); });
+    EXPECT_THAT(message, HasSubstr("no display \"sRBG - Display\""));
+    EXPECT_THAT(message, HasSubstr("did you mean \"sRGB - Display\"?"));
+}
+
+TEST(OcioConfig, ReadsTheAcesConfigurations) {
+    for (const char* name :
+         {"ocio/aces_configs/cg-config-v1.0.0_aces-v1.3_ocio-v2.1.ocio",
+          "ocio/aces_configs/studio-config-v1.0.0_aces-v1.3_ocio-v2.1.ocio", "ocio/aces_configs/ocio-v2_demo.ocio"}) {
+        ROWLAND_TEST_DATA(path, name);
+        EXPECT_FALSE(OcioConfig::from_file(path).displays().empty()) << name;
+    }
+}
+
+}  // namespace
+
+}  // namespace rowland::post

@@ -1,0 +1,255 @@
+// Files of real exporters and files made to break importers.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <filesystem>
+#include <glm/geometric.hpp>
+
+#include "engine/core/error.h"
+#include "engine/core/file.h"
+#include "engine/scene/gltf_import.h"
+#include "tests/support/test_data.h"
+#include "tests/unit/engine/scene/mesh_sanity.h"
+
+namespace rowland::scene {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> gltf_files(const fs::path& folder) {
+    std::vector<fs::path> files;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+        if (entry.path().extension() == ".gltf" || entry.path().extension() == ".glb") files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+/// What loading says: empty if the file loads and is sane.
+std::string refusal(const fs::path& path) {
+    try {
+        EXPECT_TRUE(test::is_sane(load_gltf(path))) << path;
+        return {};
+    } catch (const Error& error) {
+        EXPECT_EQ(error.info().fault, Fault::Input) << path;
+        EXPECT_THAT(error.what(), testing::StartsWith(path.string())) << "a refusal names the file";
+        EXPECT_THAT(error.what(), testing::Not(testing::HasSubstr("\n"))) << "a refusal is one line";
+        return error.what();
+    }
+}
+
+TEST(GltfFiles, ValidFilesLoadSane) {
+    ROWLAND_TEST_DATA(folder, "gltf/valid");
+    const std::vector<fs::path> files = gltf_files(folder);
+    EXPECT_GE(files.size(), 12U);
+    for (const fs::path& file : files) {
+        EXPECT_EQ(refusal(file), "");
+        EXPECT_FALSE(merge_instances(load_gltf(file)).indices.empty()) << file;
+    }
+}
+
+TEST(GltfFiles, DracoFilesLoadSane) {
+    ROWLAND_TEST_DATA(folder, "gltf/draco");
+    const std::vector<fs::path> files = gltf_files(folder);
+    EXPECT_GE(files.size(), 7U);
+    for (const fs::path& file : files) {
+        EXPECT_EQ(refusal(file), "");
+        EXPECT_FALSE(merge_instances(load_gltf(file)).indices.empty()) << file;
+    }
+}
+
+TEST(GltfFiles, DracoDuckEqualsPlainDuck) {
+    ROWLAND_TEST_DATA(plain_path, "gltf/valid/Duck/glTF_Binary/Duck.glb");
+    const Mesh plain = merge_instances(load_gltf(plain_path));
+    const Bounds expected = bounds(plain);
+    const glm::vec3 size = expected.maximum - expected.minimum;
+    const float extent = std::max({size.x, size.y, size.z});
+    struct Case {
+        const char* file;
+        int position_bits;
+    };
+    // The default and level 0 are quantised to 11 bits, q8 to 8.
+    for (const Case& c :
+         {Case{"Duck_draco_default.glb", 11}, {"Duck_draco_level0.glb", 11}, {"Duck_draco_q8_unified.glb", 8}}) {
+        ROWLAND_TEST_DATA(path, std::string("gltf/draco/derived/") + c.file);
+        const Mesh duck = merge_instances(load_gltf(path));
+        EXPECT_EQ(duck.indices.size(), plain.indices.size()) << c.file;
+        // Half a quantisation step, and a little for floats.
+        const float tolerance = 0.51F * extent / static_cast<float>((1 << c.position_bits) - 1);
+        for (int axis = 0; axis < 3; ++axis) {
+            EXPECT_NEAR(bounds(duck).minimum[axis], expected.minimum[axis], tolerance) << c.file;
+            EXPECT_NEAR(bounds(duck).maximum[axis], expected.maximum[axis], tolerance) << c.file;
+        }
+        EXPECT_NEAR(test::signed_volume(duck) / test::signed_volume(plain), 1.0, 0.01) << c.file;
+    }
+}
+
+TEST(GltfFiles, BinaryAndTextDuckAreTheSame) {
+    ROWLAND_TEST_DATA(binary, "gltf/valid/Duck/glTF_Binary/Duck.glb");
+    ROWLAND_TEST_DATA(text, "gltf/valid/Duck/glTF/Duck.gltf");
+    const Mesh a = merge_instances(load_gltf(binary));
+    const Mesh b = merge_instances(load_gltf(text));
+    EXPECT_EQ(a.positions, b.positions);
+    EXPECT_EQ(a.indices, b.indices);
+    EXPECT_EQ(a.uvs, b.uvs);
+}
+
+TEST(GltfFiles, EveryFileReadIsReported) {
+    ROWLAND_TEST_DATA(path, "gltf/valid/Duck/glTF/Duck.gltf");
+    std::vector<fs::path> files;
+    load_gltf(path, {}, &files);
+    EXPECT_THAT(files, testing::UnorderedElementsAre(path, path.parent_path() / "Duck0.bin"));
+}
+
+TEST(GltfFiles, SparseAccessorReplacesElements) {
+    ROWLAND_TEST_DATA(path, "gltf/valid/SimpleSparseAccessor/SimpleSparseAccessor.gltf");
+    const ImportedScene scene = load_gltf(path);
+    // The base data reaches up to y = 1 only; the sparse values lift three vertices to 2, 3 and 4.
+    EXPECT_EQ(bounds(scene.meshes.at(0)).maximum, glm::vec3(6.0F, 4.0F, 0.0F));
+}
+
+TEST(GltfFiles, TangentsOfTheFileAreKept) {
+    ROWLAND_TEST_DATA(path, "gltf/valid/TwoSidedPlane/TwoSidedPlane.gltf");
+    const ImportedScene scene = load_gltf(path);
+    for (const glm::vec4& tangent : scene.meshes.at(0).tangents) EXPECT_EQ(tangent, glm::vec4(0.0F, 0.0F, -1.0F, 1.0F));
+    EXPECT_THAT(scene.warnings, testing::Contains("textures are ignored"));
+}
+
+TEST(GltfFiles, MaterialFactorsAreRead) {
+    ROWLAND_TEST_DATA(path, "gltf/valid/Box/glTF/Box.gltf");
+    const ImportedScene scene = load_gltf(path);
+    ASSERT_EQ(scene.materials.size(), 1U);
+    EXPECT_EQ(scene.materials[0].name, "Red");
+    EXPECT_EQ(scene.materials[0].base_colour, glm::vec4(0.8F, 0.0F, 0.0F, 1.0F));
+    EXPECT_EQ(scene.materials[0].metallic, 0.0F);
+    EXPECT_EQ(scene.materials[0].roughness, 1.0F);
+    EXPECT_EQ(scene.instances.at(0).material, 0U);
+}
+
+TEST(GltfFiles, NoMalformedFileDoesHarm) {
+    ROWLAND_TEST_DATA(folder, "gltf/malformed");
+    const std::vector<fs::path> files = gltf_files(folder);
+    EXPECT_GE(files.size(), 40U);
+    for (const fs::path& file : files) {
+        const auto start = std::chrono::steady_clock::now();
+        refusal(file);
+        // The largest takes milliseconds; a broken length must not turn that into a hang. Generous for sanitizers.
+        EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2)) << file;
+    }
+}
+
+TEST(GltfFiles, BrokenFilesAreRefused) {
+    ROWLAND_TEST_DATA(folder, "gltf/malformed");
+    for (const char* name : {"assimp_BoxWithInfinites-glTF-Binary/BoxWithInfinites.glb",
+                             "assimp_IndexOutOfRange/AllIndicesOutOfRange.gltf",
+                             "assimp_IndexOutOfRange/IndexOutOfRange.gltf",
+                             "assimp_MissingBin/BoxTextured.gltf",
+                             "assimp_RecursiveNodes/RecursiveNodes.gltf",
+                             "assimp_wrongTypes/badArray.gltf",
+                             "assimp_wrongTypes/badNumber.gltf",
+                             "assimp_wrongTypes/badObject.gltf",
+                             "assimp_wrongTypes/badString.gltf",
+                             "assimp_wrongTypes/badUint.gltf",
+                             "crash/depth_20000.glb",
+                             "crash/draco_acc99.glb",
+                             "crash/draco_bv99.glb",
+                             "crash/draco_idx99.glb",
+                             "crash/draco_noacc.glb",
+                             "crash/draco_nobv.glb",
+                             "crash/draco_swap_uid.glb",
+                             "crash/draco_uid77.glb",
+                             "crash/plain_acc_byteOffset_1000000000.glb",
+                             "crash/plain_acc_count_1099511627776.glb",
+                             "crash/plain_buf_len_small.glb",
+                             "crash/plain_bv_buffer_99.glb",
+                             "crash/plain_img_bvbadoff.glb",
+                             "crash/truncfix_plain_14363.glb",
+                             "draco_derived/bufferview_index_oob.glb",
+                             "draco_derived/glb_length_too_large.glb",
+                             "draco_derived/payload_all_zero.glb",
+                             "draco_derived/payload_truncated_half.glb",
+                             "draco_derived/unknown_required_extension.glb",
+                             "tinygltf_regression/issue-416.gltf"}) {
+        EXPECT_NE(refusal(folder / name), "") << name;
+    }
+}
+
+TEST(GltfFiles, RefusalsSayWhereAndWhat) {
+    ROWLAND_TEST_DATA(folder, "gltf/malformed");
+    using testing::HasSubstr;
+    EXPECT_THAT(refusal(folder / "draco_derived/unknown_required_extension.glb"), HasSubstr("VENDOR_unknown_required"));
+    EXPECT_THAT(refusal(folder / "assimp_MissingBin/BoxTextured.gltf"), HasSubstr("BoxTextured0.bin"));
+    EXPECT_THAT(refusal(folder / "crash/plain_bv_buffer_99.glb"), HasSubstr("/bufferViews/0/buffer"));
+    EXPECT_THAT(refusal(folder / "crash/draco_acc99.glb"), HasSubstr("/meshes/0/primitives/0/attributes/POSITION: 99"));
+    EXPECT_THAT(refusal(folder / "assimp_IndexOutOfRange/IndexOutOfRange.gltf"), HasSubstr("vertex index"));
+}
+
+TEST(GltfFiles, ReserialisedDracoBoxLoads) {
+    ROWLAND_TEST_DATA(path, "gltf/malformed/draco_derived/box_ok_reserialised.glb");
+    const Mesh box = merge_instances(load_gltf(path));
+    EXPECT_EQ(box.positions.size(), 24U);
+    EXPECT_EQ(box.indices.size(), 36U);
+    // A unit cube, quantised to 11 bits or more.
+    EXPECT_NEAR(test::signed_volume(box), 1.0, 3.0 / 2047.0);
+}
+
+TEST(GltfFiles, AccessorCountsThatDifferFromTheDracoStreamAreTolerated) {
+    ROWLAND_TEST_DATA(path, "gltf/malformed/draco_derived/accessor_count_too_small.glb");
+    EXPECT_EQ(merge_instances(load_gltf(path)).positions.size(), 24U);
+}
+
+/// A file with one byte changed, or cut short, loads sane or is refused; whichever it is, quickly.
+void expect_survives_damage(const fs::path& path, std::size_t step) {
+    const std::vector<std::byte> good = read_file(path, 1 << 20);
+    const auto attempt = [](std::vector<std::byte> bytes, std::size_t at) {
+        try {
+            EXPECT_TRUE(test::is_sane(load_glb(bytes, "damaged.glb"))) << "byte " << at;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.info().fault, Fault::Input);
+        }
+    };
+    for (std::size_t at = 0; at < good.size(); at += step) {
+        std::vector<std::byte> bad = good;
+        bad[at] ^= std::byte{0xFF};
+        attempt(bad, at);
+        bad[at] ^= std::byte{0xFF};
+        bad[at] ^= std::byte{0x10};
+        attempt(bad, at);
+        bad = good;
+        bad.resize(at);
+        attempt(bad, at);
+    }
+}
+
+TEST(GltfFiles, DamagedPlainFileDoesNoHarm) {
+    ROWLAND_TEST_DATA(path, "gltf/valid/Box/glTF_Binary/Box.glb");
+    expect_survives_damage(path, 1);
+}
+
+TEST(GltfFiles, DamagedDracoFileDoesNoHarm) {
+    ROWLAND_TEST_DATA(box, "gltf/draco/Box/Box_Draco.glb");
+    expect_survives_damage(box, 1);
+    ROWLAND_TEST_DATA(duck, "gltf/draco/derived/Duck_draco_default.glb");
+    expect_survives_damage(duck, 211);
+}
+
+TEST(GltfFiles, DracoStreamThatKeepsTheDecoderBusyIsGivenUp) {
+    ROWLAND_TEST_DATA(path, "gltf/draco/derived/Duck_draco_default.glb");
+    std::vector<std::byte> bytes = read_file(path, 1 << 20);
+    std::uint32_t json_length = 0;
+    std::memcpy(&json_length, bytes.data() + 12, sizeof json_length);
+    // Makes the decoder read a billion bits of texture orientation, which takes it 4 s on an idle machine.
+    const std::size_t payload = 20 + json_length + 8;
+    bytes.at(payload + 60) = std::byte{139};
+    bytes.at(payload + 248) = std::byte{100};
+    const auto start = std::chrono::steady_clock::now();
+    EXPECT_THROW(load_glb(bytes, "busy.glb"), Error);
+    // The limit is 3 s and 50 µs a face, 3.2 s for the duck.
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(4));
+}
+
+}  // namespace
+}  // namespace rowland::scene

@@ -1,0 +1,337 @@
+#include "engine/scene/gltf_import.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+
+#include "engine/core/error.h"
+#include "engine/core/file.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/engine/scene/mesh_sanity.h"
+
+namespace rowland::scene {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+// Five vertices: a quad of two unit squares' corners along X, as 3 floats each.
+constexpr std::array<float, 15> kPositions = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0};
+
+std::string base64(std::span<const std::byte> bytes) {
+    constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        unsigned bits = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            bits = bits << 8 | (i + k < bytes.size() ? std::to_integer<unsigned>(bytes[i + k]) : 0U);
+        for (std::size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? kDigits[bits >> (18 - 6 * k) & 63U] : '=';
+    }
+    return text;
+}
+
+std::string data_uri(std::span<const std::byte> bytes, const std::string& type = "application/octet-stream") {
+    return "data:" + type + ";base64," + base64(bytes);
+}
+
+/// A file with one primitive of the five vertices, drawn as `mode`.
+json document(int mode) {
+    const auto bytes = std::as_bytes(std::span(kPositions));
+    return {{"asset", {{"version", "2.0"}}},
+            {"scene", 0},
+            {"scenes", {{{"nodes", {0}}}}},
+            {"nodes", {{{"mesh", 0}, {"name", "node"}}}},
+            {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"mode", mode}}}}}}},
+            {"accessors", {{{"bufferView", 0}, {"componentType", 5126}, {"count", 5}, {"type", "VEC3"}}}},
+            {"bufferViews", {{{"buffer", 0}, {"byteLength", bytes.size()}}}},
+            {"buffers", {{{"byteLength", bytes.size()}, {"uri", data_uri(bytes)}}}}};
+}
+
+/// The same with an index accessor of unsigned shorts.
+json indexed(int mode, const std::vector<std::uint16_t>& indices) {
+    json file = document(mode);
+    const auto bytes = std::as_bytes(std::span(indices));
+    file["buffers"].push_back({{"byteLength", bytes.size()}, {"uri", data_uri(bytes)}});
+    file["bufferViews"].push_back({{"buffer", 1}, {"byteLength", bytes.size()}});
+    file["accessors"].push_back(
+        {{"bufferView", 1}, {"componentType", 5123}, {"count", indices.size()}, {"type", "SCALAR"}});
+    file["meshes"][0]["primitives"][0]["indices"] = 1;
+    return file;
+}
+
+ImportedScene load(const json& file, std::span<const std::string> handled = {}) {
+    const std::string text = file.dump();
+    return load_glb(std::as_bytes(std::span(text.data(), text.size())), "f.gltf", handled);
+}
+
+std::string error_of(const json& file) {
+    try {
+        load(file);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+TEST(GltfImport, TriangleListIsRead) {
+    const Mesh mesh = load(indexed(4, {0, 1, 2})).meshes.at(0);
+    EXPECT_THAT(mesh.indices, testing::ElementsAre(0, 1, 2));
+    EXPECT_TRUE(test::is_sane(mesh));
+    EXPECT_EQ(mesh.normals[0], glm::vec3(0.0F, 0.0F, 1.0F));
+}
+
+TEST(GltfImport, StripsKeepTheWindingOfTheirFirstTriangle) {
+    const Mesh mesh = load(document(5)).meshes.at(0);
+    EXPECT_THAT(mesh.indices, testing::ElementsAre(0, 1, 2, 1, 3, 2, 2, 3, 4));
+    for (const glm::vec3& n : mesh.normals) EXPECT_EQ(n, glm::vec3(0.0F, 0.0F, 1.0F));
+}
+
+TEST(GltfImport, FansTurnAroundTheirFirstVertex) {
+    const Mesh mesh = load(indexed(6, {0, 1, 3, 2})).meshes.at(0);
+    EXPECT_THAT(mesh.indices, testing::ElementsAre(1, 3, 0, 3, 2, 0));
+    EXPECT_EQ(mesh.normals[0], glm::vec3(0.0F, 0.0F, 1.0F));
+}
+
+TEST(GltfImport, PointsAndLinesAreLeftOutWithOneWarning) {
+    json file = document(0);
+    file["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}, {"mode", 1}});
+    const ImportedScene scene = load(file);
+    EXPECT_TRUE(scene.meshes.empty());
+    EXPECT_TRUE(scene.instances.empty());
+    EXPECT_THAT(scene.warnings, testing::ElementsAre("points and lines are ignored"));
+}
+
+TEST(GltfImport, NodeTransformsMultiplyDownTheTree) {
+    json file = document(5);
+    file["nodes"] = {{{"children", {1}}, {"translation", {1, 2, 3}}, {"scale", {2, 2, 2}}},
+                     {{"mesh", 0}, {"rotation", {0, 0, 0.70710678, 0.70710678}}}};
+    const ImportedScene scene = load(file);
+    // +X turned to +Y, doubled and moved. Rotation given to 8 digits.
+    const glm::vec4 p = scene.instances.at(0).transform * glm::vec4(1.0F, 0.0F, 0.0F, 1.0F);
+    EXPECT_LT(glm::distance(glm::vec3(p), glm::vec3(1.0F, 4.0F, 3.0F)), 1e-6F);
+}
+
+TEST(GltfImport, MatrixIsColumnMajor) {
+    json file = document(5);
+    file["nodes"][0]["matrix"] = {0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1};
+    const glm::vec4 p = load(file).instances.at(0).transform * glm::vec4(1.0F, 0.0F, 0.0F, 1.0F);
+    EXPECT_EQ(p, glm::vec4(5.0F, 7.0F, 7.0F, 1.0F));
+}
+
+TEST(GltfImport, NormalisedAttributesAreScaled) {
+    json file = document(4);
+    const std::vector<std::uint8_t> uvs = {0, 255, 51, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+    const auto bytes = std::as_bytes(std::span(uvs));
+    file["buffers"].push_back({{"byteLength", bytes.size()}, {"uri", data_uri(bytes)}});
+    file["bufferViews"].push_back({{"buffer", 1}, {"byteLength", bytes.size()}, {"byteStride", 4}});
+    file["accessors"][0]["count"] = 3;
+    file["accessors"].push_back(
+        {{"bufferView", 1}, {"componentType", 5121}, {"normalized", true}, {"count", 3}, {"type", "VEC2"}});
+    file["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = 1;
+    const Mesh mesh = load(file).meshes.at(0);
+    EXPECT_EQ(mesh.uvs[0], glm::vec2(0.0F, 1.0F));
+    EXPECT_EQ(mesh.uvs[1], glm::vec2(0.0F, 0.0F));
+}
+
+TEST(GltfImport, UnusableNormalsAreGeneratedWithAWarning) {
+    json file = document(5);
+    std::vector<float> normals(15, 0.0F);
+    normals[0] = 3.0F;  // usable, not unit
+    normals[5] = std::numeric_limits<float>::quiet_NaN();
+    const auto bytes = std::as_bytes(std::span(normals));
+    file["buffers"].push_back({{"byteLength", bytes.size()}, {"uri", data_uri(bytes)}});
+    file["bufferViews"].push_back({{"buffer", 1}, {"byteLength", bytes.size()}});
+    file["accessors"].push_back({{"bufferView", 1}, {"componentType", 5126}, {"count", 5}, {"type", "VEC3"}});
+    file["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = 1;
+    const ImportedScene scene = load(file);
+    EXPECT_TRUE(test::is_sane(scene));
+    EXPECT_EQ(scene.meshes[0].normals[0], glm::vec3(1.0F, 0.0F, 0.0F));
+    EXPECT_EQ(scene.meshes[0].normals[1], glm::vec3(0.0F, 0.0F, 1.0F));
+    EXPECT_THAT(scene.warnings, testing::ElementsAre(HasSubstr("normals without a direction")));
+}
+
+TEST(GltfImport, MaterialExtensionsArriveAsJson) {
+    json file = document(5);
+    file["extensionsUsed"] = {"VENDOR_material", "VENDOR_other", "VENDOR_other"};
+    file["extensionsRequired"] = {"VENDOR_material"};
+    file["materials"] = {{{"name", "m"}, {"extensions", {{"VENDOR_material", {{"pitch", 1600}, {"list", {1, 2}}}}}}}};
+    const std::vector<std::string> handled = {"VENDOR_material"};
+    const ImportedScene scene = load(file, handled);
+    EXPECT_EQ(scene.materials.at(0).extensions.at("VENDOR_material")["list"][1], 2);
+    EXPECT_THAT(scene.warnings, testing::ElementsAre("the extension VENDOR_other is ignored"));
+    EXPECT_THAT(error_of(file), HasSubstr("\"VENDOR_material\""));
+}
+
+TEST(GltfImport, DataUrisOfAnyMediaTypeAreRead) {
+    json file = document(5);
+    file["buffers"][0]["uri"] = data_uri(std::as_bytes(std::span(kPositions)), "application/x-anything");
+    EXPECT_EQ(load(file).meshes.at(0).positions.size(), 5U);
+    file["buffers"][0]["uri"] = "data:application/octet-stream;base64,AAAA";
+    EXPECT_THAT(error_of(file), HasSubstr("/buffers/0: 3 bytes of data"));
+    file["buffers"][0]["uri"] = "data:,hello";
+    EXPECT_THAT(error_of(file), HasSubstr("/buffers/0"));
+}
+
+TEST(GltfImport, FilesAreReadOnlyFromTheGltfsFolder) {
+    const rowland::test::TemporaryFolder temporary;
+    const std::filesystem::path folder = temporary.path() / "scene";
+    const auto bytes = std::as_bytes(std::span(kPositions));
+    write_file_atomic(temporary.path() / "secret.bin", bytes);
+    write_file_atomic(folder / "parts" / "my mesh.bin", bytes);
+    const auto refusal = [&](const std::string& uri) -> std::string {
+        json file = document(5);
+        file["buffers"][0]["uri"] = uri;
+        write_file_atomic(folder / "f.gltf", file.dump());
+        try {
+            load_gltf(folder / "f.gltf");
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return {};
+    };
+    EXPECT_EQ(refusal("parts/my%20mesh.bin"), "");
+    EXPECT_EQ(refusal("parts/../parts/my mesh.bin"), "");
+    EXPECT_THAT(refusal("../secret.bin"), HasSubstr("outside the glTF's folder"));
+    EXPECT_THAT(refusal("parts/../../secret.bin"), HasSubstr("outside the glTF's folder"));
+    EXPECT_THAT(refusal("%2e%2e/secret.bin"), HasSubstr("outside the glTF's folder"));
+    EXPECT_THAT(refusal((temporary.path() / "secret.bin").string()), HasSubstr("outside the glTF's folder"));
+    EXPECT_THAT(refusal("file:///etc/passwd"), HasSubstr("expected the name of a file"));
+    EXPECT_THAT(refusal(""), HasSubstr("expected the name of a file"));
+    EXPECT_THAT(refusal("parts"), HasSubstr("not a regular file"));
+}
+
+TEST(GltfImport, FileInMemoryMayNameNoFiles) {
+    json file = document(5);
+    file["buffers"][0]["uri"] = "mesh.bin";
+    EXPECT_THAT(error_of(file), HasSubstr("an external file \"mesh.bin\""));
+}
+
+TEST(GltfImport, RangesAreCheckedWithoutOverflow) {
+    const auto with = [](const char* array, const char* key, const json& value) {
+        json file = document(5);
+        file[array][0][key] = value;
+        return error_of(file);
+    };
+    EXPECT_THAT(with("accessors", "count", 6), HasSubstr("/accessors/0: 6 elements"));
+    EXPECT_THAT(with("accessors", "count", 2147483647), HasSubstr("/accessors/0"));
+    EXPECT_THAT(with("accessors", "count", 1ULL << 62), HasSubstr("/accessors/0/count"));
+    EXPECT_THAT(with("accessors", "count", 0), HasSubstr("/accessors/0/count"));
+    EXPECT_THAT(with("accessors", "count", -1), HasSubstr("/accessors/0/count"));
+    EXPECT_THAT(with("accessors", "count", 1.5), HasSubstr("/accessors/0/count"));
+    EXPECT_THAT(with("accessors", "byteOffset", 4), HasSubstr("/accessors/0"));
+    EXPECT_THAT(with("accessors", "byteOffset", 18446744073709551612ULL), HasSubstr("/accessors/0/byteOffset"));
+    EXPECT_THAT(with("accessors", "componentType", 5124), HasSubstr("/accessors/0/componentType"));
+    EXPECT_THAT(with("accessors", "type", "VEC9"), HasSubstr("/accessors/0/type"));
+    EXPECT_THAT(with("accessors", "type", "VEC2"), HasSubstr("vectors of 3 components"));
+    EXPECT_THAT(with("bufferViews", "byteLength", 61), HasSubstr("/bufferViews/0"));
+    EXPECT_THAT(with("bufferViews", "byteOffset", 1), HasSubstr("/bufferViews/0"));
+    EXPECT_THAT(with("bufferViews", "byteStride", 16), HasSubstr("/accessors/0"));
+    EXPECT_THAT(with("bufferViews", "byteStride", 0), HasSubstr("/bufferViews/0/byteStride"));
+    EXPECT_THAT(with("bufferViews", "buffer", 4294967296ULL), HasSubstr("/bufferViews/0/buffer"));
+    EXPECT_THAT(with("buffers", "byteLength", 61), HasSubstr("/buffers/0"));
+    EXPECT_THAT(with("buffers", "byteLength", 0), HasSubstr("/buffers/0/byteLength"));
+    EXPECT_THAT(with("nodes", "mesh", 1), HasSubstr("/nodes/0/mesh"));
+    EXPECT_THAT(with("nodes", "children", json::array({7})), HasSubstr("/nodes/0/children"));
+    EXPECT_THAT(with("nodes", "matrix", json::array({1, 2})), HasSubstr("/nodes/0/matrix"));
+    EXPECT_THAT(with("nodes", "rotation", {0, 0, 0, 0}), HasSubstr("a zero quaternion"));
+    EXPECT_THAT(with("scenes", "nodes", json::array({1})), HasSubstr("/scenes/0/nodes"));
+}
+
+TEST(GltfImport, SparseIndicesAndRangesAreChecked) {
+    const auto with = [](std::uint16_t target, std::size_t count) {
+        json file = document(5);
+        std::vector<std::byte> bytes(14);
+        std::memcpy(bytes.data(), &target, sizeof target);
+        file["buffers"].push_back({{"byteLength", bytes.size()}, {"uri", data_uri(bytes)}});
+        file["bufferViews"].push_back({{"buffer", 1}, {"byteLength", 2}});
+        file["bufferViews"].push_back({{"buffer", 1}, {"byteOffset", 2}, {"byteLength", 12}});
+        file["accessors"][0]["sparse"] = {{"count", count},
+                                          {"indices", {{"bufferView", 1}, {"componentType", 5123}}},
+                                          {"values", {{"bufferView", 2}}}};
+        return error_of(file);
+    };
+    EXPECT_EQ(with(4, 1), "no error");
+    EXPECT_THAT(with(5, 1), HasSubstr("sparse index 5"));
+    EXPECT_THAT(with(4, 2), HasSubstr("/accessors/0: sparse elements beyond"));
+    EXPECT_THAT(with(4, 6), HasSubstr("6 sparse elements"));
+}
+
+TEST(GltfImport, AccessorWithoutDataDoesNotAllocateItsCount) {
+    json file = document(5);
+    file["accessors"][0] = {{"componentType", 5126}, {"count", 2000000000}, {"type", "VEC3"}};
+    EXPECT_THAT(error_of(file), HasSubstr("an accessor without data"));
+    // A sparse one may stand without base data; then the memory budget says no.
+    file["accessors"][0]["sparse"] = {
+        {"count", 1}, {"indices", {{"bufferView", 0}, {"componentType", 5123}}}, {"values", {{"bufferView", 0}}}};
+    EXPECT_THAT(error_of(file), HasSubstr("2000000000 elements of 12 bytes"));
+}
+
+TEST(GltfImport, NamingTheSameDataOftenDoesNotMultiplyMemoryWithoutLimit) {
+    // 3 MB of vertices named by 4000 primitives would be 12 GB.
+    std::vector<float> positions(750'000, 1.0F);
+    json file = document(5);
+    const auto bytes = std::as_bytes(std::span(positions));
+    file["buffers"][0] = {{"byteLength", bytes.size()}, {"uri", data_uri(bytes)}};
+    file["bufferViews"][0]["byteLength"] = bytes.size();
+    file["accessors"][0]["count"] = positions.size() / 3;
+    const json primitive = file["meshes"][0]["primitives"][0];
+    for (int i = 0; i < 4000; ++i) file["meshes"][0]["primitives"].push_back(primitive);
+    EXPECT_THAT(error_of(file), HasSubstr("bytes in the whole scene"));
+}
+
+TEST(GltfImport, CyclesAndSharedChildrenAreRefused) {
+    json file = document(5);
+    file["nodes"] = {{{"children", {1}}}, {{"children", {0}}}};
+    EXPECT_THAT(error_of(file), HasSubstr("two parents"));
+    file["nodes"] = {{{"children", {0}}}};
+    EXPECT_THAT(error_of(file), HasSubstr("two parents"));
+    file["nodes"] = {{{"children", {1, 2}}}, {{"children", {2}}}, {{"mesh", 0}}};
+    EXPECT_THAT(error_of(file), HasSubstr("two parents"));
+}
+
+TEST(GltfImport, LongChainOfNodesLoads) {
+    json file = document(5);
+    file["nodes"] = json::array();
+    constexpr int kLength = 100'000;
+    for (int i = 0; i < kLength; ++i) file["nodes"].push_back({{"children", {i + 1}}});
+    file["nodes"].push_back({{"mesh", 0}});
+    EXPECT_EQ(load(file).instances.size(), 1U);
+}
+
+TEST(GltfImport, IndicesBeyondTheVerticesAreRefused) {
+    EXPECT_THAT(error_of(indexed(4, {0, 1, 5})), HasSubstr("vertex index 5"));
+    EXPECT_THAT(error_of(indexed(4, {0, 1})), HasSubstr("a multiple of 3"));
+}
+
+TEST(GltfImport, OlderVersionsAreRefused) {
+    json file = document(5);
+    file["asset"]["version"] = "1.0";
+    EXPECT_THAT(error_of(file), HasSubstr("glTF version 2"));
+}
+
+TEST(GltfImport, WithoutScenesTheRootNodesAreShown) {
+    json file = document(5);
+    file.erase("scene");
+    file.erase("scenes");
+    file["nodes"] = {{{"mesh", 0}, {"name", "child"}}, {{"children", {0}}, {"translation", {1, 0, 0}}}};
+    const ImportedScene scene = load(file);
+    ASSERT_EQ(scene.instances.size(), 1U);
+    EXPECT_EQ(scene.instances[0].transform[3].x, 1.0F);
+}
+
+TEST(GltfImport, SyntaxErrorsSayWhere) {
+    const std::string text = "{\n  \"asset\": oops\n}";
+    try {
+        load_glb(std::as_bytes(std::span(text.data(), text.size())), "f.gltf");
+        FAIL() << "was not refused";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("f.gltf: line 2"));
+    }
+}
+
+}  // namespace
+}  // namespace rowland::scene

@@ -1,0 +1,84 @@
+// Keeps the walls between the parts: reads every #include of the tree.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <string>
+#include <vector>
+
+namespace rowland {
+namespace {
+
+struct Wall {
+    std::string folder;                  ///< files under it ...
+    std::vector<std::string> forbidden;  ///< ... include nothing whose path begins so
+};
+
+const std::vector<std::string> kGraphics = {
+    "engine/gpu/", "engine/platform/", "engine/render/", "engine/post/", "epoxy/", "GL/", "GLFW/", "EGL/"};
+
+std::vector<std::string> with_graphics(std::vector<std::string> folders) {
+    folders.insert(folders.end(), kGraphics.begin(), kGraphics.end());
+    return folders;
+}
+
+std::vector<Wall> walls() {
+    return {
+        {"engine/", {"modules/", "content/", "editor/", "tests/"}},
+        {"modules/", {"content/", "editor/", "tests/"}},
+        {"editor/", {"content/", "tests/"}},
+        {"content/", {"editor/", "tests/"}},
+        {"tests/", {"content/"}},
+        {"modules/diffraction/model/", with_graphics({"modules/diffraction/bake/", "modules/diffraction/reference/"})},
+        {"modules/diffraction/reference/", with_graphics({"modules/diffraction/bake/"})},
+        {"modules/diffraction/bake/", with_graphics({"modules/diffraction/reference/"})},
+        {"modules/diffraction/asset/", with_graphics({"modules/diffraction/reference/"})},
+        {"modules/diffraction/runtime/", {"modules/diffraction/reference/"}},
+        {"engine/math/", with_graphics({"engine/lighting/", "engine/scene/", "engine/cook/"})},
+        {"engine/lighting/", kGraphics},
+        {"engine/scene/", kGraphics},
+        {"engine/cook/", with_graphics({"engine/lighting/", "engine/scene/"})},
+    };
+}
+
+bool begins_with(const std::string& text, const std::string& prefix) {
+    return text.compare(0, prefix.size(), prefix) == 0;
+}
+
+bool is_source(const std::filesystem::path& path) {
+    const std::string extension = path.extension().string();
+    return extension == ".h" || extension == ".cpp" || extension == ".glsl";
+}
+
+std::vector<std::string> includes_of(const std::filesystem::path& path) {
+    static const std::regex include(R"(^\s*#\s*include\s*["<]([^">]+)[">])");
+    std::vector<std::string> result;
+    std::ifstream file(path);
+    std::smatch match;
+    for (std::string line; std::getline(file, line);)
+        if (std::regex_search(line, match, include)) result.push_back(match[1]);
+    return result;
+}
+
+TEST(IncludeWalls, NoPartIncludesWhatItMustNotKnow) {
+    const std::filesystem::path top = ROWLAND_SOURCE_DIR;
+    std::size_t includes_read = 0;
+    for (const char* part : {"engine", "modules", "editor", "content", "tests"}) {
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(top / part)) {
+            if (!entry.is_regular_file() || !is_source(entry.path())) continue;
+            const std::string file = entry.path().lexically_relative(top).string();
+            for (const std::string& include : includes_of(entry.path())) {
+                ++includes_read;
+                for (const Wall& wall : walls())
+                    for (const std::string& forbidden : wall.forbidden)
+                        EXPECT_FALSE(begins_with(file, wall.folder) && begins_with(include, forbidden))
+                            << file << " includes " << include;
+            }
+        }
+    }
+    EXPECT_GT(includes_read, 500U);  // the scan reads the tree, not an empty folder
+}
+
+}  // namespace
+}  // namespace rowland
