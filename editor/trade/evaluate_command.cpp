@@ -35,23 +35,6 @@ constexpr int kMaximumResolution = 1024;
                  .remedy = "see rowland-trade evaluate --help"});
 }
 
-math::SphericalWindow parse_window(const std::string& name) {
-    for (const auto window : {math::SphericalWindow::Lanczos, math::SphericalWindow::Hann})
-        if (name == math::window_name(window)) return window;
-    return math::SphericalWindow::None;
-}
-
-/// The first `bands` bands, windowed.
-lighting::ShLight limit(lighting::ShLight light, int bands, math::SphericalWindow window) {
-    light.bands = std::min(light.bands, bands);
-    light.coefficients.resize(static_cast<std::size_t>(math::sh_count(light.bands)));
-    for (int l = 0; l < light.bands; ++l)
-        for (int m = -l; m <= l; ++m)
-            light.coefficients[static_cast<std::size_t>(math::sh_index(l, m))] *=
-                math::window_factor(window, l, light.bands);
-    return light;
-}
-
 }  // namespace
 
 CLI::App* EvaluateCommand::declare(CLI::App& program) {
@@ -84,8 +67,8 @@ CLI::App* EvaluateCommand::declare(CLI::App& program) {
         ->add_option("--resolution", resolution,
                      "Spikes from a view table of n theta by 2n phi nodes; exact for every view if not given")
         ->check(CLI::Range(2, kMaximumResolution));
-    command->add_option("--storage", storage, "Components of the view table: unorm16 or half")
-        ->check(CLI::IsMember({"unorm16", "half"}))
+    command->add_option("--storage", storage, "Components of the view table: unorm16 or fp16")
+        ->check(CLI::IsMember({"unorm16", "fp16"}))
         ->capture_default_str();
     command->add_option("--window", window, "Window on the light's bands: none, lanczos or hann")
         ->check(CLI::IsMember({"none", "lanczos", "hann"}))
@@ -111,7 +94,7 @@ void EvaluateCommand::check_usage() const {
 lighting::ShLight EvaluateCommand::bandlimited_light(int bands_wanted) const {
     const lighting::ShLight light =
         probe_sh ? read_sh_light(*probe_sh) : lighting::project(read_probe(*probe, mapping), bands_wanted);
-    return limit(light, bands_wanted, parse_window(window));
+    return lighting::limit_bands(light, std::min(bands_wanted, light.bands), math::parse_window(window));
 }
 
 std::vector<glm::dvec3> EvaluateCommand::by_reference(const colour::LightSpectra& spectra,
@@ -132,7 +115,7 @@ std::vector<glm::dvec3> EvaluateCommand::by_spikes(const colour::LightSpectra& s
         grating, {.spikes = settings,
                   .theta_nodes = *resolution,
                   .phi_nodes = 2 * *resolution,
-                  .storage = storage == "half" ? diffraction::Storage::Half : diffraction::Storage::Unorm16});
+                  .storage = storage == "fp16" ? diffraction::Storage::Half : diffraction::Storage::Unorm16});
     return evaluate_spike_table(table, light, spectra, points);
 }
 

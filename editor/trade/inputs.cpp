@@ -5,9 +5,9 @@
 #include <cmath>
 #include <optional>
 
-#include "editor/trade/number_table.h"
 #include "engine/core/error.h"
 #include "engine/core/log.h"
+#include "engine/core/number_table.h"
 #include "engine/image/load.h"
 #include "engine/math/sh_basis.h"
 

@@ -49,4 +49,12 @@ std::string one_line(const ErrorInfo& info) {
 
 Error::Error(ErrorInfo info) : std::runtime_error(one_line(info)), info_(std::move(info)) {}
 
+void refuse_input(std::string file, std::string place, std::string found, std::string expected, std::string remedy) {
+    throw Error({.file = std::move(file),
+                 .place = std::move(place),
+                 .found = std::move(found),
+                 .expected = std::move(expected),
+                 .remedy = std::move(remedy)});
+}
+
 }  // namespace rowland

@@ -31,4 +31,8 @@ class Error : public std::runtime_error {
     ErrorInfo info_;
 };
 
+/// Throws Error (input).
+[[noreturn]] void refuse_input(std::string file, std::string place, std::string found, std::string expected,
+                               std::string remedy = "");
+
 }  // namespace rowland

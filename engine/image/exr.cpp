@@ -36,15 +36,6 @@ namespace {
 /// Rows decoded at a time: a multiple of every compression's block, so that none is decoded twice.
 constexpr int kRowsAtATime = 256;
 
-[[noreturn]] void fail(const std::string& file, std::string place, std::string found, std::string expected,
-                       std::string remedy = "") {
-    throw Error({.file = file,
-                 .place = std::move(place),
-                 .found = std::move(found),
-                 .expected = std::move(expected),
-                 .remedy = std::move(remedy)});
-}
-
 /// OpenEXR's input, from memory.
 class SpanStream : public Imf::IStream {
  public:
@@ -117,13 +108,13 @@ std::string list_channels(const Imf::ChannelList& channels) {
 
 ChannelNames check_channels(const Imf::ChannelList& channels, const std::string& file) {
     const auto names = pick_channels(channels);
-    if (!names) fail(file, "channels", list_channels(channels), "R, G and B, or Y");
+    if (!names) refuse_input(file, "channels", list_channels(channels), "R, G and B, or Y");
     for (const std::string& name : *names) {
         const Imf::Channel& channel = channels[name];
         if (channel.type != Imf::HALF && channel.type != Imf::FLOAT)
-            fail(file, "channel " + name, "integers", "half or float");
+            refuse_input(file, "channel " + name, "integers", "half or float");
         if (channel.xSampling != 1 || channel.ySampling != 1)
-            fail(file, "channel " + name, "a subsampled channel", "one sample a texel");
+            refuse_input(file, "channel " + name, "a subsampled channel", "one sample a texel");
     }
     return *names;
 }
@@ -150,8 +141,8 @@ Image read_part(Imf::InputPart& part, const std::string& file) {
     const Imf::Header& header = part.header();
     const Imath::Box2i window = header.dataWindow();
     if (window != header.displayWindow())
-        fail(file, "dataWindow", "a data window that is not the display window", "a whole image",
-             "crop or pad the image so that both agree");
+        refuse_input(file, "dataWindow", "a data window that is not the display window", "a whole image",
+                     "crop or pad the image so that both agree");
     const ChannelNames names = check_channels(header.channels(), file);
 
     const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
@@ -175,7 +166,7 @@ void convert_to_rec709(Image& image, const Imf::Header& header, const std::strin
     const auto xy = [](const Imath::V2f& v) { return glm::dvec2(v.x, v.y); };
     const Primaries primaries{xy(c.red), xy(c.green), xy(c.blue), xy(c.white)};
     if (!is_usable(primaries))
-        fail(file, "chromaticities", "chromaticities of no colour space", "primaries that span a triangle");
+        refuse_input(file, "chromaticities", "chromaticities of no colour space", "primaries that span a triangle");
     if (const auto matrix = to_rec709(primaries)) transform_colours(image, *matrix);
 }
 
@@ -239,8 +230,8 @@ Image read_exr(std::span<const std::byte> bytes, const std::string& file) {
     } catch (const std::exception& error) {
         std::string reason = error.what();
         std::replace(reason.begin(), reason.end(), '\n', ' ');
-        fail(file, "", fmt::format("OpenEXR refuses it: {}", reason), "a sound OpenEXR image",
-             "the file is damaged or truncated; get it again");
+        refuse_input(file, "", fmt::format("OpenEXR refuses it: {}", reason), "a sound OpenEXR image",
+                     "the file is damaged or truncated; get it again");
     }
 }
 

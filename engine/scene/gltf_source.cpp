@@ -24,23 +24,15 @@ constexpr std::string_view kMagic = "glTF";
 constexpr std::uint32_t kChunkJson = 0x4E4F534A;  // "JSON"
 constexpr std::uint32_t kChunkBinary = 0x004E4942;
 
-[[noreturn]] void fail(const std::string& file, std::string place, std::string found, std::string expected,
-                       std::string remedy = "") {
-    throw Error({.file = file,
-                 .place = std::move(place),
-                 .found = std::move(found),
-                 .expected = std::move(expected),
-                 .remedy = std::move(remedy)});
-}
-
 nlohmann::json parse_text(std::span<const std::byte> bytes, const std::string& file) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (text.size() > kMaximumJsonBytes)
-        fail(file, "", fmt::format("{} bytes of JSON", text.size()), fmt::format("at most {}", kMaximumJsonBytes),
-             "move embedded buffers into a .bin file, or write a .glb");
+        refuse_input(file, "", fmt::format("{} bytes of JSON", text.size()),
+                     fmt::format("at most {}", kMaximumJsonBytes),
+                     "move embedded buffers into a .bin file, or write a .glb");
     if (std::count(text.begin(), text.end(), ',') > kMaximumJsonCommas)
-        fail(file, "", "too many JSON values", fmt::format("at most {}", kMaximumJsonCommas),
-             "move embedded buffers into a .bin file, or write a .glb");
+        refuse_input(file, "", "too many JSON values", fmt::format("at most {}", kMaximumJsonCommas),
+                     "move embedded buffers into a .bin file, or write a .glb");
     return parse_json(text, file);
 }
 
@@ -106,14 +98,16 @@ std::string percent_decode(const std::string& uri) {
 std::filesystem::path resolve(const GltfSource& source, const std::string& uri, const std::string& place) {
     const std::string remedy = "put the buffer beside the glTF file";
     const std::string expected = "the name of a file in the glTF's folder, or base64 data";
-    if (!source.folder) fail(source.file, place, fmt::format("an external file \"{:.60}\"", uri), "embedded data");
+    if (!source.folder)
+        refuse_input(source.file, place, fmt::format("an external file \"{:.60}\"", uri), "embedded data");
     const std::string name = percent_decode(uri);
     if (name.empty() || name.find('\0') != std::string::npos || name.find(':') != std::string::npos ||
         name.find('\\') != std::string::npos)
-        fail(source.file, place, fmt::format("URI \"{:.60}\"", uri), expected, remedy);
+        refuse_input(source.file, place, fmt::format("URI \"{:.60}\"", uri), expected, remedy);
     const std::filesystem::path path = std::filesystem::path(name).lexically_normal();
     if (path.is_absolute() || *path.begin() == "..")
-        fail(source.file, place, fmt::format("URI \"{:.60}\", outside the glTF's folder", uri), expected, remedy);
+        refuse_input(source.file, place, fmt::format("URI \"{:.60}\", outside the glTF's folder", uri), expected,
+                     remedy);
     return *source.folder / path;
 }
 
@@ -123,7 +117,7 @@ GltfBuffer load_data_uri(const GltfSource& source, const std::string& uri, const
     budget.spend(uri.size() / 4 + 1, 3, place);
     GltfBuffer buffer;
     buffer.owned = decode_data_uri(uri);
-    if (buffer.owned.empty()) fail(source.file, place, "a data URI without base64 data", "data:…;base64,…");
+    if (buffer.owned.empty()) refuse_input(source.file, place, "a data URI without base64 data", "data:…;base64,…");
     buffer.bytes = buffer.owned;
     return buffer;
 }
@@ -183,8 +177,8 @@ std::vector<GltfBuffer> load_buffers(const GltfSource& source, MemoryBudget& bud
             buffer.bytes = source.binary();
         }
         if (buffer.bytes.size() < length)
-            fail(source.file, place, fmt::format("{} bytes of data", buffer.bytes.size()),
-                 fmt::format("the {} bytes of byteLength", length), "the file was cut, or byteLength is wrong");
+            refuse_input(source.file, place, fmt::format("{} bytes of data", buffer.bytes.size()),
+                         fmt::format("the {} bytes of byteLength", length), "the file was cut, or byteLength is wrong");
         buffer.bytes = buffer.bytes.first(static_cast<std::size_t>(length));
         buffers.push_back(std::move(buffer));
     }

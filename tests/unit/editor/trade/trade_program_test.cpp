@@ -130,7 +130,7 @@ TEST_F(TradeProgram, ViewTableApproachesExactSpikes) {
     const std::string common =
         "evaluate --material cd.json --probe-sh light.csv --frames frames.csv --bands 2 --method spikes";
     const test::Csv exact = table(run(common));
-    for (const char* storage : {"unorm16", "half"}) {
+    for (const char* storage : {"unorm16", "fp16"}) {
         const test::Csv sampled = table(run(common + " --resolution 48 --storage " + storage));
         for (std::size_t row = 0; row < 3; ++row)
             EXPECT_NEAR(sampled.number(row, "Y"), exact.number(row, "Y"), 0.005 * exact.number(0, "Y")) << storage;

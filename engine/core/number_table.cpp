@@ -1,4 +1,4 @@
-#include "editor/trade/number_table.h"
+#include "engine/core/number_table.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "engine/core/error.h"
 #include "engine/core/file.h"
 
-namespace rowland::trade {
+namespace rowland {
 
 namespace {
 
@@ -40,11 +40,7 @@ std::optional<double> parse_number(std::string_view text) {
 }
 
 [[noreturn]] void fail(const std::string& file, std::size_t row, std::string found, std::string expected) {
-    throw Error({.file = file,
-                 .place = fmt::format("row {}", row),
-                 .found = std::move(found),
-                 .expected = std::move(expected),
-                 .remedy = {}});
+    refuse_input(file, fmt::format("row {}", row), std::move(found), std::move(expected));
 }
 
 std::string quoted(std::string_view text) {
@@ -69,11 +65,9 @@ std::vector<double> parse_row(std::string_view line, const NumberTable& table, s
 
 }  // namespace
 
-NumberTable read_number_table(const std::filesystem::path& path, const std::string& header) {
-    const std::string contents = read_text_file(path, kMaximumFileBytes);
-    std::string_view text = contents;
+NumberTable parse_number_table(std::string_view text, const std::string& file, const std::string& header) {
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-    NumberTable table{.file = path.string(), .rows = {}, .file_rows = {}};
+    NumberTable table{.file = file, .rows = {}, .file_rows = {}};
     const auto columns = split(header);
     bool header_seen = false;
     for (std::size_t row = 1; !text.empty(); ++row) {
@@ -93,4 +87,8 @@ NumberTable read_number_table(const std::filesystem::path& path, const std::stri
     return table;
 }
 
-}  // namespace rowland::trade
+NumberTable read_number_table(const std::filesystem::path& path, const std::string& header) {
+    return parse_number_table(read_text_file(path, kMaximumFileBytes), path.string(), header);
+}
+
+}  // namespace rowland
