@@ -165,7 +165,8 @@ CubeLayout environment_layout(const ProbeImage& probe, const PrefilterSettings& 
     ROWLAND_CHECK_OP(settings.face_size, <=, kLargestFace);
     const image::Image& image = probe.image();
     const int fine = probe.mapping() == Mapping::Angular ? image.height / 4 : image.height / 2;
-    const auto filled = static_cast<int>(std::bit_floor(static_cast<unsigned>(std::max(fine, kSmallestFace))));
+    // A probe a little short of a power of two, as Debevec's 1000 texels, is not worth half the resolution.
+    const auto filled = static_cast<int>(std::bit_floor(static_cast<unsigned>(std::max(fine * 5 / 4, kSmallestFace))));
     CubeLayout layout;
     layout.face_size = std::min(settings.face_size, filled);
     for (int size = layout.face_size; size >= kLastLevelFace; size /= 2) ++layout.levels;

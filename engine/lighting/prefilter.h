@@ -9,8 +9,8 @@ struct PrefilterSettings {
     int face_size = 256;  ///< power of two in [16, 1024]; lowered to what the probe can fill
 };
 
-/// The cube map a probe is prefiltered into: faces of at most half an equirectangular image's height (a quarter of an
-/// angular map's), a power of two, at least 16; levels down to faces of 4 texels.
+/// The cube map a probe is prefiltered into: faces of about half an equirectangular image's height (a quarter of an
+/// angular map's) and at most 5/4 of that, a power of two, at least 16; levels down to faces of 4 texels.
 CubeLayout environment_layout(const ProbeImage& probe, const PrefilterSettings& settings);
 
 /// Level 0: the probe's mean over each texel. Level k: radiance under the GGX lobe of that level's roughness, with view

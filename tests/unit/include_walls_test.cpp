@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <regex>
 #include <string>
 #include <vector>
 
@@ -51,13 +50,23 @@ bool is_source(const std::filesystem::path& path) {
     return extension == ".h" || extension == ".cpp" || extension == ".glsl";
 }
 
+/// The path of an #include line, or nothing.
+std::string included(const std::string& line) {
+    const std::size_t hash = line.find_first_not_of(" \t");
+    if (hash == std::string::npos || line[hash] != '#') return "";
+    const std::size_t word = line.find_first_not_of(" \t", hash + 1);
+    if (word == std::string::npos || line.compare(word, 7, "include") != 0) return "";
+    const std::size_t open = line.find_first_of("\"<", word);
+    const std::size_t close = line.find_first_of("\">", open + 1);
+    if (open == std::string::npos || close == std::string::npos) return "";
+    return line.substr(open + 1, close - open - 1);
+}
+
 std::vector<std::string> includes_of(const std::filesystem::path& path) {
-    static const std::regex include(R"(^\s*#\s*include\s*["<]([^">]+)[">])");
     std::vector<std::string> result;
     std::ifstream file(path);
-    std::smatch match;
     for (std::string line; std::getline(file, line);)
-        if (std::regex_search(line, match, include)) result.push_back(match[1]);
+        if (const std::string name = included(line); !name.empty()) result.push_back(name);
     return result;
 }
 

@@ -5,6 +5,7 @@
 
 #include "engine/asset/container.h"
 #include "engine/core/byte_stream.h"
+#include "engine/core/error.h"
 #include "engine/core/json_reader.h"
 #include "modules/diffraction/asset/layer_weights.h"
 #include "modules/diffraction/asset/material_json.h"
@@ -14,6 +15,10 @@ namespace rowland::diffraction {
 CookedMaterial cook_material(const nlohmann::json& json, const std::string& file) {
     CookedMaterial cooked;
     cooked.material = parse_material(json, file);
+    if (cooked.material.grating.grooves < kManyGrooves)
+        refuse_input(file, "/grating/grooves", fmt::format("{}", cooked.material.grating.grooves),
+                     fmt::format("at least {} for a baked material", kManyGrooves),
+                     "only rowland-trade's method \"reference\" takes fewer");
     cooked.table = bake_spike_table(cooked.material.grating, table_settings(cooked.material));
     return cooked;
 }

@@ -53,6 +53,18 @@ TEST(CookedMaterial, TrailingBytesAreRefused) {
     EXPECT_THROW(read_cooked_material(bytes, "m.material"), Error);
 }
 
+TEST(CookedMaterial, FewGroovesAreRefusedByFileAndPlace) {
+    nlohmann::json json = small_material();
+    json["grating"]["grooves"] = 7;
+    try {
+        cook_material(json, "few.json");
+        FAIL() << "accepted";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.info().file, "few.json");
+        EXPECT_EQ(error.info().place, "/grating/grooves");
+    }
+}
+
 TEST(CookedMaterial, DescriptionShowsWhatWasBaked) {
     nlohmann::json json = small_material();
     EXPECT_NE(describe(cook_material(json, "m")).find("spikes: 2\n"), std::string::npos);
