@@ -1,0 +1,43 @@
+// The shipped sources through the cooker itself.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include "engine/core/file.h"
+#include "tests/support/temporary_folder.h"
+
+namespace rowland {
+namespace {
+
+std::vector<std::byte> cook(const std::string& source, const std::filesystem::path& output, int threads) {
+    const std::string command = std::string(ROWLAND_COOK) + " cook " + ROWLAND_SOURCE_DIR + "/content/" + source +
+                                " -o " + output.string() + " --threads " + std::to_string(threads);
+    EXPECT_EQ(std::system(command.c_str()), 0) << command;
+    return read_file(output, std::uint64_t{1} << 30);
+}
+
+void expect_same_bytes(const std::string& source) {
+    const test::TemporaryFolder folder;
+    const std::vector<std::byte> first = cook(source, folder.path() / "first", 1);
+    EXPECT_GT(first.size(), 1000U);
+    EXPECT_TRUE(first == cook(source, folder.path() / "again", 1)) << source << " cooked twice";
+    EXPECT_TRUE(first == cook(source, folder.path() / "threads", 2)) << source << " with two threads";
+}
+
+TEST(CookedContent, MaterialHasTheSameBytesEveryTime) {
+    expect_same_bytes("materials/cd_paper.json");
+}
+TEST(CookedContent, StudioProbeHasTheSameBytesEveryTime) {
+    expect_same_bytes("probes/studio.json");
+}
+TEST(CookedContent, ClearSkyProbeHasTheSameBytesEveryTime) {
+    expect_same_bytes("probes/clear_sky.json");
+}
+TEST(CookedContent, MeshHasTheSameBytesEveryTime) {
+    expect_same_bytes("meshes/cd.json");
+}
+
+}  // namespace
+}  // namespace rowland
