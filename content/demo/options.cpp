@@ -42,6 +42,7 @@ void add_options(CLI::App& app, Options& options) {
     app.add_option("--capture", options.capture, "Write the picture as PNG");
     app.add_option("--capture-linear", options.capture_linear, "Write the scene-linear picture as OpenEXR");
     app.add_option("--output-folder", options.output_folder, "Where pictures without --capture go")
+        ->take_last()
         ->capture_default_str();
     app.add_option("--cooked-folder", options.cooked_folder, "Cooked assets (default: ../cooked beside the program)");
 }

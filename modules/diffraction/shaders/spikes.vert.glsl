@@ -39,7 +39,7 @@ vec3 wavelength_to_xyz(float normalised, vec3 rgb) {
            rgb.b * texture(wavelength_table, vec2(s, 2.5 / 3.0)).xyz;
 }
 
-vec3 spike_xyz(int spike, vec2 coordinates) {
+vec3 spike_xyz(int spike, vec2 coordinates, vec3 light[COEFFICIENTS]) {
     vec3 rgb = vec3(0.0);
     float normalised_wavelength = 0.0;
     for (int j = 0; j < LAYERS; ++j) {
@@ -49,7 +49,7 @@ vec3 spike_xyz(int spike, vec2 coordinates) {
         vec4 entries = stored * table_range[2 * layer] + table_range[2 * layer + 1];
         for (int e = 0; e < 4; ++e) {
             int i = 4 * j + e;
-            if (i < COEFFICIENTS) rgb += entries[e] * light_coefficient(i);  // step 6
+            if (i < COEFFICIENTS) rgb += entries[e] * light[i];  // step 6
             if (i == COEFFICIENTS) normalised_wavelength = entries[e];
         }
     }
@@ -60,8 +60,10 @@ void material_vertex(vec3 position, vec3 g, vec3 h, vec3 n) {
     vec3 v = normalize(eye.xyz - position);
     vec3 view = vec3(dot(v, g), dot(v, h), dot(v, n));  // step 3
     vec2 coordinates = view_coordinates(view);
+    vec3 light[COEFFICIENTS];
+    for (int i = 0; i < COEFFICIENTS; ++i) light[i] = light_coefficient(i);
     vec3 xyz = vec3(0.0);
-    for (int k = 0; k < SPIKES; ++k) xyz += spike_xyz(k, coordinates);
+    for (int k = 0; k < SPIKES; ++k) xyz += spike_xyz(k, coordinates, light);
     diffracted = mat3(xyz_to_working) * xyz;
 }
 
