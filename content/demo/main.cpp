@@ -21,6 +21,7 @@ namespace rowland::demo {
 namespace {
 
 constexpr double kSecondsPerFrame = 1.0 / 30.0;
+constexpr int kSamples = 4;  ///< a pixel, against jagged edges
 
 /// A probe, and where its pictures go.
 struct Job {
@@ -58,7 +59,8 @@ class Demo {
           renderer_(xyz_to_working_),
           scene_(sources()),
           display_(make_display(config)),
-          linear_({.width = options.width, .height = options.height, .depth = true}),
+          multisampled_({.width = options.width, .height = options.height, .depth = true, .samples = kSamples}),
+          linear_({.width = options.width, .height = options.height}),
           encoded_({.width = options.width, .height = options.height, .colours = {gpu::Format::RGBA8}}) {
         if (options.light_window == "auto")
             diffraction::register_module(renderer_);
@@ -70,7 +72,8 @@ class Demo {
         renderer_.set_probe(load_probe(job.probe, options_.probe_mapping));
         for (int frame = 0; frame < options_.frames; ++frame) {
             scene_.advance_to(frame * kSecondsPerFrame);
-            renderer_.render(scene_.world(), scene_.camera(), linear_);
+            renderer_.render(scene_.world(), scene_.camera(), multisampled_);
+            multisampled_.resolve_to(linear_);
             display_.draw(linear_.colour(), options_.exposure_stops, encoded_);
             if (job.capture_linear) {
                 const auto path = numbered(*job.capture_linear, frame, options_.frames);
@@ -107,6 +110,7 @@ class Demo {
     render::Renderer renderer_;
     DemoScene scene_;
     post::DisplayPass display_;
+    gpu::Framebuffer multisampled_;
     gpu::Framebuffer linear_;
     gpu::Framebuffer encoded_;
 };

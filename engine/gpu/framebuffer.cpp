@@ -34,19 +34,35 @@ void Framebuffer::Release::operator()(GLuint name) const {
     glDeleteFramebuffers(1, &name);
 }
 
-Framebuffer::Framebuffer(const FramebufferDesc& desc) : handle_(create_framebuffer()), size_(desc.width, desc.height) {
+void Framebuffer::ReleaseRenderbuffer::operator()(GLuint name) const {
+    glDeleteRenderbuffers(1, &name);
+}
+
+Framebuffer::Framebuffer(const FramebufferDesc& desc)
+    : handle_(create_framebuffer()), size_(desc.width, desc.height), colour_count_(desc.colours.size()) {
+    ROWLAND_CHECK_OP(desc.samples, >=, 1);
     std::vector<GLenum> draw_buffers;
     for (const Format format : desc.colours) {
-        colours_.emplace_back(TextureDesc{.format = format, .width = desc.width, .height = desc.height});
         draw_buffers.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(draw_buffers.size()));
-        glNamedFramebufferTexture(id(), draw_buffers.back(), colours_.back().id(), 0);
+        attach(draw_buffers.back(), format, desc, colours_);
     }
-    if (desc.depth) {
-        depth_.emplace(TextureDesc{.format = Format::Depth32F, .width = desc.width, .height = desc.height});
-        glNamedFramebufferTexture(id(), GL_DEPTH_ATTACHMENT, depth_->id(), 0);
-    }
+    if (desc.depth) attach(GL_DEPTH_ATTACHMENT, Format::Depth32F, desc, depth_);
     glNamedFramebufferDrawBuffers(id(), static_cast<GLsizei>(draw_buffers.size()), draw_buffers.data());
     require_complete();
+}
+
+void Framebuffer::attach(GLenum attachment, Format format, const FramebufferDesc& desc,
+                         std::vector<Texture>& textures) {
+    if (desc.samples == 1) {
+        textures.emplace_back(TextureDesc{.format = format, .width = desc.width, .height = desc.height});
+        glNamedFramebufferTexture(id(), attachment, textures.back().id(), 0);
+        return;
+    }
+    GLuint name = 0;
+    glCreateRenderbuffers(1, &name);
+    multisampled_.emplace_back(name);
+    glNamedRenderbufferStorageMultisample(name, desc.samples, internal_format(format), desc.width, desc.height);
+    glNamedFramebufferRenderbuffer(id(), attachment, GL_RENDERBUFFER, name);
 }
 
 Framebuffer Framebuffer::onto(const Texture& texture, int level, int layer) {
@@ -74,6 +90,23 @@ void Framebuffer::require_complete() const {
                  .fault = Fault::System});
 }
 
+void Framebuffer::resolve_to(const Framebuffer& target) const {
+    ROWLAND_CHECK(size_ == target.size_, "a resolve between framebuffers of different size");
+    ROWLAND_CHECK_OP(colour_count_, ==, target.colour_count_);
+    for (std::size_t i = 0; i < colour_count_; ++i) {
+        const GLenum attachment = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(i);
+        glNamedFramebufferReadBuffer(id(), attachment);
+        glNamedFramebufferDrawBuffer(target.id(), attachment);
+        glBlitNamedFramebuffer(id(), target.id(), 0, 0, size_.x, size_.y, 0, 0, size_.x, size_.y, GL_COLOR_BUFFER_BIT,
+                               GL_NEAREST);
+    }
+    // Draws into the target go to all its colours again.
+    std::vector<GLenum> draw_buffers;
+    for (std::size_t i = 0; i < colour_count_; ++i)
+        draw_buffers.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(i));
+    glNamedFramebufferDrawBuffers(target.id(), static_cast<GLsizei>(draw_buffers.size()), draw_buffers.data());
+}
+
 void Framebuffer::bind() const {
     glBindFramebuffer(GL_FRAMEBUFFER, id());
     glViewport(0, 0, size_.x, size_.y);
@@ -95,8 +128,8 @@ const Texture& Framebuffer::colour(unsigned attachment) const {
 }
 
 const Texture& Framebuffer::depth() const {
-    ROWLAND_CHECK(depth_.has_value(), "the framebuffer has no depth texture");
-    return *depth_;
+    ROWLAND_CHECK(!depth_.empty(), "the framebuffer has no depth texture");
+    return depth_[0];
 }
 
 void Framebuffer::read(unsigned attachment, GLenum type, void* pixels) const {

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
-#include <optional>
 #include <vector>
 
 #include "engine/gpu/texture.h"
@@ -15,6 +14,7 @@ struct FramebufferDesc {
     int height = 1;
     std::vector<Format> colours{Format::RGBA16F};  ///< one texture each, `layout(location = i) out` in GLSL
     bool depth = false;                            ///< adds a Depth32F texture
+    int samples = 1;                               ///< above 1: drawn into only, and read through resolve_to()
 };
 
 /// Textures to draw into.
@@ -26,12 +26,16 @@ class Framebuffer {
     /// Draws into one level and layer (slice, face) of a texture, which must outlive it.
     static Framebuffer onto(const Texture& texture, int level = 0, int layer = 0);
 
+    /// Averages the samples of every pixel into the colours of `target`, of the same size and formats. Depth is not
+    /// copied.
+    void resolve_to(const Framebuffer& target) const;
+
     /// Draws go here from now on, over the whole area.
     void bind() const;
     void clear(const glm::vec4& colour, unsigned attachment = 0) const;
     void clear_depth(float depth = 1.0F) const;
 
-    /// The textures it made itself.
+    /// The textures it made itself; there are none with several samples.
     const Texture& colour(unsigned attachment = 0) const;
     const Texture& depth() const;
 
@@ -47,13 +51,19 @@ class Framebuffer {
     struct Release {
         void operator()(GLuint name) const;
     };
+    struct ReleaseRenderbuffer {
+        void operator()(GLuint name) const;
+    };
+    void attach(GLenum attachment, Format format, const FramebufferDesc& desc, std::vector<Texture>& textures);
     void require_complete() const;
     void read(unsigned attachment, GLenum type, void* pixels) const;
 
     Handle<Release> handle_;
     glm::ivec2 size_{0};
     std::vector<Texture> colours_;
-    std::optional<Texture> depth_;
+    std::vector<Texture> depth_;  ///< one or none
+    std::vector<Handle<ReleaseRenderbuffer>> multisampled_;
+    std::size_t colour_count_ = 1;
 };
 
 /// Draws go to the window's own framebuffer from now on.

@@ -1,5 +1,7 @@
 #include "engine/gpu/framebuffer.h"
 
+#include <cmath>
+
 #include "engine/gpu/pipeline_state.h"
 #include "tests/gpu/gl_test.h"
 
@@ -118,6 +120,33 @@ TEST_F(FramebufferTest, BlendAndDepthFollowThePipelineState) {
     EXPECT_EQ(draw({.depth_test = gpu::DepthTest::Equal, .blend = gpu::Blend::Over}, 2.0F), 8.0F);
     EXPECT_EQ(draw({.depth_test = gpu::DepthTest::LessEqual, .blend = gpu::Blend::Premultiplied}, 1.0F), 7.0F);
     EXPECT_EQ(draw({.depth_test = gpu::DepthTest::Off, .cull = gpu::Cull::Front}, 3.0F), 7.0F);
+}
+
+TEST_F(FramebufferTest, ResolvingAveragesAnEdgesSamples) {
+    // Half of the picture's triangle edge: a diagonal from corner to corner, so pixels on it are partly covered.
+    constexpr const char* diagonal_vertex = R"(#version 450 core
+void main() {
+    vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
+    gl_Position = vec4(corner * 0.97 - vec2(1.0, 0.9), 0.0, 1.0);
+})";
+    const gpu::Program program = build(diagonal_vertex, constant_fragment);
+    const gpu::Framebuffer samples(
+        {.width = 16, .height = 16, .colours = {Format::RGBA32F}, .depth = true, .samples = 4});
+    const gpu::Framebuffer target({.width = 16, .height = 16, .colours = {Format::RGBA32F}});
+    program.set("value", glm::vec4(8.0F));
+    samples.bind();
+    samples.clear(glm::vec4(0.0F));
+    samples.clear_depth();
+    gpu::apply({.cull = gpu::Cull::None});
+    program.use();
+    gpu::VertexArray().draw(3);
+    samples.resolve_to(target);
+    int partly = 0;
+    for (const glm::vec4& pixel : target.read_rgba_float()) {
+        EXPECT_EQ(pixel.r * 0.5F, std::round(pixel.r * 0.5F));  // a mean of four samples of 0 or 8
+        partly += pixel.r > 0.0F && pixel.r < 8.0F ? 1 : 0;
+    }
+    EXPECT_GT(partly, 5);
 }
 
 }  // namespace
