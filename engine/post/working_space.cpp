@@ -1,6 +1,7 @@
 #include "engine/post/working_space.h"
 
 #include <glm/glm.hpp>
+#include <glm/gtc/matrix_access.hpp>
 #include <optional>
 #include <string>
 
@@ -81,11 +82,16 @@ glm::dmat3 xyz_to_scene_linear(const OcioConfig& config) {
     try {
         const OCIO::ConstProcessorRcPtr processor =
             config.ocio()->getProcessor(acescg_to_scene_linear_transform(config));
-        if (const auto matrix = as_matrix(processor->getDefaultCPUProcessor())) return *matrix * colour::xyz_to_acescg();
+        if (const auto matrix = as_matrix(processor->getDefaultCPUProcessor()))
+            return *matrix * colour::xyz_to_acescg();
     } catch (const OCIO::Exception& exception) {
         fail(config, exception.what());
     }
     fail(config, "a colour space that is not linear");
+}
+
+glm::vec3 luminance_weights(const OcioConfig& config) {
+    return {glm::row(glm::inverse(xyz_to_scene_linear(config)), 1)};
 }
 
 }  // namespace rowland::post

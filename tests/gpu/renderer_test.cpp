@@ -6,6 +6,8 @@
 #include <cmath>
 #include <memory>
 
+#include "engine/core/error.h"
+#include "engine/core/file.h"
 #include "engine/core/json_reader.h"
 #include "engine/gpu/debug.h"
 #include "engine/image/image.h"
@@ -18,6 +20,7 @@
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/module.h"
 #include "modules/diffraction/runtime/spike_surface.h"
+#include "tests/support/temporary_folder.h"
 
 namespace rowland::render {
 namespace {
@@ -100,6 +103,37 @@ TEST(Renderer, AGratingNeverReturnsMoreThanTheFurnaceSends) {
     EXPECT_LT(largest, 1.0F + 0.04F + kFurnaceTolerance);  // 0.04: the base's Fresnel layer lies over its diffuse part
     // Slit: 1/4 mirror + 1/4 in the orders + 1/2 base, of which some orders are evanescent.
     EXPECT_GT(centre(pixels).y, 0.6F);
+}
+
+TEST(Renderer, ReloadedShadersAreUsedAndABrokenOneKeepsTheOld) {
+    const platform::HeadlessContext context;
+    gpu::enable_debug_output(true);
+    Renderer renderer(glm::dmat3(1.0));
+    renderer.set_probe(uniform_probe(glm::vec3(1.0F)));
+    ecs::World world;
+    const gpu::Framebuffer target({.width = 4, .height = 4, .colours = {gpu::Format::RGBA32F}, .depth = true});
+    const auto draw = [&] {
+        renderer.render(world, {}, target);
+        return target.read_rgba_float()[0];
+    };
+    EXPECT_NEAR(draw().y, 1.0F, kFurnaceTolerance);
+
+    const test::TemporaryFolder tree;
+    const std::filesystem::path sky = tree.path() / "engine/render/shaders/sky.frag.glsl";
+    const std::string head = "#version 450 core\nin vec3 direction;\nlayout(location = 0) out vec4 radiance;\n";
+    write_file_atomic(sky, head + "void main() { radiance = vec4(7.0, 8.0, 9.0, 1.0); }\n");
+    renderer.reload_shaders(tree.path());
+    EXPECT_EQ(draw(), glm::vec4(7.0F, 8.0F, 9.0F, 1.0F));
+
+    write_file_atomic(sky, head + "void main() { radiance = nonsense; }\n");
+    try {
+        renderer.reload_shaders(tree.path());
+        FAIL() << "a broken shader compiled";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("sky.frag.glsl"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("nonsense"), std::string::npos) << error.what();
+    }
+    EXPECT_EQ(draw(), glm::vec4(7.0F, 8.0F, 9.0F, 1.0F));
 }
 
 TEST(BrdfTable, WhiteMirrorKeepsAllLight) {

@@ -63,6 +63,18 @@ TEST(WorkingSpace, WhiteStaysNeutral) {
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(white[c], 1.0, 1e-6);  // the white is the same one on both sides
 }
 
+TEST(WorkingSpace, LuminanceOfTheRec709PrimariesIsAsTheStandardSays) {
+    const OcioConfig config = OcioConfig::shipped();
+    const glm::dvec3 weights(luminance_weights(config));
+    const glm::dvec3 luminances = weights * rec709_to_scene_linear(config);
+    // ITU-R BT.709, 3.2: to four digits.
+    EXPECT_NEAR(luminances.r, 0.2126, tolerance);
+    EXPECT_NEAR(luminances.g, 0.7152, tolerance);
+    EXPECT_NEAR(luminances.b, 0.0722, tolerance);
+    // In ACEScg itself they are others.
+    EXPECT_GT(weights.r, 0.25);
+}
+
 TEST(WorkingSpace, FollowsTheSceneLinearRole) {
     const test::TemporaryFolder folder;
     const auto path =

@@ -1,0 +1,71 @@
+#include "engine/post/bloom_pass.h"
+
+#include "engine/core/check.h"
+
+namespace rowland::post {
+
+namespace {
+
+gpu::Program program(const gpu::ShaderLibrary& library, const char* fragment, bool is_picture) {
+    return {library,
+            {.vertex = gpu::full_screen_vertex_shader,
+             .fragment = fragment,
+             .defines = {{"FINE_IS_PICTURE", is_picture ? "1" : "0"}}}};
+}
+
+constexpr const char* down_shader = "engine/post/shaders/bloom_down.frag.glsl";
+constexpr const char* up_shader = "engine/post/shaders/bloom_up.frag.glsl";
+
+}  // namespace
+
+BloomPass::BloomPass(const gpu::ShaderLibrary& library)
+    : picture_to_coarser_(program(library, down_shader, true)),
+      level_to_coarser_(program(library, down_shader, false)),
+      mix_into_level_(program(library, up_shader, false)),
+      mix_into_picture_(program(library, up_shader, true)) {}
+
+void BloomPass::make_levels(glm::ivec2 size, int levels) {
+    const std::vector<glm::ivec2> sizes = bloom_level_sizes(size, levels);
+    if (down_.size() == sizes.size() && down_.front().size() == sizes.front()) return;
+    down_.clear();
+    up_.clear();
+    for (const glm::ivec2 level_size : sizes) {
+        const gpu::FramebufferDesc desc{
+            .width = level_size.x, .height = level_size.y, .colours = {gpu::Format::RGBA16F}};
+        down_.emplace_back(desc);
+        if (down_.size() < sizes.size()) up_.emplace_back(desc);
+    }
+}
+
+void BloomPass::draw_coarser(const gpu::Program& program, const gpu::Texture& fine, const gpu::Framebuffer& target) {
+    fine.bind(0);
+    program.set("coarse_size", target.size());
+    triangle_.draw(program, target);
+    ++passes_;
+}
+
+void BloomPass::mix_in(const gpu::Program& program, const gpu::Texture& fine, const gpu::Texture& coarse, float share,
+                       const gpu::Framebuffer& target) {
+    fine.bind(0);
+    coarse.bind(1);
+    program.set("share", share);
+    triangle_.draw(program, target);
+    ++passes_;
+}
+
+void BloomPass::draw(const gpu::Texture& source, const BloomSettings& settings, const gpu::Framebuffer& target) {
+    require_valid(settings);
+    ROWLAND_CHECK(source.size() == target.size(), "the target of bloom must have the source's size");
+    passes_ = 0;
+    make_levels(source.size(), settings.levels);
+    draw_coarser(picture_to_coarser_, source, down_.front());
+    for (std::size_t i = 1; i < down_.size(); ++i) draw_coarser(level_to_coarser_, down_[i - 1].colour(), down_[i]);
+    const gpu::Texture* blurred = &down_.back().colour();
+    for (std::size_t i = up_.size(); i-- > 0;) {
+        mix_in(mix_into_level_, down_[i].colour(), *blurred, bloom_coarser_share(i, down_.size()), up_[i]);
+        blurred = &up_[i].colour();
+    }
+    mix_in(mix_into_picture_, source, *blurred, settings.strength, target);
+}
+
+}  // namespace rowland::post

@@ -1,0 +1,86 @@
+#include "engine/post/post_stack.h"
+
+#include "engine/core/check.h"
+
+namespace rowland::post {
+
+namespace {
+
+template <typename Pass>
+Pass& made(std::optional<Pass>& pass, const gpu::ShaderLibrary& library) {
+    if (!pass) pass.emplace(library);
+    return *pass;
+}
+
+const gpu::Framebuffer& sized(std::optional<gpu::Framebuffer>& framebuffer, glm::ivec2 size, gpu::Format format) {
+    if (!framebuffer || framebuffer->size() != size || framebuffer->colour().desc().format != format) {
+        framebuffer.emplace(gpu::FramebufferDesc{.width = size.x, .height = size.y, .colours = {format}});
+    }
+    return *framebuffer;
+}
+
+}  // namespace
+
+const gpu::Texture& PostStack::with_bloom(const gpu::Texture& picture, const PostSettings& settings) {
+    if (!settings.bloom) return picture;
+    require_valid(*settings.bloom);
+    if (settings.bloom->strength == 0.0F) return picture;
+    const gpu::Framebuffer& bloomed = sized(bloomed_, picture.size(), picture.desc().format);
+    BloomPass& pass = made(bloom_, *library_);
+    pass.draw(picture, *settings.bloom, bloomed);
+    passes_ += pass.passes();
+    return bloomed.colour();
+}
+
+float PostStack::automatic_stops(const gpu::Texture& picture, const PostSettings& settings, const PostFrame& frame) {
+    if (!settings.auto_exposure) {
+        automatic_stops_.reset();
+        return 0.0F;
+    }
+    const AutoExposureSettings& automatic = *settings.auto_exposure;
+    require_valid(automatic);
+    ROWLAND_CHECK(frame.luminance_weights != glm::vec3(0.0F), "automatic exposure needs the frame's luminance_weights");
+    AutoExposurePass& pass = made(auto_exposure_, *library_);
+    const std::optional<double> mean = pass.measure(picture, frame.luminance_weights, automatic.darkest);
+    passes_ += pass.passes();
+    if (mean) {
+        const float target = target_stops(*mean, automatic);
+        automatic_stops_ = adapted_stops(automatic_stops_.value_or(target), target, frame.seconds, automatic);
+    }
+    return automatic_stops_.value_or(0.0F);
+}
+
+const gpu::Texture& PostStack::with_vignette(const gpu::Texture& picture, const PostSettings& settings) {
+    if (!settings.vignette) return picture;
+    require_valid(*settings.vignette);
+    if (!has_effect(*settings.vignette)) return picture;
+    const gpu::Framebuffer& vignetted = sized(vignetted_, picture.size(), picture.desc().format);
+    made(vignette_, *library_).draw(picture, *settings.vignette, vignetted);
+    ++passes_;
+    return vignetted.colour();
+}
+
+void PostStack::draw_display(const gpu::Texture& picture, const DisplayPass& display, const PostSettings& settings,
+                             const PostFrame& frame, const gpu::Framebuffer& target) {
+    ++passes_;
+    if (!settings.dither) {
+        display.draw(picture, exposure_stops_, target);
+        return;
+    }
+    // Sixteen bits, as half floats near 1 are no finer than an eighth of an 8-bit step.
+    const gpu::Framebuffer& displayed = sized(displayed_, target.size(), gpu::Format::RGBA16);
+    display.draw(picture, exposure_stops_, displayed);
+    made(dither_, *library_).draw(displayed.colour(), frame.index, *settings.dither, target);
+    ++passes_;
+}
+
+void PostStack::draw(const gpu::Texture& hdr, const DisplayPass& display, const PostSettings& settings,
+                     const PostFrame& frame, const gpu::Framebuffer& target) {
+    passes_ = 0;
+    const gpu::Texture& bloomed = with_bloom(hdr, settings);
+    exposure_stops_ = settings.exposure_stops + automatic_stops(bloomed, settings, frame);
+    // Exposure is a factor and so is the vignette: the display pass exposes at no extra cost, to the same effect.
+    draw_display(with_vignette(bloomed, settings), display, settings, frame, target);
+}
+
+}  // namespace rowland::post

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+
+#include "engine/gpu/framebuffer.h"
+#include "engine/gpu/shader_library.h"
+#include "engine/gpu/texture.h"
+#include "engine/post/auto_exposure.h"
+#include "engine/post/auto_exposure_pass.h"
+#include "engine/post/bloom.h"
+#include "engine/post/bloom_pass.h"
+#include "engine/post/display_pass.h"
+#include "engine/post/dither.h"
+#include "engine/post/dither_pass.h"
+#include "engine/post/vignette.h"
+#include "engine/post/vignette_pass.h"
+
+namespace rowland::post {
+
+/// Which effects there are; as it stands, none but the display transform.
+struct PostSettings {
+    std::optional<BloomSettings> bloom = {};
+    std::optional<AutoExposureSettings> auto_exposure = {};
+    float exposure_stops = 0.0F;  ///< the exposure; with auto_exposure, what is added to the automatic one
+    std::optional<VignetteSettings> vignette = {};
+    std::optional<DitherSettings> dither = {};  ///< values are then held within 0 to 1; off for comparisons
+};
+
+/// What changes from frame to frame.
+struct PostFrame {
+    std::uint32_t index = 0;            ///< of the frame, for dither
+    float seconds = 0.0F;               ///< since the last frame, for automatic exposure
+    glm::vec3 luminance_weights{0.0F};  ///< post::luminance_weights, for automatic exposure
+};
+
+/// From a scene-linear picture to a display: bloom, exposure, vignette, display transform, dither, in this order. An
+/// effect that is off, or set so that it changes nothing, runs no pass and compiles no program.
+class PostStack {
+ public:
+    /// `library` must hold post::shader_files() and outlive the stack.
+    explicit PostStack(const gpu::ShaderLibrary& library) : library_(&library) {}
+
+    /// Draws the scene-linear `hdr` (RGBA16F or RGBA32F, finite or not) as `display` shows it; alpha is kept. The
+    /// target must not be larger than `hdr`. It is a logic error if settings are out of range, or if automatic exposure
+    /// is on and the frame has no luminance weights. Automatic exposure waits for the GPU; the rest does not.
+    void draw(const gpu::Texture& hdr, const DisplayPass& display, const PostSettings& settings, const PostFrame& frame,
+              const gpu::Framebuffer& target);
+
+    /// How many passes the last draw took: 1 with all effects off, that of the display.
+    int passes() const { return passes_; }
+    /// The stops the last draw exposed by, manual and automatic together.
+    float exposure_stops() const { return exposure_stops_; }
+    /// Makes the next frame start at its own automatic exposure, as the first does: for cuts.
+    void forget_exposure() { automatic_stops_.reset(); }
+
+ private:
+    const gpu::Texture& with_bloom(const gpu::Texture& picture, const PostSettings& settings);
+    const gpu::Texture& with_vignette(const gpu::Texture& picture, const PostSettings& settings);
+    float automatic_stops(const gpu::Texture& picture, const PostSettings& settings, const PostFrame& frame);
+    void draw_display(const gpu::Texture& picture, const DisplayPass& display, const PostSettings& settings,
+                      const PostFrame& frame, const gpu::Framebuffer& target);
+
+    const gpu::ShaderLibrary* library_;
+    std::optional<BloomPass> bloom_;
+    std::optional<AutoExposurePass> auto_exposure_;
+    std::optional<VignettePass> vignette_;
+    std::optional<DitherPass> dither_;
+    std::optional<gpu::Framebuffer> bloomed_;
+    std::optional<gpu::Framebuffer> vignetted_;
+    std::optional<gpu::Framebuffer> displayed_;
+    std::optional<float> automatic_stops_;
+    float exposure_stops_ = 0.0F;
+    int passes_ = 0;
+};
+
+}  // namespace rowland::post

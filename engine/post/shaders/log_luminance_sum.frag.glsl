@@ -1,0 +1,31 @@
+#version 450 core
+
+layout(location = 0) out vec2 sum_and_count;
+
+layout(binding = 0) uniform sampler2D source;
+#if SOURCE_IS_PICTURE
+uniform vec3 weights;
+uniform float darkest;
+#endif
+
+const int block = 8;  // as in auto_exposure_pass.cpp
+
+vec2 logarithm_and_count(ivec2 position) {
+#if SOURCE_IS_PICTURE
+    float luminance = dot(weights, texelFetch(source, position, 0).rgb);
+    // By bits, because compilers may take isnan and isinf for false.
+    bool is_finite = (floatBitsToUint(luminance) & 0x7fffffffu) < 0x7f800000u;
+    return is_finite ? vec2(log2(max(luminance, darkest)), 1.0) : vec2(0.0);
+#else
+    return texelFetch(source, position, 0).rg;
+#endif
+}
+
+void main() {
+    ivec2 first = block * ivec2(gl_FragCoord.xy);
+    ivec2 end = min(first + block, textureSize(source, 0));
+    sum_and_count = vec2(0.0);
+    for (int y = first.y; y < end.y; ++y) {
+        for (int x = first.x; x < end.x; ++x) sum_and_count += logarithm_and_count(ivec2(x, y));
+    }
+}
