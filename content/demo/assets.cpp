@@ -26,6 +26,22 @@ lighting::LightProbe render_probe_recipe(const std::filesystem::path& path) {
 
 }  // namespace
 
+SceneSources load_sources(const Options& options, const glm::dmat3& xyz_to_working) {
+    SceneSources sources;
+    sources.grating_is_disc = !options.mesh;
+    sources.grating = load_mesh(options.mesh.value_or(options.cooked_folder / "cd.glb"));
+    sources.sphere = load_mesh(options.cooked_folder / "sphere.glb");
+    sources.ground = load_mesh(options.cooked_folder / "ground.glb");
+    const auto cooked = load_material(options.material.value_or(options.cooked_folder / "cd.material"));
+    sources.material = std::make_shared<const diffraction::GpuSpikeMaterial>(cooked, xyz_to_working);
+    return sources;
+}
+
+std::vector<std::filesystem::path> probe_paths(const Options& options) {
+    if (options.probe) return {*options.probe};
+    return {options.cooked_folder / "studio.probe", options.cooked_folder / "clear_sky.probe"};
+}
+
 std::filesystem::path default_cooked_folder() {
     return std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() / "cooked";
 }

@@ -38,7 +38,7 @@ void fit_to_box(scene::Mesh& mesh, float size_m) {
 DemoScene::DemoScene(SceneSources sources) : disc_(sources.grating_is_disc) {
     camera_.eye = {0.0F, 0.14F, 0.38F};
     camera_.target = {0.0F, 0.047F, 0.0F};
-    camera_.vertical_field_of_view = 0.36F;
+    camera_.vertical_field_of_view = kFieldOfView;
     add_grating(sources);
     add_spheres(std::move(sources.sphere));
     add_ground(std::move(sources.ground));

@@ -9,6 +9,9 @@
 
 namespace rowland::demo {
 
+/// The camera's vertical field of view, radians.
+inline constexpr float kFieldOfView = 0.36F;
+
 /// What stands in the scene.
 struct SceneSources {
     scene::Mesh grating;  ///< the iridescent object: the CD, or the user's own mesh

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "content/demo/window_loop.h"
 #include "engine/core/error.h"
 
 namespace rowland::demo {
@@ -12,13 +13,12 @@ namespace {
 constexpr const char* kFooter =
     "example:\n"
     "  rowland-demo --headless --probe capture.hdr --probe-mapping angular --capture picture.png\n\n"
-    "Without --capture and --capture-linear, a picture for each of the shipped probes (or the one of --probe) is "
-    "written\n"
-    "to the output folder. With --frames above 1 the grating turns from frame to frame, and the frame's number is put\n"
-    "into the names of the files.";
+    "With a display, and neither --headless nor a capture, the demo opens in a window. Else a picture for each of the\n"
+    "shipped probes (or the one of --probe) is written to the output folder, or what the captures name. With --frames\n"
+    "above 1 the grating turns from frame to frame, and the frame's number is put into the names of the files.\n\n";
 
 void add_options(CLI::App& app, Options& options) {
-    app.add_flag("--headless", options.headless, "Render without a window (so far the only way)");
+    app.add_flag("--headless", options.headless, "Render without a window, as where there is no display");
     app.add_option("--probe", options.probe, "Light probe: .hdr, .exr, a probe recipe (.json) or a cooked .probe");
     app.add_option("--probe-mapping", options.probe_mapping, "How an image covers the sphere: equirect or angular")
         ->capture_default_str();
@@ -38,6 +38,12 @@ void add_options(CLI::App& app, Options& options) {
     app.add_option("--exposure", options.exposure_stops, "Exposure in stops")
         ->check(CLI::Range(-32.0F, 32.0F))
         ->capture_default_str();
+    app.add_option("--bloom", options.bloom, "Share of the light that the lens scatters, 0 to 1")
+        ->check(CLI::Range(0.0F, 1.0F));
+    app.add_option("--vignette", options.vignette, "Share of the light lost in the corners, 0 to 1")
+        ->check(CLI::Range(0.0F, 1.0F));
+    app.add_flag("--auto-exposure", options.auto_exposure, "Expose for the picture's mean; --exposure is added");
+    app.add_flag("--dither", options.dither, "Hide the steps of 8-bit gradients");
     app.add_flag("--list-views", options.list_views, "List the views of the display and stop");
     app.add_option("--capture", options.capture, "Write the picture as PNG");
     app.add_option("--capture-linear", options.capture_linear, "Write the scene-linear picture as OpenEXR");
@@ -45,14 +51,17 @@ void add_options(CLI::App& app, Options& options) {
         ->take_last()
         ->capture_default_str();
     app.add_option("--cooked-folder", options.cooked_folder, "Cooked assets (default: ../cooked beside the program)");
+    app.add_option("--shader-folder", options.shader_folder, "Source tree that F5 reloads shaders from")
+        ->capture_default_str();
 }
 
 }  // namespace
 
 std::optional<Options> parse_options(int argc, const char* const* argv) {
     CLI::App app{"Rowland's demo: a grating under a light probe, shaded by Lindsay & Agu's method.", "rowland-demo"};
-    app.footer(kFooter);
+    app.footer(std::string(kFooter) + kWindowHelp);
     Options options;
+    options.shader_folder = ROWLAND_SOURCE_DIR;
     add_options(app, options);
     try {
         app.parse(argc, argv);

@@ -13,18 +13,23 @@ struct Options {
     std::optional<std::filesystem::path> mesh;
     std::optional<std::filesystem::path> material;
     std::optional<std::filesystem::path> ocio_config;
-    bool headless = true;
+    bool headless = false;
     int width = 1280;
     int height = 720;
     int frames = 1;
     std::string light_window = "auto";
     std::string view;
     float exposure_stops = 0.0F;
+    float bloom = 0.0F;     ///< share of the light that is scattered
+    float vignette = 0.0F;  ///< share of the light lost in the corners, beside the lens' own
+    bool auto_exposure = false;
+    bool dither = false;
     bool list_views = false;
     std::optional<std::filesystem::path> capture;
     std::optional<std::filesystem::path> capture_linear;
     std::filesystem::path output_folder = "demo";
     std::filesystem::path cooked_folder;
+    std::filesystem::path shader_folder;
 };
 
 /// Parses the command line. Throws Error (input) for bad usage; nothing if it only asked for help, which is printed

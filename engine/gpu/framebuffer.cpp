@@ -107,6 +107,11 @@ void Framebuffer::resolve_to(const Framebuffer& target) const {
     glNamedFramebufferDrawBuffers(target.id(), static_cast<GLsizei>(draw_buffers.size()), draw_buffers.data());
 }
 
+void Framebuffer::show_in_window() const {
+    glNamedFramebufferReadBuffer(id(), GL_COLOR_ATTACHMENT0);
+    glBlitNamedFramebuffer(id(), 0, 0, 0, size_.x, size_.y, 0, 0, size_.x, size_.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
 void Framebuffer::bind() const {
     glBindFramebuffer(GL_FRAMEBUFFER, id());
     glViewport(0, 0, size_.x, size_.y);

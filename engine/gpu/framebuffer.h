@@ -30,6 +30,9 @@ class Framebuffer {
     /// copied.
     void resolve_to(const Framebuffer& target) const;
 
+    /// Copies the first colour into the window's own framebuffer, pixel by pixel from the lower left.
+    void show_in_window() const;
+
     /// Draws go here from now on, over the whole area.
     void bind() const;
     void clear(const glm::vec4& colour, unsigned attachment = 0) const;

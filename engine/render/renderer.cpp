@@ -39,6 +39,13 @@ gpu::ProgramDesc plain_program(Shading shading) {
     return desc;
 }
 
+gpu::ProgramDesc sky_program() {
+    gpu::ProgramDesc desc;
+    desc.vertex = "engine/render/shaders/sky.vert.glsl";
+    desc.fragment = "engine/render/shaders/sky.frag.glsl";
+    return desc;
+}
+
 std::string key_of(const gpu::ProgramDesc& desc) {
     std::string key = desc.vertex + '\n' + desc.fragment;
     for (const auto& [name, value] : desc.defines) key += '\n' + name + '=' + value;
@@ -61,10 +68,6 @@ Renderer::Renderer(const glm::dmat3& xyz_to_working)
       object_buffer_(sizeof(ObjectBlock)),
       brdf_table_(make_brdf_texture()) {
     library_.add_embedded(shader_files());
-    gpu::ProgramDesc sky;
-    sky.vertex = "engine/render/shaders/sky.vert.glsl";
-    sky.fragment = "engine/render/shaders/sky.frag.glsl";
-    sky_program_ = gpu::Program(library_, sky);
     // Filtering across cube faces is off by default in OpenGL and shows as seams.
     glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
 }
@@ -77,6 +80,16 @@ void Renderer::add_material_type(std::unique_ptr<MaterialType> type) {
 void Renderer::set_probe(const lighting::LightProbe& probe) {
     environment_.emplace(probe, rec709_to_working_);
     probe_sh_ = probe.sh;
+}
+
+void Renderer::reload_shaders(const std::filesystem::path& source_tree) {
+    gpu::ShaderLibrary library = library_;
+    library.set_source_folder(source_tree);
+    std::map<std::string, CompiledProgram> programs;
+    for (const auto& [key, compiled] : programs_)
+        programs.emplace(key, CompiledProgram{compiled.desc, gpu::Program(library, compiled.desc)});
+    library_ = std::move(library);
+    programs_ = std::move(programs);
 }
 
 void Renderer::render(ecs::World& world, const scene::Camera& camera, const gpu::Framebuffer& target, Shading shading) {
@@ -149,7 +162,7 @@ void Renderer::draw_entities(ecs::World& world, Shading shading) {
 
 void Renderer::draw_sky() {
     gpu::apply({.depth_test = gpu::DepthTest::LessEqual, .depth_write = false, .cull = gpu::Cull::None});
-    sky_program_.use();
+    program_for(sky_program()).use();
     no_vertices_.draw(3);
 }
 
@@ -162,8 +175,8 @@ const MaterialType* Renderer::type_of(ecs::World& world, ecs::Entity entity) con
 const gpu::Program& Renderer::program_for(const gpu::ProgramDesc& desc) {
     const std::string key = key_of(desc);
     const auto found = programs_.find(key);
-    if (found != programs_.end()) return found->second;
-    return programs_.emplace(key, gpu::Program(library_, desc)).first->second;
+    if (found != programs_.end()) return found->second.program;
+    return programs_.emplace(key, CompiledProgram{desc, gpu::Program(library_, desc)}).first->second.program;
 }
 
 }  // namespace rowland::render

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <glm/mat3x3.hpp>
 #include <map>
 #include <memory>
@@ -37,6 +38,9 @@ class Renderer {
     void add_material_type(std::unique_ptr<MaterialType> type);
     /// From now on the scene stands in this light.
     void set_probe(const lighting::LightProbe& probe);
+    /// Compiles all programs in use anew, from `source_tree` where it has their files. If one does not compile, all
+    /// stay as they were and its Error (system) with file and line is thrown.
+    void reload_shaders(const std::filesystem::path& source_tree);
     /// Draws a frame. A probe must have been set.
     void render(ecs::World& world, const scene::Camera& camera, const gpu::Framebuffer& target,
                 Shading shading = Shading::Full);
@@ -49,12 +53,16 @@ class Renderer {
     const MaterialType* type_of(ecs::World& world, ecs::Entity entity) const;
     const gpu::Program& program_for(const gpu::ProgramDesc& desc);
 
+    struct CompiledProgram {
+        gpu::ProgramDesc desc;
+        gpu::Program program;
+    };
+
     glm::dmat3 xyz_to_working_;
     glm::dmat3 rec709_to_working_;
     gpu::ShaderLibrary library_;
     std::vector<std::unique_ptr<MaterialType>> types_;
-    std::map<std::string, gpu::Program> programs_;
-    gpu::Program sky_program_;
+    std::map<std::string, CompiledProgram> programs_;
     gpu::VertexArray no_vertices_;
     gpu::Buffer frame_buffer_;
     gpu::Buffer object_buffer_;

@@ -1,0 +1,76 @@
+#include "content/demo/picture.h"
+
+#include "engine/post/shader_files.h"
+#include "engine/post/working_space.h"
+#include "modules/diffraction/module.h"
+
+namespace rowland::demo {
+
+namespace {
+
+constexpr int kSamples = 4;  ///< a pixel, against jagged edges
+
+gpu::ShaderLibrary make_post_shaders() {
+    gpu::ShaderLibrary library;
+    library.add_embedded(post::shader_files());
+    return library;
+}
+
+post::DisplayTransform make_transform(const post::OcioConfig& config, const std::string& view) {
+    return post::DisplayTransform(config, {.display = {}, .view = view});
+}
+
+post::PostSettings make_post_settings(const Options& options, float vertical_field_of_view) {
+    post::PostSettings settings;
+    settings.exposure_stops = options.exposure_stops;
+    if (options.bloom > 0.0F) settings.bloom = post::BloomSettings{.strength = options.bloom};
+    if (options.auto_exposure) settings.auto_exposure = post::AutoExposureSettings{};
+    if (options.vignette > 0.0F)
+        settings.vignette =
+            post::VignetteSettings{.vertical_fov = vertical_field_of_view, .strength = options.vignette};
+    if (options.dither) settings.dither = post::DitherSettings{};
+    return settings;
+}
+
+}  // namespace
+
+Picture::Picture(const Options& options, const post::OcioConfig& config, glm::ivec2 size)
+    : xyz_to_working_(post::xyz_to_scene_linear(config)),
+      luminance_weights_(post::luminance_weights(config)),
+      renderer_(xyz_to_working_),
+      post_shaders_(make_post_shaders()),
+      display_(post_shaders_, make_transform(config, options.view)),
+      post_stack_(post_shaders_),
+      post_settings_(make_post_settings(options, kFieldOfView)) {
+    if (options.light_window == "auto")
+        diffraction::register_module(renderer_);
+    else
+        diffraction::register_module(renderer_, math::parse_window(options.light_window));
+    resize(size);
+}
+
+void Picture::set_probe(const lighting::LightProbe& probe) {
+    renderer_.set_probe(probe);
+    post_stack_.forget_exposure();
+}
+
+void Picture::set_view(const post::OcioConfig& config, const std::string& view) {
+    display_.set_transform(post_shaders_, make_transform(config, view));
+}
+
+void Picture::resize(glm::ivec2 size) {
+    if (targets_ && targets_->linear.size() == size) return;
+    targets_.emplace(Targets{gpu::Framebuffer({.width = size.x, .height = size.y, .depth = true, .samples = kSamples}),
+                             gpu::Framebuffer({.width = size.x, .height = size.y}),
+                             gpu::Framebuffer({.width = size.x, .height = size.y, .colours = {gpu::Format::RGBA8}})});
+}
+
+void Picture::draw(DemoScene& scene, const scene::Camera& camera, float seconds) {
+    renderer_.render(scene.world(), camera, targets_->multisampled);
+    targets_->multisampled.resolve_to(targets_->linear);
+    post_stack_.draw(targets_->linear.colour(), display_, post_settings_,
+                     {.index = frame_++, .seconds = seconds, .luminance_weights = luminance_weights_},
+                     targets_->encoded);
+}
+
+}  // namespace rowland::demo

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <filesystem>
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <string>
+
+#include "content/demo/demo_scene.h"
+#include "content/demo/options.h"
+#include "engine/gpu/framebuffer.h"
+#include "engine/gpu/shader_library.h"
+#include "engine/lighting/light_probe.h"
+#include "engine/post/display_pass.h"
+#include "engine/post/ocio_config.h"
+#include "engine/post/post_stack.h"
+#include "engine/render/renderer.h"
+#include "engine/scene/camera.h"
+
+namespace rowland::demo {
+
+/// From the scene to display values: the renderer, four samples a pixel, the post stack. The same with and without a
+/// window.
+class Picture {
+ public:
+    Picture(const Options& options, const post::OcioConfig& config, glm::ivec2 size);
+
+    const glm::dmat3& xyz_to_working() const { return xyz_to_working_; }
+    void set_probe(const lighting::LightProbe& probe);
+    /// Throws Error (input) if the display has no such view.
+    void set_view(const post::OcioConfig& config, const std::string& view);
+    void resize(glm::ivec2 size);
+    /// Compiles the renderer's shaders anew from a source tree; throws Error and keeps the old if one is broken.
+    void reload_shaders(const std::filesystem::path& source_tree) { renderer_.reload_shaders(source_tree); }
+
+    /// Draws a frame, `seconds` after the last.
+    void draw(DemoScene& scene, const scene::Camera& camera, float seconds);
+
+    post::PostSettings& post_settings() { return post_settings_; }
+    const gpu::Framebuffer& linear() const { return targets_->linear; }
+    const gpu::Framebuffer& encoded() const { return targets_->encoded; }
+
+ private:
+    struct Targets {
+        gpu::Framebuffer multisampled;
+        gpu::Framebuffer linear;
+        gpu::Framebuffer encoded;
+    };
+
+    glm::dmat3 xyz_to_working_;
+    glm::vec3 luminance_weights_;
+    render::Renderer renderer_;
+    gpu::ShaderLibrary post_shaders_;
+    post::DisplayPass display_;
+    post::PostStack post_stack_;
+    post::PostSettings post_settings_;
+    std::optional<Targets> targets_;
+    std::uint32_t frame_ = 0;
+};
+
+}  // namespace rowland::demo

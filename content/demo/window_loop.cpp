@@ -1,0 +1,215 @@
+#include "content/demo/window_loop.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "content/demo/assets.h"
+#include "content/demo/capture.h"
+#include "content/demo/demo_scene.h"
+#include "content/demo/picture.h"
+#include "engine/core/error.h"
+#include "engine/core/log.h"
+#include "engine/gpu/debug.h"
+#include "engine/platform/frame_pacing.h"
+#include "engine/platform/input.h"
+#include "engine/platform/window.h"
+#include "engine/scene/fly_camera.h"
+#include "engine/scene/orbit_camera.h"
+
+namespace rowland::demo {
+
+const char* const kWindowHelp =
+    "In the window: drag to orbit, wheel to zoom; C flies (WASD QE, mouse, Shift and Ctrl for speed; C or Esc ends "
+    "it);\n"
+    "Space pauses, P next probe, V next view, - and = exposure, 1 bloom, 2 vignette, 3 automatic exposure, 4 dither;\n"
+    "F5 reloads shaders, F11 full screen, F12 screenshot, Esc ends. Drop a probe onto the window to light the scene by "
+    "it.";
+
+namespace {
+
+using platform::Key;
+
+constexpr float kExposureStep = 0.25F;
+
+class WindowLoop {
+ public:
+    WindowLoop(const Options& options, const post::OcioConfig& config)
+        : options_(options),
+          config_(config),
+          window_({.title = "Rowland", .size = {options.width, options.height}}),
+          picture_(options, config, window_.framebuffer_size()),
+          scene_(load_sources(options, picture_.xyz_to_working())),
+          orbit_(scene_.camera()),
+          fly_(scene_.camera()),
+          probes_(probe_paths(options)),
+          views_(config.views(config.default_display())) {
+        gpu::enable_debug_output(false);
+        picture_.set_probe(load_probe(probes_[0], options.probe_mapping));
+        view_ = options.view.empty() ? config.default_view(config.default_display()) : options.view;
+        window_.set_drop_handler([this](const std::vector<std::filesystem::path>& files) { drop(files); });
+    }
+
+    void run() {
+        while (!window_.should_close()) {
+            const std::chrono::nanoseconds elapsed = clock_.tick();
+            times_.add(elapsed);
+            const double seconds = std::chrono::duration<double>(elapsed).count();
+            window_.poll(input_);
+            handle_keys();
+            move_camera(seconds);
+            if (!paused_) scene_.advance_to(time_s_ += seconds);
+            const glm::ivec2 size = window_.framebuffer_size();
+            if (size.x < 1 || size.y < 1) continue;  // minimised
+            picture_.resize(size);
+            picture_.draw(scene_, flying_ ? fly_.camera() : orbit_.camera(), static_cast<float>(seconds));
+            if (screenshot_wanted_) take_screenshot();
+            picture_.encoded().show_in_window();
+            window_.swap();
+            show_title(seconds);
+        }
+    }
+
+ private:
+    bool pressed(Key key) const { return input_.key(key).pressed; }
+
+    /// Runs something that bad input may refuse; the demo goes on as it was.
+    template <typename F>
+    void attempt(F&& action) {
+        try {
+            action();
+        } catch (const Error& error) {
+            log_error("{}", error.what());
+        }
+    }
+
+    void handle_keys() {
+        if (pressed(Key::Escape) && !flying_) window_.request_close();
+        if (pressed(Key::C) || (pressed(Key::Escape) && flying_)) toggle_flying();
+        if (pressed(Key::Space)) paused_ = !paused_;
+        if (pressed(Key::P)) attempt([&] { next_probe(); });
+        if (pressed(Key::V)) attempt([&] { next_view(); });
+        if (pressed(Key::F5)) attempt([&] { reload_shaders(); });
+        if (pressed(Key::F11)) window_.set_fullscreen(!window_.fullscreen());
+        if (pressed(Key::F12)) screenshot_wanted_ = true;
+        post::PostSettings& post = picture_.post_settings();
+        if (pressed(Key::Minus)) post.exposure_stops -= kExposureStep;
+        if (pressed(Key::Equal)) post.exposure_stops += kExposureStep;
+        const auto toggle = [this](Key key, auto& effect, const auto& settings) {
+            if (!pressed(key)) return;
+            if (effect)
+                effect.reset();
+            else
+                effect = settings;
+        };
+        toggle(Key::Digit1, post.bloom, post::BloomSettings{});
+        toggle(Key::Digit2, post.vignette, post::VignetteSettings{.vertical_fov = kFieldOfView, .strength = 0.5F});
+        toggle(Key::Digit3, post.auto_exposure, post::AutoExposureSettings{});
+        toggle(Key::Digit4, post.dither, post::DitherSettings{});
+    }
+
+    void toggle_flying() {
+        flying_ = !flying_;
+        if (flying_) fly_ = scene::FlyCamera(orbit_.camera(), {.speed_m_per_s = 0.2F});
+        window_.set_cursor_captured(flying_);
+    }
+
+    void move_camera(double seconds) {
+        if (!flying_) {
+            orbit_.update({.drag = glm::vec2(input_.mouse_drag(platform::MouseButton::Left)) + pad_drag(seconds),
+                           .scroll = static_cast<float>(input_.scroll().y)});
+            return;
+        }
+        const glm::vec2 stick = input_.left_stick();
+        fly_.update({.move = {input_.key_axis(Key::A, Key::D) + stick.x, input_.key_axis(Key::Q, Key::E),
+                              input_.key_axis(Key::S, Key::W) + stick.y},
+                     .look = glm::vec2(input_.mouse_delta()),
+                     .turn = input_.right_stick(),
+                     .fast = input_.key(Key::LeftShift).down,
+                     .slow = input_.key(Key::LeftControl).down},
+                    seconds);
+    }
+
+    /// The game pad's right stick, as the drag of a mouse.
+    glm::vec2 pad_drag(double seconds) const {
+        constexpr float kPixelsPerSecond = 400.0F;
+        return glm::vec2(-input_.right_stick().x, input_.right_stick().y) * kPixelsPerSecond *
+               static_cast<float>(seconds);
+    }
+
+    void next_probe() {
+        probe_ = (probe_ + 1) % probes_.size();
+        picture_.set_probe(load_probe(probes_[probe_], options_.probe_mapping));
+    }
+
+    void next_view() {
+        const auto at = std::find(views_.begin(), views_.end(), view_);
+        view_ = at == views_.end() || at + 1 == views_.end() ? views_.front() : *(at + 1);
+        picture_.set_view(config_, view_);
+        log_info("view {}", view_);
+    }
+
+    void reload_shaders() {
+        picture_.reload_shaders(options_.shader_folder);
+        log_info("shaders reloaded from {}", options_.shader_folder.string());
+    }
+
+    void drop(const std::vector<std::filesystem::path>& files) {
+        attempt([&] {
+            if (!files.empty()) picture_.set_probe(load_probe(files.front(), options_.probe_mapping));
+        });
+    }
+
+    void take_screenshot() {
+        screenshot_wanted_ = false;
+        const std::filesystem::path path =
+            options_.output_folder / fmt::format("screenshot_{:04}.png", screenshots_taken_++);
+        attempt([&] {
+            write_display_capture(picture_.encoded(), path);
+            log_info("wrote {}", path.string());
+        });
+    }
+
+    void show_title(double seconds) {
+        constexpr double kTitleInterval_s = 0.5;
+        title_age_s_ += seconds;
+        if (title_age_s_ < kTitleInterval_s) return;
+        title_age_s_ = 0.0;
+        const platform::FrameStatistics statistics = times_.statistics();
+        window_.set_title(fmt::format("Rowland: {:.1f} ms a frame, {}, {:+.2f} stops", statistics.median_ms, view_,
+                                      picture_.post_settings().exposure_stops));
+    }
+
+    const Options& options_;
+    const post::OcioConfig& config_;
+    platform::Window window_;
+    Picture picture_;
+    DemoScene scene_;
+    scene::OrbitCamera orbit_;
+    scene::FlyCamera fly_;
+    std::vector<std::filesystem::path> probes_;
+    std::vector<std::string> views_;
+    std::string view_;
+    platform::InputState input_;
+    platform::FrameClock clock_;
+    platform::FrameTimes times_;
+    std::size_t probe_ = 0;
+    double time_s_ = 0.0;
+    double title_age_s_ = 0.0;
+    int screenshots_taken_ = 0;
+    bool flying_ = false;
+    bool paused_ = false;
+    bool screenshot_wanted_ = false;
+};
+
+}  // namespace
+
+void run_in_window(const Options& options, const post::OcioConfig& config) {
+    WindowLoop(options, config).run();
+}
+
+}  // namespace rowland::demo

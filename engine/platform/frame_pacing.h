@@ -1,0 +1,75 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace rowland::platform {
+
+/// Cuts the time of uneven frames into steps of one length, so that a simulation runs the same at any frame rate.
+/// Counts in integers: how many steps have come depends on the sum of the frames' times alone, never on how that sum
+/// was split or rounded (as long as no frame is cut, see the constructor).
+class FixedStep {
+ public:
+    /// `steps_per_second` in 1 to 1 000 000. A frame longer than `longest_frame` (> 0, at most 10 s) counts as that
+    /// long: after a breakpoint or a slow load the simulation goes on slowly instead of trying to catch up with ever
+    /// longer frames.
+    explicit FixedStep(int steps_per_second = 120,
+                       std::chrono::nanoseconds longest_frame = std::chrono::milliseconds(250));
+
+    /// Adds a frame's time and returns how many steps to simulate now. A negative time counts as none.
+    int advance(std::chrono::nanoseconds frame);
+
+    double step_s() const { return 1.0 / static_cast<double>(steps_per_second_); }
+    /// Time of all steps so far.
+    double simulated_s() const { return static_cast<double>(steps_) / static_cast<double>(steps_per_second_); }
+    /// How far the time shown lies between the last step and the next, 0 <= alpha < 1: draw
+    /// `mix(previous, current, alpha)`.
+    double alpha() const;
+
+ private:
+    std::int64_t steps_per_second_;
+    std::chrono::nanoseconds longest_frame_;
+    std::int64_t remainder_ = 0;  ///< time not simulated yet, in nanoseconds times steps_per_second_
+    std::int64_t steps_ = 0;
+};
+
+/// Frame times in milliseconds. Median and 95th percentile by the nearest-rank method, so each is a time that occurred.
+struct FrameStatistics {
+    std::size_t count = 0;
+    double mean_ms = 0.0;
+    double median_ms = 0.0;
+    double percentile_95_ms = 0.0;
+    double maximum_ms = 0.0;
+};
+
+/// The times of the last `capacity` frames.
+class FrameTimes {
+ public:
+    explicit FrameTimes(std::size_t capacity = 240);  ///< > 0
+
+    void add(std::chrono::nanoseconds frame);
+    /// All zero before the first frame.
+    FrameStatistics statistics() const;
+
+ private:
+    std::vector<std::chrono::nanoseconds> times_;
+    std::size_t capacity_;
+    std::size_t next_ = 0;
+};
+
+/// Measures frames with the steady clock.
+class FrameClock {
+ public:
+    /// Time since the last call; zero on the first, so that loading is not a frame.
+    std::chrono::nanoseconds tick();
+
+ private:
+    using Clock = std::chrono::steady_clock;
+
+    Clock::time_point last_ = {};
+    bool started_ = false;
+};
+
+}  // namespace rowland::platform

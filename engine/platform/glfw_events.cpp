@@ -1,0 +1,140 @@
+#include "engine/platform/glfw_events.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+
+namespace rowland::platform {
+
+namespace {
+
+struct KeyName {
+    int glfw;
+    Key key;
+};
+
+// Keys that do not lie in one run with their neighbours in both enumerations.
+constexpr std::array kSingleKeys{
+    KeyName{GLFW_KEY_LEFT, Key::Left},
+    KeyName{GLFW_KEY_RIGHT, Key::Right},
+    KeyName{GLFW_KEY_UP, Key::Up},
+    KeyName{GLFW_KEY_DOWN, Key::Down},
+    KeyName{GLFW_KEY_HOME, Key::Home},
+    KeyName{GLFW_KEY_END, Key::End},
+    KeyName{GLFW_KEY_PAGE_UP, Key::PageUp},
+    KeyName{GLFW_KEY_PAGE_DOWN, Key::PageDown},
+    KeyName{GLFW_KEY_INSERT, Key::Insert},
+    KeyName{GLFW_KEY_DELETE, Key::Delete},
+    KeyName{GLFW_KEY_SPACE, Key::Space},
+    KeyName{GLFW_KEY_ENTER, Key::Enter},
+    KeyName{GLFW_KEY_KP_ENTER, Key::Enter},
+    KeyName{GLFW_KEY_ESCAPE, Key::Escape},
+    KeyName{GLFW_KEY_TAB, Key::Tab},
+    KeyName{GLFW_KEY_BACKSPACE, Key::Backspace},
+    KeyName{GLFW_KEY_MINUS, Key::Minus},
+    KeyName{GLFW_KEY_EQUAL, Key::Equal},
+    KeyName{GLFW_KEY_COMMA, Key::Comma},
+    KeyName{GLFW_KEY_PERIOD, Key::Period},
+    KeyName{GLFW_KEY_SLASH, Key::Slash},
+    KeyName{GLFW_KEY_GRAVE_ACCENT, Key::GraveAccent},
+    KeyName{GLFW_KEY_LEFT_BRACKET, Key::LeftBracket},
+    KeyName{GLFW_KEY_RIGHT_BRACKET, Key::RightBracket},
+    KeyName{GLFW_KEY_LEFT_SHIFT, Key::LeftShift},
+    KeyName{GLFW_KEY_RIGHT_SHIFT, Key::RightShift},
+    KeyName{GLFW_KEY_LEFT_CONTROL, Key::LeftControl},
+    KeyName{GLFW_KEY_RIGHT_CONTROL, Key::RightControl},
+    KeyName{GLFW_KEY_LEFT_ALT, Key::LeftAlt},
+    KeyName{GLFW_KEY_RIGHT_ALT, Key::RightAlt},
+};
+
+/// The key of a run that begins at `glfw_first` and `first` and has `count` keys in the same order in both
+/// enumerations.
+std::optional<Key> in_run(int key, int glfw_first, Key first, int count) {
+    if (key < glfw_first || key >= glfw_first + count) return std::nullopt;
+    return static_cast<Key>(static_cast<int>(first) + key - glfw_first);
+}
+
+// Both enumerations name the pad's buttons in the same order.
+static_assert(static_cast<int>(GamepadButton::North) == GLFW_GAMEPAD_BUTTON_Y);
+static_assert(static_cast<int>(GamepadButton::Left) == GLFW_GAMEPAD_BUTTON_LAST);
+static_assert(static_cast<int>(GamepadButton::Count) == GLFW_GAMEPAD_BUTTON_LAST + 1);
+
+WindowEvents& events_of(GLFWwindow* window) {
+    return *static_cast<WindowEvents*>(glfwGetWindowUserPointer(window));
+}
+
+void on_key(GLFWwindow* window, int key, int /*scancode*/, int action, int /*mods*/) {
+    // Repeats are for typed text.
+    const std::optional<Key> known = key_of_glfw(key);
+    if (known && action != GLFW_REPEAT) events_of(window).input.push_back(KeyEvent{*known, action == GLFW_PRESS});
+}
+
+void on_mouse_button(GLFWwindow* window, int button, int action, int /*mods*/) {
+    const std::optional<MouseButton> known = mouse_button_of_glfw(button);
+    if (known) events_of(window).input.push_back(MouseButtonEvent{*known, action == GLFW_PRESS});
+}
+
+void on_drop(GLFWwindow* window, int count, const char** paths) {
+    std::vector<std::filesystem::path>& files = events_of(window).drops.emplace_back();
+    // GLFW's paths are UTF-8 on every system.
+    for (int i = 0; i < count; ++i) files.emplace_back(reinterpret_cast<const char8_t*>(paths[i]));
+}
+
+}  // namespace
+
+std::optional<Key> key_of_glfw(int key) {
+    if (const auto letter = in_run(key, GLFW_KEY_A, Key::A, 26)) return letter;
+    if (const auto digit = in_run(key, GLFW_KEY_0, Key::Digit0, 10)) return digit;
+    if (const auto function = in_run(key, GLFW_KEY_F1, Key::F1, 12)) return function;
+    const auto* const single =
+        std::find_if(kSingleKeys.begin(), kSingleKeys.end(), [key](const KeyName& name) { return name.glfw == key; });
+    return single == kSingleKeys.end() ? std::nullopt : std::optional(single->key);
+}
+
+std::optional<MouseButton> mouse_button_of_glfw(int button) {
+    switch (button) {
+        case GLFW_MOUSE_BUTTON_LEFT:
+            return MouseButton::Left;
+        case GLFW_MOUSE_BUTTON_RIGHT:
+            return MouseButton::Right;
+        case GLFW_MOUSE_BUTTON_MIDDLE:
+            return MouseButton::Middle;
+        default:
+            return std::nullopt;
+    }
+}
+
+void collect_events(GLFWwindow* window, WindowEvents& events) {
+    glfwSetWindowUserPointer(window, &events);
+    glfwSetKeyCallback(window, on_key);
+    glfwSetMouseButtonCallback(window, on_mouse_button);
+    glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
+        events_of(w).input.push_back(MouseMoveEvent{{x, y}});
+    });
+    glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
+        events_of(w).input.push_back(ScrollEvent{{x, y}});
+    });
+    glfwSetWindowFocusCallback(
+        window, [](GLFWwindow* w, int focused) { events_of(w).input.push_back(FocusEvent{focused == GLFW_TRUE}); });
+    glfwSetDropCallback(window, on_drop);
+}
+
+GamepadEvent read_gamepad() {
+    GLFWgamepadstate state{};
+    int joystick = GLFW_JOYSTICK_1;
+    while (joystick <= GLFW_JOYSTICK_LAST && glfwGetGamepadState(joystick, &state) != GLFW_TRUE) ++joystick;
+    if (joystick > GLFW_JOYSTICK_LAST) return {};
+
+    GamepadEvent event{.connected = true, .axes = {}, .buttons = {}};
+    // GLFW's sticks grow downwards and its triggers go from -1.
+    const auto stick = [&](int axis) { return state.axes[axis]; };
+    const auto trigger = [&](int axis) { return 0.5F * (state.axes[axis] + 1.0F); };
+    event.axes = {stick(GLFW_GAMEPAD_AXIS_LEFT_X),         -stick(GLFW_GAMEPAD_AXIS_LEFT_Y),
+                  stick(GLFW_GAMEPAD_AXIS_RIGHT_X),        -stick(GLFW_GAMEPAD_AXIS_RIGHT_Y),
+                  trigger(GLFW_GAMEPAD_AXIS_LEFT_TRIGGER), trigger(GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER)};
+    for (std::size_t i = 0; i < event.buttons.size(); ++i) event.buttons[i] = state.buttons[i] == GLFW_PRESS;
+    return event;
+}
+
+}  // namespace rowland::platform

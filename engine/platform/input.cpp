@@ -1,0 +1,128 @@
+#include "engine/platform/input.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace rowland::platform {
+
+namespace {
+
+void set_down(ButtonState& button, bool down) {
+    if (down && !button.down) button.pressed = true;
+    if (!down && button.down) button.released = true;
+    button.down = down;
+}
+
+template <typename Buttons>
+void begin_frame_of(Buttons& buttons) {
+    for (ButtonState& button : buttons) button.pressed = button.released = false;
+}
+
+template <typename Buttons>
+void release_all(Buttons& buttons) {
+    for (ButtonState& button : buttons) set_down(button, false);
+}
+
+bool is_finite(glm::dvec2 v) {
+    return std::isfinite(v.x) && std::isfinite(v.y);
+}
+
+}  // namespace
+
+glm::vec2 radial_dead_zone(glm::vec2 stick, float zone) {
+    const float length = glm::length(stick);
+    // The negation also catches NaN.
+    if (!(length > zone) || !std::isfinite(length)) return glm::vec2(0.0F);
+    const float rescaled = std::min((length - zone) / (1.0F - zone), 1.0F);
+    return stick * (rescaled / length);
+}
+
+void InputState::begin_frame() {
+    begin_frame_of(keys_);
+    begin_frame_of(buttons_);
+    begin_frame_of(pad_);
+    mouse_drag_.fill(glm::dvec2(0.0));
+    mouse_delta_ = glm::dvec2(0.0);
+    scroll_ = glm::dvec2(0.0);
+}
+
+void InputState::apply(const InputEvent& event) {
+    std::visit([this](const auto& concrete) { on(concrete); }, event);
+}
+
+float InputState::key_axis(Key negative, Key positive) const {
+    const auto active = [this](Key k) { return key(k).down || key(k).pressed ? 1.0F : 0.0F; };
+    return active(positive) - active(negative);
+}
+
+float InputState::gamepad_axis(GamepadAxis axis) const {
+    switch (axis) {
+        case GamepadAxis::LeftX:
+            return left_stick().x;
+        case GamepadAxis::LeftY:
+            return left_stick().y;
+        case GamepadAxis::RightX:
+            return right_stick().x;
+        case GamepadAxis::RightY:
+            return right_stick().y;
+        default:
+            return std::max(radial_dead_zone({raw_axis(axis), 0.0F}).x, 0.0F);
+    }
+}
+
+glm::vec2 InputState::left_stick() const {
+    return radial_dead_zone({raw_axis(GamepadAxis::LeftX), raw_axis(GamepadAxis::LeftY)});
+}
+
+glm::vec2 InputState::right_stick() const {
+    return radial_dead_zone({raw_axis(GamepadAxis::RightX), raw_axis(GamepadAxis::RightY)});
+}
+
+void InputState::on(const KeyEvent& event) {
+    set_down(keys_[static_cast<std::size_t>(event.key)], event.down);
+}
+
+void InputState::on(const MouseButtonEvent& event) {
+    set_down(buttons_[static_cast<std::size_t>(event.button)], event.down);
+}
+
+void InputState::on(const MouseMoveEvent& event) {
+    if (!is_finite(event.position)) return;
+    if (position_known_) {
+        const glm::dvec2 delta = event.position - mouse_position_;
+        mouse_delta_ += delta;
+        for (std::size_t i = 0; i < buttons_.size(); ++i)
+            if (buttons_[i].down) mouse_drag_[i] += delta;
+    }
+    mouse_position_ = event.position;
+    position_known_ = true;
+}
+
+void InputState::on(const ScrollEvent& event) {
+    if (is_finite(event.offset)) scroll_ += event.offset;
+}
+
+void InputState::on(const FocusEvent& event) {
+    focused_ = event.focused;
+    position_known_ = false;
+    if (focused_) return;
+    release_all(keys_);
+    release_all(buttons_);
+    release_all(pad_);
+    gamepad_.axes.fill(0.0F);
+}
+
+void InputState::on(const CursorCaptureEvent&) {
+    position_known_ = false;
+}
+
+void InputState::on(const GamepadEvent& event) {
+    gamepad_.connected = event.connected;
+    // A pad is read whoever has the focus; its player may be playing something else.
+    const GamepadEvent reading = event.connected && focused_ ? event : GamepadEvent{};
+    gamepad_.axes = reading.axes;
+    for (std::size_t i = 0; i < pad_.size(); ++i) set_down(pad_[i], reading.buttons[i]);
+}
+
+}  // namespace rowland::platform

@@ -1,0 +1,142 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <glm/vec2.hpp>
+#include <variant>
+
+namespace rowland::platform {
+
+/// Keys by their place on a US keyboard, so that WASD is the same cluster on every layout.
+enum class Key {
+    // clang-format off
+    A, B, C, D, E, F, G, H, I, J, K, L, M, N, O, P, Q, R, S, T, U, V, W, X, Y, Z,
+    Digit0, Digit1, Digit2, Digit3, Digit4, Digit5, Digit6, Digit7, Digit8, Digit9,
+    F1, F2, F3, F4, F5, F6, F7, F8, F9, F10, F11, F12,
+    Left, Right, Up, Down, Home, End, PageUp, PageDown, Insert, Delete,
+    Space, Enter, Escape, Tab, Backspace, Minus, Equal, Comma, Period, Slash, GraveAccent, LeftBracket, RightBracket,
+    LeftShift, RightShift, LeftControl, RightControl, LeftAlt, RightAlt,
+    Count  // not a key
+    // clang-format on
+};
+
+enum class MouseButton { Left, Right, Middle, Count };
+
+/// Sticks: x to the right and y *up* (away from the player), -1 to 1. Triggers: 0 (let go) to 1.
+enum class GamepadAxis { LeftX, LeftY, RightX, RightY, LeftTrigger, RightTrigger, Count };
+
+/// South, East, West and North are the four face buttons (A, B, X and Y on an Xbox pad).
+enum class GamepadButton {
+    // clang-format off
+    South, East, West, North, LeftBumper, RightBumper, Back, Start, Guide, LeftThumb, RightThumb, Up, Right, Down, Left,
+    Count  // not a button
+    // clang-format on
+};
+
+/// One value for each enumerator of E but Count.
+template <typename E, typename T>
+using PerEnum = std::array<T, static_cast<std::size_t>(E::Count)>;
+
+struct KeyEvent {
+    Key key;
+    bool down;
+};
+struct MouseButtonEvent {
+    MouseButton button;
+    bool down;
+};
+struct MouseMoveEvent {
+    glm::dvec2 position;  ///< screen coordinates from the window's upper left corner, y down
+};
+struct ScrollEvent {
+    glm::dvec2 offset;  ///< notches; y grows away from the user
+};
+/// The window gained or lost the keyboard.
+struct FocusEvent {
+    bool focused;
+};
+/// The cursor was captured or let go; positions before and after are not comparable.
+struct CursorCaptureEvent {
+    bool captured;
+};
+/// A whole reading of the game pad, before any dead zone.
+struct GamepadEvent {
+    bool connected = false;
+    PerEnum<GamepadAxis, float> axes{};
+    PerEnum<GamepadButton, bool> buttons{};
+};
+
+using InputEvent =
+    std::variant<KeyEvent, MouseButtonEvent, MouseMoveEvent, ScrollEvent, FocusEvent, CursorCaptureEvent, GamepadEvent>;
+
+/// Share of a stick's travel that counts as rest; worn sticks come to rest anywhere inside it.
+constexpr float kStickDeadZone = 0.15F;
+
+/// `stick` (each axis -1 to 1) without its dead zone: 0 up to length `zone` (0 <= zone < 1), growing from 0 at its edge
+/// to length 1 at full travel and never longer, direction kept. Radial, so that a stick does not snap to the axes. A
+/// reading that is not finite gives 0.
+glm::vec2 radial_dead_zone(glm::vec2 stick, float zone = kStickDeadZone);
+
+/// A button of any device during one frame. Pressed and released within one frame is both, and not down at its end.
+struct ButtonState {
+    bool down = false;      ///< at the end of the frame
+    bool pressed = false;   ///< went down during the frame
+    bool released = false;  ///< went up during the frame
+
+    friend bool operator==(const ButtonState&, const ButtonState&) = default;
+};
+
+/// What the user's devices did during one frame. Fed by events, so it needs no window: `begin_frame`, then `apply` each
+/// event of the frame in order, then ask. Losing the focus releases every key and button and rests the game pad, which
+/// stays at rest until the focus is back.
+class InputState {
+ public:
+    /// Forgets what happened during the last frame and keeps what is held.
+    void begin_frame();
+    void apply(const InputEvent& event);
+
+    const ButtonState& key(Key key) const { return keys_[static_cast<std::size_t>(key)]; }
+    const ButtonState& mouse_button(MouseButton button) const { return buttons_[static_cast<std::size_t>(button)]; }
+    const ButtonState& gamepad_button(GamepadButton button) const { return pad_[static_cast<std::size_t>(button)]; }
+
+    /// -1, 0 or 1 as the one key, neither (or both), or the other was down at any time of the frame.
+    float key_axis(Key negative, Key positive) const;
+
+    /// Screen coordinates, y down; while the cursor is captured, unbounded and only good for differences.
+    glm::dvec2 mouse_position() const { return mouse_position_; }
+    /// Movement during the frame. The first movement after a start, a change of focus or a capture counts as none.
+    glm::dvec2 mouse_delta() const { return mouse_delta_; }
+    /// The part of `mouse_delta` made while `button` was down, even if it went down or up within the frame.
+    glm::dvec2 mouse_drag(MouseButton button) const { return mouse_drag_[static_cast<std::size_t>(button)]; }
+    glm::dvec2 scroll() const { return scroll_; }  ///< notches during the frame
+
+    bool focused() const { return focused_; }
+    bool gamepad_connected() const { return gamepad_.connected; }
+    /// Without its dead zone: the sticks' is radial, the triggers' is along their one axis.
+    float gamepad_axis(GamepadAxis axis) const;
+    glm::vec2 left_stick() const;
+    glm::vec2 right_stick() const;
+
+ private:
+    void on(const KeyEvent& event);
+    void on(const MouseButtonEvent& event);
+    void on(const MouseMoveEvent& event);
+    void on(const ScrollEvent& event);
+    void on(const FocusEvent& event);
+    void on(const CursorCaptureEvent& event);
+    void on(const GamepadEvent& event);
+    float raw_axis(GamepadAxis axis) const { return gamepad_.axes[static_cast<std::size_t>(axis)]; }
+
+    PerEnum<Key, ButtonState> keys_{};
+    PerEnum<MouseButton, ButtonState> buttons_{};
+    PerEnum<GamepadButton, ButtonState> pad_{};
+    PerEnum<MouseButton, glm::dvec2> mouse_drag_{};
+    glm::dvec2 mouse_position_{0.0};
+    glm::dvec2 mouse_delta_{0.0};
+    glm::dvec2 scroll_{0.0};
+    GamepadEvent gamepad_;
+    bool position_known_ = false;
+    bool focused_ = true;
+};
+
+}  // namespace rowland::platform

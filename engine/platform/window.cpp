@@ -1,0 +1,233 @@
+#include "engine/platform/window.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <cstdlib>
+#include <utility>
+
+#include "engine/core/check.h"
+#include "engine/core/error.h"
+#include "engine/platform/glfw_events.h"
+#include "engine/platform/glfw_library.h"
+
+namespace rowland::platform {
+
+namespace {
+
+[[noreturn]] void fail(const std::string& doing, const std::string& reason, std::string expected, std::string remedy) {
+    throw Error({.file = "window",
+                 .place = doing,
+                 .found = reason.empty() ? "GLFW failed without a reason" : reason,
+                 .expected = std::move(expected),
+                 .remedy = std::move(remedy),
+                 .fault = Fault::System});
+}
+
+std::shared_ptr<GlfwLibrary> require_library() {
+    std::string reason;
+    auto library = GlfwLibrary::acquire(reason);
+    if (!library) {
+        fail("starting GLFW", reason, "a display (X11 or Wayland) that answers",
+             "set DISPLAY or WAYLAND_DISPLAY, or run without a window");
+    }
+    return library;
+}
+
+GLFWwindow* open(const WindowOptions& options) {
+    glfwDefaultWindowHints();
+    glfwWindowHint(GLFW_CLIENT_API, GLFW_OPENGL_API);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, options.debug ? GLFW_TRUE : GLFW_FALSE);
+    // The scene is drawn into framebuffer objects that bring their own.
+    glfwWindowHint(GLFW_DEPTH_BITS, 0);
+    glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    take_glfw_error();
+    GLFWwindow* handle = glfwCreateWindow(options.size.x, options.size.y, options.title.c_str(), nullptr, nullptr);
+    if (handle == nullptr) {
+        fail("opening", take_glfw_error(),
+             "a driver with OpenGL 4.5 core (any GPU of the last ten years, or Mesa's llvmpipe)",
+             "install the GPU's driver, or Mesa's software renderer (Debian: libgl1-mesa-dri)");
+    }
+    return handle;
+}
+
+bool announced(const char* variable) {
+    const char* value = std::getenv(variable);
+    return value != nullptr && *value != '\0';
+}
+
+struct Monitor {
+    GLFWmonitor* handle = nullptr;
+    const GLFWvidmode* mode = nullptr;
+    glm::ivec2 position{0};
+};
+
+/// The monitor that shows most of `window`; its handle is null if there is no monitor at all.
+Monitor monitor_of(const ScreenArea& window) {
+    int count = 0;
+    GLFWmonitor** handles = glfwGetMonitors(&count);
+    std::vector<Monitor> monitors;
+    std::vector<ScreenArea> areas;
+    for (int i = 0; i < count; ++i) {
+        Monitor monitor{.handle = handles[i], .mode = glfwGetVideoMode(handles[i])};
+        if (monitor.mode == nullptr) continue;
+        glfwGetMonitorPos(monitor.handle, &monitor.position.x, &monitor.position.y);
+        areas.push_back({monitor.position, {monitor.mode->width, monitor.mode->height}});
+        monitors.push_back(monitor);
+    }
+    return monitors.empty() ? Monitor{} : monitors[monitor_showing(window, areas)];
+}
+
+}  // namespace
+
+bool display_available() {
+#if defined(__unix__) && !defined(__APPLE__)
+    if (!announced("DISPLAY") && !announced("WAYLAND_DISPLAY")) return false;
+#endif
+    std::string reason;
+    return GlfwLibrary::acquire(reason) != nullptr;
+}
+
+struct Window::State {
+    std::shared_ptr<GlfwLibrary> library = require_library();
+    GLFWwindow* handle = nullptr;
+    WindowEvents events;
+    DropHandler on_drop;
+    ScreenArea before_fullscreen;
+
+    State() = default;
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+    ~State() {
+        if (handle != nullptr) glfwDestroyWindow(handle);
+    }
+};
+
+Window::Window(const WindowOptions& options) : state_(std::make_unique<State>()) {
+    ROWLAND_CHECK_OP(options.size.x, >=, 1);
+    ROWLAND_CHECK_OP(options.size.y, >=, 1);
+    state_->handle = open(options);
+    collect_events(state_->handle, state_->events);
+    set_vsync(options.vsync);
+}
+
+Window::~Window() = default;
+
+void Window::make_current() {
+    glfwMakeContextCurrent(state_->handle);
+}
+
+void Window::swap() {
+    glfwSwapBuffers(state_->handle);
+}
+
+void Window::set_vsync(bool on) {
+    make_current();
+    glfwSwapInterval(on ? 1 : 0);
+}
+
+void Window::poll(InputState& input) {
+    // One call serves all windows; another window's poll may have left events here.
+    glfwPollEvents();
+    input.begin_frame();
+    const WindowEvents events = std::exchange(state_->events, {});
+    for (const InputEvent& event : events.input) input.apply(event);
+    input.apply(read_gamepad());
+    if (!state_->on_drop) return;
+    for (const auto& files : events.drops) state_->on_drop(files);
+}
+
+void Window::set_drop_handler(DropHandler handler) {
+    state_->on_drop = std::move(handler);
+}
+
+bool Window::should_close() const {
+    return glfwWindowShouldClose(state_->handle) == GLFW_TRUE;
+}
+
+void Window::request_close(bool close) {
+    glfwSetWindowShouldClose(state_->handle, close ? GLFW_TRUE : GLFW_FALSE);
+}
+
+void Window::set_title(const std::string& title) {
+    glfwSetWindowTitle(state_->handle, title.c_str());
+}
+
+glm::ivec2 Window::size() const {
+    glm::ivec2 size(0);
+    glfwGetWindowSize(state_->handle, &size.x, &size.y);
+    return size;
+}
+
+glm::ivec2 Window::framebuffer_size() const {
+    glm::ivec2 size(0);
+    glfwGetFramebufferSize(state_->handle, &size.x, &size.y);
+    return size;
+}
+
+glm::vec2 Window::content_scale() const {
+    glm::vec2 scale(1.0F);
+    glfwGetWindowContentScale(state_->handle, &scale.x, &scale.y);
+    return scale;
+}
+
+glm::ivec2 Window::position() const {
+    glm::ivec2 position(0);
+    glfwGetWindowPos(state_->handle, &position.x, &position.y);
+    return position;
+}
+
+void Window::set_position(glm::ivec2 position) {
+    glfwSetWindowPos(state_->handle, position.x, position.y);
+}
+
+void Window::resize(glm::ivec2 size) {
+    ROWLAND_CHECK_OP(size.x, >=, 1);
+    ROWLAND_CHECK_OP(size.y, >=, 1);
+    glfwSetWindowSize(state_->handle, size.x, size.y);
+}
+
+bool Window::focused() const {
+    return glfwGetWindowAttrib(state_->handle, GLFW_FOCUSED) == GLFW_TRUE;
+}
+
+bool Window::fullscreen() const {
+    return glfwGetWindowMonitor(state_->handle) != nullptr;
+}
+
+void Window::set_fullscreen(bool on) {
+    if (on == fullscreen()) return;
+    if (!on) {
+        const ScreenArea& area = state_->before_fullscreen;
+        glfwSetWindowMonitor(state_->handle, nullptr, area.position.x, area.position.y, area.size.x, area.size.y,
+                             GLFW_DONT_CARE);
+        return;
+    }
+    const ScreenArea area{position(), size()};
+    const Monitor monitor = monitor_of(area);
+    if (monitor.handle == nullptr) {
+        fail("going to full screen", take_glfw_error(), "a monitor", "connect one, or stay in the window");
+    }
+    state_->before_fullscreen = area;
+    glfwSetWindowMonitor(state_->handle, monitor.handle, 0, 0, monitor.mode->width, monitor.mode->height,
+                         monitor.mode->refreshRate);
+}
+
+bool Window::cursor_captured() const {
+    return glfwGetInputMode(state_->handle, GLFW_CURSOR) == GLFW_CURSOR_DISABLED;
+}
+
+void Window::set_cursor_captured(bool captured) {
+    if (captured == cursor_captured()) return;
+    glfwSetInputMode(state_->handle, GLFW_CURSOR, captured ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
+    state_->events.input.emplace_back(CursorCaptureEvent{captured});
+}
+
+GLFWwindow* Window::native() const {
+    return state_->handle;
+}
+
+}  // namespace rowland::platform

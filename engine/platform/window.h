@@ -1,0 +1,89 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <glm/vec2.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/platform/input.h"
+#include "engine/platform/screen_layout.h"
+
+struct GLFWwindow;
+
+namespace rowland::platform {
+
+/// Whether a display can be reached on which a Window may open: X11 or Wayland is announced and answers. Never throws
+/// and opens nothing; a program that gets `false` renders with a HeadlessContext. Main thread only.
+bool display_available();
+
+struct WindowOptions {
+    std::string title = "Rowland";
+    glm::ivec2 size{1280, 720};  ///< screen coordinates, each >= 1
+    bool vsync = true;
+    bool debug = true;  ///< a debug context: the driver reports errors through KHR_debug (see gpu/debug.h)
+};
+
+/// A window with an OpenGL 4.5 core context, which is current on the thread that made it. All members are for the main
+/// thread; several windows may be open at once. System failures throw Error (system).
+///
+///     InputState input;
+///     while (!window.should_close()) {
+///         window.poll(input);
+///         ...                      // simulate, draw at window.framebuffer_size()
+///         window.swap();
+///     }
+class Window {
+ public:
+    using DropHandler = std::function<void(const std::vector<std::filesystem::path>&)>;
+
+    /// Throws Error (system) that names what is missing if there is no display or no OpenGL 4.5 core.
+    explicit Window(const WindowOptions& options = {});
+    ~Window();
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
+
+    void make_current();
+    /// Shows what was drawn; waits for the display if vsync is on.
+    void swap();
+    /// Makes this window's context current.
+    void set_vsync(bool on);
+
+    /// Starts a frame of `input` and feeds it what the user did since the last poll, then hands dropped files to the
+    /// drop handler; what that throws is passed on.
+    void poll(InputState& input);
+    /// `handler` is called from `poll` with the files of each drop; empty: drops are ignored.
+    void set_drop_handler(DropHandler handler);
+
+    bool should_close() const;
+    void request_close(bool close = true);
+    void set_title(const std::string& title);
+
+    glm::ivec2 size() const;  ///< screen coordinates, which the mouse has too
+    /// Pixels to render: `size` times the display's scale; 0 x 0 while minimised, when there is nothing to draw.
+    glm::ivec2 framebuffer_size() const;
+    glm::vec2 content_scale() const;         ///< by which to enlarge text and controls
+    glm::ivec2 position() const;             ///< of the content on the desktop; 0, 0 where that is unknown (Wayland)
+    void set_position(glm::ivec2 position);  ///< no effect where windows cannot place themselves (Wayland)
+    /// Asks for a new size, each >= 1; the display may grant another one, later.
+    void resize(glm::ivec2 size);
+    bool focused() const;
+
+    bool fullscreen() const;
+    /// Fills the monitor that shows most of the window, in the mode it has; back restores the old place and size.
+    void set_fullscreen(bool on);
+
+    bool cursor_captured() const;
+    /// Hides the cursor and holds it in the window, for looking around; InputState sees no jump when it begins or ends.
+    void set_cursor_captured(bool captured);
+
+    /// For user interface libraries that attach to GLFW. Callbacks installed later must call the ones they replace.
+    GLFWwindow* native() const;
+
+ private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace rowland::platform

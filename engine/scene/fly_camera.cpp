@@ -1,0 +1,71 @@
+#include "engine/scene/fly_camera.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "engine/core/check.h"
+
+namespace rowland::scene {
+
+namespace {
+
+constexpr glm::vec3 kUp{0.0F, 1.0F, 0.0F};
+
+template <typename Vector>
+Vector finite_or_zero(Vector v) {
+    for (int i = 0; i < v.length(); ++i)
+        if (!std::isfinite(v[i])) return Vector(0);
+    return v;
+}
+
+/// `move` cut to length 1, so that two keys are not faster than one.
+glm::vec3 cut_to_one(glm::vec3 move) {
+    const float length = glm::length(move);
+    return length > 1.0F ? move / length : move;
+}
+
+}  // namespace
+
+FlyCamera::FlyCamera(const Camera& start, FlySettings settings)
+    : settings_(settings), lens_(start), position_(finite_or_zero(start.eye)) {
+    ROWLAND_CHECK_OP(settings.response_s, >, 0.0F);
+    angles_ = angles_of(start.target - start.eye);
+}
+
+glm::vec3 FlyCamera::wanted_velocity(const FlyInput& input) const {
+    const glm::vec3 forward = direction_of(angles_);
+    // The pitch never reaches a pole, so the cross product has a length.
+    const glm::vec3 right = glm::normalize(glm::cross(forward, kUp));
+    const glm::vec3 move = cut_to_one(finite_or_zero(input.move));
+    const float factor = (input.fast ? settings_.fast_factor : 1.0F) * (input.slow ? settings_.slow_factor : 1.0F);
+    return settings_.speed_m_per_s * factor * (move.x * right + move.y * kUp + move.z * forward);
+}
+
+void FlyCamera::update(const FlyInput& input, double seconds) {
+    if (!std::isfinite(seconds) || seconds < 0.0) seconds = 0.0;
+    // Yaw grows towards +X, which is to the left of +Z under +Y up. A hand moved down looks down.
+    const double scale = settings_.radians_per_pixel;
+    angles_ = turned(angles_, -scale * input.look.x, -scale * input.look.y);
+
+    // Half of the stick's turn before the flight and half after: second order in the frame's length.
+    const glm::dvec2 half_turn =
+        0.5 * seconds * static_cast<double>(settings_.turn_radians_per_s) * glm::dvec2(finite_or_zero(input.turn));
+    angles_ = turned(angles_, -half_turn.x, half_turn.y);
+    // dv/dt = (wanted - v) / response, solved exactly over the frame.
+    const glm::dvec3 wanted = wanted_velocity(input);
+    const double response = settings_.response_s;
+    const double forgotten = -std::expm1(-seconds / response);
+    position_ += wanted * seconds + (velocity_ - wanted) * (response * forgotten);
+    velocity_ += (wanted - velocity_) * forgotten;
+    angles_ = turned(angles_, -half_turn.x, half_turn.y);
+}
+
+Camera FlyCamera::camera() const {
+    Camera camera = lens_;
+    camera.eye = position();
+    camera.target = camera.eye + direction_of(angles_);
+    camera.up = kUp;
+    return camera;
+}
+
+}  // namespace rowland::scene

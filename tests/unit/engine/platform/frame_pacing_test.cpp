@@ -1,0 +1,132 @@
+#include "engine/platform/frame_pacing.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <thread>
+
+namespace rowland::platform {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
+using namespace std::chrono_literals;
+
+/// Steps of `total` cut into frames of `frame`, the last one shorter.
+int steps_in(nanoseconds total, nanoseconds frame) {
+    FixedStep pace;
+    int steps = 0;
+    for (nanoseconds left = total; left > 0ns; left -= frame) steps += pace.advance(std::min(left, frame));
+    return steps;
+}
+
+TEST(FixedStep, StepsDependOnTheTimeAloneNotOnTheFrames) {
+    // 120 steps a second, so 10 s are 1200 steps exactly, also where neither frame nor step is a whole number of ns.
+    for (const nanoseconds frame : {nanoseconds(1'000'000'000 / 60), nanoseconds(1'000'000'000 / 144),
+                                    nanoseconds(1'000'000'000 / 23), nanoseconds(8'333'333), nanoseconds(100'000)}) {
+        EXPECT_EQ(steps_in(10s, frame), 1200) << frame.count();
+        EXPECT_EQ(steps_in(10s - 1ns, frame), 1199) << frame.count();
+    }
+}
+
+TEST(FixedStep, RandomFramesSimulateTheSameTime) {
+    std::mt19937 random(7);
+    std::uniform_int_distribution<int> length_ns(0, 50'000'000);
+    FixedStep pace;
+    nanoseconds total = 0ns;
+    for (int i = 0; i < 1000; ++i) {
+        const nanoseconds frame(length_ns(random));
+        total += frame;
+        pace.advance(frame);
+        const double shown_s = pace.simulated_s() + pace.alpha() * pace.step_s();
+        // 1e-12: rounding of a few seconds in double.
+        EXPECT_NEAR(shown_s, std::chrono::duration<double>(total).count(), 1e-12);
+        EXPECT_GE(pace.alpha(), 0.0);
+        EXPECT_LT(pace.alpha(), 1.0);
+    }
+}
+
+TEST(FixedStep, AlphaIsTheShareOfTheNextStep) {
+    FixedStep pace(100);
+    EXPECT_EQ(pace.alpha(), 0.0);
+    EXPECT_EQ(pace.advance(25ms), 2);
+    EXPECT_EQ(pace.alpha(), 0.5);
+    EXPECT_EQ(pace.advance(5ms), 1);
+    EXPECT_EQ(pace.alpha(), 0.0);
+    EXPECT_EQ(pace.simulated_s(), 0.03);
+}
+
+TEST(FixedStep, LongFrameIsCut) {
+    FixedStep pace;
+    EXPECT_EQ(pace.advance(std::chrono::hours(1)), 30);  // a quarter of a second
+    EXPECT_EQ(pace.advance(0ns), 0);
+    FixedStep patient(120, 1s);
+    EXPECT_EQ(patient.advance(std::chrono::hours(1)), 120);
+}
+
+TEST(FixedStep, NegativeTimeCountsAsNone) {
+    FixedStep pace(100);
+    pace.advance(9ms);
+    EXPECT_EQ(pace.advance(-5ms), 0);
+    EXPECT_EQ(pace.advance(1ms), 1);
+}
+
+TEST(FixedStepDeathTest, RefusesARateOfZero) {
+    EXPECT_DEATH(FixedStep(0), "steps_per_second > 0 with 0 and 0");
+}
+
+TEST(FrameTimes, StatisticsAreThoseOfTheTimes) {
+    FrameTimes times(100);
+    for (int i = 100; i >= 1; --i) times.add(milliseconds(i));
+    const FrameStatistics statistics = times.statistics();
+    EXPECT_EQ(statistics.count, 100U);
+    EXPECT_DOUBLE_EQ(statistics.mean_ms, 50.5);
+    EXPECT_DOUBLE_EQ(statistics.median_ms, 50.0);
+    EXPECT_DOUBLE_EQ(statistics.percentile_95_ms, 95.0);
+    EXPECT_DOUBLE_EQ(statistics.maximum_ms, 100.0);
+}
+
+TEST(FrameTimes, OneFrameIsAllOfThem) {
+    FrameTimes times;
+    times.add(16ms);
+    const FrameStatistics statistics = times.statistics();
+    EXPECT_EQ(statistics.count, 1U);
+    EXPECT_EQ(statistics.mean_ms, 16.0);
+    EXPECT_EQ(statistics.median_ms, 16.0);
+    EXPECT_EQ(statistics.percentile_95_ms, 16.0);
+    EXPECT_EQ(statistics.maximum_ms, 16.0);
+}
+
+TEST(FrameTimes, RanksBetweenTwoFramesGoToTheSlowerOne) {
+    FrameTimes times;
+    for (const int ms : {3, 1, 2}) times.add(milliseconds(ms));
+    EXPECT_EQ(times.statistics().median_ms, 2.0);         // rank 1.5
+    EXPECT_EQ(times.statistics().percentile_95_ms, 3.0);  // rank 2.85
+}
+
+TEST(FrameTimes, OldFramesAreForgotten) {
+    FrameTimes times(3);
+    for (const int ms : {500, 1, 2, 3}) times.add(milliseconds(ms));
+    EXPECT_EQ(times.statistics().count, 3U);
+    EXPECT_EQ(times.statistics().maximum_ms, 3.0);
+    times.add(10ms);
+    EXPECT_EQ(times.statistics().mean_ms, 5.0);  // 2, 3, 10
+}
+
+TEST(FrameTimes, NoFrameIsAllZero) {
+    const FrameStatistics statistics = FrameTimes().statistics();
+    EXPECT_EQ(statistics.count, 0U);
+    EXPECT_EQ(statistics.mean_ms, 0.0);
+    EXPECT_EQ(statistics.maximum_ms, 0.0);
+}
+
+TEST(FrameClock, FirstTickIsZeroAndLaterOnesCoverTheTimeBetween) {
+    FrameClock clock;
+    std::this_thread::sleep_for(2ms);
+    EXPECT_EQ(clock.tick(), 0ns);
+    std::this_thread::sleep_for(5ms);
+    EXPECT_GE(clock.tick(), 5ms);  // the steady clock never sleeps short
+}
+
+}  // namespace
+}  // namespace rowland::platform

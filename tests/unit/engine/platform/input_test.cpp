@@ -1,0 +1,255 @@
+#include "engine/platform/input.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+
+namespace rowland::platform {
+namespace {
+
+constexpr ButtonState kUp{};
+constexpr ButtonState kWentDown{.down = true, .pressed = true, .released = false};
+constexpr ButtonState kHeld{.down = true, .pressed = false, .released = false};
+constexpr ButtonState kWentUp{.down = false, .pressed = false, .released = true};
+constexpr ButtonState kTapped{.down = false, .pressed = true, .released = true};
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+GamepadEvent pad_with(GamepadAxis axis, float value) {
+    GamepadEvent event{.connected = true, .axes = {}, .buttons = {}};
+    event.axes[static_cast<std::size_t>(axis)] = value;
+    return event;
+}
+
+TEST(Input, KeyIsPressedOnceThenHeldThenReleasedOnce) {
+    InputState input;
+    input.apply(KeyEvent{Key::W, true});
+    EXPECT_EQ(input.key(Key::W), kWentDown);
+    EXPECT_EQ(input.key(Key::S), kUp);
+    input.begin_frame();
+    EXPECT_EQ(input.key(Key::W), kHeld);
+    input.apply(KeyEvent{Key::W, false});
+    EXPECT_EQ(input.key(Key::W), kWentUp);
+    input.begin_frame();
+    EXPECT_EQ(input.key(Key::W), kUp);
+}
+
+TEST(Input, KeyTappedWithinOneFrameIsSeen) {
+    InputState input;
+    input.begin_frame();
+    input.apply(KeyEvent{Key::Space, true});
+    input.apply(KeyEvent{Key::Space, false});
+    EXPECT_EQ(input.key(Key::Space), kTapped);
+    input.begin_frame();
+    EXPECT_EQ(input.key(Key::Space), kUp);
+}
+
+TEST(Input, HeldKeyReleasedAndPressedAgainWithinOneFrameIsBoth) {
+    InputState input;
+    input.apply(KeyEvent{Key::A, true});
+    input.begin_frame();
+    input.apply(KeyEvent{Key::A, false});
+    input.apply(KeyEvent{Key::A, true});
+    EXPECT_EQ(input.key(Key::A), (ButtonState{.down = true, .pressed = true, .released = true}));
+}
+
+TEST(Input, RepeatedDownIsNotPressedAgainAndStrayUpIsNoRelease) {
+    InputState input;
+    input.apply(KeyEvent{Key::A, true});
+    input.begin_frame();
+    input.apply(KeyEvent{Key::A, true});
+    EXPECT_EQ(input.key(Key::A), kHeld);
+    input.apply(KeyEvent{Key::B, false});
+    EXPECT_EQ(input.key(Key::B), kUp);
+}
+
+TEST(Input, KeyAxisCountsTapsAndCancelsOpposites) {
+    InputState input;
+    EXPECT_EQ(input.key_axis(Key::A, Key::D), 0.0F);
+    input.apply(KeyEvent{Key::D, true});
+    EXPECT_EQ(input.key_axis(Key::A, Key::D), 1.0F);
+    EXPECT_EQ(input.key_axis(Key::D, Key::A), -1.0F);
+    input.apply(KeyEvent{Key::A, true});
+    EXPECT_EQ(input.key_axis(Key::A, Key::D), 0.0F);
+    input.begin_frame();
+    input.apply(KeyEvent{Key::A, false});
+    EXPECT_EQ(input.key_axis(Key::A, Key::D), 1.0F);
+    input.apply(KeyEvent{Key::D, false});
+    input.begin_frame();
+    input.apply(KeyEvent{Key::A, true});
+    input.apply(KeyEvent{Key::A, false});
+    EXPECT_EQ(input.key_axis(Key::A, Key::D), -1.0F);
+}
+
+TEST(Input, FirstMovementHasNoDelta) {
+    InputState input;
+    input.apply(MouseMoveEvent{{400.0, 300.0}});
+    EXPECT_EQ(input.mouse_delta(), glm::dvec2(0.0));
+    EXPECT_EQ(input.mouse_position(), glm::dvec2(400.0, 300.0));
+}
+
+TEST(Input, DeltaSumsTheMovementsOfOneFrame) {
+    InputState input;
+    input.apply(MouseMoveEvent{{10.0, 10.0}});
+    input.begin_frame();
+    input.apply(MouseMoveEvent{{15.0, 9.0}});
+    input.apply(MouseMoveEvent{{12.0, 20.0}});
+    EXPECT_EQ(input.mouse_delta(), glm::dvec2(2.0, 10.0));
+    input.begin_frame();
+    EXPECT_EQ(input.mouse_delta(), glm::dvec2(0.0));
+}
+
+TEST(Input, CaptureMakesNoJumpWhenItBeginsOrEnds) {
+    InputState input;
+    input.apply(MouseMoveEvent{{10.0, 10.0}});
+    for (const bool captured : {true, false}) {
+        input.begin_frame();
+        input.apply(CursorCaptureEvent{captured});
+        input.apply(MouseMoveEvent{{captured ? 5000.0 : -5000.0, 77.0}});
+        EXPECT_EQ(input.mouse_delta(), glm::dvec2(0.0)) << "captured: " << captured;
+        input.apply(MouseMoveEvent{{captured ? 5003.0 : -4997.0, 76.0}});
+        EXPECT_EQ(input.mouse_delta(), glm::dvec2(3.0, -1.0)) << "captured: " << captured;
+    }
+}
+
+TEST(Input, ChangeOfFocusMakesNoJump) {
+    InputState input;
+    input.apply(MouseMoveEvent{{10.0, 10.0}});
+    input.apply(FocusEvent{false});
+    input.apply(FocusEvent{true});
+    input.apply(MouseMoveEvent{{900.0, 900.0}});
+    EXPECT_EQ(input.mouse_delta(), glm::dvec2(0.0));
+}
+
+TEST(Input, DragIsOnlyTheMovementWithTheButtonDown) {
+    InputState input;
+    input.apply(MouseMoveEvent{{0.0, 0.0}});
+    input.apply(MouseMoveEvent{{100.0, 0.0}});
+    input.apply(MouseButtonEvent{MouseButton::Left, true});
+    input.apply(MouseMoveEvent{{107.0, 5.0}});
+    input.apply(MouseButtonEvent{MouseButton::Left, false});
+    input.apply(MouseMoveEvent{{300.0, 300.0}});
+    EXPECT_EQ(input.mouse_drag(MouseButton::Left), glm::dvec2(7.0, 5.0));
+    EXPECT_EQ(input.mouse_drag(MouseButton::Right), glm::dvec2(0.0));
+    EXPECT_EQ(input.mouse_delta(), glm::dvec2(300.0, 300.0));
+    EXPECT_EQ(input.mouse_button(MouseButton::Left), kTapped);
+    input.begin_frame();
+    EXPECT_EQ(input.mouse_drag(MouseButton::Left), glm::dvec2(0.0));
+}
+
+TEST(Input, ScrollSumsWithinOneFrame) {
+    InputState input;
+    input.apply(ScrollEvent{{0.0, 1.0}});
+    input.apply(ScrollEvent{{0.5, 1.0}});
+    EXPECT_EQ(input.scroll(), glm::dvec2(0.5, 2.0));
+    input.begin_frame();
+    EXPECT_EQ(input.scroll(), glm::dvec2(0.0));
+}
+
+TEST(Input, NonFiniteMovementAndScrollAreIgnored) {
+    InputState input;
+    input.apply(MouseMoveEvent{{1.0, 1.0}});
+    input.apply(MouseMoveEvent{{kNaN, 1.0}});
+    input.apply(MouseMoveEvent{{1.0, kInfinity}});
+    input.apply(ScrollEvent{{0.0, kNaN}});
+    input.apply(MouseMoveEvent{{4.0, 1.0}});
+    EXPECT_EQ(input.mouse_delta(), glm::dvec2(3.0, 0.0));
+    EXPECT_EQ(input.scroll(), glm::dvec2(0.0));
+}
+
+TEST(Input, LosingTheFocusReleasesEverything) {
+    InputState input;
+    input.apply(KeyEvent{Key::W, true});
+    input.apply(MouseButtonEvent{MouseButton::Right, true});
+    GamepadEvent pad = pad_with(GamepadAxis::LeftX, 1.0F);
+    pad.buttons[static_cast<std::size_t>(GamepadButton::South)] = true;
+    input.apply(pad);
+    input.begin_frame();
+    input.apply(FocusEvent{false});
+    EXPECT_FALSE(input.focused());
+    EXPECT_EQ(input.key(Key::W), kWentUp);
+    EXPECT_EQ(input.key(Key::S), kUp);
+    EXPECT_EQ(input.mouse_button(MouseButton::Right), kWentUp);
+    EXPECT_EQ(input.gamepad_button(GamepadButton::South), kWentUp);
+    EXPECT_EQ(input.left_stick(), glm::vec2(0.0F));
+    input.begin_frame();
+    input.apply(KeyEvent{Key::W, false});  // the system's own release, late
+    EXPECT_EQ(input.key(Key::W), kUp);
+}
+
+TEST(Input, GamepadRestsUntilTheFocusIsBack) {
+    InputState input;
+    input.apply(FocusEvent{false});
+    input.apply(pad_with(GamepadAxis::LeftX, 1.0F));
+    EXPECT_TRUE(input.gamepad_connected());
+    EXPECT_EQ(input.left_stick(), glm::vec2(0.0F));
+    input.apply(FocusEvent{true});
+    input.apply(pad_with(GamepadAxis::LeftX, 1.0F));
+    EXPECT_EQ(input.left_stick(), glm::vec2(1.0F, 0.0F));
+}
+
+TEST(Input, UnpluggedGamepadIsReleased) {
+    InputState input;
+    GamepadEvent pad = pad_with(GamepadAxis::RightY, -1.0F);
+    pad.buttons[static_cast<std::size_t>(GamepadButton::Start)] = true;
+    input.apply(pad);
+    EXPECT_EQ(input.gamepad_button(GamepadButton::Start), kWentDown);
+    input.begin_frame();
+    pad.connected = false;  // what it still reads is not to be trusted
+    input.apply(pad);
+    EXPECT_FALSE(input.gamepad_connected());
+    EXPECT_EQ(input.gamepad_button(GamepadButton::Start), kWentUp);
+    EXPECT_EQ(input.right_stick(), glm::vec2(0.0F));
+}
+
+TEST(Input, AxesReadTheirOwnStickAndTrigger) {
+    InputState input;
+    GamepadEvent pad{.connected = true, .axes = {1.0F, 0.0F, 0.0F, -1.0F, 0.0F, 1.0F}, .buttons = {}};
+    input.apply(pad);
+    EXPECT_EQ(input.gamepad_axis(GamepadAxis::LeftX), 1.0F);
+    EXPECT_EQ(input.gamepad_axis(GamepadAxis::LeftY), 0.0F);
+    EXPECT_EQ(input.gamepad_axis(GamepadAxis::RightX), 0.0F);
+    EXPECT_EQ(input.gamepad_axis(GamepadAxis::RightY), -1.0F);
+    EXPECT_EQ(input.gamepad_axis(GamepadAxis::LeftTrigger), 0.0F);
+    EXPECT_EQ(input.gamepad_axis(GamepadAxis::RightTrigger), 1.0F);
+    input.apply(pad_with(GamepadAxis::LeftTrigger, 0.1F));
+    EXPECT_EQ(input.gamepad_axis(GamepadAxis::LeftTrigger), 0.0F);
+}
+
+TEST(DeadZone, IsRoundAndStartsAtZeroOnItsEdge) {
+    for (int degrees = 0; degrees < 360; degrees += 15) {
+        const float angle = static_cast<float>(degrees) * std::numbers::pi_v<float> / 180.0F;
+        const glm::vec2 direction{std::cos(angle), std::sin(angle)};
+        // 1e-6: rounding of the direction's length around the edge.
+        EXPECT_EQ(radial_dead_zone(direction * (kStickDeadZone - 1e-6F)), glm::vec2(0.0F)) << degrees;
+        const float just_outside = glm::length(radial_dead_zone(direction * (kStickDeadZone + 0.001F)));
+        EXPECT_GT(just_outside, 0.0F) << degrees;
+        EXPECT_LT(just_outside, 0.0013F) << degrees;  // 0.001 / 0.85, and rounding: no step at the edge
+    }
+}
+
+TEST(DeadZone, ReachesOneAtFullTravelAndNeverMore) {
+    EXPECT_EQ(radial_dead_zone({1.0F, 0.0F}), glm::vec2(1.0F, 0.0F));
+    EXPECT_EQ(radial_dead_zone({0.0F, -1.0F}), glm::vec2(0.0F, -1.0F));
+    const glm::vec2 corner = radial_dead_zone({1.0F, 1.0F});  // square gates reach length 1.41
+    EXPECT_NEAR(glm::length(corner), 1.0F, 1e-6F);            // rounding
+    EXPECT_EQ(corner.x, corner.y);
+}
+
+TEST(DeadZone, IsLinearBetweenEdgeAndFullTravelAndKeepsTheDirection) {
+    // Half way between 0.15 and 1, along a 3-4-5 direction.
+    const glm::vec2 half = radial_dead_zone(glm::vec2(0.6F, -0.8F) * 0.575F);
+    EXPECT_NEAR(half.x, 0.3F, 1e-6F);  // rounding
+    EXPECT_NEAR(half.y, -0.4F, 1e-6F);
+}
+
+TEST(DeadZone, BrokenReadingIsRest) {
+    EXPECT_EQ(radial_dead_zone({kNaN, 0.5F}), glm::vec2(0.0F));
+    EXPECT_EQ(radial_dead_zone({0.5F, kInfinity}), glm::vec2(0.0F));
+}
+
+}  // namespace
+}  // namespace rowland::platform

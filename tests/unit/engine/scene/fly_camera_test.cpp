@@ -1,0 +1,153 @@
+#include "engine/scene/fly_camera.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "engine/scene/view_angles.h"
+
+namespace rowland::scene {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+/// At the origin, looking along -Z, so that +X is to the right.
+Camera start() {
+    return {.eye = glm::vec3(0.0F), .target = {0.0F, 0.0F, -1.0F}, .far_plane = 77.0F};
+}
+
+/// The camera after `seconds` of `input` in `frames` frames; the mouse movement is spread over them.
+FlyCamera flown(FlyInput input, double seconds, int frames, FlyCamera camera = FlyCamera(start())) {
+    input.look /= static_cast<float>(frames);
+    for (int i = 0; i < frames; ++i) camera.update(input, seconds / frames);
+    return camera;
+}
+
+void expect_near(glm::vec3 a, glm::vec3 b, float tolerance) {
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], tolerance) << "component " << i;
+}
+
+TEST(FlyCamera, StartsAtTheGivenCamera) {
+    const Camera given{.eye = {1.0F, 2.0F, 3.0F}, .target = {4.0F, 2.5F, -3.0F}, .far_plane = 77.0F};
+    const Camera camera = FlyCamera(given).camera();
+    EXPECT_EQ(camera.eye, given.eye);
+    EXPECT_EQ(camera.far_plane, 77.0F);
+    // Rounding of the angles, and of the sum at coordinates of 3.
+    expect_near(camera.target - camera.eye, glm::normalize(given.target - given.eye), 1e-6F);
+}
+
+TEST(FlyCamera, MovesAlongItsOwnAxes) {
+    const auto heading = [](glm::vec3 move) { return glm::normalize(flown({.move = move}, 1.0, 1).position()); };
+    expect_near(heading({0.0F, 0.0F, 1.0F}), {0.0F, 0.0F, -1.0F}, 1e-6F);  // rounding
+    expect_near(heading({1.0F, 0.0F, 0.0F}), {1.0F, 0.0F, 0.0F}, 1e-6F);
+    expect_near(heading({0.0F, 1.0F, 0.0F}), {0.0F, 1.0F, 0.0F}, 1e-6F);
+}
+
+TEST(FlyCamera, UpIsTheWorldsUpWhereverItLooks) {
+    FlyCamera camera(start());
+    camera.update({.look = {0.0F, -300.0F}}, 0.0);
+    EXPECT_GT(camera.pitch(), 0.5);
+    expect_near(glm::normalize(flown({.move = {0.0F, 1.0F, 0.0F}}, 1.0, 1, camera).position()), {0.0F, 1.0F, 0.0F},
+                1e-6F);  // rounding
+}
+
+TEST(FlyCamera, MouseToTheRightLooksRightAndDownLooksDown) {
+    FlyCamera camera(start());
+    camera.update({.look = {100.0F, 0.0F}}, 0.01);
+    EXPECT_GT(camera.camera().target.x, 0.1F);
+    camera.update({.look = {0.0F, 100.0F}}, 0.01);
+    EXPECT_LT(camera.camera().target.y, -0.1F);
+}
+
+TEST(FlyCamera, StickTurnsToItsSide) {
+    EXPECT_GT(flown({.turn = {1.0F, 0.0F}}, 0.2, 1).camera().target.x, 0.1F);
+    EXPECT_GT(flown({.turn = {0.0F, 1.0F}}, 0.2, 1).camera().target.y, 0.1F);
+}
+
+TEST(FlyCamera, WayDoesNotDependOnTheFrameRate) {
+    const FlyInput input{.move = {0.5F, 0.2F, 0.7F}};
+    const FlyInput rest;
+    const FlyCamera one = flown(rest, 0.3, 1, flown(input, 2.0, 1));
+    for (const int frames : {2, 30, 60, 144, 1000}) {
+        const FlyCamera many = flown(rest, 0.3, frames, flown(input, 2.0, frames));
+        // The solution is exact; the position is kept in double and shown in float.
+        expect_near(many.position(), one.position(), 1e-6F);
+        expect_near(many.velocity(), one.velocity(), 1e-6F);
+    }
+}
+
+TEST(FlyCamera, ViewDoesNotDependOnTheFrameRate) {
+    const FlyInput input{.look = {200.0F, -90.0F}, .turn = {0.4F, 0.3F}};
+    const FlyCamera one = flown(input, 1.0, 1);
+    const FlyCamera many = flown(input, 1.0, 100);
+    EXPECT_NEAR(many.yaw(), one.yaw(), 1e-6);  // the mouse movement of a frame is float
+    EXPECT_NEAR(many.pitch(), one.pitch(), 1e-6);
+}
+
+TEST(FlyCamera, WayOnACurveConvergesToSecondOrder) {
+    const FlyInput input{.move = {0.0F, 0.0F, 1.0F}, .turn = {1.0F, 0.0F}};
+    const glm::vec3 exact = flown(input, 1.0, 10000).position();
+    const float at_30 = glm::distance(flown(input, 1.0, 30).position(), exact);
+    const float at_60 = glm::distance(flown(input, 1.0, 60).position(), exact);
+    EXPECT_LT(at_30, 0.001F);  // a millimetre of a metre: (2 rad/s / 30 s)^2 / 24 and the easing's share
+    EXPECT_NEAR(at_30 / at_60, 4.0F, 0.4F);
+}
+
+TEST(FlyCamera, ReachesItsSpeedAndComesToRest) {
+    FlySettings settings;
+    settings.speed_m_per_s = 3.0F;
+    FlyCamera camera = flown({.move = {0.0F, 0.0F, 1.0F}}, 2.0, 100, FlyCamera(start(), settings));
+    EXPECT_NEAR(glm::length(camera.velocity()), 3.0F, 1e-6F);  // 2 s are 33 time constants
+    camera = flown({}, 2.0, 100, camera);
+    EXPECT_NEAR(glm::length(camera.velocity()), 0.0F, 1e-6F);
+}
+
+TEST(FlyCamera, TwoKeysAreNotFasterThanOne) {
+    const FlyCamera camera = flown({.move = {1.0F, 1.0F, 1.0F}}, 2.0, 1);
+    EXPECT_NEAR(glm::length(camera.velocity()), 1.0F, 1e-6F);  // rounding
+    const FlyCamera slow = flown({.move = {0.0F, 0.0F, 0.3F}}, 2.0, 1);
+    EXPECT_NEAR(glm::length(slow.velocity()), 0.3F, 1e-6F);  // but a stick may ask for less
+}
+
+TEST(FlyCamera, FastAndSlowAreFactorsAndCancelInTheirProduct) {
+    const auto speed = [](bool fast, bool slow) {
+        return glm::length(flown({.move = {0.0F, 0.0F, 1.0F}, .fast = fast, .slow = slow}, 2.0, 1).velocity());
+    };
+    EXPECT_NEAR(speed(true, false), 4.0F, 1e-5F);  // rounding
+    EXPECT_NEAR(speed(false, true), 0.25F, 1e-6F);
+    EXPECT_NEAR(speed(true, true), 1.0F, 1e-6F);
+}
+
+TEST(FlyCamera, PitchEndsShortOfThePoles) {
+    for (const float way : {1.0F, -1.0F}) {
+        const FlyCamera camera = flown({.look = {0.0F, -way * 1e6F}}, 0.1, 1);
+        EXPECT_EQ(camera.pitch(), static_cast<double>(way) * kMaximumPitch);
+        const FlyCamera forward = flown({.move = {1.0F, 0.0F, 0.0F}}, 1.0, 1, camera);
+        EXPECT_GT(forward.position().x, 0.5F);  // there is still a right
+    }
+}
+
+TEST(FlyCamera, BrokenInputAndTimeChangeNothing) {
+    FlyCamera camera = flown({.move = {0.0F, 0.0F, 1.0F}}, 1.0, 1);
+    const glm::vec3 position = camera.position();
+    for (const float broken : {kNaN, kInfinity, -kInfinity}) {
+        camera.update({.move = {broken, 0.0F, 0.0F}, .look = glm::vec2(broken), .turn = glm::vec2(broken)}, 0.0);
+        camera.update({.move = {0.0F, 0.0F, 1.0F}, .turn = {1.0F, 1.0F}}, static_cast<double>(broken));
+    }
+    camera.update({.move = {0.0F, 0.0F, 1.0F}}, -1.0);
+    EXPECT_EQ(camera.position(), position);
+    const Camera shown = FlyCamera({.eye = glm::vec3(kNaN), .target = glm::vec3(kNaN)}).camera();
+    EXPECT_TRUE(std::isfinite(shown.view()[3][0]));
+}
+
+TEST(FlyCameraDeathTest, RefusesAResponseTimeOfZero) {
+    FlySettings settings;
+    settings.response_s = 0.0F;
+    EXPECT_DEATH(FlyCamera(start(), settings), "response_s > 0");
+}
+
+}  // namespace
+}  // namespace rowland::scene
