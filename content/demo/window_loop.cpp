@@ -6,6 +6,7 @@
 #include <chrono>
 #include <filesystem>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "content/demo/assets.h"
@@ -64,7 +65,10 @@ class WindowLoop {
             move_camera(seconds);
             if (!paused_) scene_.advance_to(time_s_ += seconds);
             const glm::ivec2 size = window_.framebuffer_size();
-            if (size.x < 1 || size.y < 1) continue;  // minimised
+            if (size.x < 1 || size.y < 1) {  // minimised: nothing to draw, and no display to wait for
+                std::this_thread::sleep_for(std::chrono::milliseconds(20));
+                continue;
+            }
             picture_.resize(size);
             picture_.draw(scene_, flying_ ? fly_.camera() : orbit_.camera(), static_cast<float>(seconds));
             if (screenshot_wanted_) take_screenshot();

@@ -43,21 +43,22 @@ glm::vec3 FlyCamera::wanted_velocity(const FlyInput& input) const {
 
 void FlyCamera::update(const FlyInput& input, double seconds) {
     if (!std::isfinite(seconds) || seconds < 0.0) seconds = 0.0;
-    // Yaw grows towards +X, which is to the left of +Z under +Y up. A hand moved down looks down.
-    const double scale = settings_.radians_per_pixel;
-    angles_ = turned(angles_, -scale * input.look.x, -scale * input.look.y);
-
-    // Half of the stick's turn before the flight and half after: second order in the frame's length.
-    const glm::dvec2 half_turn =
-        0.5 * seconds * static_cast<double>(settings_.turn_radians_per_s) * glm::dvec2(finite_or_zero(input.turn));
-    angles_ = turned(angles_, -half_turn.x, half_turn.y);
+    // Yaw grows towards +X, which is to the left of +Z under +Y up. A hand moved down looks down, a stick pushed up
+    // looks up. Half of the turn comes before the flight and half after: second order in the frame's length.
+    const glm::dvec2 by_mouse =
+        static_cast<double>(settings_.radians_per_pixel) * glm::dvec2(finite_or_zero(input.look));
+    const glm::dvec2 by_stick =
+        seconds * static_cast<double>(settings_.turn_radians_per_s) * glm::dvec2(finite_or_zero(input.turn));
+    const double half_yaw = -0.5 * (by_mouse.x + by_stick.x);
+    const double half_pitch = 0.5 * (by_stick.y - by_mouse.y);
+    angles_ = turned(angles_, half_yaw, half_pitch);
     // dv/dt = (wanted - v) / response, solved exactly over the frame.
     const glm::dvec3 wanted = wanted_velocity(input);
     const double response = settings_.response_s;
     const double forgotten = -std::expm1(-seconds / response);
     position_ += wanted * seconds + (velocity_ - wanted) * (response * forgotten);
     velocity_ += (wanted - velocity_) * forgotten;
-    angles_ = turned(angles_, -half_turn.x, half_turn.y);
+    angles_ = turned(angles_, half_yaw, half_pitch);
 }
 
 Camera FlyCamera::camera() const {

@@ -27,8 +27,8 @@ struct FlyInput {
 };
 
 /// A camera that flies, +Y up, always upright: the pitch ends short of the poles. The speed eases in and out, solved
-/// exactly for constant input, so the way flown in a time does not depend on the frames it was cut into; only while a
-/// stick turns the view does the frame length enter, to second order. Input that is not finite is ignored.
+/// exactly for constant input, so the way flown in a time does not depend on the frames it was cut into; only while
+/// the view turns does the frame length enter, to second order. Input that is not finite is ignored.
 class FlyCamera {
  public:
     /// Starts at `start`, whose lens (field of view, near and far plane) it keeps.
