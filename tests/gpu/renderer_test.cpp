@@ -3,15 +3,20 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <memory>
+#include <numbers>
 
 #include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/core/json_reader.h"
 #include "engine/gpu/debug.h"
 #include "engine/image/image.h"
+#include "engine/lighting/light_probe.h"
 #include "engine/lighting/probe_image.h"
+#include "engine/math/sh_basis.h"
 #include "engine/platform/headless_context.h"
 #include "engine/render/brdf_table.h"
 #include "engine/render/gpu_mesh.h"
@@ -91,6 +96,59 @@ TEST(Renderer, DiffuseSphereReflectsItsAlbedoOfTheAmbientLight) {
         draw_sphere(uniform_probe(glm::vec3(2.0F)), {.base_colour = glm::vec3(0.4F), .roughness = 1.0F}, std::nullopt);
     // The difference leaves the specular layer out: 0.4 of radiance 2 is 0.8.
     EXPECT_NEAR(centre(grey).y - centre(dark).y, 0.8F, kFurnaceTolerance);
+}
+
+/// E(n)/π of light with three bands, by brute force: the clamped cosine summed over directions of even density.
+double irradiance_over_pi(const lighting::ShLight& light, const glm::dvec3& normal) {
+    constexpr int kRows = 200;
+    std::array<double, 9> basis;
+    double sum = 0.0;
+    for (int row = 0; row < kRows; ++row)
+        for (int column = 0; column < 2 * kRows; ++column) {
+            const double z = -1.0 + 2.0 * (row + 0.5) / kRows;
+            const double azimuth = std::numbers::pi * (column + 0.5) / kRows;
+            const double r = std::sqrt(1.0 - z * z);
+            const glm::dvec3 s(r * std::cos(azimuth), r * std::sin(azimuth), z);
+            math::evaluate_sh(s, 3, basis);
+            double radiance = 0.0;
+            for (std::size_t k = 0; k < 9; ++k) radiance += basis[k] * light.coefficients[k].y;
+            sum += std::max(0.0, glm::dot(s, normal)) * radiance;
+        }
+    return sum * 4.0 / (2.0 * kRows * kRows);  // 4π / samples / π
+}
+
+/// Grey light of three bands that is positive everywhere, and black reflections.
+lighting::LightProbe soft_light() {
+    lighting::LightProbe probe;
+    probe.sh.bands = 3;
+    for (const double c : {3.0, 0.4, -0.3, 0.5, 0.2, -0.15, 0.1, 0.25, -0.2}) probe.sh.coefficients.emplace_back(c);
+    probe.ambient = lighting::ambient_coefficients(probe.sh);
+    probe.environment.layout = {.face_size = 4, .levels = 1};
+    probe.environment.halves.assign(3 * probe.environment.layout.offset(1), 0);
+    return probe;
+}
+
+TEST(Renderer, DiffuseSphereShowsBruteForceIrradianceOfTheSharedProbe) {
+    const lighting::LightProbe probe = soft_light();
+    ASSERT_EQ(probe.ambient.window.window, math::SphericalWindow::None);
+    const auto pixels = draw_sphere(probe, {.base_colour = glm::vec3(1.0F), .roughness = 1.0F}, std::nullopt);
+    const scene::Camera camera{.eye = {0.0F, 0.0F, 3.0F}};
+    const double half_height = std::tan(0.5 * static_cast<double>(camera.vertical_field_of_view));
+    int compared = 0;
+    for (int row = 4; row < kSize; row += 6)
+        for (int column = 4; column < kSize; column += 6) {
+            // The ray through the pixel's centre meets the unit sphere at eye + t d.
+            const glm::dvec3 d = glm::normalize(glm::dvec3((2.0 * (column + 0.5) / kSize - 1.0) * half_height,
+                                                           (1.0 - 2.0 * (row + 0.5) / kSize) * half_height, -1.0));
+            const double b = 3.0 * d.z;
+            const double discriminant = b * b - 8.0;
+            if (discriminant < 0.5) continue;  // misses, or the rim where facets show
+            const glm::dvec3 normal = glm::dvec3(0.0, 0.0, 3.0) + (-b - std::sqrt(discriminant)) * d;
+            const double expected = irradiance_over_pi(probe.sh, normal);
+            EXPECT_NEAR(pixels[static_cast<std::size_t>(row * kSize + column)].y, expected, 0.01 * expected);
+            ++compared;
+        }
+    EXPECT_GT(compared, 30);
 }
 
 TEST(Renderer, AGratingNeverReturnsMoreThanTheFurnaceSends) {
