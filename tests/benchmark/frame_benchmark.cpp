@@ -26,6 +26,7 @@
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/module.h"
 #include "modules/diffraction/runtime/spike_surface.h"
+#include "tests/benchmark/entity_benchmark.h"
 
 namespace rowland {
 namespace {
@@ -161,6 +162,7 @@ int run(int argc, char** argv) {
     for (const Variant& variant : variants)
         std::printf("%-26s %10.2f %10.2f\n", variant.name, variant.minimum_ms,
                     variant.minimum_ms / variants[1].minimum_ms);
+    benchmark::print_entity_times(rounds);
     return 0;
 }
 
