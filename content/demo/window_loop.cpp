@@ -63,7 +63,10 @@ class WindowLoop {
             window_.poll(input_);
             handle_keys();
             move_camera(seconds);
-            if (!paused_) scene_.advance_to(time_s_ += seconds);
+            if (!paused_) {
+                pace_.advance(elapsed);
+                scene_.advance_to(pace_.simulated_s() + pace_.alpha() * pace_.step_s());
+            }
             const glm::ivec2 size = window_.framebuffer_size();
             if (size.x < 1 || size.y < 1) {  // minimised: nothing to draw, and no display to wait for
                 std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -201,8 +204,8 @@ class WindowLoop {
     platform::InputState input_;
     platform::FrameClock clock_;
     platform::FrameTimes times_;
+    platform::FixedStep pace_;
     std::size_t probe_ = 0;
-    double time_s_ = 0.0;
     double title_age_s_ = 0.0;
     int screenshots_taken_ = 0;
     bool flying_ = false;
