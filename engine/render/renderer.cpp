@@ -48,7 +48,7 @@ gpu::ProgramDesc sky_program() {
 
 std::string key_of(const gpu::ProgramDesc& desc) {
     std::string key = desc.vertex + '\n' + desc.fragment;
-    for (const auto& [name, value] : desc.defines) key += '\n' + name + '=' + value;
+    for (const auto& [name, value] : desc.defines) key.append("\n").append(name).append("=").append(value);
     return key;
 }
 
