@@ -44,15 +44,6 @@ constexpr int kCompressionLevel = 9;
 constexpr std::uint64_t kMaximumBlockSize = std::uint64_t{128} << 10;
 constexpr std::uint64_t kMinimumStoredBlockSize = 4;
 
-[[noreturn]] void fail(const std::string& file, std::string place, std::string found, std::string expected,
-                       std::string remedy = {}) {
-    throw Error({.file = file,
-                 .place = std::move(place),
-                 .found = std::move(found),
-                 .expected = std::move(expected),
-                 .remedy = std::move(remedy)});
-}
-
 std::vector<std::byte> compress(std::span<const std::byte> payload) {
     const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(), ZSTD_freeCCtx);
     if (!context) throw std::bad_alloc();
@@ -69,9 +60,9 @@ std::vector<std::byte> compress(std::span<const std::byte> payload) {
 std::vector<std::byte> decompress(std::span<const std::byte> stored, std::uint64_t size, const std::string& file) {
     std::vector<std::byte> payload(static_cast<std::size_t>(size));
     const std::size_t done = ZSTD_decompress(payload.data(), payload.size(), stored.data(), stored.size());
-    if (ZSTD_isError(done)) fail(file, "payload", ZSTD_getErrorName(done), "a zstd frame");
+    if (ZSTD_isError(done)) refuse_input(file, "payload", ZSTD_getErrorName(done), "a zstd frame");
     if (done != payload.size())
-        fail(file, "payload", fmt::format("{} bytes", done), fmt::format("{} bytes", payload.size()));
+        refuse_input(file, "payload", fmt::format("{} bytes", done), fmt::format("{} bytes", payload.size()));
     return payload;
 }
 
@@ -95,8 +86,8 @@ void write_fields(ByteWriter& writer, const Fields& fields) {
 void check_version(const std::string& of, std::uint32_t found, std::uint32_t expected, const std::string& file) {
     if (found == expected) return;
     const char* age = found > expected ? "newer" : "older";
-    fail(file, "header", fmt::format("{} version {}, {} than this program's", of, found, age),
-         fmt::format("version {}", expected), kRecook);
+    refuse_input(file, "header", fmt::format("{} version {}, {} than this program's", of, found, age),
+                 fmt::format("version {}", expected), kRecook);
 }
 
 Fields read_fields(ByteReader& reader) {
@@ -113,14 +104,15 @@ Fields read_fields(ByteReader& reader) {
 
 void check_sizes(const Fields& fields, const std::string& file) {
     if (fields.header.type.empty() || fields.header.type.size() > kMaximumTypeSize)
-        fail(file, "header", fmt::format("a type name of {} characters", fields.header.type.size()),
-             fmt::format("1 to {} characters", kMaximumTypeSize));
+        refuse_input(file, "header", fmt::format("a type name of {} characters", fields.header.type.size()),
+                     fmt::format("1 to {} characters", kMaximumTypeSize));
     if (fields.payload_size > kMaximumPayloadSize)
-        fail(file, "header", fmt::format("a payload of {} bytes", fields.payload_size),
-             fmt::format("at most {} bytes", kMaximumPayloadSize));
+        refuse_input(file, "header", fmt::format("a payload of {} bytes", fields.payload_size),
+                     fmt::format("at most {} bytes", kMaximumPayloadSize));
     if (fields.payload_size / kMaximumBlockSize > fields.stored_size / kMinimumStoredBlockSize)
-        fail(file, "header", fmt::format("a payload of {} bytes in {}", fields.payload_size, fields.stored_size),
-             "no more than zstd can hold");
+        refuse_input(file, "header",
+                     fmt::format("a payload of {} bytes in {}", fields.payload_size, fields.stored_size),
+                     "no more than zstd can hold");
 }
 
 Hash128 checksum(std::span<const std::byte> before, std::span<const std::byte> after) {
@@ -136,7 +128,7 @@ bool begins_like_magic(std::span<const std::byte> bytes) {
 
 /// unpack, with errors that say what is wrong but not yet what to do.
 CookedAsset parse(std::span<const std::byte> bytes, const std::string& file) {
-    if (!begins_like_magic(bytes)) fail(file, "byte 0", "not a cooked asset", "one that ./rowland cook wrote");
+    if (!begins_like_magic(bytes)) refuse_input(file, "byte 0", "not a cooked asset", "one that ./rowland cook wrote");
     ByteReader reader(bytes, file);
     reader.take(kMagic.size());
     Fields fields = read_fields(reader);
@@ -146,10 +138,10 @@ CookedAsset parse(std::span<const std::byte> bytes, const std::string& file) {
     expected.high = reader.value<std::uint64_t>();
     const auto stored = reader.take(fields.stored_size);
     if (reader.remaining() != 0)
-        fail(file, fmt::format("byte {}", reader.offset()), fmt::format("{} bytes too many", reader.remaining()),
-             "the end of the file");
+        refuse_input(file, fmt::format("byte {}", reader.offset()),
+                     fmt::format("{} bytes too many", reader.remaining()), "the end of the file");
     const Hash128 found = checksum(checked, stored);
-    if (found != expected) fail(file, "checksum", found.hex(), expected.hex());
+    if (found != expected) refuse_input(file, "checksum", found.hex(), expected.hex());
     check_sizes(fields, file);
     return {std::move(fields.header), decompress(stored, fields.payload_size, file)};
 }
@@ -159,8 +151,8 @@ CookedAsset parse(std::span<const std::byte> bytes, const std::string& file) {
 std::vector<std::byte> pack(const CookedAsset& asset) {
     ROWLAND_CHECK(!asset.header.type.empty() && asset.header.type.size() <= kMaximumTypeSize, "type name's length");
     if (asset.payload.size() > kMaximumPayloadSize)
-        fail({}, {}, fmt::format("a {} of {} bytes", asset.header.type, asset.payload.size()),
-             fmt::format("at most {} bytes", kMaximumPayloadSize), "make the source smaller");
+        refuse_input({}, {}, fmt::format("a {} of {} bytes", asset.header.type, asset.payload.size()),
+                     fmt::format("at most {} bytes", kMaximumPayloadSize), "make the source smaller");
     const std::vector<std::byte> stored = compress(asset.payload);
 
     ByteWriter writer;
@@ -194,7 +186,8 @@ CookedAsset load_any(const std::filesystem::path& path) {
 
 void check_type(const Header& header, const std::string& type, std::uint32_t type_version, const std::string& file) {
     if (header.type != type)
-        fail(file, "header", fmt::format("an asset of type \"{}\"", header.type), fmt::format("\"{}\"", type), kRecook);
+        refuse_input(file, "header", fmt::format("an asset of type \"{}\"", header.type), fmt::format("\"{}\"", type),
+                     kRecook);
     check_version(type, header.type_version, type_version, file);
 }
 

@@ -159,9 +159,4 @@ std::vector<std::uint8_t> Framebuffer::read_rgba8(unsigned attachment) const {
     return pixels;
 }
 
-void bind_window_framebuffer(glm::ivec2 size) {
-    glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    glViewport(0, 0, size.x, size.y);
-}
-
 }  // namespace rowland::gpu

@@ -69,7 +69,4 @@ class Framebuffer {
     std::size_t colour_count_ = 1;
 };
 
-/// Draws go to the window's own framebuffer from now on.
-void bind_window_framebuffer(glm::ivec2 size);
-
 }  // namespace rowland::gpu

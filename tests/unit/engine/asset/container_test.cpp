@@ -12,6 +12,7 @@
 #include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/core/hash.h"
+#include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 
 namespace rowland::asset {
@@ -39,16 +40,7 @@ void expect_equal(const CookedAsset& a, const CookedAsset& b) {
     EXPECT_EQ(a.payload, b.payload);
 }
 
-std::string message_of(const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const Error& error) {
-        EXPECT_EQ(error.info().fault, Fault::Input);
-        return error.what();
-    }
-    ADD_FAILURE() << "nothing was thrown";
-    return {};
-}
+using test::message_of;
 
 std::string unpack_message(std::span<const std::byte> bytes) {
     return message_of([&] { unpack(bytes, "a.probe"); });

@@ -6,23 +6,14 @@
 #include <limits>
 
 #include "engine/core/error.h"
+#include "tests/support/message_of.h"
 
 namespace rowland {
 namespace {
 
 using testing::HasSubstr;
 
-template <typename Action>
-std::string message_of(const Action& action) {
-    try {
-        action();
-    } catch (const Error& error) {
-        EXPECT_EQ(error.info().fault, Fault::Input);
-        return error.what();
-    }
-    ADD_FAILURE() << "nothing was thrown";
-    return {};
-}
+using test::message_of;
 
 std::vector<std::byte> sample() {
     ByteWriter writer;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/error.h"
+#include "tests/support/message_of.h"
 
 namespace rowland {
 namespace {
@@ -11,17 +12,7 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-template <typename Action>
-std::string message_of(const Action& action) {
-    try {
-        action();
-    } catch (const Error& error) {
-        EXPECT_EQ(error.info().fault, Fault::Input);
-        return error.what();
-    }
-    ADD_FAILURE() << "nothing was thrown";
-    return {};
-}
+using test::message_of;
 
 std::string parse_message(std::string_view text) {
     return message_of([&] { parse_json(text, "a.json"); });
