@@ -1,0 +1,178 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <future>
+#include <memory>
+#include <string>
+#include <typeinfo>
+#include <utility>
+#include <vector>
+
+#include "engine/asset/file_watch.h"
+#include "engine/core/check.h"
+
+namespace rowland::asset {
+
+/// What the store keeps of every asset, whatever its type.
+class Slot {
+ public:
+    Slot(std::string asset_name, const std::type_info& asset_type) : name(std::move(asset_name)), type(asset_type) {}
+    virtual ~Slot() = default;
+    Slot(const Slot&) = delete;
+    Slot& operator=(const Slot&) = delete;
+
+    /// Loads the asset anew on another thread.
+    virtual void start_loading() = 0;
+    virtual bool loading() const = 0;
+    virtual void wait() const = 0;
+    /// Takes over what has been loaded, if it is there; true if the asset is another now. Never throws for a load that
+    /// failed: the old asset stays, and `failure` says why.
+    virtual bool adopt() = 0;
+
+    const std::string name;
+    const std::type_info& type;
+    FileWatch watch;
+    std::uint64_t version = 1;
+    std::string failure;
+};
+
+/// Loads one asset from files and tells which it read, also those it could not read. It runs on another thread when the
+/// asset is loaded anew, so it must not touch OpenGL. Throws what it likes.
+template <typename T>
+using Loader = std::function<T(std::vector<std::filesystem::path>& read_files)>;
+
+template <typename T>
+class TypedSlot final : public Slot {
+ public:
+    TypedSlot(std::string asset_name, Loader<T> loader)
+        : Slot(std::move(asset_name), typeid(T)), loader_(std::move(loader)) {
+        Attempt first = attempt();
+        watch = std::move(first.watch);
+        if (first.error) std::rethrow_exception(first.error);
+        value_ = std::move(first.value);
+    }
+
+    const std::shared_ptr<const T>& value() const { return value_; }
+
+    void start_loading() override {
+        running_ = std::async(std::launch::async, [this] { return attempt(); });
+    }
+    bool loading() const override { return running_.valid(); }
+    void wait() const override {
+        if (running_.valid()) running_.wait();
+    }
+    bool adopt() override {
+        if (!running_.valid() || running_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
+        Attempt loaded = running_.get();
+        watch = std::move(loaded.watch);
+        if (loaded.error) {
+            failure = message(loaded.error);
+            return false;
+        }
+        failure.clear();
+        value_ = std::move(loaded.value);
+        ++version;
+        return true;
+    }
+
+ private:
+    struct Attempt {
+        std::shared_ptr<const T> value;
+        FileWatch watch;
+        std::exception_ptr error;
+    };
+
+    Attempt attempt() const {
+        const auto started = std::filesystem::file_time_type::clock::now();
+        std::vector<std::filesystem::path> files;
+        Attempt result;
+        try {
+            result.value = std::make_shared<const T>(loader_(files));
+        } catch (...) {
+            result.error = std::current_exception();
+            // A file that cannot be loaded may fail before it has named what it needs.
+            files.insert(files.end(), watch.files().begin(), watch.files().end());
+        }
+        result.watch = FileWatch(std::move(files), started);
+        return result;
+    }
+
+    static std::string message(const std::exception_ptr& error) {
+        try {
+            std::rethrow_exception(error);
+        } catch (const std::exception& exception) {
+            return exception.what();
+        } catch (...) {
+            return "unknown failure";
+        }
+    }
+
+    Loader<T> loader_;
+    std::shared_ptr<const T> value_;
+    std::future<Attempt> running_;
+};
+
+/// An asset in a store, shared by all who asked for it; keeps it alive.
+template <typename T>
+class Handle {
+ public:
+    Handle() = default;
+    explicit Handle(std::shared_ptr<TypedSlot<T>> slot) : slot_(std::move(slot)) {}
+
+    const T& operator*() const { return *slot_->value(); }
+    const T* operator->() const { return slot_->value().get(); }
+    /// The asset as it is now; it stays the same when the store takes a newer one.
+    std::shared_ptr<const T> share() const { return slot_->value(); }
+    /// Grows whenever the asset is replaced.
+    std::uint64_t version() const { return slot_->version; }
+    explicit operator bool() const { return slot_ != nullptr; }
+
+ private:
+    std::shared_ptr<TypedSlot<T>> slot_;
+};
+
+/// Holds assets while somebody has a handle on them, and loads them anew when a file they were made from changes. A
+/// load that fails keeps the old asset. Used from one thread; loading anew runs on others.
+class Store {
+ public:
+    /// How often files are looked at, at most.
+    explicit Store(std::chrono::milliseconds interval = std::chrono::milliseconds(200)) : interval_(interval) {}
+
+    /// The asset called `name`, loaded now unless somebody holds it already. Throws what the loader throws. It is a
+    /// logic error to ask for one name with two types.
+    template <typename T>
+    Handle<T> load(const std::string& name, Loader<T> loader) {
+        if (const std::shared_ptr<Slot> present = find(name)) {
+            ROWLAND_CHECK(present->type == typeid(T), "one asset's name with two types");
+            return Handle<T>(std::static_pointer_cast<TypedSlot<T>>(present));
+        }
+        auto slot = std::make_shared<TypedSlot<T>>(name, std::move(loader));
+        slots_.push_back(slot);
+        return Handle<T>(std::move(slot));
+    }
+
+    /// Once a frame: starts loading what has changed, takes over what has been loaded. Returns whether an asset was
+    /// replaced or a load failed.
+    bool poll();
+    /// Loads every asset anew.
+    void reload_all();
+    /// Waits for all loading to end; the next poll() takes it over.
+    void wait() const;
+
+    /// What could not be loaded anew, "name: why" each, until it can.
+    std::vector<std::string> failures() const;
+
+ private:
+    std::shared_ptr<Slot> find(const std::string& name) const;
+    std::vector<std::shared_ptr<Slot>> held() const;
+
+    std::vector<std::weak_ptr<Slot>> slots_;
+    std::chrono::milliseconds interval_;
+    std::chrono::steady_clock::time_point last_look_ = {};
+};
+
+}  // namespace rowland::asset
