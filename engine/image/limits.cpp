@@ -16,4 +16,11 @@ void check_image_size(std::int64_t width, std::int64_t height, const std::string
                  .remedy = "scale the image down"});
 }
 
+void check_compression(std::int64_t width, std::int64_t height, std::size_t length, std::uint64_t texels_per_byte,
+                       const std::string& file) {
+    if (static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) / texels_per_byte <= length) return;
+    refuse_input(file, "", fmt::format("an image of {} x {} texels in {} bytes", width, height, length),
+                 "the whole image", "export the image again");
+}
+
 }  // namespace rowland::image

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -15,5 +16,10 @@ inline constexpr std::uint64_t kMaximumFileBytes = std::uint64_t{2} << 30;
 /// Throws Error (input) naming `file` and `place` if a side is not in [1, kMaximumSide] or there are more than
 /// kMaximumTexels texels.
 void check_image_size(std::int64_t width, std::int64_t height, const std::string& file, const std::string& place);
+
+/// Throws Error (input) if more than `texels_per_byte` texels would have to come from each of `length` bytes, more than
+/// the format can compress: so that a few bytes cannot make us allocate a large image that cannot be in them.
+void check_compression(std::int64_t width, std::int64_t height, std::size_t length, std::uint64_t texels_per_byte,
+                       const std::string& file);
 
 }  // namespace rowland::image

@@ -22,19 +22,28 @@ std::vector<std::byte> cook_mesh(cook::Context& context) {
     return write_glb(mesh, {.name = context.source().stem().string()});
 }
 
-std::string describe_mesh(std::span<const std::byte> payload, const std::string& file) {
-    const Mesh mesh = merge_instances(load_glb(payload, file));
+std::string describe_triangles(const Mesh& mesh) {
     const Bounds box = bounds(mesh);
-    return fmt::format(
-        "format: glTF 2.0 binary, Draco\nvertices: {}\ntriangles: {}\nminimum: {} {} {}\nmaximum: {} {} {}\n",
-        mesh.positions.size(), mesh.indices.size() / 3, box.minimum.x, box.minimum.y, box.minimum.z, box.maximum.x,
-        box.maximum.y, box.maximum.z);
+    return fmt::format("vertices: {}\ntriangles: {}\nminimum: {} {} {}\nmaximum: {} {} {}\n", mesh.positions.size(),
+                       mesh.indices.size() / 3, box.minimum.x, box.minimum.y, box.minimum.z, box.maximum.x,
+                       box.maximum.y, box.maximum.z);
+}
+
+std::string describe_mesh(std::span<const std::byte> payload, const std::string& file) {
+    return "format: glTF 2.0 binary, Draco\n" + describe_triangles(merge_instances(load_glb(payload, file)));
+}
+
+std::string describe_scene(const ImportedScene& scene) {
+    return "format: glTF 2.0\n" + describe_triangles(merge_instances(scene)) +
+           fmt::format("nodes: {}\nmeshes: {}\nmaterials: {}\ntextures: {}\nskins: {}\nanimations: {}\nlights: {}\n",
+                       scene.nodes.size(), scene.meshes.size(), scene.materials.size(), scene.textures.size(),
+                       scene.skins.size(), scene.animations.size(), scene.lights.size());
 }
 
 cook::AssetType mesh_type() {
     cook::AssetType type;
     type.name = "mesh";
-    type.version = 1;
+    type.version = 2;
     type.extension = ".glb";
     type.in_container = false;
     type.recognises = [](const std::filesystem::path&, const nlohmann::json* json) {
@@ -64,12 +73,15 @@ cook::AssetType gltf_type(std::vector<std::string> handled_extensions) {
         const std::string extension = lower_extension(source);
         return extension == ".gltf" || extension == ".glb";
     };
-    type.check = [handled = std::move(handled_extensions)](cook::Context& context) {
+    type.check = [handled = handled_extensions](cook::Context& context) {
         std::vector<std::filesystem::path> files;
         merge_instances(load_gltf(context.source(), handled, &files));
         for (const std::filesystem::path& file : files) context.depend_on(file);
     };
-    type.describe = describe_mesh;
+    type.describe = [handled = std::move(handled_extensions)](std::span<const std::byte> payload,
+                                                              const std::string& file) {
+        return describe_scene(load_glb(payload, file, handled));
+    };
     return type;
 }
 

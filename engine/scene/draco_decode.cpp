@@ -7,10 +7,12 @@
 #include <chrono>
 #include <exception>
 #include <future>
+#include <glm/common.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <thread>
+#include <type_traits>
 
 #include "engine/core/error.h"
 #include "engine/scene/draco_header.h"
@@ -18,6 +20,23 @@
 namespace rowland::scene {
 
 namespace {
+
+/// What makes one of an attribute's normalised integers; 1 if the decoder does it itself, or if there is nothing to do.
+float normalising_factor(const draco::PointAttribute& attribute) {
+    if (attribute.normalized()) return 1.0F;
+    switch (attribute.data_type()) {
+        case draco::DT_INT8:
+            return 1.0F / 127.0F;
+        case draco::DT_UINT8:
+            return 1.0F / 255.0F;
+        case draco::DT_INT16:
+            return 1.0F / 32767.0F;
+        case draco::DT_UINT16:
+            return 1.0F / 65535.0F;
+        default:
+            return 1.0F;
+    }
+}
 
 /// One decoding, shared with the thread that does it.
 struct Job {
@@ -75,6 +94,11 @@ struct DracoMesh::Decoded {
                      .expected = std::move(expected),
                      .remedy = "export the mesh again"});
     }
+    const draco::PointAttribute& attribute(std::uint32_t id, const std::string& name) const {
+        const draco::PointAttribute* found = mesh->GetAttributeByUniqueId(id);
+        if (!found) fail(fmt::format("no Draco attribute {} for {}", id, name), "one");
+        return *found;
+    }
 };
 
 DracoMesh::DracoMesh(std::span<const std::byte> stream, const std::string& file, const std::string& place,
@@ -115,30 +139,41 @@ std::vector<std::uint32_t> DracoMesh::indices() const {
     return indices;
 }
 
+int DracoMesh::component_count(std::uint32_t id, const std::string& name) const {
+    return decoded_->attribute(id, name).num_components();
+}
+
 template <typename Vector>
-std::vector<Vector> DracoMesh::vectors(std::uint32_t id, const std::string& name) const {
+std::vector<Vector> DracoMesh::vectors(std::uint32_t id, const std::string& name, bool normalised) const {
+    using Component = typename Vector::value_type;
     const draco::Mesh& mesh = *decoded_->mesh;
-    const draco::PointAttribute* attribute = mesh.GetAttributeByUniqueId(id);
-    if (!attribute) decoded_->fail(fmt::format("no Draco attribute {} for {}", id, name), "one");
-    if (attribute->num_components() != Vector::length())
-        decoded_->fail(fmt::format("{} components of {}", attribute->num_components(), name),
+    const draco::PointAttribute& attribute = decoded_->attribute(id, name);
+    if (attribute.num_components() != Vector::length())
+        decoded_->fail(fmt::format("{} components of {}", attribute.num_components(), name),
                        fmt::format("{}", Vector::length()));
-    if (!attribute->is_mapping_identity() && attribute->indices_map_size() < mesh.num_points())
-        decoded_->fail(fmt::format("values of {} for {} vertices", name, attribute->indices_map_size()),
+    if (!attribute.is_mapping_identity() && attribute.indices_map_size() < mesh.num_points())
+        decoded_->fail(fmt::format("values of {} for {} vertices", name, attribute.indices_map_size()),
                        fmt::format("{}", mesh.num_points()));
     decoded_->budget->spend(mesh.num_points(), sizeof(Vector), decoded_->place);
     std::vector<Vector> vectors(mesh.num_points());
     for (std::uint32_t i = 0; i < mesh.num_points(); ++i) {
-        const draco::AttributeValueIndex value = attribute->mapped_index(draco::PointIndex(i));
-        if (value.value() >= attribute->size() ||
-            !attribute->ConvertValue<float>(value, static_cast<int8_t>(Vector::length()), &vectors[i][0]))
+        const draco::AttributeValueIndex value = attribute.mapped_index(draco::PointIndex(i));
+        if (value.value() >= attribute.size() ||
+            !attribute.ConvertValue<Component>(value, static_cast<int8_t>(Vector::length()), &vectors[i][0]))
             decoded_->fail(fmt::format("value {} of {}", value.value(), name),
-                           fmt::format("below {}, the number of values", attribute->size()));
+                           fmt::format("one below {}, the number of values, that fits", attribute.size()));
+    }
+    if constexpr (std::is_floating_point_v<Component>) {
+        const float factor = normalised ? normalising_factor(attribute) : 1.0F;
+        // Signed types have two codes for −1 (glTF 2.0, 3.6.2.2).
+        if (factor != 1.0F)
+            for (Vector& vector : vectors) vector = glm::max(vector * factor, Vector(-1.0F));
     }
     return vectors;
 }
-template std::vector<glm::vec2> DracoMesh::vectors<glm::vec2>(std::uint32_t, const std::string&) const;
-template std::vector<glm::vec3> DracoMesh::vectors<glm::vec3>(std::uint32_t, const std::string&) const;
-template std::vector<glm::vec4> DracoMesh::vectors<glm::vec4>(std::uint32_t, const std::string&) const;
+template std::vector<glm::vec2> DracoMesh::vectors<glm::vec2>(std::uint32_t, const std::string&, bool) const;
+template std::vector<glm::vec3> DracoMesh::vectors<glm::vec3>(std::uint32_t, const std::string&, bool) const;
+template std::vector<glm::vec4> DracoMesh::vectors<glm::vec4>(std::uint32_t, const std::string&, bool) const;
+template std::vector<glm::u16vec4> DracoMesh::vectors<glm::u16vec4>(std::uint32_t, const std::string&, bool) const;
 
 }  // namespace rowland::scene

@@ -25,10 +25,13 @@ class DracoMesh {
     std::size_t vertex_count() const;
     /// Three a triangle, each below vertex_count().
     std::vector<std::uint32_t> indices() const;
-    /// The attribute with Draco's unique id `id`, one glm::vec2, vec3 or vec4 a vertex; `name` is for messages. Throws
-    /// Error (input) if there is none, or if its number of components differs.
+    /// Number of components of the attribute with Draco's unique id `id`; `name` is for messages. Throws Error (input)
+    /// if there is none.
+    int component_count(std::uint32_t id, const std::string& name) const;
+    /// The attribute's values, one glm::vec2, vec3, vec4 or u16vec4 a vertex; as floats, `normalised` integers stand
+    /// for [0, 1] or [−1, 1]. Throws Error (input) if there is none, or if its number of components differs.
     template <typename Vector>
-    std::vector<Vector> vectors(std::uint32_t id, const std::string& name) const;
+    std::vector<Vector> vectors(std::uint32_t id, const std::string& name, bool normalised = false) const;
 
  private:
     struct Decoded;

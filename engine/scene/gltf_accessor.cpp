@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <glm/vec2.hpp>
 #include <limits>
@@ -155,25 +156,60 @@ std::span<const std::byte> view_bytes(const GltfDocument& document, std::size_t 
     return document.buffers.at(at.buffer).bytes.subspan(at.offset, at.length);
 }
 
+namespace {
+
+/// Elements of `Length` floats each that `Element` is made of.
+template <typename Element, int Length>
+std::vector<Element> read_elements(const GltfDocument& document, std::size_t index, MemoryBudget& budget) {
+    const GltfAccessor& accessor = document.accessors.at(index);
+    static_assert(sizeof(Element) == Length * sizeof(float));
+    budget.spend(accessor.count, sizeof(Element), place_of("accessors", index));
+    std::vector<Element> elements(accessor.count, Element(0.0F));
+    const std::size_t size = component_size(accessor.type);
+    for_each_element(document, index, [&](std::size_t element, const std::byte* bytes) {
+        std::array<float, Length> components;
+        for (std::size_t c = 0; c < Length; ++c)
+            components[c] = read_component(bytes + c * size, accessor.type, accessor.normalised);
+        std::memcpy(static_cast<void*>(&elements[element]), components.data(), sizeof components);
+    });
+    return elements;
+}
+
+}  // namespace
+
+void require_data(const GltfDocument& document, std::size_t accessor, const std::string& place,
+                  const std::string& name) {
+    const GltfAccessor& at = document.accessors.at(accessor);
+    if (!at.view && !at.sparse)
+        fail(document, place, fmt::format("an accessor without data for {}", name), "a buffer view");
+}
+
 template <typename Vector>
 std::vector<Vector> read_vectors(const GltfDocument& document, std::size_t index, MemoryBudget& budget) {
     const GltfAccessor& accessor = document.accessors.at(index);
-    const std::string place = place_of("accessors", index);
     if (accessor.columns != 1 || accessor.rows != Vector::length() || accessor.type == ComponentType::Uint32)
-        fail(document, place, "another type", fmt::format("vectors of {} components", Vector::length()));
-    budget.spend(accessor.count, sizeof(Vector), place);
-    std::vector<Vector> vectors(accessor.count, Vector(0.0F));
-    const std::size_t size = component_size(accessor.type);
-    for_each_element(document, index, [&](std::size_t element, const std::byte* bytes) {
-        for (int c = 0; c < Vector::length(); ++c)
-            vectors[element][c] =
-                read_component(bytes + static_cast<std::size_t>(c) * size, accessor.type, accessor.normalised);
-    });
-    return vectors;
+        fail(document, place_of("accessors", index), "another type",
+             fmt::format("vectors of {} components", Vector::length()));
+    return read_elements<Vector, Vector::length()>(document, index, budget);
 }
 template std::vector<glm::vec2> read_vectors<glm::vec2>(const GltfDocument&, std::size_t, MemoryBudget&);
 template std::vector<glm::vec3> read_vectors<glm::vec3>(const GltfDocument&, std::size_t, MemoryBudget&);
 template std::vector<glm::vec4> read_vectors<glm::vec4>(const GltfDocument&, std::size_t, MemoryBudget&);
+
+std::vector<float> read_floats(const GltfDocument& document, std::size_t index, MemoryBudget& budget) {
+    const GltfAccessor& accessor = document.accessors.at(index);
+    if (accessor.columns != 1 || accessor.rows != 1 || accessor.type != ComponentType::Float)
+        fail(document, place_of("accessors", index), "another type", "scalars of floats");
+    return read_elements<float, 1>(document, index, budget);
+}
+
+std::vector<glm::mat4> read_matrices(const GltfDocument& document, std::size_t index, MemoryBudget& budget) {
+    const GltfAccessor& accessor = document.accessors.at(index);
+    // Columns of four floats have no padding between them.
+    if (accessor.columns != 4 || accessor.rows != 4 || accessor.type != ComponentType::Float)
+        fail(document, place_of("accessors", index), "another type", "4 x 4 matrices of floats");
+    return read_elements<glm::mat4, 16>(document, index, budget);
+}
 
 std::vector<std::uint32_t> read_indices(const GltfDocument& document, std::size_t index, MemoryBudget& budget) {
     const GltfAccessor& accessor = document.accessors.at(index);

@@ -22,6 +22,14 @@ std::span<const std::byte> view_bytes(const GltfDocument& document, std::size_t 
 template <typename Vector>
 std::vector<Vector> read_vectors(const GltfDocument& document, std::size_t accessor, MemoryBudget& budget);
 
+/// The same for scalars, and for 4 × 4 matrices of floats.
+std::vector<float> read_floats(const GltfDocument& document, std::size_t accessor, MemoryBudget& budget);
+std::vector<glm::mat4> read_matrices(const GltfDocument& document, std::size_t accessor, MemoryBudget& budget);
+
+/// Throws Error (input) at `place` if an accessor has no data of its own; it would read as zeros.
+void require_data(const GltfDocument& document, std::size_t accessor, const std::string& place,
+                  const std::string& name);
+
 /// The elements of an accessor of unsigned integers. Throws Error (input) if it is not one.
 std::vector<std::uint32_t> read_indices(const GltfDocument& document, std::size_t accessor, MemoryBudget& budget);
 

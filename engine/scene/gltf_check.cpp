@@ -9,6 +9,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/json_reader.h"
+#include "engine/scene/gltf_index.h"
 #include "engine/scene/memory_budget.h"
 
 namespace rowland::scene {
@@ -16,14 +17,13 @@ namespace rowland::scene {
 namespace {
 
 // Quantised attributes are ordinary accessors to us, so that extension needs nothing more.
-constexpr std::array<std::string_view, 2> kSupportedExtensions = {"KHR_draco_mesh_compression",
-                                                                  "KHR_mesh_quantization"};
+constexpr std::array<std::string_view, 6> kSupportedExtensions = {
+    "KHR_draco_mesh_compression", "KHR_lights_punctual",   "KHR_materials_emissive_strength",
+    "KHR_materials_unlit",        "KHR_mesh_quantization", "KHR_texture_transform"};
 constexpr std::int64_t kMaximumBytes = MemoryBudget::kDefaultLimit;
 constexpr std::int64_t kMaximumCount = std::numeric_limits<std::int32_t>::max();
 constexpr NumberRange kFinite{.minimum = std::numeric_limits<float>::lowest(),
                               .maximum = std::numeric_limits<float>::max()};
-// Exporters round: what is a little over 1 is clamped when it is read.
-constexpr NumberRange kFactor{.minimum = 0.0, .maximum = 1.001};
 
 /// The checks, each for one kind of object of the file.
 class Checker {
@@ -38,13 +38,10 @@ class Checker {
         for_each("buffers", &Checker::check_buffer);
         for_each("bufferViews", &Checker::check_view);
         for_each("accessors", &Checker::check_accessor);
-        for_each("materials", &Checker::check_material);
         for_each("meshes", &Checker::check_mesh);
         for_each("nodes", &Checker::check_node);
         for_each("scenes", &Checker::check_scene);
-        for_each("images", &Checker::check_image);
         if (root_.has("scene")) check_index(root_, "scene", "scenes");
-        warn_of_ignored_parts();
     }
 
  private:
@@ -59,31 +56,11 @@ class Checker {
         for (JsonReader& element : root_.objects(array)) (this->*check)(element);
     }
 
-    /// Requires `key` to be an index into the root's `array`.
     void check_index(JsonReader& reader, const std::string& key, const std::string& array) const {
-        const auto found = json_.find(array);
-        const std::size_t size = found == json_.end() ? 0 : found->size();
-        if (size == 0)
-            reader.fail(key, "an index", fmt::format("no index: the file has no {}", array), "the file is incomplete");
-        reader.integer(key, 0, static_cast<std::int64_t>(size) - 1);
+        index_into(json_, reader, key, array);
     }
     void check_index_if_there(JsonReader& reader, const std::string& key, const std::string& array) const {
-        if (reader.has(key)) check_index(reader, key, array);
-    }
-    /// Requires `key` to be an array of indices into the root's `array`.
-    void check_indices_if_there(JsonReader& reader, const std::string& key, const std::string& array) const {
-        if (!reader.has(key)) return;
-        const nlohmann::json& values = reader.raw(key);
-        if (!values.is_array()) reader.fail(key, values.type_name(), fmt::format("an array of indices into {}", array));
-        const auto found = json_.find(array);
-        const std::size_t size = found == json_.end() ? 0 : found->size();
-        for (const nlohmann::json& value : values)
-            if (!value.is_number_unsigned() || value.get<std::uint64_t>() >= size)
-                reader.fail(key, value.dump().substr(0, 40),
-                            fmt::format("an index below {}, the number of {}", size, array));
-    }
-    static void check_text_if_there(JsonReader& reader, const std::string& key) {
-        if (reader.has(key)) reader.text(key);
+        index_if_there(json_, reader, key, array);
     }
 
     void check_asset() {
@@ -116,7 +93,7 @@ class Checker {
 
     void check_buffer(JsonReader& buffer) {
         buffer.integer("byteLength", 1, kMaximumBytes);
-        check_text_if_there(buffer, "uri");
+        text_if_there(buffer, "uri");
     }
 
     void check_view(JsonReader& view) {
@@ -152,24 +129,8 @@ class Checker {
         values.integer_or("byteOffset", 0, 0, kMaximumBytes);
     }
 
-    void check_material(JsonReader& material) {
-        check_text_if_there(material, "name");
-        if (material.has("emissiveFactor")) material.numbers("emissiveFactor", 3, {.minimum = 0.0, .maximum = 1e6});
-        if (material.has("extensions")) material.object("extensions");
-        if (material.has("normalTexture")) material.object("normalTexture").number_or("scale", 1.0, kFinite);
-        if (!material.has("pbrMetallicRoughness")) return;
-        JsonReader pbr = material.object("pbrMetallicRoughness");
-        if (pbr.has("baseColorFactor")) pbr.numbers("baseColorFactor", 4, kFactor);
-        pbr.number_or("metallicFactor", 1.0, kFactor);
-        pbr.number_or("roughnessFactor", 1.0, kFactor);
-        if (pbr.has("baseColorTexture")) {
-            JsonReader texture = pbr.object("baseColorTexture");
-            check_index(texture, "index", "textures");
-        }
-    }
-
     void check_mesh(JsonReader& mesh) {
-        check_text_if_there(mesh, "name");
+        text_if_there(mesh, "name");
         for (JsonReader& primitive : mesh.objects("primitives")) check_primitive(primitive);
     }
 
@@ -193,9 +154,10 @@ class Checker {
     }
 
     void check_node(JsonReader& node) {
-        check_text_if_there(node, "name");
+        text_if_there(node, "name");
         check_index_if_there(node, "mesh", "meshes");
-        check_indices_if_there(node, "children", "nodes");
+        check_index_if_there(node, "skin", "skins");
+        indices_if_there(json_, node, "children", "nodes");
         if (node.has("matrix")) node.numbers("matrix", 16, kFinite);
         if (node.has("translation")) node.numbers("translation", 3, kFinite);
         if (node.has("rotation")) node.numbers("rotation", 4, {.minimum = -1.001, .maximum = 1.001});
@@ -203,18 +165,8 @@ class Checker {
     }
 
     void check_scene(JsonReader& scene) {
-        check_text_if_there(scene, "name");
-        check_indices_if_there(scene, "nodes", "nodes");
-    }
-
-    void check_image(JsonReader& image) {
-        check_index_if_there(image, "bufferView", "bufferViews");
-        check_text_if_there(image, "uri");
-    }
-
-    void warn_of_ignored_parts() {
-        for (const char* part : {"animations", "skins", "textures"})
-            if (root_.has(part)) warn_once(warnings_, fmt::format("{} are ignored", part));
+        text_if_there(scene, "name");
+        indices_if_there(json_, scene, "nodes", "nodes");
     }
 
     const nlohmann::json& json_;

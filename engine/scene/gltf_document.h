@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "engine/scene/gltf_import.h"
@@ -83,9 +84,48 @@ struct GltfMesh {
 struct GltfNode {
     std::string name;
     glm::dmat4 local{1.0};
+    Transform rest;  ///< `local` taken apart; without the shear that a matrix may hold
     std::vector<std::size_t> children;
     std::optional<std::size_t> mesh;
+    std::optional<std::size_t> skin;
+    std::optional<std::size_t> light;
 };
+
+struct GltfImage {
+    std::optional<std::size_t> view;
+    std::string uri;  ///< where the bytes are if there is no view
+};
+
+struct GltfTexture {
+    std::optional<std::size_t> image;  ///< none: only an extension that we do not know offers one
+    ImportedTexture settings;          ///< its image is not set
+};
+
+struct GltfSkin {
+    std::vector<std::size_t> joints;
+    std::optional<std::size_t> inverse_bind;  ///< accessor; none: identities
+};
+
+struct GltfAnimationSampler {
+    std::size_t input = 0;  ///< accessors
+    std::size_t output = 0;
+    Interpolation interpolation = Interpolation::Linear;
+};
+
+struct GltfAnimationChannel {
+    std::size_t sampler = 0;
+    std::size_t node = 0;
+    AnimatedProperty property = AnimatedProperty::Translation;
+    std::string place;  ///< JSON pointer
+};
+
+struct GltfAnimation {
+    std::string name;
+    std::vector<GltfAnimationSampler> samplers;
+    std::vector<GltfAnimationChannel> channels;  ///< those that move a node
+};
+
+using GltfLight = std::variant<DirectionalLight, PunctualLight>;
 
 /// A parsed glTF file. All indices are in range and all offsets within their buffers once check_ranges has passed it.
 struct GltfDocument {
@@ -96,7 +136,12 @@ struct GltfDocument {
     std::vector<GltfMesh> meshes;
     std::vector<GltfNode> nodes;
     std::vector<std::size_t> roots;  ///< nodes of the scene to show
+    std::vector<GltfImage> images;
+    std::vector<GltfTexture> textures;
     std::vector<MaterialDescription> materials;
+    std::vector<GltfSkin> skins;
+    std::vector<GltfAnimation> animations;
+    std::vector<GltfLight> lights;
 };
 
 }  // namespace rowland::scene

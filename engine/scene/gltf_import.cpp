@@ -2,10 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/scene/gltf_accessor.h"
+#include "engine/scene/gltf_animation.h"
 #include "engine/scene/gltf_check.h"
+#include "engine/scene/gltf_image.h"
 #include "engine/scene/gltf_parse.h"
+#include "engine/scene/gltf_skin.h"
 #include "engine/scene/gltf_source.h"
 #include "engine/scene/memory_budget.h"
 #include "engine/scene/node_tree.h"
@@ -40,28 +46,95 @@ std::vector<std::vector<ImportedPrimitive>> import_meshes(const GltfDocument& do
     return imported;
 }
 
+/// Adds the shown nodes and their lights; the result has, for each node of the document, its place among them.
+std::vector<std::optional<std::size_t>> import_nodes(const GltfDocument& document,
+                                                     const std::vector<PlacedNode>& placed, MemoryBudget& budget,
+                                                     ImportedScene& scene) {
+    std::vector<std::optional<std::size_t>> shown(document.nodes.size());
+    for (const PlacedNode& at : placed) {
+        const GltfNode& node = document.nodes[at.node];
+        budget.spend(1, sizeof(ImportedNode) + node.name.size(), fmt::format("/nodes/{}", at.node));
+        shown[at.node] = scene.nodes.size();
+        if (node.light) scene.lights.push_back({scene.nodes.size(), document.lights[*node.light]});
+        scene.nodes.push_back({node.name, at.parent, node.rest, glm::mat4(at.world)});
+    }
+    return shown;
+}
+
+/// Adds instances, and of the skins those that an instance has.
+class InstanceImport {
+ public:
+    InstanceImport(const GltfDocument& document, std::span<const std::optional<std::size_t>> shown,
+                   MemoryBudget& budget, ImportedScene& scene)
+        : document_(document), shown_(shown), budget_(budget), scene_(scene), skins_(document.skins.size()) {
+        for (const Mesh& mesh : scene.meshes) joint_counts_.push_back(joint_count(mesh));
+    }
+
+    void add(std::size_t node_index, const std::vector<ImportedPrimitive>& primitives) {
+        const GltfNode& node = document_.nodes[node_index];
+        const std::string place = fmt::format("/nodes/{}", node_index);
+        const std::string& name = node.name.empty() ? document_.meshes[*node.mesh].name : node.name;
+        // Many nodes may share a mesh of many primitives.
+        budget_.spend(primitives.size(), sizeof(ImportedInstance) + name.size(), place);
+        const std::size_t at = *shown_[node_index];
+        for (const ImportedPrimitive& primitive : primitives) {
+            ImportedInstance instance{name,        scene_.nodes[at].world, primitive.mesh, primitive.material, at,
+                                      std::nullopt};
+            if (node.skin) instance.skin = skin_of(*node.skin, primitive.mesh, place);
+            scene_.instances.push_back(std::move(instance));
+        }
+    }
+
+ private:
+    /// One more than the largest joint a vertex names; 0: not skinned.
+    static std::size_t joint_count(const Mesh& mesh) {
+        std::size_t count = 0;
+        for (const glm::u16vec4& joints : mesh.joints)
+            for (int i = 0; i < 4; ++i) count = std::max(count, std::size_t{joints[i]} + 1);
+        return count;
+    }
+
+    std::optional<std::size_t> skin_of(std::size_t skin, std::size_t mesh, const std::string& place) {
+        if (joint_counts_[mesh] == 0) {
+            warn_once(scene_.warnings, "a skin of a mesh whose vertices have no joints is ignored");
+            return std::nullopt;
+        }
+        if (joint_counts_[mesh] > document_.skins[skin].joints.size())
+            refuse_input(document_.file, place, fmt::format("a vertex with joint {}", joint_counts_[mesh] - 1),
+                         fmt::format("below the skin's {} joints", document_.skins[skin].joints.size()));
+        if (!skins_[skin]) {
+            skins_[skin] = scene_.skins.size();
+            scene_.skins.push_back(import_skin(document_, skin, shown_, budget_));
+        }
+        return skins_[skin];
+    }
+
+    const GltfDocument& document_;
+    std::span<const std::optional<std::size_t>> shown_;
+    MemoryBudget& budget_;
+    ImportedScene& scene_;
+    std::vector<std::optional<std::size_t>> skins_;  ///< where each of the document's is among the imported ones
+    std::vector<std::size_t> joint_counts_;          ///< of each imported mesh
+};
+
 ImportedScene import_source(GltfSource source, std::span<const std::string> handled_extensions,
                             std::vector<std::filesystem::path>* read_files) {
     ImportedScene scene;
     check_gltf_json(source.json, source.file, handled_extensions, scene.warnings);
     MemoryBudget budget(source.file);
-    GltfDocument document = parse_gltf(source.json, source.file);
+    GltfDocument document = parse_gltf(source.json, source.file, scene.warnings);
     document.buffers = load_buffers(source, budget, read_files);
     check_ranges(document);
 
-    const std::vector<PlacedNode> nodes = place_nodes(document);
+    const std::vector<PlacedNode> placed = place_nodes(document);
+    const auto shown = import_nodes(document, placed, budget, scene);
     const auto imported = import_meshes(document, budget, scene);
+    InstanceImport instances(document, shown, budget, scene);
+    for (const PlacedNode& at : placed)
+        if (const auto mesh = document.nodes[at.node].mesh) instances.add(at.node, imported[*mesh]);
+    scene.animations = import_animations(document, shown, budget);
+    import_images(source, document, budget, read_files, scene);
     scene.materials = std::move(document.materials);
-    for (const PlacedNode& placed : nodes) {
-        const GltfNode& node = document.nodes[placed.node];
-        if (!node.mesh) continue;
-        const std::string& name = node.name.empty() ? document.meshes[*node.mesh].name : node.name;
-        // Many nodes may share a mesh of many primitives.
-        budget.spend(imported[*node.mesh].size(), sizeof(ImportedInstance) + name.size(),
-                     fmt::format("/nodes/{}", placed.node));
-        for (const ImportedPrimitive& primitive : imported[*node.mesh])
-            scene.instances.push_back({name, glm::mat4(placed.world), primitive.mesh, primitive.material});
-    }
     return scene;
 }
 

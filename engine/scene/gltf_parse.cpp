@@ -12,6 +12,13 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "engine/core/error.h"
+#include "engine/scene/decompose.h"
+#include "engine/scene/gltf_animation.h"
+#include "engine/scene/gltf_check.h"
+#include "engine/scene/gltf_light.h"
+#include "engine/scene/gltf_material.h"
+#include "engine/scene/gltf_skin.h"
+#include "engine/scene/gltf_texture.h"
 
 // Draco's shared library exports another build of tinygltf under the same names.
 #define tinygltf rowland_tinygltf
@@ -41,11 +48,12 @@ const nlohmann::json* draco_of(const nlohmann::json& primitive) {
     return draco == extensions->end() ? nullptr : &*draco;
 }
 
-/// What of the file the parser is given. Left out: buffers and images (it would load them), everything we ignore, and
-/// the indices of Draco primitives (it refuses those, as their accessors have no buffer view).
+/// What of the file the parser is given. Left out: buffers and images (it would load them), what we read
+/// ourselves (gltf_material.h and its like) or ignore, and the indices of Draco primitives (it refuses those, as their
+/// accessors have no buffer view).
 std::string text_for_parser(const nlohmann::json& checked) {
     nlohmann::json reduced;
-    for (const char* part : {"asset", "bufferViews", "accessors", "meshes", "nodes", "scenes", "scene", "materials"})
+    for (const char* part : {"asset", "bufferViews", "accessors", "meshes", "nodes", "scenes", "scene"})
         if (const auto found = checked.find(part); found != checked.end()) reduced[part] = *found;
     if (const auto meshes = reduced.find("meshes"); meshes != reduced.end())
         for (nlohmann::json& mesh : *meshes)
@@ -113,46 +121,35 @@ GltfPrimitive convert(const tinygltf::Primitive& from, const nlohmann::json& jso
     return to;
 }
 
-glm::dmat4 local_transform(const tinygltf::Node& node, const std::string& file, std::size_t index) {
-    glm::dmat4 transform(1.0);
-    if (node.matrix.size() == 16) {
-        std::copy(node.matrix.begin(), node.matrix.end(), &transform[0][0]);
+/// Fills `to.local` and `to.rest`.
+void place_node(const tinygltf::Node& from, const std::string& file, std::size_t index, GltfNode& to,
+                std::vector<std::string>& warnings) {
+    if (from.matrix.size() == 16) {
+        std::copy(from.matrix.begin(), from.matrix.end(), &to.local[0][0]);
         // The bottom row of an affine matrix; anything else glTF forbids, and perspective has no meaning here.
-        for (int column = 0; column < 4; ++column) transform[column][3] = column == 3 ? 1.0 : 0.0;
-        return transform;
+        for (int column = 0; column < 4; ++column) to.local[column][3] = column == 3 ? 1.0 : 0.0;
+        const Decomposition parts = decompose(to.local);
+        to.rest = parts.transform;
+        if (parts.sheared)
+            warn_once(warnings, "a node's matrix holds shear, which is lost where something animates it");
+        return;
     }
-    if (node.rotation.size() == 4) {
-        const glm::dquat rotation(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
+    glm::dvec3 translation(0.0);
+    glm::dquat rotation(1.0, 0.0, 0.0, 0.0);
+    glm::dvec3 scale(1.0);
+    if (from.translation.size() == 3) translation = {from.translation[0], from.translation[1], from.translation[2]};
+    if (from.scale.size() == 3) scale = {from.scale[0], from.scale[1], from.scale[2]};
+    if (from.rotation.size() == 4) {
+        rotation = glm::dquat(from.rotation[3], from.rotation[0], from.rotation[1], from.rotation[2]);
         const double length = glm::length(rotation);
         if (!(length > 1e-3))
-            throw Error({.file = file,
-                         .place = fmt::format("/nodes/{}/rotation", index),
-                         .found = "a zero quaternion",
-                         .expected = "a unit quaternion",
-                         .remedy = {}});
-        transform = glm::mat4_cast(rotation / length);
+            refuse_input(file, fmt::format("/nodes/{}/rotation", index), "a zero quaternion", "a unit quaternion");
+        rotation = rotation / length;
     }
-    if (node.scale.size() == 3)
-        for (int column = 0; column < 3; ++column) transform[column] *= node.scale[static_cast<std::size_t>(column)];
-    if (node.translation.size() == 3)
-        transform[3] = glm::dvec4(node.translation[0], node.translation[1], node.translation[2], 1.0);
-    return transform;
-}
-
-MaterialDescription convert(const tinygltf::Material& from, const nlohmann::json& json) {
-    const auto share = [](double x) { return static_cast<float>(std::clamp(x, 0.0, 1.0)); };
-    MaterialDescription to;
-    to.name = from.name;
-    const auto& pbr = from.pbrMetallicRoughness;
-    for (int i = 0; i < 4; ++i) to.base_colour[i] = share(pbr.baseColorFactor.at(static_cast<std::size_t>(i)));
-    to.metallic = share(pbr.metallicFactor);
-    to.roughness = share(pbr.roughnessFactor);
-    for (int i = 0; i < 3; ++i)
-        to.emissive[i] = static_cast<float>(from.emissiveFactor.at(static_cast<std::size_t>(i)));
-    // As JSON, not as the parser's own value type: the handlers' readers check it and name places in it.
-    if (const auto extensions = json.find("extensions"); extensions != json.end())
-        for (const auto& [name, value] : extensions->items()) to.extensions[name] = value;
-    return to;
+    to.local = glm::mat4_cast(rotation);
+    for (int column = 0; column < 3; ++column) to.local[column] *= scale[column];
+    to.local[3] = glm::dvec4(translation, 1.0);
+    to.rest = {glm::vec3(translation), glm::quat(rotation), glm::vec3(scale)};
 }
 
 /// The nodes to start from: those of the default scene, of the first scene if none is the default, and without any
@@ -196,7 +193,6 @@ std::size_t array_size(const nlohmann::json& json, const char* key) {
 void check_complete(const tinygltf::Model& model, const nlohmann::json& checked, const std::string& file) {
     bool complete = model.bufferViews.size() == array_size(checked, "bufferViews") &&
                     model.accessors.size() == array_size(checked, "accessors") &&
-                    model.materials.size() == array_size(checked, "materials") &&
                     model.meshes.size() == array_size(checked, "meshes") &&
                     model.nodes.size() == array_size(checked, "nodes") &&
                     model.scenes.size() == array_size(checked, "scenes");
@@ -212,7 +208,7 @@ void check_complete(const tinygltf::Model& model, const nlohmann::json& checked,
 
 }  // namespace
 
-GltfDocument parse_gltf(const nlohmann::json& checked, const std::string& file) {
+GltfDocument parse_gltf(const nlohmann::json& checked, const std::string& file, std::vector<std::string>& warnings) {
     const tinygltf::Model model = run_parser(checked, file);
     check_complete(model, checked, file);
 
@@ -222,8 +218,6 @@ GltfDocument parse_gltf(const nlohmann::json& checked, const std::string& file) 
         document.views.push_back(
             {static_cast<std::size_t>(view.buffer), view.byteOffset, view.byteLength, view.byteStride});
     for (const tinygltf::Accessor& accessor : model.accessors) document.accessors.push_back(convert(accessor));
-    for (std::size_t i = 0; i < model.materials.size(); ++i)
-        document.materials.push_back(convert(model.materials[i], checked.at("materials")[i]));
     for (std::size_t i = 0; i < model.meshes.size(); ++i) {
         GltfMesh& mesh = document.meshes.emplace_back();
         mesh.name = model.meshes[i].name;
@@ -234,11 +228,19 @@ GltfDocument parse_gltf(const nlohmann::json& checked, const std::string& file) 
     for (std::size_t i = 0; i < model.nodes.size(); ++i) {
         GltfNode& node = document.nodes.emplace_back();
         node.name = model.nodes[i].name;
-        node.local = local_transform(model.nodes[i], file, i);
+        place_node(model.nodes[i], file, i, node, warnings);
         node.mesh = index_or_none(model.nodes[i].mesh);
+        node.skin = index_or_none(model.nodes[i].skin);
         for (const int child : model.nodes[i].children) node.children.push_back(static_cast<std::size_t>(child));
     }
     document.roots = find_roots(model);
+    document.images = read_images(checked, file);
+    document.textures = read_textures(checked, file, warnings);
+    document.materials = read_materials(checked, file, document.textures, warnings);
+    document.skins = read_skins(checked, file);
+    document.animations = read_animations(checked, file, warnings);
+    document.lights = read_lights(checked, file);
+    read_node_lights(checked, file, document.nodes, document.lights.size());
     return document;
 }
 

@@ -96,7 +96,7 @@ std::string percent_decode(const std::string& uri) {
 /// The file a URI names, which is in `folder` or below it. Throws otherwise: a glTF from a stranger must not be able to
 /// read (or, by its error messages, probe) other files.
 std::filesystem::path resolve(const GltfSource& source, const std::string& uri, const std::string& place) {
-    const std::string remedy = "put the buffer beside the glTF file";
+    const std::string remedy = "put it beside the glTF file";
     const std::string expected = "the name of a file in the glTF's folder, or base64 data";
     if (!source.folder)
         refuse_input(source.file, place, fmt::format("an external file \"{:.60}\"", uri), "embedded data");
@@ -135,7 +135,7 @@ GltfBuffer load_file(const GltfSource& source, const std::string& uri, const std
                      .place = place,
                      .found = fmt::format("{:.200} {}", uri, error.info().found),
                      .expected = error.info().expected,
-                     .remedy = "put the buffer beside the glTF file",
+                     .remedy = "put it beside the glTF file",
                      .fault = error.info().fault});
     }
     budget.spend(buffer.owned.size(), 1, place);
@@ -159,6 +159,12 @@ GltfSource split_gltf(std::vector<std::byte> bytes, std::string file, std::optio
     return source;
 }
 
+GltfBuffer load_uri(const GltfSource& source, const std::string& uri, const std::string& place, MemoryBudget& budget,
+                    std::vector<std::filesystem::path>* read_files) {
+    return uri.starts_with("data:") ? load_data_uri(source, uri, place, budget)
+                                    : load_file(source, uri, place, budget, read_files);
+}
+
 std::vector<GltfBuffer> load_buffers(const GltfSource& source, MemoryBudget& budget,
                                      std::vector<std::filesystem::path>* read_files) {
     std::vector<GltfBuffer> buffers;
@@ -170,9 +176,7 @@ std::vector<GltfBuffer> load_buffers(const GltfSource& source, MemoryBudget& bud
         const auto length = entry.at("byteLength").get<std::uint64_t>();
         GltfBuffer buffer;
         if (entry.contains("uri")) {
-            const auto& uri = entry.at("uri").get_ref<const std::string&>();
-            buffer = uri.starts_with("data:") ? load_data_uri(source, uri, place, budget)
-                                              : load_file(source, uri, place, budget, read_files);
+            buffer = load_uri(source, entry.at("uri").get_ref<const std::string&>(), place, budget, read_files);
         } else if (i == 0) {
             buffer.bytes = source.binary();
         }

@@ -34,8 +34,13 @@ struct GltfBuffer {
     std::span<const std::byte> bytes;
 };
 
-/// The buffers of a source whose JSON has been checked: data URIs, files beside the glTF, or the BIN chunk. A URI may
-/// name a file in the glTF's folder or below it, nothing else. Each buffer holds at least its byteLength. `read_files`,
+/// The bytes that a URI of the file names: a data URI, or a file in the glTF's folder or below it, nothing else.
+/// `place` is the URI's owner. `read_files`, if given, receives the file. Throws Error (input).
+GltfBuffer load_uri(const GltfSource& source, const std::string& uri, const std::string& place, MemoryBudget& budget,
+                    std::vector<std::filesystem::path>* read_files);
+
+/// The buffers of a source whose JSON has been checked: what their URIs name, or the BIN chunk. Each
+/// buffer holds at least its byteLength. `read_files`,
 /// if given, receives the files read. Throws Error (input).
 std::vector<GltfBuffer> load_buffers(const GltfSource& source, MemoryBudget& budget,
                                      std::vector<std::filesystem::path>* read_files);

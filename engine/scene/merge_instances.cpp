@@ -8,6 +8,7 @@
 #include "engine/core/error.h"
 #include "engine/scene/gltf_import.h"
 #include "engine/scene/memory_budget.h"
+#include "engine/scene/skin.h"
 #include "engine/scene/tangents.h"
 
 namespace rowland::scene {
@@ -55,6 +56,15 @@ void append(const Mesh& mesh, const glm::mat4& transform, const std::string& nam
                                first + mesh.indices[i + (mirrored ? 1 : 2)]});
 }
 
+/// The joint matrices of a skin at rest.
+std::vector<glm::mat4> rest_joints(const ImportedScene& scene, const ImportedSkin& skin) {
+    std::vector<glm::mat4> joints;
+    joints.reserve(skin.joints.size());
+    for (std::size_t i = 0; i < skin.joints.size(); ++i)
+        joints.push_back(scene.nodes.at(skin.joints[i]).world * skin.inverse_bind.at(i));
+    return joints;
+}
+
 }  // namespace
 
 Mesh merge_instances(const ImportedScene& scene) {
@@ -76,8 +86,15 @@ Mesh merge_instances(const ImportedScene& scene) {
     merged.tangents.reserve(vertex_count);
     merged.uvs.reserve(vertex_count);
     merged.indices.reserve(index_count);
-    for (const ImportedInstance& instance : scene.instances)
-        append(scene.meshes[instance.mesh], instance.transform, instance.name, merged);
+    std::vector<std::vector<glm::mat4>> joints;
+    for (const ImportedSkin& skin : scene.skins) joints.push_back(rest_joints(scene, skin));
+    for (const ImportedInstance& instance : scene.instances) {
+        const Mesh& mesh = scene.meshes[instance.mesh];
+        if (instance.skin)
+            append(posed(mesh, joints.at(*instance.skin)), glm::mat4(1.0F), instance.name, merged);
+        else
+            append(mesh, instance.transform, instance.name, merged);
+    }
     return merged;
 }
 

@@ -8,13 +8,19 @@
 
 namespace rowland::scene {
 
-/// Triangle mesh. All vertex arrays have the same length; every index is in range; all values are finite.
+/// Triangle mesh. All vertex arrays have the same length, or are empty where it says so; every index is in range; all
+/// values are finite.
 struct Mesh {
     std::vector<glm::vec3> positions;  ///< metres
     std::vector<glm::vec3> normals;    ///< unit
-    std::vector<glm::vec4> tangents;   ///< xyz unit, perpendicular to the normal; w = ±1, sign of the UV bitangent.
-                                       ///< A grating's g (across the grooves) is the tangent.
+    /// xyz unit, perpendicular to the normal; w = ±1: cross(normal, tangent)·w points up in the picture, against
+    /// growing v. A grating's g (across the grooves) is the tangent.
+    std::vector<glm::vec4> tangents;
     std::vector<glm::vec2> uvs;
+    std::vector<glm::vec2> uvs1;         ///< second set of texture coordinates; empty: there is none
+    std::vector<glm::vec4> colours;      ///< linear RGBA that multiplies the base colour; empty: white
+    std::vector<glm::u16vec4> joints;    ///< of the skin, four a vertex; empty: not skinned
+    std::vector<glm::vec4> weights;      ///< of those joints, ≥ 0, sum 1; empty: not skinned
     std::vector<std::uint32_t> indices;  ///< three a triangle, counter-clockwise from outside
 };
 

@@ -18,7 +18,7 @@ void add_vertex(Mesh& mesh, const glm::dvec3& position, const glm::dvec3& normal
                 const glm::dvec2& uv) {
     mesh.positions.emplace_back(position);
     mesh.normals.emplace_back(normal);
-    mesh.tangents.emplace_back(glm::vec3(tangent), 1.0F);
+    mesh.tangents.emplace_back(glm::vec3(tangent), -1.0F);  // v grows along cross(normal, tangent) in all of them
     mesh.uvs.emplace_back(uv);
 }
 

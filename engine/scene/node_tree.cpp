@@ -35,7 +35,7 @@ std::vector<PlacedNode> place_nodes(const GltfDocument& document) {
     // A stack of our own: a chain of nodes may be longer than the thread's stack is deep.
     std::vector<PlacedNode> pending;
     for (const std::size_t root : document.roots | std::views::reverse)
-        pending.push_back({root, document.nodes.at(root).local});
+        pending.push_back({root, document.nodes.at(root).local, std::nullopt});
     while (!pending.empty()) {
         const PlacedNode current = pending.back();
         pending.pop_back();
@@ -45,7 +45,7 @@ std::vector<PlacedNode> place_nodes(const GltfDocument& document) {
         if (!fits_floats(current.world)) fail(document, current.node, "a transform that overflows", "finite numbers");
         placed.push_back(current);
         for (const std::size_t child : document.nodes[current.node].children | std::views::reverse)
-            pending.push_back({child, current.world * document.nodes.at(child).local});
+            pending.push_back({child, current.world * document.nodes.at(child).local, placed.size() - 1});
     }
     return placed;
 }

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <glm/mat4x4.hpp>
+#include <optional>
 #include <vector>
 
 #include "engine/scene/gltf_document.h"
@@ -12,10 +13,11 @@ namespace rowland::scene {
 struct PlacedNode {
     std::size_t node = 0;
     glm::dmat4 world{1.0};
+    std::optional<std::size_t> parent;  ///< among the placed nodes, an earlier one
 };
 
-/// All nodes below the document's roots. Throws Error (input) if a node is reached twice (a cycle, or two parents) or
-/// if a transform overflows.
+/// All nodes below the document's roots, parents before their children. Throws Error (input) if a node is reached twice
+/// (a cycle, or two parents) or if a transform overflows.
 std::vector<PlacedNode> place_nodes(const GltfDocument& document);
 
 }  // namespace rowland::scene

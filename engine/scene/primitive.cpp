@@ -3,65 +3,32 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <numeric>
+#include <optional>
 
-#include "engine/core/error.h"
 #include "engine/scene/draco_decode.h"
 #include "engine/scene/gltf_accessor.h"
-#include "engine/scene/gltf_check.h"
+#include "engine/scene/primitive_attribute.h"
 #include "engine/scene/tangents.h"
 
 namespace rowland::scene {
 
 namespace {
 
-/// Where one primitive is imported, for every step of it.
-struct Import {
-    const GltfDocument& document;
-    const GltfPrimitive& primitive;
-    const std::string& place;
-    MemoryBudget& budget;
-    std::vector<std::string>& warnings;
+using Import = PrimitiveImport;
 
-    [[noreturn]] void fail(std::string found, std::string expected) const {
-        throw Error({.file = document.file,
-                     .place = place,
-                     .found = std::move(found),
-                     .expected = std::move(expected),
-                     .remedy = {}});
-    }
-};
-
-template <typename Vector>
-bool is_finite(const Vector& v) {
-    for (int i = 0; i < Vector::length(); ++i)
-        if (!std::isfinite(v[i])) return false;
-    return true;
-}
-
-/// Reads an attribute from the Draco stream if it is there, else from its accessor; empty if the primitive has none.
-template <typename Vector>
-std::vector<Vector> read_attribute(const Import& import, const DracoMesh* draco, const std::string& name) {
-    if (draco) {
-        const auto& ids = import.primitive.draco->attributes;
-        if (const auto id = ids.find(name); id != ids.end()) return draco->vectors<Vector>(id->second, name);
-    }
-    const auto accessor = import.primitive.attributes.find(name);
-    if (accessor == import.primitive.attributes.end()) return {};
-    // An accessor without data would read as zeros, which only a sparse one can mean.
-    const GltfAccessor& at = import.document.accessors[accessor->second];
-    if (!at.view && !at.sparse) import.fail(fmt::format("an accessor without data for {}", name), "a buffer view");
-    return read_vectors<Vector>(import.document, accessor->second, import.budget);
-}
-
-void read_vertices(const Import& import, const DracoMesh* draco, Mesh& mesh) {
-    mesh.positions = read_attribute<glm::vec3>(import, draco, "POSITION");
+void read_vertices(const Import& import, Mesh& mesh) {
+    mesh.positions = read_attribute<glm::vec3>(import, "POSITION");
     if (mesh.positions.empty()) import.fail("no POSITION attribute", "one");
-    mesh.normals = read_attribute<glm::vec3>(import, draco, "NORMAL");
-    mesh.tangents = read_attribute<glm::vec4>(import, draco, "TANGENT");
-    mesh.uvs = read_attribute<glm::vec2>(import, draco, "TEXCOORD_0");
+    mesh.normals = read_attribute<glm::vec3>(import, "NORMAL");
+    mesh.tangents = read_attribute<glm::vec4>(import, "TANGENT");
+    mesh.uvs = read_attribute<glm::vec2>(import, "TEXCOORD_0");
+    mesh.uvs1 = read_attribute<glm::vec2>(import, "TEXCOORD_1");
+    mesh.colours = read_colours(import);
+    Skinning skinning = read_skinning(import);
+    mesh.joints = std::move(skinning.joints);
+    mesh.weights = std::move(skinning.weights);
     const auto check_length = [&](std::size_t length, const char* name) {
         if (length != 0 && length != mesh.positions.size())
             import.fail(fmt::format("{} values of {}", length, name),
@@ -70,15 +37,18 @@ void read_vertices(const Import& import, const DracoMesh* draco, Mesh& mesh) {
     check_length(mesh.normals.size(), "NORMAL");
     check_length(mesh.tangents.size(), "TANGENT");
     check_length(mesh.uvs.size(), "TEXCOORD_0");
+    check_length(mesh.uvs1.size(), "TEXCOORD_1");
+    check_length(mesh.colours.size(), "COLOR_0");
+    check_length(mesh.joints.size(), "JOINTS_0");
     for (const glm::vec3& position : mesh.positions)
         if (!is_finite(position)) import.fail("a position that is infinite or not a number", "finite positions");
 }
 
 /// The primitive's vertex indices as they stand, each checked.
-std::vector<std::uint32_t> read_corners(const Import& import, const DracoMesh* draco, std::size_t vertex_count) {
+std::vector<std::uint32_t> read_corners(const Import& import, std::size_t vertex_count) {
     std::vector<std::uint32_t> corners;
-    if (draco) {
-        corners = draco->indices();
+    if (import.draco) {
+        corners = import.draco->indices();
     } else if (import.primitive.indices) {
         corners = read_indices(import.document, *import.primitive.indices, import.budget);
     } else {
@@ -115,10 +85,12 @@ std::vector<std::uint32_t> triangle_list(const Import& import, PrimitiveMode mod
 
 void finish_uvs(const Import& import, Mesh& mesh) {
     if (mesh.uvs.empty()) mesh.uvs.assign(mesh.positions.size(), glm::vec2(0.0F));
-    for (glm::vec2& uv : mesh.uvs) {
-        if (is_finite(uv)) continue;
-        uv = glm::vec2(0.0F);
-        warn_once(import.warnings, import.place + ": texture coordinates that are not numbers were set to 0");
+    for (std::vector<glm::vec2>* set : {&mesh.uvs, &mesh.uvs1}) {
+        for (glm::vec2& uv : *set) {
+            if (is_finite(uv)) continue;
+            uv = glm::vec2(0.0F);
+            import.warn("texture coordinates that are not numbers were set to 0");
+        }
     }
 }
 
@@ -133,19 +105,26 @@ void finish_normals(const Import& import, Mesh& mesh) {
         if (usable(given[i]))
             mesh.normals[i] = glm::vec3(glm::normalize(glm::dvec3(given[i])));
         else
-            warn_once(import.warnings, import.place + ": normals without a direction were generated");
+            import.warn("normals without a direction were generated");
     }
+}
+
+/// The texture coordinates that the primitive's normal map uses.
+const std::vector<glm::vec2>& normal_map_uvs(const Import& import, const Mesh& mesh) {
+    if (!import.primitive.material || mesh.uvs1.empty()) return mesh.uvs;
+    const MaterialDescription& material = import.document.materials[*import.primitive.material];
+    return material.normal_texture && material.normal_texture->uv_set == 1 ? mesh.uvs1 : mesh.uvs;
 }
 
 void finish_tangents(const Import& import, Mesh& mesh) {
     if (mesh.tangents.empty()) {
-        generate_tangents(mesh);
+        generate_tangents(mesh, normal_map_uvs(import, mesh));
         return;
     }
     for (std::size_t i = 0; i < mesh.tangents.size(); ++i) {
         if (!is_finite(mesh.tangents[i])) mesh.tangents[i] = glm::vec4(0.0F, 0.0F, 0.0F, 1.0F);
         if (!orthonormalise_tangent(mesh.tangents[i], mesh.normals[i]))
-            warn_once(import.warnings, import.place + ": tangents without a direction in the surface were replaced");
+            import.warn("tangents without a direction in the surface were replaced");
     }
 }
 
@@ -158,16 +137,15 @@ bool has_triangles(const GltfPrimitive& primitive) {
 
 Mesh import_primitive(const GltfDocument& document, const GltfPrimitive& primitive, const std::string& place,
                       MemoryBudget& budget, std::vector<std::string>& warnings) {
-    const Import import{document, primitive, place, budget, warnings};
-    std::optional<DracoMesh> draco;
-    if (primitive.draco) draco.emplace(view_bytes(document, primitive.draco->view), document.file, place, budget);
-    const DracoMesh* stream = draco ? &*draco : nullptr;
+    std::optional<DracoMesh> stream;
+    if (primitive.draco) stream.emplace(view_bytes(document, primitive.draco->view), document.file, place, budget);
+    const Import import{document, primitive, place, budget, warnings, stream ? &*stream : nullptr};
 
     Mesh mesh;
-    read_vertices(import, stream, mesh);
+    read_vertices(import, mesh);
     // A Draco stream holds a list of triangles, whatever the mode says.
-    const PrimitiveMode mode = stream ? PrimitiveMode::Triangles : primitive.mode;
-    mesh.indices = triangle_list(import, mode, read_corners(import, stream, mesh.positions.size()));
+    const PrimitiveMode mode = import.draco ? PrimitiveMode::Triangles : primitive.mode;
+    mesh.indices = triangle_list(import, mode, read_corners(import, mesh.positions.size()));
     // What the steps below add at most: normals, tangents and their sums, uvs.
     budget.spend(mesh.positions.size(), sizeof(glm::vec3) + sizeof(glm::vec4) + 6 * sizeof(double) + sizeof(glm::vec2),
                  place);

@@ -15,14 +15,15 @@ struct Sum {
 
 /// Adds the triangle's dP/du and dP/dv, weighted by its area in UV space times the sign of that area, so that neither
 /// needs a division by an area that may be zero.
-void add_uv_gradient(const Mesh& mesh, std::size_t first_index, std::vector<Sum>& sums) {
+void add_uv_gradient(const Mesh& mesh, std::span<const glm::vec2> uvs, std::size_t first_index,
+                     std::vector<Sum>& sums) {
     const std::uint32_t* corner = &mesh.indices[first_index];
     const glm::dvec3 p0(mesh.positions[corner[0]]);
     const glm::dvec3 e1 = glm::dvec3(mesh.positions[corner[1]]) - p0;
     const glm::dvec3 e2 = glm::dvec3(mesh.positions[corner[2]]) - p0;
-    const glm::dvec2 uv0(mesh.uvs[corner[0]]);
-    const glm::dvec2 d1 = glm::dvec2(mesh.uvs[corner[1]]) - uv0;
-    const glm::dvec2 d2 = glm::dvec2(mesh.uvs[corner[2]]) - uv0;
+    const glm::dvec2 uv0(uvs[corner[0]]);
+    const glm::dvec2 d1 = glm::dvec2(uvs[corner[1]]) - uv0;
+    const glm::dvec2 d2 = glm::dvec2(uvs[corner[2]]) - uv0;
     const double area = d1.x * d2.y - d2.x * d1.y;
     if (area == 0.0 || !std::isfinite(area)) return;
     const double sign = area > 0.0 ? 1.0 : -1.0;
@@ -78,8 +79,12 @@ void generate_normals(Mesh& mesh) {
 }
 
 void generate_tangents(Mesh& mesh) {
+    generate_tangents(mesh, mesh.uvs);
+}
+
+void generate_tangents(Mesh& mesh, std::span<const glm::vec2> uvs) {
     std::vector<Sum> sums(mesh.positions.size());
-    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) add_uv_gradient(mesh, i, sums);
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) add_uv_gradient(mesh, uvs, i, sums);
     mesh.tangents.resize(sums.size());
     for (std::size_t i = 0; i < sums.size(); ++i) {
         const glm::dvec3 n(mesh.normals[i]);
@@ -87,7 +92,7 @@ void generate_tangents(Mesh& mesh) {
         if (tangent == glm::dvec3(0.0)) {
             mesh.tangents[i] = glm::vec4(any_perpendicular(mesh.normals[i]), 1.0F);
         } else {
-            const float w = glm::dot(glm::cross(n, tangent), sums[i].v) < 0.0 ? -1.0F : 1.0F;
+            const float w = glm::dot(glm::cross(n, tangent), sums[i].v) > 0.0 ? -1.0F : 1.0F;
             mesh.tangents[i] = glm::vec4(glm::vec3(tangent), w);
         }
     }

@@ -1,23 +1,60 @@
 #include "engine/scene/transform.h"
 
 #include <glm/gtc/matrix_transform.hpp>
+#include <vector>
+
+#include "engine/core/check.h"
 
 namespace rowland::scene {
 
 namespace {
 
-constexpr int kMaximumDepth = 256;
+/// World matrices, each computed once however deep the chains of parents are: a scene from a file may hold any.
+class Placement {
+ public:
+    explicit Placement(ecs::World& world) : world_(world) {}
 
-glm::mat4 world_matrix(ecs::World& world, ecs::Entity entity) {
-    glm::mat4 matrix = world.get<Transform>(entity).matrix();
-    for (int depth = 0;; ++depth) {
-        ROWLAND_CHECK(depth < kMaximumDepth, "transforms form a cycle, or a chain deeper than 256");
-        const Parent* parent = world.find<Parent>(entity);
-        if (parent == nullptr) return matrix;
-        entity = parent->entity;
-        if (const Transform* transform = world.find<Transform>(entity)) matrix = transform->matrix() * matrix;
+    void place(ecs::Entity entity) {
+        glm::mat4 above = collect_chain(entity);
+        for (; !chain_.empty(); chain_.pop_back()) {
+            const ecs::Entity next = chain_.back();
+            state_of(next) = State::Unknown;
+            const Transform* transform = world_.find<Transform>(next);
+            if (transform == nullptr) continue;
+            above *= transform->matrix();
+            world_.add(next, WorldMatrix{above});
+            state_of(next) = State::Placed;
+        }
     }
-}
+
+ private:
+    enum class State : std::uint8_t { Unknown, InChain, Placed };
+
+    State& state_of(ecs::Entity entity) {
+        if (entity.index >= states_.size()) states_.resize(std::size_t{entity.index} + 1, State::Unknown);
+        return states_[entity.index];
+    }
+
+    /// Fills the chain with `entity` and its ancestors up to one that is placed, whose matrix it returns, or to the
+    /// root.
+    glm::mat4 collect_chain(ecs::Entity entity) {
+        while (world_.alive(entity)) {
+            State& state = state_of(entity);
+            if (state == State::Placed) return world_.get<WorldMatrix>(entity).matrix;
+            ROWLAND_CHECK(state != State::InChain, "transforms form a cycle");
+            state = State::InChain;
+            chain_.push_back(entity);
+            const Parent* parent = world_.find<Parent>(entity);
+            if (parent == nullptr) break;
+            entity = parent->entity;
+        }
+        return glm::mat4(1.0F);
+    }
+
+    ecs::World& world_;
+    std::vector<State> states_;  ///< by the entity's index
+    std::vector<ecs::Entity> chain_;
+};
 
 }  // namespace
 
@@ -26,8 +63,8 @@ glm::mat4 Transform::matrix() const {
 }
 
 void update_world_matrices(ecs::World& world) {
-    world.view<Transform>().each(
-        [&world](ecs::Entity entity, Transform&) { world.add(entity, WorldMatrix{world_matrix(world, entity)}); });
+    Placement placement(world);
+    world.view<Transform>().each([&placement](ecs::Entity entity, Transform&) { placement.place(entity); });
 }
 
 }  // namespace rowland::scene

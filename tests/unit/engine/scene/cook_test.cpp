@@ -7,6 +7,7 @@
 #include "engine/core/file.h"
 #include "engine/core/json_reader.h"
 #include "engine/scene/gltf_import.h"
+#include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"
 
@@ -62,9 +63,27 @@ TEST_F(SceneCook, GltfIsCheckedOnly) {
     cook::Context context(path);
     type.check(context);
     EXPECT_THAT(context.dependencies(), testing::Contains(path.parent_path() / "Duck0.bin"));
+    EXPECT_THAT(context.dependencies(), testing::Contains(path.parent_path() / "DuckCM.png"));
     ROWLAND_TEST_DATA(broken, "gltf/malformed/crash/draco_uid77.glb");
     cook::Context broken_context(broken);
     EXPECT_THROW(registry_.type_of_source(broken).check(broken_context), Error);
+}
+
+TEST_F(SceneCook, GltfWithABrokenPictureIsRefused) {
+    write("broken.png", "\x89PNG\r\n\x1a\nbut nothing more");
+    const std::filesystem::path source = write(
+        "f.gltf", R"({"asset": {"version": "2.0"}, "images": [{"uri": "broken.png"}], "textures": [{"source": 0}]})");
+    cook::Context context(source);
+    EXPECT_THAT(rowland::test::message_of([&] { registry_.type_of_source(source).check(context); }),
+                testing::HasSubstr("f.gltf: /images/0"));
+}
+
+TEST_F(SceneCook, GltfIsDescribedByWhatItHolds) {
+    ROWLAND_TEST_DATA(path, "gltf/valid/Duck/glTF_Binary/Duck.glb");
+    const std::string text = registry_.type_of_source(path).describe(read_file(path, 1 << 20), "Duck.glb");
+    for (const char* line : {"vertices: 2399\n", "nodes: 3\n", "meshes: 1\n", "materials: 1\n", "textures: 1\n",
+                             "skins: 0\n", "animations: 0\n", "lights: 0\n"})
+        EXPECT_THAT(text, testing::HasSubstr(line));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/unit/engine/scene/hand_written_gltf.h"
 #include "tests/unit/engine/scene/mesh_sanity.h"
 
 namespace rowland::scene {
@@ -19,63 +20,14 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-// Five vertices: a quad of two unit squares' corners along X, as 3 floats each.
+using test::data_uri;
+using test::document;
+using test::error_of;
+using test::indexed;
+using test::load;
+
+// The vertices of test::document.
 constexpr std::array<float, 15> kPositions = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0};
-
-std::string base64(std::span<const std::byte> bytes) {
-    constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        unsigned bits = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            bits = bits << 8 | (i + k < bytes.size() ? std::to_integer<unsigned>(bytes[i + k]) : 0U);
-        for (std::size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? kDigits[bits >> (18 - 6 * k) & 63U] : '=';
-    }
-    return text;
-}
-
-std::string data_uri(std::span<const std::byte> bytes, const std::string& type = "application/octet-stream") {
-    return "data:" + type + ";base64," + base64(bytes);
-}
-
-/// A file with one primitive of the five vertices, drawn as `mode`.
-json document(int mode) {
-    const auto bytes = std::as_bytes(std::span(kPositions));
-    return {{"asset", {{"version", "2.0"}}},
-            {"scene", 0},
-            {"scenes", {{{"nodes", {0}}}}},
-            {"nodes", {{{"mesh", 0}, {"name", "node"}}}},
-            {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"mode", mode}}}}}}},
-            {"accessors", {{{"bufferView", 0}, {"componentType", 5126}, {"count", 5}, {"type", "VEC3"}}}},
-            {"bufferViews", {{{"buffer", 0}, {"byteLength", bytes.size()}}}},
-            {"buffers", {{{"byteLength", bytes.size()}, {"uri", data_uri(bytes)}}}}};
-}
-
-/// The same with an index accessor of unsigned shorts.
-json indexed(int mode, const std::vector<std::uint16_t>& indices) {
-    json file = document(mode);
-    const auto bytes = std::as_bytes(std::span(indices));
-    file["buffers"].push_back({{"byteLength", bytes.size()}, {"uri", data_uri(bytes)}});
-    file["bufferViews"].push_back({{"buffer", 1}, {"byteLength", bytes.size()}});
-    file["accessors"].push_back(
-        {{"bufferView", 1}, {"componentType", 5123}, {"count", indices.size()}, {"type", "SCALAR"}});
-    file["meshes"][0]["primitives"][0]["indices"] = 1;
-    return file;
-}
-
-ImportedScene load(const json& file, std::span<const std::string> handled = {}) {
-    const std::string text = file.dump();
-    return load_glb(std::as_bytes(std::span(text.data(), text.size())), "f.gltf", handled);
-}
-
-std::string error_of(const json& file) {
-    try {
-        load(file);
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "no error";
-}
 
 TEST(GltfImport, TriangleListIsRead) {
     const Mesh mesh = load(indexed(4, {0, 1, 2})).meshes.at(0);

@@ -15,7 +15,7 @@ namespace {
 ImportedScene sphere_with(const glm::mat4& transform) {
     ImportedScene scene;
     scene.meshes.push_back(build_mesh(SphereRecipe{.radius = 1.0, .rings = 32, .segments = 64}));
-    scene.instances.push_back({"sphere", transform, 0, std::nullopt});
+    scene.instances.push_back({"sphere", transform, 0, std::nullopt, 0, std::nullopt});
     return scene;
 }
 
@@ -56,7 +56,7 @@ TEST(MergeInstances, NormalsStayPerpendicularUnderUnevenScale) {
 TEST(MergeInstances, TwoInstancesStandApart) {
     ImportedScene scene = sphere_with(glm::mat4(1.0F));
     scene.instances.push_back(
-        {"moved", glm::translate(glm::mat4(1.0F), glm::vec3(10.0F, 0.0F, 0.0F)), 0, std::nullopt});
+        {"moved", glm::translate(glm::mat4(1.0F), glm::vec3(10.0F, 0.0F, 0.0F)), 0, std::nullopt, 0, std::nullopt});
     const Mesh merged = merge_instances(scene);
     EXPECT_EQ(merged.positions.size(), 2 * scene.meshes[0].positions.size());
     EXPECT_FLOAT_EQ(bounds(merged).minimum.x, -1.0F);

@@ -78,7 +78,7 @@ TEST(MeshRecipe, DiscFrameIsRightHandedWithGroovesAlongGrowingAngle) {
         // From +X towards −Z; v is a float, so the angle is good to 2π · 2^-24.
         EXPECT_NEAR(h.x, -std::sin(angle), 1e-6);
         EXPECT_NEAR(h.z, -std::cos(angle), 1e-6);
-        EXPECT_EQ(disc.tangents[i].w, 1.0F);
+        EXPECT_EQ(disc.tangents[i].w, -1.0F);
     }
 }
 
@@ -135,7 +135,7 @@ TEST(MeshRecipe, PlaneLiesInXzFacingUpWithTangentX) {
     EXPECT_EQ(bounds(plane).minimum, glm::vec3(-1.5F, 0.0F, -1.0F));
     EXPECT_EQ(bounds(plane).maximum, glm::vec3(1.5F, 0.0F, 1.0F));
     for (std::size_t i = 0; i < plane.indices.size() / 3; ++i) EXPECT_GT(face_normal(plane, i).y, 0.0);
-    for (const glm::vec4& tangent : plane.tangents) EXPECT_EQ(tangent, glm::vec4(1.0F, 0.0F, 0.0F, 1.0F));
+    for (const glm::vec4& tangent : plane.tangents) EXPECT_EQ(tangent, glm::vec4(1.0F, 0.0F, 0.0F, -1.0F));
 }
 
 TEST(MeshRecipe, ReadsEveryType) {

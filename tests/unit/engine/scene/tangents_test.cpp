@@ -53,13 +53,13 @@ TEST(Tangents, TangentFollowsGrowingU) {
     Mesh mesh = triangle();
     generate_normals(mesh);
     generate_tangents(mesh);
-    for (const glm::vec4& t : mesh.tangents) EXPECT_EQ(t, glm::vec4(1.0F, 0.0F, 0.0F, 1.0F));
+    for (const glm::vec4& t : mesh.tangents) EXPECT_EQ(t, glm::vec4(1.0F, 0.0F, 0.0F, -1.0F));
     for (glm::vec2& uv : mesh.uvs) uv.x = -uv.x;
     generate_tangents(mesh);
-    for (const glm::vec4& t : mesh.tangents) EXPECT_EQ(t, glm::vec4(-1.0F, 0.0F, 0.0F, -1.0F));
+    for (const glm::vec4& t : mesh.tangents) EXPECT_EQ(t, glm::vec4(-1.0F, 0.0F, 0.0F, 1.0F));
     for (glm::vec2& uv : mesh.uvs) uv = {uv.y, -uv.x};
     generate_tangents(mesh);
-    for (const glm::vec4& t : mesh.tangents) EXPECT_EQ(t, glm::vec4(0.0F, 1.0F, 0.0F, -1.0F));
+    for (const glm::vec4& t : mesh.tangents) EXPECT_EQ(t, glm::vec4(0.0F, 1.0F, 0.0F, 1.0F));
 }
 
 TEST(Tangents, DegenerateUvsGivePerpendicularTangents) {

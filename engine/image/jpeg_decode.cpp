@@ -1,0 +1,83 @@
+#include "engine/image/jpeg_decode.h"
+
+#include <fmt/format.h>
+#include <turbojpeg.h>
+
+#include <memory>
+#include <vector>
+
+#include "engine/core/error.h"
+#include "engine/image/limits.h"
+
+namespace rowland::image {
+
+namespace {
+
+/// A block of 8 × 8 takes a bit, its brightness; twice that for good measure.
+constexpr std::uint64_t kMaximumTexelsPerByte = std::uint64_t{8} * 64 * 2;
+
+struct Close {
+    void operator()(void* decoder) const { tjDestroy(decoder); }
+};
+using Decoder = std::unique_ptr<void, Close>;
+
+Decoder make_decoder(const std::string& file) {
+    Decoder decoder(tjInitDecompress());
+    if (!decoder)
+        throw Error({.file = file,
+                     .place = {},
+                     .found = fmt::format("no JPEG decoder ({:.80})", tjGetErrorStr2(nullptr)),
+                     .expected = {},
+                     .remedy = "free some memory",
+                     .fault = Fault::System});
+    return decoder;
+}
+
+void check(int status, const Decoder& decoder, const std::string& file) {
+    if (status != 0)
+        refuse_input(file, "", fmt::format("a broken JPEG ({:.80})", tjGetErrorStr2(decoder.get())), "a whole one",
+                     "export the image again");
+}
+
+const unsigned char* data_of(std::span<const std::byte> bytes) {
+    return reinterpret_cast<const unsigned char*>(bytes.data());
+}
+
+ByteImageSize size_of(std::span<const std::byte> bytes, const Decoder& decoder, const std::string& file) {
+    int width = 0;
+    int height = 0;
+    int subsampling = 0;
+    int colourspace = 0;
+    check(tjDecompressHeader3(decoder.get(), data_of(bytes), bytes.size(), &width, &height, &subsampling, &colourspace),
+          decoder, file);
+    check_image_size(width, height, file, "");
+    check_compression(width, height, bytes.size(), kMaximumTexelsPerByte, file);
+    return {width, height};
+}
+
+}  // namespace
+
+bool is_jpeg(std::span<const std::byte> bytes) {
+    return bytes.size() >= 3 && bytes[0] == std::byte{0xFF} && bytes[1] == std::byte{0xD8} &&
+           bytes[2] == std::byte{0xFF};
+}
+
+ByteImageSize jpeg_size(std::span<const std::byte> bytes, const std::string& file) {
+    return size_of(bytes, make_decoder(file), file);
+}
+
+ByteImage decode_jpeg(std::span<const std::byte> bytes, const std::string& file) {
+    const Decoder decoder = make_decoder(file);
+    const ByteImageSize size = size_of(bytes, decoder, file);
+    ByteImage result{size.width, size.height, {}};
+    result.rgba.resize(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height) * 4);
+    // Damage is a warning to the library, after which it makes texels up. A few bytes a scan can name any number of
+    // scans of a large picture, each of which costs as much as decoding it.
+    constexpr int kFlags = TJFLAG_ACCURATEDCT | TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS;
+    check(tjDecompress2(decoder.get(), data_of(bytes), bytes.size(), result.rgba.data(), size.width, 0, size.height,
+                        TJPF_RGBA, kFlags),
+          decoder, file);
+    return result;
+}
+
+}  // namespace rowland::image

@@ -1,0 +1,107 @@
+#include "engine/scene/animation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "engine/core/check.h"
+
+namespace rowland::scene {
+
+namespace {
+
+/// Where a time is between two keys.
+struct Span {
+    std::size_t first = 0;
+    std::size_t second = 0;
+    double share = 0.0;    ///< of the way from the first to the second, in [0, 1]
+    double seconds = 0.0;  ///< between them
+};
+
+Span find_span(const std::vector<float>& times, float time) {
+    // A time that is not a number counts as the beginning.
+    if (!(time > times.front())) return {};
+    const std::size_t last = times.size() - 1;
+    if (time >= times.back()) return {last, last, 0.0, 0.0};
+    const auto after = std::upper_bound(times.begin(), times.end(), time);
+    const auto second = static_cast<std::size_t>(after - times.begin());
+    const double seconds = static_cast<double>(times[second]) - static_cast<double>(times[second - 1]);
+    const double elapsed = static_cast<double>(time) - static_cast<double>(times[second - 1]);
+    return {second - 1, second, elapsed / seconds, seconds};
+}
+
+/// Spherical interpolation of unit quaternions along the shorter arc (glTF 2.0, appendix C.4).
+glm::dvec4 slerp(const glm::dvec4& a, glm::dvec4 b, double share) {
+    double cosine = glm::dot(a, b);
+    if (cosine < 0.0) {
+        b = -b;
+        cosine = -cosine;
+    }
+    // Below this angle the arc is the chord to double precision, and the quotient would be one of rounding errors.
+    constexpr double kNearlyParallel = 1.0 - 1e-12;
+    if (cosine > kNearlyParallel) return a + share * (b - a);
+    const double angle = std::acos(cosine);
+    return (std::sin((1.0 - share) * angle) * a + std::sin(share * angle) * b) / std::sin(angle);
+}
+
+/// glTF 2.0, appendix C.5. Keys are in-tangent, value, out-tangent.
+glm::dvec4 cubic(const std::vector<glm::vec4>& values, const Span& span) {
+    const double t = span.share;
+    const double t2 = t * t;
+    const double t3 = t2 * t;
+    const auto at = [&](std::size_t index) { return glm::dvec4(values[index]); };
+    return (2.0 * t3 - 3.0 * t2 + 1.0) * at(3 * span.first + 1) +
+           span.seconds * (t3 - 2.0 * t2 + t) * at(3 * span.first + 2) +
+           (3.0 * t2 - 2.0 * t3) * at(3 * span.second + 1) + span.seconds * (t3 - t2) * at(3 * span.second);
+}
+
+/// `q` of unit length; no rotation if it has no length.
+glm::dvec4 unit(const glm::dvec4& q) {
+    const double length = glm::length(q);
+    return length > 0.0 && std::isfinite(length) ? q / length : glm::dvec4(0.0, 0.0, 0.0, 1.0);
+}
+
+glm::dvec4 interpolate(const AnimationChannel& channel, const Span& span) {
+    if (channel.interpolation == Interpolation::CubicSpline) return cubic(channel.values, span);
+    const glm::dvec4 first(channel.values[span.first]);
+    if (channel.interpolation == Interpolation::Step) return first;
+    const glm::dvec4 second(channel.values[span.second]);
+    if (channel.property == AnimatedProperty::Rotation) return slerp(unit(first), unit(second), span.share);
+    return (1.0 - span.share) * first + span.share * second;
+}
+
+}  // namespace
+
+glm::vec4 sample(const AnimationChannel& channel, float time_s) {
+    ROWLAND_CHECK_OP(channel.times_s.size(), >, 0U);
+    ROWLAND_CHECK_OP(channel.values.size(), ==,
+                     channel.times_s.size() * (channel.interpolation == Interpolation::CubicSpline ? 3 : 1));
+    const glm::dvec4 value = interpolate(channel, find_span(channel.times_s, time_s));
+    if (channel.property == AnimatedProperty::Rotation) return glm::vec4(unit(value));
+    // A spline may leave the range of its keys, and of floats.
+    constexpr double kLargest = std::numeric_limits<float>::max();
+    return glm::vec4(glm::clamp(value, glm::dvec4(-kLargest), glm::dvec4(kLargest)));
+}
+
+void pose(const Animation& animation, float time_s, std::span<Transform> nodes) {
+    for (const AnimationChannel& channel : animation.channels) {
+        ROWLAND_CHECK_OP(channel.node, <, nodes.size());
+        Transform& node = nodes[channel.node];
+        const glm::vec4 value = sample(channel, time_s);
+        switch (channel.property) {
+            case AnimatedProperty::Translation:
+                node.translation = glm::vec3(value);
+                break;
+            case AnimatedProperty::Rotation:
+                node.rotation = glm::quat(value.w, value.x, value.y, value.z);
+                break;
+            case AnimatedProperty::Scale:
+                node.scale = glm::vec3(value);
+                break;
+        }
+    }
+}
+
+}  // namespace rowland::scene

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <glm/vec4.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/scene/transform.h"
+
+namespace rowland::scene {
+
+enum class AnimatedProperty { Translation, Rotation, Scale };
+enum class Interpolation { Step, Linear, CubicSpline };
+
+/// One property of one node over time (glTF 2.0, 3.11).
+struct AnimationChannel {
+    std::size_t node = 0;
+    AnimatedProperty property = AnimatedProperty::Translation;
+    Interpolation interpolation = Interpolation::Linear;
+    std::vector<float> times_s;     ///< strictly ascending, not empty
+    std::vector<glm::vec4> values;  ///< one a key (xyz, or a quaternion xyzw); CubicSpline: in-tangent, value and
+                                    ///< out-tangent of every key
+};
+
+struct Animation {
+    std::string name;
+    std::vector<AnimationChannel> channels;
+    float duration_s = 0.0F;  ///< the last key's time
+};
+
+/// A channel's value at a time: held before the first and after the last key; rotations by the shortest arc, of unit
+/// length.
+glm::vec4 sample(const AnimationChannel& channel, float time_s);
+
+/// Writes what the animation moves into `nodes` (indexed by AnimationChannel::node); the rest stays.
+void pose(const Animation& animation, float time_s, std::span<Transform> nodes);
+
+}  // namespace rowland::scene

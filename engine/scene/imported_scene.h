@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstddef>
+#include <glm/mat4x4.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "engine/image/byte_image.h"
+#include "engine/scene/animation.h"
+#include "engine/scene/directional_light.h"
+#include "engine/scene/material_description.h"
+#include "engine/scene/mesh.h"
+#include "engine/scene/punctual_light.h"
+#include "engine/scene/transform.h"
+
+namespace rowland::scene {
+
+enum class TextureWrap { Repeat, Clamp, Mirror };
+
+struct ImportedTexture {
+    std::size_t image = 0;
+    TextureWrap wrap_s = TextureWrap::Repeat;
+    TextureWrap wrap_t = TextureWrap::Repeat;
+    bool nearest = false;  ///< not filtered
+    bool mipmaps = true;
+};
+
+/// A node of the shown scene.
+struct ImportedNode {
+    std::string name;
+    std::optional<std::size_t> parent;  ///< an earlier node
+    Transform local;                    ///< at rest
+    glm::mat4 world{1.0F};              ///< at rest, exact even where `local` cannot hold a matrix's shear
+};
+
+/// A mesh at a node. A skinned one is placed by its joints, not by its node.
+struct ImportedInstance {
+    std::string name;
+    glm::mat4 transform{1.0F};  ///< the node's, at rest
+    std::size_t mesh = 0;
+    std::optional<std::size_t> material;
+    std::size_t node = 0;
+    std::optional<std::size_t> skin;
+};
+
+struct ImportedSkin {
+    std::vector<std::size_t> joints;  ///< nodes
+    std::vector<glm::mat4> inverse_bind;
+};
+
+/// KHR_lights_punctual; shines along its node's −Z. Lux and candela are taken as irradiance, and irradiance at 1 m.
+struct ImportedLight {
+    std::size_t node = 0;
+    std::variant<DirectionalLight, PunctualLight> light;
+};
+
+/// What a glTF file holds of what we draw.
+struct ImportedScene {
+    std::vector<Mesh> meshes;  ///< one a triangle primitive
+    std::vector<MaterialDescription> materials;
+    std::vector<ImportedInstance> instances;
+    std::vector<std::string> warnings;  ///< what was ignored or repaired, each once
+    std::vector<ImportedNode> nodes;    ///< parents before their children
+    std::vector<std::shared_ptr<const image::ByteImage>> images;
+    std::vector<ImportedTexture> textures;
+    std::vector<ImportedSkin> skins;
+    std::vector<Animation> animations;
+    std::vector<ImportedLight> lights;
+};
+
+}  // namespace rowland::scene

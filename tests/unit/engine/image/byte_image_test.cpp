@@ -1,0 +1,214 @@
+#include "engine/image/byte_image.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <png.h>
+
+#include <array>
+#include <cstring>
+
+#include "engine/core/error.h"
+#include "engine/core/file.h"
+#include "engine/image/png.h"
+#include "tests/support/message_of.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/test_data.h"
+#include "tests/unit/engine/image/bytes.h"
+#include "tests/unit/engine/image/encoded_jpeg.h"
+
+namespace rowland::image {
+namespace {
+
+using testing::HasSubstr;
+
+std::vector<std::byte> file_bytes(const std::string& text) {
+    const auto bytes = test::as_bytes(text);
+    return {bytes.begin(), bytes.end()};
+}
+
+/// A PNG as libpng writes it from values of libpng's `format`.
+std::vector<std::byte> encoded_png(std::uint32_t width, std::uint32_t height, std::uint32_t format, const void* values,
+                                   const void* colour_map = nullptr, std::uint32_t colours = 0) {
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    image.width = width;
+    image.height = height;
+    image.format = format;
+    image.colormap_entries = colours;
+    png_alloc_size_t size = 0;
+    EXPECT_NE(png_image_write_get_memory_size(image, size, 0, values, 0, colour_map), 0) << image.message;
+    std::vector<std::byte> bytes(size);
+    EXPECT_NE(png_image_write_to_memory(&image, bytes.data(), &size, 0, values, 0, colour_map), 0) << image.message;
+    bytes.resize(size);
+    return bytes;
+}
+
+/// A chunk put between a PNG's header and the rest.
+std::vector<std::byte> with_chunk(const std::vector<std::byte>& png, const std::string& type, const std::string& data) {
+    const auto big_endian = [](std::uint32_t x) {
+        return std::string{static_cast<char>(x >> 24U), static_cast<char>(x >> 16U), static_cast<char>(x >> 8U),
+                           static_cast<char>(x)};
+    };
+    std::uint32_t crc = 0xFFFFFFFFU;  // PNG specification, annex D
+    for (const char c : type + data) {
+        crc ^= static_cast<std::uint8_t>(c);
+        for (int i = 0; i < 8; ++i) crc = (crc & 1U) != 0 ? 0xEDB88320U ^ (crc >> 1U) : crc >> 1U;
+    }
+    const std::string chunk =
+        big_endian(static_cast<std::uint32_t>(data.size())) + type + data + big_endian(crc ^ 0xFFFFFFFFU);
+    constexpr std::size_t kHeaderEnd = 8 + 25;
+    std::vector<std::byte> bytes(png.begin(), png.begin() + kHeaderEnd);
+    for (const char c : chunk) bytes.push_back(static_cast<std::byte>(c));
+    bytes.insert(bytes.end(), png.begin() + kHeaderEnd, png.end());
+    return bytes;
+}
+
+/// The 3 × 2 picture of these tests.
+std::array<std::uint8_t, 18> picture() {
+    return {255, 0, 0, 0, 255, 0, 0, 0, 255, 10, 20, 30, 128, 128, 128, 255, 255, 255};
+}
+
+TEST(ByteImage, PngKeepsItsBytesAndGetsOpaqueAlpha) {
+    const test::TemporaryFolder folder;
+    const auto rgb = picture();
+    write_png(folder.path() / "a.png", 3, 2, rgb);
+    const auto bytes = read_file(folder.path() / "a.png", 1 << 20);
+    const ByteImage image = decode_byte_image(bytes, "a.png");
+    EXPECT_EQ(image.width, 3);
+    EXPECT_EQ(image.height, 2);
+    ASSERT_EQ(image.rgba.size(), 24U);
+    for (std::size_t i = 0; i < 6; ++i) {
+        for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(image.rgba[4 * i + c], rgb[3 * i + c]);
+        EXPECT_EQ(image.rgba[4 * i + 3], 255);
+    }
+    const ByteImageSize size = byte_image_size(bytes, "a.png");
+    EXPECT_EQ(size.width, 3);
+    EXPECT_EQ(size.height, 2);
+}
+
+TEST(ByteImage, AlphaIsStraight) {
+    const std::array<std::uint8_t, 8> rgba = {200, 100, 50, 128, 9, 8, 7, 0};
+    const ByteImage image = decode_byte_image(encoded_png(2, 1, PNG_FORMAT_RGBA, rgba.data()), "a.png");
+    EXPECT_THAT(image.rgba, testing::ElementsAreArray(rgba));
+}
+
+TEST(ByteImage, GreyAndPaletteBecomeColours) {
+    const std::array<std::uint8_t, 2> grey = {7, 250};
+    EXPECT_THAT(decode_byte_image(encoded_png(2, 1, PNG_FORMAT_GRAY, grey.data()), "a.png").rgba,
+                testing::ElementsAre(7, 7, 7, 255, 250, 250, 250, 255));
+    const std::array<std::uint8_t, 6> palette = {1, 2, 3, 40, 50, 60};
+    const std::array<std::uint8_t, 2> indices = {1, 0};
+    EXPECT_THAT(
+        decode_byte_image(encoded_png(2, 1, PNG_FORMAT_RGB_COLORMAP, indices.data(), palette.data(), 2), "a.png").rgba,
+        testing::ElementsAre(40, 50, 60, 255, 1, 2, 3, 255));
+}
+
+TEST(ByteImage, SixteenBitsAreCutNotReencoded) {
+    // libpng's writer takes 16 bits for linear and says so in a gAMA chunk.
+    const std::array<std::uint16_t, 1> grey = {static_cast<std::uint16_t>(0x8080)};
+    const auto bytes = encoded_png(1, 1, PNG_FORMAT_LINEAR_Y, grey.data());
+    ASSERT_EQ(bytes.at(24), std::byte{16}) << "bits a channel";
+    EXPECT_THAT(decode_byte_image(bytes, "a.png").rgba, testing::ElementsAre(0x80, 0x80, 0x80, 255));
+}
+
+TEST(ByteImage, GammaOfTheFileIsIgnored) {
+    const auto rgb = picture();
+    const auto plain = encoded_png(3, 2, PNG_FORMAT_RGB, rgb.data());
+    // Linear, gamma 1.0: libpng would encode it.
+    const auto linear = with_chunk(plain, "gAMA", std::string("\x00\x01\x86\xA0", 4));
+    ASSERT_NE(plain, linear);
+    EXPECT_EQ(decode_byte_image(linear, "a.png").rgba, decode_byte_image(plain, "a.png").rgba);
+}
+
+TEST(ByteImage, JpegIsReadWithinItsQuantisation) {
+    std::vector<std::uint8_t> rgb;
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 16; ++x)
+            for (const int c : {x * 16, y * 16, 100}) rgb.push_back(static_cast<std::uint8_t>(c));
+    const ByteImage image = decode_byte_image(test::encoded_jpeg(16, 16, rgb), "a.jpg");
+    ASSERT_EQ(image.rgba.size(), 16U * 16U * 4U);
+    for (std::size_t i = 0; i < 256; ++i) {
+        // Quality 100 divides by 1: half a step of each transform coefficient and of each conversion of colours.
+        for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(image.rgba[4 * i + c], rgb[3 * i + c], 3) << i;
+        EXPECT_EQ(image.rgba[4 * i + 3], 255);
+    }
+}
+
+TEST(ByteImage, CutFilesAreRefused) {
+    ROWLAND_TEST_DATA(path, "gltf/valid/Duck/glTF/DuckCM.png");
+    const auto png = read_file(path, 1 << 20);
+    std::vector<std::uint8_t> noise(64 * 64 * 3);
+    for (std::size_t i = 0; i < noise.size(); ++i) noise[i] = static_cast<std::uint8_t>(i * i * 31 >> 3U);
+    const auto jpeg = test::encoded_jpeg(64, 64, noise);
+    for (const auto& whole : {png, jpeg}) {
+        EXPECT_NO_THROW(decode_byte_image(whole, "a"));
+        // The end of a JPEG is its marker, without which nothing is lost.
+        for (std::size_t length = 0; length + 16 < whole.size(); length += whole.size() / 50)
+            EXPECT_THROW(decode_byte_image(std::span(whole).first(length), "a"), Error) << length;
+    }
+}
+
+TEST(ByteImage, DamagedFilesDoNoHarm) {
+    const auto rgb = picture();
+    std::vector<std::vector<std::byte>> files = {encoded_png(3, 2, PNG_FORMAT_RGB, rgb.data()),
+                                                 test::encoded_jpeg(3, 2, rgb)};
+    for (const std::vector<std::byte>& good : files) {
+        for (std::size_t at = 0; at < good.size(); ++at) {
+            for (const int flip : {0xFF, 0x01, 0x80}) {
+                std::vector<std::byte> bad = good;
+                bad[at] ^= static_cast<std::byte>(flip);
+                try {
+                    const ByteImage image = decode_byte_image(bad, "a");
+                    EXPECT_EQ(image.rgba.size(),
+                              4 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+                } catch (const Error& error) {
+                    EXPECT_EQ(error.info().fault, Fault::Input);
+                    EXPECT_THAT(error.what(), testing::StartsWith("a: "));
+                }
+            }
+        }
+    }
+}
+
+TEST(ByteImage, SizesAreCheckedBeforeAnythingIsAllocated) {
+    const auto rgb = picture();
+    std::vector<std::byte> png = encoded_png(3, 2, PNG_FORMAT_RGB, rgb.data());
+    // The width, in the first chunk, made 2^31 - 1.
+    for (std::size_t i = 0; i < 4; ++i) png[16 + i] = static_cast<std::byte>(i == 0 ? 0x7F : 0xFF);
+    EXPECT_THAT(test::message_of([&] { decode_byte_image(png, "a.png"); }), HasSubstr("2147483647 x 2 texels"));
+    std::vector<std::byte> jpeg = test::encoded_jpeg(3, 2, rgb);
+    const std::string marker = "\xFF\xC0";
+    for (std::size_t i = 0; i + 9 < jpeg.size(); ++i) {
+        if (std::memcmp(&jpeg[i], marker.data(), 2) != 0) continue;
+        for (const std::size_t side : {5U, 7U}) {  // the height and the width, 60000
+            jpeg[i + side] = std::byte{0xEA};
+            jpeg[i + side + 1] = std::byte{0x60};
+        }
+    }
+    EXPECT_THAT(test::message_of([&] { decode_byte_image(jpeg, "a.jpg"); }), HasSubstr("60000 x 60000 texels"));
+}
+
+TEST(ByteImage, ImageThatItsBytesCannotHoldIsRefused) {
+    const auto rgb = picture();
+    std::vector<std::byte> png = encoded_png(3, 2, PNG_FORMAT_RGB, rgb.data());
+    png[18] = std::byte{0x20};  // 8195 texels wide
+    png[22] = std::byte{0x20};  // and 8194 high: 64 MiB from a hundred bytes
+    EXPECT_THAT(test::message_of([&] { decode_byte_image(png, "a.png"); }), HasSubstr("8195 x 8194 texels in"));
+    // The best that deflate can do is let through.
+    const std::vector<std::uint8_t> blank(std::size_t{4096} * 4096, 255);
+    const auto best = encoded_png(4096, 4096, PNG_FORMAT_GRAY, blank.data());
+    EXPECT_EQ(decode_byte_image(best, "a.png").width, 4096);
+    const std::vector<std::uint8_t> blank_rgb(std::size_t{1024} * 1024 * 3, 128);
+    EXPECT_EQ(decode_byte_image(test::encoded_jpeg(1024, 1024, blank_rgb), "a.jpg").width, 1024);
+}
+
+TEST(ByteImage, OtherFormatsAreRefusedByName) {
+    EXPECT_THAT(test::message_of([] { decode_byte_image({}, "a"); }), HasSubstr("a: an empty image"));
+    EXPECT_THAT(test::message_of([] { decode_byte_image(file_bytes("RIFF....WEBP"), "a"); }),
+                HasSubstr("expected PNG or JPEG"));
+    EXPECT_THAT(test::message_of([] { byte_image_size(file_bytes("\xABKTX 20\xBB"), "a"); }),
+                HasSubstr("expected PNG or JPEG"));
+}
+
+}  // namespace
+}  // namespace rowland::image
