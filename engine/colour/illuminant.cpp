@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
 #include <map>
 
 #include "engine/colour/embedded_tables.h"
@@ -14,8 +15,6 @@
 namespace rowland::colour {
 
 namespace {
-
-constexpr std::uint64_t kMaximumFileBytes = 1 << 20;
 
 const std::map<std::string, Illuminant>& builtin_illuminants() {
     static const std::map<std::string, Illuminant> illuminants = [] {
@@ -69,18 +68,24 @@ Illuminant parse_illuminant(std::string_view text, const std::string& file) {
                          .expected = "a power >= 0",
                          .remedy = {}});
     Illuminant result{.name = file, .power = SampledSpectrum(table.wavelengths_nm, table.columns[0], Outside::Zero)};
-    if (!(luminous_power(result) > 0.0))
+    if (!is_visible(result))
         throw Error({.file = file,
                      .place = {},
-                     .found = fmt::format("no visible power in {}-{} nm", table.wavelengths_nm.front(),
-                                          table.wavelengths_nm.back()),
+                     .found = fmt::format("no visible power (luminous power {}) in {}-{} nm", luminous_power(result),
+                                          table.wavelengths_nm.front(), table.wavelengths_nm.back()),
                      .expected = fmt::format("some power in {}-{} nm", kVisibleMin, kVisibleMax),
                      .remedy = "wavelengths are in nanometres"});
     return result;
 }
 
 Illuminant load_illuminant(const std::filesystem::path& path) {
-    return parse_illuminant(read_text_file(path, kMaximumFileBytes), path.string());
+    return parse_illuminant(read_text_file(path, kMaximumIlluminantBytes), path.string());
+}
+
+bool is_visible(const Illuminant& illuminant) {
+    // Powers near the ends of double's range would make 0 or infinity of every colour.
+    const double luminous = luminous_power(illuminant);
+    return luminous > 0.0 && std::isfinite(luminous) && std::isfinite(1.0 / luminous);
 }
 
 double luminous_power(const Illuminant& illuminant) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -25,13 +26,20 @@ const Illuminant& illuminant(const std::string& name);
 const Illuminant& d65();
 
 /// An illuminant from CSV text `wavelength_nm,relative_power`. Throws Error (input) naming the file and the row for
-/// what parse_spectrum_csv() refuses, for negative power, and if the eye sees nothing of it (∫S ȳ dλ = 0).
+/// what parse_spectrum_csv() refuses, for negative power, and if ∫S ȳ dλ is 0, or no number to
+/// divide by: the eye must see something of it.
 Illuminant parse_illuminant(std::string_view text, const std::string& file);
 
-/// The same from a file of at most 1 MiB.
+/// An illuminant's file may be so large.
+inline constexpr std::uint64_t kMaximumIlluminantBytes = 1 << 20;
+
+/// The same from a file of at most kMaximumIlluminantBytes.
 Illuminant load_illuminant(const std::filesystem::path& path);
 
 /// ∫S ȳ dλ over the visible range, trapezoid at 1 nm.
 double luminous_power(const Illuminant& illuminant);
+
+/// Whether luminous_power() is a positive number that can be divided by.
+bool is_visible(const Illuminant& illuminant);
 
 }  // namespace rowland::colour

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "engine/math/instruction_set.h"
+
+namespace rowland::math {
+
+/// Tangent frames (g, h, n), one array per component: n is `normal`, g is `tangent` less its part along n, h = n × g.
+/// Neither needs to be of unit length; a tangent along its normal gives some frame around that normal.
+struct FrameArrays {
+    std::array<std::span<const float>, 3> tangent;
+    std::array<std::span<const float>, 3> normal;
+
+    std::size_t size() const { return normal[0].size(); }
+};
+
+/// Turns band-limited RGB light into many tangent frames, in single precision and on all cores: the frame change as
+/// turns about z, y and z [Pinchon & Hoggan 2007, "Rotation matrices for real spherical harmonics"], the one about y by
+/// exchanging y and z, which is a fixed sparse matrix. No angle is computed and the last turn is read off the tangent
+/// after the other two, so no frame is singular. Error ≤ 2e-6 of the light's norm √Σ‖c‖² against ShRotation.
+///
+/// For each frame writes bands² × 3 floats, RGB innermost. `light` holds bands² coefficients in the axes the frames are
+/// given in, 1 ≤ bands ≤ 16. out.size() ≥ frames.size() · bands² · 3.
+void rotate_to_frames(std::span<const glm::dvec3> light, int bands, const FrameArrays& frames, std::span<float> out,
+                      InstructionSet set = best_instruction_set());
+
+/// A constant matrix of rows × bands² that is applied to light in a tangent frame, such as the one from coefficients to
+/// arc moments (PHYSICS §5). Its zeros cost nothing: entries below 1e-9 of the largest are dropped.
+class FrameProjection {
+ public:
+    /// `matrix` is row-major, 1 to 256 rows of bands² entries, 1 ≤ bands ≤ 16.
+    FrameProjection(std::span<const double> matrix, int bands);
+
+    int bands() const { return bands_; }
+    int rows() const { return static_cast<int>(first_.size()) - 1; }
+    /// Entries that are kept.
+    int entries() const { return static_cast<int>(column_.size()); }
+
+    std::span<const std::int32_t> first() const { return first_; }    ///< rows + 1: where each row's entries begin
+    std::span<const std::int32_t> column() const { return column_; }  ///< of each entry
+    std::span<const float> weight() const { return weight_; }         ///< of each entry
+
+ private:
+    int bands_;
+    std::vector<std::int32_t> first_;
+    std::vector<std::int32_t> column_;
+    std::vector<float> weight_;
+};
+
+/// rotate_to_frames() followed by the projection, without storing the coefficients: for each frame rows × 3 floats, RGB
+/// innermost. out.size() ≥ frames.size() · rows · 3.
+void rotate_and_project(std::span<const glm::dvec3> light, const FrameArrays& frames, const FrameProjection& projection,
+                        std::span<float> out, InstructionSet set = best_instruction_set());
+
+}  // namespace rowland::math
