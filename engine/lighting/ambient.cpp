@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <numbers>
 #include <vector>
 
@@ -32,26 +33,35 @@ AmbientLight convolve(const ShLight& light, const AmbientWindow& window) {
     return ambient;
 }
 
-/// Basis values of a set of directions spread over the sphere (a Fibonacci spiral). 4096 of them are 3° apart, where
-/// three bands vary by less than .5 % of their amplitude around an extremum.
-std::vector<std::array<double, 9>> spread_basis() {
+/// A direction that irradiance must not be negative in: basis values, and E/π of the key lights.
+struct Trial {
+    std::array<double, 9> basis{};
+    glm::dvec3 from_keys{0.0};
+};
+
+/// Directions spread over the sphere (a Fibonacci spiral). 4096 of them are 3° apart, where three bands vary by less
+/// than .5 % of their amplitude around an extremum.
+std::vector<Trial> spread_trials(std::span<const KeyLight> keys) {
     constexpr int kCount = 4096;
-    std::vector<std::array<double, 9>> values(kCount);
+    std::vector<Trial> trials(kCount);
     for (int i = 0; i < kCount; ++i) {
+        Trial& trial = trials[static_cast<std::size_t>(i)];
         const double z = 1 - (2 * i + 1.0) / kCount;
         const double phi = 2 * std::numbers::pi * std::fmod(i * std::numbers::phi, 1.0);
         const double r = std::sqrt(1 - z * z);
-        math::evaluate_sh({r * std::cos(phi), r * std::sin(phi), z}, kBands, values[static_cast<std::size_t>(i)]);
+        const glm::dvec3 normal(r * std::cos(phi), r * std::sin(phi), z);
+        math::evaluate_sh(normal, kBands, trial.basis);
+        for (const KeyLight& key : keys) trial.from_keys += irradiance(key, normal) / std::numbers::pi;
     }
-    return values;
+    return trials;
 }
 
-bool is_non_negative(const AmbientLight& ambient, const std::vector<std::array<double, 9>>& directions) {
+bool is_non_negative(const AmbientLight& ambient, const std::vector<Trial>& trials) {
     // A probe that is dark on one side reaches zero; rounding may cross it.
-    const glm::dvec3 tolerance = -1e-12 * ambient.coefficients[0];
-    for (const auto& values : directions) {
-        glm::dvec3 sum(0.0);
-        for (std::size_t i = 0; i < values.size(); ++i) sum += values[i] * ambient.coefficients[i];
+    const glm::dvec3 tolerance = -1e-12 * glm::abs(ambient.coefficients[0]);
+    for (const Trial& trial : trials) {
+        glm::dvec3 sum = trial.from_keys;
+        for (std::size_t i = 0; i < trial.basis.size(); ++i) sum += trial.basis[i] * ambient.coefficients[i];
         for (int c = 0; c < 3; ++c)
             if (sum[c] < tolerance[c]) return false;
     }
@@ -60,17 +70,17 @@ bool is_non_negative(const AmbientLight& ambient, const std::vector<std::array<d
 
 }  // namespace
 
-AmbientLight ambient_coefficients(const ShLight& light) {
-    const auto directions = spread_basis();
+AmbientLight ambient_coefficients(const ShLight& light, std::span<const KeyLight> keys) {
+    const std::vector<Trial> trials = spread_trials(keys);
     for (const auto window :
          {math::SphericalWindow::None, math::SphericalWindow::Lanczos, math::SphericalWindow::Hann}) {
         AmbientLight ambient = convolve(light, {window, 0});
-        if (is_non_negative(ambient, directions)) return ambient;
+        if (is_non_negative(ambient, trials)) return ambient;
     }
     // At damping 4 band 1 keeps .0003 of itself: no light is left that could go negative.
     for (double damping = 0.25; damping < 4; damping *= 1.25) {
         AmbientLight ambient = convolve(light, {math::SphericalWindow::None, damping});
-        if (is_non_negative(ambient, directions)) return ambient;
+        if (is_non_negative(ambient, trials)) return ambient;
     }
     return convolve(light, {math::SphericalWindow::None, 64});
 }

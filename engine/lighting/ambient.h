@@ -2,7 +2,9 @@
 
 #include <array>
 #include <glm/vec3.hpp>
+#include <span>
 
+#include "engine/lighting/key_lights.h"
 #include "engine/lighting/sh_light.h"
 #include "engine/math/sh_window.h"
 
@@ -24,7 +26,9 @@ struct AmbientLight {
 /// The first three bands convolved with the clamped cosine, under the mildest window (none, Lanczos or Hann over three
 /// bands, then exponentials of growing strength) that keeps E non-negative in every direction of a dense set
 /// (PHYSICS §7). Fewer than three bands count as zeros.
-AmbientLight ambient_coefficients(const ShLight& light);
+/// `keys`: lobes beside that light, which irradiance() adds. Then it is the sum that must not go negative: what lobes
+/// leave may, where they overlap what is dark.
+AmbientLight ambient_coefficients(const ShLight& light, std::span<const KeyLight> keys = {});
 
 /// E(n)/π for the unit normal.
 glm::dvec3 evaluate_irradiance(const AmbientLight& ambient, const glm::dvec3& normal);

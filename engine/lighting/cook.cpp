@@ -25,10 +25,17 @@ image::Image read_image(cook::Context& context, const std::filesystem::path& pat
     return image::decode_image(context.read(path, image::kMaximumFileBytes), path.string());
 }
 
+std::string read_text(cook::Context& context, const std::filesystem::path& path) {
+    const std::vector<std::byte> bytes = context.read(path, colour::kMaximumIlluminantBytes);
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
 /// The recipe and the probe it makes.
 std::pair<ProbeRecipe, ProbeImage> make_probe(cook::Context& context) {
     const std::string file = context.source().string();
     ProbeRecipe recipe = parse_probe_recipe(context.read_json(context.source()), file);
+    load_illuminant(recipe,
+                    [&context](const std::string& name) { return read_text(context, context.beside_source(name)); });
     ProbeImage probe = render_recipe(
         recipe, [&context](const std::string& name) { return read_image(context, context.beside_source(name)); }, file);
     return {std::move(recipe), std::move(probe)};

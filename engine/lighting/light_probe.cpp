@@ -4,7 +4,10 @@
 
 #include <bit>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
 #include <numbers>
+#include <string>
 #include <utility>
 
 #include "engine/core/byte_stream.h"
@@ -17,6 +20,24 @@ namespace {
 
 /// A cube map's faces are at most this in a file; prefiltering makes none larger than 1024.
 constexpr std::uint32_t kMaximumFace = 8192;
+
+/// Bytes of an illuminant's name in a file: a recipe names a file beside it.
+constexpr std::size_t kMaximumName = 4096;
+
+/// Half floats from here on are infinite, NaN or negative.
+constexpr std::uint16_t kInfiniteHalf = 0x7c00;
+
+/// Concentrations of key lights in a file; fitted ones lie well inside.
+constexpr double kLeastConcentration = 1e-3;
+constexpr double kGreatestConcentration = 1e6;
+
+void write_sh(const ShLight& light, ByteWriter& writer) {
+    ROWLAND_CHECK_OP(light.coefficients.size(), ==, static_cast<std::size_t>(math::sh_count(light.bands)));
+    writer.value(static_cast<std::uint32_t>(light.bands));
+    std::vector<double> values;
+    for (const glm::dvec3& c : light.coefficients) values.insert(values.end(), {c.x, c.y, c.z});
+    writer.array(std::span<const double>(values));
+}
 
 ShLight read_sh(ByteReader& reader) {
     const auto bands = reader.value<std::uint32_t>();
@@ -49,10 +70,112 @@ PackedEnvironmentMap read_environment(ByteReader& reader) {
     const std::size_t expected = 3 * map.layout.offset(map.layout.levels);
     if (map.halves.size() != expected)
         reader.fail(fmt::format("{} environment values", map.halves.size()), fmt::format("{}", expected));
-    constexpr std::uint16_t kInfinity = 0x7c00;  // greater bits are NaN or negative
     for (const std::uint16_t bits : map.halves)
-        if (bits >= kInfinity) reader.fail("an environment value that is no light", "finite values >= 0");
+        if (bits >= kInfiniteHalf) reader.fail("an environment value that is no light", "finite values >= 0");
     return map;
+}
+
+void write_key_lights(const std::vector<KeyLight>& keys, ByteWriter& writer) {
+    std::vector<double> values;
+    for (const KeyLight& key : keys) {
+        const glm::dvec3& s = key.direction;
+        values.insert(values.end(), {s.x, s.y, s.z, key.flux.x, key.flux.y, key.flux.z, key.concentration});
+    }
+    writer.array(std::span<const double>(values));
+}
+
+std::vector<KeyLight> read_key_lights(ByteReader& reader) {
+    constexpr std::size_t kNumbers = 7;
+    const auto values = reader.array<double>();
+    if (values.size() % kNumbers != 0 || values.size() > kNumbers * kMaximumKeyLights)
+        reader.fail(fmt::format("{} numbers for key lights", values.size()),
+                    fmt::format("{} each of at most {}", kNumbers, kMaximumKeyLights));
+    std::vector<KeyLight> keys;
+    for (std::size_t i = 0; i < values.size(); i += kNumbers) {
+        const double* v = values.data() + i;
+        const KeyLight key{{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, v[6]};
+        // Negated so that NaN fails too.
+        if (!(std::abs(glm::dot(key.direction, key.direction) - 1.0) < 1e-6))
+            reader.fail("a key light's direction of another length", "length 1");
+        for (int c = 0; c < 3; ++c)
+            if (!(key.flux[c] >= 0.0 && key.flux[c] < std::numeric_limits<float>::max()))
+                reader.fail(fmt::format("a key light's flux {}", key.flux[c]), "a number >= 0");
+        if (!(key.concentration >= kLeastConcentration && key.concentration <= kGreatestConcentration))
+            reader.fail(fmt::format("a key light's concentration {}", key.concentration),
+                        fmt::format("{} to {}", kLeastConcentration, kGreatestConcentration));
+        keys.push_back(key);
+    }
+    return keys;
+}
+
+void write_light(const PackedLight& light, ByteWriter& writer) {
+    writer.value(static_cast<std::uint32_t>(light.face_size));
+    writer.value(light.scale);
+    writer.array(std::span<const std::uint16_t>(light.halves));
+    writer.array(std::span<const std::uint8_t>(light.places));
+}
+
+PackedLight read_light(ByteReader& reader) {
+    PackedLight light;
+    const auto size = reader.value<std::uint32_t>();
+    if (size > static_cast<std::uint32_t>(kMaximumLightFace))
+        reader.fail(fmt::format("faces of {} small lights a side", size), fmt::format("at most {}", kMaximumLightFace));
+    light.face_size = static_cast<int>(size);
+    light.scale = reader.value<float>();
+    if (!(std::isnormal(light.scale) && light.scale > 0)) reader.fail("a scale that is no positive number", "a scale");
+    light.halves = reader.array<std::uint16_t>();
+    light.places = reader.array<std::uint8_t>();
+    const std::size_t count = std::size_t{6} * size * size;
+    if (light.halves.size() != 3 * count || light.places.size() != 2 * count)
+        reader.fail(fmt::format("{} fluxes and {} places of small lights", light.halves.size(), light.places.size()),
+                    fmt::format("{} and {}", 3 * count, 2 * count));
+    for (const std::uint16_t bits : light.halves)
+        if (bits >= kInfiniteHalf) reader.fail("a flux that is no light", "finite values >= 0");
+    return light;
+}
+
+void write_illuminant(const colour::Illuminant& illuminant, ByteWriter& writer) {
+    writer.text(illuminant.name);
+    writer.array(std::span<const double>(illuminant.power.wavelengths_nm()));
+    writer.array(std::span<const double>(illuminant.power.values()));
+}
+
+colour::Illuminant read_illuminant(ByteReader& reader) {
+    std::string name = reader.text();
+    if (name.empty() || name.size() > kMaximumName)
+        reader.fail(fmt::format("an illuminant's name of {} bytes", name.size()), fmt::format("1 to {}", kMaximumName));
+    std::vector<double> wavelengths_nm = reader.array<double>();
+    std::vector<double> power = reader.array<double>();
+    if (wavelengths_nm.size() < 2 || wavelengths_nm.size() != power.size())
+        reader.fail(fmt::format("{} wavelengths and {} powers", wavelengths_nm.size(), power.size()),
+                    "as many powers as wavelengths, at least two");
+    for (std::size_t i = 0; i < power.size(); ++i) {
+        if (!std::isfinite(wavelengths_nm[i]) || wavelengths_nm[i] <= (i == 0 ? 0.0 : wavelengths_nm[i - 1]))
+            reader.fail(fmt::format("wavelength {}", wavelengths_nm[i]), "ascending wavelengths > 0");
+        if (!std::isfinite(power[i]) || power[i] < 0.0) reader.fail(fmt::format("power {}", power[i]), "a power >= 0");
+    }
+    colour::Illuminant illuminant{
+        .name = std::move(name),
+        .power = colour::SampledSpectrum(std::move(wavelengths_nm), std::move(power), colour::Outside::Zero)};
+    if (!colour::is_visible(illuminant)) reader.fail("an illuminant that nobody sees", "visible power");
+    return illuminant;
+}
+
+double luminance(const glm::dvec3& rgb) {
+    return glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722));  // Rec.709's Y, to four digits
+}
+
+std::string describe_key_lights(const LightProbe& probe) {
+    if (probe.key_lights.empty()) return "key lights: none\n";
+    double flux = 0.0;
+    for (const KeyLight& key : probe.key_lights) flux += luminance(key.flux);
+    const double whole = luminance(probe.sh.coefficients[0]) * std::sqrt(4 * std::numbers::pi);
+    const KeyLight& first = probe.key_lights.front();
+    return fmt::format(
+        "key lights: {}, {:.3g} % of the flux\n"
+        "strongest key light: direction {:.4f} {:.4f} {:.4f}, flux {:.6g} {:.6g} {:.6g}, concentration {:.4g}\n",
+        probe.key_lights.size(), whole > 0.0 ? 100.0 * flux / whole : 0.0, first.direction.x, first.direction.y,
+        first.direction.z, first.flux.x, first.flux.y, first.flux.z, first.concentration);
 }
 
 glm::dvec3 mean_radiance(const ShLight& light) {
@@ -64,19 +187,21 @@ glm::dvec3 mean_radiance(const ShLight& light) {
 LightProbe build_light_probe(const ProbeImage& probe, const LightProbeSettings& settings) {
     LightProbe light;
     light.sh = project(probe, settings.bands);
+    light.illuminant = settings.illuminant;
     light.ambient = ambient_coefficients(light.sh);
+    light.key_lights = fit_key_lights(probe, settings.key_lights);
+    light.light = pack(light_texels(probe), settings.light_face);
     light.environment = pack(prefilter(probe, settings.prefilter));
     light.report = probe.report();
     return light;
 }
 
 std::vector<std::byte> serialise(const LightProbe& probe) {
-    ROWLAND_CHECK_OP(probe.sh.coefficients.size(), ==, static_cast<std::size_t>(math::sh_count(probe.sh.bands)));
     ByteWriter writer;
-    writer.value(static_cast<std::uint32_t>(probe.sh.bands));
-    std::vector<double> values;
-    for (const glm::dvec3& c : probe.sh.coefficients) values.insert(values.end(), {c.x, c.y, c.z});
-    writer.array(std::span<const double>(values));
+    write_sh(probe.sh, writer);
+    write_illuminant(probe.illuminant, writer);
+    write_key_lights(probe.key_lights, writer);
+    write_light(probe.light, writer);
     writer.value(static_cast<std::uint32_t>(probe.environment.layout.face_size));
     writer.value(static_cast<std::uint32_t>(probe.environment.layout.levels));
     writer.value(probe.environment.scale);
@@ -91,6 +216,9 @@ LightProbe deserialise(std::span<const std::byte> bytes, const std::string& file
     ByteReader reader(bytes, file);
     LightProbe probe;
     probe.sh = read_sh(reader);
+    probe.illuminant = read_illuminant(reader);
+    probe.key_lights = read_key_lights(reader);
+    probe.light = read_light(reader);
     probe.environment = read_environment(reader);
     probe.report.nan = reader.value<std::uint64_t>();
     probe.report.infinite = reader.value<std::uint64_t>();
@@ -107,8 +235,11 @@ std::string describe(const LightProbe& probe) {
     std::string text =
         fmt::format("bands: {} ({} coefficients a channel)\n", probe.sh.bands, probe.sh.coefficients.size());
     text += fmt::format("mean radiance: {:.6g} {:.6g} {:.6g}\n", mean.x, mean.y, mean.z);
+    text += fmt::format("illuminant: {}\n", probe.illuminant.name);
     text += window.damping > 0 ? fmt::format("ambient window: exponential, damping {:.4g}\n", window.damping)
                                : fmt::format("ambient window: {}\n", math::window_name(window.window));
+    text += describe_key_lights(probe);
+    text += fmt::format("light texels: {0} x {0} x 6, {1} bytes\n", probe.light.face_size, probe.light.bytes());
     text += fmt::format("environment: {} x {} x 6, {} levels, half floats times {:g}\n", layout.face_size,
                         layout.face_size, layout.levels, probe.environment.scale);
     text += fmt::format("texels that were no light: {} (NaN {}, infinite {}, negative {})\n", probe.report.total(),

@@ -1,9 +1,14 @@
 #include "engine/lighting/probe_recipe.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <bit>
 #include <limits>
 #include <utility>
 
+#include "engine/colour/illuminant.h"
 #include "engine/core/json_reader.h"
 #include "engine/math/sh_basis.h"
 
@@ -74,11 +79,27 @@ int parse_width(JsonReader& reader, int fallback) {
 LightProbeSettings parse_settings(JsonReader& reader) {
     LightProbeSettings settings;
     settings.bands = static_cast<int>(reader.integer_or("bands", settings.bands, 1, math::kMaximumBands));
+    settings.key_lights = static_cast<int>(reader.integer_or("key_lights", settings.key_lights, 0, kMaximumKeyLights));
     auto& size = settings.prefilter.face_size;
     size = static_cast<int>(reader.integer_or("face_size", size, 16, 1024));
     if (!std::has_single_bit(static_cast<unsigned>(size)))
         reader.fail("face_size", std::to_string(size), "a power of two");
     return settings;
+}
+
+/// A built-in illuminant, or the name of a file that holds one.
+void parse_illuminant(JsonReader& reader, ProbeRecipe& recipe) {
+    if (!reader.has("illuminant")) return;
+    const std::string name = reader.text("illuminant");
+    const std::vector<std::string> known = colour::illuminant_names();
+    if (std::find(known.begin(), known.end(), name) != known.end()) {
+        recipe.settings.illuminant = colour::illuminant(name);
+        return;
+    }
+    if (!name.ends_with(".csv"))
+        reader.fail("illuminant", fmt::format("\"{}\"", name),
+                    fmt::format("one of {}, or a .csv file beside the recipe", fmt::join(known, ", ")));
+    recipe.illuminant_file = name;
 }
 
 image::Image load_scaled(const ProbeRecipe& recipe, const std::function<image::Image(const std::string&)>& load) {
@@ -104,8 +125,14 @@ ProbeRecipe parse_probe_recipe(const nlohmann::json& json, const std::string& fi
     if (type != "image") recipe.width = parse_width(reader, recipe.width);
     recipe.intensity = reader.number_or("intensity", 1, {.minimum = 1e-6, .maximum = 1e6});
     recipe.settings = parse_settings(reader);
+    parse_illuminant(reader, recipe);
     reader.finish();
     return recipe;
+}
+
+void load_illuminant(ProbeRecipe& recipe, const std::function<std::string(const std::string&)>& load_text) {
+    if (recipe.illuminant_file.empty()) return;
+    recipe.settings.illuminant = colour::parse_illuminant(load_text(recipe.illuminant_file), recipe.illuminant_file);
 }
 
 ProbeImage render_recipe(const ProbeRecipe& recipe, const std::function<image::Image(const std::string&)>& load,

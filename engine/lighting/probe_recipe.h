@@ -21,7 +21,9 @@ struct ImageRecipe {
 };
 
 /// How a probe is made: the source format { "probe": { "type": ..., ... } }.
-/// All types: "intensity" (1), "bands" (10), "face_size" (256; of the prefiltered cube map, a power of two).
+/// All types: "intensity" (1), "bands" (16), "key_lights" (16; 0 to 64), "face_size" (256; of the prefiltered cube map,
+///   a power of two), "illuminant" ("D65"; the spectrum of the probe's white: a built-in name or a .csv file, relative
+///   to the recipe).
 /// "studio": "ceiling", "wall", "floor" (radiance, three numbers each) and "boxes", objects with "azimuth_deg" (0 = −Z,
 ///   90 = +X), "elevation_deg", "roll_deg" (0), "half_size_deg" (width and height), "soft_edge_deg" (0), "radiance".
 /// "clear_sky": "sun_azimuth_deg", "sun_elevation_deg" (1 to 90), "sun_angular_diameter_deg" (0.533), "turbidity"
@@ -33,10 +35,15 @@ struct ProbeRecipe {
     int width = 1024;      ///< of the equirectangular image rendered from a procedural recipe; its height is half
     double intensity = 1;  ///< multiplies all radiance
     LightProbeSettings settings;
+    std::string illuminant_file;  ///< .csv, relative to the recipe; empty: settings.illuminant is built in
 };
 
 /// Parses strictly: an unknown key, a wrong type or a number out of range is an Error (input) that names it.
 ProbeRecipe parse_probe_recipe(const nlohmann::json& json, const std::string& file);
+
+/// Puts the illuminant of a recipe that names a file into its settings. `load_text` is called with illuminant_file and
+/// returns its text. Nothing happens to other recipes. Throws Error (input) for what parse_illuminant() refuses.
+void load_illuminant(ProbeRecipe& recipe, const std::function<std::string(const std::string&)>& load_text);
 
 /// The probe at full resolution. `load` is called with ImageRecipe::file and returns its image; the cooker records what
 /// it read there. Errors (input) name `file`.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
 #include <numbers>
@@ -19,53 +20,104 @@ std::size_t to_size(int x) {
     return static_cast<std::size_t>(x);
 }
 
+/// Terms of a dot product that are summed apart, so that the compiler may use vectors without changing any result.
+constexpr std::size_t kPartialSums = 4;
+
+constexpr std::size_t kRowsPerTask = 16;
+
 /// Fourier moments of one row over φ = 0 … 2π from the middle column: Σ L cos mφ for m ≥ 0, Σ L sin mφ for m < 0, at
 /// index m + bands − 1.
 using Moments = std::vector<glm::dvec3>;
 
-/// cos(mφ_c) and sin(mφ_c) of every column, m < bands.
+/// cos(mφ) and sin(mφ), m < bands, of the columns right of the middle, φ ≥ 0; zeros up to `padded`.
 struct Waves {
     int bands;
-    std::vector<double> cosine;
+    std::size_t columns;
+    std::size_t padded;
+    std::vector<double> cosine;  ///< bands × padded
     std::vector<double> sine;
 
-    Waves(int width, int bands_) : bands(bands_), cosine(to_size(width * bands_)), sine(to_size(width * bands_)) {
-        for (int m = 0; m < bands; ++m)
-            for (int column = 0; column < width; ++column) {
-                const double phi = 2 * kPi * ((column + 0.5) / width - 0.5);
-                cosine[to_size(m * width + column)] = std::cos(m * phi);
-                sine[to_size(m * width + column)] = std::sin(m * phi);
+    Waves(int width, int bands_)
+        : bands(bands_),
+          columns(to_size(width - width / 2)),
+          padded((columns + kPartialSums - 1) / kPartialSums * kPartialSums),
+          cosine(to_size(bands) * padded),
+          sine(to_size(bands) * padded) {
+        parallel_for(to_size(bands), [&](std::size_t m) {
+            for (std::size_t j = 0; j < columns; ++j) {
+                const double phi = 2 * kPi * ((static_cast<double>(to_size(width / 2) + j) + 0.5) / width - 0.5);
+                cosine[m * padded + j] = std::cos(static_cast<double>(m) * phi);
+                sine[m * padded + j] = std::sin(static_cast<double>(m) * phi);
             }
+        });
     }
 };
 
-Moments row_moments(const image::Image& image, int row, const Waves& waves) {
-    Moments moments(to_size(2 * waves.bands - 1), glm::dvec3(0.0));
-    const auto width = to_size(image.width);
-    const glm::vec3* texels = image.texels.data() + to_size(row) * width;
-    for (int m = 0; m < waves.bands; ++m) {
-        const double* cosine = waves.cosine.data() + to_size(m) * width;
-        const double* sine = waves.sine.data() + to_size(m) * width;
-        glm::dvec3 even(0.0);
-        glm::dvec3 odd(0.0);
-        for (std::size_t column = 0; column < width; ++column) {
-            const glm::dvec3 texel(texels[column]);
-            even += cosine[column] * texel;
-            odd += sine[column] * texel;
+/// A row folded about its middle column, channel after channel: L(φ) + L(−φ), which cosines see, and L(φ) − L(−φ),
+/// which sines see.
+struct FoldedRow {
+    std::vector<double> even;  ///< 3 × padded
+    std::vector<double> odd;
+
+    explicit FoldedRow(std::size_t padded) : even(3 * padded), odd(3 * padded) {}
+
+    void fold(const image::Image& image, int row, const Waves& waves) {
+        const glm::vec3* texels = image.texels.data() + to_size(row) * to_size(image.width);
+        const std::size_t middle = to_size(image.width / 2);
+        for (std::size_t j = 0; j < waves.columns; ++j) {
+            const glm::dvec3 right(texels[middle + j]);
+            const std::size_t mirrored = to_size(image.width) - 1 - middle - j;
+            // An odd width's middle column is its own mirror image.
+            const glm::dvec3 left = mirrored == middle + j ? glm::dvec3(0.0) : glm::dvec3(texels[mirrored]);
+            for (int c = 0; c < 3; ++c) {
+                even[to_size(c) * waves.padded + j] = right[c] + left[c];
+                odd[to_size(c) * waves.padded + j] = right[c] - left[c];
+            }
         }
-        moments[to_size(waves.bands - 1 + m)] = even;
-        if (m > 0) moments[to_size(waves.bands - 1 - m)] = odd;
+    }
+};
+
+/// Σ wave·channel over the columns, for three channels.
+glm::dvec3 dot(const double* wave, const double* channels, std::size_t padded) {
+    double sums[3][kPartialSums] = {};
+    for (std::size_t j = 0; j < padded; j += kPartialSums)
+        for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t k = 0; k < kPartialSums; ++k) sums[c][k] += wave[j + k] * channels[c * padded + j + k];
+    glm::dvec3 result;
+    for (int c = 0; c < 3; ++c) result[c] = (sums[c][0] + sums[c][1]) + (sums[c][2] + sums[c][3]);
+    return result;
+}
+
+Moments row_moments(const FoldedRow& row, const Waves& waves) {
+    Moments moments(to_size(2 * waves.bands - 1), glm::dvec3(0.0));
+    for (int m = 0; m < waves.bands; ++m) {
+        const std::size_t first = to_size(m) * waves.padded;
+        moments[to_size(waves.bands - 1 + m)] = dot(&waves.cosine[first], row.even.data(), waves.padded);
+        if (m > 0) moments[to_size(waves.bands - 1 - m)] = dot(&waves.sine[first], row.odd.data(), waves.padded);
     }
     return moments;
 }
 
+std::vector<Moments> all_row_moments(const image::Image& image, const Waves& waves) {
+    std::vector<Moments> rows(to_size(image.height));
+    parallel_for((rows.size() + kRowsPerTask - 1) / kRowsPerTask, [&](std::size_t task) {
+        FoldedRow folded(waves.padded);
+        const std::size_t end = std::min(rows.size(), (task + 1) * kRowsPerTask);
+        for (std::size_t row = task * kRowsPerTask; row < end; ++row) {
+            folded.fold(image, static_cast<int>(row), waves);
+            rows[row] = row_moments(folded, waves);
+        }
+    });
+    return rows;
+}
+
 /// Rows are circles around the image's own axis +Y, where Y_lm is a Legendre function of the row times cos mφ or
-/// sin mφ of the column: 2n−1 sums a texel in place of n², then one rotation into world axes.
+/// sin mφ of the column: 2n−1 sums a texel in place of n², half of them over folded rows, then one rotation into world
+/// axes. Sums are in double and in fixed order.
 std::vector<glm::dvec3> project_equirectangular(const ProbeImage& probe, int bands) {
     const image::Image& image = probe.image();
     const Waves waves(image.width, bands);
-    std::vector<Moments> rows(to_size(image.height));
-    parallel_for(rows.size(), [&](std::size_t row) { rows[row] = row_moments(image, static_cast<int>(row), waves); });
+    const std::vector<Moments> rows = all_row_moments(image, waves);
 
     const auto count = to_size(math::sh_count(bands));
     std::vector<glm::dvec3> in_image_frame(count, glm::dvec3(0.0));

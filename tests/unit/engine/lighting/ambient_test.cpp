@@ -101,6 +101,25 @@ TEST(Ambient, MildestWindowThatKeepsItNonNegativeIsPicked) {
     EXPECT_GT(evaluate_irradiance(night, d).x, evaluate_irradiance(night, -d).x);
 }
 
+TEST(Ambient, WhatLobesLeaveMayBeNegativeWhereTheSumIsNot) {
+    // An even light less a lobe that is as bright on average: −d reflects the difference of the two.
+    const glm::dvec3 d = glm::normalize(glm::dvec3(1, 1, -2));
+    const std::vector<KeyLight> keys{{d, glm::dvec3(4 * kPi), 40.0}};
+    const ShLight even{3, {glm::dvec3(2 * std::sqrt(4 * kPi)), {}, {}, {}, {}, {}, {}, {}, {}}};
+    const ShLight left = residual(even, keys, 3);
+    EXPECT_TRUE(ambient_coefficients(left).window.window != math::SphericalWindow::None ||
+                ambient_coefficients(left).window.damping > 0);
+    const AmbientLight ambient = ambient_coefficients(left, keys);
+    EXPECT_EQ(ambient.window.window, math::SphericalWindow::None);
+    EXPECT_EQ(ambient.window.damping, 0);
+    // The sum is the even light again, but for the lobe's bands from 4 on, E/π = flux A_l (2l+1)/4π² each under the
+    // lobe: −0.29 of band 4 and 0.12 of band 6.
+    for (int i = 0; i < 50; ++i) {
+        const glm::dvec3 n = test::spread_direction(i, 50);
+        EXPECT_NEAR(evaluate_irradiance(ambient, n).x + irradiance(keys[0], n).x / kPi, 2.0, 0.35) << i;
+    }
+}
+
 TEST(Ambient, FewerThanThreeBandsCountAsZeros) {
     const ShLight light{1, {glm::dvec3(std::sqrt(4 * kPi))}};
     EXPECT_NEAR(evaluate_irradiance(ambient_coefficients(light), {0, 0, 1}).x, 1, 1e-14);

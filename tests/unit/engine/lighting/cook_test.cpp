@@ -54,6 +54,24 @@ TEST_F(ProbeCook, ImageRecipeCooksAndDependsOnItsImage) {
     EXPECT_EQ(probe().version, kLightProbeVersion);
 }
 
+TEST_F(ProbeCook, ProbeDependsOnItsIlluminantsFile) {
+    write("lamp.csv", "wavelength_nm,relative_power\n588,0\n589,1\n590,0\n");
+    cook::Context context(write("p.json", R"({"probe": {"type": "clear_sky", "sun_azimuth_deg": 1, "width": 64,
+        "sun_elevation_deg": 9, "face_size": 16, "illuminant": "lamp.csv"}})"));
+    const auto payload = probe().cook(context);
+    EXPECT_THAT(context.dependencies(), ::testing::Contains(folder_.path() / "lamp.csv"));
+    const LightProbe light = deserialise(payload, "p.probe");
+    EXPECT_EQ(light.illuminant.name, "lamp.csv");  // and not where it lay: cooked bytes hold no folder
+    EXPECT_EQ(light.illuminant.power(589.0), 1.0);
+    EXPECT_THAT(probe().describe(payload, "p.probe"), ::testing::HasSubstr("illuminant: lamp.csv"));
+
+    write("lamp.csv", "wavelength_nm,relative_power\n300,1\n310,1\n");
+    cook::Context dark(folder_.path() / "p.json");
+    EXPECT_THROW(probe().check(dark), Error);
+    cook::Context missing(write("m.json", R"({"probe": {"type": "image", "file": "a.exr", "illuminant": "no.csv"}})"));
+    EXPECT_THROW(probe().check(missing), Error);
+}
+
 TEST_F(ProbeCook, BadSourcesAreRefused) {
     cook::Context missing(write("m.json", R"({"probe": {"type": "image", "file": "nowhere.hdr"}})"));
     EXPECT_THROW(probe().check(missing), Error);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "engine/colour/illuminant.h"
 #include "engine/core/error.h"
 #include "engine/core/json_reader.h"
 
@@ -30,7 +31,8 @@ std::string refusal(const std::string& text) {
 const std::string kRoom = R"("ceiling": [1,1,1], "wall": [1,1,1], "floor": [1,1,1])";
 
 TEST(ProbeRecipe, StudioIsParsedWhole) {
-    const ProbeRecipe recipe = parse(R"({"probe": {"type": "studio", )" + kRoom + R"(, "width": 128, "bands": 7,
+    const ProbeRecipe recipe =
+        parse(R"({"probe": {"type": "studio", )" + kRoom + R"(, "width": 128, "bands": 7, "key_lights": 64,
         "face_size": 32, "intensity": 2, "boxes": [{"azimuth_deg": 10, "elevation_deg": 20, "roll_deg": 5,
         "half_size_deg": [3, 4], "soft_edge_deg": 1, "radiance": [7, 8, 9]}]}})");
     const auto& studio = std::get<StudioRecipe>(recipe.source);
@@ -39,6 +41,7 @@ TEST(ProbeRecipe, StudioIsParsedWhole) {
     EXPECT_EQ(studio.boxes[0].radiance, glm::dvec3(7, 8, 9));
     EXPECT_EQ(recipe.width, 128);
     EXPECT_EQ(recipe.settings.bands, 7);
+    EXPECT_EQ(recipe.settings.key_lights, 64);
     EXPECT_EQ(recipe.settings.prefilter.face_size, 32);
     const ProbeImage probe = render_recipe(recipe, {}, "p.json");
     EXPECT_EQ(probe.image().width, 128);
@@ -50,6 +53,7 @@ TEST(ProbeRecipe, ClearSkyAndImageAreParsed) {
         parse(R"({"probe": {"type": "clear_sky", "sun_azimuth_deg": 10, "sun_elevation_deg": 20, "turbidity": 4}})");
     EXPECT_EQ(std::get<ClearSkyRecipe>(sky.source).turbidity, 4);
     EXPECT_EQ(sky.settings.bands, 16);
+    EXPECT_EQ(sky.settings.key_lights, 16);
 
     const ProbeRecipe capture = parse(R"({"probe": {"type": "image", "file": "x.hdr", "mapping": "angular"}})");
     const ProbeImage probe = render_recipe(
@@ -61,6 +65,30 @@ TEST(ProbeRecipe, ClearSkyAndImageAreParsed) {
         "p.json");
     EXPECT_EQ(probe.mapping(), Mapping::Angular);
     EXPECT_EQ(probe.radiance({0, 0, -1}).x, 3);
+}
+
+TEST(ProbeRecipe, NamesTheSpectrumOfItsWhite) {
+    const std::string image = R"({"probe": {"type": "image", "file": "a.hdr")";
+    EXPECT_EQ(parse(image + "}}").settings.illuminant.name, "D65");
+    for (const std::string& name : colour::illuminant_names()) {
+        const ProbeRecipe recipe = parse(image + R"(, "illuminant": ")" + name + "\"}}");
+        EXPECT_EQ(recipe.settings.illuminant.name, name);
+        EXPECT_TRUE(recipe.illuminant_file.empty());
+    }
+    ProbeRecipe recipe = parse(image + R"(, "illuminant": "lamps/sodium.csv"}})");
+    EXPECT_EQ(recipe.illuminant_file, "lamps/sodium.csv");
+    load_illuminant(recipe, [](const std::string& name) {
+        EXPECT_EQ(name, "lamps/sodium.csv");
+        return std::string("wavelength_nm,relative_power\n588,0\n589,1\n590,0\n");
+    });
+    EXPECT_EQ(recipe.settings.illuminant.name, "lamps/sodium.csv");
+    EXPECT_EQ(recipe.settings.illuminant.power(589.0), 1.0);
+    EXPECT_THROW(load_illuminant(recipe, [](const std::string&) { return std::string("1,2\n"); }), Error);
+
+    EXPECT_THAT(refusal(image + R"(, "illuminant": "D50"}})"), HasSubstr("/probe/illuminant"));
+    EXPECT_THAT(refusal(image + R"(, "illuminant": "D50"}})"), HasSubstr("F11"));
+    EXPECT_THAT(refusal(image + R"(, "illuminant": ""}})"), HasSubstr("/probe/illuminant"));
+    EXPECT_THAT(refusal(image + R"(, "illuminant": 5}})"), HasSubstr("/probe/illuminant"));
 }
 
 TEST(ProbeRecipe, MistakesAreNamed) {
@@ -75,6 +103,10 @@ TEST(ProbeRecipe, MistakesAreNamed) {
     EXPECT_THAT(refusal(R"({"probe": {"type": "image", "file": "a.hdr", "face_size": 100}})"),
                 HasSubstr("power of two"));
     EXPECT_THAT(refusal(R"({"probe": {"type": "image", "file": "a.hdr", "bands": 33}})"), HasSubstr("/probe/bands"));
+    EXPECT_THAT(refusal(R"({"probe": {"type": "image", "file": "a.hdr", "key_lights": 65}})"),
+                HasSubstr("/probe/key_lights"));
+    EXPECT_THAT(refusal(R"({"probe": {"type": "image", "file": "a.hdr", "key_lights": -1}})"),
+                HasSubstr("/probe/key_lights"));
     EXPECT_THAT(refusal(R"({"probe": {"type": "clear_sky", "sun_azimuth_deg": 0, "sun_elevation_deg": 0}})"),
                 HasSubstr("/probe/sun_elevation_deg"));
     EXPECT_THAT(refusal(R"({"probe": {"type": "clear_sky", "sun_azimuth_deg": 0, "sun_elevation_deg": 9,

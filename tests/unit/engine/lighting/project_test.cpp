@@ -53,6 +53,18 @@ TEST(Project, AgreesWithTheDefinitionAt32Bands) {
         }
 }
 
+TEST(Project, EveryWidthAgreesWithTheDefinition) {
+    for (int width = 1; width <= 13; ++width) {  // rows are folded about their middle column, if there is one
+        image::Image image{width, 5, {}};
+        for (int i = 0; i < 5 * width; ++i) image.texels.emplace_back(1 + i % 7, i % 3, 0.1F * static_cast<float>(i));
+        const ProbeImage probe(image, Mapping::Equirectangular);
+        const ShLight light = project(probe, 9);
+        const auto expected = brute_force(probe, 9);
+        for (std::size_t i = 0; i < expected.size(); ++i)
+            EXPECT_LT(glm::length(light.coefficients[i] - expected[i]), 1e-12) << width << " columns, " << i;
+    }
+}
+
 TEST(Project, WhiteFurnaceHasOnlyBandZero) {
     for (const Mapping mapping : test::kMappings) {
         const ShLight light = project(test::constant_probe(mapping, 256), 8);

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "engine/lighting/probe_image.h"
+#include "engine/lighting/sh_light.h"
+
+namespace rowland::lighting {
+
+/// A bright part of a probe as a von Mises–Fisher lobe: radiance(s) = flux · lobe_density(key, s).
+struct KeyLight {
+    glm::dvec3 direction{0.0, 1.0, 0.0};  ///< unit, world axes, toward the light
+    glm::dvec3 flux{0.0};                 ///< linear Rec.709 RGB radiance × sr: irradiance on a surface that faces it
+    double concentration = 100.0;         ///< κ > 0; about 1/κ is the variance of the angle along each axis
+};
+
+/// Most key lights that a shader loops over.
+inline constexpr int kMaximumKeyLights = 64;
+
+/// κ/(4π sinh κ) exp(κ s·direction), 1/sr; it integrates to 1. Stable for κ in [1e-3, 1e5] and beyond.
+double lobe_density(const KeyLight& key, const glm::dvec3& s);
+
+/// Factor by which a lobe of concentration κ > 0 multiplies bands 0 … bands−1 of a point light's SH:
+/// I_{l+½}(κ)/I_½(κ), to 1e-10.
+std::vector<double> lobe_band_factors(double concentration, int bands);
+
+/// Up to `count` (0 to 64) lobes for the bright parts of a probe, brightest first; fewer where there is no more to
+/// gain. They aim at the error along arcs: what is left, smoothed as a grating's colours smooth it, is to be small
+/// (greedy peeling, then refinement of all lobes against what the others leave). Fluxes are the least squares' own,
+/// never negative, so that what is left is small on either side of 0. No lobe is narrower than a texel or wider than
+/// kWidestConcentration. Does not depend on the number of threads; .3 s of two cores for 16.
+std::vector<KeyLight> fit_key_lights(const ProbeImage& probe, int count);
+
+/// The widest lobe that fit_key_lights() gives.
+inline constexpr double kWidestConcentration = 40.0;
+
+/// Raw radiance SH of the lobes, in closed form; 1 ≤ bands ≤ 32.
+ShLight project(std::span<const KeyLight> keys, int bands);
+
+/// What the lobes leave of a probe's SH, in exactly `bands` bands: SH(probe) − SH(lobes). Its sum with the lobes has
+/// the probe's low bands, however crude the lobes are.
+ShLight residual(const ShLight& probe, std::span<const KeyLight> keys, int bands);
+
+/// Means over a lobe: A₁(κ) = mean of s·direction, and the variances of s along the direction and across it.
+struct LobeMoments {
+    double mean = 0.0;
+    double variance_along = 0.0;
+    double variance_across = 0.0;
+};
+LobeMoments lobe_moments(double concentration);
+
+/// A normal distribution of mean m and deviation σ ≥ 0 cut off below 0: the first moments of max(0, x).
+struct ClampedNormal {
+    double mean = 0.0;           ///< E[x⁺]
+    double weighted_mean = 0.0;  ///< E[x x⁺] / E[x⁺]
+    double weighted_variance = 0.0;
+};
+ClampedNormal clamp_normal(double mean, double deviation);
+
+/// Mean of the clamped cosine max(0, s·normal) over a lobe. The cosine is taken as normally distributed, with its exact
+/// mean and variance: off by .001 at κ = 25 and .0001 at 100 (.004 at 10, .023 at worst, κ = 1), against quadrature.
+double lobe_cosine(const KeyLight& key, const glm::dvec3& normal);
+
+/// Irradiance on a surface of unit normal `normal`: flux · lobe_cosine(). Divided by π it is what a white diffuse
+/// surface reflects.
+glm::dvec3 irradiance(const KeyLight& key, const glm::dvec3& normal);
+
+}  // namespace rowland::lighting
