@@ -32,8 +32,25 @@ void Buffer::bind_uniform(unsigned binding) const {
     glBindBufferBase(GL_UNIFORM_BUFFER, binding, id());
 }
 
+void Buffer::replace(std::span<const std::byte> data) {
+    glInvalidateBufferData(id());
+    update(data);
+}
+
+void Buffer::bind_uniform(unsigned binding, std::size_t offset, std::size_t bytes) const {
+    ROWLAND_CHECK_OP(offset, <=, size_);
+    ROWLAND_CHECK_OP(bytes, <=, size_ - offset);
+    glBindBufferRange(GL_UNIFORM_BUFFER, binding, id(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes));
+}
+
 void Buffer::bind_storage(unsigned binding) const {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, id());
+}
+
+std::size_t uniform_alignment() {
+    GLint alignment = 256;
+    glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &alignment);
+    return static_cast<std::size_t>(alignment);
 }
 
 }  // namespace rowland::gpu

@@ -32,7 +32,13 @@ class Buffer {
         update(std::as_bytes(std::span<const T>(&value, 1)));
     }
 
+    /// Overwrites the start of a dynamic buffer; what lies behind becomes undefined. Does not wait for draws that still
+    /// read the old content.
+    void replace(std::span<const std::byte> data);
+
     void bind_uniform(unsigned binding) const;
+    /// Binds only `bytes` from `offset` on, a multiple of uniform_alignment().
+    void bind_uniform(unsigned binding, std::size_t offset, std::size_t bytes) const;
     void bind_storage(unsigned binding) const;
 
     std::size_t size() const { return size_; }
@@ -46,5 +52,8 @@ class Buffer {
     std::size_t size_ = 0;
     BufferUse use_ = BufferUse::Static;
 };
+
+/// What offsets of uniform blocks in a buffer must be multiples of.
+std::size_t uniform_alignment();
 
 }  // namespace rowland::gpu

@@ -54,7 +54,8 @@ Framebuffer::Framebuffer(const FramebufferDesc& desc)
 void Framebuffer::attach(GLenum attachment, Format format, const FramebufferDesc& desc,
                          std::vector<Texture>& textures) {
     if (desc.samples == 1) {
-        textures.emplace_back(TextureDesc{.format = format, .width = desc.width, .height = desc.height});
+        textures.emplace_back(TextureDesc{.format = format, .width = desc.width, .height = desc.height},
+                              attachment == GL_DEPTH_ATTACHMENT ? desc.depth_sampling : Sampling{});
         glNamedFramebufferTexture(id(), attachment, textures.back().id(), 0);
         return;
     }

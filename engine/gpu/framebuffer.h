@@ -12,9 +12,11 @@ namespace rowland::gpu {
 struct FramebufferDesc {
     int width = 1;
     int height = 1;
-    std::vector<Format> colours{Format::RGBA16F};  ///< one texture each, `layout(location = i) out` in GLSL
-    bool depth = false;                            ///< adds a Depth32F texture
-    int samples = 1;                               ///< above 1: drawn into only, and read through resolve_to()
+    std::vector<Format> colours{
+        Format::RGBA16F};          ///< one texture each, `layout(location = i) out` in GLSL; may be none
+    bool depth = false;            ///< adds a Depth32F texture
+    int samples = 1;               ///< above 1: drawn into only, and read through resolve_to()
+    Sampling depth_sampling = {};  ///< of the depth texture
 };
 
 /// Textures to draw into.

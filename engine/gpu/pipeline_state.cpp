@@ -56,9 +56,11 @@ void apply_depth(DepthTest test, bool write) {
 void apply(const PipelineState& state) {
     apply_depth(state.depth_test, state.depth_write);
     set_enabled(GL_CULL_FACE, state.cull != Cull::None);
-    glFrontFace(GL_CCW);
+    glFrontFace(state.front == FrontFace::Clockwise ? GL_CW : GL_CCW);
     glCullFace(state.cull == Cull::Front ? GL_FRONT : GL_BACK);
     apply_blend(state.blend);
+    set_enabled(GL_POLYGON_OFFSET_FILL, state.slope_bias != 0.0F);
+    if (state.slope_bias != 0.0F) glPolygonOffset(state.slope_bias, 0.0F);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_STENCIL_TEST);

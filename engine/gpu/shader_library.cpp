@@ -91,6 +91,12 @@ std::optional<std::string> ShaderLibrary::find(const std::string& name) const {
     return std::string(found->second);
 }
 
+std::vector<std::string> ShaderLibrary::names() const {
+    std::vector<std::string> result;
+    for (const auto& [name, text] : embedded_) result.push_back(name);
+    return result;
+}
+
 std::string ShaderLibrary::read(const std::string& name) const {
     if (std::optional<std::string> text = find(name)) return *std::move(text);
     std::vector<std::string> names;

@@ -44,6 +44,8 @@ class ShaderLibrary {
     /// From now on, files are read from `folder` (the top of a source tree) if they are there.
     void set_source_folder(std::optional<std::filesystem::path> folder) { source_folder_ = std::move(folder); }
 
+    /// All files built into the program.
+    std::vector<std::string> names() const;
     /// The text of a file. Throws Error (system) if there is none of that name.
     std::string read(const std::string& name) const;
 

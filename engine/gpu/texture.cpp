@@ -80,6 +80,13 @@ void allocate(GLuint name, const TextureDesc& desc) {
 
 }  // namespace
 
+float max_anisotropy() {
+    float largest = 1.0F;
+    if (epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic"))
+        glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &largest);
+    return largest;
+}
+
 void Texture::Release::operator()(GLuint name) const {
     glDeleteTextures(1, &name);
 }
@@ -169,6 +176,11 @@ void Texture::set_sampling(const Sampling& sampling) {
     glTextureParameteri(id(), GL_TEXTURE_WRAP_R, wrap_mode(sampling.wrap_r));
     if (epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) {
         glTextureParameterf(id(), GL_TEXTURE_MAX_ANISOTROPY_EXT, sampling.anisotropy);
+    }
+    if (desc_.format == Format::Depth32F) {
+        glTextureParameteri(id(), GL_TEXTURE_COMPARE_MODE,
+                            sampling.compare_depth ? GL_COMPARE_REF_TO_TEXTURE : GL_NONE);
+        glTextureParameteri(id(), GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
     }
     // Core in 3.2, but off by default: without it cube maps show the edges of their faces.
     if (desc_.kind == TextureKind::CubeMap) glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);

@@ -32,8 +32,12 @@ struct Sampling {
     Wrap wrap_s = Wrap::Clamp;
     Wrap wrap_t = Wrap::Clamp;
     Wrap wrap_r = Wrap::Clamp;
-    float anisotropy = 1.0F;
+    float anisotropy = 1.0F;     ///< at most what max_anisotropy() says
+    bool compare_depth = false;  ///< of a depth texture: sampler2DShadow, 1 where the reference ≤ the texel
 };
+
+/// The most a texture can ask for; 1 where the driver cannot.
+float max_anisotropy();
 
 /// Which part of a texture an upload or a read means: all of a level's width and height, and `layers` layers (array),
 /// slices (volume) or faces (cube map: +X, −X, +Y, −Y, +Z, −Z) from `layer` on.

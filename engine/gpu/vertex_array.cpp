@@ -23,7 +23,13 @@ void VertexArray::attach(const Buffer& buffer, int stride, std::initializer_list
     glVertexArrayBindingDivisor(id(), binding, per_instance ? 1 : 0);
     for (const VertexAttribute& attribute : attributes) {
         glEnableVertexArrayAttrib(id(), attribute.location);
-        glVertexArrayAttribFormat(id(), attribute.location, attribute.components, GL_FLOAT, GL_FALSE, attribute.offset);
+        if (attribute.number == VertexNumber::UInt16) {
+            glVertexArrayAttribIFormat(id(), attribute.location, attribute.components, GL_UNSIGNED_SHORT,
+                                       attribute.offset);
+        } else {
+            glVertexArrayAttribFormat(id(), attribute.location, attribute.components, GL_FLOAT, GL_FALSE,
+                                      attribute.offset);
+        }
         glVertexArrayAttribBinding(id(), attribute.location, binding);
     }
 }

@@ -8,11 +8,17 @@
 
 namespace rowland::gpu {
 
-/// One float attribute of a vertex: `layout(location = location)` in GLSL.
+enum class VertexNumber {
+    Float,
+    UInt16,  ///< an integer in GLSL too: uvec4 and the like
+};
+
+/// One attribute of a vertex: `layout(location = location)` in GLSL.
 struct VertexAttribute {
     unsigned location = 0;
-    int components = 3;   ///< 1 to 4 floats
+    int components = 3;   ///< 1 to 4
     unsigned offset = 0;  ///< bytes from the start of the vertex
+    VertexNumber number = VertexNumber::Float;
 };
 
 /// How vertices are read from buffers. The buffers must outlive it.

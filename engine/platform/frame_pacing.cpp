@@ -65,8 +65,11 @@ FrameStatistics FrameTimes::statistics() const {
     const auto sum = std::accumulate(sorted.begin(), sorted.end(), std::chrono::nanoseconds(0));
     return {.count = sorted.size(),
             .mean_ms = milliseconds(sum) / static_cast<double>(sorted.size()),
+            .minimum_ms = milliseconds(sorted.front()),
             .median_ms = milliseconds(percentile(sorted, 50)),
+            .percentile_90_ms = milliseconds(percentile(sorted, 90)),
             .percentile_95_ms = milliseconds(percentile(sorted, 95)),
+            .percentile_99_ms = milliseconds(percentile(sorted, 99)),
             .maximum_ms = milliseconds(sorted.back())};
 }
 

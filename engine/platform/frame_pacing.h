@@ -35,12 +35,15 @@ class FixedStep {
     std::int64_t steps_ = 0;
 };
 
-/// Frame times in milliseconds. Median and 95th percentile by the nearest-rank method, so each is a time that occurred.
+/// Times in milliseconds. Median and percentiles by the nearest-rank method, so each is a time that occurred.
 struct FrameStatistics {
     std::size_t count = 0;
     double mean_ms = 0.0;
+    double minimum_ms = 0.0;
     double median_ms = 0.0;
+    double percentile_90_ms = 0.0;
     double percentile_95_ms = 0.0;
+    double percentile_99_ms = 0.0;
     double maximum_ms = 0.0;
 };
 

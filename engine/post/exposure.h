@@ -8,7 +8,8 @@ namespace rowland::post {
 /// The factor on scene-linear light that so many stops make: 2^stops.
 float exposure_scale(float stops);
 
-/// Multiplies scene-linear pixels by exposure_scale(stops). The twin of ExposurePass.
+/// Multiplies scene-linear pixels by exposure_scale(stops). The twin of what the
+/// display pass does.
 void apply_exposure(std::span<glm::vec3> pixels, float stops);
 
 }  // namespace rowland::post

@@ -1,5 +1,7 @@
 #include "engine/post/post_stack.h"
 
+#include <utility>
+
 #include "engine/core/check.h"
 
 namespace rowland::post {
@@ -10,6 +12,12 @@ template <typename Pass>
 Pass& made(std::optional<Pass>& pass, const gpu::ShaderLibrary& library) {
     if (!pass) pass.emplace(library);
     return *pass;
+}
+
+/// As many passes as there were, compiled anew.
+template <typename Pass>
+std::optional<Pass> anew(const std::optional<Pass>& pass, const gpu::ShaderLibrary& library) {
+    return pass ? std::optional<Pass>(std::in_place, library) : std::nullopt;
 }
 
 const gpu::Framebuffer& sized(std::optional<gpu::Framebuffer>& framebuffer, glm::ivec2 size, gpu::Format format) {
@@ -25,6 +33,7 @@ const gpu::Texture& PostStack::with_bloom(const gpu::Texture& picture, const Pos
     if (!settings.bloom) return picture;
     require_valid(*settings.bloom);
     if (settings.bloom->strength == 0.0F) return picture;
+    const gpu::PassTimes::Scope scope(times_, "bloom");
     const gpu::Framebuffer& bloomed = sized(bloomed_, picture.size(), picture.desc().format);
     BloomPass& pass = made(bloom_, *library_);
     pass.draw(picture, *settings.bloom, bloomed);
@@ -40,6 +49,7 @@ float PostStack::automatic_stops(const gpu::Texture& picture, const PostSettings
     const AutoExposureSettings& automatic = *settings.auto_exposure;
     require_valid(automatic);
     ROWLAND_CHECK(frame.luminance_weights != glm::vec3(0.0F), "automatic exposure needs the frame's luminance_weights");
+    const gpu::PassTimes::Scope scope(times_, "auto exposure");
     AutoExposurePass& pass = made(auto_exposure_, *library_);
     const std::optional<double> mean = pass.measure(picture, frame.luminance_weights, automatic.darkest);
     passes_ += pass.passes();
@@ -54,6 +64,7 @@ const gpu::Texture& PostStack::with_vignette(const gpu::Texture& picture, const 
     if (!settings.vignette) return picture;
     require_valid(*settings.vignette);
     if (!has_effect(*settings.vignette)) return picture;
+    const gpu::PassTimes::Scope scope(times_, "vignette");
     const gpu::Framebuffer& vignetted = sized(vignetted_, picture.size(), picture.desc().format);
     made(vignette_, *library_).draw(picture, *settings.vignette, vignetted);
     ++passes_;
@@ -62,16 +73,30 @@ const gpu::Texture& PostStack::with_vignette(const gpu::Texture& picture, const 
 
 void PostStack::draw_display(const gpu::Texture& picture, const DisplayPass& display, const PostSettings& settings,
                              const PostFrame& frame, const gpu::Framebuffer& target) {
-    ++passes_;
-    if (!settings.dither) {
-        display.draw(picture, exposure_stops_, target);
-        return;
+    // For dither sixteen bits, as half floats near 1 are no finer than an eighth of an 8-bit step.
+    const gpu::Framebuffer& displayed =
+        settings.dither ? sized(displayed_, target.size(), gpu::Format::RGBA16) : target;
+    {
+        const gpu::PassTimes::Scope scope(times_, "display");
+        display.draw(picture, exposure_stops_, displayed);
+        ++passes_;
     }
-    // Sixteen bits, as half floats near 1 are no finer than an eighth of an 8-bit step.
-    const gpu::Framebuffer& displayed = sized(displayed_, target.size(), gpu::Format::RGBA16);
-    display.draw(picture, exposure_stops_, displayed);
+    if (!settings.dither) return;
+    const gpu::PassTimes::Scope scope(times_, "dither");
     made(dither_, *library_).draw(displayed.colour(), frame.index, *settings.dither, target);
     ++passes_;
+}
+
+void PostStack::reload(const gpu::ShaderLibrary& library) {
+    std::optional<BloomPass> bloom = anew(bloom_, library);
+    std::optional<AutoExposurePass> auto_exposure = anew(auto_exposure_, library);
+    std::optional<VignettePass> vignette = anew(vignette_, library);
+    std::optional<DitherPass> dither = anew(dither_, library);
+    bloom_ = std::move(bloom);
+    auto_exposure_ = std::move(auto_exposure);
+    vignette_ = std::move(vignette);
+    dither_ = std::move(dither);
+    library_ = &library;
 }
 
 void PostStack::draw(const gpu::Texture& hdr, const DisplayPass& display, const PostSettings& settings,

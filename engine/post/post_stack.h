@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "engine/gpu/framebuffer.h"
+#include "engine/gpu/pass_times.h"
 #include "engine/gpu/shader_library.h"
 #include "engine/gpu/texture.h"
 #include "engine/post/auto_exposure.h"
@@ -54,6 +55,12 @@ class PostStack {
     float exposure_stops() const { return exposure_stops_; }
     /// Makes the next frame start at its own automatic exposure, as the first does: for cuts.
     void forget_exposure() { automatic_stops_.reset(); }
+    /// Compiles the programs in use anew from `library`, which takes the place of the one it had. If one does not
+    /// compile, all stay as they were and its Error (system) is thrown.
+    void reload(const gpu::ShaderLibrary& library);
+    /// Where the time of each effect that runs is written: "bloom", "auto exposure", "vignette", "display", "dither".
+    /// Null, as at first: nothing is timed. Must outlive the draws.
+    void set_pass_times(gpu::PassTimes* times) { times_ = times; }
 
  private:
     const gpu::Texture& with_bloom(const gpu::Texture& picture, const PostSettings& settings);
@@ -63,6 +70,7 @@ class PostStack {
                       const PostFrame& frame, const gpu::Framebuffer& target);
 
     const gpu::ShaderLibrary* library_;
+    gpu::PassTimes* times_ = nullptr;
     std::optional<BloomPass> bloom_;
     std::optional<AutoExposurePass> auto_exposure_;
     std::optional<VignettePass> vignette_;

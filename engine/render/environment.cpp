@@ -37,8 +37,6 @@ Environment::Environment(const lighting::LightProbe& probe, const glm::dmat3& re
         const std::size_t end = 3 * layout.offset(level + 1);
         map_.upload(std::span<const std::uint16_t>(halves).subspan(begin, end - begin), {.level = level, .layers = 6});
     }
-    for (std::size_t i = 0; i < ambient_.size(); ++i)
-        ambient_[i] = glm::vec4(glm::vec3(rec709_to_working * probe.ambient.coefficients[i]), 0.0F);
 }
 
 }  // namespace rowland::render

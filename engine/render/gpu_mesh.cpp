@@ -1,5 +1,6 @@
 #include "engine/render/gpu_mesh.h"
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -10,14 +11,45 @@ namespace {
 struct Vertex {
     glm::vec3 position;
     glm::vec3 normal;
-    glm::vec3 tangent;
+    glm::vec4 tangent;
 };
 
 std::vector<Vertex> interleave(const scene::Mesh& mesh) {
     std::vector<Vertex> vertices(mesh.positions.size());
     for (std::size_t i = 0; i < vertices.size(); ++i)
-        vertices[i] = {mesh.positions[i], mesh.normals[i], glm::vec3(mesh.tangents[i])};
+        vertices[i] = {mesh.positions[i], mesh.normals[i], mesh.tangents[i]};
     return vertices;
+}
+
+/// The joints with those of no weight, which may be any, replaced by one that has weight.
+std::vector<glm::u16vec4> joints_in_use(const scene::Mesh& mesh) {
+    std::vector<glm::u16vec4> joints = mesh.joints;
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+        const glm::vec4& weights = mesh.weights[i];
+        int heaviest = 0;
+        for (int k = 1; k < 4; ++k)
+            if (weights[k] > weights[heaviest]) heaviest = k;
+        for (int k = 0; k < 4; ++k)
+            if (weights[k] == 0.0F) joints[i][k] = joints[i][heaviest];
+    }
+    return joints;
+}
+
+std::size_t count(const std::vector<glm::u16vec4>& joints) {
+    std::size_t most = 0;
+    for (const glm::u16vec4& four : joints)
+        for (int k = 0; k < 4; ++k) most = std::max(most, std::size_t{four[k]} + 1);
+    return most;
+}
+
+/// Uploads an attribute that the mesh may lack.
+template <typename T>
+gpu::Buffer attach_if_present(gpu::VertexArray& vertices, const std::vector<T>& values, unsigned location,
+                              gpu::VertexNumber number = gpu::VertexNumber::Float) {
+    if (values.empty()) return {};
+    gpu::Buffer buffer = gpu::Buffer::of(std::span<const T>(values));
+    vertices.attach(buffer, sizeof(T), {{.location = location, .components = T::length(), .number = number}});
+    return buffer;
 }
 
 }  // namespace
@@ -25,11 +57,19 @@ std::vector<Vertex> interleave(const scene::Mesh& mesh) {
 GpuMesh::GpuMesh(const scene::Mesh& mesh)
     : vertex_buffer_(gpu::Buffer::of(std::span<const Vertex>(interleave(mesh)))),
       index_buffer_(gpu::Buffer::of(std::span<const std::uint32_t>(mesh.indices))),
-      index_count_(static_cast<int>(mesh.indices.size())) {
+      index_count_(static_cast<int>(mesh.indices.size())),
+      bounds_(scene::bounds(mesh)) {
     vertices_.attach(vertex_buffer_, sizeof(Vertex),
                      {{.location = 0, .components = 3, .offset = offsetof(Vertex, position)},
                       {.location = 1, .components = 3, .offset = offsetof(Vertex, normal)},
-                      {.location = 2, .components = 3, .offset = offsetof(Vertex, tangent)}});
+                      {.location = 2, .components = 4, .offset = offsetof(Vertex, tangent)}});
+    uvs_ = attach_if_present(vertices_, mesh.uvs, 3);
+    uvs1_ = attach_if_present(vertices_, mesh.uvs1, 4);
+    colours_ = attach_if_present(vertices_, mesh.colours, 5);
+    const std::vector<glm::u16vec4> joints = joints_in_use(mesh);
+    joint_count_ = count(joints);
+    joints_ = attach_if_present(vertices_, joints, 6, gpu::VertexNumber::UInt16);
+    weights_ = attach_if_present(vertices_, mesh.weights, 7);
     vertices_.attach_indices(index_buffer_);
 }
 

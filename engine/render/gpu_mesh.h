@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 
 #include "engine/gpu/buffer.h"
@@ -8,18 +9,34 @@
 
 namespace rowland::render {
 
-/// A mesh on the GPU: position, normal and tangent interleaved at locations 0, 1 and 2.
+/// A mesh on the GPU: position, normal and tangent interleaved at locations 0, 1 and 2. What not every mesh has lies in
+/// a buffer of its own, so that programs which do not read it do not fetch it: first and second texture coordinates at
+/// 3 and 4, colour at 5, joints and weights at 6 and 7.
 class GpuMesh {
  public:
     explicit GpuMesh(const scene::Mesh& mesh);
 
     void draw() const { vertices_.draw_indexed(index_count_); }
 
+    /// In the mesh's own space.
+    const scene::Bounds& bounds() const { return bounds_; }
+    bool has_colours() const { return colours_.size() > 0; }
+    bool is_skinned() const { return joint_count_ > 0; }
+    /// How many joints a skin must have for this mesh; 0 if it is not skinned.
+    std::size_t joint_count() const { return joint_count_; }
+
  private:
     gpu::Buffer vertex_buffer_;
     gpu::Buffer index_buffer_;
+    gpu::Buffer uvs_;
+    gpu::Buffer uvs1_;
+    gpu::Buffer colours_;
+    gpu::Buffer joints_;
+    gpu::Buffer weights_;
     gpu::VertexArray vertices_;
     int index_count_ = 0;
+    std::size_t joint_count_ = 0;
+    scene::Bounds bounds_;
 };
 
 /// Component: what an entity looks like. The CPU mesh stays for what is computed per vertex.

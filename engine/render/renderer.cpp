@@ -1,28 +1,28 @@
 #include "engine/render/renderer.h"
 
-#include <glm/gtc/matrix_inverse.hpp>
+#include <algorithm>
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <span>
 
 #include "engine/colour/working_space.h"
 #include "engine/core/check.h"
-#include "engine/gpu/pipeline_state.h"
-#include "engine/math/sh_basis.h"
+#include "engine/core/log.h"
+#include "engine/render/bindings.h"
 #include "engine/render/brdf_table.h"
-#include "engine/render/gpu_mesh.h"
 #include "engine/render/shader_files.h"
 #include "engine/render/shaders/frame_block.h"
-#include "engine/render/shaders/object_block.h"
-#include "engine/scene/directional_light.h"
-#include "engine/scene/transform.h"
+#include "engine/render/world_bounds.h"
 
 namespace rowland::render {
 
 namespace {
 
 constexpr int kBrdfTableSize = 64;
-constexpr unsigned kFrameBinding = 0;
-constexpr unsigned kObjectBinding = 1;
-constexpr unsigned kEnvironmentUnit = 0;
-constexpr unsigned kBrdfUnit = 1;
+constexpr const char* kPlainShader = "plain";
+constexpr const char* kShadowShader = "shadow";
+// Where the surface steepens within a texel, the lift in direct_light.glsl alone falls short.
+constexpr float kShadowSlopeBias = 1.0F;
 
 gpu::Texture make_brdf_texture() {
     gpu::Texture texture({.format = gpu::Format::RG16F, .width = kBrdfTableSize, .height = kBrdfTableSize});
@@ -31,152 +31,322 @@ gpu::Texture make_brdf_texture() {
     return texture;
 }
 
-gpu::ProgramDesc plain_program(Shading shading) {
+gpu::ProgramDesc shader_pair(const std::string& name) {
     gpu::ProgramDesc desc;
-    desc.vertex = "engine/render/shaders/plain.vert.glsl";
-    desc.fragment =
-        shading == Shading::Full ? "engine/render/shaders/plain.frag.glsl" : "engine/render/shaders/unlit.frag.glsl";
+    desc.vertex = "engine/render/shaders/" + name + ".vert.glsl";
+    desc.fragment = "engine/render/shaders/" + name + ".frag.glsl";
     return desc;
 }
 
-gpu::ProgramDesc sky_program() {
-    gpu::ProgramDesc desc;
-    desc.vertex = "engine/render/shaders/sky.vert.glsl";
-    desc.fragment = "engine/render/shaders/sky.frag.glsl";
-    return desc;
+/// Writes values to a buffer that grows with them.
+void upload(gpu::Buffer& buffer, std::span<const std::byte> data) {
+    if (buffer.size() < data.size()) {
+        buffer = gpu::Buffer(data, gpu::BufferUse::Dynamic);
+    } else {
+        buffer.replace(data);
+    }
 }
 
-std::string key_of(const gpu::ProgramDesc& desc) {
-    std::string key = desc.vertex + '\n' + desc.fragment;
-    for (const auto& [name, value] : desc.defines) key.append("\n").append(name).append("=").append(value);
-    return key;
-}
-
-/// Adds a distant light of irradiance E: L(s) = E δ(s − d), so l_i += E Y_i(d).
-void add_directional(const scene::DirectionalLight& light, lighting::ShLight& sh) {
-    std::vector<double> basis(sh.coefficients.size());
-    math::evaluate_sh(glm::normalize(glm::dvec3(light.direction)), sh.bands, basis);
-    for (std::size_t i = 0; i < basis.size(); ++i) sh.coefficients[i] += basis[i] * glm::dvec3(light.irradiance);
+glm::vec3 centre_of(const scene::Bounds& box) {
+    return 0.5F * (box.minimum + box.maximum);
 }
 
 }  // namespace
+
+/// What one call of render() works on.
+struct Renderer::Frame {
+    const scene::Camera* camera = nullptr;
+    float aspect = 1.0F;
+    Shading shading = Shading::Full;
+    glm::mat4 view_projection{1.0F};
+    DrawList list;
+    std::vector<Draw*> used;  ///< those that need an ObjectBlock
+    std::vector<const Draw*> opaque;
+    std::vector<const Draw*> blended;
+    std::vector<const Draw*> casters;
+    ShadowView shadow;
+    float farthest = 0.0F;  ///< along the camera's axis, of what is in the picture
+};
 
 Renderer::Renderer(const glm::dmat3& xyz_to_working)
     : xyz_to_working_(xyz_to_working),
       rec709_to_working_(xyz_to_working * colour::rec709_to_xyz()),
       frame_buffer_(sizeof(FrameBlock)),
+      light_buffer_(sizeof(LightBlock)),
+      key_light_buffer_(sizeof(KeyLightBlock)),
       object_buffer_(sizeof(ObjectBlock)),
+      joint_buffer_(sizeof(glm::mat4)),
       brdf_table_(make_brdf_texture()) {
-    library_.add_embedded(shader_files());
+    const std::size_t alignment = gpu::uniform_alignment();
+    object_stride_ = (sizeof(ObjectBlock) + alignment - 1) / alignment * alignment;
+    programs_.library().add_embedded(shader_files());
     // Filtering across cube faces is off by default in OpenGL and shows as seams.
     glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
 }
 
 void Renderer::add_material_type(std::unique_ptr<MaterialType> type) {
-    type->add_shaders(library_);
+    type->add_shaders(programs_.library());
     types_.push_back(std::move(type));
+}
+
+std::vector<std::string> Renderer::gltf_extensions() const {
+    std::vector<std::string> names;
+    for (const auto& type : types_)
+        if (std::string name = type->gltf_extension(); !name.empty()) names.push_back(std::move(name));
+    return names;
+}
+
+MaterialType* Renderer::type_for_extension(const std::string& extension) const {
+    for (const auto& type : types_)
+        if (!extension.empty() && type->gltf_extension() == extension) return type.get();
+    return nullptr;
 }
 
 void Renderer::set_probe(const lighting::LightProbe& probe) {
     environment_.emplace(probe, rec709_to_working_);
-    probe_sh_ = probe.sh;
+    probe_light_ = ProbeLight(probe);
+    light_.illuminant = probe.illuminant;
+    probe_changed_ = true;
+}
+
+void Renderer::use_key_lights(bool use) {
+    if (use != use_key_lights_) probe_changed_ = true;
+    use_key_lights_ = use;
+}
+
+void Renderer::set_shadow_map_size(int size) {
+    ROWLAND_CHECK_OP(size, >=, 32);
+    if (size != shadow_map_size_) shadow_map_.reset();
+    shadow_map_size_ = size;
 }
 
 void Renderer::reload_shaders(const std::filesystem::path& source_tree) {
-    gpu::ShaderLibrary library = library_;
-    library.set_source_folder(source_tree);
-    std::map<std::string, CompiledProgram> programs;
-    for (const auto& [key, compiled] : programs_)
-        programs.emplace(key, CompiledProgram{compiled.desc, gpu::Program(library, compiled.desc)});
-    library_ = std::move(library);
-    programs_ = std::move(programs);
+    programs_.reload(source_tree);
+    surface_programs_.clear();
 }
 
 void Renderer::render(ecs::World& world, const scene::Camera& camera, const gpu::Framebuffer& target, Shading shading) {
     ROWLAND_CHECK(environment_.has_value(), "render() before set_probe()");
+    const glm::ivec2 size = target.size();
+    Frame frame;
+    frame.camera = &camera;
+    frame.aspect = static_cast<float>(size.x) / static_cast<float>(size.y);
+    frame.shading = shading;
+    frame.view_projection = camera.projection(frame.aspect) * camera.view();
+    report_ = {};
+
     update_light(world);
     if (shading == Shading::Full)
         for (const auto& type : types_) type->update(world, light_);
+    select_draws(world, frame);
+    select_casters(frame);
+    upload_frame(frame);
+    upload_objects(frame);
 
-    target.bind();
-    target.clear_depth();
-    const glm::ivec2 size = target.size();
-    upload_frame(camera, static_cast<float>(size.x) / static_cast<float>(size.y));
-    draw_entities(world, shading);
+    state_.reset();  // others may have changed it since the last frame
+    draw_shadow_map(frame);
+    {
+        const gpu::PassTimes::Scope scope(times_, "opaque");
+        target.bind();
+        target.clear_depth();
+        draw_pass(world, frame.opaque);
+    }
     draw_sky();
+    if (!frame.blended.empty()) {
+        const gpu::PassTimes::Scope scope(times_, "blend");
+        target.bind();
+        draw_pass(world, frame.blended);
+    }
+    report_.programs = static_cast<int>(programs_.size());
+    if (times_ != nullptr) report_.passes = times_->latest();
 }
 
 void Renderer::update_light(ecs::World& world) {
-    lighting::ShLight sh = probe_sh_;
-    key_irradiance_ = glm::vec3(0.0F);
-    int lights = 0;
-    world.view<scene::DirectionalLight>().each([&](const scene::DirectionalLight& light) {
-        ROWLAND_CHECK_OP(++lights, <=, 1);  // the forward shader has one
-        add_directional(light, sh);
-        key_direction_ = glm::normalize(light.direction);
-        key_irradiance_ = glm::vec3(rec709_to_working_ * glm::dvec3(light.irradiance));
-    });
-    if (light_.version != 0 && sh.coefficients == light_.sh.coefficients) return;
-    light_.sh = std::move(sh);
+    lights_ = gather_lights(world, rec709_to_working_);
+    if (lights_.left_out > 0 && !told_of_left_out_) {
+        log_warning("the scene has {} lights; only the first {} shine", lights_.left_out + ROWLAND_MAXIMUM_LIGHTS,
+                    ROWLAND_MAXIMUM_LIGHTS);
+        told_of_left_out_ = true;
+    }
+    std::vector<DistantLight> distant = distant_lights(world);
+    if (!probe_changed_ && distant == light_.distant_lights) return;
+    if (probe_changed_) divide_probe();
+    light_.sh = probe_light_.sh();
+    add_distant_lights(distant, light_.sh);
+    light_.distant_lights = std::move(distant);
     ++light_.version;
 }
 
-void Renderer::upload_frame(const scene::Camera& camera, float aspect) {
-    const glm::mat4 projection = camera.projection(aspect);
+void Renderer::divide_probe() {
+    probe_light_.divide(use_key_lights_);
+    light_.residual = probe_light_.residual();
+    light_.key_lights = probe_light_.key_lights();
+    light_.texels = probe_light_.texels();
+    key_light_buffer_.update_value(key_light_block(light_.key_lights, rec709_to_working_));
+    probe_changed_ = false;
+}
+
+void Renderer::select_draws(ecs::World& world, Frame& frame) {
+    const SurfaceFeatures key_lights = light_.key_lights.empty() ? 0 : feature::kKeyLights;
+    frame.list = gather_draws(world, types_, lights_.features() | key_lights);
+    const Frustum frustum(frame.view_projection);
+    const glm::vec3 forward = glm::normalize(frame.camera->target - frame.camera->eye);
+    for (Draw& draw : frame.list.draws) {
+        if (frame.shading == Shading::Unlit) {
+            draw.type = nullptr;
+            draw.features = without_light(draw.features);
+        }
+        if (!frustum.may_see(draw.bounds)) {
+            ++report_.culled;
+            continue;
+        }
+        ++report_.drawn;
+        const glm::vec3 from_eye = centre_of(draw.bounds) - frame.camera->eye;
+        draw.distance2 = glm::dot(from_eye, from_eye);
+        draw.program = &program_of(world, draw);
+        const glm::vec3 half = 0.5F * (draw.bounds.maximum - draw.bounds.minimum);
+        frame.farthest = std::max(frame.farthest, glm::dot(from_eye, forward) + glm::dot(half, glm::abs(forward)));
+        frame.used.push_back(&draw);
+        const bool blends = (draw.features & feature::kAlphaBlend) != 0;
+        (blends ? frame.blended : frame.opaque).push_back(&draw);
+    }
+    sort_opaque(frame.opaque);
+    sort_blended(frame.blended);
+}
+
+void Renderer::select_casters(Frame& frame) {
+    if (!lights_.shadow_light || frame.shading == Shading::Unlit) return;
+    std::vector<scene::Bounds> boxes;
+    for (const Draw& draw : frame.list.draws)
+        if ((draw.features & feature::kAlphaBlend) == 0) boxes.push_back(draw.bounds);
+    if (boxes.empty()) return;
+    const Sphere seen = around_view(*frame.camera, frame.aspect, frame.farthest);
+    frame.shadow = fit_shadow(*lights_.shadow_light, boxes, seen, shadow_map_size_);
+    for (Draw& draw : frame.list.draws) {
+        if ((draw.features & feature::kAlphaBlend) != 0 || !frame.shadow.may_see(draw.bounds)) continue;
+        frame.casters.push_back(&draw);
+        if (draw.program == nullptr) frame.used.push_back(&draw);
+    }
+}
+
+void Renderer::upload_frame(const Frame& frame) {
+    const scene::Camera& camera = *frame.camera;
     FrameBlock block = {};
-    block.view_projection = projection * camera.view();
-    block.clip_to_world = glm::inverse(projection * glm::mat4(glm::mat3(camera.view())));
+    block.view_projection = frame.view_projection;
+    block.clip_to_world = glm::inverse(camera.projection(frame.aspect) * glm::mat4(glm::mat3(camera.view())));
+    block.world_to_shadow = frame.shadow.world_to_clip;
+    block.xyz_to_working = glm::mat4(glm::mat3(xyz_to_working_));
+    block.rec709_to_working = glm::mat4(glm::mat3(rec709_to_working_));
     block.eye = glm::vec4(camera.eye, 1.0F);
-    for (std::size_t i = 0; i < 9; ++i) block.ambient[i] = environment_->ambient()[i];
-    block.key_direction = glm::vec4(key_direction_, 0.0F);
-    block.key_irradiance = glm::vec4(key_irradiance_, 0.0F);
+    for (std::size_t i = 0; i < 9; ++i)
+        block.ambient[i] = glm::vec4(glm::vec3(rec709_to_working_ * probe_light_.ambient()[i]), 0.0F);
     block.environment =
         glm::vec4(static_cast<float>(environment_->map().levels() - 1), environment_->radiance_scale(), 0.0F, 0.0F);
-    block.xyz_to_working = glm::mat4(glm::mat3(xyz_to_working_));
+    block.shadow = glm::vec4(frame.shadow.texel_m, 1.0F / static_cast<float>(shadow_map_size_), 0.0F, 0.0F);
     frame_buffer_.update_value(block);
     frame_buffer_.bind_uniform(kFrameBinding);
-    object_buffer_.bind_uniform(kObjectBinding);
+    light_buffer_.update_value(lights_.block);
+    light_buffer_.bind_uniform(kLightBinding);
+    key_light_buffer_.bind_uniform(kKeyLightBinding);
     environment_->map().bind(kEnvironmentUnit);
     brdf_table_.bind(kBrdfUnit);
 }
 
-void Renderer::draw_entities(ecs::World& world, Shading shading) {
-    gpu::apply({});
-    world.view<MeshInstance, StandardMaterial, scene::WorldMatrix>().each(
-        [&](ecs::Entity entity, const MeshInstance& mesh, const StandardMaterial& material,
-            const scene::WorldMatrix& world_matrix) {
-            ObjectBlock block = {};
-            block.object_to_world = world_matrix.matrix;
-            block.normal_to_world = glm::mat4(glm::inverseTranspose(glm::mat3(world_matrix.matrix)));
-            block.base_colour = glm::vec4(glm::vec3(rec709_to_working_ * glm::dvec3(material.base_colour)), 1.0F);
-            block.metallic_roughness = glm::vec4(material.metallic, material.roughness, 0.0F, 0.0F);
-            object_buffer_.update_value(block);
+void Renderer::upload_objects(Frame& frame) {
+    if (frame.used.empty()) return;
+    const glm::mat3 to_working(rec709_to_working_);
+    std::vector<std::byte> blocks(frame.used.size() * object_stride_);
+    for (std::size_t i = 0; i < frame.used.size(); ++i) {
+        frame.used[i]->block_offset = i * object_stride_;
+        const ObjectBlock block = object_block(*frame.used[i], to_working);
+        std::memcpy(&blocks[i * object_stride_], &block, sizeof(block));
+    }
+    upload(object_buffer_, blocks);
+    if (frame.list.joints.empty()) return;
+    upload(joint_buffer_, std::as_bytes(std::span<const glm::mat4>(frame.list.joints)));
+    joint_buffer_.bind_storage(kJointBinding);
+}
 
-            const MaterialType* type = shading == Shading::Full ? type_of(world, entity) : nullptr;
-            const gpu::Program& program = program_for(type ? type->program(world, entity) : plain_program(shading));
-            program.use();
-            if (type) type->bind(world, entity, program);
-            mesh.gpu->draw();
-        });
+void Renderer::draw_shadow_map(Frame& frame) {
+    if (!lights_.shadow_light || frame.shading == Shading::Unlit) return;
+    const gpu::PassTimes::Scope scope(times_, "shadow");
+    if (!shadow_map_)
+        shadow_map_.emplace(gpu::FramebufferDesc{.width = shadow_map_size_,
+                                                 .height = shadow_map_size_,
+                                                 .colours = {},
+                                                 .depth = true,
+                                                 .depth_sampling = {.compare_depth = true}});
+    shadow_map_->bind();
+    shadow_map_->clear_depth();
+    set_state({.cull = gpu::Cull::None, .slope_bias = kShadowSlopeBias});
+    for (const Draw* draw : frame.casters) {
+        object_buffer_.bind_uniform(kObjectBinding, draw->block_offset, sizeof(ObjectBlock));
+        const SurfaceFeatures features = of_shadow(draw->features);
+        surface_program(kShadowShader, features).use();
+        if ((features & feature::kBaseColourMap) != 0)
+            draw->material->base_colour_texture.texture->bind(kBaseColourUnit);
+        draw->mesh->draw();
+    }
+    report_.shadow_drawn = static_cast<int>(frame.casters.size());
+    shadow_map_->depth().bind(kShadowUnit);
+}
+
+void Renderer::bind_surface(const Draw& draw) const {
+    const auto bind = [&](SurfaceFeatures map, const SurfaceTexture& texture, unsigned unit) {
+        if ((draw.features & map) != 0) texture.texture->bind(unit);
+    };
+    bind(feature::kBaseColourMap, draw.material->base_colour_texture, kBaseColourUnit);
+    bind(feature::kMetallicRoughnessMap, draw.material->metallic_roughness_texture, kMetallicRoughnessUnit);
+    bind(feature::kNormalMap, draw.material->normal_texture, kNormalUnit);
+    bind(feature::kOcclusionMap, draw.material->occlusion_texture, kOcclusionUnit);
+    bind(feature::kEmissiveMap, draw.material->emissive_texture, kEmissiveUnit);
+}
+
+void Renderer::set_state(const gpu::PipelineState& state) {
+    if (state_ == state) return;
+    gpu::apply(state);
+    state_ = state;
+}
+
+void Renderer::draw_pass(ecs::World& world, const std::vector<const Draw*>& draws) {
+    const gpu::Program* in_use = nullptr;
+    for (const Draw* draw : draws) {
+        const bool blends = (draw->features & feature::kAlphaBlend) != 0;
+        set_state({.depth_write = !blends,
+                   .cull = draw->material->double_sided ? gpu::Cull::None : gpu::Cull::Back,
+                   .blend = blends ? gpu::Blend::Over : gpu::Blend::Off,
+                   .front = draw->mirrored ? gpu::FrontFace::Clockwise : gpu::FrontFace::CounterClockwise});
+        object_buffer_.bind_uniform(kObjectBinding, draw->block_offset, sizeof(ObjectBlock));
+        if (draw->program != in_use) draw->program->use();
+        in_use = draw->program;
+        bind_surface(*draw);
+        if (draw->type != nullptr) draw->type->bind(world, draw->entity, *draw->program);
+        draw->mesh->draw();
+    }
 }
 
 void Renderer::draw_sky() {
-    gpu::apply({.depth_test = gpu::DepthTest::LessEqual, .depth_write = false, .cull = gpu::Cull::None});
-    program_for(sky_program()).use();
+    const gpu::PassTimes::Scope scope(times_, "sky");
+    set_state({.depth_test = gpu::DepthTest::LessEqual, .depth_write = false, .cull = gpu::Cull::None});
+    programs_.get(shader_pair("sky")).use();
     no_vertices_.draw(3);
 }
 
-const MaterialType* Renderer::type_of(ecs::World& world, ecs::Entity entity) const {
-    for (const auto& type : types_)
-        if (type->owns(world, entity)) return type.get();
-    return nullptr;
+const gpu::Program& Renderer::program_of(ecs::World& world, const Draw& draw) {
+    if (draw.type == nullptr) return surface_program(kPlainShader, draw.features);
+    gpu::ProgramDesc desc = draw.type->program(world, draw.entity);
+    add_defines(draw.features, desc);
+    return programs_.get(desc);
 }
 
-const gpu::Program& Renderer::program_for(const gpu::ProgramDesc& desc) {
-    const std::string key = key_of(desc);
-    const auto found = programs_.find(key);
-    if (found != programs_.end()) return found->second.program;
-    return programs_.emplace(key, CompiledProgram{desc, gpu::Program(library_, desc)}).first->second.program;
+const gpu::Program& Renderer::surface_program(const char* shader, SurfaceFeatures features) {
+    const gpu::Program*& known = surface_programs_[{shader, features}];
+    if (known == nullptr) {
+        gpu::ProgramDesc desc = shader_pair(shader);
+        desc.defines = defines_of(features);
+        known = &programs_.get(desc);
+    }
+    return *known;
 }
 
 }  // namespace rowland::render

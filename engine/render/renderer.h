@@ -6,18 +6,24 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/ecs/world.h"
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/framebuffer.h"
-#include "engine/gpu/program.h"
-#include "engine/gpu/shader_library.h"
+#include "engine/gpu/pass_times.h"
+#include "engine/gpu/pipeline_state.h"
 #include "engine/gpu/texture.h"
 #include "engine/gpu/vertex_array.h"
 #include "engine/lighting/light_probe.h"
+#include "engine/render/draw_list.h"
 #include "engine/render/environment.h"
 #include "engine/render/material.h"
+#include "engine/render/probe_light.h"
+#include "engine/render/program_cache.h"
+#include "engine/render/scene_lights.h"
+#include "engine/render/shadow_fit.h"
 #include "engine/scene/camera.h"
 
 namespace rowland::render {
@@ -28,51 +34,95 @@ enum class Shading {
     Unlit,  ///< every surface its base colour: what a frame costs without any shading
 };
 
+/// What the last frame took.
+struct FrameReport {
+    int drawn = 0;                      ///< entities in the picture
+    int culled = 0;                     ///< entities outside it
+    int shadow_drawn = 0;               ///< entities in the shadow map
+    int programs = 0;                   ///< compiled so far
+    std::vector<gpu::PassTime> passes;  ///< of the frame so far, if someone times it
+};
+
 /// Forward HDR renderer: draws all entities with a MeshInstance, a StandardMaterial and a WorldMatrix, then the sky,
-/// into a float framebuffer with depth, in the working space.
+/// then those that blend, into a float framebuffer with depth, in the working space. Light comes from the probe and
+/// from entities with a DirectionalLight or a PunctualLight, at most 64; the first directional light that casts_shadow
+/// does.
 class Renderer {
  public:
     /// `xyz_to_working`: from XYZ to the linear space images are made in (normally ACEScg).
     explicit Renderer(const glm::dmat3& xyz_to_working);
 
     void add_material_type(std::unique_ptr<MaterialType> type);
+    /// The glTF material extensions that registered types describe their surfaces by.
+    std::vector<std::string> gltf_extensions() const;
+    /// The type that a glTF material extension belongs to; null if none.
+    MaterialType* type_for_extension(const std::string& extension) const;
+
     /// From now on the scene stands in this light.
     void set_probe(const lighting::LightProbe& probe);
+    /// Whether the probe's key lights are lights of their own (shaders see KEY_LIGHTS, FrameLight has them) and all
+    /// else that is diffuse does without them. Off at first: diffuse light is the probe's first nine SH terms.
+    void use_key_lights(bool use);
+    /// Texels along a side of the shadow map, at least 32; 2048 at first.
+    void set_shadow_map_size(int size);
+    /// Where the times of the passes "shadow", "opaque", "sky" and "blend" are written; null, as at first: nowhere. The
+    /// owner calls begin_frame(). Must outlive the draws.
+    void set_pass_times(gpu::PassTimes* times) { times_ = times; }
     /// Compiles all programs in use anew, from `source_tree` where it has their files. If one does not compile, all
     /// stay as they were and its Error (system) with file and line is thrown.
     void reload_shaders(const std::filesystem::path& source_tree);
-    /// Draws a frame. A probe must have been set.
+
+    /// Draws a frame. A probe must have been set. Programs are compiled when something is first drawn with them.
     void render(ecs::World& world, const scene::Camera& camera, const gpu::Framebuffer& target,
                 Shading shading = Shading::Full);
+    const FrameReport& report() const { return report_; }
+
+    const glm::dmat3& xyz_to_working() const { return xyz_to_working_; }
+    const gpu::ShaderLibrary& shaders() const { return programs_.library(); }
 
  private:
-    void update_light(ecs::World& world);
-    void upload_frame(const scene::Camera& camera, float aspect);
-    void draw_entities(ecs::World& world, Shading shading);
-    void draw_sky();
-    const MaterialType* type_of(ecs::World& world, ecs::Entity entity) const;
-    const gpu::Program& program_for(const gpu::ProgramDesc& desc);
+    struct Frame;
 
-    struct CompiledProgram {
-        gpu::ProgramDesc desc;
-        gpu::Program program;
-    };
+    void update_light(ecs::World& world);
+    void divide_probe();
+    void select_draws(ecs::World& world, Frame& frame);
+    void select_casters(Frame& frame);
+    void upload_frame(const Frame& frame);
+    void upload_objects(Frame& frame);
+    void draw_shadow_map(Frame& frame);
+    void draw_pass(ecs::World& world, const std::vector<const Draw*>& draws);
+    void draw_sky();
+    void bind_surface(const Draw& draw) const;
+    void set_state(const gpu::PipelineState& state);
+    const gpu::Program& program_of(ecs::World& world, const Draw& draw);
+    const gpu::Program& surface_program(const char* shader, SurfaceFeatures features);
 
     glm::dmat3 xyz_to_working_;
     glm::dmat3 rec709_to_working_;
-    gpu::ShaderLibrary library_;
     std::vector<std::unique_ptr<MaterialType>> types_;
-    std::map<std::string, CompiledProgram> programs_;
+    ProgramCache programs_;
+    std::map<std::pair<std::string, SurfaceFeatures>, const gpu::Program*> surface_programs_;  ///< shortcut into it
     gpu::VertexArray no_vertices_;
     gpu::Buffer frame_buffer_;
-    gpu::Buffer object_buffer_;
+    gpu::Buffer light_buffer_;
+    gpu::Buffer key_light_buffer_;
+    gpu::Buffer object_buffer_;  ///< ObjectBlocks, each at a multiple of object_stride_
+    gpu::Buffer joint_buffer_;
+    std::size_t object_stride_;
     gpu::Texture brdf_table_;
     std::optional<Environment> environment_;
+    std::optional<gpu::Framebuffer> shadow_map_;
+    int shadow_map_size_ = 2048;
 
-    lighting::ShLight probe_sh_;
+    ProbeLight probe_light_;
+    bool use_key_lights_ = false;
+    bool probe_changed_ = false;  ///< or how it is divided
     FrameLight light_;
-    glm::vec3 key_direction_{0.0F, 1.0F, 0.0F};
-    glm::vec3 key_irradiance_{0.0F};  ///< working space
+    SceneLights lights_;
+    bool told_of_left_out_ = false;
+    std::optional<gpu::PipelineState> state_;
+    gpu::PassTimes* times_ = nullptr;
+    FrameReport report_;
 };
 
 }  // namespace rowland::render

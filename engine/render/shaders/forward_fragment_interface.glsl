@@ -6,6 +6,19 @@
 in vec3 world_position;
 in vec3 world_normal;
 
+#ifdef NORMAL_MAP
+in vec4 world_tangent;
+#endif
+#ifdef HAS_UV
+in vec2 uv;
+#endif
+#ifdef HAS_UV1
+in vec2 uv1;
+#endif
+#ifdef HAS_COLOURS
+in vec4 colour;
+#endif
+
 // What a material adds to, and leaves of, the engine's metallic-roughness surface. Working space.
 struct MaterialTerms {
     vec3 base_weight;    // share of the light that reaches the metallic-roughness base

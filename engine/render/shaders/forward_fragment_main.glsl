@@ -5,13 +5,26 @@ layout(location = 0) out vec4 radiance;
 
 const float PI = 3.14159265358979;
 
-// Irradiance / pi from the shared probe: nine terms [Ramamoorthi & Hanrahan 2001].
+#include "engine/render/shaders/surface_maps.glsl"
+#ifdef KEY_LIGHTS
+#include "engine/render/shaders/key_light.glsl"
+#endif
+#if defined(DIRECTIONAL_LIGHTS) || defined(PUNCTUAL_LIGHTS)
+#include "engine/render/shaders/direct_light.glsl"
+#else
+vec3 direct_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness) { return vec3(0.0); }
+#endif
+
+// Irradiance / pi from the shared probe: nine terms [Ramamoorthi & Hanrahan 2001] of all that is no key light.
 vec3 ambient_light(vec3 n) {
     vec3 sum = 0.282095 * ambient[0].xyz;
     sum += 0.488603 * (n.y * ambient[1].xyz + n.z * ambient[2].xyz + n.x * ambient[3].xyz);
     sum += 1.092548 * (n.x * n.y * ambient[4].xyz + n.y * n.z * ambient[5].xyz + n.x * n.z * ambient[7].xyz);
     sum += 0.315392 * (3.0 * n.z * n.z - 1.0) * ambient[6].xyz;
     sum += 0.546274 * (n.x * n.x - n.y * n.y) * ambient[8].xyz;
+#ifdef KEY_LIGHTS
+    sum += key_irradiance(n) / PI;
+#endif
     return max(sum, 0.0);
 }
 
@@ -19,39 +32,38 @@ vec3 environment_light(vec3 direction, float roughness) {
     return textureLod(environment_map, direction, roughness * environment.x).rgb * environment.y;
 }
 
-// GGX with height-correlated Smith visibility [Heitz 2014] and Schlick's Fresnel term; the directional light's share.
-vec3 key_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness) {
-    vec3 l = key_direction.xyz;
-    vec3 h = normalize(l + v);
-    float n_l = max(dot(n, l), 0.0);
-    float n_v = max(dot(n, v), 1e-4);
-    float n_h = clamp(dot(n, h), 0.0, 1.0);
-    float alpha2 = max(roughness * roughness * roughness * roughness, 1e-6);
-    float d = n_h * n_h * (alpha2 - 1.0) + 1.0;
-    float distribution = alpha2 / (PI * d * d);
-    float shadowing = n_l * sqrt(n_v * n_v * (1.0 - alpha2) + alpha2) + n_v * sqrt(n_l * n_l * (1.0 - alpha2) + alpha2);
-    vec3 fresnel = f0 + (1.0 - f0) * pow(1.0 - clamp(dot(v, h), 0.0, 1.0), 5.0);
-    return (diffuse / PI + fresnel * distribution * 0.5 / max(shadowing, 1e-6)) * n_l * key_irradiance.xyz;
-}
-
-// Split sum [Karis 2013] over the prefiltered probe.
-vec3 base_radiance(vec3 n, vec3 v) {
-    float metallic = metallic_roughness.x;
-    float roughness = metallic_roughness.y;
-    vec3 f0 = mix(vec3(0.04), base_colour.xyz, metallic);
-    vec3 diffuse = base_colour.xyz * (1.0 - metallic);
+// The metallic-roughness surface: split sum [Karis 2013] over the prefiltered probe, and the lights.
+vec3 base_radiance(vec3 base, vec3 n, vec3 v) {
+    vec2 factors = surface_metallic_roughness();
+    float roughness = factors.y;
+    vec3 f0 = mix(vec3(0.04), base, factors.x);
+    vec3 diffuse = base * (1.0 - factors.x);
     vec2 split = texture(brdf_table, vec2(max(dot(n, v), 0.0), roughness)).rg;
     vec3 reflected = (f0 * split.x + split.y) * environment_light(reflect(-v, n), roughness);
-    return diffuse * ambient_light(n) + reflected + key_light(n, v, diffuse, f0, roughness);
+    vec3 from_around = (diffuse * ambient_light(n) + reflected) * surface_occlusion();
+    return from_around + direct_light(n, v, diffuse, f0, roughness);
 }
 
 void main() {
+    vec4 base = surface_colour();
+#ifdef ALPHA_MASK
+    if (base.a < metallic_roughness.z) discard;
+#endif
+    vec3 sum = surface_emission();
+#ifdef UNLIT
+    sum += base.rgb;
+#else
     vec3 v = normalize(eye.xyz - world_position);
-    vec3 n = normalize(world_normal);
+    vec3 n = surface_normal();
     MaterialTerms terms = material_terms();
-    vec3 sum = terms.added + terms.base_weight * base_radiance(n, v);
+    sum += terms.added + terms.base_weight * base_radiance(base.rgb, n, v);
 #ifdef MATERIAL_HAS_MIRROR
     sum += terms.mirror_weight * environment_light(reflect(-v, n), 0.0);
 #endif
+#endif
+#ifdef ALPHA_BLEND
+    radiance = vec4(sum, base.a);
+#else
     radiance = vec4(sum, 1.0);
+#endif
 }

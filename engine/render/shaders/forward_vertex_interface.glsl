@@ -1,12 +1,55 @@
 // What a material's vertex stage sees before it defines
 //   void material_vertex(vec3 position, vec3 g, vec3 h, vec3 n);
-// world space; (g, h, n) is the right-handed tangent frame, g along the mesh's tangent.
+// world space; (g, h, n) is the right-handed tangent frame, g along the mesh's tangent. A material that reads texture
+// coordinates defines HAS_UV or HAS_UV1 with its program.
 #include "engine/render/shaders/frame_block.h"
 #include "engine/render/shaders/object_block.h"
 
 layout(location = 0) in vec3 vertex_position;
 layout(location = 1) in vec3 vertex_normal;
-layout(location = 2) in vec3 vertex_tangent;
+layout(location = 2) in vec4 vertex_tangent;
 
 out vec3 world_position;
 out vec3 world_normal;
+
+#ifdef NORMAL_MAP
+out vec4 world_tangent;  // w: sign of the bitangent
+#endif
+#ifdef HAS_UV
+layout(location = 3) in vec2 vertex_uv;
+out vec2 uv;
+#endif
+#ifdef HAS_UV1
+layout(location = 4) in vec2 vertex_uv1;
+out vec2 uv1;
+#endif
+#ifdef HAS_COLOURS
+layout(location = 5) in vec4 vertex_colour;
+out vec4 colour;
+#endif
+#ifdef SKINNED
+layout(location = 6) in uvec4 vertex_joints;
+layout(location = 7) in vec4 vertex_weights;
+layout(std430, binding = 3) readonly buffer Joints { mat4 joints[]; };
+
+mat4 joint(uint i) { return joints[uint(map_strength.w) + i]; }
+mat4 pose() {
+    return vertex_weights.x * joint(vertex_joints.x) + vertex_weights.y * joint(vertex_joints.y) +
+           vertex_weights.z * joint(vertex_joints.z) + vertex_weights.w * joint(vertex_joints.w);
+}
+#else
+mat4 pose() { return mat4(1.0); }
+#endif
+
+// Hands the attributes that the fragment stage reads on as they are.
+void pass_attributes() {
+#ifdef HAS_UV
+    uv = vertex_uv;
+#endif
+#ifdef HAS_UV1
+    uv1 = vertex_uv1;
+#endif
+#ifdef HAS_COLOURS
+    colour = vertex_colour;
+#endif
+}

@@ -11,16 +11,17 @@ struct FrameBlock {
 layout(std140, binding = 0) uniform FrameBlock {
 #endif
     mat4 view_projection;
-    mat4 clip_to_world;   // inverse of the projection and the camera's rotation, without its translation
-    vec4 eye;             // xyz: world position, metres
-    vec4 ambient[9];      // xyz: SH of irradiance / pi, working space
-    vec4 key_direction;   // xyz: unit, toward the directional light
-    vec4 key_irradiance;  // xyz: working space
-    vec4 environment;     // x: mip levels - 1; y: radiance per stored unit
-    mat4 xyz_to_working;  // upper 3x3
+    mat4 clip_to_world;      // inverse of the projection and the camera's rotation, without its translation
+    mat4 world_to_shadow;    // clip space of the shadow map; parallel, so w stays 1
+    mat4 xyz_to_working;     // upper 3x3
+    mat4 rec709_to_working;  // upper 3x3
+    vec4 eye;                // xyz: world position, metres
+    vec4 ambient[9];         // xyz: SH of irradiance / pi, working space; without the key lights
+    vec4 environment;        // x: mip levels - 1; y: radiance per stored unit
+    vec4 shadow;             // x: width of a shadow texel, metres; y: of the map, 1 / texels
 #ifdef __cplusplus
 };
-static_assert(sizeof(FrameBlock) == 3 * 64 + 13 * 16, "must equal the std140 layout");
+static_assert(sizeof(FrameBlock) == 5 * 64 + 12 * 16, "must equal the std140 layout");
 }  // namespace rowland::render
 #else
 };

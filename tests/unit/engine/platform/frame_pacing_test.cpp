@@ -81,8 +81,11 @@ TEST(FrameTimes, StatisticsAreThoseOfTheTimes) {
     const FrameStatistics statistics = times.statistics();
     EXPECT_EQ(statistics.count, 100U);
     EXPECT_DOUBLE_EQ(statistics.mean_ms, 50.5);
+    EXPECT_DOUBLE_EQ(statistics.minimum_ms, 1.0);
     EXPECT_DOUBLE_EQ(statistics.median_ms, 50.0);
+    EXPECT_DOUBLE_EQ(statistics.percentile_90_ms, 90.0);
     EXPECT_DOUBLE_EQ(statistics.percentile_95_ms, 95.0);
+    EXPECT_DOUBLE_EQ(statistics.percentile_99_ms, 99.0);
     EXPECT_DOUBLE_EQ(statistics.maximum_ms, 100.0);
 }
 

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/gpu/framebuffer.h"
+#include "engine/gpu/handle.h"
+
+namespace rowland::gpu {
+
+/// What one pass of a frame took.
+struct PassTime {
+    std::string name;
+    double cpu_ms = 0.0;           ///< in this frame, or in the last one while this one has not come to it
+    std::optional<double> gpu_ms;  ///< in the last frame the GPU has finished; nothing until one is
+};
+
+/// Times the passes of every frame on both processors without ever waiting for the GPU. A pass that runs several times
+/// in a frame counts as their sum. Each boundary ends what a tiling GPU gathers, which costs it a little.
+class PassTimes {
+ public:
+    PassTimes();
+
+    /// A pass from construction to destruction; with null it does nothing. Passes may nest.
+    class Scope {
+     public:
+        Scope(PassTimes* times, std::string_view name);
+        ~Scope();
+        Scope(const Scope&) = delete;
+        Scope& operator=(const Scope&) = delete;
+
+     private:
+        PassTimes* times_;
+        std::size_t run_ = 0;
+        std::chrono::steady_clock::time_point start_;
+    };
+
+    /// Once before the first pass of each frame.
+    void begin_frame();
+    /// In the order the passes first ran. A pass that did not run in a frame is not in it.
+    std::vector<PassTime> latest() const;
+
+ private:
+    struct Release {
+        void operator()(GLuint name) const;
+    };
+    struct Total {
+        std::string name;
+        double ms = 0.0;
+    };
+    /// A frame the GPU may still be at: queries 2i and 2i + 1 are the start and the end of its i-th pass.
+    struct QueuedFrame {
+        std::vector<Handle<Release>> queries;
+        std::vector<std::string> passes;
+        bool pending = false;
+    };
+
+    void write_time(std::size_t query);
+    void collect_finished();
+    static bool is_finished(const QueuedFrame& frame);
+    static std::vector<Total> gpu_totals(const QueuedFrame& frame);
+
+    std::vector<Total> runs_;  ///< of this frame; milliseconds of the CPU
+    std::vector<Total> last_cpu_;
+    std::vector<Total> finished_gpu_;
+    std::array<QueuedFrame, 4> ring_;
+    std::size_t oldest_ = 0;
+    std::optional<std::size_t> slot_;  ///< this frame's; none while the GPU is so far behind that the ring is full
+    Framebuffer boundary_;
+};
+
+}  // namespace rowland::gpu

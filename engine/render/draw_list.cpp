@@ -1,0 +1,102 @@
+#include "engine/render/draw_list.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <glm/gtc/matrix_inverse.hpp>
+#include <glm/matrix.hpp>
+
+#include "engine/core/check.h"
+#include "engine/render/world_bounds.h"
+#include "engine/scene/skin.h"
+#include "engine/scene/transform.h"
+
+namespace rowland::render {
+
+namespace {
+
+const MaterialType* type_of(ecs::World& world, ecs::Entity entity,
+                            std::span<const std::unique_ptr<MaterialType>> types) {
+    for (const auto& type : types)
+        if (type->owns(world, entity)) return type.get();
+    return nullptr;
+}
+
+/// Appends the entity's joint matrices, if it has a skin and its mesh can follow it.
+void add_pose(ecs::World& world, Draw& draw, std::vector<glm::mat4>& joints) {
+    const scene::Skin* skin = draw.mesh->is_skinned() ? world.find<scene::Skin>(draw.entity) : nullptr;
+    if (skin == nullptr) return;
+    const std::vector<glm::mat4> pose = scene::joint_matrices(world, *skin);
+    ROWLAND_CHECK_OP(pose.size(), >=, draw.mesh->joint_count());
+    draw.skinned = true;
+    draw.first_joint = joints.size();
+    draw.bounds = transformed(posed_bounds(draw.mesh->bounds(), pose), draw.matrix);
+    joints.insert(joints.end(), pose.begin(), pose.end());
+}
+
+/// A texture transform as the columns of a 2×2 matrix and an offset (KHR_texture_transform: offset · rotation · scale,
+/// the rotation counter-clockwise where v points down).
+void set_transform(const scene::TextureTransform& transform, glm::vec4& linear, glm::vec4& offset) {
+    const float c = std::cos(transform.rotation);
+    const float s = std::sin(transform.rotation);
+    linear = {c * transform.scale.x, -s * transform.scale.x, s * transform.scale.y, c * transform.scale.y};
+    offset = glm::vec4(transform.offset, 0.0F, 0.0F);
+}
+
+}  // namespace
+
+DrawList gather_draws(ecs::World& world, std::span<const std::unique_ptr<MaterialType>> types, SurfaceFeatures lights) {
+    DrawList list;
+    world.view<MeshInstance, StandardMaterial, scene::WorldMatrix>().each(
+        [&](ecs::Entity entity, const MeshInstance& mesh, const StandardMaterial& material,
+            const scene::WorldMatrix& world_matrix) {
+            Draw draw{.entity = entity,
+                      .mesh = mesh.gpu.get(),
+                      .material = &material,
+                      .type = type_of(world, entity, types),
+                      .matrix = world_matrix.matrix,
+                      .bounds = transformed(mesh.gpu->bounds(), world_matrix.matrix),
+                      .mirrored = glm::determinant(glm::mat3(world_matrix.matrix)) < 0.0F};
+            add_pose(world, draw, list.joints);
+            draw.features = features_of(material, *mesh.gpu, draw.skinned, lights);
+            list.draws.push_back(draw);
+        });
+    return list;
+}
+
+ObjectBlock object_block(const Draw& draw, const glm::mat3& rec709_to_working) {
+    const StandardMaterial& material = *draw.material;
+    // Textures and vertex colours multiply in Rec.709; what they do not touch is converted here, once.
+    const bool varied = (draw.features & (feature::kBaseColourMap | feature::kColours)) != 0;
+    const bool emission_varied = (draw.features & feature::kEmissiveMap) != 0;
+    ObjectBlock block = {};
+    block.object_to_world = draw.matrix;
+    block.normal_to_world = glm::mat4(glm::inverseTranspose(glm::mat3(draw.matrix)));
+    block.base_colour =
+        glm::vec4(varied ? material.base_colour : rec709_to_working * material.base_colour, material.alpha);
+    block.metallic_roughness = glm::vec4(material.metallic, material.roughness, material.alpha_cutoff, 0.0F);
+    block.emissive = glm::vec4(emission_varied ? material.emissive : rec709_to_working * material.emissive, 0.0F);
+    block.map_strength = glm::vec4(material.normal_scale, material.occlusion_strength, draw.mirrored ? -1.0F : 1.0F,
+                                   static_cast<float>(draw.first_joint));
+    if ((draw.features & feature::kTextureTransform) == 0) return block;
+    set_transform(material.base_colour_texture.transform, block.uv_linear[0], block.uv_offset[0]);
+    set_transform(material.metallic_roughness_texture.transform, block.uv_linear[1], block.uv_offset[1]);
+    set_transform(material.normal_texture.transform, block.uv_linear[2], block.uv_offset[2]);
+    set_transform(material.occlusion_texture.transform, block.uv_linear[3], block.uv_offset[3]);
+    set_transform(material.emissive_texture.transform, block.uv_linear[4], block.uv_offset[4]);
+    return block;
+}
+
+void sort_opaque(std::vector<const Draw*>& draws) {
+    std::stable_sort(draws.begin(), draws.end(), [](const Draw* a, const Draw* b) {
+        if (a->program != b->program) return std::less<>()(a->program, b->program);
+        return a->distance2 < b->distance2;
+    });
+}
+
+void sort_blended(std::vector<const Draw*>& draws) {
+    std::stable_sort(draws.begin(), draws.end(),
+                     [](const Draw* a, const Draw* b) { return a->distance2 > b->distance2; });
+}
+
+}  // namespace rowland::render

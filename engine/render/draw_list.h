@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "engine/ecs/world.h"
+#include "engine/gpu/program.h"
+#include "engine/render/gpu_mesh.h"
+#include "engine/render/material.h"
+#include "engine/render/shaders/object_block.h"
+#include "engine/render/surface_features.h"
+#include "engine/scene/mesh.h"
+
+namespace rowland::render {
+
+/// An entity to be drawn in this frame. The pointers hold while no component storage changes.
+struct Draw {
+    ecs::Entity entity;
+    const GpuMesh* mesh = nullptr;
+    const StandardMaterial* material = nullptr;
+    const MaterialType* type = nullptr;  ///< null: the engine's own surface
+    glm::mat4 matrix{1.0F};
+    scene::Bounds bounds;  ///< in the world
+    bool mirrored = false;
+    bool skinned = false;
+    std::size_t first_joint = 0;
+    SurfaceFeatures features = 0;
+    const gpu::Program* program = nullptr;  ///< set for what is drawn in the main pass
+    std::size_t block_offset = 0;           ///< of its ObjectBlock, bytes
+    float distance2 = 0.0F;                 ///< from the eye to the bounds' centre, squared
+};
+
+struct DrawList {
+    std::vector<Draw> draws;
+    std::vector<glm::mat4> joints;  ///< of all skinned draws, one after the other
+};
+
+/// Everything that has a MeshInstance, a StandardMaterial and a WorldMatrix. `lights`: feature::kLights of the frame.
+DrawList gather_draws(ecs::World& world, std::span<const std::unique_ptr<MaterialType>> types, SurfaceFeatures lights);
+
+ObjectBlock object_block(const Draw& draw, const glm::mat3& rec709_to_working);
+
+/// By program, and from front to back within one: fewest changes of state, fewest pixels shaded in vain.
+void sort_opaque(std::vector<const Draw*>& draws);
+/// From back to front.
+void sort_blended(std::vector<const Draw*>& draws);
+
+}  // namespace rowland::render

@@ -1,0 +1,130 @@
+#include "engine/render/scene_instance.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <utility>
+#include <variant>
+
+#include "engine/core/check.h"
+#include "engine/render/gpu_mesh.h"
+#include "engine/render/surface_textures.h"
+#include "engine/scene/skin.h"
+
+namespace rowland::render {
+
+namespace {
+
+/// Makes one scene's entities, sharing what instances share.
+class Builder {
+ public:
+    Builder(ecs::World& world, const scene::ImportedScene& scene, Renderer& renderer, const std::string& file,
+            SceneInstance& instance)
+        : world_(world),
+          scene_(scene),
+          renderer_(renderer),
+          file_(file),
+          instance_(instance),
+          textures_(scene),
+          meshes_(scene.meshes.size()) {}
+
+    void add_nodes() {
+        for (const scene::ImportedNode& node : scene_.nodes) {
+            const ecs::Entity entity = world_.create();
+            instance_.nodes.push_back(entity);
+            world_.add(entity, scene::Transform(node.local));
+            if (!node.parent) continue;
+            ROWLAND_CHECK_OP(*node.parent, <, instance_.nodes.size() - 1);
+            world_.add(entity, scene::Parent{instance_.nodes[*node.parent]});
+        }
+    }
+
+    void add_drawn(const scene::ImportedInstance& imported) {
+        const ecs::Entity entity = imported.skin ? world_.create() : child_of(imported.node);
+        instance_.drawn.push_back(entity);
+        if (imported.skin) {
+            world_.add(entity, scene::Transform{});
+            world_.add(entity, skin(scene_.skins.at(*imported.skin)));
+        }
+        world_.add(entity, MeshInstance(mesh(imported.mesh)));
+        const scene::MaterialDescription* material =
+            imported.material ? &scene_.materials.at(*imported.material) : nullptr;
+        world_.add(entity, make_material(material, textures_));
+        if (material != nullptr) attach_extensions(entity, *material, *imported.material);
+    }
+
+    void add_light(const scene::ImportedLight& light) {
+        const ecs::Entity entity = child_of(light.node);
+        instance_.lights.push_back(entity);
+        std::visit([&](const auto& component) { world_.add(entity, std::decay_t<decltype(component)>(component)); },
+                   light.light);
+    }
+
+ private:
+    ecs::Entity child_of(std::size_t node) {
+        const ecs::Entity entity = world_.create();
+        world_.add(entity, scene::Transform{});
+        world_.add(entity, scene::Parent{instance_.nodes.at(node)});
+        return entity;
+    }
+
+    const MeshInstance& mesh(std::size_t index) {
+        MeshInstance& made = meshes_.at(index);
+        if (!made.mesh) made = make_mesh_instance(scene_.meshes[index]);
+        return made;
+    }
+
+    scene::Skin skin(const scene::ImportedSkin& imported) const {
+        scene::Skin result{.joints = {}, .inverse_bind = imported.inverse_bind};
+        for (const std::size_t joint : imported.joints) result.joints.push_back(instance_.nodes.at(joint));
+        return result;
+    }
+
+    void attach_extensions(ecs::Entity entity, const scene::MaterialDescription& material, std::size_t index) {
+        for (const auto& [name, json] : material.extensions)
+            if (MaterialType* type = renderer_.type_for_extension(name))
+                type->attach(world_, entity, json, file_, fmt::format("/materials/{}/extensions/{}", index, name));
+    }
+
+    ecs::World& world_;
+    const scene::ImportedScene& scene_;
+    Renderer& renderer_;
+    const std::string& file_;
+    SceneInstance& instance_;
+    SurfaceTextures textures_;
+    std::vector<MeshInstance> meshes_;  ///< by index; made when first used
+};
+
+}  // namespace
+
+void SceneInstance::animate(ecs::World& world, std::size_t animation, float time_s) const {
+    ROWLAND_CHECK_OP(animation, <, animations.size());
+    std::vector<scene::Transform> pose(nodes.size());
+    for (std::size_t i = 0; i < nodes.size(); ++i) pose[i] = world.get<scene::Transform>(nodes[i]);
+    scene::pose(animations[animation], time_s, pose);
+    for (std::size_t i = 0; i < nodes.size(); ++i) world.get<scene::Transform>(nodes[i]) = pose[i];
+}
+
+SceneInstance instantiate(ecs::World& world, const scene::ImportedScene& scene, Renderer& renderer,
+                          const std::string& file) {
+    SceneInstance instance;
+    instance.animations = scene.animations;
+    try {
+        Builder builder(world, scene, renderer, file, instance);
+        builder.add_nodes();
+        for (const scene::ImportedInstance& imported : scene.instances) builder.add_drawn(imported);
+        for (const scene::ImportedLight& light : scene.lights) builder.add_light(light);
+    } catch (...) {
+        destroy(world, instance);
+        throw;
+    }
+    return instance;
+}
+
+void destroy(ecs::World& world, const SceneInstance& instance) {
+    for (const std::vector<ecs::Entity>* entities : {&instance.drawn, &instance.lights, &instance.nodes})
+        for (const ecs::Entity entity : *entities)
+            if (world.alive(entity)) world.destroy(entity);
+}
+
+}  // namespace rowland::render

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "engine/ecs/world.h"
+#include "engine/render/renderer.h"
+#include "engine/scene/animation.h"
+#include "engine/scene/imported_scene.h"
+
+namespace rowland::render {
+
+/// An imported scene that stands in a world.
+struct SceneInstance {
+    std::vector<ecs::Entity> nodes;   ///< one a node, in the import's order: Transform and Parent
+    std::vector<ecs::Entity> drawn;   ///< one an instance of a primitive: MeshInstance and StandardMaterial
+    std::vector<ecs::Entity> lights;  ///< one a light
+    std::vector<scene::Animation> animations;
+
+    /// Poses the nodes as an animation does at a time; those it does not move stay. World matrices follow with the next
+    /// scene::update_world_matrices().
+    void animate(ecs::World& world, std::size_t animation, float time_s) const;
+};
+
+/// Makes entities of a scene and puts its meshes and textures on the GPU. Primitives and lights are children of their
+/// nodes, skinned primitives have no parent. Where a material has an extension that a material type of the renderer
+/// describes, the type attaches its surface. `file` is for messages. Throws Error (input) where such an extension's
+/// JSON is wrong; the world is then as before.
+SceneInstance instantiate(ecs::World& world, const scene::ImportedScene& scene, Renderer& renderer,
+                          const std::string& file);
+
+/// Removes all entities of an instance that are still alive.
+void destroy(ecs::World& world, const SceneInstance& instance);
+
+}  // namespace rowland::render

@@ -1,0 +1,75 @@
+// Light from points and directions on a GGX surface. Defines: DIRECTIONAL_LIGHTS, SEVERAL_DIRECTIONAL_LIGHTS,
+// PUNCTUAL_LIGHTS, SHADOWS (of the first directional light).
+#include "engine/render/shaders/light_block.h"
+
+// GGX with height-correlated Smith visibility [Heitz 2014] and Schlick's Fresnel term, times n.l.
+vec3 reflected_share(vec3 l, vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness) {
+    vec3 h = normalize(l + v);
+    float n_l = max(dot(n, l), 0.0);
+    float n_v = max(dot(n, v), 1e-4);
+    float n_h = clamp(dot(n, h), 0.0, 1.0);
+    float alpha2 = max(roughness * roughness * roughness * roughness, 1e-6);
+    float d = n_h * n_h * (alpha2 - 1.0) + 1.0;
+    float distribution = alpha2 / (PI * d * d);
+    float shadowing = n_l * sqrt(n_v * n_v * (1.0 - alpha2) + alpha2) + n_v * sqrt(n_l * n_l * (1.0 - alpha2) + alpha2);
+    vec3 fresnel = f0 + (1.0 - f0) * pow(1.0 - clamp(dot(v, h), 0.0, 1.0), 5.0);
+    return (diffuse / PI + fresnel * distribution * 0.5 / max(shadowing, 1e-6)) * n_l;
+}
+
+#ifdef SHADOWS
+layout(binding = 2) uniform sampler2DShadow shadow_map;
+
+// Four filtered comparisons half a texel apart reach 1.5 texels along each axis. Within that reach, a plane lies at most
+// 1.5 sqrt(2) texels * tan(angle to the light) nearer to the light than at the point; a point lifted by as many texels
+// times the sine stays above it.
+const float SHADOW_LIFT = 2.2;
+
+float shadow_share(vec3 l) {
+    vec3 n = normalize(world_normal);
+    if (dot(n, l) < 0.0) n = -n;
+    vec3 lifted = world_position + n * (SHADOW_LIFT * shadow.x * length(cross(n, l)));
+    vec3 place = (world_to_shadow * vec4(lifted, 1.0)).xyz * 0.5 + 0.5;
+    place.z = min(place.z, 1.0);  // behind all that casts a shadow
+    vec2 half_texel = vec2(0.5, -0.5) * shadow.y;
+    return 0.25 * (texture(shadow_map, vec3(place.xy + half_texel.xx, place.z)) +
+                   texture(shadow_map, vec3(place.xy + half_texel.xy, place.z)) +
+                   texture(shadow_map, vec3(place.xy + half_texel.yx, place.z)) +
+                   texture(shadow_map, vec3(place.xy + half_texel.yy, place.z)));
+}
+#endif
+
+// glTF's KHR_lights_punctual: inverse square, a window at the range, a spot's cone.
+vec3 punctual_irradiance(Light light, float distance2, vec3 l) {
+    float window = clamp(1.0 - distance2 * distance2 * light.place.w, 0.0, 1.0);
+    float cone = 1.0;
+    if (light.axis.w > 0.0) cone = clamp(dot(light.axis.xyz, -l) * light.cone.x + light.cone.y, 0.0, 1.0);
+    return light.strength.rgb * (window * cone * cone / max(distance2, 1e-8));
+}
+
+vec3 direct_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness) {
+    vec3 sum = vec3(0.0);
+#ifdef DIRECTIONAL_LIGHTS
+#ifdef SEVERAL_DIRECTIONAL_LIGHTS
+    int directional = int(light_counts.x);
+#else
+    const int directional = 1;  // the usual sun alone: a loop of unknown length costs a quarter of the frame
+#endif
+    for (int i = 0; i < directional; ++i) {
+        vec3 l = lights[i].place.xyz;
+        vec3 share = reflected_share(l, n, v, diffuse, f0, roughness);
+#ifdef SHADOWS
+        if (i == 0) share *= shadow_share(l);
+#endif
+        sum += share * lights[i].strength.rgb;
+    }
+#endif
+#ifdef PUNCTUAL_LIGHTS
+    for (int i = int(light_counts.x); i < int(light_counts.y); ++i) {
+        vec3 to_light = lights[i].place.xyz - world_position;
+        float distance2 = dot(to_light, to_light);
+        vec3 l = to_light * inversesqrt(max(distance2, 1e-12));
+        sum += reflected_share(l, n, v, diffuse, f0, roughness) * punctual_irradiance(lights[i], distance2, l);
+    }
+#endif
+    return sum;
+}

@@ -1,0 +1,28 @@
+// All lights of a frame besides the probe, the directional ones first. Included by C++ and GLSL; std140.
+#ifdef __cplusplus
+#pragma once
+#include <glm/vec4.hpp>
+namespace rowland::render {
+using glm::vec4;
+#endif
+#define ROWLAND_MAXIMUM_LIGHTS 64
+struct Light {
+    vec4 place;     // xyz: unit direction toward a directional light, else position in metres; w: 1 / range^4, 0: none
+    vec4 strength;  // xyz: irradiance, of others than directional at 1 m; working space
+    vec4 axis;      // xyz: unit, where a spot shines; w: 1: a spot
+    vec4 cone;      // x, y: scale and offset of the cosine from the axis; 0 outside the cone, 1 inside the inner one
+};
+#ifdef __cplusplus
+struct LightBlock {
+#else
+layout(std140, binding = 2) uniform LightBlock {
+#endif
+    vec4 light_counts;  // x: directional; y: all
+    Light lights[ROWLAND_MAXIMUM_LIGHTS];
+#ifdef __cplusplus
+};
+static_assert(sizeof(LightBlock) == 16 + 64 * ROWLAND_MAXIMUM_LIGHTS, "must equal the std140 layout");
+}  // namespace rowland::render
+#else
+};
+#endif

@@ -1,0 +1,115 @@
+#include "engine/render/surface_features.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace rowland::render {
+
+namespace {
+
+struct Map {
+    SurfaceFeatures bit;
+    const char* define;
+    SurfaceTexture StandardMaterial::*texture;
+};
+
+constexpr std::array<Map, 5> kMaps = {
+    {{feature::kBaseColourMap, "BASE_COLOUR_MAP", &StandardMaterial::base_colour_texture},
+     {feature::kMetallicRoughnessMap, "METALLIC_ROUGHNESS_MAP", &StandardMaterial::metallic_roughness_texture},
+     {feature::kNormalMap, "NORMAL_MAP", &StandardMaterial::normal_texture},
+     {feature::kOcclusionMap, "OCCLUSION_MAP", &StandardMaterial::occlusion_texture},
+     {feature::kEmissiveMap, "EMISSIVE_MAP", &StandardMaterial::emissive_texture}}};
+
+constexpr std::array<std::pair<SurfaceFeatures, const char*>, 12> kSwitches = {
+    {{feature::kColours, "HAS_COLOURS"},
+     {feature::kSkinned, "SKINNED"},
+     {feature::kTextureTransform, "TEXTURE_TRANSFORM"},
+     {feature::kDoubleSided, "DOUBLE_SIDED"},
+     {feature::kAlphaMask, "ALPHA_MASK"},
+     {feature::kAlphaBlend, "ALPHA_BLEND"},
+     {feature::kUnlit, "UNLIT"},
+     {feature::kDirectionalLights, "DIRECTIONAL_LIGHTS"},
+     {feature::kSeveralDirectionalLights, "SEVERAL_DIRECTIONAL_LIGHTS"},
+     {feature::kPunctualLights, "PUNCTUAL_LIGHTS"},
+     {feature::kShadows, "SHADOWS"},
+     {feature::kKeyLights, "KEY_LIGHTS"}}};
+
+bool is_identity(const scene::TextureTransform& transform) {
+    return transform.offset == glm::vec2(0.0F) && transform.rotation == 0.0F && transform.scale == glm::vec2(1.0F);
+}
+
+SurfaceFeatures second_uv(SurfaceFeatures map) {
+    return map << feature::kSecondUvShift;
+}
+
+SurfaceFeatures map_features(const StandardMaterial& material) {
+    SurfaceFeatures features = 0;
+    for (const Map& map : kMaps) {
+        const SurfaceTexture& texture = material.*map.texture;
+        if (!texture) continue;
+        features |= map.bit;
+        if (texture.uv_set == 1) features |= second_uv(map.bit);
+        if (!is_identity(texture.transform)) features |= feature::kTextureTransform;
+    }
+    return features;
+}
+
+/// Leaves only the maps in `kept`, and no transform if none is left.
+SurfaceFeatures keep_maps(SurfaceFeatures features, SurfaceFeatures kept) {
+    for (const Map& map : kMaps)
+        if ((map.bit & kept) == 0) features &= ~(map.bit | second_uv(map.bit));
+    if ((features & kept) == 0) features &= ~feature::kTextureTransform;
+    return features;
+}
+
+}  // namespace
+
+SurfaceFeatures features_of(const StandardMaterial& material, const GpuMesh& mesh, bool skinned,
+                            SurfaceFeatures lights) {
+    SurfaceFeatures features = map_features(material) | (lights & feature::kLights);
+    if (mesh.has_colours()) features |= feature::kColours;
+    if (skinned) features |= feature::kSkinned;
+    if (material.double_sided) features |= feature::kDoubleSided;
+    if (material.alpha_mode == scene::AlphaMode::Mask) features |= feature::kAlphaMask;
+    if (material.alpha_mode == scene::AlphaMode::Blend) features |= feature::kAlphaBlend;
+    return material.unlit ? without_light(features) : features;
+}
+
+SurfaceFeatures without_light(SurfaceFeatures features) {
+    features &= ~(feature::kLights | feature::kDoubleSided);
+    return keep_maps(features, feature::kBaseColourMap | feature::kEmissiveMap) | feature::kUnlit;
+}
+
+SurfaceFeatures of_shadow(SurfaceFeatures features) {
+    if ((features & feature::kAlphaMask) == 0) return features & feature::kSkinned;
+    return keep_maps(features, feature::kBaseColourMap) &
+           ~(feature::kLights | feature::kDoubleSided | feature::kUnlit | feature::kAlphaBlend);
+}
+
+std::vector<gpu::Define> defines_of(SurfaceFeatures features) {
+    std::vector<gpu::Define> defines;
+    bool uses_uv = false;
+    bool uses_uv1 = false;
+    for (const Map& map : kMaps) {
+        if ((features & map.bit) == 0) continue;
+        const bool second = (features & second_uv(map.bit)) != 0;
+        (second ? uses_uv1 : uses_uv) = true;
+        defines.emplace_back(map.define, second ? "uv1" : "uv");
+    }
+    if (uses_uv) defines.emplace_back("HAS_UV", "");
+    if (uses_uv1) defines.emplace_back("HAS_UV1", "");
+    for (const auto& [bit, define] : kSwitches)
+        if ((features & bit) != 0) defines.emplace_back(define, "");
+    return defines;
+}
+
+void add_defines(SurfaceFeatures features, gpu::ProgramDesc& desc) {
+    for (gpu::Define& define : defines_of(features)) {
+        const bool present = std::any_of(desc.defines.begin(), desc.defines.end(),
+                                         [&](const gpu::Define& other) { return other.first == define.first; });
+        if (!present) desc.defines.push_back(std::move(define));
+    }
+}
+
+}  // namespace rowland::render

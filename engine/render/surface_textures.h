@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <tuple>
+
+#include "engine/gpu/texture.h"
+#include "engine/render/material.h"
+#include "engine/scene/imported_scene.h"
+
+namespace rowland::render {
+
+/// What an image's bytes stand for.
+enum class TexelMeaning {
+    Linear,  ///< numbers: roughness, normals
+    Srgb,    ///< encoded colours; alpha is linear all the same
+};
+
+/// An imported scene's textures on the GPU: one for each picture, meaning and way of sampling that is asked for.
+class SurfaceTextures {
+ public:
+    /// `scene` must outlive it.
+    explicit SurfaceTextures(const scene::ImportedScene& scene) : scene_(&scene) {}
+
+    SurfaceTexture get(const scene::TextureUse& use, TexelMeaning meaning);
+    std::size_t uploads() const { return textures_.size(); }
+
+ private:
+    using Key = std::tuple<std::size_t, TexelMeaning, scene::TextureWrap, scene::TextureWrap, bool, bool>;
+
+    const scene::ImportedScene* scene_;
+    std::map<Key, std::shared_ptr<const gpu::Texture>> textures_;
+};
+
+/// A material as imported, with its textures. None: glTF's default material.
+StandardMaterial make_material(const scene::MaterialDescription* description, SurfaceTextures& textures);
+
+}  // namespace rowland::render

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+#include <optional>
+#include <span>
+
+#include "engine/scene/mesh.h"
+
+namespace rowland::render {
+
+/// Axis-parallel box around a transformed box [Arvo 1990].
+scene::Bounds transformed(const scene::Bounds& box, const glm::mat4& matrix);
+
+/// Around all of them; nothing if there are none.
+std::optional<scene::Bounds> united(std::span<const scene::Bounds> boxes);
+
+/// Around a skinned mesh in any pose: a vertex is a mean of its places by single joints, so the joints' boxes hold it.
+scene::Bounds posed_bounds(const scene::Bounds& box, std::span<const glm::mat4> joints);
+
+/// What a camera sees, as six planes that look inward [Gribb & Hartmann 2001].
+class Frustum {
+ public:
+    explicit Frustum(const glm::mat4& view_projection);
+    /// False only if the box is wholly outside one plane; some boxes near a corner pass though nothing of them is seen.
+    bool may_see(const scene::Bounds& box) const;
+
+ private:
+    std::array<glm::vec4, 6> planes_;
+};
+
+}  // namespace rowland::render
