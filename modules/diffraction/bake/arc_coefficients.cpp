@@ -15,11 +15,21 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
+/// Gauss–Legendre needs π nodes a wave, and a few more where cos t stretches waves.
+constexpr int kNodesPerWave = 6;
+
 /// The flat lobe's integrand is a trigonometric polynomial of degree `bands` in t over half a period: 16 nodes give
-/// 1e-15 at 5 bands. A Gaussian lobe adds a bump that takes up to 1/17 of the interval: 40 nodes more.
-int node_count(int bands, const GrooveLobe& lobe) {
+/// 1e-15 at 5 bands. A lobe's core is a bump that takes up to 1/17 of the interval: 40 nodes more.
+int core_node_count(int bands, const GrooveLobe& lobe) {
     const int smooth = std::max(16, 2 * bands + 6);
-    return is_flat(lobe) ? smooth : smooth + 40;
+    const int waves = static_cast<int>(2.0 * lobe_core_half_width(lobe) / lobe_tail_feature_size(lobe));
+    return is_flat(lobe) ? smooth : smooth + 40 + kNodesPerWave * waves;
+}
+
+/// Beyond the core a lobe is as smooth as its waves along the arc, which spans at most 2 in s_h.
+int tail_node_count(int bands, const GrooveLobe& lobe) {
+    const int waves = static_cast<int>(std::ceil(2.0 / lobe_tail_feature_size(lobe)));
+    return std::max(16, 2 * bands + 6) + kNodesPerWave * waves;
 }
 
 /// The cyclic exchange of axes (h, n, g) → (g, h, n). Columns are the images of the first frame's axes.
@@ -35,23 +45,48 @@ struct ArcCoefficients::Moments {
     std::array<double, math::kMaximumBands> sine{};
 };
 
+/// A part of the arc, t from begin to end.
+struct ArcCoefficients::Stretch {
+    double begin = 0.0;
+    double end = 0.0;
+};
+
+/// The arc's radius and the view along the grooves.
+struct ArcCoefficients::Place {
+    double r = 0.0;
+    double v_h = 0.0;
+};
+
 ArcCoefficients::ArcCoefficients(int bands, const GrooveLobe& lobe)
     : bands_(bands),
       lobe_(lobe),
-      rule_(math::gauss_legendre(node_count(bands, lobe), 0.0, 1.0)),
+      core_rule_(math::gauss_legendre(core_node_count(bands, lobe), 0.0, 1.0)),
+      tail_rule_(math::gauss_legendre(tail_node_count(bands, lobe), 0.0, 1.0)),
       to_tangent_frame_(arc_to_tangent_axes(), bands) {}
 
 ArcCoefficients::Moments ArcCoefficients::moments(double r, double v_h, double wavelength_nm) const {
-    const double half_width = lobe_half_width(lobe_);
-    const double begin = is_flat(lobe_) ? 0.0 : std::acos(std::clamp((half_width - v_h) / r, -1.0, 1.0));
-    const double end = is_flat(lobe_) ? kPi : std::acos(std::clamp((-half_width - v_h) / r, -1.0, 1.0));
+    const double core = lobe_core_half_width(lobe_);
+    const double begin = is_flat(lobe_) ? 0.0 : std::acos(std::clamp((core - v_h) / r, -1.0, 1.0));
+    const double end = is_flat(lobe_) ? kPi : std::acos(std::clamp((-core - v_h) / r, -1.0, 1.0));
     const LobeDensity density(lobe_, wavelength_nm);
     Moments result;
-    for (std::size_t node = 0; node < rule_.nodes.size(); ++node) {
-        const double t = begin + (end - begin) * rule_.nodes[node];
+    add_moments(core_rule_, {begin, end}, {r, v_h}, density, result);
+    if (lobe_half_width(lobe_) > core) {
+        add_moments(tail_rule_, {0.0, begin}, {r, v_h}, density, result);
+        add_moments(tail_rule_, {end, kPi}, {r, v_h}, density, result);
+    }
+    return result;
+}
+
+void ArcCoefficients::add_moments(const math::QuadratureRule& rule, const Stretch& stretch, const Place& place,
+                                  const LobeDensity& density, Moments& result) const {
+    const double length = stretch.end - stretch.begin;
+    if (length <= 0.0) return;
+    for (std::size_t node = 0; node < rule.nodes.size(); ++node) {
+        const double t = stretch.begin + length * rule.nodes[node];
         const double c = std::cos(t);
         const double s = std::sin(t);
-        const double weight = (end - begin) * rule_.weights[node] * r * s * density(r * c + v_h);
+        const double weight = length * rule.weights[node] * place.r * s * density(place.r * c + place.v_h);
         // cos and sin of mt by turning on by t.
         double cosine = weight;
         double sine = 0.0;
@@ -63,7 +98,6 @@ ArcCoefficients::Moments ArcCoefficients::moments(double r, double v_h, double w
             cosine = next;
         }
     }
-    return result;
 }
 
 void ArcCoefficients::accumulate(double a, double v_h, double wavelength_nm, double weight,

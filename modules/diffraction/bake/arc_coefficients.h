@@ -31,11 +31,16 @@ class ArcCoefficients {
 
  private:
     struct Moments;
+    struct Stretch;
+    struct Place;
     Moments moments(double r, double v_h, double wavelength_nm) const;
+    void add_moments(const math::QuadratureRule& rule, const Stretch& stretch, const Place& place,
+                     const LobeDensity& density, Moments& result) const;
 
     int bands_;
     GrooveLobe lobe_;
-    math::QuadratureRule rule_;  ///< on [0, 1], stretched over the part of the arc that the lobe reaches
+    math::QuadratureRule core_rule_;  ///< on [0, 1], stretched over the part of the arc that the lobe's core reaches
+    math::QuadratureRule tail_rule_;  ///< on [0, 1], for the rest of the arc, where the lobe has tails
     math::ShRotation to_tangent_frame_;
 };
 

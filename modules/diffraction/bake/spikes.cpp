@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <span>
 
 #include "engine/colour/observer.h"
@@ -17,12 +17,11 @@ namespace {
 /// continuous where nothing is visible, and moves the others by no more than this share of an interval.
 constexpr double kWeightFloor = 1e-6;
 
-/// A wavelength so dark that a spike there would have to be this much larger than its neighbours is passed over.
+/// A wavelength darker than this share of the brightest is no colour of the lamp's.
 constexpr double kDarkestShare = 1e-6;
 
-double sensitivity(const colour::Illuminant& illuminant, double wavelength_nm) {
-    const glm::dvec3 cmf = colour::cie_xyz(wavelength_nm);
-    return illuminant.power(wavelength_nm) * (cmf.x + cmf.y + cmf.z);
+double sum_of(const glm::dvec3& v) {
+    return v.x + v.y + v.z;
 }
 
 /// Integral from 0 to t ∈ [0, 1] of the line from `begin` to `end`.
@@ -91,10 +90,25 @@ double mean_position(std::span<const double> weight, double begin, double end) {
 }  // namespace
 
 SpikeBaker::SpikeBaker(const Grating& grating, const SpikeSettings& settings)
-    : spectrum_(grating, settings.bands), spikes_(settings.spikes), illuminant_(settings.illuminant) {
+    : spectrum_(grating, settings.bands), spikes_(settings.spikes) {
     ROWLAND_CHECK_OP(settings.spikes, >=, 1);
-    for (std::size_t j = 0; j < kWavelengths; ++j)
-        sensitivity_.push_back(sensitivity(illuminant_, colour::kVisibleMin + static_cast<double>(j)));
+    const double scale = 1.0 / colour::luminous_power(settings.illuminant);
+    for (std::size_t j = 0; j < kWavelengths; ++j) {
+        const double wavelength_nm = colour::kVisibleMin + static_cast<double>(j);
+        sensitivity_.push_back(scale * settings.illuminant.power(wavelength_nm) *
+                               sum_of(colour::cie_xyz(wavelength_nm)));
+    }
+}
+
+double SpikeBaker::visible_wavelength(double mean_position, double begin, double end) const {
+    const auto cell = std::min(static_cast<std::size_t>(mean_position), kWavelengths - 2);
+    const double dark = kDarkestShare * *std::max_element(sensitivity_.begin(), sensitivity_.end());
+    if (std::max(sensitivity_[cell], sensitivity_[cell + 1]) > dark) return mean_position;
+    // Between the lines of a lamp there is no light to give a colour: the spike moves to the interval's line.
+    const auto first = sensitivity_.begin() + static_cast<std::ptrdiff_t>(begin);
+    const auto last = sensitivity_.begin() + std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(std::ceil(end)) + 1,
+                                                                      static_cast<std::ptrdiff_t>(kWavelengths));
+    return static_cast<double>(std::max_element(first, last) - sensitivity_.begin());
 }
 
 SpikeSet SpikeBaker::bake(double v_g, double v_h) const {
@@ -110,22 +124,14 @@ SpikeSet SpikeBaker::bake(double v_g, double v_h) const {
     }
 
     const std::vector<double> cuts = equal_cuts(weight, spikes_);
-    const double dark = kDarkestShare * *std::max_element(sensitivity_.begin(), sensitivity_.end());
     SpikeSet result{.bands = spectrum_.bands(), .wavelengths_nm = {}, .coefficients = {}};
     for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
-        double wavelength_nm = colour::kVisibleMin + mean_position(weight, cuts[k], cuts[k + 1]);
+        const double position = visible_wavelength(mean_position(weight, cuts[k], cuts[k + 1]), cuts[k], cuts[k + 1]);
         std::vector<double> spike(count, 0.0);
-        std::size_t brightest = static_cast<std::size_t>(cuts[k]);
         integrate_linear(cuts[k], cuts[k + 1], kWavelengths, [&](std::size_t j, double cell) {
-            if (sensitivity_[j] > sensitivity_[brightest]) brightest = j;
             for (std::size_t i = 0; i < count; ++i) spike[i] += cell * sensitivity_[j] * coefficients[j * count + i];
         });
-        // Between the lines of a lamp there is nothing to divide by: the spike moves to the line.
-        if (sensitivity(illuminant_, wavelength_nm) <= dark)
-            wavelength_nm = colour::kVisibleMin + static_cast<double>(brightest);
-        const double q = sensitivity(illuminant_, wavelength_nm);
-        for (double& c : spike) c = q > 0.0 ? c / q : 0.0;
-        result.wavelengths_nm.push_back(wavelength_nm);
+        result.wavelengths_nm.push_back(colour::kVisibleMin + position);
         result.coefficients.insert(result.coefficients.end(), spike.begin(), spike.end());
     }
     return result;
@@ -135,8 +141,12 @@ SpikeSet bake_spikes(const Grating& grating, double v_g, double v_h, const Spike
     return SpikeBaker(grating, settings).bake(v_g, v_h);
 }
 
-glm::dvec3 evaluate_spikes(const SpikeSet& spikes, const lighting::ShLight& tangent_light,
-                           const colour::LightSpectra& spectra) {
+glm::dmat3 spike_colour(double wavelength_nm) {
+    const glm::dvec3 cmf = colour::cie_xyz(wavelength_nm);
+    return glm::outerProduct(cmf / sum_of(cmf), colour::rgb_basis(wavelength_nm));
+}
+
+glm::dvec3 evaluate_spikes(const SpikeSet& spikes, const lighting::ShLight& tangent_light) {
     const auto stride = static_cast<std::size_t>(math::sh_count(spikes.bands));
     const std::size_t common = std::min(stride, tangent_light.coefficients.size());
     glm::dvec3 xyz(0.0);
@@ -144,8 +154,7 @@ glm::dvec3 evaluate_spikes(const SpikeSet& spikes, const lighting::ShLight& tang
         glm::dvec3 rgb(0.0);
         for (std::size_t i = 0; i < common; ++i)
             rgb += spikes.coefficients[k * stride + i] * tangent_light.coefficients[i];
-        const double wavelength_nm = spikes.wavelengths_nm[k];
-        xyz += glm::dot(spectra(wavelength_nm), rgb) * colour::cie_xyz(wavelength_nm);
+        xyz += spike_colour(spikes.wavelengths_nm[k]) * rgb;
     }
     return xyz;
 }

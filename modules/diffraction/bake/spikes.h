@@ -1,5 +1,6 @@
 #pragma once
 
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -14,15 +15,17 @@ namespace rowland::diffraction {
 struct SpikeSettings {
     int bands = 5;   ///< n: n² coefficients per spike, 1 ≤ n ≤ 32
     int spikes = 4;  ///< K ≥ 1
-    /// Weighs wavelengths against each other when they are shared out among the spikes; the light itself stays outside.
+    /// The spectrum of the light's white. Baked in: spikes show light of another spectrum as if it had this one.
     colour::Illuminant illuminant = colour::d65();
 };
 
-/// One view's diffraction term as K delta functions in wavelength (the composite model's spiky part).
+/// One view's diffraction term as K delta functions in wavelength (the composite model's spiky part). A coefficient
+/// holds the spike's whole tristimulus sum, illuminant included, and not, as the paper's, the BRDF at λ_k: the lamp's
+/// power at λ_k then cancels, which between the lines of a lamp is nothing to divide by.
 struct SpikeSet {
     int bands = 0;
     std::vector<double> wavelengths_nm;  ///< K, ascending, in [380, 780]
-    std::vector<double> coefficients;    ///< K·n², spike by spike: c_k,i in nm
+    std::vector<double> coefficients;    ///< K·n², spike by spike: c_k,i, X+Y+Z per unit of white light
 };
 
 /// Bakes the spikes of any number of views of one grating; holds what does not depend on the view.
@@ -35,20 +38,30 @@ class SpikeBaker {
     SpikeSet bake(double v_g, double v_h) const;
 
  private:
+    /// The mean position, in nm above 380, or where light is.
+    double visible_wavelength(double mean_position, double begin, double end) const;
+
     ViewSpectrum spectrum_;
     int spikes_;
-    colour::Illuminant illuminant_;
-    std::vector<double> sensitivity_;  ///< q at every nanometre
+    std::vector<double> sensitivity_;  ///< q at every nanometre, per nm
 };
 
 /// The spikes of the view with tangent-frame components v_g, v_h (PHYSICS §6 "Spikes, exactly"): K wavelength intervals
-/// of equal ∫w, w = ‖c(v,λ)‖ q, q = S (x̄+ȳ+z̄); λ_k the w-mean wavelength of interval k, c_k,i = ∫_k c_i q dλ / q(λ_k).
+/// of equal ∫w, w = ‖c(v,λ)‖ q, q = k_S S (x̄+ȳ+z̄); λ_k the w-mean wavelength of interval k, c_k,i = ∫_k c_i q dλ.
 /// Continuous in the view; where no order is visible the coefficients are 0 and the wavelengths those of w = q.
 SpikeSet bake_spikes(const Grating& grating, double v_g, double v_h, const SpikeSettings& settings);
 
-/// XYZ = Σ_k cmf(λ_k) Σ_c E_c(λ_k) Σ_i c_k,i l_i,c. `tangent_light` is the light in the frame (g, h, n); the bands that
-/// both have are used.
-glm::dvec3 evaluate_spikes(const SpikeSet& spikes, const lighting::ShLight& tangent_light,
-                           const colour::LightSpectra& spectra);
+/// XYZ of a spike of coefficient 1 under light of each of red, green and blue: cmf_o B_c/(x̄+ȳ+z̄) at λ, RGB in.
+glm::dmat3 spike_colour(double wavelength_nm);
+
+/// XYZ = Σ_k spike_colour(λ_k) Σ_i c_k,i l_i. `tangent_light` is the light in the frame (g, h, n); the bands that both
+/// have are used.
+glm::dvec3 evaluate_spikes(const SpikeSet& spikes, const lighting::ShLight& tangent_light);
+
+/// The same; the light's spectra must be those the spikes were baked for.
+inline glm::dvec3 evaluate_spikes(const SpikeSet& spikes, const lighting::ShLight& tangent_light,
+                                  const colour::LightSpectra&) {
+    return evaluate_spikes(spikes, tangent_light);
+}
 
 }  // namespace rowland::diffraction

@@ -37,7 +37,7 @@ double brdf_energy(const Grating& grating, const glm::dvec3& s, const glm::dvec3
     if (std::find(grating.orders.begin(), grating.orders.end(), order) == grating.orders.end()) return 0.0;
     if (!propagates(order, wavelength_nm, grating.pitch_nm)) return 0.0;
     const double efficiency = grating.grooves >= kManyGrooves
-                                  ? order_efficiency(grating, order, wavelength_nm)
+                                  ? order_efficiency(grating, order, wavelength_nm, s.x)
                                   : fractional_order_efficiency(grating, fractional_order, wavelength_nm);
     return efficiency * grating.grooves * grating.pitch_nm / wavelength_nm *
            fejer(grating.grooves, fractional_order - nearest) * lobe_density(grating.lobe, s.y + v.y, wavelength_nm);

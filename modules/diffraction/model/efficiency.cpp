@@ -19,9 +19,9 @@ double normalization_factor(const Grating& grating, double wavelength_nm) {
 
 }  // namespace
 
-double order_efficiency(const Grating& grating, int order, double wavelength_nm) {
+double order_efficiency(const Grating& grating, int order, double wavelength_nm, double s_g) {
     return reflectance(grating, wavelength_nm) * normalization_factor(grating, wavelength_nm) *
-           profile_efficiency(grating.profile, grating.pitch_nm, order, wavelength_nm);
+           profile_efficiency(grating.profile, grating.pitch_nm, order, wavelength_nm, s_g);
 }
 
 double fractional_order_efficiency(const Grating& grating, double fractional_order, double wavelength_nm) {

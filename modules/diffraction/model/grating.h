@@ -28,7 +28,7 @@ struct Grating {
     std::vector<int> orders = {-2, -1, 1, 2};  ///< the orders that are shaded, ascending, no duplicates
     Normalization normalization = Normalization::Energy;
     GrooveLobe lobe = FlatLobe{};
-    std::optional<colour::Metal> metal = std::nullopt;  ///< none: a perfect mirror, R = 1
+    std::optional<colour::Metal> metal = std::nullopt;  ///< none: a perfect mirror, R = 1. None with a table
 };
 
 }  // namespace rowland::diffraction

@@ -6,6 +6,9 @@
 
 namespace rowland::diffraction {
 
+/// The highest order that may be named, ± this.
+inline constexpr int kHighestOrder = 10000;
+
 /// The direction cosine v_g = mλ/d − s_g under which order m of wavelength λ leaves a grating of pitch d for light from
 /// s_g (PHYSICS §2: d (s_g + v_g) = mλ). Nothing if the order is evanescent, |v_g| > 1.
 std::optional<double> diffracted_cosine(double s_g, int order, double wavelength_nm, double pitch_nm);

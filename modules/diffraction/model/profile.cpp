@@ -4,6 +4,8 @@
 #include <complex>
 #include <numbers>
 
+#include "engine/core/check.h"
+
 namespace rowland::diffraction {
 
 namespace {
@@ -26,24 +28,28 @@ double phase_turns(double depth_nm, double wavelength_nm) {
     return 2.0 * depth_nm / wavelength_nm;
 }
 
-double efficiency(const SlitProfile& slit, double pitch_nm, int order, double) {
+double efficiency(const SlitProfile& slit, double pitch_nm, int order, double, double) {
     const double fill = slit.width_nm / pitch_nm;
     return square(fill * sinc(order * fill));
 }
 
-double efficiency(const LamellarProfile& lamellar, double, int order, double wavelength_nm) {
+double efficiency(const LamellarProfile& lamellar, double, int order, double wavelength_nm, double) {
     const double w = lamellar.duty;
     const double sine_squared = square(sin_pi(phase_turns(lamellar.depth_nm, wavelength_nm)));
     if (order == 0) return 1.0 - 4.0 * w * (1.0 - w) * sine_squared;
     return 4.0 * square(w * sinc(order * w)) * sine_squared;
 }
 
-double efficiency(const SinusoidalProfile& sinusoidal, double, int order, double wavelength_nm) {
+double efficiency(const SinusoidalProfile& sinusoidal, double, int order, double wavelength_nm, double) {
     return square(std::cyl_bessel_j(std::abs(order), kPi * phase_turns(sinusoidal.depth_nm, wavelength_nm)));
 }
 
-double efficiency(const BlazedProfile& blazed, double, int order, double wavelength_nm) {
+double efficiency(const BlazedProfile& blazed, double, int order, double wavelength_nm, double) {
     return square(sinc(phase_turns(blazed.depth_nm, wavelength_nm) - order));
+}
+
+double efficiency(const EfficiencyTable& table, double pitch_nm, int order, double wavelength_nm, double s_g) {
+    return table_efficiency(table, pitch_nm, order, wavelength_nm, s_g);
 }
 
 double spectrum(const SlitProfile& slit, double pitch_nm, double x, double) {
@@ -75,14 +81,25 @@ double spectrum(const BlazedProfile& blazed, double, double x, double wavelength
     return square(sinc(phase_turns(blazed.depth_nm, wavelength_nm) - x));
 }
 
+double spectrum(const EfficiencyTable&, double, double, double) {
+    ROWLAND_CHECK(false, "a table of efficiencies has no groove spectrum");
+    return 0.0;
+}
+
 }  // namespace
 
 double sinc(double x) {
     return std::abs(x) < 1e-8 ? 1.0 : sin_pi(x) / (kPi * x);
 }
 
-double profile_efficiency(const Profile& profile, double pitch_nm, int order, double wavelength_nm) {
-    return std::visit([&](const auto& shape) { return efficiency(shape, pitch_nm, order, wavelength_nm); }, profile);
+double profile_efficiency(const Profile& profile, double pitch_nm, int order, double wavelength_nm, double s_g) {
+    return std::visit([&](const auto& shape) { return efficiency(shape, pitch_nm, order, wavelength_nm, s_g); },
+                      profile);
+}
+
+bool depends_on_incidence(const Profile& profile) {
+    const auto* table = std::get_if<EfficiencyTable>(&profile);
+    return table != nullptr && table->slices.size() > 1;
 }
 
 double groove_spectrum(const Profile& profile, double pitch_nm, double fractional_order, double wavelength_nm) {

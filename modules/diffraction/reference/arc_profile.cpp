@@ -55,7 +55,7 @@ glm::dvec3 arc_profile(const IncidentLight& light, const glm::dmat3& world_to_ta
     if (length <= 0.0) return glm::dvec3(0.0);
 
     const glm::dmat3 axes = glm::transpose(world_to_tangent);
-    const int panels = panel_count(light, lobe, r, length);
+    const int panels = arc.refinement * panel_count(light, lobe, r, length);
     const double panel_length = length / panels;
     const math::QuadratureRule& rule = panel_rule(light.nodes_per_panel());
     const double shift = light.nodes_per_panel() == 1 ? arc.node_offset - 0.5 : 0.0;

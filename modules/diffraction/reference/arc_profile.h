@@ -16,6 +16,7 @@ struct Arc {
     double v_h = 0.0;            ///< the view, for the lobe
     double wavelength_nm = 0.0;  ///< for the lobe
     double node_offset = 0.5;    ///< where a panel's only node lies, in [0, 1]; light of many-node panels ignores it
+    int refinement = 1;          ///< as many times more panels than usual
 };
 glm::dvec3 arc_profile(const IncidentLight& light, const glm::dmat3& world_to_tangent, const GrooveLobe& lobe,
                        const Arc& arc);

@@ -20,57 +20,78 @@ glm::dmat3 observed_spectra(const colour::LightSpectra& spectra, double waveleng
     return glm::outerProduct(colour::cie_xyz(wavelength_nm), spectra(wavelength_nm));
 }
 
+constexpr int kRange_nm = colour::kVisibleMax - colour::kVisibleMin;
+
+/// Node i of the trapezoid rule over the visible range.
+struct WavelengthNode {
+    WavelengthNode(int i, int nodes_per_nm)
+        : wavelength_nm(colour::kVisibleMin + static_cast<double>(i) / nodes_per_nm),
+          step_nm((i == 0 || i == kRange_nm * nodes_per_nm ? 0.5 : 1.0) / nodes_per_nm) {}
+
+    double wavelength_nm;
+    double step_nm;
+};
+
 /// Sharp orders: the light of order m and wavelength λ lies on one arc.
-std::vector<PathWeight> sharp_orders(const Grating& grating, const colour::LightSpectra& spectra, double largest_step) {
+std::vector<PathWeight> sharp_orders(const Grating& grating, const colour::LightSpectra& spectra, double largest_step,
+                                     int refinement) {
     std::vector<PathWeight> weights;
-    constexpr int range_nm = colour::kVisibleMax - colour::kVisibleMin;
+    const bool efficiency_later = depends_on_incidence(grating.profile);
     for (const int order : grating.orders) {
         const double step_at_1nm = std::abs(order) / grating.pitch_nm;
-        const int nodes_per_nm = std::max(1, static_cast<int>(std::ceil(step_at_1nm / largest_step)));
-        const int last = range_nm * nodes_per_nm;
-        for (int i = 0; i <= last; ++i) {
-            const double wavelength_nm = colour::kVisibleMin + static_cast<double>(i) / nodes_per_nm;
-            const double step_nm = (i == 0 || i == last ? 0.5 : 1.0) / nodes_per_nm;
-            const double efficiency = order_efficiency(grating, order, wavelength_nm);
-            weights.push_back({order * wavelength_nm, wavelength_nm,
-                               step_nm * efficiency * observed_spectra(spectra, wavelength_nm)});
+        const int nodes_per_nm = refinement * std::max(1, static_cast<int>(std::ceil(step_at_1nm / largest_step)));
+        for (int i = 0; i <= kRange_nm * nodes_per_nm; ++i) {
+            const WavelengthNode node(i, nodes_per_nm);
+            const double efficiency = efficiency_later ? 1.0 : order_efficiency(grating, order, node.wavelength_nm);
+            weights.push_back({order * node.wavelength_nm, node.wavelength_nm,
+                               node.step_nm * efficiency * observed_spectra(spectra, node.wavelength_nm), order});
         }
     }
     return weights;
 }
 
+/// What a wavelength adds to the sum, but for its efficiency.
+struct ObservedWavelength {
+    double wavelength_nm = 0.0;
+    glm::dmat3 observed{0.0};
+};
+
 /// The weight at one path difference of few grooves: every wavelength reaches it, by its Fejér ratio.
-glm::dmat3 blurred_weight(const Grating& grating, const std::vector<glm::dmat3>& observed, double path_nm) {
+glm::dmat3 blurred_weight(const Grating& grating, const std::vector<ObservedWavelength>& spectrum, double path_nm) {
     glm::dmat3 sum(0.0);
-    for (int wavelength_nm = colour::kVisibleMin; wavelength_nm <= colour::kVisibleMax; ++wavelength_nm) {
-        const double fractional_order = path_nm / wavelength_nm;
+    for (const ObservedWavelength& node : spectrum) {
+        const double fractional_order = path_nm / node.wavelength_nm;
         const double nearest = std::round(fractional_order);
         const int order = static_cast<int>(nearest);
         if (std::find(grating.orders.begin(), grating.orders.end(), order) == grating.orders.end()) continue;
-        if (!propagates(order, wavelength_nm, grating.pitch_nm)) continue;
-        const double step_nm = wavelength_nm == colour::kVisibleMin || wavelength_nm == colour::kVisibleMax ? 0.5 : 1.0;
-        const double density = grating.grooves / wavelength_nm * fejer(grating.grooves, fractional_order - nearest) *
-                               fractional_order_efficiency(grating, fractional_order, wavelength_nm);
-        sum += step_nm * density * observed[static_cast<std::size_t>(wavelength_nm - colour::kVisibleMin)];
+        if (!propagates(order, node.wavelength_nm, grating.pitch_nm)) continue;
+        const double density = grating.grooves / node.wavelength_nm *
+                               fejer(grating.grooves, fractional_order - nearest) *
+                               fractional_order_efficiency(grating, fractional_order, node.wavelength_nm);
+        sum += density * node.observed;
     }
     return sum;
 }
 
 /// Wide orders. The lobe is taken at the middle of the range: none of the lobes that may be combined with few grooves
 /// depends on wavelength.
-std::vector<PathWeight> wide_orders(const Grating& grating, const colour::LightSpectra& spectra, double largest_step) {
-    std::vector<glm::dmat3> observed;
-    for (int wavelength_nm = colour::kVisibleMin; wavelength_nm <= colour::kVisibleMax; ++wavelength_nm)
-        observed.push_back(observed_spectra(spectra, wavelength_nm));
+std::vector<PathWeight> wide_orders(const Grating& grating, const colour::LightSpectra& spectra, double largest_step,
+                                    int refinement) {
+    std::vector<ObservedWavelength> spectrum;
+    for (int i = 0; i <= kRange_nm * refinement; ++i) {
+        const WavelengthNode node(i, refinement);
+        spectrum.push_back({node.wavelength_nm, node.step_nm * observed_spectra(spectra, node.wavelength_nm)});
+    }
+    ROWLAND_CHECK(!std::holds_alternative<PitsLobe>(grating.lobe), "pits with few grooves");
     // An order is λ/N ≥ 7.7 nm wide in x.
-    const double step_nm = std::min(1.0, largest_step * grating.pitch_nm);
+    const double step_nm = std::min(1.0, largest_step * grating.pitch_nm) / refinement;
     const double largest_path_nm = 2.0 * grating.pitch_nm;
     const auto half_count = static_cast<std::size_t>(std::ceil(largest_path_nm / step_nm));
     std::vector<PathWeight> weights(2 * half_count + 1);
     parallel_for(weights.size(), [&](std::size_t i) {
         const double path_nm = step_nm * (static_cast<double>(i) - static_cast<double>(half_count));
         weights[i] = {path_nm, 0.5 * (colour::kVisibleMin + colour::kVisibleMax),
-                      step_nm * blurred_weight(grating, observed, path_nm)};
+                      step_nm * blurred_weight(grating, spectrum, path_nm)};
     });
     return weights;
 }
@@ -81,12 +102,14 @@ bool is_zero(const PathWeight& term) {
 
 }  // namespace
 
-std::vector<PathWeight> path_weights(const Grating& grating, const colour::LightSpectra& spectra, double largest_step) {
+std::vector<PathWeight> path_weights(const Grating& grating, const colour::LightSpectra& spectra, double largest_step,
+                                     int refinement) {
     ROWLAND_CHECK_OP(grating.pitch_nm, >, 0.0);
     ROWLAND_CHECK_OP(grating.grooves, >=, 1.0);
     ROWLAND_CHECK_OP(largest_step, >, 0.0);
-    auto weights = grating.grooves >= kManyGrooves ? sharp_orders(grating, spectra, largest_step)
-                                                   : wide_orders(grating, spectra, largest_step);
+    ROWLAND_CHECK_OP(refinement, >=, 1);
+    auto weights = grating.grooves >= kManyGrooves ? sharp_orders(grating, spectra, largest_step, refinement)
+                                                   : wide_orders(grating, spectra, largest_step, refinement);
     std::erase_if(weights, is_zero);
     return weights;
 }

@@ -6,6 +6,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/core/progress.h"
+#include "modules/diffraction/model/efficiency.h"
 #include "modules/diffraction/reference/arc_profile.h"
 #include "modules/diffraction/reference/path_weights.h"
 
@@ -20,8 +21,14 @@ double node_offset(std::size_t arc) {
     return multiple - std::floor(multiple);
 }
 
+/// A term's weight on the arc s_g = a.
+glm::dmat3 weight_on_arc(const Grating& grating, const PathWeight& term, double a) {
+    if (!depends_on_incidence(grating.profile)) return term.weight;
+    return order_efficiency(grating, term.order, term.wavelength_nm, a) * term.weight;
+}
+
 glm::dvec3 frame_radiance(const IncidentLight& light, const Grating& grating, const std::vector<PathWeight>& weights,
-                          const Frame& frame) {
+                          const Frame& frame, int refinement) {
     const glm::dmat3 tangent = world_to_tangent(frame);
     const glm::dvec3 v = tangent * glm::normalize(frame.view);
     if (v.z <= 0.0) return glm::dvec3(0.0);
@@ -34,24 +41,39 @@ glm::dvec3 frame_radiance(const IncidentLight& light, const Grating& grating, co
         const double a = weights[i].path_nm / grating.pitch_nm - v.x;
         if (a <= -1.0 || a >= 1.0) continue;
         if (a != last_arc || !lobe_is_fixed)
-            profile = arc_profile(
-                light, tangent, grating.lobe,
-                {.a = a, .v_h = v.y, .wavelength_nm = weights[i].wavelength_nm, .node_offset = node_offset(i)});
+            profile = arc_profile(light, tangent, grating.lobe,
+                                  {.a = a,
+                                   .v_h = v.y,
+                                   .wavelength_nm = weights[i].wavelength_nm,
+                                   .node_offset = node_offset(i),
+                                   .refinement = refinement});
         last_arc = a;
-        xyz += weights[i].weight * profile;
+        xyz += weight_on_arc(grating, weights[i], a) * profile;
     }
     return xyz;
 }
 
 std::vector<glm::dvec3> radiance(const Grating& grating, const IncidentLight& light,
-                                 const colour::LightSpectra& spectra, std::span<const Frame> frames) {
-    const std::vector<PathWeight> weights = path_weights(grating, spectra, light.panel_angle());
+                                 const colour::LightSpectra& spectra, std::span<const Frame> frames, int refinement) {
+    const std::vector<PathWeight> weights = path_weights(grating, spectra, light.panel_angle(), refinement);
     std::vector<glm::dvec3> result(frames.size());
-    Progress progress("reference", frames.size());
+    Progress progress(refinement == 1 ? "reference" : "reference, finer", frames.size());
     parallel_for(frames.size(), [&](std::size_t i) {
-        result[i] = frame_radiance(light, grating, weights, frames[i]);
+        result[i] = frame_radiance(light, grating, weights, frames[i], refinement);
         progress.advance();
     });
+    return result;
+}
+
+std::vector<CheckedRadiance> check(const Grating& grating, const IncidentLight& light,
+                                   const colour::LightSpectra& spectra, std::span<const Frame> frames) {
+    const std::vector<glm::dvec3> usual = radiance(grating, light, spectra, frames, 1);
+    const std::vector<glm::dvec3> finer = radiance(grating, light, spectra, frames, 2);
+    std::vector<CheckedRadiance> result;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        const double difference = glm::length(usual[i] - finer[i]);
+        result.push_back({usual[i], difference == 0.0 ? 0.0 : difference / glm::length(finer[i])});
+    }
     return result;
 }
 
@@ -59,12 +81,22 @@ std::vector<glm::dvec3> radiance(const Grating& grating, const IncidentLight& li
 
 std::vector<glm::dvec3> reference_radiance(const Grating& grating, const lighting::ProbeImage& probe,
                                            const colour::LightSpectra& spectra, std::span<const Frame> frames) {
-    return radiance(grating, ProbeLight(probe), spectra, frames);
+    return radiance(grating, ProbeLight(probe), spectra, frames, 1);
 }
 
 std::vector<glm::dvec3> reference_radiance(const Grating& grating, const lighting::ShLight& light,
                                            const colour::LightSpectra& spectra, std::span<const Frame> frames) {
-    return radiance(grating, BandlimitedLight(light), spectra, frames);
+    return radiance(grating, BandlimitedLight(light), spectra, frames, 1);
+}
+
+std::vector<CheckedRadiance> checked_reference(const Grating& grating, const lighting::ProbeImage& probe,
+                                               const colour::LightSpectra& spectra, std::span<const Frame> frames) {
+    return check(grating, ProbeLight(probe), spectra, frames);
+}
+
+std::vector<CheckedRadiance> checked_reference(const Grating& grating, const lighting::ShLight& light,
+                                               const colour::LightSpectra& spectra, std::span<const Frame> frames) {
+    return check(grating, BandlimitedLight(light), spectra, frames);
 }
 
 }  // namespace rowland::diffraction

@@ -1,9 +1,17 @@
 #include "modules/diffraction/asset/cooked_material.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <limits>
+
 #include "engine/core/error.h"
+#include "engine/core/file.h"
 #include "engine/core/parallel.h"
+#include "modules/diffraction/cook.h"
+#include "tests/support/message_of.h"
+#include "tests/support/temporary_folder.h"
 
 namespace rowland::diffraction {
 namespace {
@@ -23,11 +31,94 @@ TEST(CookedMaterial, RoundTripKeepsMaterialAndTable) {
     const CookedMaterial original = cook_material(json, "m.json");
     const CookedMaterial read = read_cooked_material(write_cooked_material(json, original), "m.material");
     EXPECT_EQ(read.material.grating.pitch_nm, 1600.0);
-    EXPECT_EQ(read.table.texels, original.table.texels);
-    EXPECT_EQ(read.table.scale, original.table.scale);
-    EXPECT_EQ(read.table.bias, original.table.bias);
-    EXPECT_EQ(read.table.bands, 3);
-    EXPECT_EQ(read.table.spikes, 2);
+    const auto& table = std::get<SpikeTable>(read.tables);
+    const auto& expected = std::get<SpikeTable>(original.tables);
+    EXPECT_EQ(table.texels, expected.texels);
+    EXPECT_EQ(table.scale, expected.scale);
+    EXPECT_EQ(table.bias, expected.bias);
+    EXPECT_EQ(table.bands, 3);
+    EXPECT_EQ(table.spikes, 2);
+    EXPECT_EQ(read.kernel.begin_nm, original.kernel.begin_nm);
+    EXPECT_EQ(read.kernel.end_nm, original.kernel.end_nm);
+    EXPECT_EQ(read.kernel.antiderivative, original.kernel.antiderivative);
+}
+
+nlohmann::json material_with(const char* quality) {
+    nlohmann::json json = small_material();
+    json["grating"]["orders"] = {0, 1};
+    json["quality"] = nlohmann::json::parse(quality);
+    return json;
+}
+
+constexpr const char* kQualities[] = {
+    R"({"representation": "bins", "bands": 2, "bins": 3, "view_resolution": 4})",
+    R"({"representation": "transfer", "bands": 2, "view_resolution": 8, "storage": "fp32"})",
+    R"({"representation": "arc", "bands": 2, "rank": 3, "view_resolution": 8})",
+    R"({"representation": "direct"})",
+    R"({"representation": "planar", "bands": 2, "rank": 3, "map_resolution": 16})",
+    R"({"representation": "circle", "map_resolution": 16})",
+};
+
+TEST(CookedMaterial, EveryRepresentationIsReadAsItWasWritten) {
+    for (const char* quality : kQualities) {
+        const nlohmann::json json = material_with(quality);
+        const CookedMaterial original = cook_material(json, "m.json");
+        const std::vector<std::byte> bytes = write_cooked_material(json, original);
+        const CookedMaterial read = read_cooked_material(bytes, "m.material");
+        EXPECT_EQ(read.tables.index(), representation(original.material).index()) << quality;
+        EXPECT_EQ(write_cooked_material(json, read), bytes) << quality;
+        EXPECT_EQ(describe(read), describe(original)) << quality;
+        EXPECT_GT(original.zero_order_xyz[0].x, 0.0);
+        for (const std::size_t missing : {std::size_t{1}, bytes.size() / 50, bytes.size() / 3})
+            EXPECT_THROW(read_cooked_material(std::span(bytes).first(bytes.size() - missing), "m.material"), Error)
+                << quality;
+    }
+}
+
+TEST(CookedMaterial, TablesOfAnotherRepresentationThanTheMaterialsAreRefused) {
+    const CookedMaterial arc = cook_material(material_with(kQualities[2]), "m.json");
+    const std::vector<std::byte> bytes = write_cooked_material(material_with(kQualities[1]), arc);
+    EXPECT_THAT(rowland::test::message_of([&] { read_cooked_material(bytes, "m.material"); }),
+                ::testing::HasSubstr("transfer"));
+}
+
+/// Shaders are made for what the material's JSON says; its limits hold for tables, too.
+TEST(CookedMaterial, TablesOfOtherSettingsThanTheMaterialsAreRefused) {
+    for (const char* quality : kQualities) {
+        const nlohmann::json json = material_with(quality);
+        nlohmann::json other = json;
+        const CookedMaterial cooked = cook_material(json, "m.json");
+        for (const char* key : {"bands", "bins", "rank", "view_resolution", "storage"}) {
+            if (!json["quality"].contains(key)) continue;
+            other = json;
+            other["quality"][key] = std::string(key) == "storage" ? nlohmann::json("fp16") : nlohmann::json(2);
+            if (other == json) other["quality"][key] = 3;
+            EXPECT_THROW(read_cooked_material(write_cooked_material(other, cooked), "m.material"), Error)
+                << quality << key;
+        }
+    }
+}
+
+TEST(CookedMaterial, KernelsOfNoIntervalAreRefused) {
+    const nlohmann::json json = material_with(R"({"representation": "direct"})");
+    CookedMaterial cooked = cook_material(json, "m.json");
+    const double reach = cooked.kernel.end_nm;
+    for (const double end : {-1e6, 1e308, std::numeric_limits<double>::quiet_NaN()}) {
+        cooked.kernel.end_nm = end;
+        EXPECT_THROW(read_cooked_material(write_cooked_material(json, cooked), "m.material"), Error) << end;
+    }
+    cooked.kernel.end_nm = reach;
+    EXPECT_NO_THROW(read_cooked_material(write_cooked_material(json, cooked), "m.material"));
+}
+
+TEST(CookedMaterial, TheDescriptionCountsWhatShadingCosts) {
+    const std::string text = describe(cook_material(material_with(kQualities[2]), "m"));
+    EXPECT_THAT(text, ::testing::HasSubstr("representation: arc\n"));
+    EXPECT_THAT(text, ::testing::HasSubstr("rank: 3\n"));
+    EXPECT_THAT(text, ::testing::HasSubstr("fetches_per_pixel: 1\n"));
+    EXPECT_THAT(text, ::testing::HasSubstr("key_lights: true\n"));
+    // 8 nodes of four halves, scale and bias of a layer, 3 · 3 matrices.
+    EXPECT_THAT(text, ::testing::HasSubstr("table_bytes: " + std::to_string(8 * 8 + 2 * 16 + 9 * 36) + "\n"));
 }
 
 TEST(CookedMaterial, BytesDoNotDependOnTheNumberOfThreads) {
@@ -70,6 +161,50 @@ TEST(CookedMaterial, DescriptionShowsWhatWasBaked) {
     EXPECT_NE(describe(cook_material(json, "m")).find("spikes: 2\n"), std::string::npos);
     json["quality"]["spikes"] = 5;
     EXPECT_NE(describe(cook_material(json, "m")).find("spikes: 5\n"), std::string::npos);
+}
+
+/// A material that names a table, in a folder of its own.
+class TableMaterial : public ::testing::Test {
+ protected:
+    TableMaterial() {
+        json_["grating"]["profile"] = {{"type", "table"}, {"file", "t.csv"}};
+        write_file_atomic(folder_.path() / "m.json", json_.dump());
+        write_file_atomic(folder_.path() / "t.csv", "wavelength_nm,R-1,R+1\n400,0.1,0.4\n700,0.2,0.3\n");
+        register_cook_types(registry_);
+    }
+
+    std::filesystem::path source() const { return folder_.path() / "m.json"; }
+
+    rowland::test::TemporaryFolder folder_;
+    nlohmann::json json_ = small_material();
+    cook::Registry registry_;
+};
+
+TEST_F(TableMaterial, CookedNeedsItsTableNoMore) {
+    cook::Context context(source());
+    const std::vector<std::byte> payload = registry_.find(kMaterialAssetType)->cook(context);
+    std::filesystem::remove(folder_.path() / "t.csv");
+    const CookedMaterial cooked = read_cooked_material(payload, "m.material");
+    EXPECT_DOUBLE_EQ(profile_efficiency(cooked.material.grating.profile, 1600.0, 1, 550.0), 0.35);
+    EXPECT_DOUBLE_EQ(profile_efficiency(cooked.material.grating.profile, 1600.0, -1, 550.0), 0.15);
+}
+
+TEST_F(TableMaterial, CookingAndCheckingDependOnTheTable) {
+    const std::vector<std::filesystem::path> expected = {source(), folder_.path() / "t.csv"};
+    const cook::AssetType* type = registry_.find(kMaterialAssetType);
+    cook::Context cooked(source());
+    type->cook(cooked);
+    EXPECT_EQ(cooked.dependencies(), expected);
+    cook::Context checked(source());
+    type->check(checked);
+    EXPECT_EQ(checked.dependencies(), expected);
+}
+
+TEST_F(TableMaterial, AMissingTableIsRefusedAndStillADependency) {
+    std::filesystem::remove(folder_.path() / "t.csv");
+    cook::Context context(source());
+    EXPECT_THROW(registry_.find(kMaterialAssetType)->cook(context), Error);
+    EXPECT_EQ(context.dependencies().size(), 2U);
 }
 
 }  // namespace

@@ -4,12 +4,30 @@
 
 #include <numbers>
 
+#include "engine/colour/light_spectra.h"
+#include "engine/colour/observer.h"
+#include "modules/diffraction/model/efficiency.h"
+
 namespace rowland::diffraction {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 // The RGB basis' three columns sum to 1 to 1e-11, the digits of its table.
 constexpr double kTolerance = 1e-11;
+
+/// Luminance of white light after the orders that the diffraction term shades.
+double white_of_listed_orders(const Grating& grating) {
+    const colour::LightSpectra spectra;
+    double sum = 0.0;
+    for (int wavelength_nm = 380; wavelength_nm <= 780; ++wavelength_nm) {
+        const glm::dvec3 e = spectra(wavelength_nm);
+        const double step_nm = wavelength_nm == 380 || wavelength_nm == 780 ? 0.5 : 1.0;
+        for (const int order : grating.orders)
+            sum += step_nm * order_efficiency(grating, order, wavelength_nm) * (e.r + e.g + e.b) *
+                   colour::cie_xyz(wavelength_nm).y;
+    }
+    return sum;
+}
 
 TEST(LayerWeights, SlitWithoutMetalLeavesWhatItsOrdersDoNotCarry) {
     Grating grating{.pitch_nm = 1600.0, .profile = SlitProfile{.width_nm = 800.0}};
@@ -31,6 +49,36 @@ TEST(LayerWeights, GoldTintsTheZeroOrder) {
     const LayerWeights weights = layer_weights(grating);
     EXPECT_LT(weights.mirror.y, 0.25);
     EXPECT_LT(weights.mirror.z, 0.7 * weights.mirror.y);  // gold takes the blue
+}
+
+/// Mirror, base and listed orders share out white light: no more than came in, and, but where the orders alone take it
+/// all, no less. A table's rows sum to 1.0004 here, which is scaled away.
+TEST(LayerWeights, NothingComesOutThatDidNotFallIn) {
+    const EfficiencyTable table{
+        .orders = {-1, 0, 1},
+        .slices = {{.wavelengths_nm = {400.0, 700.0}, .efficiencies = {0.3, 0.3, 0.4004, 0.1, 0.5, 0.4}}}};
+    for (const Profile& profile :
+         {Profile{SlitProfile{500.0}}, Profile{SlitProfile{1600.0}}, Profile{LamellarProfile{0.35, 130.0}},
+          Profile{SinusoidalProfile{150.0}}, Profile{BlazedProfile{260.0}}, Profile{table}}) {
+        for (const bool zero_listed : {false, true}) {
+            Grating grating{.pitch_nm = 1600.0, .profile = profile, .orders = {-3, -2, -1, 1, 2, 3}};
+            if (zero_listed) grating.orders.insert(grating.orders.begin() + 3, 0);
+            const LayerWeights weights = layer_weights(grating);
+            const double listed = white_of_listed_orders(grating);
+            EXPECT_LE(weights.mirror.y + weights.base.y + listed, 1.0 + kTolerance) << profile.index();
+            EXPECT_GE(weights.mirror.y + weights.base.y + listed, 1.0 - 1e-9) << profile.index();
+        }
+    }
+}
+
+/// Of the peak form, which weighs orders by λ/550 nm, too: for a slit f² + (f − f²)·780/550 stays below 1.
+TEST(LayerWeights, TheAguNormalisationAddsNoLightEither) {
+    for (const double fill : {0.1, 0.5, 0.8, 0.95}) {
+        Grating grating{.pitch_nm = 1600.0, .profile = SlitProfile{1600.0 * fill}};
+        grating.normalization = Normalization::Agu;
+        const LayerWeights weights = layer_weights(grating);
+        EXPECT_LE(weights.mirror.y + weights.base.y + white_of_listed_orders(grating), 1.0 + kTolerance) << fill;
+    }
 }
 
 }  // namespace

@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "engine/core/error.h"
+#include "engine/core/file.h"
 #include "engine/core/json_reader.h"
+#include "tests/support/message_of.h"
+#include "tests/support/temporary_folder.h"
 
 namespace rowland::diffraction {
 namespace {
@@ -18,14 +20,7 @@ Material parse(const std::string& text) {
 }
 
 std::string refusal(const std::string& text) {
-    try {
-        parse(text);
-    } catch (const Error& error) {
-        EXPECT_EQ(error.info().fault, Fault::Input);
-        return error.what();
-    }
-    ADD_FAILURE() << "accepted: " << text;
-    return "";
+    return rowland::test::message_of([&] { parse(text); });
 }
 
 std::string grating(const std::string& more) {
@@ -62,12 +57,85 @@ TEST(MaterialJson, EveryFieldReachesTheMaterial) {
     EXPECT_EQ(material.base.colour, glm::vec3(0.1F, 0.2F, 0.3F));
     EXPECT_EQ(material.base.roughness, 0.7F);
     EXPECT_EQ(material.quality.max_error, 0.1);
-    const SpikeTableSettings settings = table_settings(material);
+    const auto settings = std::get<SpikeTableSettings>(representation(material));
     EXPECT_EQ(settings.spikes.bands, 8);
     EXPECT_EQ(settings.spikes.spikes, 16);
     EXPECT_EQ(settings.theta_nodes, 48);
     EXPECT_EQ(settings.phi_nodes, 96);
     EXPECT_EQ(settings.storage, Storage::Half);
+}
+
+std::string with_quality(const std::string& quality, const std::string& lobe = "\"flat\"") {
+    return R"({"grating": {"pitch_nm": 1600, "profile": {"type": "slit", "width_nm": 800}, "groove_lobe": )" + lobe +
+           R"(}, "quality": )" + quality + "}";
+}
+
+TEST(MaterialJson, EveryRepresentationTakesItsSettings) {
+    const auto pinned = [](const std::string& quality) { return representation(parse(with_quality(quality))); };
+    const auto bins =
+        std::get<BinSettings>(pinned(R"({"representation": "bins", "bands": 4, "bins": 9, "view_mapping": "parabolic",
+                   "view_resolution": 20, "storage": "fp32"})"));
+    EXPECT_EQ(bins.bands, 4);
+    EXPECT_EQ(bins.bins, 9);
+    EXPECT_EQ(bins.grid, (ViewGrid{.mapping = ViewMapping::Parabolic, .columns = 20, .rows = 20}));
+    EXPECT_EQ(bins.storage, Storage::Float);
+    const auto transfer =
+        std::get<TransferSettings>(pinned(R"({"representation": "transfer", "bands": 6, "storage": "unorm8"})"));
+    EXPECT_EQ(transfer.bands, 6);
+    EXPECT_EQ(transfer.grid, default_transfer_grid(FlatLobe{}));
+    EXPECT_EQ(transfer.storage, Storage::Unorm8);
+    const auto arc =
+        std::get<ArcSettings>(pinned(R"({"representation": "arc", "bands": 7, "rank": 12, "view_resolution": 99})"));
+    EXPECT_EQ(arc.bands, 7);
+    EXPECT_EQ(arc.rank, 12);
+    EXPECT_EQ(arc.grid, (ViewGrid{.mapping = ViewMapping::OneDimensional, .columns = 99, .rows = 1}));
+    const auto planar =
+        std::get<PlanarSettings>(pinned(R"({"representation": "planar", "rank": 6, "map_resolution": 63})"));
+    EXPECT_EQ(planar.stand_in.rank, 6);
+    EXPECT_EQ(planar.size.views, 63);
+    EXPECT_EQ(planar.size.azimuths, 64);  // a map's azimuths are even in number
+    const auto circle = std::get<CircleSettings>(pinned(R"({"representation": "circle", "map_resolution": 32})"));
+    EXPECT_EQ(circle.size.side, 32);
+    EXPECT_EQ(circle.size.views, 64);
+    EXPECT_TRUE(std::holds_alternative<DirectSettings>(pinned(R"({"representation": "direct"})")));
+    const auto spikes = std::get<SpikeTableSettings>(
+        pinned(R"({"representation": "spikes", "view_mapping": "one-dimensional", "view_resolution": 100})"));
+    EXPECT_EQ(spikes.mapping, ViewMapping::OneDimensional);
+    EXPECT_EQ(spikes.phi_nodes, 100);
+    EXPECT_EQ(spikes.theta_nodes, 1);
+}
+
+TEST(MaterialJson, KeyLightsAreApartWhereNothingElseWouldAddThem) {
+    const auto apart = [](const std::string& quality) { return parse(with_quality(quality)).quality.key_lights; };
+    EXPECT_FALSE(apart(R"({"representation": "spikes"})"));
+    EXPECT_TRUE(apart(R"({"representation": "spikes", "key_lights": true})"));
+    EXPECT_TRUE(apart(R"({"representation": "arc"})"));
+    EXPECT_FALSE(apart(R"({"representation": "arc", "key_lights": false})"));
+    EXPECT_TRUE(apart(R"({"representation": "circle"})"));
+    EXPECT_THAT(refusal(with_quality(R"({"representation": "circle", "key_lights": false})")),
+                HasSubstr("/quality/key_lights"));
+}
+
+TEST(MaterialJson, SettingsThatARepresentationDoesNotHaveAreRefusedByName) {
+    EXPECT_THAT(refusal(with_quality(R"({"representation": "arc", "spikes": 4})")), HasSubstr("/quality/spikes"));
+    EXPECT_THAT(refusal(with_quality(R"({"representation": "arc", "rnak": 4})")),
+                AllOf(HasSubstr("/quality/rnak"), HasSubstr("rank")));
+    EXPECT_THAT(refusal(with_quality(R"({"representation": "arc", "rank": 17})")), HasSubstr("/quality/rank"));
+    EXPECT_THAT(refusal(with_quality(R"({"representation": "arc", "view_mapping": "parabolic"})")),
+                HasSubstr("/quality/view_mapping"));
+    EXPECT_THAT(refusal(with_quality(R"({"representation": "spikes", "bands": 16, "spikes": 64})")),
+                AllOf(HasSubstr("/quality/spikes"), HasSubstr("2048")));
+    EXPECT_THAT(refusal(with_quality(R"({"representation": "plannar"})")), HasSubstr("\"planar\""));
+    EXPECT_THAT(refusal(with_quality(R"({"representation": "streak"})")), HasSubstr("/quality/representation"));
+}
+
+TEST(MaterialJson, LobesThatARepresentationCannotShadeAreRefused) {
+    const std::string sigma = R"({"sigma": 0.2})";
+    EXPECT_THAT(refusal(with_quality(R"({"representation": "planar"})", sigma)), HasSubstr("/quality/representation"));
+    EXPECT_THAT(refusal(with_quality(R"({"representation": "circle"})", sigma)), HasSubstr("/quality/representation"));
+    EXPECT_THAT(refusal(with_quality(R"({"representation": "bins", "view_mapping": "one-dimensional"})", sigma)),
+                HasSubstr("/quality/view_mapping"));
+    EXPECT_NO_THROW(parse(with_quality(R"({"representation": "arc"})", sigma)));
 }
 
 TEST(MaterialJson, AllOrdersAreThoseThatPropagateSomewhere) {
@@ -84,22 +152,140 @@ TEST(MaterialJson, AnUnknownKeyNamesTheNearestValidOne) {
                 HasSubstr("pitch_nm"));
 }
 
-TEST(MaterialJson, ValuesOutOfTheirDomainAreRefusedWithTheirPlace) {
-    EXPECT_THAT(refusal(R"({"grating": {"pitch_nm": 0, "profile": {"type": "slit", "width_nm": 800}}})"),
-                HasSubstr("/grating/pitch_nm"));
-    EXPECT_THAT(refusal(R"({"grating": {"pitch_nm": 1600, "profile": {"type": "slit", "width_nm": 1601}}})"),
-                HasSubstr("/grating/profile/width_nm"));
-    EXPECT_THAT(
-        refusal(R"({"grating": {"pitch_nm": 1600, "profile": {"type": "lamellar", "duty": 1.2, "depth_nm": 1}}})"),
-        HasSubstr("/grating/profile/duty"));
-    EXPECT_THAT(refusal(R"({"grating": {"pitch_nm": 1600, "profile": {"type": "slitt", "width_nm": 800}}})"),
-                HasSubstr("\"slit\""));
-    EXPECT_THAT(refusal(grating(R"(, "grooves": 0)")), HasSubstr("/grating/grooves"));
+std::string with_profile(const std::string& profile, const std::string& pitch = "1600", const std::string& more = "") {
+    return R"({"grating": {"pitch_nm": )" + pitch + R"(, "profile": )" + profile + more + "}}";
+}
+
+const std::string kSlit = R"({"type": "slit", "width_nm": 800})";
+
+TEST(MaterialJson, PitchOutOfItsDomainIsRefused) {
+    for (const char* pitch : {"0", "-1600", "0.5", "1e8", "\"1600\"", "null", "true"})
+        EXPECT_THAT(refusal(with_profile(kSlit, pitch)), AllOf(HasSubstr("m.json"), HasSubstr("/grating/pitch_nm")));
+    EXPECT_THAT(refusal(R"({"grating": {"profile": {"type": "slit", "width_nm": 800}}})"), HasSubstr("pitch_nm"));
+}
+
+/// JSON has no NaN and no infinity: the text itself is refused.
+TEST(MaterialJson, NumbersThatAreNoneAreRefused) {
+    for (const char* pitch : {"NaN", "nan", "Infinity", "-inf", "1e999"})
+        EXPECT_THAT(refusal(with_profile(kSlit, pitch)), HasSubstr("m.json"));
+}
+
+TEST(MaterialJson, SlitsWiderThanTheirPitchAreRefused) {
+    for (const char* width : {"1600.5", "0", "-5"})
+        EXPECT_THAT(refusal(with_profile(R"({"type": "slit", "width_nm": )" + std::string(width) + "}")),
+                    HasSubstr("/grating/profile/width_nm"));
+    EXPECT_NO_THROW(parse(with_profile(R"({"type": "slit", "width_nm": 1600})")));
+}
+
+TEST(MaterialJson, DutiesOutsideTheirOpenIntervalAreRefused) {
+    for (const char* duty : {"0", "1", "-0.2", "1.2"})
+        EXPECT_THAT(refusal(with_profile(R"({"type": "lamellar", "depth_nm": 1, "duty": )" + std::string(duty) + "}")),
+                    HasSubstr("/grating/profile/duty"));
+}
+
+TEST(MaterialJson, DepthsOfNothingAreRefused) {
+    for (const char* type : {"sinusoidal", "blazed"})
+        for (const char* depth : {"0", "-100"})
+            EXPECT_THAT(refusal(with_profile(R"({"type": ")" + std::string(type) + R"(", "depth_nm": )" + depth + "}")),
+                        HasSubstr("/grating/profile/depth_nm"));
+}
+
+TEST(MaterialJson, UnknownProfilesNameTheNearestOne) {
+    EXPECT_THAT(refusal(with_profile(R"({"type": "slitt", "width_nm": 800})")), HasSubstr("\"slit\""));
+    EXPECT_THAT(refusal(with_profile(R"({"type": "slit", "width": 800})")), HasSubstr("width_nm"));
+}
+
+TEST(MaterialJson, FewerGroovesThanOneAreRefused) {
+    for (const char* grooves : {"0", "0.5", "-3"})
+        EXPECT_THAT(refusal(grating(R"(, "grooves": )" + std::string(grooves))), HasSubstr("/grating/grooves"));
+    EXPECT_EQ(parse(grating(R"(, "grooves": 1)")).grating.grooves, 1.0);
+}
+
+TEST(MaterialJson, OrdersThatAreNoListOfWholeNumbersAreRefused) {
     EXPECT_THAT(refusal(grating(R"(, "orders": [])")), HasSubstr("/grating/orders"));
+    EXPECT_THAT(refusal(grating(R"(, "orders": "every")")), HasSubstr("\"all\""));
     EXPECT_THAT(refusal(grating(R"(, "orders": [1, 1.5])")), HasSubstr("/grating/orders/1"));
+    EXPECT_THAT(refusal(grating(R"(, "orders": [1, 10001])")), HasSubstr("/grating/orders/1"));
     EXPECT_THAT(refusal(grating(R"(, "orders": [1, 1])")), HasSubstr("twice"));
-    EXPECT_THAT(refusal(grating(R"(, "groove_lobe": {"sigma": 0})")), HasSubstr("/grating/groove_lobe/sigma"));
+}
+
+TEST(MaterialJson, AllOrdersOfACoarseGratingAreTaken) {
+    EXPECT_EQ(parse(with_profile(kSlit, "50000", R"(, "orders": "all")")).grating.orders.size(), 2U * 263U);
+    EXPECT_THAT(refusal(with_profile(kSlit, "1e6", R"(, "orders": "all")")),
+                AllOf(HasSubstr("/grating/orders"), HasSubstr("190000")));
+}
+
+TEST(MaterialJson, LobesOutOfTheirDomainAreRefused) {
+    const auto lobe = [](const std::string& value) { return refusal(grating(R"(, "groove_lobe": )" + value)); };
+    EXPECT_THAT(lobe(R"({"sigma": 0})"), HasSubstr("/grating/groove_lobe/sigma"));
+    EXPECT_THAT(lobe("0.2"), AllOf(HasSubstr("/grating/groove_lobe"), HasSubstr("pits")));
+    EXPECT_THAT(lobe(R"({"sigma": 0.2, "pits": {"length_nm": 850, "coherent": 0.3}})"), HasSubstr("sigma"));
+    EXPECT_THAT(lobe(R"({"pits": {"length_nm": 850}})"), HasSubstr("/grating/groove_lobe/pits/coherent"));
+    EXPECT_THAT(lobe(R"({"pits": {"length_nm": 0, "coherent": 0.3}})"),
+                HasSubstr("/grating/groove_lobe/pits/length_nm"));
+    EXPECT_THAT(lobe(R"({"pits": {"length_nm": 850, "coherent": 1.3}})"),
+                HasSubstr("/grating/groove_lobe/pits/coherent"));
+}
+
+TEST(MaterialJson, PitsReachTheMaterial) {
+    const Material material = parse(grating(R"(, "groove_lobe": {"pits": {"length_nm": 900, "coherent": 0.4}})"));
+    EXPECT_EQ(std::get<PitsLobe>(material.grating.lobe).length_nm, 900.0);
+    EXPECT_EQ(std::get<PitsLobe>(material.grating.lobe).coherent, 0.4);
+}
+
+TEST(MaterialJson, MetalsAndBasesOutOfTheirDomainAreRefused) {
+    const auto beside = [](const std::string& member) {
+        return refusal(R"({"grating": {"pitch_nm": 1600, "profile": )" + kSlit + "}, " + member + "}");
+    };
+    EXPECT_THAT(beside(R"("metal": "Fe")"), HasSubstr("/metal"));
+    EXPECT_THAT(beside(R"("base": {"color": [0.1, 0.2]})"), HasSubstr("/base/color"));
+    EXPECT_THAT(beside(R"("base": {"color": [0.1, 0.2, 1.1]})"), HasSubstr("/base/color/2"));
+    EXPECT_THAT(beside(R"("base": {"roughness": 2})"), HasSubstr("/base/roughness"));
+    EXPECT_THAT(beside(R"("quality": {"max_error": 0})"), HasSubstr("/quality/max_error"));
     EXPECT_THAT(refusal("[]"), HasSubstr("object"));
+}
+
+/// A material with a table, whatever its name, of this text.
+Material parse_with_table(const std::string& text, const std::string& table) {
+    return parse_material(parse_json(text, "m.json"), "m.json",
+                          [&](const std::string& name) { return NamedText{.text = table, .file = "folder/" + name}; });
+}
+
+const std::string kTable = R"({"type": "table", "file": "t.csv"})";
+
+TEST(MaterialJson, ATableIsReadBesideTheMaterial) {
+    const rowland::test::TemporaryFolder folder;
+    write_file_atomic(folder.path() / "t.csv", "wavelength_nm,R-1,R+1\n500,0.1,0.4\n");
+    write_file_atomic(folder.path() / "m.json", with_profile(kTable));
+    const Material material = load_material(folder.path() / "m.json");
+    EXPECT_EQ(profile_efficiency(material.grating.profile, 1600.0, 1, 500.0), 0.4);
+    EXPECT_EQ(profile_efficiency(material.grating.profile, 1600.0, -1, 500.0), 0.1);
+    EXPECT_EQ(profile_efficiency(material.grating.profile, 1600.0, 2, 500.0), 0.0);
+}
+
+TEST(MaterialJson, ABadTableIsNamedByItsOwnFile) {
+    const auto read = [&] { parse_with_table(with_profile(kTable), "wavelength_nm,R+1\n500,1.4\n"); };
+    EXPECT_THAT(rowland::test::message_of(read), AllOf(HasSubstr("folder/t.csv: row 2"), HasSubstr("1.4")));
+    EXPECT_THAT(refusal(with_profile(R"({"type": "table", "file": "no_such_table.csv"})")),
+                HasSubstr("no_such_table.csv"));
+    EXPECT_THAT(refusal(with_profile(R"({"type": "table", "file": ""})")), HasSubstr("/grating/profile/file"));
+}
+
+TEST(MaterialJson, AMetalBesideATableIsRefused) {
+    const auto read = [&] {
+        parse_with_table(R"({"grating": {"pitch_nm": 1600, "profile": )" + kTable + R"(}, "metal": "Al"})",
+                         "wavelength_nm,R+1\n500,0.4\n");
+    };
+    EXPECT_THAT(rowland::test::message_of(read), AllOf(HasSubstr("m.json: /metal"), HasSubstr("already")));
+}
+
+TEST(MaterialJson, FewGroovesNeedAGrooveAndOneLobeForAllWavelengths) {
+    const auto read = [&] {
+        parse_with_table(with_profile(kTable, "1600", R"(, "grooves": 49)"), "wavelength_nm,R+1\n500,0.4\n");
+    };
+    EXPECT_THAT(rowland::test::message_of(read), AllOf(HasSubstr("/grating/grooves"), HasSubstr("table")));
+    EXPECT_THAT(refusal(grating(R"(, "grooves": 7, "groove_lobe": {"pits": {"length_nm": 850, "coherent": 0.3}})")),
+                AllOf(HasSubstr("/grating/grooves"), HasSubstr("pits")));
 }
 
 TEST(MaterialJson, AguNormalisationIsForTheSlitOnly) {

@@ -38,8 +38,9 @@ TEST(ArcCoefficients, MatchTheOracle) {
 /// The slow twin: the defining integral by a midpoint rule of 1e5 nodes, 1e-9 of it.
 TEST(ArcCoefficients, AreTheDefiningIntegralForEveryLobe) {
     const int bands = 5;
-    for (const GrooveLobe& lobe : {GrooveLobe{FlatLobe{}}, GrooveLobe{GaussianLobe{0.02}},
-                                   GrooveLobe{GaussianLobe{0.2}}, GrooveLobe{GaussianLobe{2.0}}}) {
+    for (const GrooveLobe& lobe :
+         {GrooveLobe{FlatLobe{}}, GrooveLobe{GaussianLobe{0.02}}, GrooveLobe{GaussianLobe{0.2}},
+          GrooveLobe{GaussianLobe{2.0}}, GrooveLobe{PitsLobe{850.0, 0.3}}, GrooveLobe{PitsLobe{4000.0, 0.0}}}) {
         const ArcCoefficients arcs(bands, lobe);
         for (const double a : {-0.95, 0.0, 0.4}) {
             for (const double v_h : {-0.9, 0.0, 0.25}) {

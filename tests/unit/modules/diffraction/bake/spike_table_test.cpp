@@ -131,17 +131,47 @@ TEST(SpikeTable, DefaultResolutionKeepsTheNamedFrames) {
     const SpikeBaker baker(disc, SpikeSettings());
     std::vector<glm::dvec3> exact;
     std::vector<glm::dvec3> sampled;
-    const colour::LightSpectra spectra;
     for (const Frame& frame : test::read_frames(rowland::test::read_csv(frames_path))) {
         const glm::dmat3 tangent = world_to_tangent(frame);
         lighting::ShLight rotated{5, std::vector<glm::dvec3>(25)};
         math::ShRotation(tangent, 5)
             .apply(std::span<const glm::dvec3>(light.coefficients), std::span<glm::dvec3>(rotated.coefficients));
         const glm::dvec3 v = tangent * glm::normalize(frame.view);
-        exact.push_back(evaluate_spikes(baker.bake(v.x, v.y), rotated, spectra));
-        sampled.push_back(evaluate_spikes(sample(table, v.x, v.y, v.z), rotated, spectra));
+        exact.push_back(evaluate_spikes(baker.bake(v.x, v.y), rotated));
+        sampled.push_back(evaluate_spikes(sample(table, v.x, v.y, v.z), rotated));
     }
     EXPECT_LT(test::relative_rms(sampled, exact), 0.005);
+}
+
+/// The other mappings and storages, with one test's words: a node is its own view, a row of v_g for the flat lobe.
+TEST(SpikeTable, TakesEveryMappingAndStorage) {
+    for (const Storage storage : {Storage::Unorm16, Storage::Half, Storage::Float, Storage::Unorm8}) {
+        SpikeTableSettings settings = small(storage);
+        settings.mapping = ViewMapping::Parabolic;
+        const SpikeTable table = bake_spike_table(foil(), settings);
+        const glm::dvec2 v = node_view(table.grid(), 5, 1);
+        const SpikeSet exact = bake_spikes(foil(), v.x, v.y, settings.spikes);
+        const SpikeSet stored = sample(table, v.x, v.y, std::sqrt(1.0 - glm::dot(v, v)));
+        for (std::size_t i = 0; i < exact.coefficients.size(); ++i) {
+            const auto layer = i / 16 * static_cast<std::size_t>(table.layers_per_spike) + i % 16 / 4;
+            const double range = static_cast<double>(table.scale[layer][static_cast<int>(i % 4)]);
+            EXPECT_NEAR(stored.coefficients[i], exact.coefficients[i],
+                        storage == Storage::Unorm8  ? 0.51 / 255.0 * range
+                        : storage == Storage::Float ? 1e-7
+                                                    : 3e-4 * range);
+        }
+        ByteWriter writer;
+        write_spike_table(table, writer);
+        ByteReader reader(writer.data(), "table");
+        const SpikeTable back = read_spike_table(reader);
+        EXPECT_EQ(back.mapping, ViewMapping::Parabolic);
+        EXPECT_EQ(back.storage, storage);
+        EXPECT_EQ(back.texels, table.texels);
+    }
+    SpikeTableSettings line = small(Storage::Float);
+    line.mapping = ViewMapping::OneDimensional;
+    line.theta_nodes = 1;
+    EXPECT_THROW(bake_spike_table(foil(), line), Error);
 }
 
 std::vector<std::byte> written(const SpikeTable& table) {

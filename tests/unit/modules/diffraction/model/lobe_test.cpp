@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 namespace rowland::diffraction {
 namespace {
 
@@ -32,6 +36,60 @@ TEST(Lobe, IsBelowAnyNoticeBeyondItsHalfWidth) {
     EXPECT_LT(lobe_density(lobe, lobe_half_width(lobe), 550.0), 1e-15 * lobe_density(lobe, 0.0, 550.0));
     EXPECT_EQ(lobe_half_width(GaussianLobe{3.0}), 2.0);
     EXPECT_EQ(lobe_half_width(FlatLobe{}), 2.0);
+}
+
+/// PHYSICS §3: κ·G + (1−κ)·(ℓ/λ) sinc²(ℓz/λ), here at its peak, its first zero and between. 0.0794: G at 2.5 σ.
+TEST(Lobe, PitsAreACoherentBumpAndASincSquared) {
+    const PitsLobe pits{.length_nm = 1100.0, .coherent = 0.3};
+    const double peak = 1.0 / (kCoherentSigma * std::sqrt(2.0 * std::numbers::pi));
+    EXPECT_NEAR(lobe_density(pits, 0.0, 550.0), 0.3 * peak + 0.7 * 2.0, 1e-12);
+    EXPECT_NEAR(lobe_density(pits, 0.5, 550.0), 0.0, 1e-15);
+    EXPECT_NEAR(lobe_density(pits, 0.25, 550.0), 0.7 * 2.0 * 4.0 / (std::numbers::pi * std::numbers::pi), 1e-12);
+    EXPECT_NEAR(lobe_density(pits, 0.05, 550.0) -
+                    0.7 * 2.0 * std::pow(std::sin(0.1 * std::numbers::pi) / (0.1 * std::numbers::pi), 2),
+                0.3 * peak * std::exp(-3.125), 1e-12);
+}
+
+TEST(Lobe, PitsWidenWithWavelength) {
+    const PitsLobe pits{.length_nm = 850.0, .coherent = 0.0};
+    EXPECT_GT(lobe_density(pits, 0.6, 700.0), lobe_density(pits, 0.6, 450.0));
+    EXPECT_NEAR(lobe_density(pits, 450.0 / 850.0, 450.0), 0.0, 1e-15);
+}
+
+TEST(Lobe, WhollyCoherentPitsAreTheGaussian) {
+    const PitsLobe pits{.length_nm = 850.0, .coherent = 1.0};
+    for (const double z : {-0.07, 0.0, 0.03, 1.4})
+        EXPECT_EQ(lobe_density(pits, z, 550.0), lobe_density(GaussianLobe{kCoherentSigma}, z, 550.0));
+    EXPECT_EQ(lobe_half_width(pits), lobe_half_width(GaussianLobe{kCoherentSigma}));
+}
+
+/// A share of ∫ over any stretch of length 2 (what a view at v_h leaves to s_h ∈ [−1, 1]); midpoint rule, 1e-6.
+TEST(Lobe, NeverAddsPower) {
+    for (const GrooveLobe& lobe :
+         {GrooveLobe{FlatLobe{}}, GrooveLobe{GaussianLobe{0.02}}, GrooveLobe{GaussianLobe{0.4}},
+          GrooveLobe{GaussianLobe{5.0}}, GrooveLobe{PitsLobe{850.0, 0.3}}, GrooveLobe{PitsLobe{100.0, 0.0}},
+          GrooveLobe{PitsLobe{20000.0, 0.5}}}) {
+        double largest = 0.0;
+        for (const double v_h : {-0.9, -0.3, 0.0, 0.5, 1.0}) {
+            double sum = 0.0;
+            const int nodes = 20000;
+            for (int i = 0; i < nodes; ++i)
+                sum += lobe_density(lobe, v_h + (i + 0.5) * 2.0 / nodes - 1.0, 550.0) * 2.0 / nodes;
+            EXPECT_LT(sum, 1.0 + 1e-6) << lobe.index() << " " << v_h;
+            largest = std::max(largest, sum);
+        }
+        EXPECT_GT(largest, lobe.index() == 2 ? 0.15 : 1.0 - 1e-6) << lobe.index();
+    }
+}
+
+TEST(Lobe, PitsAreSplitAtTheirBump) {
+    const PitsLobe pits{.length_nm = 850.0, .coherent = 0.3};
+    EXPECT_EQ(lobe_half_width(pits), 2.0);
+    EXPECT_EQ(lobe_core_half_width(pits), lobe_half_width(GaussianLobe{kCoherentSigma}));
+    EXPECT_EQ(lobe_core_half_width(PitsLobe{850.0, 0.0}), 2.0);
+    EXPECT_EQ(lobe_feature_size(pits), kCoherentSigma);
+    EXPECT_EQ(lobe_feature_size(PitsLobe{38000.0, 0.3}), 0.01);
+    EXPECT_FALSE(is_flat(pits));
 }
 
 }  // namespace

@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <random>
 #include <string>
+#include <vector>
 
 #include "tests/support/csv.h"
 #include "tests/support/test_data.h"
@@ -70,6 +74,32 @@ TEST(Profile, PhaseGratingOrdersSumToOne) {
     EXPECT_NEAR(sum_of_orders(LamellarProfile{0.43, 100.0}, 10000), 1.0, 1e-4);
     EXPECT_NEAR(sum_of_orders(BlazedProfile{260.0}, 10000), 1.0, 3e-5);
     EXPECT_NEAR(sum_of_orders(SinusoidalProfile{150.0}, 40), 1.0, 1e-12);
+}
+
+/// No setting makes more light than falls in: 400 random ones a profile. Sums of squares of closed forms: rounding.
+TEST(Profile, OrdersNeverSumToMoreThanOne) {
+    std::mt19937 generator(11);
+    std::uniform_real_distribution<double> unit(0.001, 0.999);
+    const std::vector<std::function<Profile()>> draws = {
+        [&] { return SlitProfile{kPitch_nm * unit(generator)}; },
+        [&] {
+            return LamellarProfile{unit(generator), 1500.0 * unit(generator)};
+        },
+        [&] { return SinusoidalProfile{1500.0 * unit(generator)}; },
+        [&] { return BlazedProfile{1500.0 * unit(generator)}; }};
+    for (const auto& draw : draws) {
+        double largest = 0.0;
+        for (int i = 0; i < 400; ++i) {
+            const Profile profile = draw();
+            const double wavelength_nm = 380.0 + 400.0 * unit(generator);
+            double sum = 0.0;
+            for (int order = -200; order <= 200; ++order)
+                sum += profile_efficiency(profile, kPitch_nm, order, wavelength_nm);
+            largest = std::max(largest, sum);
+        }
+        EXPECT_LE(largest, 1.0 + 1e-12) << draw().index();
+        EXPECT_GT(largest, 0.99) << draw().index();
+    }
 }
 
 TEST(Profile, FullWidthSlitIsAMirror) {

@@ -1,0 +1,85 @@
+#include "modules/diffraction/bake/blurred_kernel.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/check.h"
+#include "engine/core/parallel.h"
+
+namespace rowland::diffraction {
+
+namespace {
+
+constexpr double kNarrowest_nm = 4.0;
+
+/// Deviations after which a normal distribution is cut off: 6e-5 of it is lost.
+constexpr double kReach = 4.0;
+
+/// Shares of a normal distribution in cells of `step` around its centre, summing to 1: of cells 0, ±1, ±2, …
+std::vector<double> stencil(double deviation, double step) {
+    std::vector<double> shares;
+    double sum = 0.0;
+    for (int i = 0; i * step <= kReach * deviation; ++i) {
+        const double scale = 1.0 / (std::sqrt(2.0) * deviation);
+        shares.push_back(0.5 * (std::erf((i + 0.5) * step * scale) - std::erf((i - 0.5) * step * scale)));
+        sum += (i == 0 ? 1.0 : 2.0) * shares.back();
+    }
+    for (double& share : shares) share /= sum;
+    return shares;
+}
+
+}  // namespace
+
+glm::dmat3 BlurredKernel::at(double x_nm, double deviation_nm) const {
+    const auto place = [](double position, int count, int& low) {
+        const double inside = std::clamp(position, 0.0, static_cast<double>(count - 1));
+        low = std::min(static_cast<int>(inside), count - 2);
+        return inside - low;
+    };
+    int column = 0;
+    int level = 0;
+    const double s = place((x_nm - begin_nm) / (end_nm - begin_nm) * (columns - 1), columns, column);
+    const double t =
+        place(std::log2(std::max(deviation_nm, narrowest_nm) / narrowest_nm) * kLevelsPerOctave, levels, level);
+    const auto value = [&](int i, int j) {
+        return glm::dmat3(
+            values[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(i)]);
+    };
+    return (1.0 - t) * ((1.0 - s) * value(column, level) + s * value(column + 1, level)) +
+           t * ((1.0 - s) * value(column, level + 1) + s * value(column + 1, level + 1));
+}
+
+BlurredKernel blur(const KernelTable& kernel, double widest_nm, int columns) {
+    ROWLAND_CHECK_OP(widest_nm, >=, kNarrowest_nm);
+    ROWLAND_CHECK_OP(columns, >=, 2);
+    BlurredKernel blurred{.narrowest_nm = kNarrowest_nm, .columns = columns, .values = {}};
+    blurred.levels = 2 + static_cast<int>(std::ceil(std::log2(widest_nm / kNarrowest_nm) * kLevelsPerOctave));
+    const auto deviation_of = [&](int level) {
+        return kNarrowest_nm * std::exp2(static_cast<double>(level) / kLevelsPerOctave);
+    };
+    const double margin = kReach * deviation_of(blurred.levels - 1) + 1.0;
+    blurred.begin_nm = kernel.begin_nm - margin;
+    blurred.end_nm = kernel.end_nm + margin;
+    const auto size = static_cast<std::size_t>(columns);
+    const double step = (blurred.end_nm - blurred.begin_nm) / (columns - 1);
+    std::vector<glm::dmat3> means(size);
+    for (std::size_t i = 0; i < size; ++i) {
+        const double x = blurred.begin_nm + static_cast<double>(i) * step;
+        means[i] = kernel.average(x - 0.5 * step, x + 0.5 * step);
+    }
+    blurred.values.resize(size * static_cast<std::size_t>(blurred.levels));
+    parallel_for(static_cast<std::size_t>(blurred.levels), [&](std::size_t level) {
+        const std::vector<double> shares = stencil(deviation_of(static_cast<int>(level)), step);
+        for (std::size_t i = 0; i < size; ++i) {
+            glm::dmat3 sum = shares[0] * means[i];
+            for (std::size_t j = 1; j < shares.size(); ++j) {
+                if (i >= j) sum += shares[j] * means[i - j];
+                if (i + j < size) sum += shares[j] * means[i + j];
+            }
+            blurred.values[level * size + i] = glm::mat3(sum);
+        }
+    });
+    return blurred;
+}
+
+}  // namespace rowland::diffraction

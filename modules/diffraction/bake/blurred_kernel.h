@@ -1,0 +1,31 @@
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <vector>
+
+#include "modules/diffraction/model/colour_kernel.h"
+
+namespace rowland::diffraction {
+
+/// k smoothed by normal distributions, over x and the deviation σ: what a light of that extent sees of a grating in one
+/// look-up. A 2D texture, GL_LINEAR, GL_CLAMP_TO_EDGE, three texels (the matrix's columns) a place.
+///   s = ((x − begin)/(end − begin) (columns−1) + ½)/columns
+///   t = (log₂(σ/narrowest)·kLevelsPerOctave + ½)/levels
+struct BlurredKernel {
+    double begin_nm = 0.0;
+    double end_nm = 0.0;
+    double narrowest_nm = 0.0;  ///< σ of level 0
+    int columns = 0;
+    int levels = 0;
+    std::vector<glm::mat3> values;  ///< per nm; level by level
+
+    /// Interpolated as the texture unit does. 0 at the table's ends.
+    glm::dmat3 at(double x_nm, double deviation_nm) const;
+};
+
+inline constexpr int kLevelsPerOctave = 2;
+
+/// σ from 4 nm to `widest_nm` ≥ 4 at least, x as far as 4σ beyond the kernel.
+BlurredKernel blur(const KernelTable& kernel, double widest_nm, int columns = 2048);
+
+}  // namespace rowland::diffraction

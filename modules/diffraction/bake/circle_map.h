@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "engine/lighting/light_texels.h"
+#include "modules/diffraction/model/colour_kernel.h"
+#include "modules/diffraction/model/frame.h"
+
+namespace rowland::diffraction {
+
+/// The radiance of any grating surface of flat lobe under a probe (PHYSICS §6 "circle"): XYZ over the grating vector g
+/// in world space and v_g, as a Fourier series in the normal's angle t around g. Nothing here knows the object.
+///
+/// Chart 0 holds g of the upper half (g_y ≥ 0), chart 1 of the lower, each with a rim beyond the equator. A kernel that
+/// does not change with the sign of x needs chart 0 alone: there (g, v_g) and (−g, −v_g) are one.
+///   chart coordinates: G = g, mirrored into the upper half for chart 1 as (g_x, −g_y, g_z);
+///     p = (G_x, G_z)/(1 + G_y) (stereographic: |p| ≤ 1 on the half, finest where g is level, as on discs that lie flat
+///     and on bodies of revolution that stand);  s, t = ½ + p · scale
+///   angle: e1 = (1,0,0) − G_x/(1+G_y) · (G_x, G_y+1, G_z), e2 = (0,0,1) − G_z/(1+G_y) · (G_x, G_y+1, G_z), both with y
+///     turned back for chart 1; cos t = n·e1, sin t = n·e2
+///   v_g: slice j holds v_g = 2j/(views−1) − 1, both ends included; coordinate (½(v_g+1)(views−1) + ½)/views
+///   values are those whose linear interpolation is best (see kBestLinear), not the radiance at the nodes
+///   XYZ = Σ_i term_i · f_i, f = 1, cos t, sin t, cos 2t, sin 2t, cos 4t, sin 4t (, cos 6t, sin 6t)
+struct CircleMap {
+    int charts = 0;  ///< 1 or 2
+    int terms = 0;   ///< 7 or 9
+    int views = 0;
+    int side = 0;                ///< texels of a chart's side
+    std::vector<glm::vec3> xyz;  ///< see index()
+
+    std::size_t index(int chart, int term, int view, int row, int column) const;
+    /// Scale of chart coordinates to texture coordinates: the equator lies 1½ texels inside the edge.
+    double scale() const { return 0.5 - 1.5 / side; }
+};
+
+struct CircleMapSize {
+    int side = 64;    ///< ≥ 8
+    int views = 128;  ///< ≥ 8
+    int terms = 7;    ///< 7: up to cos 4t; 9: up to cos 6t
+};
+
+/// Fills the map from texels (key lights taken out, which `direct` adds). Uses all cores; the result does not depend on
+/// them. `zero_order_xyz`: as of ColourKernel.
+CircleMap fill_circle_map(const lighting::LightTexels& texels, const KernelTable& kernel, double pitch_nm,
+                          const CircleMapSize& size = {}, const glm::dmat3& zero_order_xyz = glm::dmat3(0.0));
+
+/// XYZ of a frame as texture units interpolate (GL_LINEAR in all three); black for a view below the horizon.
+glm::dvec3 sample(const CircleMap& map, const Frame& frame);
+
+}  // namespace rowland::diffraction

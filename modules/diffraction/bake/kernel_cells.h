@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <glm/mat3x3.hpp>
+#include <span>
+#include <vector>
+
+#include "modules/diffraction/model/colour_kernel.h"
+
+namespace rowland::diffraction {
+
+/// A linear interpolation of f at step h exceeds f by h² f''/12 in the mean: nodes hold f less this share of their
+/// second difference, which more than halves the interpolation's RMS error.
+inline constexpr float kBestLinear = 1.0F / 12.0F;
+
+/// A colour kernel over even cells, for correlating arc profiles with it: 2(views − 1) cells of a ∈ [−1, 1] against
+/// views at v_g = 2j/(views−1) − 1, so that a cell sees one weight for each sum a + v_g. A cell's weight is the
+/// kernel's mean over it.
+class KernelCells {
+ public:
+    KernelCells(const KernelTable& kernel, double pitch_nm, int views, const glm::dmat3& zero_order_xyz);
+
+    int cells() const { return cells_; }
+
+    /// Light in cells of a, as ½ flux · s_n: `light` holds 3·kLanes floats a cell, colour by colour of kLanes
+    /// independent profiles; `xyz` gets 3·kLanes a view, likewise, for linear interpolation. kLanes is 8 or 12.
+    template <int kLanes>
+    void correlate(std::span<const float> light, std::span<float> xyz) const;
+
+    /// One profile: four floats (r, g, b, –) a cell, four (X, Y, Z, –) a view.
+    void correlate_rgb(std::span<const float> light, std::span<float> xyz) const;
+
+ private:
+    /// Lowers the inner views by kBestLinear of their second difference. `floats` a view.
+    void sharpen(std::span<float> xyz, std::size_t floats) const;
+
+    /// Cells that the kernel's weights reach from a view.
+    struct Range {
+        int begin;
+        int end;
+    };
+    Range range(int view) const;
+
+    int views_;
+    int cells_;
+    int first_ = 0;               ///< weights before this and
+    int end_ = 0;                 ///< from this on are 0
+    std::vector<float> weights_;  ///< 12 a sum: columns of the matrix, each padded to four
+};
+
+}  // namespace rowland::diffraction

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "engine/lighting/light_texels.h"
+#include "modules/diffraction/bake/kernel_cells.h"
+#include "modules/diffraction/model/colour_kernel.h"
+#include "modules/diffraction/model/frame.h"
+
+namespace rowland::diffraction {
+
+/// The radiance of a flat grating under a probe, flat lobe (PHYSICS §6 "planar"): XYZ over the azimuth of g in the
+/// plane and v_g. A 2D texture: GL_LINEAR, GL_REPEAT in s, GL_CLAMP_TO_EDGE in t.
+///   azimuth φ: g = cos φ e1 + sin φ e2, column i holds φ = 2π i/azimuths;   s = φ/2π + ½/azimuths
+///   v_g: row j holds v_g = 2j/(views−1) − 1, both ends included;   t = (½(v_g+1)(views−1) + ½)/views
+struct PlanarMap {
+    int azimuths = 0;
+    int views = 0;
+    glm::dvec3 e1{1.0, 0.0, 0.0};  ///< (e1, e2, n) right-handed, world axes
+    glm::dvec3 e2{0.0, 1.0, 0.0};
+    glm::dvec3 n{0.0, 0.0, 1.0};
+    std::vector<glm::vec3> xyz;  ///< row by row of the texture: index j·azimuths + i
+};
+
+struct PlanarMapSize {
+    int azimuths = 128;  ///< even, ≥ 4
+    int views = 128;     ///< ≥ 8
+};
+
+/// Fills a map, all at once or by and by: holds the light as the plane sees it and the kernel's weights, not the
+/// texels.
+class PlanarFill {
+ public:
+    /// `normal`: unit. `zero_order_xyz`: as of ColourKernel. Uses all cores; the result does not depend on them.
+    PlanarFill(const lighting::LightTexels& texels, const KernelTable& kernel, double pitch_nm,
+               const glm::dvec3& normal, const PlanarMapSize& size = {},
+               const glm::dmat3& zero_order_xyz = glm::dmat3(0.0));
+
+    /// The map with its frame, all black.
+    PlanarMap empty() const;
+
+    /// Azimuths [begin, end) of a map from empty() or of an older one of the same size, whose frame becomes this
+    /// fill's. Any order of any parts gives the same map. Values are those whose linear interpolation is best, not the
+    /// radiance at the nodes (see kBestLinear).
+    void fill(int begin, int end, PlanarMap& map) const;
+
+ private:
+    struct Profile;
+    Profile project(int azimuth) const;
+    Profile mirrored(const Profile& profile) const;
+    void correlate(const Profile& profile, int azimuth, PlanarMap& map) const;
+
+    PlanarMapSize size_;
+    glm::dvec3 e1_{0.0};
+    glm::dvec3 e2_{0.0};
+    glm::dvec3 n_{0.0};
+    int cells_;  ///< of A, and of the disc's side
+    KernelCells kernel_;
+    std::vector<float> rows_;     ///< light over the plane's disc, cells_² of (r, g, b, 0): flux · s_n / 2
+    std::vector<float> columns_;  ///< the same, transposed
+};
+
+/// The whole map.
+PlanarMap fill_planar_map(const lighting::LightTexels& texels, const KernelTable& kernel, double pitch_nm,
+                          const glm::dvec3& normal, const PlanarMapSize& size = {},
+                          const glm::dmat3& zero_order_xyz = glm::dmat3(0.0));
+
+/// XYZ at an azimuth (radians, any turn) and a v_g, as the texture unit interpolates.
+glm::dvec3 sample(const PlanarMap& map, double azimuth, double v_g);
+
+/// XYZ of a frame whose normal is the map's; black for a view below the horizon.
+glm::dvec3 sample(const PlanarMap& map, const Frame& frame);
+
+}  // namespace rowland::diffraction

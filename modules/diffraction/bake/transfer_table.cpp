@@ -1,0 +1,85 @@
+#include "modules/diffraction/bake/transfer_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/math/sh_basis.h"
+#include "modules/diffraction/bake/transfer_terms.h"
+
+namespace rowland::diffraction {
+
+namespace {
+
+constexpr std::size_t kComponents = 4;
+constexpr std::size_t kColours = 9;  ///< pairs of a light's channel and a tristimulus
+
+}  // namespace
+
+ViewGrid default_transfer_grid(const GrooveLobe& lobe) {
+    if (is_flat(lobe)) return {.mapping = ViewMapping::OneDimensional, .columns = 256, .rows = 1};
+    return {.mapping = ViewMapping::Spherical, .columns = 64, .rows = 32};
+}
+
+TransferTable bake_transfer_table(const Grating& grating, const TransferSettings& settings) {
+    TransferTable table;
+    table.bands = settings.bands;
+    table.grid = settings.grid.value_or(default_transfer_grid(grating.lobe));
+    table.storage = settings.storage;
+    check_view_grid(table.grid, grating.lobe);
+
+    const TransferTerms terms(grating, colour::LightSpectra(settings.illuminant), table.bands);
+    const std::vector<double> signs = mirror_signs(table.bands);
+    const auto blocks = static_cast<std::size_t>(transfer_layers(table.bands));
+    const std::size_t texels = table.grid.texels();
+    std::vector<double> values(kColours * blocks * texels * kComponents, 0.0);
+    for_each_view("baking transfer", table.grid, [&](const glm::dvec2& view, std::size_t texel, std::size_t mirror) {
+        const std::vector<glm::dmat3> coefficients = terms.coefficients(view.x, view.y);
+        for (std::size_t pair = 0; pair < kColours; ++pair)
+            for (std::size_t i = 0; i < coefficients.size(); ++i) {
+                const std::size_t layer = pair * blocks + i / kComponents;
+                const double value = coefficients[i][static_cast<int>(pair / 3)][static_cast<int>(pair % 3)];
+                const auto at = [&](std::size_t t) -> double& {
+                    return values[(layer * texels + t) * kComponents + i % kComponents];
+                };
+                at(texel) = value;
+                if (mirror != texel) at(mirror) = signs[i] * value;
+            }
+    });
+    pack(values, kColours * blocks, table);
+    return table;
+}
+
+glm::dvec3 evaluate(const TransferTable& table, const lighting::ShLight& tangent_light, const glm::dvec3& view) {
+    glm::dvec3 xyz(0.0);
+    if (!(view.z > 0.0)) return xyz;
+    const BilinearLookup place = look_up(table.grid, view.x, view.y, view.z);
+    const auto blocks = static_cast<std::size_t>(transfer_layers(table.bands));
+    const std::size_t common =
+        std::min(static_cast<std::size_t>(math::sh_count(table.bands)), tangent_light.coefficients.size());
+    for (std::size_t pair = 0; pair < kColours; ++pair)
+        for (std::size_t i = 0; i < common; ++i)
+            xyz[static_cast<int>(pair % 3)] +=
+                tangent_light.coefficients[i][static_cast<int>(pair / 3)] *
+                filtered(table, pair * blocks + i / kComponents, table.grid.texels(), i % kComponents, place);
+    return xyz;
+}
+
+void write_transfer_table(const TransferTable& table, ByteWriter& writer) {
+    writer.value<std::int32_t>(table.bands);
+    write_view_grid(table.grid, writer);
+    writer.value(static_cast<std::uint8_t>(table.storage));
+    write_packed_texels(table, writer);
+}
+
+TransferTable read_transfer_table(ByteReader& reader) {
+    TransferTable table;
+    table.bands = read_count(reader, "bands", 1, math::kMaximumBands);
+    table.grid = read_view_grid(reader);
+    table.storage = to_storage(reader, reader.value<std::uint8_t>());
+    read_packed_texels(reader, kColours * static_cast<std::size_t>(transfer_layers(table.bands)), table.grid.texels(),
+                       table);
+    return table;
+}
+
+}  // namespace rowland::diffraction

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <span>
+#include <vector>
+
+#include "engine/colour/light_spectra.h"
+#include "modules/diffraction/bake/arc_coefficients.h"
+#include "modules/diffraction/bake/arc_moments.h"
+#include "modules/diffraction/model/grating.h"
+
+namespace rowland::diffraction {
+
+/// What every wavelength of every listed order of a grating adds to XYZ, in front of the light on its arc; and the sum
+/// of it over a view's arcs (PHYSICS §5): c_i,o,c(v) = Σ_m ∫ η_m(λ) cmf_o(λ) E_c(λ) C_i(mλ/d − v_g) dλ, which is
+/// d ∫ C_i(a) k_o,c(d(a+v_g)) da without the detour over x, and with the lobe's wavelength known.
+class TransferTerms {
+ public:
+    /// N → ∞: throws Error (input) for fewer than kManyGrooves grooves, which only the reference can do.
+    TransferTerms(const Grating& grating, const colour::LightSpectra& spectra, int bands);
+
+    /// c_i for a view, [i] RGB in, XYZ out; bands² matrices in the frame (g, h, n). The weight is linear between whole
+    /// nanometres, as in ColourKernel, and each nanometre's part above the horizon takes two Gauss–Legendre nodes in
+    /// the arc's angle: 1e-8 exact for the flat lobe.
+    std::vector<glm::dmat3> coefficients(double v_g, double v_h) const;
+
+    /// The same in front of the 2·bands − 1 arc moments (arc_moments.h): T_k(v_g), [k]. The lobe must be flat.
+    /// `pitch_factor` scales the pitch, not the efficiencies.
+    std::vector<glm::dmat3> moments(double v_g, double pitch_factor = 1.0) const;
+
+ private:
+    /// Calls use(a, wavelength_nm, weight) for every arc of the quadrature.
+    template <typename Use>
+    void each_arc(double v_g, double pitch_nm, const Use& use) const;
+    std::vector<glm::dmat3> lobe_coefficients(double v_g, double v_h) const;
+
+    double pitch_nm_;
+    bool flat_;
+    std::vector<int> orders_;
+    std::vector<glm::dmat3> weights_;  ///< order by order, one a nanometre
+    ArcCoefficients arcs_;
+    ArcMoments moments_;
+};
+
+/// Throws Error (input) for fewer than kManyGrooves grooves: what is baked holds for N → ∞.
+void require_many_grooves(const Grating& grating);
+
+}  // namespace rowland::diffraction

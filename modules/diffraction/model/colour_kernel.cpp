@@ -1,0 +1,206 @@
+#include "modules/diffraction/model/colour_kernel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/matrix.hpp>
+
+#include "engine/colour/observer.h"
+#include "engine/core/check.h"
+#include "engine/core/parallel.h"
+#include "modules/diffraction/model/efficiency.h"
+#include "modules/diffraction/model/fejer.h"
+#include "modules/diffraction/model/grating_equation.h"
+
+namespace rowland::diffraction {
+
+namespace {
+
+constexpr std::size_t kNanometres = colour::kVisibleMax - colour::kVisibleMin;
+
+/// Nodes of a blurred kernel per width λ/N of the sharpest order: linear interpolation of its peak is then off by
+/// 8e-4 of it.
+constexpr double kNodesPerWidth = 32.0;
+
+/// Steps of the phase N x/λ that a sum over wavelengths may take: a 1/8 of the Fejér ratio's period.
+constexpr double kPhaseStep = 0.125;
+
+/// cmf(λ) E(λ)ᵀ.
+glm::dmat3 observed_spectra(const colour::LightSpectra& spectra, double wavelength_nm) {
+    return glm::outerProduct(colour::cie_xyz(wavelength_nm), spectra(wavelength_nm));
+}
+
+double largest_component(const glm::dmat3& matrix) {
+    double largest = 0.0;
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row) largest = std::max(largest, std::abs(matrix[column][row]));
+    return largest;
+}
+
+bool lists(const Grating& grating, int order) {
+    return std::binary_search(grating.orders.begin(), grating.orders.end(), order);
+}
+
+/// The light of few grooves at one path difference: every wavelength reaches it, by its Fejér ratio.
+glm::dmat3 blurred(const Grating& grating, std::span<const glm::dmat3> observed, double steps_per_nm, double x_nm) {
+    glm::dmat3 sum(0.0);
+    for (std::size_t i = 0; i < observed.size(); ++i) {
+        const double wavelength_nm = colour::kVisibleMin + static_cast<double>(i) / steps_per_nm;
+        const double fractional_order = x_nm / wavelength_nm;
+        const double nearest = std::round(fractional_order);
+        const int order = static_cast<int>(nearest);
+        if (!lists(grating, order) || !propagates(order, wavelength_nm, grating.pitch_nm)) continue;
+        const double weight = (i == 0 || i + 1 == observed.size() ? 0.5 : 1.0) / steps_per_nm * grating.grooves /
+                              wavelength_nm * fejer(grating.grooves, fractional_order - nearest) *
+                              fractional_order_efficiency(grating, fractional_order, wavelength_nm);
+        sum += weight * observed[i];
+    }
+    return sum;
+}
+
+}  // namespace
+
+ColourKernel::Curve::Curve(double start, double step, std::vector<glm::dmat3> values)
+    : start_(start), step_(step), values_(std::move(values)), integral_(values_.size(), glm::dmat3(0.0)) {
+    ROWLAND_CHECK_OP(values_.size(), >=, std::size_t{2});
+    for (std::size_t i = 1; i < values_.size(); ++i)
+        integral_[i] = integral_[i - 1] + (0.5 * step_) * (values_[i - 1] + values_[i]);
+}
+
+glm::dmat3 ColourKernel::Curve::value(double at) const {
+    const double position = (at - start_) / step_;
+    const auto last = static_cast<double>(values_.size() - 1);
+    if (!(position >= 0.0 && position <= last)) return glm::dmat3(0.0);
+    const std::size_t i = std::min(static_cast<std::size_t>(position), values_.size() - 2);
+    const double t = position - static_cast<double>(i);
+    return (1.0 - t) * values_[i] + t * values_[i + 1];
+}
+
+glm::dmat3 ColourKernel::Curve::integral_to(double at) const {
+    const double position = (at - start_) / step_;
+    if (!(position > 0.0)) return glm::dmat3(0.0);
+    if (position >= static_cast<double>(values_.size() - 1)) return integral_.back();
+    const auto i = static_cast<std::size_t>(position);
+    const double t = position - static_cast<double>(i);
+    return integral_[i] + (step_ * t) * ((1.0 - 0.5 * t) * values_[i] + (0.5 * t) * values_[i + 1]);
+}
+
+ColourKernel::ColourKernel(const Grating& grating, const colour::LightSpectra& spectra) {
+    ROWLAND_CHECK_OP(grating.pitch_nm, >, 0.0);
+    ROWLAND_CHECK_OP(grating.grooves, >=, 1.0);
+    if (grating.grooves < kManyGrooves) {
+        add_wide_orders(grating, spectra);
+        return;
+    }
+    std::vector<glm::dmat3> observed;
+    for (std::size_t j = 0; j <= kNanometres; ++j)
+        observed.push_back(observed_spectra(spectra, colour::kVisibleMin + static_cast<double>(j)));
+    add_sharp_orders(grating, observed);
+}
+
+void ColourKernel::add_sharp_orders(const Grating& grating, std::span<const glm::dmat3> observed) {
+    for (const int order : grating.orders) {
+        std::vector<glm::dmat3> values;
+        for (std::size_t j = 0; j < observed.size(); ++j) {
+            const double wavelength_nm = colour::kVisibleMin + static_cast<double>(j);
+            values.push_back(order_efficiency(grating, order, wavelength_nm) * observed[j]);
+        }
+        Curve curve(colour::kVisibleMin, 1.0, std::move(values));
+        if (order == 0)
+            zero_order_ = curve.integral_to(curve.end());
+        else
+            orders_.push_back({order, std::move(curve)});
+    }
+    if (orders_.empty()) return;
+    // The lists of orders ascend.
+    const auto outer = [](int order) { return static_cast<double>(order) * colour::kVisibleMax; };
+    const auto inner = [](int order) { return static_cast<double>(order) * colour::kVisibleMin; };
+    const int first = orders_.front().order;
+    const int last = orders_.back().order;
+    begin_nm_ = first < 0 ? outer(first) : inner(first);
+    end_nm_ = last > 0 ? outer(last) : inner(last);
+}
+
+void ColourKernel::add_wide_orders(const Grating& grating, const colour::LightSpectra& spectra) {
+    if (grating.orders.empty()) return;
+    // Directions reach |x| = 2d, and a listed order's period reaches half an order beyond it.
+    const double reach_nm = 2.0 * grating.pitch_nm;
+    const auto period_end = [](double order) {
+        return order * (order > 0.0 ? colour::kVisibleMax : colour::kVisibleMin);
+    };
+    begin_nm_ = std::clamp(-period_end(0.5 - grating.orders.front()), -reach_nm, reach_nm);
+    end_nm_ = std::clamp(period_end(grating.orders.back() + 0.5), -reach_nm, reach_nm);
+    if (!(end_nm_ > begin_nm_)) {
+        begin_nm_ = end_nm_ = 0.0;
+        return;
+    }
+    const double furthest_nm = std::max(std::abs(begin_nm_), std::abs(end_nm_));
+    const double phase_per_nm = grating.grooves * furthest_nm / (colour::kVisibleMin * double{colour::kVisibleMin});
+    const double steps_per_nm = std::max(1.0, std::ceil(phase_per_nm / kPhaseStep));
+    std::vector<glm::dmat3> observed;
+    const auto count = static_cast<std::size_t>(kNanometres * steps_per_nm);
+    for (std::size_t i = 0; i <= count; ++i)
+        observed.push_back(observed_spectra(spectra, colour::kVisibleMin + static_cast<double>(i) / steps_per_nm));
+
+    const double widest_step_nm = std::min(1.0, colour::kVisibleMin / (kNodesPerWidth * grating.grooves));
+    const auto cells = static_cast<std::size_t>(std::ceil((end_nm_ - begin_nm_) / widest_step_nm));
+    const double step_nm = (end_nm_ - begin_nm_) / static_cast<double>(cells);
+    std::vector<glm::dmat3> values(cells + 1);
+    parallel_for(values.size(), [&](std::size_t i) {
+        values[i] = blurred(grating, observed, steps_per_nm, begin_nm_ + step_nm * static_cast<double>(i));
+    });
+    orders_.push_back({1, Curve(begin_nm_, step_nm, std::move(values))});
+}
+
+glm::dmat3 ColourKernel::operator()(double x_nm) const {
+    glm::dmat3 sum(0.0);
+    for (const OrderCurve& one : orders_) sum += one.curve.value(x_nm / one.order) / std::abs(double(one.order));
+    return sum;
+}
+
+glm::dmat3 ColourKernel::antiderivative(double x_nm) const {
+    // dx = m dλ: the 1/|m| cancels, the sign stays.
+    glm::dmat3 sum(0.0);
+    for (const OrderCurve& one : orders_) {
+        const glm::dmat3 rise = one.curve.integral_to(x_nm / one.order) - one.curve.integral_to(0.0);
+        sum += one.order > 0 ? rise : -rise;
+    }
+    return sum;
+}
+
+glm::dmat3 ColourKernel::average(double begin_nm, double end_nm) const {
+    if (begin_nm == end_nm) return (*this)(begin_nm);
+    return (antiderivative(end_nm) - antiderivative(begin_nm)) / (end_nm - begin_nm);
+}
+
+glm::dmat3 KernelTable::at(double x_nm) const {
+    const auto last = static_cast<double>(antiderivative.size() - 1);
+    const double position =
+        end_nm > begin_nm ? std::clamp((x_nm - begin_nm) / (end_nm - begin_nm), 0.0, 1.0) * last : 0.0;
+    const std::size_t i = std::min(static_cast<std::size_t>(position), antiderivative.size() - 2);
+    const double t = position - static_cast<double>(i);
+    return (1.0 - t) * glm::dmat3(antiderivative[i]) + t * glm::dmat3(antiderivative[i + 1]);
+}
+
+glm::dmat3 KernelTable::average(double begin_nm_wanted, double end_nm_wanted) const {
+    return (at(end_nm_wanted) - at(begin_nm_wanted)) / (end_nm_wanted - begin_nm_wanted);
+}
+
+KernelTable tabulate(const ColourKernel& kernel, std::size_t entries) {
+    ROWLAND_CHECK_OP(entries, >=, std::size_t{2});
+    KernelTable table{.begin_nm = kernel.begin_nm(), .end_nm = kernel.end_nm(), .antiderivative = {}, .error = 0.0};
+    const double step_nm = (table.end_nm - table.begin_nm) / static_cast<double>(entries - 1);
+    const auto x_of = [&](double position) { return table.begin_nm + position * step_nm; };
+    for (std::size_t i = 0; i < entries; ++i)
+        table.antiderivative.emplace_back(kernel.antiderivative(x_of(static_cast<double>(i))));
+    const double rise = largest_component(kernel.antiderivative(table.end_nm) - kernel.antiderivative(table.begin_nm));
+    if (rise == 0.0) return table;
+    constexpr int kPlaces = 7;
+    for (std::size_t i = 0; i + 1 < entries; ++i)
+        for (int place = 1; place <= kPlaces; ++place) {
+            const double x_nm = x_of(static_cast<double>(i) + static_cast<double>(place) / (kPlaces + 1));
+            table.error = std::max(table.error, largest_component(table.at(x_nm) - kernel.antiderivative(x_nm)) / rise);
+        }
+    return table;
+}
+
+}  // namespace rowland::diffraction

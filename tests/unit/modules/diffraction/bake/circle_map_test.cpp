@@ -1,0 +1,153 @@
+#include "modules/diffraction/bake/circle_map.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "engine/core/parallel.h"
+#include "modules/diffraction/bake/planar_map.h"
+#include "tests/support/csv.h"
+#include "tests/support/test_data.h"
+#include "tests/unit/modules/diffraction/bake/probe_maps.h"
+
+namespace rowland::diffraction {
+namespace {
+
+using test::relative_rms;
+
+/// Broad light: a few lobes and a little all around, as texels.
+lighting::LightTexels broad_light() {
+    image::Image image{.width = 256, .height = 128, .texels = {}};
+    image.texels.resize(256 * 128, glm::vec3(0.1F));
+    const lighting::ProbeImage grid(image, lighting::Mapping::Equirectangular);
+    const lighting::KeyLight lobes[] = {{glm::normalize(glm::dvec3(0.2, 0.9, 0.4)), {3.0, 2.0, 1.0}, 6.0},
+                                        {glm::normalize(glm::dvec3(-0.7, 0.1, 0.7)), {0.5, 1.0, 2.0}, 8.0}};
+    for (int row = 0; row < 128; ++row)
+        for (int column = 0; column < 256; ++column)
+            for (const lighting::KeyLight& lobe : lobes)
+                image.at(column, row) +=
+                    glm::vec3(lighting::lobe_density(lobe, grid.direction(column + 0.5, row + 0.5)) * lobe.flux);
+    return lighting::light_texels(lighting::ProbeImage(std::move(image), lighting::Mapping::Equirectangular), {}, 1.0);
+}
+
+Grating blazed() {
+    Grating grating;
+    grating.pitch_nm = 1600.0;
+    grating.profile = BlazedProfile{260.0};
+    grating.orders = {1};
+    return grating;
+}
+
+/// Frames of planes of many normals, with the radiance that a planar map of each gives: exact in the cosine.
+struct Planes {
+    std::vector<Frame> frames;
+    std::vector<glm::dvec3> xyz;
+};
+Planes planes(const lighting::LightTexels& texels, const Grating& grating) {
+    Planes result;
+    const KernelTable kernel = tabulate(ColourKernel(grating, colour::LightSpectra()));
+    for (const glm::dvec3 n : {glm::dvec3(0, 0, 1), {0.3, 0.9, 0.1}, {-0.6, 0.4, -0.5}, {0.1, -0.3, 0.9}}) {
+        const PlanarMap map = fill_planar_map(texels, kernel, grating.pitch_nm, n, {128, 128});
+        for (int i = 0; i < 12; ++i) {
+            const double angle = 0.53 * i;
+            const glm::dvec3 g = std::cos(angle) * map.e1 + std::sin(angle) * map.e2;
+            result.frames.push_back({map.n + 0.9 * std::sin(2.0 * i) * g + 0.2 * glm::cross(map.n, g), n, g});
+            result.xyz.push_back(sample(map, result.frames.back()));
+        }
+    }
+    return result;
+}
+
+std::vector<glm::dvec3> sampled(const CircleMap& map, const std::vector<Frame>& frames) {
+    std::vector<glm::dvec3> xyz;
+    for (const Frame& frame : frames) xyz.push_back(sample(map, frame));
+    return xyz;
+}
+
+/// The slow twin is a planar map for every normal. What is left is the cosine's series (terms above cos 4) and the
+/// map's steps.
+TEST(CircleMap, AgreesWithPlanarMapsOfAnyNormal) {
+    const lighting::LightTexels texels = broad_light();
+    for (const Grating& grating : {test::compact_disc(), blazed()}) {
+        const Planes expected = planes(texels, grating);
+        const KernelTable kernel = tabulate(ColourKernel(grating, colour::LightSpectra()));
+        const CircleMap map = fill_circle_map(texels, kernel, grating.pitch_nm, {32, 64, 7});
+        EXPECT_EQ(map.charts, grating.orders.size() == 1 ? 2 : 1);
+        const double error = relative_rms(sampled(map, expected.frames), expected.xyz);
+        RecordProperty(map.charts == 1 ? "even" : "blazed", fmt::format("{:.3g}", error));
+        EXPECT_LT(error, 0.02);
+        const CircleMap nine = fill_circle_map(texels, kernel, grating.pitch_nm, {32, 64, 9});
+        EXPECT_LT(relative_rms(sampled(nine, expected.frames), expected.xyz), 0.02);
+    }
+}
+
+/// Frames with g at the equator, on either side of it, and reversed.
+TEST(CircleMap, ChartsMeetWithoutASeam) {
+    const lighting::LightTexels texels = broad_light();
+    for (const Grating& grating : {test::compact_disc(), blazed()}) {
+        const CircleMap map = fill_circle_map(texels, tabulate(ColourKernel(grating, colour::LightSpectra())),
+                                              grating.pitch_nm, {32, 64, 7});
+        std::vector<glm::dvec3> above;
+        std::vector<glm::dvec3> below;
+        for (int i = 0; i < 40; ++i) {
+            const glm::dvec3 level(std::cos(0.157 * i), 0.0, std::sin(0.157 * i));
+            const glm::dvec3 n = glm::normalize(glm::dvec3(-level.z, 0.7, level.x));
+            const glm::dvec3 view = n + 0.6 * std::sin(1.3 * i) * level;
+            above.push_back(sample(map, {view, n, level + glm::dvec3(0, 1e-6, 0)}));
+            below.push_back(sample(map, {view, n, level - glm::dvec3(0, 1e-6, 0)}));
+        }
+        EXPECT_LT(relative_rms(above, below), 0.01) << map.charts;  // two charts' map errors
+    }
+}
+
+TEST(CircleMap, ViewBelowTheHorizonIsBlack) {
+    const CircleMap map = fill_circle_map(
+        broad_light(), tabulate(ColourKernel(test::compact_disc(), colour::LightSpectra())), 1600.0, {8, 8, 7});
+    EXPECT_EQ(sample(map, {{0.1, -0.5, 0.1}, {0, 1, 0}, {1, 0, 0}}), glm::dvec3(0.0));
+    EXPECT_NE(sample(map, {{0.1, 0.5, 0.1}, {0, 1, 0}, {1, 0, 0}}), glm::dvec3(0.0));
+}
+
+TEST(CircleMap, DoesNotDependOnTheThreads) {
+    const lighting::LightTexels texels = broad_light();
+    const KernelTable kernel = tabulate(ColourKernel(test::compact_disc(), colour::LightSpectra()));
+    const auto run = [&](unsigned threads) {
+        const ThreadLimit limit(threads);
+        return fill_circle_map(texels, kernel, 1600.0, {8, 16, 7}).xyz;
+    };
+    EXPECT_EQ(run(1), run(2));
+}
+
+void matches_oracle(const test::OracleProbe& probe) {
+    ROWLAND_TEST_DATA(frames_path, "oracle/frames_sphere.csv");
+    ROWLAND_TEST_DATA(oracle_path, std::string("oracle/radiance_sphere_") + probe.name + ".csv");
+    ROWLAND_TEST_DATA(probe_path, std::string("probes/") + probe.file);
+    const auto frames = test::read_frames(rowland::test::read_csv(frames_path));
+    const test::SplitProbe light = test::split(probe_path, probe.mapping, 16);
+    const KernelTable kernel = tabulate(ColourKernel(test::compact_disc(), colour::LightSpectra()));
+    const CircleMap map = fill_circle_map(light.texels, kernel, 1600.0);
+    const double error = relative_rms(test::radiance(map, kernel, light.keys, frames),
+                                      test::read_xyz(rowland::test::read_csv(oracle_path)));
+    ::testing::Test::RecordProperty("error", fmt::format("{:.3g}", error));
+    EXPECT_LT(error, probe.tolerance) << probe.name;
+}
+
+/// A map of 64² × 128, terms up to cos 4, and 16 key lights. The tolerances are the figures this representation was
+/// given to reach.
+TEST(CircleMap, MatchesGrace) {
+    matches_oracle({"grace", "grace_probe.hdr", lighting::Mapping::Angular, 0.06});
+}
+TEST(CircleMap, MatchesEnnis) {
+    matches_oracle({"ennis", "ennis_probulator.hdr", lighting::Mapping::Equirectangular, 0.09});
+}
+TEST(CircleMap, MatchesBlenderSunset) {
+    matches_oracle({"blender_sunset", "blender_sunset.exr", lighting::Mapping::Equirectangular, 0.06});
+}
+TEST(CircleMap, MatchesRoyalEsplanade) {
+    matches_oracle({"royal_esplanade", "royal_esplanade_1k.hdr", lighting::Mapping::Equirectangular, 0.15});
+}
+
+}  // namespace
+}  // namespace rowland::diffraction

@@ -1,0 +1,205 @@
+#include "modules/diffraction/bake/direct.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <numbers>
+
+#include "engine/math/quadrature.h"
+#include "modules/diffraction/model/grating.h"
+#include "tests/unit/modules/diffraction/reference/oracle.h"
+
+namespace rowland::diffraction {
+namespace {
+
+using test::relative_rms;
+
+Grating compact_disc() {
+    Grating grating;
+    grating.pitch_nm = 1600.0;
+    grating.profile = SlitProfile{800.0};
+    return grating;
+}
+
+/// The tangent frame is the world's: g = x, h = y, n = z.
+Frame frame_of(double v_g, double v_h) {
+    return {.view = {v_g, v_h, std::sqrt(1.0 - v_g * v_g - v_h * v_h)}, .normal = {0, 0, 1}, .grating = {1, 0, 0}};
+}
+
+std::vector<Frame> frames() {
+    std::vector<Frame> result;
+    for (int i = 0; i < 60; ++i) result.push_back(frame_of(-0.95 + 1.9 * i / 59, 0.1));
+    return result;
+}
+
+struct Kernels {
+    ColourKernel exact;
+    KernelTable table;
+    BlurredKernel blurred;
+    explicit Kernels(const Grating& grating)
+        : exact(grating, colour::LightSpectra()),
+          table(tabulate(exact)),
+          blurred(blur(table, 0.25 * grating.pitch_nm)) {}
+};
+
+template <typename Kernel, typename Light>
+std::vector<glm::dvec3> radiance(const Kernel& kernel, const DirectMaterial& material, const Light& light) {
+    std::vector<glm::dvec3> xyz;
+    for (const Frame& frame : frames())
+        xyz.push_back(direct_radiance(kernel, material, light_spot(light, world_to_tangent(frame)),
+                                      {frame.view.x, frame.view.y, 0.0}));
+    return xyz;
+}
+
+/// ∫ flux · density(s) s_n⁺ ½ 2D_h d k(d(s_g + v_g)) dω over all directions around `axis`, by brute force: rings of
+/// the cap cos θ > cosine_end, Gauss–Legendre in cos θ, even in angle.
+template <typename Density>
+std::vector<glm::dvec3> by_quadrature(const ColourKernel& kernel, double pitch_nm, const GrooveLobe& lobe,
+                                      const glm::dvec3& axis, const glm::dvec3& flux, double cosine_end,
+                                      const Density& density) {
+    const glm::dvec3 side = glm::normalize(glm::cross(axis, glm::dvec3(0.3, 0.5, 1.0)));
+    const glm::dvec3 other = glm::cross(axis, side);
+    const math::QuadratureRule rule = math::gauss_legendre(48, cosine_end, 1.0);
+    constexpr int kAngles = 240;
+    std::vector<glm::dvec3> xyz(frames().size(), glm::dvec3(0.0));
+    const auto all = frames();
+    for (std::size_t i = 0; i < rule.nodes.size(); ++i)
+        for (int j = 0; j < kAngles; ++j) {
+            const double angle = 2.0 * std::numbers::pi * (j + 0.5) / kAngles;
+            const double sine = std::sqrt(1.0 - rule.nodes[i] * rule.nodes[i]);
+            const glm::dvec3 s = rule.nodes[i] * axis + sine * (std::cos(angle) * side + std::sin(angle) * other);
+            if (s.z <= 0.0) continue;
+            const double weight = rule.weights[i] * 2.0 * std::numbers::pi / kAngles * density(s) * s.z;
+            for (std::size_t k = 0; k < all.size(); ++k)
+                xyz[k] += weight * lobe_density(lobe, s.y + all[k].view.y, 550.0) * pitch_nm *
+                          (kernel(pitch_nm * (s.x + all[k].view.x)) * flux);
+        }
+    return xyz;
+}
+
+std::vector<glm::dvec3> exact(const Kernels& kernels, const GrooveLobe& lobe, const lighting::KeyLight& key) {
+    return by_quadrature(kernels.exact, 1600.0, lobe, key.direction, key.flux,
+                         std::max(-1.0, 1.0 - 30.0 / key.concentration),
+                         [&](const glm::dvec3& s) { return lighting::lobe_density(key, s); });
+}
+
+glm::dvec3 toward(double s_g, double s_n) {
+    return {s_g, std::sqrt(1.0 - s_g * s_g - s_n * s_n), s_n};
+}
+
+/// PHYSICS §4: ½ s_n d Σ_c F_c k(d u). 1e-3: a box of 2e-4 in place of a point.
+TEST(Direct, PunctualLightIsTheKernelItself) {
+    const Kernels kernels(compact_disc());
+    const DirectLight light{toward(0.3, 0.6), {1.0, 0.5, 0.25}, 0.0};
+    std::vector<glm::dvec3> expected;
+    for (const Frame& frame : frames())
+        expected.push_back(0.5 * 0.6 * 1600.0 * (kernels.exact(1600.0 * (0.3 + frame.view.x)) * light.flux));
+    EXPECT_LT(relative_rms(radiance(kernels.exact, {1600.0}, light), expected), 1e-3);
+    EXPECT_LT(relative_rms(radiance(kernels.table, {1600.0}, light), expected), 0.01);    // steps of 1.5 nm
+    EXPECT_LT(relative_rms(radiance(kernels.blurred, {1600.0}, light), expected), 0.06);  // 4 nm of smoothing
+}
+
+TEST(Direct, DiscIsItsArcIntegral) {
+    const Kernels kernels(compact_disc());
+    for (const double radius : {0.005, 0.05, 0.15}) {
+        const DirectLight light{toward(0.3, 0.6), {1.0, 0.5, 0.25}, radius};
+        const double solid_angle = 2.0 * std::numbers::pi * (1.0 - std::cos(radius));
+        const auto expected = by_quadrature(kernels.exact, 1600.0, FlatLobe{}, light.direction, light.flux,
+                                            std::cos(radius), [&](const glm::dvec3&) { return 1.0 / solid_angle; });
+        // Measured .0005, .025, .083: a box has the disc's variance, not its round shape or its tilt.
+        const double tolerance = radius < 0.01 ? 0.002 : radius < 0.1 ? 0.03 : 0.09;
+        EXPECT_LT(relative_rms(radiance(kernels.exact, {1600.0}, light), expected), tolerance) << radius;
+    }
+}
+
+/// The error of three normal distributions, against the lobe's own integral: measured .016, .008, .003, .009 (slices of
+/// 𝒦) and .020, .008, .004, .011 (one look-up a part).
+TEST(Direct, LobeIsItsArcIntegral) {
+    const Kernels kernels(compact_disc());
+    const struct {
+        double concentration;
+        double tolerance;
+    } cases[] = {{40.0, 0.02}, {100.0, 0.01}, {400.0, 0.005}, {2000.0, 0.01}};
+    for (const auto& one : cases)
+        for (const double s_n : {0.9, 0.5, 0.2, 0.03, -0.05}) {
+            const lighting::KeyLight key{toward(0.35, s_n), {1.0, 0.5, 0.25}, one.concentration};
+            const auto expected = exact(kernels, FlatLobe{}, key);
+            const double slices = relative_rms(radiance(kernels.table, {1600.0}, key), expected);
+            const double one_look = relative_rms(radiance(kernels.blurred, {1600.0}, key), expected);
+            RecordProperty(fmt::format("k{}_{}", one.concentration, s_n),
+                           fmt::format("{:.3g} {:.3g}", slices, one_look));
+            EXPECT_LT(slices, one.tolerance) << one.concentration << " " << s_n;
+            EXPECT_LT(one_look, one.tolerance + 0.005) << one.concentration << " " << s_n;
+        }
+}
+
+TEST(Direct, LobeBelowTheHorizonIsBlack) {
+    const Kernels kernels(compact_disc());
+    const lighting::KeyLight key{toward(0.1, -0.9), glm::dvec3(1.0), 400.0};
+    for (const glm::dvec3& xyz : radiance(kernels.table, {1600.0}, key)) EXPECT_LT(glm::length(xyz), 1e-12);
+    const DirectLight lamp{toward(0.1, -0.9), glm::dvec3(1.0), 0.01};
+    for (const glm::dvec3& xyz : radiance(kernels.table, {1600.0}, lamp)) EXPECT_EQ(xyz, glm::dvec3(0.0));
+}
+
+/// 2 D_h, widened by the lobe's own extent. Measured 4.1 %: the lobe's s_g and s_h are not independent.
+TEST(Direct, GaussianGroovesWeightTheLobe) {
+    const Kernels kernels(compact_disc());
+    const GrooveLobe grooves = GaussianLobe{0.2};
+    const lighting::KeyLight key{toward(0.3, 0.9), {1.0, 0.5, 0.25}, 200.0};
+    const auto expected = exact(kernels, grooves, key);
+    EXPECT_LT(relative_rms(radiance(kernels.table, {1600.0, glm::dmat3(0.0), grooves}, key), expected), 0.05);
+    EXPECT_GT(relative_rms(radiance(kernels.table, {1600.0}, key), expected), 0.2);
+}
+
+/// A pixel's footprint is a mean over u.
+TEST(Direct, FootprintIsTheMeanOverThePixel) {
+    const Kernels kernels(compact_disc());
+    const DirectLight light{toward(0.3, 0.6), glm::dvec3(1.0), 0.0};
+    const LightSpot spot = light_spot(light, world_to_tangent(frame_of(0.0, 0.0)));
+    const double footprint = 0.08;
+    glm::dvec3 mean(0.0);
+    constexpr int kSteps = 400;
+    for (int i = 0; i < kSteps; ++i)
+        mean += direct_radiance(kernels.exact, {1600.0}, spot, {0.1 + footprint * ((2 * i + 1.0) / kSteps - 1.0)}) /
+                double(kSteps);
+    const glm::dvec3 found = direct_radiance(kernels.exact, {1600.0}, spot, {0.1, 0.0, footprint});
+    EXPECT_LT(glm::length(found - mean), 1e-3 * glm::length(mean));
+}
+
+TEST(Direct, SumsUpTo64LightsOverTheHorizonOnly) {
+    const Kernels kernels(compact_disc());
+    std::vector<lighting::KeyLight> keys;
+    glm::dvec3 sum(0.0);
+    const Frame frame = frame_of(0.2, 0.1);
+    for (int i = 0; i < lighting::kMaximumKeyLights; ++i) {
+        keys.push_back({toward(-0.9 + 0.02 * i, 0.3), glm::dvec3(1.0 + i), 100.0 + i});
+        sum += direct_radiance(kernels.table, {1600.0}, light_spot(keys.back(), world_to_tangent(frame)), {0.2, 0.1});
+    }
+    const std::span<const lighting::KeyLight> all(keys);
+    EXPECT_LT(glm::length(direct_radiance(kernels.table, {1600.0}, all, frame) - sum), 1e-12 * glm::length(sum));
+    Frame below = frame;
+    below.view.z = -below.view.z;
+    EXPECT_EQ(direct_radiance(kernels.table, {1600.0}, all, below), glm::dvec3(0.0));
+}
+
+/// Order 0 under a lobe is the mirror image's share: ∫ over v_g of its part is ½ s_n Z F.
+TEST(Direct, ZeroOrderIntegratesToItsEfficiency) {
+    Grating mirror = compact_disc();
+    mirror.orders = {0};
+    const ColourKernel kernel(mirror, colour::LightSpectra());
+    const DirectMaterial material{1600.0, kernel.zero_order_xyz()};
+    const LightSpot spot =
+        light_spot(DirectLight{toward(0.1, 0.8), glm::dvec3(1.0), 0.1}, world_to_tangent(frame_of(0, 0)));
+    glm::dvec3 sum(0.0);
+    constexpr int kSteps = 20000;
+    for (int i = 0; i < kSteps; ++i)
+        sum += direct_radiance(kernel, material, spot, {-1.0 + (2 * i + 1.0) / kSteps}) * (2.0 / kSteps);
+    const glm::dvec3 expected = 0.5 * spot.cosine() * (kernel.zero_order_xyz() * glm::dvec3(1.0));
+    EXPECT_LT(glm::length(sum - expected), 1e-3 * glm::length(expected));
+}
+
+}  // namespace
+}  // namespace rowland::diffraction

@@ -1,0 +1,123 @@
+// What a grating sends on of what falls in (PHYSICS §3): under uniform white light, and never more than 1.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include "engine/colour/observer.h"
+#include "modules/diffraction/model/efficiency.h"
+#include "modules/diffraction/model/grating_equation.h"
+#include "modules/diffraction/reference/reference.h"
+
+namespace rowland::diffraction {
+namespace {
+
+constexpr double kPitch_nm = 1600.0;
+
+lighting::ProbeImage white_probe() {
+    image::Image image{.width = 256, .height = 128, .texels = std::vector(std::size_t{256} * 128, glm::vec3(1.0F))};
+    return {std::move(image), lighting::Mapping::Equirectangular, "white"};
+}
+
+lighting::ShLight white_light() {
+    return {.bands = 1, .coefficients = {glm::dvec3(2.0 * std::sqrt(std::numbers::pi))}};
+}
+
+std::vector<Profile> profiles() {
+    const EfficiencyTable table{
+        .orders = {-1, 0, 1, 2},
+        .slices = {{.wavelengths_nm = {380.0, 780.0}, .efficiencies = {0.2, 0.3, 0.3, 0.2, 0.1, 0.5, 0.3, 0.1}}}};
+    return {SlitProfile{800.0},       SlitProfile{kPitch_nm}, LamellarProfile{0.35, 130.0},
+            SinusoidalProfile{150.0}, BlazedProfile{260.0},   table};
+}
+
+/// A material with every order that propagates, and the mirror.
+Grating complete(const Profile& profile, const GrooveLobe& lobe) {
+    Grating grating{.pitch_nm = kPitch_nm, .profile = profile, .orders = all_orders(kPitch_nm), .lobe = lobe};
+    grating.orders.insert(std::lower_bound(grating.orders.begin(), grating.orders.end(), 0), 0);
+    return grating;
+}
+
+/// Luminance of white light after Σ_m η_m(λ) share(mλ/d), over the orders that propagate at normal incidence.
+template <typename Share>
+double luminance_at_normal_incidence(const Grating& grating, const Share& share) {
+    const colour::LightSpectra spectra;
+    double sum = 0.0;
+    for (int wavelength_nm = 380; wavelength_nm <= 780; ++wavelength_nm) {
+        const glm::dvec3 e = spectra(wavelength_nm);
+        const double step_nm = wavelength_nm == 380 || wavelength_nm == 780 ? 0.5 : 1.0;
+        for (const int order : grating.orders) {
+            const double v_g = order * wavelength_nm / grating.pitch_nm;
+            if (std::abs(v_g) < 1.0)
+                sum += step_nm * order_efficiency(grating, order, wavelength_nm) * share(v_g) * (e.r + e.g + e.b) *
+                       colour::cie_xyz(wavelength_nm).y;
+        }
+    }
+    return sum;
+}
+
+const Frame kNormalIncidence{.view = {0, 0, 1}, .normal = {0, 0, 1}, .grating = {1, 0, 0}};
+
+/// The flat lobe loses what it would scatter below the horizon: of order m √(1−(mλ/d)²) is left. PHYSICS: 1e-4.
+TEST(Energy, FlatLobeUnderUniformLightIsTheSumOfShortenedOrders) {
+    const auto probe = white_probe();
+    for (const Profile& profile : profiles()) {
+        const Grating grating = complete(profile, FlatLobe{});
+        const auto found = reference_radiance(grating, probe, colour::LightSpectra(), std::span(&kNormalIncidence, 1));
+        const double expected =
+            luminance_at_normal_incidence(grating, [](double v_g) { return std::sqrt(1.0 - v_g * v_g); });
+        RecordProperty(fmt::format("profile{}", profile.index()), fmt::format("{:.3g}", found[0].y / expected - 1.0));
+        EXPECT_NEAR(found[0].y, expected, 1e-4 * expected) << profile.index();
+    }
+}
+
+/// A narrow lobe loses nothing away from cut-off. Orders to ±2: 2·780/1600 leaves a half circle of radius 0.22, wider
+/// than the lobe's half width. PHYSICS: 1e-3.
+TEST(Energy, NarrowLobeUnderUniformLightIsTheSumOfOrders) {
+    const auto probe = white_probe();
+    for (const Profile& profile : profiles()) {
+        Grating grating = complete(profile, GaussianLobe{0.02});
+        grating.orders = {-2, -1, 0, 1, 2};
+        const auto found = reference_radiance(grating, probe, colour::LightSpectra(), std::span(&kNormalIncidence, 1));
+        const double expected = luminance_at_normal_incidence(grating, [](double) { return 1.0; });
+        RecordProperty(fmt::format("profile{}", profile.index()), fmt::format("{:.3g}", found[0].y / expected - 1.0));
+        EXPECT_NEAR(found[0].y, expected, 1e-3 * expected) << profile.index();
+    }
+}
+
+/// Every order's arc carries η_m ∫ D_h ds_h over its half circle, at most η_m, and Σ η_m ≤ 1: at any angle, flat lobe
+/// or not. Views from the normal to grazing, across and along the grooves.
+TEST(Energy, NothingComesOutThatDidNotFallInAtAnyAngle) {
+    std::vector<Frame> frames;
+    for (const double theta_deg : {55.0, 0.0, 15.0, 35.0, 75.0, 89.0}) {
+        for (const double phi_deg : {0.0, 40.0, 90.0, 180.0}) {
+            const double theta = theta_deg * std::numbers::pi / 180.0;
+            const double phi = phi_deg * std::numbers::pi / 180.0;
+            frames.push_back(
+                {.view = {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)},
+                 .normal = {0, 0, 1},
+                 .grating = {1, 0, 0}});
+        }
+    }
+    for (const GrooveLobe& lobe : {GrooveLobe{FlatLobe{}}, GrooveLobe{GaussianLobe{0.02}},
+                                   GrooveLobe{GaussianLobe{0.5}}, GrooveLobe{PitsLobe{850.0, 0.3}}}) {
+        double largest = 0.0;
+        // Pits take a thousand nodes an arc: the first frames will do.
+        const auto some = std::span(frames).first(std::holds_alternative<PitsLobe>(lobe) ? 3 : frames.size());
+        for (const Profile& profile : profiles())
+            for (const glm::dvec3& xyz :
+                 reference_radiance(complete(profile, lobe), white_light(), colour::LightSpectra(), some)) {
+                EXPECT_LT(xyz.y, 1.0 + 1e-6) << lobe.index() << " " << profile.index();
+                largest = std::max(largest, xyz.y);
+            }
+        RecordProperty(fmt::format("lobe{}", lobe.index()), fmt::format("{:.6g}", largest));
+        EXPECT_GT(largest, 0.75) << lobe.index();
+    }
+}
+
+}  // namespace
+}  // namespace rowland::diffraction
