@@ -1,45 +1,78 @@
 #pragma once
 
-#include <memory>
+#include <glm/mat3x3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
 
+#include "content/demo/assets.h"
+#include "content/demo/options.h"
 #include "engine/ecs/world.h"
+#include "engine/render/renderer.h"
+#include "engine/render/scene_instance.h"
 #include "engine/scene/camera.h"
 #include "engine/scene/mesh.h"
-#include "modules/diffraction/runtime/gpu_spike_material.h"
 
 namespace rowland::demo {
 
 /// The camera's vertical field of view, radians.
 inline constexpr float kFieldOfView = 0.36F;
 
-/// What stands in the scene.
-struct SceneSources {
-    scene::Mesh grating;  ///< the iridescent object: the CD, or the user's own mesh
-    bool grating_is_disc = true;
-    scene::Mesh sphere;
-    scene::Mesh ground;
-    std::shared_ptr<const diffraction::GpuSpikeMaterial> material;
-};
-
-/// A CD (or the user's mesh), a diffuse and a metallic sphere, and a ground.
+/// A CD (or the user's mesh as a grating, or the user's scene as it is), a diffuse and a metallic sphere, and a ground.
 class DemoScene {
  public:
-    explicit DemoScene(SceneSources sources);
+    /// `xyz_to_working` as the renderer's. Throws Error (input).
+    DemoScene(const Options& options, Assets& assets, render::Renderer& renderer, const glm::dmat3& xyz_to_working);
 
-    /// Turns the grating to where it is at `seconds` and brings all matrices up to date.
+    /// Takes over what was loaded anew. What cannot be used stays as it was, and `failures()` says why.
+    void refresh();
+    const std::vector<std::string>& failures() const { return failures_; }
+
+    /// Moves everything to where it is at `seconds` and brings all matrices up to date.
     void advance_to(double seconds);
+    /// Lights or puts out the lamp that casts shadows.
+    void set_sun(bool on);
+    bool sun() const { return world_.alive(sun_); }
 
     ecs::World& world() { return world_; }
     const scene::Camera& camera() const { return camera_; }
 
  private:
-    void add_spheres(scene::Mesh sphere);
-    void add_ground(scene::Mesh ground);
-    void add_grating(SceneSources& sources);
+    /// An asset and the version of it that the world shows.
+    template <typename T>
+    struct Shown {
+        asset::Handle<T> handle;
+        std::uint64_t version = 0;
+    };
+
+    ecs::Entity add_mesh_entity(const glm::vec3& place, const render::StandardMaterial& surface);
+    void add_spheres();
+    void show_scene();
+    void show_grating_mesh();
+    void show_grating_material();
+    void show_spheres();
+    void show_ground();
+    /// Runs `show` if there is a newer asset.
+    template <typename T, typename F>
+    void refresh(Shown<T>& shown, F&& show);
+
+    render::Renderer& renderer_;
+    glm::dmat3 xyz_to_working_;
+    Shown<scene::ImportedScene> scene_;
+    Shown<scene::ImportedScene> grating_mesh_;
+    Shown<diffraction::CookedMaterial> material_;
+    Shown<scene::ImportedScene> sphere_mesh_;
+    Shown<scene::ImportedScene> ground_mesh_;
+    std::string scene_file_;
+    std::vector<std::string> failures_;
 
     ecs::World world_;
     ecs::Entity stand_;    ///< tilts
     ecs::Entity grating_;  ///< spins on the stand
+    std::vector<ecs::Entity> spheres_;
+    ecs::Entity ground_;
+    ecs::Entity sun_;
+    std::optional<render::SceneInstance> instance_;
     bool disc_ = true;
     scene::Camera camera_;
 };

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "content/demo/assets.h"
+#include "content/demo/benchmark.h"
 #include "content/demo/capture.h"
 #include "content/demo/demo_scene.h"
 #include "content/demo/options.h"
@@ -18,6 +19,7 @@ namespace rowland::demo {
 namespace {
 
 constexpr double kSecondsPerFrame = 1.0 / 30.0;
+constexpr int kBenchmarkFrames = 300;
 
 /// A probe, and where its pictures go.
 struct Job {
@@ -30,6 +32,10 @@ bool names_a_capture(const Options& options) {
     return options.capture || options.capture_linear;
 }
 
+bool needs_a_window(const Options& options) {
+    return !options.headless && !options.benchmark && !names_a_capture(options) && platform::display_available();
+}
+
 std::vector<Job> jobs(const Options& options) {
     const std::vector<std::filesystem::path> probes = probe_paths(options);
     if (names_a_capture(options)) return {{probes[0], options.capture, options.capture_linear}};
@@ -39,18 +45,19 @@ std::vector<Job> jobs(const Options& options) {
     return result;
 }
 
-void run_job(const Job& job, const Options& options, Picture& picture, DemoScene& scene) {
-    picture.set_probe(load_probe(job.probe, options.probe_mapping));
-    for (int frame = 0; frame < options.frames; ++frame) {
+void run_job(const Job& job, const Options& options, Picture& picture, Assets& assets, DemoScene& scene) {
+    picture.set_probe(*assets.probe(job.probe));
+    const int frames = options.frames.value_or(1);
+    for (int frame = 0; frame < frames; ++frame) {
         scene.advance_to(frame * kSecondsPerFrame);
         picture.draw(scene, scene.camera(), static_cast<float>(kSecondsPerFrame));
         if (job.capture_linear) {
-            const auto path = numbered(*job.capture_linear, frame, options.frames);
+            const auto path = numbered(*job.capture_linear, frame, frames);
             write_linear_capture(picture.linear(), path);
             log_info("wrote {}", path.string());
         }
         if (job.capture) {
-            const auto path = numbered(*job.capture, frame, options.frames);
+            const auto path = numbered(*job.capture, frame, frames);
             write_display_capture(picture.encoded(), path);
             log_info("wrote {}", path.string());
         }
@@ -63,8 +70,16 @@ void run_headless(const Options& options, const post::OcioConfig& config) {
     log_info("rendering on {}", context.renderer());
     const auto started = std::chrono::steady_clock::now();
     Picture picture(options, config, {options.width, options.height});
-    DemoScene scene(load_sources(options, picture.xyz_to_working()));
-    for (const Job& job : jobs(options)) run_job(job, options, picture, scene);
+    Assets assets(options, picture.renderer().gltf_extensions());
+    DemoScene scene(options, assets, picture.renderer(), picture.xyz_to_working());
+    if (options.benchmark) {
+        picture.set_probe(*assets.probe(probe_paths(options)[0]));
+        write_benchmark(*options.benchmark, fly_around(picture, scene, options.frames.value_or(kBenchmarkFrames)),
+                        context.renderer());
+        log_info("wrote {}", options.benchmark->string());
+        return;
+    }
+    for (const Job& job : jobs(options)) run_job(job, options, picture, assets, scene);
     log_info("done in {:.1f} s", std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count());
 }
 
@@ -75,10 +90,11 @@ int run(int argc, char** argv) {
     const post::OcioConfig config = post::OcioConfig::choose(options->ocio_config);
     if (options->list_views) {
         for (const std::string& view : config.views(config.default_display())) std::puts(view.c_str());
-    } else if (options->headless || names_a_capture(*options) || !platform::display_available()) {
-        run_headless(*options, config);
-    } else {
+    } else if (needs_a_window(*options)) {
         run_in_window(*options, config);
+    } else {
+        options->watch = false;
+        run_headless(*options, config);
     }
     return 0;
 }

@@ -22,14 +22,14 @@ void add_options(CLI::App& app, Options& options) {
     app.add_option("--probe", options.probe, "Light probe: .hdr, .exr, a probe recipe (.json) or a cooked .probe");
     app.add_option("--probe-mapping", options.probe_mapping, "How an image covers the sphere: equirect or angular")
         ->capture_default_str();
+    app.add_option("--scene", options.scene, "glTF or GLB file to show, with its own materials, in place of the CD");
     app.add_option("--mesh", options.mesh, "glTF or GLB file to show as a grating in place of the CD");
     app.add_option("--material", options.material, "Grating material: .json, or a cooked .material");
     app.add_option("--ocio", options.ocio_config, "OpenColorIO config in place of $OCIO and the shipped one");
     app.add_option("--width", options.width, "Width in pixels")->check(CLI::Range(1, 16384))->capture_default_str();
     app.add_option("--height", options.height, "Height in pixels")->check(CLI::Range(1, 16384))->capture_default_str();
-    app.add_option("--frames", options.frames, "Frames to render, 1/30 s apart")
-        ->check(CLI::Range(1, 100000))
-        ->capture_default_str();
+    app.add_option("--frames", options.frames, "Frames to render, 1/30 s apart: 1, and 300 for a benchmark")
+        ->check(CLI::Range(1, 100000));
     app.add_option("--light-window", options.light_window,
                    "Window against ringing of the grating's light; auto: the mildest that does")
         ->check(CLI::IsMember({"auto", "none", "lanczos", "hann"}))
@@ -44,14 +44,20 @@ void add_options(CLI::App& app, Options& options) {
         ->check(CLI::Range(0.0F, 1.0F));
     app.add_flag("--auto-exposure", options.auto_exposure, "Expose for the picture's mean; --exposure is added");
     app.add_flag("--dither", options.dither, "Hide the steps of 8-bit gradients");
+    app.add_flag("--sun", options.sun, "Add a lamp that casts shadows");
     app.add_flag("--list-views", options.list_views, "List the views of the display and stop");
     app.add_option("--capture", options.capture, "Write the picture as PNG");
     app.add_option("--capture-linear", options.capture_linear, "Write the scene-linear picture as OpenEXR");
+    app.add_option("--benchmark", options.benchmark,
+                   "Fly once around the scene without a window and write the times of frames and passes as JSON");
+    app.add_flag("--no-watch{false}", options.watch, "Do not follow changes of assets, their sources and shaders");
     app.add_option("--output-folder", options.output_folder, "Where pictures without --capture go")
         ->take_last()
         ->capture_default_str();
     app.add_option("--cooked-folder", options.cooked_folder, "Cooked assets (default: ../cooked beside the program)");
-    app.add_option("--shader-folder", options.shader_folder, "Source tree that F5 reloads shaders from")
+    app.add_option("--content-folder", options.content_folder, "Sources of the cooked assets, cooked again on change")
+        ->capture_default_str();
+    app.add_option("--shader-folder", options.shader_folder, "Source tree that shaders are reloaded from")
         ->capture_default_str();
 }
 
@@ -62,6 +68,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
     app.footer(std::string(kFooter) + kWindowHelp);
     Options options;
     options.shader_folder = ROWLAND_SOURCE_DIR;
+    options.content_folder = options.shader_folder / "content";
     add_options(app, options);
     try {
         app.parse(argc, argv);

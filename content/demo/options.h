@@ -10,13 +10,14 @@ namespace rowland::demo {
 struct Options {
     std::optional<std::filesystem::path> probe;
     std::string probe_mapping = "equirect";
+    std::optional<std::filesystem::path> scene;
     std::optional<std::filesystem::path> mesh;
     std::optional<std::filesystem::path> material;
     std::optional<std::filesystem::path> ocio_config;
     bool headless = false;
     int width = 1280;
     int height = 720;
-    int frames = 1;
+    std::optional<int> frames;  ///< none: 1, and 300 for a benchmark
     std::string light_window = "auto";
     std::string view;
     float exposure_stops = 0.0F;
@@ -24,11 +25,15 @@ struct Options {
     float vignette = 0.0F;  ///< share of the light lost in the corners, beside the lens' own
     bool auto_exposure = false;
     bool dither = false;
+    bool sun = false;  ///< a lamp that casts shadows
     bool list_views = false;
     std::optional<std::filesystem::path> capture;
     std::optional<std::filesystem::path> capture_linear;
+    std::optional<std::filesystem::path> benchmark;
+    bool watch = true;  ///< follow changes of files
     std::filesystem::path output_folder = "demo";
     std::filesystem::path cooked_folder;
+    std::filesystem::path content_folder;  ///< the sources of the cooked assets
     std::filesystem::path shader_folder;
 };
 

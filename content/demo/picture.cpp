@@ -1,5 +1,7 @@
 #include "content/demo/picture.h"
 
+#include <utility>
+
 #include "engine/post/shader_files.h"
 #include "engine/post/working_space.h"
 #include "modules/diffraction/module.h"
@@ -10,9 +12,9 @@ namespace {
 
 constexpr int kSamples = 4;  ///< a pixel, against jagged edges
 
-gpu::ShaderLibrary make_post_shaders() {
-    gpu::ShaderLibrary library;
-    library.add_embedded(post::shader_files());
+std::unique_ptr<gpu::ShaderLibrary> make_post_shaders() {
+    auto library = std::make_unique<gpu::ShaderLibrary>();
+    library->add_embedded(post::shader_files());
     return library;
 }
 
@@ -39,13 +41,16 @@ Picture::Picture(const Options& options, const post::OcioConfig& config, glm::iv
       luminance_weights_(post::luminance_weights(config)),
       renderer_(xyz_to_working_),
       post_shaders_(make_post_shaders()),
-      display_(post_shaders_, make_transform(config, options.view)),
-      post_stack_(post_shaders_),
+      transform_(make_transform(config, options.view)),
+      display_(*post_shaders_, transform_),
+      post_stack_(*post_shaders_),
       post_settings_(make_post_settings(options, kFieldOfView)) {
     if (options.light_window == "auto")
         diffraction::register_module(renderer_);
     else
-        diffraction::register_module(renderer_, math::parse_window(options.light_window));
+        diffraction::register_module(renderer_, {.window = math::parse_window(options.light_window)});
+    renderer_.set_pass_times(&pass_times_);
+    post_stack_.set_pass_times(&pass_times_);
     resize(size);
 }
 
@@ -55,7 +60,25 @@ void Picture::set_probe(const lighting::LightProbe& probe) {
 }
 
 void Picture::set_view(const post::OcioConfig& config, const std::string& view) {
-    display_.set_transform(post_shaders_, make_transform(config, view));
+    transform_ = make_transform(config, view);
+    display_.set_transform(*post_shaders_, transform_);
+}
+
+void Picture::reload_shaders(const std::filesystem::path& source_tree) {
+    auto post_shaders = std::make_unique<gpu::ShaderLibrary>(*post_shaders_);
+    post_shaders->set_source_folder(source_tree);
+    post::DisplayPass display(*post_shaders, transform_);
+    renderer_.reload_shaders(source_tree);
+    post_stack_.reload(*post_shaders);
+    display_ = std::move(display);
+    post_shaders_ = std::move(post_shaders);
+}
+
+std::vector<std::filesystem::path> Picture::shader_sources(const std::filesystem::path& source_tree) const {
+    std::vector<std::filesystem::path> files;
+    for (const gpu::ShaderLibrary* library : {&renderer_.shaders(), &std::as_const(*post_shaders_)})
+        for (const std::string& name : library->names()) files.push_back(source_tree / name);
+    return files;
 }
 
 void Picture::resize(glm::ivec2 size) {
@@ -66,8 +89,12 @@ void Picture::resize(glm::ivec2 size) {
 }
 
 void Picture::draw(DemoScene& scene, const scene::Camera& camera, float seconds) {
+    pass_times_.begin_frame();
     renderer_.render(scene.world(), camera, targets_->multisampled);
-    targets_->multisampled.resolve_to(targets_->linear);
+    {
+        const gpu::PassTimes::Scope scope(&pass_times_, "resolve");
+        targets_->multisampled.resolve_to(targets_->linear);
+    }
     post_stack_.draw(targets_->linear.colour(), display_, post_settings_,
                      {.index = frame_++, .seconds = seconds, .luminance_weights = luminance_weights_},
                      targets_->encoded);

@@ -3,12 +3,14 @@
 #include <filesystem>
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "content/demo/demo_scene.h"
 #include "content/demo/options.h"
 #include "engine/gpu/framebuffer.h"
+#include "engine/gpu/pass_times.h"
 #include "engine/gpu/shader_library.h"
 #include "engine/lighting/light_probe.h"
 #include "engine/post/display_pass.h"
@@ -30,12 +32,17 @@ class Picture {
     /// Throws Error (input) if the display has no such view.
     void set_view(const post::OcioConfig& config, const std::string& view);
     void resize(glm::ivec2 size);
-    /// Compiles the renderer's shaders anew from a source tree; throws Error and keeps the old if one is broken.
-    void reload_shaders(const std::filesystem::path& source_tree) { renderer_.reload_shaders(source_tree); }
+    /// Compiles all shaders in use anew from a source tree; throws Error and keeps the old if one is broken.
+    void reload_shaders(const std::filesystem::path& source_tree);
+    /// Where a source tree has, or would have, the shaders that are in use.
+    std::vector<std::filesystem::path> shader_sources(const std::filesystem::path& source_tree) const;
+    render::Renderer& renderer() { return renderer_; }
 
     /// Draws a frame, `seconds` after the last.
     void draw(DemoScene& scene, const scene::Camera& camera, float seconds);
 
+    /// What the passes of the last frames took.
+    const gpu::PassTimes& pass_times() const { return pass_times_; }
     post::PostSettings& post_settings() { return post_settings_; }
     const gpu::Framebuffer& linear() const { return targets_->linear; }
     const gpu::Framebuffer& encoded() const { return targets_->encoded; }
@@ -50,7 +57,9 @@ class Picture {
     glm::dmat3 xyz_to_working_;
     glm::vec3 luminance_weights_;
     render::Renderer renderer_;
-    gpu::ShaderLibrary post_shaders_;
+    gpu::PassTimes pass_times_;
+    std::unique_ptr<gpu::ShaderLibrary> post_shaders_;
+    post::DisplayTransform transform_;
     post::DisplayPass display_;
     post::PostStack post_stack_;
     post::PostSettings post_settings_;

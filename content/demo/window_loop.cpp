@@ -27,15 +27,20 @@ namespace rowland::demo {
 const char* const kWindowHelp =
     "In the window: drag to orbit, wheel to zoom; C flies (WASD QE, mouse, Shift and Ctrl for speed; C or Esc ends "
     "it);\n"
-    "Space pauses, P next probe, V next view, - and = exposure, 1 bloom, 2 vignette, 3 automatic exposure, 4 dither;\n"
-    "F5 reloads shaders, F11 full screen, F12 screenshot, Esc ends. Drop a probe onto the window to light the scene by "
-    "it.";
+    "Space pauses, P next probe, V next view, L lamp with shadow, - and = exposure, 1 bloom, 2 vignette, 3 automatic\n"
+    "exposure, 4 dither; F5 reloads shaders and assets, F9 scene-linear EXR, F11 full screen, F12\n"
+    "screenshot, Esc ends. Drop a probe onto the window to light the scene by it. Shaders, assets and their sources "
+    "are\n"
+    "followed: save a file and see it; if it is broken the picture stays and the title says why.";
 
 namespace {
 
 using platform::Key;
 
 constexpr float kExposureStep = 0.25F;
+constexpr int kFramesBetweenShaderLooks = 10;
+
+enum class Screenshot { None, Display, Linear };
 
 class WindowLoop {
  public:
@@ -44,13 +49,15 @@ class WindowLoop {
           config_(config),
           window_({.title = "Rowland", .size = {options.width, options.height}}),
           picture_(options, config, window_.framebuffer_size()),
-          scene_(load_sources(options, picture_.xyz_to_working())),
+          assets_(options, picture_.renderer().gltf_extensions()),
+          scene_(options, assets_, picture_.renderer(), picture_.xyz_to_working()),
+          shaders_(picture_.shader_sources(options.shader_folder)),
           orbit_(scene_.camera()),
           fly_(scene_.camera()),
-          probes_(probe_paths(options)),
+          probe_paths_(probe_paths(options)),
           views_(config.views(config.default_display())) {
         gpu::enable_debug_output(false);
-        picture_.set_probe(load_probe(probes_[0], options.probe_mapping));
+        use_probe(probe_paths_[0]);
         view_ = options.view.empty() ? config.default_view(config.default_display()) : options.view;
         window_.set_drop_handler([this](const std::vector<std::filesystem::path>& files) { drop(files); });
     }
@@ -62,6 +69,7 @@ class WindowLoop {
             const double seconds = std::chrono::duration<double>(elapsed).count();
             window_.poll(input_);
             handle_keys();
+            if (options_.watch) follow_files();
             move_camera(seconds);
             if (!paused_) {
                 pace_.advance(elapsed);
@@ -74,7 +82,7 @@ class WindowLoop {
             }
             picture_.resize(size);
             picture_.draw(scene_, flying_ ? fly_.camera() : orbit_.camera(), static_cast<float>(seconds));
-            if (screenshot_wanted_) take_screenshot();
+            if (screenshot_wanted_ != Screenshot::None) take_screenshot();
             picture_.encoded().show_in_window();
             window_.swap();
             show_title(seconds);
@@ -100,9 +108,14 @@ class WindowLoop {
         if (pressed(Key::Space)) paused_ = !paused_;
         if (pressed(Key::P)) attempt([&] { next_probe(); });
         if (pressed(Key::V)) attempt([&] { next_view(); });
-        if (pressed(Key::F5)) attempt([&] { reload_shaders(); });
+        if (pressed(Key::L)) scene_.set_sun(!scene_.sun());
+        if (pressed(Key::F5)) {
+            reload_shaders();
+            assets_.reload_all();
+        }
         if (pressed(Key::F11)) window_.set_fullscreen(!window_.fullscreen());
-        if (pressed(Key::F12)) screenshot_wanted_ = true;
+        if (pressed(Key::F9)) screenshot_wanted_ = Screenshot::Linear;
+        if (pressed(Key::F12)) screenshot_wanted_ = Screenshot::Display;
         post::PostSettings& post = picture_.post_settings();
         if (pressed(Key::Minus)) post.exposure_stops -= kExposureStep;
         if (pressed(Key::Equal)) post.exposure_stops += kExposureStep;
@@ -149,8 +162,24 @@ class WindowLoop {
     }
 
     void next_probe() {
-        probe_ = (probe_ + 1) % probes_.size();
-        picture_.set_probe(load_probe(probes_[probe_], options_.probe_mapping));
+        use_probe(probe_paths_[(probe_index_ + 1) % probe_paths_.size()]);
+        probe_index_ = (probe_index_ + 1) % probe_paths_.size();
+    }
+
+    void use_probe(const std::filesystem::path& path) {
+        probe_ = assets_.probe(path);
+        picture_.set_probe(*probe_);
+        probe_version_ = probe_.version();
+    }
+
+    void follow_files() {
+        if (assets_.poll()) scene_.refresh();
+        if (probe_version_ != probe_.version()) {
+            picture_.set_probe(*probe_);
+            probe_version_ = probe_.version();
+        }
+        shader_age_ += 1;
+        if (shader_age_ % kFramesBetweenShaderLooks == 0 && shaders_.changed()) reload_shaders();
     }
 
     void next_view() {
@@ -161,22 +190,39 @@ class WindowLoop {
     }
 
     void reload_shaders() {
-        picture_.reload_shaders(options_.shader_folder);
-        log_info("shaders reloaded from {}", options_.shader_folder.string());
+        shader_failure_.clear();
+        try {
+            picture_.reload_shaders(options_.shader_folder);
+            log_info("shaders reloaded from {}", options_.shader_folder.string());
+        } catch (const Error& error) {
+            shader_failure_ = error.what();
+            log_error("{}", shader_failure_);
+        }
+    }
+
+    /// Why something on the screen is not what its file says; empty if all is well.
+    std::string failure() const {
+        if (!shader_failure_.empty()) return shader_failure_;
+        if (const auto failures = assets_.failures(); !failures.empty()) return failures.front();
+        return scene_.failures().empty() ? std::string() : scene_.failures().front();
     }
 
     void drop(const std::vector<std::filesystem::path>& files) {
         attempt([&] {
-            if (!files.empty()) picture_.set_probe(load_probe(files.front(), options_.probe_mapping));
+            if (!files.empty()) use_probe(files.front());
         });
     }
 
     void take_screenshot() {
-        screenshot_wanted_ = false;
+        const bool linear = screenshot_wanted_ == Screenshot::Linear;
+        screenshot_wanted_ = Screenshot::None;
         const std::filesystem::path path =
-            options_.output_folder / fmt::format("screenshot_{:04}.png", screenshots_taken_++);
+            options_.output_folder / fmt::format("screenshot_{:04}.{}", screenshots_taken_++, linear ? "exr" : "png");
         attempt([&] {
-            write_display_capture(picture_.encoded(), path);
+            if (linear)
+                write_linear_capture(picture_.linear(), path);
+            else
+                write_display_capture(picture_.encoded(), path);
             log_info("wrote {}", path.string());
         });
     }
@@ -186,6 +232,10 @@ class WindowLoop {
         title_age_s_ += seconds;
         if (title_age_s_ < kTitleInterval_s) return;
         title_age_s_ = 0.0;
+        if (const std::string why = failure(); !why.empty()) {
+            window_.set_title("Rowland: " + why);
+            return;
+        }
         const platform::FrameStatistics statistics = times_.statistics();
         window_.set_title(fmt::format("Rowland: {:.1f} ms a frame, {}, {:+.2f} stops", statistics.median_ms, view_,
                                       picture_.post_settings().exposure_stops));
@@ -195,22 +245,28 @@ class WindowLoop {
     const post::OcioConfig& config_;
     platform::Window window_;
     Picture picture_;
+    Assets assets_;
     DemoScene scene_;
+    asset::FileWatch shaders_;
+    std::string shader_failure_;
+    int shader_age_ = 0;
     scene::OrbitCamera orbit_;
     scene::FlyCamera fly_;
-    std::vector<std::filesystem::path> probes_;
+    std::vector<std::filesystem::path> probe_paths_;
+    std::size_t probe_index_ = 0;
+    asset::Handle<lighting::LightProbe> probe_;
+    std::uint64_t probe_version_ = 0;
     std::vector<std::string> views_;
     std::string view_;
     platform::InputState input_;
     platform::FrameClock clock_;
     platform::FrameTimes times_;
     platform::FixedStep pace_;
-    std::size_t probe_ = 0;
     double title_age_s_ = 0.0;
     int screenshots_taken_ = 0;
     bool flying_ = false;
     bool paused_ = false;
-    bool screenshot_wanted_ = false;
+    Screenshot screenshot_wanted_ = Screenshot::None;
 };
 
 }  // namespace

@@ -6,9 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "editor/trade/evaluation_light.h"
 #include "engine/colour/light_spectra.h"
-#include "engine/lighting/sh_light.h"
+#include "modules/diffraction/asset/representation.h"
 #include "modules/diffraction/model/frame.h"
+#include "modules/diffraction/reference/reference.h"
 
 namespace CLI {
 class App;
@@ -30,7 +32,11 @@ struct EvaluateCommand {
     std::string storage = "unorm16";
     std::optional<int> bands;
     int spikes = 4;
+    int bins = 16;
+    int rank = 8;
+    std::optional<int> key_lights;
     std::optional<int> resolution;
+    bool error = false;
 
     /// Adds the subcommand, whose options fill this object.
     CLI::App* declare(CLI::App& program);
@@ -38,13 +44,14 @@ struct EvaluateCommand {
 
  private:
     void check_usage() const;
-    lighting::ShLight bandlimited_light(int bands_wanted) const;
+    EvaluationLight light() const;
+    diffraction::Representation representation(const colour::LightSpectra& spectra) const;
     std::vector<glm::dvec3> by_reference(const colour::LightSpectra& spectra,
                                          const std::vector<diffraction::Frame>& points) const;
-    std::vector<glm::dvec3> by_spikes(const colour::LightSpectra& spectra,
-                                      const std::vector<diffraction::Frame>& points) const;
-    std::vector<glm::dvec3> by_cooked_asset(const colour::LightSpectra& spectra,
-                                            const std::vector<diffraction::Frame>& points) const;
+    std::vector<diffraction::CheckedRadiance> by_checked_reference(const colour::LightSpectra& spectra,
+                                                                   const std::vector<diffraction::Frame>& points) const;
+    std::vector<glm::dvec3> by_representation(const colour::LightSpectra& spectra,
+                                              const std::vector<diffraction::Frame>& points) const;
 };
 
 }  // namespace rowland::trade

@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
@@ -25,8 +24,9 @@
 #include "engine/scene/transform.h"
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/module.h"
-#include "modules/diffraction/runtime/spike_surface.h"
+#include "modules/diffraction/runtime/diffraction_surface.h"
 #include "tests/benchmark/entity_benchmark.h"
+#include "tests/benchmark/processor.h"
 
 namespace rowland {
 namespace {
@@ -37,13 +37,6 @@ std::filesystem::path cooked_folder() {
     return std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() / "cooked";
 }
 
-std::string processor_name() {
-    std::ifstream file("/proc/cpuinfo");
-    for (std::string line; std::getline(file, line);)
-        if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
-    return "unknown processor";
-}
-
 /// The CD over half the picture, under the studio probe and one directional light.
 class Scene {
  public:
@@ -52,7 +45,7 @@ class Scene {
         diffraction::register_module(renderer_);
         const auto probe = asset::load(cooked_folder() / "studio.probe", "probe", lighting::kLightProbeVersion);
         renderer_.set_probe(lighting::deserialise(probe.payload, "studio.probe"));
-        material_ = std::make_shared<const diffraction::GpuSpikeMaterial>(
+        material_ = diffraction::make_gpu_material(
             diffraction::load_cooked_material(cooked_folder() / "cd_paper.material"), colour::xyz_to_acescg());
 
         disc_ = world_.create();
@@ -70,9 +63,9 @@ class Scene {
 
     void use_grating(bool on) {
         if (on)
-            world_.add(disc_, diffraction::SpikeSurface{material_});
+            world_.add(disc_, diffraction::DiffractionSurface{material_});
         else
-            world_.remove<diffraction::SpikeSurface>(disc_);
+            world_.remove<diffraction::DiffractionSurface>(disc_);
     }
     /// Turns the disc a little, to another place for every step.
     void tilt(int step) {
@@ -102,7 +95,7 @@ class Scene {
     ecs::World world_;
     ecs::Entity disc_;
     scene::Camera camera_;
-    std::shared_ptr<const diffraction::GpuSpikeMaterial> material_;
+    std::shared_ptr<const diffraction::GpuMaterial> material_;
     std::size_t vertices_ = 0;
 };
 

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "engine/core/file.h"
+#include "engine/post/exposure.h"
 #include "engine/post/shader_files.h"
 #include "tests/gpu/gl_test.h"
 #include "tests/support/temporary_folder.h"
@@ -167,6 +168,21 @@ TEST_F(DisplayPassTest, ExposureChangesThePictureButNotTheProgram) {
     EXPECT_NEAR(brighter, draw(pass, twice, 0.0F)[0].g, 1e-6F);
     EXPECT_EQ(pass.program_builds(), 1);
     EXPECT_EQ(program_later, program);
+}
+
+TEST_F(DisplayPassTest, ExposureIsTheCpusFactorOnSceneLinearLight) {
+    const DisplayPass pass(library_, DisplayTransform(OcioConfig::shipped()));
+    const std::vector<glm::vec3> pixels = finite_pixels();
+    for (const float stops : {-3.7F, 1.0F, 2.25F}) {
+        std::vector<glm::vec3> exposed = pixels;
+        post::apply_exposure(exposed, stops);
+        const std::vector<glm::vec4> drawn = draw(pass, pixels, stops);
+        const std::vector<glm::vec4> expected = draw(pass, exposed, 0.0F);
+        // Both are the same code but for the rounding of one product, which very bright colours magnify.
+        for (std::size_t i = 0; i < pixels.size(); ++i)
+            for (int c = 0; c < 3 && std::max({pixels[i].r, pixels[i].g, pixels[i].b}) < 50.0F; ++c)
+                EXPECT_NEAR(drawn[i][c], expected[i][c], 1e-5F) << stops << ", pixel " << i;
+    }
 }
 
 TEST_F(DisplayPassTest, ProgramIsBuiltAnewOnlyForAnotherTransform) {

@@ -24,7 +24,7 @@
 #include "engine/scene/transform.h"
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/module.h"
-#include "modules/diffraction/runtime/spike_surface.h"
+#include "modules/diffraction/runtime/diffraction_surface.h"
 #include "tests/support/temporary_folder.h"
 
 namespace rowland::render {
@@ -52,9 +52,9 @@ std::vector<glm::vec4> draw_sphere(const lighting::LightProbe& probe, const Stan
     world.add(entity, make_mesh_instance(scene::build_mesh(scene::SphereRecipe{.radius = 1.0})));
     world.add(entity, StandardMaterial(standard));
     if (grating) {
-        const auto material = std::make_shared<const diffraction::GpuSpikeMaterial>(*grating, glm::dmat3(1.0));
+        const auto material = diffraction::make_gpu_material(*grating, glm::dmat3(1.0));
         world.add(entity, material->base());
-        world.add(entity, diffraction::SpikeSurface{material});
+        world.add(entity, diffraction::DiffractionSurface{material});
     }
     scene::update_world_matrices(world);
     const scene::Camera camera{.eye = {0.0F, 0.0F, 3.0F}};

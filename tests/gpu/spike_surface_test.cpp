@@ -18,7 +18,7 @@
 #include "engine/scene/transform.h"
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/module.h"
-#include "modules/diffraction/runtime/spike_surface.h"
+#include "modules/diffraction/runtime/diffraction_surface.h"
 #include "modules/diffraction/runtime/tangent_light.h"
 
 namespace rowland::diffraction {
@@ -69,7 +69,8 @@ glm::dvec3 vertex_xyz(const CookedMaterial& cooked, const lighting::ShLight& lig
     const glm::dvec3 view = frame * glm::normalize(glm::dvec3(eye) - position);
     lighting::ShLight rotated{.bands = light.bands, .coefficients = light.coefficients};
     math::ShRotation(frame, light.bands).apply(std::span<const glm::dvec3>(light.coefficients), rotated.coefficients);
-    return evaluate_spikes(sample(cooked.table, view.x, view.y, view.z), rotated, colour::LightSpectra());
+    return evaluate_spikes(sample(std::get<SpikeTable>(cooked.tables), view.x, view.y, view.z), rotated,
+                           colour::LightSpectra());
 }
 
 /// Barycentric coordinates at which the ray through a pixel's centre meets the triangle, if it does so well inside.
@@ -103,15 +104,15 @@ struct Frame {
         const platform::HeadlessContext context;
         gpu::enable_debug_output(true);
         render::Renderer renderer(glm::dmat3(1.0));
-        register_module(renderer, math::SphericalWindow::None);
+        register_module(renderer, {.window = math::SphericalWindow::None});
         renderer.set_probe(probe);
         ecs::World world;
         const ecs::Entity entity = world.create();
         world.add(entity, transform);
         world.add(entity, render::make_mesh_instance(mesh));
-        const auto material = std::make_shared<const GpuSpikeMaterial>(cooked, glm::dmat3(1.0));
+        const auto material = make_gpu_material(cooked, glm::dmat3(1.0));
         world.add(entity, material->base());
-        world.add(entity, SpikeSurface{material});
+        world.add(entity, DiffractionSurface{material});
         if (lamp) world.add(world.create(), scene::DirectionalLight(*lamp));
         scene::update_world_matrices(world);
 

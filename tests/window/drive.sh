@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # drive.sh FOLDER ACTION... -- DEMO ARGUMENT...
 # Runs the demo in a window under Xvfb and plays a user: key:NAME, drag:DX,DY, shot (F12, and waits for the file),
-# run:COMMAND. Screenshots lie in FOLDER. Ends with the demo's own exit status, after Escape.
+# run:COMMAND, wait:SECONDS, other:SECONDS (shots until one differs from the last, at most so long). Shots lie in FOLDER
+# as shot_1.png and so on. Ends with the demo's own exit status, after Escape.
 set -u
 folder=$1
 shift
@@ -21,18 +22,36 @@ demo=$!
 window=$(timeout 60 xdotool search --sync --onlyvisible --name Rowland | head -n 1)
 xdotool windowfocus --sync "$window"
 
+taken=0
 shots=0
-shot() {
+# Has the demo write a screenshot, and says where it is.
+take() {
+    local file
+    file="$folder/$(printf 'screenshot_%04d.png' "$taken")"
+    taken=$((taken + 1))
     xdotool key F12
     for _ in $(seq 400); do
-        [ -f "$folder/$(printf 'screenshot_%04d.png' "$shots")" ] && break
+        [ -f "$file" ] && break
         sleep 0.05
     done
+    taken_file=$file
+}
+shot() {
+    take
     shots=$((shots + 1))
+    mv "$taken_file" "$folder/shot_$shots.png"
+}
+# Shots until one differs from the last, for at most so many seconds; the last one counts.
+other() {
+    local before="$folder/shot_$shots.png" end=$((SECONDS + $1))
+    while take && cmp -s "$taken_file" "$before" && [ "$SECONDS" -lt "$end" ]; do
+        sleep 0.1
+    done
+    shots=$((shots + 1))
+    mv "$taken_file" "$folder/shot_$shots.png"
 }
 # The first picture tells that the demo is drawing; it is not one of the test's.
-shot
-rm -f "$folder/screenshot_0000.png"
+take
 
 for action in "${actions[@]}"; do
     what=${action%%:*}
@@ -49,6 +68,8 @@ for action in "${actions[@]}"; do
             xdotool mouseup 1
             ;;
         shot) shot ;;
+        other) other "$value" ;;
+        wait) sleep "$value" ;;
         run) eval "$value" ;;
     esac
     sleep 0.1

@@ -3,38 +3,64 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <iterator>
+#include <utility>
+
 #include "engine/asset/container.h"
+#include "engine/colour/light_spectra.h"
 #include "engine/core/byte_stream.h"
 #include "engine/core/error.h"
 #include "engine/core/json_reader.h"
+#include "modules/diffraction/asset/baked_tables.h"
+#include "modules/diffraction/asset/efficiency_csv.h"
 #include "modules/diffraction/asset/layer_weights.h"
-#include "modules/diffraction/asset/material_json.h"
 
 namespace rowland::diffraction {
 
-CookedMaterial cook_material(const nlohmann::json& json, const std::string& file) {
-    CookedMaterial cooked;
-    cooked.material = parse_material(json, file);
-    if (cooked.material.grating.grooves < kManyGrooves)
-        refuse_input(file, "/grating/grooves", fmt::format("{}", cooked.material.grating.grooves),
+CookedMaterial bake_material(const Material& material) {
+    const ColourKernel kernel(material.grating, colour::LightSpectra());
+    return {.material = material,
+            .tables = bake_tables(material.grating, representation(material)),
+            .kernel = tabulate(kernel),
+            .zero_order_xyz = kernel.zero_order_xyz()};
+}
+
+CookedMaterial cook_material(const nlohmann::json& json, const std::string& file, const ReadNamed& read) {
+    const Material material = parse_material(json, file, read);
+    if (material.grating.grooves < kManyGrooves)
+        refuse_input(file, "/grating/grooves", fmt::format("{}", material.grating.grooves),
                      fmt::format("at least {} for a baked material", kManyGrooves),
                      "only rowland-trade's method \"reference\" takes fewer");
-    cooked.table = bake_spike_table(cooked.material.grating, table_settings(cooked.material));
-    return cooked;
+    return bake_material(material);
+}
+
+CookedMaterial cook_material(const nlohmann::json& json, const std::string& file) {
+    return cook_material(json, file, read_beside(std::filesystem::path(file).parent_path()));
 }
 
 std::vector<std::byte> write_cooked_material(const nlohmann::json& json, const CookedMaterial& cooked) {
     ByteWriter writer;
     writer.text(json.dump());
-    write_spike_table(cooked.table, writer);
+    const auto* efficiencies = std::get_if<EfficiencyTable>(&cooked.material.grating.profile);
+    writer.text(efficiencies ? write_efficiency_csv(*efficiencies) : std::string());
+    write_kernel(cooked.kernel, writer);
+    const glm::mat3 zero_order(cooked.zero_order_xyz);
+    write_matrices({&zero_order, 1}, writer);
+    write_tables(cooked.tables, writer);
     return writer.take();
 }
 
 CookedMaterial read_cooked_material(std::span<const std::byte> payload, const std::string& file) {
     ByteReader reader(payload, file);
     CookedMaterial cooked;
-    cooked.material = parse_material(parse_json(reader.text(), file), file);
-    cooked.table = read_spike_table(reader);
+    const nlohmann::json json = parse_json(reader.text(), file);
+    const std::string efficiencies = reader.text();
+    cooked.material = parse_material(json, file, [&](const std::string& name) {
+        return NamedText{.text = efficiencies, .file = fmt::format("{}: {}", file, name)};
+    });
+    cooked.kernel = read_kernel(reader);
+    cooked.zero_order_xyz = glm::dmat3(read_matrices(reader, "zero order", 1, 1)[0]);
+    cooked.tables = read_tables(reader, representation(cooked.material));
     if (reader.remaining() != 0) reader.fail(fmt::format("{} bytes too many", reader.remaining()), "the end");
     return cooked;
 }
@@ -43,29 +69,79 @@ CookedMaterial load_cooked_material(const std::filesystem::path& path) {
     return read_cooked_material(asset::load(path, kMaterialAssetType, kMaterialAssetVersion).payload, path.string());
 }
 
+namespace {
+
+/// "name: value" lines.
+class Lines {
+ public:
+    template <typename Value>
+    void add(const char* name, const Value& value) {
+        fmt::format_to(std::back_inserter(text_), "{}: {}\n", name, value);
+    }
+    std::string take() { return std::move(text_); }
+
+ private:
+    std::string text_;
+};
+
+void add_grid(const ViewGrid& grid, std::size_t layers, const PackedTexels& packed, Lines& lines) {
+    lines.add("view_mapping", view_mapping_name(grid.mapping));
+    lines.add("view_table", fmt::format("{} x {} x {} layers", grid.columns, grid.rows, layers));
+    lines.add("storage", storage_name(packed.storage));
+}
+
+void add_tables(const SpikeTable& table, Lines& lines) {
+    lines.add("bands", table.bands);
+    lines.add("spikes", table.spikes);
+    add_grid(table.grid(), static_cast<std::size_t>(table.layers()), table, lines);
+}
+void add_tables(const BinTable& table, Lines& lines) {
+    lines.add("bands", table.bands);
+    lines.add("bins", table.bins());
+    add_grid(table.grid, table.scale.size(), table, lines);
+}
+void add_tables(const TransferTable& table, Lines& lines) {
+    lines.add("bands", table.bands);
+    add_grid(table.grid, table.scale.size(), table, lines);
+}
+void add_tables(const ArcTable& table, Lines& lines) {
+    lines.add("bands", table.bands);
+    lines.add("rank", table.rank);
+    add_grid(table.grid, table.scale.size(), table, lines);
+}
+void add_tables(const DirectTables&, Lines&) {}
+void add_tables(const PlanarTables& tables, Lines& lines) {
+    lines.add("map", fmt::format("{} x {}", tables.size.azimuths, tables.size.views));
+    add_tables(tables.stand_in, lines);
+}
+void add_tables(const CircleTables& tables, Lines& lines) {
+    lines.add("map", fmt::format("{0} x {0} x {1}, {2} terms", tables.size.side, tables.size.views, tables.size.terms));
+}
+
+void add_cost(const ShadingCost& cost, Lines& lines) {
+    lines.add("table_bytes", cost.table_bytes);
+    lines.add("fetches_per_vertex", cost.fetches_per_vertex);
+    lines.add("multiply_adds_per_vertex", cost.multiply_adds_per_vertex);
+    lines.add("fetches_per_pixel", cost.fetches_per_pixel);
+    lines.add("multiply_adds_per_pixel", cost.multiply_adds_per_pixel);
+    lines.add("fetches_per_pixel_and_light", cost.fetches_per_light);
+}
+
+}  // namespace
+
 std::string describe(const CookedMaterial& cooked) {
     const Grating& grating = cooked.material.grating;
-    const SpikeTable& table = cooked.table;
     const LayerWeights weights = layer_weights(grating);
-    std::string text;
-    const auto line = [&text](const char* name, const std::string& value) {
-        text += fmt::format("{}: {}\n", name, value);
-    };
-    line("pitch_nm", fmt::format("{}", grating.pitch_nm));
-    line("orders", fmt::format("{}", fmt::join(grating.orders, " ")));
-    line("representation", "spikes");
-    line("bands", fmt::format("{}", table.bands));
-    line("spikes", fmt::format("{}", table.spikes));
-    line("view_mapping", "spherical");
-    line("view_table", fmt::format("{} x {} x {} layers", table.phi_nodes, table.theta_nodes, table.layers()));
-    line("storage", table.storage == Storage::Unorm16 ? "unorm16" : "fp16");
-    line("table_bytes", fmt::format("{}", table.texels.size() * sizeof(table.texels[0])));
-    line("fetches_per_vertex", fmt::format("{}", table.layers()));
-    line("multiply_adds_per_vertex",
-         fmt::format("{}", table.layers() * 4 + table.spikes * table.bands * table.bands * 3));
-    line("zero_order_luminance", fmt::format("{:.4f}", weights.mirror.y));
-    line("base_luminance", fmt::format("{:.4f}", weights.base.y));
-    return text;
+    Lines lines;
+    lines.add("pitch_nm", grating.pitch_nm);
+    lines.add("orders", fmt::format("{}", fmt::join(grating.orders, " ")));
+    lines.add("representation", representation_name(cooked.tables.index()));
+    lines.add("key_lights", cooked.material.quality.key_lights);
+    std::visit([&](const auto& tables) { add_tables(tables, lines); }, cooked.tables);
+    add_cost(shading_cost(cooked.tables), lines);
+    lines.add("zero_order_luminance", fmt::format("{:.4f}", weights.mirror.y));
+    lines.add("base_luminance", fmt::format("{:.4f}", weights.base.y));
+    return lines.take();
 }
 
 }  // namespace rowland::diffraction

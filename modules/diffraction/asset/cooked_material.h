@@ -2,29 +2,40 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <glm/mat3x3.hpp>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "modules/diffraction/asset/material.h"
-#include "modules/diffraction/bake/spike_table.h"
+#include "modules/diffraction/asset/material_json.h"
+#include "modules/diffraction/asset/representation.h"
+#include "modules/diffraction/model/colour_kernel.h"
 
 namespace rowland::diffraction {
 
 inline constexpr const char* kMaterialAssetType = "material";
-inline constexpr std::uint32_t kMaterialAssetVersion = 1;
+inline constexpr std::uint32_t kMaterialAssetVersion = 3;
 
 /// A material with what was baked for it.
 struct CookedMaterial {
     Material material;
-    SpikeTable table;
+    BakedTables tables;
+    KernelTable kernel;              ///< for lights of their own, and for maps that are filled at run time
+    glm::dmat3 zero_order_xyz{0.0};  ///< ColourKernel::zero_order_xyz()
 };
 
-/// Parses `json` and bakes its view table. Throws Error (input) naming `file`.
+/// Bakes the material's representation. Throws Error (input) if the grating does not suit it.
+CookedMaterial bake_material(const Material& material);
+
+/// Parses `json` and bakes what it asks for. Files that it names are read by `read`, or beside `file`. Throws Error
+/// (input) naming `file`.
+CookedMaterial cook_material(const nlohmann::json& json, const std::string& file, const ReadNamed& read);
 CookedMaterial cook_material(const nlohmann::json& json, const std::string& file);
 
-/// The payload of a cooked material: the source as compact JSON, then the table.
+/// The payload of a cooked material: the source as compact JSON, the efficiencies of a `table` profile as CSV (else no
+/// text), the kernel, the representation's number and its tables. It needs no other file.
 std::vector<std::byte> write_cooked_material(const nlohmann::json& json, const CookedMaterial& cooked);
 
 /// Inverse of write_cooked_material for bytes that may be hostile. Throws Error (input).

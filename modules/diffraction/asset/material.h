@@ -3,7 +3,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
-#include "modules/diffraction/bake/spike_table.h"
+#include "modules/diffraction/asset/representation.h"
 #include "modules/diffraction/model/grating.h"
 
 namespace rowland::diffraction {
@@ -17,7 +17,8 @@ struct BaseLayer {
 /// What the user pays for: an error that can be borne, or a representation pinned by hand.
 struct Quality {
     double max_error = 0.05;  ///< relative RMS against the reference, > 0
-    std::optional<SpikeTableSettings> pinned;
+    std::optional<Representation> pinned;
+    bool key_lights = false;  ///< the probe's key lights are shaded on their own, at full sharpness
 };
 
 /// A grating material: the parsed material file.
@@ -27,7 +28,7 @@ struct Material {
     Quality quality;
 };
 
-/// The view table that the cooker bakes for a material.
-SpikeTableSettings table_settings(const Material& material);
+/// What the cooker bakes for a material: what is pinned, else spikes.
+Representation representation(const Material& material);
 
 }  // namespace rowland::diffraction

@@ -6,6 +6,9 @@
 
 #include "engine/core/file.h"
 #include "engine/core/json_reader.h"
+#include "modules/diffraction/asset/efficiency_csv.h"
+#include "modules/diffraction/asset/material_parts.h"
+#include "modules/diffraction/asset/quality_json.h"
 #include "modules/diffraction/model/grating_equation.h"
 
 namespace rowland::diffraction {
@@ -15,10 +18,22 @@ namespace {
 constexpr std::uint64_t kMaximumFileSize = 1 << 20;
 constexpr NumberRange kPositive{.minimum = 0.0, .minimum_open = true};
 constexpr NumberRange kUnit{.minimum = 0.0, .maximum = 1.0};
-constexpr int kHighestOrder = 10000;
 
-Profile parse_profile(JsonReader json, double pitch_nm) {
-    const std::string type = json.choice("type", {"slit", "lamellar", "sinusoidal", "blazed"});
+/// "all" beyond this pitch would be more than a thousand orders to a side.
+constexpr double kLargestPitchOfAll_nm = 190000.0;
+
+/// Longer than any pit, and short enough that ℓ/λ waves can be integrated.
+constexpr double kLongestPit_nm = 100000.0;
+
+EfficiencyTable parse_table(JsonReader& json, const ReadNamed& read) {
+    const std::string name = json.text("file");
+    if (name.empty()) json.fail("file", "an empty name", "a CSV file of efficiencies");
+    const NamedText table = read(name);
+    return parse_efficiency_csv(table.text, table.file);
+}
+
+Profile parse_profile(JsonReader json, double pitch_nm, const ReadNamed& read) {
+    const std::string type = json.choice("type", {"slit", "lamellar", "sinusoidal", "blazed", "table"});
     Profile profile;
     if (type == "slit") {
         const NumberRange width{.minimum = 0.0, .maximum = pitch_nm, .minimum_open = true};
@@ -28,6 +43,8 @@ Profile parse_profile(JsonReader json, double pitch_nm) {
         profile = LamellarProfile{.duty = json.number("duty", duty), .depth_nm = json.number("depth_nm", kPositive)};
     } else if (type == "sinusoidal") {
         profile = SinusoidalProfile{.depth_nm = json.number("depth_nm", kPositive)};
+    } else if (type == "table") {
+        profile = parse_table(json, read);
     } else {
         profile = BlazedProfile{.depth_nm = json.number("depth_nm", kPositive)};
     }
@@ -37,7 +54,12 @@ Profile parse_profile(JsonReader json, double pitch_nm) {
 
 std::vector<int> parse_orders(JsonReader& json, double pitch_nm) {
     const nlohmann::json& value = json.raw("orders");
-    if (value == "all") return all_orders(pitch_nm);
+    if (value == "all") {
+        if (pitch_nm > kLargestPitchOfAll_nm)
+            json.fail("orders", fmt::format("\"all\" with a pitch of {} nm", pitch_nm),
+                      fmt::format("a pitch of at most {} nm with \"all\"", kLargestPitchOfAll_nm), "list the orders");
+        return all_orders(pitch_nm);
+    }
     if (!value.is_array() || value.empty())
         json.fail("orders", value.is_array() ? "an empty list" : "another type", "a list of whole numbers, or \"all\"");
     std::vector<int> orders;
@@ -55,14 +77,28 @@ std::vector<int> parse_orders(JsonReader& json, double pitch_nm) {
     return orders;
 }
 
+PitsLobe parse_pits(JsonReader json) {
+    const NumberRange length{.minimum = 0.0, .maximum = kLongestPit_nm, .minimum_open = true};
+    const PitsLobe pits{.length_nm = json.number("length_nm", length), .coherent = json.number("coherent", kUnit)};
+    json.finish();
+    return pits;
+}
+
 GrooveLobe parse_lobe(JsonReader& json) {
     const nlohmann::json& value = json.raw("groove_lobe");
     if (value == "flat") return FlatLobe{};
-    if (!value.is_object()) json.fail("groove_lobe", value.dump(), "\"flat\" or an object such as { \"sigma\": 0.2 }");
-    JsonReader lobe = json.object("groove_lobe");
-    const GaussianLobe gaussian{.sigma = lobe.number("sigma", kPositive)};
-    lobe.finish();
-    return gaussian;
+    if (!value.is_object())
+        json.fail("groove_lobe", value.dump(),
+                  "\"flat\", { \"sigma\": 0.2 } or { \"pits\": { \"length_nm\": 850, \"coherent\": 0.3 } }");
+    JsonReader reader = json.object("groove_lobe");
+    GrooveLobe lobe;
+    if (reader.has("pits")) {
+        lobe = parse_pits(reader.object("pits"));
+    } else {
+        lobe = GaussianLobe{.sigma = reader.number("sigma", kPositive)};
+    }
+    reader.finish();
+    return lobe;
 }
 
 colour::Metal parse_metal(const std::string& symbol) {
@@ -72,10 +108,23 @@ colour::Metal parse_metal(const std::string& symbol) {
     return colour::Metal::Cu;
 }
 
-Grating parse_grating(JsonReader json) {
+/// Few grooves make every wavelength wide, which takes a groove's spectrum between the orders and one lobe for all.
+void check_few_grooves(JsonReader& json, const Grating& grating) {
+    if (grating.grooves >= kManyGrooves) return;
+    const auto refuse = [&](const char* what, const char* why) {
+        json.fail("grooves", fmt::format("{} with {}", grating.grooves, what), fmt::format("at least {}", kManyGrooves),
+                  why);
+    };
+    if (std::holds_alternative<EfficiencyTable>(grating.profile))
+        refuse("a table of efficiencies", "a table does not hold the groove's spectrum between the orders");
+    if (std::holds_alternative<PitsLobe>(grating.lobe))
+        refuse("a lobe of pits", "with few grooves the lobe must be the same for every wavelength");
+}
+
+Grating parse_grating(JsonReader json, const ReadNamed& read) {
     Grating grating;
     grating.pitch_nm = json.number("pitch_nm", {.minimum = 1.0, .maximum = 1e7});
-    grating.profile = parse_profile(json.object("profile"), grating.pitch_nm);
+    grating.profile = parse_profile(json.object("profile"), grating.pitch_nm, read);
     grating.grooves = json.number_or("grooves", grating.grooves, {.minimum = 1.0, .maximum = 1e9});
     if (json.has("orders")) grating.orders = parse_orders(json, grating.pitch_nm);
     if (json.choice_or("normalization", "energy", {"energy", "agu"}) == "agu") {
@@ -85,6 +134,7 @@ Grating parse_grating(JsonReader json) {
         grating.normalization = Normalization::Agu;
     }
     if (json.has("groove_lobe")) grating.lobe = parse_lobe(json);
+    check_few_grooves(json, grating);
     json.finish();
     return grating;
 }
@@ -100,40 +150,42 @@ BaseLayer parse_base(JsonReader json) {
     return base;
 }
 
-Quality parse_quality(JsonReader json) {
-    Quality quality;
-    quality.max_error = json.number_or("max_error", quality.max_error, kPositive);
-    if (json.has("representation")) {
-        json.choice("representation", {"spikes"});
-        SpikeTableSettings pinned;
-        pinned.spikes.bands = static_cast<int>(json.integer_or("bands", pinned.spikes.bands, 1, 16));
-        pinned.spikes.spikes = static_cast<int>(json.integer_or("spikes", pinned.spikes.spikes, 1, 64));
-        json.choice_or("view_mapping", "spherical", {"spherical"});
-        pinned.theta_nodes = static_cast<int>(json.integer_or("view_resolution", pinned.theta_nodes, 2, 512));
-        pinned.phi_nodes = 2 * pinned.theta_nodes;
-        const bool half = json.choice_or("storage", "unorm16", {"unorm16", "fp16"}) == "fp16";
-        pinned.storage = half ? Storage::Half : Storage::Unorm16;
-        quality.pinned = pinned;
-    }
-    json.finish();
-    return quality;
-}
-
 }  // namespace
 
-SpikeTableSettings table_settings(const Material& material) {
+Representation representation(const Material& material) {
     return material.quality.pinned.value_or(SpikeTableSettings{});
 }
 
-Material parse_material(const nlohmann::json& json, const std::string& file) {
-    JsonReader reader(json, file);
+Material parse_material_parts(JsonReader& reader, const ReadNamed& read) {
     Material material;
-    material.grating = parse_grating(reader.object("grating"));
-    if (reader.has("metal")) material.grating.metal = parse_metal(reader.choice("metal", {"Al", "Ag", "Au", "Cu"}));
+    material.grating = parse_grating(reader.object("grating"), read);
+    if (reader.has("metal")) {
+        if (std::holds_alternative<EfficiencyTable>(material.grating.profile))
+            reader.fail("metal", "a metal beside a table of efficiencies", "no metal",
+                        "the table's efficiencies are those of its metal already");
+        material.grating.metal = parse_metal(reader.choice("metal", {"Al", "Ag", "Au", "Cu"}));
+    }
     if (reader.has("base")) material.base = parse_base(reader.object("base"));
-    if (reader.has("quality")) material.quality = parse_quality(reader.object("quality"));
+    if (reader.has("quality")) material.quality = parse_quality(reader.object("quality"), material.grating);
+    return material;
+}
+
+ReadNamed read_beside(std::filesystem::path folder) {
+    return [folder = std::move(folder)](const std::string& name) {
+        const std::filesystem::path path = folder / name;
+        return NamedText{.text = read_text_file(path, kMaximumNamedFileSize), .file = path.string()};
+    };
+}
+
+Material parse_material(const nlohmann::json& json, const std::string& file, const ReadNamed& read) {
+    JsonReader reader(json, file);
+    Material material = parse_material_parts(reader, read);
     reader.finish();
     return material;
+}
+
+Material parse_material(const nlohmann::json& json, const std::string& file) {
+    return parse_material(json, file, read_beside(std::filesystem::path(file).parent_path()));
 }
 
 Material load_material(const std::filesystem::path& path) {

@@ -2,10 +2,13 @@
 
 namespace rowland::diffraction {
 
-// As in shaders/spikes.vert.glsl. Units and bindings below 4 are the engine's.
-inline constexpr unsigned kTangentLightBinding = 4;
-inline constexpr unsigned kTableRangeBinding = 5;
-inline constexpr unsigned kSpikeTableUnit = 4;
-inline constexpr unsigned kWavelengthTableUnit = 5;
+// As in shaders/. Units below 8 and bindings below 4 are the engine's.
+inline constexpr unsigned kVertexLightBinding = 4;  ///< storage
+inline constexpr unsigned kTableRangeBinding = 5;   ///< storage
+inline constexpr unsigned kKeyLobeBinding = 6;      ///< uniform
+inline constexpr unsigned kTableUnit = 8;
+inline constexpr unsigned kWavelengthTableUnit = 9;
+inline constexpr unsigned kKernelUnit = 10;
+inline constexpr unsigned kMapUnit = 11;
 
 }  // namespace rowland::diffraction

@@ -1,18 +1,126 @@
 #include "modules/diffraction/runtime/tangent_light.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_inverse.hpp>
+#include <optional>
 #include <span>
 
-#include "engine/core/parallel.h"
+#include "engine/core/check.h"
+#include "engine/math/frame_rotation.h"
 #include "engine/math/sh_rotation.h"
 
 namespace rowland::diffraction {
 
 namespace {
 
-constexpr std::size_t kVerticesPerTask = 256;
+/// Tangents and normals, one array per component.
+struct SplitFrames {
+    std::array<std::vector<float>, 3> tangent;
+    std::array<std::vector<float>, 3> normal;
+
+    explicit SplitFrames(std::size_t count) {
+        for (auto& axis : tangent) axis.resize(count);
+        for (auto& axis : normal) axis.resize(count);
+    }
+    void set(std::size_t i, const glm::vec3& g, const glm::vec3& n) {
+        for (int axis = 0; axis < 3; ++axis) {
+            tangent[static_cast<std::size_t>(axis)][i] = g[axis];
+            normal[static_cast<std::size_t>(axis)][i] = n[axis];
+        }
+    }
+    math::FrameArrays arrays() const {
+        return {.tangent = {tangent[0], tangent[1], tangent[2]}, .normal = {normal[0], normal[1], normal[2]}};
+    }
+};
+
+/// Turns tangents about normals. None of no angle: those stay as they are.
+class GrooveTurn {
+ public:
+    /// `mirroring`: the sign of the determinant that the frames have been through.
+    GrooveTurn(double radians, double mirroring)
+        : cosine_(static_cast<float>(std::cos(radians))),
+          sine_(static_cast<float>(std::sin(radians) * (mirroring < 0.0 ? -1.0 : 1.0))),
+          turns_(radians != 0.0) {}
+
+    glm::vec3 operator()(const glm::vec3& tangent, const glm::vec3& normal, float bitangent_sign) const {
+        if (!turns_) return tangent;
+        const glm::vec3 n = glm::normalize(normal);
+        const glm::vec3 g = glm::normalize(tangent - n * glm::dot(n, tangent));
+        return cosine_ * g + sine_ * bitangent_sign * glm::cross(n, g);
+    }
+
+ private:
+    float cosine_;
+    float sine_;
+    bool turns_;
+};
+
+/// The object's turn, if its matrix is a turn times one scale; nothing for a stretched, sheared or mirrored object.
+std::optional<glm::dmat3> rigid_turn(const glm::dmat3& linear) {
+    const double scale = std::cbrt(glm::determinant(linear));
+    if (!(scale > 0.0)) return std::nullopt;
+    const glm::dmat3 turn = linear / scale;
+    const glm::dmat3 product = glm::transpose(turn) * turn;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            // A matrix that was multiplied together from turns in float is one to a few roundings.
+            if (std::abs(product[i][j] - (i == j ? 1.0 : 0.0)) > 1e-6) return std::nullopt;
+    const glm::dvec3 x = glm::normalize(turn[0]);
+    const glm::dvec3 z = glm::normalize(glm::cross(x, turn[1]));
+    return glm::dmat3(x, glm::cross(z, x), z);
+}
+
+std::vector<glm::dvec3> in_object_frame(const lighting::ShLight& light, const glm::dmat3& turn) {
+    std::vector<glm::dvec3> turned(light.coefficients.size());
+    math::ShRotation(glm::transpose(turn), light.bands).apply(std::span<const glm::dvec3>(light.coefficients), turned);
+    return turned;
+}
+
+/// The mesh's frames as they are, in the object's axes.
+SplitFrames object_frames(const scene::Mesh& mesh, double groove_rotation) {
+    SplitFrames frames(mesh.normals.size());
+    const GrooveTurn turn(groove_rotation, 1.0);
+    for (std::size_t i = 0; i < mesh.normals.size(); ++i)
+        frames.set(i, turn(glm::vec3(mesh.tangents[i]), mesh.normals[i], mesh.tangents[i].w), mesh.normals[i]);
+    return frames;
+}
+
+/// The matrix over its largest entry: vectors through it stay well inside the range of floats.
+glm::dmat3 of_moderate_size(const glm::dmat3& matrix) {
+    double largest = 0.0;
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row) largest = std::max(largest, std::abs(matrix[column][row]));
+    return matrix / largest;
+}
+
+/// The mesh's frames in world axes, where a stretched object has its own; of any length and skewed, as FrameArrays
+/// allow.
+SplitFrames world_frames(const scene::Mesh& mesh, const glm::dmat3& linear, double groove_rotation) {
+    SplitFrames frames(mesh.normals.size());
+    const GrooveTurn turn(groove_rotation, glm::determinant(linear));
+    const glm::mat3 for_tangents(of_moderate_size(linear));
+    const glm::mat3 for_normals(of_moderate_size(glm::inverseTranspose(linear)));
+    for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
+        const glm::vec3 n = for_normals * mesh.normals[i];
+        frames.set(i, turn(for_tangents * glm::vec3(mesh.tangents[i]), n, mesh.tangents[i].w), n);
+    }
+    return frames;
+}
+
+/// Calls use(coefficients, frames) with the light and the vertices' frames in the same axes, the object's or the
+/// world's.
+template <typename Use>
+void in_vertex_frames(const lighting::ShLight& light, const scene::Mesh& mesh, const glm::mat4& object_to_world,
+                      double groove_rotation, const Use& use) {
+    const glm::dmat3 linear(object_to_world);
+    if (const auto turn = rigid_turn(linear))
+        use(in_object_frame(light, *turn), object_frames(mesh, groove_rotation).arrays());
+    else
+        use(light.coefficients, world_frames(mesh, linear, groove_rotation).arrays());
+}
 
 }  // namespace
 
@@ -24,23 +132,33 @@ glm::dmat3 tangent_frame(const glm::vec3& normal, const glm::vec3& tangent, cons
     return glm::transpose(glm::dmat3(g, glm::cross(n, g), n));
 }
 
+glm::dmat3 tangent_frame(const glm::vec3& normal, const glm::vec4& tangent, const glm::mat4& object_to_world,
+                         double groove_rotation) {
+    const glm::dmat3 axes = glm::transpose(tangent_frame(normal, glm::vec3(tangent), object_to_world));
+    const double sign = (glm::determinant(glm::dmat3(object_to_world)) < 0.0 ? -1.0 : 1.0) * double{tangent.w};
+    const glm::dvec3 g = std::cos(groove_rotation) * axes[0] + sign * std::sin(groove_rotation) * axes[1];
+    return glm::transpose(glm::dmat3(g, glm::cross(axes[2], g), axes[2]));
+}
+
 std::vector<float> rotate_to_vertices(const lighting::ShLight& light, const scene::Mesh& mesh,
-                                      const glm::mat4& object_to_world) {
-    const std::size_t coefficients = light.coefficients.size();
-    const std::size_t vertices = mesh.positions.size();
-    std::vector<float> result(vertices * coefficients * 3);
-    parallel_for((vertices + kVerticesPerTask - 1) / kVerticesPerTask, [&](std::size_t task) {
-        std::vector<glm::dvec3> rotated(coefficients);
-        const std::size_t end = std::min(vertices, (task + 1) * kVerticesPerTask);
-        for (std::size_t vertex = task * kVerticesPerTask; vertex < end; ++vertex) {
-            const glm::dmat3 frame =
-                tangent_frame(mesh.normals[vertex], glm::vec3(mesh.tangents[vertex]), object_to_world);
-            math::ShRotation(frame, light.bands).apply(std::span<const glm::dvec3>(light.coefficients), rotated);
-            float* out = &result[vertex * coefficients * 3];
-            for (const glm::dvec3& rgb : rotated)
-                for (int c = 0; c < 3; ++c) *out++ = static_cast<float>(rgb[c]);
-        }
-    });
+                                      const glm::mat4& object_to_world, double groove_rotation) {
+    std::vector<float> result(mesh.normals.size() * light.coefficients.size() * 3);
+    in_vertex_frames(light, mesh, object_to_world, groove_rotation,
+                     [&](std::span<const glm::dvec3> coefficients, const math::FrameArrays& frames) {
+                         math::rotate_to_frames(coefficients, light.bands, frames, result);
+                     });
+    return result;
+}
+
+std::vector<float> project_to_vertices(const lighting::ShLight& light, const math::FrameProjection& projection,
+                                       const scene::Mesh& mesh, const glm::mat4& object_to_world,
+                                       double groove_rotation) {
+    ROWLAND_CHECK_OP(light.bands, ==, projection.bands());
+    std::vector<float> result(mesh.normals.size() * static_cast<std::size_t>(projection.rows()) * 3);
+    in_vertex_frames(light, mesh, object_to_world, groove_rotation,
+                     [&](std::span<const glm::dvec3> coefficients, const math::FrameArrays& frames) {
+                         math::rotate_and_project(coefficients, frames, projection, result);
+                     });
     return result;
 }
 

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/lighting/key_lights.h"
+#include "engine/lighting/light_texels.h"
+#include "engine/lighting/probe_image.h"
+#include "engine/lighting/sh_light.h"
+#include "engine/math/sh_window.h"
+
+namespace rowland::trade {
+
+/// The light of an evaluation in the forms that the representations take: key lights, and what they leave.
+class EvaluationLight {
+ public:
+    /// A probe with up to so many key lights taken out of it.
+    EvaluationLight(lighting::ProbeImage probe, int key_lights, math::SphericalWindow window);
+    /// Band-limited light, which has no bright parts to take out.
+    EvaluationLight(lighting::ShLight light, math::SphericalWindow window);
+
+    std::span<const lighting::KeyLight> key_lights() const { return key_lights_; }
+    /// What the key lights leave, in at most so many bands, under the window.
+    lighting::ShLight harmonics(int bands) const;
+    /// What the key lights leave, at full resolution.
+    lighting::LightTexels texels() const;
+    /// The probe with its key lights; none for band-limited light.
+    const std::optional<lighting::ProbeImage>& probe() const { return probe_; }
+
+ private:
+    std::optional<lighting::ProbeImage> probe_;
+    lighting::ShLight sh_;  ///< used without a probe
+    std::vector<lighting::KeyLight> key_lights_;
+    math::SphericalWindow window_;
+};
+
+}  // namespace rowland::trade

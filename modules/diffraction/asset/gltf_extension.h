@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "modules/diffraction/asset/material.h"
+
+namespace rowland::diffraction {
+
+/// The glTF material extension that holds a grating.
+inline constexpr const char* kGltfExtension = "ROWLAND_materials_diffraction";
+
+/// A texture that varies the grating over the surface, as a glTF textureInfo names it. Linear; R: rotation / π,
+/// G: pitch / pitch_nm / 2.
+struct GrooveTexture {
+    int index = 0;      ///< into the glTF's textures, ≥ 0
+    int tex_coord = 0;  ///< set of texture coordinates, ≥ 0
+};
+
+/// A material's ROWLAND_materials_diffraction object.
+struct GltfGrating {
+    Material material;
+    bool has_base = false;         ///< false: the glTF's own metallic-roughness surface lies under the grating
+    double groove_rotation = 0.0;  ///< radians by which g is turned from the tangent toward the bitangent
+    std::optional<GrooveTexture> groove_texture;
+};
+
+/// Parses the extension's object: a material object with the optional members "grooveRotation" and "grooveTexture";
+/// "extras" and "extensions" are passed over, as glTF asks. A table's file name is relative to `folder`, that of the
+/// glTF. `pointer` is where in `file` the object lies. Throws Error (input) as parse_material() does.
+GltfGrating parse_gltf_extension(const nlohmann::json& json, const std::string& file,
+                                 const std::filesystem::path& folder, const std::string& pointer = "");
+
+}  // namespace rowland::diffraction

@@ -1,0 +1,75 @@
+#include "modules/diffraction/asset/representation.h"
+
+#include <array>
+
+namespace rowland::diffraction {
+
+namespace {
+
+constexpr int kFetchesPerLight = 9;  ///< three parts of a lobe, three columns of the kernel's matrix
+constexpr std::size_t kHalfTexel = 8;
+
+int squared(int n) {
+    return n * n;
+}
+
+ShadingCost cost_of(const SpikeTable& table) {
+    return {.fetches_per_vertex = table.layers() + 3 * table.spikes,
+            .multiply_adds_per_vertex = 4 * table.layers() + 3 * table.spikes * squared(table.bands) + 9 * table.spikes,
+            .table_bytes = table.bytes()};
+}
+
+ShadingCost cost_of(const BinTable& table) {
+    const int layers = table.bins() * transfer_layers(table.bands);
+    return {.fetches_per_vertex = layers,
+            .multiply_adds_per_vertex = 4 * layers + 3 * table.bins() * squared(table.bands) + 9 * table.bins(),
+            .table_bytes = table.bytes()};
+}
+
+ShadingCost cost_of(const TransferTable& table) {
+    const int layers = 9 * transfer_layers(table.bands);
+    return {.fetches_per_vertex = layers, .multiply_adds_per_vertex = 8 * layers, .table_bytes = table.bytes()};
+}
+
+ShadingCost cost_of(const ArcTable& table) {
+    const int layers = static_cast<int>(weight_layers(table.rank));
+    return {.fetches_per_pixel = layers,
+            .multiply_adds_per_pixel = (4 + 12) * layers,
+            .table_bytes = table.bytes() + table.factors.size() * sizeof(glm::mat3)};
+}
+
+ShadingCost cost_of(const DirectTables&) {
+    return {};
+}
+
+ShadingCost cost_of(const PlanarTables& tables) {
+    const std::size_t texels =
+        static_cast<std::size_t>(tables.size.azimuths) * static_cast<std::size_t>(tables.size.views);
+    return {.fetches_per_pixel = 1,
+            .multiply_adds_per_pixel = 12,
+            .table_bytes = texels * kHalfTexel + cost_of(tables.stand_in).table_bytes};
+}
+
+ShadingCost cost_of(const CircleTables& tables) {
+    const std::size_t columns = static_cast<std::size_t>(squared(tables.size.side));
+    return {.fetches_per_pixel = tables.size.terms,
+            .multiply_adds_per_pixel = 3 * tables.size.terms + 40,
+            .table_bytes = 2 * columns * static_cast<std::size_t>(tables.size.views) *
+                           static_cast<std::size_t>(tables.size.terms) * kHalfTexel};
+}
+
+}  // namespace
+
+const char* representation_name(std::size_t index) {
+    constexpr std::array<const char*, std::variant_size_v<Representation>> kNames{"spikes", "bins",   "transfer", "arc",
+                                                                                  "direct", "planar", "circle"};
+    return kNames.at(index);
+}
+
+ShadingCost shading_cost(const BakedTables& tables) {
+    ShadingCost cost = std::visit([](const auto& table) { return cost_of(table); }, tables);
+    cost.fetches_per_light = kFetchesPerLight;
+    return cost;
+}
+
+}  // namespace rowland::diffraction

@@ -1,0 +1,104 @@
+#include "modules/diffraction/runtime/diffraction_surface.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "engine/core/error.h"
+#include "engine/render/gpu_mesh.h"
+#include "engine/scene/skin.h"
+#include "engine/scene/transform.h"
+#include "modules/diffraction/asset/gltf_extension.h"
+#include "modules/diffraction/shaders/shader_files.h"
+
+namespace rowland::diffraction {
+
+namespace {
+
+/// Takes down what the state is for; true if any of it is new. What another material has kept is dropped.
+bool renew(const DiffractionSurface& surface, const render::MeshInstance& instance, const glm::mat3& orientation,
+           std::uint64_t light_version, SurfaceState& state) {
+    const bool same = state.material == surface.material && state.mesh == instance.mesh &&
+                      state.orientation == orientation && state.groove_rotation == surface.groove_rotation &&
+                      state.light_version == light_version;
+    if (state.material != surface.material) state = {};
+    state.material = surface.material;
+    state.mesh = instance.mesh;
+    state.orientation = orientation;
+    state.groove_rotation = surface.groove_rotation;
+    state.light_version = light_version;
+    return !same;
+}
+
+}  // namespace
+
+DiffractionSurfaceType::DiffractionSurfaceType(const glm::dmat3& xyz_to_working, const DiffractionSettings& settings)
+    : xyz_to_working_(xyz_to_working), slices_per_frame_(settings.slices_per_frame), light_(settings.window) {}
+
+std::string DiffractionSurfaceType::gltf_extension() const {
+    return kGltfExtension;
+}
+
+void DiffractionSurfaceType::attach(ecs::World& world, ecs::Entity entity, const nlohmann::json& extension,
+                                    const std::string& file, const std::string& place) {
+    const GltfGrating grating = parse_gltf_extension(extension, file, std::filesystem::path(file).parent_path(), place);
+    if (grating.groove_texture)
+        refuse_input(file, place + "/grooveTexture", "a texture", "no grooveTexture: no representation takes one yet",
+                     "leave it out");
+    if (grating.material.grating.grooves < kManyGrooves)
+        refuse_input(file, place + "/grating/grooves", fmt::format("{}", grating.material.grating.grooves),
+                     fmt::format("at least {} for a surface that is drawn", kManyGrooves));
+    const auto material = baked(grating.material, extension.dump());
+    world.add(entity, DiffractionSurface{material, static_cast<float>(grating.groove_rotation)});
+    if (grating.has_base) world.add(entity, material->base());
+}
+
+std::shared_ptr<const GpuMaterial> DiffractionSurfaceType::baked(const Material& material, const std::string& key) {
+    if (auto present = baked_[key].lock()) return present;
+    auto made = make_gpu_material(bake_material(material), xyz_to_working_);
+    baked_[key] = made;
+    return made;
+}
+
+void DiffractionSurfaceType::add_shaders(gpu::ShaderLibrary& library) const {
+    library.add_embedded(shader_files());
+}
+
+bool DiffractionSurfaceType::owns(ecs::World& world, ecs::Entity entity) const {
+    return world.find<DiffractionSurface>(entity) != nullptr;
+}
+
+gpu::ProgramDesc DiffractionSurfaceType::program(ecs::World& world, ecs::Entity entity) const {
+    return world.get<DiffractionSurface>(entity).material->program(world.get<SurfaceState>(entity));
+}
+
+void DiffractionSurfaceType::update(ecs::World& world, const render::FrameLight& light) {
+    light_.set(light);
+    world.view<DiffractionSurface, render::MeshInstance, scene::WorldMatrix>().each(
+        [&](ecs::Entity entity, const DiffractionSurface& surface, const render::MeshInstance& instance,
+            const scene::WorldMatrix& world_matrix) {
+            if (world.find<SurfaceState>(entity) == nullptr) world.add(entity, SurfaceState{});
+            SurfaceState& state = world.get<SurfaceState>(entity);
+            const bool changed = renew(surface, instance, glm::mat3(world_matrix.matrix), light_.version(), state);
+            const auto bring_up_to_date = [&](const scene::Mesh& mesh, bool skinned) {
+                surface.material->update({.mesh = mesh,
+                                          .object_to_world = world_matrix.matrix,
+                                          .groove_rotation = static_cast<double>(surface.groove_rotation),
+                                          .skinned = skinned,
+                                          .changed = changed || skinned,
+                                          .slices_per_frame = slices_per_frame_},
+                                         light_, state);
+            };
+            if (const scene::Skin* skin = world.find<scene::Skin>(entity))
+                bring_up_to_date(scene::posed(*instance.mesh, scene::joint_matrices(world, *skin)), true);
+            else
+                bring_up_to_date(*instance.mesh, false);
+        });
+}
+
+void DiffractionSurfaceType::bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const {
+    world.get<DiffractionSurface>(entity).material->bind(program, light_, world.get<SurfaceState>(entity));
+}
+
+}  // namespace rowland::diffraction

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "engine/math/sh_window.h"
+#include "engine/render/material.h"
+#include "modules/diffraction/runtime/gpu_material.h"
+#include "modules/diffraction/runtime/surface_light.h"
+
+namespace rowland::diffraction {
+
+/// Component: a surface with a grating.
+struct DiffractionSurface {
+    std::shared_ptr<const GpuMaterial> material;
+    float groove_rotation = 0.0F;  ///< radians by which g is turned from the mesh's tangent toward its bitangent
+};
+
+struct DiffractionSettings {
+    /// Tames the ringing of band-limited light; nothing stands for the mildest one that does.
+    std::optional<math::SphericalWindow> window = std::nullopt;
+    /// Most azimuths of an object's map that one frame fills; many: all at once.
+    int slices_per_frame = 8;
+};
+
+/// Draws entities that have a DiffractionSurface, each as its material's representation is drawn; what is kept per
+/// object is made anew only when the light, the object or its material has changed.
+class DiffractionSurfaceType final : public render::MaterialType {
+ public:
+    /// `xyz_to_working` as the renderer's.
+    explicit DiffractionSurfaceType(const glm::dmat3& xyz_to_working, const DiffractionSettings& settings = {});
+
+    std::string gltf_extension() const override;
+    /// Bakes the grating now; equal ones share their tables while one of them lives.
+    void attach(ecs::World& world, ecs::Entity entity, const nlohmann::json& extension, const std::string& file,
+                const std::string& place) override;
+
+    void add_shaders(gpu::ShaderLibrary& library) const override;
+    bool owns(ecs::World& world, ecs::Entity entity) const override;
+    gpu::ProgramDesc program(ecs::World& world, ecs::Entity entity) const override;
+    void update(ecs::World& world, const render::FrameLight& light) override;
+    void bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const override;
+
+ private:
+    std::shared_ptr<const GpuMaterial> baked(const Material& material, const std::string& key);
+
+    glm::dmat3 xyz_to_working_;
+    int slices_per_frame_;
+    std::map<std::string, std::weak_ptr<const GpuMaterial>> baked_;  ///< by the extension's text
+    SurfaceLight light_;
+};
+
+}  // namespace rowland::diffraction

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "modules/diffraction/bake/circle_map.h"
+#include "modules/diffraction/runtime/gpu_map.h"
+#include "modules/diffraction/runtime/gpu_material.h"
+
+namespace rowland::diffraction {
+
+/// One map for all objects of a material: shaders/circle.frag.glsl. It is filled when the probe is another one, never
+/// for what objects do.
+class GpuCircle final : public GpuMaterial {
+ public:
+    GpuCircle(const CookedMaterial& cooked, const CircleTables& tables, const glm::dmat3& xyz_to_working);
+
+    void update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const override;
+
+    /// How often the map was filled.
+    int fills() const { return fills_; }
+
+ private:
+    void describe(const SurfaceState& state, gpu::ProgramDesc& desc) const override;
+    void bind_tables(const gpu::Program& program, const SurfaceState& state) const override;
+
+    CircleMapSize size_;
+    KernelTable kernel_;
+    double pitch_nm_;
+    glm::dmat3 zero_order_xyz_;
+
+    // The light's side of the material, which its first object in a frame brings up to date.
+    mutable std::shared_ptr<const lighting::LightTexels> texels_;
+    mutable std::optional<GpuMap> map_;
+    mutable int charts_ = 1;
+    mutable int fills_ = 0;
+};
+
+}  // namespace rowland::diffraction

@@ -1,0 +1,106 @@
+#include "modules/diffraction/runtime/gpu_kernel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/matrix.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/colour/sampled_spectrum.h"
+#include "engine/colour/working_space.h"
+#include "modules/diffraction/bake/blurred_kernel.h"
+#include "modules/diffraction/bake/direct.h"
+#include "modules/diffraction/runtime/bindings.h"
+
+namespace rowland::diffraction {
+
+namespace {
+
+/// The widest lobe that is fitted to a probe, over √(its concentration), and something for the pixel.
+constexpr double kWidestDeviation = 0.2;
+/// Columns: one for every so many nm, within what textures and time allow.
+constexpr double kColumn_nm = 2.0;
+constexpr int kFewestColumns = 1024;
+constexpr int kMostColumns = 4096;
+
+BlurredKernel blurred(const KernelTable& kernel, double pitch_nm) {
+    const double widest_nm = std::max(4.0, kWidestDeviation * pitch_nm);
+    const double extent_nm = kernel.end_nm - kernel.begin_nm + 8.0 * widest_nm;
+    const double columns = std::clamp(extent_nm / kColumn_nm, double{kFewestColumns}, double{kMostColumns});
+    return blur(kernel, widest_nm, static_cast<int>(columns));
+}
+
+float largest_component(const BlurredKernel& kernel) {
+    float largest = 0.0F;
+    for (const glm::mat3& value : kernel.values)
+        for (int c = 0; c < 3; ++c)
+            for (int o = 0; o < 3; ++o) largest = std::max(largest, std::abs(value[c][o]));
+    return largest;
+}
+
+}  // namespace
+
+GpuKernel::GpuKernel(const CookedMaterial& cooked, const glm::dmat3& xyz_to_working)
+    : kernel_(cooked.kernel),
+      pitch_nm_(cooked.material.grating.pitch_nm),
+      lobe_(cooked.material.grating.lobe),
+      zero_order_(cooked.zero_order_xyz),
+      working_to_rec709_(glm::inverse(xyz_to_working * colour::rec709_to_xyz())) {}
+
+GpuKernel::Smoothed GpuKernel::smooth() const {
+    const BlurredKernel kernel = blurred(kernel_, pitch_nm_);
+    // Halves, and k in nm⁻¹ may be below their range: they hold k over its largest component.
+    const float largest = std::max(largest_component(kernel), 1e-30F);
+    Smoothed smoothed{.texture = gpu::Texture({.kind = gpu::TextureKind::PlaneArray,
+                                               .format = gpu::Format::RGBA16F,
+                                               .width = kernel.columns,
+                                               .height = kernel.levels,
+                                               .depth = 3},
+                                              {.filter = gpu::Filter::Linear})};
+    for (int c = 0; c < 3; ++c) {
+        std::vector<glm::vec4> texels;
+        texels.reserve(kernel.values.size());
+        for (const glm::mat3& value : kernel.values) texels.emplace_back(value[c] / largest, 0.0F);
+        smoothed.texture.upload(std::span<const glm::vec4>(texels), {.layer = c});
+    }
+    const double step = 1.0 / kernel.columns;
+    const double per_nm = (1.0 - step) / (kernel.end_nm - kernel.begin_nm);
+    smoothed.place = glm::vec4(glm::dvec4(pitch_nm_ * per_nm, 0.5 * step - kernel.begin_nm * per_nm,
+                                          kernel.narrowest_nm / pitch_nm_, pitch_nm_ * static_cast<double>(largest)));
+    return smoothed;
+}
+
+void GpuKernel::add_defines(gpu::ProgramDesc& desc) const {
+    desc.defines.push_back({"LEVELS_PER_OCTAVE", std::to_string(kLevelsPerOctave) + ".0"});
+    if (zero_order_ != glm::mat3(0.0F)) desc.defines.push_back({"ZERO_ORDER", "1"});
+    if (std::holds_alternative<GaussianLobe>(lobe_)) desc.defines.push_back({"LOBE_GAUSSIAN", "1"});
+    if (std::holds_alternative<PitsLobe>(lobe_)) desc.defines.push_back({"LOBE_PITS", "1"});
+}
+
+void GpuKernel::set_lobe(const gpu::Program& program) const {
+    const auto set_gaussian = [&](double sigma, double share) {
+        program.set("lobe_gaussian",
+                    glm::vec2(glm::dvec2(sigma, share * lobe_density(GaussianLobe{sigma}, 0.0, 550.0))));
+    };
+    if (const auto* gaussian = std::get_if<GaussianLobe>(&lobe_)) set_gaussian(gaussian->sigma, 1.0);
+    if (const auto* pits = std::get_if<PitsLobe>(&lobe_)) {
+        set_gaussian(kCoherentSigma, pits->coherent);
+        program.set("pit_wavelengths", glm::vec3(pits->length_nm / kPitsWavelengths_nm));
+        program.set("incoherent", static_cast<float>(1.0 - pits->coherent));
+    }
+}
+
+void GpuKernel::bind(const gpu::Program& program) const {
+    if (!program.has_uniform("kernel_place")) return;
+    if (!smoothed_) smoothed_ = smooth();
+    smoothed_->texture.bind(kKernelUnit);
+    program.set("kernel_place", smoothed_->place);
+    const double reach_nm = std::max(std::abs(kernel_.begin_nm), std::abs(kernel_.end_nm));
+    program.set("kernel_ends", glm::vec2(glm::dvec2(colour::kVisibleMin, reach_nm) / pitch_nm_));
+    program.set("zero_order", zero_order_);
+    program.set("working_to_rec709", working_to_rec709_);
+    set_lobe(program);
+}
+
+}  // namespace rowland::diffraction

@@ -1,0 +1,35 @@
+#include "modules/diffraction/runtime/vertex_shaded.h"
+
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "modules/diffraction/runtime/bindings.h"
+#include "modules/diffraction/runtime/tangent_light.h"
+
+namespace rowland::diffraction {
+
+VertexShaded::VertexShaded(const CookedMaterial& cooked, const glm::dmat3& xyz_to_working, int bands, GpuTable table,
+                           const char* vertex_shader)
+    : GpuMaterial(cooked, xyz_to_working), bands_(bands), table_(std::move(table)), vertex_shader_(vertex_shader) {}
+
+void VertexShaded::update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const {
+    if (!object.changed) return;
+    const std::vector<float> rotated = rotate_to_vertices(light.harmonics(bands_, light_share()), object.mesh,
+                                                          object.object_to_world, object.groove_rotation);
+    state.vertex_light = gpu::Buffer::of(std::span<const float>(rotated));
+}
+
+void VertexShaded::describe(const SurfaceState&, gpu::ProgramDesc& desc) const {
+    set_shaders(desc, vertex_shader_, "vertex_shaded.frag.glsl");
+    desc.defines.push_back({"BANDS", std::to_string(bands_)});
+    table_.add_defines(desc);
+}
+
+void VertexShaded::bind_tables(const gpu::Program&, const SurfaceState& state) const {
+    table_.bind();
+    state.vertex_light.bind_storage(kVertexLightBinding);
+}
+
+}  // namespace rowland::diffraction

@@ -1,0 +1,9 @@
+#version 450 core
+// Nothing but lights of their own.
+#define PIXEL_SHADED
+#include "modules/diffraction/shaders/surface.glsl"
+
+vec3 diffracted_xyz(GrooveView view) { return vec3(0.0); }
+
+#include "modules/diffraction/shaders/pixel_shaded.glsl"
+#include "engine/render/shaders/forward_fragment_main.glsl"

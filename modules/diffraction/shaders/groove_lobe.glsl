@@ -1,0 +1,33 @@
+// 2 D_h(s_h + v_h) for X, Y and Z, widened by the light's own extent along the grooves: bake/direct.h, groove_factor().
+// LOBE_GAUSSIAN or LOBE_PITS are defined by the program; neither: the flat lobe.
+
+#if defined(LOBE_GAUSSIAN)
+uniform vec2 lobe_gaussian;  // deviation; peak of D_h
+vec3 groove_factor(float sum_h, float deviation_h) {
+    float wide = length(vec2(lobe_gaussian.x, deviation_h));
+    float z = sum_h / wide;
+    return vec3(2.0 * lobe_gaussian.y * lobe_gaussian.x / wide * exp(-0.5 * z * z));
+}
+#elif defined(LOBE_PITS)
+uniform vec2 lobe_gaussian;   // of the coherent share
+uniform vec3 pit_wavelengths;  // pits' length over the wavelength, for X, Y and Z
+uniform float incoherent;     // share
+float pits_density(float sum_h, float length_wavelengths) {
+    float z = sum_h / lobe_gaussian.x;
+    float x = 3.14159265358979 * length_wavelengths * sum_h;
+    float amplitude = abs(x) < 1e-3 ? 1.0 - x * x / 6.0 : sin(x) / x;
+    return lobe_gaussian.y * exp(-0.5 * z * z) + incoherent * length_wavelengths * amplitude * amplitude;
+}
+// Three-node Gauss-Hermite over the light's extent.
+vec3 groove_factor(float sum_h, float deviation_h) {
+    float step = 1.73205080756888 * deviation_h;
+    vec3 factor;
+    for (int o = 0; o < 3; ++o)
+        factor[o] = 4.0 / 3.0 * pits_density(sum_h, pit_wavelengths[o]) +
+                    1.0 / 3.0 * (pits_density(sum_h - step, pit_wavelengths[o]) +
+                                 pits_density(sum_h + step, pit_wavelengths[o]));
+    return factor;
+}
+#else
+vec3 groove_factor(float sum_h, float deviation_h) { return vec3(1.0); }
+#endif

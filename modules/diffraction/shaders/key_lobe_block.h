@@ -1,0 +1,28 @@
+// The key lights of a frame, with what of their lobes does not depend on the surface. Included by C++ and GLSL; std140.
+#ifdef __cplusplus
+#pragma once
+#include <glm/vec4.hpp>
+namespace rowland::diffraction {
+using glm::vec4;
+#endif
+#define ROWLAND_MAXIMUM_KEY_LOBES 64
+struct KeyLobe {
+    vec4 direction;  // xyz: unit, toward the light; w: concentration
+    vec4 flux;       // xyz: linear Rec.709 radiance * sr
+    vec4 moments;    // mean of the cosine; variance along the direction; variance across it
+    vec4 nodes;      // cosine and sine of the outer nodes' angle; variance about a node; exp(-variance / 2)
+};
+#ifdef __cplusplus
+struct KeyLobeBlock {
+#else
+layout(std140, binding = 6) uniform KeyLobeBlock {
+#endif
+    vec4 key_lobe_count;  // x
+    KeyLobe key_lobes[ROWLAND_MAXIMUM_KEY_LOBES];
+#ifdef __cplusplus
+};
+static_assert(sizeof(KeyLobeBlock) == 16 + 64 * ROWLAND_MAXIMUM_KEY_LOBES, "must equal the std140 layout");
+}  // namespace rowland::diffraction
+#else
+};
+#endif

@@ -1,0 +1,65 @@
+// A light in a surface's tangent frame: bake/direct.h, light_spot().
+#include "modules/diffraction/shaders/key_lobe_block.h"
+#include "modules/diffraction/shaders/normal_distribution.glsl"
+
+// A share of a light as a normal distribution in s_g.
+struct LightPart {
+    float cosine;  // mean of s_n above the horizon
+    float centre;
+    float deviation;
+};
+
+// Mean of max(0, sin t) for t around t0 by a von Mises distribution: direct.cpp, mean_above(). The variance is written so
+// that nothing cancels for narrow lobes.
+float mean_above(float sine, float concentration) {
+    float root = sqrt(concentration * concentration + 2.25);
+    float ratio = concentration / (0.5 + root);
+    float one_less_ratio = (0.5 + 2.25 / (root + concentration)) / (0.5 + root);
+    float one_less_second = 2.0 / (0.5 + root);
+    float variance = 0.5 * one_less_second + sine * sine * (one_less_ratio * (1.0 + ratio) - one_less_second);
+    return clamped_mean(ratio * sine, sqrt(max(variance, 0.0)));
+}
+
+// Part 0: the middle of the lobe; 1 and 2: its sides. `axis`: its direction in (g, h, n). Not yet divided by the sum of
+// the weights, which goes to `weight`.
+LightPart lobe_part(KeyLobe lobe, vec3 axis, float across, int part, out float weight) {
+    const float SKEW = 1.0 + 0.7 / 0.6;
+    float side = part == 0 ? 0.0 : part == 1 ? lobe.nodes.y : -lobe.nodes.y;
+    float middle = part == 0 ? 1.0 : lobe.nodes.x;
+    // The angle psi from the plane across g: sin psi = s_g.
+    float cosine = across * middle - axis.x * side;
+    float sine = axis.x * middle + across * side;
+    weight = 0.0;
+    if (cosine <= 0.0) return LightPart(0.0, 0.0, 0.0);
+    weight = (part == 0 ? 2.0 / 3.0 : 1.0 / 6.0) * sqrt(cosine);
+    float variance = lobe.nodes.z;
+    float deviation = sqrt(variance);
+    float shift = clamp(-1.5 * variance * sine / cosine, -deviation, deviation);
+    return LightPart(weight * cosine * mean_above(axis.z / across, lobe.direction.w * cosine * across),
+                     (sine * cos(shift) + cosine * sin(shift)) * lobe.nodes.w,
+                     deviation * across * min(pow(cosine / across, SKEW), 2.0));
+}
+
+#if defined(LOBE_GAUSSIAN) || defined(LOBE_PITS)
+// Mean and deviation of s_h, directions weighted by s_n above the horizon: direct.cpp, clamp_at_horizon().
+vec2 spread_along_grooves(KeyLobe lobe, vec3 axis) {
+    float elongation = lobe.moments.y - lobe.moments.z;
+    float variance_n = max(elongation * axis.z * axis.z + lobe.moments.z, 0.0);
+    float variance_h = elongation * axis.y * axis.y + lobe.moments.z;
+    float mean = lobe.moments.x * axis.z;
+    float deviation = sqrt(variance_n);
+    float first = clamped_mean(mean, deviation);
+    float centre = lobe.moments.x * axis.y;
+    if (first <= 1e-6 * deviation || variance_n <= 0.0) return vec2(centre, sqrt(max(variance_h, 0.0)));
+    float share = normal_share_below(mean / deviation);
+    float density = deviation * normal_density(mean / deviation);
+    float weighted = ((mean * mean + variance_n) * share + mean * density) / first;
+    float third = mean * (mean * mean + 3.0 * variance_n) * share + (mean * mean + 2.0 * variance_n) * density;
+    float slope = elongation * axis.y * axis.z / variance_n;
+    float rest = max(variance_h - slope * slope * variance_n, 0.0);
+    float weighted_variance = max(third / first - weighted * weighted, 0.0);
+    return vec2(centre + slope * (weighted - mean), sqrt(rest + slope * slope * weighted_variance));
+}
+#else
+vec2 spread_along_grooves(KeyLobe lobe, vec3 axis) { return vec2(0.0); }
+#endif

@@ -1,0 +1,21 @@
+// Texture coordinates of a tangent-frame view in a table, as bake/view_mapping.h lays views out. VIEW_MAPPING is defined
+// by the program.
+#define SPHERICAL 0
+#define PARABOLIC 1
+#define ONE_DIMENSIONAL 2
+
+// Behind the horizon the view stays at the rim: such vertices are seen only as the far end of a triangle that crosses the
+// silhouette. `nodes`: the texture's size.
+vec2 view_coordinates(vec3 view, vec2 nodes) {
+    const float HALF_PI = 1.57079632679490;
+#if VIEW_MAPPING == SPHERICAL
+    float theta = min(atan(length(view.xy), view.z), HALF_PI);
+    float phi = view.x == 0.0 && view.y == 0.0 ? 0.0 : atan(view.y, view.x);
+    return vec2(phi / (4.0 * HALF_PI) + 0.5 / nodes.x, (theta / HALF_PI * (nodes.y - 1.0) + 0.5) / nodes.y);
+#elif VIEW_MAPPING == PARABOLIC
+    vec2 p = view.xy / (1.0 + max(view.z, 0.0));
+    return ((0.5 * p + 0.5) * (nodes - 1.0) + 0.5) / nodes;
+#else
+    return vec2(((0.5 * view.x + 0.5) * (nodes.x - 1.0) + 0.5) / nodes.x, 0.5);
+#endif
+}

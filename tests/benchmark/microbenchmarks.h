@@ -1,0 +1,23 @@
+#pragma once
+
+#include <benchmark/benchmark.h>
+
+#include <cstddef>
+
+// One file per subject; a subject registers its benchmarks when the main asks it to.
+namespace rowland::microbenchmark {
+
+void register_sh_evaluation();
+void register_sh_rotation();
+void register_frame_rotation();
+void register_projection();
+void register_spike_table();
+void register_entities();
+
+/// Adds the column "each": seconds for one of `items` things an iteration does.
+inline void report_each(::benchmark::State& state, std::size_t items) {
+    state.counters["each"] = ::benchmark::Counter(
+        static_cast<double>(items), ::benchmark::Counter::kIsIterationInvariantRate | ::benchmark::Counter::kInvert);
+}
+
+}  // namespace rowland::microbenchmark

@@ -1,0 +1,94 @@
+// Spherical harmonics one at a time, in double: evaluation, and building and applying a rotation. And many at a time,
+// in single precision.
+#include <string>
+
+#include "engine/math/sh_basis.h"
+#include "engine/math/sh_batch.h"
+#include "engine/math/sh_rotation.h"
+#include "tests/benchmark/microbenchmarks.h"
+#include "tests/benchmark/random_frames.h"
+
+namespace rowland::microbenchmark {
+
+namespace {
+
+using ::benchmark::DoNotOptimize;
+using ::benchmark::State;
+
+// Few enough for the coefficients to stay in the second cache, and no power of two between their rows.
+constexpr std::size_t kDirections = 1000;
+
+void evaluate_slowly(State& state, int bands) {
+    RandomDirections random;
+    std::vector<glm::dvec3> directions(kDirections);
+    for (glm::dvec3& d : directions) d = random.next();
+    std::vector<double> values(static_cast<std::size_t>(math::sh_count(bands)));
+    for (auto _ : state)
+        for (const glm::dvec3& d : directions) {
+            math::evaluate_sh(d, bands, values);
+            DoNotOptimize(values.data());
+        }
+    report_each(state, kDirections);
+}
+
+void evaluate_fast(State& state, int bands, math::InstructionSet set) {
+    const RandomFrames directions(kDirections);
+    const auto spans = directions.arrays().normal;
+    std::vector<float> values(static_cast<std::size_t>(math::sh_count(bands)) * kDirections);
+    for (auto _ : state) {
+        math::evaluate_sh_batch(spans, bands, kDirections, values, set);
+        DoNotOptimize(values.data());
+    }
+    report_each(state, kDirections);
+}
+
+glm::dmat3 some_rotation() {
+    RandomDirections random;
+    const glm::dvec3 n = random.next();
+    const glm::dvec3 g = glm::normalize(glm::cross(n, random.next()));
+    return glm::dmat3(g, glm::cross(n, g), n);
+}
+
+void build_rotation(State& state, int bands) {
+    const glm::dmat3 matrix = some_rotation();
+    for (auto _ : state) DoNotOptimize(math::ShRotation(matrix, bands).bands());
+    report_each(state, 1);
+}
+
+template <typename T>
+void apply_rotation(State& state, int bands) {
+    const math::ShRotation rotation(some_rotation(), bands);
+    const std::vector<T> light(static_cast<std::size_t>(math::sh_count(bands)), T(1.5));
+    std::vector<T> rotated(light.size());
+    for (auto _ : state) {
+        rotation.apply(std::span<const T>(light), std::span<T>(rotated));
+        DoNotOptimize(rotated.data());
+    }
+    report_each(state, 1);
+}
+
+}  // namespace
+
+void register_sh_evaluation() {
+    for (const int bands : {5, 11}) {
+        const std::string name = "sh_evaluate/bands:" + std::to_string(bands);
+        ::benchmark::RegisterBenchmark((name + "/double").c_str(), evaluate_slowly, bands);
+        for (const auto set : {math::InstructionSet::Baseline, math::InstructionSet::Avx2})
+            if (math::is_supported(set))
+                ::benchmark::RegisterBenchmark((name + "/" + math::instruction_set_name(set)).c_str(), evaluate_fast,
+                                               bands, set);
+    }
+}
+
+void register_sh_rotation() {
+    for (const int bands : {5, 11}) {
+        const std::string suffix = "/bands:" + std::to_string(bands);
+        ::benchmark::RegisterBenchmark(("sh_rotation_build" + suffix).c_str(), build_rotation, bands);
+        ::benchmark::RegisterBenchmark(("sh_rotation_apply" + suffix + "/channels:1").c_str(), apply_rotation<double>,
+                                       bands);
+        ::benchmark::RegisterBenchmark(("sh_rotation_apply" + suffix + "/channels:3").c_str(),
+                                       apply_rotation<glm::dvec3>, bands);
+    }
+}
+
+}  // namespace rowland::microbenchmark

@@ -1,0 +1,217 @@
+// Arc coefficients, spikes and their table; the reference beside them.
+#include <glm/gtc/matrix_access.hpp>
+
+#include "engine/colour/observer.h"
+#include "modules/diffraction/bake/spike_table.h"
+#include "modules/diffraction/reference/brute_force.h"
+#include "modules/diffraction/reference/reference.h"
+#include "tests/property/generators.h"
+
+namespace rowland::property {
+namespace {
+
+using namespace diffraction;
+
+/// Of one band: √((2l+1)/4π), the most a band's vector of harmonics can measure.
+double band_norm(int l) {
+    return std::sqrt((2 * l + 1) / (4.0 * std::numbers::pi));
+}
+
+std::vector<double> arc_coefficients(const ArcCoefficients& arcs, double a, double v_h, double wavelength_nm) {
+    std::vector<double> arc_frame(static_cast<std::size_t>(math::sh_count(arcs.bands())), 0.0);
+    std::vector<double> result(arc_frame.size());
+    arcs.accumulate(a, v_h, wavelength_nm, 1.0, arc_frame);
+    arcs.to_tangent_frame(arc_frame, result);
+    return result;
+}
+
+/// C gathers directions with a total weight ∫ D_h ds_h ≤ 1, so each band's vector is at most the band's norm, and C_0
+/// is that weight times Y_0: not negative. 1e-6: the quadrature of narrow lobes and long pits.
+RC_GTEST_PROP(ArcProperty, CoefficientsAreBounded, ()) {
+    const GrooveLobe shape = *lobe();
+    const ArcCoefficients arcs(*whole(1, 32), shape);
+    const double a =
+        *rc::gen::oneOf(uniform(-1.0, 1.0), rc::gen::element(-1.0, 1.0, 1.0 - 1e-16, 1.0 - 1e-9, 0.0, 1.5));
+    const double v_h = *rc::gen::oneOf(uniform(-1.0, 1.0), rc::gen::element(-1.0, 0.0, 1.0));
+    const std::vector<double> c = arc_coefficients(arcs, a, v_h, *wavelength());
+    RC_ASSERT(c[0] >= 0.0);
+    for (int l = 0; l < arcs.bands(); ++l) {
+        double squared = 0.0;
+        for (int m = -l; m <= l; ++m) squared += std::pow(c[static_cast<std::size_t>(math::sh_index(l, m))], 2);
+        RC_ASSERT(std::sqrt(squared) <= band_norm(l) * (1.0 + 1e-6));
+        RC_ASSERT(std::abs(a) < 1.0 || squared == 0.0);
+    }
+}
+
+/// The flat lobe: r = √(1−a²) moves by at most √(2ε) when a does by ε, a direction on the arc by as much, and Y_l by l
+/// times its angle. Twice that: chord and arc.
+RC_GTEST_PROP(ArcProperty, FlatCoefficientsAreContinuous, ()) {
+    const ArcCoefficients arcs(*whole(1, 16), FlatLobe{});
+    const double a = *rc::gen::oneOf(uniform(-1.0, 1.0), rc::gen::element(-1.0, 1.0 - 1e-9, 0.0));
+    const double step = *log_uniform(1e-15, 1e-4);
+    const std::vector<double> here = arc_coefficients(arcs, a, 0.0, 550.0);
+    const std::vector<double> there = arc_coefficients(arcs, a + step, 0.0, 550.0);
+    for (int l = 0; l < arcs.bands(); ++l)
+        for (int m = -l; m <= l; ++m) {
+            const auto i = static_cast<std::size_t>(math::sh_index(l, m));
+            RC_ASSERT(std::abs(there[i] - here[i]) <=
+                      2.0 * band_norm(l) * (1 + l) * (std::sqrt(2.0 * step) + step) + 1e-13);
+        }
+}
+
+/// Any view, the rim included.
+glm::dvec2 any_view() {
+    const glm::dvec3 v = *upper_direction();
+    return *whole(0, 4) == 0 ? glm::dvec2(*rc::gen::element(-1.0, 1.0), 0.0) : glm::dvec2(v);
+}
+
+SpikeSettings any_settings() {
+    SpikeSettings settings;
+    settings.bands = *whole(1, 6);
+    settings.spikes = *rc::gen::oneOf(whole(1, 8), whole(1, 64));
+    settings.illuminant =
+        *whole(0, 4) == 0 ? colour::parse_illuminant("wavelength_nm,relative_power\n588,0\n589,1\n590,0\n", "sodium")
+                          : colour::illuminant(*rc::gen::elementOf(colour::illuminant_names()));
+    return settings;
+}
+
+/// Finite at every view, wavelengths ascending within the visible; and the sum over spikes is the whole ∫ c_i q dλ,
+/// here by the trapezoid rule: 1e-12 of Σ_m η_m times ∫ q.
+RC_GTEST_PROP(SpikeProperty, KeepTheWholeLightAtEveryView, ()) {
+    const Grating shape = *grating(kManyGrooves);
+    RC_PRE(shape.orders.size() <= 13U);
+    const SpikeSettings settings = any_settings();
+    const glm::dvec2 view = any_view();
+    const SpikeSet spikes = bake_spikes(shape, view.x, view.y, settings);
+    const ViewSpectrum spectrum(shape, settings.bands);
+    const std::vector<double> c = spectrum.coefficients(view.x, view.y);
+    const auto count = static_cast<std::size_t>(settings.bands * settings.bands);
+    RC_ASSERT(spikes.coefficients.size() == count * static_cast<std::size_t>(settings.spikes));
+    double before = 380.0;
+    for (const double wavelength_nm : spikes.wavelengths_nm) {
+        RC_ASSERT(wavelength_nm >= before);
+        RC_ASSERT(wavelength_nm <= 780.0);
+        before = wavelength_nm;
+    }
+    const double scale = 1.0 / colour::luminous_power(settings.illuminant);
+    for (std::size_t i = 0; i < count; ++i) {
+        double integral = 0.0;
+        double white = 0.0;
+        for (std::size_t j = 0; j < kWavelengths; ++j) {
+            const double wavelength_nm = 380.0 + static_cast<double>(j);
+            const glm::dvec3 cmf = colour::cie_xyz(wavelength_nm);
+            const double q = (j == 0 || j + 1 == kWavelengths ? 0.5 : 1.0) * scale *
+                             settings.illuminant.power(wavelength_nm) * (cmf.x + cmf.y + cmf.z);
+            integral += c[j * count + i] * q;
+            white += q;
+        }
+        double sum = 0.0;
+        for (std::size_t k = 0; k < spikes.wavelengths_nm.size(); ++k) sum += spikes.coefficients[k * count + i];
+        RC_ASSERT(std::isfinite(sum));
+        RC_ASSERT(std::abs(sum - integral) <= 1e-12 * (1.0 + spectrum.largest_efficiency()) * white);
+    }
+}
+
+/// Uniform light is sent out by no negative spike.
+RC_GTEST_PROP(SpikeProperty, OfUniformLightAreNonNegative, ()) {
+    const Grating shape = *grating(kManyGrooves);
+    RC_PRE(shape.orders.size() <= 13U);
+    const glm::dvec2 view = any_view();
+    const lighting::ShLight uniform_light{1, {*log_uniform(1e-6, 1e6) * glm::dvec3(1.0, 0.5, 0.2)}};
+    const glm::dvec3 xyz = evaluate_spikes(bake_spikes(shape, view.x, view.y, any_settings()), uniform_light);
+    RC_ASSERT(is_finite(xyz));
+    RC_ASSERT(xyz.x >= 0.0 && xyz.y >= 0.0 && xyz.z >= 0.0);
+}
+
+/// Half a step of 16 bits over a component's range (unorm), or 2⁻¹² of half the range (half floats in [−1, 1]); 1e-6
+/// for scale and bias in single precision.
+RC_GTEST_PROP(SpikeTableProperty, StorageErrorIsHalfAStep, ()) {
+    const Grating shape = *grating(kManyGrooves);
+    RC_PRE(shape.orders.size() <= 8U);
+    SpikeTableSettings settings;
+    settings.spikes = any_settings();
+    settings.spikes.bands = std::min(settings.spikes.bands, 3);
+    settings.spikes.spikes = std::min(settings.spikes.spikes, 3);
+    settings.theta_nodes = 3;
+    settings.phi_nodes = 4;
+    settings.storage = *rc::gen::element(Storage::Unorm16, Storage::Half);
+    const SpikeTable table = bake_spike_table(shape, settings);
+    const auto count = static_cast<std::size_t>(settings.spikes.bands * settings.spikes.bands);
+    const double theta = 0.25 * std::numbers::pi * *whole(0, 2);
+    const double phi = 0.5 * std::numbers::pi * *whole(0, 3);
+    const glm::dvec3 v(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
+                       std::max(std::cos(theta), 1e-12));
+    const SpikeSet exact =
+        bake_spikes(shape, std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), settings.spikes);
+    const SpikeSet stored = sample(table, v.x, v.y, v.z);
+    for (std::size_t k = 0; k < exact.wavelengths_nm.size(); ++k)
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::size_t layer = k * static_cast<std::size_t>(table.layers_per_spike) + i / 4;
+            const auto c = static_cast<int>(i % 4);
+            const auto scale = static_cast<double>(table.scale[layer][c]);
+            const double step = settings.storage == Storage::Half ? scale / 4096.0 : 0.5 * scale / 65535.0;
+            const double rounding = 1e-6 * (scale + std::abs(static_cast<double>(table.bias[layer][c])));
+            // sample() finds the node to 1e-15 of a turn, and interpolates by as much.
+            const double found = stored.coefficients[k * count + i];
+            RC_ASSERT(std::isfinite(found));
+            RC_ASSERT(std::abs(found - exact.coefficients[k * count + i]) <= step + rounding + 1e-12);
+        }
+}
+
+/// Arcs integrated one by one against harmonics in closed form, both by the trapezoid rule at 1 nm: 1e-7 of what the
+/// light could give at most, the quadrature of lobes (measured 1e-9 for most).
+RC_GTEST_PROP(ReferenceProperty, EqualsTheClosedFormUnderBandlimitedLight, ()) {
+    Grating shape = *grating(kManyGrooves);
+    RC_PRE(shape.orders.size() <= 8U);
+    std::erase(shape.orders, 0);
+    if (lobe_feature_size(shape.lobe) < 0.02) shape.lobe = FlatLobe{};  // slow in the reference
+    const lighting::ShLight light = *sh_light(6);
+    const glm::dvec3 v = *upper_direction();
+    const Frame frame{.view = v, .normal = {0.0, 0.0, 1.0}, .grating = {1.0, 0.0, 0.0}};
+    const colour::LightSpectra spectra;
+    const glm::dvec3 found = reference_radiance(shape, light, spectra, std::span(&frame, 1)).front();
+    RC_ASSERT(is_finite(found));
+    const std::vector<double> c = ViewSpectrum(shape, light.bands).coefficients(v.x, v.y);
+    glm::dvec3 expected(0.0);
+    for (std::size_t j = 0; j < kWavelengths; ++j) {
+        glm::dvec3 rgb(0.0);
+        for (std::size_t i = 0; i < light.coefficients.size(); ++i)
+            rgb += c[j * light.coefficients.size() + i] * light.coefficients[i];
+        const double wavelength_nm = 380.0 + static_cast<double>(j);
+        expected += (j == 0 || j + 1 == kWavelengths ? 0.5 : 1.0) * glm::dot(spectra(wavelength_nm), rgb) *
+                    colour::cie_xyz(wavelength_nm);
+    }
+    RC_ASSERT(largest(found - expected) <= 1e-7 * total(light));
+}
+
+RC_GTEST_PROP(ReferenceProperty, NoLightAndNoOrderAreBlack, ()) {
+    Grating shape = *grating();
+    shape.pitch_nm = *uniform(50.0, shape.grooves < kManyGrooves ? 300.0 : 3000.0);
+    shape.profile = SlitProfile{shape.pitch_nm * *uniform(0.01, 1.0)};
+    if (shape.grooves < kManyGrooves) shape.lobe = FlatLobe{};
+    RC_PRE(lobe_feature_size(shape.lobe) > 0.01);
+    const glm::dvec3 v = *upper_direction();
+    const Frame frame{.view = v, .normal = {0.0, 0.0, 1.0}, .grating = {1.0, 0.0, 0.0}};
+    const colour::LightSpectra spectra;
+    const lighting::ShLight none{2, std::vector<glm::dvec3>(4, glm::dvec3(0.0))};
+    RC_ASSERT(reference_radiance(shape, none, spectra, std::span(&frame, 1)).front() == glm::dvec3(0.0));
+    shape.pitch_nm = *uniform(50.0, 189.9);
+    shape.profile = SlitProfile{0.5 * shape.pitch_nm};
+    std::erase(shape.orders, 0);
+    const lighting::ShLight white{1, {glm::dvec3(1e6)}};
+    RC_ASSERT(reference_radiance(shape, white, spectra, std::span(&frame, 1)).front() == glm::dvec3(0.0));
+}
+
+RC_GTEST_PROP(BruteForceProperty, IsFiniteForEveryGratingAndView, ()) {
+    const Grating shape = *grating(kManyGrooves);
+    RC_PRE(shape.orders.size() <= 13U);
+    const int bands = *whole(1, 5);
+    const std::vector<glm::dmat3> c =
+        brute_force_coefficients(shape, colour::LightSpectra(), *upper_direction(),
+                                 {.bands = bands, .samples = static_cast<std::size_t>(*whole(1, 500)), .seed = 3});
+    RC_ASSERT(c.size() == static_cast<std::size_t>(bands * bands));
+    for (const glm::dmat3& one : c) RC_ASSERT(is_finite(one));
+}
+
+}  // namespace
+}  // namespace rowland::property

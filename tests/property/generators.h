@@ -1,0 +1,212 @@
+#pragma once
+
+#include <gtest/gtest.h>  // before RapidCheck's glue
+
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <numbers>
+#include <ostream>
+#include <vector>
+
+#include "engine/lighting/sh_light.h"
+#include "engine/math/sh_basis.h"
+#include "modules/diffraction/model/grating.h"
+#include "modules/diffraction/model/grating_equation.h"
+
+// What the properties are tried on: values over many decades, with the edges of their ranges among them.
+
+namespace rowland::diffraction {
+
+inline void showValue(const Grating& grating, std::ostream& out) {
+    const char* profiles[] = {"slit", "lamellar", "sinusoidal", "blazed", "table"};
+    out << fmt::format("{{pitch {:.17g} nm, {} grooves, {} ", grating.pitch_nm, grating.grooves,
+                       profiles[grating.profile.index()]);
+    if (const auto* slit = std::get_if<SlitProfile>(&grating.profile)) out << fmt::format("{:.17g}", slit->width_nm);
+    if (const auto* lamellar = std::get_if<LamellarProfile>(&grating.profile))
+        out << fmt::format("{:.17g} {:.17g}", lamellar->duty, lamellar->depth_nm);
+    if (const auto* sinus = std::get_if<SinusoidalProfile>(&grating.profile))
+        out << fmt::format("{:.17g}", sinus->depth_nm);
+    if (const auto* blazed = std::get_if<BlazedProfile>(&grating.profile))
+        out << fmt::format("{:.17g}", blazed->depth_nm);
+    if (const auto* gaussian = std::get_if<GaussianLobe>(&grating.lobe))
+        out << fmt::format(", sigma {:.17g}", gaussian->sigma);
+    if (const auto* pits = std::get_if<PitsLobe>(&grating.lobe))
+        out << fmt::format(", pits {:.17g} {:.17g}", pits->length_nm, pits->coherent);
+    out << fmt::format(", orders {}}}", fmt::join(grating.orders, " "));
+}
+
+}  // namespace rowland::diffraction
+
+namespace rowland::property {
+
+/// Evenly in [low, high], whatever RapidCheck's size; shrinks toward low.
+inline rc::Gen<double> uniform(double low, double high) {
+    constexpr std::int64_t kSteps = std::int64_t{1} << 53;
+    return rc::gen::map(rc::gen::resize(rc::kNominalSize, rc::gen::inRange<std::int64_t>(0, kSteps + 1)),
+                        [=](std::int64_t step) {
+                            return std::lerp(low, high, static_cast<double>(step) / static_cast<double>(kSteps));
+                        });
+}
+
+/// Evenly in the logarithm; 0 < low < high.
+inline rc::Gen<double> log_uniform(double low, double high) {
+    return rc::gen::map(uniform(std::log(low), std::log(high)),
+                        [=](double x) { return std::clamp(std::exp(x), low, high); });
+}
+
+inline rc::Gen<int> whole(int first, int last) {
+    return rc::gen::resize(rc::kNominalSize, rc::gen::inRange(first, last + 1));
+}
+
+/// 50 nm … 1 mm.
+inline rc::Gen<double> pitch() {
+    return rc::gen::oneOf(log_uniform(50.0, 1e6), log_uniform(150.0, 5000.0),
+                          rc::gen::element(50.0, 190.0, 195.0, 390.0, 740.0, 1600.0, 1e6));
+}
+
+inline rc::Gen<double> grooves() {
+    return rc::gen::oneOf(rc::gen::map(log_uniform(1.0, 1e6), [](double n) { return std::round(n); }),
+                          rc::gen::element(1.0, 2.0, 49.0, 50.0, 1500.0, 1e6));
+}
+
+inline rc::Gen<double> wavelength() {
+    return rc::gen::oneOf(uniform(380.0, 780.0), rc::gen::element(380.0, 780.0, 550.0));
+}
+
+/// A unit vector of the upper hemisphere, down to 1e-7 above the horizon.
+inline rc::Gen<glm::dvec3> upper_direction() {
+    return rc::gen::exec([] {
+        const double n = *rc::gen::oneOf(uniform(1e-3, 1.0), log_uniform(1e-7, 1.0), rc::gen::element(1.0, 1e-7));
+        const double phi = *rc::gen::oneOf(uniform(0.0, 2.0 * std::numbers::pi),
+                                           rc::gen::element(0.0, 0.5 * std::numbers::pi, std::numbers::pi));
+        const double r = std::sqrt((1.0 - n) * (1.0 + n));
+        return glm::dvec3(r * std::cos(phi), r * std::sin(phi), n);
+    });
+}
+
+/// A unit vector anywhere, the axes among them.
+inline rc::Gen<glm::dvec3> direction() {
+    return rc::gen::exec([] {
+        const double z = *rc::gen::oneOf(uniform(-1.0, 1.0), rc::gen::element(-1.0, 0.0, 1.0, 1.0 - 1e-12));
+        const double phi = *rc::gen::oneOf(uniform(0.0, 2.0 * std::numbers::pi), rc::gen::element(0.0));
+        const double r = std::sqrt((1.0 - z) * (1.0 + z));
+        return glm::dvec3(r * std::cos(phi), r * std::sin(phi), z);
+    });
+}
+
+/// A rotation about any axis by any angle: none, half a turn and hardly any among them.
+inline rc::Gen<glm::dmat3> rotation() {
+    return rc::gen::exec([] {
+        const glm::dvec3 axis = *direction();
+        const double angle =
+            *rc::gen::oneOf(uniform(-std::numbers::pi, std::numbers::pi), log_uniform(1e-16, 1e-3),
+                            rc::gen::element(0.0, 0.5 * std::numbers::pi, std::numbers::pi, std::numbers::pi - 1e-9));
+        const double c = std::cos(angle);
+        const double s = std::sin(angle);
+        const glm::dmat3 cross(0.0, axis.z, -axis.y, -axis.z, 0.0, axis.x, axis.y, -axis.x, 0.0);
+        return glm::dmat3(c) + s * cross + (1.0 - c) * glm::outerProduct(axis, axis);
+    });
+}
+
+inline rc::Gen<diffraction::Profile> profile(double pitch_nm) {
+    return rc::gen::exec([pitch_nm]() -> diffraction::Profile {
+        const double depth_nm = *rc::gen::oneOf(uniform(0.0, 1000.0), log_uniform(1e-3, 1e4));
+        switch (*whole(0, 3)) {
+            case 0:
+                return diffraction::SlitProfile{pitch_nm * *rc::gen::oneOf(uniform(1e-6, 1.0), log_uniform(1e-12, 1.0),
+                                                                           rc::gen::element(0.0, 0.5, 1.0))};
+            case 1:
+                return diffraction::LamellarProfile{
+                    *rc::gen::oneOf(uniform(0.0, 1.0), rc::gen::element(1e-9, 0.5, 1.0 - 1e-9)), depth_nm};
+            case 2:
+                return diffraction::SinusoidalProfile{depth_nm};
+            default:
+                return diffraction::BlazedProfile{depth_nm};
+        }
+    });
+}
+
+inline rc::Gen<diffraction::GrooveLobe> lobe() {
+    return rc::gen::exec([]() -> diffraction::GrooveLobe {
+        switch (*whole(0, 2)) {
+            case 0:
+                return diffraction::FlatLobe{};
+            case 1:
+                return diffraction::GaussianLobe{*log_uniform(1e-4, 10.0)};
+            default:
+                return diffraction::PitsLobe{*log_uniform(50.0, 20000.0),
+                                             *rc::gen::oneOf(uniform(0.0, 1.0), rc::gen::element(0.0, 1.0))};
+        }
+    });
+}
+
+/// Some orders between −6 and 6, or all that propagate where they are few.
+inline rc::Gen<std::vector<int>> orders(double pitch_nm) {
+    return rc::gen::exec([pitch_nm] {
+        if (pitch_nm < 3000.0 && *whole(0, 3) == 0) return diffraction::all_orders(pitch_nm);
+        std::vector<int> some;
+        for (int order = -6; order <= 6; ++order)
+            if (*whole(0, 2) == 0) some.push_back(order);
+        return some;
+    });
+}
+
+/// Any grating the material file allows but tables, with at least `least_grooves` grooves.
+inline rc::Gen<diffraction::Grating> grating(double least_grooves = 1.0) {
+    return rc::gen::exec([least_grooves] {
+        diffraction::Grating result;
+        result.pitch_nm = *pitch();
+        result.grooves = std::max(*grooves(), least_grooves);
+        result.profile = *profile(result.pitch_nm);
+        result.lobe = *lobe();
+        result.orders = *orders(result.pitch_nm);
+        if (*whole(0, 3) == 0)
+            result.metal =
+                *rc::gen::element(colour::Metal::Al, colour::Metal::Ag, colour::Metal::Au, colour::Metal::Cu);
+        if (std::holds_alternative<diffraction::SlitProfile>(result.profile) && *whole(0, 2) == 0)
+            result.normalization = diffraction::Normalization::Agu;
+        return result;
+    });
+}
+
+/// Raw SH of 1 to `most_bands` bands, over twelve decades of strength, now and then none at all.
+inline rc::Gen<lighting::ShLight> sh_light(int most_bands) {
+    return rc::gen::exec([most_bands] {
+        lighting::ShLight light{*whole(1, most_bands), {}};
+        const double strength = *rc::gen::oneOf(log_uniform(1e-6, 1e6), rc::gen::element(0.0, 1.0));
+        for (int i = 0; i < math::sh_count(light.bands); ++i)
+            light.coefficients.push_back(strength *
+                                         glm::dvec3(*uniform(-1.0, 1.0), *uniform(-1.0, 1.0), *uniform(-1.0, 1.0)));
+        return light;
+    });
+}
+
+inline bool is_finite(const glm::dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+inline bool is_finite(const glm::dmat3& m) {
+    return is_finite(m[0]) && is_finite(m[1]) && is_finite(m[2]);
+}
+
+inline double largest(const glm::dvec3& v) {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+/// Σ|l_i|, the largest channel's: what a sum over coefficients of at most 1 can reach.
+inline double total(const lighting::ShLight& light) {
+    glm::dvec3 sum(0.0);
+    for (const glm::dvec3& c : light.coefficients) sum += glm::abs(c);
+    return largest(sum);
+}
+
+}  // namespace rowland::property

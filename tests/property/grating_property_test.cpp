@@ -1,0 +1,164 @@
+// The grating's equation, efficiencies, lobes and BRDFs.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "modules/diffraction/model/brdf.h"
+#include "modules/diffraction/model/efficiency.h"
+#include "modules/diffraction/model/fejer.h"
+#include "modules/diffraction/model/grating_equation.h"
+#include "tests/property/generators.h"
+
+namespace rowland::property {
+namespace {
+
+using namespace diffraction;
+
+rc::Gen<double> fejer_delta() {
+    return rc::gen::oneOf(uniform(-0.5, 0.5), uniform(-1000.0, 1000.0), log_uniform(1e-16, 0.5),
+                          rc::gen::element(0.0, 0.5, -0.5, 1.0, 1e-300));
+}
+
+/// A squared mean of unit phasors: in [0, 1]. 4e-16: rounding of a quotient and its square.
+RC_GTEST_PROP(FejerProperty, LiesBetweenZeroAndOne, ()) {
+    const double ratio = fejer(*grooves(), *fejer_delta());
+    RC_ASSERT(ratio >= 0.0);
+    RC_ASSERT(ratio <= 1.0 + 4e-16);
+}
+
+/// PHYSICS §9: 1e-5 absolute in float, for the same δ.
+RC_GTEST_PROP(FejerProperty, FloatIsTheDouble, ()) {
+    const auto n = static_cast<float>(*grooves());
+    const auto delta = static_cast<float>(*fejer_delta());
+    const double exact = fejer(static_cast<double>(n), static_cast<double>(delta));
+    RC_ASSERT(std::abs(static_cast<double>(fejer(n, delta)) - exact) <= 1e-5);
+}
+
+/// F_N is a trigonometric polynomial of degree N−1 between 0 and 1: its slope is at most π(N−1) (Bernstein). δ is kept
+/// within half a period, where it loses no digits; 1e-12 for the values' own error.
+RC_GTEST_PROP(FejerProperty, IsContinuous, ()) {
+    const double n = *grooves();
+    const double delta = *uniform(-0.5, 0.5);
+    const double step = *log_uniform(1e-14, 1e-3);
+    RC_ASSERT(std::abs(fejer(n, delta + step) - fejer(n, delta)) <= std::numbers::pi * n * step + 1e-12);
+}
+
+RC_GTEST_PROP(PeakProperty, SolvesTheGratingEquation, ()) {
+    const double pitch_nm = *pitch();
+    const std::vector<int> listed = *orders(pitch_nm);
+    const double u = *rc::gen::oneOf(uniform(-2.0, 2.0), rc::gen::element(0.0, -2.0, 2.0, 1e-300));
+    for (const Peak& peak : visible_peaks(u, pitch_nm, listed)) {
+        RC_ASSERT(u != 0.0);
+        RC_ASSERT(peak.order != 0);
+        RC_ASSERT(peak.wavelength_nm >= 380.0);
+        RC_ASSERT(peak.wavelength_nm <= 780.0);
+        // Two roundings.
+        RC_ASSERT(std::abs(peak.order * peak.wavelength_nm - pitch_nm * u) <= 5e-16 * std::abs(pitch_nm * u));
+        RC_ASSERT(propagates(peak.order, peak.wavelength_nm, pitch_nm) || std::abs(u) >= 2.0 * (1.0 - 1e-15));
+    }
+}
+
+/// η_m is a share of the incident power, and so are all together: Σ η_m ≤ 1. 1e-10: the Bessel function's error over
+/// some hundred orders.
+RC_GTEST_PROP(EfficiencyProperty, OrdersShareThePower, ()) {
+    const double pitch_nm = *pitch();
+    const Profile shape = *profile(pitch_nm);
+    const double wavelength_nm = *wavelength();
+    double sum = 0.0;
+    for (int order = -300; order <= 300; ++order) {
+        const double share = profile_efficiency(shape, pitch_nm, order, wavelength_nm);
+        RC_ASSERT(share >= 0.0);
+        RC_ASSERT(share <= 1.0 + 1e-12);
+        sum += share;
+    }
+    RC_ASSERT(sum <= 1.0 + 1e-10);
+}
+
+/// At whole orders the groove's own spectrum is η_m. 1e-10: Σ_k J_k sinc of the sinusoidal profile, its worst.
+RC_GTEST_PROP(EfficiencyProperty, SpectrumMeetsItAtWholeOrders, ()) {
+    const double pitch_nm = *pitch();
+    const Profile shape = *profile(pitch_nm);
+    const double wavelength_nm = *wavelength();
+    const int order = *whole(-8, 8);
+    const double spectrum = groove_spectrum(shape, pitch_nm, order, wavelength_nm);
+    RC_ASSERT(std::abs(spectrum - profile_efficiency(shape, pitch_nm, order, wavelength_nm)) <= 1e-10);
+}
+
+RC_GTEST_PROP(LobeProperty, IsFiniteNonNegativeAndEven, ()) {
+    const GrooveLobe shape = *lobe();
+    const double wavelength_nm = *wavelength();
+    const double sum_h = *rc::gen::oneOf(uniform(-2.0, 2.0), log_uniform(1e-12, 2.0), rc::gen::element(0.0));
+    const double density = lobe_density(shape, sum_h, wavelength_nm);
+    RC_ASSERT(std::isfinite(density));
+    RC_ASSERT(density >= 0.0);
+    RC_ASSERT(density == lobe_density(shape, -sum_h, wavelength_nm));
+}
+
+/// ∫ D_h over directions is at most 1 whatever the view: s_h spans at most 2. The midpoint rule with 16 nodes a feature
+/// is exact to 1e-9 for a Gaussian, whose window may end within it: 1e-2 of a node's weight; pits' sinc² has 1e-4.
+RC_GTEST_PROP(LobeProperty, NeverAddsPower, ()) {
+    const GrooveLobe shape =
+        *rc::gen::suchThat(lobe(), [](const GrooveLobe& l) { return lobe_feature_size(l) > 1e-3; });
+    const double wavelength_nm = *wavelength();
+    const double v_h = *uniform(-1.0, 1.0);
+    const LobeDensity density(shape, wavelength_nm);
+    const int nodes = static_cast<int>(32.0 / lobe_feature_size(shape)) + 32;
+    double sum = 0.0;
+    for (int i = 0; i < nodes; ++i) sum += density(-1.0 + 2.0 * (i + 0.5) / nodes + v_h) * 2.0 / nodes;
+    RC_ASSERT(sum <= 1.0 + 1e-3);
+}
+
+RC_GTEST_PROP(BrdfProperty, EnergyFormIsFiniteNonNegativeAndReciprocal, ()) {
+    const Grating shape = *grating();
+    const glm::dvec3 s = *upper_direction();
+    const glm::dvec3 v = *rc::gen::oneOf(upper_direction(), rc::gen::just(glm::dvec3(-s.x, -s.y, s.z)));  // u = 0
+    const double wavelength_nm = *wavelength();
+    const double f = brdf_energy(shape, s, v, wavelength_nm);
+    RC_ASSERT(std::isfinite(f));
+    RC_ASSERT(f >= 0.0);
+    RC_ASSERT(f == brdf_energy(shape, v, s, wavelength_nm));
+}
+
+RC_GTEST_PROP(BrdfProperty, PapersFormLiesBetweenZeroAndOne, ()) {
+    Grating shape = *grating();
+    shape.profile = SlitProfile{shape.pitch_nm * *uniform(0.0, 1.0)};
+    const double f = brdf_agu(shape, *upper_direction(), *upper_direction(), *wavelength());
+    RC_ASSERT(f >= 0.0);
+    RC_ASSERT(f <= 1.0 + 1e-15);
+}
+
+/// ∫ f_E v_n dω ≤ 1 for the flat lobe: over v_g, v_h in the unit disc, the lobe gives √(1−v_g²). 64 nodes across an
+/// order's width leave 1e-3 of it.
+RC_GTEST_PROP(BrdfProperty, SendsOutNoMoreThanComesIn, ()) {
+    Grating shape = *grating();
+    RC_PRE(shape.pitch_nm < 5000.0);
+    shape.lobe = FlatLobe{};
+    shape.grooves = std::min(shape.grooves, 200.0);
+    shape.normalization = Normalization::Energy;
+    shape.orders = all_orders(shape.pitch_nm);
+    shape.orders.insert(std::lower_bound(shape.orders.begin(), shape.orders.end(), 0), 0);
+    const glm::dvec3 s = *upper_direction();
+    const double wavelength_nm = *wavelength();
+    const int nodes = 64 + static_cast<int>(64.0 * shape.grooves * 2.0 * shape.pitch_nm / wavelength_nm);
+    double sum = 0.0;
+    for (int i = 0; i < nodes; ++i) {
+        const double v_g = -1.0 + 2.0 * (i + 0.5) / nodes;
+        const double r = std::sqrt(1.0 - v_g * v_g);
+        // f does not depend on v_h: ∫ dv_h = 2r.
+        sum += brdf_energy(shape, s, {v_g, 0.0, r}, wavelength_nm) * 2.0 * r * 2.0 / nodes;
+    }
+    RC_ASSERT(sum <= 1.0 + 1e-3);
+}
+
+/// d < λ/2: the term is 0, not small and not NaN.
+RC_GTEST_PROP(BrdfProperty, FinePitchDoesNotDiffract, ()) {
+    Grating shape = *grating();
+    const double wavelength_nm = *wavelength();
+    shape.pitch_nm = *uniform(50.0, 0.4999 * wavelength_nm);
+    shape.profile = *profile(shape.pitch_nm);
+    std::erase(shape.orders, 0);
+    RC_ASSERT(brdf_energy(shape, *upper_direction(), *upper_direction(), wavelength_nm) == 0.0);
+}
+
+}  // namespace
+}  // namespace rowland::property

@@ -1,0 +1,40 @@
+// Sets RapidCheck up from the environment: ROWLAND_PROPERTY_SEED, a number or "random"; ROWLAND_PROPERTY_RUNS, cases a
+// property. RC_PARAMS, RapidCheck's own, overrides both: it is what a failure prints to be reproduced.
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <random>
+#include <string>
+
+namespace {
+
+constexpr const char* kFixedSeed = "2006";  // the year of Lindsay & Agu
+constexpr const char* kRuns = "100";
+
+std::string setting(const char* name, const char* fallback) {
+    const char* value = std::getenv(name);
+    return value != nullptr && *value != '\0' ? value : fallback;
+}
+
+std::string seed() {
+    const std::string wanted = setting("ROWLAND_PROPERTY_SEED", kFixedSeed);
+    if (wanted != "random") return wanted;
+    std::random_device device;
+    return std::to_string((std::uint64_t{device()} << 32U) | device());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    ::testing::InitGoogleTest(&argc, argv);
+    const std::string parameters =
+        fmt::format("seed={} max_success={}", seed(), setting("ROWLAND_PROPERTY_RUNS", kRuns));
+    setenv("RC_PARAMS", parameters.c_str(), 0);
+    const int result = RUN_ALL_TESTS();
+    if (result != 0) fmt::print(stderr, "to run the same again: RC_PARAMS=\"{}\"\n", std::getenv("RC_PARAMS"));
+    return result;
+}
