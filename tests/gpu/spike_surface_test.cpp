@@ -69,8 +69,7 @@ glm::dvec3 vertex_xyz(const CookedMaterial& cooked, const lighting::ShLight& lig
     const glm::dvec3 view = frame * glm::normalize(glm::dvec3(eye) - position);
     lighting::ShLight rotated{.bands = light.bands, .coefficients = light.coefficients};
     math::ShRotation(frame, light.bands).apply(std::span<const glm::dvec3>(light.coefficients), rotated.coefficients);
-    return evaluate_spikes(sample(std::get<SpikeTable>(cooked.tables), view.x, view.y, view.z), rotated,
-                           colour::LightSpectra());
+    return evaluate_spikes(sample(std::get<SpikeTable>(cooked.tables), view.x, view.y, view.z), rotated);
 }
 
 /// Barycentric coordinates at which the ray through a pixel's centre meets the triangle, if it does so well inside.

@@ -127,7 +127,8 @@ TEST(Schema, OfMaterialsAgreesWithTheParser) {
         read("content/materials/cd.json"),
         read("content/materials/cd_paper.json"),
         material(R"({"type": "lamellar", "duty": 0.4, "depth_nm": 100})", R"(, "groove_lobe": {"sigma": 0.2}}})"),
-        material(R"({"type": "blazed", "depth_nm": 100}})", R"(, "metal": "Au", "quality": {"max_error": 0.1}})"),
+        material(R"({"type": "blazed", "depth_nm": 100}})",
+                 R"(, "metal": "Au", "quality": {"max_error": 0.1, "illuminant": "F11"}})"),
         material(R"({"type": "slit", "width_nm": 0.5}, "normalization": "agu", "orders": "all"}})", ""),
         material(R"({"type": "table", "file": "t.csv"}})", R"(, "base": {"roughness": 0.1}})"),
         material(R"({"type": "sinusoidal", "depth_nm": 90})",
@@ -135,7 +136,8 @@ TEST(Schema, OfMaterialsAgreesWithTheParser) {
         pinned(R"({"representation": "spikes", "spikes": 8, "view_mapping": "parabolic", "key_lights": true})"),
         pinned(R"({"representation": "bins", "bins": 9, "bands": 4, "view_resolution": 20, "storage": "unorm8"})"),
         pinned(R"({"representation": "transfer", "bands": 3, "view_mapping": "spherical", "max_error": 0.2})"),
-        pinned(R"({"representation": "arc", "bands": 6, "rank": 12, "storage": "fp32", "key_lights": false})"),
+        pinned(
+            R"({"representation": "arc", "bands": 6, "rank": 12, "storage": "fp32", "key_lights": false, "illuminant": "A"})"),
         pinned(R"({"representation": "direct", "key_lights": true})"),
         pinned(R"({"representation": "planar", "rank": 6, "map_resolution": 128})"),
         pinned(R"({"representation": "circle", "map_resolution": 32})")};

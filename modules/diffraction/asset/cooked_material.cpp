@@ -18,7 +18,7 @@
 namespace rowland::diffraction {
 
 CookedMaterial bake_material(const Material& material) {
-    const ColourKernel kernel(material.grating, colour::LightSpectra());
+    const ColourKernel kernel(material.grating, colour::LightSpectra(material.quality.illuminant));
     return {.material = material,
             .tables = bake_tables(material.grating, representation(material)),
             .kernel = tabulate(kernel),
@@ -131,11 +131,12 @@ void add_cost(const ShadingCost& cost, Lines& lines) {
 
 std::string describe(const CookedMaterial& cooked) {
     const Grating& grating = cooked.material.grating;
-    const LayerWeights weights = layer_weights(grating);
+    const LayerWeights weights = layer_weights(grating, cooked.material.quality.illuminant);
     Lines lines;
     lines.add("pitch_nm", grating.pitch_nm);
     lines.add("orders", fmt::format("{}", fmt::join(grating.orders, " ")));
     lines.add("representation", representation_name(cooked.tables.index()));
+    lines.add("illuminant", cooked.material.quality.illuminant.name);
     lines.add("key_lights", cooked.material.quality.key_lights);
     std::visit([&](const auto& tables) { add_tables(tables, lines); }, cooked.tables);
     add_cost(shading_cost(cooked.tables), lines);

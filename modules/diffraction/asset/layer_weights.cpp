@@ -8,8 +8,8 @@
 
 namespace rowland::diffraction {
 
-LayerWeights layer_weights(const Grating& grating) {
-    const colour::LightSpectra spectra;
+LayerWeights layer_weights(const Grating& grating, const colour::Illuminant& illuminant) {
+    const colour::LightSpectra spectra(illuminant);
     const bool lists_zero = std::find(grating.orders.begin(), grating.orders.end(), 0) != grating.orders.end();
     LayerWeights weights{.mirror = glm::dvec3(0.0), .base = glm::dvec3(0.0)};
     for (int wavelength_nm = colour::kVisibleMin; wavelength_nm <= colour::kVisibleMax; ++wavelength_nm) {

@@ -2,17 +2,18 @@
 
 #include <glm/vec3.hpp>
 
+#include "engine/colour/illuminant.h"
 #include "modules/diffraction/model/grating.h"
 
 namespace rowland::diffraction {
 
-/// What a grating leaves to the engine's own shading, as XYZ of white light (D65, Y = 1) after it.
+/// What a grating leaves to the engine's own shading, as XYZ of the illuminant's white (Y = 1) after it.
 struct LayerWeights {
     glm::dvec3 mirror{0.0};  ///< the zero order, unless `orders` lists 0 (then the diffraction term shades it)
     glm::dvec3 base{1.0};    ///< 1 − Σ listed η − η₀, at least 0: what reaches the layer under the grating
 };
 
-/// PHYSICS §2, "Zero order". Each weight is ∫ w(λ) cmf(λ) D65(λ) dλ with D65 of luminance 1.
-LayerWeights layer_weights(const Grating& grating);
+/// PHYSICS §2, "Zero order". Each weight is ∫ w(λ) cmf(λ) S(λ) dλ, S the illuminant, of luminance 1.
+LayerWeights layer_weights(const Grating& grating, const colour::Illuminant& illuminant = colour::d65());
 
 }  // namespace rowland::diffraction

@@ -3,6 +3,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
+#include "engine/colour/illuminant.h"
 #include "modules/diffraction/asset/representation.h"
 #include "modules/diffraction/model/grating.h"
 
@@ -19,6 +20,7 @@ struct Quality {
     double max_error = 0.05;  ///< relative RMS against the reference, > 0
     std::optional<Representation> pinned;
     bool key_lights = false;  ///< the probe's key lights are shaded on their own, at full sharpness
+    colour::Illuminant illuminant = colour::d65();  ///< the spectrum of the light's white that tables are baked for
 };
 
 /// A grating material: the parsed material file.

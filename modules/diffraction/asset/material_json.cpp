@@ -153,7 +153,9 @@ BaseLayer parse_base(JsonReader json) {
 }  // namespace
 
 Representation representation(const Material& material) {
-    return material.quality.pinned.value_or(SpikeTableSettings{});
+    Representation result = material.quality.pinned.value_or(SpikeTableSettings{});
+    set_illuminant(result, material.quality.illuminant);
+    return result;
 }
 
 Material parse_material_parts(JsonReader& reader, const ReadNamed& read) {

@@ -1,6 +1,11 @@
 #include "modules/diffraction/asset/quality_json.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <string>
+#include <vector>
 
 namespace rowland::diffraction {
 
@@ -161,11 +166,22 @@ bool needs_key_lights(const Representation& representation) {
     return takes_key_lights(representation) && !std::holds_alternative<ArcSettings>(representation);
 }
 
+/// Built-in names only: a cooked material must not need another file to be read.
+colour::Illuminant parse_illuminant(JsonReader& json) {
+    const std::string name = json.text("illuminant");
+    const std::vector<std::string> names = colour::illuminant_names();
+    if (std::find(names.begin(), names.end(), name) == names.end())
+        json.fail("illuminant", fmt::format("\"{:.40}\"", name), fmt::format("one of {}", fmt::join(names, ", ")),
+                  "rowland-trade evaluates under any other");
+    return colour::illuminant(name);
+}
+
 }  // namespace
 
 Quality parse_quality(JsonReader json, const Grating& grating) {
     Quality quality;
     quality.max_error = json.number_or("max_error", quality.max_error, {.minimum = 0.0, .minimum_open = true});
+    if (json.has("illuminant")) quality.illuminant = parse_illuminant(json);
     if (json.has("representation")) {
         quality.pinned = parse_representation(json, grating);
         quality.key_lights = json.boolean_or("key_lights", takes_key_lights(*quality.pinned));

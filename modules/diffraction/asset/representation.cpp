@@ -58,7 +58,29 @@ ShadingCost cost_of(const CircleTables& tables) {
                            static_cast<std::size_t>(tables.size.terms) * kHalfTexel};
 }
 
+void set(SpikeTableSettings& settings, const colour::Illuminant& illuminant) {
+    settings.spikes.illuminant = illuminant;
+}
+void set(BinSettings& settings, const colour::Illuminant& illuminant) {
+    settings.illuminant = illuminant;
+}
+void set(TransferSettings& settings, const colour::Illuminant& illuminant) {
+    settings.illuminant = illuminant;
+}
+void set(ArcSettings& settings, const colour::Illuminant& illuminant) {
+    settings.illuminant = illuminant;
+}
+void set(PlanarSettings& settings, const colour::Illuminant& illuminant) {
+    settings.stand_in.illuminant = illuminant;
+}
+void set(DirectSettings&, const colour::Illuminant&) {}
+void set(CircleSettings&, const colour::Illuminant&) {}
+
 }  // namespace
+
+void set_illuminant(Representation& representation, const colour::Illuminant& illuminant) {
+    std::visit([&](auto& settings) { set(settings, illuminant); }, representation);
+}
 
 const char* representation_name(std::size_t index) {
     constexpr std::array<const char*, std::variant_size_v<Representation>> kNames{"spikes", "bins",   "transfer", "arc",

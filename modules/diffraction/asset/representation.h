@@ -32,6 +32,9 @@ struct CircleSettings {
 using Representation = std::variant<SpikeTableSettings, BinSettings, TransferSettings, ArcSettings, DirectSettings,
                                     PlanarSettings, CircleSettings>;
 
+/// Sets the spectrum of the light's white in all settings that know one.
+void set_illuminant(Representation& representation, const colour::Illuminant& illuminant);
+
 /// What was baked for a DirectSettings: nothing besides the kernel, which all have.
 struct DirectTables {};
 

@@ -58,10 +58,4 @@ glm::dmat3 spike_colour(double wavelength_nm);
 /// have are used.
 glm::dvec3 evaluate_spikes(const SpikeSet& spikes, const lighting::ShLight& tangent_light);
 
-/// The same; the light's spectra must be those the spikes were baked for.
-inline glm::dvec3 evaluate_spikes(const SpikeSet& spikes, const lighting::ShLight& tangent_light,
-                                  const colour::LightSpectra&) {
-    return evaluate_spikes(spikes, tangent_light);
-}
-
 }  // namespace rowland::diffraction

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/core/error.h"
+#include "engine/core/log.h"
 #include "engine/render/gpu_mesh.h"
 #include "engine/scene/skin.h"
 #include "engine/scene/transform.h"
@@ -73,6 +74,12 @@ gpu::ProgramDesc DiffractionSurfaceType::program(ecs::World& world, ecs::Entity 
     return world.get<DiffractionSurface>(entity).material->program(world.get<SurfaceState>(entity));
 }
 
+void DiffractionSurfaceType::warn_of_other_white(const std::string& baked_for, const std::string& lit_by) {
+    if (baked_for == lit_by || !warned_of_.emplace(baked_for, lit_by).second) return;
+    log_warning("a grating that is baked for the illuminant {} is lit by {}: its colours are those of {}", baked_for,
+                lit_by, baked_for);
+}
+
 void DiffractionSurfaceType::update(ecs::World& world, const render::FrameLight& light) {
     light_.set(light);
     world.view<DiffractionSurface, render::MeshInstance, scene::WorldMatrix>().each(
@@ -80,6 +87,7 @@ void DiffractionSurfaceType::update(ecs::World& world, const render::FrameLight&
             const scene::WorldMatrix& world_matrix) {
             if (world.find<SurfaceState>(entity) == nullptr) world.add(entity, SurfaceState{});
             SurfaceState& state = world.get<SurfaceState>(entity);
+            warn_of_other_white(surface.material->illuminant(), light.illuminant.name);
             const bool changed = renew(surface, instance, glm::mat3(world_matrix.matrix), light_.version(), state);
             const auto bring_up_to_date = [&](const scene::Mesh& mesh, bool skinned) {
                 surface.material->update({.mesh = mesh,

@@ -4,7 +4,9 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 
 #include "engine/math/sh_window.h"
 #include "engine/render/material.h"
@@ -45,11 +47,13 @@ class DiffractionSurfaceType final : public render::MaterialType {
     void bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const override;
 
  private:
+    void warn_of_other_white(const std::string& baked_for, const std::string& lit_by);
     std::shared_ptr<const GpuMaterial> baked(const Material& material, const std::string& key);
 
     glm::dmat3 xyz_to_working_;
     int slices_per_frame_;
     std::map<std::string, std::weak_ptr<const GpuMaterial>> baked_;  ///< by the extension's text
+    std::set<std::pair<std::string, std::string>> warned_of_;        ///< illuminants baked for, lit by
     SurfaceLight light_;
 };
 

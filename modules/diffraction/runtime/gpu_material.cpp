@@ -53,9 +53,10 @@ struct Drawn<CircleTables> {
 
 GpuMaterial::GpuMaterial(const CookedMaterial& cooked, const glm::dmat3& xyz_to_working)
     : base_{.base_colour = cooked.material.base.colour, .metallic = 0.0F, .roughness = cooked.material.base.roughness},
+      illuminant_(cooked.material.quality.illuminant.name),
       key_lights_(cooked.material.quality.key_lights),
       kernel_(cooked, xyz_to_working) {
-    const LayerWeights weights = layer_weights(cooked.material.grating);
+    const LayerWeights weights = layer_weights(cooked.material.grating, cooked.material.quality.illuminant);
     mirror_weight_ = glm::vec3(xyz_to_working * weights.mirror);
     base_weight_ = glm::vec3(xyz_to_working * weights.base);
 }

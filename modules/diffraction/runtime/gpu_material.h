@@ -4,6 +4,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <string>
 
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/program.h"
@@ -53,6 +54,8 @@ class GpuMaterial {
 
     /// The engine's surface under the grating.
     const render::StandardMaterial& base() const { return base_; }
+    /// Name of the illuminant that the tables are baked for.
+    const std::string& illuminant() const { return illuminant_; }
 
     /// Once a frame for each object, before it is drawn.
     virtual void update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const = 0;
@@ -73,6 +76,7 @@ class GpuMaterial {
 
  private:
     render::StandardMaterial base_;
+    std::string illuminant_;
     glm::vec3 mirror_weight_{0.0F};
     glm::vec3 base_weight_{1.0F};
     bool key_lights_;

@@ -75,6 +75,24 @@ TEST(CookedMaterial, EveryRepresentationIsReadAsItWasWritten) {
     }
 }
 
+/// A fluorescent lamp's mercury line at 546 nm, order 1: the kernel has a peak there that daylight's has not.
+TEST(CookedMaterial, IsBakedForTheIlluminantOfItsQuality) {
+    const auto baked = [](const char* illuminant) {
+        const nlohmann::json json = {
+            {"grating", {{"pitch_nm", 1600}, {"profile", {{"type", "slit"}, {"width_nm", 800}}}}},
+            {"quality", {{"representation", "arc"}, {"illuminant", illuminant}}}};
+        return cook_material(json, "test");
+    };
+    const auto peak = [](const CookedMaterial& cooked) {
+        const auto luminance = [&](double from, double to) { return cooked.kernel.average(from, to)[1][1]; };
+        return luminance(541.0, 551.0) / luminance(556.0, 566.0);
+    };
+    const CookedMaterial fluorescent = baked("F11");
+    EXPECT_GT(peak(fluorescent), 3.0 * peak(baked("D65")));
+    EXPECT_NE(std::get<ArcTable>(fluorescent.tables).texels, std::get<ArcTable>(baked("D65").tables).texels);
+    EXPECT_THAT(describe(fluorescent), testing::HasSubstr("illuminant: F11"));
+}
+
 TEST(CookedMaterial, TablesOfAnotherRepresentationThanTheMaterialsAreRefused) {
     const CookedMaterial arc = cook_material(material_with(kQualities[2]), "m.json");
     const std::vector<std::byte> bytes = write_cooked_material(material_with(kQualities[1]), arc);

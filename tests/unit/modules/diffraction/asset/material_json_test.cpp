@@ -242,6 +242,8 @@ TEST(MaterialJson, MetalsAndBasesOutOfTheirDomainAreRefused) {
     EXPECT_THAT(beside(R"("base": {"color": [0.1, 0.2, 1.1]})"), HasSubstr("/base/color/2"));
     EXPECT_THAT(beside(R"("base": {"roughness": 2})"), HasSubstr("/base/roughness"));
     EXPECT_THAT(beside(R"("quality": {"max_error": 0})"), HasSubstr("/quality/max_error"));
+    EXPECT_THAT(beside(R"("quality": {"illuminant": "F12"})"),
+                testing::AllOf(HasSubstr("/quality/illuminant"), HasSubstr("F11")));
     EXPECT_THAT(refusal("[]"), HasSubstr("object"));
 }
 
