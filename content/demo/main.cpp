@@ -50,6 +50,8 @@ void run_job(const Job& job, const Options& options, Picture& picture, Assets& a
     const int frames = options.frames.value_or(1);
     for (int frame = 0; frame < frames; ++frame) {
         scene.advance_to(frame * kSecondsPerFrame);
+        // Maps are filled for what has come to rest.
+        if (frames == 1) picture.draw(scene, scene.camera(), 0.0F);
         picture.draw(scene, scene.camera(), static_cast<float>(kSecondsPerFrame));
         if (job.capture_linear) {
             const auto path = numbered(*job.capture_linear, frame, frames);
@@ -69,7 +71,7 @@ void run_headless(const Options& options, const post::OcioConfig& config) {
     gpu::enable_debug_output(false);
     log_info("rendering on {}", context.renderer());
     const auto started = std::chrono::steady_clock::now();
-    Picture picture(options, config, {options.width, options.height});
+    Picture picture(options, config, {options.width, options.height}, options.benchmark ? Pace::Fluent : Pace::Still);
     Assets assets(options, picture.renderer().gltf_extensions());
     DemoScene scene(options, assets, picture.renderer(), picture.xyz_to_working());
     if (options.benchmark) {

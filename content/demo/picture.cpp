@@ -1,5 +1,6 @@
 #include "content/demo/picture.h"
 
+#include <limits>
 #include <utility>
 
 #include "engine/post/shader_files.h"
@@ -36,7 +37,7 @@ post::PostSettings make_post_settings(const Options& options, float vertical_fie
 
 }  // namespace
 
-Picture::Picture(const Options& options, const post::OcioConfig& config, glm::ivec2 size)
+Picture::Picture(const Options& options, const post::OcioConfig& config, glm::ivec2 size, Pace pace)
     : xyz_to_working_(post::xyz_to_scene_linear(config)),
       luminance_weights_(post::luminance_weights(config)),
       renderer_(xyz_to_working_),
@@ -45,10 +46,11 @@ Picture::Picture(const Options& options, const post::OcioConfig& config, glm::iv
       display_(*post_shaders_, transform_),
       post_stack_(*post_shaders_),
       post_settings_(make_post_settings(options, kFieldOfView)) {
-    if (options.light_window == "auto")
-        diffraction::register_module(renderer_);
-    else
-        diffraction::register_module(renderer_, {.window = math::parse_window(options.light_window)});
+    diffraction::DiffractionSettings settings;
+    if (options.light_window != "auto") settings.window = math::parse_window(options.light_window);
+    if (pace == Pace::Still) settings.slices_per_frame = std::numeric_limits<int>::max();
+    diffraction::register_module(renderer_, settings);
+    renderer_.use_key_lights(true);
     renderer_.set_pass_times(&pass_times_);
     post_stack_.set_pass_times(&pass_times_);
     resize(size);

@@ -21,11 +21,17 @@
 
 namespace rowland::demo {
 
+/// Whether what takes long may be spread over frames.
+enum class Pace {
+    Fluent,  ///< a window: maps fill by and by
+    Still,   ///< pictures: a map is full in the second frame at rest
+};
+
 /// From the scene to display values: the renderer, four samples a pixel, the post stack. The same with and without a
 /// window.
 class Picture {
  public:
-    Picture(const Options& options, const post::OcioConfig& config, glm::ivec2 size);
+    Picture(const Options& options, const post::OcioConfig& config, glm::ivec2 size, Pace pace);
 
     const glm::dmat3& xyz_to_working() const { return xyz_to_working_; }
     void set_probe(const lighting::LightProbe& probe);

@@ -48,7 +48,7 @@ class WindowLoop {
         : options_(options),
           config_(config),
           window_({.title = "Rowland", .size = {options.width, options.height}}),
-          picture_(options, config, window_.framebuffer_size()),
+          picture_(options, config, window_.framebuffer_size(), Pace::Fluent),
           assets_(options, picture_.renderer().gltf_extensions()),
           scene_(options, assets_, picture_.renderer(), picture_.xyz_to_working()),
           shaders_(picture_.shader_sources(options.shader_folder)),
