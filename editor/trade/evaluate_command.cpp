@@ -9,7 +9,6 @@
 #include <iterator>
 
 #include "editor/trade/inputs.h"
-#include "editor/trade/point_shader.h"
 #include "editor/trade/results.h"
 #include "engine/core/error.h"
 #include "engine/math/sh_basis.h"
@@ -17,6 +16,7 @@
 #include "modules/diffraction/asset/baked_tables.h"
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/asset/material_json.h"
+#include "modules/diffraction/evaluate/point_shader.h"
 
 namespace rowland::trade {
 
@@ -122,15 +122,15 @@ void EvaluateCommand::check_usage() const {
     if (error && method != "reference") refuse_usage("--error", "--method " + method, "--method reference");
 }
 
-EvaluationLight EvaluateCommand::light() const {
+diffraction::EvaluationLight EvaluateCommand::light() const {
     const math::SphericalWindow taming = math::parse_window(window);
     if (probe_sh) {
         if (key_lights.value_or(0) > 0 || method == "direct")
             refuse_usage("--probe-sh", "light without bright parts", "a probe, to take key lights out of");
-        return EvaluationLight(read_sh_light(*probe_sh), taming);
+        return diffraction::EvaluationLight(read_sh_light(*probe_sh), taming);
     }
     const int wanted = key_lights.value_or(method == "direct" ? kKeyLightsOfDirect : 0);
-    return EvaluationLight(read_probe(*probe, mapping), wanted, taming);
+    return diffraction::EvaluationLight(read_probe(*probe, mapping), wanted, taming);
 }
 
 diffraction::Representation EvaluateCommand::representation(const colour::LightSpectra& spectra) const {
@@ -188,11 +188,12 @@ std::vector<glm::dvec3> EvaluateCommand::by_representation(const colour::LightSp
     const diffraction::ColourKernel kernel(grating, spectra);
     baked.kernel = tabulate(kernel);
     baked.zero_order_xyz = kernel.zero_order_xyz();
-    const EvaluationLight lit = light();
+    const diffraction::EvaluationLight lit = light();
     if (method == "streak") {
         if (!lit.key_lights().empty())
             refuse_usage("--key-lights", "some", "none with the method streak, which sees the whole probe");
-        const PointShader shader = streak(grating, spectra, bands.value_or(kDefaultBands), lit);
+        const diffraction::PointShader shader =
+            diffraction::streak(grating, spectra, bands.value_or(kDefaultBands), lit);
         return evaluate_points(method, shader, baked, lit, points);
     }
     const diffraction::Representation chosen = representation(spectra);

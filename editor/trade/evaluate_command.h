@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "editor/trade/evaluation_light.h"
 #include "engine/colour/light_spectra.h"
 #include "modules/diffraction/asset/representation.h"
+#include "modules/diffraction/evaluate/evaluation_light.h"
 #include "modules/diffraction/model/frame.h"
 #include "modules/diffraction/reference/reference.h"
 
@@ -44,7 +44,7 @@ struct EvaluateCommand {
 
  private:
     void check_usage() const;
-    EvaluationLight light() const;
+    diffraction::EvaluationLight light() const;
     diffraction::Representation representation(const colour::LightSpectra& spectra) const;
     std::vector<glm::dvec3> by_reference(const colour::LightSpectra& spectra,
                                          const std::vector<diffraction::Frame>& points) const;

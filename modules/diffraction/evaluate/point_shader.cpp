@@ -1,4 +1,4 @@
-#include "editor/trade/point_shader.h"
+#include "modules/diffraction/evaluate/point_shader.h"
 
 #include <glm/geometric.hpp>
 #include <memory>
@@ -13,11 +13,9 @@
 #include "modules/diffraction/bake/direct.h"
 #include "modules/diffraction/bake/streak.h"
 
-namespace rowland::trade {
+namespace rowland::diffraction {
 
 namespace {
-
-using diffraction::Frame;
 
 constexpr int kMostFilterTaps = 8;  ///< along the longer side of a streak's footprint
 
@@ -47,55 +45,47 @@ PointShader by_table(Table table, const EvaluationLight& light) {
                             });
 }
 
-PointShader shader_of(const diffraction::SpikeTable& table, const diffraction::CookedMaterial&,
-                      const EvaluationLight& light) {
+PointShader shader_of(const SpikeTable& table, const CookedMaterial&, const EvaluationLight& light) {
     return in_tangent_frame(light.harmonics(table.bands),
                             [table](const lighting::ShLight& rotated, const glm::dvec3& view) {
                                 return evaluate_spikes(sample(table, view.x, view.y, view.z), rotated);
                             });
 }
-PointShader shader_of(const diffraction::BinTable& table, const diffraction::CookedMaterial&,
-                      const EvaluationLight& light) {
+PointShader shader_of(const BinTable& table, const CookedMaterial&, const EvaluationLight& light) {
     return by_table(table, light);
 }
-PointShader shader_of(const diffraction::TransferTable& table, const diffraction::CookedMaterial&,
-                      const EvaluationLight& light) {
+PointShader shader_of(const TransferTable& table, const CookedMaterial&, const EvaluationLight& light) {
     return by_table(table, light);
 }
-PointShader shader_of(const diffraction::ArcTable& table, const diffraction::CookedMaterial&,
-                      const EvaluationLight& light) {
+PointShader shader_of(const ArcTable& table, const CookedMaterial&, const EvaluationLight& light) {
     return in_tangent_frame(
         light.harmonics(table.bands),
         [table](const lighting::ShLight& rotated, const glm::dvec3& view) { return evaluate(table, rotated, view); });
 }
-PointShader shader_of(const diffraction::DirectTables&, const diffraction::CookedMaterial&, const EvaluationLight&) {
+PointShader shader_of(const DirectTables&, const CookedMaterial&, const EvaluationLight&) {
     return [](const Frame&) { return glm::dvec3(0.0); };
 }
-PointShader shader_of(const diffraction::PlanarTables& tables, const diffraction::CookedMaterial& cooked,
-                      const EvaluationLight& light) {
+PointShader shader_of(const PlanarTables& tables, const CookedMaterial& cooked, const EvaluationLight& light) {
     // Frames come in any order, but those of one plane one after the other; only the last plane's map is kept.
     struct Plane {
         glm::dvec3 normal{0.0};
-        diffraction::PlanarMap map;
+        PlanarMap map;
     };
     return
         [&cooked, size = tables.size, texels = light.texels(), last = std::make_shared<Plane>()](const Frame& frame) {
             const glm::dvec3 normal = glm::normalize(frame.normal);
             if (normal != last->normal)
-                *last = {normal, diffraction::fill_planar_map(texels, cooked.kernel, cooked.material.grating.pitch_nm,
-                                                              normal, size, cooked.zero_order_xyz)};
+                *last = {normal, fill_planar_map(texels, cooked.kernel, cooked.material.grating.pitch_nm, normal, size,
+                                                 cooked.zero_order_xyz)};
             return sample(last->map, frame);
         };
 }
-PointShader shader_of(const diffraction::CircleTables& tables, const diffraction::CookedMaterial& cooked,
-                      const EvaluationLight& light) {
-    return [map = diffraction::fill_circle_map(light.texels(), cooked.kernel, cooked.material.grating.pitch_nm,
-                                               tables.size, cooked.zero_order_xyz)](const Frame& frame) {
-        return sample(map, frame);
-    };
+PointShader shader_of(const CircleTables& tables, const CookedMaterial& cooked, const EvaluationLight& light) {
+    return [map = fill_circle_map(light.texels(), cooked.kernel, cooked.material.grating.pitch_nm, tables.size,
+                                  cooked.zero_order_xyz)](const Frame& frame) { return sample(map, frame); };
 }
 
-diffraction::DirectMaterial direct_material(const diffraction::CookedMaterial& cooked) {
+DirectMaterial direct_material(const CookedMaterial& cooked) {
     return {.pitch_nm = cooked.material.grating.pitch_nm,
             .zero_order_xyz = cooked.zero_order_xyz,
             .lobe = cooked.material.grating.lobe};
@@ -104,9 +94,9 @@ diffraction::DirectMaterial direct_material(const diffraction::CookedMaterial& c
 }  // namespace
 
 std::vector<glm::dvec3> evaluate_points(const std::string& title, const PointShader& shader,
-                                        const diffraction::CookedMaterial& cooked, const EvaluationLight& light,
+                                        const CookedMaterial& cooked, const EvaluationLight& light,
                                         std::span<const Frame> frames) {
-    const diffraction::DirectMaterial material = direct_material(cooked);
+    const DirectMaterial material = direct_material(cooked);
     std::vector<glm::dvec3> result(frames.size());
     Progress progress(title, frames.size());
     parallel_for(frames.size(), [&](std::size_t i) {
@@ -116,12 +106,12 @@ std::vector<glm::dvec3> evaluate_points(const std::string& title, const PointSha
     return result;
 }
 
-std::vector<glm::dvec3> evaluate_baked(const diffraction::CookedMaterial& cooked, const EvaluationLight& light,
+std::vector<glm::dvec3> evaluate_baked(const CookedMaterial& cooked, const EvaluationLight& light,
                                        std::span<const Frame> frames) {
     const PointShader shader =
         std::visit([&](const auto& tables) { return shader_of(tables, cooked, light); }, cooked.tables);
-    const std::string title = diffraction::representation_name(cooked.tables.index());
-    if (!std::holds_alternative<diffraction::PlanarTables>(cooked.tables))
+    const std::string title = representation_name(cooked.tables.index());
+    if (!std::holds_alternative<PlanarTables>(cooked.tables))
         return evaluate_points(title, shader, cooked, light, frames);
     // A plane's map is filled by all cores, so that the frames come one after the other.
     std::vector<glm::dvec3> maps(frames.size());
@@ -130,22 +120,21 @@ std::vector<glm::dvec3> evaluate_baked(const diffraction::CookedMaterial& cooked
         maps[i] = shader(frames[i]);
         progress.advance();
     }
-    const diffraction::DirectMaterial material = direct_material(cooked);
+    const DirectMaterial material = direct_material(cooked);
     for (std::size_t i = 0; i < frames.size(); ++i)
         maps[i] += direct_radiance(cooked.kernel, material, light.key_lights(), frames[i]);
     return maps;
 }
 
-PointShader exact_spikes(const diffraction::Grating& grating, const diffraction::SpikeSettings& settings,
-                         const EvaluationLight& light) {
+PointShader exact_spikes(const Grating& grating, const SpikeSettings& settings, const EvaluationLight& light) {
     return in_tangent_frame(light.harmonics(settings.bands),
-                            [baker = std::make_shared<const diffraction::SpikeBaker>(grating, settings)](
+                            [baker = std::make_shared<const SpikeBaker>(grating, settings)](
                                 const lighting::ShLight& rotated, const glm::dvec3& view) {
                                 return evaluate_spikes(baker->bake(view.x, view.y), rotated);
                             });
 }
 
-PointShader streak(const diffraction::Grating& grating, const colour::LightSpectra& spectra, int bands,
+PointShader streak(const Grating& grating, const colour::LightSpectra& spectra, int bands,
                    const EvaluationLight& light) {
     if (!light.probe())
         throw Error({.file = "--probe-sh",
@@ -153,12 +142,12 @@ PointShader streak(const diffraction::Grating& grating, const colour::LightSpect
                      .found = "band-limited light",
                      .expected = "a probe for the method streak",
                      .remedy = "give --probe"});
-    const auto pyramid = std::make_shared<const diffraction::CubePyramid>(lighting::prefilter(*light.probe()));
-    const diffraction::Streak narrow = make_streak(grating, {.illuminant = spectra.illuminant()});
+    const auto pyramid = std::make_shared<const CubePyramid>(lighting::prefilter(*light.probe()));
+    const Streak narrow = make_streak(grating, {.illuminant = spectra.illuminant()});
     PointShader rest = [](const Frame&) { return glm::dvec3(0.0); };
     if (const auto smooth = incoherent_rest(grating)) {
-        const diffraction::TransferSettings settings{
-            .bands = bands, .grid = {}, .storage = diffraction::Storage::Float, .illuminant = spectra.illuminant()};
+        const TransferSettings settings{
+            .bands = bands, .grid = {}, .storage = Storage::Float, .illuminant = spectra.illuminant()};
         rest = by_table(bake_transfer_table(*smooth, settings), light);
     }
     return [pyramid, narrow, rest](const Frame& frame) {
@@ -172,4 +161,4 @@ PointShader streak(const diffraction::Grating& grating, const colour::LightSpect
     };
 }
 
-}  // namespace rowland::trade
+}  // namespace rowland::diffraction

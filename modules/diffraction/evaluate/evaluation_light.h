@@ -10,7 +10,7 @@
 #include "engine/lighting/sh_light.h"
 #include "engine/math/sh_window.h"
 
-namespace rowland::trade {
+namespace rowland::diffraction {
 
 /// The light of an evaluation in the forms that the representations take: key lights, and what they leave.
 class EvaluationLight {
@@ -35,4 +35,4 @@ class EvaluationLight {
     math::SphericalWindow window_;
 };
 
-}  // namespace rowland::trade
+}  // namespace rowland::diffraction

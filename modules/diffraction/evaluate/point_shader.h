@@ -6,37 +6,36 @@
 #include <string>
 #include <vector>
 
-#include "editor/trade/evaluation_light.h"
 #include "engine/colour/light_spectra.h"
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/asset/representation.h"
+#include "modules/diffraction/evaluate/evaluation_light.h"
 #include "modules/diffraction/model/frame.h"
 #include "modules/diffraction/model/grating.h"
 
-namespace rowland::trade {
+namespace rowland::diffraction {
 
 /// XYZ of one frame. May be called from many threads.
-using PointShader = std::function<glm::dvec3(const diffraction::Frame&)>;
+using PointShader = std::function<glm::dvec3(const Frame&)>;
 
 /// XYZ of frames by a baked material, as its shaders do it: the tables or the map for what the key lights leave, and
 /// `direct` for the key lights. `planar` fills a map for every plane among the frames. Views below the horizon are
 /// black.
-std::vector<glm::dvec3> evaluate_baked(const diffraction::CookedMaterial& cooked, const EvaluationLight& light,
-                                       std::span<const diffraction::Frame> frames);
+std::vector<glm::dvec3> evaluate_baked(const CookedMaterial& cooked, const EvaluationLight& light,
+                                       std::span<const Frame> frames);
 
 /// The same by a shader of one's own in place of the tables, and `direct` for the key lights.
 std::vector<glm::dvec3> evaluate_points(const std::string& title, const PointShader& shader,
-                                        const diffraction::CookedMaterial& cooked, const EvaluationLight& light,
-                                        std::span<const diffraction::Frame> frames);
+                                        const CookedMaterial& cooked, const EvaluationLight& light,
+                                        std::span<const Frame> frames);
 
 /// What shades spikes that are baked for each frame's own view.
-PointShader exact_spikes(const diffraction::Grating& grating, const diffraction::SpikeSettings& settings,
-                         const EvaluationLight& light);
+PointShader exact_spikes(const Grating& grating, const SpikeSettings& settings, const EvaluationLight& light);
 
 /// What shades the mirror-like part of a narrow lobe from a probe (PHYSICS §6 "streak"), with the smooth rest of Stam's
 /// pits by a transfer table of `bands` bands. Throws Error (input) for band-limited light, and for a lobe without a
 /// streak.
-PointShader streak(const diffraction::Grating& grating, const colour::LightSpectra& spectra, int bands,
+PointShader streak(const Grating& grating, const colour::LightSpectra& spectra, int bands,
                    const EvaluationLight& light);
 
-}  // namespace rowland::trade
+}  // namespace rowland::diffraction

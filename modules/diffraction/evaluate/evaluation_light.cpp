@@ -1,11 +1,11 @@
-#include "editor/trade/evaluation_light.h"
+#include "modules/diffraction/evaluate/evaluation_light.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "engine/math/sh_basis.h"
 
-namespace rowland::trade {
+namespace rowland::diffraction {
 
 namespace {
 
@@ -55,4 +55,4 @@ lighting::LightTexels EvaluationLight::texels() const {
     return probe_ ? lighting::light_texels(*probe_, key_lights_) : texels_of(sh_);
 }
 
-}  // namespace rowland::trade
+}  // namespace rowland::diffraction
