@@ -28,7 +28,7 @@ constexpr int kDefaultBands = 5;
 constexpr int kMaximumSpikes = 401;
 constexpr int kMaximumBins = 400;
 constexpr int kMaximumRank = 64;
-constexpr int kKeyLightsOfDirect = 16;
+constexpr int kKeyLights = 16;  ///< that a probe is cooked with unless it says otherwise
 constexpr int kMaximumResolution = 1024;
 
 [[noreturn]] void refuse_usage(std::string option, std::string found, std::string expected) {
@@ -91,8 +91,10 @@ CLI::App* EvaluateCommand::declare(CLI::App& program) {
             "given); planar: cells of azimuth and of view; circle: texels of a chart's side")
         ->check(CLI::Range(2, kMaximumResolution));
     command
-        ->add_option("--key-lights", key_lights,
-                     "Bright parts of the probe that are shaded on their own, exactly (0; for the method direct 16)")
+        ->add_option(
+            "--key-lights", key_lights,
+            "Bright parts of the probe that are shaded on their own, exactly (0; for the method direct, and for\n"
+            "cooked assets that take key lights, 16)")
         ->check(CLI::Range(0, lighting::kMaximumKeyLights));
     command->add_option("--storage", storage, "Components of the tables: fp32, fp16, unorm16 or unorm8")
         ->check(CLI::IsMember({"fp32", "fp16", "unorm16", "unorm8"}))
@@ -122,15 +124,14 @@ void EvaluateCommand::check_usage() const {
     if (error && method != "reference") refuse_usage("--error", "--method " + method, "--method reference");
 }
 
-diffraction::EvaluationLight EvaluateCommand::light() const {
+diffraction::EvaluationLight EvaluateCommand::light(int usual_key_lights) const {
     const math::SphericalWindow taming = math::parse_window(window);
     if (probe_sh) {
         if (key_lights.value_or(0) > 0 || method == "direct")
             refuse_usage("--probe-sh", "light without bright parts", "a probe, to take key lights out of");
         return diffraction::EvaluationLight(read_sh_light(*probe_sh), taming);
     }
-    const int wanted = key_lights.value_or(method == "direct" ? kKeyLightsOfDirect : 0);
-    return diffraction::EvaluationLight(read_probe(*probe, mapping), wanted, taming);
+    return diffraction::EvaluationLight(read_probe(*probe, mapping), key_lights.value_or(usual_key_lights), taming);
 }
 
 diffraction::Representation EvaluateCommand::representation(const colour::LightSpectra& spectra) const {
@@ -181,14 +182,17 @@ std::vector<diffraction::CheckedRadiance> EvaluateCommand::by_checked_reference(
 
 std::vector<glm::dvec3> EvaluateCommand::by_representation(const colour::LightSpectra& spectra,
                                                            const std::vector<diffraction::Frame>& points) const {
-    if (cooked) return evaluate_baked(diffraction::load_cooked_material(*cooked), light(), points);
+    if (cooked) {
+        const diffraction::CookedMaterial asset = diffraction::load_cooked_material(*cooked);
+        return evaluate_baked(asset, light(asset.material.quality.key_lights ? kKeyLights : 0), points);
+    }
     diffraction::CookedMaterial baked;
     baked.material = diffraction::load_material(*material);
     const diffraction::Grating& grating = baked.material.grating;
     const diffraction::ColourKernel kernel(grating, spectra);
     baked.kernel = tabulate(kernel);
     baked.zero_order_xyz = kernel.zero_order_xyz();
-    const diffraction::EvaluationLight lit = light();
+    const diffraction::EvaluationLight lit = light(method == "direct" ? kKeyLights : 0);
     if (method == "streak") {
         if (!lit.key_lights().empty())
             refuse_usage("--key-lights", "some", "none with the method streak, which sees the whole probe");

@@ -44,7 +44,7 @@ struct EvaluateCommand {
 
  private:
     void check_usage() const;
-    diffraction::EvaluationLight light() const;
+    diffraction::EvaluationLight light(int usual_key_lights) const;
     diffraction::Representation representation(const colour::LightSpectra& spectra) const;
     std::vector<glm::dvec3> by_reference(const colour::LightSpectra& spectra,
                                          const std::vector<diffraction::Frame>& points) const;

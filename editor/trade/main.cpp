@@ -3,10 +3,15 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <functional>
 #include <string_view>
+#include <vector>
 
+#include "editor/trade/compare_command.h"
 #include "editor/trade/evaluate_command.h"
 #include "editor/trade/project_command.h"
+#include "editor/trade/report_command.h"
+#include "editor/trade/sweep_command.h"
 #include "engine/core/error.h"
 #include "engine/core/json_reader.h"
 #include "engine/core/program.h"
@@ -14,6 +19,11 @@
 namespace {
 
 constexpr int kUsageError = 2;
+
+struct Command {
+    const CLI::App* app;
+    std::function<void()> run;
+};
 
 /// CLI11 only says that a command is missing where it was misspelt.
 void check_command(const CLI::App& program, std::string_view word) {
@@ -42,8 +52,14 @@ int main(int argc, char** argv) {
             "  rowland-trade evaluate --material cd.json --probe sunset.hdr --method spikes --frames frames.csv");
         rowland::trade::ProjectCommand project;
         rowland::trade::EvaluateCommand evaluate;
-        const CLI::App* project_command = project.declare(program);
-        evaluate.declare(program);
+        rowland::trade::CompareCommand compare;
+        rowland::trade::SweepCommand sweep;
+        rowland::trade::ReportCommand report;
+        const std::vector<Command> commands = {{project.declare(program), [&] { project.run(); }},
+                                               {evaluate.declare(program), [&] { evaluate.run(); }},
+                                               {compare.declare(program), [&] { compare.run(); }},
+                                               {sweep.declare(program), [&] { sweep.run(); }},
+                                               {report.declare(program), [&] { report.run(); }}};
         if (argc > 1) check_command(program, argv[1]);
         try {
             program.parse(argc, argv);
@@ -53,11 +69,8 @@ int main(int argc, char** argv) {
             program.exit(error);
             return kUsageError;
         }
-        if (project_command->parsed()) {
-            project.run();
-        } else {
-            evaluate.run();
-        }
+        for (const Command& command : commands)
+            if (command.app->parsed()) command.run();
         return 0;
     });
 }

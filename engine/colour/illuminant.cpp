@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <iterator>
 #include <map>
 
 #include "engine/colour/embedded_tables.h"
@@ -80,6 +81,14 @@ Illuminant parse_illuminant(std::string_view text, const std::string& file) {
 
 Illuminant load_illuminant(const std::filesystem::path& path) {
     return parse_illuminant(read_text_file(path, kMaximumIlluminantBytes), path.string());
+}
+
+std::string write_illuminant_csv(const Illuminant& illuminant) {
+    std::string text = "wavelength_nm,relative_power\n";
+    for (std::size_t i = 0; i < illuminant.power.values().size(); ++i)
+        fmt::format_to(std::back_inserter(text), "{},{}\n", illuminant.power.wavelengths_nm()[i],
+                       illuminant.power.values()[i]);
+    return text;
 }
 
 bool is_visible(const Illuminant& illuminant) {

@@ -36,6 +36,9 @@ inline constexpr std::uint64_t kMaximumIlluminantBytes = 1 << 20;
 /// The same from a file of at most kMaximumIlluminantBytes.
 Illuminant load_illuminant(const std::filesystem::path& path);
 
+/// The text that parse_illuminant() reads back to the same numbers.
+std::string write_illuminant_csv(const Illuminant& illuminant);
+
 /// ∫S ȳ dλ over the visible range, trapezoid at 1 nm.
 double luminous_power(const Illuminant& illuminant);
 

@@ -8,10 +8,22 @@
 
 namespace rowland {
 
+namespace {
+
+/// Long work within long work has no line of its own.
+std::atomic<bool> one_is_visible{false};
+
+bool take_the_line() {
+    return ::isatty(STDERR_FILENO) == 1 && !one_is_visible.exchange(true);
+}
+
+}  // namespace
+
 Progress::Progress(std::string label, std::size_t total)
-    : label_(std::move(label)), total_(std::max<std::size_t>(total, 1)), visible_(::isatty(STDERR_FILENO) == 1) {}
+    : label_(std::move(label)), total_(std::max<std::size_t>(total, 1)), visible_(take_the_line()) {}
 
 Progress::~Progress() {
+    if (visible_) one_is_visible = false;
     if (visible_ && drawn_ != Clock::time_point{}) fmt::print(stderr, "\r\033[K");
 }
 

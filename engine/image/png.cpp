@@ -21,20 +21,26 @@ void append(void* bytes, void* data, int size) {
 
 }  // namespace
 
-void write_png(const std::filesystem::path& path, int width, int height, std::span<const std::uint8_t> rgb) {
+std::vector<std::byte> encode_png(int width, int height, int channels, std::span<const std::uint8_t> pixels) {
     ROWLAND_CHECK_OP(width, >=, 1);
     ROWLAND_CHECK_OP(height, >=, 1);
-    ROWLAND_CHECK_OP(rgb.size(), ==,
-                     std::size_t{3} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    ROWLAND_CHECK(channels == 3 || channels == 4, "a PNG is written from RGB or RGBA");
+    ROWLAND_CHECK_OP(
+        pixels.size(), ==,
+        static_cast<std::size_t>(channels) * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     std::vector<std::byte> bytes;
-    if (stbi_write_png_to_func(append, &bytes, width, height, 3, rgb.data(), 3 * width) == 0)
-        throw Error({.file = path.string(),
+    if (stbi_write_png_to_func(append, &bytes, width, height, channels, pixels.data(), channels * width) == 0)
+        throw Error({.file = {},
                      .place = {},
                      .found = "encoding PNG failed",
                      .expected = {},
                      .remedy = "free some memory",
                      .fault = Fault::System});
-    write_file_atomic(path, bytes);
+    return bytes;
+}
+
+void write_png(const std::filesystem::path& path, int width, int height, std::span<const std::uint8_t> rgb) {
+    write_file_atomic(path, encode_png(width, height, 3, rgb));
 }
 
 }  // namespace rowland::image

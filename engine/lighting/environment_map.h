@@ -57,4 +57,7 @@ struct PackedEnvironmentMap {
 PackedEnvironmentMap pack(const EnvironmentMap& map);
 EnvironmentMap unpack(const PackedEnvironmentMap& map);
 
+/// Level 0 alone.
+PackedEnvironmentMap finest_level(const PackedEnvironmentMap& map);
+
 }  // namespace rowland::lighting

@@ -34,13 +34,10 @@ void add_pose(ecs::World& world, Draw& draw, std::vector<glm::mat4>& joints) {
     joints.insert(joints.end(), pose.begin(), pose.end());
 }
 
-/// A texture transform as the columns of a 2×2 matrix and an offset (KHR_texture_transform: offset · rotation · scale,
-/// the rotation counter-clockwise where v points down).
 void set_transform(const scene::TextureTransform& transform, glm::vec4& linear, glm::vec4& offset) {
-    const float c = std::cos(transform.rotation);
-    const float s = std::sin(transform.rotation);
-    linear = {c * transform.scale.x, -s * transform.scale.x, s * transform.scale.y, c * transform.scale.y};
-    offset = glm::vec4(transform.offset, 0.0F, 0.0F);
+    const UvTransform uv = uv_transform(transform);
+    linear = uv.linear;
+    offset = glm::vec4(uv.offset, 0.0F, 0.0F);
 }
 
 }  // namespace
@@ -62,6 +59,13 @@ DrawList gather_draws(ecs::World& world, std::span<const std::unique_ptr<Materia
             list.draws.push_back(draw);
         });
     return list;
+}
+
+UvTransform uv_transform(const scene::TextureTransform& transform) {
+    const float c = std::cos(transform.rotation);
+    const float s = std::sin(transform.rotation);
+    return {.linear = {c * transform.scale.x, -s * transform.scale.x, s * transform.scale.y, c * transform.scale.y},
+            .offset = transform.offset};
 }
 
 ObjectBlock object_block(const Draw& draw, const glm::mat3& rec709_to_working) {

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
 #include <memory>
 #include <span>
 #include <vector>
@@ -41,6 +43,14 @@ struct DrawList {
 
 /// Everything that has a MeshInstance, a StandardMaterial and a WorldMatrix. `lights`: feature::kLights of the frame.
 DrawList gather_draws(ecs::World& world, std::span<const std::unique_ptr<MaterialType>> types, SurfaceFeatures lights);
+
+/// A texture transform as the columns of a 2×2 matrix and an offset, as shaders take it.
+struct UvTransform {
+    glm::vec4 linear{1.0F, 0.0F, 0.0F, 1.0F};
+    glm::vec2 offset{0.0F};
+};
+/// KHR_texture_transform: offset · rotation · scale, the rotation counter-clockwise where v points down.
+UvTransform uv_transform(const scene::TextureTransform& transform);
 
 ObjectBlock object_block(const Draw& draw, const glm::mat3& rec709_to_working);
 

@@ -7,7 +7,7 @@
 namespace rowland::render {
 
 void MaterialType::attach(ecs::World& /*world*/, ecs::Entity /*entity*/, const nlohmann::json& /*extension*/,
-                          const std::string& /*file*/, const std::string& place) {
+                          SurfaceTextures& /*textures*/, const std::string& /*file*/, const std::string& place) {
     ROWLAND_CHECK(false, "attach() on a material type without a glTF extension, for " + place);
 }
 

@@ -12,6 +12,7 @@
 #include "engine/gpu/program.h"
 #include "engine/gpu/shader_library.h"
 #include "engine/gpu/texture.h"
+#include "engine/lighting/environment_map.h"
 #include "engine/lighting/key_lights.h"
 #include "engine/lighting/light_texels.h"
 #include "engine/lighting/sh_light.h"
@@ -59,18 +60,24 @@ struct DistantLight {
 /// All distant light of a frame, linear Rec.709, world axes: whole as `sh`, or split into `residual`, `key_lights` and
 /// `distant_lights`, which sum to the same. `version` changes whenever any of it does.
 struct FrameLight {
-    lighting::ShLight sh;                                 ///< raw radiance: the probe and the distant lights
-    lighting::ShLight residual;                           ///< the probe less its key lights
-    std::vector<lighting::KeyLight> key_lights;           ///< of the probe; none if the renderer does without them
-    std::vector<DistantLight> distant_lights;             ///< of the scene
-    std::shared_ptr<const lighting::LightTexels> texels;  ///< the probe less its key lights, at full resolution
-    colour::Illuminant illuminant = colour::d65();        ///< the spectrum of its white
+    lighting::ShLight sh;                        ///< raw radiance: the probe and the distant lights
+    lighting::ShLight probe_sh;                  ///< the probe alone
+    lighting::ShLight residual;                  ///< the probe less its key lights
+    std::vector<lighting::KeyLight> key_lights;  ///< of the probe; none if the renderer does without them
+    std::vector<DistantLight> distant_lights;    ///< of the scene
+    std::shared_ptr<const lighting::LightTexels> probe_texels;  ///< the probe alone, at full resolution
+    std::shared_ptr<const lighting::LightTexels> texels;        ///< the probe less its key lights, likewise
+    /// The whole probe, key lights and all, as a cube map of one level: its mean over each texel. Null: none.
+    std::shared_ptr<const lighting::PackedEnvironmentMap> radiance;
+    colour::Illuminant illuminant = colour::d65();  ///< the spectrum of its white
     std::uint64_t version = 0;
 };
 
+class SurfaceTextures;
+
 /// A kind of surface that a module adds to the engine. Its shaders include the engine's forward interface and define
 /// the material_vertex and material_terms functions (see engine/render/shaders/forward_*_interface.glsl). Texture units
-/// from 8 on and buffer bindings from 4 on are its own.
+/// 8 to 14 and buffer bindings from 4 on are its own.
 class MaterialType {
  public:
     virtual ~MaterialType() = default;
@@ -81,9 +88,10 @@ class MaterialType {
     /// The glTF material extension that describes such a surface; empty if none does.
     virtual std::string gltf_extension() const { return {}; }
     /// Gives an entity, which has its MeshInstance and StandardMaterial already, the surface that the extension's JSON
-    /// describes. `file` and `place` (a JSON pointer) are for messages. Throws Error (input).
-    virtual void attach(ecs::World& world, ecs::Entity entity, const nlohmann::json& extension, const std::string& file,
-                        const std::string& place);
+    /// describes; `textures`: those of its file. `file` and `place` (a JSON pointer) are for messages. Throws Error
+    /// (input).
+    virtual void attach(ecs::World& world, ecs::Entity entity, const nlohmann::json& extension,
+                        SurfaceTextures& textures, const std::string& file, const std::string& place);
 
     /// Makes its shader files known. Called once, when it is registered.
     virtual void add_shaders(gpu::ShaderLibrary& library) const = 0;

@@ -1,18 +1,15 @@
 #pragma once
 
 #include <array>
-#include <glm/mat3x3.hpp>
-#include <glm/vec4.hpp>
 #include <memory>
-#include <span>
 #include <vector>
 
+#include "engine/lighting/environment_map.h"
 #include "engine/lighting/key_lights.h"
 #include "engine/lighting/light_probe.h"
 #include "engine/lighting/light_texels.h"
 #include "engine/lighting/packed_light.h"
 #include "engine/lighting/sh_light.h"
-#include "engine/render/shaders/key_light_block.h"
 
 namespace rowland::render {
 
@@ -31,6 +28,10 @@ class ProbeLight {
     const std::vector<lighting::KeyLight>& key_lights() const { return key_lights_; }
     const lighting::ShLight& residual() const { return residual_; }
     const std::shared_ptr<const lighting::LightTexels>& texels() const { return texels_; }
+    /// Of all of it.
+    const std::shared_ptr<const lighting::LightTexels>& whole_texels() const { return whole_texels_; }
+    /// The whole probe: level 0 of its environment.
+    const std::shared_ptr<const lighting::PackedEnvironmentMap>& radiance() const { return radiance_; }
     /// SH of irradiance/π of the residual, linear Rec.709.
     const std::array<glm::dvec3, 9>& ambient() const { return ambient_; }
 
@@ -38,15 +39,14 @@ class ProbeLight {
     lighting::ShLight sh_;
     lighting::PackedLight packed_;
     std::vector<lighting::KeyLight> fitted_;
+    std::shared_ptr<const lighting::PackedEnvironmentMap> radiance_;
     std::array<glm::dvec3, 9> whole_ambient_ = {};
 
     std::vector<lighting::KeyLight> key_lights_;
     lighting::ShLight residual_;
     std::shared_ptr<const lighting::LightTexels> texels_;
+    std::shared_ptr<const lighting::LightTexels> whole_texels_;
     std::array<glm::dvec3, 9> ambient_ = {};
 };
-
-/// Key lights, at most ROWLAND_MAXIMUM_KEY_LIGHTS, as shaders read them.
-KeyLightBlock key_light_block(std::span<const lighting::KeyLight> keys, const glm::dmat3& rec709_to_working);
 
 }  // namespace rowland::render

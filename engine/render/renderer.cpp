@@ -73,7 +73,6 @@ Renderer::Renderer(const glm::dmat3& xyz_to_working)
       rec709_to_working_(xyz_to_working * colour::rec709_to_xyz()),
       frame_buffer_(sizeof(FrameBlock)),
       light_buffer_(sizeof(LightBlock)),
-      key_light_buffer_(sizeof(KeyLightBlock)),
       object_buffer_(sizeof(ObjectBlock)),
       joint_buffer_(sizeof(glm::mat4)),
       brdf_table_(make_brdf_texture()) {
@@ -182,7 +181,11 @@ void Renderer::divide_probe() {
     light_.residual = probe_light_.residual();
     light_.key_lights = probe_light_.key_lights();
     light_.texels = probe_light_.texels();
-    key_light_buffer_.update_value(key_light_block(light_.key_lights, rec709_to_working_));
+    light_.probe_sh = probe_light_.sh();
+    light_.probe_texels = probe_light_.whole_texels();
+    light_.radiance = probe_light_.radiance();
+    key_irradiance_.reset();
+    if (!light_.key_lights.empty()) key_irradiance_.emplace(light_.key_lights, rec709_to_working_);
     probe_changed_ = false;
 }
 
@@ -240,14 +243,14 @@ void Renderer::upload_frame(const Frame& frame) {
     block.eye = glm::vec4(camera.eye, 1.0F);
     for (std::size_t i = 0; i < 9; ++i)
         block.ambient[i] = glm::vec4(glm::vec3(rec709_to_working_ * probe_light_.ambient()[i]), 0.0F);
-    block.environment =
-        glm::vec4(static_cast<float>(environment_->map().levels() - 1), environment_->radiance_scale(), 0.0F, 0.0F);
+    block.environment = glm::vec4(static_cast<float>(environment_->map().levels() - 1), environment_->radiance_scale(),
+                                  key_irradiance_ ? key_irradiance_->scale() : 0.0F, 0.0F);
     block.shadow = glm::vec4(frame.shadow.texel_m, 1.0F / static_cast<float>(shadow_map_size_), 0.0F, 0.0F);
     frame_buffer_.update_value(block);
     frame_buffer_.bind_uniform(kFrameBinding);
     light_buffer_.update_value(lights_.block);
     light_buffer_.bind_uniform(kLightBinding);
-    key_light_buffer_.bind_uniform(kKeyLightBinding);
+    if (key_irradiance_) key_irradiance_->map().bind(kKeyIrradianceUnit);
     environment_->map().bind(kEnvironmentUnit);
     brdf_table_.bind(kBrdfUnit);
 }

@@ -19,6 +19,7 @@
 #include "engine/lighting/light_probe.h"
 #include "engine/render/draw_list.h"
 #include "engine/render/environment.h"
+#include "engine/render/key_irradiance.h"
 #include "engine/render/material.h"
 #include "engine/render/probe_light.h"
 #include "engine/render/program_cache.h"
@@ -105,12 +106,12 @@ class Renderer {
     gpu::VertexArray no_vertices_;
     gpu::Buffer frame_buffer_;
     gpu::Buffer light_buffer_;
-    gpu::Buffer key_light_buffer_;
     gpu::Buffer object_buffer_;  ///< ObjectBlocks, each at a multiple of object_stride_
     gpu::Buffer joint_buffer_;
     std::size_t object_stride_;
     gpu::Texture brdf_table_;
     std::optional<Environment> environment_;
+    std::optional<KeyIrradiance> key_irradiance_;  ///< none without key lights
     std::optional<gpu::Framebuffer> shadow_map_;
     int shadow_map_size_ = 2048;
 

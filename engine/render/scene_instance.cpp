@@ -83,7 +83,8 @@ class Builder {
     void attach_extensions(ecs::Entity entity, const scene::MaterialDescription& material, std::size_t index) {
         for (const auto& [name, json] : material.extensions)
             if (MaterialType* type = renderer_.type_for_extension(name))
-                type->attach(world_, entity, json, file_, fmt::format("/materials/{}/extensions/{}", index, name));
+                type->attach(world_, entity, json, textures_, file_,
+                             fmt::format("/materials/{}/extensions/{}", index, name));
     }
 
     ecs::World& world_;

@@ -23,6 +23,8 @@ class SurfaceTextures {
     /// `scene` must outlive it.
     explicit SurfaceTextures(const scene::ImportedScene& scene) : scene_(&scene) {}
 
+    const scene::ImportedScene& scene() const { return *scene_; }
+
     SurfaceTexture get(const scene::TextureUse& use, TexelMeaning meaning);
     std::size_t uploads() const { return textures_.size(); }
 

@@ -7,6 +7,7 @@
 #include "engine/scene/glb_write.h"
 #include "engine/scene/gltf_import.h"
 #include "engine/scene/mesh_recipe.h"
+#include "engine/scene/scene_recipe.h"
 
 namespace rowland::scene {
 
@@ -19,7 +20,7 @@ Mesh build_source(cook::Context& context) {
 
 std::vector<std::byte> cook_mesh(cook::Context& context) {
     const Mesh mesh = build_source(context);
-    return write_glb(mesh, {.name = context.source().stem().string()});
+    return write_glb(mesh, context.source().stem().string());
 }
 
 std::string describe_triangles(const Mesh& mesh) {
@@ -43,7 +44,7 @@ std::string describe_scene(const ImportedScene& scene) {
 cook::AssetType mesh_type() {
     cook::AssetType type;
     type.name = "mesh";
-    type.version = 2;
+    type.version = 3;
     type.extension = ".glb";
     type.in_container = false;
     type.recognises = [](const std::filesystem::path&, const nlohmann::json* json) {
@@ -52,6 +53,29 @@ cook::AssetType mesh_type() {
     type.cook = cook_mesh;
     type.check = [](cook::Context& context) { build_source(context); };
     type.describe = describe_mesh;
+    return type;
+}
+
+GlbScene build_scene_source(cook::Context& context) {
+    const nlohmann::json document = context.read_json(context.source());
+    return build_scene(parse_scene_recipe(document, context.source().string()));
+}
+
+cook::AssetType scene_type(std::vector<std::string> handled_extensions) {
+    cook::AssetType type;
+    type.name = "scene";
+    type.version = 1;
+    type.extension = ".glb";
+    type.in_container = false;
+    type.recognises = [](const std::filesystem::path&, const nlohmann::json* json) {
+        return json != nullptr && is_scene_recipe(*json);
+    };
+    type.cook = [](cook::Context& context) { return write_glb(build_scene_source(context)); };
+    type.check = [](cook::Context& context) { build_scene_source(context); };
+    type.describe = [handled = std::move(handled_extensions)](std::span<const std::byte> payload,
+                                                              const std::string& file) {
+        return describe_scene(load_glb(payload, file, handled));
+    };
     return type;
 }
 
@@ -89,6 +113,7 @@ cook::AssetType gltf_type(std::vector<std::string> handled_extensions) {
 
 void register_cook_types(cook::Registry& registry, std::vector<std::string> handled_extensions) {
     registry.add(mesh_type());
+    registry.add(scene_type(handled_extensions));
     registry.add(gltf_type(std::move(handled_extensions)));
 }
 

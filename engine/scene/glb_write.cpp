@@ -1,20 +1,15 @@
 #include "engine/scene/glb_write.h"
 
-#include <draco/compression/decode.h>
-#include <draco/compression/expert_encode.h>
-#include <draco/mesh/mesh.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <glm/common.hpp>
-#include <limits>
-#include <nlohmann/json.hpp>
+#include <set>
 #include <span>
+#include <type_traits>
+#include <utility>
 
 #include "engine/core/byte_stream.h"
 #include "engine/core/check.h"
-#include "engine/core/error.h"
 
 namespace rowland::scene {
 
@@ -23,165 +18,251 @@ namespace {
 /// Keys in the order they are written, so that the bytes are the same every time.
 using Json = nlohmann::ordered_json;
 
-// Draco's ids of the attributes, in the order in which they are added.
-enum AttributeId : int { kPosition = 0, kNormal = 1, kTangent = 2, kUv = 3 };
+constexpr const char* kDraco = "KHR_draco_mesh_compression";
+constexpr const char* kLights = "KHR_lights_punctual";
+constexpr const char* kTextureTransform = "KHR_texture_transform";
 
-[[noreturn]] void fail(const std::string& found) {
-    throw Error({.file = {},
-                 .place = "Draco",
-                 .found = found,
-                 .expected = {},
-                 .remedy = "check the mesh",
-                 .fault = Fault::System});
-}
-
-void check_mesh(const Mesh& mesh) {
-    ROWLAND_CHECK(!mesh.positions.empty() && !mesh.indices.empty(), "an empty mesh cannot be written");
-    ROWLAND_CHECK_OP(mesh.normals.size(), ==, mesh.positions.size());
-    ROWLAND_CHECK_OP(mesh.tangents.size(), ==, mesh.positions.size());
-    ROWLAND_CHECK_OP(mesh.uvs.size(), ==, mesh.positions.size());
-    ROWLAND_CHECK_OP(mesh.indices.size() % 3, ==, 0U);
-    // Draco's decoders refuse streams with more: such a mesh consists mostly of unused vertices.
-    ROWLAND_CHECK_OP(mesh.positions.size(), <=, mesh.indices.size());
-    for (const std::uint32_t index : mesh.indices) ROWLAND_CHECK_OP(index, <, mesh.positions.size());
+/// A float with no more digits than tell it from its neighbours.
+double few_digits(float x) {
+    return std::stod(fmt::format("{}", x));
 }
 
 template <typename Vector>
-void add_attribute(draco::Mesh& target, draco::GeometryAttribute::Type type, const std::vector<Vector>& values) {
-    constexpr auto kComponents = static_cast<int8_t>(Vector::length());
-    draco::GeometryAttribute attribute;
-    attribute.Init(type, nullptr, static_cast<std::uint8_t>(kComponents), draco::DT_FLOAT32, false, sizeof(Vector), 0);
-    const int id = target.AddAttribute(attribute, true, static_cast<std::uint32_t>(values.size()));
-    for (std::uint32_t i = 0; i < values.size(); ++i)
-        target.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(i), &values[i]);
-}
-
-void fill(const Mesh& mesh, draco::Mesh& target) {
-    target.set_num_points(static_cast<std::uint32_t>(mesh.positions.size()));
-    target.SetNumFaces(mesh.indices.size() / 3);
-    for (std::uint32_t i = 0; i < target.num_faces(); ++i) {
-        const std::uint32_t* corner = &mesh.indices[std::size_t{i} * 3];
-        target.SetFace(draco::FaceIndex(i),
-                       {draco::PointIndex(corner[0]), draco::PointIndex(corner[1]), draco::PointIndex(corner[2])});
+Json to_json(const Vector& v) {
+    Json array = Json::array();
+    for (int i = 0; i < Vector::length(); ++i) {
+        if constexpr (std::is_same_v<typename Vector::value_type, float>)
+            array.push_back(few_digits(v[i]));
+        else
+            array.push_back(v[i]);
     }
-    add_attribute(target, draco::GeometryAttribute::POSITION, mesh.positions);
-    add_attribute(target, draco::GeometryAttribute::NORMAL, mesh.normals);
-    // The bitstream has no type for tangents (KHR_draco_mesh_compression, "Conformance").
-    add_attribute(target, draco::GeometryAttribute::GENERIC, mesh.tangents);
-    add_attribute(target, draco::GeometryAttribute::TEX_COORD, mesh.uvs);
+    return array;
 }
 
-std::vector<char> encode(const Mesh& mesh, const GlbWriteSettings& settings) {
-    draco::Mesh source;
-    fill(mesh, source);
-    draco::ExpertEncoder encoder(source);
-    encoder.SetEncodingMethod(draco::MESH_SEQUENTIAL_ENCODING);
-    constexpr int kSpeed = 5;
-    encoder.SetSpeedOptions(kSpeed, kSpeed);
-    encoder.SetAttributeQuantization(kPosition, settings.position_bits);
-    encoder.SetAttributeQuantization(kNormal, settings.normal_bits);
-    encoder.SetAttributeQuantization(kTangent, settings.tangent_bits);
-    encoder.SetAttributeQuantization(kUv, settings.uv_bits);
-    draco::EncoderBuffer buffer;
-    const draco::Status status = encoder.EncodeToBuffer(&buffer);
-    if (!status.ok()) fail(fmt::format("encoding failed: {}", status.error_msg_string()));
-    return {buffer.data(), buffer.data() + buffer.size()};
-}
+class Writing {
+ public:
+    Writing(const GlbScene& scene, const DracoBits& bits) : scene_(scene), bits_(bits) {}
 
-struct Extent {
-    glm::vec3 minimum{std::numeric_limits<float>::max()};
-    glm::vec3 maximum{std::numeric_limits<float>::lowest()};
+    std::vector<std::byte> write() {
+        for (std::size_t i = 0; i < scene_.nodes.size(); ++i) add_node(i);
+        for (const GlbMesh& mesh : scene_.meshes) add_mesh(mesh);
+        for (const GlbMaterial& material : scene_.materials) add_material(material);
+        for (const GlbTexture& texture : scene_.textures) add_texture(texture);
+        for (const GlbCamera& camera : scene_.cameras) add_camera(camera);
+        for (const GlbLight& light : scene_.lights) add_light(light);
+        return pack(describe().dump());
+    }
+
+ private:
+    /// The file's JSON. glTF has no empty arrays.
+    Json describe() {
+        Json root;
+        root["asset"] = {{"version", "2.0"}, {"generator", "Rowland"}};
+        const auto add = [&root](const char* key, Json& array) {
+            if (!array.empty()) root[key] = std::move(array);
+        };
+        Json extensions = Json::array();
+        for (const std::string& name : used_) extensions.push_back(name);
+        add("extensionsUsed", extensions);
+        if (used_.contains(kDraco)) root["extensionsRequired"] = Json::array({kDraco});
+        root["scene"] = 0;
+        root["scenes"] = Json::array({Json::object()});
+        if (!roots_.empty()) root["scenes"][0]["nodes"] = std::move(roots_);
+        add("nodes", nodes_);
+        add("meshes", meshes_);
+        add("materials", materials_);
+        add("textures", textures_);
+        add("images", images_);
+        add("cameras", cameras_);
+        if (!lights_.empty()) root["extensions"][kLights]["lights"] = std::move(lights_);
+        add("accessors", accessors_);
+        add("bufferViews", views_);
+        if (!binary_.empty()) root["buffers"] = Json::array({Json{{"byteLength", binary_.size()}}});
+        return root;
+    }
+
+    void use(const std::string& extension) { used_.insert(extension); }
+
+    void add_node(std::size_t index) {
+        const GlbNode& node = scene_.nodes[index];
+        Json json = {{"name", node.name}};
+        const Transform& at = node.local;
+        if (at.translation != glm::vec3(0.0F)) json["translation"] = to_json(at.translation);
+        if (at.rotation != glm::quat(1.0F, 0.0F, 0.0F, 0.0F))
+            json["rotation"] = to_json(glm::vec4(at.rotation.x, at.rotation.y, at.rotation.z, at.rotation.w));
+        if (at.scale != glm::vec3(1.0F)) json["scale"] = to_json(at.scale);
+        if (node.mesh) json["mesh"] = checked(*node.mesh, scene_.meshes.size());
+        if (node.camera) json["camera"] = checked(*node.camera, scene_.cameras.size());
+        if (node.light) {
+            use(kLights);
+            json["extensions"][kLights]["light"] = checked(*node.light, scene_.lights.size());
+        }
+        if (!node.extras.is_null()) json["extras"] = node.extras;
+        nodes_.push_back(std::move(json));
+        if (node.parent)
+            nodes_[checked(*node.parent, index)]["children"].push_back(index);
+        else
+            roots_.push_back(index);
+    }
+
+    void add_mesh(const GlbMesh& mesh) {
+        Json primitives = Json::array();
+        for (const GlbPrimitive& primitive : mesh.primitives) primitives.push_back(add_primitive(primitive));
+        meshes_.push_back(Json{{"name", mesh.name}, {"primitives", std::move(primitives)}});
+    }
+
+    Json add_primitive(const GlbPrimitive& primitive) {
+        use(kDraco);
+        const DracoStream stream = encode_draco(primitive.mesh, bits_);
+        constexpr int kFloat = 5126;
+        constexpr int kUint32 = 5125;
+        const std::size_t vertices = primitive.mesh.positions.size();
+        Json attributes;
+        attributes["POSITION"] = add_accessor(kFloat, vertices, "VEC3");
+        accessors_.back()["min"] = to_json(stream.bounds.minimum);
+        accessors_.back()["max"] = to_json(stream.bounds.maximum);
+        attributes["NORMAL"] = add_accessor(kFloat, vertices, "VEC3");
+        attributes["TANGENT"] = add_accessor(kFloat, vertices, "VEC4");
+        attributes["TEXCOORD_0"] = add_accessor(kFloat, vertices, "VEC2");
+        const Json ids = {{"POSITION", DracoIds::kPosition},
+                          {"NORMAL", DracoIds::kNormal},
+                          {"TANGENT", DracoIds::kTangent},
+                          {"TEXCOORD_0", DracoIds::kUv}};
+        const std::size_t view = add_view(std::as_bytes(std::span(stream.bytes)));
+        Json json = {{"attributes", std::move(attributes)},
+                     {"indices", add_accessor(kUint32, primitive.mesh.indices.size(), "SCALAR")},
+                     {"extensions", {{kDraco, {{"bufferView", view}, {"attributes", ids}}}}}};
+        if (primitive.material) json["material"] = checked(*primitive.material, scene_.materials.size());
+        return json;
+    }
+
+    void add_material(const GlbMaterial& material) {
+        Json pbr = {{"baseColorFactor", to_json(material.colour)},
+                    {"metallicFactor", material.metallic},
+                    {"roughnessFactor", material.roughness}};
+        if (material.colour_texture) {
+            Json use_of_it = {{"index", checked(material.colour_texture->texture, scene_.textures.size())}};
+            if (material.colour_texture->repeat != glm::dvec2(1.0)) {
+                use(kTextureTransform);
+                use_of_it["extensions"][kTextureTransform]["scale"] = to_json(material.colour_texture->repeat);
+            }
+            pbr["baseColorTexture"] = std::move(use_of_it);
+        }
+        Json json = {{"name", material.name}, {"pbrMetallicRoughness", std::move(pbr)}};
+        if (material.blend) json["alphaMode"] = "BLEND";
+        if (material.double_sided) json["doubleSided"] = true;
+        for (const auto& [name, value] : material.extensions.items()) {
+            use(name);
+            json["extensions"][name] = value;
+        }
+        materials_.push_back(std::move(json));
+    }
+
+    void add_texture(const GlbTexture& texture) {
+        textures_.push_back(Json{{"name", texture.name}, {"source", images_.size()}});
+        images_.push_back(
+            Json{{"name", texture.name}, {"mimeType", "image/png"}, {"bufferView", add_view(texture.png)}});
+    }
+
+    void add_camera(const GlbCamera& camera) {
+        Json lens = {{"yfov", camera.vertical_field_of_view}, {"znear", camera.near_plane}, {"zfar", camera.far_plane}};
+        cameras_.push_back(Json{{"name", camera.name}, {"type", "perspective"}, {"perspective", std::move(lens)}});
+    }
+
+    void add_light(const GlbLight& light) {
+        use(kLights);
+        Json json = {{"name", light.name}};
+        if (const auto* distant = std::get_if<DirectionalLight>(&light.light)) {
+            json["type"] = "directional";
+            add_strength(distant->irradiance, json);
+        } else {
+            const auto& punctual = std::get<PunctualLight>(light.light);
+            json["type"] = punctual.spot ? "spot" : "point";
+            add_strength(punctual.intensity, json);
+            if (punctual.range_m > 0.0F) json["range"] = few_digits(punctual.range_m);
+            if (punctual.spot)
+                json["spot"] = {{"innerConeAngle", few_digits(punctual.inner_cone)},
+                                {"outerConeAngle", few_digits(punctual.outer_cone)}};
+        }
+        lights_.push_back(std::move(json));
+    }
+
+    /// Colours are at most 1.
+    static void add_strength(const glm::vec3& strength, Json& json) {
+        const float largest = std::max({strength.x, strength.y, strength.z});
+        json["color"] = to_json(largest > 0.0F ? strength / largest : glm::vec3(1.0F));
+        json["intensity"] = few_digits(largest);
+    }
+
+    std::size_t add_accessor(int component, std::size_t count, const char* type) {
+        accessors_.push_back(Json{{"componentType", component}, {"count", count}, {"type", type}});
+        return accessors_.size() - 1;
+    }
+
+    std::size_t add_view(std::span<const std::byte> bytes) {
+        binary_.resize((binary_.size() + 3) / 4 * 4);
+        views_.push_back(Json{{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", bytes.size()}});
+        binary_.insert(binary_.end(), bytes.begin(), bytes.end());
+        return views_.size() - 1;
+    }
+
+    static std::size_t checked(std::size_t index, std::size_t count) {
+        ROWLAND_CHECK_OP(index, <, count);
+        return index;
+    }
+
+    static void add_chunk(ByteWriter& writer, std::uint32_t type, std::span<const std::byte> data, char padding) {
+        const std::size_t padded = (data.size() + 3) / 4 * 4;
+        writer.value(static_cast<std::uint32_t>(padded));
+        writer.value(type);
+        for (const std::byte byte : data) writer.value(static_cast<std::uint8_t>(byte));
+        for (std::size_t i = data.size(); i < padded; ++i) writer.value(padding);
+    }
+
+    std::vector<std::byte> pack(const std::string& json) const {
+        ByteWriter chunks;
+        add_chunk(chunks, 0x4E4F534A, std::as_bytes(std::span(json)), ' ');  // "JSON"
+        add_chunk(chunks, 0x004E4942, binary_, '\0');                        // "BIN"
+        ByteWriter file;
+        constexpr std::uint32_t kHeaderSize = 12;
+        file.value<std::uint32_t>(0x46546C67);  // "glTF"
+        file.value<std::uint32_t>(2);
+        file.value(static_cast<std::uint32_t>(kHeaderSize + chunks.data().size()));
+        std::vector<std::byte> bytes = file.take();
+        bytes.insert(bytes.end(), chunks.data().begin(), chunks.data().end());
+        return bytes;
+    }
+
+    const GlbScene& scene_;
+    const DracoBits& bits_;
+    Json roots_ = Json::array();
+    Json nodes_ = Json::array();
+    Json meshes_ = Json::array();
+    Json materials_ = Json::array();
+    Json textures_ = Json::array();
+    Json images_ = Json::array();
+    Json cameras_ = Json::array();
+    Json lights_ = Json::array();
+    Json accessors_ = Json::array();
+    Json views_ = Json::array();
+    std::vector<std::byte> binary_;
+    std::set<std::string> used_;
 };
-
-/// The bounds that readers will find: those of the decoded positions, not of the ones before quantisation.
-Extent decoded_extent(std::span<const char> stream, std::size_t vertex_count) {
-    draco::DecoderBuffer buffer;
-    buffer.Init(stream.data(), stream.size());
-    draco::Decoder decoder;
-    auto result = decoder.DecodeMeshFromBuffer(&buffer);
-    if (!result.ok()) fail(fmt::format("what it encoded cannot be decoded: {}", result.status().error_msg_string()));
-    const std::unique_ptr<draco::Mesh> mesh = std::move(result).value();
-    if (mesh->num_points() != vertex_count)
-        fail(fmt::format("{} vertices became {}", vertex_count, mesh->num_points()));
-    const draco::PointAttribute* positions = mesh->GetAttributeByUniqueId(kPosition);
-    Extent extent;
-    for (std::uint32_t i = 0; i < mesh->num_points(); ++i) {
-        glm::vec3 position;
-        positions->GetMappedValue(draco::PointIndex(i), &position);
-        extent.minimum = glm::min(extent.minimum, position);
-        extent.maximum = glm::max(extent.maximum, position);
-    }
-    return extent;
-}
-
-Json to_json(const glm::vec3& v) {
-    return Json::array({v.x, v.y, v.z});
-}
-
-Json describe(const Mesh& mesh, const Extent& extent, std::size_t stream_size, const std::string& name) {
-    constexpr int kFloat = 5126;
-    constexpr int kUint32 = 5125;
-    constexpr const char* kDraco = "KHR_draco_mesh_compression";
-    const auto accessor = [&](int component, std::size_t count, const char* type) {
-        return Json{{"componentType", component}, {"count", count}, {"type", type}};
-    };
-    const std::size_t vertices = mesh.positions.size();
-    Json positions = accessor(kFloat, vertices, "VEC3");
-    positions["min"] = to_json(extent.minimum);
-    positions["max"] = to_json(extent.maximum);
-    const Json attributes = {{"POSITION", 0}, {"NORMAL", 1}, {"TANGENT", 2}, {"TEXCOORD_0", 3}};
-    const Json ids = {{"POSITION", +kPosition}, {"NORMAL", +kNormal}, {"TANGENT", +kTangent}, {"TEXCOORD_0", +kUv}};
-    const Json primitive = {{"attributes", attributes},
-                            {"indices", 4},
-                            {"extensions", {{kDraco, {{"bufferView", 0}, {"attributes", ids}}}}}};
-    Json root;
-    root["asset"] = {{"version", "2.0"}, {"generator", "Rowland"}};
-    root["extensionsUsed"] = Json::array({kDraco});
-    root["extensionsRequired"] = Json::array({kDraco});
-    root["scene"] = 0;
-    root["scenes"] = Json::array({Json{{"nodes", Json::array({0})}}});
-    root["nodes"] = Json::array({Json{{"name", name}, {"mesh", 0}}});
-    root["meshes"] = Json::array({Json{{"name", name}, {"primitives", Json::array({primitive})}}});
-    root["accessors"] =
-        Json::array({positions, accessor(kFloat, vertices, "VEC3"), accessor(kFloat, vertices, "VEC4"),
-                     accessor(kFloat, vertices, "VEC2"), accessor(kUint32, mesh.indices.size(), "SCALAR")});
-    root["bufferViews"] = Json::array({Json{{"buffer", 0}, {"byteLength", stream_size}}});
-    root["buffers"] = Json::array({Json{{"byteLength", stream_size}}});
-    return root;
-}
-
-void write_chunk(ByteWriter& writer, std::uint32_t type, std::span<const char> data, char padding) {
-    const std::size_t padded = (data.size() + 3) / 4 * 4;
-    writer.value(static_cast<std::uint32_t>(padded));
-    writer.value(type);
-    for (std::size_t i = 0; i < padded; ++i) writer.value(i < data.size() ? data[i] : padding);
-}
-
-std::vector<std::byte> pack(const std::string& json, std::span<const char> stream) {
-    ByteWriter chunks;
-    write_chunk(chunks, 0x4E4F534A, json, ' ');     // "JSON"
-    write_chunk(chunks, 0x004E4942, stream, '\0');  // "BIN"
-    ByteWriter file;
-    constexpr std::uint32_t kHeaderSize = 12;
-    file.value<std::uint32_t>(0x46546C67);  // "glTF"
-    file.value<std::uint32_t>(2);
-    file.value(static_cast<std::uint32_t>(kHeaderSize + chunks.data().size()));
-    std::vector<std::byte> bytes = file.take();
-    bytes.insert(bytes.end(), chunks.data().begin(), chunks.data().end());
-    return bytes;
-}
 
 }  // namespace
 
-std::vector<std::byte> write_glb(const Mesh& mesh, const GlbWriteSettings& settings) {
-    check_mesh(mesh);
-    for (const int bits : {settings.position_bits, settings.normal_bits, settings.tangent_bits, settings.uv_bits}) {
-        ROWLAND_CHECK_OP(bits, >=, 2);
-        ROWLAND_CHECK_OP(bits, <=, 30);
-    }
-    const std::vector<char> stream = encode(mesh, settings);
-    const Extent extent = decoded_extent(stream, mesh.positions.size());
-    return pack(describe(mesh, extent, stream.size(), settings.name).dump(), stream);
+std::vector<std::byte> write_glb(const GlbScene& scene, const DracoBits& bits) {
+    return Writing(scene, bits).write();
+}
+
+std::vector<std::byte> write_glb(const Mesh& mesh, const std::string& name, const DracoBits& bits) {
+    GlbScene scene;
+    scene.meshes.push_back({.name = name, .primitives = {{.mesh = mesh, .material = std::nullopt}}});
+    GlbNode node;
+    node.name = name;
+    node.mesh = 0;
+    scene.nodes.push_back(std::move(node));
+    return write_glb(scene, bits);
 }
 
 }  // namespace rowland::scene

@@ -1,10 +1,13 @@
 #include "engine/scene/mesh_recipe.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <numbers>
 
-#include "engine/core/check.h"
-#include "engine/core/json_reader.h"
+#include "engine/scene/surface_grid.h"
 
 namespace rowland::scene {
 
@@ -13,36 +16,6 @@ namespace {
 constexpr int kMaximumCount = 2048;
 // Metres: from a tenth of a micron to a thousand kilometres, well inside what float positions resolve.
 constexpr NumberRange kLength{.minimum = 1e-7, .maximum = 1e6};
-
-void add_vertex(Mesh& mesh, const glm::dvec3& position, const glm::dvec3& normal, const glm::dvec3& tangent,
-                const glm::dvec2& uv) {
-    mesh.positions.emplace_back(position);
-    mesh.normals.emplace_back(normal);
-    mesh.tangents.emplace_back(glm::vec3(tangent), -1.0F);  // v grows along cross(normal, tangent) in all of them
-    mesh.uvs.emplace_back(uv);
-}
-
-/// Triangulates rows of `columns` vertices each, beginning at vertex `first`. Counter-clockwise seen from where growing
-/// rows point right and growing columns point up.
-void add_grid(Mesh& mesh, std::uint32_t first, std::uint32_t rows, std::uint32_t columns) {
-    for (std::uint32_t row = 0; row + 1 < rows; ++row) {
-        for (std::uint32_t column = 0; column + 1 < columns; ++column) {
-            const std::uint32_t a = first + row * columns + column;
-            const std::uint32_t b = a + columns;
-            mesh.indices.insert(mesh.indices.end(), {a, b, b + 1, a, b + 1, a + 1});
-        }
-    }
-}
-
-/// i-th of `count` steps around the circle; the last is exactly the first again.
-struct Angle {
-    double cosine;
-    double sine;
-};
-Angle angle(int i, int count) {
-    const double radians = 2.0 * std::numbers::pi * (i % count) / count;
-    return {std::cos(radians), std::sin(radians)};
-}
 
 Mesh build(const DiscRecipe& recipe) {
     Mesh mesh;
@@ -118,6 +91,14 @@ Mesh build(const PlaneRecipe& recipe) {
     return mesh;
 }
 
+Mesh build(const LatheRecipe& recipe) {
+    return build_lathe(recipe);
+}
+
+Mesh build(const BoxRecipe& recipe) {
+    return build_box(recipe);
+}
+
 int count_or(JsonReader& reader, const std::string& key, int fallback, int minimum) {
     return static_cast<int>(reader.integer_or(key, fallback, minimum, kMaximumCount));
 }
@@ -151,6 +132,89 @@ PlaneRecipe parse_plane(JsonReader& reader) {
     return recipe;
 }
 
+std::vector<glm::dvec2> parse_profile(JsonReader& reader) {
+    constexpr std::size_t kMostPoints = 256;
+    const std::string key = "profile";
+    const nlohmann::json& points = reader.raw(key);
+    if (!points.is_array() || points.size() < 2 || points.size() > kMostPoints)
+        reader.fail(key, points.is_array() ? fmt::format("{} points", points.size()) : points.type_name(),
+                    fmt::format("2 to {} points [radius, height]", kMostPoints));
+    std::vector<glm::dvec2> profile;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const std::string place = fmt::format("{}/{}", key, i);
+        const nlohmann::json& point = points[i];
+        if (!point.is_array() || point.size() != 2 || !point[0].is_number() || !point[1].is_number())
+            reader.fail(place, point.type_name(), "[radius, height]");
+        const auto radius = point[0].get<double>();
+        const auto height = point[1].get<double>();
+        const bool end = i == 0 || i + 1 == points.size();
+        if (!(radius == 0.0 ? end : radius >= kLength.minimum && radius <= kLength.maximum))
+            reader.fail(place + "/0", fmt::format("{}", radius),
+                        fmt::format("a number in [{}, {}]{}", kLength.minimum, kLength.maximum, end ? " or 0" : ""),
+                        end ? "" : "only the first and the last point may lie on the axis");
+        if (!(std::abs(height) <= kLength.maximum))
+            reader.fail(place + "/1", fmt::format("{}", height),
+                        fmt::format("a number in [{}, {}]", -kLength.maximum, kLength.maximum));
+        profile.emplace_back(radius, height);
+        if (i > 0 && glm::distance(profile[i], profile[i - 1]) < kLength.minimum)
+            reader.fail(place, "the point before it again", fmt::format("one at least {} m away", kLength.minimum));
+    }
+    if (profile.size() == 2 && profile[0].x == 0.0 && profile[1].x == 0.0)
+        reader.fail(key, "both points on the axis", "a radius");
+    return profile;
+}
+
+LatheRecipe parse_lathe(JsonReader& reader) {
+    LatheRecipe recipe;
+    recipe.profile = parse_profile(reader);
+    recipe.smooth = reader.boolean_or("smooth", recipe.smooth);
+    recipe.steps = static_cast<int>(reader.integer_or("steps", recipe.steps, 1, 256));
+    recipe.segments = count_or(reader, "segments", recipe.segments, 3);
+    if (reader.has("longitude_deg")) {
+        const std::vector<double> turn = reader.numbers("longitude_deg", 2, {.minimum = 0.0, .maximum = 360.0});
+        recipe.from_deg = turn[0];
+        recipe.to_deg = turn[1];
+        if (!(recipe.to_deg - recipe.from_deg >= 1.0))
+            reader.fail("longitude_deg/1", fmt::format("{}", turn[1]), fmt::format("at least {}", turn[0] + 1.0));
+    }
+    recipe.flatten = reader.number_or("flatten", recipe.flatten, {.minimum = 1e-3, .maximum = 1e3});
+    if (reader.choice_or("tangent", "around", {"around", "along"}) == "along")
+        recipe.tangent = LatheRecipe::Tangent::Along;
+    return recipe;
+}
+
+void parse_faces(JsonReader& reader, BoxRecipe& recipe) {
+    if (!reader.has("faces")) return;
+    const nlohmann::json& faces = reader.raw("faces");
+    const auto refuse = [&](const std::string& found) {
+        reader.fail("faces", found, "one or more of \"top\", \"sides\", \"bottom\", each once");
+    };
+    if (!faces.is_array() || faces.empty()) refuse(faces.is_array() ? "none" : faces.type_name());
+    recipe.top = recipe.sides = recipe.bottom = false;
+    for (const nlohmann::json& face : faces) {
+        bool& wanted = face == "top" ? recipe.top : face == "sides" ? recipe.sides : recipe.bottom;
+        if ((face != "top" && face != "sides" && face != "bottom") || wanted)
+            refuse(face.is_string() ? fmt::format("\"{:.20}\"", face.get<std::string>()) : face.type_name());
+        wanted = true;
+    }
+}
+
+BoxRecipe parse_box(JsonReader& reader) {
+    BoxRecipe recipe;
+    const std::vector<double> size = reader.numbers("size", 3, kLength);
+    recipe.width = size[0];
+    recipe.height = size[1];
+    recipe.depth = size[2];
+    const double half = std::min(recipe.width, recipe.depth) / 2.0;
+    recipe.corner_radius = reader.number_or("corner_radius", 0.0, {.minimum = 0.0, .maximum = half});
+    recipe.corner_steps = static_cast<int>(reader.integer_or("corner_steps", recipe.corner_steps, 1, 256));
+    double most = std::min(half, recipe.height / 2.0);
+    if (recipe.corner_radius > 0.0) most = std::min(most, recipe.corner_radius);
+    recipe.bevel = reader.number_or("bevel", 0.0, {.minimum = 0.0, .maximum = most, .maximum_open = true});
+    parse_faces(reader, recipe);
+    return recipe;
+}
+
 }  // namespace
 
 bool is_mesh_recipe(const nlohmann::json& document) {
@@ -159,16 +223,24 @@ bool is_mesh_recipe(const nlohmann::json& document) {
 
 MeshRecipe parse_mesh_recipe(const nlohmann::json& document, const std::string& file) {
     JsonReader root(document, file);
-    JsonReader reader = root.object("mesh");
+    MeshRecipe recipe = parse_shape(root.object("mesh"));
     root.finish();
-    const std::string type = reader.choice("type", {"disc", "sphere", "plane"});
+    return recipe;
+}
+
+MeshRecipe parse_shape(JsonReader reader) {
+    const std::string type = reader.choice("type", {"disc", "sphere", "plane", "lathe", "box"});
     MeshRecipe recipe;
     if (type == "disc")
         recipe = parse_disc(reader);
     else if (type == "sphere")
         recipe = parse_sphere(reader);
-    else
+    else if (type == "plane")
         recipe = parse_plane(reader);
+    else if (type == "lathe")
+        recipe = parse_lathe(reader);
+    else
+        recipe = parse_box(reader);
     reader.finish();
     return recipe;
 }

@@ -4,6 +4,9 @@
 #include <string>
 #include <variant>
 
+#include "engine/core/json_reader.h"
+#include "engine/scene/box.h"
+#include "engine/scene/lathe.h"
 #include "engine/scene/mesh.h"
 
 namespace rowland::scene {
@@ -34,15 +37,16 @@ struct PlaneRecipe {
     int subdivisions = 1;  ///< quads along either side, 1 … 2048
 };
 
-using MeshRecipe = std::variant<DiscRecipe, SphereRecipe, PlaneRecipe>;
+using MeshRecipe = std::variant<DiscRecipe, SphereRecipe, PlaneRecipe, LatheRecipe, BoxRecipe>;
 
 /// Whether a JSON document is a mesh recipe: an object with the key "mesh".
 bool is_mesh_recipe(const nlohmann::json& document);
 
-/// Reads `{"mesh": {"type": "disc", "inner_radius": …, "outer_radius": …, "rings": …, "segments": …}}`, or "sphere"
-/// with "radius", "rings", "segments", or "plane" with "size" [width, depth], "subdivisions". Counts may be left out.
-/// Throws Error (input) that names `file`, the place and, for an unknown key, the nearest valid one.
+/// Reads `{"mesh": {"type": "disc", …}}`; mesh_recipe.schema.json says what may stand there. Throws Error (input) that
+/// names `file`, the place and, for an unknown key, the nearest valid one.
 MeshRecipe parse_mesh_recipe(const nlohmann::json& document, const std::string& file);
+/// Reads the object that is under "mesh" there. Throws likewise.
+MeshRecipe parse_shape(JsonReader reader);
 
 /// The mesh of a recipe, counter-clockwise from outside (from +Y where it is flat).
 Mesh build_mesh(const MeshRecipe& recipe);

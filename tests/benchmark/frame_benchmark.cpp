@@ -1,161 +1,182 @@
-// Frame time of the CD with the paper's spikes against the plain material and the unlit frame, all in one run.
-#include <epoxy/gl.h>
-
+// Frame times of every representation against the plain material, all variants interleaved in one run.
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <functional>
-#include <glm/gtc/quaternion.hpp>
-#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "engine/asset/container.h"
-#include "engine/colour/working_space.h"
+#include "engine/core/error.h"
+#include "engine/core/file.h"
 #include "engine/core/program.h"
 #include "engine/core/progress.h"
+#include "engine/image/png.h"
 #include "engine/platform/headless_context.h"
-#include "engine/render/gpu_mesh.h"
-#include "engine/render/renderer.h"
-#include "engine/scene/directional_light.h"
-#include "engine/scene/gltf_import.h"
-#include "engine/scene/transform.h"
-#include "modules/diffraction/asset/cooked_material.h"
-#include "modules/diffraction/module.h"
-#include "modules/diffraction/runtime/diffraction_surface.h"
 #include "tests/benchmark/entity_benchmark.h"
-#include "tests/benchmark/processor.h"
+#include "tests/benchmark/frame_report.h"
+#include "tests/benchmark/frame_stage.h"
+#include "tests/benchmark/frame_variant.h"
 
 namespace rowland {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using namespace benchmark;
 
-std::filesystem::path cooked_folder() {
-    return std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() / "cooked";
-}
+constexpr int kFramesPerRound = 2;  ///< one after the other: the second finds warm caches
 
-/// The CD over half the picture, under the studio probe and one directional light.
-class Scene {
- public:
-    Scene(int width, int height)
-        : renderer_(colour::xyz_to_acescg()), target_({.width = width, .height = height, .depth = true}) {
-        diffraction::register_module(renderer_);
-        const auto probe = asset::load(cooked_folder() / "studio.probe", "probe", lighting::kLightProbeVersion);
-        renderer_.set_probe(lighting::deserialise(probe.payload, "studio.probe"));
-        material_ = diffraction::make_gpu_material(
-            diffraction::load_cooked_material(cooked_folder() / "cd_paper.material"), colour::xyz_to_acescg());
-
-        disc_ = world_.create();
-        world_.add(disc_, scene::Transform{});
-        scene::Mesh mesh = scene::merge_instances(scene::load_gltf(cooked_folder() / "cd.glb"));
-        vertices_ = mesh.positions.size();
-        world_.add(disc_, render::make_mesh_instance(std::move(mesh)));
-        world_.add(disc_, material_->base());
-        world_.add(world_.create(), scene::DirectionalLight{.direction = glm::normalize(glm::vec3(0.3F, 1.0F, 0.4F)),
-                                                            .irradiance = glm::vec3(0.5F)});
-        camera_.eye = {0.0F, 0.096F, 0.02F};
-        camera_.vertical_field_of_view = 0.9F;
-        tilt(0);
-    }
-
-    void use_grating(bool on) {
-        if (on)
-            world_.add(disc_, diffraction::DiffractionSurface{material_});
-        else
-            world_.remove<diffraction::DiffractionSurface>(disc_);
-    }
-    /// Turns the disc a little, to another place for every step.
-    void tilt(int step) {
-        const float angle = 0.02F * static_cast<float>(step % 11);
-        world_.get<scene::Transform>(disc_).rotation = glm::angleAxis(angle, glm::vec3(1.0F, 0.0F, 0.0F));
-        scene::update_world_matrices(world_);
-    }
-    double draw_ms(render::Shading shading) {
-        const Clock::time_point start = Clock::now();
-        renderer_.render(world_, camera_, target_, shading);
-        glFinish();
-        return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-    }
-    /// Share of the pixels that show the disc: those that differ between shadings.
-    double coverage() {
-        const std::vector<glm::vec4> lit = (draw_ms(render::Shading::Full), target_.read_rgba_float());
-        const std::vector<glm::vec4> unlit = (draw_ms(render::Shading::Unlit), target_.read_rgba_float());
-        std::size_t differing = 0;
-        for (std::size_t i = 0; i < lit.size(); ++i) differing += lit[i] != unlit[i] ? 1U : 0U;
-        return static_cast<double>(differing) / static_cast<double>(lit.size());
-    }
-    std::size_t vertices() const { return vertices_; }
-
- private:
-    render::Renderer renderer_;
-    gpu::Framebuffer target_;
-    ecs::World world_;
-    ecs::Entity disc_;
-    scene::Camera camera_;
-    std::shared_ptr<const diffraction::GpuMaterial> material_;
-    std::size_t vertices_ = 0;
+struct Options {
+    glm::ivec2 size{1280, 720};
+    int rounds = 8;
+    std::vector<std::string> only;
+    bool list = false;
+    bool markdown = false;
+    bool require_gpu = false;
+    std::optional<std::filesystem::path> json;
+    std::optional<std::filesystem::path> output_folder;
+    std::optional<std::filesystem::path> pictures;
 };
 
-struct Variant {
-    const char* name;
-    std::function<double(int step)> frame_ms;
-    double minimum_ms = std::numeric_limits<double>::infinity();
-};
-
-int run(int argc, char** argv) {
-    int width = 1280;
-    int height = 720;
-    int rounds = 30;
-    CLI::App app{"Frame time of the diffraction material against the plain one (minima over interleaved rounds).",
+/// Nothing if the program is to end with the status.
+std::optional<Options> parse_options(int argc, char** argv, int& status) {
+    Options options;
+    CLI::App app{"Frame times of the diffraction material against the plain one: minima over interleaved rounds.",
                  "rowland-benchmark"};
-    app.footer("example: rowland-benchmark --width 640 --height 360 --rounds 50");
-    app.add_option("--width", width, "Width in pixels")->check(CLI::Range(16, 8192))->capture_default_str();
-    app.add_option("--height", height, "Height in pixels")->check(CLI::Range(16, 8192))->capture_default_str();
-    app.add_option("--rounds", rounds, "Rounds; each draws every variant once")
+    app.footer(
+        "A name is REPRESENTATION[/WHAT IS DIFFERENT]; --list prints all. \"ratio\" is to the time of the frame in "
+        "the\n"
+        "last column, which is drawn, too. On a GPU its own times are compared, else wall times.\n"
+        "example: rowland-benchmark --only 'planar*,arc' --rounds 30 --json frames.json");
+    app.add_option("--width", options.size.x, "Width in pixels")->check(CLI::Range(16, 8192))->capture_default_str();
+    app.add_option("--height", options.size.y, "Height in pixels")->check(CLI::Range(16, 8192))->capture_default_str();
+    app.add_option("--rounds", options.rounds, "Rounds; each draws every variant twice")
         ->check(CLI::Range(1, 10000))
         ->capture_default_str();
+    app.add_option("--only", options.only, "Names or patterns, with commas between them")->delimiter(',');
+    app.add_flag("--list", options.list, "Print the names of all variants and draw nothing");
+    app.add_flag("--markdown", options.markdown, "Print a Markdown table");
+    app.add_option("--json", options.json, "Write the results to a file, too");
+    app.add_option("--output-folder", options.output_folder,
+                   "Write results and table to frames-RENDERER.json and .md in a folder, too");
+    app.add_flag("--require-gpu", options.require_gpu, "Fail where the processor draws");
+    app.add_option("--pictures", options.pictures, "Write what each variant draws as PNG files to a folder");
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
+        status = app.exit(error) == 0 ? 0 : 2;
+        return std::nullopt;
     }
+    return options;
+}
 
-    const platform::HeadlessContext context({.debug = false});
-    Scene scene(width, height);
-    scene.use_grating(false);
-    const double coverage = scene.coverage();
+double mean_radiance(const gpu::Framebuffer& picture) {
+    const std::vector<glm::vec4> pixels = picture.read_rgba_float();
+    double sum = 0.0;
+    for (const glm::vec4& pixel : pixels) sum += static_cast<double>(pixel.r + pixel.g + pixel.b) / 3.0;
+    return sum / static_cast<double>(pixels.size());
+}
 
-    const auto draw = [&scene](bool grating, int step, render::Shading shading) {
-        scene.use_grating(grating);
-        scene.tilt(step);
-        return scene.draw_ms(shading);
-    };
-    std::vector<Variant> variants = {
-        {"unlit", [&](int) { return draw(false, 0, render::Shading::Unlit); }},
-        {"plain material", [&](int) { return draw(false, 0, render::Shading::Full); }},
-        {"spikes, object at rest", [&](int) { return draw(true, 0, render::Shading::Full); }},
-        {"spikes, object turning", [&](int step) { return draw(true, step, render::Shading::Full); }},
-    };
-    {
-        Progress progress("frames", static_cast<std::size_t>(rounds));
-        for (int round = 0; round < rounds; ++round, progress.advance())
-            for (Variant& variant : variants) {
-                variant.frame_ms(2 * round);  // after another variant: what changed with it is not timed
-                variant.minimum_ms = std::min(variant.minimum_ms, variant.frame_ms(2 * round + 1));
+/// Share of the pixels that show the disc: those that differ between the plain and the unlit frame.
+double coverage(FrameStage& stage) {
+    FrameVariant variant = all_variants().front();
+    FrameScene(variant, stage).draw();
+    const std::vector<glm::vec4> lit = stage.linear().read_rgba_float();
+    variant.shader = Shader::Unlit;
+    FrameScene(variant, stage).draw();
+    const std::vector<glm::vec4> unlit = stage.linear().read_rgba_float();
+    std::size_t differing = 0;
+    for (std::size_t i = 0; i < lit.size(); ++i) differing += lit[i] != unlit[i] ? 1U : 0U;
+    return static_cast<double>(differing) / static_cast<double>(lit.size());
+}
+
+void write_picture(const std::filesystem::path& folder, const std::string& name, FrameStage& stage) {
+    std::string file = name;
+    std::replace(file.begin(), file.end(), '/', '_');
+    std::replace(file.begin(), file.end(), ':', '-');
+    const glm::ivec2 size = stage.linear().size();
+    image::write_png(folder / (file + ".png"), size.x, size.y, stage.displayed());
+}
+
+/// A variant while it is timed.
+struct Timed {
+    FrameScene scene;
+    double mean_radiance;
+    std::vector<double> wall_ms = {};
+    std::vector<double> gpu_ms = {};
+};
+
+FrameResult result_of(Timed& timed) {
+    std::sort(timed.wall_ms.begin(), timed.wall_ms.end());
+    return {.name = timed.scene.variant().name,
+            .baseline = timed.scene.variant().baseline,
+            .minimum_ms = timed.wall_ms.front(),
+            .median_ms = timed.wall_ms[timed.wall_ms.size() / 2],
+            .gpu_minimum_ms = *std::min_element(timed.gpu_ms.begin(), timed.gpu_ms.end()),
+            .mean_radiance = timed.mean_radiance};
+}
+
+std::vector<Timed> prepare(const Options& options, FrameStage& stage) {
+    const std::vector<FrameVariant> variants = choose_variants(options.only);
+    std::vector<Timed> timed;
+    Progress progress("preparing", variants.size());
+    for (const FrameVariant& variant : variants) {
+        FrameScene scene(variant, stage);
+        scene.settle();
+        timed.push_back({std::move(scene), mean_radiance(stage.linear())});
+        if (options.pictures) write_picture(*options.pictures, variant.name, stage);
+        progress.advance();
+    }
+    return timed;
+}
+
+std::vector<FrameResult> measure(const Options& options, FrameStage& stage) {
+    std::vector<Timed> timed = prepare(options, stage);
+    Progress progress("frames", static_cast<std::size_t>(options.rounds) * timed.size());
+    for (int round = 0; round < options.rounds; ++round)
+        for (Timed& one : timed) {
+            for (int frame = 0; frame < kFramesPerRound; ++frame) {
+                const FrameTime time = one.scene.draw();
+                one.wall_ms.push_back(time.wall_ms);
+                one.gpu_ms.push_back(time.gpu_ms);
             }
-    }
+            progress.advance();
+        }
+    std::vector<FrameResult> results;
+    for (Timed& one : timed) results.push_back(result_of(one));
+    return results;
+}
 
-    std::printf("%s, %s\n", processor_name().c_str(), context.renderer().c_str());
-    std::printf("%dx%d, disc of %zu vertices over %.0f %% of the picture, post off, sky on, minima of %d rounds\n",
-                width, height, scene.vertices(), 100.0 * coverage, rounds);
-    std::printf("%-26s %10s %10s\n", "variant", "ms", "x plain");
-    for (const Variant& variant : variants)
-        std::printf("%-26s %10.2f %10.2f\n", variant.name, variant.minimum_ms,
-                    variant.minimum_ms / variants[1].minimum_ms);
-    benchmark::print_entity_times(rounds);
+int run(int argc, char** argv) {
+    int status = 0;
+    const std::optional<Options> options = parse_options(argc, argv, status);
+    if (!options) return status;
+    if (options->list) {
+        for (const FrameVariant& variant : all_variants()) std::printf("%s\n", variant.name.c_str());
+        return 0;
+    }
+    const platform::HeadlessContext context({.debug = false});
+    FrameReport report = describe_machine(context);
+    if (options->require_gpu && report.software)
+        throw Error({.file = "--require-gpu",
+                     .place = {},
+                     .found = report.renderer,
+                     .expected = "a GPU with OpenGL 4.5 and EGL",
+                     .remedy = "run it without the option, or on another machine",
+                     .fault = Fault::System});
+    FrameStage stage(options->size);
+    report.size = options->size;
+    report.rounds = options->rounds;
+    report.results = measure(*options, stage);
+    report.coverage = coverage(stage);
+
+    std::fputs((options->markdown ? to_markdown(report) : to_text(report)).c_str(), stdout);
+    if (options->json) write_file_atomic(*options->json, to_json(report));
+    if (options->output_folder) {
+        const std::filesystem::path base = *options->output_folder / ("frames-" + file_name_of(report.renderer));
+        write_file_atomic(base.string() + ".json", to_json(report));
+        write_file_atomic(base.string() + ".md", to_markdown(report));
+    }
+    if (options->only.empty() && !options->markdown) print_entity_times(options->rounds);
     return 0;
 }
 

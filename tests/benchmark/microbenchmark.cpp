@@ -1,22 +1,64 @@
 // Times of the parts that run on the processor, without a frame around them. Google Benchmark's own options apply, such
 // as --benchmark_filter=sh_ and --benchmark_format=json.
+#include <optional>
+#include <string>
+
+#include "engine/core/file.h"
+#include "engine/core/program.h"
 #include "engine/math/instruction_set.h"
+#include "tests/benchmark/markdown_reporter.h"
 #include "tests/benchmark/microbenchmarks.h"
 #include "tests/benchmark/processor.h"
 
-int main(int argc, char** argv) {
-    using namespace rowland::microbenchmark;
-    ::benchmark::Initialize(&argc, argv);
-    if (::benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-    ::benchmark::AddCustomContext("processor", rowland::processor_name());
-    ::benchmark::AddCustomContext("instruction set", instruction_set_name(rowland::math::best_instruction_set()));
+namespace rowland::microbenchmark {
+namespace {
+
+/// Takes `--markdown-file=FILE` out of the arguments.
+std::optional<std::string> take_markdown_file(int& argc, char** argv) {
+    const std::string option = "--markdown-file=";
+    for (int i = 1; i < argc; ++i) {
+        const std::string argument = argv[i];
+        if (argument.rfind(option, 0) != 0) continue;
+        for (int j = i; j + 1 < argc; ++j) argv[j] = argv[j + 1];
+        --argc;
+        return argument.substr(option.size());
+    }
+    return std::nullopt;
+}
+
+void register_all() {
     register_sh_evaluation();
     register_sh_rotation();
     register_frame_rotation();
+    register_vertex_updates();
     register_projection();
-    register_spike_table();
+    register_bakes();
+    register_brute_force();
+    register_map_fills();
     register_entities();
-    ::benchmark::RunSpecifiedBenchmarks();
+}
+
+int run(int argc, char** argv) {
+    const std::optional<std::string> markdown_file = take_markdown_file(argc, argv);
+    ::benchmark::Initialize(&argc, argv);
+    if (::benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+    ::benchmark::AddCustomContext("processor", processor_name());
+    ::benchmark::AddCustomContext("instruction set", instruction_set_name(math::best_instruction_set()));
+    register_all();
+    if (markdown_file) {
+        MarkdownReporter reporter;
+        ::benchmark::RunSpecifiedBenchmarks(&reporter);
+        write_file_atomic(*markdown_file, processor_name() + "\n\n" + reporter.table());
+    } else {
+        ::benchmark::RunSpecifiedBenchmarks();
+    }
     ::benchmark::Shutdown();
     return 0;
+}
+
+}  // namespace
+}  // namespace rowland::microbenchmark
+
+int main(int argc, char** argv) {
+    return rowland::run_program([&] { return rowland::microbenchmark::run(argc, argv); });
 }

@@ -10,8 +10,11 @@ namespace rowland::microbenchmark {
 void register_sh_evaluation();
 void register_sh_rotation();
 void register_frame_rotation();
+void register_vertex_updates();
 void register_projection();
-void register_spike_table();
+void register_bakes();
+void register_brute_force();
+void register_map_fills();
 void register_entities();
 
 /// Adds the column "each": seconds for one of `items` things an iteration does.

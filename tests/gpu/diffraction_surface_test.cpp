@@ -112,19 +112,21 @@ TEST_F(Surface, VertexLightIsMadeOnlyWhenSomethingChanges) {
 TEST_F(Surface, ABrokenQualityIsRefusedByName) {
     show(cook(kSlitCd, R"({"representation": "direct"})"));
     DiffractionSurfaceType type(glm::dmat3(1.0));
+    const scene::ImportedScene no_pictures;
+    render::SurfaceTextures textures(no_pictures);
     const auto attach = [&](const char* members) {
         return rowland::test::message_of([&] {
             type.attach(world_, entity_, parse_json(std::string("{\"grating\": ") + kSlitCd + members + "}", "m"),
-                        "scene.gltf", "/materials/0");
+                        textures, "scene.gltf", "/materials/0");
         });
     };
     EXPECT_THAT(attach(R"(, "quality": {"representation": "arc", "rnak": 3})"), HasSubstr("/materials/0/quality/rnak"));
     EXPECT_THAT(attach(R"(, "quality": {"representation": "streak"})"),
                 HasSubstr("/materials/0/quality/representation"));
-    EXPECT_THAT(attach(R"(, "grooveTexture": {"index": 0})"), HasSubstr("/materials/0/grooveTexture"));
+    EXPECT_THAT(attach(R"(, "grooveTexture": {"index": 0})"), HasSubstr("/materials/0/grooveTexture/index"));
     type.attach(world_, entity_,
-                parse_json(std::string("{\"grating\": ") + kSlitCd + R"(, "grooveRotation": 0.25})", "m"), "scene.gltf",
-                "/materials/0");
+                parse_json(std::string("{\"grating\": ") + kSlitCd + R"(, "grooveRotation": 0.25})", "m"), textures,
+                "scene.gltf", "/materials/0");
     EXPECT_EQ(world_.get<DiffractionSurface>(entity_).groove_rotation, 0.25F);
 }
 

@@ -50,6 +50,33 @@ TEST_F(Direct, KeyLightsEqualTheCpuWithTheSmoothedKernel) {
     }
 }
 
+/// Shaded at the vertices, what lies between them is interpolated; but for shadows, directional lights are, too.
+TEST_F(Direct, LightsAtTheVerticesAreInterpolated) {
+    light_ = light_of(smooth_probe(), three_keys());
+    const CookedMaterial cooked = cook(kFoil, R"({"representation": "direct", "lights_at": "vertices"})");
+    show(cooked, 0.5);
+    const glm::dvec3 toward = glm::normalize(glm::dvec3(0.3, 0.2, 0.9));
+    const glm::dvec3 irradiance(0.05);
+    world_.add(world_.create(), scene::DirectionalLight{.direction = toward, .irradiance = irradiance});
+    std::vector<glm::dvec3> shaded;
+    for (std::size_t vertex = 0; vertex < 3; ++vertex) {
+        Point point;
+        point.to_tangent = vertex_frame(vertex);
+        point.view = vertex_view(vertex);
+        shaded.push_back(key_light_xyz(cooked, light_.key_lights, point) +
+                         small_light_xyz(cooked, point, toward, irradiance));
+    }
+    EXPECT_LT(largest_difference(draw(),
+                                 [&](const Point& point) {
+                                     return mix(point, shaded) +
+                                            base_xyz(cooked, point, toward, irradiance, camera_.eye);
+                                 }),
+              kPictureTolerance);
+    EXPECT_GT(brightest_, 0.01);
+    const auto at_pixels = [&](const Point& point) { return key_light_xyz(cooked, light_.key_lights, point); };
+    EXPECT_GT(largest_difference(draw(), at_pixels), 0.1);  // three vertices are far too few
+}
+
 TEST_F(Direct, PitsEqualTheCpu) {
     light_ = light_of(smooth_probe(), three_keys());
     const CookedMaterial cooked = cook(R"({"pitch_nm": 1500, "profile": {"type": "slit", "width_nm": 700},

@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,7 @@
 #include "engine/lighting/key_lights.h"
 #include "engine/lighting/light_probe.h"
 #include "engine/lighting/light_texels.h"
+#include "engine/lighting/prefilter.h"
 #include "engine/lighting/probe_image.h"
 #include "engine/math/sh_rotation.h"
 #include "engine/render/gpu_mesh.h"
@@ -28,6 +30,7 @@
 #include "engine/scene/transform.h"
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/bake/direct.h"
+#include "modules/diffraction/bake/lobe_table.h"
 #include "modules/diffraction/module.h"
 #include "modules/diffraction/runtime/tangent_light.h"
 #include "tests/gpu/gl_test.h"
@@ -62,6 +65,10 @@ inline render::FrameLight light_of(const lighting::ProbeImage& probe, std::vecto
         light.sh.coefficients[i] += lobes.coefficients[i];
     light.key_lights = std::move(keys);
     light.texels = std::make_shared<const lighting::LightTexels>(lighting::light_texels(probe, {}, 0.1));
+    light.radiance = std::make_shared<const lighting::PackedEnvironmentMap>(
+        lighting::finest_level(lighting::pack(lighting::prefilter(probe))));
+    light.probe_sh = light.residual;
+    light.probe_texels = light.texels;
     light.version = version;
     return light;
 }
@@ -140,6 +147,8 @@ struct Point {
     glm::dmat3 to_tangent{1.0};  ///< rows g, h, n: the vertices', interpolated and made orthonormal
     glm::dvec3 view{0.0};        ///< toward the eye, in (g, h, n)
     double footprint = 0.0;      ///< half the pixel's extent in v_g
+    glm::dvec2 beside{0.0};      ///< (v_g, v_h) of the next column's pixel less this one's; sign as it comes
+    glm::dvec2 below{0.0};       ///< the same of the next row's
 };
 
 /// One triangle with a grating, drawn as XYZ.
@@ -204,11 +213,10 @@ class GratingPicture : public rowland::test::GlTest {
     /// The triangle's plane at a pixel's centre.
     Point point_at(int column, int row) const {
         Point point = place_at(column, row);
-        const auto extent = [&](int other_column, int other_row) {
-            return std::abs(place_at(other_column, other_row).view.x - point.view.x);
-        };
         // Shaders take differences within two by two pixels.
-        point.footprint = 0.5 * (extent(column ^ 1, row) + extent(column, row ^ 1));
+        point.beside = glm::dvec2(place_at(column ^ 1, row).view) - glm::dvec2(point.view);
+        point.below = glm::dvec2(place_at(column, row ^ 1).view) - glm::dvec2(point.view);
+        point.footprint = 0.5 * (std::abs(point.beside.x) + std::abs(point.below.x));
         return point;
     }
 
@@ -242,10 +250,20 @@ class GratingPicture : public rowland::test::GlTest {
         const BlurredKernel& kernel = smoothed(cooked);
         glm::dvec3 xyz(0.0);
         if (point.view.z <= 0.0) return xyz;
+        const DirectView view{point.view.x, point.view.y, point.footprint};
+        const bool tabled = cooked.zero_order_xyz == glm::dmat3(0.0);
         for (const lighting::KeyLight& key : keys)
-            xyz += direct_radiance(kernel, material, light_spot(key, point.to_tangent),
-                                   DirectView{point.view.x, point.view.y, point.footprint});
+            xyz += tabled ? lobe_radiance(lobe_table(cooked, key), material, key, point.to_tangent, view)
+                          : direct_radiance(kernel, material, light_spot(key, point.to_tangent), view);
         return xyz;
+    }
+    static const LobeTable& lobe_table(const CookedMaterial& cooked, const lighting::KeyLight& key) {
+        static std::map<std::tuple<double, double, double, double, double>, LobeTable> tables;
+        const double pitch = cooked.material.grating.pitch_nm;
+        const std::tuple name(pitch, key.concentration, key.flux.x, key.flux.y, key.flux.z);
+        const auto found = tables.find(name);
+        if (found != tables.end()) return found->second;
+        return tables.emplace(name, make_lobe_table(smoothed(cooked), pitch, key, 4096)).first->second;
     }
     static DirectMaterial direct_material(const CookedMaterial& cooked) {
         return {.pitch_nm = cooked.material.grating.pitch_nm,

@@ -50,6 +50,23 @@ TEST_F(Planar, KeyLightsComeOnTop) {
               kPictureTolerance);
 }
 
+/// Without lights of their own the map is of the whole probe, and nothing comes on top.
+TEST_F(Planar, KeyLightsMayStayInTheMap) {
+    light_ = light_of(smooth_probe(), three_keys());
+    light_.probe_texels = light_.texels;
+    light_.texels = std::make_shared<const lighting::LightTexels>();
+    light_.probe_sh = light_.residual;
+    const CookedMaterial cooked =
+        cook(kSlitCd, R"({"representation": "planar", "map_resolution": 64, "key_lights": false})");
+    show(cooked, -0.3);
+    const std::vector<glm::vec4> drawn = draw();
+    EXPECT_TRUE(data().on_gpu.has_value());
+    light_.texels = light_.probe_texels;
+    const PlanarMap expected = map(cooked);
+    EXPECT_LT(largest_difference(drawn, [&](const Point& point) { return at(expected, point); }), kPictureTolerance);
+    EXPECT_GT(brightest_, 0.01);
+}
+
 TEST_F(Planar, GrazingViewsEqualTheCpu) {
     transform_.rotation = glm::quat(1.0F, 0.0F, 0.0F, 0.0F);
     camera_.eye = {0.5F, -2.5F, 0.02F};

@@ -23,8 +23,8 @@ struct Marked {
 class MarkType final : public MaterialType {
  public:
     std::string gltf_extension() const override { return "TEST_mark"; }
-    void attach(ecs::World& world, ecs::Entity entity, const nlohmann::json& extension, const std::string& file,
-                const std::string& place) override {
+    void attach(ecs::World& world, ecs::Entity entity, const nlohmann::json& extension, SurfaceTextures& /*textures*/,
+                const std::string& file, const std::string& place) override {
         if (!extension.contains("number"))
             throw Error({.file = file,
                          .place = place,

@@ -2,16 +2,20 @@
 // judged by both.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "engine/colour/illuminant.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/core/json_reader.h"
 #include "engine/lighting/probe_recipe.h"
 #include "engine/scene/mesh_recipe.h"
+#include "engine/scene/scene_recipe.h"
 #include "modules/diffraction/asset/gltf_extension.h"
 #include "modules/diffraction/asset/material_json.h"
 #include "tests/support/json_schema.h"
@@ -77,8 +81,9 @@ void expect_agreement(const json& schema, const std::vector<json>& documents,
     EXPECT_GT(refused, 100U);
 }
 
-/// Whatever a material calls its table.
+/// Whatever a material calls its table; its lamp is lamp.csv.
 diffraction::NamedText read_one_table(const std::string& name) {
+    if (name == "lamp.csv") return {.text = "wavelength_nm,relative_power\n500,1\n600,2\n", .file = name};
     return {.text = "wavelength_nm,R-1,R+1\n500,0.1,0.4\n", .file = name};
 }
 
@@ -91,9 +96,12 @@ bool crosses_quality(const json& document) {
     const bool along_one_axis = quality.value("view_mapping", usual) == "one-dimensional";
     const bool view = flat ? name == "arc" && !along_one_axis : quality.contains("view_mapping") && along_one_axis;
     const bool map = !flat && (name == "planar" || name == "circle");
+    const bool narrow = !flat && document["grating"]["groove_lobe"].value("/pits/coherent"_json_pointer, 1.0) > 0.0;
+    const json& orders = document["grating"].value("orders", json::array({-2, -1, 1, 2}));
+    const bool streak = name == "streak" && (!narrow || orders.size() * quality.value("nodes", 8U) > 1024);
     const int bands = quality.value("bands", 5);
     const bool layers = quality.value("spikes", quality.value("bins", 1)) * (bands * bands + 4) / 4 > 2048;
-    return view || map || layers;
+    return view || map || layers || streak;
 }
 
 /// What a material's members forbid each other.
@@ -106,7 +114,10 @@ bool crosses_members(const json& document) {
     const bool plated_table = profile["type"] == "table" && document.contains("metal");
     const bool few = grating.value("grooves", 1500.0) < 50.0 && (profile["type"] == "table" || lobe.contains("pits"));
     const bool endless = grating.value("orders", json()) == "all" && grating["pitch_nm"] > 190000.0;
-    return wide || agu || plated_table || few || endless || crosses_quality(document);
+    const json lamp = document.value("quality", json::object()).value("illuminant", json("D65"));
+    const auto names = colour::illuminant_names();
+    const bool dark = lamp != "lamp.csv" && std::find(names.begin(), names.end(), lamp) == names.end();
+    return wide || agu || plated_table || few || endless || dark || crosses_quality(document);
 }
 
 /// A schema cannot know which files there are.
@@ -129,6 +140,8 @@ TEST(Schema, OfMaterialsAgreesWithTheParser) {
         material(R"({"type": "lamellar", "duty": 0.4, "depth_nm": 100})", R"(, "groove_lobe": {"sigma": 0.2}}})"),
         material(R"({"type": "blazed", "depth_nm": 100}})",
                  R"(, "metal": "Au", "quality": {"max_error": 0.1, "illuminant": "F11"}})"),
+        pinned(
+            R"({"max_error": 0.1, "surface": "curved", "probes": ["a.json", {"image": "b.hdr", "mapping": "angular"}]})"),
         material(R"({"type": "slit", "width_nm": 0.5}, "normalization": "agu", "orders": "all"}})", ""),
         material(R"({"type": "table", "file": "t.csv"}})", R"(, "base": {"roughness": 0.1}})"),
         material(R"({"type": "sinusoidal", "depth_nm": 90})",
@@ -138,9 +151,11 @@ TEST(Schema, OfMaterialsAgreesWithTheParser) {
         pinned(R"({"representation": "transfer", "bands": 3, "view_mapping": "spherical", "max_error": 0.2})"),
         pinned(
             R"({"representation": "arc", "bands": 6, "rank": 12, "storage": "fp32", "key_lights": false, "illuminant": "A"})"),
-        pinned(R"({"representation": "direct", "key_lights": true})"),
+        pinned(R"({"representation": "direct", "key_lights": true, "illuminant": "lamp.csv"})"),
         pinned(R"({"representation": "planar", "rank": 6, "map_resolution": 128})"),
-        pinned(R"({"representation": "circle", "map_resolution": 32})")};
+        pinned(R"({"representation": "circle", "map_resolution": 32})"),
+        material(R"({"type": "slit", "width_nm": 700}, "groove_lobe": {"sigma": 0.1}})",
+                 R"(, "quality": {"representation": "streak", "nodes": 9, "taps": 5, "bands": 4, "rank": 6}})")};
     expect_agreement(
         read("modules/diffraction/asset/material.schema.json"), documents,
         [](const json& document) { diffraction::parse_material(document, "test", read_one_table); }, crosses_members);
@@ -182,16 +197,143 @@ TEST(Schema, OfProbeRecipesAgreesWithTheParser) {
         [](const json& document) { lighting::parse_probe_recipe(document, "test"); }, unknown_illuminant);
 }
 
+/// What the members of a shape forbid one another, and the points of a profile.
+bool crosses_shape(const json& shape) {
+    if (shape["type"] == "disc") return shape["outer_radius"] <= shape["inner_radius"];
+    if (shape["type"] == "box") {
+        const double radius = shape.value("corner_radius", 0.0);
+        double most = std::min(shape["size"][0].get<double>(), shape["size"][2].get<double>()) / 2.0;
+        if (radius > most) return true;
+        most = std::min(most, shape["size"][1].get<double>() / 2.0);
+        if (radius > 0.0) most = std::min(most, radius);
+        return shape.value("bevel", 0.0) >= most;
+    }
+    if (shape["type"] != "lathe") return false;
+    const json turn = shape.value("longitude_deg", json::array({0, 360}));
+    if (turn[1].get<double>() - turn[0].get<double>() < 1.0) return true;
+    const json& profile = shape["profile"];
+    for (std::size_t i = 0; i < profile.size(); ++i) {
+        const double radius = profile[i][0].get<double>();
+        const bool end = i == 0 || i + 1 == profile.size();
+        if (radius < 1e-7 && !(radius == 0.0 && end)) return true;
+        if (i > 0 && profile[i] == profile[i - 1]) return true;
+    }
+    return profile.size() == 2 && profile[0][0] == 0 && profile[1][0] == 0;
+}
+
 TEST(Schema, OfMeshRecipesAgreesWithTheParser) {
-    const std::vector<json> documents = {read("content/meshes/cd.json"), read("content/meshes/sphere.json"),
-                                         read("content/meshes/ground.json")};
-    const auto crosses = [](const json& document) {
-        const json& mesh = document["mesh"];
-        return mesh["type"] == "disc" && mesh["outer_radius"] <= mesh["inner_radius"];
-    };
+    const std::vector<json> documents = {
+        read("content/meshes/cd.json"), read("content/meshes/sphere.json"), read("content/meshes/ground.json"),
+        json::parse(R"({"mesh": {"type": "lathe", "profile": [[0, -1], [2, 0.5], [0.5, 3]], "smooth": true, "steps": 4,
+                        "segments": 9, "longitude_deg": [10, 200], "flatten": 0.7, "tangent": "along"}})"),
+        json::parse(R"({"mesh": {"type": "box", "size": [3, 2, 4], "corner_radius": 0.5, "corner_steps": 3,
+                        "bevel": 0.1, "faces": ["top", "sides"]}})")};
     expect_agreement(
         read("engine/scene/mesh_recipe.schema.json"), documents,
-        [](const json& document) { scene::parse_mesh_recipe(document, "test"); }, crosses);
+        [](const json& document) { scene::parse_mesh_recipe(document, "test"); },
+        [](const json& document) { return crosses_shape(document["mesh"]); });
+}
+
+/// The schema with the shapes of mesh recipes, which it refers to, within it.
+json scene_recipe_schema() {
+    std::string text = read("engine/scene/scene_recipe.schema.json").dump();
+    const std::string other = "mesh_recipe.schema.json#";
+    text.replace(text.find(other), other.size(), "#");
+    json schema = json::parse(text);
+    schema["$defs"].update(read("engine/scene/mesh_recipe.schema.json")["$defs"]);
+    return schema;
+}
+
+bool is_name_of_one(const json& name, const json& among) {
+    return std::any_of(among.begin(), among.end(), [&](const json& one) { return one["name"] == name; });
+}
+
+/// Names that are there twice, names of what is not there, intervals that end before they begin.
+bool crosses_scene(const json& document) {
+    const json scene = document["scene"];
+    const auto all = [&](const char* key) { return scene.value(key, json::array()); };
+    for (const char* key : {"textures", "materials", "meshes", "cameras", "lights", "nodes"}) {
+        std::set<json> names;
+        for (const json& one : all(key))
+            if (!names.insert(one["name"]).second) return true;
+    }
+    for (const json& texture : all("textures"))
+        for (const json& layer : texture["layers"])
+            for (const char* channel : {"r", "g", "b", "a"}) {
+                const json value = layer.value(channel, json());
+                if (value.is_object() && value.contains("over") && value["over"][0] >= value["over"][1]) return true;
+            }
+    for (const json& material : all("materials"))
+        if (material.contains("color_texture") && !is_name_of_one(material["color_texture"]["name"], all("textures")))
+            return true;
+    for (const json& mesh : all("meshes"))
+        for (const json& part : mesh["parts"])
+            if (crosses_shape(part["shape"]) || !is_name_of_one(part["material"], all("materials"))) return true;
+    for (const json& light : all("lights"))
+        if (light.value("inner_cone_deg", 0.0) >= light.value("outer_cone_deg", 89.0)) return true;
+    json before = json::array();
+    for (const json& node : all("nodes")) {
+        const auto lost = [&](const char* key, const json& among) {
+            return node.contains(key) && !is_name_of_one(node[key], among);
+        };
+        if (lost("parent", before) || lost("mesh", all("meshes")) || lost("camera", all("cameras")) ||
+            lost("light", all("lights")))
+            return true;
+        const json own_place = node.value("translation", json::array({0, 0, 0}));
+        if (node.contains("look_at") && (node.contains("yaw_pitch_roll_deg") || node["look_at"] == own_place))
+            return true;
+        before.push_back(node);
+    }
+    return false;
+}
+
+TEST(Schema, OfSceneRecipesAgreesWithTheParser) {
+    const std::vector<json> documents = {
+        json::parse(R"({"scene": {"textures": [{"name": "a", "size": [8, 4], "layers": [
+            {"pattern": "all", "r": 0.5, "a": {"by": "x", "from": 0, "to": 1, "over": [0.25, 0.75], "repeat": 2}},
+            {"pattern": "tiles", "size": [0.5, 0.25], "gap": 0.1, "g": 1},
+            {"pattern": "hexagons", "size": 0.5, "gap": 0.1, "b": 0},
+            {"pattern": "rosette", "centre": [1, 0.5], "radius": 0.4, "petals": 5, "petal_depth": 0.25, "rings": 2,
+             "gap": 0.5}]}]}})"),
+        json::parse(R"({"scene": {
+            "textures": [{"name": "a", "size": [1, 1], "layers": []}],
+            "materials": [{"name": "m", "color": [0.5, 0, 1], "alpha": 0.5, "metallic": 1, "roughness": 0.25,
+                           "color_texture": {"name": "a", "repeat": [2, 3]}, "blend": true, "double_sided": false,
+                           "extensions": {"X": 1}}],
+            "meshes": [{"name": "s", "parts": [{"shape": {"type": "sphere", "radius": 0.5}, "material": "m"}]}],
+            "nodes": [{"name": "top", "mesh": "s", "extras": {}}]}})"),
+        json::parse(R"({"scene": {
+            "cameras": [{"name": "c", "vertical_field_of_view_deg": 30, "near": 0.125, "far": 50}],
+            "lights": [{"name": "d", "type": "directional", "color": [1, 0.5, 0], "intensity": 2},
+                       {"name": "s", "type": "spot", "intensity": 2, "outer_cone_deg": 40, "inner_cone_deg": 20}],
+            "nodes": [{"name": "n", "translation": [1, 2, 3.25], "yaw_pitch_roll_deg": [10, 20, 30], "scale": 2},
+                      {"name": "k", "parent": "n", "look_at": [7, 0, 0], "camera": "c", "light": "s"}]}})")};
+    expect_agreement(
+        scene_recipe_schema(), documents, [](const json& document) { scene::parse_scene_recipe(document, "test"); },
+        crosses_scene);
+}
+
+TEST(Schema, OfSceneRecipesAllowsTheShippedScene) {
+    EXPECT_TRUE(test::satisfies(read("content/scenes/cabinet.json"), scene_recipe_schema()));
+}
+
+TEST(Schema, GratingsOfTheShippedSceneAreOnesTheModuleReads) {
+    const json recipe = read("content/scenes/cabinet.json");
+    std::vector<double> pitches;
+    bool varies = false;
+    for (const json& material : recipe["scene"]["materials"]) {
+        const json extensions = material.value("extensions", json::object());
+        const auto extension = extensions.find(diffraction::kGltfExtension);
+        if (extension == extensions.end()) continue;
+        const diffraction::GltfGrating grating = diffraction::parse_gltf_extension(
+            *extension, "cabinet.json", ".", "/" + material["name"].get<std::string>());
+        pitches.push_back(grating.material.grating.pitch_nm);
+        if (!grating.groove_texture) continue;
+        varies = true;
+        EXPECT_LT(static_cast<std::size_t>(grating.groove_texture->index), recipe["scene"]["textures"].size());
+    }
+    EXPECT_EQ(pitches.size(), 6U);
+    EXPECT_TRUE(varies);
 }
 
 }  // namespace

@@ -17,7 +17,8 @@ layout(std140, binding = 0) uniform FrameBlock {
     mat4 rec709_to_working;  // upper 3x3
     vec4 eye;                // xyz: world position, metres
     vec4 ambient[9];         // xyz: SH of irradiance / pi, working space; without the key lights
-    vec4 environment;        // x: mip levels - 1; y: radiance per stored unit
+    vec4 environment;        // x: mip levels - 1; y: radiance per stored unit; z: irradiance per unit of
+                             // key_irradiance_map
     vec4 shadow;             // x: width of a shadow texel, metres; y: of the map, 1 / texels
 #ifdef __cplusplus
 };

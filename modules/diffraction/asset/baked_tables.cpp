@@ -35,6 +35,12 @@ BakedTables bake(const Grating&, const CircleSettings& settings) {
     return CircleTables{settings.size};
 }
 
+BakedTables bake(const Grating& grating, const StreakSurfaceSettings& settings) {
+    StreakTables tables{.streak = make_streak(grating, settings.streak), .taps = settings.taps};
+    if (settings.rest) tables.rest = bake_arc_table(incoherent_rest(grating).value(), *settings.rest);
+    return tables;
+}
+
 void write(const SpikeTable& table, ByteWriter& writer) {
     write_spike_table(table, writer);
 }
@@ -52,6 +58,10 @@ void write(const PlanarTables& tables, ByteWriter& writer) {
     write_arc_table(tables.stand_in, writer);
 }
 void write(const CircleTables&, ByteWriter&) {}
+void write(const StreakTables& tables, ByteWriter& writer) {
+    write_streak(tables.streak, writer);
+    if (tables.rest) write_arc_table(*tables.rest, writer);
+}
 
 /// The material's own limits are those of shaders and textures, so that a table must be what it asks for.
 void require_as_asked(const ByteReader& reader, bool is_so) {
@@ -96,6 +106,11 @@ BakedTables read(ByteReader& reader, const PlanarSettings& settings) {
 }
 BakedTables read(ByteReader&, const CircleSettings& settings) {
     return CircleTables{settings.size};
+}
+BakedTables read(ByteReader& reader, const StreakSurfaceSettings& settings) {
+    StreakTables tables{.streak = read_streak(reader), .taps = settings.taps};
+    if (settings.rest) tables.rest = read_as_asked(reader, *settings.rest);
+    return tables;
 }
 
 }  // namespace

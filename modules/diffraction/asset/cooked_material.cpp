@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <iterator>
+#include <map>
+#include <string>
 #include <utility>
 
 #include "engine/asset/container.h"
@@ -17,6 +19,61 @@
 
 namespace rowland::diffraction {
 
+namespace {
+
+/// Files that a material names, by their names.
+using NamedTexts = std::map<std::string, std::string>;
+
+/// More than a material can name.
+constexpr std::uint32_t kMostNamedTexts = 16;
+
+NamedTexts named_texts(const nlohmann::json& json, const Material& material) {
+    NamedTexts texts;
+    if (const auto* efficiencies = std::get_if<EfficiencyTable>(&material.grating.profile))
+        texts[json["grating"]["profile"]["file"].get<std::string>()] = write_efficiency_csv(*efficiencies);
+    const colour::Illuminant& illuminant = material.quality.illuminant;
+    if (illuminant.name.ends_with(".csv")) texts[illuminant.name] = write_illuminant_csv(illuminant);
+    return texts;
+}
+
+void write_named(const NamedTexts& texts, ByteWriter& writer) {
+    writer.value(static_cast<std::uint32_t>(texts.size()));
+    for (const auto& [name, text] : texts) {
+        writer.text(name);
+        writer.text(text);
+    }
+}
+
+NamedTexts read_named(ByteReader& reader) {
+    const auto count = reader.value<std::uint32_t>();
+    if (count > kMostNamedTexts)
+        reader.fail(fmt::format("{} files", count), fmt::format("at most {}", kMostNamedTexts));
+    NamedTexts texts;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        std::string name = reader.text();
+        texts[std::move(name)] = reader.text();
+    }
+    return texts;
+}
+
+ReadNamed read_among(NamedTexts texts, const std::string& file) {
+    return [texts = std::move(texts), file](const std::string& name) {
+        const auto found = texts.find(name);
+        if (found == texts.end())
+            refuse_input(file, name, "nothing", "the file that the material names", "cook the material again");
+        return NamedText{.text = found->second, .file = fmt::format("{}: {}", file, name)};
+    };
+}
+
+}  // namespace
+
+void require_baked_grooves(const Grating& grating, const std::string& file) {
+    if (grating.grooves < kManyGrooves)
+        refuse_input(file, "/grating/grooves", fmt::format("{}", grating.grooves),
+                     fmt::format("at least {} for a baked material", kManyGrooves),
+                     "only rowland-trade's method \"reference\" takes fewer");
+}
+
 CookedMaterial bake_material(const Material& material) {
     const ColourKernel kernel(material.grating, colour::LightSpectra(material.quality.illuminant));
     return {.material = material,
@@ -27,10 +84,7 @@ CookedMaterial bake_material(const Material& material) {
 
 CookedMaterial cook_material(const nlohmann::json& json, const std::string& file, const ReadNamed& read) {
     const Material material = parse_material(json, file, read);
-    if (material.grating.grooves < kManyGrooves)
-        refuse_input(file, "/grating/grooves", fmt::format("{}", material.grating.grooves),
-                     fmt::format("at least {} for a baked material", kManyGrooves),
-                     "only rowland-trade's method \"reference\" takes fewer");
+    require_baked_grooves(material.grating, file);
     return bake_material(material);
 }
 
@@ -41,12 +95,12 @@ CookedMaterial cook_material(const nlohmann::json& json, const std::string& file
 std::vector<std::byte> write_cooked_material(const nlohmann::json& json, const CookedMaterial& cooked) {
     ByteWriter writer;
     writer.text(json.dump());
-    const auto* efficiencies = std::get_if<EfficiencyTable>(&cooked.material.grating.profile);
-    writer.text(efficiencies ? write_efficiency_csv(*efficiencies) : std::string());
+    write_named(named_texts(json, cooked.material), writer);
     write_kernel(cooked.kernel, writer);
     const glm::mat3 zero_order(cooked.zero_order_xyz);
     write_matrices({&zero_order, 1}, writer);
     write_tables(cooked.tables, writer);
+    writer.text(cooked.measured ? write_budget_record(*cooked.measured) : std::string());
     return writer.take();
 }
 
@@ -54,13 +108,11 @@ CookedMaterial read_cooked_material(std::span<const std::byte> payload, const st
     ByteReader reader(payload, file);
     CookedMaterial cooked;
     const nlohmann::json json = parse_json(reader.text(), file);
-    const std::string efficiencies = reader.text();
-    cooked.material = parse_material(json, file, [&](const std::string& name) {
-        return NamedText{.text = efficiencies, .file = fmt::format("{}: {}", file, name)};
-    });
+    cooked.material = parse_material(json, file, read_among(read_named(reader), file));
     cooked.kernel = read_kernel(reader);
     cooked.zero_order_xyz = glm::dmat3(read_matrices(reader, "zero order", 1, 1)[0]);
     cooked.tables = read_tables(reader, representation(cooked.material));
+    if (const std::string record = reader.text(); !record.empty()) cooked.measured = parse_budget_record(record, file);
     if (reader.remaining() != 0) reader.fail(fmt::format("{} bytes too many", reader.remaining()), "the end");
     return cooked;
 }
@@ -117,6 +169,10 @@ void add_tables(const PlanarTables& tables, Lines& lines) {
 void add_tables(const CircleTables& tables, Lines& lines) {
     lines.add("map", fmt::format("{0} x {0} x {1}, {2} terms", tables.size.side, tables.size.views, tables.size.terms));
 }
+void add_tables(const StreakTables& tables, Lines& lines) {
+    lines.add("streak", fmt::format("{} nodes, {} taps", tables.streak.nodes.size(), tables.taps));
+    if (tables.rest) add_tables(*tables.rest, lines);
+}
 
 void add_cost(const ShadingCost& cost, Lines& lines) {
     lines.add("table_bytes", cost.table_bytes);
@@ -125,6 +181,16 @@ void add_cost(const ShadingCost& cost, Lines& lines) {
     lines.add("fetches_per_pixel", cost.fetches_per_pixel);
     lines.add("multiply_adds_per_pixel", cost.multiply_adds_per_pixel);
     lines.add("fetches_per_pixel_and_light", cost.fetches_per_light);
+    lines.add("multiply_adds_per_pixel_and_light", cost.multiply_adds_per_light);
+}
+
+void add_record(const BudgetRecord& record, Lines& lines) {
+    lines.add("max_error", record.max_error);
+    lines.add("measured_on", fmt::format("{} surface, {} frames", surface_shape_name(record.surface), record.frames));
+    for (const BudgetRecord::OfProbe& probe : record.probes)
+        lines.add("measured_error",
+                  fmt::format("{:.5f} under {} with {} key lights", probe.error, probe.probe, probe.key_lights));
+    lines.add("price", fmt::format("{:.4g} fetches a pixel", record.price));
 }
 
 }  // namespace
@@ -140,6 +206,7 @@ std::string describe(const CookedMaterial& cooked) {
     lines.add("key_lights", cooked.material.quality.key_lights);
     std::visit([&](const auto& tables) { add_tables(tables, lines); }, cooked.tables);
     add_cost(shading_cost(cooked.tables), lines);
+    if (cooked.measured) add_record(*cooked.measured, lines);
     lines.add("zero_order_luminance", fmt::format("{:.4f}", weights.mirror.y));
     lines.add("base_luminance", fmt::format("{:.4f}", weights.base.y));
     return lines.take();

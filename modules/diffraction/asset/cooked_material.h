@@ -4,10 +4,12 @@
 #include <filesystem>
 #include <glm/mat3x3.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "modules/diffraction/asset/budget_record.h"
 #include "modules/diffraction/asset/material.h"
 #include "modules/diffraction/asset/material_json.h"
 #include "modules/diffraction/asset/representation.h"
@@ -16,26 +18,31 @@
 namespace rowland::diffraction {
 
 inline constexpr const char* kMaterialAssetType = "material";
-inline constexpr std::uint32_t kMaterialAssetVersion = 3;
+inline constexpr std::uint32_t kMaterialAssetVersion = 4;
 
 /// A material with what was baked for it.
 struct CookedMaterial {
     Material material;
     BakedTables tables;
-    KernelTable kernel;              ///< for lights of their own, and for maps that are filled at run time
-    glm::dmat3 zero_order_xyz{0.0};  ///< ColourKernel::zero_order_xyz()
+    KernelTable kernel;                      ///< for lights of their own, and for maps that are filled at run time
+    glm::dmat3 zero_order_xyz{0.0};          ///< ColourKernel::zero_order_xyz()
+    std::optional<BudgetRecord> measured{};  ///< where the representation was chosen for an error
 };
+
+/// Throws Error (input) naming `file` for fewer grooves than baked materials have.
+void require_baked_grooves(const Grating& grating, const std::string& file);
 
 /// Bakes the material's representation. Throws Error (input) if the grating does not suit it.
 CookedMaterial bake_material(const Material& material);
 
-/// Parses `json` and bakes what it asks for. Files that it names are read by `read`, or beside `file`. Throws Error
-/// (input) naming `file`.
+/// Parses `json` and bakes what it pins, whatever its max_error (choose_representation() looks after that). Files that
+/// it names are read by `read`, or beside `file`. Throws Error (input) naming `file`.
 CookedMaterial cook_material(const nlohmann::json& json, const std::string& file, const ReadNamed& read);
 CookedMaterial cook_material(const nlohmann::json& json, const std::string& file);
 
-/// The payload of a cooked material: the source as compact JSON, the efficiencies of a `table` profile as CSV (else no
-/// text), the kernel, the representation's number and its tables. It needs no other file.
+/// The payload of a cooked material: the source as compact JSON, with what was chosen for it pinned, the CSV files that
+/// it names, the kernel, the representation's number and its tables, and the record of the choice (else no text). It
+/// needs no other file.
 std::vector<std::byte> write_cooked_material(const nlohmann::json& json, const CookedMaterial& cooked);
 
 /// Inverse of write_cooked_material for bytes that may be hostile. Throws Error (input).

@@ -1,6 +1,7 @@
 #include "modules/diffraction/asset/gltf_extension.h"
 
 #include <limits>
+#include <vector>
 
 #include "engine/core/json_reader.h"
 #include "modules/diffraction/asset/material_json.h"
@@ -16,10 +17,32 @@ void pass_over_foreign_members(JsonReader& json) {
     json.has("extensions");
 }
 
+constexpr std::int64_t kLargestIndex = std::numeric_limits<std::int32_t>::max();
+constexpr NumberRange kFloat{.minimum = std::numeric_limits<float>::lowest(),
+                             .maximum = std::numeric_limits<float>::max()};
+
+void parse_transform(JsonReader json, GrooveTexture& texture) {
+    const auto pair = [&](const char* key, glm::dvec2& value) {
+        if (!json.has(key)) return;
+        const std::vector<double> numbers = json.numbers(key, 2, kFloat);
+        value = {numbers[0], numbers[1]};
+    };
+    pair("offset", texture.offset);
+    pair("scale", texture.scale);
+    texture.rotation = json.number_or("rotation", texture.rotation, kFloat);
+    texture.tex_coord = static_cast<int>(json.integer_or("texCoord", texture.tex_coord, 0, kLargestIndex));
+    pass_over_foreign_members(json);
+    json.finish();
+}
+
 GrooveTexture parse_groove_texture(JsonReader json) {
-    constexpr std::int64_t largest = std::numeric_limits<std::int32_t>::max();
-    const GrooveTexture texture{.index = static_cast<int>(json.integer("index", 0, largest)),
-                                .tex_coord = static_cast<int>(json.integer_or("texCoord", 0, 0, largest))};
+    GrooveTexture texture{.index = static_cast<int>(json.integer("index", 0, kLargestIndex)),
+                          .tex_coord = static_cast<int>(json.integer_or("texCoord", 0, 0, kLargestIndex))};
+    if (json.has("extensions")) {
+        JsonReader extensions = json.object("extensions");
+        if (extensions.has("KHR_texture_transform"))
+            parse_transform(extensions.object("KHR_texture_transform"), texture);
+    }
     pass_over_foreign_members(json);
     json.finish();
     return texture;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <glm/vec2.hpp>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -16,7 +17,11 @@ inline constexpr const char* kGltfExtension = "ROWLAND_materials_diffraction";
 /// G: pitch / pitch_nm / 2.
 struct GrooveTexture {
     int index = 0;      ///< into the glTF's textures, ≥ 0
-    int tex_coord = 0;  ///< set of texture coordinates, ≥ 0
+    int tex_coord = 0;  ///< set of texture coordinates, ≥ 0; KHR_texture_transform's, if it has one
+    /// KHR_texture_transform: uv' = offset + rotate(rotation) · (scale · uv); rotation in radians.
+    glm::dvec2 offset{0.0};
+    double rotation = 0.0;
+    glm::dvec2 scale{1.0};
 };
 
 /// A material's ROWLAND_materials_diffraction object.

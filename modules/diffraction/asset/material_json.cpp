@@ -168,7 +168,7 @@ Material parse_material_parts(JsonReader& reader, const ReadNamed& read) {
         material.grating.metal = parse_metal(reader.choice("metal", {"Al", "Ag", "Au", "Cu"}));
     }
     if (reader.has("base")) material.base = parse_base(reader.object("base"));
-    if (reader.has("quality")) material.quality = parse_quality(reader.object("quality"), material.grating);
+    if (reader.has("quality")) material.quality = parse_quality(reader.object("quality"), material.grating, read);
     return material;
 }
 

@@ -12,7 +12,8 @@ namespace rowland::diffraction {
 namespace {
 
 constexpr int kMostBands = 16;
-constexpr int kMostArcRank = 16;   ///< three varyings for every four
+constexpr int kMostArcRank = 16;  ///< three varyings for every four
+constexpr std::size_t kMostProbes = 16;
 constexpr int kMostLayers = 2048;  ///< of a texture array, on any device with OpenGL 4.5
 
 int count(JsonReader& json, const std::string& key, int fallback, int minimum, int maximum) {
@@ -118,7 +119,7 @@ ArcSettings parse_arc(JsonReader& json, const Grating& grating) {
 void require_flat(JsonReader& json, const std::string& name, const Grating& grating) {
     if (is_flat(grating.lobe)) return;
     json.fail("representation", "\"" + name + "\" with a groove_lobe that is not flat",
-              "\"spikes\", \"bins\", \"transfer\" or \"arc\"", "or make groove_lobe \"flat\"");
+              "\"spikes\", \"bins\", \"transfer\", \"arc\" or \"streak\"", "or make groove_lobe \"flat\"");
 }
 
 PlanarSettings parse_planar(JsonReader& json, const Grating& grating) {
@@ -138,12 +139,33 @@ CircleSettings parse_circle(JsonReader& json) {
     return settings;
 }
 
+StreakSurfaceSettings parse_streak(JsonReader& json, const Grating& grating) {
+    const auto* pits = std::get_if<PitsLobe>(&grating.lobe);
+    if (is_flat(grating.lobe) || (pits != nullptr && pits->coherent == 0.0))
+        json.fail(
+            "representation",
+            pits ? "\"streak\" with pits that have no coherent share" : "\"streak\" with a groove_lobe that is flat",
+            "a groove_lobe with a sigma, or with pits and a coherent share",
+            "\"arc\", \"transfer\", \"bins\" and \"spikes\" take any lobe");
+    StreakSurfaceSettings settings;
+    settings.streak.nodes_per_order = count(json, "nodes", settings.streak.nodes_per_order, 1, 32);
+    const std::size_t nodes = grating.orders.size() * static_cast<std::size_t>(settings.streak.nodes_per_order);
+    if (nodes > kMostStreakNodes)
+        json.fail("nodes", fmt::format("{} nodes for all orders", nodes), fmt::format("at most {}", kMostStreakNodes),
+                  "take fewer nodes or list fewer orders");
+    settings.taps = count(json, "taps", settings.taps, 1, kMostStreakTaps);
+    ArcSettings rest;
+    rest.bands = parse_bands(json, rest.bands);
+    rest.rank = count(json, "rank", rest.rank, 1, kMostArcRank);
+    const ViewGrid usual = default_transfer_grid(grating.lobe);
+    rest.grid = grid_of(usual.mapping, count(json, "view_resolution", usual.rows, 2, 512));
+    if (incoherent_rest(grating)) settings.rest = rest;
+    return settings;
+}
+
 Representation parse_representation(JsonReader& json, const Grating& grating) {
     const std::string name =
         json.choice("representation", {"spikes", "bins", "transfer", "arc", "direct", "planar", "circle", "streak"});
-    if (name == "streak")
-        json.fail("representation", "\"streak\"", "a representation that surfaces are drawn with",
-                  "rowland-trade evaluates streaks; \"spikes\", \"transfer\" and \"arc\" take any lobe");
     if (name == "planar" || name == "circle") require_flat(json, name, grating);
     if (name == "bins") return parse_bins(json, grating);
     if (name == "transfer") return parse_transfer(json, grating);
@@ -151,6 +173,7 @@ Representation parse_representation(JsonReader& json, const Grating& grating) {
     if (name == "direct") return DirectSettings{};
     if (name == "planar") return parse_planar(json, grating);
     if (name == "circle") return parse_circle(json);
+    if (name == "streak") return parse_streak(json, grating);
     return parse_spikes(json, grating);
 }
 
@@ -161,32 +184,81 @@ bool takes_key_lights(const Representation& representation) {
            !std::holds_alternative<TransferSettings>(representation);
 }
 
-/// Maps and lights of their own are of the probe less its key lights: nothing else would add those.
+/// Lights of their own are all that is shaded, or part of what the streak's pits are.
 bool needs_key_lights(const Representation& representation) {
-    return takes_key_lights(representation) && !std::holds_alternative<ArcSettings>(representation);
+    return std::holds_alternative<DirectSettings>(representation) ||
+           std::holds_alternative<StreakSurfaceSettings>(representation);
 }
 
-/// Built-in names only: a cooked material must not need another file to be read.
-colour::Illuminant parse_illuminant(JsonReader& json) {
+/// Maps shade directional lights on their own even where they hold the key lights.
+bool has_separate_lights(const Quality& quality) {
+    return quality.key_lights || std::holds_alternative<PlanarSettings>(*quality.pinned) ||
+           std::holds_alternative<CircleSettings>(*quality.pinned);
+}
+
+/// A built-in illuminant, or one of a file, called as the material calls it.
+colour::Illuminant parse_illuminant(JsonReader& json, const ReadNamed& read) {
     const std::string name = json.text("illuminant");
     const std::vector<std::string> names = colour::illuminant_names();
-    if (std::find(names.begin(), names.end(), name) == names.end())
-        json.fail("illuminant", fmt::format("\"{:.40}\"", name), fmt::format("one of {}", fmt::join(names, ", ")),
-                  "rowland-trade evaluates under any other");
-    return colour::illuminant(name);
+    if (std::find(names.begin(), names.end(), name) != names.end()) return colour::illuminant(name);
+    if (!name.ends_with(".csv"))
+        json.fail("illuminant", fmt::format("\"{:.40}\"", name),
+                  fmt::format("one of {}, or a .csv file beside the material", fmt::join(names, ", ")));
+    const NamedText file = read(name);
+    colour::Illuminant illuminant = colour::parse_illuminant(file.text, file.file);
+    illuminant.name = name;
+    return illuminant;
+}
+
+MeasuredProbe parse_probe_image(JsonReader json) {
+    MeasuredProbe probe{.file = json.text("image")};
+    probe.mapping = lighting::parse_mapping(json.choice_or("mapping", "equirect", {"equirect", "angular"}));
+    if (probe.file.empty()) json.fail("image", "an empty name", "an .hdr or .exr file");
+    json.finish();
+    return probe;
+}
+
+std::vector<MeasuredProbe> parse_probes(JsonReader& json) {
+    const nlohmann::json& list = json.raw("probes");
+    if (!list.is_array() || list.empty() || list.size() > kMostProbes)
+        json.fail("probes", list.is_array() ? fmt::format("{} probes", list.size()) : "another type",
+                  fmt::format("a list of 1 to {} probes", kMostProbes));
+    std::vector<MeasuredProbe> probes;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const std::string place = fmt::format("probes/{}", i);
+        if (list[i].is_object()) {
+            probes.push_back(parse_probe_image(JsonReader(list[i], json.file(), json.pointer_to(place))));
+        } else if (list[i].is_string() && !list[i].get<std::string>().empty()) {
+            probes.push_back({.file = list[i].get<std::string>()});
+        } else {
+            json.fail(place, list[i].is_string() ? "an empty name" : "another type",
+                      "a probe recipe's name, or { \"image\": \"room.hdr\", \"mapping\": \"equirect\" }");
+        }
+    }
+    return probes;
+}
+
+/// What the error of max_error is measured on, where the cooker chooses the representation.
+void parse_measure(JsonReader& json, Quality& quality) {
+    if (json.has("probes")) quality.probes = parse_probes(json);
+    if (json.choice_or("surface", "flat", {"flat", "curved"}) == "curved") quality.surface = SurfaceShape::Curved;
 }
 
 }  // namespace
 
-Quality parse_quality(JsonReader json, const Grating& grating) {
+Quality parse_quality(JsonReader json, const Grating& grating, const ReadNamed& read) {
     Quality quality;
     quality.max_error = json.number_or("max_error", quality.max_error, {.minimum = 0.0, .minimum_open = true});
-    if (json.has("illuminant")) quality.illuminant = parse_illuminant(json);
+    if (json.has("illuminant")) quality.illuminant = parse_illuminant(json, read);
     if (json.has("representation")) {
         quality.pinned = parse_representation(json, grating);
         quality.key_lights = json.boolean_or("key_lights", takes_key_lights(*quality.pinned));
         if (!quality.key_lights && needs_key_lights(*quality.pinned))
             json.fail("key_lights", "false", "true with this representation", "or leave it out");
+        if (has_separate_lights(quality))
+            quality.lights_at_vertices = json.choice_or("lights_at", "pixels", {"pixels", "vertices"}) == "vertices";
+    } else {
+        parse_measure(json, quality);
     }
     json.finish();
     return quality;

@@ -7,6 +7,8 @@ namespace rowland::diffraction {
 namespace {
 
 constexpr int kFetchesPerLight = 9;  ///< three parts of a lobe, three columns of the kernel's matrix
+/// Counted in light_spot.glsl and kernel.glsl: 30 for the lobe, 45 for each of its parts.
+constexpr int kMultiplyAddsPerLight = 165;
 constexpr std::size_t kHalfTexel = 8;
 
 int squared(int n) {
@@ -58,6 +60,17 @@ ShadingCost cost_of(const CircleTables& tables) {
                            static_cast<std::size_t>(tables.size.terms) * kHalfTexel};
 }
 
+ShadingCost cost_of(const StreakTables& tables) {
+    constexpr std::size_t kNodeBytes = 64;
+    const int taps = most_seen_nodes(tables.streak) * tables.taps;
+    ShadingCost cost = tables.rest ? cost_of(*tables.rest) : ShadingCost{};
+    cost.fetches_per_pixel += kStreakFilterTaps * taps;
+    cost.multiply_adds_per_pixel +=
+        taps * (40 + 6 * kStreakFilterTaps) + 12 * static_cast<int>(tables.streak.nodes.size());
+    cost.table_bytes += tables.streak.nodes.size() * kNodeBytes;
+    return cost;
+}
+
 void set(SpikeTableSettings& settings, const colour::Illuminant& illuminant) {
     settings.spikes.illuminant = illuminant;
 }
@@ -73,6 +86,10 @@ void set(ArcSettings& settings, const colour::Illuminant& illuminant) {
 void set(PlanarSettings& settings, const colour::Illuminant& illuminant) {
     settings.stand_in.illuminant = illuminant;
 }
+void set(StreakSurfaceSettings& settings, const colour::Illuminant& illuminant) {
+    settings.streak.illuminant = illuminant;
+    if (settings.rest) settings.rest->illuminant = illuminant;
+}
 void set(DirectSettings&, const colour::Illuminant&) {}
 void set(CircleSettings&, const colour::Illuminant&) {}
 
@@ -83,14 +100,15 @@ void set_illuminant(Representation& representation, const colour::Illuminant& il
 }
 
 const char* representation_name(std::size_t index) {
-    constexpr std::array<const char*, std::variant_size_v<Representation>> kNames{"spikes", "bins",   "transfer", "arc",
-                                                                                  "direct", "planar", "circle"};
+    constexpr std::array<const char*, std::variant_size_v<Representation>> kNames{
+        "spikes", "bins", "transfer", "arc", "direct", "planar", "circle", "streak"};
     return kNames.at(index);
 }
 
 ShadingCost shading_cost(const BakedTables& tables) {
     ShadingCost cost = std::visit([](const auto& table) { return cost_of(table); }, tables);
     cost.fetches_per_light = kFetchesPerLight;
+    cost.multiply_adds_per_light = kMultiplyAddsPerLight;
     return cost;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <variant>
 
 #include "modules/diffraction/bake/arc_table.h"
@@ -8,6 +9,7 @@
 #include "modules/diffraction/bake/circle_map.h"
 #include "modules/diffraction/bake/planar_map.h"
 #include "modules/diffraction/bake/spike_table.h"
+#include "modules/diffraction/bake/streak.h"
 #include "modules/diffraction/bake/transfer_table.h"
 
 namespace rowland::diffraction {
@@ -27,10 +29,20 @@ struct CircleSettings {
     CircleMapSize size;
 };
 
+/// Narrow lobes mirror the whole probe along the grooves; what they leave of Stam's pits is an arc table's.
+struct StreakSurfaceSettings {
+    StreakSettings streak;
+    int taps = 3;                       ///< places across the lobe, 1 to kMostStreakTaps
+    std::optional<ArcSettings> rest{};  ///< where incoherent_rest() is something
+};
+inline constexpr int kMostStreakTaps = 9;
+/// The most places along a tap's longer side that are read.
+inline constexpr int kStreakFilterTaps = 2;
+
 /// How a material is shaded (PHYSICS §6), with what it costs and what it loses. The order is that of BakedTables and of
 /// the numbers in cooked files.
 using Representation = std::variant<SpikeTableSettings, BinSettings, TransferSettings, ArcSettings, DirectSettings,
-                                    PlanarSettings, CircleSettings>;
+                                    PlanarSettings, CircleSettings, StreakSurfaceSettings>;
 
 /// Sets the spectrum of the light's white in all settings that know one.
 void set_illuminant(Representation& representation, const colour::Illuminant& illuminant);
@@ -47,8 +59,14 @@ struct CircleTables {
     CircleMapSize size;
 };
 
+struct StreakTables {
+    Streak streak;
+    int taps = 3;
+    std::optional<ArcTable> rest{};  ///< to be weighed with 1 − streak.share
+};
+
 using BakedTables =
-    std::variant<SpikeTable, BinTable, TransferTable, ArcTable, DirectTables, PlanarTables, CircleTables>;
+    std::variant<SpikeTable, BinTable, TransferTable, ArcTable, DirectTables, PlanarTables, CircleTables, StreakTables>;
 static_assert(std::variant_size_v<Representation> == std::variant_size_v<BakedTables>);
 
 /// "spikes", "bins", …: the name in material files of a Representation's or BakedTables' index().
@@ -61,6 +79,7 @@ struct ShadingCost {
     int fetches_per_pixel = 0;        ///< without lights of their own
     int multiply_adds_per_pixel = 0;  ///< likewise
     int fetches_per_light = 0;        ///< per pixel and light that is shaded on its own
+    int multiply_adds_per_light = 0;  ///< likewise
     std::size_t table_bytes = 0;      ///< as uploaded; maps that are filled at run time are counted full
 };
 

@@ -178,7 +178,7 @@ std::size_t CircleMap::index(int chart, int term, int view, int row, int column)
 }
 
 CircleMap fill_circle_map(const lighting::LightTexels& texels, const KernelTable& kernel, double pitch_nm,
-                          const CircleMapSize& size, const glm::dmat3& zero_order_xyz) {
+                          const CircleMapSize& size, const glm::dmat3& zero_order_xyz, const std::stop_token& stop) {
     ROWLAND_CHECK_OP(size.side, >=, 8);
     ROWLAND_CHECK_OP(size.views, >=, 8);
     ROWLAND_CHECK(size.terms == 7 || size.terms == 9, "a circle map has 7 or 9 terms");
@@ -189,6 +189,7 @@ CircleMap fill_circle_map(const lighting::LightTexels& texels, const KernelTable
     const KernelCells cells(kernel, pitch_nm, size.views, zero_order_xyz);
     const auto side = static_cast<std::size_t>(size.side);
     parallel_for(static_cast<std::size_t>(map.charts) * side * side, [&](std::size_t i) {
+        if (stop.stop_requested()) return;
         const int chart = static_cast<int>(i / (side * side));
         const int row = static_cast<int>(i / side % side);
         const int column = static_cast<int>(i % side);
@@ -197,6 +198,7 @@ CircleMap fill_circle_map(const lighting::LightTexels& texels, const KernelTable
         else
             fill_column<12>(lights, cells, chart, row, column, map);
     });
+    if (stop.stop_requested()) return map;
     const auto slices = static_cast<std::size_t>(map.terms) * static_cast<std::size_t>(map.views);
     parallel_for(static_cast<std::size_t>(map.charts) * slices, [&](std::size_t i) {
         const auto in_chart = static_cast<int>(i % slices);

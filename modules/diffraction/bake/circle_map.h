@@ -4,6 +4,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <stop_token>
 #include <vector>
 
 #include "engine/lighting/light_texels.h"
@@ -44,9 +45,10 @@ struct CircleMapSize {
 };
 
 /// Fills the map from texels (key lights taken out, which `direct` adds). Uses all cores; the result does not depend on
-/// them. `zero_order_xyz`: as of ColourKernel.
+/// them. `zero_order_xyz`: as of ColourKernel. Once it is stopped it returns soon, with a map that is not to be used.
 CircleMap fill_circle_map(const lighting::LightTexels& texels, const KernelTable& kernel, double pitch_nm,
-                          const CircleMapSize& size = {}, const glm::dmat3& zero_order_xyz = glm::dmat3(0.0));
+                          const CircleMapSize& size = {}, const glm::dmat3& zero_order_xyz = glm::dmat3(0.0),
+                          const std::stop_token& stop = {});
 
 /// XYZ of a frame as texture units interpolate (GL_LINEAR in all three); black for a view below the horizon.
 glm::dvec3 sample(const CircleMap& map, const Frame& frame);

@@ -9,13 +9,6 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// Two levels mixed of bilinear look-ups in box-filtered texels blur by a standard deviation of half a texel, an even
-/// piece of a length by 1/√12 of it: texels so wide blur as the piece.
-constexpr double kTexelsPerWidth = 0.57735026918962576451;
-
-/// Mean side of a texel of a face with one texel, in radians: √(4π/6).
-constexpr double kFaceAngle = 1.44720250911653531871;
-
 /// The two axes of the ellipse that a parallelogram has the second moments of, longer first, as full widths.
 struct Ellipse {
     glm::dvec3 major{0.0};
@@ -48,6 +41,10 @@ CubePyramid::CubePyramid(const lighting::EnvironmentMap& map) : layout_(map.layo
                     texels_[layout_.index(level, face, column, row)] =
                         0.25F * (finer(0, 0) + finer(1, 0) + finer(0, 1) + finer(1, 1));
                 }
+}
+
+std::span<const glm::vec3> CubePyramid::level(int level) const {
+    return std::span(texels_).subspan(layout_.offset(level), layout_.offset(level + 1) - layout_.offset(level));
 }
 
 glm::dvec3 CubePyramid::texel(int level, int face, int column, int row) const {
@@ -88,7 +85,7 @@ glm::dvec3 CubePyramid::at_level(const glm::dvec3& direction, double level) cons
 glm::dvec3 CubePyramid::filtered(const glm::dvec3& direction, const glm::dvec3& a, const glm::dvec3& b,
                                  int most_taps) const {
     const Ellipse ellipse = ellipse_of(a, b);
-    const double texel_angle = kFaceAngle / layout_.face_size;
+    const double texel_angle = kCubeFaceAngle / layout_.face_size;
     // Texels of level 0 are the finest there is to tell apart.
     const double minor = std::max(ellipse.minor_length, texel_angle / kTexelsPerWidth);
     const int taps = std::clamp(static_cast<int>(std::ceil(ellipse.major_length / minor - 0.5)), 1, most_taps);

@@ -2,14 +2,22 @@
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "engine/lighting/environment_map.h"
 
 namespace rowland::diffraction {
 
-/// A light probe as a cube map with plain levels, each the mean of four texels of the one before: what
-/// glGenerateTextureMipmap() makes of the prefiltered map's level 0, read as a shader reads it.
+/// Two levels mixed of bilinear look-ups in box-filtered texels blur by a standard deviation of half a texel, an even
+/// piece of a length by 1/√12 of it: texels so wide blur as the piece.
+inline constexpr double kTexelsPerWidth = 0.57735026918962576451;
+
+/// Mean side of a texel of a face with one texel, in radians: √(4π/6).
+inline constexpr double kCubeFaceAngle = 1.44720250911653531871;
+
+/// A light probe as a cube map with plain levels, each the mean of four texels of the one before, read as a shader
+/// reads it.
 class CubePyramid {
  public:
     /// From level 0 of `map`.
@@ -23,6 +31,8 @@ class CubePyramid {
     glm::dvec3 filtered(const glm::dvec3& direction, const glm::dvec3& a, const glm::dvec3& b, int most_taps) const;
 
     const lighting::CubeLayout& layout() const { return layout_; }
+    /// A level's texels: faces, rows, columns.
+    std::span<const glm::vec3> level(int level) const;
 
  private:
     glm::dvec3 bilinear(int level, const glm::dvec3& direction) const;

@@ -24,11 +24,6 @@ namespace {
 /// The taps cover so many σ on either side; what is beyond, 4 % of the power, goes to the outer ones.
 constexpr double kTapReach = 2.05;
 
-/// Directions nearer to the horizon are filtered as if they were so far above it: footprints grow as 1/s_n.
-constexpr double kLowestHeight = 0.02;
-
-constexpr int kMaximumNodes = 1 << 16;
-
 /// What one order does to light at every nanometre.
 struct OrderSpectrum {
     int order = 0;
@@ -159,7 +154,7 @@ glm::dvec3 evaluate(const Streak& streak, const FilteredRadiance& radiance, cons
             const Piece along = cut(streak.sigma * tap.offset - view.y, streak.sigma * tap.width, r);
             if (along.share == 0.0) continue;
             const double height = std::sqrt(std::max(r * r - along.middle * along.middle, 0.0));
-            const double slope = 1.0 / std::max(height, kLowestHeight);
+            const double slope = 1.0 / std::max(height, kLowestStreakHeight);
             sum += tap.share * along.share *
                    radiance({across.middle, along.middle, height},
                             across.length * glm::dvec3(1.0, 0.0, -across.middle * slope),
@@ -168,6 +163,20 @@ glm::dvec3 evaluate(const Streak& streak, const FilteredRadiance& radiance, cons
         xyz += across.share * (glm::dmat3(node.weight) * sum);
     }
     return streak.share / std::erf(1.0 / (streak.sigma * std::numbers::sqrt2)) * xyz;
+}
+
+int most_seen_nodes(const Streak& streak) {
+    std::size_t most = 0;
+    // A node is seen from its x/d − 1 on: the most are where one comes into sight.
+    for (const StreakNode& first : streak.nodes) {
+        const double from = static_cast<double>(first.path_nm) / streak.pitch_nm;
+        most = std::max(most, static_cast<std::size_t>(
+                                  std::count_if(streak.nodes.begin(), streak.nodes.end(), [&](const StreakNode& node) {
+                                      const double x = static_cast<double>(node.path_nm) / streak.pitch_nm;
+                                      return x >= from && x <= from + 2.0;
+                                  })));
+    }
+    return static_cast<int>(most);
 }
 
 namespace {
@@ -204,8 +213,8 @@ Streak read_streak(ByteReader& reader) {
         reader.fail(fmt::format("pitch {}, sigma {}, share {}", streak.pitch_nm, streak.sigma, streak.share),
                     "a pitch and a sigma above 0, a share of 0 to 1");
     const auto nodes = reader.array<StoredNode>();
-    if (nodes.size() > kMaximumNodes)
-        reader.fail(fmt::format("{} nodes", nodes.size()), fmt::format("at most {}", kMaximumNodes));
+    if (nodes.size() > kMostStreakNodes)
+        reader.fail(fmt::format("{} nodes", nodes.size()), fmt::format("at most {}", kMostStreakNodes));
     for (const StoredNode& stored : nodes) {
         StreakNode node{stored.path_nm, stored.width_nm, stored.wavelength_nm, {}};
         bool finite = std::isfinite(node.path_nm) && std::isfinite(node.wavelength_nm) &&

@@ -29,6 +29,9 @@ struct Streak {
     std::vector<StreakNode> nodes;
 };
 
+/// Every pixel goes through all nodes.
+inline constexpr int kMostStreakNodes = 1024;
+
 struct StreakSettings {
     int nodes_per_order = 8;  ///< ≥ 1; with 5 taps .4 % under Venice sunset, 3 % under Grace (a lobe of .05, measured)
     colour::Illuminant illuminant = colour::d65();
@@ -50,6 +53,9 @@ struct LobeTap {
 };
 std::vector<LobeTap> lobe_taps(int count);
 
+/// Directions nearer to the horizon are filtered as if they were so far above it: footprints grow as 1/s_n.
+inline constexpr double kLowestStreakHeight = 0.02;
+
 /// Mean radiance (linear RGB) over the parallelogram that two vectors span about a direction, as textureGrad() filters.
 /// Directions in the tangent frame (g, h, n).
 using FilteredRadiance =
@@ -59,8 +65,11 @@ using FilteredRadiance =
 /// What of them or of the piece is below the horizon is dark; 0 for v_n ≤ 0.
 glm::dvec3 evaluate(const Streak& streak, const FilteredRadiance& radiance, const glm::dvec3& view, int taps = 5);
 
+/// The most nodes that a view sees at once: no more are read for a pixel.
+int most_seen_nodes(const Streak& streak);
+
 void write_streak(const Streak& streak, ByteWriter& writer);
-/// Throws Error (input) if the bytes are not such a streak.
+/// Throws Error (input) if the bytes are not such a streak, or one of more than kMostStreakNodes.
 Streak read_streak(ByteReader& reader);
 
 }  // namespace rowland::diffraction

@@ -39,16 +39,20 @@ lighting::LightTexels texels_of(const lighting::ShLight& light) {
 
 }  // namespace
 
-EvaluationLight::EvaluationLight(lighting::ProbeImage probe, int key_lights, math::SphericalWindow window)
-    : probe_(std::move(probe)), key_lights_(lighting::fit_key_lights(*probe_, key_lights)), window_(window) {}
+EvaluationLight::EvaluationLight(lighting::ProbeImage probe, int key_lights, math::SphericalWindow window,
+                                 lighting::ShLight projected)
+    : probe_(std::move(probe)),
+      sh_(std::move(projected)),
+      key_lights_(lighting::fit_key_lights(*probe_, key_lights)),
+      window_(window) {}
 
 EvaluationLight::EvaluationLight(lighting::ShLight light, math::SphericalWindow window)
     : sh_(std::move(light)), window_(window) {}
 
 lighting::ShLight EvaluationLight::harmonics(int bands) const {
     if (!probe_) return lighting::limit_bands(sh_, std::min(bands, sh_.bands), window_);
-    return lighting::limit_bands(lighting::residual(lighting::project(*probe_, bands), key_lights_, bands), bands,
-                                 window_);
+    const lighting::ShLight whole = bands <= sh_.bands ? sh_ : lighting::project(*probe_, bands);
+    return lighting::limit_bands(lighting::residual(whole, key_lights_, bands), bands, window_);
 }
 
 lighting::LightTexels EvaluationLight::texels() const {

@@ -15,8 +15,9 @@ namespace rowland::diffraction {
 /// The light of an evaluation in the forms that the representations take: key lights, and what they leave.
 class EvaluationLight {
  public:
-    /// A probe with up to so many key lights taken out of it.
-    EvaluationLight(lighting::ProbeImage probe, int key_lights, math::SphericalWindow window);
+    /// A probe with up to so many key lights taken out of it. `projected`: the probe's SH, where somebody has them.
+    EvaluationLight(lighting::ProbeImage probe, int key_lights, math::SphericalWindow window,
+                    lighting::ShLight projected = {});
     /// Band-limited light, which has no bright parts to take out.
     EvaluationLight(lighting::ShLight light, math::SphericalWindow window);
 
@@ -30,7 +31,7 @@ class EvaluationLight {
 
  private:
     std::optional<lighting::ProbeImage> probe_;
-    lighting::ShLight sh_;  ///< used without a probe
+    lighting::ShLight sh_;  ///< without a probe the light itself
     std::vector<lighting::KeyLight> key_lights_;
     math::SphericalWindow window_;
 };

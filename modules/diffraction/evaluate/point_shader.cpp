@@ -85,10 +85,53 @@ PointShader shader_of(const CircleTables& tables, const CookedMaterial& cooked, 
                                   cooked.zero_order_xyz)](const Frame& frame) { return sample(map, frame); };
 }
 
-DirectMaterial direct_material(const CookedMaterial& cooked) {
-    return {.pitch_nm = cooked.material.grating.pitch_nm,
-            .zero_order_xyz = cooked.zero_order_xyz,
-            .lobe = cooked.material.grating.lobe};
+/// What is thrown where a streak is asked for without a probe.
+Error needs_a_probe() {
+    return Error({.file = "--probe-sh",
+                  .place = {},
+                  .found = "band-limited light",
+                  .expected = "a probe for streaks",
+                  .remedy = "give --probe"});
+}
+
+PointShader shader_of(const StreakTables& tables, const CookedMaterial&, const EvaluationLight& light) {
+    if (!light.probe()) throw needs_a_probe();
+    PointShader rest = [](const Frame&) { return glm::dvec3(0.0); };
+    if (tables.rest)
+        rest = in_tangent_frame(light.harmonics(tables.rest->bands),
+                                [table = *tables.rest](const lighting::ShLight& rotated, const glm::dvec3& view) {
+                                    return evaluate(table, rotated, view);
+                                });
+    return [pyramid = std::make_shared<const CubePyramid>(lighting::prefilter(*light.probe())), &tables,
+            rest](const Frame& frame) {
+        const glm::dmat3 tangent = world_to_tangent(frame);
+        const glm::dmat3 to_world = glm::transpose(tangent);
+        const auto radiance = [&](const glm::dvec3& direction, const glm::dvec3& a, const glm::dvec3& b) {
+            return pyramid->filtered(to_world * direction, to_world * a, to_world * b, kStreakFilterTaps);
+        };
+        const glm::dvec3 view = tangent * glm::normalize(frame.view);
+        return evaluate(tables.streak, radiance, view, tables.taps) + (1.0 - tables.streak.share) * rest(frame);
+    };
+}
+
+/// Key lights, and what shades them one by one.
+struct DirectPart {
+    DirectMaterial material;
+    std::vector<lighting::KeyLight> keys;
+};
+
+/// Streaks show the whole probe: key lights are for the rest of the lobe alone.
+DirectPart direct_part(const CookedMaterial& cooked, const EvaluationLight& light) {
+    const Grating& grating = cooked.material.grating;
+    DirectPart part{
+        .material = {.pitch_nm = grating.pitch_nm, .zero_order_xyz = cooked.zero_order_xyz, .lobe = grating.lobe},
+        .keys = {light.key_lights().begin(), light.key_lights().end()}};
+    const auto* tables = std::get_if<StreakTables>(&cooked.tables);
+    if (tables == nullptr) return part;
+    if (!tables->rest) part.keys.clear();
+    if (const auto rest = incoherent_rest(grating)) part.material.lobe = rest->lobe;
+    for (lighting::KeyLight& key : part.keys) key.flux *= 1.0 - tables->streak.share;
+    return part;
 }
 
 }  // namespace
@@ -96,11 +139,11 @@ DirectMaterial direct_material(const CookedMaterial& cooked) {
 std::vector<glm::dvec3> evaluate_points(const std::string& title, const PointShader& shader,
                                         const CookedMaterial& cooked, const EvaluationLight& light,
                                         std::span<const Frame> frames) {
-    const DirectMaterial material = direct_material(cooked);
+    const DirectPart direct = direct_part(cooked, light);
     std::vector<glm::dvec3> result(frames.size());
     Progress progress(title, frames.size());
     parallel_for(frames.size(), [&](std::size_t i) {
-        result[i] = shader(frames[i]) + direct_radiance(cooked.kernel, material, light.key_lights(), frames[i]);
+        result[i] = shader(frames[i]) + direct_radiance(cooked.kernel, direct.material, direct.keys, frames[i]);
         progress.advance();
     });
     return result;
@@ -120,9 +163,9 @@ std::vector<glm::dvec3> evaluate_baked(const CookedMaterial& cooked, const Evalu
         maps[i] = shader(frames[i]);
         progress.advance();
     }
-    const DirectMaterial material = direct_material(cooked);
+    const DirectPart direct = direct_part(cooked, light);
     for (std::size_t i = 0; i < frames.size(); ++i)
-        maps[i] += direct_radiance(cooked.kernel, material, light.key_lights(), frames[i]);
+        maps[i] += direct_radiance(cooked.kernel, direct.material, direct.keys, frames[i]);
     return maps;
 }
 
@@ -136,12 +179,7 @@ PointShader exact_spikes(const Grating& grating, const SpikeSettings& settings, 
 
 PointShader streak(const Grating& grating, const colour::LightSpectra& spectra, int bands,
                    const EvaluationLight& light) {
-    if (!light.probe())
-        throw Error({.file = "--probe-sh",
-                     .place = {},
-                     .found = "band-limited light",
-                     .expected = "a probe for the method streak",
-                     .remedy = "give --probe"});
+    if (!light.probe()) throw needs_a_probe();
     const auto pyramid = std::make_shared<const CubePyramid>(lighting::prefilter(*light.probe()));
     const Streak narrow = make_streak(grating, {.illuminant = spectra.illuminant()});
     PointShader rest = [](const Frame&) { return glm::dvec3(0.0); };

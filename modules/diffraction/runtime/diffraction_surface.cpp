@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "engine/core/error.h"
 #include "engine/core/log.h"
@@ -22,12 +23,13 @@ bool renew(const DiffractionSurface& surface, const render::MeshInstance& instan
            std::uint64_t light_version, SurfaceState& state) {
     const bool same = state.material == surface.material && state.mesh == instance.mesh &&
                       state.orientation == orientation && state.groove_rotation == surface.groove_rotation &&
-                      state.light_version == light_version;
+                      state.grooves == surface.grooves && state.light_version == light_version;
     if (state.material != surface.material) state = {};
     state.material = surface.material;
     state.mesh = instance.mesh;
     state.orientation = orientation;
     state.groove_rotation = surface.groove_rotation;
+    state.grooves = surface.grooves;
     state.light_version = light_version;
     return !same;
 }
@@ -42,17 +44,25 @@ std::string DiffractionSurfaceType::gltf_extension() const {
 }
 
 void DiffractionSurfaceType::attach(ecs::World& world, ecs::Entity entity, const nlohmann::json& extension,
-                                    const std::string& file, const std::string& place) {
+                                    render::SurfaceTextures& textures, const std::string& file,
+                                    const std::string& place) {
     const GltfGrating grating = parse_gltf_extension(extension, file, std::filesystem::path(file).parent_path(), place);
-    if (grating.groove_texture)
-        refuse_input(file, place + "/grooveTexture", "a texture", "no grooveTexture: no representation takes one yet",
-                     "leave it out");
     if (grating.material.grating.grooves < kManyGrooves)
         refuse_input(file, place + "/grating/grooves", fmt::format("{}", grating.material.grating.grooves),
                      fmt::format("at least {} for a surface that is drawn", kManyGrooves));
-    const auto material = baked(grating.material, extension.dump());
-    world.add(entity, DiffractionSurface{material, static_cast<float>(grating.groove_rotation)});
-    if (grating.has_base) world.add(entity, material->base());
+    DiffractionSurface surface{.groove_rotation = static_cast<float>(grating.groove_rotation)};
+    Material material = grating.material;
+    std::string key = extension.dump();
+    if (grating.groove_texture) {
+        surface.grooves =
+            std::make_shared<const GrooveMap>(*grating.groove_texture, textures, file, place + "/grooveTexture");
+        material = suit_to_grooves(material, *surface.grooves, file, place);
+        key += fmt::format("{} {}", surface.grooves->smallest_pitch(), surface.grooves->largest_pitch());
+    }
+    surface.material = baked(material, key);
+    const render::StandardMaterial base = surface.material->base();
+    world.add(entity, std::move(surface));
+    if (grating.has_base) world.add(entity, render::StandardMaterial(base));
 }
 
 std::shared_ptr<const GpuMaterial> DiffractionSurfaceType::baked(const Material& material, const std::string& key) {

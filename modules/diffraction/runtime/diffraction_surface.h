@@ -17,14 +17,16 @@ namespace rowland::diffraction {
 
 /// Component: a surface with a grating.
 struct DiffractionSurface {
-    std::shared_ptr<const GpuMaterial> material;
+    std::shared_ptr<const GpuMaterial> material = nullptr;
     float groove_rotation = 0.0F;  ///< radians by which g is turned from the mesh's tangent toward its bitangent
+    std::shared_ptr<const GrooveMap> grooves = nullptr;  ///< varies direction and pitch over the surface
 };
 
 struct DiffractionSettings {
     /// Tames the ringing of band-limited light; nothing stands for the mildest one that does.
     std::optional<math::SphericalWindow> window = std::nullopt;
-    /// Most azimuths of an object's map that one frame fills; many: all at once.
+    /// Most azimuths of a planar map that one frame fills, and slices of a circle map that it uploads; more than there
+    /// are: frames wait for whole maps.
     int slices_per_frame = 8;
 };
 
@@ -37,8 +39,8 @@ class DiffractionSurfaceType final : public render::MaterialType {
 
     std::string gltf_extension() const override;
     /// Bakes the grating now; equal ones share their tables while one of them lives.
-    void attach(ecs::World& world, ecs::Entity entity, const nlohmann::json& extension, const std::string& file,
-                const std::string& place) override;
+    void attach(ecs::World& world, ecs::Entity entity, const nlohmann::json& extension,
+                render::SurfaceTextures& textures, const std::string& file, const std::string& place) override;
 
     void add_shaders(gpu::ShaderLibrary& library) const override;
     bool owns(ecs::World& world, ecs::Entity entity) const override;

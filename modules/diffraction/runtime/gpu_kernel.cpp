@@ -24,7 +24,7 @@ constexpr double kColumn_nm = 2.0;
 constexpr int kFewestColumns = 1024;
 constexpr int kMostColumns = 4096;
 
-BlurredKernel blurred(const KernelTable& kernel, double pitch_nm) {
+BlurredKernel blur_for(const KernelTable& kernel, double pitch_nm) {
     const double widest_nm = std::max(4.0, kWidestDeviation * pitch_nm);
     const double extent_nm = kernel.end_nm - kernel.begin_nm + 8.0 * widest_nm;
     const double columns = std::clamp(extent_nm / kColumn_nm, double{kFewestColumns}, double{kMostColumns});
@@ -48,8 +48,13 @@ GpuKernel::GpuKernel(const CookedMaterial& cooked, const glm::dmat3& xyz_to_work
       zero_order_(cooked.zero_order_xyz),
       working_to_rec709_(glm::inverse(xyz_to_working * colour::rec709_to_xyz())) {}
 
+const BlurredKernel& GpuKernel::blurred() const {
+    if (!blurred_) blurred_ = blur_for(kernel_, pitch_nm_);
+    return *blurred_;
+}
+
 GpuKernel::Smoothed GpuKernel::smooth() const {
-    const BlurredKernel kernel = blurred(kernel_, pitch_nm_);
+    const BlurredKernel& kernel = blurred();
     // Halves, and k in nm⁻¹ may be below their range: they hold k over its largest component.
     const float largest = std::max(largest_component(kernel), 1e-30F);
     Smoothed smoothed{.texture = gpu::Texture({.kind = gpu::TextureKind::PlaneArray,
@@ -91,7 +96,12 @@ void GpuKernel::set_lobe(const gpu::Program& program) const {
     }
 }
 
-void GpuKernel::bind(const gpu::Program& program) const {
+void GpuKernel::bind(const gpu::Program& program, std::span<const lighting::KeyLight> key_lights) const {
+    if (program.has_uniform("lobe_place")) {
+        lobes_.set(blurred(), pitch_nm_, key_lights);
+        lobes_.bind(program, pitch_nm_);
+    }
+    set_lobe(program);
     if (!program.has_uniform("kernel_place")) return;
     if (!smoothed_) smoothed_ = smooth();
     smoothed_->texture.bind(kKernelUnit);
@@ -100,7 +110,6 @@ void GpuKernel::bind(const gpu::Program& program) const {
     program.set("kernel_ends", glm::vec2(glm::dvec2(colour::kVisibleMin, reach_nm) / pitch_nm_));
     program.set("zero_order", zero_order_);
     program.set("working_to_rec709", working_to_rec709_);
-    set_lobe(program);
 }
 
 }  // namespace rowland::diffraction

@@ -3,10 +3,14 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec4.hpp>
 #include <optional>
+#include <span>
 
 #include "engine/gpu/program.h"
 #include "engine/gpu/texture.h"
+#include "engine/lighting/key_lights.h"
 #include "modules/diffraction/asset/cooked_material.h"
+#include "modules/diffraction/bake/blurred_kernel.h"
+#include "modules/diffraction/runtime/gpu_lobes.h"
 
 namespace rowland::diffraction {
 
@@ -17,14 +21,15 @@ class GpuKernel {
     GpuKernel(const CookedMaterial& cooked, const glm::dmat3& xyz_to_working);
 
     void add_defines(gpu::ProgramDesc& desc) const;
-    /// Puts the kernel on the GPU when first a program reads it.
-    void bind(const gpu::Program& program) const;
+    /// Puts the kernel on the GPU when first a program reads it, and the key lights seen through it when they change.
+    void bind(const gpu::Program& program, std::span<const lighting::KeyLight> key_lights) const;
 
  private:
     struct Smoothed {
         gpu::Texture texture;
         glm::vec4 place{0.0F};
     };
+    const BlurredKernel& blurred() const;
     Smoothed smooth() const;
     void set_lobe(const gpu::Program& program) const;
 
@@ -33,7 +38,9 @@ class GpuKernel {
     GrooveLobe lobe_;
     glm::mat3 zero_order_;
     glm::mat3 working_to_rec709_;
+    mutable std::optional<BlurredKernel> blurred_;
     mutable std::optional<Smoothed> smoothed_;
+    mutable GpuLobes lobes_;
 };
 
 }  // namespace rowland::diffraction

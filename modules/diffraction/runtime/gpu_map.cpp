@@ -19,6 +19,11 @@ GpuMap::GpuMap(std::span<const glm::vec3> xyz, gpu::TextureDesc desc, const gpu:
     texture_.upload(std::span<const glm::vec3>(shares), {.layers = desc.depth});
 }
 
+GpuMap::GpuMap(gpu::TextureDesc desc, const gpu::Sampling& sampling, float scale) : scale_(scale) {
+    desc.format = gpu::Format::RGBA16F;
+    texture_ = gpu::Texture(desc, sampling);
+}
+
 void GpuMap::bind(const gpu::Program& program) const {
     texture_.bind(kMapUnit);
     program.set("map_scale", scale_);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
 
@@ -14,6 +15,10 @@ class GpuMap {
     GpuMap() = default;
     /// `xyz` as the texture's rows and slices lie; sampled linearly.
     GpuMap(std::span<const glm::vec3> xyz, gpu::TextureDesc desc, const gpu::Sampling& sampling);
+
+    /// One without values yet, `scale` the largest there will be; upload() takes halves over it, three a texel.
+    GpuMap(gpu::TextureDesc desc, const gpu::Sampling& sampling, float scale);
+    void upload(std::span<const std::uint16_t> halves, gpu::TextureSlice slice) { texture_.upload(halves, slice); }
 
     void bind(const gpu::Program& program) const;
 

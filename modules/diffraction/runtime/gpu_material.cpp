@@ -11,6 +11,7 @@
 #include "modules/diffraction/runtime/gpu_direct.h"
 #include "modules/diffraction/runtime/gpu_planar.h"
 #include "modules/diffraction/runtime/gpu_spikes.h"
+#include "modules/diffraction/runtime/gpu_streak.h"
 #include "modules/diffraction/runtime/gpu_transfer.h"
 
 namespace rowland::diffraction {
@@ -48,6 +49,15 @@ template <>
 struct Drawn<CircleTables> {
     using By = GpuCircle;
 };
+template <>
+struct Drawn<StreakTables> {
+    using By = GpuStreak;
+};
+
+/// Maps are of a probe, which has no directional lights.
+bool is_map(const BakedTables& tables) {
+    return std::holds_alternative<PlanarTables>(tables) || std::holds_alternative<CircleTables>(tables);
+}
 
 }  // namespace
 
@@ -55,6 +65,8 @@ GpuMaterial::GpuMaterial(const CookedMaterial& cooked, const glm::dmat3& xyz_to_
     : base_{.base_colour = cooked.material.base.colour, .metallic = 0.0F, .roughness = cooked.material.base.roughness},
       illuminant_(cooked.material.quality.illuminant.name),
       key_lights_(cooked.material.quality.key_lights),
+      separate_lights_(key_lights_ || is_map(cooked.tables)),
+      lights_at_vertices_(cooked.material.quality.lights_at_vertices && cooked.zero_order_xyz == glm::dmat3(0.0)),
       kernel_(cooked, xyz_to_working) {
     const LayerWeights weights = layer_weights(cooked.material.grating, cooked.material.quality.illuminant);
     mirror_weight_ = glm::vec3(xyz_to_working * weights.mirror);
@@ -64,15 +76,19 @@ GpuMaterial::GpuMaterial(const CookedMaterial& cooked, const glm::dmat3& xyz_to_
 gpu::ProgramDesc GpuMaterial::program(const SurfaceState& state) const {
     gpu::ProgramDesc desc;
     describe(state, desc);
-    if (key_lights_) desc.defines.push_back({"SEPARATE_LIGHTS", "1"});
+    if (separate_lights_) desc.defines.push_back({"SEPARATE_LIGHTS", "1"});
+    if (!key_lights_) desc.defines.push_back({"NO_KEY_LIGHTS", "1"});
     kernel_.add_defines(desc);
+    if (state.grooves) state.grooves->add_defines(desc);
+    if (lights_at_vertices_ && !state.grooves) desc.defines.push_back({"LIGHTS_AT_VERTICES", "1"});
     return desc;
 }
 
 void GpuMaterial::bind(const gpu::Program& program, const SurfaceLight& light, const SurfaceState& state) const {
     bind_tables(program, state);
-    kernel_.bind(program);
+    kernel_.bind(program, light.key_lights());
     if (key_lights_) light.bind_key_lights();
+    if (state.grooves) state.grooves->bind(program);
     program.set("mirror_weight", mirror_weight_);
     program.set("base_weight", base_weight_);
     program.set("groove_turn", glm::vec2(std::cos(state.groove_rotation), std::sin(state.groove_rotation)));

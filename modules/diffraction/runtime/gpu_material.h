@@ -12,6 +12,7 @@
 #include "engine/scene/mesh.h"
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/runtime/gpu_kernel.h"
+#include "modules/diffraction/runtime/groove_map.h"
 #include "modules/diffraction/runtime/surface_light.h"
 
 namespace rowland::diffraction {
@@ -29,6 +30,7 @@ struct SurfaceState {
     std::shared_ptr<const scene::Mesh> mesh;
     glm::mat3 orientation{0.0F};
     float groove_rotation = 0.0F;
+    std::shared_ptr<const GrooveMap> grooves;
     std::uint64_t light_version = 0;
 
     gpu::Buffer vertex_light;          ///< per vertex; of representations that have some
@@ -42,7 +44,7 @@ struct SurfaceObject {
     double groove_rotation = 0.0;  ///< radians, from the tangent toward the bitangent
     bool skinned = false;
     bool changed = true;       ///< since the last frame: light, orientation, mesh, rotation or material
-    int slices_per_frame = 0;  ///< most of a map that one frame may fill
+    int slices_per_frame = 0;  ///< most of a map that one frame may fill or upload
 };
 
 /// A cooked material on the GPU, shaded as its representation is: what one class per representation implements.
@@ -65,7 +67,10 @@ class GpuMaterial {
     void bind(const gpu::Program& program, const SurfaceLight& light, const SurfaceState& state) const;
 
     /// The light that is not shaded light by light.
-    LightShare light_share() const { return key_lights_ ? LightShare::Rest : LightShare::Whole; }
+    LightShare light_share() const {
+        if (key_lights_) return LightShare::Rest;
+        return separate_lights_ ? LightShare::Probe : LightShare::Whole;
+    }
 
  protected:
     GpuMaterial(const CookedMaterial& cooked, const glm::dmat3& xyz_to_working);
@@ -80,6 +85,8 @@ class GpuMaterial {
     glm::vec3 mirror_weight_{0.0F};
     glm::vec3 base_weight_{1.0F};
     bool key_lights_;
+    bool separate_lights_;  ///< directional lights are shaded light by light
+    bool lights_at_vertices_;
     GpuKernel kernel_;
 };
 

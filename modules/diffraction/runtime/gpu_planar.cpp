@@ -51,13 +51,13 @@ void GpuPlanar::find_flatness(const SurfaceObject& object, const SurfaceState& s
 }
 
 void GpuPlanar::want(const std::optional<glm::dvec3>& normal, const SurfaceLight& light, PlanarData& data) const {
-    if (same(data.normal, normal) && data.texels == light.texels()) {
+    if (same(data.normal, normal) && data.texels == light.texels(light_share())) {
         data.at_rest = true;
         return;
     }
     data.at_rest = !data.normal;  // the first map need not wait
     data.normal = normal;
-    data.texels = light.texels();
+    data.texels = light.texels(light_share());
     data.fill.reset();
     data.on_gpu.reset();
 }

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
+#include "engine/core/log.h"
 #include "modules/diffraction/runtime/bindings.h"
 #include "modules/diffraction/runtime/light_window.h"
 #include "modules/diffraction/shaders/key_lobe_block.h"
@@ -35,19 +37,36 @@ void SurfaceLight::set(const render::FrameLight& light) {
     light_ = light;
     windowed_.clear();
     KeyLobeBlock block = {};
-    const std::size_t count = std::min<std::size_t>(light.key_lights.size(), ROWLAND_MAXIMUM_KEY_LOBES);
-    block.key_lobe_count.x = static_cast<float>(count);
-    std::transform(light.key_lights.begin(), light.key_lights.begin() + static_cast<std::ptrdiff_t>(count),
-                   block.key_lobes, key_lobe);
+    const std::span<const lighting::KeyLight> lights = key_lights();
+    block.key_lobe_count.x = static_cast<float>(lights.size());
+    std::transform(lights.begin(), lights.end(), block.key_lobes, key_lobe);
     key_lights_ = gpu::Buffer::of(std::span<const KeyLobeBlock>(&block, 1));
 }
 
 const lighting::ShLight& SurfaceLight::harmonics(int bands, LightShare share) {
     const auto found = windowed_.find({bands, share});
     if (found != windowed_.end()) return found->second;
-    const lighting::ShLight& light = share == LightShare::Whole ? light_.sh : light_.residual;
+    const lighting::ShLight& light = share == LightShare::Whole   ? light_.sh
+                                     : share == LightShare::Probe ? light_.probe_sh
+                                                                  : light_.residual;
     const math::SphericalWindow window = window_ ? *window_ : mildest_window(light, bands);
     return windowed_.emplace(std::pair(bands, share), lighting::limit_bands(light, bands, window)).first->second;
+}
+
+std::shared_ptr<const RadianceCube> SurfaceLight::radiance() {
+    if (cube_ && cube_of_ == light_.radiance) return cube_;
+    cube_of_ = light_.radiance;
+    if (!cube_of_) log_warning("a grating of representation streak is under light without a probe: it stays dark");
+    const lighting::PackedEnvironmentMap black{
+        .layout = {.face_size = 1, .levels = 1}, .scale = 1.0F, .halves = std::vector<std::uint16_t>(18, 0)};
+    cube_ = std::make_shared<const RadianceCube>(cube_of_ ? *cube_of_ : black);
+    ++radiance_uploads_;
+    return cube_;
+}
+
+std::span<const lighting::KeyLight> SurfaceLight::key_lights() const {
+    return std::span(light_.key_lights)
+        .first(std::min<std::size_t>(light_.key_lights.size(), ROWLAND_MAXIMUM_KEY_LOBES));
 }
 
 void SurfaceLight::bind_key_lights() const {

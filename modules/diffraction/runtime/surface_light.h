@@ -4,18 +4,21 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "engine/gpu/buffer.h"
 #include "engine/lighting/sh_light.h"
 #include "engine/math/sh_window.h"
 #include "engine/render/material.h"
+#include "modules/diffraction/runtime/radiance_cube.h"
 
 namespace rowland::diffraction {
 
 /// Which part of a frame's light.
 enum class LightShare {
     Whole,  ///< probe and directional lights in one
+    Probe,  ///< the probe alone
     Rest,   ///< the probe less its key lights
 };
 
@@ -30,9 +33,19 @@ class SurfaceLight {
 
     /// The light in so many bands, windowed.
     const lighting::ShLight& harmonics(int bands, LightShare share);
-    /// LightShare::Rest at full resolution; null if the probe has no texels.
-    const std::shared_ptr<const lighting::LightTexels>& texels() const { return light_.texels; }
+    /// The probe, or LightShare::Rest of it, at full resolution; null if the probe has no texels.
+    const std::shared_ptr<const lighting::LightTexels>& texels(LightShare share) const {
+        return share == LightShare::Rest ? light_.texels : light_.probe_texels;
+    }
 
+    /// The whole probe on the GPU: made when first asked for, and anew for another probe. Black if the light has none.
+    std::shared_ptr<const RadianceCube> radiance();
+
+    /// How many cubes were made.
+    int radiance_uploads() const { return radiance_uploads_; }
+
+    /// As many as the uniform block holds.
+    std::span<const lighting::KeyLight> key_lights() const;
     /// The key lights' uniform block.
     void bind_key_lights() const;
 
@@ -41,6 +54,9 @@ class SurfaceLight {
     render::FrameLight light_;
     std::map<std::pair<int, LightShare>, lighting::ShLight> windowed_;
     gpu::Buffer key_lights_;
+    std::shared_ptr<const lighting::PackedEnvironmentMap> cube_of_;
+    std::shared_ptr<const RadianceCube> cube_;
+    int radiance_uploads_ = 0;
 };
 
 }  // namespace rowland::diffraction

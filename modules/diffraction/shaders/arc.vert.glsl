@@ -2,6 +2,7 @@
 // The vertex's part of bake/arc_table.h. LAYERS is defined by the program.
 #include "engine/render/shaders/forward_vertex_interface.glsl"
 #include "modules/diffraction/shaders/groove_turn.glsl"
+#include "modules/diffraction/shaders/vertex_lights.glsl"
 
 // X, Y and Z of the products of ranks 4j ... 4j+3, for j < LAYERS; vertex by vertex. Made on the CPU.
 layout(std430, binding = 4) readonly buffer ArcProducts { vec4 vertex_products[]; };
@@ -11,6 +12,7 @@ out vec4 arc_products[3 * LAYERS];
 
 void material_vertex(vec3 position, vec3 g, vec3 h, vec3 n) {
     turn_grooves(g, h);
+    shade_lights(position, g, h, n);
     world_grating = g;
     for (int i = 0; i < 3 * LAYERS; ++i) arc_products[i] = vertex_products[gl_VertexID * 3 * LAYERS + i];
 }

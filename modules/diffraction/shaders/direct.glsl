@@ -1,52 +1,16 @@
 // Lights of their own, shaded by the colour kernel (PHYSICS, "direct"): XYZ = sum of 1/2 s_n d k(d u) F * 2 D_h, the
 // kernel smoothed over the light and the pixel. Points and spots always; under SEPARATE_LIGHTS the probe's key lights and
 // directional lights, too.
+#include "modules/diffraction/shaders/small_light.glsl"
+#include "modules/diffraction/shaders/key_lobes.glsl"
+#include "modules/diffraction/shaders/key_lobe_parts.glsl"
 #ifdef HAS_DIRECT
-#include "modules/diffraction/shaders/kernel.glsl"
-#include "modules/diffraction/shaders/groove_lobe.glsl"
 
-float footprint_deviation(GrooveView view) { return 0.57735026918963 * view.footprint; }
-
-#ifdef SEPARATE_LIGHTS
-#include "modules/diffraction/shaders/light_spot.glsl"
-
-vec3 key_lobe_xyz(KeyLobe lobe, GrooveView view) {
-    vec3 axis = lobe.direction.xyz * view.axes;
-    // 5e-8 of a lobe's cosine is left five deviations below the horizon.
-    if (axis.z * lobe.moments.x < -5.0 * sqrt(lobe.moments.z + lobe.moments.y)) return vec3(0.0);
-#ifndef ZERO_ORDER
-    // The parts lie within 2.3 deviations of the lobe's direction, and each reaches 5 times 0.84 of one.
-    float reach = 6.5 * sqrt(lobe.moments.z) + 5.0 * (footprint_deviation(view) + kernel_place.z);
-    if (!kernel_reached(axis.x + view.direction.x, reach)) return vec3(0.0);
+#ifdef LIGHTS_AT_VERTICES
+in vec3 key_lights_at_vertex;
 #endif
-    axis.x = clamp(axis.x, -1.0, 1.0);
-    float across = max(length(axis.yz), 1e-6);
-    vec3 xyz = vec3(0.0);
-    float whole = 0.0;
-    for (int i = 0; i < 3; ++i) {
-        float weight;
-        LightPart part = lobe_part(lobe, axis, across, i, weight);
-        whole += weight;
-        if (part.cosine <= 0.0) continue;
-        float deviation = length(vec2(part.deviation, footprint_deviation(view)));
-        xyz += part.cosine * kernel_xyz(part.centre + view.direction.x, deviation, lobe.flux.rgb);
-    }
-    vec2 along = spread_along_grooves(lobe, axis);
-    return 0.5 / max(whole, 1e-6) * groove_factor(along.x + view.direction.y, along.y) * xyz;
-}
-#endif
-
-#if (defined(SEPARATE_LIGHTS) && defined(DIRECTIONAL_LIGHTS)) || defined(PUNCTUAL_LIGHTS)
-uniform mat3 working_to_rec709;
-
-// `irradiance` on a surface that faces the light, working space.
-vec3 small_light_xyz(vec3 l, vec3 irradiance, GrooveView view) {
-    vec3 s = l * view.axes;
-    if (s.z <= 0.0) return vec3(0.0);
-    vec3 flux = working_to_rec709 * irradiance;
-    return 0.5 * s.z * groove_factor(s.y + view.direction.y, 0.0) *
-           kernel_xyz(s.x + view.direction.x, footprint_deviation(view), flux);
-}
+#if defined(LIGHTS_AT_VERTICES) && defined(DIRECTIONAL_LIGHTS)
+in vec3 first_light_at_vertex;
 #endif
 
 #ifdef PUNCTUAL_LIGHTS
@@ -58,9 +22,22 @@ float shadow_share(vec3 l);  // the engine's
 
 vec3 direct_xyz(GrooveView view) {
     vec3 xyz = vec3(0.0);
-#ifdef SEPARATE_LIGHTS
-    for (int i = 0; i < int(key_lobe_count.x); ++i) xyz += key_lobe_xyz(key_lobes[i], view);
-#ifdef DIRECTIONAL_LIGHTS
+    float footprint_deviation = 0.57735026918963 * view.footprint;
+#ifdef LIGHTS_AT_VERTICES
+    xyz += key_lights_at_vertex;
+#elif defined(KEY_LOBE_TABLE)
+    xyz += key_lights_xyz(view.axes, view.direction, view.footprint);
+#elif defined(KEY_LOBES)
+    xyz += key_lights_xyz(view);
+#endif
+#if defined(SEPARATE_LIGHTS) && defined(DIRECTIONAL_LIGHTS)
+#ifdef LIGHTS_AT_VERTICES
+#ifdef SHADOWS
+    xyz += shadow_share(lights[0].place.xyz) * first_light_at_vertex;
+#else
+    xyz += first_light_at_vertex;
+#endif
+#else
 #ifdef SEVERAL_DIRECTIONAL_LIGHTS
     int directional = int(light_counts.x);
 #else
@@ -71,7 +48,7 @@ vec3 direct_xyz(GrooveView view) {
 #ifdef SHADOWS
         if (i == 0) irradiance *= shadow_share(lights[i].place.xyz);
 #endif
-        xyz += small_light_xyz(lights[i].place.xyz, irradiance, view);
+        xyz += small_light_xyz(lights[i].place.xyz, irradiance, view.axes, view.direction, footprint_deviation, view.pitch);
     }
 #endif
 #endif
@@ -80,7 +57,8 @@ vec3 direct_xyz(GrooveView view) {
         vec3 to_light = lights[i].place.xyz - world_position;
         float distance2 = dot(to_light, to_light);
         vec3 l = to_light * inversesqrt(max(distance2, 1e-12));
-        xyz += small_light_xyz(l, punctual_irradiance(lights[i], distance2, l), view);
+        xyz += small_light_xyz(l, punctual_irradiance(lights[i], distance2, l), view.axes, view.direction,
+                               footprint_deviation, view.pitch);
     }
 #endif
     return xyz;

@@ -12,22 +12,31 @@ vec3 groove_factor(float sum_h, float deviation_h) {
 uniform vec2 lobe_gaussian;   // of the coherent share
 uniform vec3 pit_wavelengths;  // pits' length over the wavelength, for X, Y and Z
 uniform float incoherent;     // share
-float pits_density(float sum_h, float length_wavelengths) {
+// `peak`: of the coherent share.
+float pits_density(float sum_h, float length_wavelengths, float peak) {
     float z = sum_h / lobe_gaussian.x;
     float x = 3.14159265358979 * length_wavelengths * sum_h;
     float amplitude = abs(x) < 1e-3 ? 1.0 - x * x / 6.0 : sin(x) / x;
-    return lobe_gaussian.y * exp(-0.5 * z * z) + incoherent * length_wavelengths * amplitude * amplitude;
+    return peak * exp(-0.5 * z * z) + incoherent * length_wavelengths * amplitude * amplitude;
 }
 // Three-node Gauss-Hermite over the light's extent.
-vec3 groove_factor(float sum_h, float deviation_h) {
+vec3 pits_factor(float sum_h, float deviation_h, float peak) {
     float step = 1.73205080756888 * deviation_h;
     vec3 factor;
     for (int o = 0; o < 3; ++o)
-        factor[o] = 4.0 / 3.0 * pits_density(sum_h, pit_wavelengths[o]) +
-                    1.0 / 3.0 * (pits_density(sum_h - step, pit_wavelengths[o]) +
-                                 pits_density(sum_h + step, pit_wavelengths[o]));
+        factor[o] = 4.0 / 3.0 * pits_density(sum_h, pit_wavelengths[o], peak) +
+                    1.0 / 3.0 * (pits_density(sum_h - step, pit_wavelengths[o], peak) +
+                                 pits_density(sum_h + step, pit_wavelengths[o], peak));
     return factor;
 }
+vec3 groove_factor(float sum_h, float deviation_h) { return pits_factor(sum_h, deviation_h, lobe_gaussian.y); }
 #else
 vec3 groove_factor(float sum_h, float deviation_h) { return vec3(1.0); }
+#endif
+
+// The same of the probe's key lights. A streak shows the whole probe, so that they are for the rest of the lobe.
+#if defined(STREAK) && defined(LOBE_PITS)
+vec3 key_groove_factor(float sum_h, float deviation_h) { return pits_factor(sum_h, deviation_h, 0.0); }
+#else
+vec3 key_groove_factor(float sum_h, float deviation_h) { return groove_factor(sum_h, deviation_h); }
 #endif

@@ -3,10 +3,18 @@
 
 in vec3 world_grating;
 
+#ifdef GROOVE_MAP
+layout(binding = 13) uniform sampler2D groove_map;  // r: rotation / pi; g: half the pitch over the material's
+uniform vec4 groove_uv_linear;
+uniform vec2 groove_uv_offset;
+in float groove_hand;
+#endif
+
 struct GrooveView {
     mat3 axes;        // columns g, h, n in the world
     vec3 direction;   // toward the eye, in (g, h, n)
     float footprint;  // half the extent of the pixel in v_g
+    float pitch;      // over the material's; 0: no grating here
 };
 
 // The grating vector of the vertices, interpolated, made orthonormal to the normal again. Where the vertices' cancel, as
@@ -23,7 +31,20 @@ mat3 groove_axes() {
 GrooveView groove_view() {
     mat3 axes = groove_axes();
     vec3 direction = normalize(eye.xyz - world_position) * axes;
-    return GrooveView(axes, direction, 0.5 * fwidth(direction.x));
+#ifdef GROOVE_MAP
+    vec2 place = groove_uv_linear.xy * GROOVE_MAP.x + groove_uv_linear.zw * GROOVE_MAP.y + groove_uv_offset;
+    vec2 texel = texture(groove_map, place).rg;
+    float angle = 3.14159265358979 * texel.r;
+    vec2 turn = vec2(cos(angle), groove_hand * sin(angle));
+    // The view changes from pixel to pixel by what it does in one frame, however the map jumps.
+    float extent = abs(dot(turn, dFdx(direction.xy))) + abs(dot(turn, dFdy(direction.xy)));
+    mat2 turned = mat2(turn.x, turn.y, -turn.y, turn.x);
+    axes = mat3(mat2x3(axes[0], axes[1]) * turned[0], mat2x3(axes[0], axes[1]) * turned[1], axes[2]);
+    direction.xy = direction.xy * turned;
+    return GrooveView(axes, direction, 0.5 * extent, 2.0 * texel.g);
+#else
+    return GrooveView(axes, direction, 0.5 * fwidth(direction.x), 1.0);
+#endif
 }
 
 #endif

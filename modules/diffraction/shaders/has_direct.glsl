@@ -3,3 +3,11 @@
 #if defined(SEPARATE_LIGHTS) || defined(PUNCTUAL_LIGHTS)
 #define HAS_DIRECT
 #endif
+// A streak shows the whole probe, key lights and all, but for the rest of Stam's pits.
+#if defined(SEPARATE_LIGHTS) && !defined(NO_KEY_LIGHTS) && !(defined(STREAK) && defined(LOBE_GAUSSIAN))
+#define KEY_LOBES
+// Each in one look-up, but for what a table of them does not know: zero orders, and pitches that vary.
+#if !defined(ZERO_ORDER) && !defined(GROOVE_MAP)
+#define KEY_LOBE_TABLE
+#endif
+#endif

@@ -1,4 +1,6 @@
 // A light in a surface's tangent frame: bake/direct.h, light_spot().
+#include "modules/diffraction/shaders/has_direct.glsl"
+#ifdef KEY_LOBES
 #include "modules/diffraction/shaders/key_lobe_block.h"
 #include "modules/diffraction/shaders/normal_distribution.glsl"
 
@@ -62,4 +64,5 @@ vec2 spread_along_grooves(KeyLobe lobe, vec3 axis) {
 }
 #else
 vec2 spread_along_grooves(KeyLobe lobe, vec3 axis) { return vec2(0.0); }
+#endif
 #endif

@@ -4,7 +4,7 @@
 MaterialTerms material_terms() {
     GrooveView view = groove_view();
     vec3 xyz = vec3(0.0);
-    if (view.direction.z > 0.0) {
+    if (view.direction.z > 0.0 && view.pitch > 0.0) {
         xyz = diffracted_xyz(view);
 #ifdef HAS_DIRECT
         xyz += direct_xyz(view);

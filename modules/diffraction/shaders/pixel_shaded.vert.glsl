@@ -2,11 +2,13 @@
 // The vertex stage of representations that shade pixels and need nothing of the vertices but their frame.
 #include "engine/render/shaders/forward_vertex_interface.glsl"
 #include "modules/diffraction/shaders/groove_turn.glsl"
+#include "modules/diffraction/shaders/vertex_lights.glsl"
 
 out vec3 world_grating;
 
 void material_vertex(vec3 position, vec3 g, vec3 h, vec3 n) {
     turn_grooves(g, h);
+    shade_lights(position, g, h, n);
     world_grating = g;
 }
 

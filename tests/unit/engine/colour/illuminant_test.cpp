@@ -75,5 +75,14 @@ TEST(Illuminant, LoadsTheMeasuredLamps) {
     }
 }
 
+TEST(Illuminant, IsWrittenToTheSameNumbers) {
+    for (const std::string& name : illuminant_names()) {
+        const Illuminant original = illuminant(name);
+        const Illuminant again = parse_illuminant(write_illuminant_csv(original), "again.csv");
+        EXPECT_EQ(again.power.wavelengths_nm(), original.power.wavelengths_nm()) << name;
+        EXPECT_EQ(again.power.values(), original.power.values()) << name;
+    }
+}
+
 }  // namespace
 }  // namespace rowland::colour

@@ -30,6 +30,8 @@ TEST(Progress, DrawsShareOnATerminalAndErasesItsLine) {
     ASSERT_GE(::dup2(terminal, STDERR_FILENO), 0);
     {
         Progress progress("baking", 4);
+        Progress part("one table", 2);
+        part.advance(1);
         progress.advance(1);
     }
     ASSERT_GE(::dup2(saved, STDERR_FILENO), 0);
@@ -46,6 +48,7 @@ TEST(Progress, DrawsShareOnATerminalAndErasesItsLine) {
     }
     ::close(master);
     EXPECT_NE(text.find("baking  25 % ("), std::string::npos) << text;
+    EXPECT_EQ(text.find("one table"), std::string::npos) << "work within work has no line of its own";
     EXPECT_TRUE(text.ends_with("\r\033[K")) << text;
 }
 

@@ -7,6 +7,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/file.h"
+#include "engine/image/byte_image.h"
 #include "tests/support/temporary_folder.h"
 
 namespace rowland::image {
@@ -28,6 +29,17 @@ TEST(Png, HoldsTheBytesItWasGiven) {
     EXPECT_EQ(channels, 3);
     EXPECT_EQ(std::vector<std::uint8_t>(read, read + rgb.size()), rgb);
     stbi_image_free(read);
+}
+
+TEST(Png, EncodedAlphaComesBack) {
+    std::vector<std::uint8_t> rgba;
+    for (int i = 0; i < 7 * 2 * 4; ++i) rgba.push_back(static_cast<std::uint8_t>(i * 41));
+    const std::vector<std::byte> bytes = encode_png(7, 2, 4, rgba);
+    EXPECT_EQ(bytes, encode_png(7, 2, 4, rgba));
+    const ByteImage read = decode_byte_image(bytes, "a.png");
+    EXPECT_EQ(read.width, 7);
+    EXPECT_EQ(read.height, 2);
+    EXPECT_EQ(read.rgba, rgba);
 }
 
 TEST(Png, FailingToWriteIsASystemError) {

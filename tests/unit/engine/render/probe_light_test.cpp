@@ -56,20 +56,5 @@ TEST(ProbeLight, TexelsAreLessTheKeyLightsJustWhenThoseAreApart) {
     EXPECT_NEAR(green(false), 2.0, 1e-5);
 }
 
-TEST(ProbeLight, ShadersReadFluxInBothSpacesAndTheLobesMoments) {
-    glm::dmat3 swap(0.0);
-    swap[0][1] = 2.0;  // red becomes twice as much green
-    const std::array<lighting::KeyLight, 2> keys{
-        {{{0.0, 1.0, 0.0}, {1.0, 2.0, 3.0}, 50.0}, {{1.0, 0.0, 0.0}, {4.0, 5.0, 6.0}, 3.0}}};
-    const KeyLightBlock block = key_light_block(keys, swap);
-    EXPECT_EQ(block.key_light_count.x, 2.0F);
-    const lighting::LobeMoments moments = lighting::lobe_moments(3.0);
-    const KeyLightEntry& entry = block.key_lights[1];
-    EXPECT_EQ(entry.direction, glm::vec4(1.0F, 0.0F, 0.0F, static_cast<float>(moments.mean)));
-    EXPECT_EQ(entry.flux, glm::vec4(4.0F, 5.0F, 6.0F, 3.0F));
-    EXPECT_EQ(entry.irradiance, glm::vec4(0.0F, 8.0F, 0.0F, static_cast<float>(moments.variance_along)));
-    EXPECT_EQ(entry.spread.x, static_cast<float>(moments.variance_across));
-}
-
 }  // namespace
 }  // namespace rowland::render

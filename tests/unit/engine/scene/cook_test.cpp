@@ -55,6 +55,29 @@ TEST_F(SceneCook, BrokenRecipeIsRefusedByName) {
     }
 }
 
+TEST_F(SceneCook, SceneRecipeBecomesAGlb) {
+    const std::filesystem::path source = write("room.json", R"({"scene": {
+        "materials": [{"name": "m"}],
+        "meshes": [{"name": "b", "parts": [{"shape": {"type": "box", "size": [1, 1, 1]}, "material": "m"}]}],
+        "nodes": [{"name": "n", "mesh": "b"}, {"name": "k", "mesh": "b"}]}})");
+    const cook::AssetType& type = registry_.type_of_source(source);
+    EXPECT_EQ(type.name, "scene");
+    EXPECT_EQ(type.extension, ".glb");
+    cook::Context context(source);
+    const std::vector<std::byte> payload = type.cook(context);
+    EXPECT_THAT(context.dependencies(), testing::ElementsAre(source));
+    cook::Context again(source);
+    EXPECT_EQ(type.cook(again), payload);
+    EXPECT_THAT(type.describe(payload, "room.glb"), testing::HasSubstr("nodes: 2\nmeshes: 1\nmaterials: 1\n"));
+}
+
+TEST_F(SceneCook, BrokenSceneRecipeIsRefusedByName) {
+    const std::filesystem::path source = write("room.json", R"({"scene": {"nodes": [{"name": "n", "mesh": "b"}]}})");
+    cook::Context context(source);
+    EXPECT_THAT(rowland::test::message_of([&] { registry_.type_of_source(source).check(context); }),
+                testing::HasSubstr("room.json: /scene/nodes/0/mesh"));
+}
+
 TEST_F(SceneCook, GltfIsCheckedOnly) {
     ROWLAND_TEST_DATA(path, "gltf/valid/Duck/glTF/Duck.gltf");
     const cook::AssetType& type = registry_.type_of_source(path);

@@ -17,8 +17,8 @@ Mesh compact_disc() {
     return build_mesh(DiscRecipe{.inner_radius = 0.0235, .outer_radius = 0.06});
 }
 
-Mesh read_back(const Mesh& mesh, const GlbWriteSettings& settings = {}) {
-    const ImportedScene scene = load_glb(write_glb(mesh, settings), "written.glb");
+Mesh read_back(const Mesh& mesh, const DracoBits& bits = {}) {
+    const ImportedScene scene = load_glb(write_glb(mesh, "written", bits), "written.glb");
     EXPECT_EQ(scene.meshes.size(), 1U);
     EXPECT_TRUE(scene.warnings.empty());
     return scene.meshes.at(0);
@@ -83,7 +83,7 @@ TEST(GlbWrite, MixedHandednessSurvives) {
 TEST(GlbWrite, MoreBitsAreFiner) {
     const Mesh mesh = build_mesh(SphereRecipe{.radius = 1.0, .rings = 16, .segments = 16});
     const auto worst = [&](int bits) {
-        const Mesh back = read_back(mesh, {.position_bits = bits});
+        const Mesh back = read_back(mesh, {.position = bits});
         float largest = 0.0F;
         for (std::size_t i = 0; i < mesh.positions.size(); ++i)
             largest = std::max(largest, glm::distance(back.positions[i], mesh.positions[i]));

@@ -165,6 +165,16 @@ TEST(MeshRecipe, RefusalsNamePlaceAndWhatWasMeant) {
     EXPECT_THAT(error_of(R"({"mesh": {"type": "disc", "inner_radius": 2, "outer_radius": 1}})"),
                 HasSubstr("more than inner_radius, 2"));
     EXPECT_THAT(error_of(R"({"mesh": 3})"), HasSubstr("an object"));
+    EXPECT_THAT(error_of(R"({"mesh": {"type": "lathe", "profile": [[1, 0], [0, 1], [1, 2]]}})"),
+                testing::AllOf(HasSubstr("/mesh/profile/1/0"), HasSubstr("on the axis")));
+    EXPECT_THAT(error_of(R"({"mesh": {"type": "lathe", "profile": [[1, 0], [1, 0]]}})"), HasSubstr("/mesh/profile/1"));
+    EXPECT_THAT(error_of(R"({"mesh": {"type": "lathe", "profile": [[1, 0], [1, 1]], "longitude_deg": [90, 90]}})"),
+                HasSubstr("/mesh/longitude_deg/1"));
+    EXPECT_THAT(error_of(R"({"mesh": {"type": "box", "size": [2, 1, 4], "corner_radius": 1.1}})"),
+                HasSubstr("/mesh/corner_radius"));
+    EXPECT_THAT(error_of(R"({"mesh": {"type": "box", "size": [2, 1, 4], "bevel": 0.5}})"), HasSubstr("/mesh/bevel"));
+    EXPECT_THAT(error_of(R"({"mesh": {"type": "box", "size": [2, 1, 4], "faces": ["top", "top"]}})"),
+                HasSubstr("/mesh/faces"));
 }
 
 TEST(MeshRecipe, OnlyObjectsWithAMeshAreRecipes) {

@@ -47,6 +47,8 @@ nlohmann::json material_with(const char* quality) {
     nlohmann::json json = small_material();
     json["grating"]["orders"] = {0, 1};
     json["quality"] = nlohmann::json::parse(quality);
+    if (json["quality"]["representation"] == "streak")
+        json["grating"]["groove_lobe"] = {{"pits", {{"length_nm", 850}, {"coherent", 0.3}}}};
     return json;
 }
 
@@ -57,6 +59,7 @@ constexpr const char* kQualities[] = {
     R"({"representation": "direct"})",
     R"({"representation": "planar", "bands": 2, "rank": 3, "map_resolution": 16})",
     R"({"representation": "circle", "map_resolution": 16})",
+    R"({"representation": "streak", "nodes": 3, "taps": 2, "bands": 2, "rank": 3, "view_resolution": 6})",
 };
 
 TEST(CookedMaterial, EveryRepresentationIsReadAsItWasWritten) {
@@ -115,6 +118,34 @@ TEST(CookedMaterial, TablesOfOtherSettingsThanTheMaterialsAreRefused) {
                 << quality << key;
         }
     }
+}
+
+TEST(CookedMaterial, AStreakOfTooManyNodesOrNoRestIsRefused) {
+    const nlohmann::json json = material_with(kQualities[6]);
+    const CookedMaterial cooked = cook_material(json, "m.json");
+    CookedMaterial crowded = cooked;
+    auto& nodes = std::get<StreakTables>(crowded.tables).streak.nodes;
+    nodes.resize(kMostStreakNodes, nodes[0]);
+    EXPECT_NO_THROW(read_cooked_material(write_cooked_material(json, crowded), "m.material"));
+    nodes.push_back(nodes[0]);
+    EXPECT_THROW(read_cooked_material(write_cooked_material(json, crowded), "m.material"), Error);
+    CookedMaterial bare = cooked;
+    std::get<StreakTables>(bare.tables).rest.reset();
+    EXPECT_THROW(read_cooked_material(write_cooked_material(json, bare), "m.material"), Error);
+    CookedMaterial broken = cooked;
+    std::get<StreakTables>(broken.tables).streak.nodes[0].weight[1][1] = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_THROW(read_cooked_material(write_cooked_material(json, broken), "m.material"), Error);
+}
+
+/// Pitches differ by two fetches a tap at most; the view that sees most nodes pays for them.
+TEST(CookedMaterial, TheDescriptionCountsAStreaksFetches) {
+    nlohmann::json json = material_with(R"({"representation": "streak", "nodes": 4, "taps": 3})");
+    json["grating"]["orders"] = {-1, 1};
+    json["grating"]["groove_lobe"] = {{"sigma", 0.05}};
+    const std::string text = describe(cook_material(json, "m"));
+    EXPECT_THAT(text, ::testing::HasSubstr("streak: 8 nodes, 3 taps\n"));
+    // d = 1600 nm: a view straight from above sees both orders whole.
+    EXPECT_THAT(text, ::testing::HasSubstr("fetches_per_pixel: " + std::to_string(8 * 3 * 2) + "\n"));
 }
 
 TEST(CookedMaterial, KernelsOfNoIntervalAreRefused) {
@@ -179,6 +210,67 @@ TEST(CookedMaterial, DescriptionShowsWhatWasBaked) {
     EXPECT_NE(describe(cook_material(json, "m")).find("spikes: 2\n"), std::string::npos);
     json["quality"]["spikes"] = 5;
     EXPECT_NE(describe(cook_material(json, "m")).find("spikes: 5\n"), std::string::npos);
+}
+
+/// A material for low-pressure sodium lamps, in a folder of its own.
+class SodiumMaterial : public ::testing::Test {
+ protected:
+    SodiumMaterial() {
+        json_["quality"]["illuminant"] = "sodium.csv";
+        write_file_atomic(folder_.path() / "m.json", json_.dump());
+        write_file_atomic(folder_.path() / "sodium.csv", "wavelength_nm,relative_power\n588,0\n589.3,1\n591,0\n");
+        register_cook_types(registry_);
+    }
+
+    std::filesystem::path source() const { return folder_.path() / "m.json"; }
+
+    rowland::test::TemporaryFolder folder_;
+    nlohmann::json json_ = small_material();
+    cook::Registry registry_;
+};
+
+TEST_F(SodiumMaterial, CookedNeedsItsIlluminantNoMore) {
+    cook::Context context(source());
+    const std::vector<std::byte> payload = registry_.find(kMaterialAssetType)->cook(context);
+    std::filesystem::remove(folder_.path() / "sodium.csv");
+    const CookedMaterial cooked = read_cooked_material(payload, "m.material");
+    EXPECT_EQ(cooked.material.quality.illuminant.name, "sodium.csv");
+    EXPECT_THAT(cooked.material.quality.illuminant.power.wavelengths_nm(), ::testing::ElementsAre(588.0, 589.3, 591.0));
+    EXPECT_THAT(cooked.material.quality.illuminant.power.values(), ::testing::ElementsAre(0.0, 1.0, 0.0));
+    EXPECT_THAT(describe(cooked), ::testing::HasSubstr("illuminant: sodium.csv\n"));
+}
+
+TEST_F(SodiumMaterial, CookingAndCheckingDependOnTheIlluminant) {
+    const std::vector<std::filesystem::path> expected = {source(), folder_.path() / "sodium.csv"};
+    const cook::AssetType* type = registry_.find(kMaterialAssetType);
+    cook::Context cooked(source());
+    type->cook(cooked);
+    EXPECT_EQ(cooked.dependencies(), expected);
+    cook::Context checked(source());
+    type->check(checked);
+    EXPECT_EQ(checked.dependencies(), expected);
+}
+
+TEST_F(SodiumMaterial, ARefusedIlluminantIsNamedByItsFile) {
+    write_file_atomic(folder_.path() / "sodium.csv", "wavelength_nm,relative_power\n900,1\n901,1\n");
+    cook::Context context(source());
+    EXPECT_THAT(rowland::test::message_of([&] { registry_.find(kMaterialAssetType)->cook(context); }),
+                ::testing::HasSubstr("sodium.csv"));
+}
+
+/// The payload holds the two files that a material can name, each under its own name.
+TEST(CookedMaterial, ATableAndAnIlluminantAreBothCarried) {
+    nlohmann::json json = small_material();
+    json["grating"]["profile"] = {{"type", "table"}, {"file", "t.csv"}};
+    json["quality"]["illuminant"] = "lamp.csv";
+    const CookedMaterial cooked = cook_material(json, "m.json", [](const std::string& name) {
+        return NamedText{.text = name == "t.csv" ? "wavelength_nm,R-1,R+1\n400,0.1,0.4\n700,0.2,0.3\n"
+                                                 : "wavelength_nm,relative_power\n400,1\n700,3\n",
+                         .file = name};
+    });
+    const CookedMaterial read = read_cooked_material(write_cooked_material(json, cooked), "m.material");
+    EXPECT_DOUBLE_EQ(profile_efficiency(read.material.grating.profile, 1600.0, 1, 550.0), 0.35);
+    EXPECT_DOUBLE_EQ(read.material.quality.illuminant.power(550.0), 2.0);
 }
 
 /// A material that names a table, in a folder of its own.

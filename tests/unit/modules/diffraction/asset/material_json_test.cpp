@@ -70,6 +70,24 @@ std::string with_quality(const std::string& quality, const std::string& lobe = "
            R"(}, "quality": )" + quality + "}";
 }
 
+TEST(MaterialJson, ABudgetNamesItsProbesAndItsSurface) {
+    const Quality quality = parse(with_quality(
+                                      R"({"max_error": 0.1, "surface": "curved",
+                      "probes": ["a.json", "b.hdr", {"image": "c.hdr", "mapping": "angular"}, {"image": "d.exr"}]})"))
+                                .quality;
+    EXPECT_EQ(quality.surface, SurfaceShape::Curved);
+    ASSERT_EQ(quality.probes.size(), 4U);
+    EXPECT_EQ(quality.probes[0].file, "a.json");
+    EXPECT_EQ(quality.probes[1].mapping, lighting::Mapping::Equirectangular);
+    EXPECT_EQ(quality.probes[2].mapping, lighting::Mapping::Angular);
+    EXPECT_EQ(quality.probes[3].file, "d.exr");
+    EXPECT_THAT(refusal(with_quality(R"({"probes": []})")), HasSubstr("/quality/probes"));
+    EXPECT_THAT(refusal(with_quality(R"({"probes": ["a", 3]})")), HasSubstr("/quality/probes/1"));
+    EXPECT_THAT(refusal(with_quality(R"({"probes": [{"image": "a.hdr", "file": "b"}]})")),
+                HasSubstr("/quality/probes/0/file"));
+    EXPECT_THAT(refusal(with_quality(R"({"representation": "direct", "probes": ["a.json"]})")), HasSubstr("probes"));
+}
+
 TEST(MaterialJson, EveryRepresentationTakesItsSettings) {
     const auto pinned = [](const std::string& quality) { return representation(parse(with_quality(quality))); };
     const auto bins =
@@ -112,8 +130,20 @@ TEST(MaterialJson, KeyLightsAreApartWhereNothingElseWouldAddThem) {
     EXPECT_TRUE(apart(R"({"representation": "arc"})"));
     EXPECT_FALSE(apart(R"({"representation": "arc", "key_lights": false})"));
     EXPECT_TRUE(apart(R"({"representation": "circle"})"));
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "circle", "key_lights": false})")),
+    EXPECT_FALSE(apart(R"({"representation": "circle", "key_lights": false})"));
+    EXPECT_THAT(refusal(with_quality(R"({"representation": "direct", "key_lights": false})")),
                 HasSubstr("/quality/key_lights"));
+}
+
+TEST(MaterialJson, LightsOfTheirOwnAreAtThePixelsUnlessTold) {
+    const auto at_vertices = [](const std::string& quality) {
+        return parse(with_quality(quality)).quality.lights_at_vertices;
+    };
+    EXPECT_FALSE(at_vertices(R"({"representation": "arc"})"));
+    EXPECT_TRUE(at_vertices(R"({"representation": "arc", "lights_at": "vertices"})"));
+    EXPECT_TRUE(at_vertices(R"({"representation": "planar", "key_lights": false, "lights_at": "vertices"})"));
+    EXPECT_THAT(refusal(with_quality(R"({"representation": "spikes", "lights_at": "vertices"})")),
+                HasSubstr("/quality/lights_at"));  // it has none
 }
 
 TEST(MaterialJson, SettingsThatARepresentationDoesNotHaveAreRefusedByName) {
@@ -126,7 +156,6 @@ TEST(MaterialJson, SettingsThatARepresentationDoesNotHaveAreRefusedByName) {
     EXPECT_THAT(refusal(with_quality(R"({"representation": "spikes", "bands": 16, "spikes": 64})")),
                 AllOf(HasSubstr("/quality/spikes"), HasSubstr("2048")));
     EXPECT_THAT(refusal(with_quality(R"({"representation": "plannar"})")), HasSubstr("\"planar\""));
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "streak"})")), HasSubstr("/quality/representation"));
 }
 
 TEST(MaterialJson, LobesThatARepresentationCannotShadeAreRefused) {
@@ -136,6 +165,36 @@ TEST(MaterialJson, LobesThatARepresentationCannotShadeAreRefused) {
     EXPECT_THAT(refusal(with_quality(R"({"representation": "bins", "view_mapping": "one-dimensional"})", sigma)),
                 HasSubstr("/quality/view_mapping"));
     EXPECT_NO_THROW(parse(with_quality(R"({"representation": "arc"})", sigma)));
+    EXPECT_THAT(refusal(with_quality(R"({"representation": "streak"})")), HasSubstr("/quality/representation"));
+    EXPECT_THAT(
+        refusal(with_quality(R"({"representation": "streak"})", R"({"pits": {"length_nm": 850, "coherent": 0}})")),
+        HasSubstr("/quality/representation"));
+}
+
+TEST(MaterialJson, StreaksTakeTheirSettings) {
+    const auto settings = [](const std::string& quality, const std::string& lobe) {
+        return std::get<StreakSurfaceSettings>(representation(parse(with_quality(quality, lobe))));
+    };
+    const auto narrow = settings(R"({"representation": "streak"})", R"({"sigma": 0.05})");
+    EXPECT_EQ(narrow.streak.nodes_per_order, 8);
+    EXPECT_EQ(narrow.taps, 3);
+    EXPECT_FALSE(narrow.rest.has_value());
+    const auto pits =
+        settings(R"({"representation": "streak", "nodes": 12, "taps": 5, "bands": 7, "rank": 11, "illuminant": "A"})",
+                 R"({"pits": {"length_nm": 850, "coherent": 0.3}})");
+    EXPECT_EQ(pits.streak.nodes_per_order, 12);
+    EXPECT_EQ(pits.streak.illuminant.name, "A");
+    EXPECT_EQ(pits.taps, 5);
+    ASSERT_TRUE(pits.rest.has_value());
+    EXPECT_EQ(pits.rest->bands, 7);
+    EXPECT_EQ(pits.rest->rank, 11);
+    EXPECT_EQ(pits.rest->illuminant.name, "A");
+    EXPECT_THAT(refusal(with_quality(R"({"representation": "streak", "nodes": 33})", R"({"sigma": 0.05})")),
+                HasSubstr("/quality/nodes"));
+    EXPECT_THAT(refusal(R"({"grating": {"pitch_nm": 50000, "profile": {"type": "slit", "width_nm": 800},
+                            "orders": "all", "groove_lobe": {"sigma": 0.05}},
+                            "quality": {"representation": "streak"}})"),
+                AllOf(HasSubstr("/quality/nodes"), HasSubstr("1024")));
 }
 
 TEST(MaterialJson, AllOrdersAreThoseThatPropagateSomewhere) {

@@ -1,0 +1,67 @@
+#include "editor/trade/difference_image.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "editor/trade/measure_error.h"
+#include "engine/core/check.h"
+
+namespace rowland::trade {
+
+namespace {
+
+constexpr int kPanels = 3;
+constexpr int kGap = 2;  ///< pixels between panels, before they are magnified
+
+std::vector<glm::vec3> difference_colours(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b) {
+    std::vector<glm::vec3> colours;
+    for (const double difference : display_differences(a, b))
+        colours.push_back(difference_colour(difference / kFullDifference));
+    return colours;
+}
+
+void place(const std::vector<glm::vec3>& panel, int width, int left, int magnified, RgbPicture& picture) {
+    for (int row = 0; row < picture.height; ++row)
+        for (int column = 0; column < width * magnified; ++column) {
+            const glm::vec3 colour = panel[static_cast<std::size_t>(row / magnified * width + column / magnified)];
+            for (int c = 0; c < 3; ++c)
+                picture.rgb[static_cast<std::size_t>(3 * (row * picture.width + left + column) + c)] =
+                    static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(colour[c], 0.0F, 1.0F)));
+        }
+}
+
+}  // namespace
+
+// Even steps of lightness, told apart with any kind of colour vision: after matplotlib's viridis, from black.
+glm::vec3 difference_colour(double share) {
+    constexpr std::array<std::array<float, 3>, 6> kStops = {{{0.0F, 0.0F, 0.0F},
+                                                             {0.267F, 0.005F, 0.329F},
+                                                             {0.229F, 0.322F, 0.546F},
+                                                             {0.128F, 0.567F, 0.551F},
+                                                             {0.369F, 0.789F, 0.383F},
+                                                             {0.993F, 0.906F, 0.144F}}};
+    const double at = std::clamp(share, 0.0, 1.0) * (kStops.size() - 1);
+    const auto first = std::min<std::size_t>(static_cast<std::size_t>(at), kStops.size() - 2);
+    const auto stop = [&](std::size_t i) { return glm::vec3(kStops[i][0], kStops[i][1], kStops[i][2]); };
+    return glm::mix(stop(first), stop(first + 1), static_cast<float>(at - static_cast<double>(first)));
+}
+
+RgbPicture difference_image(std::span<const glm::dvec3> a, std::span<const glm::dvec3> b, int width, int height,
+                            int magnified) {
+    ROWLAND_CHECK_OP(a.size(), ==, b.size());
+    ROWLAND_CHECK_OP(a.size(), ==, static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    const float stops = exposure_for(b);
+    const std::vector<glm::vec3> shown_a = displayed(a, stops);
+    const std::vector<glm::vec3> shown_b = displayed(b, stops);
+    RgbPicture picture{
+        .width = (kPanels * width + (kPanels - 1) * kGap) * magnified, .height = height * magnified, .rgb = {}};
+    picture.rgb.assign(static_cast<std::size_t>(3 * picture.width * picture.height), 128);
+    place(shown_a, width, 0, magnified, picture);
+    place(shown_b, width, (width + kGap) * magnified, magnified, picture);
+    place(difference_colours(shown_a, shown_b), width, 2 * (width + kGap) * magnified, magnified, picture);
+    return picture;
+}
+
+}  // namespace rowland::trade

@@ -1,0 +1,92 @@
+#include "editor/trade/journal.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "engine/core/error.h"
+#include "engine/core/file.h"
+
+namespace rowland::trade {
+
+namespace {
+
+constexpr std::uint64_t kLargestJournal = std::uint64_t{1} << 31;
+
+[[noreturn]] void fail(const std::filesystem::path& path, const char* doing) {
+    throw Error({.file = path.string(),
+                 .place = {},
+                 .found = fmt::format("{}: {}", doing, std::strerror(errno)),
+                 .expected = {},
+                 .remedy = {},
+                 .fault = Fault::System});
+}
+
+}  // namespace
+
+struct Journal::File {
+    int descriptor = -1;
+    File() = default;
+    File(const File&) = delete;
+    File& operator=(const File&) = delete;
+    ~File() {
+        if (descriptor >= 0) ::close(descriptor);
+    }
+};
+
+Journal::~Journal() = default;
+
+Journal::Journal(std::filesystem::path path) : path_(std::move(path)), file_(std::make_unique<File>()) {
+    if (path_.has_parent_path()) {
+        std::error_code failure;
+        std::filesystem::create_directories(path_.parent_path(), failure);
+    }
+    file_->descriptor = ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+    if (file_->descriptor < 0) fail(path_, "opening");
+    if (::flock(file_->descriptor, LOCK_EX | LOCK_NB) != 0)
+        refuse_input(path_.string(), "", "a file that another process writes", "results of one sweep at a time",
+                     "wait for it, or name another folder");
+    read();
+}
+
+void Journal::read() {
+    const std::string text = read_text_file(path_, kLargestJournal);
+    const std::size_t whole = text.rfind('\n') == std::string::npos ? 0 : text.rfind('\n') + 1;
+    int line_number = 0;
+    for (std::size_t begin = 0; begin < whole;) {
+        const std::size_t end = text.find('\n', begin);
+        ++line_number;
+        const auto line = nlohmann::json::parse(text.begin() + static_cast<std::ptrdiff_t>(begin),
+                                                text.begin() + static_cast<std::ptrdiff_t>(end), nullptr, false);
+        if (!line.is_object() || !line.contains("key") || !line["key"].is_string() || !line.contains("value"))
+            refuse_input(path_.string(), fmt::format("line {}", line_number), "no entry of a journal",
+                         "{\"key\": …, \"value\": …}", "remove the line, or the file");
+        entries_[line["key"]] = line["value"];
+        begin = end + 1;
+    }
+    if (whole < text.size() && ::ftruncate(file_->descriptor, static_cast<off_t>(whole)) != 0)
+        fail(path_, "cutting off a torn line");
+}
+
+const nlohmann::json* Journal::find(const std::string& key) const {
+    const auto found = entries_.find(key);
+    return found == entries_.end() ? nullptr : &found->second;
+}
+
+void Journal::add(const std::string& key, nlohmann::json value) {
+    const std::string line = nlohmann::json{{"key", key}, {"value", value}}.dump() + "\n";
+    for (std::size_t written = 0; written < line.size();) {
+        const ssize_t count = ::write(file_->descriptor, line.data() + written, line.size() - written);
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) fail(path_, "writing");
+        written += static_cast<std::size_t>(count);
+    }
+    entries_[key] = std::move(value);
+}
+
+}  // namespace rowland::trade

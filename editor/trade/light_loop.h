@@ -1,0 +1,52 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "engine/colour/light_spectra.h"
+#include "engine/gpu/buffer.h"
+#include "engine/gpu/texture.h"
+#include "engine/render/material.h"
+#include "modules/diffraction/model/grating.h"
+
+namespace rowland::trade {
+
+/// A grating that is shaded light by light and order by order, as one would without SH: what Lindsay & Agu 2006, fig.
+/// 3, compare with. Per pixel, for each light and order m, the wavelength d u/m is found, and its colour looked up.
+class LightLoop {
+ public:
+    /// Throws Error (input) for a lobe that is not flat, and for fewer than kManyGrooves grooves. The context is
+    /// current.
+    LightLoop(const diffraction::Grating& grating, const colour::LightSpectra& spectra);
+
+    /// From now on these light it; any number. Linear Rec.709.
+    void set_lights(std::span<const render::DistantLight> lights);
+
+    void bind(const gpu::Program& program) const;
+    int orders() const { return static_cast<int>(orders_.size()); }
+
+ private:
+    double pitch_nm_;
+    std::vector<float> orders_;  ///< without 0
+    gpu::Texture colours_;       ///< row 3 i + c: light of colour c in order i, a texel a nanometre from 380 to 780
+    gpu::Buffer lights_;
+    int light_count_ = 0;
+};
+
+/// Component: a surface that a light loop shades.
+struct LightLoopSurface {
+    std::shared_ptr<const LightLoop> loop;
+};
+
+/// Draws entities that have a LightLoopSurface, over their StandardMaterial as a grating's base.
+class LightLoopType final : public render::MaterialType {
+ public:
+    void add_shaders(gpu::ShaderLibrary& library) const override;
+    bool owns(ecs::World& world, ecs::Entity entity) const override;
+    gpu::ProgramDesc program(ecs::World& world, ecs::Entity entity) const override;
+    void update(ecs::World&, const render::FrameLight&) override {}
+    void bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const override;
+};
+
+}  // namespace rowland::trade

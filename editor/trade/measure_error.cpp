@@ -1,0 +1,130 @@
+#include "editor/trade/measure_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <variant>
+
+#include "engine/colour/delta_e.h"
+#include "engine/colour/working_space.h"
+#include "engine/core/check.h"
+#include "engine/post/display_transform.h"
+#include "engine/post/working_space.h"
+#include "modules/diffraction/evaluate/point_shader.h"
+#include "modules/diffraction/evaluate/radiance_error.h"
+
+namespace rowland::trade {
+
+namespace {
+
+constexpr double kMiddleGrey = 0.18;
+
+std::vector<glm::dvec3> shade_curved(const diffraction::CookedMaterial& cooked,
+                                     const diffraction::EvaluationLight& light,
+                                     const std::vector<diffraction::Frame>& surface) {
+    const auto* planar = std::get_if<diffraction::PlanarTables>(&cooked.tables);
+    if (planar == nullptr) return evaluate_baked(cooked, light, surface);
+    diffraction::CookedMaterial stand_in = cooked;
+    stand_in.tables = planar->stand_in;
+    return evaluate_baked(stand_in, light, surface);
+}
+
+glm::dvec3 srgb_to_linear(const glm::vec3& encoded) {
+    glm::dvec3 linear;
+    for (int i = 0; i < 3; ++i) {
+        const double value = static_cast<double>(encoded[i]);
+        linear[i] = value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+    }
+    return linear;
+}
+
+glm::dvec3 display_lab(const glm::vec3& encoded) {
+    return colour::xyz_to_lab(colour::rec709_to_xyz() * srgb_to_linear(encoded), colour::white_d65());
+}
+
+/// The value that a share of the sorted values does not exceed.
+double quantile(const std::vector<double>& sorted, double share) {
+    if (sorted.empty()) return 0.0;
+    const auto index = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size())));
+    return sorted[std::clamp<std::size_t>(index, 1, sorted.size()) - 1];
+}
+
+double largest_error(std::span<const glm::dvec3> radiance, std::span<const glm::dvec3> reference) {
+    double error = 0.0;
+    double scale = 0.0;
+    for (std::size_t i = 0; i < reference.size(); ++i) {
+        error = std::max(error, glm::length(radiance[i] - reference[i]));
+        scale = std::max(scale, glm::length(reference[i]));
+    }
+    return error == 0.0 ? 0.0 : error / scale;
+}
+
+double dark_error(std::span<const glm::dvec3> radiance, std::span<const glm::dvec3> reference) {
+    double mean = 0.0;
+    for (const glm::dvec3& xyz : reference) mean += xyz.y / static_cast<double>(reference.size());
+    double sum = 0.0;
+    int count = 0;
+    for (std::size_t i = 0; i < reference.size(); ++i) {
+        if (reference[i].y >= kDark * mean) continue;
+        sum += std::abs(radiance[i].y - reference[i].y);
+        ++count;
+    }
+    return count == 0 ? 0.0 : sum / count / mean;
+}
+
+}  // namespace
+
+std::vector<glm::dvec3> shaded(const diffraction::CookedMaterial& cooked, const diffraction::EvaluationLight& light,
+                               const FrameSet& set) {
+    std::vector<glm::dvec3> result;
+    for (const auto& surface : set.surfaces) {
+        const std::vector<glm::dvec3> part =
+            is_flat(surface) ? evaluate_baked(cooked, light, surface) : shade_curved(cooked, light, surface);
+        result.insert(result.end(), part.begin(), part.end());
+    }
+    return result;
+}
+
+float exposure_for(std::span<const glm::dvec3> xyz) {
+    double sum = 0.0;
+    int lit = 0;
+    for (const glm::dvec3& value : xyz)
+        if (value.y > 0.0) {
+            sum += value.y;
+            ++lit;
+        }
+    return lit == 0 ? 0.0F : static_cast<float>(std::log2(kMiddleGrey * lit / sum));
+}
+
+std::vector<glm::vec3> displayed(std::span<const glm::dvec3> xyz, float exposure_stops) {
+    const auto config = post::OcioConfig::shipped();
+    const glm::dmat3 to_working = post::xyz_to_scene_linear(config);
+    std::vector<glm::vec3> pixels;
+    for (const glm::dvec3& value : xyz) pixels.emplace_back(to_working * value);
+    post::DisplayTransform(config).apply_cpu(pixels, exposure_stops);
+    for (glm::vec3& pixel : pixels) pixel = glm::clamp(pixel, 0.0F, 1.0F);
+    return pixels;
+}
+
+std::vector<double> display_differences(std::span<const glm::vec3> a, std::span<const glm::vec3> b) {
+    ROWLAND_CHECK_OP(a.size(), ==, b.size());
+    std::vector<double> result;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        result.push_back(colour::delta_e_2000(display_lab(a[i]), display_lab(b[i])));
+    return result;
+}
+
+MethodError compare(std::span<const glm::dvec3> radiance, std::span<const glm::dvec3> reference) {
+    ROWLAND_CHECK_OP(radiance.size(), ==, reference.size());
+    const float stops = exposure_for(reference);
+    std::vector<double> differences = display_differences(displayed(radiance, stops), displayed(reference, stops));
+    std::sort(differences.begin(), differences.end());
+    return {.relative_rms = diffraction::relative_rms(radiance, reference),
+            .largest = largest_error(radiance, reference),
+            .dark_absolute = dark_error(radiance, reference),
+            .median_delta_e = quantile(differences, 0.5),
+            .high_delta_e = quantile(differences, 0.95)};
+}
+
+}  // namespace rowland::trade

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "editor/trade/stage.h"
+#include "engine/lighting/probe_image.h"
+#include "engine/platform/headless_context.h"
+
+namespace rowland::trade {
+
+/// A frame's time on the present device: minima over rounds that alternate with the plain material.
+struct FrameTime {
+    double ms = 0.0;
+    double plain_ms = 0.0;  ///< the plain material (no key lights apart), same mesh, camera and rounds
+
+    double ratio() const { return ms / plain_ms; }
+};
+
+/// Times frames of settings on the disc of the stage under one probe, in a headless context of its own.
+class FrameTimer {
+ public:
+    FrameTimer(const lighting::ProbeImage& probe, glm::ivec2 size);
+
+    FrameTime time(const diffraction::CookedMaterial& material, int key_lights);
+    const std::string& device() const { return context_.renderer(); }
+
+ private:
+    void light_by(int key_lights);
+    template <typename Show>
+    double fastest(Show&& show);
+
+    platform::HeadlessContext context_;
+    const lighting::ProbeImage* image_;
+    lighting::LightProbe probe_;
+    std::map<int, std::vector<lighting::KeyLight>> fitted_;
+    std::optional<int> lit_by_;
+    Stage stage_;
+};
+
+}  // namespace rowland::trade

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <vector>
+
+#include "engine/core/json_reader.h"
+
+namespace rowland::scene {
+
+/// What a layer paints into one channel: from + (to − from) · t, where t runs from 0 to 1 `repeat` times over a share
+/// of what it goes by, and stays as it is before and behind.
+struct ChannelRecipe {
+    enum class By {
+        Cell,    ///< a value of the cell's own, evenly spread over the cells
+        Radius,  ///< from the cell's centre to its edge
+        Angle,   ///< around the centre, counter-clockwise from the right
+        X,       ///< across the picture, from the left
+        Y,       ///< from the bottom
+    };
+
+    double from = 0.0;  ///< 0 … 1
+    double to = 0.0;
+    By by = By::X;
+    double begin = 0.0;  ///< 0 … 1, below `end`
+    double end = 1.0;
+    double repeat = 1.0;  ///< > 0
+};
+
+/// Lengths are in heights of the picture, places from its lower left corner.
+struct LayerRecipe {
+    enum class Pattern {
+        All,       ///< everywhere; one cell
+        Tiles,     ///< rectangles
+        Hexagons,  ///< regular, two corners up and down
+        Rosette,   ///< a flower of concentric rings; with petals = 0 a disc
+    };
+
+    Pattern pattern = Pattern::All;
+    glm::dvec2 size{0.0};      ///< of tiles; of hexagons x, across their flats; > 0
+    double gap = 0.0;          ///< share of a tile's, hexagon's or ring's width that is left free, 0 … < 1
+    glm::dvec2 centre{0.0};    ///< of a rosette
+    double radius = 0.0;       ///< of a rosette, out to the petals' tips, > 0
+    int petals = 0;            ///< 0 … 64
+    double petal_depth = 0.3;  ///< how far it goes in between petals, as a share of the radius, 0 … < 1
+    int rings = 1;             ///< 1 … 256; each is a cell
+    std::array<std::optional<ChannelRecipe>, 4> channels;  ///< R, G, B, A; those that are absent stay as they were
+};
+
+/// A picture painted in layers, each over those before it; black and opaque at first. Plain numbers: whether they mean
+/// colours or anything else is for whoever uses the texture.
+struct TextureRecipe {
+    int width = 1;  ///< texels, 1 … 8192
+    int height = 1;
+    std::vector<LayerRecipe> layers;  ///< at most 32
+};
+
+/// Reads "size" and "layers" of an object that may hold more; scene_recipe.schema.json says what may stand there.
+/// Throws Error (input) that names the place. `finish()` is the caller's.
+TextureRecipe parse_texture(JsonReader& reader);
+
+struct PaintedTexture {
+    int channels = 3;                  ///< 4 if a layer paints A
+    std::vector<std::uint8_t> texels;  ///< width·height·channels, row by row from the top
+};
+
+/// The same recipe gives the same bytes with any number of threads.
+PaintedTexture paint(const TextureRecipe& recipe);
+
+}  // namespace rowland::scene

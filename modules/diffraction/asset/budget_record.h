@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "modules/diffraction/asset/material.h"
+
+namespace rowland::diffraction {
+
+/// What was measured when a material's representation was chosen for its max_error.
+struct BudgetRecord {
+    struct OfProbe {
+        std::string probe;   ///< as the material names it
+        int key_lights = 0;  ///< taken out of it at most, and shaded on their own
+        double error = 0.0;  ///< relative RMS, ≤ max_error
+    };
+
+    double max_error = 0.0;
+    SurfaceShape surface = SurfaceShape::Flat;
+    int frames = 0;      ///< that the error is over
+    double price = 0.0;  ///< shading_price() of what was chosen
+    std::vector<OfProbe> probes;
+};
+
+/// "flat" or "curved".
+const char* surface_shape_name(SurfaceShape surface);
+
+/// As compact JSON, the same bytes for the same record.
+std::string write_budget_record(const BudgetRecord& record);
+/// Inverse of write_budget_record() for text that may be hostile. Throws Error (input) naming `file`.
+BudgetRecord parse_budget_record(std::string_view text, const std::string& file);
+
+}  // namespace rowland::diffraction

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine/gpu/program.h"
+#include "engine/gpu/texture.h"
+#include "engine/lighting/key_lights.h"
+#include "modules/diffraction/bake/blurred_kernel.h"
+
+namespace rowland::diffraction {
+
+/// What each key light adds to one grating, a layer of a texture each (bake/lobe_table.h): shaders/key_lobes.glsl.
+/// Directions are no part of it, so that turning the light keeps it.
+class GpuLobes {
+ public:
+    /// Makes the layers anew if the lights' fluxes or concentrations are others than before.
+    void set(const BlurredKernel& kernel, double pitch_nm, std::span<const lighting::KeyLight> lights);
+    void bind(const gpu::Program& program, double pitch_nm) const;
+
+ private:
+    gpu::Texture texture_;
+    std::vector<lighting::KeyLight> lights_;
+    float scale_ = 1.0F;  ///< of stored values, per unit of the flux' largest component
+    double begin_nm_ = 0.0;
+    double end_nm_ = 0.0;
+};
+
+}  // namespace rowland::diffraction

@@ -1,0 +1,163 @@
+#include "modules/diffraction/runtime/groove_map.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "engine/core/error.h"
+#include "engine/render/draw_list.h"
+#include "modules/diffraction/runtime/bindings.h"
+
+namespace rowland::diffraction {
+
+namespace {
+
+/// Ranks of a table over pitches that nobody asked for: 1 % or less where one pitch takes 8 for 2 %.
+constexpr int kPitchRank = 12;
+/// From one pitch of a table to the next, at most.
+constexpr double kPitchStep = 1.045;
+/// Pitches that differ by less look the same.
+constexpr double kSamePitch = 0.01;
+
+scene::TextureUse texture_use(const GrooveTexture& use, const scene::ImportedScene& scene, const std::string& file,
+                              const std::string& place) {
+    if (static_cast<std::size_t>(use.index) >= scene.textures.size())
+        refuse_input(file, place + "/index", fmt::format("{}", use.index),
+                     fmt::format("one of the file's {} textures, counted from 0", scene.textures.size()));
+    if (use.tex_coord > 1)
+        refuse_input(file, place + "/texCoord", fmt::format("{}", use.tex_coord),
+                     "0 or 1: no more sets of texture coordinates are read");
+    return {.texture = static_cast<std::size_t>(use.index),
+            .uv_set = use.tex_coord,
+            .transform = {.offset = glm::vec2(use.offset),
+                          .rotation = static_cast<float>(use.rotation),
+                          .scale = glm::vec2(use.scale)}};
+}
+
+/// A column or row of a picture from one that may lie beside it.
+int wrapped(int place, int size, scene::TextureWrap wrap) {
+    if (wrap == scene::TextureWrap::Clamp) return std::clamp(place, 0, size - 1);
+    const int period = wrap == scene::TextureWrap::Mirror ? 2 * size : size;
+    const int within = (place % period + period) % period;
+    return within < size ? within : period - 1 - within;
+}
+
+void refuse_representation(const Material& material, const std::string& file, const std::string& place) {
+    refuse_input(file, place + "/quality/representation",
+                 fmt::format("\"{}\" with a grooveTexture", representation_name(material.quality.pinned->index())),
+                 "\"arc\", \"direct\" or, with a sigma for groove_lobe, \"streak\"", "or leave quality out");
+}
+
+void set_pitches(const GrooveMap& grooves, const Material& material, ArcSettings& settings, const std::string& file,
+                 const std::string& place) {
+    const double smallest = grooves.smallest_pitch();
+    const double largest = grooves.largest_pitch();
+    if (smallest >= 1.0 - kSamePitch && largest <= 1.0 + kSamePitch) return;
+    if (!is_flat(material.grating.lobe))
+        refuse_input(file, place + "/grooveTexture",
+                     fmt::format("pitches of {:.3g} to {:.3g} times pitch_nm, with a groove_lobe that is not flat",
+                                 smallest, largest),
+                     "the flat groove_lobe, or the representation \"streak\" or \"direct\"",
+                     "or keep the texture's green at one half");
+    const double low = std::min(smallest, largest * (1.0 - kSamePitch));
+    settings.pitch = PitchAxis{.smallest = low,
+                               .largest = largest,
+                               .nodes = 2 + static_cast<int>(std::log(largest / low) / std::log(kPitchStep))};
+}
+
+}  // namespace
+
+GrooveMap::GrooveMap(const GrooveTexture& use, render::SurfaceTextures& textures, const std::string& file,
+                     const std::string& place) {
+    const scene::ImportedScene& scene = textures.scene();
+    texture_ = textures.get(texture_use(use, scene, file, place), render::TexelMeaning::Linear);
+    sampling_ = scene.textures[static_cast<std::size_t>(use.index)];
+    image_ = scene.images[sampling_.image];
+    int smallest = 256;
+    int largest = 0;
+    for (std::size_t i = 1; i < image_->rgba.size(); i += 4) {
+        if (image_->rgba[i] == 0) continue;
+        smallest = std::min<int>(smallest, image_->rgba[i]);
+        largest = std::max<int>(largest, image_->rgba[i]);
+    }
+    if (largest == 0) return;
+    smallest_pitch_ = 2.0 * smallest / 255.0;
+    largest_pitch_ = 2.0 * largest / 255.0;
+}
+
+double GrooveMap::red(int column, int row) const {
+    const int x = wrapped(column, image_->width, sampling_.wrap_s);
+    const int y = wrapped(row, image_->height, sampling_.wrap_t);
+    return image_->rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image_->width) +
+                             static_cast<std::size_t>(x))] /
+           255.0;
+}
+
+double GrooveMap::rotation(const glm::vec2& uv) const {
+    const render::UvTransform transform = render::uv_transform(texture_.transform);
+    const glm::vec2 place = glm::vec2(transform.linear) * uv.x +
+                            glm::vec2(transform.linear.z, transform.linear.w) * uv.y + transform.offset;
+    // Coordinates beyond a million repeats say nothing; they must not overflow.
+    const auto texels = [](float coordinate, int size) {
+        return std::clamp(static_cast<double>(coordinate), -1e6, 1e6) * size;
+    };
+    const double x = texels(place.x, image_->width);
+    const double y = texels(place.y, image_->height);
+    if (sampling_.nearest)
+        return std::numbers::pi * red(static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)));
+    const int column = static_cast<int>(std::floor(x - 0.5));
+    const int row = static_cast<int>(std::floor(y - 0.5));
+    const double s = x - 0.5 - column;
+    const double t = y - 0.5 - row;
+    return std::numbers::pi * ((1.0 - t) * ((1.0 - s) * red(column, row) + s * red(column + 1, row)) +
+                               t * ((1.0 - s) * red(column, row + 1) + s * red(column + 1, row + 1)));
+}
+
+void GrooveMap::add_defines(gpu::ProgramDesc& desc) const {
+    desc.defines.push_back({"GROOVE_MAP", texture_.uv_set == 1 ? "uv1" : "uv"});
+    desc.defines.push_back({texture_.uv_set == 1 ? "HAS_UV1" : "HAS_UV", ""});
+}
+
+void GrooveMap::bind(const gpu::Program& program) const {
+    texture_.texture->bind(kGrooveMapUnit);
+    const render::UvTransform transform = render::uv_transform(texture_.transform);
+    program.set("groove_uv_linear", transform.linear);
+    program.set("groove_uv_offset", transform.offset);
+}
+
+Material suit_to_grooves(const Material& material, const GrooveMap& grooves, const std::string& file,
+                         const std::string& place) {
+    Material suited = material;
+    if (!suited.quality.pinned) {
+        suited.quality.pinned = ArcSettings{.rank = kPitchRank};
+        suited.quality.key_lights = true;
+    }
+    if (auto* arc = std::get_if<ArcSettings>(&*suited.quality.pinned)) {
+        set_pitches(grooves, material, *arc, file, place);
+        return suited;
+    }
+    const auto* streak = std::get_if<StreakSurfaceSettings>(&*suited.quality.pinned);
+    const bool narrow = streak != nullptr && !streak->rest;
+    if (!narrow && !std::holds_alternative<DirectSettings>(*suited.quality.pinned))
+        refuse_representation(material, file, place);
+    return suited;
+}
+
+scene::Mesh turned_by(const GrooveMap& grooves, const scene::Mesh& mesh) {
+    const std::vector<glm::vec2>& uvs = grooves.uv_set() == 1 ? mesh.uvs1 : mesh.uvs;
+    scene::Mesh turned = mesh;
+    for (std::size_t i = 0; i < mesh.tangents.size(); ++i) {
+        const double angle = grooves.rotation(i < uvs.size() ? uvs[i] : glm::vec2(0.0F));
+        const glm::vec3 g(mesh.tangents[i]);
+        const glm::vec3 bitangent = mesh.tangents[i].w * glm::cross(mesh.normals[i], g);
+        turned.tangents[i] =
+            glm::vec4(static_cast<float>(std::cos(angle)) * g + static_cast<float>(std::sin(angle)) * bitangent,
+                      mesh.tangents[i].w);
+    }
+    return turned;
+}
+
+}  // namespace rowland::diffraction

@@ -1,0 +1,48 @@
+// The pixel's part of bake/arc_table.h. LAYERS and VIEW_MAPPING are defined by the program; so are PITCH_AXIS for a table
+// over pitches, and TURNS, the light's bands, where products come as a series over the azimuth of g.
+#include "modules/diffraction/shaders/packed_table.glsl"
+
+const int PRODUCTS = 3 * LAYERS;
+
+#ifdef TURNS
+// The constant, then cos and sin of each multiple of the azimuth: runtime/arc_turns.h.
+layout(std430, binding = 4) readonly buffer ArcTurns { vec4 turn_terms[]; };
+uniform vec3 arc_e1;  // the azimuth's axes in the world
+uniform vec3 arc_e2;
+
+vec4[PRODUCTS] products_at(vec3 g) {
+    vec2 once = vec2(dot(g, arc_e1), dot(g, arc_e2));
+    vec2 turn = vec2(1.0, 0.0);
+    vec4 products[PRODUCTS];
+    for (int i = 0; i < PRODUCTS; ++i) products[i] = turn_terms[i];
+    for (int m = 1; m < TURNS; ++m) {
+        turn = vec2(turn.x * once.x - turn.y * once.y, turn.x * once.y + turn.y * once.x);
+        int at = (2 * m - 1) * PRODUCTS;
+        for (int i = 0; i < PRODUCTS; ++i)
+            products[i] += turn.x * turn_terms[at + i] + turn.y * turn_terms[at + PRODUCTS + i];
+    }
+    return products;
+}
+#else
+in vec4 arc_products[PRODUCTS];
+vec4[PRODUCTS] products_at(vec3 g) { return arc_products; }
+#endif
+
+#ifdef PITCH_AXIS
+uniform vec2 pitch_place;  // scale and offset from the logarithm of the pitch's factor to the table's second coordinate
+#endif
+
+vec3 arc_xyz(GrooveView view) {
+    vec2 coordinates = table_coordinates(view.direction);
+#ifdef PITCH_AXIS
+    coordinates.y = log(view.pitch) * pitch_place.x + pitch_place.y;
+#endif
+    vec4 products[PRODUCTS] = products_at(view.axes[0]);
+    vec3 xyz = vec3(0.0);
+    for (int j = 0; j < LAYERS; ++j) {
+        vec4 weights = table_entries(coordinates, j);
+        xyz += vec3(dot(weights, products[3 * j]), dot(weights, products[3 * j + 1]),
+                    dot(weights, products[3 * j + 2]));
+    }
+    return xyz;
+}

@@ -1,0 +1,181 @@
+// The benchmark programs as a user runs them: they draw what they name and print what they measure. No time is judged.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "engine/core/file.h"
+#include "tests/support/temporary_folder.h"
+
+namespace rowland {
+namespace {
+
+using nlohmann::json;
+
+/// A finished program.
+struct Finished {
+    int status = -1;
+    std::string output;
+};
+
+Finished run(const std::string& program, const std::string& arguments) {
+    const test::TemporaryFolder folder;
+    const std::filesystem::path output = folder.path() / "output";
+    const int status = std::system((program + " " + arguments + " > '" + output.string() + "'").c_str());
+    return {WEXITSTATUS(status), read_text_file(output, 1 << 20)};
+}
+
+std::vector<std::string> lines(const std::string& text) {
+    std::vector<std::string> result;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) result.push_back(line);
+    return result;
+}
+
+std::vector<std::string> names_of(const json& frames) {
+    std::vector<std::string> names;
+    for (const json& frame : frames) names.push_back(frame.at("name"));
+    return names;
+}
+
+/// Draws frames of 64 × 36 pixels unless told otherwise; their results, and what was printed.
+struct FrameRun {
+    explicit FrameRun(const std::string& arguments, const std::string& size = "--width 64 --height 36") {
+        const test::TemporaryFolder folder;
+        const std::filesystem::path path = folder.path() / "frames.json";
+        const Finished finished =
+            run(ROWLAND_BENCHMARK, size + " --rounds 1 --json '" + path.string() + "' " + arguments);
+        EXPECT_EQ(finished.status, 0);
+        output = finished.output;
+        report = json::parse(read_text_file(path, 1 << 20));
+    }
+    const json& frame(const std::string& name) const {
+        for (const json& one : report.at("frames"))
+            if (one.at("name") == name) return one;
+        throw std::runtime_error("no frame " + name);
+    }
+    double radiance(const std::string& name) const { return frame(name).at("mean_radiance"); }
+
+    json report;
+    std::string output;
+};
+
+void expect_positive(const json& number, const std::string& what) {
+    ASSERT_TRUE(number.is_number()) << what;
+    EXPECT_TRUE(std::isfinite(number.get<double>())) << what;
+    EXPECT_GT(number.get<double>(), 0.0) << what;
+}
+
+TEST(FrameBenchmark, DrawsAndPrintsEveryVariant) {
+    const FrameRun frames("");
+    const std::vector<std::string> listed = lines(run(ROWLAND_BENCHMARK, "--list").output);
+    EXPECT_EQ(names_of(frames.report.at("frames")), listed);
+    EXPECT_EQ(std::set<std::string>(listed.begin(), listed.end()).size(), listed.size());
+    for (const json& frame : frames.report.at("frames")) {
+        const std::string name = frame.at("name");
+        EXPECT_THAT(frames.output, testing::HasSubstr("\n" + name + " "));
+        for (const char* number : {"minimum_ms", "median_ms", "ratio", "mean_radiance"})
+            expect_positive(frame.at(number), name + ": " + number);
+        EXPECT_LE(frame.at("minimum_ms"), frame.at("median_ms")) << name;
+        const double baseline = frames.frame(frame.at("baseline")).at("minimum_ms");
+        EXPECT_NEAR(frame.at("ratio"), frame.at("minimum_ms").get<double>() / baseline, 1e-9) << name;
+    }
+    const std::string renderer = frames.report.at("gl_renderer");
+    EXPECT_FALSE(renderer.empty());
+    EXPECT_THAT(frames.output, testing::HasSubstr(renderer));
+    EXPECT_THAT(frames.output, testing::HasSubstr(frames.report.at("processor").get<std::string>()));
+
+    // Half of the picture, as the product's figures say. Its edge pixels: one of 36 rows.
+    EXPECT_NEAR(frames.report.at("coverage"), 0.5, 1.0 / 36.0);
+    // One light, two ways to shade it, in one place each: alike but for the kernel's smoothing over a pixel and the
+    // pixel's own edges (measured: 1e-4 at 640 × 360, where pixels are a tenth as wide).
+    for (const char* lights : {"1", "4", "16", "64"})
+        EXPECT_NEAR(frames.radiance(std::string("light-loop/lights:") + lights) /
+                        frames.radiance(std::string("direct/lights:") + lights),
+                    1.0, 0.02)
+            << lights;
+    // The same SH light by tables that lose wavelengths, views or ranks alone: 4 spikes lose 10 %, bins and ranks 2 %.
+    for (const char* name : {"spikes", "bins", "arc"})
+        EXPECT_NEAR(frames.radiance(name) / frames.radiance("transfer"), 1.0, 0.1) << name;
+    // The whole light by two maps, and all of it with key lights taken out.
+    for (const char* name : {"circle", "planar/key-lights:16", "circle/key-lights:16"})
+        EXPECT_NEAR(frames.radiance(name) / frames.radiance("planar"), 1.0, 0.05) << name;
+    EXPECT_GT(frames.radiance("planar"), 2.0 * frames.radiance("plain"));
+    EXPECT_LT(frames.radiance("direct"), 0.8 * frames.radiance("planar"));
+}
+
+TEST(FrameBenchmark, DrawsTheChosenAndTheirBaselinesAlone) {
+    const FrameRun arc("--only arc");
+    EXPECT_THAT(names_of(arc.report.at("frames")), testing::ElementsAre("plain", "arc"));
+    EXPECT_THAT(arc.output, testing::Not(testing::HasSubstr("planar")));
+    const FrameRun two("--only 'un*,plain/vertices:2500'");
+    EXPECT_THAT(names_of(two.report.at("frames")), testing::ElementsAre("plain", "unlit", "plain/vertices:2500"));
+    // Not the same numbers: these are measured, to a nanosecond.
+    EXPECT_NE(arc.frame("plain").at("minimum_ms"), two.frame("plain").at("minimum_ms"));
+}
+
+TEST(FrameBenchmark, AFrameOfFourHundredTimesThePixelsTakesLonger) {
+    const FrameRun small("--only plain");
+    const FrameRun large("--only plain", "--width 1280 --height 720");
+    EXPECT_GT(large.frame("plain").at("minimum_ms"), small.frame("plain").at("minimum_ms"));
+}
+
+TEST(FrameBenchmark, ResultFilesBearTheRenderersName) {
+    const test::TemporaryFolder folder;
+    const FrameRun frames("--only unlit --output-folder '" + folder.path().string() + "'");
+    std::vector<std::string> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+        files.push_back(entry.path().filename().string());
+    std::string first_word = frames.report.at("gl_renderer");
+    first_word = first_word.substr(0, first_word.find(' '));
+    for (char& c : first_word) c = static_cast<char>(std::tolower(c));
+    EXPECT_THAT(files, testing::UnorderedElementsAre(testing::StartsWith("frames-" + first_word),
+                                                     testing::StartsWith("frames-" + first_word)));
+}
+
+TEST(FrameBenchmark, RefusesANameThatIsNone) {
+    EXPECT_EQ(run(ROWLAND_BENCHMARK, "--only arcs").status, 2);
+    EXPECT_EQ(run(ROWLAND_BENCHMARK, "--rounds 0").status, 2);
+}
+
+TEST(Microbenchmark, TimesEveryPart) {
+    const test::TemporaryFolder folder;
+    const std::string json_file = (folder.path() / "parts.json").string();
+    const std::string table_file = (folder.path() / "parts.md").string();
+    const Finished finished =
+        run(ROWLAND_MICROBENCHMARK, "--benchmark_min_time=0 --benchmark_out_format=json --benchmark_out='" + json_file +
+                                        "' --markdown-file='" + table_file + "'");
+    ASSERT_EQ(finished.status, 0);
+    const std::string table = read_text_file(table_file, 1 << 20);
+    const json report = json::parse(read_text_file(json_file, 1 << 20));
+    EXPECT_FALSE(report.at("context").at("processor").get<std::string>().empty());
+    std::vector<std::string> names;
+    std::map<std::string, double> errors;
+    for (const json& part : report.at("benchmarks")) {
+        const std::string name = part.at("name");
+        names.push_back(name);
+        EXPECT_THAT(finished.output, testing::HasSubstr(name));
+        EXPECT_THAT(table, testing::HasSubstr("| " + name + " |"));
+        expect_positive(part.at("real_time"), name);
+        if (part.contains("error")) errors[part.at("name").get<std::string>()] = part.at("error");
+    }
+    for (const char* part :
+         {"sh_evaluate/bands:11", "sh_rotation_build/bands:5", "sh_rotation_apply/bands:11/channels:3",
+          "vertex_update/spikes", "vertex_update/arc", "project_equirect/width:4096", "bake/circle", "bake/spikes",
+          "view_table/comparison", "planar_fill/side:128", "circle_fill/side:64", "ecs_create", "ecs_destroy",
+          "ecs_iterate/components:7", "ecs_add_and_remove"})
+        EXPECT_THAT(names, testing::Contains(testing::StartsWith(part)));
+}
+
+}  // namespace
+}  // namespace rowland

@@ -1,0 +1,33 @@
+#include "tests/benchmark/cd_materials.h"
+
+namespace rowland::benchmark {
+
+std::vector<TimedRepresentation> timed_representations() {
+    return {
+        {"spikes", {{"representation", "spikes"}, {"bands", 5}, {"spikes", 4}}, true},
+        {"bins", {{"representation", "bins"}, {"bands", 5}, {"bins", 16}}, true},
+        {"transfer", {{"representation", "transfer"}, {"bands", 5}}, true},
+        {"arc", {{"representation", "arc"}, {"bands", 5}, {"rank", 8}}, true},
+        {"planar", {{"representation", "planar"}, {"map_resolution", 128}}},
+        {"circle", {{"representation", "circle"}, {"map_resolution", 64}}},
+        {"streak", {{"representation", "streak"}}, false, {{"sigma", 0.05}}},
+        {"direct", {{"representation", "direct"}}},
+    };
+}
+
+nlohmann::json cd_material(const nlohmann::json& quality, const nlohmann::json& groove_lobe) {
+    return {{"grating",
+             {{"pitch_nm", 1600},
+              {"profile", {{"type", "slit"}, {"width_nm", 800}}},
+              {"orders", {-2, -1, 1, 2}},
+              {"groove_lobe", groove_lobe}}},
+            {"metal", "Al"},
+            {"base", {{"color", {0.02, 0.02, 0.02}}, {"roughness", 0.3}}},
+            {"quality", quality}};
+}
+
+nlohmann::json material_of(const TimedRepresentation& representation) {
+    return cd_material(representation.quality, representation.groove_lobe);
+}
+
+}  // namespace rowland::benchmark

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace rowland::benchmark {
+
+/// A representation that surfaces are drawn with, at the settings that are timed.
+struct TimedRepresentation {
+    std::string name;
+    nlohmann::json quality;  ///< as in the material file
+    /// Whether light may come as SH alone. If not, lights of the scene are always shaded one by one.
+    bool sh_alone = false;
+    nlohmann::json groove_lobe = "flat";
+};
+
+std::vector<TimedRepresentation> timed_representations();
+
+/// The compact disc's material file, drawn as `quality` says.
+nlohmann::json cd_material(const nlohmann::json& quality, const nlohmann::json& groove_lobe = "flat");
+nlohmann::json material_of(const TimedRepresentation& representation);
+
+}  // namespace rowland::benchmark

@@ -1,0 +1,105 @@
+#include "tests/benchmark/frame_report.h"
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "engine/core/check.h"
+#include "tests/benchmark/processor.h"
+
+namespace rowland::benchmark {
+
+namespace {
+
+const FrameResult& find(const FrameReport& report, const std::string& name) {
+    const auto found = std::find_if(report.results.begin(), report.results.end(),
+                                    [&](const FrameResult& result) { return result.name == name; });
+    ROWLAND_CHECK(found != report.results.end(), "a baseline that was not drawn");
+    return *found;
+}
+
+std::string machine_line(const FrameReport& report) {
+    return fmt::format("{} ({} threads); {}, {}", report.processor, report.threads, report.renderer, report.version);
+}
+
+std::string picture_line(const FrameReport& report) {
+    return fmt::format("{}x{}, disc over {:.0f} % of the picture, sky on, minima of {} interleaved rounds",
+                       report.size.x, report.size.y, 100.0 * report.coverage, report.rounds);
+}
+
+/// The GPU's own time where it has one.
+double time_ms(const FrameReport& report, const FrameResult& result) {
+    return report.software ? result.minimum_ms : result.gpu_minimum_ms;
+}
+
+}  // namespace
+
+double FrameReport::ratio(const FrameResult& result) const {
+    return time_ms(*this, result) / time_ms(*this, find(*this, result.baseline));
+}
+
+FrameReport describe_machine(const platform::HeadlessContext& context) {
+    FrameReport report;
+    report.processor = processor_name();
+    report.threads = std::thread::hardware_concurrency();
+    report.vendor = reinterpret_cast<const char*>(glGetString(GL_VENDOR));
+    report.renderer = context.renderer();
+    report.version = context.version();
+    report.software = context.is_software();
+    return report;
+}
+
+std::string to_text(const FrameReport& report) {
+    std::string text = machine_line(report) + "\n" + picture_line(report) + "\n";
+    text += fmt::format("{:<34} {:>9} {:>9} {:>9} {:>8}  {}\n", "frame", "ms", "median", "gpu ms", "ratio", "to");
+    for (const FrameResult& result : report.results)
+        text += fmt::format("{:<34} {:>9.2f} {:>9.2f} {:>9} {:>8.3f}  {}\n", result.name, result.minimum_ms,
+                            result.median_ms, report.software ? "-" : fmt::format("{:.3f}", result.gpu_minimum_ms),
+                            report.ratio(result), result.baseline);
+    return text;
+}
+
+std::string to_markdown(const FrameReport& report) {
+    std::string text = machine_line(report) + "\n\n" + picture_line(report) + "\n\n";
+    text += "| frame | ms | ratio | to |\n| --- | --- | --- | --- |\n";
+    for (const FrameResult& result : report.results)
+        text += fmt::format("| {} | {:.2f} | {:.3f} | {} |\n", result.name, time_ms(report, result),
+                            report.ratio(result), result.baseline);
+    return text;
+}
+
+std::string to_json(const FrameReport& report) {
+    nlohmann::ordered_json frames = nlohmann::ordered_json::array();
+    for (const FrameResult& result : report.results) {
+        nlohmann::ordered_json frame = {{"name", result.name},           {"minimum_ms", result.minimum_ms},
+                                        {"median_ms", result.median_ms}, {"baseline", result.baseline},
+                                        {"ratio", report.ratio(result)}, {"mean_radiance", result.mean_radiance}};
+        if (!report.software) frame["gpu_minimum_ms"] = result.gpu_minimum_ms;
+        frames.push_back(std::move(frame));
+    }
+    const nlohmann::ordered_json json = {{"processor", report.processor}, {"threads", report.threads},
+                                         {"gl_vendor", report.vendor},    {"gl_renderer", report.renderer},
+                                         {"gl_version", report.version},  {"width", report.size.x},
+                                         {"height", report.size.y},       {"rounds", report.rounds},
+                                         {"coverage", report.coverage},   {"frames", frames}};
+    return json.dump(2) + "\n";
+}
+
+std::string file_name_of(const std::string& renderer) {
+    std::string name;
+    for (const char c : renderer) {
+        const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0;
+        if (plain)
+            name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        else if (!name.empty() && name.back() != '-')
+            name += '-';
+    }
+    if (!name.empty() && name.back() == '-') name.pop_back();
+    return name;
+}
+
+}  // namespace rowland::benchmark

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <string>
+#include <vector>
+
+#include "engine/platform/headless_context.h"
+
+namespace rowland::benchmark {
+
+/// One variant's result.
+struct FrameResult {
+    std::string name;
+    std::string baseline;
+    double minimum_ms = 0.0;
+    double median_ms = 0.0;
+    double gpu_minimum_ms = 0.0;
+    double mean_radiance = 0.0;  ///< of the picture: what was drawn, as one number
+};
+
+/// All of a run.
+struct FrameReport {
+    std::string processor;
+    unsigned threads = 0;
+    std::string vendor;
+    std::string renderer;  ///< GL_RENDERER
+    std::string version;   ///< GL_VERSION
+    bool software = true;  ///< the processor draws: the GPU's own times say nothing
+    glm::ivec2 size{0};
+    int rounds = 0;
+    double coverage = 0.0;  ///< share of the picture that shows the disc
+    std::vector<FrameResult> results;
+
+    /// A result's time over its baseline's.
+    double ratio(const FrameResult& result) const;
+};
+
+/// Describes machine and driver of the current context.
+FrameReport describe_machine(const platform::HeadlessContext& context);
+
+/// Aligned columns for a terminal, or a Markdown table.
+std::string to_text(const FrameReport& report);
+std::string to_markdown(const FrameReport& report);
+std::string to_json(const FrameReport& report);
+
+/// GL_RENDERER as part of a file's name: lower case, dashes for all that is no letter and no digit.
+std::string file_name_of(const std::string& renderer);
+
+}  // namespace rowland::benchmark

@@ -1,0 +1,192 @@
+#include "tests/benchmark/frame_stage.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <glm/gtc/quaternion.hpp>
+#include <limits>
+
+#include "engine/asset/container.h"
+#include "engine/core/check.h"
+#include "engine/post/display_transform.h"
+#include "engine/post/shader_files.h"
+#include "engine/post/working_space.h"
+#include "engine/scene/directional_light.h"
+#include "engine/scene/mesh_recipe.h"
+#include "engine/scene/transform.h"
+#include "modules/diffraction/asset/material_json.h"
+#include "modules/diffraction/module.h"
+#include "modules/diffraction/runtime/diffraction_surface.h"
+#include "tests/benchmark/cd_materials.h"
+#include "tests/benchmark/lamps.h"
+#include "tests/benchmark/light_loop.h"
+
+namespace rowland::benchmark {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr float kFieldOfView = 0.9F;
+constexpr int kSettlingFrames = 3;  ///< maps are filled in the second frame at rest; one more for caches
+
+std::filesystem::path cooked_folder() {
+    return std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() / "cooked";
+}
+
+/// From above, near enough for the disc to cover half the picture.
+scene::Camera camera() {
+    scene::Camera result;
+    result.eye = {0.0F, 0.096F, 0.02F};
+    result.vertical_field_of_view = kFieldOfView;
+    return result;
+}
+
+lighting::LightProbe probe_of(const FrameVariant& variant) {
+    if (variant.lighting == Lighting::LampsInProbe) return lamp_room(variant.lamps);
+    if (variant.lighting == Lighting::LampsInScene) return lamp_room(0);
+    const auto probe = asset::load(cooked_folder() / "studio.probe", "probe", lighting::kLightProbeVersion);
+    return lighting::deserialise(probe.payload, "studio.probe");
+}
+
+gpu::ShaderLibrary post_library() {
+    gpu::ShaderLibrary library;
+    library.add_embedded(post::shader_files());
+    return library;
+}
+
+/// Lindsay & Agu's: blur, exposure (part of the display transform), vignette; and the display's encoding.
+post::PostSettings all_effects() {
+    return {.bloom = post::BloomSettings{},
+            .exposure_stops = 0.5F,
+            .vignette = post::VignetteSettings{.vertical_fov = kFieldOfView, .strength = 0.3F},
+            .dither = post::DitherSettings{}};
+}
+
+}  // namespace
+
+FrameStage::FrameStage(glm::ivec2 size)
+    : xyz_to_working_(post::xyz_to_scene_linear(post::OcioConfig::shipped())),
+      linear_({.width = size.x, .height = size.y, .depth = true}),
+      display_({.width = size.x, .height = size.y, .colours = {gpu::Format::RGBA8}}),
+      post_shaders_(post_library()),
+      display_pass_(post_shaders_, post::DisplayTransform(post::OcioConfig::shipped())),
+      post_stack_(post_shaders_) {}
+
+const render::MeshInstance& FrameStage::disc(int vertices) {
+    const auto found = discs_.find(vertices);
+    if (found != discs_.end()) return found->second;
+    scene::DiscRecipe recipe{.inner_radius = 0.0235, .outer_radius = 0.058};
+    if (vertices == 2500) {
+        recipe.rings = 24;
+        recipe.segments = 99;
+    }
+    scene::Mesh mesh = scene::build_mesh(recipe);
+    ROWLAND_CHECK_OP(mesh.positions.size(), ==, static_cast<std::size_t>(vertices));
+    return discs_.emplace(vertices, render::make_mesh_instance(std::move(mesh))).first->second;
+}
+
+std::unique_ptr<render::Renderer> FrameStage::make_renderer(const FrameVariant& variant) const {
+    auto renderer = std::make_unique<render::Renderer>(xyz_to_working_);
+    diffraction::DiffractionSettings settings;
+    settings.slices_per_frame = std::numeric_limits<int>::max();
+    diffraction::register_module(*renderer, settings);
+    const diffraction::Grating grating =
+        diffraction::parse_material(cd_material({{"representation", "direct"}}), "the CD").grating;
+    renderer->add_material_type(std::make_unique<LightLoopType>(grating, xyz_to_working_));
+    renderer->set_probe(probe_of(variant));
+    renderer->use_key_lights(variant.lighting == Lighting::StudioKeyLights);
+    return renderer;
+}
+
+render::Renderer& FrameStage::renderer(const FrameVariant& variant) {
+    const bool in_probe = variant.lighting == Lighting::LampsInProbe;
+    auto& renderer = renderers_[{variant.lighting, in_probe ? variant.lamps : 0}];
+    if (!renderer) renderer = make_renderer(variant);
+    return *renderer;
+}
+
+const diffraction::CookedMaterial& FrameStage::cooked(const nlohmann::json& material) {
+    const std::string key = material.dump();
+    const auto found = cooked_.find(key);
+    if (found != cooked_.end()) return found->second;
+    return cooked_.emplace(key, diffraction::cook_material(material, "the CD")).first->second;
+}
+
+std::shared_ptr<const diffraction::GpuMaterial> FrameStage::material(const FrameVariant& variant) {
+    auto& material = materials_[{variant.material.dump(), &renderer(variant)}];
+    if (!material) material = diffraction::make_gpu_material(cooked(variant.material), xyz_to_working_);
+    return material;
+}
+
+void FrameStage::draw(const FrameVariant& variant, ecs::World& world, render::Shading shading) {
+    renderer(variant).render(world, camera(), linear_, shading);
+    if (variant.post) develop(all_effects());
+}
+
+void FrameStage::develop(const post::PostSettings& settings) {
+    post_stack_.draw(linear_.colour(), display_pass_, settings, {}, display_);
+}
+
+std::vector<std::uint8_t> FrameStage::displayed() {
+    develop({});
+    const std::vector<std::uint8_t> rgba = display_.read_rgba8();
+    std::vector<std::uint8_t> rgb;
+    for (std::size_t i = 0; i < rgba.size(); ++i)
+        if (i % 4 != 3) rgb.push_back(rgba[i]);
+    return rgb;
+}
+
+FrameScene::FrameScene(FrameVariant variant, FrameStage& stage) : variant_(std::move(variant)), stage_(&stage) {
+    disc_ = world_.create();
+    world_.add(disc_, scene::Transform{});
+    world_.add(disc_, stage.disc(variant_.vertices));
+    const FrameVariant grating{.name = {},
+                               .baseline = {},
+                               .material = cd_material({{"representation", "direct"}}),
+                               .lighting = variant_.lighting,
+                               .lamps = variant_.lamps};
+    world_.add(disc_, stage.material(variant_.shader == Shader::Grating ? variant_ : grating)->base());
+    if (variant_.shader == Shader::Grating)
+        world_.add(disc_, diffraction::DiffractionSurface{stage.material(variant_)});
+    if (variant_.shader == Shader::LightLoop) world_.add(disc_, LightLoop{});
+    if (variant_.lighting == Lighting::LampsInScene) {
+        for (const scene::DirectionalLight& lamp : lamps(variant_.lamps))
+            world_.add(world_.create(), scene::DirectionalLight(lamp));
+    } else {
+        world_.add(world_.create(), scene::DirectionalLight{.direction = glm::normalize(glm::vec3(0.3F, 1.0F, 0.4F)),
+                                                            .irradiance = glm::vec3(0.5F)});
+    }
+    move();
+}
+
+void FrameScene::move() {
+    const bool spins = variant_.motion == Motion::Spinning;
+    const float angle = variant_.motion == Motion::Rest ? 0.0F : 0.02F * static_cast<float>(frame_ % 11);
+    world_.get<scene::Transform>(disc_).rotation =
+        glm::angleAxis(angle, spins ? glm::vec3(0.0F, 1.0F, 0.0F) : glm::vec3(1.0F, 0.0F, 0.0F));
+    scene::update_world_matrices(world_);
+    ++frame_;
+}
+
+FrameTime FrameScene::draw() {
+    move();
+    const render::Shading shading = variant_.shader == Shader::Unlit ? render::Shading::Unlit : render::Shading::Full;
+    const Clock::time_point start = Clock::now();
+    timer_.begin();
+    stage_->draw(variant_, world_, shading);
+    timer_.end();
+    glFinish();
+    FrameTime time;
+    time.wall_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    time.gpu_ms = timer_.wait();
+    return time;
+}
+
+void FrameScene::settle() {
+    for (int frame = 0; frame < kSettlingFrames; ++frame) draw();
+}
+
+}  // namespace rowland::benchmark

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/gpu/framebuffer.h"
+#include "engine/gpu/shader_library.h"
+#include "engine/gpu/timer.h"
+#include "engine/post/display_pass.h"
+#include "engine/post/post_stack.h"
+#include "engine/render/gpu_mesh.h"
+#include "engine/render/renderer.h"
+#include "modules/diffraction/asset/cooked_material.h"
+#include "modules/diffraction/runtime/gpu_material.h"
+#include "tests/benchmark/frame_variant.h"
+
+namespace rowland::benchmark {
+
+/// What frames are drawn with and what several of them share, so that each is kept once.
+class FrameStage {
+ public:
+    explicit FrameStage(glm::ivec2 size);
+
+    const render::MeshInstance& disc(int vertices);
+    /// A renderer for each light, since another light is new work for everything that depends on it.
+    render::Renderer& renderer(const FrameVariant& variant);
+    /// A variant's material on the GPU; maps of it are filled by its own light.
+    std::shared_ptr<const diffraction::GpuMaterial> material(const FrameVariant& variant);
+
+    void draw(const FrameVariant& variant, ecs::World& world, render::Shading shading);
+    const gpu::Framebuffer& linear() const { return linear_; }
+    /// The linear picture through the display transform, 8-bit RGB from the top.
+    std::vector<std::uint8_t> displayed();
+
+ private:
+    std::unique_ptr<render::Renderer> make_renderer(const FrameVariant& variant) const;
+    const diffraction::CookedMaterial& cooked(const nlohmann::json& material);
+    void develop(const post::PostSettings& settings);
+
+    glm::dmat3 xyz_to_working_;
+    gpu::Framebuffer linear_;
+    gpu::Framebuffer display_;
+    gpu::ShaderLibrary post_shaders_;
+    post::DisplayPass display_pass_;
+    post::PostStack post_stack_;
+    std::map<int, render::MeshInstance> discs_;
+    std::map<std::pair<Lighting, int>, std::unique_ptr<render::Renderer>> renderers_;
+    std::map<std::string, diffraction::CookedMaterial> cooked_;
+    std::map<std::pair<std::string, const render::Renderer*>, std::shared_ptr<const diffraction::GpuMaterial>>
+        materials_;
+};
+
+/// What a frame took.
+struct FrameTime {
+    double wall_ms = 0.0;  ///< until the GPU is done
+    double gpu_ms = 0.0;   ///< the GPU's own; near 0 where the processor draws
+};
+
+/// A variant's own world.
+class FrameScene {
+ public:
+    FrameScene(FrameVariant variant, FrameStage& stage);
+
+    /// Draws the next frame.
+    FrameTime draw();
+    /// Draws until nothing is compiled or filled any more.
+    void settle();
+    const FrameVariant& variant() const { return variant_; }
+
+ private:
+    void move();
+
+    FrameVariant variant_;
+    FrameStage* stage_;
+    ecs::World world_;
+    ecs::Entity disc_;
+    gpu::Timer timer_;
+    int frame_ = 0;
+};
+
+}  // namespace rowland::benchmark

@@ -1,0 +1,153 @@
+#include "tests/benchmark/frame_variant.h"
+
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <set>
+
+#include "engine/core/error.h"
+#include "tests/benchmark/cd_materials.h"
+
+namespace rowland::benchmark {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr int kFewVertices = 2500;
+constexpr int kLampCounts[] = {1, 4, 16, 64};
+
+/// The representation's surface in `lighting`.
+FrameVariant grating(const TimedRepresentation& drawn, const std::string& suffix, const std::string& baseline,
+                     Lighting lighting = Lighting::Studio) {
+    TimedRepresentation timed = drawn;
+    if (drawn.sh_alone) timed.quality["key_lights"] = lighting == Lighting::StudioKeyLights;
+    FrameVariant variant;
+    variant.name = drawn.name + suffix;
+    variant.baseline = baseline;
+    variant.shader = Shader::Grating;
+    variant.material = material_of(timed);
+    variant.lighting = lighting;
+    return variant;
+}
+
+FrameVariant with_vertices(FrameVariant variant, int vertices) {
+    variant.vertices = vertices;
+    return variant;
+}
+
+FrameVariant moving(FrameVariant variant, Motion motion) {
+    variant.motion = motion;
+    return variant;
+}
+
+FrameVariant with_post(FrameVariant variant) {
+    variant.post = true;
+    return variant;
+}
+
+FrameVariant with_lamps(FrameVariant variant, int lamps) {
+    variant.name += std::to_string(lamps);
+    variant.baseline += "1";
+    variant.lamps = lamps;
+    return variant;
+}
+
+FrameVariant engine_surface(const std::string& name, Shader shader, Lighting lighting = Lighting::Studio) {
+    FrameVariant variant;
+    variant.name = name;
+    variant.baseline = "plain";
+    variant.shader = shader;
+    variant.lighting = lighting;
+    return variant;
+}
+
+void add_plain(std::vector<FrameVariant>& variants) {
+    variants.push_back(engine_surface("plain", Shader::Plain));
+    variants.push_back(engine_surface("unlit", Shader::Unlit));
+    variants.push_back(engine_surface("plain/key-lights:16", Shader::Plain, Lighting::StudioKeyLights));
+    variants.push_back(with_vertices(engine_surface("plain/vertices:2500", Shader::Plain), kFewVertices));
+    variants.back().baseline = variants.back().name;
+    variants.push_back(with_post(engine_surface("plain/post", Shader::Plain)));
+}
+
+void add_representation(const TimedRepresentation& drawn, std::vector<FrameVariant>& variants) {
+    variants.push_back(grating(drawn, "", "plain"));
+    variants.push_back(grating(drawn, "/key-lights:16", "plain", Lighting::StudioKeyLights));
+    variants.push_back(moving(grating(drawn, "/tilting", "plain"), Motion::Tilting));
+}
+
+/// What depends on how many vertices there are.
+void add_few_vertices(const TimedRepresentation& drawn, std::vector<FrameVariant>& variants) {
+    const std::string baseline = "plain/vertices:2500";
+    variants.push_back(with_vertices(grating(drawn, "/vertices:2500", baseline), kFewVertices));
+    variants.push_back(with_vertices(
+        grating(drawn, "/vertices:2500/key-lights:16", baseline, Lighting::StudioKeyLights), kFewVertices));
+}
+
+void add_lamps_in_probe(const TimedRepresentation& drawn, std::vector<FrameVariant>& variants) {
+    for (const int lamps : kLampCounts) {
+        // The whole curve once; of the others where it begins and ends.
+        if (drawn.name != "spikes" && lamps != kLampCounts[0] && lamps != std::end(kLampCounts)[-1]) continue;
+        const std::string suffix = "/lights-in-probe:";
+        variants.push_back(with_lamps(grating(drawn, suffix, drawn.name + suffix, Lighting::LampsInProbe), lamps));
+    }
+}
+
+void add_lamps_in_scene(const TimedRepresentation& direct, std::vector<FrameVariant>& variants) {
+    for (const int lamps : kLampCounts) {
+        variants.push_back(with_lamps(engine_surface("plain/lights:", Shader::Plain, Lighting::LampsInScene), lamps));
+        variants.back().baseline = "plain/lights:1";
+        variants.push_back(with_lamps(grating(direct, "/lights:", "direct/lights:", Lighting::LampsInScene), lamps));
+        variants.push_back(
+            with_lamps(engine_surface("light-loop/lights:", Shader::LightLoop, Lighting::LampsInScene), lamps));
+        variants.back().baseline = "light-loop/lights:1";
+    }
+}
+
+bool matches(const std::string& pattern, const std::string& name) {
+    return fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+}
+
+}  // namespace
+
+std::vector<FrameVariant> all_variants() {
+    std::vector<FrameVariant> variants;
+    add_plain(variants);
+    for (const TimedRepresentation& drawn : timed_representations()) {
+        add_representation(drawn, variants);
+        if (drawn.name == "spikes" || drawn.name == "arc") {
+            add_few_vertices(drawn, variants);
+            variants.push_back(with_post(grating(drawn, "/post", "plain/post")));
+        }
+        if (drawn.name == "planar") variants.push_back(moving(grating(drawn, "/spinning", "plain"), Motion::Spinning));
+        if (drawn.name != "direct")
+            add_lamps_in_probe(drawn, variants);
+        else
+            add_lamps_in_scene(drawn, variants);
+    }
+    variants.push_back(
+        grating({"arc", {{"representation", "arc"}, {"bands", 8}, {"rank", 12}}, true}, "/bands:8/rank:12", "plain"));
+    return variants;
+}
+
+std::vector<FrameVariant> choose_variants(const std::vector<std::string>& patterns) {
+    std::vector<FrameVariant> variants = all_variants();
+    if (patterns.empty()) return variants;
+    std::set<std::string> chosen;
+    for (const std::string& pattern : patterns) {
+        bool found = false;
+        for (const FrameVariant& variant : variants) {
+            if (!matches(pattern, variant.name)) continue;
+            found = true;
+            chosen.insert({variant.name, variant.baseline});
+        }
+        if (!found)
+            refuse_input("", "--only", pattern, "the name of a variant, or a pattern such as 'arc*'",
+                         "--list prints the names");
+    }
+    std::erase_if(variants, [&](const FrameVariant& variant) { return chosen.count(variant.name) == 0; });
+    return variants;
+}
+
+}  // namespace rowland::benchmark

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace rowland::benchmark {
+
+/// How the disc is shaded.
+enum class Shader {
+    Unlit,      ///< its base colour: what a frame costs without any shading
+    Plain,      ///< the engine's metallic-roughness surface alone
+    Grating,    ///< a diffraction material
+    LightLoop,  ///< the grating's lights and orders one by one (light_loop.h)
+};
+
+enum class Motion {
+    Rest,
+    Tilting,   ///< its normal turns: what is kept for the object's orientation is made anew each frame
+    Spinning,  ///< about its own axis
+};
+
+/// Where light comes from besides the sun, one directional light.
+enum class Lighting {
+    Studio,           ///< a probe whose lights are all SH
+    StudioKeyLights,  ///< the same, its key lights shaded one by one
+    LampsInProbe,     ///< a room whose lamps are part of the probe
+    LampsInScene,     ///< the dark room and directional lights; without the sun
+};
+
+/// A frame that is timed.
+struct FrameVariant {
+    std::string name;
+    std::string baseline;  ///< the name of the variant that this one's time is divided by
+    Shader shader = Shader::Plain;
+    nlohmann::json material;  ///< of Shader::Grating: a material file
+    int vertices = 25000;     ///< of the disc: 25 000 or 2 500
+    Motion motion = Motion::Rest;
+    Lighting lighting = Lighting::Studio;
+    int lamps = 0;
+    bool post = false;  ///< bloom, vignette and display transform after it
+};
+
+/// All frames that are timed, each baseline before what is compared with it.
+std::vector<FrameVariant> all_variants();
+
+/// Those whose names match one of the patterns (as file names match a shell's), and their baselines; all if there are
+/// no patterns. Throws Error (input) for a pattern that matches none.
+std::vector<FrameVariant> choose_variants(const std::vector<std::string>& patterns);
+
+}  // namespace rowland::benchmark

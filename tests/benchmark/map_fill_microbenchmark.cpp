@@ -1,0 +1,92 @@
+// Filling the maps that depend on the light: at run time, when a flat object has turned or the probe has changed.
+#include <glm/geometric.hpp>
+#include <string>
+
+#include "engine/lighting/studio.h"
+#include "modules/diffraction/asset/cooked_material.h"
+#include "modules/diffraction/bake/circle_map.h"
+#include "modules/diffraction/bake/planar_map.h"
+#include "tests/benchmark/cd_materials.h"
+#include "tests/benchmark/microbenchmarks.h"
+
+namespace rowland::microbenchmark {
+
+namespace {
+
+using ::benchmark::State;
+
+constexpr int kProbeWidth = 1024;
+constexpr int kLightFace = 256;  ///< of the cube that a cooked probe's light is stored in
+
+const lighting::LightTexels& studio_texels() {
+    static const lighting::LightTexels texels = [] {
+        const lighting::StudioRecipe room{.ceiling = glm::dvec3(0.02),
+                                          .wall = glm::dvec3(0.035),
+                                          .floor = glm::dvec3(0.02),
+                                          .boxes = {{.azimuth_deg = 128,
+                                                     .elevation_deg = 50,
+                                                     .half_width_deg = 4,
+                                                     .half_height_deg = 4,
+                                                     .radiance = glm::dvec3(300)},
+                                                    {.azimuth_deg = -65,
+                                                     .elevation_deg = 25,
+                                                     .half_width_deg = 8,
+                                                     .half_height_deg = 24,
+                                                     .radiance = glm::dvec3(1)}}};
+        const lighting::ProbeImage picture(lighting::render_studio(room, kProbeWidth),
+                                           lighting::Mapping::Equirectangular);
+        return lighting::gather_texels(lighting::light_texels(picture), kLightFace);
+    }();
+    return texels;
+}
+
+const diffraction::CookedMaterial& cd() {
+    static const diffraction::CookedMaterial cooked =
+        diffraction::cook_material(rowland::benchmark::cd_material({{"representation", "direct"}}), "the CD");
+    return cooked;
+}
+
+void fill_planar(State& state, int side) {
+    const glm::dvec3 normal = glm::normalize(glm::dvec3(0.2, 0.9, 0.3));
+    for (auto _ : state)
+        ::benchmark::DoNotOptimize(diffraction::fill_planar_map(studio_texels(), cd().kernel,
+                                                                cd().material.grating.pitch_nm, normal,
+                                                                {.azimuths = side, .views = side})
+                                       .xyz.data());
+}
+
+/// What a frame does of it while the map fills: 8 azimuths of 128.
+void fill_planar_in_part(State& state) {
+    const glm::dvec3 normal = glm::normalize(glm::dvec3(0.2, 0.9, 0.3));
+    const diffraction::PlanarFill fill(studio_texels(), cd().kernel, cd().material.grating.pitch_nm, normal);
+    diffraction::PlanarMap map = fill.empty();
+    for (auto _ : state) {
+        fill.fill(0, 8, map);
+        ::benchmark::DoNotOptimize(map.xyz.data());
+    }
+}
+
+void fill_circle(State& state, int side) {
+    for (auto _ : state)
+        ::benchmark::DoNotOptimize(diffraction::fill_circle_map(studio_texels(), cd().kernel,
+                                                                cd().material.grating.pitch_nm,
+                                                                {.side = side, .views = 2 * side})
+                                       .xyz.data());
+}
+
+template <typename F, typename... Arguments>
+void add(const std::string& name, F function, Arguments... arguments) {
+    ::benchmark::RegisterBenchmark(name.c_str(), function, arguments...)
+        ->Unit(::benchmark::kMillisecond)
+        ->UseRealTime();
+}
+
+}  // namespace
+
+void register_map_fills() {
+    for (const int side : {64, 128, 256}) add("planar_fill/side:" + std::to_string(side), fill_planar, side);
+    add("planar_fill/side:128/azimuths:8", fill_planar_in_part);
+    for (const int side : {32, 64}) add("circle_fill/side:" + std::to_string(side), fill_circle, side);
+}
+
+}  // namespace rowland::microbenchmark

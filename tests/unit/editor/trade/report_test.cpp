@@ -1,0 +1,71 @@
+#include "editor/trade/report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace rowland::trade {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+SweepResults results() {
+    SweepResults r{.materials = {"cd"},
+                   .probes = {"sky"},
+                   .settings = {{parse_setting("spikes"), parse_setting("planar"), parse_setting("circle")}},
+                   .errors = {},
+                   .costs = {},
+                   .device = "a device"};
+    const double errors[] = {0.5, 0.02, 0.04};
+    const double ms[] = {20.0, 12.0, 50.0};
+    for (std::size_t s = 0; s < 3; ++s) {
+        r.errors.push_back({0, 0, "picture", s, {.relative_rms = errors[s]}});
+        r.costs.push_back({.material = 0,
+                           .setting = s,
+                           .cost = {.table_bytes = 1000 * (s + 1)},
+                           .vertex_bytes = 0,
+                           .time = FrameTime{.ms = ms[s], .plain_ms = 10.0}});
+    }
+    return r;
+}
+
+TEST(Report, MarksTheFronts) {
+    const auto data = report_data(results(), {}, {}, {});
+    const auto& rows = data["panels"][0]["rows"];
+    ASSERT_EQ(rows.size(), 3U);
+    EXPECT_FALSE(rows[0].contains("front_speed"));
+    EXPECT_TRUE(rows[1].contains("front_speed"));
+    EXPECT_FALSE(rows[2].contains("front_speed"));
+    EXPECT_TRUE(rows[0].contains("front_memory"));
+    EXPECT_EQ(rows[1]["ratio"], 1.2);
+    EXPECT_EQ(rows[2]["memory"], 3000);
+}
+
+TEST(Report, FiguresFollowTheMeasurements) {
+    SweepResults changed = results();
+    changed.errors[1].error.relative_rms = 0.9;
+    const auto data = report_data(changed, {}, {}, {});
+    EXPECT_EQ(data["panels"][0]["rows"][1]["error"], 0.9);
+    EXPECT_TRUE(data["panels"][0]["rows"][2].contains("front_speed"));
+}
+
+TEST(Report, PicturesTheBestInRealTimeAndTheFirst) {
+    EXPECT_EQ(pictured_settings(results(), 0, 0), (std::vector<std::size_t>{1, 0}));
+    SweepResults slow = results();
+    slow.costs[1].time->ms = 100.0;
+    EXPECT_EQ(pictured_settings(slow, 0, 0), (std::vector<std::size_t>{0}));
+}
+
+TEST(Report, IsOneFileAndItsDataCannotEndTheScript) {
+    SweepResults hostile = results();
+    hostile.probes = {"</script><script>alert(1)</script>"};
+    const std::string page = report_html(report_data(hostile, {}, {}, {}));
+    EXPECT_THAT(page, Not(HasSubstr("<script>alert")));
+    EXPECT_THAT(page, HasSubstr("\\u003c/script>"));
+    EXPECT_THAT(page, Not(HasSubstr("/*DATA*/")));
+    for (const char* foreign : {"src=\"http", "href=\"http", "@import", "fetch("})
+        EXPECT_THAT(page, Not(HasSubstr(foreign)));
+}
+
+}  // namespace
+}  // namespace rowland::trade

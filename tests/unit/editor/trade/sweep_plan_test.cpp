@@ -1,0 +1,82 @@
+#include "editor/trade/sweep_plan.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+namespace rowland::trade {
+namespace {
+
+std::set<std::string> names(const std::vector<Setting>& plan) {
+    std::set<std::string> result;
+    for (const Setting& setting : plan) result.insert(setting_name(setting));
+    return result;
+}
+
+std::set<int> values(const std::vector<Setting>& plan, const std::string& representation, const char* key) {
+    std::set<int> result;
+    for (const Setting& setting : plan)
+        if (representation_of(setting) == representation && setting.quality.contains(key))
+            result.insert(setting.quality[key].get<int>());
+    return result;
+}
+
+TEST(SweepPlan, HoldsEachSettingOnceAndAboutAHundredAndTwenty) {
+    const auto plan = sweep_plan(diffraction::FlatLobe{});
+    EXPECT_EQ(names(plan).size(), plan.size());
+    EXPECT_GE(plan.size(), 100U);
+    EXPECT_LE(plan.size(), 150U);
+}
+
+TEST(SweepPlan, StartsAtTheTiers) {
+    for (const diffraction::GrooveLobe& lobe :
+         {diffraction::GrooveLobe(diffraction::FlatLobe{}), diffraction::GrooveLobe(diffraction::GaussianLobe{})}) {
+        const auto plan = sweep_plan(lobe);
+        const auto starts = tiers(lobe);
+        for (std::size_t i = 0; i < starts.size(); ++i) EXPECT_EQ(plan[i], parse_setting(starts[i].setting));
+    }
+}
+
+TEST(SweepPlan, CoversTheAxes) {
+    const auto plan = sweep_plan(diffraction::FlatLobe{});
+    const std::set<int> bands = values(plan, "spikes", "bands");
+    EXPECT_EQ(*bands.begin(), 2);
+    EXPECT_EQ(*bands.rbegin(), 16);
+    const std::set<int> spikes = values(plan, "spikes", "spikes");
+    EXPECT_EQ(*spikes.begin(), 1);
+    EXPECT_EQ(*spikes.rbegin(), 16);
+    EXPECT_GE(values(plan, "bins", "bins").size(), 3U);
+    EXPECT_GE(values(plan, "arc", "rank").size(), 5U);
+    EXPECT_GE(values(plan, "planar", "map_resolution").size(), 5U);
+    EXPECT_GE(values(plan, "circle", "map_resolution").size(), 5U);
+    std::set<int> key_lights;
+    std::set<math::SphericalWindow> windows;
+    std::set<std::string> storages;
+    std::set<std::string> mappings;
+    for (const Setting& setting : plan) {
+        key_lights.insert(setting.key_lights);
+        windows.insert(setting.window);
+        if (setting.quality.contains("storage")) storages.insert(setting.quality["storage"]);
+        if (setting.quality.contains("view_mapping")) mappings.insert(setting.quality["view_mapping"]);
+    }
+    EXPECT_EQ(*key_lights.begin(), 0);
+    EXPECT_EQ(*key_lights.rbegin(), 64);
+    EXPECT_EQ(windows.size(), 3U);
+    EXPECT_EQ(storages.size(), 4U);
+    EXPECT_EQ(mappings.size(), 3U);
+}
+
+/// What a material file takes for a grating is what the plan may ask for; baking all of it is the sweep's.
+TEST(SweepPlan, LeavesOutWhatALobeCannotBeShadedBy) {
+    for (const Setting& setting : sweep_plan(diffraction::GaussianLobe{})) {
+        const std::string representation = representation_of(setting);
+        EXPECT_TRUE(representation != "planar" && representation != "circle") << setting_name(setting);
+        EXPECT_NE(setting.quality.value("view_mapping", ""), "one-dimensional");
+    }
+    const auto flat = names(sweep_plan(diffraction::FlatLobe{}));
+    EXPECT_TRUE(std::none_of(flat.begin(), flat.end(), [](const auto& name) { return name.starts_with("streak"); }));
+}
+
+}  // namespace
+}  // namespace rowland::trade

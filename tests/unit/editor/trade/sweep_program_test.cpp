@@ -1,0 +1,214 @@
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <thread>
+
+#include "engine/core/file.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/editor/trade/trade_run.h"
+
+namespace rowland {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class TradeSweep : public ::testing::Test {
+ protected:
+    void SetUp() override { test::write_sweep_inputs(folder_.path()); }
+
+    test::TradeRun run(const std::string& arguments) { return test::run_trade(folder_.path(), arguments); }
+    std::string file(const std::string& name) const { return read_text_file(folder_.path() / name, 1 << 24); }
+    std::size_t lines(const std::string& name) const {
+        if (!std::filesystem::exists(folder_.path() / name)) return 0;
+        const std::string text = file(name);
+        return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+    }
+
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(TradeSweep, HasARowForEverySettingAndSetInBothTables) {
+    const auto done = run("sweep --no-times " + test::small_sweep());
+    ASSERT_EQ(done.exit_code, 0) << done.messages;
+    EXPECT_THAT(done.output, HasSubstr("results/sweep.csv"));
+    const auto rows = test::read_rows(folder_.path() / "results" / "sweep.csv");
+    ASSERT_EQ(rows.size(), 3U * 3U);  // settings × (tilted_cd, sphere, picture)
+    std::istringstream json_lines(file("results/sweep.jsonl"));
+    std::string line;
+    for (const test::Row& row : rows) {
+        ASSERT_TRUE(std::getline(json_lines, line));
+        const auto json = nlohmann::json::parse(line);
+        EXPECT_EQ(json["setting"], row.at("setting"));
+        EXPECT_EQ(json["relative_rms"], std::stod(row.at("relative_rms")));
+        EXPECT_EQ(row.at("frame_ms"), "") << "no times were asked for";
+        EXPECT_GT(std::stoull(row.at("table_bytes")), 0U);
+        // A map is exact on its plane but for its resolution; three bands lose the sun.
+        if (row.at("set") != "tilted_cd") continue;
+        const double error = std::stod(row.at("relative_rms"));
+        if (row.at("representation") == "planar") {
+            EXPECT_LT(error, 0.05);
+        }
+        if (row.at("representation") == "spikes") {
+            EXPECT_GT(error, 0.1);
+        }
+    }
+}
+
+TEST_F(TradeSweep, ItsErrorsAreEvaluatesOwn) {
+    write_file_atomic(folder_.path() / "frames.csv",
+                      "vx,vy,vz,nx,ny,nz,gx,gy,gz\n0.3,0.9,0.2,0,1,0,1,0,0\n0.1,0.7,-0.4,0,1,0,0.6,0,0.8\n"
+                      "-0.5,0.6,0.1,0,1,0,0.9,0,-0.2\n");
+    ASSERT_EQ(run("sweep --no-times --frames mine=frames.csv " + test::small_sweep()).exit_code, 0);
+    const std::string common = "evaluate --material cd.json --probe sky.hdr --frames frames.csv --method ";
+    const auto values = [&](const std::string& method) {
+        write_file_atomic(folder_.path() / "out.csv", run(common + method).output);
+        std::vector<double> result;
+        for (const test::Row& row : test::read_rows(folder_.path() / "out.csv"))
+            for (const char* component : {"X", "Y", "Z"}) result.push_back(std::stod(row.at(component)));
+        return result;
+    };
+    const std::vector<double> reference = values("reference");
+    const std::vector<double> arc = values("arc --bands 4 --rank 8 --storage fp16");
+    double difference = 0.0;
+    double scale = 0.0;
+    for (std::size_t i = 0; i < reference.size(); ++i) {
+        difference += std::pow(arc[i] - reference[i], 2);
+        scale += std::pow(reference[i], 2);
+    }
+    int compared = 0;
+    for (const test::Row& row : test::read_rows(folder_.path() / "results" / "sweep.csv"))
+        if (row.at("set") == "mine" && row.at("representation") == "arc") {
+            // evaluate prints nine digits
+            EXPECT_NEAR(std::stod(row.at("relative_rms")), std::sqrt(difference / scale), 1e-7);
+            ++compared;
+        }
+    EXPECT_EQ(compared, 1);
+}
+
+TEST_F(TradeSweep, ASecondRunMeasuresNothingAndWritesTheSame) {
+    ASSERT_EQ(run("sweep --no-times " + test::small_sweep()).exit_code, 0);
+    const std::string csv = file("results/sweep.csv");
+    const std::string journal = file("results/journal.jsonl");
+    ASSERT_EQ(run("sweep --no-times " + test::small_sweep()).exit_code, 0);
+    EXPECT_EQ(file("results/journal.jsonl"), journal);
+    EXPECT_EQ(file("results/sweep.csv"), csv);
+}
+
+TEST_F(TradeSweep, AnotherProbeOrMaterialIsMeasuredAnew) {
+    ASSERT_EQ(run("sweep --no-times " + test::small_sweep()).exit_code, 0);
+    const std::size_t before = lines("results/journal.jsonl");
+    const auto first = test::read_rows(folder_.path() / "results" / "sweep.csv");
+    std::string probe = file("sky.hdr");
+    probe[probe.size() - 3] = '\x60';
+    write_file_atomic(folder_.path() / "sky.hdr", probe);
+    ASSERT_EQ(run("sweep --no-times " + test::small_sweep()).exit_code, 0);
+    EXPECT_EQ(lines("results/journal.jsonl"), 2 * before);
+    EXPECT_NE(test::read_rows(folder_.path() / "results" / "sweep.csv")[0].at("relative_rms"),
+              first[0].at("relative_rms"));
+    write_file_atomic(folder_.path() / "cd.json",
+                      R"({"grating": {"pitch_nm": 1500, "profile": {"type": "slit", "width_nm": 800}}})");
+    ASSERT_EQ(run("sweep --no-times " + test::small_sweep()).exit_code, 0);
+    EXPECT_EQ(lines("results/journal.jsonl"), 3 * before);
+}
+
+/// Killed while it measures, whatever it has measured stays and is not measured again.
+TEST_F(TradeSweep, KilledItGoesOnWhereItStopped) {
+    const std::string arguments =
+        "sweep --no-times --setting circle/map_resolution=32 --setting transfer/bands=8 " + test::small_sweep();
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+        const std::string command =
+            fmt::format("cd '{}' && exec '{}' {} >/dev/null 2>&1", folder_.path().string(), ROWLAND_TRADE, arguments);
+        ::execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr));
+        ::_exit(127);
+    }
+    constexpr std::size_t kEnough = 4;
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(300);
+    while (lines("results/journal.jsonl") < kEnough && std::chrono::steady_clock::now() < deadline &&
+           ::waitpid(child, nullptr, WNOHANG) == 0)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    const std::string left = file("results/journal.jsonl");
+    const std::string whole = left.substr(0, left.rfind('\n') + 1);
+    ASSERT_GE(std::count(whole.begin(), whole.end(), '\n'), static_cast<std::ptrdiff_t>(kEnough));
+    EXPECT_FALSE(std::filesystem::exists(folder_.path() / "results" / "sweep.csv")) << "killed too late to tell";
+
+    ASSERT_EQ(run(arguments).exit_code, 0);
+    const std::string journal = file("results/journal.jsonl");
+    EXPECT_EQ(journal.substr(0, whole.size()), whole) << "nothing is lost or measured again";
+    EXPECT_EQ(lines("results/journal.jsonl"), 5U * 3U);
+    std::set<std::string> keys;
+    std::istringstream entries(journal);
+    for (std::string line; std::getline(entries, line);) keys.insert(nlohmann::json::parse(line)["key"]);
+    EXPECT_EQ(keys.size(), 5U * 3U);
+}
+
+TEST_F(TradeSweep, FramesAreTimedAgainstThePlainMaterial) {
+    ASSERT_EQ(run("sweep --frame-size 64 36 " + test::small_sweep()).exit_code, 0);
+    for (const test::Row& row : test::read_rows(folder_.path() / "results" / "sweep.csv")) {
+        EXPECT_GT(std::stod(row.at("frame_ms")), 0.0);
+        EXPECT_NEAR(std::stod(row.at("frame_ratio")), std::stod(row.at("frame_ms")) / std::stod(row.at("plain_ms")),
+                    1e-6);
+    }
+}
+
+TEST_F(TradeSweep, CompareSaysHowFarAMethodIsFromTheReference) {
+    const std::string common = "compare --material cd.json --probe sky.hdr --size 24 14 --method ";
+    const auto arc = run(common + "arc/bands=4/rank=8 --difference d.png");
+    ASSERT_EQ(arc.exit_code, 0) << arc.messages;
+    write_file_atomic(folder_.path() / "arc.csv", arc.output);
+    const auto rows = test::read_rows(folder_.path() / "arc.csv");
+    ASSERT_EQ(rows.size(), 5U);
+    EXPECT_EQ(rows[0].at("quantity"), "relative_rms");
+    EXPECT_GT(std::stod(rows[0].at("value")), 0.01);
+    EXPECT_GE(std::stod(rows[4].at("value")), std::stod(rows[3].at("value"))) << "95 % and median";
+    EXPECT_THAT(file("d.png"), HasSubstr("PNG"));
+    const auto same = run(common + "reference");
+    EXPECT_THAT(same.output, HasSubstr("relative_rms,0\n"));
+    // The two ways round have one difference and two scales.
+    EXPECT_EQ(run(common + "arc/bands=4/rank=8 --against arc/bands=4/rank=8").output, same.output);
+}
+
+TEST_F(TradeSweep, WrongUsageExitsWith2AndSaysWhy) {
+    const auto refusal = [&](const std::string& arguments) {
+        const auto outcome = run(arguments);
+        EXPECT_EQ(outcome.exit_code, 2) << arguments;
+        return outcome.messages;
+    };
+    const std::string common = "sweep --no-times --material cd.json --output r --probe ";
+    EXPECT_THAT(refusal(common + "none.hdr"), HasSubstr("none.hdr"));
+    EXPECT_THAT(refusal(common + "sky.hdr --frames frames.csv"), HasSubstr("NAME=FILE"));
+    EXPECT_THAT(refusal(common + "sky.hdr --frames picture=sky.hdr"), Not(HasSubstr("terminate")));
+    EXPECT_THAT(refusal(common + "sky.hdr --setting arc/rang=3 --picture-size 8 8"), HasSubstr("rank"));
+    EXPECT_THAT(refusal(common + "sky.hdr:angular"), HasSubstr("square"));
+    EXPECT_THAT(refusal("sweep --material cd.json --probe sky.hdr"), HasSubstr("--output"));
+    EXPECT_THAT(refusal("compare --material cd.json --probe sky.hdr --method arcs"), HasSubstr("arc"));
+    EXPECT_THAT(refusal("compare --material cd.json --probe sky.hdr --method arc --frames f --difference d.png"),
+                HasSubstr("--difference"));
+}
+
+TEST_F(TradeSweep, HelpShowsAnExample) {
+    for (const char* command : {"compare --help", "sweep --help", "report --help"}) {
+        const auto help = run(command);
+        EXPECT_EQ(help.exit_code, 0) << command;
+        EXPECT_THAT(help.output, AllOf(HasSubstr("Example:"), HasSubstr("rowland-trade "))) << command;
+    }
+}
+
+}  // namespace
+}  // namespace rowland

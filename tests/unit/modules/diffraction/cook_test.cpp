@@ -1,0 +1,114 @@
+#include "modules/diffraction/cook.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "engine/core/file.h"
+#include "engine/core/json_reader.h"
+#include "engine/core/parallel.h"
+#include "modules/diffraction/asset/cooked_material.h"
+#include "tests/support/message_of.h"
+#include "tests/support/temporary_folder.h"
+
+namespace rowland::diffraction {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+/// A material with a budget under a small probe recipe, in a folder of their own.
+class BudgetMaterial : public ::testing::Test {
+ protected:
+    BudgetMaterial() {
+        write_file_atomic(probe(), R"({"probe": {"type": "studio", "ceiling": [0.3, 0.3, 0.3], "wall": [0.2, 0.2, 0.3],
+            "floor": [0.1, 0.1, 0.1], "width": 64, "key_lights": 3, "boxes": [{"azimuth_deg": 40, "elevation_deg": 50,
+            "half_size_deg": [20, 10], "soft_edge_deg": 4, "radiance": [9, 8, 7]}]}})");
+        write({{"max_error", 0.2}, {"illuminant", "F2"}, {"probes", {"room.json"}}});
+        register_cook_types(registry_);
+    }
+
+    std::filesystem::path source() const { return folder_.path() / "m.json"; }
+    std::filesystem::path probe() const { return folder_.path() / "room.json"; }
+    void write(const nlohmann::json& quality) const {
+        const nlohmann::json json = {
+            {"grating", {{"pitch_nm", 1600}, {"profile", {{"type", "slit"}, {"width_nm", 800}}}}},
+            {"quality", quality}};
+        write_file_atomic(source(), json.dump());
+    }
+    std::vector<std::byte> cook() const {
+        cook::Context context(source());
+        return registry_.find(kMaterialAssetType)->cook(context);
+    }
+
+    rowland::test::TemporaryFolder folder_;
+    cook::Registry registry_;
+};
+
+TEST_F(BudgetMaterial, RecordsWhatWasChosenAndMeasured) {
+    const std::vector<std::byte> payload = cook();
+    const CookedMaterial cooked = read_cooked_material(payload, "m.material");
+    ASSERT_TRUE(cooked.measured);
+    EXPECT_EQ(cooked.measured->max_error, 0.2);
+    EXPECT_EQ(cooked.measured->frames, 120);
+    ASSERT_EQ(cooked.measured->probes.size(), 1U);
+    EXPECT_LE(cooked.measured->probes[0].error, 0.2);
+    ASSERT_TRUE(cooked.material.quality.pinned);
+    EXPECT_EQ(cooked.material.quality.illuminant.name, "F2");
+    EXPECT_THAT(describe(cooked), ::testing::AllOf(HasSubstr("max_error: 0.2\n"), HasSubstr("under room.json"),
+                                                   HasSubstr("flat surface, 120 frames"), HasSubstr("price: ")));
+    for (std::size_t missing = 1; missing < 400; missing += 7)
+        EXPECT_THROW(read_cooked_material(std::span(payload).first(payload.size() - missing), "m.material"), Error);
+}
+
+TEST_F(BudgetMaterial, CookingAndCheckingDependOnTheProbe) {
+    for (const bool cooking : {true, false}) {
+        cook::Context context(source());
+        const cook::AssetType* type = registry_.find(kMaterialAssetType);
+        cooking ? static_cast<void>(type->cook(context)) : type->check(context);
+        EXPECT_THAT(context.dependencies(), ElementsAre(source(), probe()));
+    }
+}
+
+TEST_F(BudgetMaterial, HasTheSameBytesWithAnyNumberOfThreads) {
+    std::vector<std::byte> one;
+    {
+        const ThreadLimit limit(1);
+        one = cook();
+    }
+    const ThreadLimit limit(2);
+    EXPECT_EQ(one, cook());
+}
+
+TEST_F(BudgetMaterial, AMissingProbeIsRefusedAndStillADependency) {
+    std::filesystem::remove(probe());
+    cook::Context context(source());
+    EXPECT_THAT(rowland::test::message_of([&] { registry_.find(kMaterialAssetType)->cook(context); }),
+                HasSubstr("room.json"));
+    EXPECT_THAT(context.dependencies(), ElementsAre(source(), probe()));
+}
+
+TEST_F(BudgetMaterial, OutOfReachIsRefusedByFileAndPlace) {
+    write({{"max_error", 1e-6}, {"surface", "curved"}, {"probes", {"room.json"}}});
+    EXPECT_THAT(rowland::test::message_of([&] { cook(); }),
+                ::testing::AllOf(HasSubstr("m.json"), HasSubstr("/quality/max_error"), HasSubstr("at least")));
+}
+
+TEST_F(BudgetMaterial, APinnedMaterialIsBakedUnmeasured) {
+    write({{"max_error", 1e-6}, {"representation", "arc"}, {"bands", 3}});
+    const CookedMaterial cooked = read_cooked_material(cook(), "m.material");
+    EXPECT_FALSE(cooked.measured);
+    EXPECT_EQ(std::get<ArcTable>(cooked.tables).bands, 3);
+    EXPECT_THAT(describe(cooked), ::testing::Not(HasSubstr("measured")));
+}
+
+TEST_F(BudgetMaterial, WithoutProbesTheClearSkyIsMeant) {
+    write({{"max_error", 0.5}});
+    const CookedMaterial cooked = read_cooked_material(cook(), "m.material");
+    ASSERT_TRUE(cooked.measured);
+    EXPECT_THAT(cooked.measured->probes.at(0).probe, HasSubstr("clear sky"));
+}
+
+}  // namespace
+}  // namespace rowland::diffraction

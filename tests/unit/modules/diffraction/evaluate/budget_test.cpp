@@ -1,0 +1,167 @@
+#include "modules/diffraction/evaluate/budget.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <set>
+
+#include "engine/core/json_reader.h"
+#include "engine/core/parallel.h"
+#include "engine/image/load.h"
+#include "modules/diffraction/asset/material_json.h"
+#include "modules/diffraction/evaluate/frame_sets.h"
+#include "modules/diffraction/evaluate/point_shader.h"
+#include "modules/diffraction/evaluate/radiance_error.h"
+#include "modules/diffraction/reference/reference.h"
+#include "tests/support/message_of.h"
+#include "tests/support/test_data.h"
+
+namespace rowland::diffraction {
+namespace {
+
+nlohmann::json compact_disc() {
+    return nlohmann::json::parse(R"({"grating": {"pitch_nm": 1600, "profile": {"type": "slit", "width_nm": 800}}})");
+}
+
+Material with_budget(double max_error, SurfaceShape surface = SurfaceShape::Flat) {
+    Material material = parse_material(compact_disc(), "cd.json");
+    material.quality.max_error = max_error;
+    material.quality.surface = surface;
+    return material;
+}
+
+/// Every so many of the named frames, for speed.
+std::vector<Frame> some_frames(SurfaceShape surface, std::size_t step) {
+    std::vector<Frame> some;
+    const std::vector<Frame> all = measured_frames(surface);
+    for (std::size_t i = 0; i < all.size(); i += step) some.push_back(all[i]);
+    return some;
+}
+
+BudgetProbe captured(const std::filesystem::path& path, lighting::Mapping mapping) {
+    return {.name = path.filename().string(), .image = {image::load_image(path), mapping, path.string()}};
+}
+
+/// A lamp in a dim room.
+BudgetProbe made_up() {
+    image::Image image{.width = 64, .height = 32, .texels = std::vector(std::size_t{64} * 32, glm::vec3(0.2F))};
+    for (const std::size_t texel : {std::size_t{8 * 64 + 40}, std::size_t{8 * 64 + 41}, std::size_t{9 * 64 + 40}})
+        image.texels[texel] = glm::vec3(60.0F, 50.0F, 40.0F);
+    return {
+        .name = "made up", .image = {std::move(image), lighting::Mapping::Equirectangular, "made up"}, .key_lights = 4};
+}
+
+/// The error of a cooked material as anyone can compute it: through its bytes, under the lights of its record.
+double error_of(const CookedMaterial& cooked, const nlohmann::json& settings, const BudgetProbe& probe,
+                std::span<const Frame> frames, std::span<const glm::dvec3> reference) {
+    nlohmann::json json = compact_disc();
+    json["quality"] = settings;
+    const CookedMaterial read = read_cooked_material(write_cooked_material(json, cooked), "cd.material");
+    const EvaluationLight light(probe.image, read.measured->probes.front().key_lights, math::SphericalWindow::None);
+    return relative_rms(evaluate_baked(read, light, frames), reference);
+}
+
+TEST(Budget, OfRealProbesPicksDearerSettingsForSmallerErrors) {
+    ROWLAND_TEST_DATA(grace, "probes/grace_probe.hdr");
+    ROWLAND_TEST_DATA(ennis, "probes/ennis_probulator.hdr");
+    ROWLAND_TEST_DATA(royal_esplanade, "probes/royal_esplanade_1k.hdr");
+    ROWLAND_TEST_DATA(sunset, "probes/blender_sunset.exr");
+    const std::vector<BudgetProbe> probes = {captured(grace, lighting::Mapping::Angular),
+                                             captured(ennis, lighting::Mapping::Equirectangular),
+                                             captured(royal_esplanade, lighting::Mapping::Equirectangular),
+                                             captured(sunset, lighting::Mapping::Equirectangular)};
+    const std::vector<Frame> frames = some_frames(SurfaceShape::Flat, 20);
+    std::vector<std::vector<glm::dvec3>> references;
+    for (const BudgetProbe& probe : probes)
+        references.push_back(reference_radiance(with_budget(1.0).grating, probe.image, colour::LightSpectra(), frames));
+    std::set<std::string> settings;
+    double price = 0.0;
+    for (const double max_error : {0.30, 0.10, 0.05, 0.02}) {
+        const BudgetChoice choice = choose_representation(with_budget(max_error), probes, frames, "cd.json");
+        ASSERT_EQ(choice.cooked.measured->probes.size(), probes.size());
+        EXPECT_GE(choice.cooked.measured->price, price) << max_error;
+        price = choice.cooked.measured->price;
+        settings.insert(choice.settings.dump());
+        for (std::size_t i = 0; i < probes.size(); ++i) {
+            const double error = error_of(choice.cooked, choice.settings, probes[i], frames, references[i]);
+            EXPECT_LE(error, max_error) << probes[i].name << choice.settings;
+            EXPECT_DOUBLE_EQ(choice.cooked.measured->probes[i].error, error) << probes[i].name;
+        }
+    }
+    EXPECT_GE(settings.size(), 3U) << ::testing::PrintToString(settings);
+}
+
+/// Every candidate is baked and measured apart from the search: none that costs less is within the budget.
+TEST(Budget, NothingCheaperWouldHaveDone) {
+    const std::vector<BudgetProbe> probes = {made_up()};
+    const std::vector<Frame> frames = some_frames(SurfaceShape::Curved, 12);
+    const Material material = with_budget(0.05, SurfaceShape::Curved);
+    const BudgetChoice choice = choose_representation(material, probes, frames, "cd.json");
+    const auto reference = reference_radiance(material.grating, probes[0].image, colour::LightSpectra(), frames);
+    int cheaper = 0;
+    for (const nlohmann::json& settings : budget_candidates(material.grating, SurfaceShape::Curved)) {
+        nlohmann::json json = compact_disc();
+        json["quality"] = settings;
+        CookedMaterial other;
+        try {
+            other = cook_material(json, "other.json");
+        } catch (const Error&) {
+            continue;
+        }
+        const int keys = other.material.quality.key_lights ? probes[0].key_lights : 0;
+        if (shading_price(shading_cost(other.tables), keys) >= choice.cooked.measured->price) continue;
+        ++cheaper;
+        const EvaluationLight light(probes[0].image, keys, math::SphericalWindow::None);
+        EXPECT_GT(relative_rms(evaluate_baked(other, light, frames), reference), 0.05) << settings;
+    }
+    EXPECT_GT(cheaper, 3);
+}
+
+TEST(Budget, OutOfReachIsRefusedWithTheBestThatIsNot) {
+    const std::vector<BudgetProbe> probes = {made_up()};
+    const std::vector<Frame> frames = some_frames(SurfaceShape::Flat, 24);
+    const std::string message =
+        rowland::test::message_of([&] { choose_representation(with_budget(1e-7), probes, frames, "folder/cd.json"); });
+    EXPECT_THAT(message,
+                ::testing::AllOf(::testing::HasSubstr("folder/cd.json"), ::testing::HasSubstr("/quality/max_error"),
+                                 ::testing::HasSubstr("\"representation\"")));
+    const std::string mark = "at least ";
+    const double best = std::strtod(message.c_str() + message.find(mark) + mark.size(), nullptr);
+    EXPECT_NO_THROW(choose_representation(with_budget(best), probes, frames, "cd.json"));
+    EXPECT_THROW(choose_representation(with_budget(0.98 * best), probes, frames, "cd.json"), Error);
+}
+
+TEST(Budget, ChoiceDoesNotDependOnTheNumberOfThreads) {
+    const std::vector<BudgetProbe> probes = {made_up()};
+    const std::vector<Frame> frames = some_frames(SurfaceShape::Flat, 24);
+    const auto bytes = [&](unsigned threads) {
+        const ThreadLimit limit(threads);
+        const BudgetChoice choice = choose_representation(with_budget(0.03), probes, frames, "cd.json");
+        nlohmann::json json = compact_disc();
+        json["quality"] = choice.settings;
+        return write_cooked_material(json, choice.cooked);
+    };
+    EXPECT_EQ(bytes(1), bytes(2));
+}
+
+/// Maps want the flat lobe; what a grating cannot be drawn with is no candidate for it.
+TEST(Budget, ALobeIsDrawnByWhatTakesLobes) {
+    Material material = with_budget(0.5);
+    material.grating.lobe = GaussianLobe{0.3};
+    const std::vector<BudgetProbe> probes = {made_up()};
+    const BudgetChoice choice = choose_representation(material, probes, some_frames(SurfaceShape::Flat, 40), "cd.json");
+    EXPECT_FALSE(choice.settings["representation"] == "planar" || choice.settings["representation"] == "circle");
+}
+
+TEST(Budget, PriceCountsWhatEveryPixelPays) {
+    const ShadingCost arc{.fetches_per_pixel = 2, .multiply_adds_per_pixel = 32, .table_bytes = 1 << 20};
+    EXPECT_DOUBLE_EQ(shading_price(arc, 0), 2.0 + 32.0 / 8.0 + 0.25);
+    const ShadingCost lights{.fetches_per_light = 9, .multiply_adds_per_light = 80};
+    EXPECT_DOUBLE_EQ(shading_price(lights, 16), 16.0 * 19.0);
+    const ShadingCost spikes{.fetches_per_vertex = 40};
+    EXPECT_DOUBLE_EQ(shading_price(spikes, 16), 40.0 * 25000.0 / 460800.0);
+}
+
+}  // namespace
+}  // namespace rowland::diffraction
