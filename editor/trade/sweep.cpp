@@ -104,6 +104,11 @@ std::vector<std::string> stems(const std::vector<std::filesystem::path>& paths) 
     return names;
 }
 
+/// A plane's map shades no curved surface; what stands in for it there is a setting of its own.
+bool applies(const Setting& setting, const FrameSet& set) {
+    return representation_of(setting) != "planar" || std::any_of(set.surfaces.begin(), set.surfaces.end(), is_flat);
+}
+
 /// Windows change no time: two settings that differ in nothing else are timed once.
 Setting without_window(Setting setting) {
     setting.window = math::SphericalWindow::None;
@@ -209,7 +214,8 @@ void Sweep::measure_errors(const SweepResults& results) {
             for (std::size_t p = 0; p < probes_.size(); ++p) {
                 const Job job{m, s, p};
                 for (const FrameSet* set : sets())
-                    if (results_.find(error_key(job, results.settings[m][s], *set)) == nullptr) {
+                    if (applies(results.settings[m][s], *set) &&
+                        results_.find(error_key(job, results.settings[m][s], *set)) == nullptr) {
                         jobs.push_back(job);
                         break;
                     }
@@ -231,7 +237,7 @@ void Sweep::measure_errors(const SweepResults& results) {
         cooked_for = &job;
         for (const FrameSet* set : sets()) {
             const std::string key = error_key(job, setting, *set);
-            if (results_.find(key) != nullptr) continue;
+            if (!applies(setting, *set) || results_.find(key) != nullptr) continue;
             const auto radiance = shaded(*cooked, light(job.probe, setting), *set);
             nlohmann::json entry = to_json(compare(radiance, references[{job.material, job.probe, set->name}]));
             entry["of"] = {results.materials[job.material], results.probes[job.probe], set->name,
@@ -287,8 +293,9 @@ void Sweep::collect(SweepResults& results) {
             results.costs.push_back(cost);
             for (std::size_t p = 0; p < probes_.size(); ++p)
                 for (const FrameSet* set : sets())
-                    results.errors.push_back(
-                        {m, p, set->name, s, to_error(*results_.find(error_key({m, s, p}, setting, *set)))});
+                    if (applies(setting, *set))
+                        results.errors.push_back(
+                            {m, p, set->name, s, to_error(*results_.find(error_key({m, s, p}, setting, *set)))});
         }
 }
 

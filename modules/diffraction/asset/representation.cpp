@@ -6,9 +6,9 @@ namespace rowland::diffraction {
 
 namespace {
 
-constexpr int kFetchesPerLight = 9;  ///< three parts of a lobe, three columns of the kernel's matrix
-/// Counted in light_spot.glsl and kernel.glsl: 30 for the lobe, 45 for each of its parts.
-constexpr int kMultiplyAddsPerLight = 165;
+constexpr int kFetchesPerLight = 2;  ///< of the lobe's table, at either side of a pixel that is narrower than the lobe
+/// Counted in key_lobes.glsl and light_spot.glsl for the flat lobe: 25 for the place, 45 for the height, 15 for the sum.
+constexpr int kMultiplyAddsPerLight = 85;
 constexpr std::size_t kHalfTexel = 8;
 
 int squared(int n) {

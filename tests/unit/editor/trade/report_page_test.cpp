@@ -121,11 +121,14 @@ void expect_points(const std::string& page, const std::vector<test::Row>& rows, 
                     << row.at("setting");
                 ++found;
             }
-    EXPECT_EQ(found, 3);
+    const auto shown = std::count_if(rows.begin(), rows.end(),
+                                     [&](const test::Row& row) { return row.at("set") == set && cost_of(row) > 0.0; });
+    EXPECT_EQ(found, shown);
+    EXPECT_GE(found, 2);
 }
 
 TEST_F(ReportPage, ChartsShowTheTablesNumbers) {
-    const std::string page = report("--frame-size 64 36");
+    const std::string page = report("--frame-size 64 36 --setting direct/key_lights=2");
     const auto measured = rows();
     for (const char* set : {"tilted_cd", "sphere", "picture"}) {
         expect_points(page, measured, set, "ratio",

@@ -45,7 +45,7 @@ TEST_F(TradeSweep, HasARowForEverySettingAndSetInBothTables) {
     ASSERT_EQ(done.exit_code, 0) << done.messages;
     EXPECT_THAT(done.output, HasSubstr("results/sweep.csv"));
     const auto rows = test::read_rows(folder_.path() / "results" / "sweep.csv");
-    ASSERT_EQ(rows.size(), 3U * 3U);  // settings × (tilted_cd, sphere, picture)
+    ASSERT_EQ(rows.size(), 3U * 3U - 1U);  // settings × (tilted_cd, sphere, picture); no map is of a sphere
     std::istringstream json_lines(file("results/sweep.jsonl"));
     std::string line;
     for (const test::Row& row : rows) {
@@ -56,6 +56,7 @@ TEST_F(TradeSweep, HasARowForEverySettingAndSetInBothTables) {
         EXPECT_EQ(row.at("frame_ms"), "") << "no times were asked for";
         EXPECT_GT(std::stoull(row.at("table_bytes")), 0U);
         // A map is exact on its plane but for its resolution; three bands lose the sun.
+        EXPECT_FALSE(row.at("set") == "sphere" && row.at("representation") == "planar");
         if (row.at("set") != "tilted_cd") continue;
         const double error = std::stod(row.at("relative_rms"));
         if (row.at("representation") == "planar") {
@@ -151,11 +152,11 @@ TEST_F(TradeSweep, KilledItGoesOnWhereItStopped) {
     ASSERT_EQ(run(arguments).exit_code, 0);
     const std::string journal = file("results/journal.jsonl");
     EXPECT_EQ(journal.substr(0, whole.size()), whole) << "nothing is lost or measured again";
-    EXPECT_EQ(lines("results/journal.jsonl"), 5U * 3U);
+    EXPECT_EQ(lines("results/journal.jsonl"), 5U * 3U - 1U);
     std::set<std::string> keys;
     std::istringstream entries(journal);
     for (std::string line; std::getline(entries, line);) keys.insert(nlohmann::json::parse(line)["key"]);
-    EXPECT_EQ(keys.size(), 5U * 3U);
+    EXPECT_EQ(keys.size(), 5U * 3U - 1U);
 }
 
 TEST_F(TradeSweep, FramesAreTimedAgainstThePlainMaterial) {
