@@ -1,24 +1,16 @@
 #include "editor/trade/frame_sets.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 
 #include "editor/trade/inputs.h"
+#include "modules/diffraction/evaluate/frame_sets.h"
 
 namespace rowland::trade {
 
 namespace {
 
-constexpr int kPoints = 120;
-/// Points by this angle apart cover a circle evenly.
-const double kGoldenAngle = std::numbers::pi * (3.0 - std::sqrt(5.0));
 constexpr double kSameNormal = 1.0 - 1e-9;
-
-double share(int i) {
-    return (i + 0.5) / kPoints;
-}
 
 }  // namespace
 
@@ -35,45 +27,11 @@ std::vector<diffraction::Frame> all_frames(const FrameSet& set) {
 }
 
 FrameSet tilted_cd_frames() {
-    constexpr double kTilt = 35.0 * std::numbers::pi / 180.0;
-    constexpr double kInnerRadius = 0.4;  // of the outer one, as a compact disc's
-    const glm::dvec3 normal(0.0, std::cos(kTilt), std::sin(kTilt));
-    const glm::dvec3 across(1.0, 0.0, 0.0);
-    const glm::dvec3 down = glm::cross(across, normal);
-    const glm::dvec3 eye = 2.0 * normal + 0.2 * across + 0.3 * down;
-    std::vector<diffraction::Frame> frames;
-    for (int i = 0; i < kPoints; ++i) {
-        const double inner2 = kInnerRadius * kInnerRadius;
-        const double radius = std::sqrt(inner2 + share(i) * (1.0 - inner2));
-        const glm::dvec3 radial = std::cos(i * kGoldenAngle) * across + std::sin(i * kGoldenAngle) * down;
-        frames.push_back({.view = glm::normalize(eye - radius * radial), .normal = normal, .grating = radial});
-    }
-    return {.name = "tilted_cd", .surfaces = {std::move(frames)}};
+    return {.name = "tilted_cd", .surfaces = {diffraction::measured_frames(diffraction::SurfaceShape::Flat)}};
 }
 
 FrameSet sphere_frames() {
-    const glm::dvec3 eye(0.0, 1.0, 4.0);
-    const glm::dvec3 toward = glm::normalize(eye);
-    const glm::dvec3 right(1.0, 0.0, 0.0);
-    const glm::dvec3 up = glm::cross(toward, right);
-    constexpr double kLeastViewCosine = 0.1;
-    // A point of cosine c to the eye's direction sees the eye at a cosine that grows with c.
-    const double distance = glm::length(eye);
-    const auto view_cosine = [&](double c) {
-        return (distance * c - 1.0) / std::sqrt(distance * distance - 2.0 * distance * c + 1.0);
-    };
-    double horizon = 1.0 / distance;
-    while (view_cosine(horizon) < kLeastViewCosine) horizon += 1e-4;
-    std::vector<diffraction::Frame> frames;
-    for (int i = 0; i < kPoints; ++i) {
-        const double c = 1.0 - share(i) * (1.0 - horizon);
-        const double s = std::sqrt(1.0 - c * c);
-        const glm::dvec3 n = c * toward + s * (std::cos(i * kGoldenAngle) * right + std::sin(i * kGoldenAngle) * up);
-        frames.push_back({.view = glm::normalize(eye - n),
-                          .normal = n,
-                          .grating = glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), n))});
-    }
-    return {.name = "sphere", .surfaces = {std::move(frames)}};
+    return {.name = "sphere", .surfaces = {diffraction::measured_frames(diffraction::SurfaceShape::Curved)}};
 }
 
 FrameSet frames_of_file(const std::string& name, const std::filesystem::path& path) {

@@ -21,10 +21,8 @@ struct FrameSet {
 /// One after the other.
 std::vector<diffraction::Frame> all_frames(const FrameSet& set);
 
-/// "tilted_cd": 120 points spread evenly over a disc that is tilted by 35° toward the eye, grooves around its centre.
+/// The named sets that material budgets are measured on: "tilted_cd" and "sphere" (diffraction::measured_frames()).
 FrameSet tilted_cd_frames();
-/// "sphere": 120 points spread evenly over what is seen of a sphere from four radii away and a little above, grooves
-/// along the meridians; views to 84° from the normal.
 FrameSet sphere_frames();
 /// One surface of frames from a CSV file (see read_frames()), or, where the normals differ, a curved one.
 FrameSet frames_of_file(const std::string& name, const std::filesystem::path& path);

@@ -7,7 +7,8 @@ namespace rowland::diffraction {
 namespace {
 
 constexpr int kFetchesPerLight = 2;  ///< of the lobe's table, at either side of a pixel that is narrower than the lobe
-/// Counted in key_lobes.glsl and light_spot.glsl for the flat lobe: 25 for the place, 45 for the height, 15 for the sum.
+/// Counted in key_lobes.glsl and light_spot.glsl for the flat lobe: 25 for the place, 45 for the height, 15 for the
+/// sum.
 constexpr int kMultiplyAddsPerLight = 85;
 constexpr std::size_t kHalfTexel = 8;
 
