@@ -23,12 +23,13 @@ struct ShippedAsset {
     const char* source;
     const char* cooked;
 };
-constexpr std::array<ShippedAsset, 6> kShippedAssets = {{{"materials/cd.json", "cd.material"},
+constexpr std::array<ShippedAsset, 7> kShippedAssets = {{{"materials/cd.json", "cd.material"},
                                                          {"meshes/cd.json", "cd.glb"},
                                                          {"meshes/ground.json", "ground.glb"},
                                                          {"meshes/sphere.json", "sphere.glb"},
                                                          {"probes/clear_sky.json", "clear_sky.probe"},
-                                                         {"probes/studio.json", "studio.probe"}}};
+                                                         {"probes/studio.json", "studio.probe"},
+                                                         {"scenes/cabinet.json", "cabinet.glb"}}};
 
 std::shared_ptr<const cook::Registry> make_registry() {
     auto registry = std::make_shared<cook::Registry>();

@@ -5,15 +5,19 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <numbers>
+#include <optional>
 #include <utility>
 
+#include "content/demo/opening_view.h"
 #include "engine/core/error.h"
 #include "engine/core/log.h"
 #include "engine/render/gpu_mesh.h"
 #include "engine/render/material.h"
 #include "engine/scene/directional_light.h"
 #include "engine/scene/gltf_import.h"
+#include "engine/scene/node_label.h"
 #include "engine/scene/transform.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
 
@@ -24,6 +28,7 @@ namespace {
 constexpr float kSphereRadius = 0.025F;
 constexpr float kDiscHeight = 0.052F;
 constexpr float kOwnMeshSize = 0.12F;
+constexpr double kSpinDegreesPerSecond = 20.0;
 constexpr float kLift = 5e-4F;  ///< metres; a flat scene must not share the ground's plane
 
 glm::quat about(const glm::vec3& axis, double degrees) {
@@ -37,6 +42,22 @@ scene::Transform fitting(const scene::Bounds& box, float size_m) {
     const float scale = largest > 0.0F ? size_m / largest : 1.0F;
     const glm::vec3 foot((box.minimum.x + box.maximum.x) * 0.5F, box.minimum.y, (box.minimum.z + box.maximum.z) * 0.5F);
     return {.translation = -scale * foot, .rotation = {1.0F, 0.0F, 0.0F, 0.0F}, .scale = glm::vec3(scale)};
+}
+
+/// The unit axis that a node's extras name, if they do; anything else under that key is not for us.
+std::optional<glm::vec3> spin_axis(const nlohmann::json& extras) {
+    if (!extras.is_object() || !extras.contains("spin_axis")) return std::nullopt;
+    const nlohmann::json& given = extras["spin_axis"];
+    if (!given.is_array() || given.size() != 3) return std::nullopt;
+    glm::dvec3 axis(0.0);
+    for (int i = 0; i < 3; ++i) {
+        const nlohmann::json& component = given[static_cast<std::size_t>(i)];
+        if (!component.is_number()) return std::nullopt;
+        axis[i] = component.get<double>();
+    }
+    const double length = glm::length(axis);
+    if (!(length > 0.0) || !std::isfinite(length)) return std::nullopt;
+    return glm::vec3(axis / length);
 }
 
 }  // namespace
@@ -61,6 +82,8 @@ DemoScene::DemoScene(const Options& options, Assets& assets, render::Renderer& r
     if (options.scene) {
         scene_file_ = options.scene->string();
         scene_ = {assets.scene(*options.scene)};
+        own_view_ = !scene_.handle->cameras.empty();
+        if (own_view_) camera_ = opening_view(*scene_.handle, scene::merge_instances(*scene_.handle));
         show_scene();
     } else {
         grating_mesh_ = {assets.scene(options.mesh.value_or(options.cooked_folder / "cd.glb"))};
@@ -68,15 +91,19 @@ DemoScene::DemoScene(const Options& options, Assets& assets, render::Renderer& r
         show_grating_mesh();
         show_grating_material();
     }
+    if (!own_view_) add_surroundings(options, assets);
+    failures_.clear();
+    refresh();
+    set_sun(options.sun);
+    advance_to(0.0);
+}
+
+void DemoScene::add_surroundings(const Options& options, Assets& assets) {
     sphere_mesh_ = {assets.scene(options.cooked_folder / "sphere.glb")};
     ground_mesh_ = {assets.scene(options.cooked_folder / "ground.glb")};
     add_spheres();
     ground_ = add_mesh_entity(
         {}, render::StandardMaterial{.base_colour = glm::vec3(0.18F), .metallic = 0.0F, .roughness = 0.6F});
-    failures_.clear();
-    refresh();
-    set_sun(options.sun);
-    advance_to(0.0);
 }
 
 template <typename T, typename F>
@@ -107,14 +134,25 @@ void DemoScene::show_scene() {
     render::SceneInstance instance = render::instantiate(world_, imported, renderer_, scene_file_);
     if (instance_) render::destroy(world_, *instance_);
     instance_ = std::move(instance);
+    find_spinning();
+    if (!own_view_) fit_scene(scene::merge_instances(imported));
+}
+
+void DemoScene::fit_scene(const scene::Mesh& merged) {
     // The whole scene is fitted by the entity that turns it; its size is that of the scene at rest.
-    const scene::Mesh merged = scene::merge_instances(imported);
     scene::Transform fit = fitting(scene::bounds(merged), kOwnMeshSize);
     fit.translation.y += kLift;
     world_.get<scene::Transform>(stand_) = {};
     for (const ecs::Entity node : instance_->nodes)
         if (world_.find<scene::Parent>(node) == nullptr) world_.add(node, scene::Parent{grating_});
     world_.get<scene::Transform>(grating_) = fit;
+}
+
+void DemoScene::find_spinning() {
+    spinning_.clear();
+    for (const ecs::Entity node : instance_->nodes)
+        if (const auto axis = spin_axis(world_.get<scene::NodeLabel>(node).extras))
+            spinning_.push_back({node, *axis, world_.get<scene::Transform>(node).rotation});
 }
 
 void DemoScene::show_grating_mesh() {
@@ -175,6 +213,9 @@ void DemoScene::advance_to(double seconds) {
         const double time = duration > 0.0F ? std::fmod(seconds, static_cast<double>(duration)) : 0.0;
         instance_->animate(world_, 0, static_cast<float>(time));
     }
+    for (const Spinning& spinning : spinning_)
+        world_.get<scene::Transform>(spinning.node).rotation =
+            spinning.rest * about(spinning.axis, std::fmod(kSpinDegreesPerSecond * seconds, 360.0));
     scene::update_world_matrices(world_);
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,7 +20,9 @@ namespace rowland::demo {
 /// The camera's vertical field of view, radians.
 inline constexpr float kFieldOfView = 0.36F;
 
-/// A CD (or the user's mesh as a grating, or the user's scene as it is), a diffuse and a metallic sphere, and a ground.
+/// A CD (or the user's mesh as a grating, or the user's scene, scaled to stand in the CD's place), a diffuse and a
+/// metallic sphere, and a ground. A scene that brings a camera is shown alone, at its own size, with its own lights;
+/// what has a `"spin_axis": [x, y, z]` among its node's extras turns about it.
 class DemoScene {
  public:
     /// `xyz_to_working` as the renderer's. Throws Error (input).
@@ -48,13 +52,22 @@ class DemoScene {
     ecs::Entity add_mesh_entity(const glm::vec3& place, const render::StandardMaterial& surface);
     void add_spheres();
     void show_scene();
+    void fit_scene(const scene::Mesh& merged);
+    void find_spinning();
+    void add_surroundings(const Options& options, Assets& assets);
     void show_grating_mesh();
     void show_grating_material();
     void show_spheres();
-    void show_ground();
     /// Runs `show` if there is a newer asset.
     template <typename T, typename F>
     void refresh(Shown<T>& shown, F&& show);
+
+    /// A node that turns about an axis of its own.
+    struct Spinning {
+        ecs::Entity node;
+        glm::vec3 axis;  ///< unit
+        glm::quat rest;
+    };
 
     render::Renderer& renderer_;
     glm::dmat3 xyz_to_working_;
@@ -73,7 +86,9 @@ class DemoScene {
     ecs::Entity ground_;
     ecs::Entity sun_;
     std::optional<render::SceneInstance> instance_;
+    std::vector<Spinning> spinning_;
     bool disc_ = true;
+    bool own_view_ = false;  ///< the scene brings a camera
     scene::Camera camera_;
 };
 

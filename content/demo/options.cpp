@@ -22,7 +22,9 @@ void add_options(CLI::App& app, Options& options) {
     app.add_option("--probe", options.probe, "Light probe: .hdr, .exr, a probe recipe (.json) or a cooked .probe");
     app.add_option("--probe-mapping", options.probe_mapping, "How an image covers the sphere: equirect or angular")
         ->capture_default_str();
-    app.add_option("--scene", options.scene, "glTF or GLB file to show, with its own materials, in place of the CD");
+    app.add_option("--scene", options.scene,
+                   "glTF or GLB file to show, with its own materials, in place of the CD; if it brings a\ncamera, "
+                   "alone and as it is");
     app.add_option("--mesh", options.mesh, "glTF or GLB file to show as a grating in place of the CD");
     app.add_option("--material", options.material, "Grating material: .json, or a cooked .material");
     app.add_option("--ocio", options.ocio_config, "OpenColorIO config in place of $OCIO and the shipped one");

@@ -97,6 +97,7 @@ void Picture::draw(DemoScene& scene, const scene::Camera& camera, float seconds)
         const gpu::PassTimes::Scope scope(&pass_times_, "resolve");
         targets_->multisampled.resolve_to(targets_->linear);
     }
+    if (post_settings_.vignette) post_settings_.vignette->vertical_fov = camera.vertical_field_of_view;
     post_stack_.draw(targets_->linear.colour(), display_, post_settings_,
                      {.index = frame_++, .seconds = seconds, .luminance_weights = luminance_weights_},
                      targets_->encoded);

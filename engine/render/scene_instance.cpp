@@ -9,6 +9,7 @@
 #include "engine/core/check.h"
 #include "engine/render/gpu_mesh.h"
 #include "engine/render/surface_textures.h"
+#include "engine/scene/node_label.h"
 #include "engine/scene/skin.h"
 
 namespace rowland::render {
@@ -33,6 +34,7 @@ class Builder {
             const ecs::Entity entity = world_.create();
             instance_.nodes.push_back(entity);
             world_.add(entity, scene::Transform(node.local));
+            world_.add(entity, scene::NodeLabel{node.name, node.extras});
             if (!node.parent) continue;
             ROWLAND_CHECK_OP(*node.parent, <, instance_.nodes.size() - 1);
             world_.add(entity, scene::Parent{instance_.nodes[*node.parent]});
@@ -104,6 +106,14 @@ void SceneInstance::animate(ecs::World& world, std::size_t animation, float time
     for (std::size_t i = 0; i < nodes.size(); ++i) pose[i] = world.get<scene::Transform>(nodes[i]);
     scene::pose(animations[animation], time_s, pose);
     for (std::size_t i = 0; i < nodes.size(); ++i) world.get<scene::Transform>(nodes[i]) = pose[i];
+}
+
+std::optional<ecs::Entity> SceneInstance::node_named(ecs::World& world, std::string_view name) const {
+    for (const ecs::Entity node : nodes) {
+        const auto* label = world.find<scene::NodeLabel>(node);
+        if (label != nullptr && label->name == name) return node;
+    }
+    return std::nullopt;
 }
 
 SceneInstance instantiate(ecs::World& world, const scene::ImportedScene& scene, Renderer& renderer,

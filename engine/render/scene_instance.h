@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/ecs/world.h"
@@ -13,7 +15,7 @@ namespace rowland::render {
 
 /// An imported scene that stands in a world.
 struct SceneInstance {
-    std::vector<ecs::Entity> nodes;   ///< one a node, in the import's order: Transform and Parent
+    std::vector<ecs::Entity> nodes;   ///< one a node, in the import's order: Transform, Parent and NodeLabel
     std::vector<ecs::Entity> drawn;   ///< one an instance of a primitive: MeshInstance and StandardMaterial
     std::vector<ecs::Entity> lights;  ///< one a light
     std::vector<scene::Animation> animations;
@@ -21,6 +23,9 @@ struct SceneInstance {
     /// Poses the nodes as an animation does at a time; those it does not move stay. World matrices follow with the next
     /// scene::update_world_matrices().
     void animate(ecs::World& world, std::size_t animation, float time_s) const;
+
+    /// The first node of that name that is alive.
+    std::optional<ecs::Entity> node_named(ecs::World& world, std::string_view name) const;
 };
 
 /// Makes entities of a scene and puts its meshes and textures on the GPU. Primitives and lights are children of their

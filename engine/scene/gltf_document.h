@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -89,6 +90,9 @@ struct GltfNode {
     std::optional<std::size_t> mesh;
     std::optional<std::size_t> skin;
     std::optional<std::size_t> light;
+    std::optional<std::size_t> camera;
+    nlohmann::json extras;         ///< null: none
+    std::size_t extras_bytes = 0;  ///< as text
 };
 
 struct GltfImage {
@@ -127,6 +131,14 @@ struct GltfAnimation {
 
 using GltfLight = std::variant<DirectionalLight, PunctualLight>;
 
+/// A perspective camera.
+struct GltfCamera {
+    std::string name;
+    float vertical_field_of_view = 0.0F;  ///< radians
+    float near_plane = 0.0F;
+    std::optional<float> far_plane;
+};
+
 /// A parsed glTF file. All indices are in range and all offsets within their buffers once check_ranges has passed it.
 struct GltfDocument {
     std::string file;
@@ -142,6 +154,7 @@ struct GltfDocument {
     std::vector<GltfSkin> skins;
     std::vector<GltfAnimation> animations;
     std::vector<GltfLight> lights;
+    std::vector<std::optional<GltfCamera>> cameras;  ///< none: ignored
 };
 
 }  // namespace rowland::scene

@@ -9,6 +9,7 @@
 #include "engine/scene/gltf_accessor.h"
 #include "engine/scene/gltf_animation.h"
 #include "engine/scene/gltf_check.h"
+#include "engine/scene/gltf_extras.h"
 #include "engine/scene/gltf_image.h"
 #include "engine/scene/gltf_parse.h"
 #include "engine/scene/gltf_skin.h"
@@ -46,7 +47,18 @@ std::vector<std::vector<ImportedPrimitive>> import_meshes(const GltfDocument& do
     return imported;
 }
 
-/// Adds the shown nodes and their lights; the result has, for each node of the document, its place among them.
+/// What a value of JSON takes in memory, per character of its text: a map's node for {"a":0}.
+constexpr std::size_t kJsonBytesPerCharacter = 20;
+
+ImportedLight import_light(const GltfDocument& document, const GltfNode& node, std::size_t at) {
+    ImportedLight light{at, document.lights[*node.light]};
+    if (auto* distant = std::get_if<DirectionalLight>(&light.light))
+        distant->casts_shadow = says_true(node.extras, "casts_shadow");
+    return light;
+}
+
+/// Adds the shown nodes, their lights and their cameras; the result has, for each node of the document, its place among
+/// them.
 std::vector<std::optional<std::size_t>> import_nodes(const GltfDocument& document,
                                                      const std::vector<PlacedNode>& placed, MemoryBudget& budget,
                                                      ImportedScene& scene) {
@@ -55,8 +67,14 @@ std::vector<std::optional<std::size_t>> import_nodes(const GltfDocument& documen
         const GltfNode& node = document.nodes[at.node];
         budget.spend(1, sizeof(ImportedNode) + node.name.size(), fmt::format("/nodes/{}", at.node));
         shown[at.node] = scene.nodes.size();
-        if (node.light) scene.lights.push_back({scene.nodes.size(), document.lights[*node.light]});
-        scene.nodes.push_back({node.name, at.parent, node.rest, glm::mat4(at.world)});
+        budget.spend(node.extras_bytes, kJsonBytesPerCharacter, fmt::format("/nodes/{}/extras", at.node));
+        if (node.light) scene.lights.push_back(import_light(document, node, scene.nodes.size()));
+        if (node.camera && document.cameras[*node.camera]) {
+            const GltfCamera& camera = *document.cameras[*node.camera];
+            scene.cameras.push_back(
+                {camera.name, scene.nodes.size(), camera.vertical_field_of_view, camera.near_plane, camera.far_plane});
+        }
+        scene.nodes.push_back({node.name, at.parent, node.rest, glm::mat4(at.world), node.extras});
     }
     return shown;
 }

@@ -14,7 +14,9 @@
 #include "engine/core/error.h"
 #include "engine/scene/decompose.h"
 #include "engine/scene/gltf_animation.h"
+#include "engine/scene/gltf_camera.h"
 #include "engine/scene/gltf_check.h"
+#include "engine/scene/gltf_extras.h"
 #include "engine/scene/gltf_light.h"
 #include "engine/scene/gltf_material.h"
 #include "engine/scene/gltf_skin.h"
@@ -241,6 +243,9 @@ GltfDocument parse_gltf(const nlohmann::json& checked, const std::string& file, 
     document.animations = read_animations(checked, file, warnings);
     document.lights = read_lights(checked, file);
     read_node_lights(checked, file, document.nodes, document.lights.size());
+    document.cameras = read_cameras(checked, file, warnings);
+    read_node_cameras(checked, file, document.nodes);
+    read_node_extras(checked, file, document.nodes, warnings);
     return document;
 }
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <glm/mat4x4.hpp>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <variant>
@@ -34,6 +35,7 @@ struct ImportedNode {
     std::optional<std::size_t> parent;  ///< an earlier node
     Transform local;                    ///< at rest
     glm::mat4 world{1.0F};              ///< at rest, exact even where `local` cannot hold a matrix's shear
+    nlohmann::json extras;              ///< as written, at most 64 KiB of text; null: none
 };
 
 /// A mesh at a node. A skinned one is placed by its joints, not by its node.
@@ -52,9 +54,19 @@ struct ImportedSkin {
 };
 
 /// KHR_lights_punctual; shines along its node's −Z. Lux and candela are taken as irradiance, and irradiance at 1 m.
+/// A directional light whose node's extras say `"casts_shadow": true` does so.
 struct ImportedLight {
     std::size_t node = 0;
     std::variant<DirectionalLight, PunctualLight> light;
+};
+
+/// A perspective camera that looks along its node's −Z, +Y up.
+struct ImportedCamera {
+    std::string name;
+    std::size_t node = 0;
+    float vertical_field_of_view = 0.7F;  ///< radians, 0 < it < π
+    float near_plane = 0.01F;             ///< metres, > 0
+    std::optional<float> far_plane;       ///< metres, > near_plane; none: at infinity
 };
 
 /// What a glTF file holds of what we draw.
@@ -69,6 +81,7 @@ struct ImportedScene {
     std::vector<ImportedSkin> skins;
     std::vector<Animation> animations;
     std::vector<ImportedLight> lights;
+    std::vector<ImportedCamera> cameras;  ///< one a node that has one, in the order of the nodes
 };
 
 }  // namespace rowland::scene

@@ -23,11 +23,12 @@ namespace {
 
 using namespace benchmark;
 
-constexpr int kFramesPerRound = 2;  ///< one after the other: the second finds warm caches
+constexpr int kFramesPerRound = 2;          ///< one after the other: the second finds warm caches
+constexpr double kMost_ms_per_round = 250;  ///< of a variant: slower ones sit rounds out
 
 struct Options {
     glm::ivec2 size{1280, 720};
-    int rounds = 8;
+    int rounds = 5;
     std::vector<std::string> only;
     bool list = false;
     bool markdown = false;
@@ -49,7 +50,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& status) {
         "example: rowland-benchmark --only 'planar*,arc' --rounds 30 --json frames.json");
     app.add_option("--width", options.size.x, "Width in pixels")->check(CLI::Range(16, 8192))->capture_default_str();
     app.add_option("--height", options.size.y, "Height in pixels")->check(CLI::Range(16, 8192))->capture_default_str();
-    app.add_option("--rounds", options.rounds, "Rounds; each draws every variant twice")
+    app.add_option("--rounds", options.rounds, "Rounds; each draws every variant twice, slow ones more rarely")
         ->check(CLI::Range(1, 10000))
         ->capture_default_str();
     app.add_option("--only", options.only, "Names or patterns, with commas between them")->delimiter(',');
@@ -103,6 +104,7 @@ struct Timed {
     double mean_radiance;
     std::vector<double> wall_ms = {};
     std::vector<double> gpu_ms = {};
+    double spent_ms = 0.0;
 };
 
 FrameResult result_of(Timed& timed) {
@@ -129,16 +131,21 @@ std::vector<Timed> prepare(const Options& options, FrameStage& stage) {
     return timed;
 }
 
+void time_frames(Timed& timed) {
+    for (int frame = 0; frame < kFramesPerRound; ++frame) {
+        const FrameTime time = timed.scene.draw();
+        timed.wall_ms.push_back(time.wall_ms);
+        timed.gpu_ms.push_back(time.gpu_ms);
+        timed.spent_ms += time.wall_ms;
+    }
+}
+
 std::vector<FrameResult> measure(const Options& options, FrameStage& stage) {
     std::vector<Timed> timed = prepare(options, stage);
     Progress progress("frames", static_cast<std::size_t>(options.rounds) * timed.size());
     for (int round = 0; round < options.rounds; ++round)
         for (Timed& one : timed) {
-            for (int frame = 0; frame < kFramesPerRound; ++frame) {
-                const FrameTime time = one.scene.draw();
-                one.wall_ms.push_back(time.wall_ms);
-                one.gpu_ms.push_back(time.gpu_ms);
-            }
+            if (one.spent_ms <= round * kMost_ms_per_round) time_frames(one);
             progress.advance();
         }
     std::vector<FrameResult> results;

@@ -30,7 +30,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr float kFieldOfView = 0.9F;
-constexpr int kSettlingFrames = 3;  ///< maps are filled in the second frame at rest; one more for caches
+constexpr int kSettlingFrames = 2;  ///< maps are filled in the second frame at rest
 
 std::filesystem::path cooked_folder() {
     return std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() / "cooked";

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <glm/common.hpp>
 #include <nlohmann/json.hpp>
@@ -12,7 +11,7 @@
 #include <vector>
 
 #include "engine/core/file.h"
-#include "engine/image/exr.h"
+#include "tests/demo/demo_run.h"
 #include "tests/support/test_data.h"
 
 namespace rowland {
@@ -20,20 +19,9 @@ namespace {
 
 using nlohmann::json;
 
-std::filesystem::path result(const std::string& name) {
-    return std::filesystem::path(ROWLAND_RESULT_FOLDER) / name;
-}
-
-int run_demo(const std::string& arguments) {
-    return std::system((std::string(ROWLAND_DEMO) + " --headless " + arguments).c_str());
-}
-
-/// The demo's scene-linear picture.
-image::Image render(const std::string& name, const std::string& arguments) {
-    const std::filesystem::path path = result(name + ".exr");
-    EXPECT_EQ(run_demo("--width 192 --height 108 --capture-linear '" + path.string() + "' " + arguments), 0) << name;
-    return image::read_exr(path);
-}
+using test::render;
+using test::result;
+using test::run_demo;
 
 /// Share of the pixels that differ by more than rounding and the noise of filtering.
 double share_that_differs(const image::Image& a, const image::Image& b) {

@@ -5,6 +5,8 @@
 
 #include "engine/core/error.h"
 #include "engine/render/surface_textures.h"
+#include "engine/scene/directional_light.h"
+#include "engine/scene/node_label.h"
 #include "engine/scene/skin.h"
 #include "tests/gpu/render_test.h"
 #include "tests/support/message_of.h"
@@ -208,6 +210,28 @@ TEST_F(SceneInstanceTest, LightsHangOnTheirNodes) {
     EXPECT_EQ(at(draw_updated(), 0.0F, 0.5F).g, 0.0F);
     destroy(world_, instance);
     EXPECT_EQ(world_.living(), 0U);
+}
+
+TEST_F(SceneInstanceTest, ALightKeepsItsShadow) {
+    scene::ImportedScene scene = two_nodes();
+    scene.lights = {{.node = 0, .light = scene::DirectionalLight{.casts_shadow = true}},
+                    {.node = 1, .light = scene::DirectionalLight{.casts_shadow = false}}};
+    const SceneInstance instance = instantiate(world_, scene, renderer_, "test.gltf");
+    EXPECT_TRUE(world_.get<scene::DirectionalLight>(instance.lights.at(0)).casts_shadow);
+    EXPECT_FALSE(world_.get<scene::DirectionalLight>(instance.lights.at(1)).casts_shadow);
+}
+
+TEST_F(SceneInstanceTest, ANodeIsFoundByItsNameAndHasItsExtras) {
+    scene::ImportedScene scene = two_nodes();
+    scene.nodes[0].name = "stand";
+    scene.nodes[1].name = "disc";
+    scene.nodes[1].extras = {{"grab", true}};
+    const SceneInstance instance = instantiate(world_, scene, renderer_, "test.gltf");
+    EXPECT_EQ(instance.node_named(world_, "disc"), instance.nodes[1]);
+    EXPECT_EQ(instance.node_named(world_, "lid"), std::nullopt);
+    EXPECT_EQ(world_.get<scene::NodeLabel>(instance.nodes[1]).extras, scene.nodes[1].extras);
+    world_.destroy(instance.nodes[1]);
+    EXPECT_EQ(instance.node_named(world_, "disc"), std::nullopt);
 }
 
 TEST_F(SceneInstanceTest, AMaterialExtensionReachesTheTypeThatHandlesIt) {

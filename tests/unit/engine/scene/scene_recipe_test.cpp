@@ -276,8 +276,8 @@ TEST_F(Cabinet, FoilVariesDirectionAndPitchByItsTexture) {
     EXPECT_GT(directions.size(), 200U);
     EXPECT_GE(finest, 600.0);
     EXPECT_LE(finest, 650.0);
-    EXPECT_GE(coarsest, 1050.0);
-    EXPECT_LE(coarsest, 1100.0);
+    EXPECT_GE(coarsest, 1450.0);
+    EXPECT_LE(coarsest, 1550.0);
 }
 
 }  // namespace
