@@ -44,9 +44,10 @@ std::optional<Options> parse_options(int argc, char** argv, int& status) {
     CLI::App app{"Frame times of the diffraction material against the plain one: minima over interleaved rounds.",
                  "rowland-benchmark"};
     app.footer(
-        "A name is REPRESENTATION[/WHAT IS DIFFERENT]; --list prints all. \"ratio\" is to the time of the frame in "
-        "the\n"
-        "last column, which is drawn, too. On a GPU its own times are compared, else wall times.\n"
+        "A name is REPRESENTATION[/WHAT IS DIFFERENT]; --list prints all. Ratios are to the frame in the last column,\n"
+        "which is drawn, too: of the time until the picture is done, and of the GPU's own time, or that of all "
+        "threads\n"
+        "where the processor draws, which other programs on the machine hardly disturb.\n"
         "example: rowland-benchmark --only 'planar*,arc' --rounds 30 --json frames.json");
     app.add_option("--width", options.size.x, "Width in pixels")->check(CLI::Range(16, 8192))->capture_default_str();
     app.add_option("--height", options.size.y, "Height in pixels")->check(CLI::Range(16, 8192))->capture_default_str();
@@ -78,12 +79,12 @@ double mean_radiance(const gpu::Framebuffer& picture) {
 }
 
 /// Share of the pixels that show the disc: those that differ between the plain and the unlit frame.
-double coverage(FrameStage& stage) {
+double coverage(FrameStage& stage, bool software) {
     FrameVariant variant = all_variants().front();
-    FrameScene(variant, stage).draw();
+    FrameScene(variant, stage, software).draw();
     const std::vector<glm::vec4> lit = stage.linear().read_rgba_float();
     variant.shader = Shader::Unlit;
-    FrameScene(variant, stage).draw();
+    FrameScene(variant, stage, software).draw();
     const std::vector<glm::vec4> unlit = stage.linear().read_rgba_float();
     std::size_t differing = 0;
     for (std::size_t i = 0; i < lit.size(); ++i) differing += lit[i] != unlit[i] ? 1U : 0U;
@@ -103,7 +104,7 @@ struct Timed {
     FrameScene scene;
     double mean_radiance;
     std::vector<double> wall_ms = {};
-    std::vector<double> gpu_ms = {};
+    std::vector<double> work_ms = {};
     double spent_ms = 0.0;
 };
 
@@ -113,16 +114,16 @@ FrameResult result_of(Timed& timed) {
             .baseline = timed.scene.variant().baseline,
             .minimum_ms = timed.wall_ms.front(),
             .median_ms = timed.wall_ms[timed.wall_ms.size() / 2],
-            .gpu_minimum_ms = *std::min_element(timed.gpu_ms.begin(), timed.gpu_ms.end()),
+            .work_ms = *std::min_element(timed.work_ms.begin(), timed.work_ms.end()),
             .mean_radiance = timed.mean_radiance};
 }
 
-std::vector<Timed> prepare(const Options& options, FrameStage& stage) {
+std::vector<Timed> prepare(const Options& options, FrameStage& stage, bool software) {
     const std::vector<FrameVariant> variants = choose_variants(options.only);
     std::vector<Timed> timed;
     Progress progress("preparing", variants.size());
     for (const FrameVariant& variant : variants) {
-        FrameScene scene(variant, stage);
+        FrameScene scene(variant, stage, software);
         scene.settle();
         timed.push_back({std::move(scene), mean_radiance(stage.linear())});
         if (options.pictures) write_picture(*options.pictures, variant.name, stage);
@@ -135,13 +136,13 @@ void time_frames(Timed& timed) {
     for (int frame = 0; frame < kFramesPerRound; ++frame) {
         const FrameTime time = timed.scene.draw();
         timed.wall_ms.push_back(time.wall_ms);
-        timed.gpu_ms.push_back(time.gpu_ms);
+        timed.work_ms.push_back(time.work_ms);
         timed.spent_ms += time.wall_ms;
     }
 }
 
-std::vector<FrameResult> measure(const Options& options, FrameStage& stage) {
-    std::vector<Timed> timed = prepare(options, stage);
+std::vector<FrameResult> measure(const Options& options, FrameStage& stage, bool software) {
+    std::vector<Timed> timed = prepare(options, stage, software);
     Progress progress("frames", static_cast<std::size_t>(options.rounds) * timed.size());
     for (int round = 0; round < options.rounds; ++round)
         for (Timed& one : timed) {
@@ -173,8 +174,8 @@ int run(int argc, char** argv) {
     FrameStage stage(options->size);
     report.size = options->size;
     report.rounds = options->rounds;
-    report.results = measure(*options, stage);
-    report.coverage = coverage(stage);
+    report.results = measure(*options, stage, report.software);
+    report.coverage = coverage(stage, report.software);
 
     std::fputs((options->markdown ? to_markdown(report) : to_text(report)).c_str(), stdout);
     if (options->json) write_file_atomic(*options->json, to_json(report));

@@ -12,9 +12,9 @@ namespace rowland::benchmark {
 struct FrameResult {
     std::string name;
     std::string baseline;
-    double minimum_ms = 0.0;
+    double minimum_ms = 0.0;  ///< least time until the picture was done
     double median_ms = 0.0;
-    double gpu_minimum_ms = 0.0;
+    double work_ms = 0.0;        ///< least time of the GPU, or of the processor where that draws
     double mean_radiance = 0.0;  ///< of the picture: what was drawn, as one number
 };
 
@@ -25,14 +25,15 @@ struct FrameReport {
     std::string vendor;
     std::string renderer;  ///< GL_RENDERER
     std::string version;   ///< GL_VERSION
-    bool software = true;  ///< the processor draws: the GPU's own times say nothing
+    bool software = true;  ///< the processor draws
     glm::ivec2 size{0};
     int rounds = 0;
     double coverage = 0.0;  ///< share of the picture that shows the disc
     std::vector<FrameResult> results;
 
-    /// A result's time over its baseline's.
+    /// A result's least time over its baseline's, and the same of its work.
     double ratio(const FrameResult& result) const;
+    double work_ratio(const FrameResult& result) const;
 };
 
 /// Describes machine and driver of the current context.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 #include <filesystem>
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
@@ -139,7 +140,8 @@ std::vector<std::uint8_t> FrameStage::displayed() {
     return rgb;
 }
 
-FrameScene::FrameScene(FrameVariant variant, FrameStage& stage) : variant_(std::move(variant)), stage_(&stage) {
+FrameScene::FrameScene(FrameVariant variant, FrameStage& stage, bool software)
+    : variant_(std::move(variant)), stage_(&stage), software_(software) {
     disc_ = world_.create();
     world_.add(disc_, scene::Transform{});
     world_.add(disc_, stage.disc(variant_.vertices));
@@ -175,13 +177,15 @@ FrameTime FrameScene::draw() {
     move();
     const render::Shading shading = variant_.shader == Shader::Unlit ? render::Shading::Unlit : render::Shading::Full;
     const Clock::time_point start = Clock::now();
+    const std::clock_t work_start = std::clock();
     timer_.begin();
     stage_->draw(variant_, world_, shading);
     timer_.end();
     glFinish();
     FrameTime time;
+    time.work_ms = 1e3 * static_cast<double>(std::clock() - work_start) / CLOCKS_PER_SEC;
     time.wall_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-    time.gpu_ms = timer_.wait();
+    if (!software_) time.work_ms = timer_.wait();
     return time;
 }
 

@@ -57,14 +57,17 @@ class FrameStage {
 
 /// What a frame took.
 struct FrameTime {
-    double wall_ms = 0.0;  ///< until the GPU is done
-    double gpu_ms = 0.0;   ///< the GPU's own; near 0 where the processor draws
+    double wall_ms = 0.0;  ///< until the picture is done
+    /// Of what draws: the GPU's own time, or that of all the processor's threads, which other programs on the machine
+    /// hardly disturb.
+    double work_ms = 0.0;
 };
 
 /// A variant's own world.
 class FrameScene {
  public:
-    FrameScene(FrameVariant variant, FrameStage& stage);
+    /// `software`: whether the processor draws.
+    FrameScene(FrameVariant variant, FrameStage& stage, bool software);
 
     /// Draws the next frame.
     FrameTime draw();
@@ -77,6 +80,7 @@ class FrameScene {
 
     FrameVariant variant_;
     FrameStage* stage_;
+    bool software_;
     ecs::World world_;
     ecs::Entity disc_;
     gpu::Timer timer_;

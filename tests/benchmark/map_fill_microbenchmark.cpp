@@ -18,6 +18,7 @@ using ::benchmark::State;
 constexpr int kProbeWidth = 1024;
 constexpr int kLightFace = 256;  ///< of the cube that a cooked probe's light is stored in
 
+/// Made when first asked for: outside of the timed loops.
 const lighting::LightTexels& studio_texels() {
     static const lighting::LightTexels texels = [] {
         const lighting::StudioRecipe room{.ceiling = glm::dvec3(0.02),
@@ -48,9 +49,11 @@ const diffraction::CookedMaterial& cd() {
 
 void fill_planar(State& state, int side) {
     const glm::dvec3 normal = glm::normalize(glm::dvec3(0.2, 0.9, 0.3));
+    const lighting::LightTexels& texels = studio_texels();
+    const diffraction::CookedMaterial& material = cd();
     for (auto _ : state)
-        ::benchmark::DoNotOptimize(diffraction::fill_planar_map(studio_texels(), cd().kernel,
-                                                                cd().material.grating.pitch_nm, normal,
+        ::benchmark::DoNotOptimize(diffraction::fill_planar_map(texels, material.kernel,
+                                                                material.material.grating.pitch_nm, normal,
                                                                 {.azimuths = side, .views = side})
                                        .xyz.data());
 }
@@ -67,9 +70,11 @@ void fill_planar_in_part(State& state) {
 }
 
 void fill_circle(State& state, int side) {
+    const lighting::LightTexels& texels = studio_texels();
+    const diffraction::CookedMaterial& material = cd();
     for (auto _ : state)
-        ::benchmark::DoNotOptimize(diffraction::fill_circle_map(studio_texels(), cd().kernel,
-                                                                cd().material.grating.pitch_nm,
+        ::benchmark::DoNotOptimize(diffraction::fill_circle_map(texels, material.kernel,
+                                                                material.material.grating.pitch_nm,
                                                                 {.side = side, .views = 2 * side})
                                        .xyz.data());
 }
