@@ -53,7 +53,7 @@ nlohmann::ordered_json to_json(const platform::FrameStatistics& statistics) {
 
 }  // namespace
 
-BenchmarkResult fly_around(Picture& picture, DemoScene& scene, int frames) {
+BenchmarkResult fly_around(view::Picture& picture, DemoScene& scene, int frames) {
     const auto capacity = static_cast<std::size_t>(frames);
     platform::FrameTimes frame_times(capacity);
     std::vector<PassSamples> passes;
@@ -62,7 +62,7 @@ BenchmarkResult fly_around(Picture& picture, DemoScene& scene, int frames) {
         const int shown = std::max(frame, 0);
         const auto start = std::chrono::steady_clock::now();
         scene.advance_to(shown * kSecondsPerFrame);
-        picture.draw(scene, flight(scene.camera(), static_cast<double>(shown) / frames),
+        picture.draw(scene.world(), flight(scene.camera(), static_cast<double>(shown) / frames),
                      static_cast<float>(kSecondsPerFrame));
         glFinish();
         if (frame < 0) continue;

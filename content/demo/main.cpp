@@ -4,16 +4,16 @@
 
 #include "content/demo/assets.h"
 #include "content/demo/benchmark.h"
-#include "content/demo/capture.h"
 #include "content/demo/demo_scene.h"
+#include "content/demo/open_picture.h"
 #include "content/demo/options.h"
-#include "content/demo/picture.h"
 #include "content/demo/window_loop.h"
 #include "engine/core/log.h"
 #include "engine/core/program.h"
 #include "engine/gpu/debug.h"
 #include "engine/platform/headless_context.h"
 #include "engine/platform/window.h"
+#include "engine/view/capture.h"
 
 namespace rowland::demo {
 namespace {
@@ -45,22 +45,22 @@ std::vector<Job> jobs(const Options& options) {
     return result;
 }
 
-void run_job(const Job& job, const Options& options, Picture& picture, Assets& assets, DemoScene& scene) {
+void run_job(const Job& job, const Options& options, view::Picture& picture, Assets& assets, DemoScene& scene) {
     picture.set_probe(*assets.probe(job.probe));
     const int frames = options.frames.value_or(1);
     for (int frame = 0; frame < frames; ++frame) {
         scene.advance_to(frame * kSecondsPerFrame);
         // Maps are filled for what has come to rest.
-        if (frames == 1) picture.draw(scene, scene.camera(), 0.0F);
-        picture.draw(scene, scene.camera(), static_cast<float>(kSecondsPerFrame));
+        if (frames == 1) picture.draw(scene.world(), scene.camera(), 0.0F);
+        picture.draw(scene.world(), scene.camera(), static_cast<float>(kSecondsPerFrame));
         if (job.capture_linear) {
-            const auto path = numbered(*job.capture_linear, frame, frames);
-            write_linear_capture(picture.linear(), path);
+            const auto path = view::numbered(*job.capture_linear, frame, frames);
+            view::write_linear_capture(picture.linear(), path);
             log_info("wrote {}", path.string());
         }
         if (job.capture) {
-            const auto path = numbered(*job.capture, frame, frames);
-            write_display_capture(picture.encoded(), path);
+            const auto path = view::numbered(*job.capture, frame, frames);
+            view::write_display_capture(picture.encoded(), path);
             log_info("wrote {}", path.string());
         }
     }
@@ -71,7 +71,9 @@ void run_headless(const Options& options, const post::OcioConfig& config) {
     gpu::enable_debug_output(false);
     log_info("rendering on {}", context.renderer());
     const auto started = std::chrono::steady_clock::now();
-    Picture picture(options, config, {options.width, options.height}, options.benchmark ? Pace::Fluent : Pace::Still);
+    const std::unique_ptr<view::Picture> opened =
+        open_picture(options, config, {options.width, options.height}, options.benchmark ? Pace::Fluent : Pace::Still);
+    view::Picture& picture = *opened;
     Assets assets(options, picture.renderer().gltf_extensions());
     DemoScene scene(options, assets, picture.renderer(), picture.xyz_to_working());
     if (options.benchmark) {

@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "content/demo/assets.h"
-#include "content/demo/capture.h"
 #include "content/demo/demo_scene.h"
-#include "content/demo/picture.h"
+#include "content/demo/open_picture.h"
 #include "engine/core/error.h"
 #include "engine/core/log.h"
 #include "engine/gpu/debug.h"
@@ -21,6 +21,8 @@
 #include "engine/platform/window.h"
 #include "engine/scene/fly_camera.h"
 #include "engine/scene/orbit_camera.h"
+#include "engine/view/capture.h"
+#include "engine/view/picture.h"
 
 namespace rowland::demo {
 
@@ -48,10 +50,10 @@ class WindowLoop {
         : options_(options),
           config_(config),
           window_({.title = "Rowland", .size = {options.width, options.height}}),
-          picture_(options, config, window_.framebuffer_size(), Pace::Fluent),
-          assets_(options, picture_.renderer().gltf_extensions()),
-          scene_(options, assets_, picture_.renderer(), picture_.xyz_to_working()),
-          shaders_(picture_.shader_sources(options.shader_folder)),
+          picture_(open_picture(options, config, window_.framebuffer_size(), Pace::Fluent)),
+          assets_(options, picture_->renderer().gltf_extensions()),
+          scene_(options, assets_, picture_->renderer(), picture_->xyz_to_working()),
+          shaders_(picture_->shader_sources(options.shader_folder)),
           orbit_(scene_.camera()),
           fly_(scene_.camera()),
           probe_paths_(probe_paths(options)),
@@ -80,10 +82,10 @@ class WindowLoop {
                 std::this_thread::sleep_for(std::chrono::milliseconds(20));
                 continue;
             }
-            picture_.resize(size);
-            picture_.draw(scene_, flying_ ? fly_.camera() : orbit_.camera(), static_cast<float>(seconds));
+            picture_->resize(size);
+            picture_->draw(scene_.world(), flying_ ? fly_.camera() : orbit_.camera(), static_cast<float>(seconds));
             if (screenshot_wanted_ != Screenshot::None) take_screenshot();
-            picture_.encoded().show_in_window();
+            picture_->encoded().show_in_window();
             window_.swap();
             show_title(seconds);
         }
@@ -116,7 +118,7 @@ class WindowLoop {
         if (pressed(Key::F11)) window_.set_fullscreen(!window_.fullscreen());
         if (pressed(Key::F9)) screenshot_wanted_ = Screenshot::Linear;
         if (pressed(Key::F12)) screenshot_wanted_ = Screenshot::Display;
-        post::PostSettings& post = picture_.post_settings();
+        post::PostSettings& post = picture_->post_settings();
         if (pressed(Key::Minus)) post.exposure_stops -= kExposureStep;
         if (pressed(Key::Equal)) post.exposure_stops += kExposureStep;
         const auto toggle = [this](Key key, auto& effect, const auto& settings) {
@@ -168,14 +170,14 @@ class WindowLoop {
 
     void use_probe(const std::filesystem::path& path) {
         probe_ = assets_.probe(path);
-        picture_.set_probe(*probe_);
+        picture_->set_probe(*probe_);
         probe_version_ = probe_.version();
     }
 
     void follow_files() {
         if (assets_.poll()) scene_.refresh();
         if (probe_version_ != probe_.version()) {
-            picture_.set_probe(*probe_);
+            picture_->set_probe(*probe_);
             probe_version_ = probe_.version();
         }
         shader_age_ += 1;
@@ -185,14 +187,14 @@ class WindowLoop {
     void next_view() {
         const auto at = std::find(views_.begin(), views_.end(), view_);
         view_ = at == views_.end() || at + 1 == views_.end() ? views_.front() : *(at + 1);
-        picture_.set_view(config_, view_);
+        picture_->set_view(config_, view_);
         log_info("view {}", view_);
     }
 
     void reload_shaders() {
         shader_failure_.clear();
         try {
-            picture_.reload_shaders(options_.shader_folder);
+            picture_->reload_shaders(options_.shader_folder);
             log_info("shaders reloaded from {}", options_.shader_folder.string());
         } catch (const Error& error) {
             shader_failure_ = error.what();
@@ -220,9 +222,9 @@ class WindowLoop {
             options_.output_folder / fmt::format("screenshot_{:04}.{}", screenshots_taken_++, linear ? "exr" : "png");
         attempt([&] {
             if (linear)
-                write_linear_capture(picture_.linear(), path);
+                view::write_linear_capture(picture_->linear(), path);
             else
-                write_display_capture(picture_.encoded(), path);
+                view::write_display_capture(picture_->encoded(), path);
             log_info("wrote {}", path.string());
         });
     }
@@ -238,13 +240,13 @@ class WindowLoop {
         }
         const platform::FrameStatistics statistics = times_.statistics();
         window_.set_title(fmt::format("Rowland: {:.1f} ms a frame, {}, {:+.2f} stops", statistics.median_ms, view_,
-                                      picture_.post_settings().exposure_stops));
+                                      picture_->post_settings().exposure_stops));
     }
 
     const Options& options_;
     const post::OcioConfig& config_;
     platform::Window window_;
-    Picture picture_;
+    std::unique_ptr<view::Picture> picture_;
     Assets assets_;
     DemoScene scene_;
     asset::FileWatch shaders_;

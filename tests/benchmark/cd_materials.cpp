@@ -8,8 +8,8 @@ std::vector<TimedRepresentation> timed_representations() {
         {"bins", {{"representation", "bins"}, {"bands", 5}, {"bins", 16}}, true},
         {"transfer", {{"representation", "transfer"}, {"bands", 5}}, true},
         {"arc", {{"representation", "arc"}, {"bands", 5}, {"rank", 8}}, true},
-        {"planar", {{"representation", "planar"}, {"map_resolution", 128}}},
-        {"circle", {{"representation", "circle"}, {"map_resolution", 64}}},
+        {"planar", {{"representation", "planar"}, {"map_resolution", 128}}, true},
+        {"circle", {{"representation", "circle"}, {"map_resolution", 64}}, true},
         {"streak", {{"representation", "streak"}}, false, {{"sigma", 0.05}}},
         {"direct", {{"representation", "direct"}}},
     };

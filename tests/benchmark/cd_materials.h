@@ -10,8 +10,9 @@ namespace rowland::benchmark {
 struct TimedRepresentation {
     std::string name;
     nlohmann::json quality;  ///< as in the material file
-    /// Whether light may come as SH alone. If not, lights of the scene are always shaded one by one.
-    bool sh_alone = false;
+    /// Whether key lights may be left in the probe, for harmonics or maps. Harmonics take directional lights, too; all
+    /// others shade them one by one.
+    bool folds_lights = false;
     nlohmann::json groove_lobe = "flat";
 };
 

@@ -28,7 +28,7 @@ constexpr double kMost_ms_per_round = 250;  ///< of a variant: slower ones sit r
 
 struct Options {
     glm::ivec2 size{1280, 720};
-    int rounds = 5;
+    int rounds = 4;
     std::vector<std::string> only;
     bool list = false;
     bool markdown = false;

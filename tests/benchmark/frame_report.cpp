@@ -90,11 +90,17 @@ std::string to_json(const FrameReport& report) {
                                         {"mean_radiance", result.mean_radiance}};
         frames.push_back(std::move(frame));
     }
-    const nlohmann::ordered_json json = {{"processor", report.processor}, {"threads", report.threads},
-                                         {"gl_vendor", report.vendor},    {"gl_renderer", report.renderer},
-                                         {"gl_version", report.version},  {"width", report.size.x},
-                                         {"height", report.size.y},       {"rounds", report.rounds},
-                                         {"coverage", report.coverage},   {"frames", frames}};
+    const nlohmann::ordered_json json = {{"processor", report.processor},
+                                         {"threads", report.threads},
+                                         {"gl_vendor", report.vendor},
+                                         {"gl_renderer", report.renderer},
+                                         {"gl_version", report.version},
+                                         {"software", report.software},
+                                         {"width", report.size.x},
+                                         {"height", report.size.y},
+                                         {"rounds", report.rounds},
+                                         {"coverage", report.coverage},
+                                         {"frames", frames}};
     return json.dump(2) + "\n";
 }
 

@@ -21,7 +21,7 @@ constexpr int kLampCounts[] = {1, 4, 16, 64};
 FrameVariant grating(const TimedRepresentation& drawn, const std::string& suffix, const std::string& baseline,
                      Lighting lighting = Lighting::Studio) {
     TimedRepresentation timed = drawn;
-    if (drawn.sh_alone) timed.quality["key_lights"] = lighting == Lighting::StudioKeyLights;
+    if (drawn.folds_lights) timed.quality["key_lights"] = lighting == Lighting::StudioKeyLights;
     FrameVariant variant;
     variant.name = drawn.name + suffix;
     variant.baseline = baseline;
@@ -73,8 +73,14 @@ void add_plain(std::vector<FrameVariant>& variants) {
 
 void add_representation(const TimedRepresentation& drawn, std::vector<FrameVariant>& variants) {
     variants.push_back(grating(drawn, "", "plain"));
+    if (drawn.name == "streak") return;  // it reads key lights in the probe, and keeps nothing for an object
     variants.push_back(grating(drawn, "/key-lights:16", "plain", Lighting::StudioKeyLights));
     variants.push_back(moving(grating(drawn, "/tilting", "plain"), Motion::Tilting));
+    TimedRepresentation at_vertices = drawn;
+    at_vertices.quality["lights_at"] = "vertices";
+    variants.push_back(grating(at_vertices, "/key-lights:16/at-vertices", "plain", Lighting::StudioKeyLights));
+    const bool is_map = drawn.name == "planar" || drawn.name == "circle";
+    if (is_map) variants.push_back(grating(at_vertices, "/at-vertices", "plain"));
 }
 
 /// What depends on how many vertices there are.

@@ -1,4 +1,4 @@
-#include "content/demo/capture.h"
+#include "engine/view/capture.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "engine/image/exr.h"
 #include "engine/image/png.h"
 
-namespace rowland::demo {
+namespace rowland::view {
 
 namespace {
 
@@ -54,4 +54,4 @@ void write_linear_capture(const gpu::Framebuffer& linear, const std::filesystem:
     image::write_exr(path, picture);
 }
 
-}  // namespace rowland::demo
+}  // namespace rowland::view

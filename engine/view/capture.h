@@ -4,7 +4,7 @@
 
 #include "engine/gpu/framebuffer.h"
 
-namespace rowland::demo {
+namespace rowland::view {
 
 /// `path` with the frame's number before the extension if there is more than one frame.
 std::filesystem::path numbered(const std::filesystem::path& path, int frame, int frames);
@@ -15,4 +15,4 @@ void write_display_capture(const gpu::Framebuffer& display, const std::filesyste
 /// Writes a scene-linear framebuffer as OpenEXR. Throws Error (system) if a pixel is not finite.
 void write_linear_capture(const gpu::Framebuffer& linear, const std::filesystem::path& path);
 
-}  // namespace rowland::demo
+}  // namespace rowland::view

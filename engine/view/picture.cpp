@@ -1,13 +1,11 @@
-#include "content/demo/picture.h"
+#include "engine/view/picture.h"
 
-#include <limits>
 #include <utility>
 
 #include "engine/post/shader_files.h"
 #include "engine/post/working_space.h"
-#include "modules/diffraction/module.h"
 
-namespace rowland::demo {
+namespace rowland::view {
 
 namespace {
 
@@ -23,33 +21,16 @@ post::DisplayTransform make_transform(const post::OcioConfig& config, const std:
     return post::DisplayTransform(config, {.display = {}, .view = view});
 }
 
-post::PostSettings make_post_settings(const Options& options, float vertical_field_of_view) {
-    post::PostSettings settings;
-    settings.exposure_stops = options.exposure_stops;
-    if (options.bloom > 0.0F) settings.bloom = post::BloomSettings{.strength = options.bloom};
-    if (options.auto_exposure) settings.auto_exposure = post::AutoExposureSettings{};
-    if (options.vignette > 0.0F)
-        settings.vignette =
-            post::VignetteSettings{.vertical_fov = vertical_field_of_view, .strength = options.vignette};
-    if (options.dither) settings.dither = post::DitherSettings{};
-    return settings;
-}
-
 }  // namespace
 
-Picture::Picture(const Options& options, const post::OcioConfig& config, glm::ivec2 size, Pace pace)
+Picture::Picture(const post::OcioConfig& config, const std::string& view, glm::ivec2 size)
     : xyz_to_working_(post::xyz_to_scene_linear(config)),
       luminance_weights_(post::luminance_weights(config)),
       renderer_(xyz_to_working_),
       post_shaders_(make_post_shaders()),
-      transform_(make_transform(config, options.view)),
+      transform_(make_transform(config, view)),
       display_(*post_shaders_, transform_),
-      post_stack_(*post_shaders_),
-      post_settings_(make_post_settings(options, kFieldOfView)) {
-    diffraction::DiffractionSettings settings;
-    if (options.light_window != "auto") settings.window = math::parse_window(options.light_window);
-    if (pace == Pace::Still) settings.slices_per_frame = std::numeric_limits<int>::max();
-    diffraction::register_module(renderer_, settings);
+      post_stack_(*post_shaders_) {
     renderer_.use_key_lights(true);
     renderer_.set_pass_times(&pass_times_);
     post_stack_.set_pass_times(&pass_times_);
@@ -90,9 +71,9 @@ void Picture::resize(glm::ivec2 size) {
                              gpu::Framebuffer({.width = size.x, .height = size.y, .colours = {gpu::Format::RGBA8}})});
 }
 
-void Picture::draw(DemoScene& scene, const scene::Camera& camera, float seconds) {
+void Picture::draw(ecs::World& world, const scene::Camera& camera, float seconds) {
     pass_times_.begin_frame();
-    renderer_.render(scene.world(), camera, targets_->multisampled);
+    renderer_.render(world, camera, targets_->multisampled);
     {
         const gpu::PassTimes::Scope scope(&pass_times_, "resolve");
         targets_->multisampled.resolve_to(targets_->linear);
@@ -103,4 +84,4 @@ void Picture::draw(DemoScene& scene, const scene::Camera& camera, float seconds)
                      targets_->encoded);
 }
 
-}  // namespace rowland::demo
+}  // namespace rowland::view

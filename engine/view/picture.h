@@ -1,14 +1,16 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "content/demo/demo_scene.h"
-#include "content/demo/options.h"
+#include "engine/ecs/world.h"
 #include "engine/gpu/framebuffer.h"
 #include "engine/gpu/pass_times.h"
 #include "engine/gpu/shader_library.h"
@@ -19,19 +21,14 @@
 #include "engine/render/renderer.h"
 #include "engine/scene/camera.h"
 
-namespace rowland::demo {
+namespace rowland::view {
 
-/// Whether what takes long may be spread over frames.
-enum class Pace {
-    Fluent,  ///< a window: maps fill by and by
-    Still,   ///< pictures: a map is full in the second frame at rest
-};
-
-/// From the scene to display values: the renderer, four samples a pixel, the post stack. The same with and without a
-/// window.
+/// From a world to display values: the renderer, four samples a pixel, the post stack. The same with and without a
+/// window. Material modules register with `renderer()`.
 class Picture {
  public:
-    Picture(const Options& options, const post::OcioConfig& config, glm::ivec2 size, Pace pace);
+    /// `view`: one of the display's; empty for its default. Throws Error (input) if the display has no such view.
+    Picture(const post::OcioConfig& config, const std::string& view, glm::ivec2 size);
 
     const glm::dmat3& xyz_to_working() const { return xyz_to_working_; }
     void set_probe(const lighting::LightProbe& probe);
@@ -45,12 +42,14 @@ class Picture {
     render::Renderer& renderer() { return renderer_; }
 
     /// Draws a frame, `seconds` after the last.
-    void draw(DemoScene& scene, const scene::Camera& camera, float seconds);
+    void draw(ecs::World& world, const scene::Camera& camera, float seconds);
 
     /// What the passes of the last frames took.
     const gpu::PassTimes& pass_times() const { return pass_times_; }
     post::PostSettings& post_settings() { return post_settings_; }
+    /// Scene-linear working RGB.
     const gpu::Framebuffer& linear() const { return targets_->linear; }
+    /// Display values, 8 bits.
     const gpu::Framebuffer& encoded() const { return targets_->encoded; }
 
  private:
@@ -73,4 +72,4 @@ class Picture {
     std::uint32_t frame_ = 0;
 };
 
-}  // namespace rowland::demo
+}  // namespace rowland::view
