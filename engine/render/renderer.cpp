@@ -1,6 +1,7 @@
 #include "engine/render/renderer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <span>
@@ -45,6 +46,16 @@ void upload(gpu::Buffer& buffer, std::span<const std::byte> data) {
     } else {
         buffer.replace(data);
     }
+}
+
+/// The pixels that a draw may change; none where it may change all.
+std::optional<gpu::Scissor> scissor_of(const Draw& draw, glm::ivec2 size) {
+    if (draw.columns == nullptr) return std::nullopt;
+    const auto edge = [&](float share) {
+        return static_cast<int>(std::lround(std::clamp(share, 0.0F, 1.0F) * static_cast<float>(size.x)));
+    };
+    const int begin = edge(draw.columns->begin);
+    return gpu::Scissor{.x = begin, .y = 0, .width = std::max(edge(draw.columns->end) - begin, 0), .height = size.y};
 }
 
 glm::vec3 centre_of(const scene::Bounds& box) {
@@ -148,13 +159,13 @@ void Renderer::render(ecs::World& world, const scene::Camera& camera, const gpu:
         const gpu::PassTimes::Scope scope(times_, "opaque");
         target.bind();
         target.clear_depth();
-        draw_pass(world, frame.opaque);
+        draw_pass(world, frame.opaque, size);
     }
     draw_sky();
     if (!frame.blended.empty()) {
         const gpu::PassTimes::Scope scope(times_, "blend");
         target.bind();
-        draw_pass(world, frame.blended);
+        draw_pass(world, frame.blended, size);
     }
     report_.programs = static_cast<int>(programs_.size());
     if (times_ != nullptr) report_.passes = times_->latest();
@@ -167,6 +178,7 @@ void Renderer::update_light(ecs::World& world) {
                     ROWLAND_MAXIMUM_LIGHTS);
         told_of_left_out_ = true;
     }
+    light_.light_colours = lights_.colours;
     std::vector<DistantLight> distant = distant_lights(world);
     if (!probe_changed_ && distant == light_.distant_lights) return;
     if (probe_changed_) divide_probe();
@@ -311,14 +323,17 @@ void Renderer::set_state(const gpu::PipelineState& state) {
     state_ = state;
 }
 
-void Renderer::draw_pass(ecs::World& world, const std::vector<const Draw*>& draws) {
+void Renderer::draw_pass(ecs::World& world, const std::vector<const Draw*>& draws, glm::ivec2 size) {
     const gpu::Program* in_use = nullptr;
     for (const Draw* draw : draws) {
         const bool blends = (draw->features & feature::kAlphaBlend) != 0;
+        const std::optional<gpu::Scissor> scissor = scissor_of(*draw, size);
+        if (scissor && scissor->width == 0) continue;
         set_state({.depth_write = !blends,
                    .cull = draw->material->double_sided ? gpu::Cull::None : gpu::Cull::Back,
                    .blend = blends ? gpu::Blend::Over : gpu::Blend::Off,
-                   .front = draw->mirrored ? gpu::FrontFace::Clockwise : gpu::FrontFace::CounterClockwise});
+                   .front = draw->mirrored ? gpu::FrontFace::Clockwise : gpu::FrontFace::CounterClockwise,
+                   .scissor = scissor});
         object_buffer_.bind_uniform(kObjectBinding, draw->block_offset, sizeof(ObjectBlock));
         if (draw->program != in_use) draw->program->use();
         in_use = draw->program;

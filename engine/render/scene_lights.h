@@ -16,6 +16,7 @@ namespace rowland::render {
 /// The lights of a world, as shaders read them.
 struct SceneLights {
     LightBlock block = {};                  ///< the shadow's light first
+    std::vector<glm::vec3> colours;         ///< see FrameLight::light_colours
     std::optional<glm::vec3> shadow_light;  ///< direction toward it
     int left_out = 0;                       ///< those beyond ROWLAND_MAXIMUM_LIGHTS
 

@@ -128,6 +128,33 @@ TEST_F(Direct, DirectionalLightsEqualTheCpu) {
     EXPECT_GT(brightest_, 0.05);
 }
 
+/// The kernel has a layer for each colour, made anew when there are others.
+TEST_F(Direct, LightsOfOtherColoursEqualTheCpu) {
+    const CookedMaterial cooked = cook(kSlitCd, kDirect);
+    show(cooked, 0.5);
+    const glm::dvec3 directions[] = {glm::normalize(glm::vec3(0.5F, 0.4F, 1.0F)),
+                                     glm::normalize(glm::vec3(-0.6F, 0.2F, 0.8F))};
+    for (const glm::dvec3& colour : {glm::dvec3(1.0, 0.2, 0.1), glm::dvec3(0.1, 0.3, 2.0)}) {
+        const glm::dvec3 irradiances[] = {glm::dvec3(1.0), colour};
+        std::vector<ecs::Entity> lights;
+        for (int i = 0; i < 2; ++i) {
+            lights.push_back(world_.create());
+            world_.add(lights.back(), scene::DirectionalLight{.direction = glm::vec3(directions[i]),
+                                                              .irradiance = glm::vec3(irradiances[i])});
+        }
+        const auto expected = [&](const Point& point) {
+            glm::dvec3 xyz(0.0);
+            for (int i = 0; i < 2; ++i)
+                xyz += small_light_xyz(cooked, point, directions[i], irradiances[i]) +
+                       base_xyz(cooked, point, directions[i], irradiances[i], camera_.eye);
+            return xyz;
+        };
+        EXPECT_LT(largest_difference(draw(), expected), kPictureTolerance);
+        EXPECT_GT(brightest_, 0.05);
+        for (const ecs::Entity light : lights) world_.destroy(light);
+    }
+}
+
 /// Points and spots are no part of a probe: every representation shades them one by one.
 TEST_F(Direct, PointLightsShineOnEveryRepresentation) {
     const glm::vec3 place(0.9F, 0.5F, 1.6F);

@@ -130,7 +130,11 @@ class UnderLight final : public render::MaterialType {
     gpu::ProgramDesc program(ecs::World& world, ecs::Entity entity) const override {
         return inner_.program(world, entity);
     }
-    void update(ecs::World& world, const render::FrameLight&) override { inner_.update(world, *light_); }
+    void update(ecs::World& world, const render::FrameLight& frame) override {
+        render::FrameLight light = *light_;
+        light.light_colours = frame.light_colours;  // of the world's own lights
+        inner_.update(world, light);
+    }
     void bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const override {
         inner_.bind(world, entity, program);
     }

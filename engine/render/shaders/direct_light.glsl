@@ -38,12 +38,12 @@ float shadow_share(vec3 l) {
 }
 #endif
 
-// glTF's KHR_lights_punctual: inverse square, a window at the range, a spot's cone.
-vec3 punctual_irradiance(Light light, float distance2, vec3 l) {
+// glTF's KHR_lights_punctual: inverse square, a window at the range, a spot's cone; irradiance over the strength.
+float punctual_share(Light light, float distance2, vec3 l) {
     float window = clamp(1.0 - distance2 * distance2 * light.place.w, 0.0, 1.0);
     float cone = 1.0;
     if (light.axis.w > 0.0) cone = clamp(dot(light.axis.xyz, -l) * light.cone.x + light.cone.y, 0.0, 1.0);
-    return light.strength.rgb * (window * cone * cone / max(distance2, 1e-8));
+    return window * cone * cone / max(distance2, 1e-8);
 }
 
 vec3 direct_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness) {
@@ -68,7 +68,8 @@ vec3 direct_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness) {
         vec3 to_light = lights[i].place.xyz - world_position;
         float distance2 = dot(to_light, to_light);
         vec3 l = to_light * inversesqrt(max(distance2, 1e-12));
-        sum += reflected_share(l, n, v, diffuse, f0, roughness) * punctual_irradiance(lights[i], distance2, l);
+        sum += reflected_share(l, n, v, diffuse, f0, roughness) * punctual_share(lights[i], distance2, l) *
+               lights[i].strength.rgb;
     }
 #endif
     return sum;

@@ -8,9 +8,10 @@ using glm::vec4;
 #define ROWLAND_MAXIMUM_LIGHTS 64
 struct Light {
     vec4 place;     // xyz: unit direction toward a directional light, else position in metres; w: 1 / range^4, 0: none
-    vec4 strength;  // xyz: irradiance, of others than directional at 1 m; working space
+    vec4 strength;  // xyz: irradiance, of others than directional at 1 m; working space; w: which light colour
     vec4 axis;      // xyz: unit, where a spot shines; w: 1: a spot
-    vec4 cone;      // x, y: scale and offset of the cosine from the axis; 0 outside the cone, 1 inside the inner one
+    vec4 cone;      // x, y: scale and offset of the cosine from the axis; 0 outside the cone, 1 inside the inner one;
+                    // z: strength over the light colour
 };
 #ifdef __cplusplus
 struct LightBlock {

@@ -31,14 +31,6 @@ BlurredKernel blur_for(const KernelTable& kernel, double pitch_nm) {
     return blur(kernel, widest_nm, static_cast<int>(columns));
 }
 
-float largest_component(const BlurredKernel& kernel) {
-    float largest = 0.0F;
-    for (const glm::mat3& value : kernel.values)
-        for (int c = 0; c < 3; ++c)
-            for (int o = 0; o < 3; ++o) largest = std::max(largest, std::abs(value[c][o]));
-    return largest;
-}
-
 }  // namespace
 
 GpuKernel::GpuKernel(const CookedMaterial& cooked, const glm::dmat3& xyz_to_working)
@@ -53,26 +45,28 @@ const BlurredKernel& GpuKernel::blurred() const {
     return *blurred_;
 }
 
-GpuKernel::Smoothed GpuKernel::smooth() const {
+GpuKernel::Smoothed GpuKernel::smooth(std::span<const glm::vec3> light_colours) const {
     const BlurredKernel& kernel = blurred();
-    // Halves, and k in nm⁻¹ may be below their range: they hold k over its largest component.
-    const float largest = std::max(largest_component(kernel), 1e-30F);
+    // Halves would add their 5e-4 to what a texture unit's 8-bit weights cost.
     Smoothed smoothed{.texture = gpu::Texture({.kind = gpu::TextureKind::PlaneArray,
-                                               .format = gpu::Format::RGBA16F,
+                                               .format = gpu::Format::RGBA32F,
                                                .width = kernel.columns,
                                                .height = kernel.levels,
-                                               .depth = 3},
-                                              {.filter = gpu::Filter::Linear})};
-    for (int c = 0; c < 3; ++c) {
+                                               .depth = 3 + static_cast<int>(light_colours.size())},
+                                              {.filter = gpu::Filter::Linear}),
+                      .colours{light_colours.begin(), light_colours.end()}};
+    const auto upload = [&](const glm::vec3& colour, int layer) {
         std::vector<glm::vec4> texels;
         texels.reserve(kernel.values.size());
-        for (const glm::mat3& value : kernel.values) texels.emplace_back(value[c] / largest, 0.0F);
-        smoothed.texture.upload(std::span<const glm::vec4>(texels), {.layer = c});
-    }
+        for (const glm::mat3& value : kernel.values) texels.emplace_back(value * colour, 0.0F);
+        smoothed.texture.upload(std::span<const glm::vec4>(texels), {.layer = layer});
+    };
+    for (int c = 0; c < 3; ++c) upload(glm::mat3(1.0F)[c], c);
+    for (std::size_t i = 0; i < light_colours.size(); ++i) upload(light_colours[i], 3 + static_cast<int>(i));
     const double step = 1.0 / kernel.columns;
     const double per_nm = (1.0 - step) / (kernel.end_nm - kernel.begin_nm);
     smoothed.place = glm::vec4(glm::dvec4(pitch_nm_ * per_nm, 0.5 * step - kernel.begin_nm * per_nm,
-                                          kernel.narrowest_nm / pitch_nm_, pitch_nm_ * static_cast<double>(largest)));
+                                          kernel.narrowest_nm / pitch_nm_, pitch_nm_));
     return smoothed;
 }
 
@@ -96,14 +90,15 @@ void GpuKernel::set_lobe(const gpu::Program& program) const {
     }
 }
 
-void GpuKernel::bind(const gpu::Program& program, std::span<const lighting::KeyLight> key_lights) const {
+void GpuKernel::bind(const gpu::Program& program, std::span<const lighting::KeyLight> key_lights,
+                     std::span<const glm::vec3> light_colours) const {
     if (program.has_uniform("lobe_place")) {
         lobes_.set(blurred(), pitch_nm_, key_lights);
         lobes_.bind(program, pitch_nm_);
     }
     set_lobe(program);
     if (!program.has_uniform("kernel_place")) return;
-    if (!smoothed_) smoothed_ = smooth();
+    if (!smoothed_ || !std::ranges::equal(smoothed_->colours, light_colours)) smoothed_ = smooth(light_colours);
     smoothed_->texture.bind(kKernelUnit);
     program.set("kernel_place", smoothed_->place);
     const double reach_nm = std::max(std::abs(kernel_.begin_nm), std::abs(kernel_.end_nm));

@@ -4,6 +4,7 @@
 #include <glm/vec4.hpp>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "engine/gpu/program.h"
 #include "engine/gpu/texture.h"
@@ -22,15 +23,18 @@ class GpuKernel {
 
     void add_defines(gpu::ProgramDesc& desc) const;
     /// Puts the kernel on the GPU when first a program reads it, and the key lights seen through it when they change.
-    void bind(const gpu::Program& program, std::span<const lighting::KeyLight> key_lights) const;
+    /// `light_colours`: see render::FrameLight.
+    void bind(const gpu::Program& program, std::span<const lighting::KeyLight> key_lights,
+              std::span<const glm::vec3> light_colours) const;
 
  private:
     struct Smoothed {
         gpu::Texture texture;
+        std::vector<glm::vec3> colours;  ///< of its layers from the fourth on
         glm::vec4 place{0.0F};
     };
     const BlurredKernel& blurred() const;
-    Smoothed smooth() const;
+    Smoothed smooth(std::span<const glm::vec3> light_colours) const;
     void set_lobe(const gpu::Program& program) const;
 
     KernelTable kernel_;

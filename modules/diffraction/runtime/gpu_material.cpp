@@ -62,8 +62,8 @@ bool is_map(const BakedTables& tables) {
 }  // namespace
 
 GpuMaterial::GpuMaterial(const CookedMaterial& cooked, const glm::dmat3& xyz_to_working)
-    : base_{.base_colour = cooked.material.base.colour, .metallic = 0.0F, .roughness = cooked.material.base.roughness},
-      illuminant_(cooked.material.quality.illuminant.name),
+    : cooked_(std::make_shared<const CookedMaterial>(cooked)),
+      base_{.base_colour = cooked.material.base.colour, .metallic = 0.0F, .roughness = cooked.material.base.roughness},
       key_lights_(cooked.material.quality.key_lights),
       separate_lights_(key_lights_ || is_map(cooked.tables)),
       lights_at_vertices_(cooked.material.quality.lights_at_vertices && cooked.zero_order_xyz == glm::dmat3(0.0)),
@@ -86,7 +86,7 @@ gpu::ProgramDesc GpuMaterial::program(const SurfaceState& state) const {
 
 void GpuMaterial::bind(const gpu::Program& program, const SurfaceLight& light, const SurfaceState& state) const {
     bind_tables(program, state);
-    kernel_.bind(program, light.key_lights());
+    kernel_.bind(program, light.key_lights(), light.light_colours());
     if (key_lights_) light.bind_key_lights();
     if (state.grooves) state.grooves->bind(program);
     program.set("mirror_weight", mirror_weight_);

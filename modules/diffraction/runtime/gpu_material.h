@@ -56,8 +56,10 @@ class GpuMaterial {
 
     /// The engine's surface under the grating.
     const render::StandardMaterial& base() const { return base_; }
+    /// What it was made of.
+    const std::shared_ptr<const CookedMaterial>& cooked() const { return cooked_; }
     /// Name of the illuminant that the tables are baked for.
-    const std::string& illuminant() const { return illuminant_; }
+    const std::string& illuminant() const { return cooked_->material.quality.illuminant.name; }
 
     /// Once a frame for each object, before it is drawn.
     virtual void update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const = 0;
@@ -80,8 +82,8 @@ class GpuMaterial {
     virtual void bind_tables(const gpu::Program& program, const SurfaceState& state) const = 0;
 
  private:
+    std::shared_ptr<const CookedMaterial> cooked_;
     render::StandardMaterial base_;
-    std::string illuminant_;
     glm::vec3 mirror_weight_{0.0F};
     glm::vec3 base_weight_{1.0F};
     bool key_lights_;

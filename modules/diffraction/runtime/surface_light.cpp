@@ -33,6 +33,7 @@ KeyLobe key_lobe(const lighting::KeyLight& light) {
 SurfaceLight::SurfaceLight(std::optional<math::SphericalWindow> window) : window_(window) {}
 
 void SurfaceLight::set(const render::FrameLight& light) {
+    light_.light_colours = light.light_colours;
     if (key_lights_.size() != 0 && light_.version == light.version) return;
     light_ = light;
     windowed_.clear();

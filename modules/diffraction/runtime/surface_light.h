@@ -46,6 +46,8 @@ class SurfaceLight {
 
     /// As many as the uniform block holds.
     std::span<const lighting::KeyLight> key_lights() const;
+    /// See render::FrameLight.
+    std::span<const glm::vec3> light_colours() const { return light_.light_colours; }
     /// The key lights' uniform block.
     void bind_key_lights() const;
 

@@ -14,7 +14,7 @@ in vec3 first_light_at_vertex;
 #endif
 
 #ifdef PUNCTUAL_LIGHTS
-vec3 punctual_irradiance(Light light, float distance2, vec3 l);  // the engine's
+float punctual_share(Light light, float distance2, vec3 l);  // the engine's
 #endif
 #ifdef SHADOWS
 float shadow_share(vec3 l);  // the engine's
@@ -22,7 +22,9 @@ float shadow_share(vec3 l);  // the engine's
 
 vec3 direct_xyz(GrooveView view) {
     vec3 xyz = vec3(0.0);
-    float footprint_deviation = 0.57735026918963 * view.footprint;
+#ifdef SMALL_LIGHTS
+    KernelRow row = kernel_row(view.pitch * 0.57735026918963 * view.footprint);
+#endif
 #ifdef LIGHTS_AT_VERTICES
     xyz += key_lights_at_vertex;
 #elif defined(KEY_LOBE_TABLE)
@@ -44,11 +46,11 @@ vec3 direct_xyz(GrooveView view) {
     const int directional = 1;
 #endif
     for (int i = 0; i < directional; ++i) {
-        vec3 irradiance = lights[i].strength.rgb;
+        float share = 1.0;
 #ifdef SHADOWS
-        if (i == 0) irradiance *= shadow_share(lights[i].place.xyz);
+        if (i == 0) share = shadow_share(lights[i].place.xyz);
 #endif
-        xyz += small_light_xyz(lights[i].place.xyz, irradiance, view.axes, view.direction, footprint_deviation, view.pitch);
+        xyz += small_light_xyz(lights[i], share, lights[i].place.xyz, view.axes, view.direction, row, view.pitch);
     }
 #endif
 #endif
@@ -57,8 +59,8 @@ vec3 direct_xyz(GrooveView view) {
         vec3 to_light = lights[i].place.xyz - world_position;
         float distance2 = dot(to_light, to_light);
         vec3 l = to_light * inversesqrt(max(distance2, 1e-12));
-        xyz += small_light_xyz(l, punctual_irradiance(lights[i], distance2, l), view.axes, view.direction,
-                               footprint_deviation, view.pitch);
+        xyz += small_light_xyz(lights[i], punctual_share(lights[i], distance2, l), l, view.axes, view.direction, row,
+                               view.pitch);
     }
 #endif
     return xyz;

@@ -3,6 +3,10 @@
 #if defined(SEPARATE_LIGHTS) || defined(PUNCTUAL_LIGHTS)
 #define HAS_DIRECT
 #endif
+// Lights without extent among them.
+#if (defined(SEPARATE_LIGHTS) && defined(DIRECTIONAL_LIGHTS)) || defined(PUNCTUAL_LIGHTS)
+#define SMALL_LIGHTS
+#endif
 // A streak shows the whole probe, key lights and all, but for the rest of Stam's pits.
 #if defined(SEPARATE_LIGHTS) && !defined(NO_KEY_LIGHTS) && !(defined(STREAK) && defined(LOBE_GAUSSIAN))
 #define KEY_LOBES

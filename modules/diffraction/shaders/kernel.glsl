@@ -1,5 +1,5 @@
-// d k(d u), the colour kernel smoothed by a normal distribution of u: bake/blurred_kernel.h. One layer for each colour of
-// the light.
+// d k(d u), the colour kernel smoothed by a normal distribution of u: bake/blurred_kernel.h. Layers for red, green and
+// blue light, then one for each colour of the scene's lights.
 layout(binding = 10) uniform sampler2DArray kernel_table;
 uniform vec4 kernel_place;  // scale and offset from u to s; deviation of u in row 0; scale of the values
 uniform vec2 kernel_ends;   // |u| below and above which k is 0
@@ -12,20 +12,45 @@ bool kernel_reached(float u, float reach) {
     return abs(u) + reach > kernel_ends.x && abs(u) - reach < kernel_ends.y;
 }
 
-vec3 kernel_xyz(float u, float deviation, vec3 rgb) {
-    float s = u * kernel_place.x + kernel_place.y;
+// A deviation as the table has it.
+struct KernelRow {
+    float wide;
+    float t;
+};
+
+KernelRow kernel_row(float deviation) {
     float wide = max(deviation, kernel_place.z);
-    vec3 xyz = vec3(0.0);
-    // Most lights miss the orders, so it pays to see that without a look-up.
-    if (kernel_reached(u, 5.0 * wide)) {
-        float levels = float(textureSize(kernel_table, 0).y);
-        float t = (log2(wide / kernel_place.z) * LEVELS_PER_OCTAVE + 0.5) / levels;
-        for (int c = 0; c < 3; ++c) xyz += rgb[c] * textureLod(kernel_table, vec3(s, t, c), 0.0).xyz;
-        xyz *= kernel_place.w;
-    }
+    float levels = float(textureSize(kernel_table, 0).y);
+    return KernelRow(wide, (log2(wide / kernel_place.z) * LEVELS_PER_OCTAVE + 0.5) / levels);
+}
+
+vec3 kernel_texel(float u, KernelRow row, float layer) {
+    return textureLod(kernel_table, vec3(u * kernel_place.x + kernel_place.y, row.t, layer), 0.0).xyz;
+}
+
+vec3 zero_order_xyz(float u, float wide, vec3 rgb) {
 #ifdef ZERO_ORDER
     float z = u / wide;
-    xyz += zero_order * rgb * (0.39894228040143 * exp(-0.5 * z * z) / wide);
+    return zero_order * rgb * (0.39894228040143 * exp(-0.5 * z * z) / wide);
+#else
+    return vec3(0.0);
 #endif
-    return xyz;
+}
+
+vec3 kernel_xyz(float u, float deviation, vec3 rgb) {
+    KernelRow row = kernel_row(deviation);
+    vec3 xyz = vec3(0.0);
+    // Most lights miss the orders, so it pays to see that without a look-up.
+    if (kernel_reached(u, 5.0 * row.wide)) {
+        for (int c = 0; c < 3; ++c) xyz += rgb[c] * kernel_texel(u, row, float(c));
+        xyz *= kernel_place.w;
+    }
+    return xyz + zero_order_xyz(u, row.wide, rgb);
+}
+
+// The same of light of one of the scene's colours, of which `rgb` is that much.
+vec3 coloured_kernel_xyz(float u, KernelRow row, float colour, float amount, vec3 rgb) {
+    vec3 xyz = vec3(0.0);
+    if (kernel_reached(u, 5.0 * row.wide)) xyz = amount * kernel_place.w * kernel_texel(u, row, 3.0 + colour);
+    return xyz + zero_order_xyz(u, row.wide, rgb);
 }

@@ -20,10 +20,10 @@ void shade_lights(vec3 position, vec3 g, vec3 h, vec3 n) {
 #endif
 #ifdef DIRECTIONAL_LIGHTS
     first_light_at_vertex =
-        above * small_light_xyz(lights[0].place.xyz, lights[0].strength.rgb, axes, direction, 0.0, 1.0);
+        above * small_light_xyz(lights[0], 1.0, lights[0].place.xyz, axes, direction, kernel_row(0.0), 1.0);
     for (int i = 1; i < int(light_counts.x); ++i)
         key_lights_at_vertex +=
-            above * small_light_xyz(lights[i].place.xyz, lights[i].strength.rgb, axes, direction, 0.0, 1.0);
+            above * small_light_xyz(lights[i], 1.0, lights[i].place.xyz, axes, direction, kernel_row(0.0), 1.0);
 #endif
 }
 #else

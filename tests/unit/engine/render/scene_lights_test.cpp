@@ -65,6 +65,21 @@ TEST(SceneLights, StrengthIsInTheWorkingSpace) {
     EXPECT_EQ(glm::vec3(gather_lights(world, swap).block.lights[0].strength), glm::vec3(0.0F, 2.0F, 0.0F));
 }
 
+TEST(SceneLights, LightsOfOneColourShareIt) {
+    ecs::World world;
+    for (const float strength : {2.0F, 6.0F})
+        world.add(world.create(), scene::DirectionalLight{.irradiance = glm::vec3(0.5F, 1.0F, 0.25F) * strength});
+    world.add(world.create(), scene::PunctualLight{.intensity = glm::vec3(3.0F)});
+    world.add(world.create(), scene::PunctualLight{.intensity = glm::vec3(0.0F)});
+    const SceneLights lights = gather_lights(world, glm::dmat3(1.0));
+    ASSERT_EQ(lights.colours.size(), 2U);
+    for (int i = 0; i < 4; ++i) {
+        const Light& light = lights.block.lights[i];
+        const glm::vec3 colour = lights.colours.at(static_cast<std::size_t>(light.strength.w));
+        EXPECT_EQ(light.cone.z * colour, glm::vec3(light.strength)) << i;
+    }
+}
+
 TEST(SceneLights, EveryDirectionalLightJoinsTheShAsTurnedByItsMatrix) {
     ecs::World world;
     const ecs::Entity turned = world.create();
