@@ -62,7 +62,8 @@ void apply(const PipelineState& state) {
     set_enabled(GL_POLYGON_OFFSET_FILL, state.slope_bias != 0.0F);
     if (state.slope_bias != 0.0F) glPolygonOffset(state.slope_bias, 0.0F);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    glDisable(GL_SCISSOR_TEST);
+    set_enabled(GL_SCISSOR_TEST, state.scissor.has_value());
+    if (state.scissor) glScissor(state.scissor->x, state.scissor->y, state.scissor->width, state.scissor->height);
     glDisable(GL_STENCIL_TEST);
     glDisable(GL_FRAMEBUFFER_SRGB);
 }

@@ -54,6 +54,7 @@ DrawList gather_draws(ecs::World& world, std::span<const std::unique_ptr<Materia
                       .matrix = world_matrix.matrix,
                       .bounds = transformed(mesh.gpu->bounds(), world_matrix.matrix),
                       .mirrored = glm::determinant(glm::mat3(world_matrix.matrix)) < 0.0F};
+            draw.columns = world.find<PictureColumns>(entity);
             add_pose(world, draw, list.joints);
             draw.features = features_of(material, *mesh.gpu, draw.skinned, lights);
             list.draws.push_back(draw);

@@ -13,6 +13,7 @@
 #include "engine/gpu/program.h"
 #include "engine/render/gpu_mesh.h"
 #include "engine/render/material.h"
+#include "engine/render/picture_columns.h"
 #include "engine/render/shaders/object_block.h"
 #include "engine/render/surface_features.h"
 #include "engine/scene/mesh.h"
@@ -31,9 +32,10 @@ struct Draw {
     bool skinned = false;
     std::size_t first_joint = 0;
     SurfaceFeatures features = 0;
-    const gpu::Program* program = nullptr;  ///< set for what is drawn in the main pass
-    std::size_t block_offset = 0;           ///< of its ObjectBlock, bytes
-    float distance2 = 0.0F;                 ///< from the eye to the bounds' centre, squared
+    const gpu::Program* program = nullptr;    ///< set for what is drawn in the main pass
+    std::size_t block_offset = 0;             ///< of its ObjectBlock, bytes
+    float distance2 = 0.0F;                   ///< from the eye to the bounds' centre, squared
+    const PictureColumns* columns = nullptr;  ///< null: all
 };
 
 struct DrawList {

@@ -47,7 +47,7 @@ struct FrameReport {
 /// Forward HDR renderer: draws all entities with a MeshInstance, a StandardMaterial and a WorldMatrix, then the sky,
 /// then those that blend, into a float framebuffer with depth, in the working space. Light comes from the probe and
 /// from entities with a DirectionalLight or a PunctualLight, at most 64; the first directional light that casts_shadow
-/// does.
+/// does. What has PictureColumns shows in those alone, and casts its whole shadow.
 class Renderer {
  public:
     /// `xyz_to_working`: from XYZ to the linear space images are made in (normally ACEScg).
@@ -91,7 +91,7 @@ class Renderer {
     void upload_frame(const Frame& frame);
     void upload_objects(Frame& frame);
     void draw_shadow_map(Frame& frame);
-    void draw_pass(ecs::World& world, const std::vector<const Draw*>& draws);
+    void draw_pass(ecs::World& world, const std::vector<const Draw*>& draws, glm::ivec2 size);
     void draw_sky();
     void bind_surface(const Draw& draw) const;
     void set_state(const gpu::PipelineState& state);
