@@ -78,9 +78,12 @@ void add_representation(const TimedRepresentation& drawn, std::vector<FrameVaria
     variants.push_back(moving(grating(drawn, "/tilting", "plain"), Motion::Tilting));
     TimedRepresentation at_vertices = drawn;
     at_vertices.quality["lights_at"] = "vertices";
+    variants.push_back(grating(at_vertices, "/key-lights:16/lights-at-vertices", "plain", Lighting::StudioKeyLights));
+    if (drawn.name != "planar" && drawn.name != "circle") return;
+    variants.push_back(grating(at_vertices, "/lights-at-vertices", "plain"));
+    at_vertices.quality["map_at"] = "vertices";
+    variants.push_back(grating(at_vertices, "/at-vertices", "plain"));
     variants.push_back(grating(at_vertices, "/key-lights:16/at-vertices", "plain", Lighting::StudioKeyLights));
-    const bool is_map = drawn.name == "planar" || drawn.name == "circle";
-    if (is_map) variants.push_back(grating(at_vertices, "/at-vertices", "plain"));
 }
 
 /// What depends on how many vertices there are.

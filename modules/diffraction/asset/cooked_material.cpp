@@ -205,7 +205,7 @@ std::string describe(const CookedMaterial& cooked) {
     lines.add("illuminant", cooked.material.quality.illuminant.name);
     lines.add("key_lights", cooked.material.quality.key_lights);
     std::visit([&](const auto& tables) { add_tables(tables, lines); }, cooked.tables);
-    add_cost(shading_cost(cooked.tables), lines);
+    add_cost(shading_cost(cooked.tables, cooked.material.quality.map_at_vertices), lines);
     if (cooked.measured) add_record(*cooked.measured, lines);
     lines.add("zero_order_luminance", fmt::format("{:.4f}", weights.mirror.y));
     lines.add("base_luminance", fmt::format("{:.4f}", weights.base.y));

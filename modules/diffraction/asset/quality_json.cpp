@@ -190,10 +190,18 @@ bool needs_key_lights(const Representation& representation) {
            std::holds_alternative<StreakSurfaceSettings>(representation);
 }
 
+bool is_map(const Representation& representation) {
+    return std::holds_alternative<PlanarSettings>(representation) ||
+           std::holds_alternative<CircleSettings>(representation);
+}
+
 /// Maps shade directional lights on their own even where they hold the key lights.
 bool has_separate_lights(const Quality& quality) {
-    return quality.key_lights || std::holds_alternative<PlanarSettings>(*quality.pinned) ||
-           std::holds_alternative<CircleSettings>(*quality.pinned);
+    return quality.key_lights || is_map(*quality.pinned);
+}
+
+bool at_vertices(JsonReader& json, const char* key) {
+    return json.choice_or(key, "pixels", {"pixels", "vertices"}) == "vertices";
 }
 
 /// A built-in illuminant, or one of a file, called as the material calls it.
@@ -255,8 +263,8 @@ Quality parse_quality(JsonReader json, const Grating& grating, const ReadNamed& 
         quality.key_lights = json.boolean_or("key_lights", takes_key_lights(*quality.pinned));
         if (!quality.key_lights && needs_key_lights(*quality.pinned))
             json.fail("key_lights", "false", "true with this representation", "or leave it out");
-        if (has_separate_lights(quality))
-            quality.lights_at_vertices = json.choice_or("lights_at", "pixels", {"pixels", "vertices"}) == "vertices";
+        if (has_separate_lights(quality)) quality.lights_at_vertices = at_vertices(json, "lights_at");
+        if (is_map(*quality.pinned)) quality.map_at_vertices = at_vertices(json, "map_at");
     } else {
         parse_measure(json, quality);
     }

@@ -1,6 +1,7 @@
 #include "modules/diffraction/asset/representation.h"
 
 #include <array>
+#include <utility>
 
 namespace rowland::diffraction {
 
@@ -106,8 +107,12 @@ const char* representation_name(std::size_t index) {
     return kNames.at(index);
 }
 
-ShadingCost shading_cost(const BakedTables& tables) {
+ShadingCost shading_cost(const BakedTables& tables, bool map_at_vertices) {
     ShadingCost cost = std::visit([](const auto& table) { return cost_of(table); }, tables);
+    if (map_at_vertices) {
+        cost.fetches_per_vertex += std::exchange(cost.fetches_per_pixel, 0);
+        cost.multiply_adds_per_vertex += std::exchange(cost.multiply_adds_per_pixel, 0);
+    }
     cost.fetches_per_light = kFetchesPerLight;
     cost.multiply_adds_per_light = kMultiplyAddsPerLight;
     return cost;

@@ -83,6 +83,7 @@ struct ShadingCost {
     std::size_t table_bytes = 0;      ///< as uploaded; maps that are filled at run time are counted full
 };
 
-ShadingCost shading_cost(const BakedTables& tables);
+/// `map_at_vertices`: see Quality.
+ShadingCost shading_cost(const BakedTables& tables, bool map_at_vertices = false);
 
 }  // namespace rowland::diffraction

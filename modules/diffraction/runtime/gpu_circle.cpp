@@ -8,6 +8,7 @@ namespace rowland::diffraction {
 
 GpuCircle::GpuCircle(const CookedMaterial& cooked, const CircleTables& tables, const glm::dmat3& xyz_to_working)
     : GpuMaterial(cooked, xyz_to_working),
+      map_at_vertices_(cooked.material.quality.map_at_vertices),
       size_(tables.size),
       kernel_(cooked.kernel),
       pitch_nm_(cooked.material.grating.pitch_nm),
@@ -33,8 +34,11 @@ void GpuCircle::update(const SurfaceObject& object, SurfaceLight& light, Surface
 }
 
 void GpuCircle::describe(const SurfaceState&, gpu::ProgramDesc& desc) const {
-    set_shaders(desc, "pixel_shaded.vert.glsl", map_ ? "circle.frag.glsl" : "direct.frag.glsl");
-    if (!map_) return;
+    if (!map_) return set_shaders(desc, "pixel_shaded.vert.glsl", "direct.frag.glsl");
+    if (map_at_vertices_)
+        set_vertex_shader(desc, "circle.vert.glsl");
+    else
+        set_shaders(desc, "pixel_shaded.vert.glsl", "circle.frag.glsl");
     desc.defines.push_back({"CHARTS", std::to_string(charts_)});
     desc.defines.push_back({"TERMS", std::to_string(size_.terms)});
 }

@@ -10,7 +10,7 @@
 
 namespace rowland::diffraction {
 
-/// One map for all objects of a material: shaders/circle.frag.glsl. It is filled when the probe is another one, never
+/// One map for all objects of a material: shaders/circle_map.glsl. It is filled when the probe is another one, never
 /// for what objects do, beside the frames that are drawn: until it is there the map of the last probe is shown, and for
 /// the first one lights of their own alone. Where a frame may fill whole maps, it waits.
 class GpuCircle final : public GpuMaterial {
@@ -28,6 +28,7 @@ class GpuCircle final : public GpuMaterial {
     void bind_tables(const gpu::Program& program, const SurfaceState& state) const override;
     void begin(const std::shared_ptr<const lighting::LightTexels>& texels) const;
 
+    bool map_at_vertices_;
     CircleMapSize size_;
     KernelTable kernel_;
     double pitch_nm_;

@@ -80,7 +80,7 @@ gpu::ProgramDesc GpuMaterial::program(const SurfaceState& state) const {
     if (!key_lights_) desc.defines.push_back({"NO_KEY_LIGHTS", "1"});
     kernel_.add_defines(desc);
     if (state.grooves) state.grooves->add_defines(desc);
-    if (lights_at_vertices_ && !state.grooves) desc.defines.push_back({"LIGHTS_AT_VERTICES", "1"});
+    if (lights_at_vertices_ && separate_lights_ && !state.grooves) desc.defines.push_back({"LIGHTS_AT_VERTICES", "1"});
     return desc;
 }
 
@@ -105,6 +105,11 @@ std::shared_ptr<const GpuMaterial> make_gpu_material(const CookedMaterial& cooke
 void set_shaders(gpu::ProgramDesc& desc, const char* vertex, const char* fragment) {
     desc.vertex = std::string("modules/diffraction/shaders/") + vertex;
     desc.fragment = std::string("modules/diffraction/shaders/") + fragment;
+}
+
+void set_vertex_shader(gpu::ProgramDesc& desc, const char* vertex) {
+    set_shaders(desc, vertex, "vertex_shaded.frag.glsl");
+    desc.defines.push_back({"VERTEX_SHADED", "1"});
 }
 
 }  // namespace rowland::diffraction

@@ -97,5 +97,7 @@ std::shared_ptr<const GpuMaterial> make_gpu_material(const CookedMaterial& cooke
 
 /// Sets shader files by the names they have in shaders/.
 void set_shaders(gpu::ProgramDesc& desc, const char* vertex, const char* fragment);
+/// The same of a program whose vertices are shaded.
+void set_vertex_shader(gpu::ProgramDesc& desc, const char* vertex);
 
 }  // namespace rowland::diffraction

@@ -37,6 +37,7 @@ bool same(const std::optional<glm::dvec3>& a, const std::optional<glm::dvec3>& b
 GpuPlanar::GpuPlanar(const CookedMaterial& cooked, const PlanarTables& tables, const glm::dmat3& xyz_to_working)
     : GpuMaterial(cooked, xyz_to_working),
       stand_in_(cooked, tables.stand_in, xyz_to_working),
+      map_at_vertices_(cooked.material.quality.map_at_vertices),
       size_(tables.size),
       kernel_(cooked.kernel),
       pitch_nm_(cooked.material.grating.pitch_nm),
@@ -94,10 +95,12 @@ void GpuPlanar::update(const SurfaceObject& object, SurfaceLight& light, Surface
 }
 
 void GpuPlanar::describe(const SurfaceState& state, gpu::ProgramDesc& desc) const {
-    if (data_of(state).on_gpu)
-        set_shaders(desc, "pixel_shaded.vert.glsl", "planar.frag.glsl");
-    else
+    if (!data_of(state).on_gpu)
         stand_in_.describe(state, desc);
+    else if (map_at_vertices_)
+        set_vertex_shader(desc, "planar.vert.glsl");
+    else
+        set_shaders(desc, "pixel_shaded.vert.glsl", "planar.frag.glsl");
 }
 
 void GpuPlanar::bind_tables(const gpu::Program& program, const SurfaceState& state) const {

@@ -30,7 +30,7 @@ struct PlanarData final : ObjectData {
     int azimuths_filled = 0;  ///< likewise
 };
 
-/// One map for a flat object: shaders/planar.frag.glsl. It is filled again, a few azimuths a frame, when the object's
+/// One map for a flat object: shaders/planar_map.glsl. It is filled again, a few azimuths a frame, when the object's
 /// normal or the probe has turned and then rested for a frame; a turn about the normal needs nothing. Until it is full,
 /// and for what is not flat, the arc table shades.
 class GpuPlanar final : public GpuMaterial {
@@ -48,6 +48,7 @@ class GpuPlanar final : public GpuMaterial {
     void fill(int slices, PlanarData& data) const;
 
     GpuArc stand_in_;
+    bool map_at_vertices_;
     PlanarMapSize size_;
     KernelTable kernel_;
     double pitch_nm_;

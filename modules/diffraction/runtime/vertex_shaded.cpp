@@ -22,7 +22,7 @@ void VertexShaded::update(const SurfaceObject& object, SurfaceLight& light, Surf
 }
 
 void VertexShaded::describe(const SurfaceState&, gpu::ProgramDesc& desc) const {
-    set_shaders(desc, vertex_shader_, "vertex_shaded.frag.glsl");
+    set_vertex_shader(desc, vertex_shader_);
     desc.defines.push_back({"BANDS", std::to_string(bands_)});
     table_.add_defines(desc);
 }

@@ -1,6 +1,5 @@
 #version 450 core
 // A short sum over the ranks that the vertices bring: bake/arc_table.h.
-#define PIXEL_SHADED
 #include "modules/diffraction/shaders/surface.glsl"
 #include "modules/diffraction/shaders/arc_sum.glsl"
 

@@ -8,7 +8,7 @@ const int LAYERS = (COEFFICIENTS + 3) / 4;
 
 uniform vec3 bin_colours[3 * BINS];  // XYZ of red, green and blue light, bin by bin
 
-vec3 diffracted_xyz(vec3 view) {
+vec3 diffracted_xyz(vec3 view, vec3 g, vec3 n) {
     vec2 coordinates = table_coordinates(view);
     vec3 light[COEFFICIENTS];
     for (int i = 0; i < COEFFICIENTS; ++i) light[i] = light_coefficient(i);

@@ -1,18 +1,15 @@
 // Lights of their own, shaded by the colour kernel (PHYSICS, "direct"): XYZ = sum of 1/2 s_n d k(d u) F * 2 D_h, the
-// kernel smoothed over the light and the pixel. Points and spots always; under SEPARATE_LIGHTS the probe's key lights and
-// directional lights, too.
+// kernel smoothed over the light and the pixel.
 #include "modules/diffraction/shaders/small_light.glsl"
 #include "modules/diffraction/shaders/key_lobes.glsl"
 #include "modules/diffraction/shaders/key_lobe_parts.glsl"
-#ifdef HAS_DIRECT
 
-#ifdef LIGHTS_AT_VERTICES
-in vec3 key_lights_at_vertex;
+#ifdef LIGHTS_BESIDE
+in vec3 lights_at_vertex;
 #endif
-#if defined(LIGHTS_AT_VERTICES) && defined(DIRECTIONAL_LIGHTS)
-in vec3 first_light_at_vertex;
+#ifdef SHADOWED_AT_PIXELS
+in vec3 shadowed_at_vertex;
 #endif
-
 #ifdef PUNCTUAL_LIGHTS
 float punctual_share(Light light, float distance2, vec3 l);  // the engine's
 #endif
@@ -20,26 +17,31 @@ float punctual_share(Light light, float distance2, vec3 l);  // the engine's
 float shadow_share(vec3 l);  // the engine's
 #endif
 
+// What the vertices have shaded and not yet added.
+vec3 lights_from_vertices_xyz() {
+    vec3 xyz = vec3(0.0);
+#ifdef LIGHTS_BESIDE
+    xyz += lights_at_vertex;
+#endif
+#ifdef SHADOWED_AT_PIXELS
+    xyz += shadow_share(lights[0].place.xyz) * shadowed_at_vertex;
+#endif
+    return xyz;
+}
+
+#ifdef LIGHTS_AT_PIXELS
 vec3 direct_xyz(GrooveView view) {
     vec3 xyz = vec3(0.0);
 #ifdef SMALL_LIGHTS
     KernelRow row = kernel_row(view.pitch * 0.57735026918963 * view.footprint);
 #endif
-#ifdef LIGHTS_AT_VERTICES
-    xyz += key_lights_at_vertex;
-#elif defined(KEY_LOBE_TABLE)
+#ifndef LIGHTS_AT_VERTICES
+#if defined(KEY_LOBE_TABLE)
     xyz += key_lights_xyz(view.axes, view.direction, view.footprint);
 #elif defined(KEY_LOBES)
     xyz += key_lights_xyz(view);
 #endif
 #if defined(SEPARATE_LIGHTS) && defined(DIRECTIONAL_LIGHTS)
-#ifdef LIGHTS_AT_VERTICES
-#ifdef SHADOWS
-    xyz += shadow_share(lights[0].place.xyz) * first_light_at_vertex;
-#else
-    xyz += first_light_at_vertex;
-#endif
-#else
 #ifdef SEVERAL_DIRECTIONAL_LIGHTS
     int directional = int(light_counts.x);
 #else
@@ -65,5 +67,6 @@ vec3 direct_xyz(GrooveView view) {
 #endif
     return xyz;
 }
-
+#elif !defined(VERTEX_SHADED)
+vec3 direct_xyz(GrooveView view) { return vec3(0.0); }
 #endif

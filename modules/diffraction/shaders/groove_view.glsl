@@ -1,5 +1,6 @@
 // The tangent frame of a pixel and the view in it, where something needs it.
-#if defined(PIXEL_SHADED) || defined(HAS_DIRECT)
+#include "modules/diffraction/shaders/has_direct.glsl"
+#if !defined(VERTEX_SHADED) || defined(LIGHTS_AT_PIXELS)
 
 in vec3 world_grating;
 

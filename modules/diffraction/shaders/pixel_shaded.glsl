@@ -3,12 +3,7 @@
 // of a view above the horizon.
 MaterialTerms material_terms() {
     GrooveView view = groove_view();
-    vec3 xyz = vec3(0.0);
-    if (view.direction.z > 0.0 && view.pitch > 0.0) {
-        xyz = diffracted_xyz(view);
-#ifdef HAS_DIRECT
-        xyz += direct_xyz(view);
-#endif
-    }
+    vec3 xyz = lights_from_vertices_xyz();
+    if (view.direction.z > 0.0 && view.pitch > 0.0) xyz += diffracted_xyz(view) + direct_xyz(view);
     return MaterialTerms(base_weight, mirror_weight, mat3(xyz_to_working) * xyz);
 }

@@ -1,21 +1,9 @@
 #version 450 core
-// A flat object's map over the azimuth of g in its plane and v_g: bake/planar_map.h.
-#define PIXEL_SHADED
+// A flat object's map, at the pixels.
 #include "modules/diffraction/shaders/surface.glsl"
+#include "modules/diffraction/shaders/planar_map.glsl"
 
-layout(binding = 11) uniform sampler2D planar_map;
-uniform vec3 planar_e1;  // the azimuth's axes in the world
-uniform vec3 planar_e2;
-uniform float map_scale;  // of the stored values
-
-vec3 diffracted_xyz(GrooveView view) {
-    vec2 nodes = vec2(textureSize(planar_map, 0));
-    vec3 g = view.axes[0];
-    float azimuth = atan(dot(g, planar_e2), dot(g, planar_e1));
-    vec2 place = vec2(azimuth / 6.28318530717959 + 0.5 / nodes.x,
-                      ((0.5 * view.direction.x + 0.5) * (nodes.y - 1.0) + 0.5) / nodes.y);
-    return map_scale * textureLod(planar_map, place, 0.0).xyz;
-}
+vec3 diffracted_xyz(GrooveView view) { return map_xyz(view.direction.x, view.axes[0], view.axes[2]); }
 
 #include "modules/diffraction/shaders/pixel_shaded.glsl"
 #include "engine/render/shaders/forward_fragment_main.glsl"

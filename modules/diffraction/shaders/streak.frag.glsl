@@ -1,7 +1,6 @@
 #version 450 core
 // A narrow lobe mirrors the probe along the grooves and disperses it across them: bake/streak.h, evaluate(). TAPS is
 // defined by the program; so is REST where an arc table shades what the streak leaves of Stam's pits.
-#define PIXEL_SHADED
 #include "modules/diffraction/shaders/surface.glsl"
 #include "modules/diffraction/shaders/radiance_cube.glsl"
 #ifdef REST

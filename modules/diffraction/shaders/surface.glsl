@@ -1,5 +1,5 @@
-// What the fragment stages of all gratings share. Those that shade pixels define PIXEL_SHADED before it. A file is pasted
-// once, where it is first included: what is conditional is so inside the files.
+// What the fragment stages of all gratings share. Programs whose vertices are shaded define VERTEX_SHADED. A file is
+// pasted once, where it is first included: what is conditional is so inside the files.
 #define MATERIAL_HAS_MIRROR
 #include "engine/render/shaders/forward_fragment_interface.glsl"
 #include "modules/diffraction/shaders/has_direct.glsl"

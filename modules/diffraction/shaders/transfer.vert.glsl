@@ -6,7 +6,7 @@
 
 const int LAYERS = (COEFFICIENTS + 3) / 4;
 
-vec3 diffracted_xyz(vec3 view) {
+vec3 diffracted_xyz(vec3 view, vec3 g, vec3 n) {
     vec2 coordinates = table_coordinates(view);
     vec3 xyz = vec3(0.0);
     for (int j = 0; j < LAYERS; ++j) {

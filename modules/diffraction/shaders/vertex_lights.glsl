@@ -1,31 +1,43 @@
-// Lights of their own that are shaded at the vertices, where the material asks for it: key lights, and directional ones,
-// the first apart, as it may throw shadows.
+// Key lights and directional lights shaded at the vertices, where the material asks for it; the first directional light
+// apart where it throws shadows.
 #include "modules/diffraction/shaders/small_light.glsl"
 #include "modules/diffraction/shaders/key_lobes.glsl"
 #ifdef LIGHTS_AT_VERTICES
 #include "engine/render/shaders/light_block.h"
 
-out vec3 key_lights_at_vertex;
-#ifdef DIRECTIONAL_LIGHTS
-out vec3 first_light_at_vertex;
+#ifdef LIGHTS_BESIDE
+out vec3 lights_at_vertex;
+#endif
+#ifdef SHADOWED_AT_PIXELS
+out vec3 shadowed_at_vertex;
 #endif
 
-void shade_lights(vec3 position, vec3 g, vec3 h, vec3 n) {
-    mat3 axes = mat3(g, h, n);
+// All that shadows leave alone. `axes`: columns g, h, n in the world.
+vec3 shade_lights(vec3 position, mat3 axes) {
     vec3 direction = normalize(eye.xyz - position) * axes;
     float above = direction.z > 0.0 ? 1.0 : 0.0;
-    key_lights_at_vertex = vec3(0.0);
+    vec3 xyz = vec3(0.0);
 #ifdef KEY_LOBES
-    key_lights_at_vertex += above * key_lights_xyz(axes, direction, 0.0);
+    xyz += above * key_lights_xyz(axes, direction, 0.0);
 #endif
 #ifdef DIRECTIONAL_LIGHTS
-    first_light_at_vertex =
-        above * small_light_xyz(lights[0], 1.0, lights[0].place.xyz, axes, direction, kernel_row(0.0), 1.0);
-    for (int i = 1; i < int(light_counts.x); ++i)
-        key_lights_at_vertex +=
-            above * small_light_xyz(lights[i], 1.0, lights[i].place.xyz, axes, direction, kernel_row(0.0), 1.0);
+    KernelRow row = kernel_row(0.0);
+    vec3 first = above * small_light_xyz(lights[0], 1.0, lights[0].place.xyz, axes, direction, row, 1.0);
+#ifdef SHADOWED_AT_PIXELS
+    shadowed_at_vertex = first;
+#else
+    xyz += first;
 #endif
+#ifdef SEVERAL_DIRECTIONAL_LIGHTS
+    for (int i = 1; i < int(light_counts.x); ++i)
+        xyz += above * small_light_xyz(lights[i], 1.0, lights[i].place.xyz, axes, direction, row, 1.0);
+#endif
+#endif
+#ifdef LIGHTS_BESIDE
+    lights_at_vertex = xyz;
+#endif
+    return xyz;
 }
 #else
-void shade_lights(vec3 position, vec3 g, vec3 h, vec3 n) {}
+vec3 shade_lights(vec3 position, mat3 axes) { return vec3(0.0); }
 #endif

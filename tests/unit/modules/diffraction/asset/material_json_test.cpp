@@ -146,6 +146,16 @@ TEST(MaterialJson, LightsOfTheirOwnAreAtThePixelsUnlessTold) {
                 HasSubstr("/quality/lights_at"));  // it has none
 }
 
+TEST(MaterialJson, MapsAreLookedUpAtThePixelsUnlessTold) {
+    const auto parsed = [](const std::string& quality) { return parse(with_quality(quality)).quality; };
+    EXPECT_FALSE(parsed(R"({"representation": "planar"})").map_at_vertices);
+    const Quality quality = parsed(R"({"representation": "circle", "map_at": "vertices"})");
+    EXPECT_TRUE(quality.map_at_vertices);
+    EXPECT_FALSE(quality.lights_at_vertices);
+    EXPECT_THAT(refusal(with_quality(R"({"representation": "arc", "map_at": "vertices"})")),
+                HasSubstr("/quality/map_at"));  // it has none
+}
+
 TEST(MaterialJson, SettingsThatARepresentationDoesNotHaveAreRefusedByName) {
     EXPECT_THAT(refusal(with_quality(R"({"representation": "arc", "spikes": 4})")), HasSubstr("/quality/spikes"));
     EXPECT_THAT(refusal(with_quality(R"({"representation": "arc", "rnak": 4})")),
