@@ -12,7 +12,7 @@
 namespace rowland::trade {
 
 /// Frames of at most this many times the plain material's count as real time.
-inline constexpr double kRealTimeRatio = 2.0;
+inline constexpr double kRealTimeRatio = 3.0;
 
 /// A setting's picture beside the reference's.
 struct DifferencePicture {

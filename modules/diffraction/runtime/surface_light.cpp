@@ -34,14 +34,11 @@ SurfaceLight::SurfaceLight(std::optional<math::SphericalWindow> window) : window
 
 void SurfaceLight::set(const render::FrameLight& light) {
     light_.light_colours = light.light_colours;
-    if (key_lights_.size() != 0 && light_.version == light.version) return;
+    if (lit_ && light_.version == light.version) return;
     light_ = light;
+    lit_ = true;
     windowed_.clear();
-    KeyLobeBlock block = {};
-    const std::span<const lighting::KeyLight> lights = key_lights();
-    block.key_lobe_count.x = static_cast<float>(lights.size());
-    std::transform(lights.begin(), lights.end(), block.key_lobes, key_lobe);
-    key_lights_ = gpu::Buffer::of(std::span<const KeyLobeBlock>(&block, 1));
+    key_lights_ = {};
 }
 
 const lighting::ShLight& SurfaceLight::harmonics(int bands, LightShare share) {
@@ -71,6 +68,13 @@ std::span<const lighting::KeyLight> SurfaceLight::key_lights() const {
 }
 
 void SurfaceLight::bind_key_lights() const {
+    if (key_lights_.size() == 0) {
+        KeyLobeBlock block = {};
+        const std::span<const lighting::KeyLight> lights = key_lights();
+        block.key_lobe_count.x = static_cast<float>(lights.size());
+        std::transform(lights.begin(), lights.end(), block.key_lobes, key_lobe);
+        key_lights_ = gpu::Buffer::of(std::span<const KeyLobeBlock>(&block, 1));
+    }
     key_lights_.bind_uniform(kKeyLobeBinding);
 }
 

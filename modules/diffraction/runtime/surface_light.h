@@ -54,8 +54,9 @@ class SurfaceLight {
  private:
     std::optional<math::SphericalWindow> window_;
     render::FrameLight light_;
+    bool lit_ = false;  ///< light_ was set
     std::map<std::pair<int, LightShare>, lighting::ShLight> windowed_;
-    gpu::Buffer key_lights_;
+    mutable gpu::Buffer key_lights_;  ///< made when first bound
     std::shared_ptr<const lighting::PackedEnvironmentMap> cube_of_;
     std::shared_ptr<const RadianceCube> cube_;
     int radiance_uploads_ = 0;
