@@ -9,12 +9,13 @@
 #include "content/demo/camera_path.h"
 #include "engine/core/file.h"
 #include "engine/core/progress.h"
+#include "engine/scene/transform.h"
 
 namespace rowland::demo {
 
 namespace {
 
-constexpr double kSecondsPerFrame = 1.0 / 30.0;
+constexpr int kFramesPerSecond = 30;
 constexpr int kWarmUpFrames = 3;
 
 std::chrono::nanoseconds nanoseconds(double ms) {
@@ -53,7 +54,8 @@ nlohmann::ordered_json to_json(const platform::FrameStatistics& statistics) {
 
 }  // namespace
 
-BenchmarkResult fly_around(view::Picture& picture, DemoScene& scene, int frames) {
+BenchmarkResult fly_around(Session& session, int frames) {
+    view::Picture& picture = session.picture();
     const auto capacity = static_cast<std::size_t>(frames);
     platform::FrameTimes frame_times(capacity);
     std::vector<PassSamples> passes;
@@ -61,9 +63,10 @@ BenchmarkResult fly_around(view::Picture& picture, DemoScene& scene, int frames)
     for (int frame = -kWarmUpFrames; frame < frames; ++frame) {
         const int shown = std::max(frame, 0);
         const auto start = std::chrono::steady_clock::now();
-        scene.advance_to(shown * kSecondsPerFrame);
-        picture.draw(scene.world(), flight(scene.camera(), static_cast<double>(shown) / frames),
-                     static_cast<float>(kSecondsPerFrame));
+        for (int i = 0; frame > 0 && i < kStepsPerSecond / kFramesPerSecond; ++i) session.play().step({});
+        scene::update_world_matrices(session.scene().world());
+        picture.draw(session.scene().world(), flight(session.scene().camera(), static_cast<double>(shown) / frames),
+                     1.0F / kFramesPerSecond);
         glFinish();
         if (frame < 0) continue;
         frame_times.add(std::chrono::steady_clock::now() - start);

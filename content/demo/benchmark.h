@@ -6,9 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "content/demo/demo_scene.h"
+#include "content/demo/session.h"
 #include "engine/platform/frame_pacing.h"
-#include "engine/view/picture.h"
 
 namespace rowland::demo {
 
@@ -28,7 +27,7 @@ struct BenchmarkResult {
 
 /// Flies once around the scene in so many frames, 1/30 s of the scene's time apart, and waits for each to be finished.
 /// The first frames, which compile and upload, are drawn before and not counted.
-BenchmarkResult fly_around(view::Picture& picture, DemoScene& scene, int frames);
+BenchmarkResult fly_around(Session& session, int frames);
 
 /// Writes it as JSON. `device` is the OpenGL renderer's name. Throws Error (system).
 void write_benchmark(const std::filesystem::path& path, const BenchmarkResult& result, const std::string& device);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -9,6 +8,7 @@
 
 #include "content/demo/assets.h"
 #include "content/demo/options.h"
+#include "content/demo/play/play.h"
 #include "engine/ecs/world.h"
 #include "engine/render/renderer.h"
 #include "engine/render/scene_instance.h"
@@ -21,25 +21,31 @@ namespace rowland::demo {
 inline constexpr float kFieldOfView = 0.36F;
 
 /// A CD (or the user's mesh as a grating, or the user's scene, scaled to stand in the CD's place), a diffuse and a
-/// metallic sphere, and a ground. A scene that brings a camera is shown alone, at its own size, with its own lights;
-/// what has a `"spin_axis": [x, y, z]` among its node's extras turns about it.
+/// metallic sphere, and a ground. A scene that brings a camera is shown alone, at its own size, with its own lights.
 class DemoScene {
  public:
     /// `xyz_to_working` as the renderer's. Throws Error (input).
-    DemoScene(const Options& options, Assets& assets, render::Renderer& renderer, const glm::dmat3& xyz_to_working);
+    DemoScene(const Options& options, LiveAssets& assets, render::Renderer& renderer, const glm::dmat3& xyz_to_working);
 
-    /// Takes over what was loaded anew. What cannot be used stays as it was, and `failures()` says why.
-    void refresh();
+    /// Takes over what was loaded anew; true if that was a mesh, so that toys() are others now. What cannot be used
+    /// stays as it was, and `failures()` says why.
+    bool refresh();
     const std::vector<std::string>& failures() const { return failures_; }
 
-    /// Moves everything to where it is at `seconds` and brings all matrices up to date.
-    void advance_to(double seconds);
+    /// What can be played with, at rest. The play places it from then on.
+    Toys toys();
+    /// Moves what moves by itself to where it is at the play's time.
+    void pose(const Play& play);
+    /// Where one may walk.
+    scene::Bounds room();
     /// Lights or puts out the lamp that casts shadows.
     void set_sun(bool on);
     bool sun() const { return world_.alive(sun_); }
 
     ecs::World& world() { return world_; }
     const scene::Camera& camera() const { return camera_; }
+    /// All views that the scene brings, the opening one first; or that one alone.
+    std::vector<scene::Camera> views() const;
 
  private:
     /// An asset and the version of it that the world shows.
@@ -53,21 +59,16 @@ class DemoScene {
     void add_spheres();
     void show_scene();
     void fit_scene(const scene::Mesh& merged);
-    void find_spinning();
-    void add_surroundings(const Options& options, Assets& assets);
+    void add_under_root(ecs::Entity entity);
+    void add_surroundings(const Options& options, LiveAssets& assets);
     void show_grating_mesh();
     void show_grating_material();
     void show_spheres();
+    void show_ground();
+    void pose_stand();
     /// Runs `show` if there is a newer asset.
     template <typename T, typename F>
     void refresh(Shown<T>& shown, F&& show);
-
-    /// A node that turns about an axis of its own.
-    struct Spinning {
-        ecs::Entity node;
-        glm::vec3 axis;  ///< unit
-        glm::quat rest;
-    };
 
     render::Renderer& renderer_;
     glm::dmat3 xyz_to_working_;
@@ -80,15 +81,18 @@ class DemoScene {
     std::vector<std::string> failures_;
 
     ecs::World world_;
-    ecs::Entity stand_;    ///< tilts
-    ecs::Entity grating_;  ///< spins on the stand
+    ecs::Entity root_;     ///< above everything
+    ecs::Entity stand_;    ///< tilts, or turns
+    ecs::Entity grating_;  ///< on the stand
     std::vector<ecs::Entity> spheres_;
     ecs::Entity ground_;
     ecs::Entity sun_;
     std::optional<render::SceneInstance> instance_;
-    std::vector<Spinning> spinning_;
     bool disc_ = true;
     bool own_view_ = false;  ///< the scene brings a camera
+    bool meshes_changed_ = false;
+    double posed_s_ = 0.0;  ///< the play's time at the last pose
+    double stand_s_ = 0.0;  ///< for which the stand has moved
     scene::Camera camera_;
 };
 

@@ -11,13 +11,14 @@ struct Options {
     std::optional<std::filesystem::path> probe;
     std::string probe_mapping = "equirect";
     std::optional<std::filesystem::path> scene;
+    bool disc = false;  ///< one CD, in place of the cabinet
     std::optional<std::filesystem::path> mesh;
     std::optional<std::filesystem::path> material;
     std::optional<std::filesystem::path> ocio_config;
     bool headless = false;
     int width = 1280;
     int height = 720;
-    std::optional<int> frames;  ///< none: 1, and 300 for a benchmark
+    std::optional<int> frames;  ///< none: 1 for captures, 12 for a flight, 300 for a benchmark, all of a play
     std::string light_window = "auto";
     std::string view;
     float exposure_stops = 0.0F;
@@ -30,7 +31,9 @@ struct Options {
     std::optional<std::filesystem::path> capture;
     std::optional<std::filesystem::path> capture_linear;
     std::optional<std::filesystem::path> benchmark;
-    bool watch = true;  ///< follow changes of files
+    std::optional<std::filesystem::path> record;  ///< where what the user does is written
+    std::optional<std::filesystem::path> play;    ///< such a file, to be done again
+    bool watch = true;                            ///< follow changes of files
     std::filesystem::path output_folder = "demo";
     std::filesystem::path cooked_folder;
     std::filesystem::path content_folder;  ///< the sources of the cooked assets

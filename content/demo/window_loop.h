@@ -8,7 +8,4 @@ namespace rowland::demo {
 /// Opens the demo in a window and runs it until it is closed. Needs a display (platform::display_available()).
 void run_in_window(const Options& options, const post::OcioConfig& config);
 
-/// The keys, a line each.
-extern const char* const kWindowHelp;
-
 }  // namespace rowland::demo

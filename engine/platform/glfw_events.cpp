@@ -108,6 +108,9 @@ std::optional<MouseButton> mouse_button_of_glfw(int button) {
 void collect_events(GLFWwindow* window, WindowEvents& events) {
     glfwSetWindowUserPointer(window, &events);
     glfwSetKeyCallback(window, on_key);
+    glfwSetCharCallback(window, [](GLFWwindow* w, unsigned codepoint) {
+        events_of(w).input.push_back(CharEvent{static_cast<char32_t>(codepoint)});
+    });
     glfwSetMouseButtonCallback(window, on_mouse_button);
     glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
         events_of(w).input.push_back(MouseMoveEvent{{x, y}});

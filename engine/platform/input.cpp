@@ -24,6 +24,13 @@ void release_all(Buttons& buttons) {
     for (ButtonState& button : buttons) set_down(button, false);
 }
 
+/// Whether text may hold it: neither a control character nor half of a surrogate pair.
+bool is_text(char32_t c) {
+    const bool control = c < 0x20 || (c >= 0x7F && c < 0xA0);
+    const bool surrogate = c >= 0xD800 && c < 0xE000;
+    return !control && !surrogate && c <= 0x10FFFF;
+}
+
 bool is_finite(glm::dvec2 v) {
     return std::isfinite(v.x) && std::isfinite(v.y);
 }
@@ -45,6 +52,7 @@ void InputState::begin_frame() {
     mouse_drag_.fill(glm::dvec2(0.0));
     mouse_delta_ = glm::dvec2(0.0);
     scroll_ = glm::dvec2(0.0);
+    typed_.clear();
 }
 
 void InputState::apply(const InputEvent& event) {
@@ -84,6 +92,7 @@ void InputState::on(const KeyEvent& event) {
 }
 
 void InputState::on(const MouseButtonEvent& event) {
+    if (event.down) press_position_[static_cast<std::size_t>(event.button)] = mouse_position_;
     set_down(buttons_[static_cast<std::size_t>(event.button)], event.down);
 }
 
@@ -123,6 +132,10 @@ void InputState::on(const GamepadEvent& event) {
     const GamepadEvent reading = event.connected && focused_ ? event : GamepadEvent{};
     gamepad_.axes = reading.axes;
     for (std::size_t i = 0; i < pad_.size(); ++i) set_down(pad_[i], reading.buttons[i]);
+}
+
+void InputState::on(const CharEvent& event) {
+    if (is_text(event.codepoint)) typed_.push_back(event.codepoint);
 }
 
 }  // namespace rowland::platform

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <glm/vec2.hpp>
+#include <string>
 #include <variant>
 
 namespace rowland::platform {
@@ -66,8 +67,13 @@ struct GamepadEvent {
     PerEnum<GamepadButton, bool> buttons{};
 };
 
-using InputEvent =
-    std::variant<KeyEvent, MouseButtonEvent, MouseMoveEvent, ScrollEvent, FocusEvent, CursorCaptureEvent, GamepadEvent>;
+/// A character was typed, by the user's layout and with the repeats of a held key.
+struct CharEvent {
+    char32_t codepoint = 0;
+};
+
+using InputEvent = std::variant<KeyEvent, MouseButtonEvent, MouseMoveEvent, ScrollEvent, FocusEvent, CursorCaptureEvent,
+                                GamepadEvent, CharEvent>;
 
 /// Share of a stick's travel that counts as rest; worn sticks come to rest anywhere inside it.
 constexpr float kStickDeadZone = 0.15F;
@@ -108,7 +114,12 @@ class InputState {
     glm::dvec2 mouse_delta() const { return mouse_delta_; }
     /// The part of `mouse_delta` made while `button` was down, even if it went down or up within the frame.
     glm::dvec2 mouse_drag(MouseButton button) const { return mouse_drag_[static_cast<std::size_t>(button)]; }
+    /// Where the mouse was when `button` last went down. In a long frame it may be elsewhere since.
+    glm::dvec2 press_position(MouseButton button) const { return press_position_[static_cast<std::size_t>(button)]; }
     glm::dvec2 scroll() const { return scroll_; }  ///< notches during the frame
+
+    /// What was typed during the frame: Unicode scalar values without control characters (those are keys).
+    const std::u32string& typed() const { return typed_; }
 
     bool focused() const { return focused_; }
     bool gamepad_connected() const { return gamepad_.connected; }
@@ -125,15 +136,18 @@ class InputState {
     void on(const FocusEvent& event);
     void on(const CursorCaptureEvent& event);
     void on(const GamepadEvent& event);
+    void on(const CharEvent& event);
     float raw_axis(GamepadAxis axis) const { return gamepad_.axes[static_cast<std::size_t>(axis)]; }
 
     PerEnum<Key, ButtonState> keys_{};
     PerEnum<MouseButton, ButtonState> buttons_{};
     PerEnum<GamepadButton, ButtonState> pad_{};
     PerEnum<MouseButton, glm::dvec2> mouse_drag_{};
+    PerEnum<MouseButton, glm::dvec2> press_position_{};
     glm::dvec2 mouse_position_{0.0};
     glm::dvec2 mouse_delta_{0.0};
     glm::dvec2 scroll_{0.0};
+    std::u32string typed_;
     GamepadEvent gamepad_;
     bool position_known_ = false;
     bool focused_ = true;

@@ -129,15 +129,22 @@ void Window::set_vsync(bool on) {
     glfwSwapInterval(on ? 1 : 0);
 }
 
-void Window::poll(InputState& input) {
+std::vector<InputEvent> Window::poll_events() {
     // One call serves all windows; another window's poll may have left events here.
     glfwPollEvents();
+    // If the handler throws, the input waits for the next poll.
+    const auto drops = std::exchange(state_->events.drops, {});
+    if (state_->on_drop)
+        for (const auto& files : drops) state_->on_drop(files);
+    std::vector<InputEvent> events = std::exchange(state_->events.input, {});
+    events.emplace_back(read_gamepad());
+    return events;
+}
+
+void Window::poll(InputState& input) {
+    const std::vector<InputEvent> events = poll_events();
     input.begin_frame();
-    const WindowEvents events = std::exchange(state_->events, {});
-    for (const InputEvent& event : events.input) input.apply(event);
-    input.apply(read_gamepad());
-    if (!state_->on_drop) return;
-    for (const auto& files : events.drops) state_->on_drop(files);
+    for (const InputEvent& event : events) input.apply(event);
 }
 
 void Window::set_drop_handler(DropHandler handler) {

@@ -50,10 +50,12 @@ class Window {
     /// Makes this window's context current.
     void set_vsync(bool on);
 
-    /// Starts a frame of `input` and feeds it what the user did since the last poll, then hands dropped files to the
-    /// drop handler; what that throws is passed on.
+    /// What the user did since the last poll, in order, then hands dropped files to the drop handler; what that throws
+    /// is passed on.
+    std::vector<InputEvent> poll_events();
+    /// Starts a frame of `input` and feeds it poll_events().
     void poll(InputState& input);
-    /// `handler` is called from `poll` with the files of each drop; empty: drops are ignored.
+    /// `handler` is called from a poll with the files of each drop; empty: drops are ignored.
     void set_drop_handler(DropHandler handler);
 
     bool should_close() const;

@@ -1,6 +1,7 @@
 #include "engine/scene/fly_camera.h"
 
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "engine/core/check.h"
@@ -58,7 +59,15 @@ void FlyCamera::update(const FlyInput& input, double seconds) {
     const double forgotten = -std::expm1(-seconds / response);
     position_ += wanted * seconds + (velocity_ - wanted) * (response * forgotten);
     velocity_ += (wanted - velocity_) * forgotten;
+    if (settings_.room) stay_in(*settings_.room);
     angles_ = turned(angles_, half_yaw, half_pitch);
+}
+
+void FlyCamera::stay_in(const Bounds& room) {
+    const glm::dvec3 inside = glm::clamp(position_, glm::dvec3(room.minimum), glm::dvec3(room.maximum));
+    for (int axis = 0; axis < 3; ++axis)
+        if (inside[axis] != position_[axis]) velocity_[axis] = 0.0;
+    position_ = inside;
 }
 
 Camera FlyCamera::camera() const {

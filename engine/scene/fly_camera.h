@@ -2,8 +2,10 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 
 #include "engine/scene/camera.h"
+#include "engine/scene/mesh.h"
 #include "engine/scene/view_angles.h"
 
 namespace rowland::scene {
@@ -12,9 +14,10 @@ struct FlySettings {
     float radians_per_pixel = 0.003F;  ///< of mouse movement
     float turn_radians_per_s = 2.0F;   ///< of a stick at full travel
     float speed_m_per_s = 1.0F;
-    float fast_factor = 4.0F;   ///< on the speed, while `fast` is held
-    float slow_factor = 0.25F;  ///< on the speed, while `slow` is held
-    float response_s = 0.06F;   ///< time constant with which the speed follows the keys, > 0
+    float fast_factor = 4.0F;         ///< on the speed, while `fast` is held
+    float slow_factor = 0.25F;        ///< on the speed, while `slow` is held
+    float response_s = 0.06F;         ///< time constant with which the speed follows the keys, > 0
+    std::optional<Bounds> room = {};  ///< the eye stays inside; none: anywhere
 };
 
 /// What the user does during one frame.
@@ -46,6 +49,8 @@ class FlyCamera {
 
  private:
     glm::vec3 wanted_velocity(const FlyInput& input) const;
+    /// Slides along its walls.
+    void stay_in(const Bounds& room);
 
     FlySettings settings_;
     Camera lens_;  ///< its field of view and planes are used

@@ -47,6 +47,8 @@ class Picture {
     /// What the passes of the last frames took.
     const gpu::PassTimes& pass_times() const { return pass_times_; }
     post::PostSettings& post_settings() { return post_settings_; }
+    /// The stops that the last frame was exposed by, manual and automatic together.
+    float exposure_stops() const { return post_stack_.exposure_stops(); }
     /// Scene-linear working RGB.
     const gpu::Framebuffer& linear() const { return targets_->linear; }
     /// Display values, 8 bits.

@@ -80,8 +80,8 @@ TEST(Demo, AMalformedSceneIsRefusedWithNothingWritten) {
 }
 
 TEST(Demo, TheLampLightsAndShades) {
-    const image::Image without = render("without_lamp", "");
-    const image::Image with = render("with_lamp", "--sun");
+    const image::Image without = render("without_lamp", "--disc");
+    const image::Image with = render("with_lamp", "--disc --sun");
     std::size_t lit = 0;
     std::size_t as_before = 0;
     // The lower part of the picture is the ground: most of it in the light, some of it in the objects' shadows.
@@ -97,7 +97,7 @@ TEST(Demo, TheLampLightsAndShades) {
 
 TEST(Demo, TheBenchmarkNamesEveryPassAndOrdersItsPercentiles) {
     const std::filesystem::path path = result("benchmark.json");
-    ASSERT_EQ(run_demo("--width 160 --height 90 --frames 12 --bloom 0.1 --benchmark " + path.string()), 0);
+    ASSERT_EQ(run_demo("--disc --width 160 --height 90 --frames 12 --bloom 0.1 --benchmark " + path.string()), 0);
     const json report = json::parse(read_text_file(path, 1 << 20));
     EXPECT_EQ(report.at("width"), 160);
     EXPECT_FALSE(report.at("device").get<std::string>().empty());
@@ -118,7 +118,7 @@ TEST(Demo, TheBenchmarkNamesEveryPassAndOrdersItsPercentiles) {
 
 TEST(Demo, TheBenchmarkListsOnlyPassesThatRun) {
     const std::filesystem::path path = result("benchmark_plain.json");
-    ASSERT_EQ(run_demo("--width 160 --height 90 --frames 4 --benchmark " + path.string()), 0);
+    ASSERT_EQ(run_demo("--disc --width 160 --height 90 --frames 4 --benchmark " + path.string()), 0);
     const json report = json::parse(read_text_file(path, 1 << 20));
     for (const json& pass : report.at("passes")) {
         EXPECT_NE(pass.at("name"), "bloom");

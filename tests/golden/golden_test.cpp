@@ -43,7 +43,7 @@ Picture read_png(const std::filesystem::path& path) {
 }
 
 int run_demo(const std::string& arguments) {
-    const std::string command = std::string(ROWLAND_DEMO) + " --headless --width 480 --height 270 " + arguments;
+    const std::string command = std::string(ROWLAND_DEMO) + " --headless --disc --width 480 --height 270 " + arguments;
     return std::system(command.c_str());
 }
 

@@ -31,7 +31,7 @@ class DemoWindow : public ::testing::Test {
     void play(const std::vector<std::string>& actions, const std::string& arguments = {}) {
         std::string command = std::string("bash ") + ROWLAND_DRIVE + " " + folder_.path().string() + " key:space";
         for (const std::string& action : actions) command += " '" + action + "'";
-        command += std::string(" -- ") + ROWLAND_DEMO + " --width 320 --height 180 --shader-folder " +
+        command += std::string(" -- ") + ROWLAND_DEMO + " --width 320 --height 180 --disc --shader-folder " +
                    folder_.path().string() + " " + arguments;
         EXPECT_EQ(std::system(command.c_str()), 0) << command;
     }

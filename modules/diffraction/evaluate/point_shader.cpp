@@ -149,10 +149,13 @@ std::vector<glm::dvec3> evaluate_points(const std::string& title, const PointSha
     return result;
 }
 
+PointShader baked_shader(const CookedMaterial& cooked, const EvaluationLight& light) {
+    return std::visit([&](const auto& tables) { return shader_of(tables, cooked, light); }, cooked.tables);
+}
+
 std::vector<glm::dvec3> evaluate_baked(const CookedMaterial& cooked, const EvaluationLight& light,
                                        std::span<const Frame> frames) {
-    const PointShader shader =
-        std::visit([&](const auto& tables) { return shader_of(tables, cooked, light); }, cooked.tables);
+    const PointShader shader = baked_shader(cooked, light);
     const std::string title = representation_name(cooked.tables.index());
     if (!std::holds_alternative<PlanarTables>(cooked.tables))
         return evaluate_points(title, shader, cooked, light, frames);

@@ -18,6 +18,11 @@ namespace rowland::diffraction {
 /// XYZ of one frame. May be called from many threads.
 using PointShader = std::function<glm::dvec3(const Frame&)>;
 
+/// What shades points by a baked material's tables or map, without its key lights; both arguments must outlive it. Maps
+/// are filled when they are first needed and kept: a `planar` one for the last plane, so that such a shader is for one
+/// thread at a time.
+PointShader baked_shader(const CookedMaterial& cooked, const EvaluationLight& light);
+
 /// XYZ of frames by a baked material, as its shaders do it: the tables or the map for what the key lights leave, and
 /// `direct` for the key lights. `planar` fills a map for every plane among the frames. Views below the horizon are
 /// black.

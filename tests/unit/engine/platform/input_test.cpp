@@ -160,6 +160,35 @@ TEST(Input, NonFiniteMovementAndScrollAreIgnored) {
     EXPECT_EQ(input.scroll(), glm::dvec2(0.0));
 }
 
+TEST(Input, APressIsRememberedWhereItWasMade) {
+    InputState input;
+    input.apply(MouseMoveEvent{{10.0, 20.0}});
+    input.apply(MouseButtonEvent{MouseButton::Left, true});
+    input.apply(MouseMoveEvent{{90.0, 5.0}});
+    input.apply(MouseButtonEvent{MouseButton::Left, false});
+    EXPECT_EQ(input.press_position(MouseButton::Left), glm::dvec2(10.0, 20.0));
+    EXPECT_EQ(input.press_position(MouseButton::Right), glm::dvec2(0.0));
+}
+
+TEST(Input, TypedTextIsThatOfOneFrameInOrder) {
+    InputState input;
+    input.apply(CharEvent{U'7'});
+    input.apply(CharEvent{U'\u03BB'});
+    EXPECT_EQ(input.typed(), U"7\u03BB");
+    input.begin_frame();
+    EXPECT_EQ(input.typed(), U"");
+}
+
+TEST(Input, WhatIsNoTextIsNotTyped) {
+    InputState input;
+    for (const char32_t c :
+         {char32_t{0}, U'\n', char32_t{0x7F}, char32_t{0x9F}, char32_t{0xD800}, char32_t{0xDFFF}, char32_t{0x110000}})
+        input.apply(CharEvent{c});
+    EXPECT_EQ(input.typed(), U"");
+    input.apply(CharEvent{U'\u00A0'});
+    EXPECT_EQ(input.typed().size(), 1U);
+}
+
 TEST(Input, LosingTheFocusReleasesEverything) {
     InputState input;
     input.apply(KeyEvent{Key::W, true});

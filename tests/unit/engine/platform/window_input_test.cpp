@@ -78,6 +78,13 @@ TEST_F(WindowInput, HeldKeyIsPressedOnceDespiteTheKeyboardsRepeat) {
     EXPECT_TRUE(poll_until([&] { return input_.key(Key::D).released; }));
 }
 
+TEST_F(WindowInput, TypedTextComesAsCharactersOfTheLayout) {
+    std::u32string typed;
+    act("type 'a1%'");
+    EXPECT_TRUE(poll_until([&] { return (typed += input_.typed()).size() >= 3; }));
+    EXPECT_EQ(typed, U"a1%");
+}
+
 TEST_F(WindowInput, HeldKeyIsReleasedWhenAnotherWindowTakesTheFocus) {
     act("keydown a");
     ASSERT_TRUE(poll_until([&] { return input_.key(Key::A).down; }));

@@ -152,5 +152,18 @@ TEST(FlyCameraDeathTest, RefusesAResponseTimeOfZero) {
     EXPECT_DEATH(FlyCamera(start(), settings), "response_s > 0");
 }
 
+TEST(FlyCamera, StopsAtTheWallsOfItsRoomAndSlidesAlongThem) {
+    FlySettings settings;
+    settings.room = Bounds{{-1.0F, -0.5F, -1.0F}, {1.0F, 0.5F, 1.0F}};
+    FlyCamera camera(start(), settings);
+    // Down and forward: the floor stops the one, and the other goes on as fast.
+    for (int i = 0; i < 120; ++i) camera.update({.move = {0.0F, -1.0F, 0.5F}}, 1.0 / 60.0);
+    EXPECT_EQ(camera.position().y, -0.5F);
+    EXPECT_EQ(camera.velocity().y, 0.0F);
+    EXPECT_LT(camera.velocity().z, -0.4F);
+    for (int i = 0; i < 600; ++i) camera.update({.move = {0.0F, -1.0F, 0.5F}}, 1.0 / 60.0);
+    EXPECT_EQ(camera.position(), glm::vec3(0.0F, -0.5F, -1.0F));
+}
+
 }  // namespace
 }  // namespace rowland::scene

@@ -1,0 +1,70 @@
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "content/demo/hud/windows.h"
+
+namespace rowland::demo {
+
+namespace {
+
+void graph(const std::deque<float>& frame_ms) {
+    if (frame_ms.empty()) return;
+    const std::vector<float> times(frame_ms.begin(), frame_ms.end());
+    const float longest = *std::max_element(times.begin(), times.end());
+    std::vector<float> sorted = times;
+    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
+    const float median = sorted[sorted.size() / 2];
+    const std::string label = fmt::format("{:.1f} ms, median {:.1f}, longest {:.1f}", times.back(), median, longest);
+    ImGui::TextUnformatted(label.c_str());
+    ImGui::PlotLines("##frames", times.data(), static_cast<int>(times.size()), 0, nullptr, 0.0F, 1.1F * longest,
+                     {-1.0F, 4.0F * ImGui::GetFontSize()});
+}
+
+void pass_row(const std::string& name, double cpu_ms, std::optional<double> gpu_ms) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(name.c_str());
+    ImGui::TableNextColumn();
+    ImGui::Text("%7.2f", cpu_ms);
+    ImGui::TableNextColumn();
+    if (gpu_ms)
+        ImGui::Text("%7.2f", *gpu_ms);
+    else
+        ImGui::TextDisabled("      -");
+}
+
+void pass_table(const std::vector<gpu::PassTime>& passes) {
+    if (!ImGui::BeginTable("passes", 3, ImGuiTableFlags_RowBg)) return;
+    ImGui::TableSetupColumn("pass");
+    ImGui::TableSetupColumn("CPU ms");
+    ImGui::TableSetupColumn("GPU ms");
+    ImGui::TableHeadersRow();
+    double cpu_ms = 0.0;
+    std::optional<double> gpu_ms;
+    for (const gpu::PassTime& pass : passes) {
+        pass_row(pass.name, pass.cpu_ms, pass.gpu_ms);
+        cpu_ms += pass.cpu_ms;
+        if (pass.gpu_ms) gpu_ms = gpu_ms.value_or(0.0) + *pass.gpu_ms;
+    }
+    pass_row("together", cpu_ms, gpu_ms);
+    ImGui::EndTable();
+}
+
+}  // namespace
+
+void frame_window(const std::deque<float>& frame_ms, const std::vector<gpu::PassTime>& passes, bool& open) {
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({size.x - 10.0F, 10.0F}, ImGuiCond_FirstUseEver, {1.0F, 0.0F});
+    ImGui::SetNextWindowSize({19.0F * ImGui::GetFontSize(), 0.0F}, ImGuiCond_FirstUseEver);
+    if (ImGui::Begin("Frames", &open, ImGuiWindowFlags_AlwaysAutoResize)) {
+        ImGui::Dummy({18.0F * ImGui::GetFontSize(), 0.0F});
+        graph(frame_ms);
+        pass_table(passes);
+    }
+    ImGui::End();
+}
+
+}  // namespace rowland::demo

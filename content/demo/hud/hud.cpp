@@ -1,0 +1,241 @@
+#include "content/demo/hud/hud.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <utility>
+#include <variant>
+
+#include "content/demo/pixel/surface_point.h"
+#include "engine/core/error.h"
+#include "engine/core/file.h"
+#include "engine/core/log.h"
+#include "modules/diffraction/runtime/diffraction_surface.h"
+
+namespace rowland::demo {
+
+namespace {
+
+constexpr glm::ivec2 kRoomForPanels{900, 500};
+constexpr std::size_t kFramesShown = 240;
+
+/// What a recording or a menu called for is the play's, and so is every release: a key or button that the HUD hid going
+/// down is up for the play anyway.
+struct ForPlay {
+    bool mouse;
+    bool keys;
+
+    bool operator()(const platform::InputEvent& event) const {
+        if (const auto* key = std::get_if<platform::KeyEvent>(&event)) return keys || !key->down;
+        if (const auto* button = std::get_if<platform::MouseButtonEvent>(&event)) return mouse || !button->down;
+        if (std::holds_alternative<platform::ScrollEvent>(event)) return mouse;
+        return true;
+    }
+    bool operator()(const ResizeEvent&) const { return true; }
+    bool operator()(const ActionEvent&) const { return true; }
+};
+
+}  // namespace
+
+Hud::Hud(const Options& options, Session& session, glm::ivec2 window, float scale)
+    : options_(options),
+      session_(session),
+      ui_({.scale = scale}),
+      window_(window),
+      panels_(window.x >= kRoomForPanels.x && window.y >= kRoomForPanels.y) {}
+
+std::vector<PlayEvent> Hud::begin_frame(std::vector<PlayEvent> events, const ui::UiFrame& frame) {
+    input_.begin_frame();
+    for (const PlayEvent& event : events)
+        if (const auto* input = std::get_if<platform::InputEvent>(&event)) input_.apply(*input);
+    window_ = frame.size;
+    frame_ms_.push_back(static_cast<float>(1000.0 * frame.seconds));
+    if (frame_ms_.size() > kFramesShown) frame_ms_.pop_front();
+    ui_.begin_frame(input_, frame);
+    const ForPlay for_play{.mouse = !ui_.wants_mouse() || session_.play().walking(), .keys = !ui_.wants_keyboard()};
+    std::erase_if(events, [&](const PlayEvent& event) { return !std::visit(for_play, event); });
+    for (PlayEvent& event : std::exchange(called_for_, {})) events.push_back(std::move(event));
+    return events;
+}
+
+bool Hud::perform(Action action) {
+    switch (action) {
+        case Action::Help:
+            help_ = !help_;
+            return true;
+        case Action::Hud:
+            panels_ = !panels_;
+            if (!panels_) help_ = times_ = false;
+            return true;
+        case Action::FrameGraph:
+            times_ = !times_;
+            return true;
+        case Action::Wipe:
+            toggle_wipe();
+            return true;
+        case Action::NextLook:
+        case Action::NextDetail:
+            choose_look(action == Action::NextDetail);
+            return true;
+        case Action::WritePixel:
+            write_pixel();
+            return true;
+        default:
+            return false;
+    }
+}
+
+glm::dvec2 Hud::pointer() const {
+    return session_.play().walking() ? 0.5 * glm::dvec2(window_) : input_.mouse_position();
+}
+
+Side Hud::side_of_pointer() const {
+    const Comparison& comparison = session_.comparison();
+    const double line = static_cast<double>(comparison.line()) * window_.x;
+    return comparison.wiping() && pointer().x > line ? Side::Right : Side::Left;
+}
+
+std::optional<Hud::Pointed> Hud::pointed() const {
+    if (ui_.wants_mouse() && !session_.play().walking()) return std::nullopt;
+    const auto hit = session_.play().hit_at(pointer());
+    if (!hit) return std::nullopt;
+    const ecs::Entity entity = session_.play().toys().targets[hit->target].entity;
+    if (!session_.comparison().is_grating(entity)) return std::nullopt;
+    return Pointed{entity, *hit};
+}
+
+/// Of the grating under the cursor, else of all: each object then has what suits it best of one choice.
+void Hud::choose_look(bool detail) {
+    Comparison& comparison = session_.comparison();
+    const Side side = side_of_pointer();
+    const std::vector<ecs::Entity> gratings = comparison.gratings();
+    if (gratings.empty()) return;
+    const auto under_cursor = pointed();
+    const ecs::Entity example = under_cursor ? under_cursor->grating : gratings.front();
+    const Look& present = comparison.look(example, side);
+    const Look next = detail ? next_detail(present) : next_representation(comparison.subject(example), present);
+    if (under_cursor)
+        comparison.set_look(example, side, next);
+    else
+        comparison.set_look_of_all(side, next);
+    log_info("{}: {}", under_cursor ? name_of_object(session_.play().world(), example) : "all", look_name(next));
+}
+
+/// The first wipe is of the paper's method against what the scene is made with.
+void Hud::toggle_wipe() {
+    Comparison& comparison = session_.comparison();
+    comparison.set_wiping(!comparison.wiping());
+    if (!comparison.wiping()) return;
+    for (const ecs::Entity grating : comparison.gratings())
+        if (!(comparison.look(grating, Side::Left) == comparison.look(grating, Side::Right))) return;
+    comparison.set_look_of_all(Side::Right, {.representation = "spikes"});
+}
+
+std::string Hud::name_of_all(Side side) {
+    Comparison& comparison = session_.comparison();
+    std::optional<Look> common;
+    for (const ecs::Entity grating : comparison.gratings()) {
+        const Look& look = comparison.look(grating, side);
+        if (look.own()) continue;
+        if (common && !(*common == look)) return "several";
+        common = look;
+    }
+    return look_name(common.value_or(Look{}));
+}
+
+void Hud::measure_pixel() {
+    target_.reset();
+    const auto under_cursor = pointed();
+    if (!under_cursor) {
+        meter_.forget();
+        return;
+    }
+    Comparison& comparison = session_.comparison();
+    ecs::World& world = session_.play().world();
+    const ecs::Entity grating = under_cursor->grating;
+    const Side side = side_of_pointer();
+    target_ = PixelTarget{
+        .object = name_of_object(world, grating), .look = look_name(comparison.look(grating, side)), .refusal = {}};
+    if (world.get<diffraction::DiffractionSurface>(grating).grooves) {
+        target_->refusal = "its grooves vary over the surface: a point of it is no single grating";
+        meter_.forget();
+        return;
+    }
+    const auto frame =
+        frame_at(world, grating, under_cursor->hit.triangle, under_cursor->hit.point, session_.play().camera().eye);
+    if (!frame) {
+        target_->refusal = "seen from behind";
+        meter_.forget();
+        return;
+    }
+    PixelQuery query{.cooked = comparison.shown(grating, side)->cooked(),
+                     .frame = *frame,
+                     .window = std::nullopt,
+                     .probe = {.path = session_.probe_path(),
+                               .mapping = options_.probe_mapping,
+                               .recipes = options_.content_folder / "probes",
+                               .version = session_.probe_version()}};
+    if (options_.light_window != "auto") query.window = math::parse_window(options_.light_window);
+    meter_.ask(query);
+}
+
+/// The frame for rowland-trade to read, and what was measured there.
+void Hud::write_pixel() {
+    if (!target_ || !meter_.current()) {
+        log_info("no pixel to write: {}", target_ ? "it is being measured" : "point at a grating");
+        return;
+    }
+    const PixelReading& reading = *meter_.reading();
+    const std::string name = fmt::format("pixel_{:04}", pixels_written_++);
+    try {
+        write_file_atomic(options_.output_folder / (name + ".csv"), frames_csv(reading.query.frame));
+        write_file_atomic(options_.output_folder / (name + ".json"), reading_json(reading));
+        log_info("wrote {}", (options_.output_folder / (name + ".json")).string());
+    } catch (const Error& error) {
+        log_error("{}", error.what());
+    }
+}
+
+void Hud::main_window(Panel& panel) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const float width = (session_.comparison().wiping() ? 30.0F : 21.0F) * ImGui::GetFontSize();
+    ImGui::SetNextWindowPos({10.0F, 10.0F});
+    ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, io.DisplaySize.y - 60.0F});
+    const ImGuiWindowFlags flags =
+        ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings;
+    if (ImGui::Begin("Rowland", nullptr, flags)) {
+        const auto section = [&](const char* name, void (*contents)(const Panel&), bool open) {
+            if (ImGui::CollapsingHeader(name, open ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None))
+                contents(panel);
+        };
+        ImGui::PushItemWidth(-5.0F * ImGui::GetFontSize());
+        section("Light", light_panel, true);
+        section("Picture", picture_panel, false);
+        section("Play", simulation_panel, false);
+        section("Gratings", gratings_panel, true);
+        ImGui::PopItemWidth();
+    }
+    ImGui::End();
+}
+
+void Hud::build() {
+    Panel panel{options_, session_, called_for_};
+    if (session_.comparison().wiping())
+        wipe_line(session_.comparison(), name_of_all(Side::Left), name_of_all(Side::Right));
+    if (panels_) {
+        measure_pixel();
+        meter_.poll();
+        main_window(panel);
+        if (pixel_window(target_ ? &*target_ : nullptr, meter_, session_.picture().xyz_to_working())) write_pixel();
+        hint_line();
+    }
+    if (times_) frame_window(frame_ms_, session_.picture().pass_times().latest(), times_);
+    if (help_) help_window(help_);
+}
+
+void Hud::draw_in_window() {
+    ui_.draw_in_window();
+}
+
+}  // namespace rowland::demo

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "content/demo/looks/comparison.h"
+#include "content/demo/options.h"
+#include "content/demo/pixel/pixel_meter.h"
+#include "content/demo/play/play_event.h"
+#include "content/demo/session.h"
+
+namespace rowland::demo {
+
+/// What the panels show and change. What a key does too is not done here but called for, so that it is recorded.
+struct Panel {
+    const Options& options;
+    Session& session;
+    std::vector<PlayEvent>& called_for;
+
+    void call_for(Action action) const { called_for.emplace_back(ActionEvent{action}); }
+    Comparison& comparison() const { return session.comparison(); }
+};
+
+/// A section each, within the window that is being built.
+void light_panel(const Panel& panel);
+void picture_panel(const Panel& panel);
+void simulation_panel(const Panel& panel);
+void gratings_panel(const Panel& panel);
+
+/// A control for an action, with its key in the tooltip. A check box returns nothing: the action turns it over.
+void action_button(const Panel& panel, Action action, const char* label);
+void action_check_box(const Panel& panel, Action action, const char* label, bool on);
+
+/// How an object is called: the name of the nearest node above it that has one.
+std::string name_of_object(ecs::World& world, ecs::Entity entity);
+
+}  // namespace rowland::demo

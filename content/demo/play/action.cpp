@@ -1,0 +1,124 @@
+#include "content/demo/play/action.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "content/demo/play/key_name.h"
+#include "engine/core/check.h"
+
+namespace rowland::demo {
+
+namespace {
+
+using platform::GamepadButton;
+using platform::Key;
+
+constexpr std::array kActionKeys{
+    ActionKey{Action::Walk, Key::C, "walk", "walk; again, or Esc: orbit", false, GamepadButton::North},
+    ActionKey{Action::ResetView, Key::Home, "reset view", "the first view again"},
+    ActionKey{Action::PutBack, Key::R, "put back", "put everything back where it was", false, GamepadButton::Back},
+    ActionKey{Action::Pause, Key::Space, "pause", "stop what moves by itself, or let it go on", false,
+              GamepadButton::Start},
+    ActionKey{Action::SlowMotion, Key::M, "slow motion", "a tenth of the speed, or all of it", false,
+              GamepadButton::West},
+    ActionKey{Action::OneStep, Key::N, "one step", "pause, and go on by 1/30 s", true},
+    ActionKey{Action::AddLight, Key::G, "add light", "a light before what is under the cursor, at most 64", true,
+              GamepadButton::RightBumper},
+    ActionKey{Action::RemoveLight, Key::Backspace, "remove light", "take the last added light away", true,
+              GamepadButton::LeftBumper},
+    ActionKey{Action::TurnLightLeft, Key::Comma, "turn environment left", "turn the environment left", true,
+              GamepadButton::Left},
+    ActionKey{Action::TurnLightRight, Key::Period, "turn environment right", "turn the environment right", true,
+              GamepadButton::Right},
+    ActionKey{Action::Lamp, Key::L, "lamp", "a lamp with shadow, on or off"},
+    ActionKey{Action::NextProbe, Key::P, "next probe", "the next light probe", false, GamepadButton::Up},
+    ActionKey{Action::NextView, Key::V, "next view", "the next view of the display"},
+    ActionKey{Action::LessExposure, Key::Minus, "less exposure", "a quarter of a stop darker", true},
+    ActionKey{Action::MoreExposure, Key::Equal, "more exposure", "a quarter of a stop brighter", true},
+    ActionKey{Action::Bloom, Key::Digit1, "bloom", "bloom on or off"},
+    ActionKey{Action::Vignette, Key::Digit2, "vignette", "vignette on or off"},
+    ActionKey{Action::AutoExposure, Key::Digit3, "automatic exposure", "automatic exposure on or off"},
+    ActionKey{Action::Dither, Key::Digit4, "dither", "dither on or off"},
+    ActionKey{Action::NextLook, Key::T, "next representation",
+              "the next representation of the grating under the cursor, or of all"},
+    ActionKey{Action::NextDetail, Key::Y, "next detail", "the same representation coarser or finer"},
+    ActionKey{Action::Wipe, Key::X, "wipe", "two representations side by side; drag the line between them"},
+    ActionKey{Action::Help, Key::F1, "help", "this list"},
+    ActionKey{Action::Hud, Key::F2, "panels", "show or hide all panels"},
+    ActionKey{Action::Reload, Key::F5, "reload", "load shaders and assets anew"},
+    ActionKey{Action::WritePixel, Key::F8, "write pixel", "write the measured pixel to files (CSV, JSON)"},
+    ActionKey{Action::LinearScreenshot, Key::F9, "linear screenshot", "scene-linear screenshot (EXR)"},
+    ActionKey{Action::FrameGraph, Key::F10, "times", "times of frames and passes"},
+    ActionKey{Action::FullScreen, Key::F11, "full screen", "full screen on or off"},
+    ActionKey{Action::Screenshot, Key::F12, "screenshot", "screenshot (PNG)"},
+    ActionKey{Action::Close, Key::Escape, "close", "end"}};
+
+constexpr std::array kHeldKeys{HeldKey{Held::Forward, Key::W, "walk forward"},
+                               HeldKey{Held::Left, Key::A, "walk left"},
+                               HeldKey{Held::Back, Key::S, "walk back"},
+                               HeldKey{Held::Right, Key::D, "walk right"},
+                               HeldKey{Held::Down, Key::Q, "walk down"},
+                               HeldKey{Held::Up, Key::E, "walk up"},
+                               HeldKey{Held::Fast, Key::LeftShift, "walk fast"},
+                               HeldKey{Held::Slow, Key::LeftControl, "walk slowly"},
+                               HeldKey{Held::Spin, Key::LeftShift, "and drag: spin an object about its own axis"}};
+
+const char* button_name(GamepadButton button) {
+    constexpr platform::PerEnum<GamepadButton, const char*> kNames{
+        "A",     "B",          "X",           "Y",  "left bumper", "right bumper", "back", "start",
+        "guide", "left stick", "right stick", "up", "right",       "down",         "left"};
+    return kNames[static_cast<std::size_t>(button)];
+}
+
+}  // namespace
+
+std::span<const ActionKey> action_keys() {
+    return kActionKeys;
+}
+
+const ActionKey& row_of(Action action) {
+    const auto* const row = std::find_if(kActionKeys.begin(), kActionKeys.end(),
+                                         [action](const ActionKey& key) { return key.action == action; });
+    ROWLAND_CHECK(row != kActionKeys.end(), "every action has a row");
+    return *row;
+}
+
+std::optional<Action> action_named(std::string_view name) {
+    for (const ActionKey& row : kActionKeys)
+        if (row.name == name) return row.action;
+    return std::nullopt;
+}
+
+std::span<const HeldKey> held_keys() {
+    return kHeldKeys;
+}
+
+platform::Key key_of(Held held) {
+    const auto* const row =
+        std::find_if(kHeldKeys.begin(), kHeldKeys.end(), [held](const HeldKey& key) { return key.held == held; });
+    ROWLAND_CHECK(row != kHeldKeys.end(), "everything held has a row");
+    return row->key;
+}
+
+std::vector<HelpLine> help_lines() {
+    std::vector<HelpLine> lines{{"drag an object", "turn it; let it go in motion and it turns on"},
+                                {"wheel on a held object", "spin it about its own axis"},
+                                {"drag beside objects", "orbit"},
+                                {"wheel", "nearer and farther"}};
+    for (const HeldKey& row : kHeldKeys) lines.push_back({name_of(row.key), row.help});
+    for (const ActionKey& row : kActionKeys) lines.push_back({name_of(row.key), row.help});
+    lines.push_back({"pad sticks", "orbit, or walk and look; with A held: turn the object in the middle"});
+    for (const ActionKey& row : kActionKeys)
+        if (row.button) lines.push_back({std::string("pad ") + button_name(*row.button), row.help});
+    return lines;
+}
+
+std::string help_text() {
+    std::string text;
+    for (const HelpLine& line : help_lines()) text += fmt::format("  {:<24}{}\n", line.control, line.what);
+    return text;
+}
+
+}  // namespace rowland::demo

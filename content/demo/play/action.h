@@ -1,0 +1,59 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/platform/input.h"
+
+namespace rowland::demo {
+
+/// What a key press does.
+enum class Action {
+    // clang-format off
+    Walk, ResetView, PutBack, Pause, SlowMotion, OneStep, AddLight, RemoveLight, TurnLightLeft, TurnLightRight,
+    Lamp, NextProbe, NextView, LessExposure, MoreExposure, Bloom, Vignette, AutoExposure, Dither,
+    Help, Hud, FrameGraph, NextLook, NextDetail, Wipe, WritePixel,
+    Reload, LinearScreenshot, FullScreen, Screenshot, Close,
+    // clang-format on
+};
+
+/// How an action is called for. The tables below are all that reads keys for actions and all that help is made of.
+struct ActionKey {
+    Action action;
+    platform::Key key;
+    const char* name;      ///< as recordings write it
+    const char* help;      ///< what it does, for a list of keys
+    bool repeats = false;  ///< again and again while the key is held
+    std::optional<platform::GamepadButton> button{};
+};
+
+/// One row an action, in the order of the help.
+std::span<const ActionKey> action_keys();
+const ActionKey& row_of(Action action);
+std::optional<Action> action_named(std::string_view name);
+
+/// What lasts while a key is held.
+enum class Held { Forward, Back, Left, Right, Down, Up, Fast, Slow, Spin };
+
+struct HeldKey {
+    Held held;
+    platform::Key key;
+    const char* help;
+};
+std::span<const HeldKey> held_keys();
+platform::Key key_of(Held held);
+
+/// A line of the list of controls: "F12", "screenshot".
+struct HelpLine {
+    std::string control;
+    std::string what;
+};
+/// Mouse, keys and game pad, each line from the tables that also read them.
+std::vector<HelpLine> help_lines();
+/// The lines as text in two columns.
+std::string help_text();
+
+}  // namespace rowland::demo

@@ -1,0 +1,73 @@
+#include "content/demo/play/body.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <numbers>
+
+#include "content/demo/play/pick.h"
+
+namespace rowland::demo {
+
+namespace {
+
+constexpr double kLift_s = 0.12;  ///< time constant
+
+glm::dquat idle_turn(const Body& body) {
+    if (!body.spin_axis) return {1.0, 0.0, 0.0, 0.0};
+    const double angle = std::fmod(body.idle_spin * body.state.idle_s, 2.0 * std::numbers::pi);
+    return glm::angleAxis(angle, glm::dvec3(*body.spin_axis));
+}
+
+}  // namespace
+
+glm::dquat rotation_of(const Body& body) {
+    return body.state.turned * glm::dquat(body.rest.rotation) * idle_turn(body);
+}
+
+glm::dvec3 own_axis(const Body& body) {
+    return rotation_of(body) * glm::dvec3(body.spin_axis.value_or(glm::vec3(0.0F, 1.0F, 0.0F)));
+}
+
+void turn(Body& body, const glm::dquat& rotation) {
+    body.state.turned = glm::normalize(rotation * body.state.turned);
+}
+
+void step(Body& body, double seconds) {
+    BodyState& state = body.state;
+    if (body.spin_axis && !state.touched) state.idle_s += seconds;
+    const double speed = glm::length(state.spin);
+    if (speed == 0.0) return;
+    // dw/dt = -w / decay: the angle of a step is the integral of the speed over it.
+    const double share = -std::expm1(-seconds / kSpinDecay_s);
+    turn(body, glm::angleAxis(speed * kSpinDecay_s * share, state.spin / speed));
+    constexpr double kRest = 1e-3;  // radians per second, too slow to see
+    state.spin = speed > kRest ? state.spin * (1.0 - share) : glm::dvec3(0.0);
+}
+
+void step_lift(Body& body, double seconds) {
+    const double goal = body.state.raised ? 1.0 : 0.0;
+    body.state.lift += (goal - body.state.lift) * -std::expm1(-seconds / kLift_s);
+    constexpr double kThere = 1e-4;
+    if (std::abs(goal - body.state.lift) < kThere) body.state.lift = goal;
+}
+
+scene::Transform transform_of(const Body& body, const glm::vec3& up) {
+    scene::Transform now = body.rest;
+    if (body.state == BodyState{}) return now;
+    now.rotation = glm::quat(rotation_of(body));
+    // The centre keeps its place, but for the lift.
+    const glm::vec3 arm = body.rest.scale * body.centre;
+    now.translation += body.rest.rotation * arm - now.rotation * arm;
+    now.translation += static_cast<float>(body.state.lift) * body.clearance * up;
+    return now;
+}
+
+void place(ecs::World& world, const Body& body) {
+    glm::mat4 parent(1.0F);
+    if (const auto* above = world.find<scene::Parent>(body.node)) parent = placement(world, above->entity);
+    const glm::vec3 up = glm::inverse(glm::mat3(parent)) * glm::vec3(0.0F, 1.0F, 0.0F);
+    world.get<scene::Transform>(body.node) = transform_of(body, up);
+}
+
+}  // namespace rowland::demo

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+
+#include "engine/platform/input.h"
+#include "engine/scene/camera.h"
+#include "engine/scene/fly_camera.h"
+#include "engine/scene/mesh.h"
+#include "engine/scene/orbit_camera.h"
+
+namespace rowland::demo {
+
+/// The player's camera: orbits about a point, or walks.
+class CameraControl {
+ public:
+    /// `room`: the eye stays inside while walking.
+    CameraControl(const scene::Camera& start, const scene::Bounds& room);
+
+    bool walking() const { return walking_.has_value(); }
+    void walk();
+    /// Orbits on about what is `distance` ahead.
+    void stop_walking(float distance);
+    void reset();
+
+    /// One step of `seconds`. `drags`: the mouse's drags (or, walking, its movements) are for the camera.
+    void step(const platform::InputState& input, double seconds, bool drags);
+    scene::Camera camera() const;
+
+ private:
+    void step_orbit(const platform::InputState& input, double seconds, bool drags);
+    void step_walk(const platform::InputState& input, double seconds, bool drags);
+
+    scene::Camera start_;
+    scene::Bounds room_;
+    scene::OrbitCamera orbit_;
+    std::optional<scene::FlyCamera> walking_;
+};
+
+}  // namespace rowland::demo

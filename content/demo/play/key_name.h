@@ -1,0 +1,16 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "engine/platform/input.h"
+
+namespace rowland::demo {
+
+/// What is written on a key, as "W", "F5" or "Left Shift": for help and in recordings. No two keys share a name.
+std::string name_of(platform::Key key);
+/// The key of that name; nothing if there is none.
+std::optional<platform::Key> key_named(std::string_view name);
+
+}  // namespace rowland::demo

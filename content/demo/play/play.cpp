@@ -1,0 +1,258 @@
+#include "content/demo/play/play.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <utility>
+
+#include "engine/core/check.h"
+#include "engine/core/log.h"
+#include "engine/scene/transform.h"
+
+namespace rowland::demo {
+
+namespace {
+
+using platform::GamepadButton;
+using platform::MouseButton;
+
+constexpr double kStep_s = 1.0 / kStepsPerSecond;
+constexpr double kSlowMotion = 0.1;
+constexpr int kStepsOfOneStep = kStepsPerSecond / 30;
+constexpr double kEnvironmentTurn = 5.0 / 180.0 * std::numbers::pi;
+// A held key acts again after 0.4 s, and from then on ten times a second.
+constexpr int kStepsToRepeat = kStepsPerSecond * 2 / 5;
+constexpr int kStepsBetweenRepeats = kStepsPerSecond / 10;
+constexpr auto kPadGrab = GamepadButton::South;
+
+bool acts_again(int held_steps) {
+    return held_steps > kStepsToRepeat && (held_steps - kStepsToRepeat) % kStepsBetweenRepeats == 0;
+}
+
+}  // namespace
+
+Play::Play(ecs::World& world, Toys toys, const scene::Camera& start, const scene::Bounds& room, glm::ivec2 window)
+    : world_(world),
+      toys_(std::move(toys)),
+      camera_(start, room),
+      window_(window),
+      held_steps_(action_keys().size(), 0) {
+    place_all();
+}
+
+void Play::set_pose(Pose pose) {
+    pose_ = std::move(pose);
+    place_all();
+}
+
+void Play::set_toys(Toys toys) {
+    let_go();
+    for (Body& body : toys.bodies)
+        for (const Body& before : toys_.bodies)
+            if (before.name == body.name) body.state = before.state;
+    toys_ = std::move(toys);
+    turn_environment(0.0);
+    place_all();
+}
+
+void Play::step(std::span<const PlayEvent> events) {
+    input_.begin_frame();
+    for (const PlayEvent& event : events) apply(event);
+    read_keys();
+    move_hand();
+    camera_.step(input_, kStep_s, !holding());
+    advance_time();
+    place_all();
+    ++steps_;
+}
+
+void Play::apply(const PlayEvent& event) {
+    if (const auto* input = std::get_if<platform::InputEvent>(&event)) input_.apply(*input);
+    if (const auto* resize = std::get_if<ResizeEvent>(&event)) window_ = glm::max(resize->size, glm::ivec2(1));
+    if (const auto* chosen = std::get_if<ActionEvent>(&event))
+        if (!perform(chosen->action)) actions_.push_back(chosen->action);
+}
+
+void Play::read_keys() {
+    const auto rows = action_keys();
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        platform::ButtonState state = input_.key(rows[i].key);
+        if (rows[i].button) {
+            const platform::ButtonState& button = input_.gamepad_button(*rows[i].button);
+            state.down = state.down || button.down;
+            state.pressed = state.pressed || button.pressed;
+        }
+        held_steps_[i] = state.down ? held_steps_[i] + 1 : 0;
+        const bool acts = state.pressed || (rows[i].repeats && acts_again(held_steps_[i]));
+        if (acts && !perform(rows[i].action)) actions_.push_back(rows[i].action);
+    }
+}
+
+bool Play::perform(Action action) {
+    switch (action) {
+        case Action::Walk:
+            toggle_walking();
+            return true;
+        case Action::Close:  // the key first ends what it can
+            if (!walking()) return false;
+            toggle_walking();
+            return true;
+        case Action::ResetView:
+            camera_.reset();
+            return true;
+        case Action::PutBack:
+            put_back();
+            return true;
+        case Action::Pause:
+            paused_ = !paused_;
+            return true;
+        case Action::SlowMotion:
+            slow_ = !slow_;
+            return true;
+        case Action::OneStep:
+            paused_ = true;
+            extra_steps_ += kStepsOfOneStep;
+            return true;
+        case Action::AddLight:
+            add_light();
+            return true;
+        case Action::RemoveLight:
+            if (lights_.remove(world_)) log_info("{} lights", light_count(world_));
+            return true;
+        case Action::TurnLightLeft:
+            turn_environment(kEnvironmentTurn);
+            return true;
+        case Action::TurnLightRight:
+            turn_environment(-kEnvironmentTurn);
+            return true;
+        default:
+            return false;
+    }
+}
+
+std::vector<Action> Play::take_actions() {
+    return std::exchange(actions_, {});
+}
+
+double Play::speed() const {
+    if (paused_) return 0.0;
+    return slow_ ? kSlowMotion : 1.0;
+}
+
+scene::Camera Play::camera() const {
+    scene::Camera camera = camera_.camera();
+    const glm::quat turned = world_.get<scene::Transform>(toys_.root).rotation;
+    camera.eye = turned * camera.eye;
+    camera.target = turned * camera.target;
+    return camera;
+}
+
+std::optional<std::size_t> Play::held_body() const {
+    return hand_ ? std::optional(hand_->body()) : std::nullopt;
+}
+
+glm::dvec2 Play::pointer() const {
+    // A walker looks at what lies in the middle; so does one who only has a game pad.
+    const bool middle = walking() || input_.gamepad_button(kPadGrab).down;
+    return middle ? 0.5 * glm::dvec2(window_) : input_.mouse_position();
+}
+
+std::optional<Hit> Play::hit_at(glm::dvec2 place) const {
+    return pick(world_, toys_.targets, ray_through(camera(), place, window_));
+}
+
+bool Play::holding() const {
+    return hand_.has_value();
+}
+
+void Play::try_to_grab() {
+    const auto hit = hit_at(pointer());
+    if (!hit) return;
+    const auto body = toys_.body_of_target[hit->target];
+    if (body) hand_.emplace(world_, *body, toys_.bodies[*body], hit->point, camera(), window_.y);
+}
+
+void Play::let_go() {
+    if (hand_) hand_->let_go(toys_.bodies[hand_->body()]);
+    hand_.reset();
+}
+
+void Play::move_hand() {
+    const platform::ButtonState& button = input_.mouse_button(MouseButton::Left);
+    const platform::ButtonState& pad = input_.gamepad_button(kPadGrab);
+    if (!hand_ && (button.pressed || pad.pressed)) try_to_grab();
+    if (!hand_) return;
+    constexpr float kPadPixelsPerSecond = 400.0F;
+    const glm::vec2 mouse =
+        walking() ? glm::vec2(input_.mouse_delta()) : glm::vec2(input_.mouse_drag(MouseButton::Left));
+    const glm::vec2 stick =
+        glm::vec2(input_.right_stick().x, -input_.right_stick().y) * kPadPixelsPerSecond * static_cast<float>(kStep_s);
+    const HandMove move{.drag = mouse + stick,
+                        .wheel = static_cast<float>(input_.scroll().y),
+                        .about_own_axis = input_.key(key_of(Held::Spin)).down};
+    const bool opens = !button.down && !pad.down;
+    // A step that only lets go says nothing of the hand's speed.
+    if (!opens || move.drag != glm::vec2(0.0F)) hand_->move(world_, toys_.bodies[hand_->body()], move, kStep_s);
+    if (opens) let_go();
+}
+
+void Play::advance_time() {
+    const int whole_steps = paused_ ? std::min(extra_steps_, 1) : 1;
+    extra_steps_ = paused_ ? extra_steps_ - whole_steps : 0;
+    const double seconds = kStep_s * whole_steps * (slow_ ? kSlowMotion : 1.0);
+    time_s_ += seconds;
+    for (Body& body : toys_.bodies) {
+        if (seconds > 0.0) demo::step(body, seconds);
+        step_lift(body, kStep_s);
+    }
+}
+
+void Play::place_all() {
+    if (pose_) pose_(*this);
+    for (const Body& body : toys_.bodies)
+        if (world_.alive(body.node)) place(world_, body);
+}
+
+void Play::rest() {
+    for (const Body& body : toys_.bodies)
+        if (world_.alive(body.node)) world_.get<scene::Transform>(body.node) = body.rest;
+}
+
+void Play::put_back() {
+    hand_.reset();
+    for (Body& body : toys_.bodies) body.state = {};
+}
+
+void Play::add_light() {
+    // In front of what is pointed at, as far from it as it takes to light a good part of what is in view.
+    constexpr float kShareOfDistance = 0.25F;
+    const scene::Camera seen_from = camera();
+    const Ray ray = ray_through(seen_from, pointer(), window_);
+    const auto hit = pick(world_, toys_.targets, ray);
+    const float distance = hit ? hit->triangle.distance : glm::length(seen_from.target - seen_from.eye);
+    const float reach = kShareOfDistance * distance;
+    const glm::vec3 place = ray.origin + (distance - reach) * ray.direction + glm::vec3(0.0F, 0.5F * reach, 0.0F);
+    const glm::quat turned = world_.get<scene::Transform>(toys_.root).rotation;
+    if (lights_.add(world_, toys_.root, glm::conjugate(turned) * place, reach))
+        log_info("{} lights", light_count(world_));
+    else
+        log_info("{} lights are the most", light_count(world_));
+}
+
+void Play::turn_environment(double radians) {
+    turn_ = std::remainder(turn_ + radians, 2.0 * std::numbers::pi);
+    // The environment stays and everything else turns the other way: the same picture.
+    world_.get<scene::Transform>(toys_.root).rotation = glm::quat(glm::angleAxis(-turn_, glm::dvec3(0.0, 1.0, 0.0)));
+}
+
+void Play::toggle_walking() {
+    if (!walking()) {
+        camera_.walk();
+        return;
+    }
+    const auto ahead = hit_at(0.5 * glm::dvec2(window_));
+    camera_.stop_walking(ahead ? std::max(ahead->triangle.distance, 0.05F) : 1.0F);
+}
+
+}  // namespace rowland::demo

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <chrono>
+#include <vector>
+
+#include "content/demo/play/play.h"
+#include "content/demo/play/recording.h"
+#include "engine/platform/frame_pacing.h"
+
+namespace rowland::demo {
+
+/// Cuts frames into the steps of a play and deals their events out to them.
+class PlayClock {
+ public:
+    /// Lives through a frame of that length in which `events` happened; those of frames shorter than a step wait for
+    /// the next. What the play gets is also recorded, if there is a recorder.
+    void live(Play& play, std::chrono::nanoseconds frame, std::vector<PlayEvent> events, Recorder* recorder);
+
+    /// Plays a frame of that length from a recording, which began with the play; false once it is over.
+    bool replay(Play& play, std::chrono::nanoseconds frame, const Recording& recording);
+
+ private:
+    // A picture a second is the slowest at which a hand still keeps its speed.
+    platform::FixedStep pace_{kStepsPerSecond, std::chrono::seconds(1)};
+    std::vector<PlayEvent> waiting_;
+};
+
+}  // namespace rowland::demo

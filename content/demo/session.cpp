@@ -1,0 +1,194 @@
+#include "content/demo/session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/core/error.h"
+#include "engine/core/log.h"
+#include "engine/scene/transform.h"
+#include "engine/view/capture.h"
+
+namespace rowland::demo {
+
+namespace {
+
+constexpr float kExposureStep = 0.25F;
+constexpr int kFramesBetweenShaderLooks = 10;
+
+/// Runs something that bad input may refuse; all goes on as it was.
+template <typename F>
+void attempt(F&& action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        log_error("{}", error.what());
+    }
+}
+
+template <typename T>
+void toggle(std::optional<T>& effect, const T& settings = {}) {
+    if (effect)
+        effect.reset();
+    else
+        effect = settings;
+}
+
+}  // namespace
+
+Session::Session(const Options& options, const post::OcioConfig& config, glm::ivec2 pixels, glm::ivec2 window,
+                 Pace pace)
+    : options_(options),
+      config_(config),
+      picture_(open_picture(options, config, pixels, pace)),
+      assets_(open_assets(options, picture_->renderer().gltf_extensions())),
+      scene_(options, assets_, picture_->renderer(), picture_->xyz_to_working()),
+      play_(scene_.world(), scene_.toys(), scene_.camera(), scene_.room(), window),
+      comparison_(scene_.world(), picture_->xyz_to_working()),
+      shaders_(picture_->shader_sources(options.shader_folder)),
+      probe_paths_(probe_paths(options)),
+      views_(config.views(config.default_display())),
+      view_(options.view.empty() ? config.default_view(config.default_display()) : options.view) {
+    play_.set_pose([this](const Play& play) { scene_.pose(play); });
+    use_probe(probe_paths_[0]);
+}
+
+std::vector<Action> Session::carry_out() {
+    std::vector<Action> left;
+    for (const Action action : play_.take_actions())
+        if (!perform(action)) left.push_back(action);
+    return left;
+}
+
+bool Session::perform(Action action) {
+    post::PostSettings& post = picture_->post_settings();
+    switch (action) {
+        case Action::Lamp:
+            scene_.set_sun(!scene_.sun());
+            return true;
+        case Action::NextProbe:
+            attempt([this] { next_probe(); });
+            return true;
+        case Action::NextView:
+            attempt([this] { next_view(); });
+            return true;
+        case Action::LessExposure:
+            post.exposure_stops -= kExposureStep;
+            return true;
+        case Action::MoreExposure:
+            post.exposure_stops += kExposureStep;
+            return true;
+        case Action::Bloom:
+            toggle(post.bloom);
+            return true;
+        case Action::Vignette:
+            toggle(post.vignette, {.vertical_fov = kFieldOfView, .strength = 0.5F});
+            return true;
+        case Action::AutoExposure:
+            toggle(post.auto_exposure);
+            return true;
+        case Action::Dither:
+            toggle(post.dither);
+            return true;
+        case Action::Reload:
+            reload_shaders();
+            assets_.reload_all();
+            return true;
+        case Action::Screenshot:
+        case Action::LinearScreenshot:
+            screenshots_.push_back(action);
+            return true;
+        default:
+            return false;
+    }
+}
+
+void Session::next_probe() {
+    const std::size_t next = (probe_index_ + 1) % probe_paths_.size();
+    use_probe(probe_paths_[next]);
+    probe_index_ = next;
+}
+
+void Session::use_probe(const std::filesystem::path& path) {
+    probe_ = assets_.probe(path);
+    probe_path_ = path;
+    picture_->set_probe(*probe_);
+    probe_version_ = probe_.version();
+    ++probe_changes_;
+}
+
+void Session::next_view() {
+    const auto at = std::find(views_.begin(), views_.end(), view_);
+    use_view(at == views_.end() || at + 1 == views_.end() ? views_.front() : *(at + 1));
+}
+
+void Session::use_view(const std::string& view) {
+    picture_->set_view(config_, view);
+    view_ = view;
+    log_info("view {}", view_);
+}
+
+void Session::reload_shaders() {
+    shader_failure_.clear();
+    try {
+        picture_->reload_shaders(options_.shader_folder);
+        log_info("shaders reloaded from {}", options_.shader_folder.string());
+    } catch (const Error& error) {
+        shader_failure_ = error.what();
+        log_error("{}", shader_failure_);
+    }
+}
+
+void Session::follow_files() {
+    if (assets_.poll()) take_over();
+    if (probe_version_ != probe_.version()) {
+        picture_->set_probe(*probe_);
+        probe_version_ = probe_.version();
+        ++probe_changes_;
+    }
+    shader_age_ += 1;
+    if (shader_age_ % kFramesBetweenShaderLooks == 0 && shaders_.changed()) reload_shaders();
+}
+
+void Session::take_over() {
+    play_.rest();
+    if (scene_.refresh())
+        play_.set_toys(scene_.toys());
+    else
+        play_.place_all();
+}
+
+void Session::draw(float seconds) {
+    draw_from(play_.camera(), seconds);
+    take_screenshots();
+}
+
+void Session::draw_from(const scene::Camera& camera, float seconds) {
+    scene::update_world_matrices(scene_.world());
+    comparison_.update();
+    picture_->draw(scene_.world(), camera, seconds);
+}
+
+void Session::take_screenshots() {
+    for (const Action action : std::exchange(screenshots_, {}))
+        attempt([&] { write_screenshot(action == Action::LinearScreenshot); });
+}
+
+void Session::write_screenshot(bool linear) {
+    const std::filesystem::path path =
+        options_.output_folder / fmt::format("screenshot_{:04}.{}", screenshots_taken_++, linear ? "exr" : "png");
+    if (linear)
+        view::write_linear_capture(picture_->linear(), path);
+    else
+        view::write_display_capture(picture_->encoded(), path);
+    log_info("wrote {}", path.string());
+}
+
+std::string Session::failure() const {
+    if (!shader_failure_.empty()) return shader_failure_;
+    if (const auto failures = assets_.failures(); !failures.empty()) return failures.front();
+    return scene_.failures().empty() ? std::string() : scene_.failures().front();
+}
+
+}  // namespace rowland::demo

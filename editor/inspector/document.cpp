@@ -1,0 +1,170 @@
+#include "editor/inspector/document.h"
+
+#include <utility>
+
+#include "engine/core/error.h"
+#include "engine/core/file.h"
+#include "modules/diffraction/asset/material_json.h"
+
+namespace rowland::inspector {
+
+namespace {
+
+constexpr std::uint64_t kLargestMaterial = 1 << 20;
+constexpr std::size_t kMostSteps = 1000;
+
+/// What the module makes of it.
+diffraction::Material parse(const Json& material, const std::string& file, const std::filesystem::path& folder) {
+    return diffraction::parse_material(nlohmann::json::parse(material.dump()), file, diffraction::read_beside(folder));
+}
+
+/// A name relative to one folder, relative to another.
+void move_name(Json& name, const std::filesystem::path& from, const std::filesystem::path& to) {
+    if (!name.is_string()) return;
+    const std::filesystem::path file = name.get<std::string>();
+    if (file.empty() || file.is_absolute()) return;
+    name = std::filesystem::proximate(from / file, to).string();
+}
+
+/// The material with the files it names named from another folder.
+Json moved(Json material, const std::filesystem::path& from, const std::filesystem::path& to) {
+    Json& profile = material["grating"]["profile"];
+    if (profile.contains("file")) move_name(profile["file"], from, to);
+    if (!material.contains("quality")) return material;
+    Json& quality = material["quality"];
+    if (quality.contains("illuminant") && quality["illuminant"].get<std::string>().ends_with(".csv"))
+        move_name(quality["illuminant"], from, to);
+    if (quality.contains("probes"))
+        for (Json& probe : quality["probes"]) move_name(probe.is_object() ? probe["image"] : probe, from, to);
+    return material;
+}
+
+std::filesystem::path folder_of(const std::filesystem::path& path) {
+    return std::filesystem::absolute(path).parent_path();
+}
+
+}  // namespace
+
+Document::Document(Json material, std::string name, std::filesystem::path folder)
+    : name_(std::move(name)),
+      folder_(std::move(folder)),
+      material_(parse(material, name_, folder_)),
+      good_json_(material) {
+    steps_.push_back(std::move(material));
+}
+
+Document Document::open(const std::filesystem::path& path) {
+    Document document = open_as_new(path);
+    document.path_ = path;
+    document.saved_ = document.json();
+    return document;
+}
+
+Document Document::open_as_new(const std::filesystem::path& path) {
+    const std::string text = read_text_file(path, kLargestMaterial);
+    return make_new(parse_ordered(text, path.string()), path.filename().string(), folder_of(path));
+}
+
+Document Document::make_new(Json material, std::string name, std::filesystem::path folder) {
+    return Document(std::move(material), std::move(name), std::move(folder));
+}
+
+void Document::set_value(const Field& field, const Json& value) {
+    const bool pitch = &field == &field_at("/grating/pitch_nm") && value.is_number();
+    edit(pitch ? with_pitch(json(), value.get<double>()) : with_value(json(), field, value), &field);
+}
+
+void Document::set_choice(const Field& field, const std::string& name) {
+    edit(with_choice(json(), field, name), nullptr);
+}
+
+void Document::revert(const Field& field) {
+    edit(reverted(json(), field), nullptr);
+}
+
+void Document::replace_quality(const Json& quality) {
+    edit(with_value(json(), field_at("/quality"), quality), nullptr);
+}
+
+void Document::edit(Json edited, const Field* field) {
+    if (edited == json()) return;
+    steps_.resize(at_ + 1);
+    const bool goes_on = field != nullptr && field == editing_ && at_ > 0;
+    if (goes_on) {
+        steps_[at_] = std::move(edited);
+    } else {
+        steps_.push_back(std::move(edited));
+        if (steps_.size() > kMostSteps) steps_.erase(steps_.begin());
+        at_ = steps_.size() - 1;
+    }
+    editing_ = field;
+    reparse();
+}
+
+void Document::undo() {
+    if (!can_undo()) return;
+    --at_;
+    editing_ = nullptr;
+    reparse();
+}
+
+void Document::redo() {
+    if (!can_redo()) return;
+    ++at_;
+    editing_ = nullptr;
+    reparse();
+}
+
+void Document::reparse() {
+    refusal_.reset();
+    if (json() == good_json_) return;
+    try {
+        material_ = parse(json(), name_, folder_);
+        good_json_ = json();
+        ++version_;
+    } catch (const Error& error) {
+        const Field* field = field_of_refusal(error.info().place);
+        // A file that the material names is refused by its own rows.
+        if (field == nullptr && error.info().file != name_) field = &field_at("/grating/profile/file");
+        refusal_ = Refusal{field, error.what()};
+    }
+}
+
+void Document::require_sane() const {
+    if (refusal_)
+        throw Error({.file = name_,
+                     .place = {},
+                     .found = refusal_->message,
+                     .expected = "a material that can be cooked",
+                     .remedy = "nothing was written; mend the field or undo"});
+}
+
+void Document::save() {
+    require_sane();
+    if (path_.empty())
+        throw Error({.file = name_,
+                     .place = {},
+                     .found = "a new material",
+                     .expected = "a place to save it",
+                     .remedy = "save it under a name"});
+    write_file_atomic(path_, format_json(json()));
+    saved_ = json();
+    editing_ = nullptr;
+}
+
+void Document::save_as(const std::filesystem::path& path) {
+    require_sane();
+    const std::filesystem::path folder = folder_of(path);
+    Json there = moved(json(), folder_, folder);
+    write_file_atomic(path, format_json(there));
+    path_ = path;
+    name_ = path.filename().string();
+    folder_ = folder;
+    if (there != json()) {
+        edit(std::move(there), nullptr);
+    }
+    saved_ = json();
+    editing_ = nullptr;
+}
+
+}  // namespace rowland::inspector

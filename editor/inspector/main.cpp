@@ -1,0 +1,44 @@
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <thread>
+
+#include "editor/inspector/capture.h"
+#include "editor/inspector/options.h"
+#include "editor/inspector/window_loop.h"
+#include "engine/core/error.h"
+#include "engine/core/parallel.h"
+#include "engine/core/program.h"
+#include "engine/platform/window.h"
+#include "engine/post/ocio_config.h"
+
+namespace rowland::inspector {
+namespace {
+
+int run(int argc, char** argv) {
+    const std::optional<Options> options = parse_options(argc, argv);
+    if (!options) return 0;
+    const post::OcioConfig config = post::OcioConfig::choose(options->ocio_config);
+    if (options->capture) {
+        capture(*options, config);
+        return 0;
+    }
+    if (!platform::display_available())
+        throw Error({.file = "rowland-inspector",
+                     .place = {},
+                     .found = "no display",
+                     .expected = "X11 or Wayland",
+                     .remedy = "write a picture with --capture FILE",
+                     .fault = Fault::System});
+    // A core is left for the frames.
+    const ThreadLimit limit(std::max(1U, std::thread::hardware_concurrency() - 1));
+    run_in_window(*options, config);
+    return 0;
+}
+
+}  // namespace
+}  // namespace rowland::inspector
+
+int main(int argc, char** argv) {
+    return rowland::run_program([&] { return rowland::inspector::run(argc, argv); });
+}

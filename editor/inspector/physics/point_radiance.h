@@ -1,0 +1,45 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "engine/lighting/probe_image.h"
+#include "modules/diffraction/asset/cooked_material.h"
+#include "modules/diffraction/evaluate/evaluation_light.h"
+#include "modules/diffraction/model/frame.h"
+
+namespace rowland::inspector {
+
+/// What the listed orders send to the eye from one point.
+struct PointRadiance {
+    std::vector<double> spectrum;  ///< relative radiance per nm at 380, 381, … 780 nm
+    glm::dvec3 reference{0.0};     ///< XYZ by the reference
+    glm::dvec3 drawn{0.0};         ///< XYZ by the material's representation
+};
+
+/// The probe is what `light` was made of, or turned; its white has the material's illuminant. The frame must be valid.
+PointRadiance point_radiance(const diffraction::CookedMaterial& cooked, const lighting::ProbeImage& probe,
+                             const diffraction::EvaluationLight& light, const diffraction::Frame& frame);
+
+/// Spectral radiance Σ_m η_m(λ) Σ_c E_c(λ) A_c(mλ/d − v_g), the integrand of PHYSICS §4, every nanometre from 380 to
+/// 780. The mirror's order, a δ in wavelength and direction alike, is left out.
+std::vector<double> spectrum_at(const diffraction::Material& material, const lighting::ProbeImage& probe,
+                                const diffraction::Frame& frame);
+
+/// Luminance Y over the angle of view, in the plane across the grooves: how well a representation follows the
+/// reference.
+struct ViewSweep {
+    std::vector<double> angles_deg;
+    std::vector<double> reference;
+    std::vector<double> harmonics;  ///< by `bands` bands of SH alone, without key lights
+    std::vector<double> drawn;      ///< by the material's representation
+    int bands = 0;
+};
+
+/// A sweep of `views` views from −80° to 80° over a surface of the frame's normal and grating vector.
+ViewSweep view_sweep(const diffraction::CookedMaterial& cooked, const lighting::ProbeImage& probe,
+                     const diffraction::EvaluationLight& light, const diffraction::Frame& surface, int bands,
+                     int views = 81);
+
+}  // namespace rowland::inspector

@@ -1,0 +1,167 @@
+#include "editor/inspector/price_panel.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "editor/inspector/plot.h"
+
+namespace rowland::inspector {
+
+namespace {
+
+constexpr std::size_t kFrontSeries = 0;
+constexpr std::size_t kPresentSeries = 1;
+
+/// The choices that nothing beats, the cheapest first.
+std::vector<PricedChoice> front(const PriceList& list) {
+    std::vector<PricedChoice> result;
+    for (const PricedChoice& choice : list.choices)
+        if (choice.on_front && choice.candidate) result.push_back(choice);
+    std::sort(result.begin(), result.end(),
+              [](const PricedChoice& a, const PricedChoice& b) { return a.price < b.price; });
+    return result;
+}
+
+std::string words_of(const PricedChoice& choice) {
+    std::string text = choice.settings.value("representation", "?");
+    for (const auto& [key, value] : choice.settings.items())
+        if (key != "representation" && key != "illuminant" && key != "max_error")
+            text += fmt::format("  {} {}", key, value.dump());
+    return text;
+}
+
+std::string bytes_in_words(std::size_t bytes) {
+    const auto size = static_cast<double>(bytes);
+    if (size < 1024.0) return fmt::format("{} B", bytes);
+    return size < 1024.0 * 1024.0 ? fmt::format("{:.1f} KiB", size / 1024.0)
+                                  : fmt::format("{:.1f} MiB", size / 1024.0 / 1024.0);
+}
+
+void draw_numbers(const PriceList& list, const Session& session, double frame_ms) {
+    const auto& cooked = session.cooked();
+    if (!cooked) return;
+    const diffraction::ShadingCost cost = diffraction::shading_cost(cooked->tables);
+    const auto present = std::find_if(list.choices.begin(), list.choices.end(),
+                                      [](const PricedChoice& choice) { return choice.present; });
+    const bool measured = present != list.choices.end() && session.prices_are_current();
+    const auto row = [](const char* name, const std::string& value) {
+        ImGui::TextDisabled("%s", name);
+        ImGui::SameLine(9.0F * ImGui::GetFontSize());
+        ImGui::TextUnformatted(value.c_str());
+    };
+    row("Representation", diffraction::representation_name(cooked->tables.index()));
+    row("Measured error", measured ? fmt::format("{:.4f} relative RMS", present->error) : "not measured");
+    row("Price", measured ? fmt::format("{:.4g} fetches a pixel", present->price) : "not measured");
+    row("Tables", fmt::format("{} ({} B)", bytes_in_words(cost.table_bytes), cost.table_bytes));
+    row("A pixel", fmt::format("{} fetches, {} multiply-adds", cost.fetches_per_pixel, cost.multiply_adds_per_pixel));
+    row("A vertex",
+        fmt::format("{} fetches, {} multiply-adds", cost.fetches_per_vertex, cost.multiply_adds_per_vertex));
+    row("A light", fmt::format("{} fetches, {} multiply-adds", cost.fetches_per_light, cost.multiply_adds_per_light));
+    row("A frame here", fmt::format("{:.1f} ms, the median", frame_ms));
+}
+
+void draw_plot(const PriceList& list, float height) {
+    double cheapest = std::numeric_limits<double>::infinity();
+    double dearest = 0.0;
+    double best = std::numeric_limits<double>::infinity();
+    double worst = 0.0;
+    for (const PricedChoice& choice : list.choices) {
+        cheapest = std::min(cheapest, choice.price);
+        dearest = std::max(dearest, choice.price);
+        if (choice.error > 0.0) best = std::min(best, choice.error);
+        if (std::isfinite(choice.error)) worst = std::max(worst, choice.error);
+    }
+    if (!(dearest > 0.0 && worst > 0.0)) {
+        cheapest = best = 0.1;
+        dearest = worst = 1.0;
+    }
+    Plot plot("##prices", height, {0.7 * cheapest, 1.4 * dearest, "price: fetches a pixel", true},
+              {0.6 * best, 1.7 * worst, "error", true});
+    std::vector<glm::dvec2> line;
+    for (const PricedChoice& choice : list.choices)
+        if (choice.candidate && !choice.on_front) plot.marker(choice.price, choice.error, 6);
+    for (const PricedChoice& choice : front(list)) {
+        line.emplace_back(choice.price, choice.error);
+        plot.marker(choice.price, choice.error, kFrontSeries);
+    }
+    plot.line(line, kFrontSeries);
+    const float font = ImGui::GetFontSize();
+    for (const PricedChoice& choice : list.choices) {
+        const ImVec2 at = plot.at(choice.price, choice.error);
+        if (choice.present) plot.draw().AddCircle(at, 0.5F * font, series_colour(kPresentSeries), 0, 2.0F);
+        const ImVec2 mouse = ImGui::GetIO().MousePos;
+        if (plot.hovered() && std::hypot(mouse.x - at.x, mouse.y - at.y) < 0.4F * font)
+            ImGui::SetTooltip("%s\nerror %.4f, %.4g fetches a pixel, %s", words_of(choice).c_str(), choice.error,
+                              choice.price, bytes_in_words(choice.cost.table_bytes).c_str());
+    }
+    plot.legend("nothing is cheaper and better", kFrontSeries);
+    plot.legend("present", kPresentSeries);
+}
+
+/// The place on the front of what the material pins.
+int present_place(const std::vector<PricedChoice>& choices, const Document& document) {
+    nlohmann::json pinned = nlohmann::json::object();
+    if (document.json().contains("quality")) pinned = nlohmann::json::parse(document.json()["quality"].dump());
+    pinned.erase("max_error");
+    for (std::size_t i = 0; i < choices.size(); ++i)
+        if (choices[i].settings == pinned) return static_cast<int>(i);
+    return -1;
+}
+
+void draw_slider(Session& session, const PriceList& list, ControlMap& controls) {
+    const std::vector<PricedChoice> choices = front(list);
+    if (choices.empty()) return;
+    int place = present_place(choices, session.document());
+    const std::string name = place < 0 ? "as the material says" : words_of(choices[static_cast<std::size_t>(place)]);
+    ImGui::TextDisabled("cheaper");
+    ImGui::SameLine();
+    const float font = ImGui::GetFontSize();
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - 7.0F * font);
+    int wanted = std::max(place, 0);
+    if (ImGui::SliderInt("##front", &wanted, 0, static_cast<int>(choices.size()) - 1, "", ImGuiSliderFlags_NoInput) &&
+        wanted != place)
+        session.choose_priced(choices[static_cast<std::size_t>(wanted)]);
+    controls.mark("cheaper or more accurate");
+    ImGui::SameLine();
+    ImGui::TextDisabled("more accurate");
+    ImGui::TextUnformatted(name.c_str());
+}
+
+}  // namespace
+
+void PricePanel::draw(Session& session, double frame_ms, ControlMap& controls) {
+    const PriceList list = session.prices();
+    const float font = ImGui::GetFontSize();
+    if (session.pricing()) {
+        if (ImGui::Button("Stop")) session.stop_pricing();
+        ImGui::SameLine();
+        const float share = list.total == 0 ? 0.0F : static_cast<float>(list.done) / static_cast<float>(list.total);
+        ImGui::ProgressBar(share, {-1.0F, 0.0F},
+                           list.total == 0 ? "the reference" : fmt::format("{} of {}", list.done, list.total).c_str());
+    } else {
+        if (ImGui::Button("Measure all choices")) session.price();
+        controls.mark("measure");
+        ImGui::SameLine();
+        ImGui::SetNextItemWidth(7.0F * font);
+        ImGui::DragFloat("##budget", &budget_, 0.001F, 0.002F, 1.0F, "error ≤ %.3f", ImGuiSliderFlags_Logarithmic);
+        controls.mark("budget");
+        ImGui::SameLine();
+        if (ImGui::Button("Cook to budget")) session.cook_to_budget(static_cast<double>(budget_));
+        controls.mark("cook to budget");
+    }
+    if (!list.choices.empty() && !session.prices_are_current())
+        ImGui::TextDisabled("Measured for an earlier edit; measure again.");
+    ImGui::Columns(2, "##price", false);
+    ImGui::SetColumnWidth(0, 22.0F * font);
+    draw_numbers(list, session, frame_ms);
+    ImGui::NextColumn();
+    draw_plot(list, std::max(7.0F * font, ImGui::GetContentRegionAvail().y - 3.6F * font));
+    draw_slider(session, list, controls);
+    ImGui::Columns(1);
+}
+
+}  // namespace rowland::inspector

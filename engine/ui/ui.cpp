@@ -1,0 +1,150 @@
+#include "engine/ui/ui.h"
+
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <string>
+
+#include "engine/core/check.h"
+#include "engine/core/error.h"
+#include "engine/core/file.h"
+#include "engine/core/log.h"
+#include "engine/ui/feed_input.h"
+#include "engine/ui/style.h"
+
+namespace rowland::ui {
+
+namespace {
+
+constexpr std::uint64_t kLargestLayoutFile = 1 << 20;
+
+/// ImGui divides by the time between frames.
+constexpr double kShortestFrame_s = 1e-4;
+
+void load_layout(const std::filesystem::path& path) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored)) return;
+    try {
+        const std::string text = read_text_file(path, kLargestLayoutFile);
+        ImGui::LoadIniSettingsFromMemory(text.data(), text.size());
+    } catch (const Error& error) {
+        log_warning("{}", error.what());
+    }
+}
+
+}  // namespace
+
+struct Ui::State {
+    ImGuiContext* context = nullptr;
+    UiOptions options;
+    InputFeed feed;
+    bool in_frame = false;
+    bool scale_changed = false;
+};
+
+Ui::Ui(const UiOptions& options) : state_(std::make_unique<State>()) {
+    state_->options = options;
+    state_->context = ImGui::CreateContext();
+    ImGui::SetCurrentContext(state_->context);
+    ImGuiIO& io = ImGui::GetIO();
+    // Layouts are ours to read and write: whole, and where we say.
+    io.IniFilename = nullptr;
+    io.LogFilename = nullptr;
+    io.BackendPlatformName = "rowland";
+    io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
+    io.ConfigWindowsMoveFromTitleBarOnly = true;
+    map_keys(io);
+    set_scale(options.scale);
+    if (options.layout_file) load_layout(*options.layout_file);
+    ImGui_ImplOpenGL3_Init("#version 450 core");
+}
+
+Ui::~Ui() {
+    ImGui::SetCurrentContext(state_->context);
+    if (state_->in_frame) ImGui::EndFrame();
+    save_layout();
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui::DestroyContext(state_->context);
+}
+
+void Ui::save_layout() {
+    if (!state_->options.layout_file) return;
+    try {
+        write_file_atomic(*state_->options.layout_file, std::string(ImGui::SaveIniSettingsToMemory()));
+    } catch (const Error& error) {
+        log_warning("{}", error.what());
+    }
+}
+
+void Ui::set_scale(float scale) {
+    state_->options.scale = std::clamp(scale, kSmallestScale, kLargestScale);
+    state_->scale_changed = true;
+}
+
+float Ui::scale() const {
+    return state_->options.scale;
+}
+
+void Ui::begin_frame(const platform::InputState& input, const UiFrame& frame) {
+    ImGui::SetCurrentContext(state_->context);
+    if (state_->in_frame) ImGui::EndFrame();
+    ImGuiIO& io = ImGui::GetIO();
+    if (state_->scale_changed) {
+        state_->scale_changed = false;
+        ImGui::GetStyle() = make_style(state_->options.scale);
+        load_font(io, state_->options.scale);
+        ImGui_ImplOpenGL3_DestroyDeviceObjects();  // NewFrame makes them anew, with the new font
+    }
+    const glm::vec2 size(frame.size);
+    io.DisplaySize = {size.x, size.y};
+    if (frame.size.x > 0 && frame.size.y > 0)
+        io.DisplayFramebufferScale = {static_cast<float>(frame.framebuffer_size.x) / size.x,
+                                      static_cast<float>(frame.framebuffer_size.y) / size.y};
+    io.DeltaTime = static_cast<float>(std::max(frame.seconds, kShortestFrame_s));
+    state_->feed.feed(input, io);
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui::NewFrame();
+    state_->in_frame = true;
+    if (io.WantSaveIniSettings) {
+        io.WantSaveIniSettings = false;
+        save_layout();
+    }
+}
+
+bool Ui::wants_mouse() const {
+    ImGui::SetCurrentContext(state_->context);
+    return ImGui::GetIO().WantCaptureMouse;
+}
+
+bool Ui::wants_keyboard() const {
+    ImGui::SetCurrentContext(state_->context);
+    const ImGuiIO& io = ImGui::GetIO();
+    // A window keeps ImGui's own wish for keys after a click into it; ours ends when nothing is highlighted or typed.
+    return io.WantTextInput || io.NavVisible || ImGui::IsAnyItemActive();
+}
+
+bool Ui::wants_text() const {
+    ImGui::SetCurrentContext(state_->context);
+    return ImGui::GetIO().WantTextInput;
+}
+
+void Ui::render() {
+    ROWLAND_CHECK(state_->in_frame, "a user interface is drawn once for each frame that was begun");
+    ImGui::SetCurrentContext(state_->context);
+    state_->in_frame = false;
+    ImGui::Render();
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+void Ui::draw(const gpu::Framebuffer& target) {
+    target.bind();
+    render();
+}
+
+void Ui::draw_in_window() {
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    render();
+}
+
+}  // namespace rowland::ui

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <memory>
+#include <optional>
+
+#include "engine/gpu/framebuffer.h"
+#include "engine/platform/input.h"
+
+namespace rowland::ui {
+
+struct UiOptions {
+    float scale = 1.0F;  ///< enlarges text and controls, kSmallestScale to kLargestScale
+    std::optional<std::filesystem::path> layout_file = {};  ///< where windows were left; none: forgotten
+};
+inline constexpr float kSmallestScale = 0.5F;
+inline constexpr float kLargestScale = 4.0F;
+
+/// Where a frame is drawn.
+struct UiFrame {
+    glm::ivec2 size{0};              ///< screen coordinates, which the mouse has too (platform::Window::size())
+    glm::ivec2 framebuffer_size{0};  ///< pixels
+    double seconds = 0.0;            ///< since the last frame
+};
+
+/// Dear ImGui on our own input and context: what is recorded plays back, and tests need no window. The context must be
+/// current from construction to destruction. Between begin_frame() and draw() any ImGui:: function may be called.
+///
+///     window.poll(input);
+///     ui.begin_frame(input, {window.size(), window.framebuffer_size(), seconds});
+///     if (!ui.wants_mouse()) ...         // the scene takes the mouse
+///     if (!ui.wants_keyboard()) ...      // and the keys
+///     if (ImGui::Begin("Panel") && ImGui::Button("Press")) ...
+///     ImGui::End();
+///     ...                                // draw the scene
+///     ui.draw(target);                   // over it; or draw_in_window()
+class Ui {
+ public:
+    /// A layout file that is not there yet, or holds nonsense, is an empty layout.
+    explicit Ui(const UiOptions& options = {});
+    /// Saves the layout; failures are logged.
+    ~Ui();
+    Ui(const Ui&) = delete;
+    Ui& operator=(const Ui&) = delete;
+
+    /// `input` as of this frame. Ends a frame that was begun and never drawn.
+    void begin_frame(const platform::InputState& input, const UiFrame& frame);
+
+    /// Whether this frame's mouse is over, or was pressed on, something of the user interface.
+    bool wants_mouse() const;
+    /// Whether keys move through controls or are typed into one. Tab, F10 and the like may still be the program's.
+    bool wants_keyboard() const;
+    /// Whether a text field has the keyboard: no key is the program's.
+    bool wants_text() const;
+
+    /// Draws the frame over what is in `target`, of the frame's framebuffer size, and leaves GL's state as it was
+    /// but for the bound framebuffer.
+    void draw(const gpu::Framebuffer& target);
+    /// The same into the window's own framebuffer.
+    void draw_in_window();
+
+    /// Takes effect with the next frame; clamped to the range of UiOptions.
+    void set_scale(float scale);
+    float scale() const;
+
+ private:
+    struct State;
+    void render();
+    void save_layout();
+
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace rowland::ui

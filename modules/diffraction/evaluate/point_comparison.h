@@ -1,0 +1,61 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/lighting/probe_image.h"
+#include "engine/math/sh_window.h"
+#include "modules/diffraction/asset/cooked_material.h"
+#include "modules/diffraction/evaluate/evaluation_light.h"
+#include "modules/diffraction/evaluate/point_shader.h"
+#include "modules/diffraction/model/frame.h"
+
+namespace rowland::diffraction {
+
+/// XYZ of one point's listed orders under a probe: no base layer, no mirror, no other lights.
+struct PointComparison {
+    glm::dvec3 shown{0.0};      ///< as the material's representation shades it, as evaluate_baked()
+    glm::dvec3 reference{0.0};  ///< as it is: reference_radiance() at the material's illuminant
+    double error = 0.0;         ///< relative_rms() of the two
+};
+
+/// Compares points with the reference one after the other, under one probe. What is derived from the probe and a
+/// material is made for the first point and kept for the next ones. For one thread at a time.
+class PointComparer {
+ public:
+    /// `key_lights`: most that are taken out of the probe for materials that shade them on their own.
+    PointComparer(lighting::ProbeImage probe, int key_lights);
+
+    /// `window`: on the light of tables over harmonics. The frame must be valid. Throws Error (input) where the
+    /// material cannot be evaluated under a probe.
+    PointComparison compare(const std::shared_ptr<const CookedMaterial>& cooked, math::SphericalWindow window,
+                            const Frame& frame);
+
+    /// The light that tables over so many bands take, without a window.
+    lighting::ShLight harmonics(bool with_key_lights, int bands);
+
+ private:
+    const EvaluationLight& light(bool with_key_lights, math::SphericalWindow window);
+
+    /// Light divided in one way.
+    struct Divided {
+        bool with_key_lights;
+        math::SphericalWindow window;
+        std::unique_ptr<const EvaluationLight> light;
+    };
+    /// The last material, ready to shade.
+    struct Ready {
+        std::shared_ptr<const CookedMaterial> cooked;
+        const EvaluationLight* light = nullptr;
+        PointShader shader;
+    };
+
+    lighting::ProbeImage probe_;
+    int key_lights_;
+    std::vector<Divided> divided_;
+    std::optional<Ready> ready_;
+};
+
+}  // namespace rowland::diffraction

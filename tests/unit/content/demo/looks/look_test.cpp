@@ -1,0 +1,91 @@
+#include "content/demo/looks/look.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <variant>
+
+#include "modules/diffraction/asset/cooked_material.h"
+#include "modules/diffraction/asset/material_json.h"
+
+namespace rowland::demo {
+namespace {
+
+using testing::Contains;
+using testing::Not;
+
+LookSubject subject(const std::string& groove_lobe, bool flat) {
+    const auto json = nlohmann::json::parse(
+        R"({"grating": {"pitch_nm": 1600, "profile": {"type": "slit", "width_nm": 800}, "groove_lobe": )" +
+        groove_lobe + R"(}, "quality": {"representation": "arc", "bands": 4, "illuminant": "A"}})");
+    return {.material = diffraction::parse_material(json, "test"), .flat = flat};
+}
+
+std::vector<std::string> names(const LookSubject& subject) {
+    std::vector<std::string> result;
+    for (const Look& look : looks_of(subject, Detail::Usual)) result.push_back(look_name(look));
+    return result;
+}
+
+TEST(Look, MapsAreOfferedToTheSurfacesTheySuit) {
+    const auto flat = names(subject(R"("flat")", true));
+    EXPECT_THAT(flat, Contains("planar, usual"));
+    EXPECT_THAT(flat, Contains("circle, usual"));
+    const auto curved = names(subject(R"("flat")", false));
+    EXPECT_THAT(curved, Not(Contains("planar, usual")));
+    EXPECT_THAT(curved, Contains("circle, usual"));
+}
+
+TEST(Look, NarrowLobesAreStreaksAndNoMaps) {
+    const auto narrow = names(subject(R"({"sigma": 0.05})", true));
+    EXPECT_THAT(narrow, Contains("streak, usual"));
+    EXPECT_THAT(narrow, Not(Contains("planar, usual")));
+    EXPECT_THAT(narrow, Not(Contains("circle, usual")));
+    EXPECT_THAT(names(subject(R"("flat")", true)), Not(Contains("streak, usual")));
+}
+
+TEST(Look, TheNextOneGoesRoundAllThatSuitAndComesBack) {
+    const LookSubject cd = subject(R"("flat")", true);
+    const std::vector<Look> all = looks_of(cd, Detail::Fine);
+    ASSERT_GT(all.size(), 4U);
+    Look look = all.front();
+    EXPECT_TRUE(look.own());
+    for (std::size_t i = 1; i <= all.size(); ++i) {
+        look = next_representation(cd, look);
+        EXPECT_EQ(look, all[i % all.size()]);
+    }
+}
+
+TEST(Look, DetailGoesUpAndRound) {
+    Look look{.representation = "arc", .detail = Detail::Coarse};
+    EXPECT_EQ((look = next_detail(look)).detail, Detail::Usual);
+    EXPECT_EQ((look = next_detail(look)).detail, Detail::Fine);
+    EXPECT_EQ(next_detail(look).detail, Detail::Coarse);
+}
+
+TEST(Look, MoreDetailCostsMoreTables) {
+    const LookSubject cd = subject(R"("flat")", true);
+    for (const char* name : {"spikes", "arc", "transfer", "planar", "circle"}) {
+        std::size_t bytes = 0;
+        for (const Detail detail : {Detail::Coarse, Detail::Usual, Detail::Fine}) {
+            const auto material = with_look(cd, {.representation = name, .detail = detail});
+            ASSERT_TRUE(material) << name;
+            const std::size_t now = diffraction::shading_cost(diffraction::bake_material(*material).tables).table_bytes;
+            EXPECT_GT(now, bytes) << name << detail_name(detail);
+            bytes = now;
+        }
+    }
+}
+
+TEST(Look, TakesTheRepresentationAndLeavesGratingAndIlluminant) {
+    const LookSubject cd = subject(R"("flat")", true);
+    const auto material = with_look(cd, {.representation = "transfer"});
+    ASSERT_TRUE(material);
+    EXPECT_EQ(material->grating.pitch_nm, 1600.0);
+    EXPECT_EQ(material->quality.illuminant.name, "A");
+    EXPECT_TRUE(std::holds_alternative<diffraction::TransferSettings>(diffraction::representation(*material)));
+    EXPECT_TRUE(std::holds_alternative<diffraction::ArcSettings>(diffraction::representation(*with_look(cd, Look{}))));
+}
+
+}  // namespace
+}  // namespace rowland::demo

@@ -1,0 +1,68 @@
+#include "content/demo/pixel/surface_point.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "modules/diffraction/runtime/diffraction_surface.h"
+#include "tests/gpu/render_test.h"
+
+namespace rowland::demo {
+namespace {
+
+// The mesh and its matrix are 32-bit.
+constexpr double kRounding = 1e-6;
+
+class SurfacePointTest : public test::RenderTest {
+ protected:
+    /// A square with grooves, placed by `matrix`.
+    ecs::Entity grating(const glm::mat4& matrix, float groove_rotation, float handedness = 1.0F) {
+        scene::Mesh mesh = square();
+        for (glm::vec4& tangent : mesh.tangents) tangent.w = handedness;
+        const ecs::Entity entity = add(std::move(mesh), {}, matrix);
+        world_.add(entity, diffraction::DiffractionSurface{.groove_rotation = groove_rotation});
+        return entity;
+    }
+    static void expect_near(const glm::dvec3& value, const glm::dvec3& expected) {
+        EXPECT_LT(glm::length(value - expected), kRounding) << value.x << ", " << value.y << ", " << value.z;
+    }
+    const TriangleHit hit_{.triangle = 1, .weights = {0.25F, 0.25F}, .distance = 1.0F};
+};
+
+TEST_F(SurfacePointTest, LooksFromThePointToTheEye) {
+    const auto frame = frame_at(world_, grating(glm::mat4(1.0F), 0.0F), hit_, {0.5F, 0.0F, 0.0F}, {0.5F, 3.0F, 4.0F});
+    ASSERT_TRUE(frame);
+    expect_near(frame->view, {0.0, 0.6, 0.8});
+    expect_near(frame->normal, {0.0, 0.0, 1.0});
+    expect_near(frame->grating, {1.0, 0.0, 0.0});
+}
+
+TEST_F(SurfacePointTest, GroovesTurnFromTheTangentTowardTheBitangent) {
+    const float quarter = 1.5707963F;
+    const auto right = frame_at(world_, grating(glm::mat4(1.0F), quarter), hit_, {}, {0.0F, 0.0F, 2.0F});
+    const auto left = frame_at(world_, grating(glm::mat4(1.0F), quarter, -1.0F), hit_, {}, {0.0F, 0.0F, 2.0F});
+    ASSERT_TRUE(right && left);
+    expect_near(right->grating, {0.0, 1.0, 0.0});
+    expect_near(left->grating, {0.0, -1.0, 0.0});
+}
+
+TEST_F(SurfacePointTest, FollowsThePlacementEvenStretchedOrMirrored) {
+    const glm::mat4 lying = glm::rotate(glm::mat4(1.0F), -1.5707963F, {1.0F, 0.0F, 0.0F});
+    const glm::mat4 stretched = glm::scale(lying, {3.0F, 0.5F, 1.0F});
+    const auto frame = frame_at(world_, grating(stretched, 0.0F), hit_, {}, {0.0F, 2.0F, 0.0F});
+    ASSERT_TRUE(frame);
+    expect_near(frame->normal, {0.0, 1.0, 0.0});
+    expect_near(frame->grating, {1.0, 0.0, 0.0});
+    const glm::mat4 mirrored = glm::scale(glm::mat4(1.0F), {1.0F, -1.0F, 1.0F});
+    const auto turned = frame_at(world_, grating(mirrored, 0.5F), hit_, {}, {0.0F, 0.0F, 2.0F});
+    ASSERT_TRUE(turned);
+    // The bitangent is mirrored with the rest.
+    expect_near(turned->grating, {std::cos(0.5), -std::sin(0.5), 0.0});
+}
+
+TEST_F(SurfacePointTest, TheBackIsNotMeasured) {
+    EXPECT_FALSE(frame_at(world_, grating(glm::mat4(1.0F), 0.0F), hit_, {}, {0.0F, 0.0F, -2.0F}));
+    EXPECT_FALSE(frame_at(world_, world_.create(), hit_, {}, {0.0F, 0.0F, 2.0F}));
+}
+
+}  // namespace
+}  // namespace rowland::demo

@@ -1,0 +1,241 @@
+#include "editor/inspector/document.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "engine/core/error.h"
+#include "engine/core/file.h"
+#include "modules/diffraction/asset/material_json.h"
+#include "tests/support/message_of.h"
+#include "tests/support/temporary_folder.h"
+
+namespace rowland::inspector {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+const std::filesystem::path kMaterials = std::filesystem::path(ROWLAND_SOURCE_DIR) / "content/materials";
+
+const Field& pitch() {
+    return field_at("/grating/pitch_nm");
+}
+
+class DocumentTest : public testing::Test {
+ protected:
+    std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
+    Document opened() const {
+        std::filesystem::copy_file(kMaterials / "cd.json", path("cd.json"));
+        return Document::open(path("cd.json"));
+    }
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(DocumentTest, OpeningAndSavingChangesNoByte) {
+    Document document = opened();
+    EXPECT_FALSE(document.dirty());
+    const std::string before = read_text_file(path("cd.json"), 1 << 20);
+    document.save();
+    EXPECT_EQ(read_text_file(path("cd.json"), 1 << 20), before);
+}
+
+TEST_F(DocumentTest, AnEditIsInTheFileAfterSavingAndNotBefore) {
+    Document document = opened();
+    document.set_value(pitch(), 740);
+    document.set_choice(field_at("/grating/profile"), "blazed");
+    EXPECT_TRUE(document.dirty());
+    EXPECT_EQ(diffraction::load_material(path("cd.json")).grating.pitch_nm, 1600.0);
+    document.save();
+    EXPECT_FALSE(document.dirty());
+    const diffraction::Material material = diffraction::load_material(path("cd.json"));
+    EXPECT_EQ(material.grating.pitch_nm, 740.0);
+    EXPECT_TRUE(std::holds_alternative<diffraction::BlazedProfile>(material.grating.profile));
+    EXPECT_EQ(Document::open(path("cd.json")).json(), document.json());
+}
+
+TEST_F(DocumentTest, EveryEditIsTakenBackInTurn) {
+    Document document = opened();
+    const Json start = document.json();
+    document.set_value(pitch(), 900);
+    document.finish_edit();
+    document.set_value(pitch(), 1200);
+    document.set_choice(field_at("/metal"), "Au");
+    const Json end = document.json();
+    document.undo();
+    document.undo();
+    EXPECT_EQ(document.material().grating.pitch_nm, 900.0);
+    document.undo();
+    EXPECT_EQ(document.json(), start);
+    EXPECT_FALSE(document.can_undo());
+    document.undo();
+    EXPECT_EQ(document.json(), start);
+    for (int i = 0; i < 3; ++i) document.redo();
+    EXPECT_EQ(document.json(), end);
+    EXPECT_FALSE(document.can_redo());
+}
+
+TEST_F(DocumentTest, AnEditEndsWhatCouldBeRedone) {
+    Document document = opened();
+    document.set_value(pitch(), 900);
+    document.undo();
+    document.set_value(pitch(), 1000);
+    EXPECT_FALSE(document.can_redo());
+    document.undo();
+    EXPECT_EQ(document.material().grating.pitch_nm, 1600.0);
+}
+
+TEST_F(DocumentTest, ADragIsOneStep) {
+    Document document = opened();
+    for (int nm = 1600; nm >= 740; nm -= 20) document.set_value(pitch(), nm);
+    document.finish_edit();
+    document.undo();
+    EXPECT_EQ(document.material().grating.pitch_nm, 1600.0);
+    EXPECT_FALSE(document.dirty());
+}
+
+TEST_F(DocumentTest, ABadValueIsReportedAtItsFieldAndTheLastGoodMaterialStays) {
+    Document document = opened();
+    document.set_value(pitch(), 740);
+    const std::uint64_t version = document.version();
+    document.set_value(field_at("/grating/orders"), parse_orders("1 x"));
+    ASSERT_TRUE(document.refusal());
+    EXPECT_EQ(document.refusal()->field, &field_at("/grating/orders"));
+    EXPECT_THAT(document.refusal()->message, HasSubstr("list of whole numbers"));
+    EXPECT_EQ(document.material().grating.orders, (std::vector<int>{-2, -1, 1, 2}));
+    EXPECT_EQ(document.version(), version);
+    document.undo();
+    EXPECT_FALSE(document.refusal());
+    EXPECT_EQ(document.version(), version);
+}
+
+TEST_F(DocumentTest, ASlitKeepsItsShareOfThePitch) {
+    Document document = opened();
+    document.set_value(pitch(), 740);
+    EXPECT_EQ(document.json()["grating"]["profile"].dump(), R"({"type":"slit","width_nm":370})");
+    EXPECT_EQ(document.json()["grating"]["pitch_nm"].dump(), "740");
+}
+
+TEST_F(DocumentTest, ARefusalNamesTheFieldThatIsTooLargeForAnother) {
+    Document document = opened();
+    document.set_value(field_at("/grating/profile/width_nm"), 1700);  // of a pitch of 1600
+    ASSERT_TRUE(document.refusal());
+    EXPECT_EQ(document.refusal()->field, &field_at("/grating/profile/width_nm"));
+}
+
+TEST_F(DocumentTest, ABadTableIsReportedAtItsName) {
+    Document document = opened();
+    write_file_atomic(path("bad.csv"), "wavelength_nm,R+1\n500,two\n");
+    Json table = {{"type", "table"}, {"file", "bad.csv"}};
+    document.set_value(field_at("/metal"), nullptr);
+    document.set_value(field_at("/grating/profile"), table);
+    ASSERT_TRUE(document.refusal());
+    EXPECT_EQ(document.refusal()->field, &field_at("/grating/profile/file"));
+    EXPECT_THAT(document.refusal()->message, HasSubstr("bad.csv"));
+}
+
+TEST_F(DocumentTest, WhatIsRefusedIsNotSaved) {
+    Document document = opened();
+    document.set_value(pitch(), -1);
+    EXPECT_THAT(test::message_of([&] { document.save(); }),
+                AllOf(HasSubstr("pitch_nm"), HasSubstr("nothing was written")));
+    EXPECT_EQ(diffraction::load_material(path("cd.json")).grating.pitch_nm, 1600.0);
+    EXPECT_TRUE(document.dirty());
+}
+
+TEST_F(DocumentTest, PresetsAreNeverWrittenOver) {
+    Document document = Document::open_as_new(kMaterials / "cd.json");
+    EXPECT_TRUE(document.dirty());
+    EXPECT_THAT(test::message_of([&] { document.save(); }), HasSubstr("under a name"));
+    document.save_as(path("mine.json"));
+    EXPECT_FALSE(document.dirty());
+    EXPECT_EQ(document.path(), path("mine.json"));
+    document.set_value(pitch(), 740);
+    document.save();
+    EXPECT_EQ(diffraction::load_material(path("mine.json")).grating.pitch_nm, 740.0);
+}
+
+TEST_F(DocumentTest, EveryPresetIsASaneMaterial) {
+    for (const char* name :
+         {"cd", "dvd", "blu_ray", "ruled_600", "ruled_1200", "holographic_foil", "vinyl", "cd_paper"}) {
+        const Document document = Document::open_as_new(kMaterials / (std::string(name) + ".json"));
+        EXPECT_GT(document.material().grating.pitch_nm, 0.0) << name;
+    }
+}
+
+TEST_F(DocumentTest, FilesThatAMaterialNamesAreFoundFromItsNewPlace) {
+    Document document = Document::open_as_new(kMaterials / "vinyl.json");
+    document.save_as(path("deep/down/mine.json"));
+    EXPECT_FALSE(document.refusal());
+    EXPECT_FALSE(document.dirty());
+    EXPECT_NO_THROW(diffraction::load_material(path("deep/down/mine.json")));
+}
+
+TEST_F(DocumentTest, AnUnwritablePlaceLosesNothing) {
+    Document document = opened();
+    document.set_value(pitch(), 740);
+    std::filesystem::create_directory(path("folder"));
+    EXPECT_THROW(document.save_as(path("folder")), Error);
+    EXPECT_THROW(document.save_as("/proc/nowhere/mine.json"), Error);
+    EXPECT_EQ(document.path(), path("cd.json"));
+    EXPECT_EQ(document.material().grating.pitch_nm, 740.0);
+    EXPECT_TRUE(document.dirty());
+    document.save();
+    EXPECT_FALSE(document.dirty());
+}
+
+TEST_F(DocumentTest, HugeCorruptAndMissingFilesAreRefused) {
+    write_file_atomic(path("huge.json"), std::string(40 << 20, ' '));
+    EXPECT_THAT(test::message_of([&] { Document::open(path("huge.json")); }), HasSubstr("41943040 bytes"));
+    write_file_atomic(path("corrupt.json"), "{\"grating\": {\"pitch_nm\": 16");
+    EXPECT_THAT(test::message_of([&] { Document::open(path("corrupt.json")); }), HasSubstr("corrupt.json"));
+    EXPECT_THAT(test::message_of([&] { Document::open(path("none.json")); }), HasSubstr("none.json"));
+    write_file_atomic(path("\xff\xfe.json"), "[]");
+    EXPECT_THAT(test::message_of([&] { Document::open(path("\xff\xfe.json")); }), HasSubstr(".json"));
+}
+
+TEST_F(DocumentTest, ANameThatIsNotUtf8IsSavedTo) {
+    Document document = opened();
+    document.save_as(path("caf\xe9.json"));
+    EXPECT_EQ(Document::open(path("caf\xe9.json")).json(), document.json());
+}
+
+// A child saves two materials in turn as fast as it can and is killed somewhere in it; whatever moment that was, the
+// file is one of the two.
+TEST_F(DocumentTest, KilledWhileSavingItLeavesTheOldOrTheNewFile) {
+    opened();
+    const auto save_for_ever = [&] {
+        Document document = Document::open(path("cd.json"));
+        for (int i = 0;; ++i) {
+            document.set_value(pitch(), i % 2 == 0 ? 1700 : 1600);
+            document.finish_edit();
+            document.save();
+        }
+    };
+    int changed = 0;
+    for (int round = 0; round < 20; ++round) {
+        const pid_t child = ::fork();
+        if (child == 0) {
+            save_for_ever();
+            ::_exit(0);
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(20 + 3 * round));
+        ::kill(child, SIGKILL);
+        ::waitpid(child, nullptr, 0);
+        const double left = diffraction::load_material(path("cd.json")).grating.pitch_nm;
+        EXPECT_TRUE(left == 1600.0 || left == 1700.0) << left;
+        changed += left == 1700.0 ? 1 : 0;
+    }
+    EXPECT_GT(changed, 0);  // the children did save
+}
+
+}  // namespace
+}  // namespace rowland::inspector

@@ -1,0 +1,125 @@
+// One point at a time, held to what rowland-trade evaluate prints for it.
+#include "modules/diffraction/evaluate/point_comparison.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <sstream>
+#include <utility>
+
+#include "engine/asset/container.h"
+#include "engine/core/file.h"
+#include "engine/image/load.h"
+#include "modules/diffraction/asset/cooked_material.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/editor/trade/trade_run.h"
+
+namespace rowland::diffraction {
+namespace {
+
+constexpr Frame kTilted{.view = {0.25, 0.3, 0.92}, .normal = {0.0, 0.1, 0.99}, .grating = {1.0, 0.2, 0.0}};
+constexpr Frame kOther{.view = {-0.4, 0.2, 0.8}, .normal = {0.0, 0.1, 0.99}, .grating = {0.3, 1.0, 0.0}};
+
+std::string row(const Frame& frame) {
+    const auto three = [](const glm::dvec3& v) { return fmt::format("{:.17g},{:.17g},{:.17g}", v.x, v.y, v.z); };
+    return three(frame.view) + ',' + three(frame.normal) + ',' + three(frame.grating) + '\n';
+}
+
+class PointComparisonTest : public ::testing::Test {
+ protected:
+    PointComparisonTest() { test::write_sweep_inputs(folder_.path()); }
+
+    std::shared_ptr<const CookedMaterial> cook(const std::string& name, const std::string& pitch,
+                                               const std::string& quality) {
+        const std::string text = R"({"grating": {"pitch_nm": )" + pitch +
+                                 R"(, "profile": {"type": "slit", "width_nm": 300}}, "quality": )" + quality + "}";
+        write_file_atomic(folder_.path() / (name + ".json"), text);
+        const nlohmann::json json = nlohmann::json::parse(text);
+        auto cooked = std::make_shared<const CookedMaterial>(cook_material(json, name));
+        asset::CookedAsset file;
+        file.header.type = kMaterialAssetType;
+        file.header.type_version = kMaterialAssetVersion;
+        file.payload = write_cooked_material(json, *cooked);
+        write_file_atomic(folder_.path() / (name + ".material"), asset::pack(file));
+        return cooked;
+    }
+    lighting::ProbeImage probe(const std::string& name) const {
+        return {image::load_image(folder_.path() / name), lighting::Mapping::Equirectangular, name};
+    }
+    /// The one row that the program prints.
+    glm::dvec3 printed(const Frame& frame, const std::string& arguments) const {
+        write_file_atomic(folder_.path() / "frames.csv", "vx,vy,vz,nx,ny,nz,gx,gy,gz\n" + row(frame));
+        const test::TradeRun run = test::run_trade(folder_.path(), "evaluate --frames frames.csv " + arguments);
+        EXPECT_EQ(run.exit_code, 0) << run.messages;
+        std::istringstream lines(run.output);
+        std::string header;
+        glm::dvec3 xyz(0.0);
+        char comma = 0;
+        std::getline(lines, header);
+        lines >> xyz.x >> comma >> xyz.y >> comma >> xyz.z;
+        EXPECT_TRUE(lines) << run.output;
+        return xyz;
+    }
+    static void expect_printed(const glm::dvec3& computed, const glm::dvec3& printed) {
+        // Nine significant digits are printed.
+        for (int i = 0; i < 3; ++i) EXPECT_NEAR(computed[i], printed[i], 1e-8 * std::abs(printed[i]));
+    }
+
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(PointComparisonTest, IsWhatTheProgramPrintsForEachMaterialProbeAndPoint) {
+    // A second probe: the first one, turned over.
+    image::Image turned = image::load_image(folder_.path() / "sky.hdr");
+    std::reverse(turned.texels.begin(), turned.texels.end());
+    const auto wide = cook("wide", "1600", R"({"representation": "transfer", "bands": 4})");
+    const auto narrow = cook("narrow", "740", R"({"representation": "transfer", "bands": 4})");
+    PointComparer sky(probe("sky.hdr"), 16);
+    glm::dvec3 last(0.0);
+    for (const Frame& frame : {kTilted, kOther})
+        for (const auto& [name, cooked] : {std::pair("wide", wide), std::pair("narrow", narrow)}) {
+            const PointComparison point = sky.compare(cooked, math::SphericalWindow::None, frame);
+            const std::string common = std::string("--probe sky.hdr ");
+            expect_printed(point.shown, printed(frame, common + "--cooked " + name + ".material"));
+            const glm::dvec3 reference = printed(frame, common + "--method reference --material " + name + ".json");
+            expect_printed(point.reference, reference);
+            EXPECT_NEAR(point.error, glm::length(point.shown - reference) / glm::length(reference), 1e-7);
+            EXPECT_GT(point.error, 1e-4);  // there is something to see
+            EXPECT_NE(point.reference, last);
+            last = point.reference;
+        }
+    PointComparer upside_down({turned, lighting::Mapping::Equirectangular, "turned"}, 16);
+    EXPECT_GT(glm::length(upside_down.compare(wide, math::SphericalWindow::None, kTilted).reference -
+                          sky.compare(wide, math::SphericalWindow::None, kTilted).reference),
+              0.0);
+}
+
+TEST_F(PointComparisonTest, KeyLightsAreTakenApartOnlyForMaterialsThatShadeThem) {
+    const auto with = cook("with", "1600", R"({"representation": "arc", "bands": 5, "key_lights": true})");
+    const auto without = cook("without", "1600", R"({"representation": "arc", "bands": 5, "key_lights": false})");
+    PointComparer comparer(probe("sky.hdr"), 4);
+    const auto window = math::SphericalWindow::Hann;
+    const std::string common = "--probe sky.hdr --window hann --key-lights 4 --cooked ";
+    expect_printed(comparer.compare(with, window, kTilted).shown, printed(kTilted, common + "with.material"));
+    expect_printed(comparer.compare(without, window, kTilted).shown,
+                   printed(kTilted, "--probe sky.hdr --window hann --cooked without.material"));
+    expect_printed(comparer.compare(with, window, kTilted).shown, printed(kTilted, common + "with.material"));
+}
+
+TEST_F(PointComparisonTest, AMapIsTheSameWhetherItWasFilledForThisPointOrAnother) {
+    const auto planar = cook("planar", "1600", R"({"representation": "planar", "map_resolution": 32})");
+    PointComparer comparer(probe("sky.hdr"), 4);
+    const auto window = math::SphericalWindow::None;
+    const glm::dvec3 first = comparer.compare(planar, window, kTilted).shown;
+    comparer.compare(planar, window, kOther);
+    EXPECT_EQ(comparer.compare(planar, window, kTilted).shown, first);
+    expect_printed(first, printed(kTilted,
+                                  "--probe sky.hdr --material planar.json --method planar --resolution 32 "
+                                  "--key-lights 4"));
+}
+
+}  // namespace
+}  // namespace rowland::diffraction
