@@ -1,6 +1,5 @@
 #version 450 core
 // Every light and every order on its own: what the paper's fig. 3 shows to be slow.
-#define PIXEL_SHADED
 #include "engine/render/shaders/forward_fragment_interface.glsl"
 #include "modules/diffraction/shaders/groove_view.glsl"
 

@@ -9,7 +9,9 @@
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
 
+#include "editor/trade/light_loop.h"
 #include "engine/asset/container.h"
+#include "engine/colour/light_spectra.h"
 #include "engine/core/check.h"
 #include "engine/post/display_transform.h"
 #include "engine/post/shader_files.h"
@@ -22,7 +24,6 @@
 #include "modules/diffraction/runtime/diffraction_surface.h"
 #include "tests/benchmark/cd_materials.h"
 #include "tests/benchmark/lamps.h"
-#include "tests/benchmark/light_loop.h"
 
 namespace rowland::benchmark {
 
@@ -94,9 +95,7 @@ std::unique_ptr<render::Renderer> FrameStage::make_renderer(const FrameVariant& 
     diffraction::DiffractionSettings settings;
     settings.slices_per_frame = std::numeric_limits<int>::max();
     diffraction::register_module(*renderer, settings);
-    const diffraction::Grating grating =
-        diffraction::parse_material(cd_material({{"representation", "direct"}}), "the CD").grating;
-    renderer->add_material_type(std::make_unique<LightLoopType>(grating, xyz_to_working_));
+    renderer->add_material_type(std::make_unique<trade::LightLoopType>());
     renderer->set_probe(probe_of(variant));
     renderer->use_key_lights(variant.lighting == Lighting::StudioKeyLights);
     return renderer;
@@ -153,15 +152,26 @@ FrameScene::FrameScene(FrameVariant variant, FrameStage& stage, bool software)
     world_.add(disc_, stage.material(variant_.shader == Shader::Grating ? variant_ : grating)->base());
     if (variant_.shader == Shader::Grating)
         world_.add(disc_, diffraction::DiffractionSurface{stage.material(variant_)});
-    if (variant_.shader == Shader::LightLoop) world_.add(disc_, LightLoop{});
     if (variant_.lighting == Lighting::LampsInScene) {
-        for (const scene::DirectionalLight& lamp : lamps(variant_.lamps))
+        std::vector<render::DistantLight> distant;
+        for (const scene::DirectionalLight& lamp : lamps(variant_.lamps)) {
             world_.add(world_.create(), scene::DirectionalLight(lamp));
+            distant.push_back({lamp.direction, lamp.irradiance});
+        }
+        if (variant_.shader == Shader::LightLoop) shade_in_a_loop(distant);
     } else {
         world_.add(world_.create(), scene::DirectionalLight{.direction = glm::normalize(glm::vec3(0.3F, 1.0F, 0.4F)),
                                                             .irradiance = glm::vec3(0.5F)});
     }
     move();
+}
+
+void FrameScene::shade_in_a_loop(const std::vector<render::DistantLight>& lights) {
+    const diffraction::Grating grating =
+        diffraction::parse_material(cd_material({{"representation", "direct"}}), "the CD").grating;
+    auto loop = std::make_shared<trade::LightLoop>(grating, colour::LightSpectra());
+    loop->set_lights(lights);
+    world_.add(disc_, trade::LightLoopSurface{std::move(loop)});
 }
 
 void FrameScene::move() {

@@ -76,6 +76,7 @@ class FrameScene {
     const FrameVariant& variant() const { return variant_; }
 
  private:
+    void shade_in_a_loop(const std::vector<render::DistantLight>& lights);
     void move();
 
     FrameVariant variant_;

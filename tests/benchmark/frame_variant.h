@@ -11,7 +11,7 @@ enum class Shader {
     Unlit,      ///< its base colour: what a frame costs without any shading
     Plain,      ///< the engine's metallic-roughness surface alone
     Grating,    ///< a diffraction material
-    LightLoop,  ///< the grating's lights and orders one by one (light_loop.h)
+    LightLoop,  ///< the grating's lights and orders one by one (editor/trade/light_loop.h)
 };
 
 enum class Motion {
