@@ -12,11 +12,12 @@ struct ShippedAsset {
     const char* source;
     const char* cooked;
 };
-constexpr std::array<ShippedAsset, 7> kShippedAssets = {{{"materials/cd.json", "cd.material"},
+constexpr std::array<ShippedAsset, 8> kShippedAssets = {{{"materials/cd.json", "cd.material"},
                                                          {"meshes/cd.json", "cd.glb"},
                                                          {"meshes/ground.json", "ground.glb"},
                                                          {"meshes/sphere.json", "sphere.glb"},
                                                          {"probes/clear_sky.json", "clear_sky.probe"},
+                                                         {"probes/night.json", "night.probe"},
                                                          {"probes/studio.json", "studio.probe"},
                                                          {"scenes/cabinet.json", "cabinet.glb"}}};
 
@@ -40,7 +41,8 @@ diffraction::LiveAssets open_assets(const Options& options, std::vector<std::str
 
 std::vector<std::filesystem::path> probe_paths(const Options& options) {
     if (options.probe) return {*options.probe};
-    return {options.cooked_folder / "studio.probe", options.cooked_folder / "clear_sky.probe"};
+    return {options.cooked_folder / "studio.probe", options.cooked_folder / "clear_sky.probe",
+            options.cooked_folder / "night.probe"};
 }
 
 std::filesystem::path default_cooked_folder() {

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "content/demo/camera_path.h"
 #include "engine/core/file.h"
 #include "engine/core/progress.h"
 #include "engine/scene/transform.h"
+#include "modules/diffraction/runtime/diffraction_surface.h"
 
 namespace rowland::demo {
 
@@ -20,6 +22,49 @@ constexpr int kWarmUpFrames = 3;
 
 std::chrono::nanoseconds nanoseconds(double ms) {
     return std::chrono::nanoseconds(static_cast<std::int64_t>(ms * 1e6));
+}
+
+/// While it lives, what has a grating is drawn as the plain surface under it.
+class WithoutGratings {
+ public:
+    explicit WithoutGratings(ecs::World& world) : world_(world) {
+        world.view<diffraction::DiffractionSurface>().each(
+            [&](ecs::Entity entity, const diffraction::DiffractionSurface& surface) {
+                taken_.emplace_back(entity, surface);
+            });
+        for (const auto& [entity, surface] : taken_) world.remove<diffraction::DiffractionSurface>(entity);
+    }
+    ~WithoutGratings() {
+        for (auto& [entity, surface] : taken_) world_.add(entity, std::move(surface));
+    }
+    WithoutGratings(const WithoutGratings&) = delete;
+    WithoutGratings& operator=(const WithoutGratings&) = delete;
+
+ private:
+    ecs::World& world_;
+    std::vector<std::pair<ecs::Entity, diffraction::DiffractionSurface>> taken_;
+};
+
+std::chrono::nanoseconds draw(Session& session, const scene::Camera& camera) {
+    const auto start = std::chrono::steady_clock::now();
+    scene::update_world_matrices(session.scene().world());
+    session.picture().draw(session.scene().world(), camera, 1.0F / kFramesPerSecond);
+    glFinish();
+    return std::chrono::steady_clock::now() - start;
+}
+
+double times_plain(Session& session, int frames) {
+    std::vector<double> ratios;
+    for (int frame = -kWarmUpFrames; frame < frames; ++frame) {
+        const scene::Camera camera = flight(session.scene().camera(), std::max(frame, 0) / static_cast<double>(frames));
+        const double took = std::chrono::duration<double>(draw(session, camera)).count();
+        const WithoutGratings plain(session.scene().world());
+        const double took_plain = std::chrono::duration<double>(draw(session, camera)).count();
+        if (frame >= 0) ratios.push_back(took / took_plain);
+    }
+    const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+    std::nth_element(ratios.begin(), middle, ratios.end());
+    return *middle;
 }
 
 /// The times of one pass, frame by frame.
@@ -62,20 +107,18 @@ BenchmarkResult fly_around(Session& session, int frames) {
     Progress progress("frames", capacity);
     for (int frame = -kWarmUpFrames; frame < frames; ++frame) {
         const int shown = std::max(frame, 0);
-        const auto start = std::chrono::steady_clock::now();
         for (int i = 0; frame > 0 && i < kStepsPerSecond / kFramesPerSecond; ++i) session.play().step({});
-        scene::update_world_matrices(session.scene().world());
-        picture.draw(session.scene().world(), flight(session.scene().camera(), static_cast<double>(shown) / frames),
-                     1.0F / kFramesPerSecond);
-        glFinish();
+        const std::chrono::nanoseconds took =
+            draw(session, flight(session.scene().camera(), static_cast<double>(shown) / frames));
         if (frame < 0) continue;
-        frame_times.add(std::chrono::steady_clock::now() - start);
+        frame_times.add(took);
         add(passes, picture.pass_times().latest(), capacity);
         progress.advance();
     }
     BenchmarkResult result;
     result.size = picture.encoded().size();
     result.frame = frame_times.statistics();
+    result.times_plain = times_plain(session, std::clamp(frames / 4, 1, 40));
     for (const PassSamples& pass : passes)
         result.passes.push_back({pass.name, pass.cpu.statistics(), pass.gpu.statistics()});
     result.drawn = picture.renderer().report().drawn;
@@ -87,9 +130,15 @@ void write_benchmark(const std::filesystem::path& path, const BenchmarkResult& r
     nlohmann::ordered_json passes = nlohmann::ordered_json::array();
     for (const BenchmarkResult::Pass& pass : result.passes)
         passes.push_back({{"name", pass.name}, {"cpu", to_json(pass.cpu)}, {"gpu", to_json(pass.gpu)}});
-    const nlohmann::ordered_json json = {
-        {"device", device}, {"width", result.size.x}, {"height", result.size.y}, {"frame", to_json(result.frame)},
-        {"passes", passes}, {"drawn", result.drawn},  {"culled", result.culled}};
+    const nlohmann::ordered_json json = {{"device", device},
+                                         {"width", result.size.x},
+                                         {"height", result.size.y},
+                                         {"frame", to_json(result.frame)},
+
+                                         {"times_plain", result.times_plain},
+                                         {"passes", passes},
+                                         {"drawn", result.drawn},
+                                         {"culled", result.culled}};
     write_file_atomic(path, json.dump(2) + "\n");
 }
 

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <fstream>
+
 #include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/core/log.h"
@@ -28,6 +30,7 @@ void ControlMap::end_frame() {
     std::string text;
     for (const auto& [name, entry] : entries_) text += fmt::format("{}\t{}\n", name, entry);
     entries_.clear();
+    std::ofstream(std::filesystem::path(*file_) += ".frames") << ++frames_ << '\n';
     if (text == written_) return;
     try {
         write_file_atomic(*file_, text);

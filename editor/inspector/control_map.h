@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -18,13 +19,15 @@ class ControlMap {
     void mark(const std::string& name, float left, float top, float right, float bottom);
     /// A fact beside the places.
     void note(const std::string& name, const std::string& value);
-    /// Writes what has changed since the last frame.
+    /// Writes what has changed since the last frame, and, to a file of the same name with ".frames", how many frames
+    /// there were: who waits for two more knows that the program has seen what they did.
     void end_frame();
 
  private:
     std::optional<std::filesystem::path> file_;
     std::map<std::string, std::string> entries_;
     std::string written_;
+    std::uint64_t frames_ = 0;
 };
 
 }  // namespace rowland::inspector

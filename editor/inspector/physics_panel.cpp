@@ -108,6 +108,8 @@ void PhysicsPanel::draw_angles(const diffraction::Grating& grating) const {
     plot.vertical(incidence, IM_COL32(255, 255, 255, 120));
     plot.text(incidence, top * 1e-5 * 3.0, "light", kWords);
     for (const OrderPeak& peak : curve.peaks) {
+        constexpr double kVisible = 1e-4;
+        if (peak.order != 0 && peak.efficiency < kVisible) continue;
         const double at = peak.brdf > 0.0 ? peak.brdf : top * 1e-5;
         if (peak.brdf <= 0.0) plot.vertical(peak.angle_deg, IM_COL32(255, 255, 255, 70));
         plot.text(peak.angle_deg, at * (peak.brdf > 0.0 ? 1.0 : 20.0), order_name(peak.order).c_str(), kWords);
@@ -255,7 +257,7 @@ void PhysicsPanel::draw_point(const Session& session, ControlMap& controls) cons
         row("Pixel, display", fmt::format("{}  {}  {}", picked->display.r, picked->display.g, picked->display.b));
         controls.note("picked", fmt::format("{} {} {}", picked->display.r, picked->display.g, picked->display.b));
     } else {
-        ImGui::TextDisabled("Of the picture's middle; click the surface to pick a point.");
+        ImGui::TextDisabled("Click the picture to pick another point.");
     }
     if (!session.slow_numbers_are_current()) ImGui::TextDisabled("Computing anew…");
     controls.note("point", numbers_of(slow->point.reference));
@@ -304,7 +306,7 @@ void PhysicsPanel::draw_energy(const diffraction::Grating& grating, ControlMap& 
         left = right;
     }
     for (std::size_t i = 0; i < shares.size(); ++i) {
-        if (i % 3 != 0) ImGui::SameLine(static_cast<float>(i % 3) * width / 3.0F + 0.6F * font);
+        if (i % 2 != 0) ImGui::SameLine(width / 2.0F + 0.6F * font);
         const ImVec2 at = ImGui::GetCursorScreenPos();
         draw.AddRectFilled({at.x, at.y + 0.25F * font}, {at.x + 0.7F * font, at.y + 0.95F * font}, series_colour(i));
         ImGui::Dummy({0.8F * font, font});

@@ -81,7 +81,7 @@ Plot::Plot(const char* name, float height, const PlotAxis& x, const PlotAxis& y)
     hovered_ = ImGui::IsItemHovered();
     minimum_ = {corner.x + 3.2F * font, corner.y + 1.5F * font};
     maximum_ = {corner.x + width - 0.6F * font, corner.y + height - 2.5F * font};
-    legend_x_ = minimum_.x;
+    legend_x_ = minimum_.x + 0.5F * font;
     draw_axes();
 }
 
@@ -125,7 +125,7 @@ void Plot::draw_axes() const {
     }
     draw_->AddRect(minimum_, maximum_, kFrame);
     draw_->AddText({maximum_.x - width(x_.label), maximum_.y + 1.2F * font}, kWords, x_.label);
-    draw_->AddText({minimum_.x - 3.0F * font, maximum_.y + 1.2F * font}, kWords, y_.label);
+    draw_->AddText({minimum_.x - 3.0F * font, minimum_.y - 1.3F * font}, kWords, y_.label);
 }
 
 void Plot::line(std::span<const glm::dvec2> points, std::size_t series) const {

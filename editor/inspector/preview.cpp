@@ -22,7 +22,7 @@ constexpr glm::vec3 kPlace(0.0F, 0.052F, 0.0F);  ///< of the object, metres
 /// How far each shape leans back, so that it shows its colours.
 float lean_deg(PreviewShape shape) {
     if (shape == PreviewShape::Disc) return 52.0F;
-    return shape == PreviewShape::Card || shape == PreviewShape::Sheet ? -15.0F : 0.0F;
+    return shape == PreviewShape::Card || shape == PreviewShape::Sheet ? -28.0F : 0.0F;
 }
 
 glm::mat4 placed(PreviewShape shape) {

@@ -48,20 +48,21 @@ void draw_numbers(const PriceList& list, const Session& session, double frame_ms
     const auto present = std::find_if(list.choices.begin(), list.choices.end(),
                                       [](const PricedChoice& choice) { return choice.present; });
     const bool measured = present != list.choices.end() && session.prices_are_current();
+    const std::string waiting = session.document().material().quality.pinned ? "measuring…" : "chosen by the cooker";
     const auto row = [](const char* name, const std::string& value) {
         ImGui::TextDisabled("%s", name);
-        ImGui::SameLine(9.0F * ImGui::GetFontSize());
+        ImGui::SameLine(8.0F * ImGui::GetFontSize());
         ImGui::TextUnformatted(value.c_str());
     };
     row("Representation", diffraction::representation_name(cooked->tables.index()));
-    row("Measured error", measured ? fmt::format("{:.4f} relative RMS", present->error) : "not measured");
-    row("Price", measured ? fmt::format("{:.4g} fetches a pixel", present->price) : "not measured");
+    row("Measured error", measured ? fmt::format("{:.4f} relative RMS", present->error) : waiting);
+    row("Price", measured ? fmt::format("{:.4g} fetches a pixel", present->price) : waiting);
     row("Tables", fmt::format("{} ({} B)", bytes_in_words(cost.table_bytes), cost.table_bytes));
     row("A pixel", fmt::format("{} fetches, {} multiply-adds", cost.fetches_per_pixel, cost.multiply_adds_per_pixel));
     row("A vertex",
         fmt::format("{} fetches, {} multiply-adds", cost.fetches_per_vertex, cost.multiply_adds_per_vertex));
     row("A light", fmt::format("{} fetches, {} multiply-adds", cost.fetches_per_light, cost.multiply_adds_per_light));
-    row("A frame here", fmt::format("{:.1f} ms, the median", frame_ms));
+    if (frame_ms > 0.0) row("A frame here", fmt::format("{:.1f} ms, the median", frame_ms));
 }
 
 void draw_plot(const PriceList& list, float height) {
@@ -98,7 +99,7 @@ void draw_plot(const PriceList& list, float height) {
             ImGui::SetTooltip("%s\nerror %.4f, %.4g fetches a pixel, %s", words_of(choice).c_str(), choice.error,
                               choice.price, bytes_in_words(choice.cost.table_bytes).c_str());
     }
-    plot.legend("nothing is cheaper and better", kFrontSeries);
+    plot.legend("unbeaten", kFrontSeries);
     plot.legend("present", kPresentSeries);
 }
 
@@ -128,7 +129,9 @@ void draw_slider(Session& session, const PriceList& list, ControlMap& controls) 
     controls.mark("cheaper or more accurate");
     ImGui::SameLine();
     ImGui::TextDisabled("more accurate");
+    ImGui::PushTextWrapPos();
     ImGui::TextUnformatted(name.c_str());
+    ImGui::PopTextWrapPos();
 }
 
 }  // namespace
@@ -156,7 +159,7 @@ void PricePanel::draw(Session& session, double frame_ms, ControlMap& controls) {
     if (!list.choices.empty() && !session.prices_are_current())
         ImGui::TextDisabled("Measured for an earlier edit; measure again.");
     ImGui::Columns(2, "##price", false);
-    ImGui::SetColumnWidth(0, 22.0F * font);
+    ImGui::SetColumnWidth(0, 20.0F * font);
     draw_numbers(list, session, frame_ms);
     ImGui::NextColumn();
     draw_plot(list, std::max(7.0F * font, ImGui::GetContentRegionAvail().y - 3.6F * font));

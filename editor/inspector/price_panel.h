@@ -9,7 +9,7 @@ namespace rowland::inspector {
 /// along the choices that nothing beats.
 class PricePanel {
  public:
-    /// `frame_ms`: the median frame here.
+    /// `frame_ms`: the median frame here; 0: nobody knows.
     void draw(Session& session, double frame_ms, ControlMap& controls);
 
  private:

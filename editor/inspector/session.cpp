@@ -18,6 +18,7 @@ namespace rowland::inspector {
 namespace {
 
 constexpr std::chrono::milliseconds kDebounce(60);
+constexpr std::chrono::milliseconds kRest(700);  ///< without an edit, before the present error is measured
 constexpr std::uint64_t kLargestSource = 16 << 20;
 constexpr int kSweepBands = 5;
 constexpr std::size_t kMostMessages = 50;
@@ -164,8 +165,8 @@ void Session::start_cooking() {
         last_edit_ = std::chrono::steady_clock::now();
         stop_pricing();
     }
-    const bool rested = settings_.still || !cooked_ || std::chrono::steady_clock::now() - last_edit_ >= kDebounce;
-    if (asked_version_ != document_.version() && (rested || !cook_task_.busy())) {
+    const bool settled = settings_.still || !cooked_ || std::chrono::steady_clock::now() - last_edit_ >= kDebounce;
+    if (asked_version_ != document_.version() && (settled || !cook_task_.busy())) {
         asked_version_ = document_.version();
         cook_task_.start([material = document_.good_json(), name = document_.name(), folder = document_.folder()](
                              const std::stop_token&) { return cook(material, name, folder); });
@@ -217,6 +218,8 @@ void Session::update() {
     }
     if (auto outcome = price_task_.poll(); outcome && !outcome->value) say(outcome->failure, true);
     start_slow_numbers();
+    const bool idle = cooked_ && !cook_task_.busy() && !slow_task_.busy() && !price_task_.busy();
+    if (idle && slow_ && rested() && document_.material().quality.pinned && !prices_are_current()) start_pricing(true);
 }
 
 void Session::start_slow_numbers() {
@@ -236,7 +239,7 @@ void Session::start_slow_numbers() {
 
 /// A point of the surface near the middle of the picture; straight on if nothing is there.
 diffraction::Frame Session::middle_frame() const {
-    for (const glm::vec2 at : {glm::vec2(0.5F, 0.5F), glm::vec2(0.5F, 0.68F), glm::vec2(0.42F, 0.6F)})
+    for (const glm::vec2 at : {glm::vec2(0.66F, 0.5F), glm::vec2(0.5F, 0.5F), glm::vec2(0.5F, 0.68F)})
         if (auto frame = preview_.pick(at)) return *frame;
     return {};
 }
@@ -273,7 +276,11 @@ void Session::read_picked_pixel() {
     picked_->display = {display[4 * index], display[4 * index + 1], display[4 * index + 2]};
 }
 
-void Session::price() {
+bool Session::rested() const {
+    return settings_.still || std::chrono::steady_clock::now() - last_edit_ >= kRest;
+}
+
+void Session::start_pricing(bool present_only) {
     if (!light_) return;
     priced_version_ = document_.version();
     priced_light_ = light_;
@@ -281,21 +288,22 @@ void Session::price() {
     nlohmann::json quality;
     if (document_.good_json().contains("quality"))
         quality = nlohmann::json::parse(document_.good_json()["quality"].dump());
-    price_task_.start(
-        [shared = prices_, material = document_.material(), quality, light = light_](const std::stop_token& stop) {
-            price_choices(
-                {.material = material,
-                 .quality = quality,
-                 .probe = light->image,
-                 .key_lights = light->key_lights,
-                 .surface = material.quality.surface},
-                [&](const PriceList& list) {
-                    const std::scoped_lock guard(shared->lock);
-                    shared->list = list;
-                },
-                stop);
-            return 0;
-        });
+    price_task_.start([shared = prices_, material = document_.material(), quality, light = light_,
+                       present_only](const std::stop_token& stop) {
+        price_choices(
+            {.material = material,
+             .quality = quality,
+             .probe = light->image,
+             .key_lights = light->key_lights,
+             .surface = material.quality.surface,
+             .present_only = present_only},
+            [&](const PriceList& list) {
+                const std::scoped_lock guard(shared->lock);
+                shared->list = list;
+            },
+            stop);
+        return 0;
+    });
 }
 
 PriceList Session::prices() const {

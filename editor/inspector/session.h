@@ -67,8 +67,8 @@ class Session {
     /// Picks the surface at a point of the last picture; nothing happens where there is none.
     void pick(const glm::vec2& at);
 
-    /// Prices all choices from now on, or stops.
-    void price();
+    /// Measures all choices from now on, or stops. What the material pins is measured whenever nothing else is done.
+    void price() { start_pricing(false); }
     void stop_pricing() { price_task_.cancel(); }
     bool pricing() const { return price_task_.busy(); }
     PriceList prices() const;
@@ -116,6 +116,8 @@ class Session {
     void adopt_document(Document document);
     void start_cooking();
     void start_slow_numbers();
+    void start_pricing(bool present_only);
+    bool rested() const;
     diffraction::Frame middle_frame() const;
     void read_picked_pixel();
 

@@ -47,6 +47,8 @@ void Workbench::draw(const platform::InputState& input, bool keys_are_ours, cons
     const Document& document = session_.document();
     controls_.note("document", document.name() + (document.dirty() ? " *" : ""));
     controls_.note("refused", document.refusal() ? document.refusal()->message : "no");
+    controls_.note("material", document.json().dump());
+    controls_.note("shape is", preview_shape_name(session_.shape()));
     controls_.note("busy", session_.busy() ? "yes" : "no");
     controls_.note("light", session_.light() ? session_.light()->path.filename().string() : "none");
     if (!session_.messages().empty()) controls_.note("message", session_.messages().back().text);
@@ -209,7 +211,7 @@ void Workbench::draw_tiles(const platform::InputState& input, const WorkbenchFra
 void Workbench::draw_tools() {
     const float font = ImGui::GetFontSize();
     Stage& stage = session_.stage;
-    ImGui::SetNextItemWidth(6.0F * font);
+    ImGui::SetNextItemWidth(5.2F * font);
     if (ImGui::BeginCombo("##shape", preview_shape_name(session_.shape()))) {
         for (const PreviewShape shape : kPreviewShapes)
             if (shape != PreviewShape::Model || session_.has_model()) {
@@ -221,7 +223,7 @@ void Workbench::draw_tools() {
     }
     controls_.mark("shape");
     ImGui::SameLine();
-    ImGui::SetNextItemWidth(10.0F * font);
+    ImGui::SetNextItemWidth(7.6F * font);
     const std::string light = session_.light() ? session_.light()->path.stem().string() : "loading…";
     if (ImGui::BeginCombo("##light", light.c_str())) {
         for (const std::filesystem::path& path : session_.shipped_lights()) {
@@ -233,16 +235,22 @@ void Workbench::draw_tools() {
     }
     controls_.mark("light picker");
     ImGui::SameLine();
-    ImGui::SetNextItemWidth(7.5F * font);
+    ImGui::SetNextItemWidth(6.2F * font);
     ImGui::SliderFloat("##turn", &stage.rotation_deg, -180.0F, 180.0F, "turned %.0f°");
     controls_.mark("turn");
     ImGui::SameLine();
-    ImGui::SetNextItemWidth(6.5F * font);
+    ImGui::SetNextItemWidth(5.6F * font);
     ImGui::SliderFloat("##exposure", &stage.exposure_stops, -8.0F, 8.0F, "%+.2f stops");
     controls_.mark("exposure");
     ImGui::SameLine();
     ImGui::Checkbox("Lamp", &stage.lamp);
     controls_.mark("lamp");
+    if (session_.preview().has_saved()) {
+        ImGui::SameLine();
+        ImGui::Checkbox("A/B", &comparing_);
+        controls_.mark("compare");
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("Left of the line: as saved. Drag the line.");
+    }
     if (stage.lamp) {
         ImGui::SetNextItemWidth(8.0F * font);
         ImGui::SliderFloat("##lamp azimuth", &stage.lamp_azimuth_deg, -180.0F, 180.0F, "azimuth %.0f°");
@@ -253,11 +261,6 @@ void Workbench::draw_tools() {
         ImGui::SetNextItemWidth(8.0F * font);
         ImGui::SliderFloat("##lamp strength", &stage.lamp_irradiance, 0.0F, 20.0F, "irradiance %.1f");
     }
-    if (!session_.preview().has_saved()) return;
-    ImGui::SameLine();
-    ImGui::Checkbox("A/B", &comparing_);
-    controls_.mark("compare");
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Left of the line: as saved. Drag the line.");
 }
 
 void Workbench::draw_preview(const platform::InputState& input, const WorkbenchFrame& frame) {
@@ -343,8 +346,10 @@ void Workbench::draw_status(float top, float width, float height, double frame_m
     const Document& document = session_.document();
     ImGui::TextUnformatted((document.name() + (document.dirty() ? " •" : "")).c_str());
     if (document.dirty() && ImGui::IsItemHovered()) ImGui::SetTooltip("Not saved");
-    ImGui::SameLine();
-    ImGui::TextDisabled("%.1f ms", frame_ms);
+    if (frame_ms > 0.0) {
+        ImGui::SameLine();
+        ImGui::TextDisabled("%.1f ms", frame_ms);
+    }
     if (!session_.messages().empty()) {
         ImGui::SameLine();
         const Session::Message& last = session_.messages().back();

@@ -182,6 +182,7 @@ TEST(Schema, OfProbeRecipesAgreesWithTheParser) {
     const std::vector<json> documents = {
         read("content/probes/studio.json"),
         read("content/probes/clear_sky.json"),
+        read("content/probes/night.json"),
         json::parse(
             R"({"probe": {"type": "image", "file": "a.hdr", "mapping": "angular", "bands": 8, "key_lights": 9, "face_size": 64}})"),
         json::parse(R"({"probe": {"type": "clear_sky", "sun_azimuth_deg": 3, "sun_elevation_deg": 4, "width": 256}})"),

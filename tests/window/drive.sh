@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
 # drive.sh FOLDER ACTION... -- DEMO ARGUMENT...
-# Runs the demo in a window under Xvfb and plays a user: key:NAME, drag:DX,DY, shot (F12, and waits for the file),
-# run:COMMAND, wait:SECONDS, other:SECONDS (shots until one differs from the last, at most so long). Shots lie in FOLDER
+# Runs the demo in a window under Xvfb and plays a user: key:NAME, drag:DX,DY, at:X,Y (the mouse), click:X,Y,
+# dragat:X,Y,DX,DY, throw:X,Y,DX,DY (a drag that is let go in motion), down:KEY, up:KEY, log:SECONDS,TEXT (waits, at most
+# so long, until the demo has said that), shot (F12, and waits for the file), pixel:SECONDS (F8 until a measured pixel is written, at most so
+# long), run:COMMAND, wait:SECONDS, other:SECONDS (shots until one differs from the last, at most so long). Shots lie in FOLDER
 # as shot_1.png and so on. Ends with the demo's own exit status, after Escape.
 set -u
 folder=$1
@@ -14,10 +16,10 @@ done
 shift
 
 if [ -z "${ROWLAND_INSIDE_XVFB:-}" ]; then
-    ROWLAND_INSIDE_XVFB=1 exec xvfb-run -a -s "-screen 0 800x600x24" bash "$0" "$folder" "${actions[@]}" -- "$@"
+    ROWLAND_INSIDE_XVFB=1 exec xvfb-run -a -s "-screen 0 1024x768x24" bash "$0" "$folder" "${actions[@]}" -- "$@"
 fi
 
-"$@" --output-folder "$folder" &
+"$@" --output-folder "$folder" 2> >(tee "$folder/log" >&2) &
 demo=$!
 window=$(timeout 60 xdotool search --sync --onlyvisible --name Rowland | head -n 1)
 xdotool windowfocus --sync "$window"
@@ -50,6 +52,42 @@ other() {
     shots=$((shots + 1))
     mv "$taken_file" "$folder/shot_$shots.png"
 }
+pixels=0
+# Has the demo write the pixel under the mouse once it is measured.
+pixel() {
+    local file end=$((SECONDS + $1))
+    file="$folder/$(printf 'pixel_%04d.json' "$pixels")"
+    pixels=$((pixels + 1))
+    while [ ! -f "$file" ] && [ "$SECONDS" -lt "$end" ]; do
+        xdotool key F8
+        sleep 0.3
+    done
+    # What was asked for meanwhile is written, too.
+    sleep 1
+    while [ -f "$folder/$(printf 'pixel_%04d.json' "$pixels")" ]; do pixels=$((pixels + 1)); done
+}
+press() {
+    xdotool mousemove --window "$window" "${1%%,*}" "${1#*,}"
+    sleep 0.1
+    xdotool mousedown 1
+    sleep 0.1
+}
+throw() {
+    local x y dx dy
+    IFS=, read -r x y dx dy <<<"$1"
+    press "$x,$y"
+    for _ in $(seq 10); do
+        xdotool mousemove_relative -- $((dx / 10)) $((dy / 10))
+        sleep 0.02
+    done
+    xdotool mouseup 1
+}
+await() {
+    local end=$((SECONDS + ${1%%,*}))
+    until grep -qF -- "${1#*,}" "$folder/log" || [ "$SECONDS" -ge "$end" ]; do
+        sleep 0.2
+    done
+}
 # The first picture tells that the demo is drawing; it is not one of the test's.
 take
 
@@ -67,7 +105,24 @@ for action in "${actions[@]}"; do
             sleep 0.1
             xdotool mouseup 1
             ;;
+        at) xdotool mousemove --window "$window" "${value%%,*}" "${value#*,}" ;;
+        click)
+            press "$value"
+            xdotool mouseup 1
+            ;;
+        dragat)
+            IFS=, read -r x y dx dy <<<"$value"
+            press "$x,$y"
+            xdotool mousemove_relative -- "$dx" "$dy"
+            sleep 0.1
+            xdotool mouseup 1
+            ;;
+        throw) throw "$value" ;;
+        down) xdotool keydown "$value" ;;
+        up) xdotool keyup "$value" ;;
+        log) await "$value" ;;
         shot) shot ;;
+        pixel) pixel "$value" ;;
         other) other "$value" ;;
         wait) sleep "$value" ;;
         run) eval "$value" ;;

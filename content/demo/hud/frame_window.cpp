@@ -20,7 +20,7 @@ void graph(const std::deque<float>& frame_ms) {
     const std::string label = fmt::format("{:.1f} ms, median {:.1f}, longest {:.1f}", times.back(), median, longest);
     ImGui::TextUnformatted(label.c_str());
     ImGui::PlotLines("##frames", times.data(), static_cast<int>(times.size()), 0, nullptr, 0.0F, 1.1F * longest,
-                     {-1.0F, 4.0F * ImGui::GetFontSize()});
+                     {ImGui::GetContentRegionAvail().x, 4.0F * ImGui::GetFontSize()});
 }
 
 void pass_row(const std::string& name, double cpu_ms, std::optional<double> gpu_ms) {

@@ -34,7 +34,7 @@ std::string title_of(Comparison& comparison, ecs::Entity grating, Side side) {
     const Look& look = comparison.look(grating, side);
     if (!look.own()) return look_name(look);
     const std::size_t index = comparison.shown(grating, side)->cooked()->tables.index();
-    return std::string("as cooked: ") + diffraction::representation_name(index);
+    return std::string(diffraction::representation_name(index)) + " (cooked)";
 }
 
 void look_choice(Comparison& comparison, const Object& object, Side side) {
@@ -94,6 +94,8 @@ void object_row(const Panel& panel, const Object& object) {
 void gratings_panel(const Panel& panel) {
     Comparison& comparison = panel.comparison();
     action_check_box(panel, Action::Wipe, "wipe", comparison.wiping());
+    ImGui::SameLine();
+    action_check_box(panel, Action::Reference, "reference", panel.reference);
     ImGui::SameLine();
     action_button(panel, Action::NextLook, "next of all");
     if (comparison.baking()) {

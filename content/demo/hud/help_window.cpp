@@ -37,7 +37,7 @@ void hint_line() {
                              key(Action::Close) + " end";
     const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
     ImDrawList* list = ImGui::GetBackgroundDrawList();
-    const ImVec2 at(0.5F * (size.x - extent.x), size.y - extent.y - 10.0F);
+    const ImVec2 at(20.0F, size.y - extent.y - 14.0F);
     list->AddRectFilled({at.x - 10.0F, at.y - 4.0F}, {at.x + extent.x + 10.0F, at.y + extent.y + 4.0F},
                         ImGui::GetColorU32(ImGuiCol_WindowBg), 5.0F);
     list->AddText(at, ImGui::GetColorU32(ImGuiCol_TextDisabled), text.c_str());

@@ -74,6 +74,9 @@ bool Hud::perform(Action action) {
         case Action::Wipe:
             toggle_wipe();
             return true;
+        case Action::Reference:
+            toggle_reference();
+            return true;
         case Action::NextLook:
         case Action::NextDetail:
             choose_look(action == Action::NextDetail);
@@ -132,8 +135,34 @@ void Hud::toggle_wipe() {
     comparison.set_look_of_all(Side::Right, {.representation = "spikes"});
 }
 
+void Hud::toggle_reference() {
+    reference_ = !reference_;
+    if (reference_) session_.comparison().set_wiping(true);
+}
+
+PixelProbe Hud::probe() const {
+    return {.path = session_.probe_path(),
+            .mapping = options_.probe_mapping,
+            .recipes = options_.content_folder / "probes",
+            .version = session_.probe_version()};
+}
+
+void Hud::show_reference() {
+    Comparison& comparison = session_.comparison();
+    if (reference_ && comparison.wiping())
+        still_.update(session_.play().world(), comparison, session_.play().camera(), session_.picture().linear().size(),
+                      probe());
+    else
+        still_.stop(comparison);
+}
+
 std::string Hud::name_of_all(Side side) {
     Comparison& comparison = session_.comparison();
+    if (side == Side::Right && reference_) {
+        if (!still_.failure().empty()) return still_.failure();
+        return still_.begun() ? fmt::format("reference, {:.0f} %", 100.0 * still_.progress())
+                              : std::string("reference, when all rests");
+    }
     std::optional<Look> common;
     for (const ecs::Entity grating : comparison.gratings()) {
         const Look& look = comparison.look(grating, side);
@@ -162,20 +191,15 @@ void Hud::measure_pixel() {
         meter_.forget();
         return;
     }
-    const auto frame =
-        frame_at(world, grating, under_cursor->hit.triangle, under_cursor->hit.point, session_.play().camera().eye);
+    const auto frame = frame_at(grating_place(world, grating).value(), under_cursor->hit.triangle,
+                                under_cursor->hit.point, session_.play().camera().eye);
     if (!frame) {
         target_->refusal = "seen from behind";
         meter_.forget();
         return;
     }
-    PixelQuery query{.cooked = comparison.shown(grating, side)->cooked(),
-                     .frame = *frame,
-                     .window = std::nullopt,
-                     .probe = {.path = session_.probe_path(),
-                               .mapping = options_.probe_mapping,
-                               .recipes = options_.content_folder / "probes",
-                               .version = session_.probe_version()}};
+    PixelQuery query{
+        .cooked = comparison.shown(grating, side)->cooked(), .frame = *frame, .window = std::nullopt, .probe = probe()};
     if (options_.light_window != "auto") query.window = math::parse_window(options_.light_window);
     meter_.ask(query);
 }
@@ -199,7 +223,7 @@ void Hud::write_pixel() {
 
 void Hud::main_window(Panel& panel) {
     const ImGuiIO& io = ImGui::GetIO();
-    const float width = (session_.comparison().wiping() ? 30.0F : 21.0F) * ImGui::GetFontSize();
+    const float width = (session_.comparison().wiping() ? 28.0F : 21.0F) * ImGui::GetFontSize();
     ImGui::SetNextWindowPos({10.0F, 10.0F});
     ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, io.DisplaySize.y - 60.0F});
     const ImGuiWindowFlags flags =
@@ -220,7 +244,8 @@ void Hud::main_window(Panel& panel) {
 }
 
 void Hud::build() {
-    Panel panel{options_, session_, called_for_};
+    Panel panel{options_, session_, called_for_, reference_};
+    show_reference();
     if (session_.comparison().wiping())
         wipe_line(session_.comparison(), name_of_all(Side::Left), name_of_all(Side::Right));
     if (panels_) {

@@ -8,6 +8,7 @@
 #include "content/demo/hud/windows.h"
 #include "content/demo/options.h"
 #include "content/demo/pixel/pixel_meter.h"
+#include "content/demo/pixel/reference_still.h"
 #include "content/demo/play/play_event.h"
 #include "content/demo/session.h"
 #include "engine/platform/input.h"
@@ -42,6 +43,9 @@ class Hud {
     Side side_of_pointer() const;
     void choose_look(bool detail);
     void toggle_wipe();
+    void toggle_reference();
+    void show_reference();
+    PixelProbe probe() const;
     void measure_pixel();
     void write_pixel();
     void main_window(Panel& panel);
@@ -55,6 +59,8 @@ class Hud {
     std::vector<PlayEvent> called_for_;
     std::deque<float> frame_ms_;
     PixelMeter meter_;
+    ReferenceStill still_;
+    bool reference_ = false;  ///< right of a wipe's line
     std::optional<PixelTarget> target_;
     int pixels_written_ = 0;
     bool panels_;

@@ -15,6 +15,7 @@ struct Panel {
     const Options& options;
     Session& session;
     std::vector<PlayEvent>& called_for;
+    bool reference = false;  ///< its still is wanted
 
     void call_for(Action action) const { called_for.emplace_back(ActionEvent{action}); }
     Comparison& comparison() const { return session.comparison(); }

@@ -36,6 +36,7 @@ void reading_table(const PixelReading& reading, const glm::dmat3& xyz_to_working
     const glm::dvec3 shown = xyz_to_working * reading.point.shown;
     const glm::dvec3 reference = xyz_to_working * reading.point.reference;
     const double white = std::max({shown.r, shown.g, shown.b, reference.r, reference.g, reference.b, 1e-9});
+    ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {0.5F * ImGui::GetFontSize(), 2.0F});
     if (ImGui::BeginTable("colours", 3, ImGuiTableFlags_SizingFixedFit)) {
         ImGui::TableSetupColumn("");
         ImGui::TableSetupColumn("X  Y  Z");
@@ -45,6 +46,7 @@ void reading_table(const PixelReading& reading, const glm::dmat3& xyz_to_working
         colour_row("reference", reading.point.reference, reference, white);
         ImGui::EndTable();
     }
+    ImGui::PopStyleVar();
     ImGui::Text("error %.3g %%", 100.0 * reading.point.error);
 }
 

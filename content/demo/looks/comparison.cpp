@@ -9,6 +9,7 @@
 #include "engine/scene/transform.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
 #include "modules/diffraction/runtime/flatness.h"
+#include "modules/diffraction/runtime/gpu_still.h"
 
 namespace rowland::demo {
 
@@ -18,9 +19,12 @@ using diffraction::DiffractionSurface;
 struct Comparison::Looks {
     Look left;
     Look right;
-    GpuMaterialPointer own{};       ///< the object's own material
-    GpuMaterialPointer assigned{};  ///< what we gave it last: another one now is a new own
-    GpuMaterialPointer of_right{};  ///< what its twin shows
+    GpuMaterialPointer own{};                     ///< the object's own material
+    GpuMaterialPointer assigned{};                ///< what we gave it last: another one now is a new own
+    GpuMaterialPointer of_right{};                ///< what its twin shows
+    std::shared_ptr<const gpu::Texture> still{};  ///< that still_material shows
+    GpuMaterialPointer still_of{};
+    GpuMaterialPointer still_material{};
     std::shared_ptr<const scene::Mesh> mesh{};
     bool flat = false;  ///< that mesh
     std::optional<ecs::Entity> twin{};
@@ -49,6 +53,14 @@ std::vector<ecs::Entity> Comparison::gratings() {
 
 bool Comparison::is_grating(ecs::Entity entity) {
     return world_.find<DiffractionSurface>(entity) != nullptr && world_.find<TwinOf>(entity) == nullptr;
+}
+
+bool Comparison::is_twin(ecs::Entity entity) {
+    return world_.find<TwinOf>(entity) != nullptr;
+}
+
+GpuMaterialPointer Comparison::own(ecs::Entity grating) {
+    return looks_of_grating(grating).own;
 }
 
 Comparison::Looks& Comparison::looks_of_grating(ecs::Entity grating) {
@@ -116,6 +128,21 @@ void Comparison::show(ecs::Entity grating) {
     }
 }
 
+GpuMaterialPointer Comparison::material_of_twin(ecs::Entity grating) {
+    Looks& looks = looks_of_grating(grating);
+    const auto& grooves = world_.get<DiffractionSurface>(grating).grooves;
+    if (!looks.of_right) looks.of_right = looks.own;
+    if (const auto wanted = variants_.find(looks.own, grooves, looks.flat, looks.right)) looks.of_right = wanted;
+    if (!still_ || grooves) return looks.of_right;
+    if (looks.still != still_ || looks.still_of != looks.own) {
+        looks.still = still_;
+        looks.still_of = looks.own;
+        looks.still_material =
+            std::make_shared<const diffraction::GpuStill>(*looks.own->cooked(), still_, variants_.xyz_to_working());
+    }
+    return looks.still_material;
+}
+
 void Comparison::show_twin(ecs::Entity grating) {
     if (!looks_of_grating(grating).twin) {
         const ecs::Entity made = world_.create();
@@ -125,10 +152,7 @@ void Comparison::show_twin(ecs::Entity grating) {
     Looks& looks = looks_of_grating(grating);
     const ecs::Entity twin = *looks.twin;
     DiffractionSurface surface = world_.get<DiffractionSurface>(grating);
-    if (const auto wanted = variants_.find(looks.own, surface.grooves, looks.flat, looks.right))
-        looks.of_right = wanted;
-    surface.material = looks.of_right ? looks.of_right : looks.own;
-    looks.of_right = surface.material;
+    surface.material = material_of_twin(grating);
     world_.add(twin, surface);
     world_.add(twin, render::MeshInstance(world_.get<render::MeshInstance>(grating)));
     world_.add(twin, render::StandardMaterial(world_.get<render::StandardMaterial>(grating)));

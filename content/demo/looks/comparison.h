@@ -9,6 +9,7 @@
 #include "content/demo/looks/look.h"
 #include "content/demo/looks/variants.h"
 #include "engine/ecs/world.h"
+#include "engine/gpu/texture.h"
 
 namespace rowland::demo {
 
@@ -31,6 +32,7 @@ class Comparison {
     /// The gratings of the world; twins that a wipe draws are none.
     std::vector<ecs::Entity> gratings();
     bool is_grating(ecs::Entity entity);
+    bool is_twin(ecs::Entity entity);
     const Look& look(ecs::Entity grating, Side side);
     /// Its own where the look does not suit the object.
     void set_look(ecs::Entity grating, Side side, const Look& look);
@@ -39,6 +41,12 @@ class Comparison {
     LookSubject subject(ecs::Entity grating);
     /// The material that an object shows on a side now; the last one while a new one is baked.
     GpuMaterialPointer shown(ecs::Entity grating, Side side);
+    /// The object's own material.
+    GpuMaterialPointer own(ecs::Entity grating);
+    /// What all gratings show right of the line in place of their looks: a picture as GpuStill takes it; null: nothing.
+    /// Gratings whose grooves vary keep their looks.
+    void set_still(std::shared_ptr<const gpu::Texture> still) { still_ = std::move(still); }
+    bool shows_still() const { return still_ != nullptr; }
     bool baking() const { return variants_.baking(); }
 
     /// Once a frame, after world matrices are up to date and before the world is drawn.
@@ -50,11 +58,13 @@ class Comparison {
     Looks& looks_of_grating(ecs::Entity grating);
     void show(ecs::Entity grating);
     void show_twin(ecs::Entity grating);
+    GpuMaterialPointer material_of_twin(ecs::Entity grating);
     void remove_twin(ecs::Entity grating);
     void remove_orphans();
 
     ecs::World& world_;
     Variants variants_;
+    std::shared_ptr<const gpu::Texture> still_;
     Look left_of_all_;
     Look right_of_all_;
     bool wiping_ = false;

@@ -28,6 +28,7 @@ class Variants {
     /// Once a frame: uploads what was baked, forgets what nobody needs any more.
     void poll();
     bool baking() const;
+    const glm::dmat3& xyz_to_working() const { return xyz_to_working_; }
 
  private:
     struct Variant {

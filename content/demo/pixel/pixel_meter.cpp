@@ -40,6 +40,9 @@ bool same(const PixelQuery& a, const PixelQuery& b) {
 
 void PixelMeter::ask(const PixelQuery& query) {
     wanted_ = query;
+    if (!failed_ || same(*failed_, query)) return;
+    failed_.reset();
+    failure_.clear();
 }
 
 bool PixelMeter::current() const {

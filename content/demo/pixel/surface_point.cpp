@@ -24,14 +24,18 @@ V interpolated(const std::vector<V>& values, const scene::Mesh& mesh, const Tria
 
 }  // namespace
 
-std::optional<diffraction::Frame> frame_at(ecs::World& world, ecs::Entity grating, const TriangleHit& hit,
-                                           const glm::vec3& point, const glm::vec3& eye) {
+std::optional<GratingPlace> grating_place(ecs::World& world, ecs::Entity grating) {
     const auto* surface = world.find<diffraction::DiffractionSurface>(grating);
     const auto* instance = world.find<render::MeshInstance>(grating);
     const auto* matrix = world.find<scene::WorldMatrix>(grating);
     if (surface == nullptr || instance == nullptr || matrix == nullptr) return std::nullopt;
-    const scene::Mesh& mesh = *instance->mesh;
-    const glm::mat3 linear(matrix->matrix);
+    return GratingPlace{instance->mesh, matrix->matrix, surface->groove_rotation};
+}
+
+std::optional<diffraction::Frame> frame_at(const GratingPlace& place, const TriangleHit& hit, const glm::vec3& point,
+                                           const glm::vec3& eye) {
+    const scene::Mesh& mesh = *place.mesh;
+    const glm::mat3 linear(place.to_world);
     const glm::vec3 normal = glm::inverseTranspose(linear) * interpolated(mesh.normals, mesh, hit);
     const glm::vec4 tangent = interpolated(mesh.tangents, mesh, hit);
     const glm::dvec3 n = glm::normalize(glm::dvec3(normal));
@@ -40,7 +44,7 @@ std::optional<diffraction::Frame> frame_at(ecs::World& world, ecs::Entity gratin
     // Mirrored placements turn the handedness of the tangent space over, as the shaders do.
     const double side = static_cast<double>(tangent.w) * (glm::determinant(linear) < 0.0F ? -1.0 : 1.0);
     const glm::dvec3 b = glm::cross(n, t) * (side < 0.0 ? -1.0 : 1.0);
-    const double turn = static_cast<double>(surface->groove_rotation);
+    const double turn = static_cast<double>(place.groove_rotation);
     const diffraction::Frame frame{.view = glm::normalize(glm::dvec3(eye) - glm::dvec3(point)),
                                    .normal = n,
                                    .grating = std::cos(turn) * t + std::sin(turn) * b};

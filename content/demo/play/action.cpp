@@ -45,6 +45,7 @@ constexpr std::array kActionKeys{
               "the next representation of the grating under the cursor, or of all"},
     ActionKey{Action::NextDetail, Key::Y, "next detail", "the same representation coarser or finer"},
     ActionKey{Action::Wipe, Key::X, "wipe", "two representations side by side; drag the line between them"},
+    ActionKey{Action::Reference, Key::Z, "reference", "the reference's still picture right of the line of a wipe"},
     ActionKey{Action::Help, Key::F1, "help", "this list"},
     ActionKey{Action::Hud, Key::F2, "panels", "show or hide all panels"},
     ActionKey{Action::Reload, Key::F5, "reload", "load shaders and assets anew"},

@@ -15,7 +15,7 @@ enum class Action {
     // clang-format off
     Walk, ResetView, PutBack, Pause, SlowMotion, OneStep, AddLight, RemoveLight, TurnLightLeft, TurnLightRight,
     Lamp, NextProbe, NextView, LessExposure, MoreExposure, Bloom, Vignette, AutoExposure, Dither,
-    Help, Hud, FrameGraph, NextLook, NextDetail, Wipe, WritePixel,
+    Help, Hud, FrameGraph, NextLook, NextDetail, Wipe, Reference, WritePixel,
     Reload, LinearScreenshot, FullScreen, Screenshot, Close,
     // clang-format on
 };

@@ -11,21 +11,6 @@ namespace rowland::demo {
 
 namespace {
 
-std::optional<TriangleHit> meet(const Ray& ray, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
-    const glm::vec3 ab = b - a;
-    const glm::vec3 ac = c - a;
-    const glm::vec3 across = glm::cross(ray.direction, ac);
-    const float determinant = glm::dot(ab, across);
-    if (determinant == 0.0F) return std::nullopt;
-    const glm::vec3 from_a = ray.origin - a;
-    const float u = glm::dot(from_a, across) / determinant;
-    const glm::vec3 normal = glm::cross(from_a, ab);
-    const float v = glm::dot(ray.direction, normal) / determinant;
-    const float distance = glm::dot(ac, normal) / determinant;
-    if (!(u >= 0.0F && v >= 0.0F && u + v <= 1.0F && distance > 0.0F)) return std::nullopt;
-    return TriangleHit{.triangle = 0, .weights = {u, v}, .distance = distance};
-}
-
 /// Whether the ray goes through the box, made a little larger so that rounding loses no flat one (Kay & Kajiya 1986).
 bool meets(const Ray& ray, const scene::Bounds& box) {
     const glm::vec3 margin = 1e-4F * (box.maximum - box.minimum) + 1e-6F;
@@ -47,6 +32,21 @@ bool meets(const Ray& ray, const scene::Bounds& box) {
 }
 
 }  // namespace
+
+std::optional<TriangleHit> meet(const Ray& ray, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+    const glm::vec3 ab = b - a;
+    const glm::vec3 ac = c - a;
+    const glm::vec3 across = glm::cross(ray.direction, ac);
+    const float determinant = glm::dot(ab, across);
+    if (determinant == 0.0F) return std::nullopt;
+    const glm::vec3 from_a = ray.origin - a;
+    const float u = glm::dot(from_a, across) / determinant;
+    const glm::vec3 normal = glm::cross(from_a, ab);
+    const float v = glm::dot(ray.direction, normal) / determinant;
+    const float distance = glm::dot(ac, normal) / determinant;
+    if (!(u >= 0.0F && v >= 0.0F && u + v <= 1.0F && distance > 0.0F)) return std::nullopt;
+    return TriangleHit{.triangle = 0, .weights = {u, v}, .distance = distance};
+}
 
 std::optional<TriangleHit> nearest_hit(const Ray& ray, const scene::Mesh& mesh, float nearest_allowed) {
     std::optional<TriangleHit> nearest;

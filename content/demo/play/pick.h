@@ -26,6 +26,9 @@ struct TriangleHit {
     float distance = 0.0F;     ///< in lengths of the ray's direction
 };
 
+/// Where a ray meets one triangle, its number left 0; nothing if it misses (Möller & Trumbore 1997).
+std::optional<TriangleHit> meet(const Ray& ray, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
+
 /// The nearest triangle, seen from either side and at least `nearest_allowed` away (Möller & Trumbore 1997); nothing if
 /// the ray misses.
 std::optional<TriangleHit> nearest_hit(const Ray& ray, const scene::Mesh& mesh, float nearest_allowed = 0.0F);

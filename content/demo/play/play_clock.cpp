@@ -1,12 +1,12 @@
 #include "content/demo/play/play_clock.h"
 
-#include <iterator>
 #include <utility>
 
 namespace rowland::demo {
 
 void PlayClock::live(Play& play, std::chrono::nanoseconds frame, std::vector<PlayEvent> events, Recorder* recorder) {
-    waiting_.insert(waiting_.end(), std::make_move_iterator(events.begin()), std::make_move_iterator(events.end()));
+    std::erase_if(events, [this](const PlayEvent& event) { return says_nothing_new(event); });
+    waiting_.insert(waiting_.end(), events.begin(), events.end());
     const int steps = pace_.advance(frame);
     for (int i = 0; i < steps; ++i) {
         const std::span<const PlayEvent> of_step = events_of_step(waiting_, i, steps);
@@ -15,6 +15,14 @@ void PlayClock::live(Play& play, std::chrono::nanoseconds frame, std::vector<Pla
     }
     if (steps > 0) waiting_.clear();
     if (recorder != nullptr) recorder->flush();
+}
+
+bool PlayClock::says_nothing_new(const PlayEvent& event) {
+    const auto* input = std::get_if<platform::InputEvent>(&event);
+    const auto* pad = input == nullptr ? nullptr : std::get_if<platform::GamepadEvent>(input);
+    if (pad == nullptr) return false;
+    const platform::GamepadEvent before = std::exchange(pad_, *pad);
+    return pad_.connected == before.connected && pad_.axes == before.axes && pad_.buttons == before.buttons;
 }
 
 bool PlayClock::replay(Play& play, std::chrono::nanoseconds frame, const Recording& recording) {

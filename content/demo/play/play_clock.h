@@ -13,16 +13,20 @@ namespace rowland::demo {
 class PlayClock {
  public:
     /// Lives through a frame of that length in which `events` happened; those of frames shorter than a step wait for
-    /// the next. What the play gets is also recorded, if there is a recorder.
+    /// the next, and a reading of the game pad that says nothing new counts as none. What the play gets is also
+    /// recorded, if there is a recorder.
     void live(Play& play, std::chrono::nanoseconds frame, std::vector<PlayEvent> events, Recorder* recorder);
 
     /// Plays a frame of that length from a recording, which began with the play; false once it is over.
     bool replay(Play& play, std::chrono::nanoseconds frame, const Recording& recording);
 
  private:
+    bool says_nothing_new(const PlayEvent& event);
+
     // A picture a second is the slowest at which a hand still keeps its speed.
     platform::FixedStep pace_{kStepsPerSecond, std::chrono::seconds(1)};
     std::vector<PlayEvent> waiting_;
+    platform::GamepadEvent pad_;  ///< as last read
 };
 
 }  // namespace rowland::demo

@@ -66,10 +66,6 @@ ordered_json line_of(const ActionEvent& event, std::uint64_t step) {
     return {{"step", step}, {"action", row_of(event.action).name}};
 }
 
-bool same(const platform::GamepadEvent& a, const platform::GamepadEvent& b) {
-    return a.connected == b.connected && a.axes == b.axes && a.buttons == b.buttons;
-}
-
 /// A required truth value.
 bool truth(JsonReader& reader, const std::string& key) {
     if (!reader.has(key)) reader.fail(key, "nothing", "true or false");
@@ -225,12 +221,6 @@ Recorder::Recorder(const std::filesystem::path& path, const RecordingHead& head)
 
 void Recorder::add(std::uint64_t step, std::span<const PlayEvent> events) {
     for (const PlayEvent& event : events) {
-        if (const auto* input = std::get_if<platform::InputEvent>(&event)) {
-            if (const auto* pad = std::get_if<platform::GamepadEvent>(input)) {
-                if (pad_ ? same(*pad_, *pad) : !pad->connected) continue;
-                pad_ = *pad;
-            }
-        }
         const ordered_json line = std::visit([step](const auto& e) { return line_of(e, step); }, event);
         if (!line.is_null()) file_ << line.dump() << '\n';
     }

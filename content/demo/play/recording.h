@@ -35,7 +35,6 @@ class Recorder {
  private:
     std::filesystem::path path_;
     std::ofstream file_;
-    std::optional<platform::GamepadEvent> pad_;  ///< as last written: a reading comes with every frame
 };
 
 /// A recorded play.

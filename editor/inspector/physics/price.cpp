@@ -113,7 +113,9 @@ void mark_front(std::vector<PricedChoice>& choices) {
 void price_choices(const PriceQuery& query, const std::function<void(const PriceList&)>& report,
                    const std::stop_token& stop) {
     std::vector<std::pair<nlohmann::json, diffraction::Quality>> suited;
-    for (const nlohmann::json& settings : diffraction::budget_candidates(query.material.grating, query.surface))
+    const auto all = query.present_only ? std::vector<nlohmann::json>()
+                                        : diffraction::budget_candidates(query.material.grating, query.surface);
+    for (const nlohmann::json& settings : all)
         if (auto quality = as_quality(settings, query.material)) suited.emplace_back(settings, std::move(*quality));
     const bool pinned = query.material.quality.pinned.has_value();
     PriceList list{.choices = {}, .done = 0, .total = 2 * suited.size() + (pinned ? 1 : 0)};

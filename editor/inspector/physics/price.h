@@ -37,6 +37,7 @@ struct PriceQuery {
     const lighting::ProbeImage& probe;
     int key_lights = 16;
     diffraction::SurfaceShape surface = diffraction::SurfaceShape::Flat;
+    bool present_only = false;  ///< what the material pins, and no candidates
 };
 
 /// Measures the material as it is, then every one of budget_candidates(), the cheapest first, over measured_frames()

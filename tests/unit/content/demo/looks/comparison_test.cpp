@@ -18,7 +18,8 @@ class ComparisonTest : public test::RenderTest {
  protected:
     ComparisonTest() {
         diffraction::register_module(renderer_);
-        renderer_.set_probe(lighting::build_light_probe(sky()));
+        renderer_.set_probe(lighting::build_light_probe(
+            sky(), {.bands = 8, .key_lights = 0, .light_face = 16, .prefilter = {.face_size = 16}}));
         grating_ = add_grating(cooked(1600));
         camera_.eye = {1.6F, 0.4F, 2.2F};
     }

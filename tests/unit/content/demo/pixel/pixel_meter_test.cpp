@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <set>
 #include <thread>
 
 #include "content/demo/pixel/whole_probe.h"
@@ -15,7 +16,7 @@ namespace {
 
 constexpr const char* kStudio = R"({"probe": {"type": "studio", "width": 64, "key_lights": 2,
     "ceiling": [0.2, 0.2, 0.2], "wall": [0.1, 0.1, 0.1], "floor": [0.05, 0.05, 0.05], "boxes": [
-    {"azimuth_deg": 20, "elevation_deg": 50, "half_size_deg": [20, 12], "radiance": [LAMP, 5, 4]}]}})";
+    {"azimuth_deg": 160, "elevation_deg": 40, "half_size_deg": [20, 12], "radiance": [LAMP, 5, 4]}]}})";
 
 class PixelMeterTest : public ::testing::Test {
  protected:
@@ -67,7 +68,7 @@ class PixelMeterTest : public ::testing::Test {
 
 TEST_F(PixelMeterTest, SaysWhatTheModuleSaysForEachMaterialAndProbe) {
     PixelMeter meter;
-    double last = -1.0;
+    std::set<double> errors;
     for (const char* probe : {"warm.json", "cold.json"})
         for (const auto& cooked : {wide_, narrow_}) {
             const PixelQuery asked = query(cooked, probe);
@@ -76,8 +77,7 @@ TEST_F(PixelMeterTest, SaysWhatTheModuleSaysForEachMaterialAndProbe) {
             EXPECT_EQ(reading.point.shown, expected.shown);
             EXPECT_EQ(reading.point.reference, expected.reference);
             EXPECT_EQ(reading.point.error, expected.error);
-            EXPECT_NE(reading.point.error, last);
-            last = reading.point.error;
+            EXPECT_TRUE(errors.insert(reading.point.error).second) << "the same error twice";
         }
 }
 

@@ -22,6 +22,9 @@ class SurfacePointTest : public test::RenderTest {
         world_.add(entity, diffraction::DiffractionSurface{.groove_rotation = groove_rotation});
         return entity;
     }
+    std::optional<diffraction::Frame> seen(ecs::Entity entity, const glm::vec3& point, const glm::vec3& eye) {
+        return frame_at(grating_place(world_, entity).value(), hit_, point, eye);
+    }
     static void expect_near(const glm::dvec3& value, const glm::dvec3& expected) {
         EXPECT_LT(glm::length(value - expected), kRounding) << value.x << ", " << value.y << ", " << value.z;
     }
@@ -29,7 +32,7 @@ class SurfacePointTest : public test::RenderTest {
 };
 
 TEST_F(SurfacePointTest, LooksFromThePointToTheEye) {
-    const auto frame = frame_at(world_, grating(glm::mat4(1.0F), 0.0F), hit_, {0.5F, 0.0F, 0.0F}, {0.5F, 3.0F, 4.0F});
+    const auto frame = seen(grating(glm::mat4(1.0F), 0.0F), {0.5F, 0.0F, 0.0F}, {0.5F, 3.0F, 4.0F});
     ASSERT_TRUE(frame);
     expect_near(frame->view, {0.0, 0.6, 0.8});
     expect_near(frame->normal, {0.0, 0.0, 1.0});
@@ -38,8 +41,8 @@ TEST_F(SurfacePointTest, LooksFromThePointToTheEye) {
 
 TEST_F(SurfacePointTest, GroovesTurnFromTheTangentTowardTheBitangent) {
     const float quarter = 1.5707963F;
-    const auto right = frame_at(world_, grating(glm::mat4(1.0F), quarter), hit_, {}, {0.0F, 0.0F, 2.0F});
-    const auto left = frame_at(world_, grating(glm::mat4(1.0F), quarter, -1.0F), hit_, {}, {0.0F, 0.0F, 2.0F});
+    const auto right = seen(grating(glm::mat4(1.0F), quarter), {}, {0.0F, 0.0F, 2.0F});
+    const auto left = seen(grating(glm::mat4(1.0F), quarter, -1.0F), {}, {0.0F, 0.0F, 2.0F});
     ASSERT_TRUE(right && left);
     expect_near(right->grating, {0.0, 1.0, 0.0});
     expect_near(left->grating, {0.0, -1.0, 0.0});
@@ -48,20 +51,20 @@ TEST_F(SurfacePointTest, GroovesTurnFromTheTangentTowardTheBitangent) {
 TEST_F(SurfacePointTest, FollowsThePlacementEvenStretchedOrMirrored) {
     const glm::mat4 lying = glm::rotate(glm::mat4(1.0F), -1.5707963F, {1.0F, 0.0F, 0.0F});
     const glm::mat4 stretched = glm::scale(lying, {3.0F, 0.5F, 1.0F});
-    const auto frame = frame_at(world_, grating(stretched, 0.0F), hit_, {}, {0.0F, 2.0F, 0.0F});
+    const auto frame = seen(grating(stretched, 0.0F), {}, {0.0F, 2.0F, 0.0F});
     ASSERT_TRUE(frame);
     expect_near(frame->normal, {0.0, 1.0, 0.0});
     expect_near(frame->grating, {1.0, 0.0, 0.0});
     const glm::mat4 mirrored = glm::scale(glm::mat4(1.0F), {1.0F, -1.0F, 1.0F});
-    const auto turned = frame_at(world_, grating(mirrored, 0.5F), hit_, {}, {0.0F, 0.0F, 2.0F});
+    const auto turned = seen(grating(mirrored, 0.5F), {}, {0.0F, 0.0F, 2.0F});
     ASSERT_TRUE(turned);
     // The bitangent is mirrored with the rest.
     expect_near(turned->grating, {std::cos(0.5), -std::sin(0.5), 0.0});
 }
 
 TEST_F(SurfacePointTest, TheBackIsNotMeasured) {
-    EXPECT_FALSE(frame_at(world_, grating(glm::mat4(1.0F), 0.0F), hit_, {}, {0.0F, 0.0F, -2.0F}));
-    EXPECT_FALSE(frame_at(world_, world_.create(), hit_, {}, {0.0F, 0.0F, 2.0F}));
+    EXPECT_FALSE(seen(grating(glm::mat4(1.0F), 0.0F), {}, {0.0F, 0.0F, -2.0F}));
+    EXPECT_FALSE(grating_place(world_, world_.create()));
 }
 
 }  // namespace

@@ -77,23 +77,6 @@ TEST_F(DemoRecording, EveryKindOfEventComesBackExactly) {
     EXPECT_FALSE(std::get<platform::KeyEvent>(std::get<platform::InputEvent>(recording.events_at(7)[0])).down);
 }
 
-TEST_F(DemoRecording, APadAtRestIsWrittenOnce) {
-    {
-        Recorder recorder(path(), {.scene = "s", .window = {1, 1}});
-        const platform::GamepadEvent none;
-        const platform::GamepadEvent rest{.connected = true, .axes = {}, .buttons = {}};
-        recorder.add(0, std::vector<PlayEvent>{platform::InputEvent(none)});
-        for (std::uint64_t step = 1; step < 9; ++step)
-            recorder.add(step, std::vector<PlayEvent>{platform::InputEvent(rest)});
-        recorder.add(9, std::vector<PlayEvent>{platform::InputEvent(none)});
-        recorder.finish(10);
-    }
-    const Recording recording = load_recording(path());
-    ASSERT_EQ(recording.steps.size(), 2U);
-    EXPECT_EQ(recording.steps[0].step, 1U);
-    EXPECT_EQ(recording.steps[1].step, 9U);
-}
-
 TEST_F(DemoRecording, OneThatWasCutOffBetweenLinesIsAllThatHappened) {
     const Recording recording = read(std::string(kHead) + "{\"step\":5,\"mouse\":[1,2]}\n");
     EXPECT_EQ(recording.step_count, 6U);

@@ -123,6 +123,42 @@ TEST(DemoReplay, AThrowIsAboutAsFastAtTwoFramesASecondAsAtSixty) {
     EXPECT_LT(slow_spin, 3.0 * fast_spin);
 }
 
+TEST(DemoReplay, APadAtRestIsNoEvent) {
+    const test::TemporaryFolder folder;
+    const std::filesystem::path path = folder.path() / "play.jsonl";
+    Recorder recorder(path, {.scene = "small", .window = test::kWindow});
+    SmallWorld small;
+    Play play = small.play();
+    PlayClock clock;
+    platform::GamepadEvent pad;
+    for (int frame = 0; frame < 8; ++frame) {
+        if (frame == 2) pad.connected = true;
+        if (frame == 5) pad.axes[0] = 0.5F;
+        clock.live(play, std::chrono::milliseconds(50), {platform::InputEvent(pad)}, &recorder);
+    }
+    recorder.finish(play.steps());
+    const Recording recording = load_recording(path);
+    ASSERT_EQ(recording.steps.size(), 2U);
+    EXPECT_EQ(recording.steps[0].step, 12U);
+    EXPECT_EQ(recording.steps[1].step, 30U);
+}
+
+TEST(DemoReplay, AReleaseInTheNextFrameStillThrows) {
+    // At five frames a second: ten movements in one frame, the release in the next.
+    SmallWorld small;
+    Play play = small.play();
+    PlayClock clock;
+    const auto frame = std::chrono::milliseconds(200);
+    clock.live(play, frame, {test::mouse(test::kOnRight), test::button(true)}, nullptr);
+    std::vector<PlayEvent> moves;
+    for (int i = 1; i <= 10; ++i) moves.push_back(test::mouse(test::kOnRight + glm::dvec2(3.0 * i, 0.0)));
+    clock.live(play, frame, moves, nullptr);
+    clock.live(play, frame, {test::button(false)}, nullptr);
+    // 30 points, 0.75 radians, in 0.2 s.
+    EXPECT_GT(glm::length(play.bodies()[1].state.spin), 2.0);
+    EXPECT_LT(glm::length(play.bodies()[1].state.spin), 6.0);
+}
+
 TEST(DemoReplay, FramesShorterThanAStepLoseNothing) {
     SmallWorld small;
     Play play = small.play();

@@ -1,0 +1,38 @@
+#include "modules/diffraction/runtime/gpu_still.h"
+
+#include <array>
+#include <utility>
+
+#include "modules/diffraction/runtime/bindings.h"
+
+namespace rowland::diffraction {
+
+namespace {
+
+/// A still is, like a map without key lights, of the whole probe and of nothing else.
+CookedMaterial as_a_map(const CookedMaterial& cooked) {
+    CookedMaterial map = cooked;
+    map.material.quality.key_lights = false;
+    map.tables = CircleTables{};
+    return map;
+}
+
+}  // namespace
+
+GpuStill::GpuStill(const CookedMaterial& cooked, std::shared_ptr<const gpu::Texture> still,
+                   const glm::dmat3& xyz_to_working)
+    : GpuMaterial(as_a_map(cooked), xyz_to_working), still_(std::move(still)) {}
+
+void GpuStill::describe(const SurfaceState&, gpu::ProgramDesc& desc) const {
+    set_shaders(desc, "pixel_shaded.vert.glsl", "still.frag.glsl");
+}
+
+void GpuStill::bind_tables(const gpu::Program& program, const SurfaceState&) const {
+    still_->bind(kMapUnit);
+    // Draws that a scissor confines still have the whole picture's viewport.
+    std::array<GLint, 4> viewport{};
+    glGetIntegerv(GL_VIEWPORT, viewport.data());
+    program.set("still_scale", 1.0F / glm::vec2(viewport[2], viewport[3]));
+}
+
+}  // namespace rowland::diffraction

@@ -1,0 +1,14 @@
+#version 450 core
+// A picture of the diffraction term, taken from where the eye is.
+#include "modules/diffraction/shaders/surface.glsl"
+
+layout(binding = 11) uniform sampler2D still;  // XYZ of what is known, alpha how much of it is
+uniform vec2 still_scale;                      // pixels to texture coordinates
+
+vec3 diffracted_xyz(GrooveView view) {
+    vec4 texel = texture(still, gl_FragCoord.xy * still_scale);
+    return texel.a > 0.0 ? texel.rgb / texel.a : vec3(0.0);
+}
+
+#include "modules/diffraction/shaders/pixel_shaded.glsl"
+#include "engine/render/shaders/forward_fragment_main.glsl"

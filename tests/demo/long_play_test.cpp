@@ -1,0 +1,101 @@
+// Half a minute of play without a window: nothing piles up.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <vector>
+
+#include "content/demo/play/play_clock.h"
+#include "content/demo/session.h"
+#include "engine/gpu/debug.h"
+#include "engine/platform/headless_context.h"
+
+namespace rowland {
+namespace {
+
+using demo::Action;
+using demo::PlayEvent;
+
+constexpr int kFramesPerSecond = 10;  ///< 30 s are 300 frames, which a software renderer draws in about as long
+constexpr int kRounds = 6;
+constexpr int kFramesPerRound = 50;
+constexpr glm::ivec2 kSize{160, 90};
+
+/// Resident memory of this process in MiB.
+double resident_mib() {
+    std::ifstream file("/proc/self/statm");
+    double total = 0.0;
+    double resident = 0.0;
+    file >> total >> resident;
+    return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
+}
+
+PlayEvent mouse(double x, double y) {
+    return platform::InputEvent(platform::MouseMoveEvent{{x, y}});
+}
+PlayEvent button(bool down) {
+    return platform::InputEvent(platform::MouseButtonEvent{platform::MouseButton::Left, down});
+}
+
+/// What a player does in one frame of a round, which ends as it began but for what was turned.
+std::vector<PlayEvent> events_of(int frame) {
+    // On the CD, and dragged across; then beside the objects.
+    if (frame == 2) return {mouse(58, 50), button(true)};
+    if (frame > 2 && frame < 8) return {mouse(58 + 3 * (frame - 2), 50 + 2 * (frame - 2))};
+    if (frame == 8) return {button(false)};
+    if (frame == 10) return {mouse(10, 85), button(true)};
+    if (frame > 10 && frame < 14) return {mouse(10 + 4 * (frame - 10), 85)};
+    if (frame == 14) return {button(false)};
+    if (frame >= 15 && frame < 19) return {demo::ActionEvent{Action::AddLight}};
+    if (frame >= 25 && frame < 29) return {demo::ActionEvent{Action::RemoveLight}};
+    constexpr std::array kOthers{Action::Bloom,        Action::NextProbe,  Action::Lamp,          Action::TurnLightLeft,
+                                 Action::AutoExposure, Action::Lamp,       Action::TurnLightLeft, Action::NextProbe,
+                                 Action::Bloom,        Action::SlowMotion, Action::AutoExposure,  Action::NextProbe,
+                                 Action::SlowMotion,   Action::Vignette,   Action::Vignette};
+    if (frame >= 30 && frame - 30 < static_cast<int>(kOthers.size()))
+        return {demo::ActionEvent{kOthers[static_cast<std::size_t>(frame - 30)]}};
+    return {};
+}
+
+bool all_finite(const gpu::Framebuffer& picture) {
+    const std::vector<glm::vec4> pixels = picture.read_rgba_float();
+    return std::all_of(pixels.begin(), pixels.end(), [](const glm::vec4& pixel) {
+        return std::isfinite(pixel.r) && std::isfinite(pixel.g) && std::isfinite(pixel.b);
+    });
+}
+
+TEST(DemoLongPlay, HoldsItsMemoryAndDrawsFinitePixelsWithoutAnOpenGlError) {
+    const platform::HeadlessContext context;
+    gpu::enable_debug_output(true);  // an error ends the program
+    demo::Options options;
+    options.watch = false;
+    options.cooked_folder = std::filesystem::path(ROWLAND_DEMO).parent_path().parent_path() / "cooked";
+    options.scene = options.cooked_folder / "cabinet.glb";
+    const post::OcioConfig config = post::OcioConfig::choose(std::nullopt);
+    demo::Session session(options, config, kSize, kSize, demo::Pace::Fluent);
+    demo::PlayClock clock;
+    std::vector<double> resident;
+    for (int round = 0; round < kRounds; ++round) {
+        for (int frame = 0; frame < kFramesPerRound; ++frame) {
+            clock.live(session.play(), std::chrono::milliseconds(1000 / kFramesPerSecond), events_of(frame), nullptr);
+            EXPECT_TRUE(session.carry_out().empty());
+            session.draw(1.0F / kFramesPerSecond);
+            if (frame % 10 == 0) ASSERT_TRUE(all_finite(session.picture().linear())) << round << ", " << frame;
+        }
+        resident.push_back(resident_mib());
+        RecordProperty("resident_mib_" + std::to_string(round), std::to_string(resident.back()));
+    }
+    EXPECT_EQ(session.play().steps(), 120U * kRounds * kFramesPerRound / kFramesPerSecond);
+    EXPECT_GT(session.play().environment_turn(), 0.5);
+    // The first two rounds load all probes and compile all programs.
+    EXPECT_LT(resident.back() - resident[1], 8.0) << "from " << resident[1] << " to " << resident.back();
+}
+
+}  // namespace
+}  // namespace rowland

@@ -1,0 +1,29 @@
+#include "content/demo/hud/memory.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace rowland::demo {
+namespace {
+
+TEST(Memory, BytesAreReadWithTheUnitThatKeepsThemShort) {
+    EXPECT_EQ(readable_bytes(0), "0 B");
+    EXPECT_EQ(readable_bytes(999), "999 B");
+    EXPECT_EQ(readable_bytes(1000), "1.0 KiB");
+    EXPECT_EQ(readable_bytes(137824), "135 KiB");
+    EXPECT_EQ(readable_bytes(std::size_t{56} << 20), "56 MiB");
+    EXPECT_EQ(readable_bytes(std::size_t{3} << 30), "3.0 GiB");
+}
+
+TEST(Memory, WhatIsTouchedIsResident) {
+    constexpr std::size_t kMuch = std::size_t{64} << 20;
+    const std::size_t before = resident_bytes();
+    const std::vector<char> touched(kMuch, 'x');
+    EXPECT_GT(before, 0U);
+    EXPECT_GT(resident_bytes(), before + kMuch / 2);
+    EXPECT_EQ(touched.back(), 'x');
+}
+
+}  // namespace
+}  // namespace rowland::demo

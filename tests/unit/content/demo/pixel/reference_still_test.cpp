@@ -1,0 +1,123 @@
+// The reference's picture, beside a grating on a context without a window.
+#include "content/demo/pixel/reference_still.h"
+
+#include <chrono>
+#include <thread>
+
+#include "content/demo/pixel/surface_point.h"
+#include "content/demo/pixel/whole_probe.h"
+#include "engine/core/file.h"
+#include "modules/diffraction/asset/material_json.h"
+#include "modules/diffraction/evaluate/radiance_error.h"
+#include "modules/diffraction/module.h"
+#include "modules/diffraction/reference/reference.h"
+#include "modules/diffraction/runtime/diffraction_surface.h"
+#include "tests/gpu/render_test.h"
+#include "tests/support/temporary_folder.h"
+
+namespace rowland::demo {
+namespace {
+
+constexpr glm::ivec2 kPixels{64, 64};
+
+class ReferenceStillTest : public test::RenderTest {
+ protected:
+    ReferenceStillTest() {
+        write_file_atomic(folder_.path() / "room.json", R"({"probe": {"type": "studio", "width": 64,
+            "ceiling": [0.6, 0.5, 0.4], "wall": [0.3, 0.3, 0.3], "floor": [0.1, 0.1, 0.2], "boxes": [
+            {"azimuth_deg": 160, "elevation_deg": 40, "half_size_deg": [40, 30], "soft_edge_deg": 20,
+             "radiance": [3, 5, 4]}]}})");
+        diffraction::register_module(renderer_);
+        const WholeProbe room = load_whole_probe(probe_.path, probe_.mapping, probe_.recipes);
+        renderer_.set_probe(lighting::build_light_probe(
+            room.image, {.bands = 4, .key_lights = 0, .light_face = 16, .prefilter = {.face_size = 16}}));
+        const auto json = nlohmann::json::parse(
+            R"({"grating": {"pitch_nm": 1600, "profile": {"type": "slit", "width_nm": 800}},
+                "quality": {"representation": "transfer", "bands": 2, "key_lights": false}})");
+        grating_ = add(square(), {.base_colour = glm::vec3(0.0F)});
+        world_.add(grating_, diffraction::DiffractionSurface{
+                                 .material = diffraction::make_gpu_material(diffraction::cook_material(json, "test"),
+                                                                            renderer_.xyz_to_working())});
+        camera_.eye = {0.8F, 0.5F, 2.6F};
+        comparison_.set_wiping(true);
+        comparison_.set_line(0.0F);
+    }
+    /// A frame, as the demo has it.
+    void frame() {
+        comparison_.update();
+        still_.update(world_, comparison_, camera_, kPixels, probe_);
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    void finish() {
+        const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(100);
+        while (still_.progress() < 1.0 && still_.failure().empty() && std::chrono::steady_clock::now() < deadline)
+            frame();
+        EXPECT_EQ(still_.progress(), 1.0) << still_.failure();
+        frame();
+        comparison_.update();
+    }
+    /// Drawn XYZ of the pixels at least `margin` inside of the square, and the reference's.
+    double error_of_picture(int margin) {
+        const gpu::Framebuffer target(gpu::FramebufferDesc{
+            .width = kPixels.x, .height = kPixels.y, .colours = {gpu::Format::RGBA32F}, .depth = true});
+        renderer_.render(world_, camera_, target);
+        const auto pixels = target.read_rgba_float();
+        const GratingPlace place = grating_place(world_, grating_).value();
+        const auto points = visible_points(camera_, kPixels, {{place.mesh, place.to_world}});
+        const auto inside = [&](int row, int column) {
+            for (const int y : {row - margin, row + margin})
+                for (const int x : {column - margin, column + margin})
+                    if (x < 0 || y < 0 || x >= kPixels.x || y >= kPixels.y ||
+                        !points[static_cast<std::size_t>(y * kPixels.x + x)])
+                        return false;
+            return true;
+        };
+        std::vector<diffraction::Frame> frames;
+        std::vector<glm::dvec3> drawn;
+        for (int row = 0; row < kPixels.y; ++row)
+            for (int column = 0; column < kPixels.x; ++column) {
+                if (!inside(row, column)) continue;
+                const auto at = static_cast<std::size_t>(row * kPixels.x + column);
+                frames.push_back(frame_at(place, points[at]->hit, points[at]->point, camera_.eye).value());
+                drawn.push_back(colour::rec709_to_xyz() * glm::dvec3(glm::vec3(pixels[at])));
+            }
+        EXPECT_GT(frames.size(), 200U);
+        const auto& cooked = *comparison_.own(grating_)->cooked();
+        const WholeProbe room = load_whole_probe(probe_.path, probe_.mapping, probe_.recipes);
+        return diffraction::relative_rms(
+            drawn, diffraction::reference_radiance(cooked.material.grating, room.image,
+                                                   colour::LightSpectra(cooked.material.quality.illuminant), frames));
+    }
+
+    test::TemporaryFolder folder_;
+    PixelProbe probe_{.path = folder_.path() / "room.json", .mapping = "equirect", .recipes = {}};
+    Comparison comparison_{world_, renderer_.xyz_to_working()};
+    ReferenceStill still_;
+    ecs::Entity grating_;
+};
+
+TEST_F(ReferenceStillTest, ShowsTheReferenceRightOfTheLine) {
+    comparison_.update();
+    const double without = error_of_picture(kStillTexel);
+    finish();
+    EXPECT_TRUE(comparison_.shows_still());
+    // Between texels four pixels apart the picture is interpolated: measured 0.013.
+    EXPECT_LT(error_of_picture(kStillTexel), 0.03);
+    EXPECT_GT(without, 0.1);
+}
+
+TEST_F(ReferenceStillTest, WhatMovesHasNoStillUntilItRests) {
+    finish();
+    camera_.eye.x += 0.01F;
+    frame();
+    EXPECT_FALSE(comparison_.shows_still());
+    EXPECT_FALSE(still_.begun());
+    finish();
+    EXPECT_TRUE(comparison_.shows_still());
+    world_.get<scene::WorldMatrix>(grating_).matrix[3][0] += 0.01F;
+    frame();
+    EXPECT_FALSE(comparison_.shows_still());
+}
+
+}  // namespace
+}  // namespace rowland::demo

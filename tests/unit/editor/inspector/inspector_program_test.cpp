@@ -1,0 +1,136 @@
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <glm/mat4x4.hpp>
+#include <string>
+
+#include "editor/inspector/pick_point.h"
+#include "editor/inspector/preview.h"
+#include "editor/inspector/preview_shape.h"
+#include "engine/core/file.h"
+#include "engine/image/byte_image.h"
+#include "engine/scene/transform.h"
+#include "tests/support/temporary_folder.h"
+
+namespace rowland::inspector {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string kContent = std::string(ROWLAND_SOURCE_DIR) + "/content";
+
+struct Run {
+    int exit_code = -1;
+    std::string output;
+    std::string messages;
+};
+
+class InspectorProgram : public testing::Test {
+ protected:
+    Run run(const std::string& program, const std::string& arguments) const {
+        const std::string command = fmt::format("'{}' {} >'{}' 2>'{}'", program, arguments, path("out"), path("err"));
+        const int status = std::system(command.c_str());
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text_file(path("out"), 1 << 20),
+                read_text_file(path("err"), 1 << 20)};
+    }
+    Run inspect(const std::string& arguments) const {
+        return run(ROWLAND_INSPECTOR, "--layout " + path("none.json") + " " + arguments);
+    }
+    std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(InspectorProgram, HelpShowsAnExampleAndTheKeys) {
+    const Run help = inspect("--help");
+    EXPECT_EQ(help.exit_code, 0);
+    EXPECT_THAT(help.output, testing::AllOf(HasSubstr("example:"), HasSubstr("--capture"), HasSubstr("Ctrl+Z")));
+}
+
+TEST_F(InspectorProgram, WhatCannotBeOpenedIsRefusedByName) {
+    write_file_atomic(path("corrupt.json"), "{\"grating\": {\"pitch_nm\": 16");
+    write_file_atomic(path("huge.json"), std::string(40 << 20, ' '));
+    write_file_atomic(path("bad.glb"), "glTF");
+    write_file_atomic(path("caf\xe9.json"), "[1]");
+    for (const char* name : {"corrupt.json", "huge.json", "bad.glb", "missing.json", "caf\xe9.json"}) {
+        const Run refused = inspect(fmt::format("'{}' --capture '{}'", path(name), path("x.png")));
+        EXPECT_EQ(refused.exit_code, 2) << name << ": " << refused.messages;
+        EXPECT_THAT(refused.messages, HasSubstr(name));
+        EXPECT_FALSE(std::filesystem::exists(path("x.png")));
+    }
+}
+
+TEST_F(InspectorProgram, AMissingProbeIsRefusedByName) {
+    const Run refused = inspect(fmt::format("--probe '{}' --capture '{}'", path("none.hdr"), path("x.png")));
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_THAT(refused.messages, HasSubstr("none.hdr"));
+    EXPECT_FALSE(std::filesystem::exists(path("x.png")));
+}
+
+TEST_F(InspectorProgram, BadUsageIsRefused) {
+    for (const char* usage : {"--size 12", "--size 100x100", "--shape teapot", "--scale 9", "--nonsense"}) {
+        const Run refused = inspect(usage);
+        EXPECT_EQ(refused.exit_code, 2) << usage;
+        EXPECT_THAT(refused.messages, HasSubstr("--help"));
+    }
+}
+
+/// Whether the disc covers a pixel and all its neighbours, so that no edge is in it.
+bool inside_disc(const scene::Mesh& disc, int column, int row, glm::ivec2 size) {
+    // As the demo's stand leans at rest.
+    const glm::mat4 placed = scene::Transform{.translation = {0.0F, 0.052F, 0.0F},
+                                              .rotation = glm::angleAxis(glm::radians(52.0F), glm::vec3(1, 0, 0))}
+                                 .matrix();
+    for (const int dx : {-2, 2})
+        for (const int dy : {-2, 2}) {
+            const glm::vec2 at = (glm::vec2(column + dx, row + dy) + 0.5F) / glm::vec2(size);
+            if (!pick_point(disc, placed, ray_through(opening_camera(), float(size.x) / float(size.y), at)))
+                return false;
+        }
+    return true;
+}
+
+image::ByteImage read_picture(const std::string& file) {
+    return image::decode_byte_image(read_file(file, 1 << 24), file);
+}
+
+TEST_F(InspectorProgram, ThePreviewsPixelsAreTheDemos) {
+    constexpr glm::ivec2 kSize(320, 320);
+    const std::string material = kContent + "/materials/cd.json";
+    const std::string probe = kContent + "/probes/studio.json";
+    const Run demo =
+        run(ROWLAND_DEMO,
+            fmt::format("--disc --headless --material '{}' --probe '{}' --width {} --height {} --capture '{}'",
+                        material, probe, kSize.x, kSize.y, path("demo.png")));
+    ASSERT_EQ(demo.exit_code, 0) << demo.messages;
+    const Run preview = inspect(fmt::format("'{}' --probe '{}' --shape disc --size {}x{} --preview-only --capture '{}'",
+                                            material, probe, kSize.x, kSize.y, path("preview.png")));
+    ASSERT_EQ(preview.exit_code, 0) << preview.messages;
+
+    const image::ByteImage one = read_picture(path("demo.png"));
+    const image::ByteImage other = read_picture(path("preview.png"));
+    ASSERT_EQ(one.rgba.size(), other.rgba.size());
+    const scene::Mesh disc = preview_mesh(PreviewShape::Disc);
+    int compared = 0;
+    int largest = 0;
+    int brightest = 0;
+    for (int row = 4; row < kSize.y - 4; row += 3)
+        for (int column = 4; column < kSize.x - 4; column += 3) {
+            if (!inside_disc(disc, column, row, kSize)) continue;
+            ++compared;
+            for (int i = 0; i < 3; ++i) {
+                const auto at = static_cast<std::size_t>(4 * (row * kSize.x + column) + i);
+                largest = std::max(largest, std::abs(int(one.rgba[at]) - int(other.rgba[at])));
+                brightest = std::max(brightest, int(one.rgba[at]));
+            }
+        }
+    EXPECT_GT(compared, 300);
+    EXPECT_GT(brightest, 150);  // there is something to compare
+    EXPECT_LE(largest, 1);      // the demo's disc is the same mesh, quantised
+}
+
+}  // namespace
+}  // namespace rowland::inspector

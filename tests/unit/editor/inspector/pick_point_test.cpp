@@ -1,0 +1,68 @@
+#include "editor/inspector/pick_point.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "editor/inspector/preview_shape.h"
+
+namespace rowland::inspector {
+namespace {
+
+const scene::Camera kAhead{.eye = {0.0F, 0.0F, 0.4F}, .target = {0.0F, 0.0F, 0.0F}};
+
+TEST(PickPoint, TheMiddleOfASphereFacesTheEye) {
+    const auto frame =
+        pick_point(preview_mesh(PreviewShape::Sphere), glm::mat4(1.0F), ray_through(kAhead, 1.0F, {0.5F, 0.5F}));
+    ASSERT_TRUE(frame);
+    // The sphere is of flat facets 2.8° wide, its normals are interpolated.
+    EXPECT_GT(glm::dot(frame->normal, glm::dvec3(0.0, 0.0, 1.0)), 0.9999);
+    EXPECT_GT(glm::dot(frame->view, glm::dvec3(0.0, 0.0, 1.0)), 0.9999);
+    EXPECT_LT(std::abs(glm::dot(frame->grating, frame->normal)), 1e-3);
+    EXPECT_GT(std::abs(frame->grating.x), 0.999);  // along the longitude
+}
+
+TEST(PickPoint, BesideTheSurfaceThereIsNothing) {
+    const scene::Mesh disc = preview_mesh(PreviewShape::Disc);
+    const glm::mat4 upright = glm::rotate(glm::mat4(1.0F), glm::radians(90.0F), {1.0F, 0.0F, 0.0F});
+    EXPECT_FALSE(pick_point(disc, upright, ray_through(kAhead, 1.0F, {0.5F, 0.5F})));  // the hole
+    EXPECT_FALSE(pick_point(disc, upright, ray_through(kAhead, 1.0F, {0.01F, 0.01F})));
+    const auto frame = pick_point(disc, upright, ray_through(kAhead, 1.0F, {0.62F, 0.5F}));
+    ASSERT_TRUE(frame);
+    EXPECT_GT(frame->grating.x, 0.99);  // radial, to the right of the middle
+    EXPECT_NEAR(frame->normal.z, 1.0, 1e-5);
+}
+
+TEST(PickPoint, ARayLeavesThroughThePointOfThePicture) {
+    const Ray right = ray_through(kAhead, 2.0F, {1.0F, 0.5F});
+    EXPECT_NEAR(right.direction.x / -right.direction.z, 2.0F * std::tan(0.35F),
+                1e-4F);                                                    // half of 0.7 rad, twice as wide
+    EXPECT_GT(ray_through(kAhead, 2.0F, {0.5F, 0.0F}).direction.y, 0.3F);  // above
+}
+
+TEST(PreviewShapes, GratingVectorsLieInTheirSurface) {
+    for (const PreviewShape shape :
+         {PreviewShape::Disc, PreviewShape::Sphere, PreviewShape::Card, PreviewShape::Sheet}) {
+        const scene::Mesh mesh = preview_mesh(shape);
+        const scene::Bounds box = scene::bounds(mesh);
+        EXPECT_GT(box.maximum.x - box.minimum.x, 0.08F) << preview_shape_name(shape);
+        EXPECT_LT(box.maximum.x - box.minimum.x, 0.16F) << preview_shape_name(shape);
+        for (std::size_t i = 0; i < mesh.positions.size(); i += 17) {
+            // Floats of unit length.
+            EXPECT_NEAR(glm::length(mesh.normals[i]), 1.0F, 1e-5F);
+            EXPECT_NEAR(glm::dot(mesh.normals[i], glm::vec3(mesh.tangents[i])), 0.0F, 1e-5F);
+        }
+    }
+}
+
+TEST(PreviewShapes, AModelIsFitted) {
+    scene::Mesh mesh = preview_mesh(PreviewShape::Sphere);
+    for (glm::vec3& position : mesh.positions) position = 300.0F * position + glm::vec3(1000.0F, 0.0F, 0.0F);
+    const scene::Bounds box = scene::bounds(fitted_model(mesh));
+    EXPECT_NEAR(box.maximum.x, 0.058F, 1e-4F);
+    EXPECT_NEAR(box.minimum.x, -0.058F, 1e-4F);
+}
+
+}  // namespace
+}  // namespace rowland::inspector
