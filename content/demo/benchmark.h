@@ -20,11 +20,11 @@ struct BenchmarkResult {
     };
     glm::ivec2 size{0};
     platform::FrameStatistics frame;  ///< from the first command to the last pixel
-    /// What gratings cost: median over some of the frames of their time over that of the same without gratings, which is
-    /// drawn right after.
+    /// What gratings cost: median over some of the frames of their time over that of the same without gratings, which
+    /// is drawn right after.
     double times_plain = 0.0;
-    std::vector<Pass> passes;         ///< in the order they run
-    int drawn = 0;                    ///< objects in the last frame
+    std::vector<Pass> passes;  ///< in the order they run
+    int drawn = 0;             ///< objects in the last frame
     int culled = 0;
 };
 

@@ -67,7 +67,7 @@ class WindowLoop {
             ++frames_;
         }
         if (recorder_) recorder_->finish(session_.play().steps());
-        if (recorder_ || options_.play) tell_state();
+        if (recorder_ || recording_) tell_state();
     }
 
  private:
@@ -77,6 +77,7 @@ class WindowLoop {
         const double seconds = std::chrono::duration<double>(elapsed).count();
         advance(elapsed, seconds);
         for (const Action action : session_.carry_out()) perform(action);
+        if (replay_over_) hand_over();
         window_.set_cursor_captured(session_.play().walking());
         if (options_.watch) session_.follow_files();
         const glm::ivec2 size = window_.framebuffer_size();
@@ -102,11 +103,17 @@ class WindowLoop {
             play_clock_.live(session_.play(), elapsed, std::move(events), recorder_ ? &*recorder_ : nullptr);
             return;
         }
-        // The user watches, and takes over when the recording ends or he ends it.
-        const bool goes_on = play_clock_.replay(session_.play(), elapsed, *recording_);
-        if (goes_on && std::none_of(events.begin(), events.end(), is_escape)) return;
+        replay_over_ = !play_clock_.replay(session_.play(), elapsed, *recording_) ||
+                       std::any_of(events.begin(), events.end(), is_escape);
+    }
+
+    /// The recording is over, or the user has seen enough of it: from now on the play is his.
+    void hand_over() {
         tell_state();
         recording_.reset();
+        replay_over_ = false;
+        if (closed_in_recording_) window_.request_close();
+        // Keys that the recording left down are up.
         play_clock_.live(session_.play(), {},
                          {platform::InputEvent(platform::FocusEvent{false}),
                           platform::InputEvent(platform::FocusEvent{true}), ResizeEvent{window_size_}},
@@ -117,8 +124,16 @@ class WindowLoop {
 
     void perform(Action action) {
         if (hud_.perform(action)) return;
-        if (action == Action::Close) window_.request_close();
+        if (action == Action::Close) close();
         if (action == Action::FullScreen) window_.set_fullscreen(!window_.fullscreen());
+    }
+
+    /// A recording plays to its end, whenever in its last frame it was closed.
+    void close() {
+        if (recording_)
+            closed_in_recording_ = true;
+        else
+            window_.request_close();
     }
 
     void drop(const std::vector<std::filesystem::path>& files) {
@@ -148,6 +163,8 @@ class WindowLoop {
 
     const Options& options_;
     std::optional<Recording> recording_;  ///< until it is over
+    bool replay_over_ = false;
+    bool closed_in_recording_ = false;
     std::optional<Recorder> recorder_;
     platform::Window window_;
     glm::ivec2 window_size_;

@@ -1,7 +1,6 @@
 #include "editor/inspector/capture.h"
 
 #include <chrono>
-#include <optional>
 #include <thread>
 
 #include "editor/inspector/session.h"

@@ -18,7 +18,7 @@ struct Layout {
     float price_height = 17;
     std::string shape = "disc";
     std::string light;  ///< path of the last probe; empty: the first shipped one
-    Stage stage;
+    Stage stage{};
 };
 
 /// The file's layout; what it lacks, or what is out of range, is as usual. A missing or broken file is an empty one: a

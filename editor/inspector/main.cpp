@@ -1,6 +1,5 @@
 #include <algorithm>
-#include <chrono>
-#include <filesystem>
+#include <optional>
 #include <thread>
 
 #include "editor/inspector/capture.h"

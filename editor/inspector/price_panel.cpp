@@ -158,10 +158,13 @@ void PricePanel::draw(Session& session, double frame_ms, ControlMap& controls) {
     }
     if (!list.choices.empty() && !session.prices_are_current())
         ImGui::TextDisabled("Measured for an earlier edit; measure again.");
-    ImGui::Columns(2, "##price", false);
-    ImGui::SetColumnWidth(0, 20.0F * font);
+    const bool wide = ImGui::GetContentRegionAvail().x > 32.0F * font;
+    if (wide) {
+        ImGui::Columns(2, "##price", false);
+        ImGui::SetColumnWidth(0, 20.0F * font);
+    }
     draw_numbers(list, session, frame_ms);
-    ImGui::NextColumn();
+    if (wide) ImGui::NextColumn();
     draw_plot(list, std::max(7.0F * font, ImGui::GetContentRegionAvail().y - 3.6F * font));
     draw_slider(session, list, controls);
     ImGui::Columns(1);

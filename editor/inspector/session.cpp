@@ -21,7 +21,9 @@ constexpr std::chrono::milliseconds kDebounce(60);
 constexpr std::chrono::milliseconds kRest(700);  ///< without an edit, before the present error is measured
 constexpr std::uint64_t kLargestSource = 16 << 20;
 constexpr int kSweepBands = 5;
+constexpr int kSweepViews = 61;
 constexpr std::size_t kMostMessages = 50;
+constexpr int kFramesToFill = 90;  ///< that maps take to fill, with room
 
 const std::array kPresets = {"cd", "dvd", "blu_ray", "ruled_600", "ruled_1200", "holographic_foil", "vinyl"};
 
@@ -232,7 +234,7 @@ void Session::start_slow_numbers() {
         numbers.of_material = count;
         numbers.point = point_radiance(*cooked, light->image, light->divided, frame);
         if (!stop.stop_requested())
-            numbers.sweep = view_sweep(*cooked, light->image, light->divided, frame, kSweepBands);
+            numbers.sweep = view_sweep(*cooked, light->image, light->divided, frame, kSweepBands, kSweepViews, stop);
         return numbers;
     });
 }
@@ -251,6 +253,12 @@ bool Session::busy() const {
 
 void Session::draw(glm::ivec2 size, const scene::Camera& camera, bool with_saved, float seconds) {
     if (!preview_.ready() || size.x < 1 || size.y < 1) return;
+    const PictureKey key{size,         camera.eye, camera.target,       stage, with_saved, cooked_count_,
+                         light_.get(), shape_,     preview_.has_saved()};
+    unchanged_ = key == picture_key_ ? unchanged_ + 1 : 0;
+    picture_key_ = key;
+    // Maps fill by and by; then the picture is what it was.
+    if (unchanged_ > kFramesToFill) return;
     preview_.draw(size, camera, stage, with_saved, seconds);
     ++drawn_;
     if (picked_ && picked_of_draw_ != cooked_count_ + slow_reasons_) read_picked_pixel();

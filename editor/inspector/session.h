@@ -62,7 +62,7 @@ class Session {
     void update();
     /// Whether something is being computed that the picture or the panes will show.
     bool busy() const;
-    /// Draws the preview, if there is something to draw.
+    /// Draws the preview, if there is something to draw and it is not as it was.
     void draw(glm::ivec2 size, const scene::Camera& camera, bool with_saved, float seconds);
     /// Picks the surface at a point of the last picture; nothing happens where there is none.
     void pick(const glm::vec2& at);
@@ -121,6 +121,21 @@ class Session {
     diffraction::Frame middle_frame() const;
     void read_picked_pixel();
 
+    /// All that the picture depends on.
+    struct PictureKey {
+        glm::ivec2 size{0};
+        glm::vec3 eye{0.0F};
+        glm::vec3 target{0.0F};
+        Stage stage;
+        bool with_saved = false;
+        std::uint64_t cooked = 0;
+        const InspectedLight* light = nullptr;
+        PreviewShape shape = PreviewShape::Disc;
+        bool has_saved = false;
+
+        friend bool operator==(const PictureKey&, const PictureKey&) = default;
+    };
+
     SessionSettings settings_;
     Preview preview_;
     Document document_;
@@ -140,6 +155,8 @@ class Session {
     std::optional<Json> saved_asked_;
     std::chrono::steady_clock::time_point last_edit_;
     std::uint64_t seen_version_ = 0;
+    PictureKey picture_key_;
+    int unchanged_ = 0;  ///< frames in a row
     std::uint64_t drawn_ = 0;
     std::uint64_t picked_of_draw_ = 0;
     std::uint64_t priced_version_ = 0;

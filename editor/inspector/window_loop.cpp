@@ -52,8 +52,12 @@ class WindowLoop {
             }
             draw(pixels, std::chrono::duration<double>(elapsed).count());
             window_.swap();
+            rest_if_idle();
         }
         remember();
+        const platform::FrameStatistics statistics = times_.statistics();
+        log_info("the last {} frames: median {:.1f} ms, longest {:.1f} ms", statistics.count, statistics.median_ms,
+                 statistics.maximum_ms);
     }
 
  private:
@@ -72,6 +76,16 @@ class WindowLoop {
         target_->clear({0.05F, 0.05F, 0.05F, 1.0F});
         ui_.draw(*target_);
         target_->show_in_window();
+    }
+
+    /// Leaves the processor to the work beside the frames while the user does nothing.
+    void rest_if_idle() {
+        constexpr int kAwakeFrames = 15;
+        const bool used = input_.mouse_delta() != glm::dvec2(0.0) || input_.scroll() != glm::dvec2(0.0) ||
+                          input_.mouse_button(platform::MouseButton::Left).down || !input_.typed().empty() ||
+                          session_.cooking();
+        quiet_frames_ = used ? 0 : quiet_frames_ + 1;
+        if (quiet_frames_ > kAwakeFrames) std::this_thread::sleep_for(std::chrono::milliseconds(30));
     }
 
     void remember() {
@@ -99,6 +113,7 @@ class WindowLoop {
     platform::InputState input_;
     platform::FrameClock clock_;
     platform::FrameTimes times_;
+    int quiet_frames_ = 0;
 };
 
 }  // namespace

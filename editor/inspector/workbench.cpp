@@ -56,8 +56,10 @@ void Workbench::draw(const platform::InputState& input, bool keys_are_ours, cons
 }
 
 void Workbench::shortcuts(const platform::InputState& input) {
-    const bool control = input.key(Key::LeftControl).down || input.key(Key::RightControl).down;
-    const bool shift = input.key(Key::LeftShift).down || input.key(Key::RightShift).down;
+    // A long frame may hold both the press and the release of a chord.
+    const auto held = [&](Key key) { return input.key(key).down || input.key(key).released; };
+    const bool control = held(Key::LeftControl) || held(Key::RightControl);
+    const bool shift = held(Key::LeftShift) || held(Key::RightShift);
     const auto pressed = [&](Key key) { return input.key(key).pressed; };
     if (control) {
         if (pressed(Key::Z)) shift ? session_.document().redo() : session_.document().undo();
@@ -183,8 +185,8 @@ void Workbench::draw_tiles(const platform::InputState& input, const WorkbenchFra
     const float status = 1.9F * font;
     const float height = frame.size.y - top - status;
     // Whatever the window's size, the preview keeps a third of it.
-    layout_.material_width = std::clamp(layout_.material_width, 12.0F, 0.33F * frame.size.x / font);
-    layout_.physics_width = std::clamp(layout_.physics_width, 12.0F, 0.4F * frame.size.x / font);
+    layout_.material_width = std::clamp(layout_.material_width, 12.0F, 0.3F * frame.size.x / font);
+    layout_.physics_width = std::clamp(layout_.physics_width, 12.0F, 0.34F * frame.size.x / font);
     layout_.price_height = std::clamp(layout_.price_height, 4.0F, 0.6F * height / font);
     const float left = layout_.material_width * font;
     const float right = layout_.physics_width * font;
@@ -211,6 +213,12 @@ void Workbench::draw_tiles(const platform::InputState& input, const WorkbenchFra
 void Workbench::draw_tools() {
     const float font = ImGui::GetFontSize();
     Stage& stage = session_.stage;
+    const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+    // A narrow preview has its tools on several lines.
+    const auto beside = [&](float letters) {
+        const float end = ImGui::GetItemRectMax().x + ImGui::GetStyle().ItemSpacing.x + letters * font;
+        if (end <= right) ImGui::SameLine();
+    };
     ImGui::SetNextItemWidth(5.2F * font);
     if (ImGui::BeginCombo("##shape", preview_shape_name(session_.shape()))) {
         for (const PreviewShape shape : kPreviewShapes)
@@ -222,7 +230,7 @@ void Workbench::draw_tools() {
         ImGui::EndCombo();
     }
     controls_.mark("shape");
-    ImGui::SameLine();
+    beside(7.6F);
     ImGui::SetNextItemWidth(7.6F * font);
     const std::string light = session_.light() ? session_.light()->path.stem().string() : "loading…";
     if (ImGui::BeginCombo("##light", light.c_str())) {
@@ -234,19 +242,19 @@ void Workbench::draw_tools() {
         ImGui::EndCombo();
     }
     controls_.mark("light picker");
-    ImGui::SameLine();
+    beside(6.2F);
     ImGui::SetNextItemWidth(6.2F * font);
     ImGui::SliderFloat("##turn", &stage.rotation_deg, -180.0F, 180.0F, "turned %.0f°");
     controls_.mark("turn");
-    ImGui::SameLine();
+    beside(5.6F);
     ImGui::SetNextItemWidth(5.6F * font);
     ImGui::SliderFloat("##exposure", &stage.exposure_stops, -8.0F, 8.0F, "%+.2f stops");
     controls_.mark("exposure");
-    ImGui::SameLine();
+    beside(4.5F);
     ImGui::Checkbox("Lamp", &stage.lamp);
     controls_.mark("lamp");
     if (session_.preview().has_saved()) {
-        ImGui::SameLine();
+        beside(4.0F);
         ImGui::Checkbox("A/B", &comparing_);
         controls_.mark("compare");
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("Left of the line: as saved. Drag the line.");

@@ -36,8 +36,6 @@ class Workbench {
     /// The user wants to leave: asks first if edits would be lost.
     void ask_to_close();
     bool closed() const { return closed_; }
-    /// Share of the preview, from the left, that shows the saved version; nothing: no comparison.
-    void compare(bool on) { comparing_ = on; }
 
  private:
     enum class Dialog { None, Open, SaveAs, Discard };
@@ -66,7 +64,7 @@ class Workbench {
     PricePanel price_;
     scene::OrbitCamera camera_;
     bool comparing_ = false;
-    float wipe_ = 0.5F;
+    float wipe_ = 0.5F;  ///< share of the picture, from the left, that is as saved
     bool moving_wipe_ = false;
     bool orbiting_ = false;
     bool closed_ = false;

@@ -65,8 +65,8 @@ struct FrameLight {
     lighting::ShLight residual;                  ///< the probe less its key lights
     std::vector<lighting::KeyLight> key_lights;  ///< of the probe; none if the renderer does without them
     std::vector<DistantLight> distant_lights;    ///< of the scene
-    /// Colours of the scene's lights of any kind, those of lights[] in the shaders: linear Rec.709, the largest component
-    /// 1, each once. Not part of `version`.
+    /// Colours of the scene's lights of any kind, those of lights[] in the shaders: linear Rec.709, the largest
+    /// component 1, each once. Not part of `version`.
     std::vector<glm::vec3> light_colours;
     std::shared_ptr<const lighting::LightTexels> probe_texels;  ///< the probe alone, at full resolution
     std::shared_ptr<const lighting::LightTexels> texels;        ///< the probe less its key lights, likewise

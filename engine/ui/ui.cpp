@@ -41,6 +41,7 @@ struct Ui::State {
     InputFeed feed;
     bool in_frame = false;
     bool scale_changed = false;
+    bool has_drawn = false;
 };
 
 Ui::Ui(const UiOptions& options) : state_(std::make_unique<State>()) {
@@ -94,7 +95,9 @@ void Ui::begin_frame(const platform::InputState& input, const UiFrame& frame) {
         state_->scale_changed = false;
         ImGui::GetStyle() = make_style(state_->options.scale);
         load_font(io, state_->options.scale);
-        ImGui_ImplOpenGL3_DestroyDeviceObjects();  // NewFrame makes them anew, with the new font
+        // Not all of its objects: ImGui 1.86 would take its new, empty buffers for as large as the old.
+        ImGui_ImplOpenGL3_DestroyFontsTexture();
+        if (state_->has_drawn) ImGui_ImplOpenGL3_CreateFontsTexture();  // else NewFrame makes it
     }
     const glm::vec2 size(frame.size);
     io.DisplaySize = {size.x, size.y};
@@ -104,6 +107,7 @@ void Ui::begin_frame(const platform::InputState& input, const UiFrame& frame) {
     io.DeltaTime = static_cast<float>(std::max(frame.seconds, kShortestFrame_s));
     state_->feed.feed(input, io);
     ImGui_ImplOpenGL3_NewFrame();
+    state_->has_drawn = true;
     ImGui::NewFrame();
     state_->in_frame = true;
     if (io.WantSaveIniSettings) {
@@ -121,7 +125,7 @@ bool Ui::wants_keyboard() const {
     ImGui::SetCurrentContext(state_->context);
     const ImGuiIO& io = ImGui::GetIO();
     // A window keeps ImGui's own wish for keys after a click into it; ours ends when nothing is highlighted or typed.
-    return io.WantTextInput || io.NavVisible || ImGui::IsAnyItemActive();
+    return io.WantTextInput || io.NavVisible;
 }
 
 bool Ui::wants_text() const {

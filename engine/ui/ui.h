@@ -49,7 +49,7 @@ class Ui {
 
     /// Whether this frame's mouse is over, or was pressed on, something of the user interface.
     bool wants_mouse() const;
-    /// Whether keys move through controls or are typed into one. Tab, F10 and the like may still be the program's.
+    /// Whether keys move through controls or are typed into one. Function keys never do.
     bool wants_keyboard() const;
     /// Whether a text field has the keyboard: no key is the program's.
     bool wants_text() const;

@@ -1,5 +1,6 @@
 // Half a minute of play without a window: nothing piles up.
 #include <gtest/gtest.h>
+#include <malloc.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -86,15 +87,19 @@ TEST(DemoLongPlay, HoldsItsMemoryAndDrawsFinitePixelsWithoutAnOpenGlError) {
             clock.live(session.play(), std::chrono::milliseconds(1000 / kFramesPerSecond), events_of(frame), nullptr);
             EXPECT_TRUE(session.carry_out().empty());
             session.draw(1.0F / kFramesPerSecond);
-            if (frame % 10 == 0) ASSERT_TRUE(all_finite(session.picture().linear())) << round << ", " << frame;
+            ASSERT_TRUE(frame % 10 != 0 || all_finite(session.picture().linear())) << round << ", " << frame;
         }
+        malloc_trim(0);  // what the heap merely keeps for later is no growth
         resident.push_back(resident_mib());
         RecordProperty("resident_mib_" + std::to_string(round), std::to_string(resident.back()));
     }
     EXPECT_EQ(session.play().steps(), 120U * kRounds * kFramesPerRound / kFramesPerSecond);
     EXPECT_GT(session.play().environment_turn(), 0.5);
-    // The first two rounds load all probes and compile all programs.
-    EXPECT_LT(resident.back() - resident[1], 8.0) << "from " << resident[1] << " to " << resident.back();
+    // The first round loads all probes and compiles all programs. A round may end while something is being baked, some
+    // MiB more; of three, one does not. Measured over ten rounds: 416.9 MiB at the second and at the eighth.
+    const double before = *std::min_element(resident.begin() + 1, resident.begin() + 3);
+    const double after = *std::min_element(resident.end() - 3, resident.end());
+    EXPECT_LT(after - before, 4.0) << "from " << before << " to " << after;
 }
 
 }  // namespace

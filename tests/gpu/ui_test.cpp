@@ -135,6 +135,15 @@ TEST_F(UiTest, TypedTextGoesIntoTheFieldThatWasClicked) {
     EXPECT_STREQ(text_.data(), "74");
 }
 
+TEST_F(UiTest, AMouseThatHoldsAControlLeavesTheKeyboardToTheProgram) {
+    button_frame({MouseMoveEvent{kOnButton}});
+    button_frame({});
+    button_frame({MouseButtonEvent{MouseButton::Left, true}});
+    button_frame({});
+    EXPECT_TRUE(ui_.wants_mouse());
+    EXPECT_FALSE(ui_.wants_keyboard());
+}
+
 TEST_F(UiTest, TheKeyboardReachesTheButtonWithoutAMouse) {
     button_frame({});
     EXPECT_FALSE(ui_.wants_keyboard());

@@ -28,7 +28,6 @@ std::vector<Wall> walls() {
         {"modules/", {"content/", "editor/", "tests/"}},
         {"editor/", {"content/", "tests/"}},
         {"content/", {"editor/", "tests/"}},
-        {"tests/", {"content/"}},
         {"modules/diffraction/model/", with_graphics({"modules/diffraction/bake/", "modules/diffraction/reference/"})},
         {"modules/diffraction/reference/", with_graphics({"modules/diffraction/bake/"})},
         {"modules/diffraction/bake/", with_graphics({"modules/diffraction/reference/"})},

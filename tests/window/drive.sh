@@ -2,9 +2,9 @@
 # drive.sh FOLDER ACTION... -- DEMO ARGUMENT...
 # Runs the demo in a window under Xvfb and plays a user: key:NAME, drag:DX,DY, at:X,Y (the mouse), click:X,Y,
 # dragat:X,Y,DX,DY, throw:X,Y,DX,DY (a drag that is let go in motion), down:KEY, up:KEY, log:SECONDS,TEXT (waits, at most
-# so long, until the demo has said that), shot (F12, and waits for the file), pixel:SECONDS (F8 until a measured pixel is written, at most so
-# long), run:COMMAND, wait:SECONDS, other:SECONDS (shots until one differs from the last, at most so long). Shots lie in FOLDER
-# as shot_1.png and so on. Ends with the demo's own exit status, after Escape.
+# so long, until the demo has said that), shot (F12, and waits for the file), pixel:SECONDS (F8 until a measured pixel is
+# written, at most so long), run:COMMAND, wait:SECONDS, other:SECONDS (shots until one differs from the last, at most so
+# long). Shots lie in FOLDER as shot_1.png and so on. Ends with the demo's own exit status, after Escape.
 set -u
 folder=$1
 shift
@@ -32,7 +32,7 @@ take() {
     file="$folder/$(printf 'screenshot_%04d.png' "$taken")"
     taken=$((taken + 1))
     xdotool key F12
-    for _ in $(seq 400); do
+    for _ in $(seq 1200); do
         [ -f "$file" ] && break
         sleep 0.05
     done

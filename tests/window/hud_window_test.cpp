@@ -141,7 +141,7 @@ TEST_F(HudWindow, AWipeShowsTheOtherLookRightOfItsLineWhichIsDragged) {
 
 TEST_F(HudWindow, TheNextRepresentationIsShownWhenItIsBaked) {
     ROWLAND_NEEDS_XVFB();
-    play({"at:450,260", "shot", "key:t", "other:60", "key:y", "other:60"});
+    play({"at:590,240", "shot", "key:t", "other:60", "key:y", "other:60"});
     EXPECT_GT(differing(screenshot(1), screenshot(2), 0, kWidth), 0);
     EXPECT_GT(differing(screenshot(2), screenshot(3), 0, kWidth), 0);
 }
@@ -157,7 +157,7 @@ TEST_F(HudWindow, ThePixelsErrorBecomesWhatEvaluatePrintsWhenMaterialAndProbeCha
     write_file_atomic(folder_.path() / "turned.hdr", turned);
     write_file_atomic(folder_.path() / "first.hdr", sky);
     write_file_atomic(folder_.path() / "first.json", material("1600"));
-    play({"at:450,200", "pixel:30", "shot", "run:cp " + folder + "/other.json " + folder + "/grating.json", "other:20",
+    play({"at:590,240", "pixel:30", "shot", "run:cp " + folder + "/other.json " + folder + "/grating.json", "other:20",
           "wait:1", "pixel:30", "shot", "run:cp " + folder + "/turned.hdr " + folder + "/sky.hdr", "other:20", "wait:1",
           "pixel:30"});
     std::vector<int> written;

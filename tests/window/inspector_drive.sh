@@ -10,6 +10,7 @@
 #   keep:FILE          copy the facts to FOLDER/FILE
 #   shot:FILE          a picture of the whole screen, if ImageMagick is there
 #   run:COMMAND  wait:SECONDS
+# INSPECTOR_SIZE: the size of the window (1280x780).
 # Ends with Ctrl+Q, discarding edits that are not saved, and the inspector's own exit status.
 set -u
 folder=$1
@@ -27,7 +28,7 @@ fi
 
 facts="$folder/controls"
 rm -f "$facts" "$facts.frames"
-"$@" --controls "$facts" --layout "$folder/layout.json" --size 1280x780 &
+"$@" --controls "$facts" --layout "$folder/layout.json" --size "${INSPECTOR_SIZE:-1280x780}" &
 inspector=$!
 window=$(timeout 60 xdotool search --sync --onlyvisible --name "Rowland: material inspector" | head -n 1)
 xdotool windowmove "$window" 0 0 windowfocus --sync "$window"
@@ -121,8 +122,8 @@ xdotool key ctrl+q
 for _ in $(seq 600); do
     kill -0 "$inspector" 2>/dev/null || break
     if [ -n "$(fact "button Discard them")" ]; then
-        click_at $(middle "button Discard them") 2>/dev/null
-        break
+        pause # a popup finds its place in its first frames
+        click_at $(middle "button Discard them")
     fi
     sleep 0.1
 done

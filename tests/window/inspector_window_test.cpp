@@ -118,7 +118,7 @@ TEST_F(InspectorWindow, AMaterialIsEditedPickedLitSavedAndOpenedAgain) {
     EXPECT_EQ(fact("saved", "document"), "mine.json");
 
     EXPECT_EQ(diffraction::load_material(path("mine.json")).grating.metal, colour::Metal::Au);
-    play({"until:document=mine.json", "keep:opened"}, path("mine.json"));
+    play({"until:document=mine.json", "until:light=venice", "keep:opened"}, path("mine.json"));
     EXPECT_EQ(material("opened"), material("gold"));
     EXPECT_EQ(fact("opened", "light"), "venice_sunset_256.hdr");  // the layout remembers it
 }

@@ -129,17 +129,19 @@ TEST_F(PlayWindow, AWalkGoesForwardAndEscapeOnlyEndsIt) {
 
 TEST_F(PlayWindow, TheEnvironmentTurnsThereAndBack) {
     ROWLAND_NEEDS_XVFB();
-    play({"key:space", "shot", "key:comma", "key:comma", "key:comma", "wait:2", "shot", "key:period", "key:period",
-          "key:period", "wait:2", "shot"});
-    EXPECT_GT(difference(1, 2, {0, 0, kWidth, kHeight}), 1.0);
-    EXPECT_LT(difference(1, 3, {0, 0, kWidth, kHeight}), 0.1);
+    play({"key:space", "shot", "key:comma", "key:comma", "key:comma", "wait:3", "shot", "key:period", "key:period",
+          "key:period", "wait:3", "shot"});
+    const double there = difference(1, 2, {0, 0, kWidth, kHeight});
+    EXPECT_GT(there, 1.0);
+    // Maps may still be filling for the light as it stands again.
+    EXPECT_LT(difference(1, 3, {0, 0, kWidth, kHeight}), 0.3 * there);
 }
 
 TEST_F(PlayWindow, WhatIsRecordedPlaysAgainToTheSameStateWithAndWithoutAWindow) {
     ROWLAND_NEEDS_XVFB();
     const std::string file = (folder_.path() / "play.jsonl").string();
     play({"throw:" + kOnDisc + ",30,20", "wait:1", "key:g", "key:comma", "key:m", "dragat:30,100,40,10", "wait:0.5"},
-         "--record " + file);
+         "--no-watch --record " + file);
     const std::string recorded = state();
     ASSERT_THAT(recorded, HasSubstr("state "));
     const std::string demo = std::string(ROWLAND_DEMO) + " --width 96 --height 54 --output-folder " +
@@ -147,9 +149,9 @@ TEST_F(PlayWindow, WhatIsRecordedPlaysAgainToTheSameStateWithAndWithoutAWindow) 
     ASSERT_EQ(std::system((demo + " --headless 2>" + (folder_.path() / "log").string()).c_str()), 0);
     EXPECT_EQ(state(), recorded);
     EXPECT_TRUE(std::filesystem::exists(folder_.path() / "play.png"));
-    play({"log:60,played"}, "--play " + file);
-    const std::string in_window = log();
-    EXPECT_THAT(in_window, HasSubstr(recorded));
+    // It ends as it was recorded: by Escape.
+    play({"log:120,played"}, "--no-watch --play " + file);
+    EXPECT_EQ(state(), recorded);
 }
 
 TEST_F(PlayWindow, ASavedSceneIsShownAndWhatWasTurnedStaysTurned) {

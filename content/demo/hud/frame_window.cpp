@@ -57,9 +57,8 @@ void pass_table(const std::vector<gpu::PassTime>& passes) {
 
 void frame_window(const std::deque<float>& frame_ms, const std::vector<gpu::PassTime>& passes, bool& open) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({size.x - 10.0F, 10.0F}, ImGuiCond_FirstUseEver, {1.0F, 0.0F});
-    ImGui::SetNextWindowSize({19.0F * ImGui::GetFontSize(), 0.0F}, ImGuiCond_FirstUseEver);
-    if (ImGui::Begin("Frames", &open, ImGuiWindowFlags_AlwaysAutoResize)) {
+    ImGui::SetNextWindowPos({size.x - 10.0F, 10.0F}, ImGuiCond_Always, {1.0F, 0.0F});
+    if (ImGui::Begin("Frames", &open, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove)) {
         ImGui::Dummy({18.0F * ImGui::GetFontSize(), 0.0F});
         graph(frame_ms);
         pass_table(passes);

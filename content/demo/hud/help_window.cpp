@@ -13,6 +13,7 @@ void help_window(bool& open) {
     const float width = std::min(34.0F * ImGui::GetFontSize(), size.x - 20.0F);
     ImGui::SetNextWindowPos({size.x - 10.0F, 10.0F}, ImGuiCond_Always, {1.0F, 0.0F});
     ImGui::SetNextWindowSize({width, size.y - 20.0F});
+    ImGui::SetNextWindowBgAlpha(0.96F);
     if (ImGui::Begin("Controls", &open, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove) &&
         ImGui::BeginTable("controls", 2, ImGuiTableFlags_RowBg)) {
         ImGui::TableSetupColumn("control", ImGuiTableColumnFlags_WidthFixed);

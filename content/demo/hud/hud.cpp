@@ -27,7 +27,8 @@ struct ForPlay {
     bool keys;
 
     bool operator()(const platform::InputEvent& event) const {
-        if (const auto* key = std::get_if<platform::KeyEvent>(&event)) return keys || !key->down;
+        if (const auto* key = std::get_if<platform::KeyEvent>(&event))
+            return keys || !key->down || (key->key >= platform::Key::F1 && key->key <= platform::Key::F12);
         if (const auto* button = std::get_if<platform::MouseButtonEvent>(&event)) return mouse || !button->down;
         if (std::holds_alternative<platform::ScrollEvent>(event)) return mouse;
         return true;
@@ -50,7 +51,7 @@ std::vector<PlayEvent> Hud::begin_frame(std::vector<PlayEvent> events, const ui:
     for (const PlayEvent& event : events)
         if (const auto* input = std::get_if<platform::InputEvent>(&event)) input_.apply(*input);
     window_ = frame.size;
-    frame_ms_.push_back(static_cast<float>(1000.0 * frame.seconds));
+    if (frame.seconds > 0.0) frame_ms_.push_back(static_cast<float>(1000.0 * frame.seconds));
     if (frame_ms_.size() > kFramesShown) frame_ms_.pop_front();
     ui_.begin_frame(input_, frame);
     const ForPlay for_play{.mouse = !ui_.wants_mouse() || session_.play().walking(), .keys = !ui_.wants_keyboard()};
@@ -252,7 +253,9 @@ void Hud::build() {
         measure_pixel();
         meter_.poll();
         main_window(panel);
-        if (pixel_window(target_ ? &*target_ : nullptr, meter_, session_.picture().xyz_to_working())) write_pixel();
+        // Help lies where the pixel is.
+        if (!help_ && pixel_window(target_ ? &*target_ : nullptr, meter_, session_.picture().xyz_to_working()))
+            write_pixel();
         hint_line();
     }
     if (times_) frame_window(frame_ms_, session_.picture().pass_times().latest(), times_);

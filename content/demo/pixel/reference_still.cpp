@@ -65,6 +65,7 @@ struct ReferenceStill::View {
 
 struct ReferenceStill::Job {
     std::shared_ptr<const View> view;
+    int line = 0;  ///< of the wipe, in texels from the left
     std::atomic<bool> cancelled = false;
     std::atomic<std::size_t> done = 0;
     std::atomic<std::size_t> all = 1;
@@ -105,7 +106,7 @@ void ReferenceStill::update(ecs::World& world, Comparison& comparison, const sce
         stop(comparison);
         view_ = std::move(now);
     }
-    if (++frames_at_rest_ == kFramesToRest) begin();
+    if (++frames_at_rest_ == kFramesToRest) begin(comparison.line());
     if (job_) show(comparison);
     if (!is_ready(running_)) return;
     try {
@@ -121,6 +122,7 @@ void ReferenceStill::stop(Comparison& comparison) {
     view_.reset();
     frames_at_rest_ = 0;
     shown_ = 0;
+    still_.reset();
     comparison.set_still(nullptr);
 }
 
@@ -128,10 +130,11 @@ double ReferenceStill::progress() const {
     return job_ ? static_cast<double>(job_->done) / static_cast<double>(job_->all) : 0.0;
 }
 
-void ReferenceStill::begin() {
+void ReferenceStill::begin(float line) {
     failure_.clear();
     job_ = std::make_shared<Job>();
     job_->view = view_;
+    job_->line = static_cast<int>(line * static_cast<float>(view_->size.x));
     running_ = background_.run([job = job_] { compute(*job); });
 }
 
@@ -141,16 +144,22 @@ struct ReferenceStill::Texel {
     diffraction::Frame frame;
 };
 
+struct ReferenceStill::Columns {
+    int begin;
+    int end;
+};
+
 std::vector<ReferenceStill::Texel> ReferenceStill::texels_of_pass(const View& view, const Points& points, int step,
-                                                                  std::size_t mesh) {
+                                                                  std::size_t mesh, const Columns& columns) {
     std::vector<Texel> texels;
     const auto width = static_cast<std::size_t>(view.size.x);
     for (int row = 0; row < view.size.y; row += step)
         for (int column = 0; column < view.size.x; column += step) {
+            const bool beside = column < columns.begin || column >= columns.end;
             const bool earlier = step < kCoarsest && row % (2 * step) == 0 && column % (2 * step) == 0;
             const auto x = static_cast<std::size_t>(column);
             const auto& seen = points[static_cast<std::size_t>(row) * width + x];
-            if (earlier || !seen || seen->mesh != mesh) continue;
+            if (beside || earlier || !seen || seen->mesh != mesh) continue;
             const auto frame = frame_at(*view.gratings[mesh], seen->hit, seen->point, view.camera.eye);
             if (frame) texels.push_back({static_cast<std::size_t>(view.size.y - 1 - row) * width + x, *frame});
         }
@@ -177,6 +186,18 @@ bool ReferenceStill::compute_pass(Job& job, const lighting::ProbeImage& probe, c
     return true;
 }
 
+/// False if the job was cancelled.
+bool ReferenceStill::compute_passes(Job& job, const lighting::ProbeImage& probe, const Points& points,
+                                    const Columns& columns) {
+    const View& view = *job.view;
+    for (int step = kCoarsest; step >= 1; step /= 2)
+        for (std::size_t mesh = 0; mesh < view.meshes.size(); ++mesh)
+            if (view.gratings[mesh] && !compute_pass(job, probe, texels_of_pass(view, points, step, mesh, columns),
+                                                     step, view.materials[mesh]->material))
+                return false;
+    return true;
+}
+
 void ReferenceStill::compute(Job& job) {
     const View& view = *job.view;
     if (job.cancelled) return;
@@ -190,11 +211,8 @@ void ReferenceStill::compute(Job& job) {
     std::size_t all = 0;
     for (const auto& seen : points) all += seen && view.gratings[seen->mesh] ? 1 : 0;
     job.all = std::max<std::size_t>(all, 1);
-    for (int step = kCoarsest; step >= 1; step /= 2)
-        for (std::size_t mesh = 0; mesh < view.meshes.size(); ++mesh)
-            if (view.gratings[mesh] && !compute_pass(job, probe.image, texels_of_pass(view, points, step, mesh), step,
-                                                     view.materials[mesh]->material))
-                return;
+    if (compute_passes(job, probe.image, points, {job.line, view.size.x}))
+        compute_passes(job, probe.image, points, {0, job.line});
 }
 
 void ReferenceStill::show(Comparison& comparison) {
@@ -207,10 +225,11 @@ void ReferenceStill::show(Comparison& comparison) {
         const std::lock_guard lock(job_->mutex);
         texels = filled_up(job_->xyz, job_->step, size);
     }
-    auto texture = std::make_shared<gpu::Texture>(
-        gpu::TextureDesc{.format = gpu::Format::RGBA32F, .width = size.x, .height = size.y});
-    texture->upload(std::span<const glm::vec4>(texels));
-    comparison.set_still(std::move(texture));
+    if (!still_)
+        still_ = std::make_shared<gpu::Texture>(
+            gpu::TextureDesc{.format = gpu::Format::RGBA32F, .width = size.x, .height = size.y});
+    still_->upload(std::span<const glm::vec4>(texels));
+    comparison.set_still(still_);
 }
 
 }  // namespace rowland::demo

@@ -22,7 +22,8 @@ namespace rowland::demo {
 inline constexpr int kStillTexel = 4;
 
 /// The reference's picture of all gratings as they stand, computed beside the frames, from coarse to fine: first every
-/// eighth texel of every eighth row, then every fourth, and so on. Begins anew when anything has moved, once it rests.
+/// eighth texel of every eighth row, then every fourth, and so on; all that at first lies right of the line of the wipe
+/// before the rest. Begins anew when anything has moved, once it rests.
 class ReferenceStill {
  public:
     ~ReferenceStill();
@@ -48,18 +49,23 @@ class ReferenceStill {
                         const PixelProbe& probe);
     struct Texel;
     using Points = std::vector<std::optional<VisiblePoint>>;
-    static std::vector<Texel> texels_of_pass(const View& view, const Points& points, int step, std::size_t mesh);
+    struct Columns;
+    static std::vector<Texel> texels_of_pass(const View& view, const Points& points, int step, std::size_t mesh,
+                                             const Columns& columns);
+    static bool compute_passes(Job& job, const lighting::ProbeImage& probe, const Points& points,
+                               const Columns& columns);
     static bool compute_pass(Job& job, const lighting::ProbeImage& probe, const std::vector<Texel>& texels, int step,
                              const diffraction::Material& material);
     static void compute(Job& job);
-    void begin();
+    void begin(float line);
     void show(Comparison& comparison);
 
     std::shared_ptr<const View> view_;  ///< as it is now
     int frames_at_rest_ = 0;
     std::shared_ptr<Job> job_;
     std::future<void> running_;
-    std::size_t shown_ = 0;  ///< texels of what the comparison has
+    std::shared_ptr<gpu::Texture> still_;  ///< what the comparison has
+    std::size_t shown_ = 0;                ///< texels that are in it
     std::string failure_;
     Background background_;
 };

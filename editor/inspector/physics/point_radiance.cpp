@@ -15,6 +15,8 @@ namespace rowland::inspector {
 
 namespace {
 
+constexpr std::size_t kFramesAtOnce = 4;  ///< between two looks at whether to stop
+
 std::vector<double> luminances(const std::vector<glm::dvec3>& xyz) {
     std::vector<double> result;
     for (const glm::dvec3& value : xyz) result.push_back(value.y);
@@ -65,8 +67,8 @@ PointRadiance point_radiance(const diffraction::CookedMaterial& cooked, const li
 }
 
 ViewSweep view_sweep(const diffraction::CookedMaterial& cooked, const lighting::ProbeImage& probe,
-                     const diffraction::EvaluationLight& light, const diffraction::Frame& surface, int bands,
-                     int views) {
+                     const diffraction::EvaluationLight& light, const diffraction::Frame& surface, int bands, int views,
+                     const std::stop_token& stop) {
     constexpr double kWidest_deg = 80.0;
     const glm::dmat3 to_world = glm::transpose(diffraction::world_to_tangent(surface));
     ViewSweep sweep;
@@ -81,7 +83,12 @@ ViewSweep view_sweep(const diffraction::CookedMaterial& cooked, const lighting::
         sweep.angles_deg.push_back(angle);
     }
     const colour::LightSpectra spectra(cooked.material.quality.illuminant);
-    sweep.reference = luminances(reference_radiance(cooked.material.grating, probe, spectra, frames));
+    for (std::size_t i = 0; i < frames.size() && !stop.stop_requested(); i += kFramesAtOnce) {
+        const std::span part = std::span(frames).subspan(i, std::min(kFramesAtOnce, frames.size() - i));
+        for (const glm::dvec3& xyz : reference_radiance(cooked.material.grating, probe, spectra, part))
+            sweep.reference.push_back(xyz.y);
+    }
+    if (stop.stop_requested()) return sweep;
     sweep.drawn = luminances(evaluate_baked(cooked, light, frames));
     const diffraction::EvaluationLight whole(probe, 0, math::SphericalWindow::None);
     sweep.harmonics = luminances(evaluate_baked(as_harmonics(cooked, bands), whole, frames));

@@ -2,6 +2,7 @@
 
 #include <glm/vec3.hpp>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "engine/lighting/probe_image.h"
@@ -37,9 +38,10 @@ struct ViewSweep {
     int bands = 0;
 };
 
-/// A sweep of `views` views from −80° to 80° over a surface of the frame's normal and grating vector.
+/// A sweep of `views` views from −80° to 80° over a surface of the frame's normal and grating vector. Asked to stop it
+/// soon returns what is of no use.
 ViewSweep view_sweep(const diffraction::CookedMaterial& cooked, const lighting::ProbeImage& probe,
                      const diffraction::EvaluationLight& light, const diffraction::Frame& surface, int bands,
-                     int views = 81);
+                     int views = 61, const std::stop_token& stop = {});
 
 }  // namespace rowland::inspector

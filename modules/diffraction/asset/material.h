@@ -36,7 +36,7 @@ struct Quality {
     bool key_lights = false;  ///< the probe's key lights are shaded on their own, at full sharpness
     /// Key lights and directional lights are shaded at the vertices, which suits dense meshes, not at every pixel.
     bool lights_at_vertices = false;
-    bool map_at_vertices = false;  ///< so is the map of `planar` or `circle`
+    bool map_at_vertices = false;                   ///< so is the map of `planar` or `circle`
     colour::Illuminant illuminant = colour::d65();  ///< the spectrum of the light's white that tables are baked for
 };
 

@@ -22,7 +22,7 @@ using testing::HasSubstr;
 
 const std::string kContent = std::string(ROWLAND_SOURCE_DIR) + "/content";
 
-struct Run {
+struct Finished {
     int exit_code = -1;
     std::string output;
     std::string messages;
@@ -30,13 +30,13 @@ struct Run {
 
 class InspectorProgram : public testing::Test {
  protected:
-    Run run(const std::string& program, const std::string& arguments) const {
+    Finished run(const std::string& program, const std::string& arguments) const {
         const std::string command = fmt::format("'{}' {} >'{}' 2>'{}'", program, arguments, path("out"), path("err"));
         const int status = std::system(command.c_str());
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text_file(path("out"), 1 << 20),
                 read_text_file(path("err"), 1 << 20)};
     }
-    Run inspect(const std::string& arguments) const {
+    Finished inspect(const std::string& arguments) const {
         return run(ROWLAND_INSPECTOR, "--layout " + path("none.json") + " " + arguments);
     }
     std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
@@ -45,7 +45,7 @@ class InspectorProgram : public testing::Test {
 };
 
 TEST_F(InspectorProgram, HelpShowsAnExampleAndTheKeys) {
-    const Run help = inspect("--help");
+    const Finished help = inspect("--help");
     EXPECT_EQ(help.exit_code, 0);
     EXPECT_THAT(help.output, testing::AllOf(HasSubstr("example:"), HasSubstr("--capture"), HasSubstr("Ctrl+Z")));
 }
@@ -56,7 +56,7 @@ TEST_F(InspectorProgram, WhatCannotBeOpenedIsRefusedByName) {
     write_file_atomic(path("bad.glb"), "glTF");
     write_file_atomic(path("caf\xe9.json"), "[1]");
     for (const char* name : {"corrupt.json", "huge.json", "bad.glb", "missing.json", "caf\xe9.json"}) {
-        const Run refused = inspect(fmt::format("'{}' --capture '{}'", path(name), path("x.png")));
+        const Finished refused = inspect(fmt::format("'{}' --capture '{}'", path(name), path("x.png")));
         EXPECT_EQ(refused.exit_code, 2) << name << ": " << refused.messages;
         EXPECT_THAT(refused.messages, HasSubstr(name));
         EXPECT_FALSE(std::filesystem::exists(path("x.png")));
@@ -64,7 +64,7 @@ TEST_F(InspectorProgram, WhatCannotBeOpenedIsRefusedByName) {
 }
 
 TEST_F(InspectorProgram, AMissingProbeIsRefusedByName) {
-    const Run refused = inspect(fmt::format("--probe '{}' --capture '{}'", path("none.hdr"), path("x.png")));
+    const Finished refused = inspect(fmt::format("--probe '{}' --capture '{}'", path("none.hdr"), path("x.png")));
     EXPECT_EQ(refused.exit_code, 2);
     EXPECT_THAT(refused.messages, HasSubstr("none.hdr"));
     EXPECT_FALSE(std::filesystem::exists(path("x.png")));
@@ -72,7 +72,7 @@ TEST_F(InspectorProgram, AMissingProbeIsRefusedByName) {
 
 TEST_F(InspectorProgram, BadUsageIsRefused) {
     for (const char* usage : {"--size 12", "--size 100x100", "--shape teapot", "--scale 9", "--nonsense"}) {
-        const Run refused = inspect(usage);
+        const Finished refused = inspect(usage);
         EXPECT_EQ(refused.exit_code, 2) << usage;
         EXPECT_THAT(refused.messages, HasSubstr("--help"));
     }
@@ -101,13 +101,14 @@ TEST_F(InspectorProgram, ThePreviewsPixelsAreTheDemos) {
     constexpr glm::ivec2 kSize(320, 320);
     const std::string material = kContent + "/materials/cd.json";
     const std::string probe = kContent + "/probes/studio.json";
-    const Run demo =
+    const Finished demo =
         run(ROWLAND_DEMO,
             fmt::format("--disc --headless --material '{}' --probe '{}' --width {} --height {} --capture '{}'",
                         material, probe, kSize.x, kSize.y, path("demo.png")));
     ASSERT_EQ(demo.exit_code, 0) << demo.messages;
-    const Run preview = inspect(fmt::format("'{}' --probe '{}' --shape disc --size {}x{} --preview-only --capture '{}'",
-                                            material, probe, kSize.x, kSize.y, path("preview.png")));
+    const Finished preview =
+        inspect(fmt::format("'{}' --probe '{}' --shape disc --size {}x{} --preview-only --capture '{}'", material,
+                            probe, kSize.x, kSize.y, path("preview.png")));
     ASSERT_EQ(preview.exit_code, 0) << preview.messages;
 
     const image::ByteImage one = read_picture(path("demo.png"));

@@ -207,10 +207,13 @@ TEST(DemoPlay, TurningTheEnvironmentTurnsEverythingElseTheOtherWay) {
         EXPECT_NEAR(glm::distance(seen(small.left)[i], left[i]), 0.0F, 1e-5F);
         EXPECT_NEAR(glm::distance(seen(small.right)[i], right[i]), 0.0F, 1e-5F);
     }
-    // And what is under the cursor still is.
+    // And what is under the cursor still is, and a new light comes before it.
     const auto hit = play.hit_at(kOnRight);
     ASSERT_TRUE(hit);
     EXPECT_EQ(hit->target, 1U);
+    play.step(std::vector{test::mouse(kOnRight)});
+    tap(play, Key::G);
+    EXPECT_LT(glm::distance(glm::vec3(placement(small.world, play.lights().entities()[0])[3]), hit->point), 0.5F);
 }
 
 TEST(DemoPlay, LightsAreAddedBeforeWhatIsUnderTheCursorUpToTheMost) {

@@ -1,0 +1,13 @@
+#!/usr/bin/env bash
+# take_pictures.sh INSPECTOR
+# Takes the pictures of README.md anew, without a display, by the inspector at that path.
+set -euo pipefail
+inspector=$1
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+take() {
+    local name=$1
+    shift
+    "$inspector" --layout /nonexistent/layout.json --capture "$here/pictures/$name.png" "$@"
+}
+take disc --preset cd --measure --size 1600x1000
+take foil --preset holographic_foil --shape sheet --size 1280x1400
