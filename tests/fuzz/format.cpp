@@ -1,0 +1,185 @@
+#include "tests/fuzz/format.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <stdexcept>
+#include <string_view>
+
+#include "engine/asset/container.h"
+#include "engine/colour/illuminant.h"
+#include "engine/core/check.h"
+#include "engine/core/error.h"
+#include "engine/core/json_reader.h"
+#include "engine/image/byte_image.h"
+#include "engine/image/exr.h"
+#include "engine/image/radiance_hdr.h"
+#include "engine/lighting/light_probe.h"
+#include "engine/lighting/probe_recipe.h"
+#include "engine/scene/draco_decode.h"
+#include "engine/scene/gltf_import.h"
+#include "engine/scene/memory_budget.h"
+#include "engine/scene/mesh_recipe.h"
+#include "engine/scene/scene_recipe.h"
+#include "modules/diffraction/asset/cooked_material.h"
+#include "modules/diffraction/asset/efficiency_csv.h"
+#include "modules/diffraction/asset/gltf_extension.h"
+#include "modules/diffraction/asset/material_json.h"
+
+namespace rowland::fuzz {
+
+namespace {
+
+std::string_view text(std::span<const std::byte> bytes) {
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+/// What every mesh promises (engine/scene/mesh.h), as far as a reader outside of it would be hurt.
+void require_sane(const scene::ImportedScene& scene) {
+    for (const scene::Mesh& mesh : scene.meshes) {
+        for (const std::uint32_t index : mesh.indices) ROWLAND_CHECK_OP(index, <, mesh.positions.size());
+        for (const glm::vec3& position : mesh.positions)
+            for (int i = 0; i < 3; ++i) ROWLAND_CHECK(std::isfinite(position[i]), "finite positions");
+    }
+}
+
+const std::vector<std::string>& handled_extensions() {
+    static const std::vector<std::string> names{diffraction::kGltfExtension};
+    return names;
+}
+
+void read_glb(std::span<const std::byte> bytes) {
+    const scene::ImportedScene scene = scene::load_glb(bytes, "input.glb", handled_extensions());
+    require_sane(scene);
+}
+
+/// The JSON of a .gltf, as the one chunk of a .glb: nothing outside of it can be read.
+void read_gltf(std::span<const std::byte> bytes) {
+    std::vector<std::byte> glb;
+    const auto put = [&](std::uint32_t value) {
+        const auto* begin = reinterpret_cast<const std::byte*>(&value);
+        glb.insert(glb.end(), begin, begin + sizeof(value));
+    };
+    const std::size_t padded = (bytes.size() + 3) / 4 * 4;
+    put(0x46546C67);  // "glTF"
+    put(2);
+    put(static_cast<std::uint32_t>(20 + padded));
+    put(static_cast<std::uint32_t>(padded));
+    put(0x4E4F534A);  // "JSON"
+    glb.insert(glb.end(), bytes.begin(), bytes.end());
+    glb.resize(20 + padded, std::byte{' '});
+    read_glb(glb);
+}
+
+void read_draco(std::span<const std::byte> bytes) {
+    scene::MemoryBudget budget("input.drc");
+    const scene::DracoMesh mesh(bytes, "input.drc", "stream", budget);
+    for (const std::uint32_t index : mesh.indices()) ROWLAND_CHECK_OP(index, <, mesh.vertex_count());
+    ROWLAND_CHECK_OP(mesh.vectors<glm::vec3>(0, "POSITION").size(), ==, mesh.vertex_count());
+}
+
+void require_whole(const image::Image& image) {
+    ROWLAND_CHECK_OP(image.texels.size(), ==,
+                     static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+}
+
+void read_hdr(std::span<const std::byte> bytes) {
+    require_whole(image::read_radiance_hdr(bytes, "input.hdr"));
+}
+
+void read_exr(std::span<const std::byte> bytes) {
+    require_whole(image::read_exr(bytes, "input.exr"));
+}
+
+void read_byte_image(std::span<const std::byte> bytes) {
+    image::decode_byte_image(bytes, "input.png");
+}
+
+/// Files that a material names are there, and the same for all.
+diffraction::NamedText named(const std::string& name) {
+    return {"wavelength_nm,R-1,R+0,R+1\n380,.2,.3,.2\n780,.1,.4,.1\n", name};
+}
+
+void read_material(std::span<const std::byte> bytes) {
+    diffraction::parse_material(parse_json(text(bytes), "input.json"), "input.json", named);
+}
+
+void read_probe_recipe(std::span<const std::byte> bytes) {
+    lighting::parse_probe_recipe(parse_json(text(bytes), "input.json"), "input.json");
+}
+
+void read_mesh_recipe(std::span<const std::byte> bytes) {
+    scene::parse_mesh_recipe(parse_json(text(bytes), "input.json"), "input.json");
+}
+
+void read_scene_recipe(std::span<const std::byte> bytes) {
+    scene::parse_scene_recipe(parse_json(text(bytes), "input.json"), "input.json");
+}
+
+void read_efficiency(std::span<const std::byte> bytes) {
+    diffraction::parse_efficiency_csv(text(bytes), "input.csv");
+}
+
+void read_illuminant(std::span<const std::byte> bytes) {
+    colour::parse_illuminant(text(bytes), "input.csv");
+}
+
+void read_cooked(std::span<const std::byte> bytes) {
+    const asset::CookedAsset cooked = asset::unpack(bytes, "input.cooked");
+    if (cooked.header.type == diffraction::kMaterialAssetType)
+        diffraction::describe(diffraction::read_cooked_material(cooked.payload, "input.cooked"));
+    else
+        lighting::deserialise(cooked.payload, "input.cooked");
+}
+
+/// Payloads alone: behind the container's checksum few mutations would be seen.
+void read_cooked_material(std::span<const std::byte> bytes) {
+    diffraction::describe(diffraction::read_cooked_material(bytes, "input.material"));
+}
+
+void read_cooked_probe(std::span<const std::byte> bytes) {
+    lighting::deserialise(bytes, "input.probe");
+}
+
+}  // namespace
+
+const std::vector<Format>& formats() {
+    static const std::vector<Format> all = {
+        {"glb", read_glb, {".glb"}},
+        {"gltf", read_gltf, {".gltf"}},
+        {"draco", read_draco, {".drc"}},
+        {"hdr", read_hdr, {".hdr"}},
+        {"exr", read_exr, {".exr"}},
+        {"byte-image", read_byte_image, {".png", ".jpg"}},
+        {"material", read_material, {".json"}},
+        {"probe-recipe", read_probe_recipe, {".json"}},
+        {"mesh-recipe", read_mesh_recipe, {".json"}},
+        {"scene-recipe", read_scene_recipe, {".json"}},
+        {"efficiency", read_efficiency, {".csv"}},
+        {"illuminant", read_illuminant, {".csv"}},
+        {"cooked", read_cooked, {".material", ".probe"}},
+        {"cooked-material", read_cooked_material, {}},
+        {"cooked-probe", read_cooked_probe, {}},
+    };
+    return all;
+}
+
+const Format& format(const std::string& name) {
+    for (const Format& format : formats())
+        if (format.name == name) return format;
+    throw std::out_of_range("no format " + name);
+}
+
+bool accepts(const Format& format, std::span<const std::byte> bytes) {
+    try {
+        format.read(bytes);
+        return true;
+    } catch (const Error& error) {
+        ROWLAND_CHECK(error.info().fault == Fault::Input, "a refusal for what the file holds");
+        ROWLAND_CHECK(std::string_view(error.what()).find('\n') == std::string_view::npos, "one line");
+        return false;
+    }
+}
+
+}  // namespace rowland::fuzz

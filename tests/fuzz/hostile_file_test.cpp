@@ -1,0 +1,103 @@
+// Every seed and what mutations make of it is read and sane, or refused in one line; in bounded time and memory.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include "engine/core/file.h"
+#include "tests/fuzz/format.h"
+#include "tests/fuzz/mutate.h"
+#include "tests/fuzz/seeds.h"
+
+namespace rowland::fuzz {
+namespace {
+
+constexpr int kMutations = 2000;  ///< a format, spread over its seeds; ROWLAND_MUTATIONS asks for another number
+constexpr unsigned kMostSeconds = 10;
+constexpr long kMostKibibytes = 512 << 10;  ///< more than before
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool kSanitized = true;  ///< shadow memory and quarantine count, too
+#else
+constexpr bool kSanitized = false;
+#endif
+
+int mutations() {
+    const char* asked = std::getenv("ROWLAND_MUTATIONS");
+    return asked != nullptr ? std::max(1, std::atoi(asked)) : kMutations;
+}
+
+long peak_kibibytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;
+}
+
+class HostileFile : public testing::TestWithParam<const Format*> {
+ protected:
+    /// The alarm ends the process: nothing waits for a reader that hangs.
+    static bool read(std::span<const std::byte> bytes) {
+        alarm(kSanitized ? 6 * kMostSeconds : kMostSeconds);
+        const bool accepted = accepts(*GetParam(), bytes);
+        alarm(0);
+        return accepted;
+    }
+};
+
+TEST_P(HostileFile, IsSaneOrRefused) {
+    const std::vector<Seed> all = seeds(*GetParam());
+    ASSERT_FALSE(all.empty());
+    std::vector<const Seed*> sound;  // what is refused anyway is not worth damaging
+    for (const Seed& seed : all) {
+        SCOPED_TRACE(seed.name);
+        if (read(seed.bytes)) sound.push_back(&seed);
+    }
+    ASSERT_FALSE(sound.empty()) << "no seed was read";
+    const long before = peak_kibibytes();
+    int read_mutations = 0;
+    for (int i = 0; i < mutations(); ++i) {
+        const Seed& seed = *sound[static_cast<std::size_t>(i) % sound.size()];
+        SCOPED_TRACE(seed.name + " mutated as " + std::to_string(i));
+        const std::vector<std::byte> file = mutate(seed.bytes, static_cast<std::uint64_t>(i));
+        if (const char* folder = std::getenv("ROWLAND_KEEP_MUTATION"))  // the last one is there after a crash, too
+            write_file_atomic(std::filesystem::path(folder) / GetParam()->name, file);
+        read_mutations += read(file) ? 1 : 0;
+        if (!kSanitized) {
+            ASSERT_LT(peak_kibibytes() - before, kMostKibibytes);
+        }
+    }
+    EXPECT_LT(read_mutations, mutations()) << "nothing was refused";
+    std::printf("%s: %zu seeds, %zu of them read; %d mutations, %d of them read\n", GetParam()->name, all.size(),
+                sound.size(), mutations(), read_mutations);
+}
+
+std::vector<const Format*> all_formats() {
+    std::vector<const Format*> result;
+    for (const Format& format : formats()) result.push_back(&format);
+    return result;
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, HostileFile, testing::ValuesIn(all_formats()), [](const auto& parameter) {
+    std::string name = parameter.param->name;
+    for (char& c : name)
+        if (c == '-') c = '_';
+    return name;
+});
+
+TEST(Mutate, GivesTheSameFileForTheSameNumber) {
+    const std::vector<std::byte> bytes(1000, std::byte{'7'});
+    int changed = 0;
+    for (std::uint64_t number = 0; number < 100; ++number) {
+        EXPECT_EQ(mutate(bytes, number), mutate(bytes, number));
+        changed += mutate(bytes, number) != bytes ? 1 : 0;
+    }
+    EXPECT_GT(changed, 95);
+}
+
+}  // namespace
+}  // namespace rowland::fuzz
