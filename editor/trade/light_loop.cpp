@@ -8,6 +8,7 @@
 #include "engine/colour/observer.h"
 #include "engine/colour/sampled_spectrum.h"
 #include "engine/core/error.h"
+#include "modules/diffraction/asset/layer_weights.h"
 #include "modules/diffraction/model/efficiency.h"
 #include "modules/diffraction/shaders/shader_files.h"
 
@@ -49,7 +50,8 @@ gpu::Texture colour_rows(const diffraction::Grating& grating, std::span<const fl
 
 }  // namespace
 
-LightLoop::LightLoop(const diffraction::Grating& grating, const colour::LightSpectra& spectra)
+LightLoop::LightLoop(const diffraction::Grating& grating, const colour::LightSpectra& spectra,
+                     const glm::dmat3& xyz_to_working)
     : pitch_nm_(grating.pitch_nm), orders_(orders_other_than_0(grating)) {
     if (!is_flat(grating.lobe) || grating.grooves < diffraction::kManyGrooves || orders_.size() > kMostOrders)
         throw Error({.file = "light loop",
@@ -57,6 +59,9 @@ LightLoop::LightLoop(const diffraction::Grating& grating, const colour::LightSpe
                      .found = "another grating",
                      .expected = "a flat groove_lobe, sharp orders (50 grooves or more), at most 64 of them",
                      .remedy = {}});
+    const diffraction::LayerWeights weights = diffraction::layer_weights(grating);
+    mirror_weight_ = glm::vec3(xyz_to_working * weights.mirror);
+    base_weight_ = glm::vec3(xyz_to_working * weights.base);
     colours_ = colour_rows(grating, orders_, spectra);
     set_lights({});
 }
@@ -80,6 +85,8 @@ void LightLoop::bind(const gpu::Program& program) const {
     program.set("orders", std::span<const float>(orders_));
     program.set("pitch_nm", static_cast<float>(pitch_nm_));
     program.set("groove_turn", glm::vec2(1.0F, 0.0F));
+    program.set("mirror_weight", mirror_weight_);
+    program.set("base_weight", base_weight_);
 }
 
 void LightLoopType::add_shaders(gpu::ShaderLibrary& library) const {

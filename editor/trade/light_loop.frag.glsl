@@ -1,5 +1,6 @@
 #version 450 core
 // Every light and every order on its own: what the paper's fig. 3 shows to be slow.
+#define MATERIAL_HAS_MIRROR
 #include "engine/render/shaders/forward_fragment_interface.glsl"
 #include "modules/diffraction/shaders/groove_view.glsl"
 
@@ -13,6 +14,8 @@ uniform int light_count;
 uniform int order_count;
 uniform float orders[64];
 uniform float pitch_nm;
+uniform vec3 mirror_weight;
+uniform vec3 base_weight;
 
 vec3 order_xyz(int i, float path_nm, vec3 rgb) {
     float wavelength_nm = path_nm / orders[i];
@@ -34,7 +37,7 @@ MaterialTerms material_terms() {
             for (int o = 0; o < order_count; ++o)
                 xyz += s.z * order_xyz(o, pitch_nm * (s.x + view.direction.x), loop_lights[i].irradiance.rgb);
         }
-    return MaterialTerms(vec3(1.0), vec3(0.0), mat3(xyz_to_working) * xyz);
+    return MaterialTerms(base_weight, mirror_weight, mat3(xyz_to_working) * xyz);
 }
 
 #include "engine/render/shaders/forward_fragment_main.glsl"

@@ -17,8 +17,9 @@ namespace rowland::trade {
 class LightLoop {
  public:
     /// Throws Error (input) for a lobe that is not flat, and for fewer than kManyGrooves grooves. The context is
-    /// current.
-    LightLoop(const diffraction::Grating& grating, const colour::LightSpectra& spectra);
+    /// current. `xyz_to_working` as the renderer's.
+    LightLoop(const diffraction::Grating& grating, const colour::LightSpectra& spectra,
+              const glm::dmat3& xyz_to_working);
 
     /// From now on these light it; any number. Linear Rec.709.
     void set_lights(std::span<const render::DistantLight> lights);
@@ -28,6 +29,8 @@ class LightLoop {
 
  private:
     double pitch_nm_;
+    glm::vec3 mirror_weight_;  ///< what the grating leaves to the engine, working space
+    glm::vec3 base_weight_;
     std::vector<float> orders_;  ///< without 0
     gpu::Texture colours_;       ///< row 3 i + c: light of colour c in order i, a texel a nanometre from 380 to 780
     gpu::Buffer lights_;

@@ -124,7 +124,8 @@ double PaperStage::fastest(bool effects) {
 
 double PaperStage::loop_ms(int lights) {
     auto loop = std::make_shared<LightLoop>(material_.material.grating,
-                                            colour::LightSpectra(material_.material.quality.illuminant));
+                                            colour::LightSpectra(material_.material.quality.illuminant),
+                                            stage_.xyz_to_working());
     loop->set_lights(lights_of(lights));
     stage_.show_light_loop(loop);
     return fastest(false);
@@ -155,7 +156,8 @@ Figure6 PaperStage::figure_6() {
     const auto draw = [&](int lights, RgbPicture& direct, RgbPicture& sh) {
         stage_.set_probe(probe_of(lights_of(lights)));
         auto loop = std::make_shared<LightLoop>(material_.material.grating,
-                                                colour::LightSpectra(material_.material.quality.illuminant));
+                                                colour::LightSpectra(material_.material.quality.illuminant),
+                                                stage_.xyz_to_working());
         loop->set_lights(lights_of(lights));
         stage_.show_light_loop(loop);
         direct = picture();

@@ -35,6 +35,7 @@ class Stage {
     void show_plain();
     void show_grating(std::shared_ptr<const diffraction::GpuMaterial> material);
     void show_light_loop(std::shared_ptr<const LightLoop> loop);
+    const glm::dmat3& xyz_to_working() const { return xyz_to_working_; }
 
     /// Draws a frame and waits for it. Milliseconds.
     double draw();

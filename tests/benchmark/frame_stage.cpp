@@ -169,7 +169,7 @@ FrameScene::FrameScene(FrameVariant variant, FrameStage& stage, bool software)
 void FrameScene::shade_in_a_loop(const std::vector<render::DistantLight>& lights) {
     const diffraction::Grating grating =
         diffraction::parse_material(cd_material({{"representation", "direct"}}), "the CD").grating;
-    auto loop = std::make_shared<trade::LightLoop>(grating, colour::LightSpectra());
+    auto loop = std::make_shared<trade::LightLoop>(grating, colour::LightSpectra(), stage_->xyz_to_working());
     loop->set_lights(lights);
     world_.add(disc_, trade::LightLoopSurface{std::move(loop)});
 }

@@ -36,6 +36,7 @@ class FrameStage {
     const gpu::Framebuffer& linear() const { return linear_; }
     /// The linear picture through the display transform, 8-bit RGB from the top.
     std::vector<std::uint8_t> displayed();
+    const glm::dmat3& xyz_to_working() const { return xyz_to_working_; }
 
  private:
     std::unique_ptr<render::Renderer> make_renderer(const FrameVariant& variant) const;
