@@ -155,6 +155,10 @@ struct Point {
     glm::dvec2 below{0.0};       ///< the same of the next row's
 };
 
+/// Of the picture's maximum. A real GPU filters textures with 8-bit weights, 2e-3 of a step between texels; tables of
+/// halves are 5e-4 exact.
+inline constexpr double kPictureTolerance = 2e-3;
+
 /// One triangle with a grating, drawn as XYZ.
 class GratingPicture : public rowland::test::GlTest {
  protected:
@@ -212,6 +216,27 @@ class GratingPicture : public rowland::test::GlTest {
     /// Interpolates what a vertex shader makes.
     static glm::dvec3 mix(const Point& point, const std::vector<glm::dvec3>& vertices) {
         return point.weights.x * vertices[0] + point.weights.y * vertices[1] + point.weights.z * vertices[2];
+    }
+
+    /// Draws a material whose map is looked up at the vertices, which `map_xyz` does on the CPU, and its key lights at
+    /// the vertices or at the pixels.
+    void expect_map_at_vertices(const CookedMaterial& cooked, const std::function<glm::dvec3(const Point&)>& map_xyz) {
+        const auto lights_xyz = [&](const Point& point) { return key_light_xyz(cooked, light_.key_lights, point); };
+        std::vector<glm::dvec3> maps;
+        std::vector<glm::dvec3> lights;
+        for (std::size_t vertex = 0; vertex < 3; ++vertex) {
+            Point point;
+            point.to_tangent = vertex_frame(vertex);
+            point.view = vertex_view(vertex);
+            maps.push_back(map_xyz(point));
+            lights.push_back(lights_xyz(point));
+        }
+        const bool at_vertices = cooked.material.quality.lights_at_vertices;
+        const auto expected = [&](const Point& point) {
+            return mix(point, maps) + (at_vertices ? mix(point, lights) : lights_xyz(point));
+        };
+        EXPECT_LT(largest_difference(draw(), expected), kPictureTolerance) << at_vertices;
+        EXPECT_GT(largest_difference(draw(), map_xyz), 0.1);
     }
 
     /// The triangle's plane at a pixel's centre.
@@ -325,9 +350,5 @@ class GratingPicture : public rowland::test::GlTest {
         return point;
     }
 };
-
-/// Of the picture's maximum. A real GPU filters textures with 8-bit weights, 2e-3 of a step between texels; tables of
-/// halves are 5e-4 exact.
-inline constexpr double kPictureTolerance = 2e-3;
 
 }  // namespace rowland::diffraction

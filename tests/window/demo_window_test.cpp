@@ -12,21 +12,10 @@
 #include "engine/core/file.h"
 #include "engine/image/byte_image.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/support/test_data.h"
+#include "tests/window/needs_xvfb.h"
 
 namespace rowland {
 namespace {
-
-bool has_tools() {
-    return std::system("command -v xvfb-run xdotool >/dev/null 2>&1") == 0;
-}
-
-#define ROWLAND_NEEDS_XVFB()                                                            \
-    if (!has_tools()) {                                                                 \
-        if (test::data_is_required()) FAIL() << "xvfb-run or xdotool is not installed"; \
-        GTEST_SKIP() << "xvfb-run or xdotool is not installed";                         \
-    }                                                                                   \
-    static_assert(true)
 
 /// Of display values, 0 to 255.
 int largest_difference(std::span<const std::byte> a, std::span<const std::byte> b) {

@@ -13,22 +13,11 @@
 #include "engine/core/file.h"
 #include "engine/image/byte_image.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/support/test_data.h"
 #include "tests/unit/editor/trade/trade_run.h"
+#include "tests/window/needs_xvfb.h"
 
 namespace rowland {
 namespace {
-
-bool has_tools() {
-    return std::system("command -v xvfb-run xdotool >/dev/null 2>&1") == 0;
-}
-
-#define ROWLAND_NEEDS_XVFB()                                                            \
-    if (!has_tools()) {                                                                 \
-        if (test::data_is_required()) FAIL() << "xvfb-run or xdotool is not installed"; \
-        GTEST_SKIP() << "xvfb-run or xdotool is not installed";                         \
-    }                                                                                   \
-    static_assert(true)
 
 constexpr int kWidth = 900;  ///< the least for which panels are open from the start
 constexpr int kHeight = 500;

@@ -14,22 +14,12 @@
 #include "modules/diffraction/asset/material_json.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"
+#include "tests/window/needs_xvfb.h"
 
 namespace rowland {
 namespace {
 
 using testing::HasSubstr;
-
-bool has_tools() {
-    return std::system("command -v xvfb-run xdotool >/dev/null 2>&1") == 0;
-}
-
-#define ROWLAND_NEEDS_XVFB()                                                            \
-    if (!has_tools()) {                                                                 \
-        if (test::data_is_required()) FAIL() << "xvfb-run or xdotool is not installed"; \
-        GTEST_SKIP() << "xvfb-run or xdotool is not installed";                         \
-    }                                                                                   \
-    static_assert(true)
 
 class InspectorWindow : public ::testing::Test {
  protected:

@@ -11,24 +11,13 @@
 #include "engine/core/file.h"
 #include "engine/image/byte_image.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/support/test_data.h"
+#include "tests/window/needs_xvfb.h"
 
 namespace rowland {
 namespace {
 
 using testing::HasSubstr;
 using testing::Not;
-
-bool has_tools() {
-    return std::system("command -v xvfb-run xdotool >/dev/null 2>&1") == 0;
-}
-
-#define ROWLAND_NEEDS_XVFB()                                                            \
-    if (!has_tools()) {                                                                 \
-        if (test::data_is_required()) FAIL() << "xvfb-run or xdotool is not installed"; \
-        GTEST_SKIP() << "xvfb-run or xdotool is not installed";                         \
-    }                                                                                   \
-    static_assert(true)
 
 constexpr int kWidth = 320;
 constexpr int kHeight = 180;
