@@ -134,7 +134,6 @@ void write_benchmark(const std::filesystem::path& path, const BenchmarkResult& r
                                          {"width", result.size.x},
                                          {"height", result.size.y},
                                          {"frame", to_json(result.frame)},
-
                                          {"times_plain", result.times_plain},
                                          {"passes", passes},
                                          {"drawn", result.drawn},

@@ -2,20 +2,18 @@
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 #include <optional>
 
 #include "engine/scene/camera.h"
 #include "engine/scene/mesh.h"
+#include "engine/scene/ray.h"
 #include "modules/diffraction/model/frame.h"
 
 namespace rowland::inspector {
 
+using scene::Ray;
+
 /// A ray through a picture's point; `at` from its upper left corner, each in [0, 1].
-struct Ray {
-    glm::vec3 origin{0.0F};
-    glm::vec3 direction{0.0F, 0.0F, -1.0F};  ///< unit
-};
 Ray ray_through(const scene::Camera& camera, float aspect, const glm::vec2& at);
 
 /// The frame of the nearest point of a mesh on the ray, in world axes, as its shaders see it: the eye, the interpolated

@@ -6,18 +6,8 @@
 # written, at most so long), run:COMMAND, wait:SECONDS, other:SECONDS (shots until one differs from the last, at most so
 # long). Shots lie in FOLDER as shot_1.png and so on. Ends with the demo's own exit status, after Escape.
 set -u
-folder=$1
-shift
-actions=()
-while [ "$1" != -- ]; do
-    actions+=("$1")
-    shift
-done
-shift
-
-if [ -z "${ROWLAND_INSIDE_XVFB:-}" ]; then
-    ROWLAND_INSIDE_XVFB=1 exec xvfb-run -a -s "-screen 0 1024x768x24" bash "$0" "$folder" "${actions[@]}" -- "$@"
-fi
+screen=1024x768
+. "$(dirname "${BASH_SOURCE[0]}")/under_xvfb.sh"
 
 "$@" --output-folder "$folder" 2> >(tee "$folder/log" >&2) &
 demo=$!

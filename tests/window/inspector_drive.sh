@@ -13,18 +13,8 @@
 # INSPECTOR_SIZE: the size of the window (1280x780).
 # Ends with Ctrl+Q, discarding edits that are not saved, and the inspector's own exit status.
 set -u
-folder=$1
-shift
-actions=()
-while [ "$1" != -- ]; do
-    actions+=("$1")
-    shift
-done
-shift
-
-if [ -z "${ROWLAND_INSIDE_XVFB:-}" ]; then
-    ROWLAND_INSIDE_XVFB=1 exec xvfb-run -a -s "-screen 0 1280x800x24" bash "$0" "$folder" "${actions[@]}" -- "$@"
-fi
+screen=1280x800
+. "$(dirname "${BASH_SOURCE[0]}")/under_xvfb.sh"
 
 facts="$folder/controls"
 rm -f "$facts" "$facts.frames"

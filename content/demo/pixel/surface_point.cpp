@@ -12,18 +12,6 @@
 
 namespace rowland::demo {
 
-namespace {
-
-/// A vertex attribute at a hit.
-template <typename V>
-V interpolated(const std::vector<V>& values, const scene::Mesh& mesh, const TriangleHit& hit) {
-    const std::size_t corner = 3 * hit.triangle;
-    return (1.0F - hit.weights.x - hit.weights.y) * values[mesh.indices[corner]] +
-           hit.weights.x * values[mesh.indices[corner + 1]] + hit.weights.y * values[mesh.indices[corner + 2]];
-}
-
-}  // namespace
-
 std::optional<GratingPlace> grating_place(ecs::World& world, ecs::Entity grating) {
     const auto* surface = world.find<diffraction::DiffractionSurface>(grating);
     const auto* instance = world.find<render::MeshInstance>(grating);

@@ -80,7 +80,7 @@ gpu::ProgramDesc GpuMaterial::program(const SurfaceState& state) const {
     if (!key_lights_) desc.defines.push_back({"NO_KEY_LIGHTS", "1"});
     kernel_.add_defines(desc);
     if (state.grooves) state.grooves->add_defines(desc);
-    if (lights_at_vertices_ && separate_lights_ && !state.grooves) desc.defines.push_back({"LIGHTS_AT_VERTICES", "1"});
+    if (lights_at_vertices_ && !state.grooves) desc.defines.push_back({"LIGHTS_AT_VERTICES", "1"});
     return desc;
 }
 

@@ -1,0 +1,34 @@
+#include "engine/scene/ray.h"
+
+#include <glm/geometric.hpp>
+
+namespace rowland::scene {
+
+std::optional<TriangleHit> meet(const Ray& ray, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+    const glm::vec3 ab = b - a;
+    const glm::vec3 ac = c - a;
+    const glm::vec3 across = glm::cross(ray.direction, ac);
+    const float determinant = glm::dot(ab, across);
+    if (determinant == 0.0F) return std::nullopt;
+    const glm::vec3 from_a = ray.origin - a;
+    const float u = glm::dot(from_a, across) / determinant;
+    const glm::vec3 normal = glm::cross(from_a, ab);
+    const float v = glm::dot(ray.direction, normal) / determinant;
+    const float distance = glm::dot(ac, normal) / determinant;
+    if (!(u >= 0.0F && v >= 0.0F && u + v <= 1.0F && distance > 0.0F)) return std::nullopt;
+    return TriangleHit{.triangle = 0, .weights = {u, v}, .distance = distance};
+}
+
+std::optional<TriangleHit> nearest_hit(const Ray& ray, const Mesh& mesh, float nearest_allowed) {
+    std::optional<TriangleHit> nearest;
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        auto hit = meet(ray, mesh.positions[mesh.indices[i]], mesh.positions[mesh.indices[i + 1]],
+                        mesh.positions[mesh.indices[i + 2]]);
+        if (!hit || hit->distance < nearest_allowed || (nearest && hit->distance >= nearest->distance)) continue;
+        hit->triangle = i / 3;
+        nearest = hit;
+    }
+    return nearest;
+}
+
+}  // namespace rowland::scene
