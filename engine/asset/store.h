@@ -140,7 +140,7 @@ class Handle {
 class Store {
  public:
     /// How often files are looked at, at most.
-    explicit Store(std::chrono::milliseconds interval = std::chrono::milliseconds(200)) : interval_(interval) {}
+    explicit Store(std::chrono::milliseconds interval = std::chrono::milliseconds(50)) : interval_(interval) {}
 
     /// The asset called `name`, loaded now unless somebody holds it already. Throws what the loader throws. It is a
     /// logic error to ask for one name with two types.

@@ -22,7 +22,7 @@ class Recooker {
 
     /// The registry must outlive it.
     Recooker(const Registry& registry, std::vector<Job> jobs,
-             std::chrono::milliseconds interval = std::chrono::milliseconds(200));
+             std::chrono::milliseconds interval = std::chrono::milliseconds(50));
 
     /// Once a frame: starts cooking what has changed.
     void poll();

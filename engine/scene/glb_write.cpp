@@ -10,6 +10,7 @@
 
 #include "engine/core/byte_stream.h"
 #include "engine/core/check.h"
+#include "engine/core/parallel.h"
 
 namespace rowland::scene {
 
@@ -41,7 +42,7 @@ Json to_json(const Vector& v) {
 
 class Writing {
  public:
-    Writing(const GlbScene& scene, const DracoBits& bits) : scene_(scene), bits_(bits) {}
+    Writing(const GlbScene& scene, const DracoBits& bits) : scene_(scene), streams_(encode(scene, bits)) {}
 
     std::vector<std::byte> write() {
         for (std::size_t i = 0; i < scene_.nodes.size(); ++i) add_node(i);
@@ -105,15 +106,25 @@ class Writing {
             roots_.push_back(index);
     }
 
+    /// The streams of all primitives, in order.
+    static std::vector<DracoStream> encode(const GlbScene& scene, const DracoBits& bits) {
+        std::vector<const Mesh*> meshes;
+        for (const GlbMesh& mesh : scene.meshes)
+            for (const GlbPrimitive& primitive : mesh.primitives) meshes.push_back(&primitive.mesh);
+        std::vector<DracoStream> streams(meshes.size());
+        parallel_for(meshes.size(), [&](std::size_t i) { streams[i] = encode_draco(*meshes[i], bits); });
+        return streams;
+    }
+
     void add_mesh(const GlbMesh& mesh) {
         Json primitives = Json::array();
-        for (const GlbPrimitive& primitive : mesh.primitives) primitives.push_back(add_primitive(primitive));
+        for (const GlbPrimitive& primitive : mesh.primitives)
+            primitives.push_back(add_primitive(primitive, streams_.at(written_++)));
         meshes_.push_back(Json{{"name", mesh.name}, {"primitives", std::move(primitives)}});
     }
 
-    Json add_primitive(const GlbPrimitive& primitive) {
+    Json add_primitive(const GlbPrimitive& primitive, const DracoStream& stream) {
         use(kDraco);
-        const DracoStream stream = encode_draco(primitive.mesh, bits_);
         constexpr int kFloat = 5126;
         constexpr int kUint32 = 5125;
         const std::size_t vertices = primitive.mesh.positions.size();
@@ -234,7 +245,8 @@ class Writing {
     }
 
     const GlbScene& scene_;
-    const DracoBits& bits_;
+    std::vector<DracoStream> streams_;  ///< of the primitives, in order
+    std::size_t written_ = 0;           ///< of them
     Json roots_ = Json::array();
     Json nodes_ = Json::array();
     Json meshes_ = Json::array();

@@ -11,6 +11,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/json_reader.h"
+#include "engine/core/parallel.h"
 #include "engine/image/png.h"
 
 namespace rowland::scene {
@@ -248,11 +249,13 @@ GlbScene build_scene(const SceneRecipe& recipe) {
     scene.cameras = recipe.cameras;
     scene.lights = recipe.lights;
     scene.nodes = recipe.nodes;
-    for (const SceneRecipe::Texture& texture : recipe.textures) {
+    scene.textures.resize(recipe.textures.size());
+    parallel_for(recipe.textures.size(), [&](std::size_t i) {
+        const SceneRecipe::Texture& texture = recipe.textures[i];
         const PaintedTexture painted = paint(texture.recipe);
-        scene.textures.push_back({texture.name, image::encode_png(texture.recipe.width, texture.recipe.height,
-                                                                  painted.channels, painted.texels)});
-    }
+        scene.textures[i] = {texture.name, image::encode_png(texture.recipe.width, texture.recipe.height,
+                                                             painted.channels, painted.texels)};
+    });
     std::size_t vertices = 0;
     for (std::size_t i = 0; i < recipe.meshes.size(); ++i) {
         GlbMesh& mesh = scene.meshes.emplace_back();
