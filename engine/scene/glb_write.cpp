@@ -74,6 +74,7 @@ class Writing {
         add("materials", materials_);
         add("textures", textures_);
         add("images", images_);
+        add("samplers", samplers_);
         add("cameras", cameras_);
         if (!lights_.empty()) root["extensions"][kLights]["lights"] = std::move(lights_);
         add("accessors", accessors_);
@@ -170,7 +171,15 @@ class Writing {
     }
 
     void add_texture(const GlbTexture& texture) {
-        textures_.push_back(Json{{"name", texture.name}, {"source", images_.size()}});
+        Json json = {{"name", texture.name}, {"source", images_.size()}};
+        if (texture.clamp_x || texture.clamp_y) {
+            constexpr int kRepeat = 10497;
+            constexpr int kClampToEdge = 33071;
+            json["sampler"] = samplers_.size();
+            samplers_.push_back(Json{{"wrapS", texture.clamp_x ? kClampToEdge : kRepeat},
+                                     {"wrapT", texture.clamp_y ? kClampToEdge : kRepeat}});
+        }
+        textures_.push_back(std::move(json));
         images_.push_back(
             Json{{"name", texture.name}, {"mimeType", "image/png"}, {"bufferView", add_view(texture.png)}});
     }
@@ -253,6 +262,7 @@ class Writing {
     Json materials_ = Json::array();
     Json textures_ = Json::array();
     Json images_ = Json::array();
+    Json samplers_ = Json::array();
     Json cameras_ = Json::array();
     Json lights_ = Json::array();
     Json accessors_ = Json::array();

@@ -17,10 +17,12 @@
 
 namespace rowland::scene {
 
-/// A picture that repeats and is filtered trilinearly.
+/// A picture that is filtered trilinearly.
 struct GlbTexture {
     std::string name;
     std::vector<std::byte> png;
+    bool clamp_x = false;  ///< or it repeats
+    bool clamp_y = false;
 };
 
 struct GlbMaterial {

@@ -89,8 +89,13 @@ class Parsing {
     void add_texture(JsonReader& reader) {
         std::string name = new_name(reader, recipe_.textures);
         TextureRecipe texture = parse_texture(reader);
+        const auto clamps = [&](const char* key) {
+            return reader.choice_or(key, "repeat", {"repeat", "clamp"}) == "clamp";
+        };
+        const bool clamp_x = clamps("wrap_x");
+        const bool clamp_y = clamps("wrap_y");
         reader.finish();
-        recipe_.textures.push_back({std::move(name), std::move(texture)});
+        recipe_.textures.push_back({std::move(name), std::move(texture), clamp_x, clamp_y});
     }
 
     void add_material(JsonReader& reader) {
@@ -253,8 +258,10 @@ GlbScene build_scene(const SceneRecipe& recipe) {
     parallel_for(recipe.textures.size(), [&](std::size_t i) {
         const SceneRecipe::Texture& texture = recipe.textures[i];
         const PaintedTexture painted = paint(texture.recipe);
-        scene.textures[i] = {texture.name, image::encode_png(texture.recipe.width, texture.recipe.height,
-                                                             painted.channels, painted.texels)};
+        scene.textures[i] = {
+            texture.name,
+            image::encode_png(texture.recipe.width, texture.recipe.height, painted.channels, painted.texels),
+            texture.clamp_x, texture.clamp_y};
     });
     std::size_t vertices = 0;
     for (std::size_t i = 0; i < recipe.meshes.size(); ++i) {

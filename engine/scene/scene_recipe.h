@@ -17,6 +17,8 @@ struct SceneRecipe {
     struct Texture {
         std::string name;
         TextureRecipe recipe;
+        bool clamp_x = false;  ///< or it repeats
+        bool clamp_y = false;
     };
     struct Part {
         MeshRecipe shape;

@@ -28,7 +28,7 @@ const char* const kExtension = "ROWLAND_materials_diffraction";
 
 json small_scene() {
     return json::parse(R"({"scene": {
-        "textures": [{"name": "paint", "size": [4, 2], "layers": [{"pattern": "all", "r": 0.2, "g": 0.4, "b": 0.6}]}],
+        "textures": [{"name": "paint", "size": [4, 2], "wrap_x": "clamp", "layers": [{"pattern": "all", "r": 0.2, "g": 0.4, "b": 0.6}]}],
         "materials": [{"name": "plain", "color": [0.5, 0.25, 1], "metallic": 1, "roughness": 0.75},
                       {"name": "painted", "color_texture": {"name": "paint", "repeat": [2, 3]}, "blend": true,
                        "extensions": {"X_unknown": {"deep": [1, {"a": null}], "text": "é"}}}],
@@ -87,6 +87,8 @@ TEST(SceneRecipe, ImportFindsWhatTheRecipeSays) {
     EXPECT_EQ(painted.alpha_mode, AlphaMode::Blend);
     ASSERT_TRUE(painted.base_colour_texture);
     EXPECT_EQ(painted.base_colour_texture->transform.scale, glm::vec2(2.0F, 3.0F));
+    EXPECT_EQ(scene.textures[painted.base_colour_texture->texture].wrap_s, TextureWrap::Clamp);
+    EXPECT_EQ(scene.textures[painted.base_colour_texture->texture].wrap_t, TextureWrap::Repeat);
     const image::ByteImage& image = *scene.images.at(scene.textures.at(painted.base_colour_texture->texture).image);
     EXPECT_EQ(image.width, 4);
     EXPECT_THAT(std::vector<int>(image.rgba.begin(), image.rgba.begin() + 4), testing::ElementsAre(51, 102, 153, 255));
