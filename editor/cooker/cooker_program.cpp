@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "editor/cooker/farm_commands.h"
 #include "engine/cook/check_file.h"
 #include "engine/cook/cook_source.h"
 #include "engine/core/error.h"
@@ -27,6 +28,8 @@ struct Arguments {
     unsigned threads = 0;
     std::vector<std::string> checked_files;
     std::string described_file;
+    PlanCommand plan;
+    RunCommand run;
 };
 
 /// The command line's grammar and help.
@@ -35,6 +38,8 @@ struct Grammar {
     CLI::App* cook = app.add_subcommand("cook", "Cook a source: material, probe recipe, mesh recipe");
     CLI::App* check = app.add_subcommand("check", "Load sources or cooked assets as the engine would");
     CLI::App* info = app.add_subcommand("info", "Print what a cooked asset holds");
+    CLI::App* plan = nullptr;
+    CLI::App* run = nullptr;
 
     explicit Grammar(Arguments& arguments) {
         app.name("rowland-cook");
@@ -62,6 +67,9 @@ struct Grammar {
 
         info->add_option("FILE", arguments.described_file, "The cooked asset")->required();
         info->footer("Example: rowland-cook info cooked/cd.material");
+
+        plan = arguments.plan.declare(app);
+        run = arguments.run.declare(app);
     }
 };
 
@@ -107,6 +115,8 @@ int run_cooker(int argc, const char* const* argv, const cook::Registry& registry
         } catch (const CLI::ParseError& error) {
             return grammar.app.exit(error) == 0 ? 0 : 2;
         }
+        if (grammar.plan->parsed()) return arguments.plan.run(registry);
+        if (grammar.run->parsed()) return arguments.run.run(registry);
         if (grammar.cook->parsed()) return cook_one(registry, arguments);
         if (grammar.check->parsed()) return check_all(registry, arguments.checked_files);
         return describe_one(registry, arguments.described_file);

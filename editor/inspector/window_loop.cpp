@@ -10,6 +10,7 @@
 #include "engine/core/log.h"
 #include "engine/gpu/debug.h"
 #include "engine/gpu/framebuffer.h"
+#include "engine/gpu/lost_context.h"
 #include "engine/platform/frame_pacing.h"
 #include "engine/platform/window.h"
 #include "engine/ui/ui.h"
@@ -39,7 +40,9 @@ class WindowLoop {
         while (!workbench_.closed()) {
             const std::chrono::nanoseconds elapsed = clock_.tick();
             times_.add(elapsed);
+            if (dragged_) drag_times_.add(elapsed);
             window_.poll(input_);
+            dragged_ = input_.mouse_button(platform::MouseButton::Left).down;
             if (window_.should_close()) {
                 window_.request_close(false);
                 workbench_.ask_to_close();
@@ -55,13 +58,19 @@ class WindowLoop {
             rest_if_idle();
         }
         remember();
-        const platform::FrameStatistics statistics = times_.statistics();
-        log_info("the last {} frames: median {:.1f} ms, longest {:.1f} ms", statistics.count, statistics.median_ms,
-                 statistics.maximum_ms);
+        tell("frames", times_);
+        tell("frames of drags", drag_times_);
     }
 
  private:
+    static void tell(const char* what, const platform::FrameTimes& times) {
+        const platform::FrameStatistics statistics = times.statistics();
+        log_info("the last {} {}: median {:.1f} ms, longest {:.1f} ms", statistics.count, what, statistics.median_ms,
+                 statistics.maximum_ms);
+    }
+
     void draw(glm::ivec2 pixels, double seconds) {
+        gpu::require_context();
         const glm::ivec2 size = window_.size();
         if (layout_.scale != ui_.scale()) ui_.set_scale(layout_.scale);
         ui_.begin_frame(input_, {.size = size, .framebuffer_size = pixels, .seconds = seconds});
@@ -81,9 +90,8 @@ class WindowLoop {
     /// Leaves the processor to the work beside the frames while the user does nothing.
     void rest_if_idle() {
         constexpr int kAwakeFrames = 15;
-        const bool used = input_.mouse_delta() != glm::dvec2(0.0) || input_.scroll() != glm::dvec2(0.0) ||
-                          input_.mouse_button(platform::MouseButton::Left).down || !input_.typed().empty() ||
-                          session_.cooking();
+        const bool used = input_.mouse_delta() != glm::dvec2(0.0) || input_.scroll() != glm::dvec2(0.0) || dragged_ ||
+                          !input_.typed().empty() || session_.cooking();
         quiet_frames_ = used ? 0 : quiet_frames_ + 1;
         if (quiet_frames_ > kAwakeFrames) std::this_thread::sleep_for(std::chrono::milliseconds(30));
     }
@@ -113,6 +121,8 @@ class WindowLoop {
     platform::InputState input_;
     platform::FrameClock clock_;
     platform::FrameTimes times_;
+    platform::FrameTimes drag_times_;  ///< with the mouse button down
+    bool dragged_ = false;             ///< in the last frame
     int quiet_frames_ = 0;
 };
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "editor/trade/picture_scene.h"
+#include "engine/gpu/lost_context.h"
 #include "engine/post/shader_files.h"
 #include "engine/post/working_space.h"
 #include "engine/render/gpu_mesh.h"
@@ -136,6 +137,7 @@ double Stage::draw() {
     const Clock::time_point start = Clock::now();
     render();
     glFinish();
+    gpu::require_context();
     return milliseconds_since(start);
 }
 
@@ -147,6 +149,7 @@ double Stage::draw_with_effects() {
         {.index = frame_++, .seconds = kSecondsPerFrame, .luminance_weights = post::luminance_weights(config_)},
         encoded_);
     glFinish();
+    gpu::require_context();
     return milliseconds_since(start);
 }
 
@@ -155,6 +158,7 @@ std::vector<std::uint8_t> Stage::picture(float exposure_stops) {
     render();  // maps of objects that have just come to rest
     post_stack_.draw(target_.colour(), display_, {.exposure_stops = exposure_stops}, {.index = frame_++}, encoded_);
     const std::vector<std::uint8_t> rgba = encoded_.read_rgba8();
+    gpu::require_context();
     std::vector<std::uint8_t> rgb;
     for (std::size_t i = 0; i < rgba.size(); i += 4) rgb.insert(rgb.end(), {rgba[i], rgba[i + 1], rgba[i + 2]});
     return rgb;

@@ -12,19 +12,9 @@ namespace rowland::cook {
 
 namespace {
 
-[[noreturn]] void fail_changed(const std::filesystem::path& path) {
-    throw Error({.file = path.string(),
-                 .place = {},
-                 .found = "changed while it was being cooked",
-                 .expected = {},
-                 .remedy = "cook again",
-                 .fault = Fault::System});
-}
-
-/// Hash over everything the payload depends on. Throws if a file is not what it was when the bake first saw it.
+/// Throws if a file is not what it was when the bake first saw it.
 Hash128 content_hash(const Context& context, const AssetType& type) {
-    Hasher hasher;
-    hasher.text(tool_version()).text(type.name).text(std::to_string(type.version));
+    std::vector<Hash128> hashes;
     for (std::size_t i = 0; i < context.dependencies().size(); ++i) {
         const std::filesystem::path& path = context.dependencies()[i];
         const std::optional<Hash128> now = hash_file(path);
@@ -35,9 +25,9 @@ Hash128 content_hash(const Context& context, const AssetType& type) {
                          .found = "an unreadable file",
                          .expected = fmt::format("a file of at most {} bytes", kMaximumSourceBytes),
                          .remedy = {}});
-        hasher.text(now->hex());
+        hashes.push_back(*now);
     }
-    return hasher.digest();
+    return content_hash(type, hashes);
 }
 
 /// A slip on the command line must not cost the user a source.
@@ -55,6 +45,13 @@ void check_output_is_no_source(const std::filesystem::path& output, const std::f
 
 std::string_view tool_version() {
     return ROWLAND_VERSION;
+}
+
+Hash128 content_hash(const AssetType& type, std::span<const Hash128> dependencies) {
+    Hasher hasher;
+    hasher.text(tool_version()).text(type.name).text(std::to_string(type.version));
+    for (const Hash128& dependency : dependencies) hasher.text(dependency.hex());
+    return hasher.digest();
 }
 
 BakedAsset bake_source(const Registry& registry, const std::filesystem::path& source) {

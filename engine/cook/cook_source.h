@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +23,9 @@ struct BakedAsset {
     bool in_container = true;  ///< false: the payload is the cooked file
     std::vector<std::filesystem::path> dependencies;
 };
+
+/// The content hash of an asset whose dependencies, the source first, have these hashes (hash_file()).
+Hash128 content_hash(const AssetType& type, std::span<const Hash128> dependencies);
 
 /// Bakes `source`. The content hash is over the tool's version, the type's name and version and the bytes of all files
 /// read, in the order they were first mentioned; paths are no part of it, so that it is the same on every machine.

@@ -35,7 +35,12 @@ void Context::depend_on(const std::filesystem::path& path) {
 
 std::vector<std::byte> Context::read(const std::filesystem::path& path, std::uint64_t max_bytes) {
     depend_on(path);
-    return read_file(path, max_bytes);
+    std::vector<std::byte> bytes = read_file(path, max_bytes);
+    // What is cooked must be what the content hash is of, even if the file is changed back before anybody looks again.
+    const auto place = std::find(dependencies_.begin(), dependencies_.end(), path) - dependencies_.begin();
+    const std::optional<Hash128>& known = fingerprints_[static_cast<std::size_t>(place)];
+    if (known && Hasher().bytes(bytes).digest() != *known) fail_changed(path);
+    return bytes;
 }
 
 nlohmann::json Context::read_json(const std::filesystem::path& path) {
@@ -50,21 +55,31 @@ void Registry::add(AssetType type) {
     types_.push_back(std::move(type));
 }
 
-const AssetType& Registry::type_of_source(const std::filesystem::path& source) const {
+const AssetType* Registry::recognise(const std::filesystem::path& source) const {
     std::optional<nlohmann::json> json;
     if (is_json(source)) json = parse_json(read_text_file(source, kMaximumJsonBytes), source.string());
 
-    std::vector<const AssetType*> claims;
-    for (const AssetType& type : types_)
-        if (type.recognises(source, json ? &*json : nullptr)) claims.push_back(&type);
-    if (claims.size() == 1) return *claims.front();
+    const AssetType* claim = nullptr;
+    for (const AssetType& type : types_) {
+        if (!type.recognises(source, json ? &*json : nullptr)) continue;
+        if (claim != nullptr) fail_type(source, fmt::format("claimed by {} and {}", claim->name, type.name));
+        claim = &type;
+    }
+    return claim;
+}
 
+const AssetType& Registry::type_of_source(const std::filesystem::path& source) const {
+    const AssetType* type = recognise(source);
+    if (type == nullptr) fail_type(source, "a source of no known type");
+    return *type;
+}
+
+void Registry::fail_type(const std::filesystem::path& source, std::string found) const {
     std::vector<std::string> names;
     for (const AssetType& type : types_) names.push_back(type.name);
     throw Error({.file = source.string(),
                  .place = {},
-                 .found = claims.empty() ? "a source of no known type"
-                                         : fmt::format("claimed by {} and {}", claims[0]->name, claims[1]->name),
+                 .found = std::move(found),
                  .expected = fmt::format("one of {}", fmt::join(names, ", ")),
                  .remedy = {}});
 }

@@ -30,7 +30,8 @@ class Context {
     /// What each of `dependencies()` held when it was first mentioned; null if it could not be read then.
     const std::vector<std::optional<Hash128>>& fingerprints() const { return fingerprints_; }
 
-    /// Reads the source, or another file, and records it. Throws Error (input) as rowland::read_file does.
+    /// Reads the source, or another file, and records it. Throws Error (input) as rowland::read_file does, and Error
+    /// (system) if it is not what it was when it was first mentioned.
     std::vector<std::byte> read(const std::filesystem::path& path, std::uint64_t max_bytes);
     /// A file parsed as JSON (at most 16 MiB, depth-limited), and recorded. Throws Error (input).
     nlohmann::json read_json(const std::filesystem::path& path);
@@ -65,13 +66,17 @@ class Registry {
     /// Adds a type; its name must be new, and it must recognise and check its sources.
     void add(AssetType type);
     const std::vector<AssetType>& types() const { return types_; }
-    /// The type of a source file. Throws Error (input) listing what is known if there is none, and if two types claim
-    /// it.
+    /// The type of a source file, or null. Throws Error (input) if it is JSON that cannot be read, and if two types
+    /// claim it.
+    const AssetType* recognise(const std::filesystem::path& source) const;
+    /// The same; throws Error (input) listing what is known if there is none.
     const AssetType& type_of_source(const std::filesystem::path& source) const;
     /// The type called `name`, or null.
     const AssetType* find(const std::string& name) const;
 
  private:
+    [[noreturn]] void fail_type(const std::filesystem::path& source, std::string found) const;
+
     std::vector<AssetType> types_;
 };
 

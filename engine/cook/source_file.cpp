@@ -81,6 +81,15 @@ std::optional<Hash128> hash_file(const std::filesystem::path& path) {
     }
 }
 
+void fail_changed(const std::filesystem::path& path) {
+    throw Error({.file = path.string(),
+                 .place = {},
+                 .found = "changed while it was being cooked",
+                 .expected = {},
+                 .remedy = "cook again",
+                 .fault = Fault::System});
+}
+
 std::vector<std::byte> read_beginning(const std::filesystem::path& path, std::size_t size) {
     SourceFile file(path);
     std::vector<std::byte> buffer(size);

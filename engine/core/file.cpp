@@ -70,19 +70,6 @@ Buffer read_whole(const std::filesystem::path& path, std::uint64_t max_bytes) {
     return data;
 }
 
-/// Creates a file of a new name in `folder`, with the permissions the user's mask grants any new file. (mkstemp's files
-/// are private, and the mask cannot be read without setting it for all threads.)
-int create_beside(const std::filesystem::path& path, const std::filesystem::path& folder,
-                  std::filesystem::path& temporary) {
-    std::random_device random;
-    for (int attempt = 0;; ++attempt) {
-        temporary = folder / fmt::format(".rowland-{:08x}{:08x}", random(), random());
-        const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (fd >= 0) return fd;
-        if (errno != EEXIST || attempt == 100) fail_system(path, "creating a temporary file beside it", errno);
-    }
-}
-
 /// False, with errno set, if not everything could be written.
 bool write_all(int fd, std::span<const std::byte> data) {
     while (!data.empty()) {
@@ -94,6 +81,68 @@ bool write_all(int fd, std::span<const std::byte> data) {
     }
     return true;
 }
+
+/// A new file beside `target` that takes its place once it is whole; until then the old one stays, and if it never
+/// comes to that, nothing is left of the new one. Where the file system can do that it has no name while it is written,
+/// so that nothing is left of it by a program that is killed either. Its permissions are those that the user's mask
+/// grants any new file. (mkstemp's files are private, and the mask cannot be read without setting it for all threads.)
+class Replacement {
+ public:
+    explicit Replacement(const std::filesystem::path& target)
+        : target_(target),
+          folder_(target.has_parent_path() ? target.parent_path() : std::filesystem::path(".")),
+          file_(create()) {}
+    ~Replacement() {
+        if (!temporary_.empty()) ::unlink(temporary_.c_str());
+    }
+    Replacement(const Replacement&) = delete;
+    Replacement& operator=(const Replacement&) = delete;
+
+    void write(std::span<const std::byte> data) const {
+        if (!write_all(file_.get(), data) || ::fsync(file_.get()) != 0) fail_system(target_, "writing", errno);
+    }
+
+    void take_the_place() {
+        if (temporary_.empty()) {
+            const std::string nameless = fmt::format("/proc/self/fd/{}", file_.get());
+            take_new_name([&](const char* name) {
+                return ::linkat(AT_FDCWD, nameless.c_str(), AT_FDCWD, name, AT_SYMLINK_FOLLOW);
+            });
+        }
+        if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail_system(target_, "renaming", errno);
+        temporary_.clear();
+    }
+
+ private:
+    int create() {
+        // A nameless file gets its name by way of /proc.
+        const bool can_be_named = ::access("/proc/self/fd", X_OK) == 0;
+        const int fd = can_be_named ? ::open(folder_.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666) : -1;
+        if (fd >= 0) return fd;
+        return take_new_name(
+            [](const char* name) { return ::open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666); });
+    }
+
+    /// `make(name)` makes the file unless there is one of that name; negative, with errno set, if it could not.
+    template <typename Make>
+    int take_new_name(const Make& make) {
+        std::random_device random;
+        for (int attempt = 0;; ++attempt) {
+            const std::filesystem::path name = folder_ / fmt::format(".rowland-{:08x}{:08x}", random(), random());
+            const int result = make(name.c_str());
+            if (result >= 0) {
+                temporary_ = name;
+                return result;
+            }
+            if (errno != EEXIST || attempt == 100) fail_system(target_, "creating a temporary file beside it", errno);
+        }
+    }
+
+    const std::filesystem::path& target_;
+    std::filesystem::path folder_;
+    std::filesystem::path temporary_;  ///< its name, while it has one
+    Descriptor file_;
+};
 
 }  // namespace
 
@@ -111,29 +160,14 @@ void write_file_atomic(const std::filesystem::path& path, std::span<const std::b
     if (::stat(path.c_str(), &old) == 0 && !S_ISREG(old.st_mode))
         fail_input(path, "exists and is not a regular file", "a file to write");
 
-    const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-    std::error_code code;
-    std::filesystem::create_directories(folder, code);
-    if (code) fail_system(folder, "creating the folder", code.value());
-
-    std::filesystem::path temporary;
-    int error_number = 0;
-    const char* action = nullptr;
-    {
-        const Descriptor file(create_beside(path, folder, temporary));
-        if (!write_all(file.get(), data) || ::fsync(file.get()) != 0) {
-            error_number = errno;
-            action = "writing";
-        }
+    if (path.has_parent_path()) {
+        std::error_code code;
+        std::filesystem::create_directories(path.parent_path(), code);
+        if (code) fail_system(path.parent_path(), "creating the folder", code.value());
     }
-    if (action == nullptr && std::rename(temporary.c_str(), path.c_str()) != 0) {
-        error_number = errno;
-        action = "renaming";
-    }
-    if (action != nullptr) {
-        ::unlink(temporary.c_str());
-        fail_system(path, action, error_number);
-    }
+    Replacement replacement(path);
+    replacement.write(data);
+    replacement.take_the_place();
 }
 
 void write_file_atomic(const std::filesystem::path& path, std::string_view text) {

@@ -15,9 +15,9 @@ namespace rowland {
 std::vector<std::byte> read_file(const std::filesystem::path& path, std::uint64_t max_bytes);
 std::string read_text_file(const std::filesystem::path& path, std::uint64_t max_bytes);
 
-/// Writes to a temporary beside `path` and renames it: readers see the old file or the new one, whole. Creates the
-/// folder. Throws Error (system) and removes the temporary if anything fails, and Error (input) if `path` is a folder,
-/// a device or a pipe.
+/// Writes a new file beside `path` that takes its place: readers see the old file or the new one, whole, and a program
+/// that is killed leaves one of them. Creates the folder. Throws Error (system) and leaves nothing of the new file if
+/// anything fails, and Error (input) if `path` is a folder, a device or a pipe.
 void write_file_atomic(const std::filesystem::path& path, std::span<const std::byte> data);
 void write_file_atomic(const std::filesystem::path& path, std::string_view text);
 

@@ -6,7 +6,10 @@
 #include <array>
 #include <cstring>
 #include <map>
+#include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "engine/core/byte_stream.h"
 #include "engine/core/error.h"
@@ -53,7 +56,7 @@ std::string read_name(ByteReader& reader) {
 }
 
 /// A channel list: entries of name, type, pLinear, reserved and two samplings, then an empty name.
-std::uint64_t count_channels(ByteReader reader) {
+std::uint64_t count_channels(ByteReader& reader) {
     std::uint64_t count = 0;
     while (!read_name(reader).empty()) {
         reader.take(16);
@@ -80,6 +83,51 @@ void check_preview(ByteReader reader, std::size_t size) {
         reader.fail(fmt::format("a preview of {} x {} texels in {} bytes", width, height, size), "a whole preview");
 }
 
+/// Bytes of a value of a type of fixed size; nothing for others.
+std::optional<std::uint32_t> fixed_size(const std::string& type) {
+    static const std::map<std::uint32_t, std::vector<std::string>> kTypes = {
+        {1, {"compression", "deepImageState", "envmap", "lineOrder"}},
+        {4, {"float", "int"}},
+        {8, {"double", "rational", "timecode", "v2f", "v2i"}},
+        {9, {"tiledesc"}},
+        {12, {"v3f", "v3i"}},
+        {16, {"box2f", "box2i", "v2d"}},
+        {24, {"v3d"}},
+        {28, {"keycode"}},
+        {32, {"chromaticities"}},
+        {36, {"m33f"}},
+        {64, {"m44f"}},
+        {72, {"m33d"}},
+        {128, {"m44d"}},
+    };
+    for (const auto& [size, types] : kTypes)
+        if (std::find(types.begin(), types.end(), type) != types.end()) return size;
+    return std::nullopt;
+}
+
+/// The library reads what a type needs, whatever size the attribute claims: where these differ, what it takes for the
+/// next attribute is not what has been checked here.
+void check_value(ByteReader value, const std::string& name, const std::string& type, std::uint32_t size) {
+    const auto fixed = fixed_size(type);
+    if (fixed && *fixed != size)
+        value.fail(fmt::format("attribute \"{}\" of type {} in {} bytes", name, type, size), fmt::format("{}", *fixed));
+    if (type == "preview") check_preview(value, size);
+    const std::size_t end = value.offset() + size;
+    if (type == "chlist") {
+        count_channels(value);
+        if (value.offset() != end) value.fail("a list of channels of another size than it claims", "a whole one");
+    }
+    if (type != "stringvector") return;
+    while (value.offset() < end) {
+        if (end - value.offset() < sizeof(std::uint32_t)) value.fail("a cut list of texts", "whole texts");
+        const auto length = value.value<std::uint32_t>();
+        if (length > end - value.offset())
+            value.fail(fmt::format("a text of {} bytes in attribute \"{}\"", length, name),
+                       fmt::format("at most the {} left of it", end - value.offset()));
+        value.take(length);
+    }
+}
+
 /// Reads one attribute of `part`; false at the end of the header.
 bool read_attribute(ByteReader& reader, Part& part) {
     const std::string name = read_name(reader);
@@ -91,7 +139,7 @@ bool read_attribute(ByteReader& reader, Part& part) {
                     fmt::format("at most the {} bytes left", reader.remaining()));
     ByteReader value = reader;
     reader.take(size);
-    if (type == "preview") check_preview(value, size);
+    check_value(value, name, type, size);
     if (name == "dataWindow" && type == "box2i") {
         for (std::int32_t& edge : part.data_window) edge = value.value<std::int32_t>();
         part.has_window = true;

@@ -89,16 +89,23 @@ EGLContext create_context(EGLDisplay display, bool debug, std::string& reason) {
         reason = "an EGL display without desktop OpenGL";
         return EGL_NO_CONTEXT;
     }
-    const std::array attributes{EGL_CONTEXT_MAJOR_VERSION_KHR,
-                                4,
-                                EGL_CONTEXT_MINOR_VERSION_KHR,
-                                5,
-                                EGL_CONTEXT_OPENGL_PROFILE_MASK_KHR,
-                                EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT_KHR,
-                                EGL_CONTEXT_FLAGS_KHR,
-                                debug ? EGL_CONTEXT_OPENGL_DEBUG_BIT_KHR : 0,
-                                EGL_NONE};
-    const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
+    std::array attributes{EGL_CONTEXT_MAJOR_VERSION_KHR,
+                          4,
+                          EGL_CONTEXT_MINOR_VERSION_KHR,
+                          5,
+                          EGL_CONTEXT_OPENGL_PROFILE_MASK_KHR,
+                          EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT_KHR,
+                          EGL_CONTEXT_FLAGS_KHR,
+                          debug ? EGL_CONTEXT_OPENGL_DEBUG_BIT_KHR : 0,
+                          EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY_KHR,
+                          EGL_LOSE_CONTEXT_ON_RESET_KHR,
+                          EGL_NONE};
+    EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
+    if (context == EGL_NO_CONTEXT) {
+        // Not every driver can tell of a reset (gpu/lost_context.h).
+        attributes[attributes.size() - 3] = EGL_NONE;
+        context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
+    }
     if (context == EGL_NO_CONTEXT)
         reason = fmt::format("{} without OpenGL 4.5 core", eglQueryString(display, EGL_VENDOR));
     return context;

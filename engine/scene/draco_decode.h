@@ -2,27 +2,28 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "engine/scene/draco_process.h"
 #include "engine/scene/memory_budget.h"
 
 namespace rowland::scene {
 
 /// A triangle mesh decoded from a Draco 2.2 stream that may be hostile. The counts the stream claims are checked
-/// against its length and the memory budget before the decoder runs, and everything it returns is range-checked.
+/// against its length and the memory budget before the decoder runs, which it does in a process of its own, and
+/// everything it returns is range-checked.
 class DracoMesh {
  public:
-    /// `place` says where in `file` the stream is. Throws Error (input).
+    /// `place` says where in `file` the stream is. The decoder holds the mesh, so it can be read until the next one is
+    /// decoded. Throws Error (input).
     DracoMesh(std::span<const std::byte> stream, const std::string& file, const std::string& place,
-              MemoryBudget& budget);
-    ~DracoMesh();
+              DracoProcess& decoder, MemoryBudget& budget);
     DracoMesh(const DracoMesh&) = delete;
     DracoMesh& operator=(const DracoMesh&) = delete;
 
-    std::size_t vertex_count() const;
+    std::size_t vertex_count() const { return decoded_.points; }
     /// Three a triangle, each below vertex_count().
     std::vector<std::uint32_t> indices() const;
     /// Number of components of the attribute with Draco's unique id `id`; `name` is for messages. Throws Error (input)
@@ -34,8 +35,14 @@ class DracoMesh {
     std::vector<Vector> vectors(std::uint32_t id, const std::string& name, bool normalised = false) const;
 
  private:
-    struct Decoded;
-    std::unique_ptr<Decoded> decoded_;
+    [[noreturn]] void fail(std::string found, std::string expected) const;
+    const DracoAttribute& attribute(std::uint32_t id, const std::string& name) const;
+
+    std::string file_;
+    std::string place_;
+    DracoProcess& decoder_;
+    MemoryBudget& budget_;
+    DracoProcess::Decoded decoded_;
 };
 
 }  // namespace rowland::scene

@@ -32,6 +32,7 @@ struct ImportedPrimitive {
 std::vector<std::vector<ImportedPrimitive>> import_meshes(const GltfDocument& document, MemoryBudget& budget,
                                                           ImportedScene& scene) {
     std::vector<std::vector<ImportedPrimitive>> imported(document.meshes.size());
+    DracoProcess decoder;
     for (std::size_t i = 0; i < document.meshes.size(); ++i) {
         const std::vector<GltfPrimitive>& primitives = document.meshes[i].primitives;
         for (std::size_t k = 0; k < primitives.size(); ++k) {
@@ -41,7 +42,7 @@ std::vector<std::vector<ImportedPrimitive>> import_meshes(const GltfDocument& do
             }
             const std::string place = fmt::format("/meshes/{}/primitives/{}", i, k);
             imported[i].push_back({scene.meshes.size(), primitives[k].material});
-            scene.meshes.push_back(import_primitive(document, primitives[k], place, budget, scene.warnings));
+            scene.meshes.push_back(import_primitive(document, primitives[k], place, decoder, budget, scene.warnings));
         }
     }
     return imported;

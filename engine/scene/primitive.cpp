@@ -136,9 +136,10 @@ bool has_triangles(const GltfPrimitive& primitive) {
 }
 
 Mesh import_primitive(const GltfDocument& document, const GltfPrimitive& primitive, const std::string& place,
-                      MemoryBudget& budget, std::vector<std::string>& warnings) {
+                      DracoProcess& decoder, MemoryBudget& budget, std::vector<std::string>& warnings) {
     std::optional<DracoMesh> stream;
-    if (primitive.draco) stream.emplace(view_bytes(document, primitive.draco->view), document.file, place, budget);
+    if (primitive.draco)
+        stream.emplace(view_bytes(document, primitive.draco->view), document.file, place, decoder, budget);
     const Import import{document, primitive, place, budget, warnings, stream ? &*stream : nullptr};
 
     Mesh mesh;

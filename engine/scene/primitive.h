@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/scene/draco_process.h"
 #include "engine/scene/gltf_document.h"
 #include "engine/scene/memory_budget.h"
 
@@ -15,6 +16,6 @@ bool has_triangles(const GltfPrimitive& primitive);
 /// indices and positions checked, missing or unusable normals and tangents generated. Repairs are added to `warnings`.
 /// `place` is the primitive's JSON pointer. Throws Error (input).
 Mesh import_primitive(const GltfDocument& document, const GltfPrimitive& primitive, const std::string& place,
-                      MemoryBudget& budget, std::vector<std::string>& warnings);
+                      DracoProcess& decoder, MemoryBudget& budget, std::vector<std::string>& warnings);
 
 }  // namespace rowland::scene

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/core/error.h"
+#include "engine/gpu/lost_context.h"
 #include "engine/image/exr.h"
 #include "engine/image/png.h"
 
@@ -40,6 +41,7 @@ std::filesystem::path numbered(const std::filesystem::path& path, int frame, int
 
 void write_display_capture(const gpu::Framebuffer& display, const std::filesystem::path& path) {
     const std::vector<std::uint8_t> rgba = display.read_rgba8();
+    gpu::require_context();
     std::vector<std::uint8_t> rgb;
     rgb.reserve(rgba.size() / 4 * 3);
     for (std::size_t i = 0; i < rgba.size(); i += 4) rgb.insert(rgb.end(), {rgba[i], rgba[i + 1], rgba[i + 2]});
@@ -48,6 +50,7 @@ void write_display_capture(const gpu::Framebuffer& display, const std::filesyste
 
 void write_linear_capture(const gpu::Framebuffer& linear, const std::filesystem::path& path) {
     const std::vector<glm::vec4> pixels = linear.read_rgba_float();
+    gpu::require_context();
     require_finite(pixels, linear.size().x, path);
     const image::Image picture{
         .width = linear.size().x, .height = linear.size().y, .texels = {pixels.begin(), pixels.end()}};

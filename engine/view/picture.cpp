@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "engine/gpu/lost_context.h"
 #include "engine/post/shader_files.h"
 #include "engine/post/working_space.h"
 
@@ -72,6 +73,7 @@ void Picture::resize(glm::ivec2 size) {
 }
 
 void Picture::draw(ecs::World& world, const scene::Camera& camera, float seconds) {
+    gpu::require_context();
     pass_times_.begin_frame();
     renderer_.render(world, camera, targets_->multisampled);
     {

@@ -41,7 +41,7 @@ class Picture {
     std::vector<std::filesystem::path> shader_sources(const std::filesystem::path& source_tree) const;
     render::Renderer& renderer() { return renderer_; }
 
-    /// Draws a frame, `seconds` after the last.
+    /// Draws a frame, `seconds` after the last. Throws Error (system) if the context is lost.
     void draw(ecs::World& world, const scene::Camera& camera, float seconds);
 
     /// What the passes of the last frames took.

@@ -102,9 +102,12 @@ TEST(DemoLongPlay, HoldsItsMemoryAndDrawsFinitePixelsWithoutAnOpenGlError) {
     }
     EXPECT_EQ(session.play().steps(), static_cast<unsigned>(120 * count * kFramesPerRound / kFramesPerSecond));
     EXPECT_GT(session.play().environment_turn(), 0.5);
-    // The first round loads all probes and compiles all programs. A round may end while something is being baked, some
-    // MiB more; of three, one does not. Measured over ten rounds: 416.9 MiB at the second and at the eighth.
-    const double before = *std::min_element(resident.begin() + 1, resident.begin() + 3);
+    // The first rounds load all probes, compile all programs and fill the driver's caches. Measured over 120 rounds, in
+    // MiB: 404.8 after the first, 423.9 after the second and third, 449.8 after the tenth, 457.8 after the 25th, and
+    // between 457.8 and 458.0 from there on. A round may end while something is being baked, some MiB more; of three,
+    // one does not.
+    const std::ptrdiff_t warm = count / 4;
+    const double before = *std::min_element(resident.begin() + warm, resident.begin() + warm + 2);
     const double after = *std::min_element(resident.end() - 3, resident.end());
     EXPECT_LT(after - before, 4.0) << "from " << before << " to " << after;
 }

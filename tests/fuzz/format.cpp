@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "content/demo/play/recording.h"
 #include "engine/asset/container.h"
 #include "engine/colour/illuminant.h"
 #include "engine/core/check.h"
@@ -26,6 +27,7 @@
 #include "modules/diffraction/asset/efficiency_csv.h"
 #include "modules/diffraction/asset/gltf_extension.h"
 #include "modules/diffraction/asset/material_json.h"
+#include "tests/fuzz/sane_scene.h"
 
 namespace rowland::fuzz {
 
@@ -33,15 +35,6 @@ namespace {
 
 std::string_view text(std::span<const std::byte> bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-/// What every mesh promises (engine/scene/mesh.h), as far as a reader outside of it would be hurt.
-void require_sane(const scene::ImportedScene& scene) {
-    for (const scene::Mesh& mesh : scene.meshes) {
-        for (const std::uint32_t index : mesh.indices) ROWLAND_CHECK_OP(index, <, mesh.positions.size());
-        for (const glm::vec3& position : mesh.positions)
-            for (int i = 0; i < 3; ++i) ROWLAND_CHECK(std::isfinite(position[i]), "finite positions");
-    }
 }
 
 const std::vector<std::string>& handled_extensions() {
@@ -52,6 +45,7 @@ const std::vector<std::string>& handled_extensions() {
 void read_glb(std::span<const std::byte> bytes) {
     const scene::ImportedScene scene = scene::load_glb(bytes, "input.glb", handled_extensions());
     require_sane(scene);
+    scene::merge_instances(scene);
 }
 
 /// The JSON of a .gltf, as the one chunk of a .glb: nothing outside of it can be read.
@@ -74,7 +68,8 @@ void read_gltf(std::span<const std::byte> bytes) {
 
 void read_draco(std::span<const std::byte> bytes) {
     scene::MemoryBudget budget("input.drc");
-    const scene::DracoMesh mesh(bytes, "input.drc", "stream", budget);
+    scene::DracoProcess decoder;
+    const scene::DracoMesh mesh(bytes, "input.drc", "stream", decoder, budget);
     for (const std::uint32_t index : mesh.indices()) ROWLAND_CHECK_OP(index, <, mesh.vertex_count());
     ROWLAND_CHECK_OP(mesh.vectors<glm::vec3>(0, "POSITION").size(), ==, mesh.vertex_count());
 }
@@ -115,6 +110,11 @@ void read_mesh_recipe(std::span<const std::byte> bytes) {
 
 void read_scene_recipe(std::span<const std::byte> bytes) {
     scene::parse_scene_recipe(parse_json(text(bytes), "input.json"), "input.json");
+}
+
+void read_recording(std::span<const std::byte> bytes) {
+    const demo::Recording recording = demo::parse_recording(std::string(text(bytes)), "input.jsonl");
+    for (const demo::Recording::Step& step : recording.steps) ROWLAND_CHECK_OP(step.step, <, recording.step_count);
 }
 
 void read_efficiency(std::span<const std::byte> bytes) {
@@ -158,6 +158,7 @@ const std::vector<Format>& formats() {
         {"scene-recipe", read_scene_recipe, {".json"}},
         {"efficiency", read_efficiency, {".csv"}},
         {"illuminant", read_illuminant, {".csv"}},
+        {"recording", read_recording, {".jsonl"}},
         {"cooked", read_cooked, {".material", ".probe"}},
         {"cooked-material", read_cooked_material, {}},
         {"cooked-probe", read_cooked_probe, {}},

@@ -4,9 +4,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "engine/core/file.h"
@@ -17,20 +19,45 @@
 namespace rowland::fuzz {
 namespace {
 
-constexpr int kMutations = 2000;  ///< a format, spread over its seeds; ROWLAND_MUTATIONS asks for another number
+using std::chrono::steady_clock;
+
 constexpr unsigned kMostSeconds = 10;
 constexpr long kMostKibibytes = 512 << 10;  ///< more than before
 
-#if defined(__SANITIZE_ADDRESS__)
+#if !defined(__has_feature)
+#define __has_feature(feature) 0  // g++ 12
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || __has_feature(address_sanitizer)
 constexpr bool kSanitized = true;  ///< shadow memory and quarantine count, too
 #else
 constexpr bool kSanitized = false;
 #endif
 
-int mutations() {
-    const char* asked = std::getenv("ROWLAND_MUTATIONS");
-    return asked != nullptr ? std::max(1, std::atoi(asked)) : kMutations;
-}
+/// How long a format is fed mutations of its seeds: ROWLAND_MUTATIONS of them or for ROWLAND_FUZZ_SECONDS; unless told,
+/// 2000, and in CI for 20 s.
+class Allowance {
+ public:
+    Allowance() {
+        const char* count = std::getenv("ROWLAND_MUTATIONS");
+        const char* seconds = std::getenv("ROWLAND_FUZZ_SECONDS");
+        if (count != nullptr)
+            count_ = std::max(1, std::atoi(count));
+        else if (seconds != nullptr)
+            until(std::max(1, std::atoi(seconds)));
+        else if (std::getenv("CI") != nullptr)
+            until(20);
+    }
+    bool allows(int mutation) const {
+        return end_ ? mutation < kFewest || steady_clock::now() < *end_ : mutation < count_;
+    }
+
+ private:
+    static constexpr int kFewest = 100;  ///< however slow the machine
+    void until(int seconds) { end_ = steady_clock::now() + std::chrono::seconds(seconds); }
+
+    int count_ = 2000;
+    std::optional<steady_clock::time_point> end_;
+};
 
 long peak_kibibytes() {
     rusage usage{};
@@ -60,7 +87,9 @@ TEST_P(HostileFile, IsSaneOrRefused) {
     ASSERT_FALSE(sound.empty()) << "no seed was read";
     const long before = peak_kibibytes();
     int read_mutations = 0;
-    for (int i = 0; i < mutations(); ++i) {
+    int mutations = 0;
+    for (const Allowance allowance; allowance.allows(mutations); ++mutations) {
+        const int i = mutations;
         const Seed& seed = *sound[static_cast<std::size_t>(i) % sound.size()];
         SCOPED_TRACE(seed.name + " mutated as " + std::to_string(i));
         const std::vector<std::byte> file = mutate(seed.bytes, static_cast<std::uint64_t>(i));
@@ -71,9 +100,9 @@ TEST_P(HostileFile, IsSaneOrRefused) {
             ASSERT_LT(peak_kibibytes() - before, kMostKibibytes);
         }
     }
-    EXPECT_LT(read_mutations, mutations()) << "nothing was refused";
+    EXPECT_LT(read_mutations, mutations) << "nothing was refused";
     std::printf("%s: %zu seeds, %zu of them read; %d mutations, %d of them read\n", GetParam()->name, all.size(),
-                sound.size(), mutations(), read_mutations);
+                sound.size(), mutations, read_mutations);
 }
 
 std::vector<const Format*> all_formats() {

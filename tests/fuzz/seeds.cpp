@@ -3,16 +3,20 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <string_view>
 #include <utility>
 
+#include "content/demo/play/recording.h"
 #include "engine/asset/container.h"
 #include "engine/core/file.h"
+#include "engine/image/exr.h"
 #include "engine/lighting/light_probe.h"
 #include "engine/lighting/probe_recipe.h"
 #include "engine/scene/draco_encode.h"
 #include "engine/scene/mesh_recipe.h"
 #include "modules/diffraction/asset/cooked_material.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"
 
 namespace rowland::fuzz {
@@ -58,6 +62,49 @@ std::vector<std::byte> cooked_probe() {
         lighting::build_light_probe(lighting::render_recipe(recipe, {}, "seed.json"), recipe.settings));
 }
 
+/// A play with every kind of event.
+Seed recording() {
+    const test::TemporaryFolder folder;
+    const fs::path path = folder.path() / "play.jsonl";
+    demo::Recorder recorder(path, {.scene = "cabinet.glb", .window = {640, 360}});
+    const std::vector<demo::PlayEvent> events{
+        platform::InputEvent(platform::KeyEvent{platform::Key::Space, true}),
+        platform::InputEvent(platform::MouseButtonEvent{platform::MouseButton::Left, true}),
+        platform::InputEvent(platform::MouseMoveEvent{{12.5, 100.25}}),
+        platform::InputEvent(platform::ScrollEvent{{0, -1}}),
+        platform::InputEvent(platform::FocusEvent{true}),
+        platform::InputEvent(platform::CursorCaptureEvent{false}),
+        platform::InputEvent(platform::GamepadEvent{.connected = true, .axes = {}, .buttons = {}}),
+        demo::ResizeEvent{{800, 600}},
+        demo::ActionEvent{demo::Action::AutoExposure},
+    };
+    recorder.add(3, events);
+    recorder.add(7, events);
+    recorder.finish(12);
+    return {"a play", read_file(path, kLargestSeed)};
+}
+
+/// Small pictures: captured ones are so large that few mutations of them are tried, and fewer hit what steers.
+Seed small_exr() {
+    const test::TemporaryFolder folder;
+    const fs::path path = folder.path() / "small.exr";
+    image::Image picture{.width = 8, .height = 4, .texels = {}};
+    for (int i = 0; i < 32; ++i) picture.texels.emplace_back(0.1F * static_cast<float>(i), 1.0F, 1e-3F);
+    image::write_exr(path, picture);
+    return {"small picture", read_file(path, kLargestSeed)};
+}
+
+/// Two scanlines run by run: of each component, eight times 2^0 of mantissa 128.
+Seed small_hdr() {
+    std::string text = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=2\n\n-Y 2 +X 8\n";
+    for (int row = 0; row < 2; ++row) {
+        text += std::string("\x02\x02\x00\x08", 4);
+        for (const char component : {'\x80', '\x80', '\x80', '\x81'}) text += {'\x88', component};
+    }
+    const auto* begin = reinterpret_cast<const std::byte*>(text.data());
+    return {"small picture", {begin, begin + text.size()}};
+}
+
 std::vector<Seed> draco_seeds() {
     std::vector<Seed> result;
     for (const int rings : {1, 8}) {
@@ -80,20 +127,37 @@ std::vector<Seed> cooked_seeds() {
     return result;
 }
 
+/// Those that are made, not read.
+std::vector<Seed> made_seeds(std::string_view format) {
+    if (format == "draco") return draco_seeds();
+    if (format == "cooked-material") return cooked_seeds();
+    if (format == "cooked-probe") return {{"clear sky", cooked_probe()}};
+    if (format == "recording") return {recording()};
+    if (format == "exr") return {small_exr()};
+    if (format == "hdr") return {small_hdr()};
+    if (format != "cooked") return {};
+    std::vector<Seed> result;
+    for (Seed& seed : cooked_seeds()) result.push_back({seed.name, packed(std::move(seed.bytes))});
+    return result;
+}
+
+template <typename Chosen>
+void add_files(const fs::path& folder, const Chosen& chosen, std::vector<Seed>& seeds) {
+    if (!fs::exists(folder)) return;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+        if (entry.is_regular_file() && entry.file_size() <= kLargestSeed && chosen(entry.path()))
+            seeds.push_back({entry.path().string(), read_file(entry.path(), kLargestSeed)});
+}
+
 }  // namespace
 
 std::vector<Seed> seeds(const Format& format) {
-    const std::string_view name = format.name;
-    if (name == "draco") return draco_seeds();
-    if (name == "cooked-material") return cooked_seeds();
-    if (name == "cooked-probe") return {{"clear sky", cooked_probe()}};
-    std::vector<Seed> result;
-    if (name == "cooked")
-        for (Seed& seed : cooked_seeds()) result.push_back({seed.name, packed(std::move(seed.bytes))});
+    std::vector<Seed> result = made_seeds(format.name);
+    add_files(
+        fs::path(ROWLAND_CORPUS_FOLDER) / format.name, [](const fs::path&) { return true; }, result);
     for (const fs::path& folder : folders())
-        for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
-            if (entry.is_regular_file() && is_of(format, entry.path()) && entry.file_size() <= kLargestSeed)
-                result.push_back({entry.path().string(), read_file(entry.path(), kLargestSeed)});
+        add_files(
+            folder, [&](const fs::path& path) { return is_of(format, path); }, result);
     std::sort(result.begin(), result.end(), [](const Seed& a, const Seed& b) { return a.name < b.name; });
     return result;
 }

@@ -13,8 +13,8 @@ struct Seed {
     std::vector<std::byte> bytes;
 };
 
-/// Sound and unsound files of a format: those of `content/`, those of the test data folder if it is there, and for the
-/// cooked formats a few made now.
+/// Sound and unsound files of a format: those of `corpus/`, which once did harm, those of `content/`, those of the test
+/// data folder if it is there, and a few small ones made now.
 std::vector<Seed> seeds(const Format& format);
 
 }  // namespace rowland::fuzz

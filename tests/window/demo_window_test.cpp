@@ -12,6 +12,7 @@
 #include "engine/core/file.h"
 #include "engine/image/byte_image.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test_data.h"
 #include "tests/window/needs_xvfb.h"
 
 namespace rowland {
@@ -32,7 +33,8 @@ class DemoWindow : public ::testing::Test {
  protected:
     /// Starts the demo, stops the disc's turning, plays the actions and ends it.
     void play(const std::vector<std::string>& actions, const std::string& arguments = {}) {
-        std::string command = std::string("bash ") + ROWLAND_DRIVE + " " + folder_.path().string() + " key:space";
+        std::string command = std::string("DROP_FILES=" ROWLAND_DROP_FILES " bash ") + ROWLAND_DRIVE + " " +
+                              folder_.path().string() + " key:space";
         for (const std::string& action : actions) command += " '" + action + "'";
         command += std::string(" -- ") + ROWLAND_DEMO + " --width 320 --height 180 --disc --shader-folder " +
                    folder_.path().string() + " " + arguments;
@@ -122,6 +124,16 @@ TEST_F(DemoWindow, AChangedShaderIsTakenWithoutAKey) {
                       "void main() { radiance = vec4(1.0, 0.0, 0.0, 1.0); }\n");
     play({"shot", "run:cp " + (folder_.path() / "red").string() + " " + shader("sky.frag.glsl").string(), "other:10"});
     EXPECT_TRUE(screenshot(1) != screenshot(2));
+}
+
+TEST_F(DemoWindow, ADroppedProbeLightsTheSceneAndAnythingElseLeavesIt) {
+    ROWLAND_NEEDS_XVFB();
+    ROWLAND_TEST_DATA(probe, "probes/venice_sunset_256.hdr");
+    const std::string letter = (folder_.path() / "letter.txt").string();
+    write_file_atomic(letter, "Dear Henry,\n");
+    play({"shot", "drop:" + letter, "log:20,letter.txt", "shot", "drop:" + probe.string(), "other:60"});
+    EXPECT_TRUE(screenshot(1) == screenshot(2));
+    EXPECT_TRUE(screenshot(2) != screenshot(3));
 }
 
 TEST_F(DemoWindow, F9WritesTheScenesOwnLight) {

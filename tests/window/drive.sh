@@ -3,7 +3,7 @@
 # Runs the demo in a window under Xvfb and plays a user: key:NAME, drag:DX,DY, at:X,Y (the mouse), click:X,Y,
 # dragat:X,Y,DX,DY, throw:X,Y,DX,DY (a drag that is let go in motion), down:KEY, up:KEY, log:SECONDS,TEXT (waits, at most
 # so long, until the demo has said that), shot (F12, and waits for the file), pixel:SECONDS (F8 until a measured pixel is
-# written, at most so long), run:COMMAND, wait:SECONDS, other:SECONDS (shots until one differs from the last, at most so
+# written, at most so long), run:COMMAND, wait:SECONDS, drop:FILE (with the program $DROP_FILES), other:SECONDS (shots until one differs from the last, at most so
 # long). Shots lie in FOLDER as shot_1.png and so on. Ends with the demo's own exit status, after Escape.
 set -u
 screen=1024x768
@@ -115,6 +115,7 @@ for action in "${actions[@]}"; do
         pixel) pixel "$value" ;;
         other) other "$value" ;;
         wait) sleep "$value" ;;
+        drop) "$DROP_FILES" "$window" "$value" || echo "drive.sh: $value was not taken" >&2 ;;
         run) eval "$value" ;;
     esac
     sleep 0.1

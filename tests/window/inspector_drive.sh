@@ -4,11 +4,13 @@
 # that the inspector keeps of them (--controls); an action waits for its control.
 #   click:NAME         press and release in a control's middle
 #   drag:NAME,DX,DY    press in its middle, move, release
+#   slide:NAME,DX      press in its middle, move by a pixel every 30 ms, release: for the times it logs at its end
 #   pick:X,Y           click the picture at these shares of its width and height
 #   key:NAME  type:TEXT
 #   until:NAME=TEXT    wait until the fact NAME holds TEXT
 #   keep:FILE          copy the facts to FOLDER/FILE
 #   shot:FILE          a picture of the whole screen, if ImageMagick is there
+#   drop:FILE          drop it onto the window, with the program $DROP_FILES
 #   run:COMMAND  wait:SECONDS
 # INSPECTOR_SIZE: the size of the window (1280x780).
 # Ends with Ctrl+Q, discarding edits that are not saved, and the inspector's own exit status.
@@ -94,6 +96,17 @@ for action in "${actions[@]}"; do
             xdotool mouseup 1
             pause
             ;;
+        slide)
+            IFS=, read -r name dx <<<"$value"
+            place=$(middle "$name") || fail "no control '$name'"
+            press_at $place
+            for _ in $(seq $((dx < 0 ? -dx : dx))); do
+                xdotool mousemove_relative -- $((dx < 0 ? -1 : 1)) 0
+                sleep 0.03
+            done
+            xdotool mouseup 1
+            pause
+            ;;
         pick)
             place=$(fact picture | awk -v at="$value" '{ split(at, s, ","); printf "%d %d", $1 + s[1] * ($3 - $1), $2 + s[2] * ($4 - $2) }')
             click_at $place
@@ -103,6 +116,7 @@ for action in "${actions[@]}"; do
         until) until_fact "${value%%=*}" "${value#*=}" || fail "never: $value" ;;
         keep) pause; cp "$facts" "$folder/$value" ;;
         shot) pause; command -v import >/dev/null && import -window root "$folder/$value" ;;
+        drop) "$DROP_FILES" "$window" "$value" || fail "not taken: $value"; pause ;;
         run) eval "$value" ;;
         wait) sleep "$value" ;;
     esac

@@ -29,7 +29,8 @@ class InspectorWindow : public ::testing::Test {
         write_file_atomic(
             folder_.path() / "sky.json",
             R"({"probe": {"type": "clear_sky", "sun_azimuth_deg": 40, "sun_elevation_deg": 35, "width": 128}})");
-        std::string command = std::string("bash ") + ROWLAND_INSPECTOR_DRIVE + " " + folder_.path().string();
+        std::string command = std::string("DROP_FILES=" ROWLAND_DROP_FILES " bash ") + ROWLAND_INSPECTOR_DRIVE + " " +
+                              folder_.path().string();
         for (const std::string& action : actions) command += " '" + action + "'";
         command += std::string(" -- ") + ROWLAND_INSPECTOR + " " + arguments;
         EXPECT_EQ(std::system(command.c_str()), 0) << command;
@@ -147,6 +148,21 @@ TEST_F(InspectorWindow, WhatIsRefusedIsSaidAndNothingIsLost) {
     EXPECT_THAT(fact("refused", "refused"), HasSubstr("/grating/orders"));
     EXPECT_EQ(fact("end", "document"), "cd.json *");
     EXPECT_EQ(material("end")["grating"]["orders"], nlohmann::json({-2, -1, 1, 2}));
+}
+
+TEST_F(InspectorWindow, DroppedFilesAreOpenedAsWhatTheyAre) {
+    ROWLAND_NEEDS_XVFB();
+    ROWLAND_TEST_DATA(probe, "probes/venice_sunset_256.hdr");
+    write_file_atomic(
+        path("gold rule.json"),
+        R"({"grating": {"pitch_nm": 1000, "profile": {"type": "slit", "width_nm": 500}}, "metal": "Au"})");
+    write_file_atomic(path("letter.txt"), "Dear Henry,\n");
+    play({"drop:" + probe.string(), "until:light=venice_sunset_256.hdr", "drop:" + path("gold rule.json"),
+          "until:document=gold rule.json", "drop:" + path("letter.txt"), "until:message=letter.txt", "keep:dropped"},
+         "--preset dvd --probe " + path("sky.json"));
+    EXPECT_EQ(fact("dropped", "document"), "gold rule.json");
+    EXPECT_EQ(fact("dropped", "light"), "venice_sunset_256.hdr");
+    EXPECT_EQ(material("dropped")["metal"], "Au");
 }
 
 TEST_F(InspectorWindow, TheLayoutSurvivesARestart) {

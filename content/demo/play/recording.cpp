@@ -249,8 +249,12 @@ std::span<const PlayEvent> Recording::events_at(std::uint64_t step) const {
                                                        : std::span<const PlayEvent>();
 }
 
+Recording parse_recording(std::string text, const std::string& file) {
+    return Reading(std::move(text), file).read();
+}
+
 Recording load_recording(const std::filesystem::path& path) {
-    return Reading(read_text_file(path, kLargestFile), path.string()).read();
+    return parse_recording(read_text_file(path, kLargestFile), path.string());
 }
 
 }  // namespace rowland::demo

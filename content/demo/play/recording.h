@@ -52,7 +52,8 @@ struct Recording {
     std::span<const PlayEvent> events_at(std::uint64_t step) const;
 };
 
-/// Throws Error (input) that names the line if the file is none, of another version or damaged.
+/// Throws Error (input) that names `file` and the line if the text is none, of another version or damaged.
+Recording parse_recording(std::string text, const std::string& file);
 Recording load_recording(const std::filesystem::path& path);
 
 }  // namespace rowland::demo

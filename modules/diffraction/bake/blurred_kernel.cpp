@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/colour/sampled_spectrum.h"
 #include "engine/core/check.h"
 #include "engine/core/parallel.h"
 
@@ -14,6 +15,13 @@ constexpr double kNarrowest_nm = 4.0;
 
 /// Deviations after which a normal distribution is cut off: 6e-5 of it is lost.
 constexpr double kReach = 4.0;
+
+/// The widest lobe that is fitted to a probe, over √(its concentration), and something for the pixel.
+constexpr double kWidestDeviation = 0.2;
+/// Columns for lights: one for every so many nm, within what textures and time allow.
+constexpr double kColumn_nm = 2.0;
+constexpr int kFewestColumns = 1024;
+constexpr int kMostColumns = 4096;
 
 /// Shares of a normal distribution in cells of `step` around its centre, summing to 1: of cells 0, ±1, ±2, …
 std::vector<double> stencil(double deviation, double step) {
@@ -80,6 +88,22 @@ BlurredKernel blur(const KernelTable& kernel, double widest_nm, int columns) {
         }
     });
     return blurred;
+}
+
+BlurredKernel blur_for_lights(const KernelTable& kernel, double pitch_nm) {
+    const double widest_nm = std::max(kNarrowest_nm, kWidestDeviation * pitch_nm);
+    const double extent_nm = kernel.end_nm - kernel.begin_nm + 8.0 * widest_nm;
+    const double columns = std::clamp(extent_nm / kColumn_nm, double{kFewestColumns}, double{kMostColumns});
+    return blur(kernel, widest_nm, static_cast<int>(columns));
+}
+
+KernelUniforms kernel_uniforms(const KernelTable& kernel, const BlurredKernel& blurred, double pitch_nm) {
+    const double step = 1.0 / blurred.columns;
+    const double per_nm = (1.0 - step) / (blurred.end_nm - blurred.begin_nm);
+    const double reach_nm = std::max(std::abs(kernel.begin_nm), std::abs(kernel.end_nm));
+    return {.place = glm::dvec4(pitch_nm * per_nm, 0.5 * step - blurred.begin_nm * per_nm,
+                                blurred.narrowest_nm / pitch_nm, pitch_nm),
+            .ends = glm::dvec2(colour::kVisibleMin, reach_nm) / pitch_nm};
 }
 
 }  // namespace rowland::diffraction

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
 #include <vector>
 
 #include "modules/diffraction/model/colour_kernel.h"
@@ -27,5 +29,15 @@ inline constexpr int kLevelsPerOctave = 2;
 
 /// σ from 4 nm to `widest_nm` ≥ 4 at least, x as far as 4σ beyond the kernel.
 BlurredKernel blur(const KernelTable& kernel, double widest_nm, int columns = 2048);
+
+/// The same, as wide as lights and pixels on a grating of this pitch ask for: deviations of u to .2.
+BlurredKernel blur_for_lights(const KernelTable& kernel, double pitch_nm);
+
+/// The uniforms of shaders/kernel.glsl, which looks up u = x/d in place of x.
+struct KernelUniforms {
+    glm::vec4 place{0.0F};  ///< scale and offset from u to s; deviation of u in level 0; scale of the values: d
+    glm::vec2 ends{0.0F};   ///< |u| below and above which k is 0
+};
+KernelUniforms kernel_uniforms(const KernelTable& kernel, const BlurredKernel& blurred, double pitch_nm);
 
 }  // namespace rowland::diffraction

@@ -1,37 +1,17 @@
 #include "modules/diffraction/runtime/gpu_kernel.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/matrix.hpp>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "engine/colour/sampled_spectrum.h"
 #include "engine/colour/working_space.h"
 #include "modules/diffraction/bake/blurred_kernel.h"
 #include "modules/diffraction/bake/direct.h"
 #include "modules/diffraction/runtime/bindings.h"
 
 namespace rowland::diffraction {
-
-namespace {
-
-/// The widest lobe that is fitted to a probe, over √(its concentration), and something for the pixel.
-constexpr double kWidestDeviation = 0.2;
-/// Columns: one for every so many nm, within what textures and time allow.
-constexpr double kColumn_nm = 2.0;
-constexpr int kFewestColumns = 1024;
-constexpr int kMostColumns = 4096;
-
-BlurredKernel blur_for(const KernelTable& kernel, double pitch_nm) {
-    const double widest_nm = std::max(4.0, kWidestDeviation * pitch_nm);
-    const double extent_nm = kernel.end_nm - kernel.begin_nm + 8.0 * widest_nm;
-    const double columns = std::clamp(extent_nm / kColumn_nm, double{kFewestColumns}, double{kMostColumns});
-    return blur(kernel, widest_nm, static_cast<int>(columns));
-}
-
-}  // namespace
 
 GpuKernel::GpuKernel(const CookedMaterial& cooked, const glm::dmat3& xyz_to_working)
     : kernel_(cooked.kernel),
@@ -41,7 +21,7 @@ GpuKernel::GpuKernel(const CookedMaterial& cooked, const glm::dmat3& xyz_to_work
       working_to_rec709_(glm::inverse(xyz_to_working * colour::rec709_to_xyz())) {}
 
 const BlurredKernel& GpuKernel::blurred() const {
-    if (!blurred_) blurred_ = blur_for(kernel_, pitch_nm_);
+    if (!blurred_) blurred_ = blur_for_lights(kernel_, pitch_nm_);
     return *blurred_;
 }
 
@@ -54,7 +34,8 @@ GpuKernel::Smoothed GpuKernel::smooth(std::span<const glm::vec3> light_colours) 
                                                .height = kernel.levels,
                                                .depth = 3 + static_cast<int>(light_colours.size())},
                                               {.filter = gpu::Filter::Linear}),
-                      .colours{light_colours.begin(), light_colours.end()}};
+                      .colours{light_colours.begin(), light_colours.end()},
+                      .uniforms = kernel_uniforms(kernel_, kernel, pitch_nm_)};
     const auto upload = [&](const glm::vec3& colour, int layer) {
         std::vector<glm::vec4> texels;
         texels.reserve(kernel.values.size());
@@ -63,10 +44,6 @@ GpuKernel::Smoothed GpuKernel::smooth(std::span<const glm::vec3> light_colours) 
     };
     for (int c = 0; c < 3; ++c) upload(glm::mat3(1.0F)[c], c);
     for (std::size_t i = 0; i < light_colours.size(); ++i) upload(light_colours[i], 3 + static_cast<int>(i));
-    const double step = 1.0 / kernel.columns;
-    const double per_nm = (1.0 - step) / (kernel.end_nm - kernel.begin_nm);
-    smoothed.place = glm::vec4(glm::dvec4(pitch_nm_ * per_nm, 0.5 * step - kernel.begin_nm * per_nm,
-                                          kernel.narrowest_nm / pitch_nm_, pitch_nm_));
     return smoothed;
 }
 
@@ -100,9 +77,8 @@ void GpuKernel::bind(const gpu::Program& program, std::span<const lighting::KeyL
     if (!program.has_uniform("kernel_place")) return;
     if (!smoothed_ || !std::ranges::equal(smoothed_->colours, light_colours)) smoothed_ = smooth(light_colours);
     smoothed_->texture.bind(kKernelUnit);
-    program.set("kernel_place", smoothed_->place);
-    const double reach_nm = std::max(std::abs(kernel_.begin_nm), std::abs(kernel_.end_nm));
-    program.set("kernel_ends", glm::vec2(glm::dvec2(colour::kVisibleMin, reach_nm) / pitch_nm_));
+    program.set("kernel_place", smoothed_->uniforms.place);
+    program.set("kernel_ends", smoothed_->uniforms.ends);
     program.set("zero_order", zero_order_);
     program.set("working_to_rec709", working_to_rec709_);
 }

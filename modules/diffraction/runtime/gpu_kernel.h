@@ -1,7 +1,6 @@
 #pragma once
 
 #include <glm/mat3x3.hpp>
-#include <glm/vec4.hpp>
 #include <optional>
 #include <span>
 #include <vector>
@@ -31,7 +30,7 @@ class GpuKernel {
     struct Smoothed {
         gpu::Texture texture;
         std::vector<glm::vec3> colours;  ///< of its layers from the fourth on
-        glm::vec4 place{0.0F};
+        KernelUniforms uniforms;
     };
     const BlurredKernel& blurred() const;
     Smoothed smooth(std::span<const glm::vec3> light_colours) const;

@@ -37,6 +37,14 @@ TEST_F(FileWatchTest, EveryChangeIsToldOnce) {
     EXPECT_FALSE(watch.changed());
 }
 
+/// As of a file saved after the clock was set back.
+TEST_F(FileWatchTest, AnEarlierDateIsAChange) {
+    const auto a = write("a", "1");
+    FileWatch watch({a});
+    std::filesystem::last_write_time(a, file_time_type::clock::now() - std::chrono::hours(24));
+    EXPECT_TRUE(watch.changed());
+}
+
 TEST_F(FileWatchTest, RemovingAndMakingAreChanges) {
     const auto a = write("a", "1");
     FileWatch watch({a, folder_.path() / "later"});

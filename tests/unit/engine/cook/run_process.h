@@ -1,5 +1,9 @@
 #pragma once
 
+#include <sys/types.h>
+
+#include <cstdio>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,5 +17,24 @@ struct ProcessResult {
 
 /// Runs a program, its arguments as they are (no shell), to its end.
 ProcessResult run_process(const std::vector<std::string>& command);
+
+/// A program that runs beside us. If it has not been waited for, it is killed at the end of the scope.
+class BackgroundProcess {
+ public:
+    /// As run_process.
+    explicit BackgroundProcess(const std::vector<std::string>& command);
+    ~BackgroundProcess();
+    BackgroundProcess(const BackgroundProcess&) = delete;
+    BackgroundProcess& operator=(const BackgroundProcess&) = delete;
+
+    void kill();  ///< as by kill -9
+    ProcessResult wait();
+
+ private:
+    using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+    File out_;
+    File err_;
+    pid_t child_;
+};
 
 }  // namespace rowland::test

@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <filesystem>
 #include <fstream>
 #include <new>
 #include <sstream>
 #include <stdexcept>
+#include <thread>
 
 #include "engine/core/hash.h"
 #include "engine/core/parallel.h"
@@ -23,6 +26,12 @@ std::string read_text(cook::Context& context, const std::filesystem::path& path)
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& word) {
     throw Error({.file = path.string(), .place = {}, .found = word, .expected = "size, include", .remedy = {}});
+}
+
+void hold(const std::filesystem::path& gate) {
+    if (!std::filesystem::exists(gate)) return;
+    std::ofstream(gate.string() + ".reached") << " ";
+    while (std::filesystem::exists(gate)) std::this_thread::sleep_for(std::chrono::milliseconds(5));
 }
 
 /// Everything the source says, its includes in place.
@@ -50,6 +59,9 @@ Tiles read_tiles(cook::Context& context) {
         } else if (word == "change") {
             lines >> name;
             std::ofstream(context.beside_source(name), std::ios::app) << " ";
+        } else if (word == "hold") {
+            lines >> name;
+            hold(context.beside_source(name));
         } else {
             refuse(context.source(), word);
         }

@@ -14,6 +14,7 @@ namespace rowland::test {
 ///   crash           a library throws std::runtime_error
 ///   exhaust         a library runs out of memory
 ///   change FILE     somebody else writes to FILE, beside the source, while it is being cooked
+///   hold FILE       the cook takes as long as there is FILE, beside the source; meanwhile there is FILE.reached
 /// and "notes" (.notes), which are only checked and always sane, and "plain" (.plain → .flat), which is cooked to its
 /// own bytes without a container.
 void register_tile_types(cook::Registry& registry);

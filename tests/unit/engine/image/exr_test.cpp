@@ -5,6 +5,7 @@
 #include <ImfHeader.h>
 #include <ImfOutputFile.h>
 #include <ImfStandardAttributes.h>
+#include <ImfStringVectorAttribute.h>
 #include <ImfTileDescriptionAttribute.h>
 #include <ImfTiledOutputFile.h>
 #include <gmock/gmock.h>
@@ -178,6 +179,26 @@ TEST(Exr, HugeClaimsAreRefusedBeforeAllocating) {
     const std::uint32_t size = 0x7fffffff;
     std::memcpy(changed.data() + channels, &size, sizeof size);
     EXPECT_THAT(refusal(changed), HasSubstr("attribute \"channels\""));
+}
+
+/// The library would take something else for the attributes that follow than what has been checked.
+TEST(Exr, AttributesOfAnotherSizeThanTheirTypeAreRefused) {
+    const test::TemporaryFolder folder;
+    Imf::Header header(4, 2);
+    header.insert("notes", Imf::StringVectorAttribute({"one", "two"}));
+    const auto bytes = made_file(header, {"R", "G", "B"}, Imf::HALF, folder.path() / "a.exr");
+    EXPECT_NO_THROW(read_exr(bytes, "a.exr"));
+    const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const auto changed_at = [&](const std::string& name_and_type, std::size_t after, std::uint32_t size) {
+        auto changed = bytes;
+        std::memcpy(changed.data() + text.find(name_and_type) + name_and_type.size() + after, &size, sizeof size);
+        return changed;
+    };
+    EXPECT_THAT(refusal(changed_at(std::string("pixelAspectRatio\0float\0", 23), 0, 8)),
+                HasSubstr("of type float in 8 bytes"));
+    EXPECT_THAT(refusal(changed_at(std::string("channels\0chlist\0", 16), 0, 56)), HasSubstr("a list of channels"));
+    EXPECT_THAT(refusal(changed_at(std::string("notes\0stringvector\0", 19), 4, 0x20000000)),
+                HasSubstr("a text of 536870912 bytes"));
 }
 
 TEST(Exr, EveryTruncationIsRefused) {

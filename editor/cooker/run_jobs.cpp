@@ -1,0 +1,147 @@
+#include "editor/cooker/run_jobs.h"
+
+#include <chrono>
+#include <map>
+#include <optional>
+#include <system_error>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "editor/cooker/job_lock.h"
+#include "editor/cooker/job_record.h"
+#include "engine/cook/cook_source.h"
+#include "engine/cook/source_file.h"
+#include "engine/core/error.h"
+#include "engine/core/progress.h"
+
+namespace rowland::editor {
+
+namespace {
+
+/// How often we look whether others have finished what is left.
+constexpr std::chrono::milliseconds kPatience{200};
+
+std::string hex(const std::optional<Hash128>& hash) {
+    return hash ? hash->hex() : std::string();
+}
+
+/// Jobs of one process.
+class Worker {
+ public:
+    Worker(const cook::Registry& registry, std::filesystem::path state_folder)
+        : registry_(registry),
+          state_folder_(std::move(state_folder)),
+          // Of equal sources another build of this program may make something else.
+          cooker_(hex(cook::hash_file("/proc/self/exe")) + std::string(cook::tool_version())) {
+        std::error_code code;
+        std::filesystem::create_directories(state_folder_, code);
+        if (code)
+            throw Error({.file = state_folder_.string(),
+                         .place = {},
+                         .found = "creating the folder failed: " + code.message(),
+                         .expected = {},
+                         .remedy = "check permissions and free space",
+                         .fault = Fault::System});
+    }
+
+    /// Nothing if another process is at it.
+    std::optional<JobResult> try_job(const Job& job) {
+        if (is_done(job)) return JobResult::UpToDate;
+        const std::optional<JobLock> lock = JobLock::try_take(state_folder_ / (job.id + ".lock"));
+        if (!lock) return std::nullopt;
+        if (is_done(job)) return JobResult::UpToDate;  // by the lock's last owner
+        const cook::BakedAsset baked = cook::cook_source(registry_, job.source, job.output);
+        write_job_record(record_file(job), {.cooker = cooker_,
+                                            .dependencies = baked.dependencies,
+                                            .content_hash = baked.asset.header.content_hash.hex(),
+                                            .output_hash = hex(cook::hash_file(job.output))});
+        return JobResult::Cooked;
+    }
+
+ private:
+    std::filesystem::path record_file(const Job& job) const { return state_folder_ / (job.id + ".json"); }
+
+    bool is_done(const Job& job) {
+        const std::optional<JobRecord> record = read_job_record(record_file(job));
+        const cook::AssetType* type = registry_.find(job.kind);
+        if (!record || type == nullptr || record->cooker != cooker_) return false;
+        if (record->dependencies.empty() || record->dependencies.front() != job.source) return false;
+        std::vector<Hash128> hashes;
+        for (const std::filesystem::path& path : record->dependencies) {
+            const std::optional<Hash128> hash = hash_of_source(path);
+            if (!hash) return false;
+            hashes.push_back(*hash);
+        }
+        return cook::content_hash(*type, hashes).hex() == record->content_hash &&
+               hex(cook::hash_file(job.output)) == record->output_hash;
+    }
+
+    /// Probes that many materials name are read once, unless they change.
+    std::optional<Hash128> hash_of_source(const std::filesystem::path& path) {
+        std::error_code code;
+        const auto time = std::filesystem::last_write_time(path, code);
+        const auto size = code ? 0 : std::filesystem::file_size(path, code);
+        if (code) return std::nullopt;
+        const auto found = known_.find(path);
+        if (found != known_.end() && found->second.time == time && found->second.size == size)
+            return found->second.hash;
+        const std::optional<Hash128> hash = cook::hash_file(path);
+        if (hash) known_[path] = {time, size, *hash};
+        return hash;
+    }
+
+    struct Known {
+        std::filesystem::file_time_type time;
+        std::uintmax_t size = 0;
+        Hash128 hash;
+    };
+
+    const cook::Registry& registry_;
+    std::filesystem::path state_folder_;
+    std::string cooker_;
+    std::map<std::filesystem::path, Known> known_;
+};
+
+}  // namespace
+
+const char* job_result_name(JobResult result) {
+    switch (result) {
+        case JobResult::Cooked:
+            return "cooked";
+        case JobResult::UpToDate:
+            return "up to date";
+        case JobResult::Refused:
+            return "refused";
+        case JobResult::Failed:
+            break;
+    }
+    return "failed";
+}
+
+void run_jobs(const cook::Registry& registry, std::span<const Job> jobs, const std::filesystem::path& state_folder,
+              const std::function<void(const Job&, JobResult, const std::string& reason)>& report) {
+    Worker worker(registry, state_folder);
+    Progress progress("cooking", jobs.size());
+    std::vector<Job> left(jobs.begin(), jobs.end());
+    while (!left.empty()) {
+        std::vector<Job> taken;
+        for (const Job& job : left) {
+            try {
+                const std::optional<JobResult> result = worker.try_job(job);
+                if (!result) {
+                    taken.push_back(job);
+                    continue;
+                }
+                report(job, *result, "");
+            } catch (const Error& error) {
+                report(job, error.info().fault == Fault::Input ? JobResult::Refused : JobResult::Failed, error.what());
+            }
+            progress.advance();
+        }
+        left = std::move(taken);
+        if (!left.empty()) std::this_thread::sleep_for(kPatience);
+    }
+}
+
+}  // namespace rowland::editor

@@ -1,0 +1,157 @@
+#include "engine/core/child_process.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <system_error>
+#include <vector>
+
+#include "engine/core/error.h"
+
+namespace rowland {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const fs::path& program, const std::string& what, int code) {
+    throw Error({.file = program.string(),
+                 .place = {},
+                 .found = fmt::format("{}: {}", what, std::strerror(code)),
+                 .expected = {},
+                 .remedy = "install Rowland again, or free processes and files",
+                 .fault = Fault::System});
+}
+
+/// Not fork: it would copy page tables, and the locks of drivers' threads with them.
+pid_t spawn(const fs::path& program, int standard_input) {
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, standard_input, STDIN_FILENO);
+    for (const int output : {STDOUT_FILENO, STDERR_FILENO})
+        posix_spawn_file_actions_addopen(&actions, output, "/dev/null", O_WRONLY, 0);
+    std::string name = program.string();
+    std::array<char*, 2> arguments{name.data(), nullptr};
+    pid_t process = -1;
+    const int code = posix_spawn(&process, name.c_str(), &actions, nullptr, arguments.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    if (code != 0) fail(program, "cannot be started", code);
+    return process;
+}
+
+}  // namespace
+
+ChildProcess::ChildProcess(const fs::path& program) {
+    std::array<int, 2> ends{};
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) fail(program, "no socket", errno);
+    try {
+        process_ = spawn(program, ends[1]);
+    } catch (...) {
+        close(ends[0]);
+        close(ends[1]);
+        throw;
+    }
+    close(ends[1]);
+    socket_ = ends[0];
+}
+
+ChildProcess::~ChildProcess() {
+    close(socket_);
+    if (process_ == -1) return;
+    kill(process_, SIGKILL);
+    reap();
+}
+
+ChildProcess::Exchange ChildProcess::send(std::span<const std::byte> bytes, Deadline deadline) {
+    while (!bytes.empty()) {
+        const ssize_t sent = ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+        if (sent > 0) {
+            bytes = bytes.subspan(static_cast<std::size_t>(sent));
+        } else if (errno == EAGAIN) {
+            if (const Exchange waited = wait(POLLOUT, deadline); waited != Exchange::Done) return waited;
+        } else if (errno != EINTR) {
+            return Exchange::Ended;
+        }
+    }
+    return Exchange::Done;
+}
+
+ChildProcess::Exchange ChildProcess::receive(std::span<std::byte> bytes, Deadline deadline) {
+    while (!bytes.empty()) {
+        const ssize_t received = recv(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT);
+        if (received > 0) {
+            bytes = bytes.subspan(static_cast<std::size_t>(received));
+        } else if (received < 0 && errno == EAGAIN) {
+            if (const Exchange waited = wait(POLLIN, deadline); waited != Exchange::Done) return waited;
+        } else if (received == 0 || errno != EINTR) {
+            return Exchange::Ended;
+        }
+    }
+    return Exchange::Done;
+}
+
+/// Until `event` or the end of the program, which shows at the next exchange.
+ChildProcess::Exchange ChildProcess::wait(short event, Deadline deadline) const {
+    while (true) {
+        const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now());
+        if (left.count() <= 0) return Exchange::Late;
+        pollfd watched{socket_, event, 0};
+        const auto timeout = std::min<std::int64_t>(left.count(), std::numeric_limits<int>::max());
+        const int ready = poll(&watched, 1, static_cast<int>(timeout));
+        if (ready > 0) return Exchange::Done;
+        if (ready < 0 && errno != EINTR) return Exchange::Ended;
+    }
+}
+
+int ChildProcess::reap() {
+    int status = 0;
+    while (waitpid(process_, &status, 0) == -1 && errno == EINTR) {
+    }
+    process_ = -1;
+    return status;
+}
+
+std::string ChildProcess::ending() {
+    if (process_ == -1) return "ended";
+    kill(process_, SIGKILL);  // changes nothing for one that is ending, and there is no waiting for another
+    const int status = reap();
+    if (WIFSIGNALED(status)) return fmt::format("ended by signal {}", WTERMSIG(status));
+    return fmt::format("ended with code {}", WEXITSTATUS(status));
+}
+
+fs::path helper_program(const std::string& name) {
+    std::vector<fs::path> folders;
+    if (const char* named = std::getenv("ROWLAND_HELPER_FOLDER")) {
+        folders = {named};
+    } else {
+        std::error_code unknown;  // without /proc the last one remains
+        const fs::path running = fs::read_symlink("/proc/self/exe", unknown).parent_path();
+        if (!unknown) folders = {running, running.parent_path() / "libexec" / "rowland"};
+        folders.emplace_back(ROWLAND_INSTALLED_HELPER_FOLDER);
+    }
+    std::string looked_at;
+    for (const fs::path& folder : folders) {
+        if (fs::path program = folder / name; access(program.c_str(), X_OK) == 0) return program;
+        looked_at += (looked_at.empty() ? "" : ", ") + folder.string();
+    }
+    throw Error({.file = name,
+                 .place = {},
+                 .found = "not in " + looked_at,
+                 .expected = "a helper program of Rowland",
+                 .remedy = "install Rowland again, or name its folder in ROWLAND_HELPER_FOLDER",
+                 .fault = Fault::System});
+}
+
+}  // namespace rowland

@@ -1,0 +1,208 @@
+// Installs into a fresh prefix, and builds and runs the examples of content/examples against it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+#include "engine/core/file.h"
+#include "engine/core/number_table.h"
+#include "engine/image/exr.h"
+#include "engine/image/png_decode.h"
+#include "modules/diffraction/asset/cooked_material.h"
+#include "modules/diffraction/bake/blurred_kernel.h"
+#include "modules/diffraction/bake/direct.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/engine/cook/run_process.h"
+
+namespace rowland {
+namespace {
+
+using Rows = std::vector<std::vector<double>>;
+
+constexpr const char* kFrameColumns = "vx,vy,vz,nx,ny,nz,gx,gy,gz";
+constexpr const char* kPixelColumns =
+    "vx,vy,vz,nx,ny,nz,gx,gy,gz,footprint,probe_X,probe_Y,probe_Z,lamp_X,lamp_Y,lamp_Z";
+constexpr const char* kMaterial = R"({
+  "grating": { "pitch_nm": 1600, "profile": { "type": "slit", "width_nm": 800 } },
+  "quality": { "representation": "direct" }
+})";
+
+class PackageTest : public testing::Test {
+ protected:
+    void SetUp() override {
+        if (!std::filesystem::exists(ROWLAND_TEST_COMPILER)) GTEST_SKIP() << "no compiler " << ROWLAND_TEST_COMPILER;
+        install("library");
+        write_probe();
+        write_file_atomic(path("cd.json"), std::string_view(kMaterial));
+    }
+
+    std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
+
+    /// What a program prints; it must succeed.
+    static std::string run(const std::vector<std::string>& command) {
+        const test::ProcessResult result = test::run_process(command);
+        EXPECT_EQ(result.code, 0) << command[0] << ' ' << command[1] << '\n' << result.out << result.err;
+        return result.out;
+    }
+
+    void install(const std::string& component) const {
+        run({ROWLAND_TEST_CMAKE, "--install", ROWLAND_BUILD_FOLDER, "--prefix", path("prefix"), "--component",
+             component});
+    }
+
+    test::ProcessResult configure(const std::string& project) const {
+        return test::run_process({ROWLAND_TEST_CMAKE, "-S", project, "-B", path("build"), "-G", ROWLAND_TEST_GENERATOR,
+                                  std::string("-DCMAKE_MAKE_PROGRAM=") + ROWLAND_TEST_BUILD_TOOL,
+                                  std::string("-DCMAKE_CXX_COMPILER=") + ROWLAND_TEST_COMPILER,
+                                  std::string("-DCMAKE_CXX_COMPILER_LAUNCHER=") + ROWLAND_TEST_LAUNCHER,
+                                  "-DCMAKE_PREFIX_PATH=" + path("prefix").string()});
+    }
+
+    /// The program of an example.
+    std::string build_example(const std::string& name) const {
+        const auto configured = configure(std::string(ROWLAND_SOURCE_DIR "/content/examples/") + name);
+        EXPECT_EQ(configured.code, 0) << configured.out << configured.err;
+        run({ROWLAND_TEST_CMAKE, "--build", path("build")});
+        return path("build") / name;
+    }
+
+    /// A sky with a warm lamp, in the equirectangular mapping.
+    void write_probe() const {
+        image::Image probe{.width = 64, .height = 32, .texels = {}};
+        for (int row = 0; row < probe.height; ++row) {
+            for (int column = 0; column < probe.width; ++column) {
+                const double sky = 1.0 - static_cast<double>(row) / probe.height;
+                const double lamp = std::exp(-0.2 * (std::pow(column - 40.0, 2) + std::pow(row - 9.0, 2)));
+                probe.texels.emplace_back(glm::dvec3(0.2, 0.3, 0.5) * sky + glm::dvec3(5.0, 4.0, 3.0) * lamp);
+            }
+        }
+        image::write_exr(path("probe.exr"), probe);
+    }
+
+    /// Radiances by rowland-trade evaluate.
+    Rows evaluate(const Rows& frames, std::vector<std::string> options) const {
+        std::string text = std::string(kFrameColumns) + "\n";
+        for (const std::vector<double>& row : frames) {
+            text += fmt::format("{:.9g}\n", fmt::join(row.begin(), row.begin() + 9, ","));
+        }
+        write_file_atomic(path("frames.csv"), text);
+        std::vector<std::string> command = {ROWLAND_TRADE, "evaluate",        "--material", path("cd.json"),
+                                            "--probe",     path("probe.exr"), "--frames",   path("frames.csv")};
+        command.insert(command.end(), options.begin(), options.end());
+        return rows(run(command), "X,Y,Z");
+    }
+
+    static Rows rows(const std::string& text, const std::string& columns) {
+        return parse_number_table(text, "a program's results", columns).rows;
+    }
+
+    /// A plane seen from above, black but for what `extensions` put on it, drawn by the engine example: the picture's
+    /// middle.
+    glm::ivec3 middle_of_card(const std::string& program, const std::string& extensions) const {
+        write_file_atomic(path("card.json"), R"({ "scene": {
+            "materials": [{ "name": "foil", "color": [0, 0, 0], "extensions": )" +
+                                                 extensions + R"( }],
+            "meshes": [{ "name": "card", "parts": [
+                { "shape": { "type": "plane", "size": [1, 1] }, "material": "foil" }] }],
+            "cameras": [{ "name": "lens", "vertical_field_of_view_deg": 30 }],
+            "nodes": [{ "name": "card", "mesh": "card" },
+                      { "name": "view", "translation": [0.4, 1, 1], "look_at": [0, 0, 0], "camera": "lens" }] } })");
+        run({ROWLAND_COOK, "cook", path("card.json"), "-o", path("card.glb")});
+        run({program, path("card.glb"), path("probe.exr"), path("card.png")});
+        const auto picture = image::decode_png(read_file(path("card.png"), std::uint64_t{1} << 24), "card.png");
+        const auto middle = static_cast<std::size_t>(4 * (picture.height / 2 * picture.width + picture.width / 2));
+        return {picture.rgba[middle], picture.rgba[middle + 1], picture.rgba[middle + 2]};
+    }
+
+    test::TemporaryFolder folder_;
+};
+
+/// Largest difference of XYZ over the largest component of the expected.
+double error_of(const double* xyz, const double* expected) {
+    double error = 0.0;
+    double largest = 0.0;
+    for (int i = 0; i < 3; ++i) {
+        error = std::max(error, std::abs(xyz[i] - expected[i]));
+        largest = std::max(largest, std::abs(expected[i]));
+    }
+    return largest > 0.0 ? error / largest : error;
+}
+
+TEST_F(PackageTest, OnePixelOfTheExampleIsWhatTradeEvaluates) {
+    const std::string program = build_example("one_pixel");
+    const Rows shaded = rows("X,Y,Z\n" + run({program, path("probe.exr")}), "X,Y,Z");
+    const Rows expected =
+        evaluate({{0.36, 0.48, 0.8, 0, 0, 1, 1, 0, 0}}, {"--method", "transfer", "--storage", "fp16"});
+    ASSERT_EQ(shaded.size(), 1U);
+    EXPECT_GT(expected[0][1], 0.01);
+    EXPECT_LE(error_of(shaded[0].data(), expected[0].data()), 1e-6);  // the same sums, printed with nine digits
+}
+
+/// The lamp of the example's shader, by the CPU's direct term.
+glm::dvec3 lamp_radiance(const diffraction::CookedMaterial& material, const diffraction::BlurredKernel& kernel,
+                         const std::vector<double>& pixel) {
+    const diffraction::DirectLight lamp{
+        .direction = {-0.36, 0.80, -0.48}, .flux = glm::dvec3(0.06), .angular_radius = 0.01};
+    const diffraction::Frame frame{.view = {pixel[0], pixel[1], pixel[2]},
+                                   .normal = {pixel[3], pixel[4], pixel[5]},
+                                   .grating = {pixel[6], pixel[7], pixel[8]}};
+    const glm::dmat3 to_tangent = diffraction::world_to_tangent(frame);
+    const glm::dvec3 view = to_tangent * frame.view;
+    return direct_radiance(kernel, {.pitch_nm = material.material.grating.pitch_nm}, light_spot(lamp, to_tangent),
+                           {.v_g = view.x, .v_h = view.y, .footprint = pixel[9]});
+}
+
+TEST_F(PackageTest, PixelsOfTheBareGlExampleAreWhatTheCpuEvaluates) {
+    // Texture units interpolate with 8 bits (1/512 of what neighbours differ by). A software rasteriser is 7e-5 off for
+    // the probe and, on the flanks of a rainbow, 3e-4 of its brightest for the lamp.
+    constexpr double tolerance = 2e-3;
+    const std::string program = build_example("bare_gl");
+    run({ROWLAND_COOK, "cook", path("cd.json"), "-o", path("cd.material")});
+    const Rows pixels = rows(run({program, path("cd.material"), path("probe.exr"), path("disc.png")}), kPixelColumns);
+    ASSERT_GT(pixels.size(), 50U);
+    const Rows expected = evaluate(pixels, {"--method", "planar", "--resolution", "256"});
+    const auto material = diffraction::load_cooked_material(path("cd.material"));
+    const auto kernel = diffraction::blur_for_lights(material.kernel, material.material.grating.pitch_nm);
+    int lit = 0;
+    double brightest = 0.0;
+    for (const auto& pixel : pixels) brightest = std::max(brightest, pixel[14]);
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        EXPECT_LE(error_of(&pixels[i][10], expected[i].data()), tolerance) << "pixel " << i;
+        const glm::dvec3 lamp = lamp_radiance(material, kernel, pixels[i]);
+        if (lamp.y > 0.01 * brightest) ++lit;
+        EXPECT_LE(std::abs(pixels[i][14] - lamp.y), tolerance * brightest) << "pixel " << i;
+    }
+    EXPECT_GT(lit, 5) << "pixels that the lamp's light reaches";
+}
+
+TEST_F(PackageTest, EngineExampleDrawsAGltfSceneWithAGrating) {
+    install("runtime");
+    install("tools");  // Draco streams are decoded by a program of theirs
+    const std::string program = build_example("engine_scene");
+    ::setenv("ROWLAND_HELPER_FOLDER", path("prefix/libexec/rowland").c_str(), 1);
+    const glm::ivec3 plain = middle_of_card(program, "{}");
+    const glm::ivec3 grating = middle_of_card(program, R"({ "ROWLAND_materials_diffraction": {
+        "grating": { "pitch_nm": 1600, "profile": { "type": "slit", "width_nm": 800 } },
+        "quality": { "representation": "arc" } } })");
+    const glm::ivec3 difference = glm::abs(grating - plain);
+    EXPECT_GT(difference.x + difference.y + difference.z, 20);
+}
+
+TEST_F(PackageTest, ARuntimeThatIsNotInstalledIsSaid) {
+    const auto configured = configure(ROWLAND_SOURCE_DIR "/content/examples/engine_scene");
+    EXPECT_NE(configured.code, 0);
+    EXPECT_THAT(configured.err, testing::HasSubstr("runtime"));
+}
+
+}  // namespace
+}  // namespace rowland

@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# in_debian.sh SUITE FOLDER [DATA]
+# The README's two commands on a bare Debian (bookworm, trixie) in a chroot below FOLDER, from a clone of this repository's
+# last commit: what a user of that system would see. DATA: the test data, without which tests that need it are skipped.
+# Needs root, mmdebstrap, the network, 8 GB and the better part of an hour on two cores.
+# example: tests/systems/in_debian.sh trixie /tmp/trixie ../shared
+set -euo pipefail
+[ $# -ge 2 ] || { sed -n '2,6s/^# //p' "$0" >&2; exit 2; }
+suite=$1
+root=$2/root
+source=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+data=${3:+$(cd "$3" && pwd)}
+[ -d "$root" ] || mmdebstrap --variant=minbase --include=ca-certificates,git "$suite" "$root"
+
+mounted=()
+leave() { for place in "${mounted[@]}"; do umount "$root/$place"; done; }
+trap leave EXIT
+bind() {
+    mkdir -p "$root/$2"
+    mount --bind "$1" "$root/$2"
+    mounted=("$2" "${mounted[@]}")
+}
+mkdir -p "$root/proc"
+mount -t proc proc "$root/proc"
+mounted=(proc)
+bind /dev dev
+mkdir -p "$root/dev/shm"
+[ -z "$data" ] || bind "$data" shared
+cp /etc/resolv.conf "$root/etc/resolv.conf"
+
+rm -rf "$root/rowland"
+git clone --quiet "$source" "$root/rowland"
+in_it() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 ${data:+CI=true ROWLAND_DATA=/shared} bash -c "$1"; }
+in_it 'cat /etc/debian_version; cd /rowland && time ./rowland demo && time ./rowland test'
