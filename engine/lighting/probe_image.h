@@ -30,8 +30,9 @@ struct TexelReport {
 /// A light probe at full resolution: an image, its mapping, and the lookup.
 class ProbeImage {
  public:
-    /// Replaces NaN, infinite and negative components by 0 (see report()). Throws Error (input) if the image is empty,
-    /// or not square for an angular map; `file` names it in messages.
+    /// Replaces NaN, infinite and negative components by 0 (see report()). An image of one texel, whose centre would be
+    /// all the light's direction, becomes a larger one of the same light everywhere. Throws Error (input) if the image
+    /// is empty, or not square for an angular map; `file` names it in messages.
     ProbeImage(image::Image image, Mapping mapping, const std::string& file = "probe");
 
     const image::Image& image() const { return image_; }

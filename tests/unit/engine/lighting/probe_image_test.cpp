@@ -51,6 +51,17 @@ TEST(ProbeImage, LookupAtATexelCentreIsTheTexel) {
     }
 }
 
+TEST(ProbeImage, OneTexelIsLightFromEverywhere) {
+    for (const Mapping mapping : test::kMappings) {
+        const ShLight light = project(ProbeImage({1, 1, {glm::vec3(2.0F, 1.0F, 0.5F)}}, mapping), 4);
+        const double all = std::sqrt(4 * kPi);
+        EXPECT_LT(glm::length(light.coefficients[0] - all * glm::dvec3(2, 1, 0.5)), 1e-12);
+        for (std::size_t i = 1; i < light.coefficients.size(); ++i)
+            // Measured; sums over 64 rows.
+            EXPECT_LT(glm::length(light.coefficients[i]), 2e-3 * all) << i;
+    }
+}
+
 TEST(ProbeImage, WhatLiesOutsideTheDiscNeverLeaks) {
     // made_probe fills the corners with 1e6.
     const ProbeImage probe = test::constant_probe(Mapping::Angular, 31);
