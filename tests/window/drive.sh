@@ -3,8 +3,9 @@
 # Runs the demo in a window under Xvfb and plays a user: key:NAME, drag:DX,DY, at:X,Y (the mouse), click:X,Y,
 # dragat:X,Y,DX,DY, throw:X,Y,DX,DY (a drag that is let go in motion), down:KEY, up:KEY, log:SECONDS,TEXT (waits, at most
 # so long, until the demo has said that), shot (F12, and waits for the file), pixel:SECONDS (F8 until a measured pixel is
-# written, at most so long), run:COMMAND, wait:SECONDS, drop:FILE (with the program $DROP_FILES), other:SECONDS (shots until one differs from the last, at most so
-# long). Shots lie in FOLDER as shot_1.png and so on. Ends with the demo's own exit status, after Escape.
+# written, at most so long), run:COMMAND, wait:SECONDS, drop:FILE (with the program $DROP_FILES), other:SECONDS (shots
+# until one differs from the last, at most so long), settle:SECONDS (shots until one is as the last). Shots lie in FOLDER
+# as shot_1.png and so on. Ends with the demo's own exit status, after Escape.
 set -u
 screen=1024x768
 . "$(dirname "${BASH_SOURCE[0]}")/under_xvfb.sh"
@@ -37,6 +38,16 @@ shot() {
 other() {
     local before="$folder/shot_$shots.png" end=$((SECONDS + $1))
     while take && cmp -s "$taken_file" "$before" && [ "$SECONDS" -lt "$end" ]; do
+        sleep 0.1
+    done
+    shots=$((shots + 1))
+    mv "$taken_file" "$folder/shot_$shots.png"
+}
+# Shots until one is as the last, for at most so many seconds: nothing moves any more.
+settle() {
+    local before="$folder/settling.png" end=$((SECONDS + $1))
+    take
+    while mv "$taken_file" "$before" && take && ! cmp -s "$taken_file" "$before" && [ "$SECONDS" -lt "$end" ]; do
         sleep 0.1
     done
     shots=$((shots + 1))
@@ -114,6 +125,7 @@ for action in "${actions[@]}"; do
         shot) shot ;;
         pixel) pixel "$value" ;;
         other) other "$value" ;;
+        settle) settle "$value" ;;
         wait) sleep "$value" ;;
         drop) "$DROP_FILES" "$window" "$value" || echo "drive.sh: $value was not taken" >&2 ;;
         run) eval "$value" ;;

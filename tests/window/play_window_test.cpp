@@ -107,8 +107,8 @@ TEST_F(PlayWindow, LightsAreAddedUpToTheMostAndTakenAway) {
 
 TEST_F(PlayWindow, AWalkGoesForwardAndEscapeOnlyEndsIt) {
     ROWLAND_NEEDS_XVFB();
-    play({"key:space", "shot", "key:c", "wait:0.5", "shot", "down:w", "wait:1", "up:w", "wait:1", "shot", "key:Escape",
-          "wait:0.5", "shot"});
+    play({"key:space", "shot", "key:c", "wait:0.5", "shot", "down:w", "wait:1", "up:w", "settle:60", "key:Escape",
+          "wait:0.5", "settle:60"});
     // The walk starts where the orbit was, but for rounding.
     EXPECT_LT(difference(1, 2, {0, 0, kWidth, kHeight}), 0.5);
     EXPECT_GT(difference(2, 3, {0, 0, kWidth, kHeight}), 5.0);
