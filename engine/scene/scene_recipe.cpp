@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <mutex>
 #include <numbers>
 
 #include "engine/core/error.h"
@@ -247,6 +249,46 @@ SceneRecipe parse_scene_recipe(const nlohmann::json& document, const std::string
     return recipe;
 }
 
+namespace {
+
+/// What was painted last. A running program cooks a scene at every save, and its textures are most of the work but
+/// seldom what was changed.
+class PaintedBefore {
+ public:
+    std::optional<std::vector<std::byte>> find(const TextureRecipe& recipe) {
+        const std::lock_guard lock(mutex_);
+        const auto found = std::ranges::find(pictures_, recipe, &Picture::recipe);
+        return found == pictures_.end() ? std::nullopt : std::optional(found->png);
+    }
+    void keep(const TextureRecipe& recipe, const std::vector<std::byte>& png) {
+        constexpr std::size_t kMost = 16;
+        constexpr std::size_t kLargest = 1U << 22;  // bytes
+        if (png.size() > kLargest) return;
+        const std::lock_guard lock(mutex_);
+        pictures_.push_back({recipe, png});
+        if (pictures_.size() > kMost) pictures_.pop_front();
+    }
+
+ private:
+    struct Picture {
+        TextureRecipe recipe;
+        std::vector<std::byte> png;
+    };
+    std::mutex mutex_;
+    std::deque<Picture> pictures_;
+};
+
+std::vector<std::byte> png_of(const TextureRecipe& recipe) {
+    static PaintedBefore before;
+    if (auto png = before.find(recipe)) return *std::move(png);
+    const PaintedTexture painted = paint(recipe);
+    std::vector<std::byte> png = image::encode_png(recipe.width, recipe.height, painted.channels, painted.texels);
+    before.keep(recipe, png);
+    return png;
+}
+
+}  // namespace
+
 GlbScene build_scene(const SceneRecipe& recipe) {
     check_texels(recipe);
     GlbScene scene;
@@ -257,11 +299,7 @@ GlbScene build_scene(const SceneRecipe& recipe) {
     scene.textures.resize(recipe.textures.size());
     parallel_for(recipe.textures.size(), [&](std::size_t i) {
         const SceneRecipe::Texture& texture = recipe.textures[i];
-        const PaintedTexture painted = paint(texture.recipe);
-        scene.textures[i] = {
-            texture.name,
-            image::encode_png(texture.recipe.width, texture.recipe.height, painted.channels, painted.texels),
-            texture.clamp_x, texture.clamp_y};
+        scene.textures[i] = {texture.name, png_of(texture.recipe), texture.clamp_x, texture.clamp_y};
     });
     std::size_t vertices = 0;
     for (std::size_t i = 0; i < recipe.meshes.size(); ++i) {

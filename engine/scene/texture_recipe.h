@@ -28,6 +28,8 @@ struct ChannelRecipe {
     double begin = 0.0;  ///< 0 … 1, below `end`
     double end = 1.0;
     double repeat = 1.0;  ///< > 0
+
+    bool operator==(const ChannelRecipe&) const = default;
 };
 
 /// Lengths are in heights of the picture, places from its lower left corner.
@@ -48,6 +50,8 @@ struct LayerRecipe {
     double petal_depth = 0.3;  ///< how far it goes in between petals, as a share of the radius, 0 … < 1
     int rings = 1;             ///< 1 … 256; each is a cell
     std::array<std::optional<ChannelRecipe>, 4> channels;  ///< R, G, B, A; those that are absent stay as they were
+
+    bool operator==(const LayerRecipe&) const = default;
 };
 
 /// A picture painted in layers, each over those before it; black and opaque at first. Plain numbers: whether they mean
@@ -56,6 +60,8 @@ struct TextureRecipe {
     int width = 1;  ///< texels, 1 … 8192
     int height = 1;
     std::vector<LayerRecipe> layers;  ///< at most 32
+
+    bool operator==(const TextureRecipe&) const = default;
 };
 
 /// Reads "size" and "layers" of an object that may hold more; scene_recipe.schema.json says what may stand there.

@@ -47,8 +47,8 @@ other() {
 settle() {
     local before="$folder/settling.png" end=$((SECONDS + $1))
     take
-    while mv "$taken_file" "$before" && take && ! cmp -s "$taken_file" "$before" && [ "$SECONDS" -lt "$end" ]; do
-        sleep 0.1
+    while mv "$taken_file" "$before" && sleep 0.3 && take && ! cmp -s "$taken_file" "$before" && [ "$SECONDS" -lt "$end" ]; do
+        :
     done
     shots=$((shots + 1))
     mv "$taken_file" "$folder/shot_$shots.png"

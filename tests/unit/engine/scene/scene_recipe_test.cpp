@@ -143,6 +143,20 @@ TEST(SceneRecipe, SameRecipeGivesSameBytes) {
     EXPECT_EQ(cooked(small_scene()), cooked(small_scene()));
 }
 
+TEST(SceneRecipe, ATextureThatChangedIsPaintedAnew) {
+    const auto first_texel = [](const json& recipe) {
+        const ImportedScene scene = load_glb(cooked(recipe), "s.glb");
+        const image::ByteImage& image = *scene.images.at(0);
+        return std::vector<int>(image.rgba.begin(), image.rgba.begin() + 3);
+    };
+    json recipe = small_scene();
+    EXPECT_THAT(first_texel(recipe), testing::ElementsAre(51, 102, 153));
+    recipe["scene"]["textures"][0]["layers"][0]["g"] = 0.8;
+    EXPECT_THAT(first_texel(recipe), testing::ElementsAre(51, 204, 153));
+    recipe["scene"]["textures"][0]["layers"][0]["g"] = 0.4;
+    EXPECT_THAT(first_texel(recipe), testing::ElementsAre(51, 102, 153));
+}
+
 TEST(SceneRecipe, RefusalsNameTheirPlace) {
     using testing::AllOf;
     using testing::HasSubstr;
