@@ -13,24 +13,11 @@
 #include <stdexcept>
 #include <thread>
 
+#include "tests/support/capture_file.h"
+
 namespace rowland::test {
 
 namespace {
-
-using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
-
-File open_capture() {
-    File file(std::tmpfile(), std::fclose);
-    if (!file) throw std::runtime_error("no temporary file");
-    return file;
-}
-
-std::string content(std::FILE* file) {
-    std::rewind(file);
-    std::string text;
-    for (int c = std::fgetc(file); c != EOF; c = std::fgetc(file)) text += static_cast<char>(c);
-    return text;
-}
 
 std::vector<char*> pointers(std::vector<std::string>& texts) {
     std::vector<char*> result;
@@ -63,8 +50,8 @@ int exit_code(int status) {
 }  // namespace
 
 struct Running::State {
-    File out = open_capture();
-    File err = open_capture();
+    CaptureFile out = open_capture();
+    CaptureFile err = open_capture();
     pid_t pid = -1;
     bool waited_for = false;
     std::chrono::seconds limit{0};

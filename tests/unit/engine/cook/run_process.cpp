@@ -8,26 +8,9 @@
 #include <memory>
 #include <stdexcept>
 
+#include "tests/support/capture_file.h"
+
 namespace rowland::test {
-
-namespace {
-
-using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
-
-File open_capture() {
-    File file(std::tmpfile(), std::fclose);
-    if (!file) throw std::runtime_error("no temporary file");
-    return file;
-}
-
-std::string content(std::FILE* file) {
-    std::rewind(file);
-    std::string text;
-    for (int c = std::fgetc(file); c != EOF; c = std::fgetc(file)) text += static_cast<char>(c);
-    return text;
-}
-
-}  // namespace
 
 BackgroundProcess::BackgroundProcess(const std::vector<std::string>& command)
     : out_(open_capture()), err_(open_capture()) {

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/capture_file.h"
+
 namespace rowland::test {
 
 struct ProcessResult {
@@ -31,9 +33,8 @@ class BackgroundProcess {
     ProcessResult wait();
 
  private:
-    using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
-    File out_;
-    File err_;
+    CaptureFile out_;
+    CaptureFile err_;
     pid_t child_;
 };
 
