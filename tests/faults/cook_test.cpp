@@ -10,8 +10,8 @@
 
 #include "engine/core/file.h"
 #include "tests/faults/moments.h"
-#include "tests/faults/program.h"
 #include "tests/faults/small_disk.h"
+#include "tests/support/program.h"
 #include "tests/support/temporary_folder.h"
 
 namespace rowland {

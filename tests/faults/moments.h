@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "tests/faults/program.h"
+#include "tests/support/program.h"
 
 namespace rowland::test {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "engine/core/file.h"
-#include "tests/faults/program.h"
 #include "tests/faults/small_disk.h"
+#include "tests/support/program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/window/needs_xvfb.h"
 

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "engine/core/file.h"
-#include "tests/faults/program.h"
+#include "tests/support/program.h"
 #include "tests/support/temporary_folder.h"
 
 namespace rowland {

@@ -1,38 +1,20 @@
 // Every file of the test data through the program that a user has.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "engine/core/file.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/program.h"
 #include "tests/support/test_data.h"
 
 namespace rowland::fuzz {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Check {
-    int exit_code = -1;  ///< −1: ended by a signal
-    std::string output;
-    std::string messages;
-};
-
-Check check(const fs::path& file, const fs::path& folder) {
-    const std::string out = (folder / "out").string();
-    const std::string err = (folder / "err").string();
-    const std::string command =
-        std::string("timeout -s KILL 60 '") + ROWLAND_COOK + "' check '" + file.string() + "' >" + out + " 2>" + err;
-    const int status = std::system(command.c_str());
-    constexpr std::uint64_t kLongest = 1 << 20;
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text_file(out, kLongest), read_text_file(err, kLongest)};
-}
 
 std::vector<fs::path> files_under(const fs::path& folder) {
     std::vector<fs::path> files;
@@ -51,22 +33,22 @@ std::size_t error_lines(const std::string& messages) {
 }
 
 void expect_handled(const fs::path& folder) {
-    const test::TemporaryFolder results;
     int sane = 0;
     int refused = 0;
     for (const fs::path& file : files_under(folder)) {
         SCOPED_TRACE(file.string());
-        const Check checked = check(file, results.path());
-        if (checked.exit_code == 0) {
+        const test::Ended checked =
+            test::run({ROWLAND_COOK, "check", file.string()}, {.limit = std::chrono::seconds(60)});
+        if (checked.code == 0) {
             ++sane;
-            EXPECT_EQ(std::count(checked.output.begin(), checked.output.end(), '\n'), 1) << checked.output;
-            EXPECT_EQ(error_lines(checked.messages), 0U) << checked.messages;
+            EXPECT_EQ(std::count(checked.out.begin(), checked.out.end(), '\n'), 1) << checked.out;
+            EXPECT_EQ(error_lines(checked.err), 0U) << checked.err;
         } else {
             ++refused;
-            EXPECT_EQ(checked.exit_code, 2) << checked.messages;
-            EXPECT_EQ(error_lines(checked.messages), 1U) << checked.messages;
-            EXPECT_EQ(std::count(checked.messages.begin(), checked.messages.end(), '\n'), 1) << checked.messages;
-            EXPECT_NE(checked.messages.find(file.string()), std::string::npos) << checked.messages;
+            EXPECT_EQ(checked.code, 2) << checked.err;
+            EXPECT_EQ(error_lines(checked.err), 1U) << checked.err;
+            EXPECT_EQ(std::count(checked.err.begin(), checked.err.end(), '\n'), 1) << checked.err;
+            EXPECT_NE(checked.err.find(file.string()), std::string::npos) << checked.err;
         }
     }
     std::printf("%s: %d files, %d sane, %d refused\n", folder.c_str(), sane + refused, sane, refused);

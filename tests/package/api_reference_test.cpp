@@ -4,19 +4,19 @@
 #include <filesystem>
 #include <string>
 
+#include "tests/support/program.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/unit/engine/cook/run_process.h"
 
 namespace rowland {
 namespace {
 
 TEST(ApiReference, IsMadeWithoutAWarning) {
-    if (test::run_process({"/bin/sh", "-c", "command -v doxygen"}).code != 0) GTEST_SKIP() << "no doxygen";
+    if (test::run({"/bin/sh", "-c", "command -v doxygen"}).code != 0) GTEST_SKIP() << "no doxygen";
     const test::TemporaryFolder folder;
     const std::string command =
         "cd '" ROWLAND_SOURCE_DIR "' && (cat content/api/Doxyfile; echo 'OUTPUT_DIRECTORY = " + folder.path().string() +
         "') | doxygen -";
-    const test::ProcessResult result = test::run_process({"/bin/sh", "-c", command});
+    const test::Ended result = test::run({"/bin/sh", "-c", command});
     EXPECT_EQ(result.code, 0) << result.out;
     EXPECT_EQ(result.err, "");
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "html" / "index.html"));

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -21,13 +22,16 @@
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/bake/blurred_kernel.h"
 #include "modules/diffraction/bake/direct.h"
+#include "tests/support/program.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/unit/engine/cook/run_process.h"
 
 namespace rowland {
 namespace {
 
 using Rows = std::vector<std::vector<double>>;
+
+/// Compilers run in it; CTest's limit is the one that counts.
+const test::Surroundings kBuild{.limit = std::chrono::minutes(10)};
 
 constexpr const char* kFrameColumns = "vx,vy,vz,nx,ny,nz,gx,gy,gz";
 constexpr const char* kPixelColumns =
@@ -50,7 +54,7 @@ class PackageTest : public testing::Test {
 
     /// What a program prints; it must succeed.
     static std::string run(const std::vector<std::string>& command) {
-        const test::ProcessResult result = test::run_process(command);
+        const test::Ended result = test::run(command, kBuild);
         EXPECT_EQ(result.code, 0) << command[0] << ' ' << command[1] << '\n' << result.out << result.err;
         return result.out;
     }
@@ -60,12 +64,13 @@ class PackageTest : public testing::Test {
              component});
     }
 
-    test::ProcessResult configure(const std::string& project) const {
-        return test::run_process({ROWLAND_TEST_CMAKE, "-S", project, "-B", path("build"), "-G", ROWLAND_TEST_GENERATOR,
-                                  std::string("-DCMAKE_MAKE_PROGRAM=") + ROWLAND_TEST_BUILD_TOOL,
-                                  std::string("-DCMAKE_CXX_COMPILER=") + ROWLAND_TEST_COMPILER,
-                                  std::string("-DCMAKE_CXX_COMPILER_LAUNCHER=") + ROWLAND_TEST_LAUNCHER,
-                                  "-DCMAKE_PREFIX_PATH=" + path("prefix").string()});
+    test::Ended configure(const std::string& project) const {
+        return test::run({ROWLAND_TEST_CMAKE, "-S", project, "-B", path("build"), "-G", ROWLAND_TEST_GENERATOR,
+                          std::string("-DCMAKE_MAKE_PROGRAM=") + ROWLAND_TEST_BUILD_TOOL,
+                          std::string("-DCMAKE_CXX_COMPILER=") + ROWLAND_TEST_COMPILER,
+                          std::string("-DCMAKE_CXX_COMPILER_LAUNCHER=") + ROWLAND_TEST_LAUNCHER,
+                          "-DCMAKE_PREFIX_PATH=" + path("prefix").string()},
+                         kBuild);
     }
 
     /// The program of an example.

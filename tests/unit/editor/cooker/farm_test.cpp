@@ -12,8 +12,8 @@
 #include "editor/cooker/job_plan.h"
 #include "editor/cooker/run_jobs.h"
 #include "engine/core/file.h"
+#include "tests/support/program.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/unit/engine/cook/run_process.h"
 #include "tests/unit/engine/cook/tile_type.h"
 
 namespace rowland::editor {
@@ -166,7 +166,7 @@ class WorkerTest : public FarmTest {
     std::map<std::string, std::string> cooked_by_one() const {
         std::filesystem::remove_all(path("cooked"));
         std::filesystem::remove_all(path("plan.jsonl.state"));
-        EXPECT_EQ(test::run_process(worker()).code, 0);
+        EXPECT_EQ(test::run(worker()).code, 0);
         return cooked();
     }
 };
@@ -182,10 +182,10 @@ int count(const std::string& table, const std::string& result) {
 TEST_F(WorkerTest, WorkersTogetherDoEveryJobOnceAndMakeTheBytesOfOne) {
     write_sources();
     write_plan_file();
-    test::BackgroundProcess first(worker());
-    test::BackgroundProcess second(worker());
-    const test::ProcessResult a = first.wait();
-    const test::ProcessResult b = second.wait();
+    test::Running first(worker());
+    test::Running second(worker());
+    const test::Ended a = first.wait();
+    const test::Ended b = second.wait();
     EXPECT_EQ(a.code, 0) << a.err;
     EXPECT_EQ(b.code, 0) << b.err;
     EXPECT_EQ(count(a.out, "cooked") + count(b.out, "cooked"), 8);
@@ -199,21 +199,21 @@ TEST_F(WorkerTest, AKilledWorkerCostsTheJobItWasAtAlone) {
     write("sources/d.tiles", "hold gate\nsize 3000\n");
     write("sources/gate", "");
     write_plan_file();
-    test::BackgroundProcess killed(worker());
+    test::Running killed(worker());
     while (!std::filesystem::exists(path("sources/gate.reached")))
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
 
-    test::BackgroundProcess survivor(worker());
+    test::Running survivor(worker());
     // The survivor does all but the job that is held, and waits for that.
     while (!std::filesystem::exists(path("cooked/h.cooked"))) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     EXPECT_FALSE(std::filesystem::exists(path("cooked/d.cooked")));
     killed.kill();
-    const test::ProcessResult dead = killed.wait();
+    const test::Ended dead = killed.wait();
     EXPECT_EQ(dead.code, 128 + 9);
     EXPECT_EQ(count(dead.out, "cooked"), 3);
 
     std::filesystem::remove(path("sources/gate"));
-    const test::ProcessResult result = survivor.wait();
+    const test::Ended result = survivor.wait();
     EXPECT_EQ(result.code, 0) << result.err;
     EXPECT_EQ(count(result.out, "up to date"), 3) << "what the killed one had finished is not done again";
     EXPECT_EQ(count(result.out, "cooked"), 5) << "its job, and those it had not begun";
@@ -227,10 +227,10 @@ TEST_F(WorkerTest, AnUnknownJobIsRefusedAndAnyKnownOneCanBeDoneAlone) {
     const std::vector<std::string> command = {ROWLAND_TEST_COOKER, "run", "--plan", path("plan.jsonl"), "--job"};
     std::vector<std::string> unknown = command;
     unknown.emplace_back("ffffffffffff");
-    EXPECT_EQ(test::run_process(unknown).code, 2);
+    EXPECT_EQ(test::run(unknown).code, 2);
     std::vector<std::string> third = command;
     third.push_back(plan()[2].id);
-    EXPECT_EQ(test::run_process(third).code, 0);
+    EXPECT_EQ(test::run(third).code, 0);
     EXPECT_TRUE(std::filesystem::exists(path("cooked/c.cooked")));
     EXPECT_FALSE(std::filesystem::exists(path("cooked/a.cooked")));
 }

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "engine/core/file.h"
+#include "tests/support/program.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/unit/engine/cook/run_process.h"
 
 // RowlandCook.cmake in a small project of its own, which cooks two assets with the test's cooker.
 
@@ -36,7 +36,7 @@ class BuildRuleTest : public testing::Test {
                                          std::filesystem::file_time_type::clock::now() + std::chrono::seconds(2));
     }
 
-    test::ProcessResult configure(const std::string& assets) const {
+    test::Ended configure(const std::string& assets) const {
         const std::string cooker = path("cooker").string();
         std::string project = "cmake_minimum_required(VERSION 3.25)\nproject(Tiles LANGUAGES NONE)\n";
         project += "set(ROWLAND_COOKED_DIR ${CMAKE_BINARY_DIR}/cooked)\n";
@@ -44,14 +44,13 @@ class BuildRuleTest : public testing::Test {
         project += "set_target_properties(rowland-cook PROPERTIES IMPORTED_LOCATION " + cooker + ")\n";
         project += std::string("include(") + ROWLAND_TEST_COOK_RULE + ")\n" + assets + "\n";
         write("CMakeLists.txt", project);
-        return test::run_process({ROWLAND_TEST_CMAKE, "-S", folder_.path(), "-B", path("build"), "-G",
-                                  ROWLAND_TEST_GENERATOR,
-                                  std::string("-DCMAKE_MAKE_PROGRAM=") + ROWLAND_TEST_BUILD_TOOL});
+        return test::run({ROWLAND_TEST_CMAKE, "-S", folder_.path(), "-B", path("build"), "-G", ROWLAND_TEST_GENERATOR,
+                          std::string("-DCMAKE_MAKE_PROGRAM=") + ROWLAND_TEST_BUILD_TOOL});
     }
 
     /// What the build prints: a line "Cooking NAME" for each asset cooked.
     std::string build() const {
-        const auto result = test::run_process({ROWLAND_TEST_CMAKE, "--build", path("build")});
+        const auto result = test::run({ROWLAND_TEST_CMAKE, "--build", path("build")});
         EXPECT_EQ(result.code, 0) << result.out << result.err;
         return result.out;
     }
@@ -96,7 +95,7 @@ TEST_F(BuildRuleTest, NinjaFollowsOddNamesInTheDepfileItself) {
     write("build.ninja",
           "rule cook\n  command = ./cooker cook $in -o $out --depfile $out.d && echo cooked\n  depfile = $out.d\n"
           "build three.cooked: cook three.tiles\n");
-    const auto ninja = [&] { return test::run_process({ROWLAND_TEST_BUILD_TOOL, "-C", folder_.path()}).out; };
+    const auto ninja = [&] { return test::run({ROWLAND_TEST_BUILD_TOOL, "-C", folder_.path()}).out; };
     EXPECT_THAT(ninja(), HasSubstr("cooked\n"));
     EXPECT_THAT(ninja(), HasSubstr("no work to do"));
     touch("a #$b.txt");
@@ -116,7 +115,7 @@ TEST_F(BuildRuleTest, RefusedSourceFailsTheBuildAndKeepsTheOldAsset) {
     const std::string before = read_text_file(path("build/cooked/two.cooked"), 10'000);
     write("two.tiles", "refuse");
     touch("two.tiles");
-    const auto result = test::run_process({ROWLAND_TEST_CMAKE, "--build", path("build")});
+    const auto result = test::run({ROWLAND_TEST_CMAKE, "--build", path("build")});
     EXPECT_NE(result.code, 0);
     EXPECT_THAT(result.out + result.err, HasSubstr("two.tiles: refuse; expected size, include"));
     EXPECT_EQ(read_text_file(path("build/cooked/two.cooked"), 10'000), before);

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "engine/core/file.h"
+#include "tests/support/program.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/unit/engine/cook/run_process.h"
 
 namespace rowland::editor {
 namespace {
@@ -27,9 +27,9 @@ class CookerProgramTest : public testing::Test {
         return path(name);
     }
 
-    static test::ProcessResult run(std::vector<std::string> arguments) {
+    static test::Ended run(std::vector<std::string> arguments) {
         arguments.insert(arguments.begin(), ROWLAND_TEST_COOKER);
-        return test::run_process(arguments);
+        return test::run(arguments);
     }
 
     test::TemporaryFolder folder_;

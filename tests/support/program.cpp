@@ -1,4 +1,4 @@
-#include "tests/faults/program.h"
+#include "tests/support/program.h"
 
 #include <fcntl.h>
 #include <linux/capability.h>
@@ -13,11 +13,26 @@
 #include <stdexcept>
 #include <thread>
 
-#include "tests/support/capture_file.h"
-
 namespace rowland::test {
 
 namespace {
+
+/// A nameless file that output goes to.
+using CaptureFile = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+
+CaptureFile open_capture() {
+    CaptureFile file(std::tmpfile(), std::fclose);
+    if (!file) throw std::runtime_error("no temporary file");
+    return file;
+}
+
+/// Everything in it, from its beginning.
+std::string content(std::FILE* file) {
+    std::rewind(file);
+    std::string text;
+    for (int c = std::fgetc(file); c != EOF; c = std::fgetc(file)) text += static_cast<char>(c);
+    return text;
+}
 
 std::vector<char*> pointers(std::vector<std::string>& texts) {
     std::vector<char*> result;
