@@ -13,6 +13,7 @@
 #include "engine/cook/cook_source.h"
 #include "engine/cook/source_file.h"
 #include "engine/core/error.h"
+#include "engine/core/file.h"
 #include "engine/core/progress.h"
 
 namespace rowland::editor {
@@ -34,15 +35,7 @@ class Worker {
           state_folder_(std::move(state_folder)),
           // Of equal sources another build of this program may make something else.
           cooker_(hex(cook::hash_file("/proc/self/exe")) + std::string(cook::tool_version())) {
-        std::error_code code;
-        std::filesystem::create_directories(state_folder_, code);
-        if (code)
-            throw Error({.file = state_folder_.string(),
-                         .place = {},
-                         .found = "creating the folder failed: " + code.message(),
-                         .expected = {},
-                         .remedy = "check permissions and free space",
-                         .fault = Fault::System});
+        create_folder(state_folder_);
     }
 
     /// Nothing if another process is at it.

@@ -42,12 +42,7 @@ struct Journal::File {
 Journal::~Journal() = default;
 
 Journal::Journal(std::filesystem::path path) : path_(std::move(path)), file_(std::make_unique<File>()) {
-    if (path_.has_parent_path()) {
-        std::error_code failure;
-        std::filesystem::create_directories(path_.parent_path(), failure);
-        errno = failure.value();
-        if (failure) fail(path_, "creating its folder");
-    }
+    if (path_.has_parent_path()) create_folder(path_.parent_path());
     file_->descriptor = ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
     if (file_->descriptor < 0) fail(path_, "opening");
     if (::flock(file_->descriptor, LOCK_EX | LOCK_NB) != 0)

@@ -154,17 +154,19 @@ std::string read_text_file(const std::filesystem::path& path, std::uint64_t max_
     return read_whole<std::string>(path, max_bytes);
 }
 
+void create_folder(const std::filesystem::path& path) {
+    std::error_code code;
+    std::filesystem::create_directories(path, code);
+    if (code) fail_system(path, "creating the folder", code.value());
+}
+
 void write_file_atomic(const std::filesystem::path& path, std::span<const std::byte> data) {
     // Renaming over a device or a pipe would replace it by a file.
     struct stat old = {};
     if (::stat(path.c_str(), &old) == 0 && !S_ISREG(old.st_mode))
         fail_input(path, "exists and is not a regular file", "a file to write");
 
-    if (path.has_parent_path()) {
-        std::error_code code;
-        std::filesystem::create_directories(path.parent_path(), code);
-        if (code) fail_system(path.parent_path(), "creating the folder", code.value());
-    }
+    if (path.has_parent_path()) create_folder(path.parent_path());
     Replacement replacement(path);
     replacement.write(data);
     replacement.take_the_place();

@@ -15,6 +15,9 @@ namespace rowland {
 std::vector<std::byte> read_file(const std::filesystem::path& path, std::uint64_t max_bytes);
 std::string read_text_file(const std::filesystem::path& path, std::uint64_t max_bytes);
 
+/// Creates a folder and those it lies in, unless they are there. Throws Error (system).
+void create_folder(const std::filesystem::path& path);
+
 /// Writes a new file beside `path` that takes its place: readers see the old file or the new one, whole, and a program
 /// that is killed leaves one of them. Creates the folder. Throws Error (system) and leaves nothing of the new file if
 /// anything fails, and Error (input) if `path` is a folder, a device or a pipe.

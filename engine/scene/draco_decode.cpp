@@ -71,9 +71,9 @@ std::vector<Vector> DracoMesh::vectors(std::uint32_t id, const std::string& name
         fail(fmt::format("no values of {} ({})", name, why), "one a vertex");
     if constexpr (std::is_floating_point_v<Component>) {
         // Signed types have two codes for −1 (glTF 2.0, 3.6.2.2).
-        if (normalised && source.largest_code > 1)
-            for (Vector& vector : vectors)
-                vector = glm::max(vector * (1.0F / static_cast<float>(source.largest_code)), Vector(-1.0F));
+        const float factor = normalised ? 1.0F / static_cast<float>(source.largest_code) : 1.0F;
+        if (factor != 1.0F)
+            for (Vector& vector : vectors) vector = glm::max(vector * factor, Vector(-1.0F));
     }
     return vectors;
 }

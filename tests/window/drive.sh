@@ -29,10 +29,14 @@ take() {
     done
     taken_file=$file
 }
-shot() {
-    take
+# What was taken last is the test's next shot.
+keep() {
     shots=$((shots + 1))
     mv "$taken_file" "$folder/shot_$shots.png"
+}
+shot() {
+    take
+    keep
 }
 # Shots until one differs from the last, for at most so many seconds; the last one counts.
 other() {
@@ -40,18 +44,19 @@ other() {
     while take && cmp -s "$taken_file" "$before" && [ "$SECONDS" -lt "$end" ]; do
         sleep 0.1
     done
-    shots=$((shots + 1))
-    mv "$taken_file" "$folder/shot_$shots.png"
+    keep
 }
 # Shots until one is as the last, for at most so many seconds: nothing moves any more.
 settle() {
     local before="$folder/settling.png" end=$((SECONDS + $1))
     take
-    while mv "$taken_file" "$before" && sleep 0.3 && take && ! cmp -s "$taken_file" "$before" && [ "$SECONDS" -lt "$end" ]; do
-        :
+    while [ "$SECONDS" -lt "$end" ]; do
+        mv "$taken_file" "$before"
+        sleep 0.3
+        take
+        cmp -s "$taken_file" "$before" && break
     done
-    shots=$((shots + 1))
-    mv "$taken_file" "$folder/shot_$shots.png"
+    keep
 }
 pixels=0
 # Has the demo write the pixel under the mouse once it is measured.
@@ -77,8 +82,9 @@ throw() {
     local x y dx dy
     IFS=, read -r x y dx dy <<<"$1"
     press "$x,$y"
-    for _ in $(seq 10); do
-        xdotool mousemove_relative -- $((dx / 10)) $((dy / 10))
+    # Longer than a frame takes, so that one of them ends in motion.
+    for _ in $(seq 30); do
+        xdotool mousemove_relative -- $((dx / 30)) $((dy / 30))
         sleep 0.02
     done
     xdotool mouseup 1

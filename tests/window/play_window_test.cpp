@@ -81,7 +81,7 @@ TEST_F(PlayWindow, ADraggedDiscTurnsAndNothingElseDoes) {
 TEST_F(PlayWindow, AThrownDiscTurnsOnByItself) {
     ROWLAND_NEEDS_XVFB();
     // Paused, a throw waits; what differs after that nobody's hand did.
-    play({"key:space", "throw:" + kOnDisc + ",30,20", "wait:1", "shot", "shot", "key:space", "wait:1", "key:space",
+    play({"key:space", "throw:" + kOnDisc + ",60,30", "wait:1", "shot", "shot", "key:space", "wait:2", "key:space",
           "wait:1", "shot"});
     EXPECT_EQ(difference(1, 2, kDisc), 0.0);
     EXPECT_GT(difference(2, 3, kDisc), 10.0);
@@ -129,7 +129,7 @@ TEST_F(PlayWindow, TheEnvironmentTurnsThereAndBack) {
 TEST_F(PlayWindow, WhatIsRecordedPlaysAgainToTheSameStateWithAndWithoutAWindow) {
     ROWLAND_NEEDS_XVFB();
     const std::string file = (folder_.path() / "play.jsonl").string();
-    play({"throw:" + kOnDisc + ",30,20", "wait:1", "key:g", "key:comma", "key:m", "dragat:30,100,40,10", "wait:0.5"},
+    play({"throw:" + kOnDisc + ",60,30", "wait:1", "key:g", "key:comma", "key:m", "dragat:30,100,40,10", "wait:0.5"},
          "--no-watch --record " + file);
     const std::string recorded = state();
     ASSERT_THAT(recorded, HasSubstr("state "));

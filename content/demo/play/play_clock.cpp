@@ -4,6 +4,28 @@
 
 namespace rowland::demo {
 
+namespace {
+
+bool lets_go(const PlayEvent& event) {
+    const auto* input = std::get_if<platform::InputEvent>(&event);
+    const auto* button = input == nullptr ? nullptr : std::get_if<platform::MouseButtonEvent>(input);
+    return button != nullptr && !button->down;
+}
+
+}  // namespace
+
+std::span<const PlayEvent> events_of_step(std::span<const PlayEvent> events, int step, int steps) {
+    const auto n = static_cast<std::size_t>(steps);
+    // Event i falls on step floor(i steps / events).
+    const auto begin_of = [&](std::size_t s) {
+        std::size_t begin = (events.size() * s + n - 1) / n;
+        while (begin > 0 && begin < events.size() && lets_go(events[begin])) ++begin;
+        return begin;
+    };
+    const std::size_t begin = begin_of(static_cast<std::size_t>(step));
+    return events.subspan(begin, begin_of(static_cast<std::size_t>(step) + 1) - begin);
+}
+
 void PlayClock::live(Play& play, std::chrono::nanoseconds frame, std::vector<PlayEvent> events, Recorder* recorder) {
     std::erase_if(events, [this](const PlayEvent& event) { return says_nothing_new(event); });
     waiting_.insert(waiting_.end(), events.begin(), events.end());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <span>
 #include <vector>
 
 #include "content/demo/play/play.h"
@@ -8,6 +9,11 @@
 #include "engine/platform/frame_pacing.h"
 
 namespace rowland::demo {
+
+/// A frame's events fall on its steps evenly and in order, the first one on the first, but a mouse button comes up with
+/// what was before it: those of step `step` of `steps`. What happened during a long frame is so neither all at once nor
+/// out of order, and a drag keeps about the speed it had until it ends, in its last frame or at the start of the next.
+std::span<const PlayEvent> events_of_step(std::span<const PlayEvent> events, int step, int steps);
 
 /// Cuts frames into the steps of a play and deals their events out to them.
 class PlayClock {

@@ -30,6 +30,17 @@ TEST(DemoReplay, AFramesEventsFallOnItsStepsEvenlyAndInOrder) {
     }
 }
 
+TEST(DemoReplay, AMouseButtonComesUpWithWhatWasBeforeIt) {
+    const std::vector<PlayEvent> events = {test::button(false), test::mouse({1, 0}), test::button(false),
+                                           test::mouse({2, 0})};
+    for (const int steps : {1, 4, 30}) {
+        std::vector<std::size_t> sizes;
+        for (int step = 0; step < steps; ++step)
+            if (const std::size_t size = events_of_step(events, step, steps).size(); size > 0) sizes.push_back(size);
+        EXPECT_EQ(sizes, steps == 1 ? (std::vector<std::size_t>{4}) : (std::vector<std::size_t>{1, 2, 1})) << steps;
+    }
+}
+
 /// What a user does in the seconds from `begin` to `end`: takes the right square, throws it, lights, walks.
 std::vector<PlayEvent> user(double begin, double end) {
     std::vector<PlayEvent> events;
