@@ -60,8 +60,8 @@ void Play::step(std::span<const PlayEvent> events) {
     input_.begin_frame();
     for (const PlayEvent& event : events) apply(event);
     read_keys();
-    move_hand();
-    camera_.step(input_, kStep_s, !holding());
+    const bool hand_drags = move_hand();
+    camera_.step(input_, kStep_s, !hand_drags);
     advance_time();
     place_all();
     ++steps_;
@@ -162,10 +162,6 @@ std::optional<Hit> Play::hit_at(glm::dvec2 place) const {
     return pick(world_, toys_.targets, ray_through(camera(), place, window_));
 }
 
-bool Play::holding() const {
-    return hand_.has_value();
-}
-
 void Play::try_to_grab() {
     const auto hit = hit_at(pointer());
     if (!hit) return;
@@ -178,11 +174,11 @@ void Play::let_go() {
     hand_.reset();
 }
 
-void Play::move_hand() {
+bool Play::move_hand() {
     const platform::ButtonState& button = input_.mouse_button(MouseButton::Left);
     const platform::ButtonState& pad = input_.gamepad_button(kPadGrab);
     if (!hand_ && (button.pressed || pad.pressed)) try_to_grab();
-    if (!hand_) return;
+    if (!hand_) return false;
     constexpr float kPadPixelsPerSecond = 400.0F;
     const glm::vec2 mouse =
         walking() ? glm::vec2(input_.mouse_delta()) : glm::vec2(input_.mouse_drag(MouseButton::Left));
@@ -195,6 +191,7 @@ void Play::move_hand() {
     // A step that only lets go says nothing of the hand's speed.
     if (!opens || move.drag != glm::vec2(0.0F)) hand_->move(world_, toys_.bodies[hand_->body()], move, kStep_s);
     if (opens) let_go();
+    return true;
 }
 
 void Play::advance_time() {

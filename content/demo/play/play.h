@@ -76,7 +76,8 @@ class Play {
  private:
     void apply(const PlayEvent& event);
     void read_keys();
-    void move_hand();
+    /// True if what the mouse did in this step, it did to a body.
+    bool move_hand();
     void try_to_grab();
     void let_go();
     void advance_time();
@@ -85,7 +86,6 @@ class Play {
     void turn_environment(double radians);
     void toggle_walking();
     glm::dvec2 pointer() const;
-    bool holding() const;
 
     ecs::World& world_;
     Toys toys_;

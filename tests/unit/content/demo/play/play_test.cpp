@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <vector>
 
 #include "engine/scene/directional_light.h"
 #include "engine/scene/transform.h"
@@ -47,6 +48,18 @@ TEST(DemoPlay, ADragTurnsWhatIsUnderItAndNothingElse) {
     EXPECT_EQ(play.camera().eye, eye);
     // The near side of the ball follows the cursor to the right: so does the normal.
     EXPECT_NEAR(glm::distance(normal_of(small, small.right), glm::vec3(std::sin(0.5), 0.0, std::cos(0.5))), 0.0, 2e-3);
+}
+
+TEST(DemoPlay, ADragThatEndsInItsLastStepLeavesTheCameraAlone) {
+    SmallWorld small;
+    Play play = small.play();
+    const glm::vec3 eye = play.camera().eye;
+    drag(play, kOnRight, {2.0, 0.0}, 10);
+    const std::vector<PlayEvent> last = {test::mouse(kOnRight + glm::dvec2(24.0, 0.0)), test::button(false)};
+    play.step(last);
+    EXPECT_FALSE(play.held_body());
+    EXPECT_EQ(play.camera().eye, eye);
+    EXPECT_GT(turned(play, kRight), 0.55);
 }
 
 TEST(DemoPlay, ADragTurnsTheSameWayUnderATurnedParent) {
