@@ -12,6 +12,7 @@
 #include "engine/core/error.h"
 #include "engine/core/log.h"
 #include "engine/core/progress.h"
+#include "engine/core/utf8.h"
 #include "engine/view/capture.h"
 
 namespace rowland::demo {
@@ -31,8 +32,8 @@ std::uint64_t frames_of(const Recording& recording, const Options& options) {
 }  // namespace
 
 std::string scene_name(const Options& options) {
-    if (options.scene) return options.scene->filename().string();
-    return options.mesh ? options.mesh->filename().string() : "disc";
+    const auto& file = options.scene ? options.scene : options.mesh;
+    return file ? valid_utf8(file->filename().string()) : "disc";
 }
 
 Recording recording_for(const Options& options) {

@@ -27,7 +27,7 @@ std::vector<Job> plan_jobs(const cook::Registry& registry, std::span<const std::
 /// A table for people: a header line, then id, kind, source and output of a job a line, parted by tabs.
 std::string job_table(std::span<const Job> jobs);
 
-/// The plan as JSON lines, a job each.
+/// The plan as JSON lines, a job each. Throws Error (input) for a path that is not UTF-8.
 std::string write_plan(std::span<const Job> jobs);
 
 /// Inverse of write_plan. Throws Error (input) naming `file` and the line.

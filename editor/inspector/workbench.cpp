@@ -412,7 +412,7 @@ void Workbench::draw_path_dialog(const char* title, const char* button) {
     const bool pressed = ImGui::Button(button);
     controls_.mark(std::string("button ") + button);
     ImGui::SameLine();
-    if (ImGui::Button("Cancel") || ImGui::IsKeyPressed(static_cast<int>(Key::Escape))) {
+    if (ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) {
         dialog_ = Dialog::None;
         ImGui::CloseCurrentPopup();
         return;
@@ -434,7 +434,7 @@ void Workbench::draw_discard_dialog() {
         ImGui::SameLine();
         return chosen;
     };
-    if (choice("Keep editing") || ImGui::IsKeyPressed(static_cast<int>(Key::Escape))) {
+    if (choice("Keep editing") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) {
         dialog_ = Dialog::None;
         ImGui::CloseCurrentPopup();
     } else if (choice("Discard them")) {

@@ -18,6 +18,7 @@
 #include "engine/core/json_reader.h"
 #include "engine/core/log.h"
 #include "engine/core/progress.h"
+#include "engine/core/utf8.h"
 #include "modules/diffraction/reference/reference.h"
 
 namespace rowland::trade {
@@ -95,7 +96,7 @@ MethodError to_error(const nlohmann::json& json) {
 std::vector<std::string> stems(const std::vector<std::filesystem::path>& paths) {
     std::vector<std::string> names;
     for (const auto& path : paths) {
-        const std::string stem = path.stem().string();
+        const std::string stem = valid_utf8(path.stem().string());
         const auto same = std::count_if(names.begin(), names.end(), [&](const std::string& name) {
             return name == stem || name.starts_with(stem + "#");
         });

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "engine/core/error.h"
+#include "engine/core/utf8.h"
 
 namespace rowland::trade {
 
@@ -15,7 +16,7 @@ FrameSet parse_frames(const std::string& text) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0 || text.find(',') < equals)
         refuse_input("--frames", "", fmt::format("\"{}\"", text), "NAME=FILE, without a comma in the name");
-    return frames_of_file(text.substr(0, equals), text.substr(equals + 1));
+    return frames_of_file(valid_utf8(text.substr(0, equals)), text.substr(equals + 1));
 }
 
 }  // namespace

@@ -45,6 +45,13 @@ constexpr std::array kColumns = {"material",
                                  "table_bytes",
                                  "vertex_bytes"};
 
+/// A field of a table with commas (RFC 4180).
+std::string csv_field(std::string text) {
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    for (std::size_t at = 0; (at = text.find('"', at)) != std::string::npos; at += 2) text.insert(at, 1, '"');
+    return '"' + text + '"';
+}
+
 }  // namespace
 
 const CostRow& cost_of(const SweepResults& results, const ErrorRow& row) {
@@ -98,7 +105,7 @@ std::string sweep_csv(const SweepResults& results) {
         for (const char* column : kColumns) {
             if (!line.empty()) line += ',';
             if (!json.contains(column)) continue;
-            line += json[column].is_string() ? json[column].get<std::string>() : json[column].dump();
+            line += json[column].is_string() ? csv_field(json[column].get<std::string>()) : json[column].dump();
         }
         text += line + '\n';
     }

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "content/demo/play/recording.h"
+#include "editor/cooker/job_plan.h"
 #include "engine/asset/container.h"
 #include "engine/colour/illuminant.h"
 #include "engine/core/check.h"
@@ -117,6 +118,11 @@ void read_recording(std::span<const std::byte> bytes) {
     for (const demo::Recording::Step& step : recording.steps) ROWLAND_CHECK_OP(step.step, <, recording.step_count);
 }
 
+void read_plan(std::span<const std::byte> bytes) {
+    const std::vector<editor::Job> jobs = editor::parse_plan(std::string(text(bytes)), "input.jsonl");
+    ROWLAND_CHECK_OP(editor::parse_plan(editor::write_plan(jobs), "again.jsonl").size(), ==, jobs.size());
+}
+
 void read_efficiency(std::span<const std::byte> bytes) {
     diffraction::parse_efficiency_csv(text(bytes), "input.csv");
 }
@@ -159,6 +165,7 @@ const std::vector<Format>& formats() {
         {"efficiency", read_efficiency, {".csv"}},
         {"illuminant", read_illuminant, {".csv"}},
         {"recording", read_recording, {".jsonl"}},
+        {"plan", read_plan, {}},
         {"cooked", read_cooked, {".material", ".probe"}},
         {"cooked-material", read_cooked_material, {}},
         {"cooked-probe", read_cooked_probe, {}},

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "content/demo/play/recording.h"
+#include "editor/cooker/job_plan.h"
 #include "engine/asset/container.h"
 #include "engine/core/file.h"
 #include "engine/image/exr.h"
@@ -84,6 +85,14 @@ Seed recording() {
     return {"a play", read_file(path, kLargestSeed)};
 }
 
+Seed plan() {
+    const std::vector<editor::Job> jobs = {{"0123456789ab", "material", "content/cd.json", "cooked/cd.material"},
+                                           {"ba9876543210", "probe", "a \"b\".json", "cooked/\xc3\xa4.probe"}};
+    const std::string text = editor::write_plan(jobs);
+    const auto* begin = reinterpret_cast<const std::byte*>(text.data());
+    return {"two jobs", {begin, begin + text.size()}};
+}
+
 /// Small pictures: captured ones are so large that few mutations of them are tried, and fewer hit what steers.
 Seed small_exr() {
     const test::TemporaryFolder folder;
@@ -133,6 +142,7 @@ std::vector<Seed> made_seeds(std::string_view format) {
     if (format == "cooked-material") return cooked_seeds();
     if (format == "cooked-probe") return {{"clear sky", cooked_probe()}};
     if (format == "recording") return {recording()};
+    if (format == "plan") return {plan()};
     if (format == "exr") return {small_exr()};
     if (format == "hdr") return {small_hdr()};
     if (format != "cooked") return {};

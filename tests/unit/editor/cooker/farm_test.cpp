@@ -90,6 +90,11 @@ TEST_F(FarmTest, AWrittenPlanIsReadBack) {
     }
 }
 
+TEST_F(FarmTest, AJobWhoseNameJsonCannotHoldIsRefused) {
+    write("sources/b\xff.tiles", "size 1\n");
+    EXPECT_THAT(test::refusal_of([&] { write_plan(plan()); }), HasSubstr("not UTF-8"));
+}
+
 TEST_F(FarmTest, BadPlansAreRefusedByTheirLine) {
     const auto refusal = [](const std::string& text) {
         return test::refusal_of([&] { parse_plan(text, "plan.jsonl"); });

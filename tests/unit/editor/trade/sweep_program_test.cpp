@@ -108,6 +108,17 @@ TEST_F(TradeSweep, ASecondRunMeasuresNothingAndWritesTheSame) {
     EXPECT_EQ(file("results/sweep.csv"), csv);
 }
 
+TEST_F(TradeSweep, TablesHoldNamesOfAnyBytes) {
+    std::filesystem::rename(folder_.path() / "cd.json", folder_.path() / "b\xff, \"c\".json");
+    ASSERT_EQ(run("sweep --no-times --material 'b\xff, \"c\".json' --probe sky.hdr --setting arc/bands=2/rank=2 "
+                  "--picture-size 8 8 --output results")
+                  .exit_code,
+              0);
+    EXPECT_THAT(file("results/sweep.csv"), HasSubstr("\n\"b\xef\xbf\xbd, \"\"c\"\"\",sky,"));
+    const std::string lines = file("results/sweep.jsonl");
+    EXPECT_EQ(nlohmann::json::parse(lines.substr(0, lines.find('\n')))["material"], "b\xef\xbf\xbd, \"c\"");
+}
+
 TEST_F(TradeSweep, AnotherProbeOrMaterialIsMeasuredAnew) {
     ASSERT_EQ(run("sweep --no-times " + test::small_sweep()).exit_code, 0);
     const std::size_t before = lines("results/journal.jsonl");
