@@ -1,9 +1,12 @@
 #include "editor/inspector/document.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "engine/core/error.h"
 #include "engine/core/file.h"
+#include "engine/core/utf8.h"
 #include "modules/diffraction/asset/material_json.h"
 
 namespace rowland::inspector {
@@ -23,7 +26,10 @@ void move_name(Json& name, const std::filesystem::path& from, const std::filesys
     if (!name.is_string()) return;
     const std::filesystem::path file = name.get<std::string>();
     if (file.empty() || file.is_absolute()) return;
-    name = std::filesystem::proximate(from / file, to).string();
+    const std::string there = std::filesystem::proximate(from / file, to).string();
+    if (valid_utf8(there) != there)
+        refuse_input(there, {}, "a name that is not UTF-8", "one that JSON can hold", "rename it, or save elsewhere");
+    name = there;
 }
 
 /// The material with the files it names named from another folder.
@@ -32,7 +38,8 @@ Json moved(Json material, const std::filesystem::path& from, const std::filesyst
     if (profile.contains("file")) move_name(profile["file"], from, to);
     if (!material.contains("quality")) return material;
     Json& quality = material["quality"];
-    if (quality.contains("illuminant") && quality["illuminant"].get<std::string>().ends_with(".csv"))
+    if (quality.contains("illuminant") && quality["illuminant"].is_string() &&
+        quality["illuminant"].get<std::string>().ends_with(".csv"))
         move_name(quality["illuminant"], from, to);
     if (quality.contains("probes"))
         for (Json& probe : quality["probes"]) move_name(probe.is_object() ? probe["image"] : probe, from, to);
@@ -41,6 +48,14 @@ Json moved(Json material, const std::filesystem::path& from, const std::filesyst
 
 std::filesystem::path folder_of(const std::filesystem::path& path) {
     return std::filesystem::absolute(path).parent_path();
+}
+
+/// A file of that name that is not there yet: cd.unsaved.json, cd.unsaved-2.json, …
+std::filesystem::path unsaved_file(const std::filesystem::path& folder, const std::string& name) {
+    const std::string stem = std::filesystem::path(name).stem().string();
+    std::filesystem::path file = folder / (stem + ".unsaved.json");
+    for (int i = 2; std::filesystem::exists(file); ++i) file = folder / fmt::format("{}.unsaved-{}.json", stem, i);
+    return file;
 }
 
 }  // namespace
@@ -165,6 +180,20 @@ void Document::save_as(const std::filesystem::path& path) {
     }
     saved_ = json();
     editing_ = nullptr;
+}
+
+std::optional<std::filesystem::path> Document::rescue() const {
+    if (!dirty() || steps_.size() == 1) return std::nullopt;
+    const auto write_into = [&](const std::filesystem::path& folder) {
+        const std::filesystem::path file = unsaved_file(folder, name_);
+        write_file_atomic(file, format_json(folder == folder_ ? json() : moved(json(), folder_, folder)));
+        return file;
+    };
+    try {
+        return write_into(path_.empty() ? std::filesystem::current_path() : folder_);
+    } catch (const Error&) {
+        return write_into(std::filesystem::temp_directory_path());
+    }
 }
 
 }  // namespace rowland::inspector

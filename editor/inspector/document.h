@@ -67,6 +67,10 @@ class Document {
     void save();
     /// The same elsewhere; files that the material names stay where they are, named from the new place.
     void save_as(const std::filesystem::path& path);
+    /// Writes edits that no file holds, refused or not, to a new file, when the program must end: cd.unsaved.json
+    /// beside cd.json; for a new material in the current folder; in the temporary one if that cannot be written.
+    /// Nothing if there are none. Throws Error (system).
+    std::optional<std::filesystem::path> rescue() const;
 
  private:
     Document(Json material, std::string name, std::filesystem::path folder);

@@ -37,6 +37,19 @@ class WindowLoop {
     }
 
     void run() {
+        try {
+            draw_until_closed();
+        } catch (...) {
+            rescue();
+            throw;
+        }
+        remember();
+        tell("frames", times_);
+        tell("frames of drags", drag_times_);
+    }
+
+ private:
+    void draw_until_closed() {
         while (!workbench_.closed()) {
             const std::chrono::nanoseconds elapsed = clock_.tick();
             times_.add(elapsed);
@@ -57,12 +70,17 @@ class WindowLoop {
             window_.swap();
             rest_if_idle();
         }
-        remember();
-        tell("frames", times_);
-        tell("frames of drags", drag_times_);
     }
 
- private:
+    void rescue() const {
+        try {
+            if (const auto file = session_.document().rescue())
+                log_warning("{}: edits not saved before", file->string());
+        } catch (const std::exception& error) {
+            log_warning("edits are lost: {}", error.what());
+        }
+    }
+
     static void tell(const char* what, const platform::FrameTimes& times) {
         const platform::FrameStatistics statistics = times.statistics();
         log_info("the last {} {}: median {:.1f} ms, longest {:.1f} ms", statistics.count, what, statistics.median_ms,

@@ -59,7 +59,7 @@ class PictureFaults : public testing::Test {
         return {{ROWLAND_DEMO, "--disc", "--width", "64", "--height", "36"}, {ROWLAND_INSPECTOR, "--preset", "cd"}};
     }
     static Command under_xvfb(Command command) {
-        const std::vector<std::string> before = {"/usr/bin/env", "xvfb-run", "-a", "-s", "-screen 0 400x400x24"};
+        const std::vector<std::string> before = {"/usr/bin/env", "xvfb-run", "-a", "-s", "-noreset -screen 0 400x400x24"};
         command.insert(command.begin(), before.begin(), before.end());
         return command;
     }

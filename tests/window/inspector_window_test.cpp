@@ -1,6 +1,7 @@
 // The inspector in a real window, used by real mouse and keys under Xvfb. What each step did is read from the facts
 // that the inspector keeps for its drivers; leave a step out, and what is expected after it fails.
 #include <gmock/gmock.h>
+#include <sys/wait.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -25,6 +26,10 @@ class InspectorWindow : public ::testing::Test {
  protected:
     /// Starts the inspector, plays the actions and ends it.
     void play(const std::vector<std::string>& actions, const std::string& arguments = {}) {
+        EXPECT_EQ(status_of(actions, std::string(ROWLAND_INSPECTOR) + " " + arguments), 0);
+    }
+    /// The same by a command of one's own; returns its exit status.
+    int status_of(const std::vector<std::string>& actions, const std::string& inspector) {
         // A small probe: the reference is quick under it.
         write_file_atomic(
             folder_.path() / "sky.json",
@@ -32,8 +37,9 @@ class InspectorWindow : public ::testing::Test {
         std::string command = std::string("DROP_FILES=" ROWLAND_DROP_FILES " bash ") + ROWLAND_INSPECTOR_DRIVE + " " +
                               folder_.path().string();
         for (const std::string& action : actions) command += " '" + action + "'";
-        command += std::string(" -- ") + ROWLAND_INSPECTOR + " " + arguments;
-        EXPECT_EQ(std::system(command.c_str()), 0) << command;
+        command += " -- " + inspector;
+        const int status = std::system(command.c_str());
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }
     std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
 
@@ -112,6 +118,20 @@ TEST_F(InspectorWindow, AMaterialIsEditedPickedLitSavedAndOpenedAgain) {
     play({"until:document=mine.json", "until:light=venice", "keep:opened"}, path("mine.json"));
     EXPECT_EQ(material("opened"), material("gold"));
     EXPECT_EQ(fact("opened", "light"), "venice_sunset_256.hdr");  // the layout remembers it
+}
+
+TEST_F(InspectorWindow, EditsOutliveALostContext) {
+    ROWLAND_NEEDS_XVFB();
+    const std::string text = R"({"grating": {"pitch_nm": 1600, "profile": {"type": "slit", "width_nm": 800}}})";
+    write_file_atomic(path("mine.json"), text);
+    EXPECT_EQ(status_of({"until:document=mine.json", "click:lines per mm", "key:ctrl+a", "type:1250", "key:Return",
+                         "keep:typed", "run:touch " + path("lost")},
+                        "env LD_PRELOAD=" ROWLAND_LOST_CONTEXT " ASAN_OPTIONS=verify_asan_link_order=0 " +
+                            ("ROWLAND_TEST_LOST_WHEN=" + path("lost")) + " " ROWLAND_INSPECTOR " " + path("mine.json")),
+              1);
+    EXPECT_EQ(diffraction::load_material(path("mine.unsaved.json")).grating.pitch_nm, 800);
+    EXPECT_EQ(nlohmann::json::parse(read_text_file(path("mine.unsaved.json"), 1 << 20)), material("typed"));
+    EXPECT_EQ(read_text_file(path("mine.json"), 1 << 20), text);
 }
 
 TEST_F(InspectorWindow, WhatIsRefusedIsSaidAndNothingIsLost) {

@@ -10,5 +10,6 @@ done
 shift
 
 if [ -z "${ROWLAND_INSIDE_XVFB:-}" ]; then
-    ROWLAND_INSIDE_XVFB=1 exec xvfb-run -a -s "-screen 0 ${screen}x24" bash "$0" "$folder" "${actions[@]}" -- "$@"
+    # A server that begins anew when its last program has gone signals xvfb-run, whose own end then may fail.
+    ROWLAND_INSIDE_XVFB=1 exec xvfb-run -a -s "-noreset -screen 0 ${screen}x24" bash "$0" "$folder" "${actions[@]}" -- "$@"
 fi

@@ -208,6 +208,44 @@ TEST_F(DocumentTest, ANameThatIsNotUtf8IsSavedTo) {
     EXPECT_EQ(Document::open(path("caf\xe9.json")).json(), document.json());
 }
 
+TEST_F(DocumentTest, AMaterialMovedSoThatJsonCannotNameItsFilesIsNotSaved) {
+    std::filesystem::create_directory(path("a\xff"));
+    write_file_atomic(path("a\xff/table.csv"), "wavelength_nm,R-1,R+0,R+1\n380,.2,.3,.2\n780,.1,.4,.1\n");
+    write_file_atomic(path("a\xff/m.json"),
+                      R"({"grating": {"pitch_nm": 1600, "profile": {"type": "table", "file": "table.csv"}}})");
+    Document document = Document::open(path("a\xff/m.json"));
+    EXPECT_THAT(test::message_of([&] { document.save_as(path("m.json")); }), HasSubstr("not UTF-8"));
+    EXPECT_FALSE(std::filesystem::exists(path("m.json")));
+}
+
+TEST_F(DocumentTest, EditsAreRescuedToAFileOfTheirOwn) {
+    Document document = opened();
+    EXPECT_EQ(document.rescue(), std::nullopt);
+    document.set_value(pitch(), -5);  // refused
+    ASSERT_TRUE(document.refusal());
+    EXPECT_EQ(document.rescue(), path("cd.unsaved.json"));
+    EXPECT_EQ(document.rescue(), path("cd.unsaved-2.json"));
+    EXPECT_EQ(parse_ordered(read_text_file(path("cd.unsaved.json"), 1 << 20), "cd"), document.json());
+    EXPECT_EQ(Document::open(path("cd.json")).json()["grating"]["pitch_nm"], 1600);
+    document.undo();
+    EXPECT_EQ(document.rescue(), std::nullopt);
+    EXPECT_EQ(Document::open_as_new(path("cd.json")).rescue(), std::nullopt) << "the start of a new material";
+}
+
+TEST_F(DocumentTest, EditsAreRescuedWhereThereIsNoFolderAnyMore) {
+    std::filesystem::create_directory(path("here"));
+    std::filesystem::copy_file(kMaterials / "cd.json", path("here/cd.json"));
+    Document document = Document::open(path("here/cd.json"));
+    document.set_value(pitch(), 740);
+    std::filesystem::remove_all(path("here"));
+    write_file_atomic(path("here"), "a file");
+    std::filesystem::create_directory(path("temporary"));
+    ::setenv("TMPDIR", path("temporary").c_str(), 1);
+    EXPECT_EQ(document.rescue(), path("temporary/cd.unsaved.json"));
+    ::unsetenv("TMPDIR");
+    EXPECT_EQ(Document::open(path("temporary/cd.unsaved.json")).json(), document.json());
+}
+
 // A child saves two materials in turn as fast as it can and is killed somewhere in it; whatever moment that was, the
 // file is one of the two.
 TEST_F(DocumentTest, KilledWhileSavingItLeavesTheOldOrTheNewFile) {
