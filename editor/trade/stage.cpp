@@ -43,8 +43,7 @@ double milliseconds_since(Clock::time_point start) {
 }  // namespace
 
 Stage::Stage(glm::ivec2 size, const scene::Camera& camera)
-    : size_(size),
-      camera_(camera),
+    : camera_(camera),
       config_(post::OcioConfig::shipped()),
       xyz_to_working_(post::xyz_to_scene_linear(config_)),
       renderer_(xyz_to_working_),

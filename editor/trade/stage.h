@@ -51,7 +51,6 @@ class Stage {
     ecs::Entity add_surface(scene::Mesh mesh, const glm::vec3& place);
     void clear_materials();
 
-    glm::ivec2 size_;
     scene::Camera camera_;
     post::OcioConfig config_;
     glm::dmat3 xyz_to_working_;

@@ -114,7 +114,7 @@ bool crosses_members(const json& document) {
     const bool plated_table = profile["type"] == "table" && document.contains("metal");
     const bool few = grating.value("grooves", 1500.0) < 50.0 && (profile["type"] == "table" || lobe.contains("pits"));
     const bool endless = grating.value("orders", json()) == "all" && grating["pitch_nm"] > 190000.0;
-    const json lamp = document.value("quality", json::object()).value("illuminant", json("D65"));
+    const std::string lamp = document.value("quality", json::object()).value("illuminant", "D65");
     const auto names = colour::illuminant_names();
     const bool dark = lamp != "lamp.csv" && std::find(names.begin(), names.end(), lamp) == names.end();
     return wide || agu || plated_table || few || endless || dark || crosses_quality(document);

@@ -111,7 +111,7 @@ TEST(SceneRecipe, ExtensionsAndExtrasPassVerbatim) {
 TEST(SceneRecipe, NodesStandWhereTheirParentsPutThem) {
     const ImportedScene scene = load_glb(cooked(small_scene()), "s.glb");
     // The root turns by 90° around Y, so its −Z points to −X.
-    const glm::mat4& child = world_of(scene, "child");
+    const glm::mat4 child = world_of(scene, "child");
     EXPECT_LT(glm::distance(glm::vec3(child[3]), glm::vec3(0.0F, 2.0F, 3.0F)), 1e-6F);
     EXPECT_NEAR(glm::length(glm::vec3(child[0])), 2.0F, 1e-6F);
     // The eye looks straight up, the sun down at 45°.
@@ -219,7 +219,7 @@ TEST_F(Cabinet, ImportFindsEverythingInIt) {
     ASSERT_EQ(scene.materials.size(), recipe_["materials"].size());
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const json& material = recipe_["materials"][i];
-        EXPECT_EQ(scene.materials[i].name, material["name"]);
+        EXPECT_EQ(scene.materials[i].name, material["name"].get<std::string>());
         EXPECT_EQ(json(scene.materials[i].extensions), material.value("extensions", json::object()));
         EXPECT_EQ(scene.materials[i].base_colour_texture.has_value(), material.contains("color_texture"));
     }

@@ -37,7 +37,7 @@ Grating blazed() {
     Grating grating;
     grating.pitch_nm = 1600.0;
     grating.profile = BlazedProfile{260.0};
-    grating.orders = {1};
+    grating.orders = std::vector<int>{1};
     return grating;
 }
 
