@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "content/demo/object_name.h"
 #include "engine/core/error.h"
 #include "engine/core/log.h"
 #include "engine/scene/transform.h"
@@ -56,9 +57,64 @@ Session::Session(const Options& options, const post::OcioConfig& config, glm::iv
 
 std::vector<Action> Session::carry_out() {
     std::vector<Action> left;
-    for (const Action action : play_.take_actions())
-        if (!perform(action)) left.push_back(action);
+    for (const Play::Order& order : play_.take_orders())
+        if (const auto* setting = std::get_if<SettingEvent>(&order))
+            attempt([&] { set(*setting); });
+        else if (const Action action = std::get<Action>(order); !perform(action))
+            left.push_back(action);
     return left;
+}
+
+void Session::set(const SettingEvent& event) {
+    post::PostSettings& post = picture_->post_settings();
+    const auto number = [&] { return static_cast<float>(std::get<double>(event.value)); };
+    const auto text = [&]() -> const std::string& { return std::get<std::string>(event.value); };
+    switch (event.setting) {
+        case Setting::Exposure:
+            post.exposure_stops = number();
+            break;
+        case Setting::Bloom:
+            if (post.bloom) post.bloom->strength = number();
+            break;
+        case Setting::Vignette:
+            if (post.vignette) post.vignette->strength = number();
+            break;
+        case Setting::Wipe:
+            comparison_.set_wiping(number() > 0.0F);
+            break;
+        case Setting::WipeLine:
+            comparison_.set_line(number());
+            break;
+        case Setting::Probe:
+            use_probe(probe_named(text()));
+            break;
+        case Setting::View:
+            use_view(text());
+            break;
+        case Setting::LeftLook:
+            set_look(Side::Left, event.object, text());
+            break;
+        case Setting::RightLook:
+            set_look(Side::Right, event.object, text());
+            break;
+    }
+}
+
+/// One of the demo's by its stem, any other by its path.
+std::filesystem::path Session::probe_named(const std::string& name) const {
+    const auto found = std::ranges::find(probe_paths_, name, [](const auto& path) { return path.stem().string(); });
+    return found == probe_paths_.end() ? std::filesystem::path(name) : *found;
+}
+
+void Session::set_look(Side side, const std::string& object, const std::string& name) {
+    const auto look = look_named(name);
+    if (!look) refuse_input("look", "", name, "a look, as \"arc, fine\"");
+    if (object.empty()) {
+        comparison_.set_look_of_all(side, *look);
+        return;
+    }
+    for (const ecs::Entity grating : comparison_.gratings())
+        if (name_of_object(scene_.world(), grating) == object) comparison_.set_look(grating, side, *look);
 }
 
 bool Session::perform(Action action) {

@@ -20,6 +20,11 @@
 
 namespace rowland::demo {
 
+/// The setting of a side's looks.
+inline Setting look_setting(Side side) {
+    return side == Side::Left ? Setting::LeftLook : Setting::RightLook;
+}
+
 /// A running demo, in a window or without one: the scene, what the player does with it, its picture and the files that
 /// all come from.
 class Session {
@@ -42,6 +47,8 @@ class Session {
     void use_probe(const std::filesystem::path& path);
     /// Shows another view of the display. Throws Error (input).
     void use_view(const std::string& view);
+    /// Does what a setting says. Throws Error (input) if there is no such probe, view or look.
+    void set(const SettingEvent& setting);
     const std::vector<std::string>& views() const { return views_; }
 
     /// Carries out what the play left over, and hands back what is not for a session. What bad input refuses is logged
@@ -60,6 +67,8 @@ class Session {
     bool perform(Action action);
     void next_probe();
     void next_view();
+    std::filesystem::path probe_named(const std::string& name) const;
+    void set_look(Side side, const std::string& object, const std::string& look);
     void reload_shaders();
     void take_over();
     void take_screenshots();

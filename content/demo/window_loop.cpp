@@ -96,6 +96,7 @@ class WindowLoop {
 
     void advance(std::chrono::nanoseconds elapsed, double seconds) {
         std::vector<PlayEvent> events = events_of(window_, window_size_);
+        if (const auto dropped = std::exchange(dropped_, std::nullopt)) events.emplace_back(*dropped);
         events = hud_.begin_frame(
             std::move(events),
             {.size = window_size_, .framebuffer_size = window_.framebuffer_size(), .seconds = seconds});
@@ -137,12 +138,7 @@ class WindowLoop {
     }
 
     void drop(const std::vector<std::filesystem::path>& files) {
-        if (files.empty()) return;
-        try {
-            session_.use_probe(files.front());
-        } catch (const Error& error) {
-            log_error("{}", error.what());
-        }
+        if (!files.empty()) dropped_ = SettingEvent{Setting::Probe, files.front().string()};
     }
 
     void show_title(double seconds) {
@@ -166,6 +162,7 @@ class WindowLoop {
     bool replay_over_ = false;
     bool closed_in_recording_ = false;
     std::optional<Recorder> recorder_;
+    std::optional<SettingEvent> dropped_;  ///< onto the window since the last frame
     platform::Window window_;
     glm::ivec2 window_size_;
     Session session_;

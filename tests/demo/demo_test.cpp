@@ -95,6 +95,23 @@ TEST(Demo, TheLampLightsAndShades) {
     EXPECT_GT(static_cast<double>(as_before) / count, 0.02);
 }
 
+TEST(Demo, ARecordedSettingIsAsGoodAsAnOption) {
+    const auto picture = [](const std::string& name, const std::string& setting, const std::string& options) {
+        const std::filesystem::path folder = test::result(name);
+        write_file_atomic(folder / "play.jsonl",
+                          "{\"rowland_play\":1,\"steps_per_second\":120,\"scene\":\"disc\",\"window\":[64,36]}\n" +
+                              setting + "{\"step\":8,\"end\":true}\n");
+        EXPECT_EQ(run_demo("--disc --width 64 --height 36 --output-folder " + folder.string() + " --play " +
+                           (folder / "play.jsonl").string() + " " + options),
+                  0);
+        return read_file(folder / "play.png", 1 << 20);
+    };
+    const std::string darker = "{\"step\":4,\"set\":\"exposure\",\"to\":-3}\n";
+    const auto set = picture("set", darker, "");
+    EXPECT_EQ(set, picture("option", "", "--exposure -3"));
+    EXPECT_NE(set, picture("neither", "", ""));
+}
+
 TEST(Demo, TheBenchmarkNamesEveryPassAndOrdersItsPercentiles) {
     const std::filesystem::path path = result("benchmark.json");
     ASSERT_EQ(run_demo("--disc --width 160 --height 90 --frames 12 --bloom 0.1 --benchmark " + path.string()), 0);

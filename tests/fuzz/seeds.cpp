@@ -78,6 +78,8 @@ Seed recording() {
         platform::InputEvent(platform::GamepadEvent{.connected = true, .axes = {}, .buttons = {}}),
         demo::ResizeEvent{{800, 600}},
         demo::ActionEvent{demo::Action::AutoExposure},
+        demo::SettingEvent{demo::Setting::Bloom, 0.25},
+        demo::SettingEvent{demo::Setting::RightLook, "arc, fine", "disc"},
     };
     recorder.add(3, events);
     recorder.add(7, events);

@@ -1,4 +1,5 @@
 // The demo's panels, wipe and measured pixel, used by real clicks, drags and keys under Xvfb.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,6 +20,8 @@
 namespace rowland {
 namespace {
 
+using testing::HasSubstr;
+
 constexpr int kWidth = 900;  ///< the least for which panels are open from the start
 constexpr int kHeight = 500;
 /// The check box of the lamp, the last row of the first section.
@@ -36,15 +39,28 @@ class HudWindow : public ::testing::Test {
                R"(, "profile": {"type": "slit", "width_nm": 400}},
                    "quality": {"representation": "transfer", "bands": 4}})";
     }
-    /// Starts the demo with one disc at rest, plays the actions and ends it.
-    void play(const std::vector<std::string>& actions) {
+    /// The demo with one disc, so many pixels large.
+    std::string demo() const {
         const std::string folder = folder_.path().string();
-        std::string command = std::string("bash ") + ROWLAND_DRIVE + " " + folder + " key:space";
+        return std::string(ROWLAND_DEMO) + " --disc --width " + std::to_string(kWidth) + " --height " +
+               std::to_string(kHeight) + " --material " + folder + "/grating.json --probe " + folder +
+               "/sky.hdr --light-window none --shader-folder " + folder;
+    }
+    /// Starts it with the disc at rest, plays the actions and ends it.
+    void play(const std::vector<std::string>& actions, const std::string& arguments = {}) {
+        std::string command = std::string("DROP_FILES=" ROWLAND_DROP_FILES " bash ") + ROWLAND_DRIVE + " " +
+                              folder_.path().string() + " key:space";
         for (const std::string& action : actions) command += " '" + action + "'";
-        command += std::string(" -- ") + ROWLAND_DEMO + " --disc --width " + std::to_string(kWidth) + " --height " +
-                   std::to_string(kHeight) + " --material " + folder + "/grating.json --probe " + folder +
-                   "/sky.hdr --light-window none --shader-folder " + folder;
+        command += " -- " + demo() + " " + arguments;
         EXPECT_EQ(std::system(command.c_str()), 0) << command;
+    }
+    /// The probe with its rows turned over.
+    std::string turned_sky() const {
+        const std::string sky = read_text_file(folder_.path() / "sky.hdr", 1 << 20);
+        const std::size_t texels = sky.size() - 32 * 16 * 4;
+        std::string turned = sky.substr(0, texels);
+        for (int row = 15; row >= 0; --row) turned += sky.substr(texels + static_cast<std::size_t>(row) * 128, 128);
+        return turned;
     }
     image::ByteImage screenshot(int number) const {
         const std::filesystem::path path = folder_.path() / ("shot_" + std::to_string(number) + ".png");
@@ -120,12 +136,27 @@ TEST_F(HudWindow, AWipeShowsTheOtherLookRightOfItsLineWhichIsDragged) {
     const int middle = kWidth / 2;
     const int moved = middle + 40;
     play({"shot", "key:x", "other:60", "dragat:450,250,40,0", "other:20", "key:x", "other:20"});
-    EXPECT_EQ(differing(screenshot(1), screenshot(2), 0, middle), 0);
+    // llvmpipe's scissor lets half the samples of the pixels before its edge through, and whichever look is drawn first
+    // is seen there.
+    EXPECT_EQ(differing(screenshot(1), screenshot(2), 0, middle - 1), 0);
     EXPECT_GT(differing(screenshot(1), screenshot(2), middle, kWidth), 0);
-    EXPECT_EQ(differing(screenshot(1), screenshot(3), 0, moved), 0);
+    EXPECT_EQ(differing(screenshot(1), screenshot(3), 0, moved - 1), 0);
     EXPECT_GT(differing(screenshot(1), screenshot(3), moved, kWidth), 0);
     EXPECT_GT(differing(screenshot(2), screenshot(3), middle, moved), 0);
     EXPECT_EQ(differing(screenshot(1), screenshot(4), 0, kWidth), 0);
+}
+
+TEST_F(HudWindow, WhatIsNoKeyIsRecorded) {
+    ROWLAND_NEEDS_XVFB();
+    const std::string folder = folder_.path().string();
+    write_file_atomic(folder_.path() / "turned.hdr", turned_sky());
+    play({"key:x", "wait:1", "dragat:450,250,40,0", "drop:" + folder + "/turned.hdr", "wait:1"},
+         "--record " + folder + "/play.jsonl");
+    const std::string recording = read_text_file(folder_.path() / "play.jsonl", 1 << 20);
+    EXPECT_THAT(recording, HasSubstr(R"("set":"wipe","to":1.0)"));
+    EXPECT_THAT(recording, HasSubstr(R"("set":"right look","to":"spikes, usual")"));
+    EXPECT_THAT(recording, HasSubstr(R"("set":"wipe line","to":0.5)"));
+    EXPECT_THAT(recording, HasSubstr(R"("set":"probe","to":")" + folder + "/turned.hdr"));
 }
 
 TEST_F(HudWindow, TheNextRepresentationIsShownWhenItIsBaked) {
@@ -137,13 +168,9 @@ TEST_F(HudWindow, TheNextRepresentationIsShownWhenItIsBaked) {
 
 TEST_F(HudWindow, ThePixelsErrorBecomesWhatEvaluatePrintsWhenMaterialAndProbeChange) {
     ROWLAND_NEEDS_XVFB();
-    // The second probe is the first with its rows turned over.
     const std::string folder = folder_.path().string();
-    std::string sky = read_text_file(folder_.path() / "sky.hdr", 1 << 20);
-    const std::size_t texels = sky.size() - 32 * 16 * 4;
-    std::string turned = sky.substr(0, texels);
-    for (int row = 15; row >= 0; --row) turned += sky.substr(texels + static_cast<std::size_t>(row) * 128, 128);
-    write_file_atomic(folder_.path() / "turned.hdr", turned);
+    const std::string sky = read_text_file(folder_.path() / "sky.hdr", 1 << 20);
+    write_file_atomic(folder_.path() / "turned.hdr", turned_sky());
     write_file_atomic(folder_.path() / "first.hdr", sky);
     write_file_atomic(folder_.path() / "first.json", material("1600"));
     play({"at:590,240", "pixel:30", "shot", "run:cp " + folder + "/other.json " + folder + "/grating.json", "other:20",

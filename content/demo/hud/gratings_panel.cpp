@@ -6,6 +6,7 @@
 
 #include "content/demo/hud/memory.h"
 #include "content/demo/hud/panel.h"
+#include "content/demo/object_name.h"
 #include "modules/diffraction/asset/representation.h"
 
 namespace rowland::demo {
@@ -37,7 +38,8 @@ std::string title_of(Comparison& comparison, ecs::Entity grating, Side side) {
     return std::string(diffraction::representation_name(index)) + " (cooked)";
 }
 
-void look_choice(Comparison& comparison, const Object& object, Side side) {
+void look_choice(const Panel& panel, const Object& object, Side side) {
+    Comparison& comparison = panel.comparison();
     const ecs::Entity example = object.parts.front();
     ImGui::PushID(static_cast<int>(side));
     ImGui::SetNextItemWidth(-1.0F);
@@ -46,8 +48,9 @@ void look_choice(Comparison& comparison, const Object& object, Side side) {
         for (const Detail detail : {Detail::Usual, Detail::Coarse, Detail::Fine})
             for (const Look& look : looks_of(subject, detail)) {
                 if (look.own() && detail != Detail::Usual) continue;
-                if (!ImGui::Selectable(look_name(look).c_str(), look == comparison.look(example, side))) continue;
-                for (const ecs::Entity part : object.parts) comparison.set_look(part, side, look);
+                const std::string name = look_name(look);
+                if (ImGui::Selectable(name.c_str(), look == comparison.look(example, side)))
+                    panel.set(look_setting(side), name, object.name);
             }
         ImGui::EndCombo();
     }
@@ -79,10 +82,10 @@ void object_row(const Panel& panel, const Object& object) {
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(object.name.c_str());
     ImGui::TableNextColumn();
-    look_choice(comparison, object, Side::Left);
+    look_choice(panel, object, Side::Left);
     if (comparison.wiping()) {
         ImGui::TableNextColumn();
-        look_choice(comparison, object, Side::Right);
+        look_choice(panel, object, Side::Right);
     }
     ImGui::TableNextColumn();
     ImGui::TextDisabled("%s", readable_bytes(bytes_of_tables(comparison, object.parts)).c_str());

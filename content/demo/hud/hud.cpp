@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "content/demo/object_name.h"
 #include "content/demo/pixel/surface_point.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
@@ -35,6 +36,7 @@ struct ForPlay {
     }
     bool operator()(const ResizeEvent&) const { return true; }
     bool operator()(const ActionEvent&) const { return true; }
+    bool operator()(const SettingEvent&) const { return true; }
 };
 
 }  // namespace
@@ -90,6 +92,10 @@ bool Hud::perform(Action action) {
     }
 }
 
+Panel Hud::panel() {
+    return {options_, session_, called_for_, reference_};
+}
+
 glm::dvec2 Hud::pointer() const {
     return session_.play().walking() ? 0.5 * glm::dvec2(window_) : input_.mouse_position();
 }
@@ -119,26 +125,24 @@ void Hud::choose_look(bool detail) {
     const ecs::Entity example = under_cursor ? under_cursor->grating : gratings.front();
     const Look& present = comparison.look(example, side);
     const Look next = detail ? next_detail(present) : next_representation(comparison.subject(example), present);
-    if (under_cursor)
-        comparison.set_look(example, side, next);
-    else
-        comparison.set_look_of_all(side, next);
-    log_info("{}: {}", under_cursor ? name_of_object(session_.play().world(), example) : "all", look_name(next));
+    const std::string object = under_cursor ? name_of_object(session_.play().world(), example) : std::string();
+    panel().set(look_setting(side), look_name(next), object);
+    log_info("{}: {}", object.empty() ? "all" : object, look_name(next));
 }
 
 /// The first wipe is of the paper's method against what the scene is made with.
 void Hud::toggle_wipe() {
     Comparison& comparison = session_.comparison();
-    comparison.set_wiping(!comparison.wiping());
-    if (!comparison.wiping()) return;
+    panel().set(Setting::Wipe, comparison.wiping() ? 0.0 : 1.0);
+    if (comparison.wiping()) return;
     for (const ecs::Entity grating : comparison.gratings())
         if (!(comparison.look(grating, Side::Left) == comparison.look(grating, Side::Right))) return;
-    comparison.set_look_of_all(Side::Right, {.representation = "spikes"});
+    panel().set(Setting::RightLook, look_name({.representation = "spikes"}));
 }
 
 void Hud::toggle_reference() {
     reference_ = !reference_;
-    if (reference_) session_.comparison().set_wiping(true);
+    if (reference_) panel().set(Setting::Wipe, 1.0);
 }
 
 PixelProbe Hud::probe() const {
@@ -222,7 +226,7 @@ void Hud::write_pixel() {
     }
 }
 
-void Hud::main_window(Panel& panel) {
+void Hud::main_window() {
     const ImGuiIO& io = ImGui::GetIO();
     const float width = (session_.comparison().wiping() ? 28.0F : 21.0F) * ImGui::GetFontSize();
     ImGui::SetNextWindowPos({10.0F, 10.0F});
@@ -232,7 +236,7 @@ void Hud::main_window(Panel& panel) {
     if (ImGui::Begin("Rowland", nullptr, flags)) {
         const auto section = [&](const char* name, void (*contents)(const Panel&), bool open) {
             if (ImGui::CollapsingHeader(name, open ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None))
-                contents(panel);
+                contents(panel());
         };
         ImGui::PushItemWidth(-5.0F * ImGui::GetFontSize());
         section("Light", light_panel, true);
@@ -245,14 +249,15 @@ void Hud::main_window(Panel& panel) {
 }
 
 void Hud::build() {
-    Panel panel{options_, session_, called_for_, reference_};
     show_reference();
     if (session_.comparison().wiping())
-        wipe_line(session_.comparison(), name_of_all(Side::Left), name_of_all(Side::Right));
+        if (const auto line =
+                wipe_line(session_.comparison().line(), name_of_all(Side::Left), name_of_all(Side::Right)))
+            panel().set(Setting::WipeLine, *line);
     if (panels_) {
         measure_pixel();
         meter_.poll();
-        main_window(panel);
+        main_window();
         // Help lies where the pixel is.
         if (!help_ && pixel_window(target_ ? &*target_ : nullptr, meter_, session_.picture().xyz_to_working()))
             write_pixel();

@@ -41,6 +41,7 @@ class Hud {
     std::optional<Pointed> pointed() const;
     glm::dvec2 pointer() const;
     Side side_of_pointer() const;
+    Panel panel();
     void choose_look(bool detail);
     void toggle_wipe();
     void toggle_reference();
@@ -48,7 +49,7 @@ class Hud {
     PixelProbe probe() const;
     void measure_pixel();
     void write_pixel();
-    void main_window(Panel& panel);
+    void main_window();
     std::string name_of_all(Side side);
 
     const Options& options_;

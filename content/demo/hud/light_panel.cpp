@@ -6,8 +6,6 @@
 
 #include "content/demo/assets.h"
 #include "content/demo/hud/panel.h"
-#include "engine/core/error.h"
-#include "engine/core/log.h"
 
 namespace rowland::demo {
 
@@ -17,12 +15,8 @@ void probe_choice(const Panel& panel) {
     const std::filesystem::path& present = panel.session.probe_path();
     if (!ImGui::BeginCombo("probe", present.stem().string().c_str())) return;
     for (const std::filesystem::path& path : probe_paths(panel.options)) {
-        if (!ImGui::Selectable(path.stem().string().c_str(), path == present)) continue;
-        try {
-            panel.session.use_probe(path);
-        } catch (const Error& error) {
-            log_error("{}", error.what());
-        }
+        if (ImGui::Selectable(path.stem().string().c_str(), path == present))
+            panel.set(Setting::Probe, path.stem().string());
     }
     ImGui::EndCombo();
 }

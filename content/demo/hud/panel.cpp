@@ -3,8 +3,6 @@
 #include <imgui.h>
 
 #include "content/demo/play/key_name.h"
-#include "engine/scene/node_label.h"
-#include "engine/scene/transform.h"
 
 namespace rowland::demo {
 
@@ -26,17 +24,6 @@ void action_check_box(const Panel& panel, Action action, const char* label, bool
     bool wanted = on;
     if (ImGui::Checkbox(label, &wanted)) panel.call_for(action);
     key_tooltip(action);
-}
-
-std::string name_of_object(ecs::World& world, ecs::Entity entity) {
-    while (world.alive(entity)) {
-        if (const auto* label = world.find<scene::NodeLabel>(entity); label != nullptr && !label->name.empty())
-            return label->name;
-        const auto* parent = world.find<scene::Parent>(entity);
-        if (parent == nullptr) break;
-        entity = parent->entity;
-    }
-    return "grating";
 }
 
 }  // namespace rowland::demo

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "content/demo/looks/comparison.h"
@@ -10,7 +13,7 @@
 
 namespace rowland::demo {
 
-/// What the panels show and change. What a key does too is not done here but called for, so that it is recorded.
+/// What the panels show. What they are to change is not done here but called for, so that it is recorded.
 struct Panel {
     const Options& options;
     Session& session;
@@ -18,6 +21,9 @@ struct Panel {
     bool reference = false;  ///< its still is wanted
 
     void call_for(Action action) const { called_for.emplace_back(ActionEvent{action}); }
+    void set(Setting setting, std::variant<double, std::string> value, std::string object = {}) const {
+        called_for.emplace_back(SettingEvent{setting, std::move(value), std::move(object)});
+    }
     Comparison& comparison() const { return session.comparison(); }
 };
 
@@ -30,8 +36,5 @@ void gratings_panel(const Panel& panel);
 /// A control for an action, with its key in the tooltip. A check box returns nothing: the action turns it over.
 void action_button(const Panel& panel, Action action, const char* label);
 void action_check_box(const Panel& panel, Action action, const char* label, bool on);
-
-/// How an object is called: the name of the nearest node above it that has one.
-std::string name_of_object(ecs::World& world, ecs::Entity entity);
 
 }  // namespace rowland::demo

@@ -3,8 +3,6 @@
 #include <string>
 
 #include "content/demo/hud/panel.h"
-#include "engine/core/error.h"
-#include "engine/core/log.h"
 
 namespace rowland::demo {
 
@@ -13,35 +11,36 @@ namespace {
 void view_choice(const Panel& panel) {
     if (!ImGui::BeginCombo("view", panel.session.view().c_str())) return;
     for (const std::string& view : panel.session.views()) {
-        if (!ImGui::Selectable(view.c_str(), view == panel.session.view())) continue;
-        try {
-            panel.session.use_view(view);
-        } catch (const Error& error) {
-            log_error("{}", error.what());
-        }
+        if (ImGui::Selectable(view.c_str(), view == panel.session.view())) panel.set(Setting::View, view);
     }
     ImGui::EndCombo();
 }
 
-void share_slider(const char* label, float& share, float most) {
+void slider(const Panel& panel, Setting setting, const char* label, float value, const char* format) {
+    const SettingKind::Range range = kind_of(setting).range.value();
+    if (ImGui::SliderFloat(label, &value, static_cast<float>(range.minimum), static_cast<float>(range.maximum), format,
+                           ImGuiSliderFlags_AlwaysClamp))
+        panel.set(setting, static_cast<double>(value));
+}
+
+void strength_slider(const Panel& panel, Setting setting, const char* label, float strength) {
     ImGui::SameLine(ImGui::GetFontSize() * 7.5F);
     ImGui::SetNextItemWidth(-1.0F);
-    ImGui::SliderFloat(label, &share, 0.0F, most, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+    slider(panel, setting, label, strength, "%.2f");
 }
 
 }  // namespace
 
 void picture_panel(const Panel& panel) {
-    constexpr float kMostStops = 12.0F;
-    post::PostSettings& post = panel.session.picture().post_settings();
-    ImGui::SliderFloat("exposure", &post.exposure_stops, -kMostStops, kMostStops, "%+.2f stops");
+    const post::PostSettings& post = panel.session.picture().post_settings();
+    slider(panel, Setting::Exposure, "exposure", post.exposure_stops, "%+.2f stops");
     action_check_box(panel, Action::AutoExposure, "automatic", post.auto_exposure.has_value());
     ImGui::SameLine();
     ImGui::TextDisabled("%+.2f stops in all", static_cast<double>(panel.session.picture().exposure_stops()));
     action_check_box(panel, Action::Bloom, "blur", post.bloom.has_value());
-    if (post.bloom) share_slider("##bloom", post.bloom->strength, 1.0F);
+    if (post.bloom) strength_slider(panel, Setting::Bloom, "##bloom", post.bloom->strength);
     action_check_box(panel, Action::Vignette, "vignette", post.vignette.has_value());
-    if (post.vignette) share_slider("##vignette", post.vignette->strength, 1.0F);
+    if (post.vignette) strength_slider(panel, Setting::Vignette, "##vignette", post.vignette->strength);
     action_check_box(panel, Action::Dither, "dither", post.dither.has_value());
     view_choice(panel);
 }

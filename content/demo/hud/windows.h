@@ -1,6 +1,8 @@
 #pragma once
 
 #include <deque>
+#include <optional>
+#include <string>
 
 #include "content/demo/hud/panel.h"
 #include "engine/gpu/pass_times.h"
@@ -22,8 +24,8 @@ struct PixelTarget {
 /// How far the pixel under the cursor is from the reference. True if the reading is to be written to a file.
 bool pixel_window(const PixelTarget* target, const PixelMeter& meter, const glm::dmat3& xyz_to_working);
 
-/// The line between two looks, which can be dragged, and their names beside it.
-void wipe_line(Comparison& comparison, const std::string& left, const std::string& right);
+/// The line between two looks, at a share of the width, and their names beside it. Where it is dragged to, if it is.
+std::optional<double> wipe_line(float line, const std::string& left, const std::string& right);
 
 /// A line at the bottom that says where help is.
 void hint_line();

@@ -22,9 +22,9 @@ void plate(ImDrawList* list, float x, float y, const std::string& text, bool to_
 
 }  // namespace
 
-void wipe_line(Comparison& comparison, const std::string& left, const std::string& right) {
+std::optional<double> wipe_line(float line, const std::string& left, const std::string& right) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
-    const float x = comparison.line() * size.x;
+    const float x = line * size.x;
     ImGui::SetNextWindowPos({x - 0.5F * kGrabWidth, 0.0F});
     ImGui::SetNextWindowSize({kGrabWidth, size.y});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0F, 0.0F});
@@ -35,7 +35,8 @@ void wipe_line(Comparison& comparison, const std::string& left, const std::strin
                      ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav);
     ImGui::InvisibleButton("line", {kGrabWidth, size.y});
     const bool held = ImGui::IsItemActive();
-    if (held && size.x > 0.0F) comparison.set_line(ImGui::GetIO().MousePos.x / size.x);
+    std::optional<double> moved;
+    if (held && size.x > 0.0F) moved = std::clamp(static_cast<double>(ImGui::GetIO().MousePos.x / size.x), 0.0, 1.0);
     const bool hot = held || ImGui::IsItemHovered();
     ImGui::End();
     ImGui::PopStyleVar(2);
@@ -47,6 +48,7 @@ void wipe_line(Comparison& comparison, const std::string& left, const std::strin
     list->AddCircleFilled({x, 0.5F * size.y}, kHandleRadius, colour);
     plate(list, x - 8.0F, 10.0F, left, true);
     plate(list, x + 8.0F, 10.0F, right, false);
+    return moved;
 }
 
 }  // namespace rowland::demo

@@ -49,6 +49,14 @@ std::string look_name(const Look& look) {
     return look.representation + ", " + detail_name(look.detail);
 }
 
+std::optional<Look> look_named(std::string_view name) {
+    if (name == look_name({})) return Look{};
+    for (const char* representation : kRepresentations)
+        for (const Detail detail : {Detail::Usual, Detail::Coarse, Detail::Fine})
+            if (const Look look{representation, detail}; look_name(look) == name) return look;
+    return std::nullopt;
+}
+
 std::optional<diffraction::Material> with_look(const LookSubject& subject, const Look& look) {
     if (look.own()) return subject.material;
     if (look.representation == "planar" && !subject.flat) return std::nullopt;

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "modules/diffraction/asset/material.h"
@@ -24,6 +25,8 @@ struct Look {
 
 /// "as cooked", or "arc, fine".
 std::string look_name(const Look& look);
+/// Its inverse; nothing for another text.
+std::optional<Look> look_named(std::string_view name);
 
 /// What a look is baked from: the grating of an object, and what of the object it depends on.
 struct LookSubject {

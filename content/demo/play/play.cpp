@@ -71,7 +71,8 @@ void Play::apply(const PlayEvent& event) {
     if (const auto* input = std::get_if<platform::InputEvent>(&event)) input_.apply(*input);
     if (const auto* resize = std::get_if<ResizeEvent>(&event)) window_ = glm::max(resize->size, glm::ivec2(1));
     if (const auto* chosen = std::get_if<ActionEvent>(&event))
-        if (!perform(chosen->action)) actions_.push_back(chosen->action);
+        if (!perform(chosen->action)) orders_.emplace_back(chosen->action);
+    if (const auto* setting = std::get_if<SettingEvent>(&event)) orders_.emplace_back(*setting);
 }
 
 void Play::read_keys() {
@@ -85,7 +86,7 @@ void Play::read_keys() {
         }
         held_steps_[i] = state.down ? held_steps_[i] + 1 : 0;
         const bool acts = state.pressed || (rows[i].repeats && acts_again(held_steps_[i]));
-        if (acts && !perform(rows[i].action)) actions_.push_back(rows[i].action);
+        if (acts && !perform(rows[i].action)) orders_.emplace_back(rows[i].action);
     }
 }
 
@@ -131,8 +132,8 @@ bool Play::perform(Action action) {
     }
 }
 
-std::vector<Action> Play::take_actions() {
-    return std::exchange(actions_, {});
+std::vector<Play::Order> Play::take_orders() {
+    return std::exchange(orders_, {});
 }
 
 double Play::speed() const {

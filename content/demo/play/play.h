@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <variant>
 #include <vector>
 
 #include "content/demo/play/action.h"
@@ -50,8 +51,9 @@ class Play {
 
     /// One step, with what the user did meanwhile.
     void step(std::span<const PlayEvent> events);
-    /// The actions since the last call that are for others to carry out, in order.
-    std::vector<Action> take_actions();
+    /// What was called for since the last call that is for others to carry out, in order.
+    using Order = std::variant<Action, SettingEvent>;
+    std::vector<Order> take_orders();
     /// Carries out an action if it is one of the play's own; false if it is for others.
     bool perform(Action action);
 
@@ -93,7 +95,7 @@ class Play {
     glm::ivec2 window_;
     Pose pose_;
     platform::InputState input_;
-    std::vector<Action> actions_;
+    std::vector<Order> orders_;
     PlayerLights lights_;
     std::optional<Hand> hand_;
     std::vector<int> held_steps_;  ///< for how many steps each action's key is down

@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "content/demo/play/action.h"
+#include "content/demo/play/setting.h"
 #include "engine/platform/input.h"
 
 namespace rowland::demo {
@@ -18,6 +19,6 @@ struct ActionEvent {
 };
 
 /// All that a play depends on besides the scene: the same events at the same steps make the same play.
-using PlayEvent = std::variant<platform::InputEvent, ResizeEvent, ActionEvent>;
+using PlayEvent = std::variant<platform::InputEvent, ResizeEvent, ActionEvent, SettingEvent>;
 
 }  // namespace rowland::demo

@@ -13,6 +13,7 @@
 #include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/core/json_reader.h"
+#include "engine/core/utf8.h"
 
 namespace rowland::demo {
 
@@ -64,6 +65,16 @@ ordered_json line_of(const ResizeEvent& event, std::uint64_t step) {
 
 ordered_json line_of(const ActionEvent& event, std::uint64_t step) {
     return {{"step", step}, {"action", row_of(event.action).name}};
+}
+
+ordered_json line_of(const SettingEvent& event, std::uint64_t step) {
+    ordered_json line{{"step", step}, {"set", kind_of(event.setting).name}};
+    if (!event.object.empty()) line["of"] = valid_utf8(event.object);
+    if (const auto* number = std::get_if<double>(&event.value))
+        line["to"] = *number;
+    else
+        line["to"] = valid_utf8(std::get<std::string>(event.value));
+    return line;
 }
 
 /// A required truth value.
@@ -118,6 +129,19 @@ PlayEvent action_event(JsonReader& reader) {
     return ActionEvent{*action};
 }
 
+PlayEvent setting_event(JsonReader& reader) {
+    const std::string name = reader.text("set");
+    const auto setting = setting_named(name);
+    if (!setting) reader.fail("set", name, "a setting, as \"exposure\"");
+    SettingEvent event{.setting = *setting, .value = {}};
+    if (const auto& range = kind_of(*setting).range)
+        event.value = reader.number("to", {range->minimum, range->maximum});
+    else
+        event.value = reader.text("to");
+    if (reader.has("of")) event.object = reader.text("of");
+    return event;
+}
+
 PlayEvent event_of(JsonReader& reader) {
     if (reader.has("key")) return key_event(reader);
     if (reader.has("button")) return button_event(reader);
@@ -128,7 +152,8 @@ PlayEvent event_of(JsonReader& reader) {
     if (reader.has("pad")) return platform::InputEvent(pad_of(reader.object("pad")));
     if (reader.has("window")) return ResizeEvent{window_size(reader)};
     if (reader.has("action")) return action_event(reader);
-    reader.fail("", "no event", "key, button, mouse, scroll, focused, captured, pad, window, action or end");
+    if (reader.has("set")) return setting_event(reader);
+    reader.fail("", "no event", "key, button, mouse, scroll, focused, captured, pad, window, action, set or end");
 }
 
 RecordingHead head_of(const nlohmann::json& line, const std::string& file) {

@@ -56,6 +56,19 @@ TEST(Look, TheNextOneGoesRoundAllThatSuitAndComesBack) {
     }
 }
 
+TEST(Look, IsFoundByItsName) {
+    for (const Detail detail : {Detail::Coarse, Detail::Usual, Detail::Fine})
+        for (const bool flat : {false, true})
+            for (const Look& look : looks_of(subject(R"("flat")", flat), detail)) {
+                const auto found = look_named(look_name(look));
+                ASSERT_TRUE(found) << look_name(look);
+                EXPECT_EQ(look_name(*found), look_name(look));
+                EXPECT_EQ(found->representation, look.representation);
+            }
+    EXPECT_EQ(look_named("arc"), std::nullopt);
+    EXPECT_EQ(look_named(""), std::nullopt);
+}
+
 TEST(Look, DetailGoesUpAndRound) {
     Look look{.representation = "arc", .detail = Detail::Coarse};
     EXPECT_EQ((look = next_detail(look)).detail, Detail::Usual);

@@ -264,9 +264,9 @@ TEST(DemoPlay, AWalkerStaysInTheRoomAndEscapeEndsTheWalkFirst) {
     EXPECT_EQ(play.camera().eye.z, -2.0F);
     tap(play, Key::Escape);
     EXPECT_FALSE(play.walking());
-    EXPECT_TRUE(play.take_actions().empty());
+    EXPECT_TRUE(play.take_orders().empty());
     tap(play, Key::Escape);
-    EXPECT_EQ(play.take_actions(), std::vector{Action::Close});
+    EXPECT_EQ(play.take_orders(), std::vector<Play::Order>{Action::Close});
 }
 
 TEST(DemoPlay, TheViewStaysWhereTheWalkEnded) {
@@ -321,8 +321,8 @@ TEST(DemoPlay, AnActionChosenInAMenuIsAsGoodAsItsKey) {
     Play play = small.play();
     play.step(std::vector<PlayEvent>{ActionEvent{Action::Pause}, ActionEvent{Action::NextProbe}});
     EXPECT_TRUE(play.paused());
-    EXPECT_EQ(play.take_actions(), std::vector{Action::NextProbe});
-    EXPECT_TRUE(play.take_actions().empty());
+    EXPECT_EQ(play.take_orders(), std::vector<Play::Order>{Action::NextProbe});
+    EXPECT_TRUE(play.take_orders().empty());
 }
 
 TEST(DemoPlay, ASceneLoadedAnewKeepsWhatItsObjectsBecame) {

@@ -45,7 +45,10 @@ std::vector<PlayEvent> one_of_each() {
             platform::InputEvent(platform::CursorCaptureEvent{true}),
             platform::InputEvent(pad),
             ResizeEvent{{800, 600}},
-            ActionEvent{Action::AutoExposure}};
+            ActionEvent{Action::AutoExposure},
+            SettingEvent{Setting::Exposure, -1.0 / 3.0},
+            SettingEvent{Setting::Probe, "night \"1\""},
+            SettingEvent{Setting::LeftLook, "arc, fine", "disc"}};
 }
 
 TEST_F(DemoRecording, EveryKindOfEventComesBackExactly) {
@@ -74,6 +77,8 @@ TEST_F(DemoRecording, EveryKindOfEventComesBackExactly) {
     EXPECT_TRUE(std::get<platform::GamepadEvent>(input(6)).buttons[4]);
     EXPECT_EQ(std::get<ResizeEvent>(events[7]).size, glm::ivec2(800, 600));
     EXPECT_EQ(std::get<ActionEvent>(events[8]).action, Action::AutoExposure);
+    for (const std::size_t i : {9U, 10U, 11U})
+        EXPECT_EQ(std::get<SettingEvent>(events[i]), std::get<SettingEvent>(one_of_each()[i])) << i;
     EXPECT_FALSE(std::get<platform::KeyEvent>(std::get<platform::InputEvent>(recording.events_at(7)[0])).down);
 }
 
@@ -106,6 +111,10 @@ TEST_F(DemoRecording, DamagedLinesAreRefusedByTheirNumber) {
     EXPECT_THAT(with("{\"step\":1,\"mouse\":[1,2],\"moose\":1}\n"), HasSubstr("moose"));
     EXPECT_THAT(with("{\"step\":1,\"button\":\"fourth\",\"down\":true}\n"), HasSubstr("fourth"));
     EXPECT_THAT(with("{\"step\":1,\"action\":\"fly\"}\n"), HasSubstr("fly"));
+    EXPECT_THAT(with("{\"step\":1,\"set\":\"mood\",\"to\":1}\n"), HasSubstr("mood"));
+    EXPECT_THAT(with("{\"step\":1,\"set\":\"exposure\",\"to\":13}\n"), HasSubstr("[-12, 12]"));
+    EXPECT_THAT(with("{\"step\":1,\"set\":\"exposure\",\"to\":\"1\"}\n"), HasSubstr("to"));
+    EXPECT_THAT(with("{\"step\":1,\"set\":\"probe\",\"to\":1}\n"), HasSubstr("to"));
     EXPECT_THAT(with("{\"step\":1,\"pad\":{\"connected\":true,\"axes\":[0],\"buttons\":[]}}\n"), HasSubstr("axes"));
     EXPECT_THAT(with("{\"step\":5,\"mouse\":[1,2]}\n{\"step\":4,\"mouse\":[1,2]}\n"), HasSubstr("line 3"));
     EXPECT_THAT(with("{\"step\":5,\"end\":true}\n{\"step\":6,\"mouse\":[1,2]}\n"), HasSubstr("after the end"));

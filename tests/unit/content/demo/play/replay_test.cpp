@@ -179,7 +179,7 @@ TEST(DemoReplay, FramesShorterThanAStepLoseNothing) {
     EXPECT_EQ(play.steps(), 0U);
     clock.live(play, std::chrono::milliseconds(9), {}, nullptr);
     EXPECT_EQ(play.steps(), 1U);
-    EXPECT_EQ(play.take_actions().size(), 10U);
+    EXPECT_EQ(play.take_orders().size(), 10U);
 }
 
 }  // namespace

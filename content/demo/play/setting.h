@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+
+namespace rowland::demo {
+
+/// What the user sets to a value of his own, say with a slider, where an action only goes on to the next.
+enum class Setting { Exposure, Bloom, Vignette, Wipe, WipeLine, Probe, View, LeftLook, RightLook };
+
+/// What a setting may be. Those without a range are texts.
+struct SettingKind {
+    Setting setting;
+    const char* name;  ///< as recordings write it
+    struct Range {
+        double minimum;
+        double maximum;
+    };
+    std::optional<Range> range;
+};
+
+/// One row a setting.
+std::span<const SettingKind> setting_kinds();
+const SettingKind& kind_of(Setting setting);
+std::optional<Setting> setting_named(std::string_view name);
+
+struct SettingEvent {
+    Setting setting;
+    std::variant<double, std::string> value;  ///< a number within the range, or a text
+    std::string object = {};                  ///< whose look it is; empty: all of them
+
+    friend bool operator==(const SettingEvent&, const SettingEvent&) = default;
+};
+
+}  // namespace rowland::demo
