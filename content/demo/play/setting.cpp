@@ -7,6 +7,7 @@ namespace rowland::demo {
 
 namespace {
 
+/// One row a setting.
 constexpr std::array<SettingKind, 9> kKinds{{
     {Setting::Exposure, "exposure", {{-12.0, 12.0}}},
     {Setting::Bloom, "bloom", {{0.0, 1.0}}},
@@ -20,10 +21,6 @@ constexpr std::array<SettingKind, 9> kKinds{{
 }};
 
 }  // namespace
-
-std::span<const SettingKind> setting_kinds() {
-    return kKinds;
-}
 
 const SettingKind& kind_of(Setting setting) {
     return *std::ranges::find(kKinds, setting, &SettingKind::setting);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -22,8 +21,6 @@ struct SettingKind {
     std::optional<Range> range;
 };
 
-/// One row a setting.
-std::span<const SettingKind> setting_kinds();
 const SettingKind& kind_of(Setting setting);
 std::optional<Setting> setting_named(std::string_view name);
 
