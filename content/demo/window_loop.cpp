@@ -22,6 +22,7 @@
 #include "engine/gpu/debug.h"
 #include "engine/platform/frame_pacing.h"
 #include "engine/platform/window.h"
+#include "modules/diffraction/runtime/diffraction_surface.h"
 
 namespace rowland::demo {
 
@@ -151,10 +152,10 @@ class WindowLoop {
             return;
         }
         Play& play = session_.play();
-        window_.set_title(fmt::format("Rowland: {:.1f} ms a frame, {}, {:+.2f} stops, {} lights{}",
-                                      times_.statistics().median_ms, session_.view(),
-                                      session_.picture().post_settings().exposure_stops, light_count(play.world()),
-                                      play.paused() ? ", paused" : ""));
+        window_.set_title(fmt::format(
+            "Rowland: {:.1f} ms a frame, {}, {:+.2f} stops, {} lights{}{}", times_.statistics().median_ms,
+            session_.view(), session_.picture().post_settings().exposure_stops, light_count(play.world()),
+            play.paused() ? ", paused" : "", diffraction::maps_are_filling(play.world()) ? ", filling maps" : ""));
     }
 
     const Options& options_;

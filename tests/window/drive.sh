@@ -4,7 +4,8 @@
 # dragat:X,Y,DX,DY, throw:X,Y,DX,DY (a drag that is let go in motion), down:KEY, up:KEY, log:SECONDS,TEXT (waits, at most
 # so long, until the demo has said that), shot (F12, and waits for the file), pixel:SECONDS (F8 until a measured pixel is
 # written, at most so long), run:COMMAND, wait:SECONDS, drop:FILE (with the program $DROP_FILES), other:SECONDS (shots
-# until one differs from the last, at most so long), settle:SECONDS (shots until one is as the last). Shots lie in FOLDER
+# until one differs from the last, at most so long), settle:SECONDS (shots until one is as the last), filled:SECONDS
+# (waits, at most so long, until the window's title no longer says that maps are being filled). Shots lie in FOLDER
 # as shot_1.png and so on. Ends with the demo's own exit status, after Escape.
 set -u
 screen=1024x768
@@ -95,6 +96,14 @@ await() {
         sleep 0.2
     done
 }
+filled() {
+    local end=$((SECONDS + $1)) title
+    sleep 0.6 # the title is renewed every half a second
+    while title=$(xdotool getwindowname "$window") && [ "$SECONDS" -lt "$end" ]; do
+        [[ "$title" == *" ms a frame"* && "$title" != *"filling maps"* ]] && break
+        sleep 0.2
+    done
+}
 # The first picture tells that the demo is drawing; it is not one of the test's.
 take
 
@@ -132,6 +141,7 @@ for action in "${actions[@]}"; do
         pixel) pixel "$value" ;;
         other) other "$value" ;;
         settle) settle "$value" ;;
+        filled) filled "$value" ;;
         wait) sleep "$value" ;;
         drop) "$DROP_FILES" "$window" "$value" || echo "drive.sh: $value was not taken" >&2 ;;
         run) eval "$value" ;;

@@ -141,7 +141,9 @@ TEST_F(InspectorWindow, WhatIsRefusedIsSaidAndNothingIsLost) {
     const auto open = [&](const std::string& name) {
         return std::vector<std::string>{"key:ctrl+o", "type:" + path(name), "key:Return", "until:message=" + name};
     };
-    std::vector<std::string> actions = {"click:/grating/orders",
+    // A message stays until the next one.
+    std::vector<std::string> actions = {"until:message=the light",
+                                        "click:/grating/orders",
                                         "key:ctrl+a",
                                         "type:1 x",
                                         "key:Return",

@@ -71,7 +71,7 @@ class PlayWindow : public ::testing::Test {
 
 TEST_F(PlayWindow, ADraggedDiscTurnsAndNothingElseDoes) {
     ROWLAND_NEEDS_XVFB();
-    play({"key:space", "shot", "shot", "dragat:" + kOnDisc + ",14,9", "wait:1", "shot"});
+    play({"key:space", "filled:180", "shot", "shot", "dragat:" + kOnDisc + ",14,9", "wait:1", "shot"});
     EXPECT_EQ(difference(1, 2, kDisc), 0.0);
     // Measured: 50. The wall behind the lifted disc would do, too.
     EXPECT_GT(difference(2, 3, kDisc), 10.0);
@@ -81,15 +81,16 @@ TEST_F(PlayWindow, ADraggedDiscTurnsAndNothingElseDoes) {
 TEST_F(PlayWindow, AThrownDiscTurnsOnByItself) {
     ROWLAND_NEEDS_XVFB();
     // Paused, a throw waits; what differs after that nobody's hand did.
-    play({"key:space", "throw:" + kOnDisc + ",60,30", "wait:1", "shot", "shot", "key:space", "wait:2", "key:space",
-          "wait:1", "shot"});
+    play({"key:space", "filled:180", "throw:" + kOnDisc + ",60,30", "wait:1", "filled:180", "shot", "shot", "key:space",
+          "wait:2", "key:space", "wait:1", "filled:180", "shot"});
     EXPECT_EQ(difference(1, 2, kDisc), 0.0);
     EXPECT_GT(difference(2, 3, kDisc), 10.0);
 }
 
 TEST_F(PlayWindow, OneThatNobodyThrewOnlyTurnsInItsPlane) {
     ROWLAND_NEEDS_XVFB();
-    play({"key:space", "shot", "shot", "key:space", "wait:1", "key:space", "wait:1", "shot"});
+    play({"key:space", "filled:180", "shot", "shot", "key:space", "wait:1", "key:space", "wait:1", "filled:180",
+          "shot"});
     EXPECT_LT(difference(2, 3, kDisc), 10.0);
 }
 
@@ -107,8 +108,8 @@ TEST_F(PlayWindow, LightsAreAddedUpToTheMostAndTakenAway) {
 
 TEST_F(PlayWindow, AWalkGoesForwardAndEscapeOnlyEndsIt) {
     ROWLAND_NEEDS_XVFB();
-    play({"key:space", "shot", "key:c", "wait:0.5", "shot", "down:w", "wait:1", "up:w", "settle:60", "key:Escape",
-          "wait:0.5", "settle:60"});
+    play({"key:space", "filled:180", "shot", "key:c", "wait:0.5", "shot", "down:w", "wait:1", "up:w", "settle:60",
+          "key:Escape", "wait:0.5", "settle:60"});
     // The walk starts where the orbit was, but for rounding.
     EXPECT_LT(difference(1, 2, {0, 0, kWidth, kHeight}), 0.5);
     EXPECT_GT(difference(2, 3, {0, 0, kWidth, kHeight}), 5.0);
@@ -118,8 +119,8 @@ TEST_F(PlayWindow, AWalkGoesForwardAndEscapeOnlyEndsIt) {
 
 TEST_F(PlayWindow, TheEnvironmentTurnsThereAndBack) {
     ROWLAND_NEEDS_XVFB();
-    play({"key:space", "shot", "key:comma", "key:comma", "key:comma", "wait:3", "shot", "key:period", "key:period",
-          "key:period", "wait:3", "shot"});
+    play({"key:space", "filled:180", "shot", "key:comma", "key:comma", "key:comma", "wait:1", "filled:180", "shot",
+          "key:period", "key:period", "key:period", "wait:1", "filled:180", "shot"});
     const double there = difference(1, 2, {0, 0, kWidth, kHeight});
     EXPECT_GT(there, 1.0);
     // Maps may still be filling for the light as it stands again.
@@ -156,8 +157,8 @@ TEST_F(PlayWindow, ASavedSceneIsShownAndWhatWasTurnedStaysTurned) {
     other.replace(other.find(plaster), plaster.size(), R"("name": "plaster", "color": [0.75, 0.05, 0.75])");
     write_file_atomic(source, text);
     write_file_atomic(source.string() + ".other", other);
-    play({"key:space", "dragat:" + kOnDisc + ",14,9", "wait:2", "shot",
-          "run:cp " + source.string() + ".other " + source.string(), "other:30", "wait:1", "shot"},
+    play({"key:space", "dragat:" + kOnDisc + ",14,9", "wait:1", "filled:180", "shot",
+          "run:cp " + source.string() + ".other " + source.string(), "other:30", "wait:1", "filled:180", "shot"},
          "--cooked-folder " + cooked.string() + " --content-folder " + (folder_.path() / "content").string());
     EXPECT_GT(difference(1, 3, kDiffuseSphere), 10.0);
     // Its colours may be those of another moment of the maps' filling; its place and outline are the same.

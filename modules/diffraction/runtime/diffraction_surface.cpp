@@ -115,6 +115,15 @@ void DiffractionSurfaceType::update(ecs::World& world, const render::FrameLight&
         });
 }
 
+bool maps_are_filling(ecs::World& world) {
+    bool filling = false;
+    world.view<DiffractionSurface, SurfaceState>().each(
+        [&](ecs::Entity, const DiffractionSurface& surface, const SurfaceState& state) {
+            filling = filling || surface.material->filling(state);
+        });
+    return filling;
+}
+
 void DiffractionSurfaceType::bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const {
     world.get<DiffractionSurface>(entity).material->bind(program, light_, world.get<SurfaceState>(entity));
 }

@@ -30,6 +30,9 @@ struct DiffractionSettings {
     int slices_per_frame = 8;
 };
 
+/// Whether maps are still being filled for the light and the objects as they were last drawn.
+bool maps_are_filling(ecs::World& world);
+
 /// Draws entities that have a DiffractionSurface, each as its material's representation is drawn; what is kept per
 /// object is made anew only when the light, the object or its material has changed.
 class DiffractionSurfaceType final : public render::MaterialType {

@@ -18,6 +18,7 @@ class GpuCircle final : public GpuMaterial {
     GpuCircle(const CookedMaterial& cooked, const CircleTables& tables, const glm::dmat3& xyz_to_working);
 
     void update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const override;
+    bool filling(const SurfaceState&) const override { return filling_ != nullptr; }
 
     /// How many maps were begun, and how many of them were shown.
     int fills_begun() const { return fills_begun_; }

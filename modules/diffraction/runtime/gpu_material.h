@@ -63,6 +63,8 @@ class GpuMaterial {
 
     /// Once a frame for each object, before it is drawn.
     virtual void update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const = 0;
+    /// Whether the object, as last updated, is shaded by something else until its map is filled.
+    virtual bool filling(const SurfaceState&) const { return false; }
 
     gpu::ProgramDesc program(const SurfaceState& state) const;
     /// The program is in use.

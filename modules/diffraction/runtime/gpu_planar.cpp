@@ -94,6 +94,11 @@ void GpuPlanar::update(const SurfaceObject& object, SurfaceLight& light, Surface
     data.stand_in_is_old = false;
 }
 
+bool GpuPlanar::filling(const SurfaceState& state) const {
+    const PlanarData& data = data_of(state);
+    return data.normal && data.texels && !data.on_gpu;
+}
+
 void GpuPlanar::describe(const SurfaceState& state, gpu::ProgramDesc& desc) const {
     if (!data_of(state).on_gpu)
         stand_in_.describe(state, desc);

@@ -38,6 +38,7 @@ class GpuPlanar final : public GpuMaterial {
     GpuPlanar(const CookedMaterial& cooked, const PlanarTables& tables, const glm::dmat3& xyz_to_working);
 
     void update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const override;
+    bool filling(const SurfaceState& state) const override;
 
  private:
     void describe(const SurfaceState& state, gpu::ProgramDesc& desc) const override;

@@ -103,7 +103,7 @@ TEST(GltfImage, BadReferencesAreRefused) {
     const auto with = [](const std::string& pointer, const json& value) {
         json file = textured({{"uri", test::data_uri(png(2, 2))}});
         file["textures"][0]["sampler"] = 0;
-        file["samplers"] = {json::object()};
+        file["samplers"] = json::array({json::object()});
         file[json::json_pointer(pointer)] = value;
         return error_of(file);
     };
