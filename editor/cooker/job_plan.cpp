@@ -103,11 +103,10 @@ std::string job_table(std::span<const Job> jobs) {
 std::string write_plan(std::span<const Job> jobs) {
     std::string text;
     for (const Job& job : jobs) {
-        for (const std::filesystem::path& path : {job.source, job.output})
-            if (valid_utf8(path.string()) != path.string())
-                refuse_input(path.string(), {}, "a name that is not UTF-8", "one that JSON can hold", "rename it");
-        const nlohmann::ordered_json line = {
-            {"id", job.id}, {"kind", job.kind}, {"source", job.source.string()}, {"output", job.output.string()}};
+        const nlohmann::ordered_json line = {{"id", job.id},
+                                             {"kind", job.kind},
+                                             {"source", require_utf8(job.source, "rename it")},
+                                             {"output", require_utf8(job.output, "rename it")}};
         text += line.dump() + "\n";
     }
     return text;

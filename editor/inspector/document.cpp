@@ -26,10 +26,7 @@ void move_name(Json& name, const std::filesystem::path& from, const std::filesys
     if (!name.is_string()) return;
     const std::filesystem::path file = name.get<std::string>();
     if (file.empty() || file.is_absolute()) return;
-    const std::string there = std::filesystem::proximate(from / file, to).string();
-    if (valid_utf8(there) != there)
-        refuse_input(there, {}, "a name that is not UTF-8", "one that JSON can hold", "rename it, or save elsewhere");
-    name = there;
+    name = require_utf8(std::filesystem::proximate(from / file, to), "rename it, or save elsewhere");
 }
 
 /// The material with the files it names named from another folder.

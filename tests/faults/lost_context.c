@@ -1,5 +1,6 @@
 /* Loaded before a program: its OpenGL context is lost once the program has asked $ROWLAND_TEST_LOST_AFTER times whether
- * it is, or when it asks and the file $ROWLAND_TEST_LOST_WHEN is there, and stays lost. It takes the place of libepoxy's pointer to the driver's function. */
+ * it is, and stays lost; or while the file $ROWLAND_TEST_LOST_WHEN is there, if that is set. It takes the place of
+ * libepoxy's pointer to the driver's function. */
 #include <stdlib.h>
 #include <unistd.h>
 
