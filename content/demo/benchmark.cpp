@@ -17,7 +17,6 @@ namespace rowland::demo {
 
 namespace {
 
-constexpr int kFramesPerSecond = 30;
 constexpr int kWarmUpFrames = 3;
 
 std::chrono::nanoseconds nanoseconds(double ms) {

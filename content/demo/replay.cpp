@@ -19,7 +19,6 @@ namespace rowland::demo {
 
 namespace {
 
-constexpr int kFramesPerSecond = 30;
 // A little long, so that rounding never leaves a frame a step short.
 constexpr std::chrono::nanoseconds kFrame(1'000'000'000 / kFramesPerSecond + 1);
 

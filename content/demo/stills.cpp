@@ -15,7 +15,6 @@ namespace rowland::demo {
 
 namespace {
 
-constexpr int kFramesPerSecond = 30;
 constexpr int kTourFrames = 12;
 constexpr int kTourFramesPerSecond = 2;
 

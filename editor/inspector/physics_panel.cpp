@@ -19,8 +19,6 @@ namespace rowland::inspector {
 
 namespace {
 
-constexpr ImU32 kWords = IM_COL32(205, 205, 205, 255);
-
 float plot_height() {
     return 11.0F * ImGui::GetFontSize();
 }
@@ -106,13 +104,13 @@ void PhysicsPanel::draw_angles(const diffraction::Grating& grating) const {
     const double columns = static_cast<double>(plot.maximum().x - plot.minimum().x) / 180.0;
     plot.line(thinned(curve.points, columns), 0);
     plot.vertical(incidence, IM_COL32(255, 255, 255, 120));
-    plot.text(incidence, top * 1e-5 * 3.0, "light", kWords);
+    plot.text(incidence, top * 1e-5 * 3.0, "light", kPlotWords);
     for (const OrderPeak& peak : curve.peaks) {
         constexpr double kVisible = 1e-4;
         if (peak.order != 0 && peak.efficiency < kVisible) continue;
         const double at = peak.brdf > 0.0 ? peak.brdf : top * 1e-5;
         if (peak.brdf <= 0.0) plot.vertical(peak.angle_deg, IM_COL32(255, 255, 255, 70));
-        plot.text(peak.angle_deg, at * (peak.brdf > 0.0 ? 1.0 : 20.0), order_name(peak.order).c_str(), kWords);
+        plot.text(peak.angle_deg, at * (peak.brdf > 0.0 ? 1.0 : 20.0), order_name(peak.order).c_str(), kPlotWords);
     }
     if (plot.hovered()) {
         std::string words = fmt::format("{:.1f}°", plot.mouse_x());
@@ -204,8 +202,8 @@ void PhysicsPanel::draw_directions(const diffraction::Grating& grating) const {
     draw.AddCircle(centre, radius, IM_COL32(255, 255, 255, 80), 64);
     draw.AddLine(at(-1.0, 0.0), at(1.0, 0.0), IM_COL32(255, 255, 255, 30));
     draw.AddLine(at(0.0, -1.0), at(0.0, 1.0), IM_COL32(255, 255, 255, 30));
-    draw.AddText({centre.x + radius + 0.2F * font, centre.y - font / 2.0F}, kWords, "g");
-    draw.AddText({centre.x - 0.3F * font, centre.y - radius - 1.1F * font}, kWords, "h");
+    draw.AddText({centre.x + radius + 0.2F * font, centre.y - font / 2.0F}, kPlotWords, "g");
+    draw.AddText({centre.x - 0.3F * font, centre.y - radius - 1.1F * font}, kPlotWords, "h");
     for (const OrderTrace& trace : order_directions(grating, s)) {
         const OrderSpot& middle = trace.spots[trace.spots.size() / 2];
         if (trace.order == 0) {
@@ -216,12 +214,12 @@ void PhysicsPanel::draw_directions(const diffraction::Grating& grating) const {
         }
         const ImVec2 place = at(middle.v_g, middle.v_h);
         const std::string name = order_name(trace.order);
-        draw.AddText({place.x - ImGui::CalcTextSize(name.c_str()).x / 2.0F, place.y + 0.4F * font}, kWords,
+        draw.AddText({place.x - ImGui::CalcTextSize(name.c_str()).x / 2.0F, place.y + 0.4F * font}, kPlotWords,
                      name.c_str());
     }
     const ImVec2 light = at(s.x, s.y);
     draw.AddCircle(light, 0.45F * font, IM_COL32(255, 255, 255, 255), 0, 2.0F);
-    draw.AddText({light.x - 1.0F * font, light.y - 1.6F * font}, kWords, "light");
+    draw.AddText({light.x - 1.0F * font, light.y - 1.6F * font}, kPlotWords, "light");
     ImGui::TextDisabled("g: across the grooves. h: along them. Rings: 30° and 60°.");
 }
 

@@ -12,7 +12,6 @@ namespace {
 
 constexpr ImU32 kFrame = IM_COL32(255, 255, 255, 60);
 constexpr ImU32 kGrid = IM_COL32(255, 255, 255, 22);
-constexpr ImU32 kWords = IM_COL32(205, 205, 205, 255);
 
 /// Lengths of strokes and gaps in pixels at scale 1; 0: one stroke.
 constexpr std::array kDashes = {0.0F, 7.0F, 3.0F, 12.0F};
@@ -114,18 +113,18 @@ void Plot::draw_axes() const {
         const std::string words = fmt::format("{:.4g}", tick);
         draw_->AddLine({x, minimum_.y}, {x, maximum_.y}, kGrid);
         const float left = std::min(x - width(words) / 2.0F, maximum_.x + 0.5F * font - width(words));
-        draw_->AddText({left, maximum_.y + 0.1F * font}, kWords, words.c_str());
+        draw_->AddText({left, maximum_.y + 0.1F * font}, kPlotWords, words.c_str());
     }
     const int rows = std::max(2, static_cast<int>((maximum_.y - minimum_.y) / (2.2F * font)));
     for (const double tick : ticks(y_, rows)) {
         const float y = at(x_.minimum, tick).y;
         const std::string words = fmt::format("{:.3g}", tick);
         draw_->AddLine({minimum_.x, y}, {maximum_.x, y}, kGrid);
-        draw_->AddText({minimum_.x - width(words) - 0.3F * font, y - font / 2.0F}, kWords, words.c_str());
+        draw_->AddText({minimum_.x - width(words) - 0.3F * font, y - font / 2.0F}, kPlotWords, words.c_str());
     }
     draw_->AddRect(minimum_, maximum_, kFrame);
-    draw_->AddText({maximum_.x - width(x_.label), maximum_.y + 1.2F * font}, kWords, x_.label);
-    draw_->AddText({minimum_.x - 3.0F * font, minimum_.y - 1.3F * font}, kWords, y_.label);
+    draw_->AddText({maximum_.x - width(x_.label), maximum_.y + 1.2F * font}, kPlotWords, x_.label);
+    draw_->AddText({minimum_.x - 3.0F * font, minimum_.y - 1.3F * font}, kPlotWords, y_.label);
 }
 
 void Plot::line(std::span<const glm::dvec2> points, std::size_t series) const {
@@ -152,7 +151,7 @@ void Plot::legend(const std::string& name, std::size_t series) {
     const float y = minimum_.y - 0.7F * font;
     float done = 0.0F;
     dashed(*draw_, {legend_x_, y}, {legend_x_ + 1.6F * font, y}, series_colour(series), dash_of(series), 2.0F, done);
-    draw_->AddText({legend_x_ + 1.9F * font, y - font / 2.0F}, kWords, name.c_str());
+    draw_->AddText({legend_x_ + 1.9F * font, y - font / 2.0F}, kPlotWords, name.c_str());
     legend_x_ += 2.6F * font + ImGui::CalcTextSize(name.c_str()).x;
 }
 

@@ -13,6 +13,8 @@ namespace rowland::inspector {
 /// Colours that stay apart for all kinds of colour vision [Okabe & Ito 2008]; lines differ in their dashes, too.
 ImU32 series_colour(std::size_t index, float alpha = 1.0F);
 
+inline constexpr ImU32 kPlotWords = IM_COL32(205, 205, 205, 255);
+
 struct PlotAxis {
     double minimum = 0.0;
     double maximum = 1.0;

@@ -16,14 +16,14 @@ namespace rowland::trade {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 constexpr int kCurvePoints = 721;
 constexpr double kWavelength_nm = 550.0;
 constexpr int kShBands = 16;
 constexpr float kExposureStops = 0.5F;
 
 double sinc2(double x) {
-    return x == 0.0 ? 1.0 : std::pow(std::sin(kPi * x) / (kPi * x), 2.0);
+    return x == 0.0 ? 1.0 : std::pow(std::sin(pi * x) / (pi * x), 2.0);
 }
 
 double slit_share(const diffraction::Grating& grating) {
@@ -34,7 +34,7 @@ double slit_share(const diffraction::Grating& grating) {
 /// One order's peak over the view's angle, and its width between half heights.
 void draw_peak(const diffraction::Grating& grating, Figure2& figure) {
     const double sine = std::min(kWavelength_nm / grating.pitch_nm, 0.99);
-    const double degrees_per_order = kWavelength_nm / grating.pitch_nm / std::sqrt(1.0 - sine * sine) * 180.0 / kPi;
+    const double degrees_per_order = kWavelength_nm / grating.pitch_nm / std::sqrt(1.0 - sine * sine) * 180.0 / pi;
     const double reach = 3.0 / grating.grooves;  // orders: to the third zero beside the peak
     for (int i = 0; i < kCurvePoints; ++i) {
         const double delta = reach * (2.0 * i / (kCurvePoints - 1) - 1.0);
@@ -53,7 +53,7 @@ void draw_peak(const diffraction::Grating& grating, Figure2& figure) {
 /// Lights around the zenith, golden angle apart; they sum to one irradiance whatever their number.
 std::vector<render::DistantLight> lights_of(int count) {
     std::vector<render::DistantLight> lights;
-    const double golden_angle = kPi * (3.0 - std::sqrt(5.0));
+    const double golden_angle = pi * (3.0 - std::sqrt(5.0));
     for (int i = 0; i < count; ++i) {
         const double y = 0.55 + 0.4 * (i + 0.5) / count;
         const double s = std::sqrt(1.0 - y * y);
@@ -90,11 +90,11 @@ Figure2 figure_2(const diffraction::Grating& grating) {
     for (int i = 0; i < kCurvePoints; ++i) {
         const double orders = 2.0 * i / (kCurvePoints - 1) - 1.0;
         // Nodes on whole orders: a peak is there in one of them, and nearly nothing between.
-        figure.diffraction.x.push_back(orders * kPi);
+        figure.diffraction.x.push_back(orders * pi);
         figure.diffraction.y.push_back(sinc2(share * orders) *
                                        diffraction::fejer(grating.grooves, orders - std::round(orders)));
-        figure.interference.x.push_back(orders * kPi);
-        figure.interference.y.push_back(std::pow(std::sin(orders * kPi), 2.0));
+        figure.interference.x.push_back(orders * pi);
+        figure.interference.y.push_back(std::pow(std::sin(orders * pi), 2.0));
     }
     draw_peak(grating, figure);
     return figure;

@@ -25,6 +25,10 @@ struct NumberRange {
     bool maximum_open = false;
 };
 
+/// What a float can hold.
+inline constexpr NumberRange kFiniteFloat{.minimum = std::numeric_limits<float>::lowest(),
+                                          .maximum = std::numeric_limits<float>::max()};
+
 /// Reads one JSON object strictly: every failure is an Error (input) that names the file, the JSON pointer, what was
 /// found and what was expected, and finish() refuses keys nobody asked for, naming the nearest valid one.
 class JsonReader {

@@ -14,7 +14,7 @@ namespace rowland::image {
 namespace {
 
 /// A block of 8 × 8 takes a bit, its brightness; twice that for good measure.
-constexpr std::uint64_t kMaximumTexelsPerByte = std::uint64_t{8} * 64 * 2;
+constexpr std::uint64_t kMaximumTexelsPerJpegByte = std::uint64_t{8} * 64 * 2;
 
 struct Close {
     void operator()(void* decoder) const { tjDestroy(decoder); }
@@ -51,7 +51,7 @@ ByteImageSize size_of(std::span<const std::byte> bytes, const Decoder& decoder, 
     check(tjDecompressHeader3(decoder.get(), data_of(bytes), bytes.size(), &width, &height, &subsampling, &colourspace),
           decoder, file);
     check_image_size(width, height, file, "");
-    check_compression(width, height, bytes.size(), kMaximumTexelsPerByte, file);
+    check_compression(width, height, bytes.size(), kMaximumTexelsPerJpegByte, file);
     return {width, height};
 }
 

@@ -21,7 +21,7 @@ constexpr std::array<std::uint8_t, 8> kSignature = {0x89, 'P', 'N', 'G', '\r', '
 constexpr std::size_t kChunkFrame = 12;  ///< a chunk's length, type and checksum
 constexpr std::size_t kHeaderLength = 13;
 /// Deflate makes at most 1032 bytes of one (zlib's technical notes), of 8 texels each.
-constexpr std::uint64_t kMaximumTexelsPerByte = std::uint64_t{1032} * 8;
+constexpr std::uint64_t kMaximumTexelsPerPngByte = std::uint64_t{1032} * 8;
 
 [[noreturn]] void fail(const std::string& file, std::size_t at, std::string found, std::string expected) {
     refuse_input(file, fmt::format("byte {}", at), std::move(found), std::move(expected), "export the image again");
@@ -94,7 +94,7 @@ ByteImageSize png_size(std::span<const std::byte> bytes, const std::string& file
     const std::int64_t width = big_endian(header.data);
     const std::int64_t height = big_endian(header.data.subspan(4));
     check_image_size(width, height, file, fmt::format("byte {}", kSignature.size()));
-    check_compression(width, height, bytes.size(), kMaximumTexelsPerByte, file);
+    check_compression(width, height, bytes.size(), kMaximumTexelsPerPngByte, file);
     return {static_cast<int>(width), static_cast<int>(height)};
 }
 

@@ -15,7 +15,7 @@ namespace rowland::lighting {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Perez' five parameters of one quantity.
 struct Perez {
@@ -41,7 +41,7 @@ std::array<Perez, 3> perez_parameters(double t) {
 
 /// Zenith luminance in kcd/m² and chromaticity; `s` is the sun's angle from the zenith [Preetham et al. 1999, A.2].
 std::array<double, 3> zenith_values(double t, double s) {
-    const double chi = (4.0 / 9 - t / 120) * (kPi - 2 * s);
+    const double chi = (4.0 / 9 - t / 120) * (pi - 2 * s);
     const double luminance = (4.0453 * t - 4.9710) * std::tan(chi) - 0.2155 * t + 2.4192;
     const auto cubic = [s](double k3, double k2, double k1, double k0) { return ((k3 * s + k2) * s + k1) * s + k0; };
     const double x = t * t * cubic(0.00166, -0.00375, 0.00209, 0) + t * cubic(-0.02903, 0.06377, -0.03202, 0.00394) +
@@ -83,8 +83,8 @@ double disc_coverage(const glm::dvec3& sun, double radius, int column, int row, 
 }
 
 double texel_solid_angle(int row, int width) {
-    const double theta = 2 * kPi * (row + 0.5) / width;
-    return 2 * kPi / width * 2 * std::sin(theta) * std::sin(kPi / width);
+    const double theta = 2 * pi * (row + 0.5) / width;
+    return 2 * pi / width * 2 * std::sin(theta) * std::sin(pi / width);
 }
 
 void add_sun(const ClearSkyRecipe& recipe, image::Image& image) {
@@ -94,7 +94,7 @@ void add_sun(const ClearSkyRecipe& recipe, image::Image& image) {
     };
     const glm::dvec3 sun = sun_direction(recipe);
     const double radius = glm::radians(recipe.sun_angular_diameter_deg) / 2;
-    const double reach = radius + 2 * kPi / image.width;  // a texel's half diagonal is less
+    const double reach = radius + 2 * pi / image.width;  // a texel's half diagonal is less
     std::vector<Covered> covered;
     double solid_angle = 0;
     for (int row = 0; row < image.height / 2; ++row)
@@ -115,7 +115,7 @@ void add_sun(const ClearSkyRecipe& recipe, image::Image& image) {
 }  // namespace
 
 glm::dvec3 sky_radiance(const ClearSkyRecipe& recipe, const glm::dvec3& direction) {
-    const double from_zenith = kPi / 2 - glm::radians(recipe.sun_elevation_deg);
+    const double from_zenith = pi / 2 - glm::radians(recipe.sun_elevation_deg);
     const double gamma = angle_between(direction, sun_direction(recipe));
     const auto perez = perez_parameters(recipe.turbidity);
     const auto zenith = zenith_values(recipe.turbidity, from_zenith);
@@ -155,7 +155,7 @@ image::Image render_clear_sky(const ClearSkyRecipe& recipe, int width) {
         for (int column = 0; column < width; ++column)
             irradiance += texel_solid_angle(row, width) * cosine * glm::dvec3(image.at(column, row));
     }
-    const glm::vec3 ground(recipe.ground_albedo * irradiance / kPi);
+    const glm::vec3 ground(recipe.ground_albedo * irradiance / pi);
     std::fill(image.texels.begin() + static_cast<std::ptrdiff_t>(image.texels.size() / 2), image.texels.end(), ground);
     add_sun(recipe, image);
     return image;

@@ -14,7 +14,7 @@ namespace rowland::lighting {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Cube faces of the light that lobes are fitted to: cells of 0.025 rad, finer than what a grating's colours resolve.
 constexpr int kFaceSize = 64;
@@ -105,7 +105,7 @@ class LobeProduct {
         double before = 0.0;
         double legendre = 1.0;
         for (int l = 0; l < kExactBands; ++l) {
-            product -= (2 * l + 1) / (4.0 * kPi) * factors_[static_cast<std::size_t>(l)] * legendre;
+            product -= (2 * l + 1) / (4.0 * pi) * factors_[static_cast<std::size_t>(l)] * legendre;
             const double next = ((2 * l + 1) * cosine * legendre - l * before) / (l + 1);
             before = legendre;
             legendre = next;
@@ -321,7 +321,7 @@ std::vector<KeyLight> fit_key_lights(const ProbeImage& probe, int count) {
     const LightTexels cells = gather_texels(light_texels(probe), kFaceSize);
     if (cells.size() == 0) return {};
     // A lobe's deviation is at least 0.7 of a texel's side.
-    const double side = 2.0 * kPi / probe.image().width;
+    const double side = 2.0 * pi / probe.image().width;
     const double narrowest = std::clamp(1.0 / (0.5 * side * side), kWidestConcentration, kNarrowestConcentration);
     const SmoothedProbe smoothed(cells);
     Candidates candidates(smoothed);

@@ -12,7 +12,7 @@ namespace rowland::lighting {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// From this concentration on the recurrence in l runs upward: it loses exp(l²/κ), at most 4 digits at 32 bands.
 constexpr double kUpwardConcentration = 120.0;
@@ -44,7 +44,7 @@ std::vector<double> factors_downward(double concentration, int bands) {
 }
 
 double normal_density(double x) {
-    return std::exp(-0.5 * x * x) / std::sqrt(2.0 * kPi);
+    return std::exp(-0.5 * x * x) / std::sqrt(2.0 * pi);
 }
 
 double normal_share_below(double x) {
@@ -56,7 +56,7 @@ double normal_share_below(double x) {
 double lobe_density(const KeyLight& key, const glm::dvec3& s) {
     // 1 − cos from the chord, which does not cancel for narrow lobes.
     const glm::dvec3 chord = s - key.direction;
-    const double peak = key.concentration / (-2.0 * kPi * std::expm1(-2.0 * key.concentration));
+    const double peak = key.concentration / (-2.0 * pi * std::expm1(-2.0 * key.concentration));
     return peak * std::exp(-0.5 * key.concentration * glm::dot(chord, chord));
 }
 

@@ -15,7 +15,7 @@ namespace rowland::lighting {
 namespace {
 
 /// κ(1 − cos) beyond which a lobe's density, at most exp(−this) of its peak, is left out.
-constexpr double kLobeReach = 16.0;
+constexpr double kTakenOutReach = 16.0;
 
 /// Cube faces that lobes are cut into: texels of at most 0.016 rad, less than the deviation of the narrowest lobe that
 /// is fitted (0.018) and of what a grating's colours resolve.
@@ -122,15 +122,15 @@ Grid make_grid(int face_size) {
 }
 
 /// The shares of a lobe's flux in the texels it reaches; they sum to 1. None for a lobe that falls between the centres.
-struct LobeShares {
+struct TakenOutShares {
     std::vector<std::size_t> texels;
     std::vector<double> shares;
 };
 
-LobeShares lobe_shares(const KeyLight& key, const Grid& grid) {
-    LobeShares result;
+TakenOutShares taken_out_shares(const KeyLight& key, const Grid& grid) {
+    TakenOutShares result;
     double sum = 0.0;
-    const double nearest = 1.0 - kLobeReach / key.concentration;
+    const double nearest = 1.0 - kTakenOutReach / key.concentration;
     for (std::size_t i = 0; i < grid.directions.size(); ++i) {
         if (glm::dot(grid.directions[i], key.direction) < nearest) continue;
         result.texels.push_back(i);
@@ -146,8 +146,8 @@ LobeShares lobe_shares(const KeyLight& key, const Grid& grid) {
 /// Adds lights of negative flux, in places of their own: at the stored lights' places they would move the lobes.
 void take_out(std::span<const KeyLight> keys, LightTexels& texels) {
     const Grid grid = make_grid(kLobeFace);
-    std::vector<LobeShares> lobes(keys.size());
-    parallel_for(keys.size(), [&](std::size_t k) { lobes[k] = lobe_shares(keys[k], grid); });
+    std::vector<TakenOutShares> lobes(keys.size());
+    parallel_for(keys.size(), [&](std::size_t k) { lobes[k] = taken_out_shares(keys[k], grid); });
     std::vector<glm::dvec3> taken(grid.directions.size(), glm::dvec3(0.0));
     for (std::size_t k = 0; k < keys.size(); ++k) {
         if (lobes[k].texels.empty()) append(texels, keys[k].direction, -keys[k].flux);

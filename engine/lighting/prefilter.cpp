@@ -14,7 +14,7 @@ namespace rowland::lighting {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 constexpr int kSmallestFace = 16;
 constexpr int kLargestFace = 1024;
 constexpr int kLastLevelFace = 4;
@@ -59,14 +59,14 @@ void scatter_level0(const ProbeImage& probe, EnvironmentMap& map) {
     std::vector<double> sine(2 * static_cast<std::size_t>(image.width));
     std::vector<double> cosine(sine.size());
     for (std::size_t i = 0; i < sine.size(); ++i) {
-        const double phi = 2 * kPi * ((static_cast<double>(i) + 0.5) / static_cast<double>(sine.size()) - 0.5);
+        const double phi = 2 * pi * ((static_cast<double>(i) + 0.5) / static_cast<double>(sine.size()) - 0.5);
         sine[i] = std::sin(phi);
         cosine[i] = std::cos(phi);
     }
     std::vector<glm::dvec4> sums(map.layout.offset(1), glm::dvec4(0.0));
     const auto cell = [size](double x) { return std::clamp(static_cast<int>((x + 1) / 2 * size), 0, size - 1); };
     for (int part = 0; part < 2 * image.height; ++part) {
-        const double theta = kPi * (part + 0.5) / (2 * image.height);
+        const double theta = pi * (part + 0.5) / (2 * image.height);
         const double r = std::sin(theta);
         const double y = std::cos(theta);
         for (std::size_t i = 0; i < sine.size(); ++i) {

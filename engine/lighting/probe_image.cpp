@@ -16,7 +16,7 @@ namespace rowland::lighting {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Counts what is no light and sets it to 0. A texel counts once, for its worst component.
 TexelReport clean(image::Image& image) {
@@ -58,7 +58,7 @@ void check_shape(const image::Image& image, Mapping mapping, const std::string& 
 
 /// sin(πρ)/(πρ): the angular map's solid angle per area of the (πu, πv) plane.
 double angular_density(double radius) {
-    const double angle = kPi * radius;
+    const double angle = pi * radius;
     return angle < 1e-4 ? 1 - angle * angle / 6 : std::sin(angle) / angle;
 }
 
@@ -77,7 +77,7 @@ double sampled_angular_solid_angle(double x, double y, double side) {
         const double height = (top - y) / kSteps;
         for (int j = 0; j < kSteps; ++j) sum += height * angular_density(std::hypot(u, y + (j + 0.5) * height));
     }
-    return kPi * kPi * step * sum;
+    return pi * pi * step * sum;
 }
 
 double angular_solid_angle(int size, int column, int row) {
@@ -95,9 +95,9 @@ double angular_solid_angle(int size, int column, int row) {
     // The formula at the centre, f = sin(πρ)/(πρ), and its second-order correction side²/24 · ∇²f, where
     // ∇²f = −π²f − f'/ρ because f is a spherical Bessel function. The rest is of order (2π/size)⁴.
     const double f = angular_density(radius);
-    const double slope_over_radius = radius < 1e-4 ? -kPi * kPi / 3 : (std::cos(kPi * radius) - f) / (radius * radius);
-    const double laplacian = -kPi * kPi * f - slope_over_radius;
-    return kPi * kPi * side * side * (f + side * side / 24 * laplacian);
+    const double slope_over_radius = radius < 1e-4 ? -pi * pi / 3 : (std::cos(pi * radius) - f) / (radius * radius);
+    const double laplacian = -pi * pi * f - slope_over_radius;
+    return pi * pi * side * side * (f + side * side / 24 * laplacian);
 }
 
 /// Bilinear position: the lower texel's index and the upper's weight.
@@ -114,8 +114,8 @@ Position locate(double coordinate) {
 glm::dvec3 equirectangular_radiance(const image::Image& image, const glm::dvec3& d) {
     const double theta = std::acos(std::clamp(d.y, -1.0, 1.0));
     const double phi = std::atan2(d.x, -d.z);
-    const Position x = locate((phi / (2 * kPi) + 0.5) * image.width - 0.5);
-    const Position y = locate(theta / kPi * image.height - 0.5);
+    const Position x = locate((phi / (2 * pi) + 0.5) * image.width - 0.5);
+    const Position y = locate(theta / pi * image.height - 0.5);
     const int left = x.low < 0 ? x.low + image.width : x.low % image.width;
     const int right = left + 1 == image.width ? 0 : left + 1;
     const int top = std::clamp(y.low, 0, image.height - 1);
@@ -135,7 +135,7 @@ bool inside_disc(int size, int column, int row) {
 glm::dvec3 angular_map_radiance(const image::Image& image, const glm::dvec3& d) {
     const int size = image.width;
     const double across = std::hypot(d.x, d.y);
-    const double radius = std::atan2(across, -d.z) / kPi;
+    const double radius = std::atan2(across, -d.z) / pi;
     // +Z is the whole rim; any point of it will do.
     const double u = across > 0 ? radius * d.x / across : radius;
     const double v = across > 0 ? radius * d.y / across : 0;
@@ -193,22 +193,22 @@ ProbeImage::ProbeImage(image::Image image, Mapping mapping, const std::string& f
 
 glm::dvec3 ProbeImage::direction(double x, double y) const {
     if (mapping_ == Mapping::Equirectangular) {
-        const double theta = kPi * y / image_.height;
-        const double phi = 2 * kPi * (x / image_.width - 0.5);
+        const double theta = pi * y / image_.height;
+        const double phi = 2 * pi * (x / image_.width - 0.5);
         return {std::sin(theta) * std::sin(phi), std::cos(theta), -std::sin(theta) * std::cos(phi)};
     }
     const double u = 2 * x / image_.width - 1;
     const double v = 1 - 2 * y / image_.height;
     const double radius = std::hypot(u, v);
-    const double scale = kPi * angular_density(radius);  // sin(πρ)/ρ
-    return {scale * u, scale * v, -std::cos(kPi * radius)};
+    const double scale = pi * angular_density(radius);  // sin(πρ)/ρ
+    return {scale * u, scale * v, -std::cos(pi * radius)};
 }
 
 double ProbeImage::solid_angle(int column, int row) const {
     if (mapping_ == Mapping::Angular) return angular_solid_angle(image_.width, column, row);
     // cos a − cos b without cancellation.
-    const double middle = kPi * (row + 0.5) / image_.height;
-    return 2 * kPi / image_.width * 2 * std::sin(middle) * std::sin(kPi / (2 * image_.height));
+    const double middle = pi * (row + 0.5) / image_.height;
+    return 2 * pi / image_.width * 2 * std::sin(middle) * std::sin(pi / (2 * image_.height));
 }
 
 glm::dvec3 ProbeImage::radiance(const glm::dvec3& direction) const {

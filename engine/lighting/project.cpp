@@ -14,7 +14,7 @@ namespace rowland::lighting {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 std::size_t to_size(int x) {
     return static_cast<std::size_t>(x);
@@ -45,7 +45,7 @@ struct Waves {
           sine(to_size(bands) * padded) {
         parallel_for(to_size(bands), [&](std::size_t m) {
             for (std::size_t j = 0; j < columns; ++j) {
-                const double phi = 2 * kPi * ((static_cast<double>(to_size(width / 2) + j) + 0.5) / width - 0.5);
+                const double phi = 2 * pi * ((static_cast<double>(to_size(width / 2) + j) + 0.5) / width - 0.5);
                 cosine[m * padded + j] = std::cos(static_cast<double>(m) * phi);
                 sine[m * padded + j] = std::sin(static_cast<double>(m) * phi);
             }
@@ -123,7 +123,7 @@ std::vector<glm::dvec3> project_equirectangular(const ProbeImage& probe, int ban
     std::vector<glm::dvec3> in_image_frame(count, glm::dvec3(0.0));
     std::vector<double> legendre(count);
     for (int row = 0; row < image.height; ++row) {
-        const double theta = kPi * (row + 0.5) / image.height;
+        const double theta = pi * (row + 0.5) / image.height;
         math::evaluate_sh({std::sin(theta), 0, std::cos(theta)}, bands, legendre);  // cos mφ = 1
         const double weight = probe.solid_angle(0, row);
         for (int l = 0; l < bands; ++l)
@@ -178,7 +178,7 @@ std::vector<glm::dvec3> project_angular(const ProbeImage& probe, int bands) {
         solid_angle += block.solid_angle;
         for (std::size_t i = 0; i < coefficients.size(); ++i) coefficients[i] += block.coefficients[i];
     }
-    for (glm::dvec3& c : coefficients) c *= 4 * kPi / solid_angle;
+    for (glm::dvec3& c : coefficients) c *= 4 * pi / solid_angle;
     return coefficients;
 }
 

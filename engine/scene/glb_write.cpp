@@ -11,6 +11,7 @@
 #include "engine/core/byte_stream.h"
 #include "engine/core/check.h"
 #include "engine/core/parallel.h"
+#include "engine/scene/gltf_document.h"
 
 namespace rowland::scene {
 
@@ -19,7 +20,6 @@ namespace {
 /// Keys in the order they are written, so that the bytes are the same every time.
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kDraco = "KHR_draco_mesh_compression";
 constexpr const char* kLights = "KHR_lights_punctual";
 constexpr const char* kTextureTransform = "KHR_texture_transform";
 
@@ -65,7 +65,7 @@ class Writing {
         Json extensions = Json::array();
         for (const std::string& name : used_) extensions.push_back(name);
         add("extensionsUsed", extensions);
-        if (used_.contains(kDraco)) root["extensionsRequired"] = Json::array({kDraco});
+        if (used_.contains(kDracoExtension)) root["extensionsRequired"] = Json::array({kDracoExtension});
         root["scene"] = 0;
         root["scenes"] = Json::array({Json::object()});
         if (!roots_.empty()) root["scenes"][0]["nodes"] = std::move(roots_);
@@ -125,7 +125,7 @@ class Writing {
     }
 
     Json add_primitive(const GlbPrimitive& primitive, const DracoStream& stream) {
-        use(kDraco);
+        use(kDracoExtension);
         constexpr int kFloat = 5126;
         constexpr int kUint32 = 5125;
         const std::size_t vertices = primitive.mesh.positions.size();
@@ -143,7 +143,7 @@ class Writing {
         const std::size_t view = add_view(std::as_bytes(std::span(stream.bytes)));
         Json json = {{"attributes", std::move(attributes)},
                      {"indices", add_accessor(kUint32, primitive.mesh.indices.size(), "SCALAR")},
-                     {"extensions", {{kDraco, {{"bufferView", view}, {"attributes", ids}}}}}};
+                     {"extensions", {{kDracoExtension, {{"bufferView", view}, {"attributes", ids}}}}}};
         if (primitive.material) json["material"] = checked(*primitive.material, scene_.materials.size());
         return json;
     }

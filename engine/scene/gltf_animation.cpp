@@ -49,7 +49,7 @@ std::optional<GltfAnimationChannel> read_channel(const nlohmann::json& json, Jso
 }
 
 /// Where one channel is imported, for every step of it.
-struct Import {
+struct ChannelImport {
     const GltfDocument& document;
     const GltfAnimationSampler& sampler;
     const std::string& place;
@@ -130,7 +130,7 @@ std::vector<Animation> import_animations(const GltfDocument& document,
         to.name = from.name;
         for (const GltfAnimationChannel& channel : from.channels) {
             if (!shown[channel.node]) continue;
-            const Import import{document, from.samplers[channel.sampler], channel.place, budget};
+            const ChannelImport import{document, from.samplers[channel.sampler], channel.place, budget};
             to.channels.push_back(import.channel(channel.property, *shown[channel.node]));
             to.duration_s = std::max(to.duration_s, to.channels.back().times_s.back());
         }

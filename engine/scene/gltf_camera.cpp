@@ -14,17 +14,17 @@ namespace {
 
 // Wider or narrower, the projection's numbers leave what floats resolve.
 constexpr NumberRange kFieldOfView{.minimum = 1e-4, .maximum = std::numbers::pi - 1e-4};
-constexpr double kNearest = 1e-9;
-constexpr double kFarthest = 1e12;
+constexpr double kNearestPlane = 1e-9;
+constexpr double kFarthestPlane = 1e12;
 
 GltfCamera read_perspective(JsonReader lens) {
     GltfCamera camera;
     camera.vertical_field_of_view = static_cast<float>(lens.number("yfov", kFieldOfView));
-    const double near = lens.number("znear", {.minimum = kNearest, .maximum = kFarthest});
+    const double near = lens.number("znear", {.minimum = kNearestPlane, .maximum = kFarthestPlane});
     camera.near_plane = static_cast<float>(near);
     if (!lens.has("zfar")) return camera;
     camera.far_plane =
-        static_cast<float>(lens.number("zfar", {.minimum = near, .maximum = kFarthest, .minimum_open = true}));
+        static_cast<float>(lens.number("zfar", {.minimum = near, .maximum = kFarthestPlane, .minimum_open = true}));
     // The two may be one float.
     if (!(*camera.far_plane > camera.near_plane))
         lens.fail("zfar", fmt::format("{}", *camera.far_plane), fmt::format("more than znear, {}", camera.near_plane));

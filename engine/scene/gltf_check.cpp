@@ -18,12 +18,10 @@ namespace {
 
 // Quantised attributes are ordinary accessors to us, so that extension needs nothing more.
 constexpr std::array<std::string_view, 6> kSupportedExtensions = {
-    "KHR_draco_mesh_compression", "KHR_lights_punctual",   "KHR_materials_emissive_strength",
-    "KHR_materials_unlit",        "KHR_mesh_quantization", "KHR_texture_transform"};
+    kDracoExtension,       "KHR_lights_punctual",   "KHR_materials_emissive_strength",
+    "KHR_materials_unlit", "KHR_mesh_quantization", "KHR_texture_transform"};
 constexpr std::int64_t kMaximumBytes = MemoryBudget::kDefaultLimit;
 constexpr std::int64_t kMaximumCount = std::numeric_limits<std::int32_t>::max();
-constexpr NumberRange kFinite{.minimum = std::numeric_limits<float>::lowest(),
-                              .maximum = std::numeric_limits<float>::max()};
 
 /// The checks, each for one kind of object of the file.
 class Checker {
@@ -144,7 +142,7 @@ class Checker {
             check_index(attributes, name, "accessors");
         if (!primitive.has("extensions")) return;
         JsonReader extensions = primitive.object("extensions");
-        if (extensions.has("KHR_draco_mesh_compression")) check_draco(extensions.object("KHR_draco_mesh_compression"));
+        if (extensions.has(kDracoExtension)) check_draco(extensions.object(kDracoExtension));
     }
 
     void check_draco(JsonReader draco) {
@@ -158,10 +156,10 @@ class Checker {
         check_index_if_there(node, "mesh", "meshes");
         check_index_if_there(node, "skin", "skins");
         indices_if_there(json_, node, "children", "nodes");
-        if (node.has("matrix")) node.numbers("matrix", 16, kFinite);
-        if (node.has("translation")) node.numbers("translation", 3, kFinite);
+        if (node.has("matrix")) node.numbers("matrix", 16, kFiniteFloat);
+        if (node.has("translation")) node.numbers("translation", 3, kFiniteFloat);
         if (node.has("rotation")) node.numbers("rotation", 4, {.minimum = -1.001, .maximum = 1.001});
-        if (node.has("scale")) node.numbers("scale", 3, kFinite);
+        if (node.has("scale")) node.numbers("scale", 3, kFiniteFloat);
     }
 
     void check_scene(JsonReader& scene) {

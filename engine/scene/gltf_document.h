@@ -15,6 +15,8 @@
 
 namespace rowland::scene {
 
+inline constexpr const char* kDracoExtension = "KHR_draco_mesh_compression";
+
 /// glTF's component types, with glTF's numbers.
 enum class ComponentType : std::uint16_t {
     Int8 = 5120,

@@ -136,7 +136,7 @@ class InstanceImport {
     std::vector<std::size_t> joint_counts_;          ///< of each imported mesh
 };
 
-ImportedScene import_source(GltfSource source, std::span<const std::string> handled_extensions,
+ImportedScene import_source(const GltfSource& source, std::span<const std::string> handled_extensions,
                             std::vector<std::filesystem::path>* read_files) {
     ImportedScene scene;
     check_gltf_json(source.json, source.file, handled_extensions, scene.warnings);

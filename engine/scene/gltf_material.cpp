@@ -11,8 +11,6 @@ namespace rowland::scene {
 
 namespace {
 
-constexpr NumberRange kFinite{.minimum = std::numeric_limits<float>::lowest(),
-                              .maximum = std::numeric_limits<float>::max()};
 // Exporters round: what is a little over 1 is clamped.
 constexpr NumberRange kFactor{.minimum = 0.0, .maximum = 1.001};
 // Far above anything that is lit, and their product is finite.
@@ -51,7 +49,8 @@ struct Reading {
     void read_maps() {
         to.normal_texture = texture(material, "normalTexture");
         if (material.has("normalTexture"))
-            to.normal_scale = static_cast<float>(material.object("normalTexture").number_or("scale", 1.0, kFinite));
+            to.normal_scale =
+                static_cast<float>(material.object("normalTexture").number_or("scale", 1.0, kFiniteFloat));
         to.occlusion_texture = texture(material, "occlusionTexture");
         if (material.has("occlusionTexture"))
             to.occlusion_strength = share(material.object("occlusionTexture").number_or("strength", 1.0, kFactor));

@@ -41,12 +41,10 @@ namespace rowland::scene {
 
 namespace {
 
-const char* const kDraco = "KHR_draco_mesh_compression";
-
 const nlohmann::json* draco_of(const nlohmann::json& primitive) {
     const auto extensions = primitive.find("extensions");
     if (extensions == primitive.end()) return nullptr;
-    const auto draco = extensions->find(kDraco);
+    const auto draco = extensions->find(kDracoExtension);
     return draco == extensions->end() ? nullptr : &*draco;
 }
 

@@ -18,9 +18,6 @@ constexpr std::int64_t kRepeat = 10497;
 constexpr std::int64_t kClampToEdge = 33071;
 constexpr std::int64_t kMirroredRepeat = 33648;
 
-constexpr NumberRange kFinite{.minimum = std::numeric_limits<float>::lowest(),
-                              .maximum = std::numeric_limits<float>::max()};
-
 TextureWrap read_wrap(JsonReader& sampler, const std::string& key) {
     const std::int64_t wrap = sampler.integer_or(key, kRepeat, 0, 65535);
     if (wrap == kRepeat) return TextureWrap::Repeat;
@@ -48,12 +45,12 @@ ImportedTexture read_sampler(JsonReader& sampler) {
 TextureTransform read_transform(JsonReader& extension) {
     TextureTransform transform;
     if (extension.has("offset")) {
-        const std::vector<double> offset = extension.numbers("offset", 2, kFinite);
+        const std::vector<double> offset = extension.numbers("offset", 2, kFiniteFloat);
         transform.offset = glm::vec2(offset[0], offset[1]);
     }
-    transform.rotation = static_cast<float>(extension.number_or("rotation", 0.0, kFinite));
+    transform.rotation = static_cast<float>(extension.number_or("rotation", 0.0, kFiniteFloat));
     if (extension.has("scale")) {
-        const std::vector<double> scale = extension.numbers("scale", 2, kFinite);
+        const std::vector<double> scale = extension.numbers("scale", 2, kFiniteFloat);
         transform.scale = glm::vec2(scale[0], scale[1]);
     }
     return transform;

@@ -87,6 +87,7 @@ Mesh merge_instances(const ImportedScene& scene) {
     merged.uvs.reserve(vertex_count);
     merged.indices.reserve(index_count);
     std::vector<std::vector<glm::mat4>> joints;
+    joints.reserve(scene.skins.size());
     for (const ImportedSkin& skin : scene.skins) joints.push_back(rest_joints(scene, skin));
     for (const ImportedInstance& instance : scene.instances) {
         const Mesh& mesh = scene.meshes[instance.mesh];

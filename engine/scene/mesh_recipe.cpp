@@ -13,9 +13,9 @@ namespace rowland::scene {
 
 namespace {
 
-constexpr int kMaximumCount = 2048;
+constexpr int kMaximumSegments = 2048;
 // Metres: from a tenth of a micron to a thousand kilometres, well inside what float positions resolve.
-constexpr NumberRange kLength{.minimum = 1e-7, .maximum = 1e6};
+constexpr NumberRange kMeshLength{.minimum = 1e-7, .maximum = 1e6};
 
 Mesh build(const DiscRecipe& recipe) {
     Mesh mesh;
@@ -100,13 +100,13 @@ Mesh build(const BoxRecipe& recipe) {
 }
 
 int count_or(JsonReader& reader, const std::string& key, int fallback, int minimum) {
-    return static_cast<int>(reader.integer_or(key, fallback, minimum, kMaximumCount));
+    return static_cast<int>(reader.integer_or(key, fallback, minimum, kMaximumSegments));
 }
 
 DiscRecipe parse_disc(JsonReader& reader) {
     DiscRecipe recipe;
-    recipe.inner_radius = reader.number("inner_radius", {.minimum = 0.0, .maximum = kLength.maximum});
-    recipe.outer_radius = reader.number("outer_radius", kLength);
+    recipe.inner_radius = reader.number("inner_radius", {.minimum = 0.0, .maximum = kMeshLength.maximum});
+    recipe.outer_radius = reader.number("outer_radius", kMeshLength);
     if (recipe.outer_radius <= recipe.inner_radius)
         reader.fail("outer_radius", fmt::format("{}", recipe.outer_radius),
                     fmt::format("more than inner_radius, {}", recipe.inner_radius));
@@ -117,7 +117,7 @@ DiscRecipe parse_disc(JsonReader& reader) {
 
 SphereRecipe parse_sphere(JsonReader& reader) {
     SphereRecipe recipe;
-    recipe.radius = reader.number("radius", kLength);
+    recipe.radius = reader.number("radius", kMeshLength);
     recipe.rings = count_or(reader, "rings", recipe.rings, 2);
     recipe.segments = count_or(reader, "segments", recipe.segments, 3);
     return recipe;
@@ -125,7 +125,7 @@ SphereRecipe parse_sphere(JsonReader& reader) {
 
 PlaneRecipe parse_plane(JsonReader& reader) {
     PlaneRecipe recipe;
-    const std::vector<double> size = reader.numbers("size", 2, kLength);
+    const std::vector<double> size = reader.numbers("size", 2, kMeshLength);
     recipe.width = size[0];
     recipe.depth = size[1];
     recipe.subdivisions = count_or(reader, "subdivisions", recipe.subdivisions, 1);
@@ -148,16 +148,17 @@ std::vector<glm::dvec2> parse_profile(JsonReader& reader) {
         const auto radius = point[0].get<double>();
         const auto height = point[1].get<double>();
         const bool end = i == 0 || i + 1 == points.size();
-        if (!(radius == 0.0 ? end : radius >= kLength.minimum && radius <= kLength.maximum))
-            reader.fail(place + "/0", fmt::format("{}", radius),
-                        fmt::format("a number in [{}, {}]{}", kLength.minimum, kLength.maximum, end ? " or 0" : ""),
-                        end ? "" : "only the first and the last point may lie on the axis");
-        if (!(std::abs(height) <= kLength.maximum))
+        if (!(radius == 0.0 ? end : radius >= kMeshLength.minimum && radius <= kMeshLength.maximum))
+            reader.fail(
+                place + "/0", fmt::format("{}", radius),
+                fmt::format("a number in [{}, {}]{}", kMeshLength.minimum, kMeshLength.maximum, end ? " or 0" : ""),
+                end ? "" : "only the first and the last point may lie on the axis");
+        if (!(std::abs(height) <= kMeshLength.maximum))
             reader.fail(place + "/1", fmt::format("{}", height),
-                        fmt::format("a number in [{}, {}]", -kLength.maximum, kLength.maximum));
+                        fmt::format("a number in [{}, {}]", -kMeshLength.maximum, kMeshLength.maximum));
         profile.emplace_back(radius, height);
-        if (i > 0 && glm::distance(profile[i], profile[i - 1]) < kLength.minimum)
-            reader.fail(place, "the point before it again", fmt::format("one at least {} m away", kLength.minimum));
+        if (i > 0 && glm::distance(profile[i], profile[i - 1]) < kMeshLength.minimum)
+            reader.fail(place, "the point before it again", fmt::format("one at least {} m away", kMeshLength.minimum));
     }
     if (profile.size() == 2 && profile[0].x == 0.0 && profile[1].x == 0.0)
         reader.fail(key, "both points on the axis", "a radius");
@@ -201,7 +202,7 @@ void parse_faces(JsonReader& reader, BoxRecipe& recipe) {
 
 BoxRecipe parse_box(JsonReader& reader) {
     BoxRecipe recipe;
-    const std::vector<double> size = reader.numbers("size", 3, kLength);
+    const std::vector<double> size = reader.numbers("size", 3, kMeshLength);
     recipe.width = size[0];
     recipe.height = size[1];
     recipe.depth = size[2];

@@ -16,9 +16,7 @@ namespace rowland::scene {
 
 namespace {
 
-using Import = PrimitiveImport;
-
-void read_vertices(const Import& import, Mesh& mesh) {
+void read_vertices(const PrimitiveImport& import, Mesh& mesh) {
     mesh.positions = read_attribute<glm::vec3>(import, "POSITION");
     if (mesh.positions.empty()) import.fail("no POSITION attribute", "one");
     mesh.normals = read_attribute<glm::vec3>(import, "NORMAL");
@@ -45,7 +43,7 @@ void read_vertices(const Import& import, Mesh& mesh) {
 }
 
 /// The primitive's vertex indices as they stand, each checked.
-std::vector<std::uint32_t> read_corners(const Import& import, std::size_t vertex_count) {
+std::vector<std::uint32_t> read_corners(const PrimitiveImport& import, std::size_t vertex_count) {
     std::vector<std::uint32_t> corners;
     if (import.draco) {
         corners = import.draco->indices();
@@ -64,7 +62,8 @@ std::vector<std::uint32_t> read_corners(const Import& import, std::size_t vertex
 }
 
 /// Strips and fans become lists with the same winding (glTF 2.0, 3.7.2.1).
-std::vector<std::uint32_t> triangle_list(const Import& import, PrimitiveMode mode, std::vector<std::uint32_t> corners) {
+std::vector<std::uint32_t> triangle_list(const PrimitiveImport& import, PrimitiveMode mode,
+                                         std::vector<std::uint32_t> corners) {
     if (mode == PrimitiveMode::Triangles) {
         if (corners.size() % 3 != 0) import.fail(fmt::format("{} triangle corners", corners.size()), "a multiple of 3");
         return corners;
@@ -83,7 +82,7 @@ std::vector<std::uint32_t> triangle_list(const Import& import, PrimitiveMode mod
     return list;
 }
 
-void finish_uvs(const Import& import, Mesh& mesh) {
+void finish_uvs(const PrimitiveImport& import, Mesh& mesh) {
     if (mesh.uvs.empty()) mesh.uvs.assign(mesh.positions.size(), glm::vec2(0.0F));
     for (std::vector<glm::vec2>* set : {&mesh.uvs, &mesh.uvs1}) {
         for (glm::vec2& uv : *set) {
@@ -94,7 +93,7 @@ void finish_uvs(const Import& import, Mesh& mesh) {
     }
 }
 
-void finish_normals(const Import& import, Mesh& mesh) {
+void finish_normals(const PrimitiveImport& import, Mesh& mesh) {
     std::vector<glm::vec3> given = std::move(mesh.normals);
     // Generated ones stand in for those that are missing or unusable.
     const auto usable = [](const glm::vec3& n) { return is_finite(n) && glm::dot(n, n) > 1e-12F; };
@@ -110,13 +109,13 @@ void finish_normals(const Import& import, Mesh& mesh) {
 }
 
 /// The texture coordinates that the primitive's normal map uses.
-const std::vector<glm::vec2>& normal_map_uvs(const Import& import, const Mesh& mesh) {
+const std::vector<glm::vec2>& normal_map_uvs(const PrimitiveImport& import, const Mesh& mesh) {
     if (!import.primitive.material || mesh.uvs1.empty()) return mesh.uvs;
     const MaterialDescription& material = import.document.materials[*import.primitive.material];
     return material.normal_texture && material.normal_texture->uv_set == 1 ? mesh.uvs1 : mesh.uvs;
 }
 
-void finish_tangents(const Import& import, Mesh& mesh) {
+void finish_tangents(const PrimitiveImport& import, Mesh& mesh) {
     if (mesh.tangents.empty()) {
         generate_tangents(mesh, normal_map_uvs(import, mesh));
         return;
@@ -140,7 +139,7 @@ Mesh import_primitive(const GltfDocument& document, const GltfPrimitive& primiti
     std::optional<DracoMesh> stream;
     if (primitive.draco)
         stream.emplace(view_bytes(document, primitive.draco->view), document.file, place, decoder, budget);
-    const Import import{document, primitive, place, budget, warnings, stream ? &*stream : nullptr};
+    const PrimitiveImport import{document, primitive, place, budget, warnings, stream ? &*stream : nullptr};
 
     Mesh mesh;
     read_vertices(import, mesh);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kLargestSide = 8192;
 constexpr std::size_t kMostLayers = 32;
-constexpr NumberRange kLength{.minimum = 1e-4, .maximum = 1e4};
+constexpr NumberRange kTextureLength{.minimum = 1e-4, .maximum = 1e4};
 constexpr NumberRange kShareBelowOne{.minimum = 0.0, .maximum = 1.0, .maximum_open = true};
 
 double fraction(double x) {
@@ -171,7 +171,7 @@ void parse_rosette(JsonReader& reader, LayerRecipe& layer) {
     layer.pattern = LayerRecipe::Pattern::Rosette;
     const std::vector<double> centre = reader.numbers("centre", 2, {.minimum = -1e4, .maximum = 1e4});
     layer.centre = {centre[0], centre[1]};
-    layer.radius = reader.number("radius", kLength);
+    layer.radius = reader.number("radius", kTextureLength);
     layer.petals = static_cast<int>(reader.integer_or("petals", 0, 0, 64));
     layer.petal_depth = reader.number_or("petal_depth", layer.petal_depth, kShareBelowOne);
     layer.rings = static_cast<int>(reader.integer_or("rings", 1, 1, 256));
@@ -182,11 +182,11 @@ LayerRecipe parse_layer(JsonReader& reader) {
     const std::string pattern = reader.choice("pattern", {"all", "tiles", "hexagons", "rosette"});
     if (pattern == "tiles") {
         layer.pattern = LayerRecipe::Pattern::Tiles;
-        const std::vector<double> size = reader.numbers("size", 2, kLength);
+        const std::vector<double> size = reader.numbers("size", 2, kTextureLength);
         layer.size = {size[0], size[1]};
     } else if (pattern == "hexagons") {
         layer.pattern = LayerRecipe::Pattern::Hexagons;
-        layer.size = glm::dvec2(reader.number("size", kLength));
+        layer.size = glm::dvec2(reader.number("size", kTextureLength));
     } else if (pattern == "rosette") {
         parse_rosette(reader, layer);
     }

@@ -51,7 +51,7 @@ std::vector<Node> some_nodes() {
     return nodes;
 }
 
-Grating cd() {
+Grating cd_grating() {
     return diffraction::parse_material(rowland::benchmark::cd_material({{"representation", "transfer"}}), "the CD")
         .grating;
 }
@@ -114,7 +114,7 @@ double seconds_now() {
 
 class Comparison {
  public:
-    Comparison() : grating_(cd()), nodes_(some_nodes()) {
+    Comparison() : grating_(cd_grating()), nodes_(some_nodes()) {
         for (const Node& node : nodes_) exact_.push_back(fine_quadrature(grating_, node.view));
     }
 

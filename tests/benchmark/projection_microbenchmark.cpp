@@ -9,7 +9,7 @@ namespace rowland::microbenchmark {
 
 namespace {
 
-void project(::benchmark::State& state, int width, unsigned threads) {
+void project_equirect(::benchmark::State& state, int width, unsigned threads) {
     const ThreadLimit limit(threads);
     image::Image image{width, width / 2, {}};
     for (int i = 0; i < image.width * image.height; ++i)
@@ -26,7 +26,7 @@ void register_projection() {
         for (const unsigned threads : {1U, 2U}) {
             const std::string name =
                 "project_equirect/width:" + std::to_string(width) + "/bands:5/threads:" + std::to_string(threads);
-            auto* benchmark = ::benchmark::RegisterBenchmark(name.c_str(), project, width, threads);
+            auto* benchmark = ::benchmark::RegisterBenchmark(name.c_str(), project_equirect, width, threads);
             benchmark->Unit(::benchmark::kMillisecond);
             if (threads > 1) benchmark->UseRealTime();
         }

@@ -19,12 +19,12 @@ namespace {
 
 using ::benchmark::State;
 
-constexpr int kBands = 5;
+constexpr int kUpdateBands = 5;
 
 lighting::ShLight some_light() {
     lighting::ShLight light;
-    light.bands = kBands;
-    for (int i = 0; i < math::sh_count(kBands); ++i)
+    light.bands = kUpdateBands;
+    for (int i = 0; i < math::sh_count(kUpdateBands); ++i)
         light.coefficients.emplace_back(std::cos(i), std::cos(2 * i), std::cos(3 * i));
     return light;
 }
@@ -52,7 +52,7 @@ void rotate_light(State& state) {
 
 void arc_products(State& state) {
     const diffraction::CookedMaterial cooked = diffraction::cook_material(
-        rowland::benchmark::cd_material({{"representation", "arc"}, {"bands", kBands}, {"rank", 8}}), "the CD");
+        rowland::benchmark::cd_material({{"representation", "arc"}, {"bands", kUpdateBands}, {"rank", 8}}), "the CD");
     const diffraction::ArcProducts products(std::get<diffraction::ArcTable>(cooked.tables));
     turn(state, [&](const lighting::ShLight& light, const scene::Mesh& mesh, const glm::mat4& matrix) {
         return products(light, mesh, matrix, 0.0);

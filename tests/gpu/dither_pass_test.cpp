@@ -10,7 +10,7 @@ namespace rowland {
 
 namespace {
 
-const glm::ivec2 size(256, 16);
+const glm::ivec2 kSize(256, 16);
 constexpr int area = 16;
 
 /// A slow gradient: four 8-bit steps over 256 pixels, that is one band per 64.
@@ -20,8 +20,8 @@ float gradient(int x) {
 
 std::vector<glm::vec4> gradient_picture() {
     std::vector<glm::vec4> pixels;
-    for (int y = 0; y < size.y; ++y) {
-        for (int x = 0; x < size.x; ++x) pixels.emplace_back(glm::vec3(gradient(x)), 0.4F);
+    for (int y = 0; y < kSize.y; ++y) {
+        for (int x = 0; x < kSize.x; ++x) pixels.emplace_back(glm::vec3(gradient(x)), 0.4F);
     }
     return pixels;
 }
@@ -29,11 +29,11 @@ std::vector<glm::vec4> gradient_picture() {
 /// How far the mean over a square of the picture is from the gradient's at most, in 8-bit steps.
 double worst_area(const std::vector<std::uint8_t>& bytes) {
     double worst = 0.0;
-    for (int left = 0; left + area <= size.x; ++left) {
+    for (int left = 0; left + area <= kSize.x; ++left) {
         double difference = 0.0;
         for (int y = 0; y < area; ++y) {
             for (int x = left; x < left + area; ++x) {
-                difference += bytes[static_cast<std::size_t>(4 * (y * size.x + x))] - 255.0 * gradient(x);
+                difference += bytes[static_cast<std::size_t>(4 * (y * kSize.x + x))] - 255.0 * gradient(x);
             }
         }
         worst = std::max(worst, std::abs(difference) / (area * area));
@@ -45,12 +45,12 @@ class DitherPassTest : public test::GlTest {
  protected:
     DitherPassTest() {
         library_.add_embedded(post::shader_files());
-        source_ = gpu::Texture({.format = gpu::Format::RGBA32F, .width = size.x, .height = size.y});
+        source_ = gpu::Texture({.format = gpu::Format::RGBA32F, .width = kSize.x, .height = kSize.y});
         source_.upload(std::span<const glm::vec4>(gradient_picture()));
     }
 
     static gpu::Framebuffer target(gpu::Format format) {
-        return gpu::Framebuffer({.width = size.x, .height = size.y, .colours = {format}});
+        return gpu::Framebuffer({.width = kSize.x, .height = kSize.y, .colours = {format}});
     }
 
     gpu::ShaderLibrary library_;
@@ -63,7 +63,7 @@ TEST_F(DitherPassTest, AgreesWithTheCpu) {
     for (const std::uint32_t frame : {0U, 9U, 4000000000U}) {
         const std::vector<glm::vec4> picture = gradient_picture();
         std::vector<glm::vec3> expected(picture.begin(), picture.end());
-        post::apply_dither(expected, size, frame, {.bits = 6});
+        post::apply_dither(expected, kSize, frame, {.bits = 6});
         pass.draw(source_, frame, {.bits = 6}, drawn_to);
         const std::vector<glm::vec4> drawn = drawn_to.colour().read();
         for (std::size_t i = 0; i < drawn.size(); ++i) {

@@ -14,12 +14,12 @@
 namespace rowland::render {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Unit vectors all over the sphere, none along ±y.
 glm::dvec3 spread_direction(int i, int count) {
     const double z = 1.0 - (2 * i + 1.0) / count;
-    const double phi = 2.0 * kPi * i * std::numbers::phi;
+    const double phi = 2.0 * pi * i * std::numbers::phi;
     const double r = std::sqrt(1.0 - z * z);
     return {r * std::cos(phi), r * std::sin(phi), z};
 }
@@ -29,7 +29,7 @@ glm::dvec3 brute_force(const lighting::LightTexels& texels, const glm::dvec3& n)
     glm::dvec3 sum(0.0);
     for (std::size_t k = 0; k < texels.size(); ++k) {
         const double cosine = glm::dot(glm::dvec3(texels.x[k], texels.y[k], texels.z[k]), n);
-        if (cosine > 0.0) sum += cosine / kPi * glm::dvec3(texels.red[k], texels.green[k], texels.blue[k]);
+        if (cosine > 0.0) sum += cosine / pi * glm::dvec3(texels.red[k], texels.green[k], texels.blue[k]);
     }
     return sum;
 }
@@ -82,18 +82,18 @@ TEST_F(KeyLightTest, LobesOnADiffuseSurfaceAreThoseOfTheCpu) {
     const glm::dvec3 n(0.0, 0.0, 1.0);
     for (const double concentration : {1.0, 40.0, 300.0, 3000.0, 1e5})
         for (int i = 0; i <= 24; ++i) {
-            const double angle = kPi * i / 24;
+            const double angle = pi * i / 24;
             const lighting::KeyLight key{
                 {0.6 * std::sin(angle), 0.8 * std::sin(angle), std::cos(angle)}, {1.0, 2.0, 0.5}, concentration};
             const lighting::KeyLight weaker{{0.0, 1.0, 0.0}, {0.25, 0.0, 0.5}, 100.0};
             renderer_.set_probe(lobes({key, weaker}));
-            const glm::dvec3 expected = (lighting::irradiance(key, n) + lighting::irradiance(weaker, n)) / kPi;
+            const glm::dvec3 expected = (lighting::irradiance(key, n) + lighting::irradiance(weaker, n)) / pi;
             const glm::dvec3 drawn = seen(n);
             // Half floats of the brightest normal's irradiance, 5e-4. Between four texels, h = 2/64 apart, of a cosine
             // that is cut off at the horizon: at most their mean height over the cut, h / 4 along the diagonal; 5.2e-3
             // was seen.
             for (int c = 0; c < 3; ++c)
-                EXPECT_NEAR(drawn[c], expected[c], (5e-4 + 6e-3) * key.flux[c] / kPi)
+                EXPECT_NEAR(drawn[c], expected[c], (5e-4 + 6e-3) * key.flux[c] / pi)
                     << "concentration " << concentration << " angle " << angle;
         }
 }
@@ -140,7 +140,7 @@ TEST_F(KeyLightTest, NothingIsLitTwice) {
         for (int i = 0; i < kCount; ++i) mean[use ? 1 : 0] += seen(spread_direction(i, kCount)) / double{kCount};
     }
     // The mean of E/π over all normals is the mean radiance.
-    const glm::dvec3 radiance = probe.sh.coefficients[0] / std::sqrt(4.0 * kPi);
+    const glm::dvec3 radiance = probe.sh.coefficients[0] / std::sqrt(4.0 * pi);
     for (int c = 0; c < 3; ++c) {
         EXPECT_NEAR(mean[0][c], radiance[c], 1e-3 * radiance[c]);
         EXPECT_NEAR(mean[1][c], radiance[c], 1e-3 * radiance[c]);
@@ -178,9 +178,9 @@ TEST_F(KeyLightTest, ReflectionsKeepTheWholeProbe) {
 }
 
 /// Keeps the light that modules are given.
-class Listener final : public MaterialType {
+class KeyListener final : public MaterialType {
  public:
-    explicit Listener(FrameLight& light) : light_(&light) {}
+    explicit KeyListener(FrameLight& light) : light_(&light) {}
     void add_shaders(gpu::ShaderLibrary& /*library*/) const override {}
     bool owns(ecs::World& /*world*/, ecs::Entity /*entity*/) const override { return false; }
     gpu::ProgramDesc program(ecs::World& /*world*/, ecs::Entity /*entity*/) const override { return {}; }
@@ -204,7 +204,7 @@ std::vector<glm::dvec3> sh_of(const lighting::LightTexels& texels, int bands) {
 
 TEST_F(KeyLightTest, ThePartsOfAFramesLightSumToTheWholeOnAndOff) {
     FrameLight light;
-    renderer_.add_material_type(std::make_unique<Listener>(light));
+    renderer_.add_material_type(std::make_unique<KeyListener>(light));
     const lighting::LightProbe probe = cooked(sky());
     ASSERT_GE(probe.key_lights.size(), 1U);
     renderer_.set_probe(probe);
@@ -232,7 +232,7 @@ TEST_F(KeyLightTest, ThePartsOfAFramesLightSumToTheWholeOnAndOff) {
 
 TEST_F(KeyLightTest, ModulesLearnOfEveryChangeOfTheLight) {
     FrameLight light;
-    renderer_.add_material_type(std::make_unique<Listener>(light));
+    renderer_.add_material_type(std::make_unique<KeyListener>(light));
     const auto version = [&] {
         draw();
         return light.version;

@@ -14,7 +14,7 @@ namespace {
 using ProgramTest = test::GlTest;
 using ::testing::HasSubstr;
 
-constexpr std::array files{
+constexpr std::array kProgramFiles{
     gpu::EmbeddedFile{"t/broken.frag.glsl",
                       "#version 450 core\n"
                       "#include \"good.glsl\"\n"
@@ -41,16 +41,17 @@ constexpr std::array files{
                       "void main() { colour = vec4(VALUE); }\n"},
 };
 
-gpu::ShaderLibrary library() {
+gpu::ShaderLibrary program_library() {
     gpu::ShaderLibrary result;
-    result.add_embedded(files);
+    result.add_embedded(kProgramFiles);
     return result;
 }
 
-ErrorInfo failure(const std::string& fragment, std::vector<gpu::Define> defines = {}) {
+ErrorInfo program_failure(const std::string& fragment, std::vector<gpu::Define> defines = {}) {
     try {
         const gpu::Program program(
-            library(), {.vertex = gpu::full_screen_vertex_shader, .fragment = fragment, .defines = std::move(defines)});
+            program_library(),
+            {.vertex = gpu::full_screen_vertex_shader, .fragment = fragment, .defines = std::move(defines)});
     } catch (const Error& error) {
         return error.info();
     }
@@ -58,28 +59,28 @@ ErrorInfo failure(const std::string& fragment, std::vector<gpu::Define> defines 
 }
 
 TEST_F(ProgramTest, CompileErrorNamesTheIncludedFileAndItsLine) {
-    const ErrorInfo info = failure("t/broken.frag.glsl");
+    const ErrorInfo info = program_failure("t/broken.frag.glsl");
     EXPECT_EQ(info.file, "t/broken.glsl");
     EXPECT_EQ(info.place, "line 4");
     EXPECT_THAT(info.found, HasSubstr("undeclared_name"));
 }
 
 TEST_F(ProgramTest, CompileErrorBelowAnIncludeNamesTheOuterFileAndLine) {
-    const ErrorInfo info = failure("t/broken_after_include.frag.glsl", {{"ONE", "1"}, {"TWO", "2"}});
+    const ErrorInfo info = program_failure("t/broken_after_include.frag.glsl", {{"ONE", "1"}, {"TWO", "2"}});
     EXPECT_EQ(info.file, "t/broken_after_include.frag.glsl");
     EXPECT_EQ(info.place, "line 5");
     EXPECT_THAT(info.found, HasSubstr("nowhere"));
 }
 
 TEST_F(ProgramTest, LinkErrorNamesTheFiles) {
-    const ErrorInfo info = failure("t/unlinkable.frag.glsl");
+    const ErrorInfo info = program_failure("t/unlinkable.frag.glsl");
     EXPECT_THAT(info.file, HasSubstr("t/unlinkable.frag.glsl"));
     EXPECT_THAT(info.found, HasSubstr("never_defined"));
 }
 
 TEST_F(ProgramTest, DefinesReachTheShader) {
     const gpu::Program program(
-        library(),
+        program_library(),
         {.vertex = gpu::full_screen_vertex_shader, .fragment = "t/defined.frag.glsl", .defines = {{"VALUE", "0.75"}}});
     const gpu::Framebuffer target(gpu::FramebufferDesc{});
     gpu::FullScreenTriangle().draw(program, target);

@@ -27,7 +27,7 @@ namespace {
 constexpr int kSize = 32;
 const glm::vec3 kEye(0.0F, 0.0F, 4.0F);
 
-lighting::LightProbe light_of(double mean, double variation) {
+lighting::LightProbe spike_light(double mean, double variation) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> uniform(-variation, variation);
     lighting::LightProbe probe;
@@ -59,7 +59,7 @@ scene::Mesh tilted_triangle(double v_n, double phi) {
     return mesh;
 }
 
-CookedMaterial cook(const std::string& text) {
+CookedMaterial cook_spikes(const std::string& text) {
     return cook_material(parse_json(text, "test"), "test");
 }
 
@@ -123,8 +123,8 @@ TEST_F(SpikeExtremes, GrazingViewsEqualTheCpu) {
     double largest = 0.0;
     double brightest = 0.0;
     for (const char* material : {kSlit, kFoil, kFine}) {
-        const CookedMaterial cooked = cook(material);
-        const lighting::LightProbe probe = light_of(3.0, 0.3);
+        const CookedMaterial cooked = cook_spikes(material);
+        const lighting::LightProbe probe = spike_light(3.0, 0.3);
         for (const double v_n : {1.0, 0.5, 0.05, 1e-3, 1e-5, 1e-7})
             for (const double phi : {0.0, 0.8, 3.14159265358979}) {
                 const scene::Mesh mesh = tilted_triangle(v_n, phi);
@@ -142,16 +142,16 @@ TEST_F(SpikeExtremes, GrazingViewsEqualTheCpu) {
 
 /// Behind the horizon the shader stays at its rim; draw() holds every pixel to be finite.
 TEST_F(SpikeExtremes, ViewsFromBelowAreFinite) {
-    const CookedMaterial cooked = cook(kSlit);
-    const lighting::LightProbe probe = light_of(3.0, 0.3);
+    const CookedMaterial cooked = cook_spikes(kSlit);
+    const lighting::LightProbe probe = spike_light(3.0, 0.3);
     for (const double v_n : {0.0, -1e-7, -0.3, -1.0}) draw(cooked, probe, tilted_triangle(v_n, 0.4));
 }
 
 /// Light scales what is drawn, from 10⁻⁶ to 10⁶, with no more error than at 1.
 TEST_F(SpikeExtremes, LightOfAnyStrengthEqualsTheCpu) {
-    const CookedMaterial cooked = cook(kSlit);
+    const CookedMaterial cooked = cook_spikes(kSlit);
     for (const double strength : {1e-6, 1.0, 1e6}) {
-        const lighting::LightProbe probe = light_of(3.0 * strength, 0.3 * strength);
+        const lighting::LightProbe probe = spike_light(3.0 * strength, 0.3 * strength);
         const scene::Mesh mesh = tilted_triangle(0.6, 0.3);
         const glm::dvec3 wanted = expected(cooked, probe, mesh);
         EXPECT_GT(wanted.y, 0.05 * strength);
@@ -160,16 +160,16 @@ TEST_F(SpikeExtremes, LightOfAnyStrengthEqualsTheCpu) {
 }
 
 TEST_F(SpikeExtremes, NoLightIsBlack) {
-    const CookedMaterial cooked = cook(kSlit);
+    const CookedMaterial cooked = cook_spikes(kSlit);
     for (const double v_n : {1.0, 0.3, 1e-6})
-        EXPECT_EQ(draw(cooked, light_of(0.0, 0.0), tilted_triangle(v_n, 0.3)), glm::dvec3(0.0)) << v_n;
+        EXPECT_EQ(draw(cooked, spike_light(0.0, 0.0), tilted_triangle(v_n, 0.3)), glm::dvec3(0.0)) << v_n;
 }
 
 TEST_F(SpikeExtremes, GratingTooFineToDiffractIsBlack) {
     const CookedMaterial cooked =
-        cook(R"({"grating": {"pitch_nm": 180, "profile": {"type": "slit", "width_nm": 90}}})");
+        cook_spikes(R"({"grating": {"pitch_nm": 180, "profile": {"type": "slit", "width_nm": 90}}})");
     for (const double v_n : {1.0, 0.3, 1e-6})
-        EXPECT_EQ(draw(cooked, light_of(1e6, 1e5), tilted_triangle(v_n, 0.0)), glm::dvec3(0.0)) << v_n;
+        EXPECT_EQ(draw(cooked, spike_light(1e6, 1e5), tilted_triangle(v_n, 0.0)), glm::dvec3(0.0)) << v_n;
 }
 
 }  // namespace

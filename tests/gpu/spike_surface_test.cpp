@@ -40,7 +40,7 @@ lighting::LightProbe random_light(int bands, unsigned seed) {
     return probe;
 }
 
-CookedMaterial cook(const std::string& grating, const std::string& quality) {
+CookedMaterial cook_spiked(const std::string& grating, const std::string& quality) {
     return cook_material(parse_json("{\"grating\":" + grating + ",\"quality\":" + quality + "}", "test"), "test");
 }
 
@@ -146,7 +146,7 @@ struct Frame {
 
 Frame make_frame(const std::string& grating, const std::string& quality, int bands, unsigned seed) {
     Frame frame;
-    frame.cooked = cook(grating, quality);
+    frame.cooked = cook_spiked(grating, quality);
     frame.probe = random_light(bands, seed);
     frame.transform.rotation = glm::angleAxis(0.4F, glm::normalize(glm::vec3(1.0F, 2.0F, 0.5F)));
     frame.transform.scale = glm::vec3(1.0F, 1.2F, 0.8F);

@@ -12,14 +12,14 @@ using scene::AlphaMode;
 using SurfaceTest = test::RenderTest;
 
 // 32-bit floats throughout, a dozen operations.
-constexpr float kRounding = 1e-5F;
+constexpr float kSurfaceRounding = 1e-5F;
 
 const glm::vec4 kRed(1.0F, 0.0F, 0.0F, 1.0F);
 const glm::vec4 kGreen(0.0F, 1.0F, 0.0F, 1.0F);
 const glm::vec4 kBlue(0.0F, 0.0F, 1.0F, 1.0F);
 const glm::vec4 kWhite(1.0F);
 
-void expect_near(const glm::vec4& drawn, const glm::vec3& expected, float tolerance = kRounding) {
+void expect_near(const glm::vec4& drawn, const glm::vec3& expected, float tolerance = kSurfaceRounding) {
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(drawn[c], expected[c], tolerance) << "channel " << c;
 }
 
@@ -216,8 +216,8 @@ TEST_F(LitSurfaceTest, OcclusionDarkensWhatComesFromAroundAndNothingElse) {
     EXPECT_NEAR(direct, lit({}, kToward, {0.0F, 0.0F, 1.0F}, 0.0, 0.8).g, kTolerance);
     const float open = centre(1.0F, 0.0F) - direct;
     EXPECT_GT(open, 0.4F);
-    EXPECT_NEAR(centre(1.0F, 1.0F) - direct, 0.25F * open, kRounding);
-    EXPECT_NEAR(centre(1.0F, 0.5F) - direct, (1.0F - 0.5F * 0.75F) * open, kRounding);
+    EXPECT_NEAR(centre(1.0F, 1.0F) - direct, 0.25F * open, kSurfaceRounding);
+    EXPECT_NEAR(centre(1.0F, 0.5F) - direct, (1.0F - 0.5F * 0.75F) * open, kSurfaceRounding);
 }
 
 TEST_F(SurfaceTest, MaskDiscardsBelowTheCutoffAndKeepsFromItOn) {

@@ -24,4 +24,4 @@ bool data_is_required();
         if (::rowland::test::data_is_required()) FAIL() << "test data is missing: " << (relative_path); \
         GTEST_SKIP() << "test data is missing: " << (relative_path);                                    \
     }                                                                                                   \
-    const std::filesystem::path& variable = *variable##_found
+    const std::filesystem::path& variable = *variable##_found  // NOLINT(bugprone-macro-parentheses): it declares

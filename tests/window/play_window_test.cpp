@@ -19,8 +19,8 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr int kWidth = 320;
-constexpr int kHeight = 180;
+constexpr int kPlayWidth = 320;
+constexpr int kPlayHeight = 180;
 
 /// Part of the picture, in pixels.
 struct Region {
@@ -38,8 +38,8 @@ class PlayWindow : public ::testing::Test {
     void play(const std::vector<std::string>& actions, const std::string& arguments = {}) {
         std::string command = std::string("bash ") + ROWLAND_DRIVE + " " + folder_.path().string();
         for (const std::string& action : actions) command += " '" + action + "'";
-        command += std::string(" -- ") + ROWLAND_DEMO + " --width " + std::to_string(kWidth) + " --height " +
-                   std::to_string(kHeight) + " --shader-folder " + folder_.path().string() + " " + arguments;
+        command += std::string(" -- ") + ROWLAND_DEMO + " --width " + std::to_string(kPlayWidth) + " --height " +
+                   std::to_string(kPlayHeight) + " --shader-folder " + folder_.path().string() + " " + arguments;
         EXPECT_EQ(std::system(command.c_str()), 0) << command;
     }
     image::ByteImage screenshot(int number) const {
@@ -53,7 +53,7 @@ class PlayWindow : public ::testing::Test {
         double sum = 0.0;
         for (int y = region.top; y < region.bottom; ++y)
             for (int x = 4 * region.left; x < 4 * region.right; ++x) {
-                const auto i = static_cast<std::size_t>(4 * y * kWidth + x);
+                const auto i = static_cast<std::size_t>(4 * y * kPlayWidth + x);
                 sum += std::abs(int{first.rgba[i]} - int{second.rgba[i]});
             }
         return sum / (3.0 * (region.right - region.left) * (region.bottom - region.top));
@@ -99,9 +99,9 @@ TEST_F(PlayWindow, LightsAreAddedUpToTheMostAndTakenAway) {
     play({"key:space", "at:160,90", "shot", "key:g", "shot", "key:BackSpace", "shot", "down:g",
           "log:150,64 lights are the most", "up:g", "shot"},
          "--no-watch");
-    EXPECT_GT(difference(1, 2, {0, 0, kWidth, kHeight}), 0.5);
-    EXPECT_EQ(difference(1, 3, {0, 0, kWidth, kHeight}), 0.0);
-    EXPECT_GT(difference(3, 4, {0, 0, kWidth, kHeight}), 10.0);
+    EXPECT_GT(difference(1, 2, {0, 0, kPlayWidth, kPlayHeight}), 0.5);
+    EXPECT_EQ(difference(1, 3, {0, 0, kPlayWidth, kPlayHeight}), 0.0);
+    EXPECT_GT(difference(3, 4, {0, 0, kPlayWidth, kPlayHeight}), 10.0);
     EXPECT_THAT(log(), HasSubstr("64 lights are the most"));
     EXPECT_THAT(log(), Not(HasSubstr("65 lights")));
 }
@@ -111,20 +111,20 @@ TEST_F(PlayWindow, AWalkGoesForwardAndEscapeOnlyEndsIt) {
     play({"key:space", "filled:180", "shot", "key:c", "wait:0.5", "shot", "down:w", "wait:1", "up:w", "settle:60",
           "key:Escape", "wait:0.5", "settle:60"});
     // The walk starts where the orbit was, but for rounding.
-    EXPECT_LT(difference(1, 2, {0, 0, kWidth, kHeight}), 0.5);
-    EXPECT_GT(difference(2, 3, {0, 0, kWidth, kHeight}), 5.0);
+    EXPECT_LT(difference(1, 2, {0, 0, kPlayWidth, kPlayHeight}), 0.5);
+    EXPECT_GT(difference(2, 3, {0, 0, kPlayWidth, kPlayHeight}), 5.0);
     // The orbit goes on from where the walk ended, but for rounding.
-    EXPECT_LT(difference(3, 4, {0, 0, kWidth, kHeight}), 0.5);
+    EXPECT_LT(difference(3, 4, {0, 0, kPlayWidth, kPlayHeight}), 0.5);
 }
 
 TEST_F(PlayWindow, TheEnvironmentTurnsThereAndBack) {
     ROWLAND_NEEDS_XVFB();
     play({"key:space", "filled:180", "shot", "key:comma", "key:comma", "key:comma", "wait:1", "filled:180", "shot",
           "key:period", "key:period", "key:period", "wait:1", "filled:180", "shot"});
-    const double there = difference(1, 2, {0, 0, kWidth, kHeight});
+    const double there = difference(1, 2, {0, 0, kPlayWidth, kPlayHeight});
     EXPECT_GT(there, 1.0);
     // Maps may still be filling for the light as it stands again.
-    EXPECT_LT(difference(1, 3, {0, 0, kWidth, kHeight}), 0.3 * there);
+    EXPECT_LT(difference(1, 3, {0, 0, kPlayWidth, kPlayHeight}), 0.3 * there);
 }
 
 TEST_F(PlayWindow, WhatIsRecordedPlaysAgainToTheSameStateWithAndWithoutAWindow) {

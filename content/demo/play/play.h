@@ -20,6 +20,7 @@
 namespace rowland::demo {
 
 inline constexpr int kStepsPerSecond = 120;
+inline constexpr int kFramesPerSecond = 30;  ///< of what is drawn without a window
 
 /// What of a scene can be played with.
 struct Toys {

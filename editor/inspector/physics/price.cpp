@@ -25,7 +25,7 @@ namespace rowland::inspector {
 namespace {
 
 constexpr int kMostBands = 16;
-constexpr std::size_t kFramesAtOnce = 8;  ///< between two looks at whether to stop
+constexpr std::size_t kPricedAtOnce = 8;  ///< between two looks at whether to stop
 
 struct Candidate {
     nlohmann::json settings;
@@ -47,8 +47,8 @@ class Measurement {
         const diffraction::ColourKernel kernel(query.material.grating, spectra);
         cooked_.kernel = tabulate(kernel);
         cooked_.zero_order_xyz = kernel.zero_order_xyz();
-        for (std::size_t i = 0; i < frames_.size() && !stop.stop_requested(); i += kFramesAtOnce) {
-            const std::span part = std::span(frames_).subspan(i, std::min(kFramesAtOnce, frames_.size() - i));
+        for (std::size_t i = 0; i < frames_.size() && !stop.stop_requested(); i += kPricedAtOnce) {
+            const std::span part = std::span(frames_).subspan(i, std::min(kPricedAtOnce, frames_.size() - i));
             const auto radiance = reference_radiance(query.material.grating, query.probe, spectra, part);
             reference_.insert(reference_.end(), radiance.begin(), radiance.end());
         }

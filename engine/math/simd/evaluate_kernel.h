@@ -5,6 +5,7 @@
 
 namespace rowland::math::simd {
 namespace {
+// NOLINTBEGIN(misc-definitions-in-headers): one for each instruction set, see kernels.h
 
 /// The 25 functions of five bands, as polynomials [Sloan 2013, "Efficient spherical harmonic evaluation", here without
 /// the Condon–Shortley phase]. put(i, value) takes each.
@@ -105,5 +106,6 @@ void evaluate(const Directions& directions, int bands, const Recurrence& factors
     });
 }
 
+// NOLINTEND(misc-definitions-in-headers)
 }  // namespace
 }  // namespace rowland::math::simd

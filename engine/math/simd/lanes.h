@@ -11,6 +11,7 @@
 // kernels.h.
 namespace rowland::math::simd {
 namespace {
+// NOLINTBEGIN(misc-definitions-in-headers): one for each instruction set, see kernels.h
 
 #if defined(__AVX2__)
 constexpr int kLanes = 8;
@@ -103,5 +104,6 @@ ROWLAND_INLINE void unroll(const F& f) {
     }
 }
 
+// NOLINTEND(misc-definitions-in-headers)
 }  // namespace
 }  // namespace rowland::math::simd

@@ -6,6 +6,7 @@
 
 namespace rowland::math::simd {
 namespace {
+// NOLINTBEGIN(misc-definitions-in-headers): one for each instruction set, see kernels.h
 
 constexpr int kChannels = 3;
 
@@ -224,5 +225,6 @@ void project(const Light& light, const Frames& frames, const SparseMatrix& matri
     rotate_frames(light, frames, Project{matrix, moments}, scratch, out);
 }
 
+// NOLINTEND(misc-definitions-in-headers)
 }  // namespace
 }  // namespace rowland::math::simd

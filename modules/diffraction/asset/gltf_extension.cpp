@@ -18,18 +18,16 @@ void pass_over_foreign_members(JsonReader& json) {
 }
 
 constexpr std::int64_t kLargestIndex = std::numeric_limits<std::int32_t>::max();
-constexpr NumberRange kFloat{.minimum = std::numeric_limits<float>::lowest(),
-                             .maximum = std::numeric_limits<float>::max()};
 
 void parse_transform(JsonReader json, GrooveTexture& texture) {
     const auto pair = [&](const char* key, glm::dvec2& value) {
         if (!json.has(key)) return;
-        const std::vector<double> numbers = json.numbers(key, 2, kFloat);
+        const std::vector<double> numbers = json.numbers(key, 2, kFiniteFloat);
         value = {numbers[0], numbers[1]};
     };
     pair("offset", texture.offset);
     pair("scale", texture.scale);
-    texture.rotation = json.number_or("rotation", texture.rotation, kFloat);
+    texture.rotation = json.number_or("rotation", texture.rotation, kFiniteFloat);
     texture.tex_coord = static_cast<int>(json.integer_or("texCoord", texture.tex_coord, 0, kLargestIndex));
     pass_over_foreign_members(json);
     json.finish();

@@ -13,7 +13,7 @@ namespace rowland::diffraction {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Gauss–Legendre needs π nodes a wave, and a few more where cos t stretches waves.
 constexpr int kNodesPerWave = 6;
@@ -67,13 +67,13 @@ ArcCoefficients::ArcCoefficients(int bands, const GrooveLobe& lobe)
 ArcCoefficients::Moments ArcCoefficients::moments(double r, double v_h, double wavelength_nm) const {
     const double core = lobe_core_half_width(lobe_);
     const double begin = is_flat(lobe_) ? 0.0 : std::acos(std::clamp((core - v_h) / r, -1.0, 1.0));
-    const double end = is_flat(lobe_) ? kPi : std::acos(std::clamp((-core - v_h) / r, -1.0, 1.0));
+    const double end = is_flat(lobe_) ? pi : std::acos(std::clamp((-core - v_h) / r, -1.0, 1.0));
     const LobeDensity density(lobe_, wavelength_nm);
     Moments result;
     add_moments(core_rule_, {begin, end}, {r, v_h}, density, result);
     if (lobe_half_width(lobe_) > core) {
         add_moments(tail_rule_, {0.0, begin}, {r, v_h}, density, result);
-        add_moments(tail_rule_, {end, kPi}, {r, v_h}, density, result);
+        add_moments(tail_rule_, {end, pi}, {r, v_h}, density, result);
     }
     return result;
 }

@@ -20,8 +20,7 @@ namespace {
 
 using Eigen::MatrixXd;
 
-constexpr std::size_t kComponents = 4;
-constexpr Eigen::Index kColours = 9;  ///< columns a light term takes: light's channel · 3 + tristimulus
+constexpr Eigen::Index kTermColumns = 9;  ///< columns a light term takes: light's channel · 3 + tristimulus
 constexpr int kMaximumPitchNodes = 1 << 12;
 
 /// What light is like: its power falls with the band about as 1/(l+1)², its channels are mostly one grey (eight probes:
@@ -67,10 +66,10 @@ MatrixXd weighed(const MatrixXd& table, LightTerms terms, int bands) {
             for (Eigen::Index from = 0; from < 3; ++from) {
                 if (channel(from, c) == 0.0) continue;
                 for (Eigen::Index k = 0; k < count; ++k)
-                    mixed.col(k) += channel(from, c) * table.col(k * kColours + from * 3 + o);
+                    mixed.col(k) += channel(from, c) * table.col(k * kTermColumns + from * 3 + o);
             }
             const MatrixXd turned = mixed * light;
-            for (Eigen::Index k = 0; k < count; ++k) result.col(k * kColours + c * 3 + o) = turned.col(k);
+            for (Eigen::Index k = 0; k < count; ++k) result.col(k * kTermColumns + c * 3 + o) = turned.col(k);
         }
     return result;
 }
@@ -89,7 +88,7 @@ void put(const std::vector<glm::dmat3>& terms, std::span<const double> signs, Ei
     for (std::size_t k = 0; k < terms.size(); ++k)
         for (int c = 0; c < 3; ++c)
             for (int o = 0; o < 3; ++o)
-                table(row, static_cast<Eigen::Index>(k) * kColours + c * 3 + o) =
+                table(row, static_cast<Eigen::Index>(k) * kTermColumns + c * 3 + o) =
                     (signs.empty() ? 1.0 : signs[k]) * terms[k][c][o];
 }
 
@@ -98,7 +97,8 @@ MatrixXd tabulate(const Grating& grating, const ArcTable& table, const colour::I
     const TransferTerms terms(grating, colour::LightSpectra(illuminant), table.bands);
     const auto columns = static_cast<std::size_t>(table.grid.columns);
     const std::size_t rows = static_cast<std::size_t>(table.rows());
-    MatrixXd result(static_cast<Eigen::Index>(columns * rows), light_term_count(table.terms, table.bands) * kColours);
+    MatrixXd result(static_cast<Eigen::Index>(columns * rows),
+                    light_term_count(table.terms, table.bands) * kTermColumns);
     if (table.terms == LightTerms::ArcMoments) {
         parallel_for(columns * rows, [&](std::size_t texel) {
             const double factor = table.pitch ? pitch_factor_at(*table.pitch, static_cast<int>(texel / columns)) : 1.0;
@@ -159,19 +159,19 @@ ArcTable bake_arc_table(const Grating& grating, const ArcSettings& settings) {
         const double scale = weights(largest, r);
         weights.col(r) /= scale;
         factors.row(r) *= scale;
-        for (Eigen::Index k = 0; k < values.cols() / kColours; ++k) {
+        for (Eigen::Index k = 0; k < values.cols() / kTermColumns; ++k) {
             glm::mat3 factor;
             for (int c = 0; c < 3; ++c)
-                for (int o = 0; o < 3; ++o) factor[c][o] = static_cast<float>(factors(r, k * kColours + c * 3 + o));
+                for (int o = 0; o < 3; ++o) factor[c][o] = static_cast<float>(factors(r, k * kTermColumns + c * 3 + o));
             table.factors.push_back(factor);
         }
     }
     const std::size_t layers = weight_layers(table.rank);
     const auto texels = static_cast<std::size_t>(values.rows());
-    std::vector<double> packed(layers * texels * kComponents, 0.0);
+    std::vector<double> packed(layers * texels * kTexelComponents, 0.0);
     for (std::size_t r = 0; r < static_cast<std::size_t>(table.rank); ++r)
         for (std::size_t texel = 0; texel < texels; ++texel)
-            packed[(r / kComponents * texels + texel) * kComponents + r % kComponents] =
+            packed[(r / kTexelComponents * texels + texel) * kTexelComponents + r % kTexelComponents] =
                 weights(static_cast<Eigen::Index>(texel), static_cast<Eigen::Index>(r));
     pack(packed, layers, table);
     return table;
@@ -201,7 +201,7 @@ glm::dvec3 shade(const ArcTable& table, std::span<const glm::dvec3> products, co
     }
     const std::size_t texels = columns * static_cast<std::size_t>(table.rows());
     for (std::size_t r = 0; r < products.size(); ++r)
-        xyz += filtered(table, r / kComponents, texels, r % kComponents, place) * products[r];
+        xyz += filtered(table, r / kTexelComponents, texels, r % kTexelComponents, place) * products[r];
     return xyz;
 }
 
@@ -254,7 +254,7 @@ std::optional<PitchAxis> read_pitch_axis(ByteReader& reader) {
 ArcTable read_arc_table(ByteReader& reader) {
     ArcTable table;
     table.bands = read_count(reader, "bands", 1, math::kMaximumBands);
-    table.rank = read_count(reader, "rank", 1, math::sh_count(math::kMaximumBands) * static_cast<int>(kColours));
+    table.rank = read_count(reader, "rank", 1, math::sh_count(math::kMaximumBands) * static_cast<int>(kTermColumns));
     table.terms = read_light_terms(reader);
     table.grid = read_view_grid(reader);
     table.pitch = read_pitch_axis(reader);

@@ -17,11 +17,10 @@ namespace rowland::diffraction {
 
 namespace {
 
-constexpr std::size_t kComponents = 4;
 constexpr int kMaximumBins = static_cast<int>(kWavelengths) - 1;
 
 std::size_t blocks_of(int bands) {
-    return (static_cast<std::size_t>(math::sh_count(bands)) + kComponents - 1) / kComponents;
+    return (static_cast<std::size_t>(math::sh_count(bands)) + kTexelComponents - 1) / kTexelComponents;
 }
 
 /// One bin: what to multiply the coefficients at its wavelengths with for their mean, and its colour.
@@ -76,7 +75,7 @@ BinTable bake_bin_table(const Grating& grating, const BinSettings& settings) {
     const std::vector<double> signs = mirror_signs(table.bands);
     const std::size_t blocks = blocks_of(table.bands);
     const std::size_t texels = table.grid.texels();
-    std::vector<double> values(bins.size() * blocks * texels * kComponents, 0.0);
+    std::vector<double> values(bins.size() * blocks * texels * kTexelComponents, 0.0);
     for_each_view("baking bins", table.grid, [&](const glm::dvec2& view, std::size_t texel, std::size_t mirror) {
         const std::vector<double> coefficients = spectrum.coefficients(view.x, view.y);
         for (std::size_t b = 0; b < bins.size(); ++b)
@@ -85,7 +84,8 @@ BinTable bake_bin_table(const Grating& grating, const BinSettings& settings) {
                 for (std::size_t j = 0; j < bins[b].shares.size(); ++j)
                     mean += bins[b].shares[j] * coefficients[(bins[b].begin + j) * signs.size() + i];
                 const auto at = [&](std::size_t t) -> double& {
-                    return values[((b * blocks + i / kComponents) * texels + t) * kComponents + i % kComponents];
+                    return values[((b * blocks + i / kTexelComponents) * texels + t) * kTexelComponents +
+                                  i % kTexelComponents];
                 };
                 at(texel) = mean;
                 if (mirror != texel) at(mirror) = signs[i] * mean;
@@ -106,7 +106,7 @@ glm::dvec3 evaluate(const BinTable& table, const lighting::ShLight& tangent_ligh
         glm::dvec3 rgb(0.0);
         for (std::size_t i = 0; i < common; ++i)
             rgb += tangent_light.coefficients[i] *
-                   filtered(table, b * blocks + i / kComponents, table.grid.texels(), i % kComponents, place);
+                   filtered(table, b * blocks + i / kTexelComponents, table.grid.texels(), i % kTexelComponents, place);
         xyz += glm::dmat3(table.colours[b]) * rgb;
     }
     return xyz;

@@ -14,7 +14,7 @@ namespace {
 constexpr double kNarrowest_nm = 4.0;
 
 /// Deviations after which a normal distribution is cut off: 6e-5 of it is lost.
-constexpr double kReach = 4.0;
+constexpr double kBlurReach = 4.0;
 
 /// The widest lobe that is fitted to a probe, over √(its concentration), and something for the pixel.
 constexpr double kWidestDeviation = 0.2;
@@ -27,7 +27,7 @@ constexpr int kMostColumns = 4096;
 std::vector<double> stencil(double deviation, double step) {
     std::vector<double> shares;
     double sum = 0.0;
-    for (int i = 0; i * step <= kReach * deviation; ++i) {
+    for (int i = 0; i * step <= kBlurReach * deviation; ++i) {
         const double scale = 1.0 / (std::sqrt(2.0) * deviation);
         shares.push_back(0.5 * (std::erf((i + 0.5) * step * scale) - std::erf((i - 0.5) * step * scale)));
         sum += (i == 0 ? 1.0 : 2.0) * shares.back();
@@ -65,7 +65,7 @@ BlurredKernel blur(const KernelTable& kernel, double widest_nm, int columns) {
     const auto deviation_of = [&](int level) {
         return kNarrowest_nm * std::exp2(static_cast<double>(level) / kLevelsPerOctave);
     };
-    const double margin = kReach * deviation_of(blurred.levels - 1) + 1.0;
+    const double margin = kBlurReach * deviation_of(blurred.levels - 1) + 1.0;
     blurred.begin_nm = kernel.begin_nm - margin;
     blurred.end_nm = kernel.end_nm + margin;
     const auto size = static_cast<std::size_t>(columns);

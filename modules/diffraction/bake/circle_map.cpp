@@ -14,14 +14,13 @@ namespace rowland::diffraction {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Cube faces that the texels are gathered in before every g sums over them: cells of 0.025 rad.
 constexpr int kFaceSize = 64;
 
 /// Fourier series of max(0, cos t) on 1, cos t, cos 2t, cos 4t, cos 6t.
-constexpr std::array<double, 5> kClampedCosine{1.0 / kPi, 0.5, 2.0 / (3.0 * kPi), -2.0 / (15.0 * kPi),
-                                               2.0 / (35.0 * kPi)};
+constexpr std::array<double, 5> kClampedCosine{1.0 / pi, 0.5, 2.0 / (3.0 * pi), -2.0 / (15.0 * pi), 2.0 / (35.0 * pi)};
 
 /// A grating vector and the directions from which angles around it are counted.
 struct CircleFrame {

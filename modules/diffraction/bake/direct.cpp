@@ -52,7 +52,7 @@ LightSpot clamp_at_horizon(const Spread& spread) {
 /// A normal distribution in slices: no wider than this in x, so that the kernel's own width hides the steps, and cut
 /// off at this many deviations (3e-4 lost, which the shares' sum gives back).
 constexpr double kSlice_nm = 25.0;
-constexpr double kReach = 3.6;
+constexpr double kNormalReach = 3.6;
 
 /// D_h as normal distributions and a constant, which widening by a light leaves normal.
 double widened_density(const GrooveLobe& lobe, double sum_h, double deviation_h, double wavelength_nm) {
@@ -81,15 +81,15 @@ glm::dmat3 mean_over(const Kernel& kernel, const DirectMaterial& material, doubl
 template <typename Kernel>
 glm::dmat3 mean_over_normal(const Kernel& kernel, const DirectMaterial& material, double u, double deviation) {
     const auto slices =
-        std::max(12, static_cast<int>(std::ceil(2.0 * kReach * deviation * material.pitch_nm / kSlice_nm)));
-    const double width = 2.0 * kReach / slices;
+        std::max(12, static_cast<int>(std::ceil(2.0 * kNormalReach * deviation * material.pitch_nm / kSlice_nm)));
+    const double width = 2.0 * kNormalReach / slices;
     // Slices spread what they hold evenly, which adds width²/12 to the variance (Sheppard).
     const double scale = deviation / std::sqrt(1.0 + width * width / 12.0);
     const auto below = [](double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); };
-    const double whole = below(kReach) - below(-kReach);
+    const double whole = below(kNormalReach) - below(-kNormalReach);
     glm::dmat3 sum(0.0);
     for (int i = 0; i < slices; ++i) {
-        const double z = -kReach + i * width;
+        const double z = -kNormalReach + i * width;
         sum += (below(z + width) - below(z)) / whole *
                mean_over(kernel, material, u + scale * (z + 0.5 * width), 0.5 * scale * width);
     }

@@ -14,8 +14,6 @@ namespace rowland::diffraction {
 
 namespace {
 
-constexpr std::size_t kComponents = 4;
-
 /// Words that so many components take; unorm8 has two in a word, and texels have four.
 std::size_t word_count(Storage storage, std::size_t components) {
     return components * component_bytes(storage) / sizeof(std::uint16_t);
@@ -84,7 +82,7 @@ std::vector<glm::vec4> read_vectors(ByteReader& reader, const char* what, std::s
     if (values.size() != count)
         reader.fail(fmt::format("{} entries of {}", values.size(), what), fmt::format("{}, one a layer", count));
     for (const glm::vec4& value : values)
-        for (glm::vec4::length_type c = 0; c < static_cast<int>(kComponents); ++c)
+        for (glm::vec4::length_type c = 0; c < static_cast<int>(kTexelComponents); ++c)
             if (!std::isfinite(value[c])) reader.fail(fmt::format("a {} that is not finite", what), "finite numbers");
     return values;
 }
@@ -128,7 +126,7 @@ const char* storage_name(Storage storage) {
 
 double PackedTexels::value(std::size_t layer, std::size_t index, std::size_t component) const {
     const auto c = static_cast<glm::vec4::length_type>(component);
-    return decode(texels, index * kComponents + component, storage) * static_cast<double>(scale[layer][c]) +
+    return decode(texels, index * kTexelComponents + component, storage) * static_cast<double>(scale[layer][c]) +
            static_cast<double>(bias[layer][c]);
 }
 
@@ -137,17 +135,18 @@ std::size_t PackedTexels::bytes() const {
 }
 
 void pack(std::span<const double> values, std::size_t layers, PackedTexels& packed) {
-    ROWLAND_CHECK(layers > 0 && values.size() % (layers * kComponents) == 0, "layers of RGBA texels of equal size");
+    ROWLAND_CHECK(layers > 0 && values.size() % (layers * kTexelComponents) == 0,
+                  "layers of RGBA texels of equal size");
     const std::size_t stride = values.size() / layers;
     packed.scale.assign(layers, glm::vec4(0.0F));
     packed.bias.assign(layers, glm::vec4(0.0F));
     packed.texels.assign(word_count(packed.storage, values.size()), 0);
     for (std::size_t layer = 0; layer < layers; ++layer)
-        for (std::size_t component = 0; component < kComponents; ++component) {
+        for (std::size_t component = 0; component < kTexelComponents; ++component) {
             const std::size_t first = layer * stride + component;
             double minimum = values[first];
             double maximum = minimum;
-            for (std::size_t i = first; i < (layer + 1) * stride; i += kComponents) {
+            for (std::size_t i = first; i < (layer + 1) * stride; i += kTexelComponents) {
                 minimum = std::min(minimum, values[i]);
                 maximum = std::max(maximum, values[i]);
             }
@@ -155,7 +154,7 @@ void pack(std::span<const double> values, std::size_t layers, PackedTexels& pack
             packed.scale[layer][static_cast<glm::vec4::length_type>(component)] = range.scale;
             packed.bias[layer][static_cast<glm::vec4::length_type>(component)] = range.bias;
             if (range.scale == 0.0F) continue;
-            for (std::size_t i = first; i < (layer + 1) * stride; i += kComponents)
+            for (std::size_t i = first; i < (layer + 1) * stride; i += kTexelComponents)
                 encode((values[i] - static_cast<double>(range.bias)) / static_cast<double>(range.scale), i,
                        packed.storage, packed.texels);
         }
@@ -171,7 +170,7 @@ void read_packed_texels(ByteReader& reader, std::size_t layers, std::size_t texe
     packed.scale = read_vectors(reader, "scale", layers);
     packed.bias = read_vectors(reader, "bias", layers);
     packed.texels = reader.array<std::uint16_t>();
-    const std::size_t components = layers * texels_per_layer * kComponents;
+    const std::size_t components = layers * texels_per_layer * kTexelComponents;
     if (packed.texels.size() != word_count(packed.storage, components))
         reader.fail(fmt::format("{} words of texels", packed.texels.size()),
                     fmt::format("{}", word_count(packed.storage, components)));

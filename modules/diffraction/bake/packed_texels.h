@@ -11,6 +11,8 @@
 
 namespace rowland::diffraction {
 
+inline constexpr std::size_t kTexelComponents = 4;  ///< RGBA
+
 /// How a stored component is read: as n/65535, a half float, a float, or n/255.
 enum class Storage : std::uint8_t { Unorm16 = 0, Half = 1, Float = 2, Unorm8 = 3 };
 

@@ -15,7 +15,7 @@ namespace rowland::diffraction {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Parts the texels are summed in, whatever the number of threads.
 constexpr std::size_t kParts = 4;
@@ -136,7 +136,7 @@ PlanarMap PlanarFill::empty() const {
 PlanarFill::Profile PlanarFill::project(int azimuth) const {
     const auto side = static_cast<std::size_t>(cells_);
     Profile profile{.cells = std::vector<float>((side + 1) * 4, 0.0F)};
-    const double phi = 2.0 * kPi * azimuth / size_.azimuths;
+    const double phi = 2.0 * pi * azimuth / size_.azimuths;
     const double cosine = std::cos(phi);
     const double sine = std::sin(phi);
     // Walk so that the place in A changes fast: then sums do not wait for each other.
@@ -225,7 +225,7 @@ PlanarMap fill_planar_map(const lighting::LightTexels& texels, const KernelTable
 }
 
 glm::dvec3 sample(const PlanarMap& map, double azimuth, double v_g) {
-    const double turns = azimuth / (2.0 * kPi);
+    const double turns = azimuth / (2.0 * pi);
     const Place s = repeating((turns - std::floor(turns)) * map.azimuths, map.azimuths);
     const Place t = clamped(0.5 * (v_g + 1.0) * (map.views - 1), map.views);
     const auto at = [&](int column, int row) {

@@ -9,10 +9,9 @@ namespace rowland::diffraction {
 namespace {
 
 constexpr double kWavelengthRange_nm = colour::kVisibleMax - colour::kVisibleMin;
-constexpr std::size_t kComponents = 4;
 
 // Bounds on what a file may claim; far above any use, and small enough that no product of them overflows.
-constexpr int kMaximumNodes = 1 << 14;
+constexpr int kMaximumAngleNodes = 1 << 14;
 constexpr int kMaximumSpikes = 512;
 
 /// Storage and mapping share a byte.
@@ -29,8 +28,8 @@ void store(const SpikeSet& spikes, const SpikeTable& table, std::size_t texel, s
     for (std::size_t k = 0; k < spikes.wavelengths_nm.size(); ++k) {
         const std::size_t first_layer = k * static_cast<std::size_t>(table.layers_per_spike);
         const auto put = [&](std::size_t entry, double value) {
-            const std::size_t layer = first_layer + entry / kComponents;
-            values[(layer * texels_per_layer + texel) * kComponents + entry % kComponents] = value;
+            const std::size_t layer = first_layer + entry / kTexelComponents;
+            values[(layer * texels_per_layer + texel) * kTexelComponents + entry % kTexelComponents] = value;
         };
         for (std::size_t i = 0; i < count; ++i) put(i, spikes.coefficients[k * count + i]);
         put(count, normalized(spikes.wavelengths_nm[k]));
@@ -58,7 +57,7 @@ SpikeTable bake_spike_table(const Grating& grating, const SpikeTableSettings& se
 
     const SpikeBaker baker(grating, settings.spikes);
     const std::vector<double> signs = mirror_signs(table.bands);
-    std::vector<double> values(static_cast<std::size_t>(table.layers()) * grid.texels() * kComponents, 0.0);
+    std::vector<double> values(static_cast<std::size_t>(table.layers()) * grid.texels() * kTexelComponents, 0.0);
     for_each_view("baking spikes", grid, [&](const glm::dvec2& view, std::size_t texel, std::size_t mirror) {
         const SpikeSet spikes = baker.bake(view.x, view.y);
         store(spikes, table, texel, values);
@@ -72,8 +71,8 @@ SpikeSet sample(const SpikeTable& table, double v_g, double v_h, double v_n) {
     const BilinearLookup place = look_up(table.grid(), v_g, v_h, v_n);
     const std::size_t texels_per_layer = table.grid().texels();
     const auto entry = [&](std::size_t spike, std::size_t i) {
-        const std::size_t layer = spike * static_cast<std::size_t>(table.layers_per_spike) + i / kComponents;
-        return filtered(table, layer, texels_per_layer, i % kComponents, place);
+        const std::size_t layer = spike * static_cast<std::size_t>(table.layers_per_spike) + i / kTexelComponents;
+        return filtered(table, layer, texels_per_layer, i % kTexelComponents, place);
     };
 
     const auto count = static_cast<std::size_t>(math::sh_count(table.bands));
@@ -99,8 +98,8 @@ SpikeTable read_spike_table(ByteReader& reader) {
     SpikeTable table;
     table.bands = read_count(reader, "bands", 1, math::kMaximumBands);
     table.spikes = read_count(reader, "spikes", 1, kMaximumSpikes);
-    table.theta_nodes = read_count(reader, "theta nodes", 1, kMaximumNodes);
-    table.phi_nodes = read_count(reader, "phi nodes", 1, kMaximumNodes);
+    table.theta_nodes = read_count(reader, "theta nodes", 1, kMaximumAngleNodes);
+    table.phi_nodes = read_count(reader, "phi nodes", 1, kMaximumAngleNodes);
     table.layers_per_spike = spike_layers(table.bands);
     const auto choices = reader.value<std::uint8_t>();
     table.storage = to_storage(reader, choices & ((1U << kMappingShift) - 1U));

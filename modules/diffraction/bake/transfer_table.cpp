@@ -11,7 +11,6 @@ namespace rowland::diffraction {
 
 namespace {
 
-constexpr std::size_t kComponents = 4;
 constexpr std::size_t kColours = 9;  ///< pairs of a light's channel and a tristimulus
 
 }  // namespace
@@ -32,15 +31,15 @@ TransferTable bake_transfer_table(const Grating& grating, const TransferSettings
     const std::vector<double> signs = mirror_signs(table.bands);
     const auto blocks = static_cast<std::size_t>(transfer_layers(table.bands));
     const std::size_t texels = table.grid.texels();
-    std::vector<double> values(kColours * blocks * texels * kComponents, 0.0);
+    std::vector<double> values(kColours * blocks * texels * kTexelComponents, 0.0);
     for_each_view("baking transfer", table.grid, [&](const glm::dvec2& view, std::size_t texel, std::size_t mirror) {
         const std::vector<glm::dmat3> coefficients = terms.coefficients(view.x, view.y);
         for (std::size_t pair = 0; pair < kColours; ++pair)
             for (std::size_t i = 0; i < coefficients.size(); ++i) {
-                const std::size_t layer = pair * blocks + i / kComponents;
+                const std::size_t layer = pair * blocks + i / kTexelComponents;
                 const double value = coefficients[i][static_cast<int>(pair / 3)][static_cast<int>(pair % 3)];
                 const auto at = [&](std::size_t t) -> double& {
-                    return values[(layer * texels + t) * kComponents + i % kComponents];
+                    return values[(layer * texels + t) * kTexelComponents + i % kTexelComponents];
                 };
                 at(texel) = value;
                 if (mirror != texel) at(mirror) = signs[i] * value;
@@ -61,7 +60,7 @@ glm::dvec3 evaluate(const TransferTable& table, const lighting::ShLight& tangent
         for (std::size_t i = 0; i < common; ++i)
             xyz[static_cast<int>(pair % 3)] +=
                 tangent_light.coefficients[i][static_cast<int>(pair / 3)] *
-                filtered(table, pair * blocks + i / kComponents, table.grid.texels(), i % kComponents, place);
+                filtered(table, pair * blocks + i / kTexelComponents, table.grid.texels(), i % kTexelComponents, place);
     return xyz;
 }
 

@@ -16,7 +16,7 @@ namespace rowland::diffraction {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Far above any use, and small enough that no product of sizes overflows.
 constexpr int kMaximumNodes = 1 << 14;
@@ -52,8 +52,8 @@ const char* view_mapping_name(ViewMapping mapping) {
 glm::dvec2 node_view(const ViewGrid& grid, int column, int row) {
     switch (grid.mapping) {
         case ViewMapping::Spherical: {
-            const double theta = 0.5 * kPi * static_cast<double>(row) / static_cast<double>(grid.rows - 1);
-            const double phi = 2.0 * kPi * static_cast<double>(column) / static_cast<double>(grid.columns);
+            const double theta = 0.5 * pi * static_cast<double>(row) / static_cast<double>(grid.rows - 1);
+            const double phi = 2.0 * pi * static_cast<double>(column) / static_cast<double>(grid.columns);
             return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi)};
         }
         case ViewMapping::Parabolic: {
@@ -96,7 +96,7 @@ BilinearLookup look_up(const ViewGrid& grid, double v_g, double v_h, double v_n)
         case ViewMapping::Spherical: {
             const double theta = std::atan2(std::hypot(v_g, v_h), v_n);
             const double phi = std::atan2(v_h, v_g);
-            return combine(look_up_repeated(phi / (2.0 * kPi), columns), look_up_axis(theta / (0.5 * kPi), rows),
+            return combine(look_up_repeated(phi / (2.0 * pi), columns), look_up_axis(theta / (0.5 * pi), rows),
                            columns);
         }
         case ViewMapping::Parabolic: {

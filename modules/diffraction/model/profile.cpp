@@ -10,12 +10,12 @@ namespace rowland::diffraction {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// sin(πx), exactly 0 at whole x.
 double sin_pi(double x) {
     const double whole = std::round(x);
-    const double sine = std::sin(kPi * (x - whole));
+    const double sine = std::sin(pi * (x - whole));
     return std::fmod(whole, 2.0) == 0.0 ? sine : -sine;
 }
 
@@ -41,7 +41,7 @@ double efficiency(const LamellarProfile& lamellar, double, int order, double wav
 }
 
 double efficiency(const SinusoidalProfile& sinusoidal, double, int order, double wavelength_nm, double) {
-    return square(std::cyl_bessel_j(std::abs(order), kPi * phase_turns(sinusoidal.depth_nm, wavelength_nm)));
+    return square(std::cyl_bessel_j(std::abs(order), pi * phase_turns(sinusoidal.depth_nm, wavelength_nm)));
 }
 
 double efficiency(const BlazedProfile& blazed, double, int order, double wavelength_nm, double) {
@@ -60,13 +60,13 @@ double spectrum(const SlitProfile& slit, double pitch_nm, double x, double) {
 double spectrum(const LamellarProfile& lamellar, double, double x, double wavelength_nm) {
     // The flat period plus what the raised share changes, both centred on the same line.
     const double w = lamellar.duty;
-    const double phase = 2.0 * kPi * phase_turns(lamellar.depth_nm, wavelength_nm);
+    const double phase = 2.0 * pi * phase_turns(lamellar.depth_nm, wavelength_nm);
     return std::norm(sinc(x) + (std::polar(1.0, phase) - 1.0) * (w * sinc(x * w)));
 }
 
 double spectrum(const SinusoidalProfile& sinusoidal, double, double x, double wavelength_nm) {
     // Jacobi–Anger: exp(iz cos θ) = Σ_k i^k J_k(z) exp(ikθ). J_k is below 1e-16 from k = z + 6 z^⅓ + 16 on.
-    const double z = kPi * phase_turns(sinusoidal.depth_nm, wavelength_nm);
+    const double z = pi * phase_turns(sinusoidal.depth_nm, wavelength_nm);
     const int last = static_cast<int>(z + 6.0 * std::cbrt(z)) + 16;
     std::complex<double> sum = std::cyl_bessel_j(0, z) * sinc(x);
     std::complex<double> power = 1.0;
@@ -89,7 +89,7 @@ double spectrum(const EfficiencyTable&, double, double, double) {
 }  // namespace
 
 double sinc(double x) {
-    return std::abs(x) < 1e-8 ? 1.0 : sin_pi(x) / (kPi * x);
+    return std::abs(x) < 1e-8 ? 1.0 : sin_pi(x) / (pi * x);
 }
 
 double profile_efficiency(const Profile& profile, double pitch_nm, int order, double wavelength_nm, double s_g) {

@@ -11,7 +11,7 @@ namespace rowland::diffraction {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Even the shortest arc gets this many nodes or more: the midpoint rule's error is then under 1e-4 of the arc.
 constexpr int kMinimumNodes = 64;
@@ -19,7 +19,7 @@ constexpr int kMinimumNodes = 64;
 /// The share of the half circle that the lobe reaches.
 struct ArcSpan {
     double begin = 0.0;
-    double end = kPi;
+    double end = pi;
 };
 
 ArcSpan lobe_span(const GrooveLobe& lobe, double v_h, double r) {

@@ -21,7 +21,7 @@ namespace rowland::diffraction {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A number in [0, 1) that depends on its arguments alone, so that samples can be drawn in any order (SplitMix64:
 /// Steele, Lea & Flood 2014).
@@ -43,8 +43,8 @@ struct Strata {
     glm::dvec3 direction(std::size_t row, std::size_t column, std::uint64_t seed) const {
         const std::uint64_t cell = row * columns + column;
         const double z = (static_cast<double>(row) + random_number(seed, 2 * cell)) / static_cast<double>(rows);
-        const double phi = 2.0 * kPi * (static_cast<double>(column) + random_number(seed, 2 * cell + 1)) /
-                           static_cast<double>(columns);
+        const double phi =
+            2.0 * pi * (static_cast<double>(column) + random_number(seed, 2 * cell + 1)) / static_cast<double>(columns);
         const double r = std::sqrt((1.0 - z) * (1.0 + z));
         return {r * std::cos(phi), r * std::sin(phi), z};
     }
@@ -92,7 +92,7 @@ std::vector<glm::dmat3> brute_force_coefficients(const Grating& grating, const c
             for (std::size_t i = 0; i < count; ++i) sums[i] += basis[i] * term;
         }
     });
-    const double cell = 2.0 * kPi / static_cast<double>(strata.rows * strata.columns);
+    const double cell = 2.0 * pi / static_cast<double>(strata.rows * strata.columns);
     for (std::size_t row = 0; row < strata.rows; ++row)
         for (std::size_t i = 0; i < count; ++i) coefficients[i] += cell * row_sums[row * count + i];
     return coefficients;

@@ -10,7 +10,7 @@ namespace rowland::diffraction {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Panels per texel along an arc: the one knob of the probe's quadrature. With it, twice as many change the named frame
 /// sets by 3e-5 to 5e-5 (Grace, Ennis) and, where lamps are a texel wide (Royal Esplanade), by 0.7 %.
@@ -18,8 +18,8 @@ constexpr double kPanelsPerTexel = 2.0;
 
 /// The angle a texel spans where texels are largest: on the equator, and at the centre of an angular map.
 double texel_angle(const lighting::ProbeImage& probe) {
-    if (probe.mapping() == lighting::Mapping::Angular) return 2.0 * kPi / probe.image().width;
-    return kPi / probe.image().height;
+    if (probe.mapping() == lighting::Mapping::Angular) return 2.0 * pi / probe.image().width;
+    return pi / probe.image().height;
 }
 
 }  // namespace
@@ -27,7 +27,7 @@ double texel_angle(const lighting::ProbeImage& probe) {
 ProbeLight::ProbeLight(const lighting::ProbeImage& probe)
     : probe_(probe), panel_angle_(texel_angle(probe) / kPanelsPerTexel) {}
 
-BandlimitedLight::BandlimitedLight(const lighting::ShLight& light) : light_(light), panel_angle_(kPi / light.bands) {
+BandlimitedLight::BandlimitedLight(const lighting::ShLight& light) : light_(light), panel_angle_(pi / light.bands) {
     ROWLAND_CHECK_OP(light.bands, >=, 1);
     ROWLAND_CHECK_OP(light.bands, <=, math::kMaximumBands);
     ROWLAND_CHECK_OP(light.coefficients.size(), ==, static_cast<std::size_t>(math::sh_count(light.bands)));

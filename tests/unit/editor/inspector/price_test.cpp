@@ -16,7 +16,7 @@
 namespace rowland::inspector {
 namespace {
 
-const std::filesystem::path kMaterials = std::filesystem::path(ROWLAND_SOURCE_DIR) / "content/materials";
+const std::filesystem::path kPricedMaterials = std::filesystem::path(ROWLAND_SOURCE_DIR) / "content/materials";
 
 /// A small probe with a sun.
 lighting::ProbeImage sky() {
@@ -52,11 +52,11 @@ TEST(Price, CountsAreWhatCookInfoPrints) {
     const test::TemporaryFolder folder;
     const lighting::ProbeImage probe = sky();
     for (const char* name : {"cd.json", "dvd.json"}) {
-        const Document document = Document::open(kMaterials / name);
+        const Document document = Document::open(kPricedMaterials / name);
         const PricedChoice choice = present_choice(document, probe);
         EXPECT_TRUE(choice.present);
         EXPECT_GT(choice.error, 0.0);
-        const std::string printed = info(kMaterials / name, folder.path());
+        const std::string printed = info(kPricedMaterials / name, folder.path());
         for (const auto& [key, value] :
              {std::pair{"table_bytes", choice.cost.table_bytes},
               std::pair{"fetches_per_pixel", std::size_t(choice.cost.fetches_per_pixel)},
@@ -66,7 +66,7 @@ TEST(Price, CountsAreWhatCookInfoPrints) {
 }
 
 TEST(Price, TheCheapestWithinAnErrorIsWhatTheCookerChooses) {
-    Document document = Document::open(kMaterials / "cd.json");
+    Document document = Document::open(kPricedMaterials / "cd.json");
     const lighting::ProbeImage probe = sky();
     document.set_choice(field_at("/quality"), "by budget");
     document.set_value(field_at("/quality/max_error"), 0.1);
@@ -100,7 +100,7 @@ TEST(Price, TheCheapestWithinAnErrorIsWhatTheCookerChooses) {
 }
 
 TEST(Price, StopsBetweenTwoSettings) {
-    Document document = Document::open(kMaterials / "cd.json");
+    Document document = Document::open(kPricedMaterials / "cd.json");
     document.set_choice(field_at("/quality"), "by budget");
     const lighting::ProbeImage probe = sky();
     std::stop_source stop;

@@ -14,7 +14,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-std::string refusal(const std::string& text) {
+std::string illuminant_refusal(const std::string& text) {
     try {
         parse_illuminant(text, "lamp.csv");
     } catch (const Error& error) {
@@ -51,11 +51,13 @@ TEST(Illuminant, UnknownNameListsTheKnownOnes) {
 }
 
 TEST(Illuminant, RefusesWhatIsNoLamp) {
-    EXPECT_THAT(refusal("wavelength_nm,relative_power\n400,1\n500,-2\n"), HasSubstr("lamp.csv: 500 nm"));
-    EXPECT_THAT(refusal("wavelength_nm,relative_power\n400,0\n500,0\n"), HasSubstr("no visible power"));
-    EXPECT_THAT(refusal("wavelength_nm,relative_power\n400,1e308\n600,1e308\n"), HasSubstr("no visible power"));
-    EXPECT_THAT(refusal("wavelength_nm,relative_power\n400,1e-320\n600,1e-320\n"), HasSubstr("no visible power"));
-    EXPECT_THAT(refusal("wavelength_nm,relative_power\n0.4,1\n0.7,1\n"), HasSubstr("nanometres"));
+    EXPECT_THAT(illuminant_refusal("wavelength_nm,relative_power\n400,1\n500,-2\n"), HasSubstr("lamp.csv: 500 nm"));
+    EXPECT_THAT(illuminant_refusal("wavelength_nm,relative_power\n400,0\n500,0\n"), HasSubstr("no visible power"));
+    EXPECT_THAT(illuminant_refusal("wavelength_nm,relative_power\n400,1e308\n600,1e308\n"),
+                HasSubstr("no visible power"));
+    EXPECT_THAT(illuminant_refusal("wavelength_nm,relative_power\n400,1e-320\n600,1e-320\n"),
+                HasSubstr("no visible power"));
+    EXPECT_THAT(illuminant_refusal("wavelength_nm,relative_power\n0.4,1\n0.7,1\n"), HasSubstr("nanometres"));
 }
 
 TEST(Illuminant, LoadsAFileAndNamesAMissingOne) {

@@ -10,7 +10,7 @@
 namespace rowland::lighting {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// SH of a point light of unit irradiance in direction d.
 ShLight point_light(const glm::dvec3& d, double ambient_radiance) {
@@ -18,7 +18,7 @@ ShLight point_light(const glm::dvec3& d, double ambient_radiance) {
     std::vector<double> y(16);
     math::evaluate_sh(d, 4, y);
     for (std::size_t i = 0; i < y.size(); ++i) light.coefficients[i] = glm::dvec3(y[i]);
-    light.coefficients[0] += ambient_radiance * std::sqrt(4 * kPi);
+    light.coefficients[0] += ambient_radiance * std::sqrt(4 * pi);
     return light;
 }
 
@@ -56,7 +56,7 @@ TEST(Ambient, AgreesWithBruteForceIrradianceForSmoothLight) {
             for (int column = 0; column < 128; ++column) {
                 const double cosine = glm::dot(n, probe.direction(column + 0.5, row + 0.5));
                 if (cosine > 0)
-                    sum += cosine * probe.solid_angle(column, row) / kPi * glm::dvec3(probe.image().at(column, row));
+                    sum += cosine * probe.solid_angle(column, row) / pi * glm::dvec3(probe.image().at(column, row));
             }
         // Midpoint sums over texels of 2.8°, with a kink at the horizon.
         EXPECT_LT(glm::length(evaluate_irradiance(ambient, n) - sum), 0.005);
@@ -75,8 +75,8 @@ TEST(Ambient, CosineLobeIsConvolvedWithTheCosine) {
     const AmbientLight ambient = ambient_coefficients(project(probe, 5));
     ASSERT_EQ(ambient.window.window, math::SphericalWindow::None);
     const glm::dvec3 side = glm::normalize(glm::cross(g, glm::dvec3(0, 0, 1)));
-    for (const double beta : {0.0, 0.7, kPi / 2, 2.2}) {
-        const double exact = kAround + (std::sin(beta) + (kPi - beta) * std::cos(beta)) * 2 / (3 * kPi);
+    for (const double beta : {0.0, 0.7, pi / 2, 2.2}) {
+        const double exact = kAround + (std::sin(beta) + (pi - beta) * std::cos(beta)) * 2 / (3 * pi);
         const glm::dvec3 n = std::cos(beta) * g + std::sin(beta) * side;
         EXPECT_NEAR(evaluate_irradiance(ambient, n).x, exact, 0.01) << beta;
     }
@@ -85,7 +85,7 @@ TEST(Ambient, CosineLobeIsConvolvedWithTheCosine) {
 TEST(Ambient, MildestWindowThatKeepsItNonNegativeIsPicked) {
     const glm::dvec3 d = glm::normalize(glm::dvec3(1, 1, -2));
     // Radiance 1/4π all around is what a point light of irradiance 1 spreads over the sphere on average.
-    const auto picked = [&](double share) { return ambient_coefficients(point_light(d, share / (4 * kPi))); };
+    const auto picked = [&](double share) { return ambient_coefficients(point_light(d, share / (4 * pi))); };
     const AmbientLight bright = picked(2);
     EXPECT_EQ(bright.window.window, math::SphericalWindow::None);
     EXPECT_EQ(bright.window.damping, 0);
@@ -104,8 +104,8 @@ TEST(Ambient, MildestWindowThatKeepsItNonNegativeIsPicked) {
 TEST(Ambient, WhatLobesLeaveMayBeNegativeWhereTheSumIsNot) {
     // An even light less a lobe that is as bright on average: −d reflects the difference of the two.
     const glm::dvec3 d = glm::normalize(glm::dvec3(1, 1, -2));
-    const std::vector<KeyLight> keys{{d, glm::dvec3(4 * kPi), 40.0}};
-    const ShLight even{3, {glm::dvec3(2 * std::sqrt(4 * kPi)), {}, {}, {}, {}, {}, {}, {}, {}}};
+    const std::vector<KeyLight> keys{{d, glm::dvec3(4 * pi), 40.0}};
+    const ShLight even{3, {glm::dvec3(2 * std::sqrt(4 * pi)), {}, {}, {}, {}, {}, {}, {}, {}}};
     const ShLight left = residual(even, keys, 3);
     EXPECT_TRUE(ambient_coefficients(left).window.window != math::SphericalWindow::None ||
                 ambient_coefficients(left).window.damping > 0);
@@ -116,12 +116,12 @@ TEST(Ambient, WhatLobesLeaveMayBeNegativeWhereTheSumIsNot) {
     // lobe: −0.29 of band 4 and 0.12 of band 6.
     for (int i = 0; i < 50; ++i) {
         const glm::dvec3 n = test::spread_direction(i, 50);
-        EXPECT_NEAR(evaluate_irradiance(ambient, n).x + irradiance(keys[0], n).x / kPi, 2.0, 0.35) << i;
+        EXPECT_NEAR(evaluate_irradiance(ambient, n).x + irradiance(keys[0], n).x / pi, 2.0, 0.35) << i;
     }
 }
 
 TEST(Ambient, FewerThanThreeBandsCountAsZeros) {
-    const ShLight light{1, {glm::dvec3(std::sqrt(4 * kPi))}};
+    const ShLight light{1, {glm::dvec3(std::sqrt(4 * pi))}};
     EXPECT_NEAR(evaluate_irradiance(ambient_coefficients(light), {0, 0, 1}).x, 1, 1e-14);
 }
 

@@ -15,7 +15,7 @@
 namespace rowland::lighting {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 const glm::dvec3 kDirection = glm::normalize(glm::dvec3(0.3, 0.8, -0.5));
 
@@ -33,7 +33,7 @@ double lobe_mean(const KeyLight& key, const Function& function) {
             std::max(-1.0, 1.0 + std::log1p(rule.nodes[i] * std::expm1(-2.0 * key.concentration)) / key.concentration);
         const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
         for (int j = 0; j < kAngles; ++j) {
-            const double angle = 2.0 * kPi * (j + 0.5) / kAngles;
+            const double angle = 2.0 * pi * (j + 0.5) / kAngles;
             mean += rule.weights[i] / kAngles *
                     function(cosine * key.direction + sine * (std::cos(angle) * side + std::sin(angle) * other));
         }
@@ -51,7 +51,7 @@ TEST(KeyLights, DensityIntegratesToOne) {
         for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
             const double cosine = 1.0 - rule.nodes[i];
             const double sine = std::sqrt(rule.nodes[i] * (2.0 - rule.nodes[i]));
-            sum += 2.0 * kPi * rule.weights[i] * lobe_density(key, cosine * kDirection + sine * side);
+            sum += 2.0 * pi * rule.weights[i] * lobe_density(key, cosine * kDirection + sine * side);
         }
         EXPECT_NEAR(sum, 1.0, 1e-9) << concentration;  // s has rounding of 1e-16, which κ multiplies
     }
@@ -96,7 +96,7 @@ TEST(KeyLights, IrradianceIsTheLobesClampedCosine) {
     } cases[] = {{0.01, 0.024}, {1.0, 0.024}, {10.0, 0.004}, {25.0, 0.0011}, {100.0, 2e-4}, {1e4, 1e-5}};
     for (const auto& one : cases)
         for (int i = 0; i <= 16; ++i) {
-            const double angle = kPi * i / 16;
+            const double angle = pi * i / 16;
             const glm::dvec3 side = glm::normalize(glm::cross(kDirection, glm::dvec3(0.0, 0.0, 1.0)));
             const glm::dvec3 n = std::cos(angle) * kDirection + std::sin(angle) * side;
             const KeyLight key{kDirection, glm::dvec3(2.0, 1.0, 0.5), one.concentration};
@@ -114,7 +114,7 @@ TEST(KeyLights, ResidualAndLobesAreTheProbe) {
     for (std::size_t i = 0; i < 25; ++i)
         EXPECT_LT(glm::length(left.coefficients[i] + lobes.coefficients[i] - probe.coefficients[i]), 1e-14);
     // Band 0 is the flux over √(4π).
-    EXPECT_NEAR(lobes.coefficients[0].x, 3.5 / std::sqrt(4.0 * kPi), 1e-13);
+    EXPECT_NEAR(lobes.coefficients[0].x, 3.5 / std::sqrt(4.0 * pi), 1e-13);
 }
 
 /// A probe made of two lobes on a dim ground: their places to a fifth of a texel, their flux to 5 % (the ground's own
@@ -170,7 +170,7 @@ TEST(FitKeyLights, BlackAndUniformProbesHaveNone) {
     // The light cells' own unevenness is all there is to fit.
     glm::dvec3 flux(0.0);
     for (const KeyLight& key : fit_key_lights(uniform(1.0F), 4)) flux += key.flux;
-    EXPECT_LT(flux.x, 0.01 * 4.0 * kPi);
+    EXPECT_LT(flux.x, 0.01 * 4.0 * pi);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 namespace rowland::lighting {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 glm::dvec3 texel_direction(const CubeLayout& layout, int level, int face, int column, int row) {
     const double size = layout.size(level);
@@ -28,7 +28,7 @@ glm::dvec3 level_mean(const EnvironmentMap& map, int level) {
             for (int column = 0; column < size; ++column)
                 sum += cube_solid_angle(size, column, row) *
                        glm::dvec3(map.texels[map.layout.index(level, face, column, row)]);
-    return sum / (4 * kPi);
+    return sum / (4 * pi);
 }
 
 glm::dvec3 probe_mean(const ProbeImage& probe) {
@@ -36,7 +36,7 @@ glm::dvec3 probe_mean(const ProbeImage& probe) {
     for (int row = 0; row < probe.image().height; ++row)
         for (int column = 0; column < probe.image().width; ++column)
             sum += probe.solid_angle(column, row) * glm::dvec3(probe.image().at(column, row));
-    return sum / (4 * kPi);
+    return sum / (4 * pi);
 }
 
 /// The slow twin: GGX-weighted mean over every texel of level 0, with view = normal.
@@ -51,8 +51,7 @@ glm::dvec3 brute_force(const EnvironmentMap& map, const glm::dvec3& normal, doub
                 if (cosine <= 0) continue;
                 const double cos_half_squared = (1 + cosine) / 2;
                 const double root = cos_half_squared * (alpha * alpha - 1) + 1;
-                const double weight =
-                    cosine * alpha * alpha / (kPi * root * root) * cube_solid_angle(size, column, row);
+                const double weight = cosine * alpha * alpha / (pi * root * root) * cube_solid_angle(size, column, row);
                 sum += weight * glm::dvec3(map.texels[map.layout.index(0, face, column, row)]);
                 total += weight;
             }

@@ -8,7 +8,7 @@
 namespace rowland::lighting {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 TEST(ProbeImage, CentreLooksAlongMinusZRightIsPlusXTopIsPlusY) {
     for (const Mapping mapping : test::kMappings) {
@@ -54,7 +54,7 @@ TEST(ProbeImage, LookupAtATexelCentreIsTheTexel) {
 TEST(ProbeImage, OneTexelIsLightFromEverywhere) {
     for (const Mapping mapping : test::kMappings) {
         const ShLight light = project(ProbeImage({1, 1, {glm::vec3(2.0F, 1.0F, 0.5F)}}, mapping), 4);
-        const double all = std::sqrt(4 * kPi);
+        const double all = std::sqrt(4 * pi);
         EXPECT_LT(glm::length(light.coefficients[0] - all * glm::dvec3(2, 1, 0.5)), 1e-12);
         for (std::size_t i = 1; i < light.coefficients.size(); ++i)
             // What sums over 64 rows leave; measured: 9e-4.
@@ -93,7 +93,7 @@ TEST(ProbeImage, SolidAnglesSumToTheSphere) {
             // An angular map loses the slivers inside the disc of texels whose centre is outside: O(1/height²).
             // An equirectangular one only rounds, over up to half a million texels.
             const double tolerance = mapping == Mapping::Angular ? 0.6 / (height * height) + 1e-6 : 1e-11;
-            EXPECT_NEAR(sum / (4 * kPi), 1, tolerance) << height;
+            EXPECT_NEAR(sum / (4 * pi), 1, tolerance) << height;
         }
 }
 
@@ -108,12 +108,12 @@ TEST(ProbeImage, AngularSolidAngleIsTheIntegralOverTheTexel) {
                     for (int i = 0; i < kSteps; ++i) {
                         const double u = 2 * (column + (i + 0.5) / kSteps) / size - 1;
                         const double v = 2 * (row + (j + 0.5) / kSteps) / size - 1;
-                        const double angle = kPi * std::hypot(u, v);
-                        if (angle < kPi) sum += angle > 0 ? std::sin(angle) / angle : 1;
+                        const double angle = pi * std::hypot(u, v);
+                        if (angle < pi) sum += angle > 0 ? std::sin(angle) / angle : 1;
                     }
-                const double side = 2 * kPi / (size * kSteps);
+                const double side = 2 * pi / (size * kSteps);
                 if (probe.solid_angle(column, row) == 0) continue;  // centre outside
-                EXPECT_NEAR(probe.solid_angle(column, row), sum * side * side, 1e-4 * std::pow(2 * kPi / size, 2))
+                EXPECT_NEAR(probe.solid_angle(column, row), sum * side * side, 1e-4 * std::pow(2 * pi / size, 2))
                     << size << ": " << column << ", " << row;
             }
     }

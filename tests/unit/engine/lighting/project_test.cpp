@@ -15,7 +15,7 @@
 namespace rowland::lighting {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// The definition: Σ L Y ΔΩ over texel centres.
 std::vector<glm::dvec3> brute_force(const ProbeImage& probe, int bands) {
@@ -31,7 +31,7 @@ std::vector<glm::dvec3> brute_force(const ProbeImage& probe, int bands) {
             for (std::size_t i = 0; i < y.size(); ++i)
                 sum[i] += solid_angle * y[i] * glm::dvec3(probe.image().at(column, row));
         }
-    for (glm::dvec3& c : sum) c *= 4 * kPi / total;
+    for (glm::dvec3& c : sum) c *= 4 * pi / total;
     return sum;
 }
 
@@ -68,7 +68,7 @@ TEST(Project, EveryWidthAgreesWithTheDefinition) {
 TEST(Project, WhiteFurnaceHasOnlyBandZero) {
     for (const Mapping mapping : test::kMappings) {
         const ShLight light = project(test::constant_probe(mapping, 256), 8);
-        EXPECT_NEAR(light.coefficients[0].x, std::sqrt(4 * kPi), 1e-12);
+        EXPECT_NEAR(light.coefficients[0].x, std::sqrt(4 * pi), 1e-12);
         for (std::size_t i = 1; i < light.coefficients.size(); ++i)
             // Midpoint sampling of bands up to 7 with texels of π/256: their squares over 24, times a few l².
             EXPECT_LT(glm::length(light.coefficients[i]), 2e-3) << i;

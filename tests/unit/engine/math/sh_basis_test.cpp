@@ -13,7 +13,7 @@
 namespace rowland::math {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 std::vector<double> basis(const glm::dvec3& direction, int bands) {
     std::vector<double> values(static_cast<std::size_t>(sh_count(bands)));
@@ -56,7 +56,7 @@ TEST(ShBasis, AdditionTheoremHoldsTo32Bands) {
                 const double y = values[static_cast<std::size_t>(sh_index(l, m))];
                 sum += y * y;
             }
-            EXPECT_NEAR(sum / ((2 * l + 1) / (4 * kPi)), 1, 1e-12) << "band " << l;
+            EXPECT_NEAR(sum / ((2 * l + 1) / (4 * pi)), 1, 1e-12) << "band " << l;
         }
     }
 }
@@ -70,13 +70,13 @@ TEST(ShBasis, IsOrthonormalOverTheSphere) {
     std::vector<double> gram(kCount * kCount, 0.0);
     for (std::size_t i = 0; i < rule.nodes.size(); ++i)
         for (int step = 0; step < kSteps; ++step) {
-            const double phi = 2 * kPi * step / kSteps;
+            const double phi = 2 * pi * step / kSteps;
             const double z = rule.nodes[i];
             const double r = std::sqrt(1 - z * z);
             const auto values = basis({r * std::cos(phi), r * std::sin(phi), z}, kBands);
             for (std::size_t a = 0; a < kCount; ++a)
                 for (std::size_t b = 0; b < kCount; ++b)
-                    gram[a * kCount + b] += rule.weights[i] * 2 * kPi / kSteps * values[a] * values[b];
+                    gram[a * kCount + b] += rule.weights[i] * 2 * pi / kSteps * values[a] * values[b];
         }
     for (std::size_t a = 0; a < kCount; ++a)
         for (std::size_t b = 0; b < kCount; ++b)

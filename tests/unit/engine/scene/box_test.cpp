@@ -11,7 +11,7 @@
 namespace rowland::scene {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 struct Faces {
     double area = 0.0;
@@ -49,11 +49,11 @@ TEST(Box, RoundCornersTakeTheirShareOfTheArea) {
         build_box({.width = 0.0856, .height = 0.00076, .depth = 0.054, .corner_radius = 0.00318, .corner_steps = 16});
     EXPECT_TRUE(test::is_sane(mesh));
     // Four inscribed arcs of 16 facets: 32 sin(π/32) r² in place of π r².
-    const double corners = 32.0 * std::sin(kPi / 32.0) * 0.00318 * 0.00318;
+    const double corners = 32.0 * std::sin(pi / 32.0) * 0.00318 * 0.00318;
     const double outline = 0.0856 * 0.054 - 4.0 * 0.00318 * 0.00318 + corners;
     EXPECT_NEAR(test::signed_volume(mesh) / (outline * 0.00076), 1.0, 1e-5);
     // A facet of a corner turns by half of 90°/16 from its corners' normals.
-    EXPECT_NEAR(measure(mesh).least_agreement, std::cos(kPi / 64.0), 1e-5);
+    EXPECT_NEAR(measure(mesh).least_agreement, std::cos(pi / 64.0), 1e-5);
 }
 
 TEST(Box, BevelsCutTheEdgesAt45Degrees) {
@@ -96,7 +96,7 @@ TEST(Box, TopIsMappedAsAPlane) {
 TEST(Box, DiscIsTheRoundestBox) {
     const Mesh mesh = build_box({.width = 2.0, .height = 1.0, .depth = 2.0, .corner_radius = 1.0, .corner_steps = 25});
     EXPECT_TRUE(test::is_sane(mesh));
-    EXPECT_NEAR(test::signed_volume(mesh) / kPi, std::sin(kPi / 50.0) / (kPi / 50.0), 1e-5);
+    EXPECT_NEAR(test::signed_volume(mesh) / pi, std::sin(pi / 50.0) / (pi / 50.0), 1e-5);
 }
 
 }  // namespace

@@ -84,7 +84,7 @@ TEST(DracoProcess, AttributeThatIsNotThereIsRefused) {
 }
 
 TEST(DracoProcess, MissingHelperIsTheSystemsFault) {
-    const test::TemporaryFolder empty;
+    const rowland::test::TemporaryFolder empty;
     ASSERT_EQ(setenv("ROWLAND_HELPER_FOLDER", empty.path().c_str(), 1), 0);
     try {
         DracoProcess().decode(stream_of(disc()));

@@ -11,8 +11,8 @@
 namespace rowland::scene {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kFlyInfinity = std::numeric_limits<float>::infinity();
+constexpr float kFlyNaN = std::numeric_limits<float>::quiet_NaN();
 
 /// At the origin, looking along -Z, so that +X is to the right.
 Camera start() {
@@ -136,13 +136,13 @@ TEST(FlyCamera, PitchEndsShortOfThePoles) {
 TEST(FlyCamera, BrokenInputAndTimeChangeNothing) {
     FlyCamera camera = flown({.move = {0.0F, 0.0F, 1.0F}}, 1.0, 1);
     const glm::vec3 position = camera.position();
-    for (const float broken : {kNaN, kInfinity, -kInfinity}) {
+    for (const float broken : {kFlyNaN, kFlyInfinity, -kFlyInfinity}) {
         camera.update({.move = {broken, 0.0F, 0.0F}, .look = glm::vec2(broken), .turn = glm::vec2(broken)}, 0.0);
         camera.update({.move = {0.0F, 0.0F, 1.0F}, .turn = {1.0F, 1.0F}}, static_cast<double>(broken));
     }
     camera.update({.move = {0.0F, 0.0F, 1.0F}}, -1.0);
     EXPECT_EQ(camera.position(), position);
-    const Camera shown = FlyCamera({.eye = glm::vec3(kNaN), .target = glm::vec3(kNaN)}).camera();
+    const Camera shown = FlyCamera({.eye = glm::vec3(kFlyNaN), .target = glm::vec3(kFlyNaN)}).camera();
     EXPECT_TRUE(std::isfinite(shown.view()[3][0]));
 }
 

@@ -11,7 +11,7 @@
 namespace rowland::scene {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 double area(const Mesh& mesh) {
     double sum = 0.0;
@@ -41,7 +41,7 @@ const std::vector<glm::dvec2> kCylinder = {{0.0, 0.0}, {2.0, 0.0}, {2.0, 3.0}, {
 std::vector<glm::dvec2> meridian(double radius, int points) {
     std::vector<glm::dvec2> profile;
     for (int i = 0; i < points; ++i) {
-        const double polar = kPi * i / (points - 1);
+        const double polar = pi * i / (points - 1);
         profile.emplace_back(i == 0 || i + 1 == points ? 0.0 : radius * std::sin(polar), -radius * std::cos(polar));
     }
     return profile;
@@ -55,12 +55,12 @@ TEST(Lathe, StraightProfileMakesAClosedCylinder) {
     EXPECT_EQ(mesh.indices.size(), 3U * (2U * 200U + 2U * 200U));
     // A regular 200-gon has sin(2π/200)/(2π/200) of the circle's area and sin(π/200)/(π/200) of its circumference;
     // positions are floats.
-    const double polygon = std::sin(kPi / 100.0) / (kPi / 100.0);
-    const double around = std::sin(kPi / 200.0) / (kPi / 200.0);
-    EXPECT_NEAR(test::signed_volume(mesh) / (12.0 * kPi * polygon), 1.0, 1e-6);
-    EXPECT_NEAR(area(mesh) / (8.0 * kPi * polygon + 12.0 * kPi * around), 1.0, 1e-6);
+    const double polygon = std::sin(pi / 100.0) / (pi / 100.0);
+    const double around = std::sin(pi / 200.0) / (pi / 200.0);
+    EXPECT_NEAR(test::signed_volume(mesh) / (12.0 * pi * polygon), 1.0, 1e-6);
+    EXPECT_NEAR(area(mesh) / (8.0 * pi * polygon + 12.0 * pi * around), 1.0, 1e-6);
     // A wall's facet turns by half a sector from its corners' normals.
-    EXPECT_NEAR(least_agreement(mesh), std::cos(kPi / 200.0), 1e-6);
+    EXPECT_NEAR(least_agreement(mesh), std::cos(pi / 200.0), 1e-6);
 }
 
 TEST(Lathe, SmoothMeridianIsASphere) {
@@ -77,7 +77,7 @@ TEST(Lathe, SmoothMeridianIsASphere) {
     // by 5.3e-4 rad, which takes 1.4e-7 of the cosine (computed in double precision). Floats add 2e-7.
     EXPECT_LT(furthest, 1.8e-5);
     EXPECT_GT(most_tilted, 1.0 - 4e-7);
-    EXPECT_NEAR(test::signed_volume(mesh) / (kPi / 6.0), 1.0, 2e-3);
+    EXPECT_NEAR(test::signed_volume(mesh) / (pi / 6.0), 1.0, 2e-3);
 }
 
 TEST(Lathe, FlattenedSphereIsAnEllipsoidWithItsNormals) {
@@ -90,7 +90,7 @@ TEST(Lathe, FlattenedSphereIsAnEllipsoidWithItsNormals) {
         // Points half as far apart tilt by 1e-4 rad, less than what floats show in a cosine.
         EXPECT_GT(glm::dot(gradient, glm::dvec3(mesh.normals[i])), 1.0 - 4e-7);
     }
-    EXPECT_NEAR(test::signed_volume(mesh) / (4.0 / 3.0 * kPi * 0.5), 1.0, 3e-3);
+    EXPECT_NEAR(test::signed_volume(mesh) / (4.0 / 3.0 * pi * 0.5), 1.0, 3e-3);
 }
 
 TEST(Lathe, TangentsRunAroundOrAlongAndStayInTheSurface) {
@@ -132,8 +132,8 @@ TEST(Lathe, RingIsClosedWithItsOutsideOut) {
     const Mesh ring =
         build_lathe({.profile = {{1.0, 0.0}, {2.0, 0.0}, {2.0, 1.0}, {1.0, 1.0}, {1.0, 0.0}}, .segments = 100});
     EXPECT_TRUE(test::is_sane(ring));
-    const double polygon = std::sin(kPi / 50.0) / (kPi / 50.0);
-    EXPECT_NEAR(test::signed_volume(ring) / (3.0 * kPi * polygon), 1.0, 1e-6);
+    const double polygon = std::sin(pi / 50.0) / (pi / 50.0);
+    EXPECT_NEAR(test::signed_volume(ring) / (3.0 * pi * polygon), 1.0, 1e-6);
 }
 
 }  // namespace

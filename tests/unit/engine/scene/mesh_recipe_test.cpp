@@ -19,7 +19,7 @@ MeshRecipe parse(const std::string& text) {
     return parse_mesh_recipe(parse_json(text, "r.json"), "r.json");
 }
 
-std::string error_of(const std::string& text) {
+std::string recipe_error(const std::string& text) {
     try {
         parse(text);
     } catch (const Error& error) {
@@ -29,7 +29,7 @@ std::string error_of(const std::string& text) {
     return "no error";
 }
 
-Mesh compact_disc() {
+Mesh recipe_disc() {
     return build_mesh(DiscRecipe{.inner_radius = 0.0235, .outer_radius = 0.06});
 }
 
@@ -41,14 +41,14 @@ glm::dvec3 face_normal(const Mesh& mesh, std::size_t i) {
 }
 
 TEST(MeshRecipe, DiscHas25000VerticesByDefault) {
-    const Mesh disc = compact_disc();
+    const Mesh disc = recipe_disc();
     EXPECT_EQ(disc.positions.size(), 25000U);
     EXPECT_EQ(disc.indices.size(), 3U * 2U * 99U * 249U);
     EXPECT_TRUE(test::is_sane(disc));
 }
 
 TEST(MeshRecipe, DiscIsFlatBetweenItsRadii) {
-    const Mesh disc = compact_disc();
+    const Mesh disc = recipe_disc();
     for (const glm::vec3& p : disc.positions) {
         EXPECT_EQ(p.y, 0.0F);
         const double radius = std::hypot(static_cast<double>(p.x), static_cast<double>(p.z));
@@ -59,7 +59,7 @@ TEST(MeshRecipe, DiscIsFlatBetweenItsRadii) {
 }
 
 TEST(MeshRecipe, DiscTangentsAreRadialAndOutward) {
-    const Mesh disc = compact_disc();
+    const Mesh disc = recipe_disc();
     for (std::size_t i = 0; i < disc.positions.size(); ++i) {
         const glm::dvec3 radial = glm::normalize(glm::dvec3(disc.positions[i]));
         // Positions and tangents are rounded to float: 2^-24 of each, in two coordinates.
@@ -68,7 +68,7 @@ TEST(MeshRecipe, DiscTangentsAreRadialAndOutward) {
 }
 
 TEST(MeshRecipe, DiscFrameIsRightHandedWithGroovesAlongGrowingAngle) {
-    const Mesh disc = compact_disc();
+    const Mesh disc = recipe_disc();
     for (std::size_t i = 0; i < disc.positions.size(); ++i) {
         const glm::vec3 g(disc.tangents[i]);
         const glm::vec3 n = disc.normals[i];
@@ -83,7 +83,7 @@ TEST(MeshRecipe, DiscFrameIsRightHandedWithGroovesAlongGrowingAngle) {
 }
 
 TEST(MeshRecipe, DiscSeamMeetsExactly) {
-    const Mesh disc = compact_disc();
+    const Mesh disc = recipe_disc();
     for (std::size_t ring = 0; ring < 100; ++ring) {
         EXPECT_EQ(disc.positions[ring * 250], disc.positions[ring * 250 + 249]);
         EXPECT_EQ(disc.uvs[ring * 250].y, 0.0F);
@@ -92,7 +92,7 @@ TEST(MeshRecipe, DiscSeamMeetsExactly) {
 }
 
 TEST(MeshRecipe, DiscIsCounterClockwiseFromAboveAndHasTheAnnulusArea) {
-    const Mesh disc = compact_disc();
+    const Mesh disc = recipe_disc();
     double area = 0.0;
     for (std::size_t i = 0; i < disc.indices.size() / 3; ++i) {
         EXPECT_GT(face_normal(disc, i).y, 0.0) << i;
@@ -154,26 +154,28 @@ TEST(MeshRecipe, ReadsEveryType) {
 
 TEST(MeshRecipe, RefusalsNamePlaceAndWhatWasMeant) {
     using testing::HasSubstr;
-    EXPECT_THAT(error_of(R"({"mesh": {"type": "disk", "inner_radius": 0, "outer_radius": 1}})"),
+    EXPECT_THAT(recipe_error(R"({"mesh": {"type": "disk", "inner_radius": 0, "outer_radius": 1}})"),
                 testing::AllOf(HasSubstr("r.json: /mesh/type"), HasSubstr("\"disc\"")));
-    EXPECT_THAT(error_of(R"({"mesh": {"type": "disc", "iner_radius": 0, "outer_radius": 1}})"),
+    EXPECT_THAT(recipe_error(R"({"mesh": {"type": "disc", "iner_radius": 0, "outer_radius": 1}})"),
                 HasSubstr("inner_radius"));
-    EXPECT_THAT(error_of(R"({"mesh": {"type": "sphere", "radius": 1, "segmants": 9}})"), HasSubstr("segments"));
-    EXPECT_THAT(error_of(R"({"mesh": {"type": "sphere", "radius": -1}})"), HasSubstr("/mesh/radius"));
-    EXPECT_THAT(error_of(R"({"mesh": {"type": "plane", "size": [1, 1], "subdivisions": 1000000}})"),
+    EXPECT_THAT(recipe_error(R"({"mesh": {"type": "sphere", "radius": 1, "segmants": 9}})"), HasSubstr("segments"));
+    EXPECT_THAT(recipe_error(R"({"mesh": {"type": "sphere", "radius": -1}})"), HasSubstr("/mesh/radius"));
+    EXPECT_THAT(recipe_error(R"({"mesh": {"type": "plane", "size": [1, 1], "subdivisions": 1000000}})"),
                 HasSubstr("/mesh/subdivisions"));
-    EXPECT_THAT(error_of(R"({"mesh": {"type": "disc", "inner_radius": 2, "outer_radius": 1}})"),
+    EXPECT_THAT(recipe_error(R"({"mesh": {"type": "disc", "inner_radius": 2, "outer_radius": 1}})"),
                 HasSubstr("more than inner_radius, 2"));
-    EXPECT_THAT(error_of(R"({"mesh": 3})"), HasSubstr("an object"));
-    EXPECT_THAT(error_of(R"({"mesh": {"type": "lathe", "profile": [[1, 0], [0, 1], [1, 2]]}})"),
+    EXPECT_THAT(recipe_error(R"({"mesh": 3})"), HasSubstr("an object"));
+    EXPECT_THAT(recipe_error(R"({"mesh": {"type": "lathe", "profile": [[1, 0], [0, 1], [1, 2]]}})"),
                 testing::AllOf(HasSubstr("/mesh/profile/1/0"), HasSubstr("on the axis")));
-    EXPECT_THAT(error_of(R"({"mesh": {"type": "lathe", "profile": [[1, 0], [1, 0]]}})"), HasSubstr("/mesh/profile/1"));
-    EXPECT_THAT(error_of(R"({"mesh": {"type": "lathe", "profile": [[1, 0], [1, 1]], "longitude_deg": [90, 90]}})"),
+    EXPECT_THAT(recipe_error(R"({"mesh": {"type": "lathe", "profile": [[1, 0], [1, 0]]}})"),
+                HasSubstr("/mesh/profile/1"));
+    EXPECT_THAT(recipe_error(R"({"mesh": {"type": "lathe", "profile": [[1, 0], [1, 1]], "longitude_deg": [90, 90]}})"),
                 HasSubstr("/mesh/longitude_deg/1"));
-    EXPECT_THAT(error_of(R"({"mesh": {"type": "box", "size": [2, 1, 4], "corner_radius": 1.1}})"),
+    EXPECT_THAT(recipe_error(R"({"mesh": {"type": "box", "size": [2, 1, 4], "corner_radius": 1.1}})"),
                 HasSubstr("/mesh/corner_radius"));
-    EXPECT_THAT(error_of(R"({"mesh": {"type": "box", "size": [2, 1, 4], "bevel": 0.5}})"), HasSubstr("/mesh/bevel"));
-    EXPECT_THAT(error_of(R"({"mesh": {"type": "box", "size": [2, 1, 4], "faces": ["top", "top"]}})"),
+    EXPECT_THAT(recipe_error(R"({"mesh": {"type": "box", "size": [2, 1, 4], "bevel": 0.5}})"),
+                HasSubstr("/mesh/bevel"));
+    EXPECT_THAT(recipe_error(R"({"mesh": {"type": "box", "size": [2, 1, 4], "faces": ["top", "top"]}})"),
                 HasSubstr("/mesh/faces"));
 }
 

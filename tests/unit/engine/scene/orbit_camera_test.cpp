@@ -13,11 +13,11 @@
 namespace rowland::scene {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kOrbitInfinity = std::numeric_limits<float>::infinity();
+constexpr float kOrbitNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kLargest = std::numeric_limits<float>::max();
 
-Camera start() {
+Camera orbit_start() {
     return {.eye = {1.0F, 3.0F, 4.0F}, .target = {1.0F, 0.0F, 0.0F}, .vertical_field_of_view = 0.5F};
 }
 
@@ -25,7 +25,7 @@ float distance_of(const Camera& camera) {
     return glm::distance(camera.eye, camera.target);
 }
 
-void expect_near(glm::vec3 a, glm::vec3 b, float tolerance) {
+void expect_orbit_near(glm::vec3 a, glm::vec3 b, float tolerance) {
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], tolerance) << "component " << i;
 }
 
@@ -36,14 +36,14 @@ void expect_usable(const Camera& camera) {
 }
 
 TEST(OrbitCamera, StartsAtTheGivenCamera) {
-    const Camera camera = OrbitCamera(start()).camera();
-    expect_near(camera.eye, start().eye, 2e-6F);  // rounding of the angles at distance 5
-    EXPECT_EQ(camera.target, start().target);
+    const Camera camera = OrbitCamera(orbit_start()).camera();
+    expect_orbit_near(camera.eye, orbit_start().eye, 2e-6F);  // rounding of the angles at distance 5
+    EXPECT_EQ(camera.target, orbit_start().target);
     EXPECT_EQ(camera.vertical_field_of_view, 0.5F);
 }
 
 TEST(OrbitCamera, DragKeepsTheDistance) {
-    OrbitCamera orbit(start());
+    OrbitCamera orbit(orbit_start());
     std::mt19937 random(3);
     std::uniform_real_distribution<float> pixels(-400.0F, 400.0F);
     for (int i = 0; i < 1000; ++i) {
@@ -70,7 +70,7 @@ TEST(OrbitCamera, DragIsInRadiansPerPixel) {
 
 TEST(OrbitCamera, PitchEndsShortOfThePoles) {
     for (const float way : {1.0F, -1.0F}) {
-        OrbitCamera orbit(start());
+        OrbitCamera orbit(orbit_start());
         orbit.update({.drag = {0.0F, way * 1e6F}});
         EXPECT_EQ(orbit.pitch(), static_cast<double>(way) * kMaximumPitch);
         expect_usable(orbit.camera());
@@ -80,15 +80,16 @@ TEST(OrbitCamera, PitchEndsShortOfThePoles) {
 }
 
 TEST(OrbitCamera, FullTurnComesBack) {
-    OrbitCamera orbit(start(), {.radians_per_pixel = 6.2831853F / 1000.0F});
+    OrbitCamera orbit(orbit_start(), {.radians_per_pixel = 6.2831853F / 1000.0F});
     for (int i = 0; i < 1000; ++i) orbit.update({.drag = {1.0F, 0.0F}});
-    expect_near(orbit.camera().eye, start().eye, 4e-6F);  // the scale is float: 2e-7 of a turn, at distance 5
+    expect_orbit_near(orbit.camera().eye, orbit_start().eye,
+                      4e-6F);  // the scale is float: 2e-7 of a turn, at distance 5
     EXPECT_LE(std::abs(orbit.yaw()), std::numbers::pi);
 }
 
 TEST(OrbitCamera, ZoomIsAFactorPerNotchHoweverSplit) {
-    OrbitCamera together(start());
-    OrbitCamera split(start());
+    OrbitCamera together(orbit_start());
+    OrbitCamera split(orbit_start());
     together.update({.scroll = 7.0F});
     for (int i = 0; i < 14; ++i) split.update({.scroll = 0.5F});
     EXPECT_NEAR(together.distance(), 5.0 * std::exp(-0.7), 1e-6);  // rounding
@@ -98,7 +99,7 @@ TEST(OrbitCamera, ZoomIsAFactorPerNotchHoweverSplit) {
 }
 
 TEST(OrbitCamera, ZoomStaysWithinItsLimits) {
-    OrbitCamera orbit(start(), {.minimum_distance = 0.5F, .maximum_distance = 20.0F});
+    OrbitCamera orbit(orbit_start(), {.minimum_distance = 0.5F, .maximum_distance = 20.0F});
     orbit.update({.scroll = 1e6F});
     EXPECT_EQ(orbit.distance(), 0.5F);
     orbit.update({.scroll = -1e6F});
@@ -108,22 +109,23 @@ TEST(OrbitCamera, ZoomStaysWithinItsLimits) {
 }
 
 TEST(OrbitCamera, BrokenInputChangesNothing) {
-    OrbitCamera orbit(start());
-    for (const float broken : {kNaN, kInfinity, -kInfinity}) {
+    OrbitCamera orbit(orbit_start());
+    for (const float broken : {kOrbitNaN, kOrbitInfinity, -kOrbitInfinity}) {
         orbit.update({.drag = {broken, broken}, .scroll = broken});
-        expect_near(orbit.camera().eye, start().eye, 2e-6F);  // as at the start
+        expect_orbit_near(orbit.camera().eye, orbit_start().eye, 2e-6F);  // as at the start
     }
     orbit.update({.drag = {kLargest, -kLargest}, .scroll = -kLargest});
     expect_usable(orbit.camera());
 }
 
 TEST(OrbitCamera, StartWithoutADirectionIsUsable) {
-    for (const glm::vec3 eye : {glm::vec3(1.0F, 0.0F, 0.0F), glm::vec3(kNaN), glm::vec3(kInfinity, 0.0F, 0.0F)}) {
+    for (const glm::vec3 eye :
+         {glm::vec3(1.0F, 0.0F, 0.0F), glm::vec3(kOrbitNaN), glm::vec3(kOrbitInfinity, 0.0F, 0.0F)}) {
         const OrbitCamera orbit({.eye = eye, .target = {1.0F, 0.0F, 0.0F}});
         EXPECT_GT(orbit.distance(), 0.0F);
         expect_usable(orbit.camera());
     }
-    expect_usable(OrbitCamera({.eye = glm::vec3(0.0F), .target = glm::vec3(kNaN)}).camera());
+    expect_usable(OrbitCamera({.eye = glm::vec3(0.0F), .target = glm::vec3(kOrbitNaN)}).camera());
     expect_usable(OrbitCamera({.eye = {0.0F, 9.0F, 0.0F}, .target = glm::vec3(0.0F)}).camera());  // from the pole
 }
 

@@ -14,7 +14,7 @@
 namespace rowland::scene {
 namespace {
 
-TextureRecipe parse(const std::string& text) {
+TextureRecipe texture_of(const std::string& text) {
     const nlohmann::json document = parse_json(text, "t.json");
     JsonReader reader(document, "t.json");
     TextureRecipe recipe = parse_texture(reader);
@@ -28,7 +28,7 @@ int texel(const TextureRecipe& recipe, const PaintedTexture& painted, int column
 }
 
 TEST(TextureRecipe, LayersCoverThoseBefore) {
-    const TextureRecipe recipe = parse(R"({"size": [64, 64], "layers": [
+    const TextureRecipe recipe = texture_of(R"({"size": [64, 64], "layers": [
         {"pattern": "all", "r": 1, "g": 0.2},
         {"pattern": "rosette", "centre": [0.5, 0.5], "radius": 0.25, "g": 0.6}]})");
     const PaintedTexture painted = paint(recipe);
@@ -41,7 +41,7 @@ TEST(TextureRecipe, LayersCoverThoseBefore) {
 }
 
 TEST(TextureRecipe, RosetteCoversItsArea) {
-    const TextureRecipe recipe = parse(R"({"size": [512, 256], "layers": [
+    const TextureRecipe recipe = texture_of(R"({"size": [512, 256], "layers": [
         {"pattern": "rosette", "centre": [1, 0.5], "radius": 0.4, "petals": 6, "petal_depth": 0.5, "r": 1}]})");
     const PaintedTexture painted = paint(recipe);
     double covered = 0.0;
@@ -53,7 +53,7 @@ TEST(TextureRecipe, RosetteCoversItsArea) {
 }
 
 TEST(TextureRecipe, AngleRunsCounterClockwiseFromTheRight) {
-    const TextureRecipe recipe = parse(R"({"size": [101, 101], "layers": [
+    const TextureRecipe recipe = texture_of(R"({"size": [101, 101], "layers": [
         {"pattern": "rosette", "centre": [0.5, 0.5], "radius": 0.5,
          "r": {"by": "angle", "from": 0, "to": 1}, "g": {"by": "angle", "from": 0, "to": 1, "repeat": 2}}]})");
     const PaintedTexture painted = paint(recipe);
@@ -67,7 +67,7 @@ TEST(TextureRecipe, AngleRunsCounterClockwiseFromTheRight) {
 }
 
 TEST(TextureRecipe, RampsHoldBeforeAndBehindTheirShare) {
-    const TextureRecipe recipe = parse(R"({"size": [100, 10], "layers": [{"pattern": "all",
+    const TextureRecipe recipe = texture_of(R"({"size": [100, 10], "layers": [{"pattern": "all",
         "r": {"by": "x", "from": 1, "to": 0, "over": [0.25, 0.75]}, "g": {"by": "y", "from": 0, "to": 1}}]})");
     const PaintedTexture painted = paint(recipe);
     EXPECT_EQ(texel(recipe, painted, 10, 0, 0), 255);
@@ -79,7 +79,7 @@ TEST(TextureRecipe, RampsHoldBeforeAndBehindTheirShare) {
 }
 
 TEST(TextureRecipe, CellsHaveAValueOfTheirOwnEach) {
-    const TextureRecipe recipe = parse(R"({"size": [300, 300], "layers": [
+    const TextureRecipe recipe = texture_of(R"({"size": [300, 300], "layers": [
         {"pattern": "hexagons", "size": 0.1, "gap": 0.2, "r": {"by": "cell", "from": 0.1, "to": 1}}]})");
     const PaintedTexture painted = paint(recipe);
     std::set<int> values;
@@ -95,7 +95,7 @@ TEST(TextureRecipe, CellsHaveAValueOfTheirOwnEach) {
 }
 
 TEST(TextureRecipe, TilesAreWhereTheirSizeSays) {
-    const TextureRecipe recipe = parse(R"({"size": [40, 20], "layers": [
+    const TextureRecipe recipe = texture_of(R"({"size": [40, 20], "layers": [
         {"pattern": "tiles", "size": [1, 0.5], "gap": 0.2, "r": 1}]})");
     const PaintedTexture painted = paint(recipe);
     // Tiles of 20 × 10 texels with a gap of 2 between them, so 1 at each side.
@@ -108,7 +108,7 @@ TEST(TextureRecipe, TilesAreWhereTheirSizeSays) {
 
 TEST(TextureRecipe, PaintedAlphaMakesAFourthChannel) {
     const TextureRecipe recipe =
-        parse(R"({"size": [4, 1], "layers": [{"pattern": "tiles", "size": [2, 1], "a": 0.4}]})");
+        texture_of(R"({"size": [4, 1], "layers": [{"pattern": "tiles", "size": [2, 1], "a": 0.4}]})");
     const PaintedTexture painted = paint(recipe);
     EXPECT_EQ(painted.channels, 4);
     EXPECT_EQ(painted.texels.size(), 16U);
@@ -116,7 +116,7 @@ TEST(TextureRecipe, PaintedAlphaMakesAFourthChannel) {
 }
 
 TEST(TextureRecipe, AnyNumberOfThreadsGivesTheSameBytes) {
-    const TextureRecipe recipe = parse(R"({"size": [128, 96], "layers": [
+    const TextureRecipe recipe = texture_of(R"({"size": [128, 96], "layers": [
         {"pattern": "hexagons", "size": 0.07, "r": {"by": "cell", "from": 0, "to": 1}},
         {"pattern": "rosette", "centre": [0.6, 0.5], "radius": 0.4, "petals": 7, "rings": 5,
          "g": {"by": "radius", "from": 0, "to": 1}}]})");
@@ -126,15 +126,15 @@ TEST(TextureRecipe, AnyNumberOfThreadsGivesTheSameBytes) {
 }
 
 TEST(TextureRecipe, RefusalsNameTheirPlace) {
-    using test::message_of;
+    using rowland::test::message_of;
     using testing::HasSubstr;
-    EXPECT_THAT(message_of([] { parse(R"({"size": [4, 4.5], "layers": []})"); }), HasSubstr("t.json: /size/1"));
-    EXPECT_THAT(message_of([] { parse(R"({"size": [4, 4], "layers": [{"pattern": "hexagon"}]})"); }),
+    EXPECT_THAT(message_of([] { texture_of(R"({"size": [4, 4.5], "layers": []})"); }), HasSubstr("t.json: /size/1"));
+    EXPECT_THAT(message_of([] { texture_of(R"({"size": [4, 4], "layers": [{"pattern": "hexagon"}]})"); }),
                 testing::AllOf(HasSubstr("/layers/0/pattern"), HasSubstr("\"hexagons\"")));
-    EXPECT_THAT(message_of([] { parse(R"({"size": [4, 4], "layers": [{"pattern": "all", "r": 2}]})"); }),
+    EXPECT_THAT(message_of([] { texture_of(R"({"size": [4, 4], "layers": [{"pattern": "all", "r": 2}]})"); }),
                 HasSubstr("/layers/0/r"));
     EXPECT_THAT(message_of([] {
-                    parse(R"({"size": [4, 4], "layers": [{"pattern": "all",
+                    texture_of(R"({"size": [4, 4], "layers": [{"pattern": "all",
                               "r": {"by": "x", "from": 0, "to": 1, "over": [0.5, 0.5]}}]})");
                 }),
                 HasSubstr("/layers/0/r/over/1"));

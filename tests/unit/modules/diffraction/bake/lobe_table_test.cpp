@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kPitch = 1600.0;
 
-Grating compact_disc() {
+Grating lobe_disc() {
     Grating grating;
     grating.pitch_nm = kPitch;
     grating.profile = SlitProfile{800.0};
@@ -23,7 +23,7 @@ Grating compact_disc() {
 
 const BlurredKernel& kernel() {
     static const BlurredKernel blurred =
-        blur(tabulate(ColourKernel(compact_disc(), colour::LightSpectra(colour::d65()))), 0.2 * kPitch, 4096);
+        blur(tabulate(ColourKernel(lobe_disc(), colour::LightSpectra(colour::d65()))), 0.2 * kPitch, 4096);
     return blurred;
 }
 

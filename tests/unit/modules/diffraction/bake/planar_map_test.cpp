@@ -60,7 +60,7 @@ TEST(PlanarMap, MatchesTheBandlimitedOracle) {
     EXPECT_GE(flat, 3);
 }
 
-void matches_oracle(const test::OracleProbe& probe) {
+void planar_matches_oracle(const test::OracleProbe& probe) {
     ROWLAND_TEST_DATA(frames_path, "oracle/frames_tilted_cd.csv");
     ROWLAND_TEST_DATA(oracle_path, std::string("oracle/radiance_tilted_cd_") + probe.name + ".csv");
     ROWLAND_TEST_DATA(probe_path, std::string("probes/") + probe.file);
@@ -76,16 +76,16 @@ void matches_oracle(const test::OracleProbe& probe) {
 
 /// A map of 256² and 16 key lights. The tolerances are the figures this representation was given to reach.
 TEST(PlanarMap, MatchesGrace) {
-    matches_oracle({"grace", "grace_probe.hdr", lighting::Mapping::Angular, 0.015});
+    planar_matches_oracle({"grace", "grace_probe.hdr", lighting::Mapping::Angular, 0.015});
 }
 TEST(PlanarMap, MatchesEnnis) {
-    matches_oracle({"ennis", "ennis_probulator.hdr", lighting::Mapping::Equirectangular, 0.02});
+    planar_matches_oracle({"ennis", "ennis_probulator.hdr", lighting::Mapping::Equirectangular, 0.02});
 }
 TEST(PlanarMap, MatchesBlenderSunset) {
-    matches_oracle({"blender_sunset", "blender_sunset.exr", lighting::Mapping::Equirectangular, 0.02});
+    planar_matches_oracle({"blender_sunset", "blender_sunset.exr", lighting::Mapping::Equirectangular, 0.02});
 }
 TEST(PlanarMap, MatchesRoyalEsplanade) {
-    matches_oracle({"royal_esplanade", "royal_esplanade_1k.hdr", lighting::Mapping::Equirectangular, 0.05});
+    planar_matches_oracle({"royal_esplanade", "royal_esplanade_1k.hdr", lighting::Mapping::Equirectangular, 0.05});
 }
 
 /// Under uniform light A(a) = √(1 − a²), whatever the azimuth; a 64² map, measured 7e-4.

@@ -16,7 +16,7 @@
 namespace rowland::diffraction {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 Grating foil() {
     Grating grating;
@@ -51,8 +51,8 @@ TEST(SpikeTable, NodesAreTheBakedSpikesWithinStorage) {
         const SpikeTable table = bake_spike_table(foil(), settings);
         for (int i = 0; i < settings.theta_nodes; ++i)
             for (int j = 0; j < settings.phi_nodes; ++j) {
-                const double theta = 0.5 * kPi * i / (settings.theta_nodes - 1);
-                const double phi = 2.0 * kPi * j / settings.phi_nodes;
+                const double theta = 0.5 * pi * i / (settings.theta_nodes - 1);
+                const double phi = 2.0 * pi * j / settings.phi_nodes;
                 const glm::dvec3 v(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
                                    std::max(std::cos(theta), 1e-9));
                 const SpikeSet exact = bake_spikes(foil(), v.x, v.y, settings.spikes);
@@ -77,8 +77,8 @@ TEST(SpikeTable, HasTheLayoutTheShaderReads) {
     EXPECT_EQ(table.texels.size(), 15U * 5U * 8U * 4U);
     EXPECT_EQ(table.scale.size(), 15U);
     // Spike 2, coefficient 6, row 3, column 1: layer 2·5 + 1, component 2.
-    const double theta = 0.5 * kPi * 3 / 4;
-    const double phi = 2.0 * kPi / 8;
+    const double theta = 0.5 * pi * 3 / 4;
+    const double phi = 2.0 * pi / 8;
     const SpikeSet exact =
         bake_spikes(foil(), std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), settings.spikes);
     const std::size_t layer = 11;
@@ -89,12 +89,12 @@ TEST(SpikeTable, HasTheLayoutTheShaderReads) {
 
 TEST(SpikeTable, FiltersLinearlyBetweenNodesAndAcrossTheSeam) {
     const SpikeTable table = bake_spike_table(foil(), small(Storage::Unorm16));
-    const double theta = 0.5 * kPi * 2 / 4;
+    const double theta = 0.5 * pi * 2 / 4;
     const auto at = [&](double phi) {
         return sample(table, std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
     };
     // A quarter of the way from column 7 to column 0, across φ = 2π.
-    const double step = 2.0 * kPi / 8;
+    const double step = 2.0 * pi / 8;
     const SpikeSet between = at(7.25 * step);
     const SpikeSet left = at(7.0 * step);
     const SpikeSet right = at(0.0);

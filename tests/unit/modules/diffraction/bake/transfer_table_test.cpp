@@ -20,14 +20,14 @@ namespace {
 
 using test::relative_rms;
 
-Grating compact_disc() {
+Grating transfer_disc() {
     Grating grating;
     grating.pitch_nm = 1600.0;
     grating.profile = SlitProfile{800.0};
     return grating;
 }
 
-Grating foil() {
+Grating transfer_foil() {
     Grating grating;
     grating.pitch_nm = 1000.0;
     grating.profile = BlazedProfile{150.0};
@@ -60,10 +60,10 @@ std::vector<glm::dmat3> by_kernel(const Grating& grating, int bands, double v_g)
 
 /// 1e-6 of the largest coefficient: cells of 1.6e-4 are good for the square of that.
 TEST(TransferTerms, AreTheKernelsCorrelationWithArcCoefficients) {
-    const TransferTerms terms(compact_disc(), colour::LightSpectra(), 5);
+    const TransferTerms terms(transfer_disc(), colour::LightSpectra(), 5);
     for (const double v_g : {-0.97, -0.2, 0.0, 0.31, 0.75}) {
         const auto found = terms.coefficients(v_g, 0.0);
-        const auto expected = by_kernel(compact_disc(), 5, v_g);
+        const auto expected = by_kernel(transfer_disc(), 5, v_g);
         double largest = 0.0;
         double error = 0.0;
         for (std::size_t i = 0; i < found.size(); ++i)
@@ -79,7 +79,7 @@ TEST(TransferTerms, AreTheKernelsCorrelationWithArcCoefficients) {
 /// A lobe's terms against the trapezoid sum over every nanometre that the spikes take, order 0 included; their step
 /// leaves 1e-4 where an arc meets the horizon.
 TEST(TransferTerms, OfALobeSumTheViewsSpectrum) {
-    Grating grating = foil();
+    Grating grating = transfer_foil();
     grating.orders = {-1, 0, 1, 2};
     const TransferTerms terms(grating, colour::LightSpectra(), 4);
     const ViewSpectrum spectrum(grating, 4);
@@ -134,10 +134,10 @@ TEST(TransferTable, HasTheLayoutTheShaderReads) {
     TransferSettings settings;
     settings.grid = ViewGrid{ViewMapping::OneDimensional, 17, 1};
     settings.storage = Storage::Float;
-    const TransferTable table = bake_transfer_table(compact_disc(), settings);
+    const TransferTable table = bake_transfer_table(transfer_disc(), settings);
     EXPECT_EQ(transfer_layers(5), 7);
     EXPECT_EQ(table.scale.size(), 63U);
-    const TransferTerms terms(compact_disc(), colour::LightSpectra(), 5);
+    const TransferTerms terms(transfer_disc(), colour::LightSpectra(), 5);
     const double expected = terms.coefficients(2.0 * 9 / 16 - 1.0, 0.0)[6][1][2];
     const std::size_t layer = (1 * 3 + 2) * 7 + 1;
     EXPECT_NEAR(reinterpret_cast<const float*>(table.texels.data())[(layer * 17 + 9) * 4 + 2], expected, 1e-7);
@@ -149,8 +149,8 @@ TEST(TransferTable, MirroredViewsAreBakedOnce) {
     settings.bands = 3;
     settings.grid = ViewGrid{ViewMapping::Parabolic, 9, 9};
     settings.storage = Storage::Float;
-    const TransferTable table = bake_transfer_table(foil(), settings);
-    const TransferTerms terms(foil(), colour::LightSpectra(), 3);
+    const TransferTable table = bake_transfer_table(transfer_foil(), settings);
+    const TransferTerms terms(transfer_foil(), colour::LightSpectra(), 3);
     for (const int row : {1, 7}) {
         const glm::dvec2 v = node_view(*settings.grid, 3, row);
         const auto exact = terms.coefficients(v.x, v.y);
@@ -163,23 +163,23 @@ TEST(TransferTable, MirroredViewsAreBakedOnce) {
 }
 
 TEST(TransferTable, ViewBelowTheHorizonIsBlack) {
-    const TransferTable table = bake_transfer_table(compact_disc(), {.bands = 2});
+    const TransferTable table = bake_transfer_table(transfer_disc(), {.bands = 2});
     const lighting::ShLight light{1, {glm::dvec3(1.0)}};
     EXPECT_EQ(evaluate(table, light, {0.6, 0.0, -0.8}), glm::dvec3(0.0));
     EXPECT_GT(evaluate(table, light, {0.6, 0.0, 0.8}).y, 0.0);
 }
 
 TEST(TransferTable, RefusesFewGroovesAndOneDimensionForALobe) {
-    Grating few = compact_disc();
+    Grating few = transfer_disc();
     few.grooves = 10.0;
     EXPECT_THROW(bake_transfer_table(few, {}), Error);
     TransferSettings settings;
     settings.grid = ViewGrid{ViewMapping::OneDimensional, 16, 1};
-    EXPECT_THROW(bake_transfer_table(foil(), settings), Error);
+    EXPECT_THROW(bake_transfer_table(transfer_foil(), settings), Error);
 }
 
 TEST(TransferTable, SubwavelengthPitchIsExactlyBlack) {
-    Grating grating = compact_disc();
+    Grating grating = transfer_disc();
     grating.pitch_nm = 150.0;
     grating.profile = SlitProfile{75.0};
     const TransferTable table = bake_transfer_table(grating, {});
@@ -193,7 +193,7 @@ TEST(TransferTable, BytesDoNotDependOnTheNumberOfThreads) {
         settings.bands = 3;
         settings.grid = ViewGrid{ViewMapping::Spherical, 8, 4};
         ByteWriter writer;
-        write_transfer_table(bake_transfer_table(foil(), settings), writer);
+        write_transfer_table(bake_transfer_table(transfer_foil(), settings), writer);
         return writer.take();
     };
     EXPECT_EQ(bake(1), bake(2));
@@ -205,7 +205,7 @@ TEST(TransferTable, HasSoundBytes) {
         settings.bands = 2;
         settings.grid = ViewGrid{ViewMapping::OneDimensional, 9, 1};
         settings.storage = storage;
-        test::expect_sound_bytes(bake_transfer_table(compact_disc(), settings), write_transfer_table,
+        test::expect_sound_bytes(bake_transfer_table(transfer_disc(), settings), write_transfer_table,
                                  read_transfer_table);
     }
 }

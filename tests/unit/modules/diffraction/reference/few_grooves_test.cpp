@@ -20,8 +20,9 @@ namespace {
 
 using test::relative_rms;
 
-const std::vector<Frame> kFrames = {{.view = {0.3, 0.1, 0.9}, .normal = {0.0, 0.0, 1.0}, .grating = {1.0, 0.0, 0.0}},
-                                    {.view = {-0.7, 0.4, 0.3}, .normal = {0.0, 0.0, 1.0}, .grating = {1.0, 0.0, 0.0}}};
+const std::vector<Frame> kFewGrooveFrames = {
+    {.view = {0.3, 0.1, 0.9}, .normal = {0.0, 0.0, 1.0}, .grating = {1.0, 0.0, 0.0}},
+    {.view = {-0.7, 0.4, 0.3}, .normal = {0.0, 0.0, 1.0}, .grating = {1.0, 0.0, 0.0}}};
 
 Grating compact_disc(double grooves) {
     return {.pitch_nm = 1600.0, .grooves = grooves, .profile = SlitProfile{800.0}, .orders = {-1, 1, 2}};
@@ -61,9 +62,9 @@ TEST(FewGrooves, HaveTheirTrueWidth) {
     const lighting::ShLight light = test::read_sh_light(light_path);
     for (const double grooves : {1.0, 5.0, 20.0}) {
         const Grating grating = compact_disc(grooves);
-        const auto found = reference_radiance(grating, light, colour::LightSpectra(), kFrames);
-        for (std::size_t i = 0; i < kFrames.size(); ++i) {
-            const glm::dvec3 v = glm::normalize(kFrames[i].view);
+        const auto found = reference_radiance(grating, light, colour::LightSpectra(), kFewGrooveFrames);
+        for (std::size_t i = 0; i < kFewGrooveFrames.size(); ++i) {
+            const glm::dvec3 v = glm::normalize(kFewGrooveFrames[i].view);
             const double error = relative_rms({found[i]}, {brute_force(grating, light, colour::LightSpectra(), v)});
             RecordProperty(fmt::format("N{}_view{}", grooves, i), fmt::format("{:.3g}", error));
             EXPECT_LT(error, grooves == 1.0 ? 3e-3 : 1e-3) << grooves << " grooves, view " << i;
@@ -76,10 +77,10 @@ TEST(FewGrooves, HaveTheirTrueWidth) {
 TEST(FewGrooves, MeetTheLimitOfManyAsTheirNumberGrows) {
     ROWLAND_TEST_DATA(light_path, "oracle/bandlimited_light_n5.csv");
     const lighting::ShLight light = test::read_sh_light(light_path);
-    const auto many = reference_radiance(compact_disc(1500.0), light, colour::LightSpectra(), kFrames);
+    const auto many = reference_radiance(compact_disc(1500.0), light, colour::LightSpectra(), kFewGrooveFrames);
     double last = 10.0;
     for (const double grooves : {2.0, 4.0, 8.0, 16.0, 32.0, 49.0}) {
-        const auto few = reference_radiance(compact_disc(grooves), light, colour::LightSpectra(), kFrames);
+        const auto few = reference_radiance(compact_disc(grooves), light, colour::LightSpectra(), kFewGrooveFrames);
         const double error = relative_rms(few, many);
         RecordProperty(fmt::format("N{}", grooves), fmt::format("{:.3g}", error));
         EXPECT_LT(error, last) << grooves;
@@ -92,8 +93,8 @@ TEST(FewGrooves, MeetTheLimitOfManyAsTheirNumberGrows) {
 TEST(FewGrooves, FiftyAreTreatedAsInfinitelyMany) {
     ROWLAND_TEST_DATA(light_path, "oracle/bandlimited_light_n5.csv");
     const lighting::ShLight light = test::read_sh_light(light_path);
-    EXPECT_EQ(reference_radiance(compact_disc(50.0), light, colour::LightSpectra(), kFrames),
-              reference_radiance(compact_disc(1e6), light, colour::LightSpectra(), kFrames));
+    EXPECT_EQ(reference_radiance(compact_disc(50.0), light, colour::LightSpectra(), kFewGrooveFrames),
+              reference_radiance(compact_disc(1e6), light, colour::LightSpectra(), kFewGrooveFrames));
 }
 
 }  // namespace
