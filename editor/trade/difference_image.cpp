@@ -57,7 +57,8 @@ RgbPicture difference_image(std::span<const glm::dvec3> a, std::span<const glm::
     const std::vector<glm::vec3> shown_b = displayed(b, stops);
     RgbPicture picture{
         .width = (kPanels * width + (kPanels - 1) * kGap) * magnified, .height = height * magnified, .rgb = {}};
-    picture.rgb.assign(static_cast<std::size_t>(3 * picture.width * picture.height), 128);
+    picture.rgb.assign(
+        std::size_t{3} * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height), 128);
     place(shown_a, width, 0, magnified, picture);
     place(shown_b, width, (width + kGap) * magnified, magnified, picture);
     place(difference_colours(shown_a, shown_b), width, 2 * (width + kGap) * magnified, magnified, picture);

@@ -117,7 +117,7 @@ std::filesystem::path without_gratings(const std::filesystem::path& glb) {
     const std::string unknown = "UNKNOWN_materials_diffraction";  // as long, so that the chunks keep their sizes
     for (std::size_t at = text.find(extension); at != std::string::npos; at = text.find(extension, at))
         text.replace(at, extension.size(), unknown);
-    const std::filesystem::path path = test::result("cabinet_without_gratings.glb");
+    std::filesystem::path path = test::result("cabinet_without_gratings.glb");
     write_file_atomic(path, text);
     return path;
 }

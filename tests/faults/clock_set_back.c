@@ -1,5 +1,5 @@
 /* Loaded before a program: its clock of the day is an hour earlier each time it looks. */
-#define _GNU_SOURCE
+#define _GNU_SOURCE  // NOLINT(bugprone-reserved-identifier): what glibc reads
 #include <stddef.h>
 #include <sys/syscall.h>
 #include <sys/time.h>

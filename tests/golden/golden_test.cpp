@@ -38,7 +38,7 @@ Picture read_png(const std::filesystem::path& path) {
     int channels = 0;
     const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(
         stbi_load(path.c_str(), &picture.width, &picture.height, &channels, 3), &stbi_image_free);
-    if (pixels) picture.rgb.assign(pixels.get(), pixels.get() + 3 * picture.width * picture.height);
+    if (pixels) picture.rgb.assign(pixels.get(), pixels.get() + std::ptrdiff_t{3} * picture.width * picture.height);
     return picture;
 }
 

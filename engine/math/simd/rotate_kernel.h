@@ -122,10 +122,10 @@ ROWLAND_INLINE void exchange_y_and_z(const Vec* in, const float* weight, int ban
             Vec sum[kChannels] = {};
             for (int k = columns.first; k <= l; k += 2) {
                 const float w = *weight++;
-                const Vec* source = in + kChannels * (l * (l + 1) + columns.sign * k);
+                const Vec* source = in + std::ptrdiff_t{kChannels} * (l * (l + 1) + columns.sign * k);
                 for (int c = 0; c < kChannels; ++c) sum[c] += w * source[c];
             }
-            Vec* target = out + kChannels * (l * (l + 1) + m);
+            Vec* target = out + std::ptrdiff_t{kChannels} * (l * (l + 1) + m);
             for (int c = 0; c < kChannels; ++c) target[c] = sum[c];
         });
 }
@@ -159,7 +159,7 @@ struct Project {
         for (int row = 0; row < matrix.rows; ++row) {
             Vec sum[kChannels] = {};
             for (int i = matrix.first[row]; i < matrix.first[row + 1]; ++i) {
-                const Vec* source = rotated + kChannels * matrix.column[i];
+                const Vec* source = rotated + std::ptrdiff_t{kChannels} * matrix.column[i];
                 for (int c = 0; c < kChannels; ++c) sum[c] += matrix.weight[i] * source[c];
             }
             for (int c = 0; c < kChannels; ++c) moments[kChannels * row + c] = sum[c];

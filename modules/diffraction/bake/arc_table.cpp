@@ -69,7 +69,8 @@ MatrixXd weighed(const MatrixXd& table, LightTerms terms, int bands) {
                     mixed.col(k) += channel(from, c) * table.col(k * kTermColumns + from * 3 + o);
             }
             const MatrixXd turned = mixed * light;
-            for (Eigen::Index k = 0; k < count; ++k) result.col(k * kTermColumns + c * 3 + o) = turned.col(k);
+            for (Eigen::Index k = 0; k < count; ++k)
+                result.col(k * kTermColumns + Eigen::Index{3} * c + o) = turned.col(k);
         }
     return result;
 }
@@ -88,7 +89,7 @@ void put(const std::vector<glm::dmat3>& terms, std::span<const double> signs, Ei
     for (std::size_t k = 0; k < terms.size(); ++k)
         for (int c = 0; c < 3; ++c)
             for (int o = 0; o < 3; ++o)
-                table(row, static_cast<Eigen::Index>(k) * kTermColumns + c * 3 + o) =
+                table(row, static_cast<Eigen::Index>(k) * kTermColumns + Eigen::Index{3} * c + o) =
                     (signs.empty() ? 1.0 : signs[k]) * terms[k][c][o];
 }
 
@@ -162,7 +163,8 @@ ArcTable bake_arc_table(const Grating& grating, const ArcSettings& settings) {
         for (Eigen::Index k = 0; k < values.cols() / kTermColumns; ++k) {
             glm::mat3 factor;
             for (int c = 0; c < 3; ++c)
-                for (int o = 0; o < 3; ++o) factor[c][o] = static_cast<float>(factors(r, k * kTermColumns + c * 3 + o));
+                for (int o = 0; o < 3; ++o)
+                    factor[c][o] = static_cast<float>(factors(r, k * kTermColumns + Eigen::Index{3} * c + o));
             table.factors.push_back(factor);
         }
     }

@@ -68,11 +68,12 @@ void KernelCells::sharpen(std::span<float> xyz, std::size_t floats) const {
 template <int kLanes>
 void KernelCells::correlate(std::span<const float> light, std::span<float> xyz) const {
     for (int view = 0; view < views_; ++view) {
-        std::array<float, 3 * kLanes> sum{};
+        std::array<float, std::size_t{3} * kLanes> sum{};
         const Range reached = range(view);
         const float* weight = weights_.data() + static_cast<std::size_t>(reached.begin + 2 * view) * kWeightFloats;
         const float* from = light.data() + static_cast<std::size_t>(reached.begin) * 3 * kLanes;
-        for (int cell = reached.begin; cell < reached.end; ++cell, weight += kWeightFloats, from += 3 * kLanes)
+        for (int cell = reached.begin; cell < reached.end;
+             ++cell, weight += kWeightFloats, from += std::ptrdiff_t{3} * kLanes)
             for (int o = 0; o < 3; ++o)
                 for (int lane = 0; lane < kLanes; ++lane)
                     sum[static_cast<std::size_t>(o * kLanes + lane)] += weight[o] * from[lane] +
@@ -80,7 +81,7 @@ void KernelCells::correlate(std::span<const float> light, std::span<float> xyz) 
                                                                         weight[8 + o] * from[2 * kLanes + lane];
         std::copy(sum.begin(), sum.end(), xyz.begin() + static_cast<std::ptrdiff_t>(view) * 3 * kLanes);
     }
-    sharpen(xyz, 3 * kLanes);
+    sharpen(xyz, std::size_t{3} * kLanes);
 }
 
 template void KernelCells::correlate<8>(std::span<const float> light, std::span<float> xyz) const;

@@ -137,7 +137,7 @@ TEST(ByteImage, JpegIsReadWithinItsQuantisation) {
 TEST(ByteImage, CutFilesAreRefused) {
     ROWLAND_TEST_DATA(path, "gltf/valid/Duck/glTF/DuckCM.png");
     const auto png = read_file(path, 1 << 20);
-    std::vector<std::uint8_t> noise(64 * 64 * 3);
+    std::vector<std::uint8_t> noise(std::size_t{64} * 64 * 3);
     for (std::size_t i = 0; i < noise.size(); ++i) noise[i] = static_cast<std::uint8_t>(i * i * 31 >> 3U);
     const auto jpeg = test::encoded_jpeg(64, 64, noise);
     for (const auto& whole : {png, jpeg}) {

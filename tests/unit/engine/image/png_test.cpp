@@ -15,8 +15,8 @@ namespace {
 
 TEST(Png, HoldsTheBytesItWasGiven) {
     const test::TemporaryFolder folder;
-    std::vector<std::uint8_t> rgb;
-    for (int i = 0; i < 5 * 3 * 3; ++i) rgb.push_back(static_cast<std::uint8_t>(i * 37));
+    std::vector<std::uint8_t> rgb(45);
+    for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = static_cast<std::uint8_t>(i * 37);
     const auto path = folder.path() / "a.png";
     write_png(path, 5, 3, rgb);
     int width = 0;
@@ -32,8 +32,8 @@ TEST(Png, HoldsTheBytesItWasGiven) {
 }
 
 TEST(Png, EncodedAlphaComesBack) {
-    std::vector<std::uint8_t> rgba;
-    for (int i = 0; i < 7 * 2 * 4; ++i) rgba.push_back(static_cast<std::uint8_t>(i * 41));
+    std::vector<std::uint8_t> rgba(56);
+    for (std::size_t i = 0; i < rgba.size(); ++i) rgba[i] = static_cast<std::uint8_t>(i * 41);
     const std::vector<std::byte> bytes = encode_png(7, 2, 4, rgba);
     EXPECT_EQ(bytes, encode_png(7, 2, 4, rgba));
     const ByteImage read = decode_byte_image(bytes, "a.png");
