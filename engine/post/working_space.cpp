@@ -38,7 +38,7 @@ bool is_scene_space(const OcioConfig& config, const char* role) {
 
 /// ACEScg → scene_linear as OpenColorIO sees it.
 OCIO::GroupTransformRcPtr acescg_to_scene_linear_transform(const OcioConfig& config) {
-    const OCIO::GroupTransformRcPtr group = OCIO::GroupTransform::Create();
+    OCIO::GroupTransformRcPtr group = OCIO::GroupTransform::Create();
     group->appendTransform(builtin("ACEScg_to_ACES2065-1"));
     if (is_scene_space(config, aces_interchange)) {
         group->appendTransform(between_spaces(aces_interchange, OCIO::ROLE_SCENE_LINEAR));

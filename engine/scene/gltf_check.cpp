@@ -9,6 +9,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/json_reader.h"
+#include "engine/scene/gltf_document.h"
 #include "engine/scene/gltf_index.h"
 #include "engine/scene/memory_budget.h"
 

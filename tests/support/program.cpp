@@ -84,6 +84,8 @@ Running::Running(const Command& command, const Surroundings& surroundings) : sta
     const int err = ::fileno(state_->err.get());
     state_->pid = ::fork();
     if (state_->pid < 0) throw std::runtime_error("cannot fork");
+    // A group of its own, set by whoever comes first: what it starts ends with it.
+    ::setpgid(state_->pid, state_->pid);
     if (state_->pid > 0) return;
 
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -101,7 +103,7 @@ Running::Running(const Command& command, const Surroundings& surroundings) : sta
 
 Running::~Running() {
     if (state_->waited_for) return;
-    kill();
+    ::kill(-state_->pid, SIGKILL);
     ::waitpid(state_->pid, nullptr, __WALL);
 }
 
@@ -121,7 +123,7 @@ Ended Running::wait() {
     while (::wait4(state_->pid, &status, too_long ? 0 : WNOHANG, &used) == 0) {
         if (std::chrono::steady_clock::now() > deadline) {
             too_long = true;
-            kill();
+            ::kill(-state_->pid, SIGKILL);
             continue;
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
