@@ -190,7 +190,7 @@ TEST_F(GrazingSunTest, AShadowBeginsWhereItsCasterStands) {
     // Half the picture's height, 5 tan 0.15 = 0.756 m, is half of 200 pixels. A map of 2048 texels over the 4 m ground
     // has texels of at most 4 m · 2^¼ / 2040 = 2.3 mm; lift, filter and slope bias move an edge by at most 5 of them,
     // 12 mm or 1.6 pixels, and the pixel that the edge crosses is one more.
-    const auto row = pixels.begin() + (kSize / 2) * kSize;
+    const auto row = pixels.begin() + std::ptrdiff_t{kSize / 2} * kSize;
     for (int column = kSize / 2 - 60; column < kSize / 2 - 3; ++column) EXPECT_EQ(row[column].g, 0.0F) << column;
     for (int column = kSize / 2 + 3; column < kSize; ++column) EXPECT_GT(row[column].g, 0.1F) << column;
 }

@@ -251,7 +251,7 @@ bool is_name_of_one(const json& name, const json& among) {
 
 /// Names that are there twice, names of what is not there, intervals that end before they begin.
 bool crosses_scene(const json& document) {
-    const json scene = document["scene"];
+    const json& scene = document["scene"];
     const auto all = [&](const char* key) { return scene.value(key, json::array()); };
     for (const char* key : {"textures", "materials", "meshes", "cameras", "lights", "nodes"}) {
         std::set<json> names;
