@@ -124,7 +124,7 @@ TEST_F(Planar, ATiltFillsByAndByWhileTheArcTableStandsIn) {
         const std::string quality = R"({"representation": "arc", "key_lights": )" + key_lights + "}";
         const auto planar = material_;
         use(cook(kSlitCd, quality));
-        const std::vector<glm::vec4> pixels = draw();
+        std::vector<glm::vec4> pixels = draw();
         material_ = planar;
         world_.add(entity_, DiffractionSurface{material_, 0.0F});
         return pixels;

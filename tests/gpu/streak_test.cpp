@@ -19,7 +19,7 @@ lighting::ProbeImage lamps() {
     image::Image picture;
     picture.width = 256;
     picture.height = 128;
-    picture.texels.assign(256 * 128, glm::vec3(0.05F));
+    picture.texels.assign(std::size_t{256} * 128, glm::vec3(0.05F));
     for (int lamp = 0; lamp < 12; ++lamp) {
         const int column = (lamp * 97 + 11) % 250;
         const int row = 8 + (lamp * 37) % 100;
