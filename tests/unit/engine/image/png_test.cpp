@@ -15,7 +15,7 @@ namespace {
 
 TEST(Png, HoldsTheBytesItWasGiven) {
     const test::TemporaryFolder folder;
-    std::vector<std::uint8_t> rgb(45);
+    std::vector<std::uint8_t> rgb(std::size_t{5} * 3 * 3);
     for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = static_cast<std::uint8_t>(i * 37);
     const auto path = folder.path() / "a.png";
     write_png(path, 5, 3, rgb);
@@ -32,7 +32,7 @@ TEST(Png, HoldsTheBytesItWasGiven) {
 }
 
 TEST(Png, EncodedAlphaComesBack) {
-    std::vector<std::uint8_t> rgba(56);
+    std::vector<std::uint8_t> rgba(std::size_t{7} * 2 * 4);
     for (std::size_t i = 0; i < rgba.size(); ++i) rgba[i] = static_cast<std::uint8_t>(i * 41);
     const std::vector<std::byte> bytes = encode_png(7, 2, 4, rgba);
     EXPECT_EQ(bytes, encode_png(7, 2, 4, rgba));
