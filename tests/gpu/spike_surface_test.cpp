@@ -40,12 +40,12 @@ lighting::LightProbe random_light(int bands, unsigned seed) {
     return probe;
 }
 
-CookedMaterial cook_spiked(const std::string& grating, const std::string& quality) {
+CookedMaterial cook(const std::string& grating, const std::string& quality) {
     return cook_material(parse_json("{\"grating\":" + grating + ",\"quality\":" + quality + "}", "test"), "test");
 }
 
 /// One triangle whose vertices have different tangent frames.
-scene::Mesh spike_triangle() {
+scene::Mesh crooked_triangle() {
     scene::Mesh mesh;
     mesh.positions = {{-1.0F, -0.8F, 0.1F}, {1.1F, -0.9F, -0.2F}, {0.0F, 1.0F, 0.3F}};
     for (const glm::vec3 normal :
@@ -89,10 +89,10 @@ std::optional<glm::dvec3> hit(const scene::Mesh& mesh, const glm::mat4& matrix, 
     return weights;
 }
 
-struct SpikeFrame {
+struct Frame {
     CookedMaterial cooked;
     lighting::LightProbe probe;
-    scene::Mesh mesh = spike_triangle();
+    scene::Mesh mesh = crooked_triangle();
     scene::Transform transform;
     scene::Camera camera;
     std::optional<scene::DirectionalLight> lamp = std::nullopt;
@@ -144,9 +144,9 @@ struct SpikeFrame {
     }
 };
 
-SpikeFrame make_frame(const std::string& grating, const std::string& quality, int bands, unsigned seed) {
-    SpikeFrame frame;
-    frame.cooked = cook_spiked(grating, quality);
+Frame make_frame(const std::string& grating, const std::string& quality, int bands, unsigned seed) {
+    Frame frame;
+    frame.cooked = cook(grating, quality);
     frame.probe = random_light(bands, seed);
     frame.transform.rotation = glm::angleAxis(0.4F, glm::normalize(glm::vec3(1.0F, 2.0F, 0.5F)));
     frame.transform.scale = glm::vec3(1.0F, 1.2F, 0.8F);
@@ -161,7 +161,7 @@ constexpr double kTolerance = 2e-3;
 
 TEST(SpikeSurface, PixelsEqualTheCpuEvaluationOfTheSameTable) {
     int compared = 0;
-    const SpikeFrame frame = make_frame(kSlit, R"({"representation": "spikes"})", 5, 1);
+    const Frame frame = make_frame(kSlit, R"({"representation": "spikes"})", 5, 1);
     const double difference = frame.largest_difference(compared);
     RecordProperty("largest_difference", std::to_string(difference));
     EXPECT_LT(difference, kTolerance);
@@ -186,7 +186,7 @@ TEST(SpikeSurface, PixelsEqualTheCpuForALobeWhoseTableIsTwoDimensional) {
 
 TEST(SpikeSurface, ADirectionalLightJoinsTheProbesLight) {
     // Without the lamp on the CPU's side the two must differ: the comparison sees the light.
-    SpikeFrame frame = make_frame(kSlit, R"({"representation": "spikes"})", 5, 1);
+    Frame frame = make_frame(kSlit, R"({"representation": "spikes"})", 5, 1);
     frame.lamp = scene::DirectionalLight{.direction = glm::normalize(glm::vec3(0.5F, 0.4F, 1.0F)),
                                          .irradiance = glm::vec3(2.0F)};
     int compared = 0;
