@@ -182,7 +182,7 @@ void Document::save_as(const std::filesystem::path& path) {
 std::optional<std::filesystem::path> Document::rescue() const {
     if (!dirty() || steps_.size() == 1) return std::nullopt;
     const auto write_into = [&](const std::filesystem::path& folder) {
-        const std::filesystem::path file = unsaved_file(folder, name_);
+        std::filesystem::path file = unsaved_file(folder, name_);
         write_file_atomic(file, format_json(folder == folder_ ? json() : moved(json(), folder_, folder)));
         return file;
     };

@@ -43,9 +43,9 @@ class PictureFaults : public testing::Test {
         std::vector<Command> commands = captures(path("picture.png"));
         commands.push_back({ROWLAND_DEMO, "--disc", "--width", "64", "--height", "36", "--frames", "2", "--benchmark",
                             path("times.json")});
-        commands.push_back({ROWLAND_TRADE, "sweep", "--material", ROWLAND_CONTENT "/materials/cd.json", "--probe",
-                            probe(), "--setting", "arc/bands=3/rank=4", "--frame-size", "32", "18", "--picture-size",
-                            "8", "8", "--output", path("results")});
+        commands.push_back({ROWLAND_TRADE, "sweep", "--material", std::string(ROWLAND_CONTENT) + "/materials/cd.json",
+                            "--probe", probe(), "--setting", "arc/bands=3/rank=4", "--frame-size", "32", "18",
+                            "--picture-size", "8", "8", "--output", path("results")});
         return commands;
     }
     /// A probe of 2 × 1 texels.
@@ -59,7 +59,8 @@ class PictureFaults : public testing::Test {
         return {{ROWLAND_DEMO, "--disc", "--width", "64", "--height", "36"}, {ROWLAND_INSPECTOR, "--preset", "cd"}};
     }
     static Command under_xvfb(Command command) {
-        const std::vector<std::string> before = {"/usr/bin/env", "xvfb-run", "-a", "-s", "-noreset -screen 0 400x400x24"};
+        const std::vector<std::string> before = {"/usr/bin/env", "xvfb-run", "-a", "-s",
+                                                 "-noreset -screen 0 400x400x24"};
         command.insert(command.begin(), before.begin(), before.end());
         return command;
     }

@@ -153,7 +153,7 @@ TEST_F(SizeFaults, MeshOfTenMillionTrianglesIsLoadedAndDrawn) {
     const Ended checked = test::run({ROWLAND_COOK, "check", path("sheet.glb")});
     EXPECT_EQ(checked.code, 0) << checked.err;
     // The file, what is made of it (at most the importer's budget) and a copy to derive tangents from.
-    EXPECT_LT(checked.peak_bytes, kMemoryFactor * (file + 2 * 512 * kMebibyte));
+    EXPECT_LT(checked.peak_bytes, kMemoryFactor * (file + 2 * (512 * kMebibyte)));
     const Ended drawn = test::run({ROWLAND_DEMO, "--headless", "--scene", path("sheet.glb"), "--width", "64",
                                    "--height", "36", "--capture", path("picture.png")},
                                   {.limit = std::chrono::seconds(240)});

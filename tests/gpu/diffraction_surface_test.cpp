@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "engine/core/json_reader.h"
 #include "tests/gpu/grating_picture.h"
 #include "tests/support/message_of.h"
 

@@ -16,7 +16,6 @@
 #include <vector>
 
 #include "engine/colour/working_space.h"
-#include "engine/core/json_reader.h"
 #include "engine/image/image.h"
 #include "engine/lighting/key_lights.h"
 #include "engine/lighting/light_probe.h"
@@ -33,6 +32,7 @@
 #include "modules/diffraction/bake/lobe_table.h"
 #include "modules/diffraction/module.h"
 #include "modules/diffraction/runtime/tangent_light.h"
+#include "tests/gpu/cook_grating.h"
 #include "tests/gpu/gl_test.h"
 
 namespace rowland::diffraction {
@@ -77,10 +77,6 @@ inline std::vector<lighting::KeyLight> three_keys() {
     return {{.direction = glm::normalize(glm::dvec3(0.5, 0.3, 0.8)), .flux = {1.0, 0.8, 0.5}, .concentration = 300.0},
             {.direction = glm::normalize(glm::dvec3(-0.8, 0.5, 0.2)), .flux = {0.2, 0.5, 1.0}, .concentration = 60.0},
             {.direction = glm::normalize(glm::dvec3(0.1, -0.9, 0.15)), .flux = {0.9, 0.2, 0.1}, .concentration = 1e4}};
-}
-
-inline CookedMaterial cook(const std::string& grating, const std::string& quality) {
-    return cook_material(parse_json("{\"grating\":" + grating + ",\"quality\":" + quality + "}", "test"), "test");
 }
 
 inline constexpr const char* kSlitCd = R"({"pitch_nm": 1600, "profile": {"type": "slit", "width_nm": 800}})";

@@ -6,6 +6,7 @@
 
 #include <limits>
 
+#include "engine/core/json_reader.h"
 #include "modules/diffraction/asset/material_json.h"
 #include "modules/diffraction/bake/cube_pyramid.h"
 #include "tests/gpu/grating_picture.h"

@@ -33,7 +33,7 @@ namespace {
 constexpr int kSize = 64;
 
 lighting::LightProbe uniform_probe(const glm::vec3& radiance) {
-    image::Image image{.width = 64, .height = 32, .texels = std::vector<glm::vec3>(64 * 32, radiance)};
+    image::Image image{.width = 64, .height = 32, .texels = std::vector<glm::vec3>(std::size_t{64} * 32, radiance)};
     return lighting::build_light_probe(lighting::ProbeImage(std::move(image), lighting::Mapping::Equirectangular),
                                        {.prefilter = {.face_size = 16}});
 }

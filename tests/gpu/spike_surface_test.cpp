@@ -8,7 +8,6 @@
 #include <optional>
 #include <random>
 
-#include "engine/core/json_reader.h"
 #include "engine/gpu/debug.h"
 #include "engine/math/sh_rotation.h"
 #include "engine/platform/headless_context.h"
@@ -20,6 +19,7 @@
 #include "modules/diffraction/module.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
 #include "modules/diffraction/runtime/tangent_light.h"
+#include "tests/gpu/cook_grating.h"
 
 namespace rowland::diffraction {
 namespace {
@@ -38,10 +38,6 @@ lighting::LightProbe random_light(int bands, unsigned seed) {
     probe.environment.layout = {.face_size = 4, .levels = 1};
     probe.environment.halves.assign(3 * probe.environment.layout.offset(1), 0);
     return probe;
-}
-
-CookedMaterial cook(const std::string& grating, const std::string& quality) {
-    return cook_material(parse_json("{\"grating\":" + grating + ",\"quality\":" + quality + "}", "test"), "test");
 }
 
 /// One triangle whose vertices have different tangent frames.

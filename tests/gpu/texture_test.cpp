@@ -52,7 +52,7 @@ TEST_F(TextureTest, Rgba16ArraySampledInAVertexShaderIsBilinear) {
     constexpr int height = 8;
     constexpr int layers = 5;
     constexpr int samples = 256;
-    const std::vector<std::uint16_t> texels = random_words(4 * width * height * layers);
+    const std::vector<std::uint16_t> texels = random_words(std::size_t{4} * width * height * layers);
     gpu::Texture texture(
         {.kind = TextureKind::PlaneArray, .format = Format::RGBA16, .width = width, .height = height, .depth = layers});
     texture.upload(std::span<const std::uint16_t>(texels), {.layers = layers});
@@ -150,7 +150,7 @@ TEST_F(TextureTest, GeneratedLevelsAreAverages) {
 }
 
 TEST_F(TextureTest, VolumesAreSampledInAllThreeAxes) {
-    std::vector<float> values(2 * 3 * 4);
+    std::vector<float> values(std::size_t{2} * 3 * 4);
     std::iota(values.begin(), values.end(), 0.0F);
     gpu::Texture texture({.kind = TextureKind::Volume, .format = Format::R32F, .width = 2, .height = 3, .depth = 4});
     texture.upload(values, {.layers = 4});

@@ -21,7 +21,7 @@ std::string setting(const char* name, const char* fallback) {
 }
 
 std::string seed() {
-    const std::string wanted = setting("ROWLAND_PROPERTY_SEED", kFixedSeed);
+    std::string wanted = setting("ROWLAND_PROPERTY_SEED", kFixedSeed);
     if (wanted != "random") return wanted;
     std::random_device device;
     return std::to_string((std::uint64_t{device()} << 32U) | device());

@@ -57,7 +57,7 @@ class HudWindow : public ::testing::Test {
     /// The probe with its rows turned over.
     std::string turned_sky() const {
         const std::string sky = read_text_file(folder_.path() / "sky.hdr", 1 << 20);
-        const std::size_t texels = sky.size() - 32 * 16 * 4;
+        const std::size_t texels = sky.size() - std::size_t{32} * 16 * 4;
         std::string turned = sky.substr(0, texels);
         for (int row = 15; row >= 0; --row) turned += sky.substr(texels + static_cast<std::size_t>(row) * 128, 128);
         return turned;

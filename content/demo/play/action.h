@@ -46,6 +46,9 @@ struct HeldKey {
 std::span<const HeldKey> held_keys();
 platform::Key key_of(Held held);
 
+/// What a stick at full travel moves, as the drag of a mouse.
+inline constexpr float kStickPixelsPerSecond = 400.0F;
+
 /// A line of the list of controls: "F12", "screenshot".
 struct HelpLine {
     std::string control;

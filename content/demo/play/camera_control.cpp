@@ -9,8 +9,6 @@ namespace rowland::demo {
 
 namespace {
 
-constexpr float kPadPixelsPerSecond = 400.0F;  ///< of a stick at full travel, as the drag of a mouse
-
 /// From one side of what is looked at to the other in about four seconds.
 float walking_speed(const scene::Camera& start) {
     constexpr float kDistancesPerSecond = 0.5F;
@@ -51,7 +49,7 @@ void CameraControl::step(const platform::InputState& input, double seconds, bool
 
 void CameraControl::step_orbit(const platform::InputState& input, double seconds, bool drags) {
     glm::vec2 drag =
-        glm::vec2(-input.right_stick().x, input.right_stick().y) * kPadPixelsPerSecond * static_cast<float>(seconds);
+        glm::vec2(-input.right_stick().x, input.right_stick().y) * kStickPixelsPerSecond * static_cast<float>(seconds);
     constexpr float kPadNotchesPerSecond = 10.0F;
     float scroll = input.left_stick().y * kPadNotchesPerSecond * static_cast<float>(seconds);
     if (drags) {

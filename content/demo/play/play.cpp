@@ -180,11 +180,10 @@ bool Play::move_hand() {
     const platform::ButtonState& pad = input_.gamepad_button(kPadGrab);
     if (!hand_ && (button.pressed || pad.pressed)) try_to_grab();
     if (!hand_) return false;
-    constexpr float kPadPixelsPerSecond = 400.0F;
     const glm::vec2 mouse =
         walking() ? glm::vec2(input_.mouse_delta()) : glm::vec2(input_.mouse_drag(MouseButton::Left));
-    const glm::vec2 stick =
-        glm::vec2(input_.right_stick().x, -input_.right_stick().y) * kPadPixelsPerSecond * static_cast<float>(kStep_s);
+    const glm::vec2 stick = glm::vec2(input_.right_stick().x, -input_.right_stick().y) * kStickPixelsPerSecond *
+                            static_cast<float>(kStep_s);
     const HandMove move{.drag = mouse + stick,
                         .wheel = static_cast<float>(input_.scroll().y),
                         .about_own_axis = input_.key(key_of(Held::Spin)).down};

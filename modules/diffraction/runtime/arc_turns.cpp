@@ -28,9 +28,9 @@ ArcTurns arc_turns(const ArcProducts& products, const lighting::ShLight& light, 
     const std::size_t vectors = around.size() / count;
     turns.terms.assign(around.size(), glm::vec4(0.0F));
     for (std::size_t term = 0; term < count; ++term) {
-        const auto multiple = static_cast<double>((term + 1) / 2);
+        const std::size_t multiple = (term + 1) / 2;
         for (std::size_t j = 0; j < count; ++j) {
-            const double angle = multiple * azimuth(j);
+            const double angle = static_cast<double>(multiple) * azimuth(j);
             const double wave = term % 2 == 1 ? std::cos(angle) : term == 0 ? 0.5 : std::sin(angle);
             const auto share = static_cast<float>(2.0 / static_cast<double>(count) * wave);
             for (std::size_t i = 0; i < vectors; ++i)

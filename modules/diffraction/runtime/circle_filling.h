@@ -38,7 +38,7 @@ class CircleFilling {
         float scale = 1.0F;
         std::vector<std::uint16_t> halves;
     };
-    static Filled fill(std::stop_token stop, const lighting::LightTexels& texels, const KernelTable& kernel,
+    static Filled fill(const std::stop_token& stop, const lighting::LightTexels& texels, const KernelTable& kernel,
                        double pitch_nm, const CircleMapSize& size, const glm::dmat3& zero_order_xyz);
 
     std::future<Filled> filled_later_;

@@ -13,7 +13,7 @@ using std::filesystem::file_time_type;
 class FileWatchTest : public testing::Test {
  protected:
     std::filesystem::path write(const std::string& name, std::string_view text) const {
-        const std::filesystem::path path = folder_.path() / name;
+        std::filesystem::path path = folder_.path() / name;
         write_file_atomic(path, text);
         return path;
     }

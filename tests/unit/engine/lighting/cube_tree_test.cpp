@@ -36,7 +36,7 @@ TEST(CubeTree, EveryDepthHoldsTheWholeLight) {
 }
 
 TEST(CubeTree, ALoneLampIsWhereItStands) {
-    std::vector<glm::vec3> texels(6 * kSize * kSize, glm::vec3(0.0f));
+    std::vector<glm::vec3> texels(std::size_t{6} * kSize * kSize, glm::vec3(0.0f));
     texels[(3 * kSize + 5) * kSize + 9] = glm::vec3(100.0f);  // face 3, column 9, row 5
     const CubeTree tree(texels, kSize);
     const auto expected = glm::normalize(cube_direction(3, (2 * 9 + 1.0) / kSize - 1, (2 * 5 + 1.0) / kSize - 1));

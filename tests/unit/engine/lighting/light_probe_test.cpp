@@ -128,8 +128,8 @@ TEST(LightProbe, WrongSizesAndValuesAreRefused) {
     const std::size_t power = wavelengths + 8 + 24;
     const std::size_t keys = power + 8 + 24;
     const std::size_t light = keys + 8 + probe.key_lights.size() * 56;
-    const std::size_t places = light + 4 + 4 + 8 + 18 * 8 * 8 * 2;
-    const std::size_t environment = places + 8 + 12 * 8 * 8;
+    const std::size_t places = light + 4 + 4 + 8 + std::size_t{18} * 8 * 8 * 2;
+    const std::size_t environment = places + 8 + std::size_t{12} * 8 * 8;
     EXPECT_THAT(refused(0, std::uint32_t{0}), ::testing::HasSubstr("0 bands"));
     EXPECT_THAT(refused(0, std::uint32_t{33}), ::testing::HasSubstr("33 bands"));
     EXPECT_THAT(refused(0, std::uint32_t{7}), ::testing::HasSubstr("for 7 bands"));

@@ -46,7 +46,7 @@ TEST(LightTexels, LobesAreTakenOutFluxForFlux) {
 
 TEST(LightTexels, GatheringKeepsFluxAndPlace) {
     image::Image image{.width = 256, .height = 128, .texels = {}};
-    image.texels.resize(256 * 128, glm::vec3(0.0F));
+    image.texels.resize(std::size_t{256} * 128, glm::vec3(0.0F));
     image.at(40, 50) = glm::vec3(100.0F);
     const ProbeImage probe(image, Mapping::Equirectangular);
     const LightTexels texels = light_texels(probe, {}, 0.1);

@@ -64,7 +64,7 @@ TEST(PackedLight, ACompactLampKeepsItsPlaceAndFlux) {
 TEST(PackedLight, KeepsTheLowBandsOfAProbe) {
     const LightTexels texels = light_texels(room());
     const LightTexels read = unpack(pack(texels, 64));
-    EXPECT_LE(read.size(), std::size_t{6 * 64 * 64});
+    EXPECT_LE(read.size(), std::size_t{6} * 64 * 64);
     // Rounding to 1/2048 averages out. All of a texel's light lies in one place; what it had across a side h ≤ 2/64 is
     // lost, l(l+1)/24 h² of band l: 8e-4 of band 4.
     expect_near(sh_of(read, 5), sh_of(texels, 5), 1e-3);

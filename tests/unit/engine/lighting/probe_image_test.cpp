@@ -138,7 +138,7 @@ TEST(ProbeImage, TexelsThatAreNoLightAreCountedAndBlack) {
 TEST(ProbeImage, BadShapesAndMappingsAreRefused) {
     EXPECT_THROW(ProbeImage(image::Image{}, Mapping::Equirectangular, "x.hdr"), Error);
     try {
-        ProbeImage(image::Image{2, 1, {{}, {}}}, Mapping::Angular, "x.hdr");
+        const ProbeImage taken(image::Image{2, 1, {{}, {}}}, Mapping::Angular, "x.hdr");
         FAIL() << "an oblong angular map was taken";
     } catch (const Error& error) {
         EXPECT_EQ(error.info().file, "x.hdr");

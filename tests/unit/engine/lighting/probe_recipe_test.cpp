@@ -71,7 +71,7 @@ TEST(ProbeRecipe, NamesTheSpectrumOfItsWhite) {
     const std::string image = R"({"probe": {"type": "image", "file": "a.hdr")";
     EXPECT_EQ(parse(image + "}}").settings.illuminant.name, "D65");
     for (const std::string& name : colour::illuminant_names()) {
-        const ProbeRecipe recipe = parse(image + R"(, "illuminant": ")" + name + "\"}}");
+        const ProbeRecipe recipe = parse(std::string(image).append(R"(, "illuminant": ")").append(name).append("\"}}"));
         EXPECT_EQ(recipe.settings.illuminant.name, name);
         EXPECT_TRUE(recipe.illuminant_file.empty());
     }

@@ -66,7 +66,7 @@ TEST(ShBasis, IsOrthonormalOverTheSphere) {
     // Products are polynomials of degree ≤ 22: 12 Gauss nodes in z and 24 equal steps in φ integrate them exactly.
     const QuadratureRule rule = gauss_legendre(kBands, -1, 1);
     constexpr int kSteps = 24;
-    constexpr std::size_t kCount = kBands * kBands;
+    constexpr std::size_t kCount = std::size_t{kBands} * kBands;
     std::vector<double> gram(kCount * kCount, 0.0);
     for (std::size_t i = 0; i < rule.nodes.size(); ++i)
         for (int step = 0; step < kSteps; ++step) {

@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(, ShBatch, test::kInstructionSets, test::name_of_instru
 
 TEST(ShBatchDeathTest, RefusesRowsThatOverlap) {
     const Directions directions(20);
-    std::vector<float> values(25 * 20);
+    std::vector<float> values(std::size_t{25} * 20);
     EXPECT_DEATH(evaluate_sh_batch(directions.spans(20), 5, 19, values), "stride");
 }
 

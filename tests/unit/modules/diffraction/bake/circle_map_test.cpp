@@ -21,7 +21,7 @@ using test::relative_rms;
 /// Broad light: a few lobes and a little all around, as texels.
 lighting::LightTexels broad_light() {
     image::Image image{.width = 256, .height = 128, .texels = {}};
-    image.texels.resize(256 * 128, glm::vec3(0.1F));
+    image.texels.resize(std::size_t{256} * 128, glm::vec3(0.1F));
     const lighting::ProbeImage grid(image, lighting::Mapping::Equirectangular);
     const lighting::KeyLight lobes[] = {{glm::normalize(glm::dvec3(0.2, 0.9, 0.4)), {3.0, 2.0, 1.0}, 6.0},
                                         {glm::normalize(glm::dvec3(-0.7, 0.1, 0.7)), {0.5, 1.0, 2.0}, 8.0}};

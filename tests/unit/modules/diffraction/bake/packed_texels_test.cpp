@@ -45,7 +45,7 @@ TEST(PackedTexels, KeepValuesWithinHalfAStep) {
 }
 
 TEST(PackedTexels, TakeAsManyBytesAsTheirStorage) {
-    const std::size_t ranges = 2 * 2 * 16;
+    const std::size_t ranges = std::size_t{2} * 2 * 16;
     for (const Storage storage : {Storage::Unorm16, Storage::Half, Storage::Float, Storage::Unorm8})
         EXPECT_EQ(packed(storage).bytes(), kValues.size() * component_bytes(storage) + ranges);
 }
