@@ -66,8 +66,12 @@ TEST_P(ShBatch, AnyCountAndStrideWritesJustItsOwnPlaces) {
         std::vector<float> some(25 * kStride, -9.0F);
         evaluate_sh_batch(directions.spans(count), 5, kStride, some, GetParam());
         for (std::size_t i = 0; i < 25; ++i)
-            for (std::size_t k = 0; k < kStride; ++k)
-                EXPECT_EQ(some[i * kStride + k], k < count ? all[i * kStride + k] : -9.0F) << count << ", " << k;
+            for (std::size_t k = 0; k < kStride; ++k) {
+                // The last few may be contracted otherwise than whole vectors are.
+                const float rounding = k < count ? 1e-6F : 0.0F;
+                EXPECT_NEAR(some[i * kStride + k], k < count ? all[i * kStride + k] : -9.0F, rounding)
+                    << count << ", " << k;
+            }
     }
 }
 
