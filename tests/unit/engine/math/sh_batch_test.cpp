@@ -60,18 +60,18 @@ TEST_P(ShBatch, AgreesWithTheSlowBasis) {
 TEST_P(ShBatch, AnyCountAndStrideWritesJustItsOwnPlaces) {
     const Directions directions(20);
     constexpr std::size_t kStride = 23;
+    // The wide copy alone is free to contract, and does the last few otherwise than whole vectors.
+    const float rounding = GetParam() == InstructionSet::Avx2 ? 1e-6F : 0.0F;
     std::vector<float> all(25 * kStride);
     evaluate_sh_batch(directions.spans(kStride), 5, kStride, all, GetParam());
     for (std::size_t count = 0; count < kStride; ++count) {
         std::vector<float> some(25 * kStride, -9.0F);
         evaluate_sh_batch(directions.spans(count), 5, kStride, some, GetParam());
         for (std::size_t i = 0; i < 25; ++i)
-            for (std::size_t k = 0; k < kStride; ++k) {
-                // The last few may be contracted otherwise than whole vectors are.
-                const float rounding = k < count ? 1e-6F : 0.0F;
-                EXPECT_NEAR(some[i * kStride + k], k < count ? all[i * kStride + k] : -9.0F, rounding)
+            for (std::size_t k = 0; k < kStride; ++k)
+                EXPECT_NEAR(some[i * kStride + k], k < count ? all[i * kStride + k] : -9.0F,
+                            k < count ? rounding : 0.0F)
                     << count << ", " << k;
-            }
     }
 }
 

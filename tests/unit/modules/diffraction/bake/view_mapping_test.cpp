@@ -76,9 +76,9 @@ TEST(ViewMapping, ParabolicLookUpsAreLinearInTheParaboloid) {
         double column = 0.0;
         double row = 0.0;
         for (std::size_t k = 0; k < 4; ++k) {
-            const std::size_t above = found.texel[k] / 6;
-            column += found.share[k] * static_cast<double>(found.texel[k] - 6 * above);
-            row += found.share[k] * static_cast<double>(above);
+            const std::size_t rows_before = found.texel[k] / 6;
+            column += found.share[k] * static_cast<double>(found.texel[k] % 6);
+            row += found.share[k] * static_cast<double>(rows_before);
         }
         EXPECT_NEAR(column, (v.x / (1.0 + v.z) + 1.0) / 2.0 * 5.0, 1e-12);
         EXPECT_NEAR(row, (v.y / (1.0 + v.z) + 1.0) / 2.0 * 4.0, 1e-12);
