@@ -44,7 +44,12 @@ rowland_export(library
   rowland_asset Asset
   rowland_diffraction_model DiffractionModel
   rowland_diffraction_bake DiffractionBake
+  rowland_diffraction_representations DiffractionRepresentations
   rowland_diffraction_asset DiffractionAsset)
+file(GLOB representations RELATIVE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/modules/diffraction/representations/*/)
+rowland_install_headers(library ${representations})
+install(DIRECTORY modules/diffraction/representations DESTINATION ${shaders_folder}/modules/diffraction
+        COMPONENT library FILES_MATCHING PATTERN "*.glsl")
 foreach(folder IN ITEMS engine/render modules/diffraction)
   install(DIRECTORY ${folder}/shaders DESTINATION ${shaders_folder}/${folder} COMPONENT library
           FILES_MATCHING PATTERN "*.glsl" PATTERN "*_block.h")

@@ -6,7 +6,7 @@
 
 #include "engine/lighting/light_probe.h"
 #include "engine/lighting/probe_image.h"
-#include "modules/diffraction/evaluate/evaluation_light.h"
+#include "modules/diffraction/representations/evaluation_light.h"
 
 namespace rowland::inspector {
 

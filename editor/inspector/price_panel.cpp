@@ -54,7 +54,7 @@ void draw_numbers(const PriceList& list, const Session& session, double frame_ms
         ImGui::SameLine(8.0F * ImGui::GetFontSize());
         ImGui::TextUnformatted(value.c_str());
     };
-    row("Representation", diffraction::representation_name(cooked->tables.index()));
+    row("Representation", info(cooked->tables).name);
     row("Measured error", measured ? fmt::format("{:.4f} relative RMS", present->error) : waiting);
     row("Price", measured ? fmt::format("{:.4g} fetches a pixel", present->price) : waiting);
     row("Tables", fmt::format("{} ({} B)", bytes_in_words(cost.table_bytes), cost.table_bytes));

@@ -12,16 +12,12 @@
 #include "editor/trade/setting.h"
 #include "editor/trade/sweep.h"
 #include "engine/core/error.h"
-#include "engine/core/file.h"
-#include "engine/core/json_reader.h"
 #include "engine/image/png.h"
 #include "modules/diffraction/reference/reference.h"
 
 namespace rowland::trade {
 
 namespace {
-
-constexpr std::uint64_t kLargestMaterial = 1 << 20;
 
 std::vector<glm::dvec3> radiance(const std::filesystem::path& material, const lighting::ProbeImage& probe,
                                  const std::string& method, const FrameSet& set) {
@@ -31,8 +27,7 @@ std::vector<glm::dvec3> radiance(const std::filesystem::path& material, const li
                                   all_frames(set));
     }
     const Setting setting = parse_setting(method);
-    const nlohmann::json json = parse_json(read_text_file(material, kLargestMaterial), material.string());
-    return shaded(cook(json, material.string(), setting),
+    return shaded(cook(diffraction::load_material_json(material), material.string(), setting),
                   diffraction::EvaluationLight(probe, setting.key_lights, setting.window), set);
 }
 

@@ -2,15 +2,16 @@
 
 #include <filesystem>
 #include <glm/vec3.hpp>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/colour/light_spectra.h"
-#include "modules/diffraction/asset/representation.h"
-#include "modules/diffraction/evaluate/evaluation_light.h"
+#include "modules/diffraction/asset/method.h"
 #include "modules/diffraction/model/frame.h"
 #include "modules/diffraction/reference/reference.h"
+#include "modules/diffraction/representations/evaluation_light.h"
 
 namespace CLI {
 class App;
@@ -28,14 +29,8 @@ struct EvaluateCommand {
     std::filesystem::path frames;
     std::string mapping = "equirect";
     std::string method;
-    std::string window = "none";
-    std::string storage = "unorm16";
-    std::optional<int> bands;
-    int spikes = 4;
-    int bins = 16;
-    int rank = 8;
-    std::optional<int> key_lights;
-    std::optional<int> resolution;
+    /// Settings of the method, as its text would have them after a slash.
+    std::map<std::string, std::string> settings;
     bool error = false;
 
     /// Adds the subcommand, whose options fill this object.
@@ -44,13 +39,11 @@ struct EvaluateCommand {
 
  private:
     void check_usage() const;
-    diffraction::EvaluationLight light(int usual_key_lights) const;
-    diffraction::Representation representation(const colour::LightSpectra& spectra) const;
-    std::vector<glm::dvec3> by_reference(const colour::LightSpectra& spectra,
-                                         const std::vector<diffraction::Frame>& points) const;
-    std::vector<diffraction::CheckedRadiance> by_checked_reference(const colour::LightSpectra& spectra,
-                                                                   const std::vector<diffraction::Frame>& points) const;
-    std::vector<glm::dvec3> by_representation(const colour::LightSpectra& spectra,
+    diffraction::Method asked_method() const;
+    diffraction::EvaluationLight light(int key_lights, math::SphericalWindow window) const;
+    std::vector<diffraction::CheckedRadiance> by_reference(const colour::LightSpectra& spectra,
+                                                           const std::vector<diffraction::Frame>& points) const;
+    std::vector<glm::dvec3> by_representation(const colour::Illuminant& illuminant,
                                               const std::vector<diffraction::Frame>& points) const;
 };
 

@@ -7,7 +7,7 @@
 
 #include "editor/trade/frame_sets.h"
 #include "modules/diffraction/asset/cooked_material.h"
-#include "modules/diffraction/evaluate/evaluation_light.h"
+#include "modules/diffraction/representations/evaluation_light.h"
 
 namespace rowland::trade {
 

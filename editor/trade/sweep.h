@@ -18,7 +18,7 @@
 #include "editor/trade/picture_scene.h"
 #include "editor/trade/setting.h"
 #include "engine/lighting/probe_image.h"
-#include "modules/diffraction/asset/representation.h"
+#include "modules/diffraction/representations/representation.h"
 
 namespace rowland::trade {
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "editor/trade/setting.h"
@@ -9,16 +10,15 @@ namespace rowland::trade {
 
 /// A named starting point of the sweep: what one would use on some device.
 struct Tier {
-    const char* name;
-    const char* setting;  ///< as parse_setting() reads it
+    std::string name;
+    std::string setting;  ///< as parse_setting() reads it
 };
 
 /// The tiers a grating with this lobe can be shaded by.
 std::vector<Tier> tiers(const diffraction::GrooveLobe& lobe);
 
-/// One axis at a time around each tier (bands, spikes, bins, rank, view and map resolution, view mapping, storage,
-/// window, key lights) and a coarse grid over bands, rank and key lights: about 120 settings for the flat lobe, each
-/// once, in a fixed order, tiers first.
+/// One axis at a time around each tier, and what varying one at a time misses: about 120 settings for the flat lobe,
+/// each once, in a fixed order, tiers first. The representations' descriptors name tiers and axes.
 std::vector<Setting> sweep_plan(const diffraction::GrooveLobe& lobe);
 
 }  // namespace rowland::trade

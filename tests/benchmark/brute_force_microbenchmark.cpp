@@ -13,7 +13,7 @@
 #include "engine/math/quadrature.h"
 #include "engine/math/sh_basis.h"
 #include "modules/diffraction/asset/material_json.h"
-#include "modules/diffraction/bake/transfer_table.h"
+#include "modules/diffraction/representations/transfer/transfer_table.h"
 #include "modules/diffraction/model/efficiency.h"
 #include "modules/diffraction/model/grating_equation.h"
 #include "modules/diffraction/reference/brute_force.h"
@@ -85,7 +85,7 @@ Coefficients fine_quadrature(const Grating& grating, const glm::dvec3& view) {
 }
 
 Coefficients of_table(const diffraction::TransferTable& table, std::size_t texel) {
-    const auto blocks = static_cast<std::size_t>(diffraction::transfer_layers(kBands));
+    const auto blocks = static_cast<std::size_t>(diffraction::harmonic_layers(kBands));
     Coefficients result(static_cast<std::size_t>(math::sh_count(kBands)));
     for (std::size_t i = 0; i < result.size(); ++i)
         for (std::size_t c = 0; c < 3; ++c)
@@ -120,7 +120,7 @@ class Comparison {
 
     Bake closed_form() const {
         const double start = seconds_now();
-        const diffraction::TransferTable table = diffraction::bake_transfer_table(
+        const diffraction::TransferTable table = diffraction::bake(
             grating_, {.bands = kBands, .grid = kGrid, .storage = diffraction::Storage::Float});
         const double seconds = (seconds_now() - start) / static_cast<double>(kGrid.texels());
         return {seconds, error([&](std::size_t node) { return of_table(table, nodes_[node].texel); })};

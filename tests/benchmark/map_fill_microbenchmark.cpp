@@ -4,8 +4,8 @@
 
 #include "engine/lighting/studio.h"
 #include "modules/diffraction/asset/cooked_material.h"
-#include "modules/diffraction/bake/circle_map.h"
-#include "modules/diffraction/bake/planar_map.h"
+#include "modules/diffraction/representations/circle/circle_map.h"
+#include "modules/diffraction/representations/planar/planar_map.h"
 #include "tests/benchmark/cd_materials.h"
 #include "tests/benchmark/microbenchmarks.h"
 

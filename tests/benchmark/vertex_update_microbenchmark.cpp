@@ -8,7 +8,7 @@
 #include "engine/math/sh_basis.h"
 #include "engine/scene/mesh_recipe.h"
 #include "modules/diffraction/asset/cooked_material.h"
-#include "modules/diffraction/runtime/arc_products.h"
+#include "modules/diffraction/representations/arc/arc_products.h"
 #include "modules/diffraction/runtime/tangent_light.h"
 #include "tests/benchmark/cd_materials.h"
 #include "tests/benchmark/microbenchmarks.h"

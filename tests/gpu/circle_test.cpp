@@ -1,7 +1,7 @@
 // The map over world-space grating vectors: against the CPU's, and when it is filled.
 #include <gtest/gtest.h>
 
-#include "modules/diffraction/runtime/gpu_circle.h"
+#include "modules/diffraction/representations/circle/gpu_circle.h"
 #include "tests/gpu/grating_picture.h"
 
 namespace rowland::diffraction {

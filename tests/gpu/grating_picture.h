@@ -28,7 +28,7 @@
 #include "engine/scene/camera.h"
 #include "engine/scene/transform.h"
 #include "modules/diffraction/asset/cooked_material.h"
-#include "modules/diffraction/bake/direct.h"
+#include "modules/diffraction/representations/direct/direct.h"
 #include "modules/diffraction/bake/lobe_table.h"
 #include "modules/diffraction/module.h"
 #include "modules/diffraction/runtime/tangent_light.h"

@@ -1,7 +1,7 @@
 // A flat grating's map: against the CPU's, and when it is filled.
 #include <gtest/gtest.h>
 
-#include "modules/diffraction/runtime/gpu_planar.h"
+#include "modules/diffraction/representations/planar/gpu_planar.h"
 #include "tests/gpu/grating_picture.h"
 
 namespace rowland::diffraction {

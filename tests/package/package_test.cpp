@@ -21,7 +21,7 @@
 #include "engine/image/png_decode.h"
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/bake/blurred_kernel.h"
-#include "modules/diffraction/bake/direct.h"
+#include "modules/diffraction/representations/direct/direct.h"
 #include "tests/support/program.h"
 #include "tests/support/temporary_folder.h"
 

@@ -2,7 +2,7 @@
 #include <glm/gtc/matrix_access.hpp>
 
 #include "engine/colour/observer.h"
-#include "modules/diffraction/bake/spike_table.h"
+#include "modules/diffraction/representations/spikes/spike_table.h"
 #include "modules/diffraction/reference/brute_force.h"
 #include "modules/diffraction/reference/reference.h"
 #include "tests/property/generators.h"
@@ -135,7 +135,7 @@ RC_GTEST_PROP(SpikeTableProperty, StorageErrorIsHalfAStep, ()) {
     settings.theta_nodes = 3;
     settings.phi_nodes = 4;
     settings.storage = *rc::gen::element(Storage::Unorm16, Storage::Half);
-    const SpikeTable table = bake_spike_table(shape, settings);
+    const SpikeTable table = bake(shape, settings);
     const auto count = static_cast<std::size_t>(settings.spikes.bands * settings.spikes.bands);
     const double theta = 0.25 * std::numbers::pi * *whole(0, 2);
     const double phi = 0.5 * std::numbers::pi * *whole(0, 3);

@@ -7,7 +7,7 @@
 #include "content/demo/hud/memory.h"
 #include "content/demo/hud/panel.h"
 #include "content/demo/object_name.h"
-#include "modules/diffraction/asset/representation.h"
+#include "modules/diffraction/representations/representation.h"
 
 namespace rowland::demo {
 
@@ -34,8 +34,7 @@ std::vector<Object> objects_of(ecs::World& world, const std::vector<ecs::Entity>
 std::string title_of(Comparison& comparison, ecs::Entity grating, Side side) {
     const Look& look = comparison.look(grating, side);
     if (!look.own()) return look_name(look);
-    const std::size_t index = comparison.shown(grating, side)->cooked()->tables.index();
-    return std::string(diffraction::representation_name(index)) + " (cooked)";
+    return std::string(info(comparison.shown(grating, side)->cooked()->tables).name) + " (cooked)";
 }
 
 void look_choice(const Panel& panel, const Object& object, Side side) {

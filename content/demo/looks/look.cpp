@@ -3,37 +3,32 @@
 #include <algorithm>
 #include <array>
 
-#include "engine/core/error.h"
-#include "engine/core/json_reader.h"
 #include "modules/diffraction/asset/quality_json.h"
 
 namespace rowland::demo {
 
 namespace {
 
-constexpr std::array kRepresentations = {"spikes", "arc", "transfer", "planar", "circle", "streak", "direct"};
-
-/// A member of "quality" at each detail.
-struct Step {
-    const char* key;
-    std::array<int, 3> values;
-};
-
-std::vector<Step> steps_of(const std::string& representation) {
-    if (representation == "spikes") return {{"bands", {3, 5, 8}}, {"spikes", {4, 4, 8}}};
-    if (representation == "arc") return {{"bands", {3, 5, 8}}, {"rank", {4, 8, 16}}};
-    if (representation == "transfer") return {{"bands", {3, 5, 8}}};
-    if (representation == "planar") return {{"map_resolution", {32, 128, 256}}};
-    if (representation == "circle") return {{"map_resolution", {16, 32, 64}}};
-    if (representation == "streak") return {{"nodes", {4, 8, 16}}, {"taps", {1, 3, 5}}};
-    return {};
+/// Whether the representation has settings that the demo varies.
+bool has_details(const diffraction::RepresentationInfo& info) {
+    return std::any_of(info.settings.begin(), info.settings.end(),
+                       [](const diffraction::SettingInfo& setting) { return !setting.details.empty(); });
 }
 
 nlohmann::json settings_of(const Look& look) {
     nlohmann::json settings = {{"representation", look.representation}};
-    for (const Step& step : steps_of(look.representation))
-        settings[step.key] = step.values[static_cast<std::size_t>(look.detail)];
+    for (const diffraction::SettingInfo& setting : diffraction::find_representation(look.representation)->settings)
+        if (!setting.details.empty())
+            settings[setting.key] = setting.details[static_cast<std::size_t>(look.detail)];
     return settings;
+}
+
+/// What the demo offers: not bins, which transfer tables beat.
+std::vector<const diffraction::RepresentationInfo*> shown_representations() {
+    std::vector<const diffraction::RepresentationInfo*> shown;
+    for (const auto* info : diffraction::representations())
+        if (info->in_demo) shown.push_back(info);
+    return shown;
 }
 
 }  // namespace
@@ -45,37 +40,37 @@ const char* detail_name(Detail detail) {
 
 std::string look_name(const Look& look) {
     if (look.own()) return "as cooked";
-    if (steps_of(look.representation).empty()) return look.representation;
+    if (!has_details(*diffraction::find_representation(look.representation))) return look.representation;
     return look.representation + ", " + detail_name(look.detail);
 }
 
 std::optional<Look> look_named(std::string_view name) {
     if (name == look_name({})) return Look{};
-    for (const char* representation : kRepresentations)
+    for (const auto* info : shown_representations())
         for (const Detail detail : {Detail::Usual, Detail::Coarse, Detail::Fine})
-            if (const Look look{representation, detail}; look_name(look) == name) return look;
+            if (const Look look{info->name, detail}; look_name(look) == name) return look;
     return std::nullopt;
 }
 
 std::optional<diffraction::Material> with_look(const LookSubject& subject, const Look& look) {
     if (look.own()) return subject.material;
-    if (look.representation == "planar" && !subject.flat) return std::nullopt;
     diffraction::Material material = subject.material;
-    try {
-        material.quality = diffraction::parse_quality(JsonReader(settings_of(look), "look"), material.grating, {});
-        material.quality.max_error = subject.material.quality.max_error;
-        material.quality.illuminant = subject.material.quality.illuminant;
-        if (subject.grooves) material = diffraction::suit_to_grooves(material, *subject.grooves, "look", "");
-    } catch (const Error&) {
-        return std::nullopt;
-    }
-    return material;
+    if (diffraction::find_representation(look.representation)->needs_flat_surface && !subject.flat) return std::nullopt;
+    auto suited = diffraction::suited_quality(settings_of(look), material.grating);
+    auto* quality = std::get_if<diffraction::Quality>(&suited);
+    if (quality == nullptr) return std::nullopt;
+    quality->max_error = material.quality.max_error;
+    quality->illuminant = material.quality.illuminant;
+    material.quality = std::move(*quality);
+    if (!subject.grooves) return material;
+    if (diffraction::groove_refusal(material, *subject.grooves)) return std::nullopt;
+    return diffraction::suited_to_grooves(std::move(material), *subject.grooves);
 }
 
 std::vector<Look> looks_of(const LookSubject& subject, Detail detail) {
     std::vector<Look> looks{Look{.representation = {}, .detail = detail}};
-    for (const char* name : kRepresentations) {
-        Look look{.representation = name, .detail = detail};
+    for (const auto* info : shown_representations()) {
+        Look look{.representation = info->name, .detail = detail};
         if (with_look(subject, look)) looks.push_back(std::move(look));
     }
     return looks;

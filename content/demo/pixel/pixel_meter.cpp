@@ -93,7 +93,7 @@ PixelReading PixelMeter::measure(const std::shared_ptr<Lit>& lit, const PixelQue
 std::string reading_json(const PixelReading& reading) {
     const auto list = [](const glm::dvec3& v) { return nlohmann::json::array({v.x, v.y, v.z}); };
     const nlohmann::json json = {
-        {"representation", diffraction::representation_name(reading.query.cooked->tables.index())},
+        {"representation", info(reading.query.cooked->tables).name},
         {"probe", reading.query.probe.path.string()},
         {"key_lights", reading.key_lights},
         {"window", math::window_name(reading.window)},

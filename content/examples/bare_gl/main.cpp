@@ -6,7 +6,7 @@
 #include <engine/lighting/light_texels.h>
 #include <modules/diffraction/asset/cooked_material.h>
 #include <modules/diffraction/bake/blurred_kernel.h>
-#include <modules/diffraction/bake/planar_map.h>
+#include <modules/diffraction/representations/planar/planar_map.h>
 
 #include <array>
 #include <cstdint>

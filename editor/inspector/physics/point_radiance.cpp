@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "engine/colour/light_spectra.h"
-#include "modules/diffraction/asset/baked_tables.h"
 #include "modules/diffraction/evaluate/point_shader.h"
 #include "modules/diffraction/model/efficiency.h"
 #include "modules/diffraction/reference/arc_profile.h"

@@ -7,7 +7,7 @@
 
 #include "engine/lighting/probe_image.h"
 #include "modules/diffraction/asset/cooked_material.h"
-#include "modules/diffraction/evaluate/evaluation_light.h"
+#include "modules/diffraction/representations/evaluation_light.h"
 #include "modules/diffraction/model/frame.h"
 
 namespace rowland::inspector {

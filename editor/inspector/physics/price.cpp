@@ -10,11 +10,10 @@
 #include "engine/core/error.h"
 #include "engine/core/json_reader.h"
 #include "engine/math/sh_window.h"
-#include "modules/diffraction/asset/baked_tables.h"
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/asset/quality_json.h"
 #include "modules/diffraction/evaluate/budget.h"
-#include "modules/diffraction/evaluate/evaluation_light.h"
+#include "modules/diffraction/representations/evaluation_light.h"
 #include "modules/diffraction/evaluate/frame_sets.h"
 #include "modules/diffraction/evaluate/point_shader.h"
 #include "modules/diffraction/evaluate/radiance_error.h"
@@ -72,14 +71,12 @@ class Measurement {
 
 /// The settings as the material's quality; nothing if the grating does not suit them.
 std::optional<diffraction::Quality> as_quality(const nlohmann::json& settings, const diffraction::Material& material) {
-    try {
-        diffraction::Quality quality =
-            diffraction::parse_quality(JsonReader(settings, "candidate"), material.grating, {});
-        quality.illuminant = material.quality.illuminant;
-        return quality;
-    } catch (const Error&) {
-        return std::nullopt;
-    }
+    std::variant<diffraction::Quality, diffraction::Refusal> suited =
+        diffraction::suited_quality(settings, material.grating);
+    auto* quality = std::get_if<diffraction::Quality>(&suited);
+    if (quality == nullptr) return std::nullopt;
+    quality->illuminant = material.quality.illuminant;
+    return *quality;
 }
 
 /// Of settings that have been baked, by their text.

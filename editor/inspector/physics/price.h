@@ -9,7 +9,7 @@
 
 #include "engine/lighting/probe_image.h"
 #include "modules/diffraction/asset/material.h"
-#include "modules/diffraction/asset/representation.h"
+#include "modules/diffraction/representations/representation.h"
 
 namespace rowland::inspector {
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
 #include <iterator>
 #include <map>
 #include <string>
@@ -13,7 +14,6 @@
 #include "engine/core/byte_stream.h"
 #include "engine/core/error.h"
 #include "engine/core/json_reader.h"
-#include "modules/diffraction/asset/baked_tables.h"
 #include "modules/diffraction/asset/efficiency_csv.h"
 #include "modules/diffraction/asset/layer_weights.h"
 
@@ -65,21 +65,50 @@ ReadNamed read_among(NamedTexts texts, const std::string& file) {
     };
 }
 
+constexpr std::size_t kMostKernelEntries = 1 << 16;
+/// Beyond the path differences of all orders that a material may list.
+constexpr double kFarthestKernel_nm = 1e9;
+
+void write_kernel(const KernelTable& kernel, ByteWriter& writer) {
+    writer.value(kernel.begin_nm);
+    writer.value(kernel.end_nm);
+    writer.value(kernel.error);
+    write_matrices(kernel.antiderivative, writer);
+}
+
+KernelTable read_kernel(ByteReader& reader) {
+    KernelTable kernel;
+    kernel.begin_nm = reader.value<double>();
+    kernel.end_nm = reader.value<double>();
+    kernel.error = reader.value<double>();
+    // Written so that a NaN fails.
+    if (!(kernel.begin_nm >= -kFarthestKernel_nm && kernel.begin_nm <= kernel.end_nm &&
+          kernel.end_nm <= kFarthestKernel_nm && std::isfinite(kernel.error)))
+        reader.fail(fmt::format("a kernel from {} to {} nm", kernel.begin_nm, kernel.end_nm),
+                    fmt::format("an ascending interval within {} nm", kFarthestKernel_nm));
+    kernel.antiderivative = read_matrices(reader, "kernel entries", 2, kMostKernelEntries);
+    return kernel;
+}
+
 }  // namespace
 
 void require_baked_grooves(const Grating& grating, const std::string& file) {
-    if (grating.grooves < kManyGrooves)
-        refuse_input(file, "/grating/grooves", fmt::format("{}", grating.grooves),
-                     fmt::format("at least {} for a baked material", kManyGrooves),
-                     "only rowland-trade's method \"reference\" takes fewer");
+    if (const auto refused = baked_refusal(grating))
+        refuse_input(file, refused->key, refused->found, refused->expected, refused->remedy);
+}
+
+CookedMaterial bake_kernel(const Material& material) {
+    const ColourKernel kernel(material.grating, colour::LightSpectra(material.quality.illuminant));
+    return {.material = material,
+            .tables = DirectTables{},
+            .kernel = tabulate(kernel),
+            .zero_order_xyz = kernel.zero_order_xyz()};
 }
 
 CookedMaterial bake_material(const Material& material) {
-    const ColourKernel kernel(material.grating, colour::LightSpectra(material.quality.illuminant));
-    return {.material = material,
-            .tables = bake_tables(material.grating, representation(material)),
-            .kernel = tabulate(kernel),
-            .zero_order_xyz = kernel.zero_order_xyz()};
+    CookedMaterial cooked = bake_kernel(material);
+    cooked.tables = bake_tables(material.grating, representation(material));
+    return cooked;
 }
 
 CookedMaterial cook_material(const nlohmann::json& json, const std::string& file, const ReadNamed& read) {
@@ -136,44 +165,6 @@ class Lines {
     std::string text_;
 };
 
-void add_grid(const ViewGrid& grid, std::size_t layers, const PackedTexels& packed, Lines& lines) {
-    lines.add("view_mapping", view_mapping_name(grid.mapping));
-    lines.add("view_table", fmt::format("{} x {} x {} layers", grid.columns, grid.rows, layers));
-    lines.add("storage", storage_name(packed.storage));
-}
-
-void add_tables(const SpikeTable& table, Lines& lines) {
-    lines.add("bands", table.bands);
-    lines.add("spikes", table.spikes);
-    add_grid(table.grid(), static_cast<std::size_t>(table.layers()), table, lines);
-}
-void add_tables(const BinTable& table, Lines& lines) {
-    lines.add("bands", table.bands);
-    lines.add("bins", table.bins());
-    add_grid(table.grid, table.scale.size(), table, lines);
-}
-void add_tables(const TransferTable& table, Lines& lines) {
-    lines.add("bands", table.bands);
-    add_grid(table.grid, table.scale.size(), table, lines);
-}
-void add_tables(const ArcTable& table, Lines& lines) {
-    lines.add("bands", table.bands);
-    lines.add("rank", table.rank);
-    add_grid(table.grid, table.scale.size(), table, lines);
-}
-void add_tables(const DirectTables&, Lines&) {}
-void add_tables(const PlanarTables& tables, Lines& lines) {
-    lines.add("map", fmt::format("{} x {}", tables.size.azimuths, tables.size.views));
-    add_tables(tables.stand_in, lines);
-}
-void add_tables(const CircleTables& tables, Lines& lines) {
-    lines.add("map", fmt::format("{0} x {0} x {1}, {2} terms", tables.size.side, tables.size.views, tables.size.terms));
-}
-void add_tables(const StreakTables& tables, Lines& lines) {
-    lines.add("streak", fmt::format("{} nodes, {} taps", tables.streak.nodes.size(), tables.taps));
-    if (tables.rest) add_tables(*tables.rest, lines);
-}
-
 void add_cost(const ShadingCost& cost, Lines& lines) {
     lines.add("table_bytes", cost.table_bytes);
     lines.add("fetches_per_vertex", cost.fetches_per_vertex);
@@ -201,10 +192,11 @@ std::string describe(const CookedMaterial& cooked) {
     Lines lines;
     lines.add("pitch_nm", grating.pitch_nm);
     lines.add("orders", fmt::format("{}", fmt::join(grating.orders, " ")));
-    lines.add("representation", representation_name(cooked.tables.index()));
+    lines.add("representation", info(cooked.tables).name);
     lines.add("illuminant", cooked.material.quality.illuminant.name);
     lines.add("key_lights", cooked.material.quality.key_lights);
-    std::visit([&](const auto& tables) { add_tables(tables, lines); }, cooked.tables);
+    for (const auto& [name, value] : std::visit([](const auto& tables) { return facts(tables); }, cooked.tables))
+        lines.add(name.c_str(), value);
     add_cost(shading_cost(cooked.tables, cooked.material.quality.map_at_vertices), lines);
     if (cooked.measured) add_record(*cooked.measured, lines);
     lines.add("zero_order_luminance", fmt::format("{:.4f}", weights.mirror.y));

@@ -12,7 +12,7 @@
 #include "modules/diffraction/asset/budget_record.h"
 #include "modules/diffraction/asset/material.h"
 #include "modules/diffraction/asset/material_json.h"
-#include "modules/diffraction/asset/representation.h"
+#include "modules/diffraction/representations/representation.h"
 #include "modules/diffraction/model/colour_kernel.h"
 
 namespace rowland::diffraction {
@@ -31,6 +31,9 @@ struct CookedMaterial {
 
 /// Throws Error (input) naming `file` for fewer grooves than baked materials have.
 void require_baked_grooves(const Grating& grating, const std::string& file);
+
+/// The material with its kernel, without tables.
+CookedMaterial bake_kernel(const Material& material);
 
 /// Bakes the material's representation. Throws Error (input) if the grating does not suit it.
 CookedMaterial bake_material(const Material& material);

@@ -7,7 +7,7 @@
 
 #include "engine/colour/illuminant.h"
 #include "engine/lighting/probe_image.h"
-#include "modules/diffraction/asset/representation.h"
+#include "modules/diffraction/representations/representation.h"
 #include "modules/diffraction/model/grating.h"
 
 namespace rowland::diffraction {
@@ -24,10 +24,7 @@ struct MeasuredProbe {
     lighting::Mapping mapping = lighting::Mapping::Equirectangular;  ///< of an image
 };
 
-/// What errors are measured on: one plane, or all orientations that a curved body shows.
-enum class SurfaceShape { Flat, Curved };
-
-/// What the user pays for: an error that can be borne, or a representation pinned by hand.
+/// An error that is tolerated, or a representation pinned by hand.
 struct Quality {
     double max_error = 0.05;                    ///< relative RMS against the reference, > 0
     std::vector<MeasuredProbe> probes;          ///< that max_error is for; none: the built-in clear sky

@@ -190,9 +190,12 @@ Material parse_material(const nlohmann::json& json, const std::string& file) {
     return parse_material(json, file, read_beside(std::filesystem::path(file).parent_path()));
 }
 
+nlohmann::json load_material_json(const std::filesystem::path& path) {
+    return parse_json(read_text_file(path, kMaximumFileSize), path.string());
+}
+
 Material load_material(const std::filesystem::path& path) {
-    const std::string text = read_text_file(path, kMaximumFileSize);
-    return parse_material(parse_json(text, path.string()), path.string());
+    return parse_material(load_material_json(path), path.string());
 }
 
 }  // namespace rowland::diffraction

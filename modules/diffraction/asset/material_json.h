@@ -33,6 +33,9 @@ Material parse_material(const nlohmann::json& json, const std::string& file, con
 /// The same, where names are relative to the folder of `file`.
 Material parse_material(const nlohmann::json& json, const std::string& file);
 
+/// A material file's JSON, not checked yet. Throws Error (input).
+nlohmann::json load_material_json(const std::filesystem::path& path);
+
 /// Reads and parses a material file.
 Material load_material(const std::filesystem::path& path);
 

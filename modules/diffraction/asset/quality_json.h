@@ -1,14 +1,28 @@
 #pragma once
 
+#include <variant>
+
 #include "engine/core/json_reader.h"
 #include "modules/diffraction/asset/material.h"
 #include "modules/diffraction/asset/material_json.h"
 
 namespace rowland::diffraction {
 
-/// Parses a material's "quality": an error that can be borne, or a representation with its settings. A representation
-/// takes the keys that mean something to it; others, and what the grating's lobe does not allow, are refused by name.
-/// An illuminant's file is read by `read`.
+/// Parses a material's "quality": an error that is tolerated, or a representation with its settings. A representation
+/// takes the keys that it has; others, and what does not suit the grating (refusal()), are refused by name. An
+/// illuminant's file is read by `read`. Throws Error (input).
 Quality parse_quality(JsonReader json, const Grating& grating, const ReadNamed& read);
+
+/// A representation and its settings, within their limits.
+struct ReadSettings {
+    const RepresentationInfo& info;
+    SettingValues values;
+};
+/// Reads "representation" and its settings from a "quality". Throws Error (input).
+ReadSettings read_settings(JsonReader& json);
+
+/// The quality that pins "representation" with its settings and "key_lights", as a budget, an editor or the demo
+/// proposes it, or why a baked material of this grating cannot have it. The settings must be within their limits.
+std::variant<Quality, Refusal> suited_quality(const nlohmann::json& settings, const Grating& grating);
 
 }  // namespace rowland::diffraction

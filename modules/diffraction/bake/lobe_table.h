@@ -6,7 +6,7 @@
 
 #include "engine/lighting/key_lights.h"
 #include "modules/diffraction/bake/blurred_kernel.h"
-#include "modules/diffraction/bake/direct.h"
+#include "modules/diffraction/representations/direct/direct.h"
 
 namespace rowland::diffraction {
 

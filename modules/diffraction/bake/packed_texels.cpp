@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -13,6 +14,9 @@
 namespace rowland::diffraction {
 
 namespace {
+
+/// By Storage.
+constexpr std::array<std::string_view, 4> kStorageNames{"unorm16", "fp16", "fp32", "unorm8"};
 
 /// Words that so many components take; unorm8 has two in a word, and texels have four.
 std::size_t word_count(Storage storage, std::size_t components) {
@@ -111,17 +115,13 @@ std::size_t component_bytes(Storage storage) {
 }
 
 const char* storage_name(Storage storage) {
-    switch (storage) {
-        case Storage::Unorm16:
-            return "unorm16";
-        case Storage::Half:
-            return "fp16";
-        case Storage::Float:
-            return "fp32";
-        case Storage::Unorm8:
-            break;
-    }
-    return "unorm8";
+    return kStorageNames.at(static_cast<std::size_t>(storage)).data();
+}
+
+Storage parse_storage(std::string_view name) {
+    const auto found = std::find(kStorageNames.begin(), kStorageNames.end(), name);
+    ROWLAND_CHECK(found != kStorageNames.end(), name);
+    return static_cast<Storage>(found - kStorageNames.begin());
 }
 
 double PackedTexels::value(std::size_t layer, std::size_t index, std::size_t component) const {

@@ -5,6 +5,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec4.hpp>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "engine/core/byte_stream.h"
@@ -21,6 +22,8 @@ std::size_t component_bytes(Storage storage);
 
 /// "unorm16", "fp16", "fp32", "unorm8".
 const char* storage_name(Storage storage);
+/// Inverse of storage_name(), whose result `name` must be.
+Storage parse_storage(std::string_view name);
 
 /// Layers of RGBA texels as a texture holds them. A component's value is `stored·scale + bias` with scale and bias of
 /// its layer. Unorm spans [minimum, maximum] of a component's layer; half floats span the same as [−1, 1], where they

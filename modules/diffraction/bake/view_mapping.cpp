@@ -18,6 +18,9 @@ namespace {
 
 using std::numbers::pi;
 
+/// By ViewMapping.
+constexpr std::array<std::string_view, 3> kViewMappingNames{"spherical", "parabolic", "one-dimensional"};
+
 /// Far above any use, and small enough that no product of sizes overflows.
 constexpr int kMaximumNodes = 1 << 14;
 
@@ -38,15 +41,13 @@ AxisLookup look_up_repeated(double turns, std::size_t count) {
 }  // namespace
 
 const char* view_mapping_name(ViewMapping mapping) {
-    switch (mapping) {
-        case ViewMapping::Spherical:
-            return "spherical";
-        case ViewMapping::Parabolic:
-            return "parabolic";
-        case ViewMapping::OneDimensional:
-            break;
-    }
-    return "one-dimensional";
+    return kViewMappingNames.at(static_cast<std::size_t>(mapping)).data();
+}
+
+ViewMapping parse_view_mapping(std::string_view name) {
+    const auto found = std::find(kViewMappingNames.begin(), kViewMappingNames.end(), name);
+    ROWLAND_CHECK(found != kViewMappingNames.end(), name);
+    return static_cast<ViewMapping>(found - kViewMappingNames.begin());
 }
 
 glm::dvec2 node_view(const ViewGrid& grid, int column, int row) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <glm/vec2.hpp>
+#include <string_view>
 #include <vector>
 
 #include "engine/core/byte_stream.h"
@@ -23,6 +24,8 @@ enum class ViewMapping : std::uint8_t { Spherical = 0, Parabolic = 1, OneDimensi
 
 /// "spherical", "parabolic", "one-dimensional".
 const char* view_mapping_name(ViewMapping mapping);
+/// Inverse of view_mapping_name(), whose result `name` must be.
+ViewMapping parse_view_mapping(std::string_view name);
 
 /// A texture's nodes over views. Both ends of an axis are nodes, but for φ, where column 0 follows the last.
 ///

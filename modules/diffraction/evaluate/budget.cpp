@@ -14,9 +14,9 @@
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "engine/core/json_reader.h"
-#include "modules/diffraction/asset/baked_tables.h"
+#include "modules/diffraction/asset/method.h"
 #include "modules/diffraction/asset/quality_json.h"
-#include "modules/diffraction/evaluate/evaluation_light.h"
+#include "modules/diffraction/representations/evaluation_light.h"
 #include "modules/diffraction/evaluate/point_shader.h"
 #include "modules/diffraction/evaluate/radiance_error.h"
 #include "modules/diffraction/reference/reference.h"
@@ -37,25 +37,16 @@ struct Candidate {
     double price = 0.0;
 };
 
-/// The candidate's settings as a material's; none if the material's own parser refuses them for this grating.
-std::optional<Quality> as_quality(const nlohmann::json& settings, const Material& material) {
-    try {
-        Quality quality = parse_quality(JsonReader(settings, "candidate"), material.grating, {});
-        quality.max_error = material.quality.max_error;
-        quality.illuminant = material.quality.illuminant;
-        return quality;
-    } catch (const Error&) {
-        return std::nullopt;
-    }
-}
-
 /// All candidates, baked, the cheapest first.
 std::vector<Candidate> bake_candidates(const Material& material, int key_lights) {
     std::vector<Candidate> candidates;
     std::map<std::string, std::shared_ptr<const BakedTables>> baked;
     for (const nlohmann::json& settings : budget_candidates(material.grating, material.quality.surface)) {
-        const std::optional<Quality> quality = as_quality(settings, material);
-        if (!quality) continue;
+        std::variant<Quality, Refusal> suited = suited_quality(settings, material.grating);
+        auto* quality = std::get_if<Quality>(&suited);
+        if (quality == nullptr) continue;
+        quality->max_error = material.quality.max_error;
+        quality->illuminant = material.quality.illuminant;
         Material pinned = material;
         pinned.quality = *quality;
         nlohmann::json for_any_keys = settings;
@@ -152,28 +143,6 @@ double rounded_up(double error) {
     return std::ceil(error / digit) * digit;
 }
 
-/// Settings with and without key lights.
-void add(std::vector<nlohmann::json>& list, nlohmann::json settings) {
-    for (const bool keys : {false, true}) {
-        settings["key_lights"] = keys;
-        list.push_back(settings);
-    }
-}
-
-/// Narrow lobes are streaks; wide ones are harmonics, whose tables over all views take seconds each to bake.
-std::vector<nlohmann::json> lobe_candidates() {
-    std::vector<nlohmann::json> list;
-    for (const int nodes : {4, 8, 16})
-        for (const int taps : {1, 3, 5})
-            list.push_back({{"representation", "streak"}, {"nodes", nodes}, {"taps", taps}});
-    add(list, {{"representation", "arc"}, {"bands", 5}, {"rank", 8}});
-    add(list, {{"representation", "arc"}, {"bands", 8}, {"rank", 16}});
-    add(list, {{"representation", "transfer"}, {"bands", 5}});
-    add(list, {{"representation", "spikes"}, {"bands", 5}, {"spikes", 4}});
-    list.push_back({{"representation", "direct"}});
-    return list;
-}
-
 }  // namespace
 
 double shading_price(const ShadingCost& cost, int key_lights) {
@@ -184,20 +153,21 @@ double shading_price(const ShadingCost& cost, int key_lights) {
            kFetchesPerMebibyte * static_cast<double>(cost.table_bytes) / (1 << 20);
 }
 
-/// Bins are left out: transfer tables are as large and fetched as often as eight of them, and lose less. Maps of a
-/// curved body beyond 64 take hundreds of megabytes, and flat surfaces have better ones.
 std::vector<nlohmann::json> budget_candidates(const Grating& grating, SurfaceShape surface) {
-    if (!is_flat(grating.lobe)) return lobe_candidates();
     std::vector<nlohmann::json> list;
-    for (const int bands : {3, 5, 8, 12, kMostCandidateBands})
-        for (const int rank : {4, 8, 12, 16})
-            if (rank <= 2 * bands + 2) add(list, {{"representation", "arc"}, {"bands", bands}, {"rank", rank}});
-    for (const int bands : {3, 5, 8}) add(list, {{"representation", "transfer"}, {"bands", bands}});
-    for (const int spikes : {4, 8, 16}) add(list, {{"representation", "spikes"}, {"bands", 5}, {"spikes", spikes}});
-    list.push_back({{"representation", "direct"}});
-    const bool flat = surface == SurfaceShape::Flat;
-    for (const int resolution : flat ? std::vector{32, 64, 128, 256, 512} : std::vector{16, 24, 32, 48, 64})
-        add(list, {{"representation", flat ? "planar" : "circle"}, {"map_resolution", resolution}});
+    for (const RepresentationInfo* info : representations())
+        for (const std::string& settings : info->budget(is_flat(grating.lobe), surface)) {
+            nlohmann::json quality =
+                parse_method(settings.empty() ? info->name : fmt::format("{}/{}", info->name, settings)).quality;
+            if (info->key_lights == KeyLightUse::Always) {
+                list.push_back(std::move(quality));
+                continue;
+            }
+            for (const bool keys : {false, true}) {
+                quality["key_lights"] = keys;
+                list.push_back(quality);
+            }
+        }
     return list;
 }
 

@@ -7,7 +7,7 @@
 
 #include "engine/lighting/probe_image.h"
 #include "modules/diffraction/asset/cooked_material.h"
-#include "modules/diffraction/asset/representation.h"
+#include "modules/diffraction/representations/representation.h"
 #include "modules/diffraction/model/frame.h"
 
 namespace rowland::diffraction {

@@ -34,7 +34,7 @@ PointComparison PointComparer::compare(const std::shared_ptr<const CookedMateria
     const colour::LightSpectra spectra(cooked->material.quality.illuminant);
     PointComparison result;
     result.shown =
-        evaluate_points(representation_name(cooked->tables.index()), ready_->shader, *cooked, lit, points)[0];
+        evaluate_points(info(cooked->tables).name, ready_->shader, *cooked, lit, points)[0];
     result.reference = reference_radiance(cooked->material.grating, probe_, spectra, points)[0];
     result.error = relative_rms(std::span(&result.shown, 1), std::span(&result.reference, 1));
     return result;

@@ -6,17 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "engine/colour/light_spectra.h"
 #include "modules/diffraction/asset/cooked_material.h"
-#include "modules/diffraction/asset/representation.h"
-#include "modules/diffraction/evaluate/evaluation_light.h"
+#include "modules/diffraction/representations/point_shader.h"
 #include "modules/diffraction/model/frame.h"
 #include "modules/diffraction/model/grating.h"
 
 namespace rowland::diffraction {
-
-/// XYZ of one frame. May be called from many threads.
-using PointShader = std::function<glm::dvec3(const Frame&)>;
 
 /// What shades points by a baked material's tables or map, without its key lights; both arguments must outlive it. Maps
 /// are filled when they are first needed and kept: a `planar` one for the last plane, so that such a shader is for one
@@ -36,11 +31,5 @@ std::vector<glm::dvec3> evaluate_points(const std::string& title, const PointSha
 
 /// What shades spikes that are baked for each frame's own view.
 PointShader exact_spikes(const Grating& grating, const SpikeSettings& settings, const EvaluationLight& light);
-
-/// What shades the mirror-like part of a narrow lobe from a probe (PHYSICS §6 "streak"), with the smooth rest of Stam's
-/// pits by a transfer table of `bands` bands. Throws Error (input) for band-limited light, and for a lobe without a
-/// streak.
-PointShader streak(const Grating& grating, const colour::LightSpectra& spectra, int bands,
-                   const EvaluationLight& light);
 
 }  // namespace rowland::diffraction

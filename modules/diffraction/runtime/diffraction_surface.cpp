@@ -47,16 +47,18 @@ void DiffractionSurfaceType::attach(ecs::World& world, ecs::Entity entity, const
                                     render::SurfaceTextures& textures, const std::string& file,
                                     const std::string& place) {
     const GltfGrating grating = parse_gltf_extension(extension, file, std::filesystem::path(file).parent_path(), place);
-    if (grating.material.grating.grooves < kManyGrooves)
-        refuse_input(file, place + "/grating/grooves", fmt::format("{}", grating.material.grating.grooves),
-                     fmt::format("at least {} for a surface that is drawn", kManyGrooves));
+    const auto require = [&](const std::optional<Refusal>& refused, const std::string& pointer) {
+        if (refused) refuse_input(file, pointer + refused->key, refused->found, refused->expected, refused->remedy);
+    };
+    require(baked_refusal(grating.material.grating), place);
     DiffractionSurface surface{.groove_rotation = static_cast<float>(grating.groove_rotation)};
     Material material = grating.material;
     std::string key = extension.dump();
     if (grating.groove_texture) {
         surface.grooves =
             std::make_shared<const GrooveMap>(*grating.groove_texture, textures, file, place + "/grooveTexture");
-        material = suit_to_grooves(material, *surface.grooves, file, place);
+        require(groove_refusal(material, *surface.grooves), place + "/");
+        material = suited_to_grooves(std::move(material), *surface.grooves);
         key += fmt::format("{} {}", surface.grooves->smallest_pitch(), surface.grooves->largest_pitch());
     }
     surface.material = baked(material, key);

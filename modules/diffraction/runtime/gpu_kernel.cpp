@@ -8,7 +8,7 @@
 
 #include "engine/colour/working_space.h"
 #include "modules/diffraction/bake/blurred_kernel.h"
-#include "modules/diffraction/bake/direct.h"
+#include "modules/diffraction/representations/direct/direct.h"
 #include "modules/diffraction/runtime/bindings.h"
 
 namespace rowland::diffraction {

@@ -2,62 +2,29 @@
 
 #include <cmath>
 #include <string>
+#include <tuple>
+#include <type_traits>
+#include <utility>
 #include <variant>
 
 #include "modules/diffraction/asset/layer_weights.h"
-#include "modules/diffraction/runtime/gpu_arc.h"
-#include "modules/diffraction/runtime/gpu_bins.h"
-#include "modules/diffraction/runtime/gpu_circle.h"
-#include "modules/diffraction/runtime/gpu_direct.h"
-#include "modules/diffraction/runtime/gpu_planar.h"
-#include "modules/diffraction/runtime/gpu_spikes.h"
-#include "modules/diffraction/runtime/gpu_streak.h"
-#include "modules/diffraction/runtime/gpu_transfer.h"
+#include "modules/diffraction/representations/arc/gpu_arc.h"
+#include "modules/diffraction/representations/bins/gpu_bins.h"
+#include "modules/diffraction/representations/circle/gpu_circle.h"
+#include "modules/diffraction/representations/direct/gpu_direct.h"
+#include "modules/diffraction/representations/planar/gpu_planar.h"
+#include "modules/diffraction/representations/spikes/gpu_spikes.h"
+#include "modules/diffraction/representations/streak/gpu_streak.h"
+#include "modules/diffraction/representations/transfer/gpu_transfer.h"
 
 namespace rowland::diffraction {
 
 namespace {
 
-/// The class that draws each kind of tables.
-template <typename Tables>
-struct Drawn;
-template <>
-struct Drawn<SpikeTable> {
-    using By = GpuSpikes;
-};
-template <>
-struct Drawn<BinTable> {
-    using By = GpuBins;
-};
-template <>
-struct Drawn<TransferTable> {
-    using By = GpuTransfer;
-};
-template <>
-struct Drawn<ArcTable> {
-    using By = GpuArc;
-};
-template <>
-struct Drawn<DirectTables> {
-    using By = GpuDirect;
-};
-template <>
-struct Drawn<PlanarTables> {
-    using By = GpuPlanar;
-};
-template <>
-struct Drawn<CircleTables> {
-    using By = GpuCircle;
-};
-template <>
-struct Drawn<StreakTables> {
-    using By = GpuStreak;
-};
-
-/// Maps are of a probe, which has no directional lights.
-bool is_map(const BakedTables& tables) {
-    return std::holds_alternative<PlanarTables>(tables) || std::holds_alternative<CircleTables>(tables);
-}
+/// The class that draws each of BakedTables, in its order.
+using GpuClasses =
+    std::tuple<GpuSpikes, GpuBins, GpuTransfer, GpuArc, GpuDirect, GpuPlanar, GpuCircle, GpuStreak>;
+static_assert(std::tuple_size_v<GpuClasses> == kRepresentationCount);
 
 }  // namespace
 
@@ -65,7 +32,7 @@ GpuMaterial::GpuMaterial(const CookedMaterial& cooked, const glm::dmat3& xyz_to_
     : cooked_(std::make_shared<const CookedMaterial>(cooked)),
       base_{.base_colour = cooked.material.base.colour, .metallic = 0.0F, .roughness = cooked.material.base.roughness},
       key_lights_(cooked.material.quality.key_lights),
-      separate_lights_(key_lights_ || is_map(cooked.tables)),
+      separate_lights_(key_lights_ || info(cooked.tables).is_map),
       lights_at_vertices_(cooked.material.quality.lights_at_vertices && cooked.zero_order_xyz == glm::dmat3(0.0)),
       kernel_(cooked, xyz_to_working) {
     const LayerWeights weights = layer_weights(cooked.material.grating, cooked.material.quality.illuminant);
@@ -95,20 +62,25 @@ void GpuMaterial::bind(const gpu::Program& program, const SurfaceLight& light, c
 }
 
 std::shared_ptr<const GpuMaterial> make_gpu_material(const CookedMaterial& cooked, const glm::dmat3& xyz_to_working) {
-    return std::visit(
-        [&]<typename Tables>(const Tables& tables) -> std::shared_ptr<const GpuMaterial> {
-            return std::make_shared<const typename Drawn<Tables>::By>(cooked, tables, xyz_to_working);
-        },
-        cooked.tables);
+    std::shared_ptr<const GpuMaterial> material;
+    const auto make_if = [&]<std::size_t I>(std::integral_constant<std::size_t, I>) {
+        if (const auto* tables = std::get_if<I>(&cooked.tables))
+            material =
+                std::make_shared<const std::tuple_element_t<I, GpuClasses>>(cooked, *tables, xyz_to_working);
+    };
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+        (make_if(std::integral_constant<std::size_t, I>()), ...);
+    }(std::make_index_sequence<kRepresentationCount>());
+    return material;
 }
 
 void set_shaders(gpu::ProgramDesc& desc, const char* vertex, const char* fragment) {
-    desc.vertex = std::string("modules/diffraction/shaders/") + vertex;
-    desc.fragment = std::string("modules/diffraction/shaders/") + fragment;
+    desc.vertex = std::string("modules/diffraction/") + vertex;
+    desc.fragment = std::string("modules/diffraction/") + fragment;
 }
 
 void set_vertex_shader(gpu::ProgramDesc& desc, const char* vertex) {
-    set_shaders(desc, vertex, "vertex_shaded.frag.glsl");
+    set_shaders(desc, vertex, "shaders/vertex_shaded.frag.glsl");
     desc.defines.push_back({"VERTEX_SHADED", "1"});
 }
 

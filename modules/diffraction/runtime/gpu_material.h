@@ -97,7 +97,7 @@ class GpuMaterial {
 /// `xyz_to_working` as the renderer's.
 std::shared_ptr<const GpuMaterial> make_gpu_material(const CookedMaterial& cooked, const glm::dmat3& xyz_to_working);
 
-/// Sets shader files by the names they have in shaders/.
+/// Sets shader files by their paths below modules/diffraction/.
 void set_shaders(gpu::ProgramDesc& desc, const char* vertex, const char* fragment);
 /// The same of a program whose vertices are shaded.
 void set_vertex_shader(gpu::ProgramDesc& desc, const char* vertex);

@@ -24,7 +24,7 @@ GpuStill::GpuStill(const CookedMaterial& cooked, std::shared_ptr<const gpu::Text
     : GpuMaterial(as_a_map(cooked), xyz_to_working), still_(std::move(still)) {}
 
 void GpuStill::describe(const SurfaceState&, gpu::ProgramDesc& desc) const {
-    set_shaders(desc, "pixel_shaded.vert.glsl", "still.frag.glsl");
+    set_shaders(desc, "shaders/pixel_shaded.vert.glsl", "shaders/still.frag.glsl");
 }
 
 void GpuStill::bind_tables(const gpu::Program& program, const SurfaceState&) const {

@@ -45,27 +45,8 @@ int wrapped(int place, int size, scene::TextureWrap wrap) {
     return within < size ? within : period - 1 - within;
 }
 
-void refuse_representation(const Material& material, const std::string& file, const std::string& place) {
-    refuse_input(file, place + "/quality/representation",
-                 fmt::format("\"{}\" with a grooveTexture", representation_name(material.quality.pinned->index())),
-                 "\"arc\", \"direct\" or, with a sigma for groove_lobe, \"streak\"", "or leave quality out");
-}
-
-void set_pitches(const GrooveMap& grooves, const Material& material, ArcSettings& settings, const std::string& file,
-                 const std::string& place) {
-    const double smallest = grooves.smallest_pitch();
-    const double largest = grooves.largest_pitch();
-    if (smallest >= 1.0 - kSamePitch && largest <= 1.0 + kSamePitch) return;
-    if (!is_flat(material.grating.lobe))
-        refuse_input(file, place + "/grooveTexture",
-                     fmt::format("pitches of {:.3g} to {:.3g} times pitch_nm, with a groove_lobe that is not flat",
-                                 smallest, largest),
-                     "the flat groove_lobe, or the representation \"streak\" or \"direct\"",
-                     "or keep the texture's green at one half");
-    const double low = std::min(smallest, largest * (1.0 - kSamePitch));
-    settings.pitch = PitchAxis{.smallest = low,
-                               .largest = largest,
-                               .nodes = 2 + static_cast<int>(std::log(largest / low) / std::log(kPitchStep))};
+bool varies_pitch(const GrooveMap& grooves) {
+    return grooves.smallest_pitch() < 1.0 - kSamePitch || grooves.largest_pitch() > 1.0 + kSamePitch;
 }
 
 }  // namespace
@@ -128,22 +109,37 @@ void GrooveMap::bind(const gpu::Program& program) const {
     program.set("groove_uv_offset", transform.offset);
 }
 
-Material suit_to_grooves(const Material& material, const GrooveMap& grooves, const std::string& file,
-                         const std::string& place) {
-    Material suited = material;
-    if (!suited.quality.pinned) {
-        suited.quality.pinned = ArcSettings{.rank = kPitchRank};
-        suited.quality.key_lights = true;
+std::optional<Refusal> groove_refusal(const Material& material, const GrooveMap& grooves) {
+    const std::optional<Representation>& pinned = material.quality.pinned;
+    if (pinned && !std::holds_alternative<ArcSettings>(*pinned)) {
+        const auto* streak = std::get_if<StreakSurfaceSettings>(&*pinned);
+        const bool narrow = streak != nullptr && !streak->rest;
+        if (narrow || std::holds_alternative<DirectSettings>(*pinned)) return std::nullopt;
+        return Refusal{"quality/representation", fmt::format("\"{}\" with a grooveTexture", info(*pinned).name),
+                       "\"arc\", \"direct\" or, with a sigma for groove_lobe, \"streak\"", "or leave quality out"};
     }
-    if (auto* arc = std::get_if<ArcSettings>(&*suited.quality.pinned)) {
-        set_pitches(grooves, material, *arc, file, place);
-        return suited;
+    if (!varies_pitch(grooves) || is_flat(material.grating.lobe)) return std::nullopt;
+    return Refusal{"grooveTexture",
+                   fmt::format("pitches of {:.3g} to {:.3g} times pitch_nm, with a groove_lobe that is not flat",
+                               grooves.smallest_pitch(), grooves.largest_pitch()),
+                   "the flat groove_lobe, or the representation \"streak\" or \"direct\"",
+                   "or keep the texture's green at one half"};
+}
+
+Material suited_to_grooves(Material material, const GrooveMap& grooves) {
+    Quality& quality = material.quality;
+    if (!quality.pinned) {
+        quality.pinned = ArcSettings{.rank = kPitchRank};
+        quality.key_lights = true;
     }
-    const auto* streak = std::get_if<StreakSurfaceSettings>(&*suited.quality.pinned);
-    const bool narrow = streak != nullptr && !streak->rest;
-    if (!narrow && !std::holds_alternative<DirectSettings>(*suited.quality.pinned))
-        refuse_representation(material, file, place);
-    return suited;
+    auto* arc = std::get_if<ArcSettings>(&*quality.pinned);
+    if (arc == nullptr || !varies_pitch(grooves)) return material;
+    const double largest = grooves.largest_pitch();
+    const double low = std::min(grooves.smallest_pitch(), largest * (1.0 - kSamePitch));
+    arc->pitch = PitchAxis{.smallest = low,
+                           .largest = largest,
+                           .nodes = 2 + static_cast<int>(std::log(largest / low) / std::log(kPitchStep))};
+    return material;
 }
 
 scene::Mesh turned_by(const GrooveMap& grooves, const scene::Mesh& mesh) {

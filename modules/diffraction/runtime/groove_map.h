@@ -43,10 +43,12 @@ class GrooveMap {
     double largest_pitch_ = 1.0;
 };
 
-/// The material with what a map's pitches need of its tables: arc, where nothing is pinned. Throws Error (input) for
-/// representations that know one direction or one pitch only.
-Material suit_to_grooves(const Material& material, const GrooveMap& grooves, const std::string& file,
-                         const std::string& place);
+/// Why a material cannot be drawn under a map: representations that have one direction or one pitch only. Nothing if it
+/// can. The key is a JSON pointer below the glTF extension, without its first slash.
+std::optional<Refusal> groove_refusal(const Material& material, const GrooveMap& grooves);
+
+/// The material with the pitches of a map that groove_refusal() has nothing against; arc, where nothing is pinned.
+Material suited_to_grooves(Material material, const GrooveMap& grooves);
 
 /// The mesh with its tangents turned as the map says at the vertices.
 scene::Mesh turned_by(const GrooveMap& grooves, const scene::Mesh& mesh);

@@ -1,4 +1,4 @@
-#include "modules/diffraction/bake/bin_table.h"
+#include "modules/diffraction/representations/bins/bin_table.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ TEST(BinTable, ConvergesToTheBandlimitedOracle) {
     const auto views = test::tangent_views(test::read_sh_light(light_path), one.frames);
     double before = 1.0;
     for (const auto& [bins, bound] : {std::pair{4, 0.01}, {8, 0.003}, {16, 0.001}, {400, 1e-4}}) {
-        const double error = relative_rms(test::evaluated(bake_bin_table(one.grating, small(bins)), views), one.xyz);
+        const double error = relative_rms(test::evaluated(bake(one.grating, small(bins)), views), one.xyz);
         RecordProperty(fmt::format("bins_{}", bins), fmt::format("{:.3g}", error));
         EXPECT_LT(error, bound) << bins;
         EXPECT_LT(error, before) << bins;
@@ -48,7 +48,7 @@ TEST(BinTable, ConvergesToTheBandlimitedOracle) {
 }
 
 TEST(BinTable, ColoursSumToTheLightsWhite) {
-    const BinTable table = bake_bin_table(binned_disc(), small(7));
+    const BinTable table = bake(binned_disc(), small(7));
     EXPECT_EQ(table.bins(), 7);
     const glm::dmat3 sum =
         std::accumulate(table.colours.begin(), table.colours.end(), glm::dmat3(0.0),
@@ -63,7 +63,7 @@ TEST(BinTable, TakesALampOfLines) {
     BinSettings settings = small(40);
     settings.illuminant = {
         "line", colour::SampledSpectrum({500.0, 545.0, 546.0, 547.0, 700.0}, {0, 0, 1, 0, 0}, colour::Outside::Zero)};
-    const BinTable table = bake_bin_table(binned_disc(), settings);
+    const BinTable table = bake(binned_disc(), settings);
     const glm::dvec3 xyz = evaluate(table, {1, {glm::dvec3(1.0)}}, {0.3, 0.1, 0.9486833});
     EXPECT_TRUE(std::isfinite(xyz.x + xyz.y + xyz.z));
     EXPECT_GT(xyz.y, 0.0);
@@ -72,7 +72,7 @@ TEST(BinTable, TakesALampOfLines) {
 TEST(BinTable, RefusesFewGrooves) {
     Grating few = binned_disc();
     few.grooves = 10.0;
-    EXPECT_THROW(bake_bin_table(few, small(4)), Error);
+    EXPECT_THROW(bake(few, small(4)), Error);
 }
 
 TEST(BinTable, BytesDoNotDependOnTheNumberOfThreads) {
@@ -82,7 +82,7 @@ TEST(BinTable, BytesDoNotDependOnTheNumberOfThreads) {
         settings.bands = 3;
         settings.grid = {ViewMapping::Parabolic, 5, 5};
         ByteWriter writer;
-        write_bin_table(bake_bin_table(binned_disc(), settings), writer);
+        write(bake(binned_disc(), settings), writer);
         return writer.take();
     };
     EXPECT_EQ(bake(1), bake(2));
@@ -92,7 +92,7 @@ TEST(BinTable, HasSoundBytes) {
     BinSettings settings = small(3);
     settings.bands = 2;
     settings.grid.columns = 9;
-    test::expect_sound_bytes(bake_bin_table(binned_disc(), settings), write_bin_table, read_bin_table);
+    test::expect_sound_bytes(bake(binned_disc(), settings), write_bin_table, read_bin_table);
 }
 
 TEST(WavelengthCuts, CutEqualWeightsIntoEqualLengths) {

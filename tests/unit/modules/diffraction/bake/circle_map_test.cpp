@@ -1,4 +1,4 @@
-#include "modules/diffraction/bake/circle_map.h"
+#include "modules/diffraction/representations/circle/circle_map.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "engine/core/parallel.h"
-#include "modules/diffraction/bake/planar_map.h"
+#include "modules/diffraction/representations/planar/planar_map.h"
 #include "tests/support/csv.h"
 #include "tests/support/test_data.h"
 #include "tests/unit/modules/diffraction/bake/probe_maps.h"

@@ -1,4 +1,4 @@
-#include "modules/diffraction/bake/direct.h"
+#include "modules/diffraction/representations/direct/direct.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

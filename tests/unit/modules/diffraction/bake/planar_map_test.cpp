@@ -1,4 +1,4 @@
-#include "modules/diffraction/bake/planar_map.h"
+#include "modules/diffraction/representations/planar/planar_map.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

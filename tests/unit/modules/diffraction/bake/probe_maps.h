@@ -7,7 +7,7 @@
 #include "engine/image/load.h"
 #include "engine/lighting/key_lights.h"
 #include "engine/lighting/light_texels.h"
-#include "modules/diffraction/bake/direct.h"
+#include "modules/diffraction/representations/direct/direct.h"
 #include "modules/diffraction/model/colour_kernel.h"
 #include "tests/unit/modules/diffraction/reference/oracle.h"
 

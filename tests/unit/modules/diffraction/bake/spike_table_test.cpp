@@ -1,4 +1,4 @@
-#include "modules/diffraction/bake/spike_table.h"
+#include "modules/diffraction/representations/spikes/spike_table.h"
 
 #include <gtest/gtest.h>
 
@@ -48,7 +48,7 @@ double largest_storage_error(const SpikeTable& table, std::size_t layer, glm::ve
 TEST(SpikeTable, NodesAreTheBakedSpikesWithinStorage) {
     for (const Storage storage : {Storage::Unorm16, Storage::Half}) {
         const SpikeTableSettings settings = small(storage);
-        const SpikeTable table = bake_spike_table(foil(), settings);
+        const SpikeTable table = bake(foil(), settings);
         for (int i = 0; i < settings.theta_nodes; ++i)
             for (int j = 0; j < settings.phi_nodes; ++j) {
                 const double theta = 0.5 * pi * i / (settings.theta_nodes - 1);
@@ -71,7 +71,7 @@ TEST(SpikeTable, NodesAreTheBakedSpikesWithinStorage) {
 
 TEST(SpikeTable, HasTheLayoutTheShaderReads) {
     const SpikeTableSettings settings = small(Storage::Unorm16);
-    const SpikeTable table = bake_spike_table(foil(), settings);
+    const SpikeTable table = bake(foil(), settings);
     EXPECT_EQ(table.layers_per_spike, 5);  // 16 coefficients and a wavelength: 17 entries in fours
     EXPECT_EQ(table.layers(), 15);
     EXPECT_EQ(table.texels.size(), 15U * 5U * 8U * 4U);
@@ -88,7 +88,7 @@ TEST(SpikeTable, HasTheLayoutTheShaderReads) {
 }
 
 TEST(SpikeTable, FiltersLinearlyBetweenNodesAndAcrossTheSeam) {
-    const SpikeTable table = bake_spike_table(foil(), small(Storage::Unorm16));
+    const SpikeTable table = bake(foil(), small(Storage::Unorm16));
     const double theta = 0.5 * pi * 2 / 4;
     const auto at = [&](double phi) {
         return sample(table, std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
@@ -103,7 +103,7 @@ TEST(SpikeTable, FiltersLinearlyBetweenNodesAndAcrossTheSeam) {
 }
 
 TEST(SpikeTable, ViewBelowTheHorizonIsBlack) {
-    const SpikeTable table = bake_spike_table(foil(), small(Storage::Unorm16));
+    const SpikeTable table = bake(foil(), small(Storage::Unorm16));
     const SpikeSet spikes = sample(table, 0.6, 0.0, -0.8);
     for (const double c : spikes.coefficients) EXPECT_EQ(c, 0.0);
     for (const double wavelength_nm : spikes.wavelengths_nm) EXPECT_TRUE(std::isfinite(wavelength_nm));
@@ -113,7 +113,7 @@ TEST(SpikeTable, BytesDoNotDependOnTheNumberOfThreads) {
     const auto bake = [](unsigned threads) {
         const ThreadLimit limit(threads);
         ByteWriter writer;
-        write_spike_table(bake_spike_table(foil(), small(Storage::Unorm16)), writer);
+        write(bake(foil(), small(Storage::Unorm16)), writer);
         return writer.take();
     };
     EXPECT_EQ(bake(1), bake(2));
@@ -127,7 +127,7 @@ TEST(SpikeTable, DefaultResolutionKeepsTheNamedFrames) {
     Grating disc;
     disc.pitch_nm = 1600.0;
     disc.profile = SlitProfile{800.0};
-    const SpikeTable table = bake_spike_table(disc, SpikeTableSettings());
+    const SpikeTable table = bake(disc, SpikeTableSettings());
     const SpikeBaker baker(disc, SpikeSettings());
     std::vector<glm::dvec3> exact;
     std::vector<glm::dvec3> sampled;
@@ -148,7 +148,7 @@ TEST(SpikeTable, TakesEveryMappingAndStorage) {
     for (const Storage storage : {Storage::Unorm16, Storage::Half, Storage::Float, Storage::Unorm8}) {
         SpikeTableSettings settings = small(storage);
         settings.mapping = ViewMapping::Parabolic;
-        const SpikeTable table = bake_spike_table(foil(), settings);
+        const SpikeTable table = bake(foil(), settings);
         const glm::dvec2 v = node_view(table.grid(), 5, 1);
         const SpikeSet exact = bake_spikes(foil(), v.x, v.y, settings.spikes);
         const SpikeSet stored = sample(table, v.x, v.y, std::sqrt(1.0 - glm::dot(v, v)));
@@ -161,7 +161,7 @@ TEST(SpikeTable, TakesEveryMappingAndStorage) {
                                                     : 3e-4 * range);
         }
         ByteWriter writer;
-        write_spike_table(table, writer);
+        write(table, writer);
         ByteReader reader(writer.data(), "table");
         const SpikeTable back = read_spike_table(reader);
         EXPECT_EQ(back.mapping, ViewMapping::Parabolic);
@@ -171,17 +171,17 @@ TEST(SpikeTable, TakesEveryMappingAndStorage) {
     SpikeTableSettings line = small(Storage::Float);
     line.mapping = ViewMapping::OneDimensional;
     line.theta_nodes = 1;
-    EXPECT_THROW(bake_spike_table(foil(), line), Error);
+    EXPECT_THROW(bake(foil(), line), Error);
 }
 
 std::vector<std::byte> written(const SpikeTable& table) {
     ByteWriter writer;
-    write_spike_table(table, writer);
+    write(table, writer);
     return writer.take();
 }
 
 TEST(SpikeTable, RoundTripsThroughBytes) {
-    const SpikeTable table = bake_spike_table(foil(), small(Storage::Half));
+    const SpikeTable table = bake(foil(), small(Storage::Half));
     const auto bytes = written(table);
     ByteReader reader(bytes, "table");
     const SpikeTable back = read_spike_table(reader);
@@ -192,7 +192,7 @@ TEST(SpikeTable, RoundTripsThroughBytes) {
 }
 
 TEST(SpikeTable, RefusesEveryTruncation) {
-    const auto bytes = written(bake_spike_table(foil(), small(Storage::Unorm16)));
+    const auto bytes = written(bake(foil(), small(Storage::Unorm16)));
     for (std::size_t size = 0; size < bytes.size(); size += size < 600 ? 1 : 97) {
         const std::span<const std::byte> all(bytes);
         ByteReader reader(all.first(size), "table");
@@ -202,7 +202,7 @@ TEST(SpikeTable, RefusesEveryTruncation) {
 
 /// Each 32-bit word of the header set to something wild: refused, or a table whose sizes agree.
 TEST(SpikeTable, RefusesAWrongHeader) {
-    const auto bytes = written(bake_spike_table(foil(), small(Storage::Unorm16)));
+    const auto bytes = written(bake(foil(), small(Storage::Unorm16)));
     for (std::size_t at = 0; at < 16; at += 4)
         for (const std::int32_t wild : {-1, 0, 1 << 14, 0x7fffffff}) {
             auto broken = bytes;
@@ -217,7 +217,7 @@ TEST(SpikeTable, RefusesAWrongHeader) {
 }
 
 TEST(SpikeTable, RefusesScalesThatAreNotFinite) {
-    SpikeTable table = bake_spike_table(foil(), small(Storage::Unorm16));
+    SpikeTable table = bake(foil(), small(Storage::Unorm16));
     table.scale[3].y = std::numeric_limits<float>::infinity();
     const auto bytes = written(table);
     ByteReader reader(bytes, "table");

@@ -1,4 +1,4 @@
-#include "modules/diffraction/bake/spikes.h"
+#include "modules/diffraction/representations/spikes/spikes.h"
 
 #include <gtest/gtest.h>
 

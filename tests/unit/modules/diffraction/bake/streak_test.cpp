@@ -1,4 +1,4 @@
-#include "modules/diffraction/bake/streak.h"
+#include "modules/diffraction/representations/streak/streak.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

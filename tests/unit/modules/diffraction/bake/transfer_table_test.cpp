@@ -1,4 +1,4 @@
-#include "modules/diffraction/bake/transfer_table.h"
+#include "modules/diffraction/representations/transfer/transfer_table.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -106,7 +106,7 @@ TEST(TransferTable, MatchesTheBandlimitedOracle) {
     for (const test::OracleCase& one : test::read_cases(path)) {
         if (!is_flat(one.grating.lobe)) continue;
         ++flat_cases;
-        const TransferTable table = bake_transfer_table(one.grating, {});
+        const TransferTable table = bake(one.grating, {});
         const double error = relative_rms(test::evaluated(table, test::tangent_views(light, one.frames)), one.xyz);
         RecordProperty(one.name, fmt::format("{:.3g}", error));
         EXPECT_LT(error, 1e-4) << one.name;
@@ -124,7 +124,7 @@ TEST(TransferTable, MatchesTheBandlimitedOracleForALobe) {
     TransferSettings settings;
     settings.grid = ViewGrid{ViewMapping::Spherical, 64, 32};
     const double error = relative_rms(
-        test::evaluated(bake_transfer_table(one.grating, settings), test::tangent_views(light, one.frames)), one.xyz);
+        test::evaluated(bake(one.grating, settings), test::tangent_views(light, one.frames)), one.xyz);
     RecordProperty("error", fmt::format("{:.3g}", error));
     EXPECT_LT(error, 0.01);
 }
@@ -134,8 +134,8 @@ TEST(TransferTable, HasTheLayoutTheShaderReads) {
     TransferSettings settings;
     settings.grid = ViewGrid{ViewMapping::OneDimensional, 17, 1};
     settings.storage = Storage::Float;
-    const TransferTable table = bake_transfer_table(transfer_disc(), settings);
-    EXPECT_EQ(transfer_layers(5), 7);
+    const TransferTable table = bake(transfer_disc(), settings);
+    EXPECT_EQ(harmonic_layers(5), 7);
     EXPECT_EQ(table.scale.size(), 63U);
     const TransferTerms terms(transfer_disc(), colour::LightSpectra(), 5);
     const double expected = terms.coefficients(2.0 * 9 / 16 - 1.0, 0.0)[6][1][2];
@@ -149,7 +149,7 @@ TEST(TransferTable, MirroredViewsAreBakedOnce) {
     settings.bands = 3;
     settings.grid = ViewGrid{ViewMapping::Parabolic, 9, 9};
     settings.storage = Storage::Float;
-    const TransferTable table = bake_transfer_table(transfer_foil(), settings);
+    const TransferTable table = bake(transfer_foil(), settings);
     const TransferTerms terms(transfer_foil(), colour::LightSpectra(), 3);
     for (const int row : {1, 7}) {
         const glm::dvec2 v = node_view(*settings.grid, 3, row);
@@ -163,7 +163,7 @@ TEST(TransferTable, MirroredViewsAreBakedOnce) {
 }
 
 TEST(TransferTable, ViewBelowTheHorizonIsBlack) {
-    const TransferTable table = bake_transfer_table(transfer_disc(), {.bands = 2});
+    const TransferTable table = bake(transfer_disc(), {.bands = 2});
     const lighting::ShLight light{1, {glm::dvec3(1.0)}};
     EXPECT_EQ(evaluate(table, light, {0.6, 0.0, -0.8}), glm::dvec3(0.0));
     EXPECT_GT(evaluate(table, light, {0.6, 0.0, 0.8}).y, 0.0);
@@ -172,17 +172,17 @@ TEST(TransferTable, ViewBelowTheHorizonIsBlack) {
 TEST(TransferTable, RefusesFewGroovesAndOneDimensionForALobe) {
     Grating few = transfer_disc();
     few.grooves = 10.0;
-    EXPECT_THROW(bake_transfer_table(few, {}), Error);
+    EXPECT_THROW(bake(few, {}), Error);
     TransferSettings settings;
     settings.grid = ViewGrid{ViewMapping::OneDimensional, 16, 1};
-    EXPECT_THROW(bake_transfer_table(transfer_foil(), settings), Error);
+    EXPECT_THROW(bake(transfer_foil(), settings), Error);
 }
 
 TEST(TransferTable, SubwavelengthPitchIsExactlyBlack) {
     Grating grating = transfer_disc();
     grating.pitch_nm = 150.0;
     grating.profile = SlitProfile{75.0};
-    const TransferTable table = bake_transfer_table(grating, {});
+    const TransferTable table = bake(grating, {});
     EXPECT_EQ(evaluate(table, {1, {glm::dvec3(1.0)}}, {0.3, 0.1, 0.9}), glm::dvec3(0.0));
 }
 
@@ -193,7 +193,7 @@ TEST(TransferTable, BytesDoNotDependOnTheNumberOfThreads) {
         settings.bands = 3;
         settings.grid = ViewGrid{ViewMapping::Spherical, 8, 4};
         ByteWriter writer;
-        write_transfer_table(bake_transfer_table(transfer_foil(), settings), writer);
+        write(bake(transfer_foil(), settings), writer);
         return writer.take();
     };
     EXPECT_EQ(bake(1), bake(2));
@@ -205,7 +205,7 @@ TEST(TransferTable, HasSoundBytes) {
         settings.bands = 2;
         settings.grid = ViewGrid{ViewMapping::OneDimensional, 9, 1};
         settings.storage = storage;
-        test::expect_sound_bytes(bake_transfer_table(transfer_disc(), settings), write_transfer_table,
+        test::expect_sound_bytes(bake(transfer_disc(), settings), write_transfer_table,
                                  read_transfer_table);
     }
 }

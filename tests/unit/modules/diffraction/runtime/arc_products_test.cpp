@@ -1,4 +1,4 @@
-#include "modules/diffraction/runtime/arc_products.h"
+#include "modules/diffraction/representations/arc/arc_products.h"
 
 #include <gtest/gtest.h>
 
@@ -74,7 +74,7 @@ ArcTable table_of(const GrooveLobe& lobe, int rank) {
     ArcSettings settings{.bands = 4, .rank = rank};
     settings.grid = is_flat(lobe) ? ViewGrid{.mapping = ViewMapping::OneDimensional, .columns = 32, .rows = 1}
                                   : ViewGrid{.mapping = ViewMapping::Parabolic, .columns = 8, .rows = 8};
-    return bake_arc_table(grating, settings);
+    return bake(grating, settings);
 }
 
 TEST(ArcProducts, EqualTheTablesOwnInEveryVertexFrame) {

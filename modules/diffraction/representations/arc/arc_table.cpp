@@ -1,0 +1,356 @@
+#include "modules/diffraction/representations/arc/arc_table.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/check.h"
+#include "engine/core/error.h"
+#include "engine/core/parallel.h"
+#include "engine/math/sh_basis.h"
+#include "modules/diffraction/bake/arc_moments.h"
+#include "modules/diffraction/bake/transfer_terms.h"
+
+namespace rowland::diffraction {
+
+namespace {
+
+using Eigen::MatrixXd;
+
+constexpr Eigen::Index kTermColumns = 9;  ///< columns a light term takes: light's channel · 3 + tristimulus
+constexpr int kMaximumPitchNodes = 1 << 12;
+
+/// What light is like: its power falls with the band about as 1/(l+1)², its channels are mostly one grey (eight probes:
+/// l = 2 has .04 … .6 of the power of l = 0, channels correlate by .6 … 1). Other guesses cost or gain a quarter at
+/// most.
+constexpr double kChannelCorrelation = 0.9;
+double band_power(int l) {
+    return 1.0 / ((l + 1.0) * (l + 1.0));
+}
+
+/// A square root L of the covariance L Lᵀ of the light's numbers: (2n−1)² for moments q = M l, else diagonal.
+MatrixXd light_deviation(LightTerms terms, int bands) {
+    const int count = math::sh_count(bands);
+    Eigen::VectorXd deviation(count);
+    for (int l = 0; l < bands; ++l)
+        for (int m = -l; m <= l; ++m) deviation(math::sh_index(l, m)) = std::sqrt(band_power(l));
+    if (terms == LightTerms::Harmonics) return deviation.asDiagonal();
+    const ArcMoments moments(bands);
+    const MatrixXd map = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+        moments.matrix().data(), arc_moment_count(bands), count);
+    // M S = (Q R)ᵀ: M S² Mᵀ = Rᵀ R.
+    const MatrixXd transposed = (map * deviation.asDiagonal()).transpose();
+    const MatrixXd upper =
+        transposed.householderQr().matrixQR().topRows(arc_moment_count(bands)).template triangularView<Eigen::Upper>();
+    return upper.transpose();
+}
+
+Eigen::Matrix3d channel_deviation() {
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Constant(kChannelCorrelation);
+    covariance.diagonal().setOnes();
+    return covariance.llt().matrixL();
+}
+
+/// The table times the light's deviations: what the light makes of its columns.
+MatrixXd weighed(const MatrixXd& table, LightTerms terms, int bands) {
+    const MatrixXd light = light_deviation(terms, bands);
+    const Eigen::Matrix3d channel = channel_deviation();
+    const Eigen::Index count = light.rows();
+    MatrixXd result = MatrixXd::Zero(table.rows(), table.cols());
+    for (Eigen::Index o = 0; o < 3; ++o)
+        for (Eigen::Index c = 0; c < 3; ++c) {
+            MatrixXd mixed = MatrixXd::Zero(table.rows(), count);
+            for (Eigen::Index from = 0; from < 3; ++from) {
+                if (channel(from, c) == 0.0) continue;
+                for (Eigen::Index k = 0; k < count; ++k)
+                    mixed.col(k) += channel(from, c) * table.col(k * kTermColumns + from * 3 + o);
+            }
+            const MatrixXd turned = mixed * light;
+            for (Eigen::Index k = 0; k < count; ++k)
+                result.col(k * kTermColumns + Eigen::Index{3} * c + o) = turned.col(k);
+        }
+    return result;
+}
+
+/// The first `rank` left singular vectors.
+MatrixXd leading_weights(const MatrixXd& table, Eigen::Index rank) {
+    const Eigen::BDCSVD<MatrixXd> decomposition(table, Eigen::ComputeThinU);
+    return decomposition.matrixU().leftCols(rank);
+}
+
+double pitch_factor_at(const PitchAxis& axis, int node) {
+    return axis.smallest * std::pow(axis.largest / axis.smallest, static_cast<double>(node) / (axis.nodes - 1));
+}
+
+void put(const std::vector<glm::dmat3>& terms, std::span<const double> signs, Eigen::Index row, MatrixXd& table) {
+    for (std::size_t k = 0; k < terms.size(); ++k)
+        for (int c = 0; c < 3; ++c)
+            for (int o = 0; o < 3; ++o)
+                table(row, static_cast<Eigen::Index>(k) * kTermColumns + Eigen::Index{3} * c + o) =
+                    (signs.empty() ? 1.0 : signs[k]) * terms[k][c][o];
+}
+
+/// One row a texel of the weights' texture, nine columns a light term.
+MatrixXd tabulate(const Grating& grating, const ArcTable& table, const colour::Illuminant& illuminant) {
+    const TransferTerms terms(grating, colour::LightSpectra(illuminant), table.bands);
+    const auto columns = static_cast<std::size_t>(table.grid.columns);
+    const std::size_t rows = static_cast<std::size_t>(table.rows());
+    MatrixXd result(static_cast<Eigen::Index>(columns * rows),
+                    light_term_count(table.terms, table.bands) * kTermColumns);
+    if (table.terms == LightTerms::ArcMoments) {
+        parallel_for(columns * rows, [&](std::size_t texel) {
+            const double factor = table.pitch ? pitch_factor_at(*table.pitch, static_cast<int>(texel / columns)) : 1.0;
+            const double v_g = node_view(table.grid, static_cast<int>(texel % columns), 0).x;
+            put(terms.moments(v_g, factor), {}, static_cast<Eigen::Index>(texel), result);
+        });
+        return result;
+    }
+    const std::vector<double> signs = mirror_signs(table.bands);
+    for_each_view("baking arcs", table.grid, [&](const glm::dvec2& view, std::size_t texel, std::size_t mirror) {
+        const std::vector<glm::dmat3> coefficients = terms.coefficients(view.x, view.y);
+        put(coefficients, {}, static_cast<Eigen::Index>(texel), result);
+        if (mirror != texel) put(coefficients, signs, static_cast<Eigen::Index>(mirror), result);
+    });
+    return result;
+}
+
+void check_settings(const Grating& grating, const ArcSettings& settings) {
+    ROWLAND_CHECK_OP(settings.rank, >=, 1);
+    if (!settings.pitch) return;
+    ROWLAND_CHECK(settings.pitch->smallest > 0.0 && settings.pitch->largest > settings.pitch->smallest &&
+                      settings.pitch->nodes >= 2,
+                  "a pitch axis ascends");
+    if (is_flat(grating.lobe)) return;
+    throw Error({.file = {},
+                 .place = "groove_lobe",
+                 .found = "a lobe that is not flat, with a pitch that varies over the surface",
+                 .expected = "the flat lobe: weights over views and pitches would take three dimensions",
+                 .remedy = "drop the pitch variation, or use the representation \"transfer\" or \"spikes\""});
+}
+
+}  // namespace
+
+int light_term_count(LightTerms terms, int bands) {
+    return terms == LightTerms::ArcMoments ? arc_moment_count(bands) : math::sh_count(bands);
+}
+
+ArcTable bake(const Grating& grating, const ArcSettings& settings) {
+    check_settings(grating, settings);
+    ArcTable table;
+    table.bands = settings.bands;
+    table.terms = is_flat(grating.lobe) ? LightTerms::ArcMoments : LightTerms::Harmonics;
+    table.grid = settings.grid.value_or(default_view_grid(grating.lobe));
+    table.pitch = settings.pitch;
+    table.storage = settings.storage;
+    check_view_grid(table.grid, grating.lobe);
+    ROWLAND_CHECK(table.terms == LightTerms::Harmonics || table.grid.mapping == ViewMapping::OneDimensional,
+                  "the flat lobe's weights are one-dimensional");
+
+    const MatrixXd values = tabulate(grating, table, settings.illuminant);
+    table.rank = static_cast<int>(std::min({static_cast<Eigen::Index>(settings.rank), values.rows(), values.cols()}));
+    MatrixXd weights = leading_weights(weighed(values, table.terms, table.bands), table.rank);
+    // The weights' columns are orthonormal, so this is the best product for them, whatever the light was thought to be.
+    MatrixXd factors = weights.transpose() * values;
+    for (Eigen::Index r = 0; r < table.rank; ++r) {
+        Eigen::Index largest = 0;
+        weights.col(r).cwiseAbs().maxCoeff(&largest);
+        const double scale = weights(largest, r);
+        weights.col(r) /= scale;
+        factors.row(r) *= scale;
+        for (Eigen::Index k = 0; k < values.cols() / kTermColumns; ++k) {
+            glm::mat3 factor;
+            for (int c = 0; c < 3; ++c)
+                for (int o = 0; o < 3; ++o)
+                    factor[c][o] = static_cast<float>(factors(r, k * kTermColumns + Eigen::Index{3} * c + o));
+            table.factors.push_back(factor);
+        }
+    }
+    const std::size_t layers = weight_layers(table.rank);
+    const auto texels = static_cast<std::size_t>(values.rows());
+    std::vector<double> packed(layers * texels * kTexelComponents, 0.0);
+    for (std::size_t r = 0; r < static_cast<std::size_t>(table.rank); ++r)
+        for (std::size_t texel = 0; texel < texels; ++texel)
+            packed[(r / kTexelComponents * texels + texel) * kTexelComponents + r % kTexelComponents] =
+                weights(static_cast<Eigen::Index>(texel), static_cast<Eigen::Index>(r));
+    pack(packed, layers, table);
+    return table;
+}
+
+std::vector<glm::dvec3> light_products(const ArcTable& table, std::span<const glm::dvec3> light_terms) {
+    const auto stride = static_cast<std::size_t>(light_term_count(table.terms, table.bands));
+    const std::size_t common = std::min(stride, light_terms.size());
+    std::vector<glm::dvec3> products(static_cast<std::size_t>(table.rank), glm::dvec3(0.0));
+    for (std::size_t r = 0; r < products.size(); ++r)
+        for (std::size_t k = 0; k < common; ++k)
+            products[r] += glm::dmat3(table.factors[r * stride + k]) * light_terms[k];
+    return products;
+}
+
+glm::dvec3 shade(const ArcTable& table, std::span<const glm::dvec3> products, const glm::dvec3& view,
+                 double pitch_factor) {
+    glm::dvec3 xyz(0.0);
+    if (!(view.z > 0.0)) return xyz;
+    const auto columns = static_cast<std::size_t>(table.grid.columns);
+    BilinearLookup place = look_up(table.grid, view.x, view.y, view.z);
+    if (table.pitch) {
+        const double position =
+            std::log(pitch_factor / table.pitch->smallest) / std::log(table.pitch->largest / table.pitch->smallest);
+        place = combine(look_up_axis(0.5 + 0.5 * view.x, columns),
+                        look_up_axis(position, static_cast<std::size_t>(table.pitch->nodes)), columns);
+    }
+    const std::size_t texels = columns * static_cast<std::size_t>(table.rows());
+    for (std::size_t r = 0; r < products.size(); ++r)
+        xyz += filtered(table, r / kTexelComponents, texels, r % kTexelComponents, place) * products[r];
+    return xyz;
+}
+
+glm::dvec3 evaluate(const ArcTable& table, const lighting::ShLight& tangent_light, const glm::dvec3& view,
+                    double pitch_factor) {
+    if (table.terms == LightTerms::Harmonics)
+        return shade(table, light_products(table, tangent_light.coefficients), view, pitch_factor);
+    return shade(table, light_products(table, ArcMoments(table.bands)(tangent_light)), view, pitch_factor);
+}
+
+void write(const ArcTable& table, ByteWriter& writer) {
+    writer.value<std::int32_t>(table.bands);
+    writer.value<std::int32_t>(table.rank);
+    writer.value(static_cast<std::uint8_t>(table.terms));
+    write_view_grid(table.grid, writer);
+    writer.value<std::int32_t>(table.pitch ? table.pitch->nodes : 0);
+    if (table.pitch) {
+        writer.value(table.pitch->smallest);
+        writer.value(table.pitch->largest);
+    }
+    writer.value(static_cast<std::uint8_t>(table.storage));
+    write_matrices(table.factors, writer);
+    write_packed_texels(table, writer);
+}
+
+namespace {
+
+LightTerms read_light_terms(ByteReader& reader) {
+    const auto terms = reader.value<std::uint8_t>();
+    if (terms > static_cast<unsigned>(LightTerms::Harmonics))
+        reader.fail(fmt::format("light terms {}", terms), "0 (arc moments) or 1 (harmonics)");
+    return static_cast<LightTerms>(terms);
+}
+
+std::optional<PitchAxis> read_pitch_axis(ByteReader& reader) {
+    PitchAxis axis;
+    axis.nodes = read_count(reader, "pitch nodes", 0, kMaximumPitchNodes);
+    if (axis.nodes == 0) return std::nullopt;
+    axis.smallest = reader.value<double>();
+    axis.largest = reader.value<double>();
+    const bool ascends = std::isfinite(axis.largest) && axis.smallest > 0.0 && axis.largest > axis.smallest;
+    if (axis.nodes < 2 || !ascends)
+        reader.fail(fmt::format("{} pitches from {} to {}", axis.nodes, axis.smallest, axis.largest),
+                    "at least 2, ascending from a factor above 0");
+    return axis;
+}
+
+}  // namespace
+
+ArcTable read_arc_table(ByteReader& reader) {
+    ArcTable table;
+    table.bands = read_count(reader, "bands", 1, math::kMaximumBands);
+    table.rank = read_count(reader, "rank", 1, math::sh_count(math::kMaximumBands) * static_cast<int>(kTermColumns));
+    table.terms = read_light_terms(reader);
+    table.grid = read_view_grid(reader);
+    table.pitch = read_pitch_axis(reader);
+    const bool flat = table.grid.mapping == ViewMapping::OneDimensional;
+    if (flat != (table.terms == LightTerms::ArcMoments) || (table.pitch && !flat))
+        reader.fail(fmt::format("a {} grid", view_mapping_name(table.grid.mapping)),
+                    "one-dimensional for arc moments and beside a pitch axis, else two-dimensional");
+    table.storage = to_storage(reader, reader.value<std::uint8_t>());
+    const std::size_t count =
+        static_cast<std::size_t>(table.rank) * static_cast<std::size_t>(light_term_count(table.terms, table.bands));
+    table.factors = read_matrices(reader, "factors", count, count);
+    read_packed_texels(reader, weight_layers(table.rank),
+                       static_cast<std::size_t>(table.grid.columns) * static_cast<std::size_t>(table.rows()), table);
+    return table;
+}
+
+ArcTable read(ByteReader& reader, const ArcSettings& settings) {
+    ArcTable table = read_arc_table(reader);
+    require_as_asked(reader, table.bands == settings.bands && table.rank <= settings.rank && !table.pitch &&
+                                 (!settings.grid || table.grid == *settings.grid) && table.storage == settings.storage);
+    return table;
+}
+
+namespace {
+
+/// Bands, ranks and key lights together, for what the sweep misses where it varies one at a time.
+std::vector<std::string> bands_by_rank_by_key_lights() {
+    std::vector<std::string> settings;
+    for (const int bands : {3, 8, 16})
+        for (const int rank : {4, 8, 16})
+            for (const int key_lights : {0, 16, 64})
+                settings.push_back(
+                    fmt::format("bands={}/rank={}/storage=fp16/key_lights={}", bands, rank, key_lights));
+    return settings;
+}
+
+}  // namespace
+
+const RepresentationInfo& ArcSettings::info() {
+    static const RepresentationInfo info{
+        .name = "arc",
+        .summary = "a few products of table and light: light at the vertices, views in the pixels",
+        .takes_harmonics = true,
+        .settings = {bands_setting({2, 3, 4, 6, 8, 10, 12, 16}, {3, 5, 8}),
+                     rank_setting({2, 4, 6, 12, 16}, {4, 8, 16}), view_mapping_setting(), view_resolution_setting(),
+                     storage_setting(ArcSettings().storage, {"fp32", "unorm16", "unorm8"})},
+        .editor_start = "bands=8/rank=12",
+        .sweep_tier = "bands=5/rank=8/storage=fp16/key_lights=16",
+        .sweep_key_lights = {0, 4, 8, 32, 64},
+        .sweep_windows = {math::SphericalWindow::Lanczos, math::SphericalWindow::Hann},
+        .sweep_more = bands_by_rank_by_key_lights(),
+        .budget = [](bool flat_lobe, SurfaceShape) -> std::vector<std::string> {
+            if (!flat_lobe) return {"bands=5/rank=8", "bands=8/rank=16"};
+            std::vector<std::string> settings;
+            for (const int bands : {3, 5, 8, 12, 16})
+                for (const int rank : {4, 8, 12, 16})
+                    if (rank <= 2 * bands + 2) settings.push_back(fmt::format("bands={}/rank={}", bands, rank));
+            return settings;
+        }};
+    return info;
+}
+
+std::optional<Refusal> ArcSettings::refusal(const SettingValues& values, const Grating& grating) {
+    const std::string mapping = values.word_or("view_mapping", "one-dimensional");
+    if (is_flat(grating.lobe) && mapping != "one-dimensional")
+        return Refusal{"view_mapping", fmt::format("\"{}\"", mapping),
+                       "\"one-dimensional\" for arc with the flat groove_lobe",
+                       "leave view_mapping out; arc moments depend on v_g alone"};
+    return view_grid_refusal(values, grating);
+}
+
+ArcSettings ArcSettings::from(const SettingValues& values, const Grating& grating) {
+    return {.bands = values.number("bands"),
+            .rank = values.number("rank"),
+            .grid = view_grid(values, default_view_grid(grating.lobe)),
+            .storage = values.storage()};
+}
+
+ShadingCost cost(const ArcTable& table) {
+    const auto layers = static_cast<int>(weight_layers(table.rank));
+    return {.fetches_per_pixel = layers,
+            .multiply_adds_per_pixel = (4 + 12) * layers,
+            .table_bytes = table.bytes() + table.factors.size() * sizeof(glm::mat3),
+            .vertex_bytes = weight_layers(table.rank) * 3 * sizeof(glm::vec4)};
+}
+
+Facts facts(const ArcTable& table) {
+    return with_view_table({{"bands", fmt::to_string(table.bands)}, {"rank", fmt::to_string(table.rank)}}, table.grid,
+                           table);
+}
+
+PointShader point_shader(const ArcTable& table, const MaterialKernel&, const EvaluationLight& light) {
+    return in_tangent_frame(
+        light.harmonics(table.bands),
+        [table](const lighting::ShLight& rotated, const glm::dvec3& view) { return evaluate(table, rotated, view); });
+}
+
+}  // namespace rowland::diffraction

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <future>
+#include <glm/mat3x3.hpp>
+#include <memory>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "engine/lighting/light_texels.h"
+#include "modules/diffraction/representations/circle/circle_map.h"
+#include "modules/diffraction/runtime/gpu_map.h"
+
+namespace rowland::diffraction {
+
+/// A circle map on its way to the GPU: a thread of its own fills it, then frames upload it, some slices each. Ends its
+/// thread within milliseconds when it is destroyed.
+class CircleFilling {
+ public:
+    CircleFilling(std::shared_ptr<const lighting::LightTexels> texels, const KernelTable& kernel, double pitch_nm,
+                  const CircleMapSize& size, const glm::dmat3& zero_order_xyz);
+
+    /// Blocks until the map is filled.
+    void wait() const { filled_later_.wait(); }
+    /// Uploads up to so many slices of a filled map; true once that was all. Throws what the thread has thrown.
+    bool upload(int slices);
+
+    /// Of a map that is uploaded.
+    GpuMap take();
+    int charts() const;
+
+ private:
+    /// A map as its texture holds it.
+    struct Filled {
+        int charts = 0;
+        gpu::TextureDesc desc;
+        float scale = 1.0F;
+        std::vector<std::uint16_t> halves;
+    };
+    static Filled fill(const std::stop_token& stop, const lighting::LightTexels& texels, const KernelTable& kernel,
+                       double pitch_nm, const CircleMapSize& size, const glm::dmat3& zero_order_xyz);
+
+    std::future<Filled> filled_later_;
+    std::optional<Filled> filled_;
+    std::optional<GpuMap> map_;
+    int uploaded_ = 0;
+    std::jthread thread_;  ///< last: it stops before what it works on goes
+};
+
+}  // namespace rowland::diffraction

@@ -1,0 +1,233 @@
+#include "modules/diffraction/representations/circle/circle_map.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "engine/core/check.h"
+#include "engine/core/parallel.h"
+#include "modules/diffraction/bake/kernel_cells.h"
+
+namespace rowland::diffraction {
+
+namespace {
+
+using std::numbers::pi;
+
+/// Cube faces that the texels are gathered in before every g sums over them: cells of 0.025 rad.
+constexpr int kFaceSize = 64;
+
+/// Fourier series of max(0, cos t) on 1, cos t, cos 2t, cos 4t, cos 6t.
+constexpr std::array<double, 5> kClampedCosine{1.0 / pi, 0.5, 2.0 / (3.0 * pi), -2.0 / (15.0 * pi), 2.0 / (35.0 * pi)};
+
+/// A grating vector and the directions from which angles around it are counted.
+struct CircleFrame {
+    glm::dvec3 g{0.0};
+    glm::dvec3 e1{0.0};
+    glm::dvec3 e2{0.0};
+};
+
+glm::dvec3 mirrored(const glm::dvec3& v, int chart) {
+    return chart == 0 ? v : glm::dvec3(v.x, -v.y, v.z);
+}
+
+/// The frame of the upper half's chart, mirrored for the lower half's: what turns least from +Y.
+CircleFrame frame_at(const glm::dvec3& g, int chart) {
+    const glm::dvec3 up = mirrored(g, chart);
+    const glm::dvec3 turn = up + glm::dvec3(0.0, 1.0, 0.0);
+    const double scale = 1.0 / (1.0 + up.y);
+    return {g, mirrored(glm::dvec3(1.0, 0.0, 0.0) - up.x * scale * turn, chart),
+            mirrored(glm::dvec3(0.0, 0.0, 1.0) - up.z * scale * turn, chart)};
+}
+
+/// Inverse of the stereographic map p = (g_x, g_z)/(1 + g_y).
+glm::dvec3 grating_vector(const glm::dvec2& p, int chart) {
+    const double square = glm::dot(p, p);
+    return mirrored(glm::dvec3(2.0 * p.x, 1.0 - square, 2.0 * p.y) / (1.0 + square), chart);
+}
+
+glm::dvec2 chart_point(const glm::dvec3& g, int chart) {
+    const glm::dvec3 up = mirrored(g, chart);
+    return glm::dvec2(up.x, up.z) / (1.0 + up.y);
+}
+
+/// Moments of light around one g in cells of a: kLanes terms of red, then of green, then of blue a cell.
+template <int kLanes>
+void add_moments(const lighting::LightTexels& lights, const CircleFrame& frame, int cells,
+                 std::vector<float>& moments) {
+    const glm::vec3 g(frame.g);
+    const glm::vec3 e1(frame.e1);
+    const glm::vec3 e2(frame.e2);
+    const float scale = 0.5F * static_cast<float>(cells);
+    const float last = static_cast<float>(cells - 1);
+    std::array<float, kLanes> term{};
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const float x = lights.x[i];
+        const float y = lights.y[i];
+        const float z = lights.z[i];
+        const float cosine = x * e1.x + y * e1.y + z * e1.z;  // r cos t
+        const float sine = x * e2.x + y * e2.y + z * e2.z;    // r sin t
+        const float square = cosine * cosine + sine * sine;
+        const float inverse = 1.0F / std::max(std::sqrt(square), 1e-6F);
+        const float cos2 = (cosine * cosine - sine * sine) * inverse;  // r cos 2t
+        const float sin2 = 2.0F * cosine * sine * inverse;
+        const float cos4 = (cos2 * cos2 - sin2 * sin2) * inverse;
+        const float sin4 = 2.0F * cos2 * sin2 * inverse;
+        constexpr auto c = [](int k) { return 0.5F * static_cast<float>(kClampedCosine[static_cast<std::size_t>(k)]); };
+        term[0] = c(0) * square * inverse;
+        term[1] = c(1) * cosine;
+        term[2] = c(1) * sine;
+        term[3] = c(2) * cos2;
+        term[4] = c(2) * sin2;
+        term[5] = c(3) * cos4;
+        term[6] = c(3) * sin4;
+        if constexpr (kLanes > 8) {
+            term[7] = c(4) * (cos4 * cos2 - sin4 * sin2) * inverse;
+            term[8] = c(4) * (cos4 * sin2 + sin4 * cos2) * inverse;
+        }
+        const float place = std::clamp((x * g.x + y * g.y + z * g.z + 1.0F) * scale - 0.5F, 0.0F, last);
+        const int low = std::min(static_cast<int>(place), cells - 2);
+        const float weight = place - static_cast<float>(low);
+        float* to = moments.data() + static_cast<std::ptrdiff_t>(low) * 3 * kLanes;
+        const std::array<float, 3> flux{lights.red[i], lights.green[i], lights.blue[i]};
+        for (int half = 0; half < 2; ++half)
+            for (int colour = 0; colour < 3; ++colour, to += kLanes) {
+                const float light = flux[static_cast<std::size_t>(colour)] * (half == 0 ? 1.0F - weight : weight);
+                for (std::size_t lane = 0; lane < kLanes; ++lane) to[lane] += light * term[lane];
+            }
+    }
+}
+
+template <int kLanes>
+void fill_column(const lighting::LightTexels& lights, const KernelCells& kernel, int chart, int row, int column,
+                 CircleMap& map) {
+    const glm::dvec2 at(column + 0.5, row + 0.5);
+    glm::dvec2 p = (at / static_cast<double>(map.side) - 0.5) / map.scale();
+    // Corners that no look-up reaches.
+    const double rim = 1.0 + 3.0 / (map.side * map.scale());
+    if (glm::length(p) > rim) return;
+    std::vector<float> moments(static_cast<std::size_t>(kernel.cells()) * 3 * kLanes, 0.0F);
+    std::vector<float> xyz(static_cast<std::size_t>(map.views) * 3 * kLanes);
+    add_moments<kLanes>(lights, frame_at(grating_vector(p, chart), chart), kernel.cells(), moments);
+    kernel.correlate<kLanes>(moments, xyz);
+    for (int view = 0; view < map.views; ++view) {
+        const float* from = xyz.data() + static_cast<std::ptrdiff_t>(view) * 3 * kLanes;
+        for (int term = 0; term < map.terms; ++term)
+            map.xyz[map.index(chart, term, view, row, column)] = {from[term], from[kLanes + term],
+                                                                  from[2 * kLanes + term]};
+    }
+}
+
+/// Turns a slice's values at the nodes into those whose linear interpolation is best.
+void sharpen_slice(CircleMap& map, int chart, int term, int view) {
+    const auto side = static_cast<std::size_t>(map.side);
+    glm::vec3* slice = map.xyz.data() + map.index(chart, term, view, 0, 0);
+    const std::vector<glm::vec3> values(slice, slice + side * side);
+    for (std::size_t row = 1; row + 1 < side; ++row)
+        for (std::size_t column = 1; column + 1 < side; ++column) {
+            const std::size_t i = row * side + column;
+            slice[i] -=
+                kBestLinear * (values[i - 1] + values[i + 1] + values[i - side] + values[i + side] - 4.0F * values[i]);
+        }
+}
+
+/// Whether k(−x) = k(x), to the table's rounding.
+bool is_even(const KernelTable& kernel) {
+    double largest = 0.0;
+    double difference = 0.0;
+    const double reach = std::max(std::abs(kernel.begin_nm), std::abs(kernel.end_nm));
+    const auto places = static_cast<int>(kernel.antiderivative.size());
+    for (int i = 1; i <= places; ++i) {
+        const double x_nm = reach * i / places;
+        const glm::dmat3 right = kernel.at(x_nm) - kernel.at(0.0);
+        const glm::dmat3 left = kernel.at(0.0) - kernel.at(-x_nm);
+        for (int c = 0; c < 3; ++c)
+            for (int o = 0; o < 3; ++o) {
+                largest = std::max(largest, std::abs(right[c][o]));
+                difference = std::max(difference, std::abs(right[c][o] - left[c][o]));
+            }
+    }
+    return difference <= 1e-5 * largest;
+}
+
+glm::dvec3 term_at(const CircleMap& map, int chart, int term, const glm::dvec3& place) {
+    glm::dvec3 sum(0.0);
+    const auto low = [](double at, int count) { return std::clamp(static_cast<int>(std::floor(at)), 0, count - 2); };
+    const int column = low(place.x, map.side);
+    const int row = low(place.y, map.side);
+    const int view = low(place.z, map.views);
+    const glm::dvec3 t = glm::clamp(place - glm::dvec3(column, row, view), 0.0, 1.0);
+    for (int corner = 0; corner < 8; ++corner) {
+        const int i = corner & 1;
+        const int j = (corner >> 1) & 1;
+        const int k = corner >> 2;
+        const double weight = (i == 1 ? t.x : 1 - t.x) * (j == 1 ? t.y : 1 - t.y) * (k == 1 ? t.z : 1 - t.z);
+        sum += weight * glm::dvec3(map.xyz[map.index(chart, term, view + k, row + j, column + i)]);
+    }
+    return sum;
+}
+
+}  // namespace
+
+std::size_t CircleMap::index(int chart, int term, int view, int row, int column) const {
+    const auto u = [](int i) { return static_cast<std::size_t>(i); };
+    return (((u(chart) * u(terms) + u(term)) * u(views) + u(view)) * u(side) + u(row)) * u(side) + u(column);
+}
+
+CircleMap fill_circle_map(const lighting::LightTexels& texels, const KernelTable& kernel, double pitch_nm,
+                          const CircleMapSize& size, const glm::dmat3& zero_order_xyz, const std::stop_token& stop) {
+    ROWLAND_CHECK_OP(size.side, >=, 8);
+    ROWLAND_CHECK_OP(size.views, >=, 8);
+    ROWLAND_CHECK(size.terms == 7 || size.terms == 9, "a circle map has 7 or 9 terms");
+    CircleMap map{
+        .charts = is_even(kernel) ? 1 : 2, .terms = size.terms, .views = size.views, .side = size.side, .xyz = {}};
+    map.xyz.resize(map.index(map.charts, 0, 0, 0, 0), glm::vec3(0.0F));
+    const lighting::LightTexels lights = lighting::gather_texels(texels, kFaceSize);
+    const KernelCells cells(kernel, pitch_nm, size.views, zero_order_xyz);
+    const auto side = static_cast<std::size_t>(size.side);
+    parallel_for(static_cast<std::size_t>(map.charts) * side * side, [&](std::size_t i) {
+        if (stop.stop_requested()) return;
+        const int chart = static_cast<int>(i / (side * side));
+        const int row = static_cast<int>(i / side % side);
+        const int column = static_cast<int>(i % side);
+        if (size.terms == 7)
+            fill_column<8>(lights, cells, chart, row, column, map);
+        else
+            fill_column<12>(lights, cells, chart, row, column, map);
+    });
+    if (stop.stop_requested()) return map;
+    const auto slices = static_cast<std::size_t>(map.terms) * static_cast<std::size_t>(map.views);
+    parallel_for(static_cast<std::size_t>(map.charts) * slices, [&](std::size_t i) {
+        const auto in_chart = static_cast<int>(i % slices);
+        sharpen_slice(map, static_cast<int>(i / slices), in_chart / map.views, in_chart % map.views);
+    });
+    return map;
+}
+
+glm::dvec3 sample(const CircleMap& map, const Frame& frame) {
+    const glm::dmat3 to_tangent = world_to_tangent(frame);
+    const glm::dvec3 v = to_tangent * glm::normalize(frame.view);
+    if (v.z <= 0.0) return glm::dvec3(0.0);
+    const glm::dmat3 to_world = glm::transpose(to_tangent);
+    const bool lower = to_world[0].y < 0.0;
+    const double sign = lower && map.charts == 1 ? -1.0 : 1.0;
+    const int chart = lower && map.charts == 2 ? 1 : 0;
+    const CircleFrame at = frame_at(sign * to_world[0], chart);
+    const glm::dvec2 p = chart_point(at.g, chart) * map.scale() + 0.5;
+    const glm::dvec3 place(p * static_cast<double>(map.side) - 0.5, 0.5 * (sign * v.x + 1.0) * (map.views - 1));
+    const double c1 = glm::dot(to_world[2], at.e1);
+    const double s1 = glm::dot(to_world[2], at.e2);
+    const double c2 = c1 * c1 - s1 * s1;
+    const double s2 = 2.0 * c1 * s1;
+    const double c4 = c2 * c2 - s2 * s2;
+    const double s4 = 2.0 * c2 * s2;
+    const std::array<double, 9> f{1.0, c1, s1, c2, s2, c4, s4, c4 * c2 - s4 * s2, c4 * s2 + s4 * c2};
+    glm::dvec3 sum(0.0);
+    for (int term = 0; term < map.terms; ++term)
+        sum += f[static_cast<std::size_t>(term)] * term_at(map, chart, term, place);
+    return sum;
+}
+
+}  // namespace rowland::diffraction

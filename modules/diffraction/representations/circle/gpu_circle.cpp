@@ -1,0 +1,50 @@
+#include "modules/diffraction/representations/circle/gpu_circle.h"
+
+#include <string>
+
+#include "engine/core/log.h"
+
+namespace rowland::diffraction {
+
+GpuCircle::GpuCircle(const CookedMaterial& cooked, const CircleTables& tables, const glm::dmat3& xyz_to_working)
+    : GpuMaterial(cooked, xyz_to_working),
+      map_at_vertices_(cooked.material.quality.map_at_vertices),
+      size_(tables.size),
+      kernel_(cooked.kernel),
+      pitch_nm_(cooked.material.grating.pitch_nm),
+      zero_order_xyz_(cooked.zero_order_xyz) {}
+
+void GpuCircle::begin(const std::shared_ptr<const lighting::LightTexels>& texels) const {
+    texels_ = texels;
+    if (!texels) log_warning("a grating of representation circle is under a probe without texels: it stays dark");
+    filling_ = std::make_unique<CircleFilling>(texels ? texels : std::make_shared<const lighting::LightTexels>(),
+                                               kernel_, pitch_nm_, size_, zero_order_xyz_);
+    ++fills_begun_;
+}
+
+void GpuCircle::update(const SurfaceObject& object, SurfaceLight& light, SurfaceState&) const {
+    if (!texels_ || *texels_ != light.texels(light_share())) begin(light.texels(light_share()));
+    if (!filling_) return;
+    if (object.slices_per_frame >= size_.views) filling_->wait();
+    if (!filling_->upload(object.slices_per_frame)) return;
+    charts_ = filling_->charts();
+    map_ = filling_->take();
+    filling_.reset();
+    ++fills_;
+}
+
+void GpuCircle::describe(const SurfaceState&, gpu::ProgramDesc& desc) const {
+    if (!map_) return set_shaders(desc, "shaders/pixel_shaded.vert.glsl", "representations/direct/direct.frag.glsl");
+    if (map_at_vertices_)
+        set_vertex_shader(desc, "representations/circle/circle.vert.glsl");
+    else
+        set_shaders(desc, "shaders/pixel_shaded.vert.glsl", "representations/circle/circle.frag.glsl");
+    desc.defines.push_back({"CHARTS", std::to_string(charts_)});
+    desc.defines.push_back({"TERMS", std::to_string(size_.terms)});
+}
+
+void GpuCircle::bind_tables(const gpu::Program& program, const SurfaceState&) const {
+    if (map_) map_->bind(program);
+}
+
+}  // namespace rowland::diffraction

@@ -1,0 +1,62 @@
+#include "modules/diffraction/representations/evaluation_light.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/math/sh_basis.h"
+
+namespace rowland::diffraction {
+
+namespace {
+
+// Band-limited light as texels: at 32 bands, the most there are, a period is 32 texels.
+constexpr int kGridWidth = 1024;
+
+lighting::LightTexels texels_of(const lighting::ShLight& light) {
+    const int height = kGridWidth / 2;
+    const image::Image black{.width = kGridWidth,
+                             .height = height,
+                             .texels = std::vector<glm::vec3>(static_cast<std::size_t>(kGridWidth * height))};
+    const lighting::ProbeImage grid(black, lighting::Mapping::Equirectangular);
+    lighting::LightTexels texels;
+    std::vector<double> basis(light.coefficients.size());
+    for (int row = 0; row < height; ++row)
+        for (int column = 0; column < kGridWidth; ++column) {
+            const glm::dvec3 direction = grid.direction(column + 0.5, row + 0.5);
+            math::evaluate_sh(direction, light.bands, basis);
+            glm::dvec3 flux(0.0);
+            for (std::size_t i = 0; i < basis.size(); ++i) flux += basis[i] * light.coefficients[i];
+            flux *= grid.solid_angle(column, row);
+            texels.x.push_back(static_cast<float>(direction.x));
+            texels.y.push_back(static_cast<float>(direction.y));
+            texels.z.push_back(static_cast<float>(direction.z));
+            texels.red.push_back(static_cast<float>(flux.r));
+            texels.green.push_back(static_cast<float>(flux.g));
+            texels.blue.push_back(static_cast<float>(flux.b));
+        }
+    return texels;
+}
+
+}  // namespace
+
+EvaluationLight::EvaluationLight(lighting::ProbeImage probe, int key_lights, math::SphericalWindow window,
+                                 lighting::ShLight projected)
+    : probe_(std::move(probe)),
+      sh_(std::move(projected)),
+      key_lights_(lighting::fit_key_lights(*probe_, key_lights)),
+      window_(window) {}
+
+EvaluationLight::EvaluationLight(lighting::ShLight light, math::SphericalWindow window)
+    : sh_(std::move(light)), window_(window) {}
+
+lighting::ShLight EvaluationLight::harmonics(int bands) const {
+    if (!probe_) return lighting::limit_bands(sh_, std::min(bands, sh_.bands), window_);
+    const lighting::ShLight whole = bands <= sh_.bands ? sh_ : lighting::project(*probe_, bands);
+    return lighting::limit_bands(lighting::residual(whole, key_lights_, bands), bands, window_);
+}
+
+lighting::LightTexels EvaluationLight::texels() const {
+    return probe_ ? lighting::light_texels(*probe_, key_lights_) : texels_of(sh_);
+}
+
+}  // namespace rowland::diffraction

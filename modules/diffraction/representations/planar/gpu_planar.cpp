@@ -1,0 +1,119 @@
+#include "modules/diffraction/representations/planar/gpu_planar.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_inverse.hpp>
+
+#include "engine/core/log.h"
+#include "modules/diffraction/runtime/flatness.h"
+
+namespace rowland::diffraction {
+
+namespace {
+
+/// A tilt by less changes nothing that the map's cells show.
+constexpr double kSameNormal = 1e-5;
+
+PlanarData& data_of(SurfaceState& state) {
+    if (!state.data) state.data = std::make_unique<PlanarData>();
+    return static_cast<PlanarData&>(*state.data);
+}
+
+const PlanarData& data_of(const SurfaceState& state) {
+    return static_cast<const PlanarData&>(*state.data);
+}
+
+std::optional<glm::dvec3> in_world(const std::optional<glm::dvec3>& normal, const glm::mat4& object_to_world) {
+    if (!normal) return std::nullopt;
+    return glm::normalize(glm::inverseTranspose(glm::dmat3(object_to_world)) * *normal);
+}
+
+bool same(const std::optional<glm::dvec3>& a, const std::optional<glm::dvec3>& b) {
+    return a.has_value() == b.has_value() && (!a || glm::length(*a - *b) <= kSameNormal);
+}
+
+}  // namespace
+
+GpuPlanar::GpuPlanar(const CookedMaterial& cooked, const PlanarTables& tables, const glm::dmat3& xyz_to_working)
+    : GpuMaterial(cooked, xyz_to_working),
+      stand_in_(cooked, tables.stand_in, xyz_to_working),
+      map_at_vertices_(cooked.material.quality.map_at_vertices),
+      size_(tables.size),
+      kernel_(cooked.kernel),
+      pitch_nm_(cooked.material.grating.pitch_nm),
+      zero_order_xyz_(cooked.zero_order_xyz) {}
+
+void GpuPlanar::find_flatness(const SurfaceObject& object, const SurfaceState& state, PlanarData& data) const {
+    if (data.mesh == state.mesh && state.mesh) return;
+    data.mesh = state.mesh;
+    data.flat = object.skinned ? std::nullopt : flat_normal(object.mesh);
+    if (!data.flat && !object.skinned)
+        log_warning("a grating of representation planar is on a mesh that is not flat: it is shaded as arc");
+}
+
+void GpuPlanar::want(const std::optional<glm::dvec3>& normal, const SurfaceLight& light, PlanarData& data) const {
+    if (same(data.normal, normal) && data.texels == light.texels(light_share())) {
+        data.at_rest = true;
+        return;
+    }
+    data.at_rest = !data.normal;  // the first map need not wait
+    data.normal = normal;
+    data.texels = light.texels(light_share());
+    data.fill.reset();
+    data.on_gpu.reset();
+}
+
+void GpuPlanar::fill(int slices, PlanarData& data) const {
+    if (!data.fill) {
+        data.fill.emplace(*data.texels, kernel_, pitch_nm_, *data.normal, size_, zero_order_xyz_);
+        data.map = data.fill->empty();
+        data.filled = 0;
+        ++data.fills_begun;
+    }
+    const int end = std::min(size_.azimuths, data.filled + std::max(1, slices));
+    data.fill->fill(data.filled, end, data.map);
+    data.azimuths_filled += end - data.filled;
+    data.filled = end;
+    if (end < size_.azimuths) return;
+    data.on_gpu.emplace(data.map.xyz, gpu::TextureDesc{.width = data.map.azimuths, .height = data.map.views},
+                        gpu::Sampling{.filter = gpu::Filter::Linear, .wrap_s = gpu::Wrap::Repeat});
+    data.fill.reset();
+    data.map.xyz.clear();
+}
+
+void GpuPlanar::update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const {
+    PlanarData& data = data_of(state);
+    find_flatness(object, state, data);
+    want(in_world(data.flat, object.object_to_world), light, data);
+    data.stand_in_is_old = data.stand_in_is_old || object.changed;
+    if (data.normal && data.texels && data.at_rest && !data.on_gpu) fill(object.slices_per_frame, data);
+    if (data.on_gpu || !data.stand_in_is_old) return;
+    SurfaceObject anew = object;
+    anew.changed = true;
+    stand_in_.update(anew, light, state);
+    data.stand_in_is_old = false;
+}
+
+bool GpuPlanar::filling(const SurfaceState& state) const {
+    const PlanarData& data = data_of(state);
+    return data.normal && data.texels && !data.on_gpu;
+}
+
+void GpuPlanar::describe(const SurfaceState& state, gpu::ProgramDesc& desc) const {
+    if (!data_of(state).on_gpu)
+        stand_in_.describe(state, desc);
+    else if (map_at_vertices_)
+        set_vertex_shader(desc, "representations/planar/planar.vert.glsl");
+    else
+        set_shaders(desc, "shaders/pixel_shaded.vert.glsl", "representations/planar/planar.frag.glsl");
+}
+
+void GpuPlanar::bind_tables(const gpu::Program& program, const SurfaceState& state) const {
+    const PlanarData& data = data_of(state);
+    if (!data.on_gpu) return stand_in_.bind_tables(program, state);
+    data.on_gpu->bind(program);
+    program.set("planar_e1", glm::vec3(data.map.e1));
+    program.set("planar_e2", glm::vec3(data.map.e2));
+}
+
+}  // namespace rowland::diffraction

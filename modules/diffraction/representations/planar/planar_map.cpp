@@ -1,0 +1,247 @@
+#include "modules/diffraction/representations/planar/planar_map.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "engine/core/check.h"
+#include "engine/core/parallel.h"
+#include "modules/diffraction/bake/kernel_cells.h"
+
+namespace rowland::diffraction {
+
+namespace {
+
+using std::numbers::pi;
+
+/// Parts the texels are summed in, whatever the number of threads.
+constexpr std::size_t kParts = 4;
+
+using Disc = std::vector<float>;
+
+void add_scaled(float* to, const float* light, float weight) {
+    for (int c = 0; c < 4; ++c) to[c] += weight * light[c];
+}
+
+/// A light at a place of the disc, shared among the four cells around it so that its place is kept.
+void splat(Disc& disc, int cells, float x, float y, const std::array<float, 4>& light) {
+    const float last = static_cast<float>(cells - 1);
+    const float px = std::clamp(x, 0.0F, last);
+    const float py = std::clamp(y, 0.0F, last);
+    const int ix = std::min(static_cast<int>(px), cells - 2);
+    const int iy = std::min(static_cast<int>(py), cells - 2);
+    const float fx = px - static_cast<float>(ix);
+    const float fy = py - static_cast<float>(iy);
+    float* cell = disc.data() +
+                  (static_cast<std::size_t>(iy) * static_cast<std::size_t>(cells) + static_cast<std::size_t>(ix)) * 4;
+    float* below = cell + static_cast<std::ptrdiff_t>(cells) * 4;
+    add_scaled(cell, light.data(), (1 - fx) * (1 - fy));
+    add_scaled(cell + 4, light.data(), fx * (1 - fy));
+    add_scaled(below, light.data(), (1 - fx) * fy);
+    add_scaled(below + 4, light.data(), fx * fy);
+}
+
+/// The upper hemisphere of some texels, projected along n: the light's measure on the disc is L ds_1 ds_2 = L s_n dω.
+void add_texels(const lighting::LightTexels& texels, std::size_t begin, std::size_t end, const glm::vec3& e1,
+                const glm::vec3& e2, const glm::vec3& n, int cells, Disc& disc) {
+    const float scale = 0.5F * static_cast<float>(cells);
+    for (std::size_t i = begin; i < end; ++i) {
+        const float x = texels.x[i];
+        const float y = texels.y[i];
+        const float z = texels.z[i];
+        const float s_n = x * n.x + y * n.y + z * n.z;
+        if (!(s_n > 0.0F)) continue;
+        const float weight = 0.5F * s_n;
+        const float s_1 = x * e1.x + y * e1.y + z * e1.z;
+        const float s_2 = x * e2.x + y * e2.y + z * e2.z;
+        splat(disc, cells, (s_1 + 1.0F) * scale - 0.5F, (s_2 + 1.0F) * scale - 0.5F,
+              {weight * texels.red[i], weight * texels.green[i], weight * texels.blue[i], 0.0F});
+    }
+}
+
+Disc light_on_disc(const lighting::LightTexels& texels, const glm::vec3& e1, const glm::vec3& e2, const glm::vec3& n,
+                   int cells) {
+    const auto floats = static_cast<std::size_t>(cells) * static_cast<std::size_t>(cells) * 4;
+    std::vector<Disc> parts(kParts);
+    parallel_for(kParts, [&](std::size_t part) {
+        parts[part].assign(floats, 0.0F);
+        add_texels(texels, texels.size() * part / kParts, texels.size() * (part + 1) / kParts, e1, e2, n, cells,
+                   parts[part]);
+    });
+    for (std::size_t part = 1; part < kParts; ++part)
+        for (std::size_t i = 0; i < floats; ++i) parts[0][i] += parts[part][i];
+    return std::move(parts[0]);
+}
+
+Disc transpose(const Disc& disc, int cells) {
+    Disc result(disc.size());
+    const auto side = static_cast<std::size_t>(cells);
+    parallel_for(side, [&](std::size_t row) {
+        for (std::size_t column = 0; column < side; ++column)
+            std::copy_n(disc.data() + (column * side + row) * 4, 4, result.data() + (row * side + column) * 4);
+    });
+    return result;
+}
+
+/// Places of a linear interpolation: the lower entry and the upper one's weight.
+struct Place {
+    int low = 0;
+    int high = 0;
+    double weight = 0.0;
+};
+
+Place repeating(double position, int count) {
+    const double floor = std::floor(position);
+    const int low = static_cast<int>(floor) % count;
+    return {low, (low + 1) % count, position - floor};
+}
+
+Place clamped(double position, int count) {
+    const double inside = std::clamp(position, 0.0, static_cast<double>(count - 1));
+    const int low = std::min(static_cast<int>(inside), count - 2);
+    return {low, low + 1, inside - low};
+}
+
+}  // namespace
+
+/// A(a) in cells of a, as flux: four floats a cell.
+struct PlanarFill::Profile {
+    std::vector<float> cells;
+};
+
+PlanarFill::PlanarFill(const lighting::LightTexels& texels, const KernelTable& kernel, double pitch_nm,
+                       const glm::dvec3& normal, const PlanarMapSize& size, const glm::dmat3& zero_order_xyz)
+    : size_(size), cells_(2 * (size.views - 1)), kernel_(kernel, pitch_nm, size.views, zero_order_xyz) {
+    ROWLAND_CHECK_OP(size.azimuths, >=, 4);
+    ROWLAND_CHECK_OP(size.azimuths % 2, ==, 0);
+    ROWLAND_CHECK_OP(size.views, >=, 8);
+    n_ = glm::normalize(normal);
+    // The frame that turns least from the nearer of +Y and −Y.
+    const glm::dvec3 pole(0.0, n_.y < 0.0 ? -1.0 : 1.0, 0.0);
+    e1_ = glm::normalize(glm::dvec3(1.0, 0.0, 0.0) - n_.x / (1.0 + glm::dot(pole, n_)) * (pole + n_));
+    e2_ = glm::cross(n_, e1_);
+    rows_ = light_on_disc(texels, glm::vec3(e1_), glm::vec3(e2_), glm::vec3(n_), cells_);
+    columns_ = transpose(rows_, cells_);
+}
+
+PlanarMap PlanarFill::empty() const {
+    PlanarMap map{.azimuths = size_.azimuths, .views = size_.views, .e1 = e1_, .e2 = e2_, .n = n_, .xyz = {}};
+    map.xyz.resize(static_cast<std::size_t>(size_.azimuths) * static_cast<std::size_t>(size_.views), glm::vec3(0.0F));
+    return map;
+}
+
+PlanarFill::Profile PlanarFill::project(int azimuth) const {
+    const auto side = static_cast<std::size_t>(cells_);
+    Profile profile{.cells = std::vector<float>((side + 1) * 4, 0.0F)};
+    const double phi = 2.0 * pi * azimuth / size_.azimuths;
+    const double cosine = std::cos(phi);
+    const double sine = std::sin(phi);
+    // Walk so that the place in A changes fast: then sums do not wait for each other.
+    const bool along_rows = std::abs(cosine) >= std::abs(sine);
+    const Disc& disc = along_rows ? rows_ : columns_;
+    const double inner = along_rows ? cosine : sine;
+    const double outer = along_rows ? sine : cosine;
+    const double middle = 0.5 * (cells_ - 1);
+    const float last = static_cast<float>(cells_ - 1);
+    for (int row = 0; row < cells_; ++row) {
+        const double y = row - middle;
+        const double half = std::sqrt(std::max(0.0, 0.25 * cells_ * cells_ - y * y)) + 1.0;
+        const int begin = std::max(0, static_cast<int>(middle - half));
+        const int end = std::min(cells_, static_cast<int>(middle + half) + 2);
+        const float start = static_cast<float>(outer * y + middle - inner * middle);
+        const float step = static_cast<float>(inner);
+        const float* light = disc.data() + (static_cast<std::size_t>(row) * side) * 4;
+        for (int column = begin; column < end; ++column) {
+            const float place = std::clamp(start + step * static_cast<float>(column), 0.0F, last);
+            const int low = static_cast<int>(place);
+            const float weight = place - static_cast<float>(low);
+            float* to = profile.cells.data() + static_cast<std::ptrdiff_t>(low) * 4;
+            const float* from = light + static_cast<std::ptrdiff_t>(column) * 4;
+            add_scaled(to, from, 1.0F - weight);
+            add_scaled(to + 4, from, weight);
+        }
+    }
+    return profile;
+}
+
+PlanarFill::Profile PlanarFill::mirrored(const Profile& profile) const {
+    Profile result{.cells = std::vector<float>(profile.cells.size(), 0.0F)};
+    for (int cell = 0; cell < cells_; ++cell)
+        std::copy_n(profile.cells.data() + static_cast<std::ptrdiff_t>(cell) * 4, 4,
+                    result.cells.data() + static_cast<std::ptrdiff_t>(cells_ - 1 - cell) * 4);
+    return result;
+}
+
+void PlanarFill::correlate(const Profile& profile, int azimuth, PlanarMap& map) const {
+    std::vector<float> xyz(static_cast<std::size_t>(map.views) * 4);
+    kernel_.correlate_rgb(profile.cells, xyz);
+    for (int view = 0; view < map.views; ++view) {
+        const float* from = xyz.data() + static_cast<std::ptrdiff_t>(view) * 4;
+        map.xyz[static_cast<std::size_t>(view) * static_cast<std::size_t>(map.azimuths) +
+                static_cast<std::size_t>(azimuth)] = {from[0], from[1], from[2]};
+    }
+}
+
+void PlanarFill::fill(int begin, int end, PlanarMap& map) const {
+    ROWLAND_CHECK(map.azimuths == size_.azimuths && map.views == size_.views, "a map of another size");
+    ROWLAND_CHECK(begin >= 0 && begin <= end && end <= size_.azimuths, "azimuths outside the map");
+    map.e1 = e1_;
+    map.e2 = e2_;
+    map.n = n_;
+    const int half_turn = size_.azimuths / 2;
+    const auto wrap = [](int i, int count) { return (i % count + count) % count; };
+    // A turn by π mirrors A: only half of the projections are different.
+    std::vector<char> needed(static_cast<std::size_t>(half_turn), 0);
+    for (int azimuth = begin - 1; azimuth <= end; ++azimuth)
+        if (begin < end) needed[static_cast<std::size_t>(wrap(azimuth, half_turn))] = 1;
+    std::vector<Profile> profiles(needed.size());
+    parallel_for(needed.size(), [&](std::size_t i) {
+        if (needed[i] != 0) profiles[i] = project(static_cast<int>(i));
+    });
+    const auto profile_at = [&](int azimuth) {
+        const Profile& profile = profiles[static_cast<std::size_t>(wrap(azimuth, half_turn))];
+        return wrap(azimuth, size_.azimuths) < half_turn ? profile : mirrored(profile);
+    };
+    parallel_for(static_cast<std::size_t>(end - begin), [&](std::size_t i) {
+        const int azimuth = begin + static_cast<int>(i);
+        Profile here = profile_at(azimuth);
+        const Profile before = profile_at(azimuth - 1);
+        const Profile after = profile_at(azimuth + 1);
+        for (std::size_t k = 0; k < here.cells.size(); ++k)
+            here.cells[k] -= kBestLinear * (before.cells[k] - 2.0F * here.cells[k] + after.cells[k]);
+        correlate(here, azimuth, map);
+    });
+}
+
+PlanarMap fill_planar_map(const lighting::LightTexels& texels, const KernelTable& kernel, double pitch_nm,
+                          const glm::dvec3& normal, const PlanarMapSize& size, const glm::dmat3& zero_order_xyz) {
+    const PlanarFill fill(texels, kernel, pitch_nm, normal, size, zero_order_xyz);
+    PlanarMap map = fill.empty();
+    fill.fill(0, size.azimuths, map);
+    return map;
+}
+
+glm::dvec3 sample(const PlanarMap& map, double azimuth, double v_g) {
+    const double turns = azimuth / (2.0 * pi);
+    const Place s = repeating((turns - std::floor(turns)) * map.azimuths, map.azimuths);
+    const Place t = clamped(0.5 * (v_g + 1.0) * (map.views - 1), map.views);
+    const auto at = [&](int column, int row) {
+        return glm::dvec3(map.xyz[static_cast<std::size_t>(row) * static_cast<std::size_t>(map.azimuths) +
+                                  static_cast<std::size_t>(column)]);
+    };
+    return glm::mix(glm::mix(at(s.low, t.low), at(s.high, t.low), s.weight),
+                    glm::mix(at(s.low, t.high), at(s.high, t.high), s.weight), t.weight);
+}
+
+glm::dvec3 sample(const PlanarMap& map, const Frame& frame) {
+    const glm::dmat3 to_tangent = world_to_tangent(frame);
+    const glm::dvec3 v = to_tangent * glm::normalize(frame.view);
+    if (v.z <= 0.0) return glm::dvec3(0.0);
+    const glm::dvec3 g(to_tangent[0][0], to_tangent[1][0], to_tangent[2][0]);
+    return sample(map, std::atan2(glm::dot(g, map.e2), glm::dot(g, map.e1)), v.x);
+}
+
+}  // namespace rowland::diffraction

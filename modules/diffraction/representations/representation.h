@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <variant>
+
+#include "modules/diffraction/representations/arc/arc_table.h"
+#include "modules/diffraction/representations/bins/bin_table.h"
+#include "modules/diffraction/representations/circle/circle.h"
+#include "modules/diffraction/representations/direct/direct_representation.h"
+#include "modules/diffraction/representations/planar/planar.h"
+#include "modules/diffraction/representations/spikes/spike_table.h"
+#include "modules/diffraction/representations/streak/streak_representation.h"
+#include "modules/diffraction/representations/transfer/transfer_table.h"
+
+namespace rowland::diffraction {
+
+/// How a material is shaded (PHYSICS §6), with what it costs and what it loses. The order is that of BakedTables and of
+/// the numbers in cooked files.
+///
+/// Each alternative has the static members info(), refusal() (why these settings do not suit a grating) and from() (the
+/// settings for a grating that they suit), and set_illuminant().
+using Representation = std::variant<SpikeTableSettings, BinSettings, TransferSettings, ArcSettings, DirectSettings,
+                                    PlanarSettings, CircleSettings, StreakSurfaceSettings>;
+
+/// What is baked for each. Overloads of these functions are called for every alternative, so that a representation that
+/// lacks one does not compile: bake(), write(), read(), cost(), facts() and point_shader().
+using BakedTables =
+    std::variant<SpikeTable, BinTable, TransferTable, ArcTable, DirectTables, PlanarTables, CircleTables, StreakTables>;
+inline constexpr std::size_t kRepresentationCount = std::variant_size_v<Representation>;
+static_assert(kRepresentationCount == std::variant_size_v<BakedTables>);
+
+/// All of them, in the order of the variants.
+const std::array<const RepresentationInfo*, kRepresentationCount>& representations();
+const RepresentationInfo& info(const Representation& representation);
+const RepresentationInfo& info(const BakedTables& tables);
+/// Null if there is no representation of this name.
+const RepresentationInfo* find_representation(std::string_view name);
+
+/// Why a grating cannot be shaded by a representation with these settings; nothing if it can. The one place that
+/// answers: the parser, budgets, sweeps, editors and programs ask it.
+std::optional<Refusal> refusal(const RepresentationInfo& info, const SettingValues& values, const Grating& grating);
+/// The same for what every baked material needs, whatever its representation.
+std::optional<Refusal> baked_refusal(const Grating& grating);
+/// The settings for a grating that refusal() has nothing against.
+Representation make_representation(const RepresentationInfo& info, const SettingValues& values, const Grating& grating);
+
+/// Sets the spectrum of the light's white in all settings that have one.
+void set_illuminant(Representation& representation, const colour::Illuminant& illuminant);
+
+/// Throws Error (input) if the representation does not suit the grating.
+BakedTables bake_tables(const Grating& grating, const Representation& representation);
+
+/// The representation's number, then its tables.
+void write_tables(const BakedTables& tables, ByteWriter& writer);
+/// Throws Error (input) if the bytes are not such tables, or those of another representation than `expected`.
+BakedTables read_tables(ByteReader& reader, const Representation& expected);
+
+/// `map_at_vertices`: see Quality.
+ShadingCost shading_cost(const BakedTables& tables, bool map_at_vertices = false);
+
+}  // namespace rowland::diffraction

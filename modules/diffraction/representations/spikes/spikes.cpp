@@ -1,0 +1,162 @@
+#include "modules/diffraction/representations/spikes/spikes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/matrix.hpp>
+#include <span>
+
+#include "engine/colour/observer.h"
+#include "engine/core/check.h"
+#include "engine/math/sh_basis.h"
+
+namespace rowland::diffraction {
+
+namespace {
+
+/// A trace of q in the weight w, relative to the material's response: it keeps the wavelengths of spikes defined and
+/// continuous where nothing is visible, and moves the others by no more than this share of an interval.
+constexpr double kWeightFloor = 1e-6;
+
+/// A wavelength darker than this share of the brightest is no colour of the lamp's.
+constexpr double kDarkestShare = 1e-6;
+
+double sum_of(const glm::dvec3& v) {
+    return v.x + v.y + v.z;
+}
+
+/// Integral from 0 to t ∈ [0, 1] of the line from `begin` to `end`.
+double partial_cell(double begin, double end, double t) {
+    return t * (begin + 0.5 * t * (end - begin));
+}
+
+/// The t ∈ [0, 1] at which partial_cell() reaches `area`, for begin, end ≥ 0 and 0 ≤ area ≤ (begin+end)/2.
+double invert_cell(double begin, double end, double area) {
+    // The root of ½(end−begin)t² + begin·t = area, in the form that does not cancel.
+    const double discriminant = std::max(begin * begin + 2.0 * (end - begin) * area, 0.0);
+    const double denominator = begin + std::sqrt(discriminant);
+    return denominator > 0.0 ? std::clamp(2.0 * area / denominator, 0.0, 1.0) : 0.0;
+}
+
+/// Positions in [0, 400] nm above 380 that cut the piecewise linear `weight` (401 nodes) into `parts` of equal
+/// integral.
+std::vector<double> equal_cuts(std::span<const double> weight, int parts) {
+    std::vector<double> cumulative(weight.size(), 0.0);
+    for (std::size_t j = 1; j < weight.size(); ++j)
+        cumulative[j] = cumulative[j - 1] + 0.5 * (weight[j - 1] + weight[j]);
+    std::vector<double> cuts = {0.0};
+    for (int k = 1; k < parts; ++k) {
+        const double target = cumulative.back() * k / parts;
+        const auto above = std::upper_bound(cumulative.begin(), cumulative.end() - 1, target);
+        const auto j = static_cast<std::size_t>(std::max<std::ptrdiff_t>(above - cumulative.begin() - 1, 0));
+        const double t = invert_cell(weight[j], weight[j + 1], target - cumulative[j]);
+        cuts.push_back(static_cast<double>(j) + t);
+    }
+    cuts.push_back(static_cast<double>(weight.size() - 1));
+    return cuts;
+}
+
+/// Weights of the nodes whose sum Σ weight_j f_j is the exact integral of the piecewise linear f over [begin, end].
+/// Calls use(j, weight_j), each j once or twice.
+template <typename Use>
+void integrate_linear(double begin, double end, std::size_t nodes, const Use& use) {
+    const auto first = std::min(static_cast<std::size_t>(begin), nodes - 2);
+    for (std::size_t j = first; j + 1 < nodes && static_cast<double>(j) < end; ++j) {
+        const double t0 = std::max(begin - static_cast<double>(j), 0.0);
+        const double t1 = std::min(end - static_cast<double>(j), 1.0);
+        const double right = partial_cell(0.0, 1.0, t1) - partial_cell(0.0, 1.0, t0);
+        use(j, (t1 - t0) - right);
+        use(j + 1, right);
+    }
+}
+
+/// ∫ x w dx / ∫ w dx over [begin, end] for the piecewise linear w: exact by Simpson's rule on every cell.
+double mean_position(std::span<const double> weight, double begin, double end) {
+    double integral = 0.0;
+    double moment = 0.0;
+    const auto value = [&](std::size_t j, double t) { return weight[j] + t * (weight[j + 1] - weight[j]); };
+    const auto first = std::min(static_cast<std::size_t>(begin), weight.size() - 2);
+    for (std::size_t j = first; j + 1 < weight.size() && static_cast<double>(j) < end; ++j) {
+        const double x = static_cast<double>(j);
+        const double t0 = std::max(begin - x, 0.0);
+        const double t1 = std::min(end - x, 1.0);
+        const double middle = 0.5 * (t0 + t1);
+        const double sixth = (t1 - t0) / 6.0;
+        integral += sixth * (value(j, t0) + 4.0 * value(j, middle) + value(j, t1));
+        moment += sixth * ((x + t0) * value(j, t0) + 4.0 * (x + middle) * value(j, middle) + (x + t1) * value(j, t1));
+    }
+    return integral > 0.0 ? std::clamp(moment / integral, begin, end) : 0.5 * (begin + end);
+}
+
+}  // namespace
+
+SpikeBaker::SpikeBaker(const Grating& grating, const SpikeSettings& settings)
+    : spectrum_(grating, settings.bands), spikes_(settings.spikes) {
+    ROWLAND_CHECK_OP(settings.spikes, >=, 1);
+    const double scale = 1.0 / colour::luminous_power(settings.illuminant);
+    for (std::size_t j = 0; j < kWavelengths; ++j) {
+        const double wavelength_nm = colour::kVisibleMin + static_cast<double>(j);
+        sensitivity_.push_back(scale * settings.illuminant.power(wavelength_nm) *
+                               sum_of(colour::cie_xyz(wavelength_nm)));
+    }
+}
+
+double SpikeBaker::visible_wavelength(double mean_position, double begin, double end) const {
+    const auto cell = std::min(static_cast<std::size_t>(mean_position), kWavelengths - 2);
+    const double dark = kDarkestShare * *std::max_element(sensitivity_.begin(), sensitivity_.end());
+    if (std::max(sensitivity_[cell], sensitivity_[cell + 1]) > dark) return mean_position;
+    // Between the lines of a lamp there is no light to give a colour: the spike moves to the interval's line.
+    const auto first = sensitivity_.begin() + static_cast<std::ptrdiff_t>(begin);
+    const auto last = sensitivity_.begin() + std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(std::ceil(end)) + 1,
+                                                                      static_cast<std::ptrdiff_t>(kWavelengths));
+    return static_cast<double>(std::max_element(first, last) - sensitivity_.begin());
+}
+
+SpikeSet SpikeBaker::bake(double v_g, double v_h) const {
+    const auto count = static_cast<std::size_t>(math::sh_count(spectrum_.bands()));
+    const std::vector<double> coefficients = spectrum_.coefficients(v_g, v_h);
+    const double floor = spectrum_.largest_efficiency() > 0.0 ? kWeightFloor * spectrum_.largest_efficiency() : 1.0;
+    std::vector<double> weight(kWavelengths);
+    for (std::size_t j = 0; j < kWavelengths; ++j) {
+        double norm_squared = 0.0;
+        for (std::size_t i = 0; i < count; ++i)
+            norm_squared += coefficients[j * count + i] * coefficients[j * count + i];
+        weight[j] = (std::sqrt(norm_squared) + floor) * sensitivity_[j];
+    }
+
+    const std::vector<double> cuts = equal_cuts(weight, spikes_);
+    SpikeSet result{.bands = spectrum_.bands(), .wavelengths_nm = {}, .coefficients = {}};
+    for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
+        const double position = visible_wavelength(mean_position(weight, cuts[k], cuts[k + 1]), cuts[k], cuts[k + 1]);
+        std::vector<double> spike(count, 0.0);
+        integrate_linear(cuts[k], cuts[k + 1], kWavelengths, [&](std::size_t j, double cell) {
+            for (std::size_t i = 0; i < count; ++i) spike[i] += cell * sensitivity_[j] * coefficients[j * count + i];
+        });
+        result.wavelengths_nm.push_back(colour::kVisibleMin + position);
+        result.coefficients.insert(result.coefficients.end(), spike.begin(), spike.end());
+    }
+    return result;
+}
+
+SpikeSet bake_spikes(const Grating& grating, double v_g, double v_h, const SpikeSettings& settings) {
+    return SpikeBaker(grating, settings).bake(v_g, v_h);
+}
+
+glm::dmat3 spike_colour(double wavelength_nm) {
+    const glm::dvec3 cmf = colour::cie_xyz(wavelength_nm);
+    return glm::outerProduct(cmf / sum_of(cmf), colour::rgb_basis(wavelength_nm));
+}
+
+glm::dvec3 evaluate_spikes(const SpikeSet& spikes, const lighting::ShLight& tangent_light) {
+    const auto stride = static_cast<std::size_t>(math::sh_count(spikes.bands));
+    const std::size_t common = std::min(stride, tangent_light.coefficients.size());
+    glm::dvec3 xyz(0.0);
+    for (std::size_t k = 0; k < spikes.wavelengths_nm.size(); ++k) {
+        glm::dvec3 rgb(0.0);
+        for (std::size_t i = 0; i < common; ++i)
+            rgb += spikes.coefficients[k * stride + i] * tangent_light.coefficients[i];
+        xyz += spike_colour(spikes.wavelengths_nm[k]) * rgb;
+    }
+    return xyz;
+}
+
+}  // namespace rowland::diffraction

@@ -1,0 +1,63 @@
+#version 450 core
+// A narrow lobe mirrors the probe along the grooves and disperses it across them: bake/streak.h, evaluate(). TAPS is
+// defined by the program; so is REST where an arc table shades what the streak leaves of Stam's pits.
+#include "modules/diffraction/shaders/surface.glsl"
+#include "modules/diffraction/shaders/radiance_cube.glsl"
+#ifdef REST
+#include "modules/diffraction/representations/arc/arc_sum.glsl"
+#endif
+
+struct StreakNode {
+    vec4 place;      // x: path over the pitch; y: width over the pitch
+    vec4 weight[3];  // columns: XYZ of red, green and blue
+};
+layout(std430, binding = 6) readonly buffer StreakNodes { StreakNode streak_nodes[]; };
+uniform vec3 streak_taps[TAPS];  // offset and width in s_h; share
+uniform float streak_power;
+uniform float rest_share;
+
+const float LOWEST_HEIGHT = 0.02;
+
+// An interval of a direction cosine, cut at +-limit: its middle, its length, and how much of it is left.
+vec3 cut(float middle, float extent, float limit) {
+    if (extent <= 0.0) return vec3(middle, 0.0, abs(middle) < limit ? 1.0 : 0.0);
+    float begin = max(middle - 0.5 * extent, -limit);
+    float end = min(middle + 0.5 * extent, limit);
+    return vec3(0.5 * (begin + end), end - begin, max(end - begin, 0.0) / extent);
+}
+
+// Mean over the lobe of the light about the arc's piece `across`.
+vec3 lobe_radiance(vec3 across, GrooveView view) {
+    float r2 = max((1.0 - across.x) * (1.0 + across.x), 0.0);
+    vec3 rgb = vec3(0.0);
+    for (int i = 0; i < TAPS; ++i) {
+        vec3 tap = streak_taps[i];
+        vec3 along = cut(tap.x - view.direction.y, tap.y, sqrt(r2));
+        if (along.z == 0.0) continue;
+        float height = sqrt(max(r2 - along.x * along.x, 0.0));
+        float slope = 1.0 / max(height, LOWEST_HEIGHT);
+        rgb += tap.z * along.z *
+               mean_radiance(vec3(across.x, along.x, height), across.y * vec3(1.0, 0.0, -across.x * slope),
+                             along.y * vec3(0.0, 1.0, -along.x * slope), view.axes);
+    }
+    return rgb;
+}
+
+vec3 diffracted_xyz(GrooveView view) {
+    vec3 xyz = vec3(0.0);
+    for (int k = 0; k < streak_nodes.length(); ++k) {
+        vec4 place = streak_nodes[k].place;
+        vec3 across = cut(place.x / view.pitch - view.direction.x, place.y / view.pitch, 1.0);
+        if (across.z == 0.0) continue;
+        vec3 rgb = across.z * lobe_radiance(across, view);
+        for (int c = 0; c < 3; ++c) xyz += streak_nodes[k].weight[c].xyz * rgb[c];
+    }
+    xyz *= streak_power;
+#ifdef REST
+    xyz += rest_share * arc_xyz(view);
+#endif
+    return xyz;
+}
+
+#include "modules/diffraction/shaders/pixel_shaded.glsl"
+#include "engine/render/shaders/forward_fragment_main.glsl"

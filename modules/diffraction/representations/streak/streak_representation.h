@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+
+#include "modules/diffraction/representations/arc/arc_table.h"
+#include "modules/diffraction/representations/streak/streak.h"
+
+namespace rowland::diffraction {
+
+/// Narrow lobes mirror the whole probe along the grooves; an arc table shades the incoherent rest of Stam's pits.
+struct StreakSurfaceSettings {
+    StreakSettings streak;
+    int taps = 3;                       ///< samples across the lobe, 1 to kMostStreakTaps
+    std::optional<ArcSettings> rest{};  ///< where incoherent_rest() is something
+
+    static const RepresentationInfo& info();
+    static std::optional<Refusal> refusal(const SettingValues& values, const Grating& grating);
+    static StreakSurfaceSettings from(const SettingValues& values, const Grating& grating);
+    void set_illuminant(const colour::Illuminant& white);
+};
+
+struct StreakTables {
+    Streak streak;
+    int taps = 3;
+    std::optional<ArcTable> rest{};  ///< to be weighted with 1 − streak.share
+};
+
+inline constexpr int kMostStreakTaps = 9;
+/// The most texels along a tap's longer side that are read.
+inline constexpr int kStreakFilterTaps = 2;
+
+StreakTables bake(const Grating& grating, const StreakSurfaceSettings& settings);
+void write(const StreakTables& tables, ByteWriter& writer);
+StreakTables read(ByteReader& reader, const StreakSurfaceSettings& settings);
+ShadingCost cost(const StreakTables& tables);
+Facts facts(const StreakTables& tables);
+/// Throws Error (input) for band-limited light.
+PointShader point_shader(const StreakTables& tables, const MaterialKernel& material, const EvaluationLight& light);
+
+}  // namespace rowland::diffraction

@@ -1,0 +1,137 @@
+#include "modules/diffraction/representations/transfer/transfer_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/math/sh_basis.h"
+#include "modules/diffraction/bake/transfer_terms.h"
+
+namespace rowland::diffraction {
+
+namespace {
+
+constexpr std::size_t kColours = 9;  ///< pairs of a light's channel and a tristimulus
+
+}  // namespace
+
+TransferTable bake(const Grating& grating, const TransferSettings& settings) {
+    TransferTable table;
+    table.bands = settings.bands;
+    table.grid = settings.grid.value_or(default_view_grid(grating.lobe));
+    table.storage = settings.storage;
+    check_view_grid(table.grid, grating.lobe);
+
+    const TransferTerms terms(grating, colour::LightSpectra(settings.illuminant), table.bands);
+    const std::vector<double> signs = mirror_signs(table.bands);
+    const auto blocks = static_cast<std::size_t>(harmonic_layers(table.bands));
+    const std::size_t texels = table.grid.texels();
+    std::vector<double> values(kColours * blocks * texels * kTexelComponents, 0.0);
+    for_each_view("baking transfer", table.grid, [&](const glm::dvec2& view, std::size_t texel, std::size_t mirror) {
+        const std::vector<glm::dmat3> coefficients = terms.coefficients(view.x, view.y);
+        for (std::size_t pair = 0; pair < kColours; ++pair)
+            for (std::size_t i = 0; i < coefficients.size(); ++i) {
+                const std::size_t layer = pair * blocks + i / kTexelComponents;
+                const double value = coefficients[i][static_cast<int>(pair / 3)][static_cast<int>(pair % 3)];
+                const auto at = [&](std::size_t t) -> double& {
+                    return values[(layer * texels + t) * kTexelComponents + i % kTexelComponents];
+                };
+                at(texel) = value;
+                if (mirror != texel) at(mirror) = signs[i] * value;
+            }
+    });
+    pack(values, kColours * blocks, table);
+    return table;
+}
+
+glm::dvec3 evaluate(const TransferTable& table, const lighting::ShLight& tangent_light, const glm::dvec3& view) {
+    glm::dvec3 xyz(0.0);
+    if (!(view.z > 0.0)) return xyz;
+    const BilinearLookup place = look_up(table.grid, view.x, view.y, view.z);
+    const auto blocks = static_cast<std::size_t>(harmonic_layers(table.bands));
+    const std::size_t common =
+        std::min(static_cast<std::size_t>(math::sh_count(table.bands)), tangent_light.coefficients.size());
+    for (std::size_t pair = 0; pair < kColours; ++pair)
+        for (std::size_t i = 0; i < common; ++i)
+            xyz[static_cast<int>(pair % 3)] +=
+                tangent_light.coefficients[i][static_cast<int>(pair / 3)] *
+                filtered(table, pair * blocks + i / kTexelComponents, table.grid.texels(), i % kTexelComponents, place);
+    return xyz;
+}
+
+void write(const TransferTable& table, ByteWriter& writer) {
+    writer.value<std::int32_t>(table.bands);
+    write_view_grid(table.grid, writer);
+    writer.value(static_cast<std::uint8_t>(table.storage));
+    write_packed_texels(table, writer);
+}
+
+TransferTable read_transfer_table(ByteReader& reader) {
+    TransferTable table;
+    table.bands = read_count(reader, "bands", 1, math::kMaximumBands);
+    table.grid = read_view_grid(reader);
+    table.storage = to_storage(reader, reader.value<std::uint8_t>());
+    read_packed_texels(reader, kColours * static_cast<std::size_t>(harmonic_layers(table.bands)), table.grid.texels(),
+                       table);
+    return table;
+}
+
+const RepresentationInfo& TransferSettings::info() {
+    static const RepresentationInfo info{
+        .name = "transfer",
+        .summary = "wavelengths summed beforehand, light as SH at the vertices",
+        .takes_harmonics = true,
+        .key_lights = KeyLightUse::OnRequest,
+        .settings = {bands_setting({2, 3, 4, 6, 8, 12, 16}, {3, 5, 8}), view_mapping_setting(),
+                     view_resolution_setting(),
+                     storage_setting(TransferSettings().storage, {"fp32", "unorm16", "unorm8"})},
+        .editor_start = "bands=5",
+        .sweep_tier = "bands=5/storage=fp16/key_lights=16",
+        .sweep_key_lights = {0, 4, 64},
+        .sweep_more = {"bands=5/storage=fp16/key_lights=16/view_mapping=one-dimensional/view_resolution=32",
+                       "bands=5/storage=fp16/key_lights=16/view_mapping=one-dimensional/view_resolution=64",
+                       "bands=5/storage=fp16/key_lights=16/view_mapping=one-dimensional/view_resolution=128",
+                       "bands=5/storage=fp16/key_lights=16/view_mapping=one-dimensional/view_resolution=512"},
+        .budget = [](bool flat_lobe, SurfaceShape) -> std::vector<std::string> {
+            if (!flat_lobe) return {"bands=5"};
+            return {"bands=3", "bands=5", "bands=8"};
+        }};
+    return info;
+}
+
+std::optional<Refusal> TransferSettings::refusal(const SettingValues& values, const Grating& grating) {
+    return view_grid_refusal(values, grating);
+}
+
+TransferSettings TransferSettings::from(const SettingValues& values, const Grating& grating) {
+    return {.bands = values.number("bands"),
+            .grid = view_grid(values, default_view_grid(grating.lobe)),
+            .storage = values.storage()};
+}
+
+TransferTable read(ByteReader& reader, const TransferSettings& settings) {
+    TransferTable table = read_transfer_table(reader);
+    require_as_asked(reader, table.bands == settings.bands && (!settings.grid || table.grid == *settings.grid) &&
+                                 table.storage == settings.storage);
+    return table;
+}
+
+ShadingCost cost(const TransferTable& table) {
+    const int layers = 9 * harmonic_layers(table.bands);
+    return {.fetches_per_vertex = layers,
+            .multiply_adds_per_vertex = 8 * layers,
+            .table_bytes = table.bytes(),
+            .vertex_bytes = harmonics_bytes(table.bands)};
+}
+
+Facts facts(const TransferTable& table) {
+    return with_view_table({{"bands", fmt::to_string(table.bands)}}, table.grid, table);
+}
+
+PointShader point_shader(const TransferTable& table, const MaterialKernel&, const EvaluationLight& light) {
+    return in_tangent_frame(
+        light.harmonics(table.bands),
+        [table](const lighting::ShLight& rotated, const glm::dvec3& view) { return evaluate(table, rotated, view); });
+}
+
+}  // namespace rowland::diffraction

@@ -1,9 +1,0 @@
-#version 450 core
-// A short sum over the ranks that the vertices bring: bake/arc_table.h.
-#include "modules/diffraction/shaders/surface.glsl"
-#include "modules/diffraction/shaders/arc_sum.glsl"
-
-vec3 diffracted_xyz(GrooveView view) { return arc_xyz(view); }
-
-#include "modules/diffraction/shaders/pixel_shaded.glsl"
-#include "engine/render/shaders/forward_fragment_main.glsl"

@@ -1,9 +1,0 @@
-#version 450 core
-// A flat object's map, at the vertices.
-#include "engine/render/shaders/forward_vertex_interface.glsl"
-#include "modules/diffraction/shaders/planar_map.glsl"
-
-vec3 diffracted_xyz(vec3 view, vec3 g, vec3 n) { return view.z > 0.0 ? map_xyz(view.x, g, n) : vec3(0.0); }
-
-#include "modules/diffraction/shaders/vertex_shaded.glsl"
-#include "engine/render/shaders/forward_vertex_main.glsl"
