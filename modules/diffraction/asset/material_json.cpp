@@ -84,6 +84,9 @@ PitsLobe parse_pits(JsonReader json) {
     return pits;
 }
 
+/// Diffraction by a metre of groove widens a lobe by more; far below, σ is lost in the rounding of s_h + v_h.
+constexpr NumberRange kSigma{.minimum = 1e-6};
+
 GrooveLobe parse_lobe(JsonReader& json) {
     const nlohmann::json& value = json.raw("groove_lobe");
     if (value == "flat") return FlatLobe{};
@@ -95,7 +98,7 @@ GrooveLobe parse_lobe(JsonReader& json) {
     if (reader.has("pits")) {
         lobe = parse_pits(reader.object("pits"));
     } else {
-        lobe = GaussianLobe{.sigma = reader.number("sigma", kPositive)};
+        lobe = GaussianLobe{.sigma = reader.number("sigma", kSigma)};
     }
     reader.finish();
     return lobe;

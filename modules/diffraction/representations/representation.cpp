@@ -84,7 +84,6 @@ std::optional<Refusal> baked_refusal(const Grating& grating) {
 }
 
 std::optional<Refusal> refusal(const RepresentationInfo& info, const SettingValues& values, const Grating& grating) {
-    if (auto refused = baked_refusal(grating)) return refused;
     if (auto refused = lobe_refusal(info, grating.lobe)) return refused;
     std::optional<Refusal> refused;
     for_each_representation([&]<typename Settings>(std::size_t) {

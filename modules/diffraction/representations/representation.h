@@ -43,7 +43,8 @@ const RepresentationInfo* find_representation(std::string_view name);
 /// Why a grating cannot be shaded by a representation with these settings; nothing if it can. The one place that
 /// answers: the parser, budgets, sweeps, editors and programs ask it.
 std::optional<Refusal> refusal(const RepresentationInfo& info, const SettingValues& values, const Grating& grating);
-/// The same for what every baked material needs, whatever its representation.
+/// Why no representation can be baked for a grating: fewer than kManyGrooves grooves, which only the reference takes. A
+/// material file may have them.
 std::optional<Refusal> baked_refusal(const Grating& grating);
 /// The settings for a grating that refusal() has nothing against.
 Representation make_representation(const RepresentationInfo& info, const SettingValues& values, const Grating& grating);

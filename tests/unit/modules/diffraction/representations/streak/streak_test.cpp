@@ -12,7 +12,7 @@
 #include "modules/diffraction/reference/reference.h"
 #include "tests/support/csv.h"
 #include "tests/support/test_data.h"
-#include "tests/unit/modules/diffraction/bake/baked_views.h"
+#include "tests/unit/modules/diffraction/representations/baked_views.h"
 
 namespace rowland::diffraction {
 namespace {
@@ -179,7 +179,7 @@ TEST(Streak, GrazingAndBelowTheHorizonStayFinite) {
 }
 
 TEST(Streak, HasSoundBytes) {
-    test::expect_sound_bytes(make_streak(narrow_disc(0.05), {.nodes_per_order = 3}), write_streak, read_streak);
+    test::expect_sound_bytes(make_streak(narrow_disc(0.05), {.nodes_per_order = 3}), read_streak);
 }
 
 /// A probe of one lamp: what a wide filter gathers times its area is the lamp's flux.

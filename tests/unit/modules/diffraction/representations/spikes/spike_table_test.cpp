@@ -110,13 +110,13 @@ TEST(SpikeTable, ViewBelowTheHorizonIsBlack) {
 }
 
 TEST(SpikeTable, BytesDoNotDependOnTheNumberOfThreads) {
-    const auto bake = [](unsigned threads) {
+    const auto bytes = [](unsigned threads) {
         const ThreadLimit limit(threads);
         ByteWriter writer;
         write(bake(foil(), small(Storage::Unorm16)), writer);
         return writer.take();
     };
-    EXPECT_EQ(bake(1), bake(2));
+    EXPECT_EQ(bytes(1), bytes(2));
 }
 
 /// The default table on the named frames, under the oracle's light: 0.05 % on real probes (measured), 0.5 % allowed.

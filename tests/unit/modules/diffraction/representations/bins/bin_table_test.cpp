@@ -9,7 +9,7 @@
 #include "engine/core/parallel.h"
 #include "modules/diffraction/bake/wavelength_cuts.h"
 #include "tests/support/test_data.h"
-#include "tests/unit/modules/diffraction/bake/baked_views.h"
+#include "tests/unit/modules/diffraction/representations/baked_views.h"
 
 namespace rowland::diffraction {
 namespace {
@@ -76,7 +76,7 @@ TEST(BinTable, RefusesFewGrooves) {
 }
 
 TEST(BinTable, BytesDoNotDependOnTheNumberOfThreads) {
-    const auto bake = [](unsigned threads) {
+    const auto bytes = [](unsigned threads) {
         const ThreadLimit limit(threads);
         BinSettings settings;
         settings.bands = 3;
@@ -85,14 +85,14 @@ TEST(BinTable, BytesDoNotDependOnTheNumberOfThreads) {
         write(bake(binned_disc(), settings), writer);
         return writer.take();
     };
-    EXPECT_EQ(bake(1), bake(2));
+    EXPECT_EQ(bytes(1), bytes(2));
 }
 
 TEST(BinTable, HasSoundBytes) {
     BinSettings settings = small(3);
     settings.bands = 2;
     settings.grid.columns = 9;
-    test::expect_sound_bytes(bake(binned_disc(), settings), write_bin_table, read_bin_table);
+    test::expect_sound_bytes(bake(binned_disc(), settings), read_bin_table);
 }
 
 TEST(WavelengthCuts, CutEqualWeightsIntoEqualLengths) {

@@ -13,7 +13,7 @@
 #include "modules/diffraction/bake/transfer_terms.h"
 #include "tests/support/csv.h"
 #include "tests/support/test_data.h"
-#include "tests/unit/modules/diffraction/bake/baked_views.h"
+#include "tests/unit/modules/diffraction/representations/baked_views.h"
 
 namespace rowland::diffraction {
 namespace {
@@ -47,7 +47,7 @@ TEST(ArcTable, MatchesTheBandlimitedOracle) {
         const auto views = test::tangent_views(light, one.frames);
         const auto error = [&](int rank) {
             const double found =
-                relative_rms(test::evaluated(bake(one.grating, {.rank = rank}), views), one.xyz);
+                relative_rms(test::evaluated(bake(one.grating, ArcSettings{.rank = rank}), views), one.xyz);
             RecordProperty(fmt::format("{}_{}", one.name, rank), fmt::format("{:.3g}", found));
             return found;
         };
@@ -65,7 +65,7 @@ double channel_power(const glm::dmat3& x) {
 
 /// ‖T − w U‖/‖T‖ for light whose power falls with the band as 1/(l+1)²: what the weights are chosen for.
 double table_error(const Grating& grating, int rank) {
-    const ArcTable table = bake(grating, {.rank = rank, .storage = Storage::Float});
+    const ArcTable table = bake(grating, ArcSettings{.rank = rank, .storage = Storage::Float});
     const TransferTerms terms(grating, colour::LightSpectra(), table.bands);
     const ArcMoments moments(table.bands);
     const auto columns = static_cast<std::size_t>(table.grid.columns);
@@ -109,8 +109,8 @@ TEST(ArcTable, RankEightIsEnoughForARealProbe) {
     const lighting::ProbeImage probe(image::load_image(probe_path), lighting::Mapping::Angular);
     const auto views =
         test::tangent_views(lighting::project(probe, 5), test::read_frames(rowland::test::read_csv(frames_path)));
-    const auto exact = test::evaluated(bake(compact_disc(), {.rank = kEverything}), views);
-    EXPECT_LT(relative_rms(test::evaluated(bake(compact_disc(), {.rank = 8}), views), exact), 0.03);
+    const auto exact = test::evaluated(bake(compact_disc(), ArcSettings{.rank = kEverything}), views);
+    EXPECT_LT(relative_rms(test::evaluated(bake(compact_disc(), ArcSettings{.rank = 8}), views), exact), 0.03);
 }
 
 /// The lobe's weights are the transfer table as a product: at full rank the same numbers (fp32).
@@ -125,7 +125,7 @@ TEST(ArcTable, OfALobeIsTheTransferTableAtFullRank) {
     exact.storage = Storage::Float;
     const auto expected = test::evaluated(bake(one.grating, exact), views);
     for (const auto& [rank, bound] : {std::pair{8, 0.08}, {16, 0.05}, {kEverything, 1e-5}}) {
-        const ArcTable table = bake(one.grating, {.rank = rank, .grid = grid, .storage = Storage::Float});
+        const ArcTable table = bake(one.grating, ArcSettings{.rank = rank, .grid = grid, .storage = Storage::Float});
         EXPECT_EQ(table.terms, LightTerms::Harmonics);
         const double error = relative_rms(test::evaluated(table, views), expected);
         RecordProperty(fmt::format("rank_{}", rank), fmt::format("{:.3g}", error));
@@ -139,7 +139,7 @@ TEST(ArcTable, PitchAxisFollowsThePitch) {
     ROWLAND_TEST_DATA(light_path, "oracle/bandlimited_light_n5.csv");
     const test::OracleCase one = test::read_cases(path).front();
     const auto views = test::tangent_views(test::read_sh_light(light_path), one.frames);
-    const ArcTable table = bake(one.grating, {.rank = kEverything, .pitch = PitchAxis{.nodes = 33}});
+    const ArcTable table = bake(one.grating, ArcSettings{.rank = kEverything, .pitch = PitchAxis{.nodes = 33}});
     EXPECT_EQ(table.rows(), 33);
     for (const double factor : {0.5, 0.613, 1.0, 1.77, 2.0}) {
         Grating scaled = one.grating;
@@ -147,14 +147,14 @@ TEST(ArcTable, PitchAxisFollowsThePitch) {
         scaled.profile = SlitProfile{800.0 * factor};
         std::vector<glm::dvec3> found;
         for (const auto& view : views) found.push_back(evaluate(table, view.light, view.view, factor));
-        const double error = relative_rms(found, test::evaluated(bake(scaled, {.rank = kEverything}), views));
+        const double error = relative_rms(found, test::evaluated(bake(scaled, ArcSettings{.rank = kEverything}), views));
         RecordProperty(fmt::format("factor_{}", factor), fmt::format("{:.3g}", error));
         EXPECT_LT(error, 3e-3) << factor;
     }
 }
 
 TEST(ArcTable, VertexAndPixelPartsAreTheWhole) {
-    const ArcTable table = bake(compact_disc(), {.bands = 3, .rank = 5});
+    const ArcTable table = bake(compact_disc(), ArcSettings{.bands = 3, .rank = 5});
     lighting::ShLight light{3, {}};
     for (int i = 0; i < 9; ++i) light.coefficients.emplace_back(1.0 + i, 2.0 - 0.1 * i, 0.3);
     const glm::dvec3 view(0.3, 0.2, std::sqrt(1.0 - 0.13));
@@ -165,30 +165,30 @@ TEST(ArcTable, VertexAndPixelPartsAreTheWhole) {
 }
 
 TEST(ArcTable, RefusesAPitchAxisForALobe) {
-    EXPECT_THROW(bake(foil(), {.pitch = PitchAxis{}}), Error);
+    EXPECT_THROW(bake(foil(), ArcSettings{.pitch = PitchAxis{}}), Error);
     Grating few = compact_disc();
     few.grooves = 10.0;
-    EXPECT_THROW(bake(few, {}), Error);
+    EXPECT_THROW(bake(few, ArcSettings{}), Error);
 }
 
 TEST(ArcTable, BytesDoNotDependOnTheNumberOfThreads) {
-    const auto bake = [](unsigned threads) {
+    const auto bytes = [](unsigned threads) {
         const ThreadLimit limit(threads);
         ByteWriter writer;
-        write(bake(compact_disc(), {}), writer);
+        write(bake(compact_disc(), ArcSettings{}), writer);
         return writer.take();
     };
-    EXPECT_EQ(bake(1), bake(2));
+    EXPECT_EQ(bytes(1), bytes(2));
 }
 
 TEST(ArcTable, HasSoundBytes) {
     ArcSettings settings{.bands = 2, .rank = 3, .grid = ViewGrid{ViewMapping::OneDimensional, 9, 1}};
     settings.storage = Storage::Unorm16;
-    test::expect_sound_bytes(bake(compact_disc(), settings), write_arc_table, read_arc_table);
+    test::expect_sound_bytes(bake(compact_disc(), settings), read_arc_table);
     settings.pitch = PitchAxis{.nodes = 4};
-    test::expect_sound_bytes(bake(compact_disc(), settings), write_arc_table, read_arc_table);
+    test::expect_sound_bytes(bake(compact_disc(), settings), read_arc_table);
     const ArcSettings lobe{.bands = 2, .rank = 5, .grid = ViewGrid{ViewMapping::Parabolic, 4, 5}};
-    test::expect_sound_bytes(bake(foil(), lobe), write_arc_table, read_arc_table);
+    test::expect_sound_bytes(bake(foil(), lobe), read_arc_table);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include "modules/diffraction/model/lobe.h"
 #include "tests/support/csv.h"
 #include "tests/support/test_data.h"
-#include "tests/unit/modules/diffraction/bake/probe_maps.h"
+#include "tests/unit/modules/diffraction/representations/probe_maps.h"
 
 namespace rowland::diffraction {
 namespace {

@@ -13,7 +13,7 @@
 #include "modules/diffraction/bake/view_spectrum.h"
 #include "modules/diffraction/model/colour_kernel.h"
 #include "tests/support/test_data.h"
-#include "tests/unit/modules/diffraction/bake/baked_views.h"
+#include "tests/unit/modules/diffraction/representations/baked_views.h"
 
 namespace rowland::diffraction {
 namespace {
@@ -106,7 +106,7 @@ TEST(TransferTable, MatchesTheBandlimitedOracle) {
     for (const test::OracleCase& one : test::read_cases(path)) {
         if (!is_flat(one.grating.lobe)) continue;
         ++flat_cases;
-        const TransferTable table = bake(one.grating, {});
+        const TransferTable table = bake(one.grating, TransferSettings{});
         const double error = relative_rms(test::evaluated(table, test::tangent_views(light, one.frames)), one.xyz);
         RecordProperty(one.name, fmt::format("{:.3g}", error));
         EXPECT_LT(error, 1e-4) << one.name;
@@ -163,7 +163,7 @@ TEST(TransferTable, MirroredViewsAreBakedOnce) {
 }
 
 TEST(TransferTable, ViewBelowTheHorizonIsBlack) {
-    const TransferTable table = bake(transfer_disc(), {.bands = 2});
+    const TransferTable table = bake(transfer_disc(), TransferSettings{.bands = 2});
     const lighting::ShLight light{1, {glm::dvec3(1.0)}};
     EXPECT_EQ(evaluate(table, light, {0.6, 0.0, -0.8}), glm::dvec3(0.0));
     EXPECT_GT(evaluate(table, light, {0.6, 0.0, 0.8}).y, 0.0);
@@ -172,7 +172,7 @@ TEST(TransferTable, ViewBelowTheHorizonIsBlack) {
 TEST(TransferTable, RefusesFewGroovesAndOneDimensionForALobe) {
     Grating few = transfer_disc();
     few.grooves = 10.0;
-    EXPECT_THROW(bake(few, {}), Error);
+    EXPECT_THROW(bake(few, TransferSettings{}), Error);
     TransferSettings settings;
     settings.grid = ViewGrid{ViewMapping::OneDimensional, 16, 1};
     EXPECT_THROW(bake(transfer_foil(), settings), Error);
@@ -182,12 +182,12 @@ TEST(TransferTable, SubwavelengthPitchIsExactlyBlack) {
     Grating grating = transfer_disc();
     grating.pitch_nm = 150.0;
     grating.profile = SlitProfile{75.0};
-    const TransferTable table = bake(grating, {});
+    const TransferTable table = bake(grating, TransferSettings{});
     EXPECT_EQ(evaluate(table, {1, {glm::dvec3(1.0)}}, {0.3, 0.1, 0.9}), glm::dvec3(0.0));
 }
 
 TEST(TransferTable, BytesDoNotDependOnTheNumberOfThreads) {
-    const auto bake = [](unsigned threads) {
+    const auto bytes = [](unsigned threads) {
         const ThreadLimit limit(threads);
         TransferSettings settings;
         settings.bands = 3;
@@ -196,7 +196,7 @@ TEST(TransferTable, BytesDoNotDependOnTheNumberOfThreads) {
         write(bake(transfer_foil(), settings), writer);
         return writer.take();
     };
-    EXPECT_EQ(bake(1), bake(2));
+    EXPECT_EQ(bytes(1), bytes(2));
 }
 
 TEST(TransferTable, HasSoundBytes) {
@@ -205,8 +205,7 @@ TEST(TransferTable, HasSoundBytes) {
         settings.bands = 2;
         settings.grid = ViewGrid{ViewMapping::OneDimensional, 9, 1};
         settings.storage = storage;
-        test::expect_sound_bytes(bake(transfer_disc(), settings), write_transfer_table,
-                                 read_transfer_table);
+        test::expect_sound_bytes(bake(transfer_disc(), settings), read_transfer_table);
     }
 }
 

@@ -43,8 +43,8 @@ std::vector<glm::dvec3> evaluated(const Table& table, std::span<const TangentVie
 
 /// Bytes as `write` writes them, and back: what is read writes the same bytes; every shortened copy is refused; and a
 /// copy with a byte of its first 200 changed is refused or read, but never more than that.
-template <typename Table, typename Write, typename Read>
-void expect_sound_bytes(const Table& table, const Write& write, const Read& read) {
+template <typename Table, typename Read>
+void expect_sound_bytes(const Table& table, const Read& read) {
     const auto bytes_of = [&](const Table& one) {
         ByteWriter writer;
         write(one, writer);
