@@ -200,7 +200,7 @@ std::vector<double> JsonReader::numbers(const std::string& key, std::size_t coun
     return result;
 }
 
-std::string JsonReader::choice(const std::string& key, std::initializer_list<std::string_view> choices) {
+std::string JsonReader::choice(const std::string& key, const std::vector<std::string_view>& choices) {
     std::string word = text(key);
     if (std::find(choices.begin(), choices.end(), word) != choices.end()) return word;
     const auto near = nearest_word(word, {choices.begin(), choices.end()});
@@ -209,7 +209,7 @@ std::string JsonReader::choice(const std::string& key, std::initializer_list<std
 }
 
 std::string JsonReader::choice_or(const std::string& key, std::string fallback,
-                                  std::initializer_list<std::string_view> choices) {
+                                  const std::vector<std::string_view>& choices) {
     return has(key) ? choice(key, choices) : std::move(fallback);
 }
 

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <initializer_list>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -46,9 +45,8 @@ class JsonReader {
     /// An array of exactly `count` numbers.
     std::vector<double> numbers(const std::string& key, std::size_t count, NumberRange range);
     /// One of `choices`; the message names the nearest.
-    std::string choice(const std::string& key, std::initializer_list<std::string_view> choices);
-    std::string choice_or(const std::string& key, std::string fallback,
-                          std::initializer_list<std::string_view> choices);
+    std::string choice(const std::string& key, const std::vector<std::string_view>& choices);
+    std::string choice_or(const std::string& key, std::string fallback, const std::vector<std::string_view>& choices);
     JsonReader object(const std::string& key);
     /// The raw value, for shapes the calls above do not cover.
     const nlohmann::json& raw(const std::string& key);
