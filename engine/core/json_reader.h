@@ -46,8 +46,7 @@ class JsonReader {
     std::vector<double> numbers(const std::string& key, std::size_t count, NumberRange range);
     /// One of `choices`; the message names the nearest.
     std::string choice(const std::string& key, const std::vector<std::string_view>& choices);
-    std::string choice_or(const std::string& key, std::string fallback,
-                          const std::vector<std::string_view>& choices);
+    std::string choice_or(const std::string& key, std::string fallback, const std::vector<std::string_view>& choices);
     JsonReader object(const std::string& key);
     /// The raw value, for shapes the calls above do not cover.
     const nlohmann::json& raw(const std::string& key);

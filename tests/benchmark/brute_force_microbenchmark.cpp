@@ -16,7 +16,7 @@
 #include "modules/diffraction/representations/transfer/transfer_table.h"
 #include "modules/diffraction/model/efficiency.h"
 #include "modules/diffraction/model/grating_equation.h"
-#include "modules/diffraction/reference/brute_force.h"
+#include "tests/unit/modules/diffraction/reference/brute_force.h"
 #include "tests/benchmark/cd_materials.h"
 #include "tests/benchmark/microbenchmarks.h"
 

@@ -3,9 +3,9 @@
 
 #include "engine/colour/observer.h"
 #include "modules/diffraction/representations/spikes/spike_table.h"
-#include "modules/diffraction/reference/brute_force.h"
 #include "modules/diffraction/reference/reference.h"
 #include "tests/property/generators.h"
+#include "tests/unit/modules/diffraction/reference/brute_force.h"
 
 namespace rowland::property {
 namespace {
@@ -164,7 +164,7 @@ RC_GTEST_PROP(ReferenceProperty, EqualsTheClosedFormUnderBandlimitedLight, ()) {
     Grating shape = *grating(kManyGrooves);
     RC_PRE(shape.orders.size() <= 8U);
     std::erase(shape.orders, 0);
-    if (lobe_feature_size(shape.lobe) < 0.02) shape.lobe = FlatLobe{};  // slow in the reference
+    if (lobe_extent(shape.lobe).feature_size < 0.02) shape.lobe = FlatLobe{};  // slow in the reference
     const lighting::ShLight light = *sh_light(6);
     const glm::dvec3 v = *upper_direction();
     const Frame frame{.view = v, .normal = {0.0, 0.0, 1.0}, .grating = {1.0, 0.0, 0.0}};
@@ -189,7 +189,7 @@ RC_GTEST_PROP(ReferenceProperty, NoLightAndNoOrderAreBlack, ()) {
     shape.pitch_nm = *uniform(50.0, shape.grooves < kManyGrooves ? 300.0 : 3000.0);
     shape.profile = SlitProfile{shape.pitch_nm * *uniform(0.01, 1.0)};
     if (shape.grooves < kManyGrooves) shape.lobe = FlatLobe{};
-    RC_PRE(lobe_feature_size(shape.lobe) > 0.01);
+    RC_PRE(lobe_extent(shape.lobe).feature_size > 0.01);
     const glm::dvec3 v = *upper_direction();
     const Frame frame{.view = v, .normal = {0.0, 0.0, 1.0}, .grating = {1.0, 0.0, 0.0}};
     const colour::LightSpectra spectra;

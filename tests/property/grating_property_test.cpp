@@ -98,11 +98,11 @@ RC_GTEST_PROP(LobeProperty, IsFiniteNonNegativeAndEven, ()) {
 /// is exact to 1e-9 for a Gaussian, whose window may end within it: 1e-2 of a node's weight; pits' sinc² has 1e-4.
 RC_GTEST_PROP(LobeProperty, NeverAddsPower, ()) {
     const GrooveLobe shape =
-        *rc::gen::suchThat(lobe(), [](const GrooveLobe& l) { return lobe_feature_size(l) > 1e-3; });
+        *rc::gen::suchThat(lobe(), [](const GrooveLobe& l) { return lobe_extent(l).feature_size > 1e-3; });
     const double wavelength_nm = *wavelength();
     const double v_h = *uniform(-1.0, 1.0);
     const LobeDensity density(shape, wavelength_nm);
-    const int nodes = static_cast<int>(32.0 / lobe_feature_size(shape)) + 32;
+    const int nodes = static_cast<int>(32.0 / lobe_extent(shape).feature_size) + 32;
     double sum = 0.0;
     for (int i = 0; i < nodes; ++i) sum += density(-1.0 + 2.0 * (i + 0.5) / nodes + v_h) * 2.0 / nodes;
     RC_ASSERT(sum <= 1.0 + 1e-3);

@@ -38,7 +38,7 @@ std::vector<double> spectrum_at(const diffraction::Material& material, const lig
                                 const diffraction::Frame& frame) {
     const diffraction::Grating& grating = material.grating;
     const colour::LightSpectra spectra(material.quality.illuminant);
-    const diffraction::ProbeLight light(probe);
+    const diffraction::IncidentLight light(probe);
     const glm::dmat3 to_tangent = diffraction::world_to_tangent(frame);
     const glm::dvec3 view = to_tangent * glm::normalize(frame.view);
     std::vector<double> spectrum(colour::kVisibleMax - colour::kVisibleMin + 1, 0.0);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/core/file.h"
 #include "engine/core/json_reader.h"
@@ -19,34 +20,38 @@ constexpr std::uint64_t kMaximumFileSize = 1 << 20;
 constexpr NumberRange kPositive{.minimum = 0.0, .minimum_open = true};
 constexpr NumberRange kUnit{.minimum = 0.0, .maximum = 1.0};
 
-/// "all" beyond this pitch would be more than a thousand orders to a side.
+/// Beyond this pitch "all" would be more than a thousand orders of either sign.
 constexpr double kLargestPitchOfAll_nm = 190000.0;
 
-/// Longer than any pit, and short enough that ℓ/λ waves can be integrated.
+/// Longer than any pit; ℓ/λ periods can still be integrated.
 constexpr double kLongestPit_nm = 100000.0;
 
-EfficiencyTable parse_table(JsonReader& json, const ReadNamed& read) {
-    const std::string name = json.text("file");
-    if (name.empty()) json.fail("file", "an empty name", "a CSV file of efficiencies");
+EfficiencyTable parse_table(JsonReader& json, const char* key, const ReadNamed& read) {
+    const std::string name = json.text(key);
+    if (name.empty()) json.fail(key, "an empty name", "a CSV file of efficiencies");
     const NamedText table = read(name);
     return parse_efficiency_csv(table.text, table.file);
 }
 
+NumberRange range_of(const ProfileMember& member, double pitch_nm) {
+    return {.minimum = 0.0,
+            .maximum = member.within_pitch ? pitch_nm : member.less_than,
+            .minimum_open = true,
+            .maximum_open = !member.within_pitch && std::isfinite(member.less_than)};
+}
+
 Profile parse_profile(JsonReader json, double pitch_nm, const ReadNamed& read) {
-    const std::string type = json.choice("type", {"slit", "lamellar", "sinusoidal", "blazed", "table"});
-    Profile profile;
-    if (type == "slit") {
-        const NumberRange width{.minimum = 0.0, .maximum = pitch_nm, .minimum_open = true};
-        profile = SlitProfile{.width_nm = json.number("width_nm", width)};
-    } else if (type == "lamellar") {
-        const NumberRange duty{.minimum = 0.0, .maximum = 1.0, .minimum_open = true, .maximum_open = true};
-        profile = LamellarProfile{.duty = json.number("duty", duty), .depth_nm = json.number("depth_nm", kPositive)};
-    } else if (type == "sinusoidal") {
-        profile = SinusoidalProfile{.depth_nm = json.number("depth_nm", kPositive)};
-    } else if (type == "table") {
-        profile = parse_table(json, read);
-    } else {
-        profile = BlazedProfile{.depth_nm = json.number("depth_nm", kPositive)};
+    const std::span<const ProfileDescriptor> descriptors = profile_descriptors();
+    std::vector<std::string_view> names;
+    for (const ProfileDescriptor& descriptor : descriptors) names.push_back(descriptor.name);
+    const std::string type = json.choice("type", names);
+    const auto named = std::find(names.begin(), names.end(), type) - names.begin();
+    Profile profile = descriptors[static_cast<std::size_t>(named)].empty;
+    for (const ProfileMember& member : descriptors[static_cast<std::size_t>(named)].members) {
+        if (member.value == nullptr)
+            profile = parse_table(json, member.key, read);
+        else
+            member.value(profile) = json.number(member.key, range_of(member, pitch_nm));
     }
     json.finish();
     return profile;
@@ -64,13 +69,13 @@ std::vector<int> parse_orders(JsonReader& json, double pitch_nm) {
         json.fail("orders", value.is_array() ? "an empty list" : "another type", "a list of whole numbers, or \"all\"");
     std::vector<int> orders;
     for (std::size_t i = 0; i < value.size(); ++i) {
-        const std::string place = fmt::format("orders/{}", i);
+        const std::string location = fmt::format("orders/{}", i);
         if (!value[i].is_number_integer() || std::abs(value[i].get<double>()) > kHighestOrder)
-            json.fail(place, value[i].is_number() ? value[i].dump() : "another type",
+            json.fail(location, value[i].is_number() ? value[i].dump() : "another type",
                       fmt::format("a whole number in [-{0}, {0}]", kHighestOrder));
         const int order = value[i].get<int>();
         if (std::find(orders.begin(), orders.end(), order) != orders.end())
-            json.fail(place, fmt::format("order {} twice", order), "each order once");
+            json.fail(location, fmt::format("order {} twice", order), "each order once");
         orders.push_back(order);
     }
     std::sort(orders.begin(), orders.end());
@@ -104,14 +109,7 @@ GrooveLobe parse_lobe(JsonReader& json) {
     return lobe;
 }
 
-colour::Metal parse_metal(const std::string& symbol) {
-    if (symbol == "Al") return colour::Metal::Al;
-    if (symbol == "Ag") return colour::Metal::Ag;
-    if (symbol == "Au") return colour::Metal::Au;
-    return colour::Metal::Cu;
-}
-
-/// Few grooves make every wavelength wide, which takes a groove's spectrum between the orders and one lobe for all.
+/// The wide orders of few grooves need the groove's spectrum between the orders, and one lobe for all wavelengths.
 void check_few_grooves(JsonReader& json, const Grating& grating) {
     if (grating.grooves >= kManyGrooves) return;
     const auto refuse = [&](const char* what, const char* why) {
@@ -168,7 +166,7 @@ Material parse_material_parts(JsonReader& reader, const ReadNamed& read) {
         if (std::holds_alternative<EfficiencyTable>(material.grating.profile))
             reader.fail("metal", "a metal beside a table of efficiencies", "no metal",
                         "the table's efficiencies are those of its metal already");
-        material.grating.metal = parse_metal(reader.choice("metal", {"Al", "Ag", "Au", "Cu"}));
+        material.grating.metal = colour::parse_metal(reader.choice("metal", {"Al", "Ag", "Au", "Cu"}));
     }
     if (reader.has("base")) material.base = parse_base(reader.object("base"));
     if (reader.has("quality")) material.quality = parse_quality(reader.object("quality"), material.grating, read);

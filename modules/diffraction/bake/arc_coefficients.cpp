@@ -22,13 +22,13 @@ constexpr int kNodesPerWave = 6;
 /// 1e-15 at 5 bands. A lobe's core is a bump that takes up to 1/17 of the interval: 40 nodes more.
 int core_node_count(int bands, const GrooveLobe& lobe) {
     const int smooth = std::max(16, 2 * bands + 6);
-    const int waves = static_cast<int>(2.0 * lobe_core_half_width(lobe) / lobe_tail_feature_size(lobe));
+    const int waves = static_cast<int>(2.0 * lobe_extent(lobe).core_half_width / lobe_extent(lobe).tail_feature_size);
     return is_flat(lobe) ? smooth : smooth + 40 + kNodesPerWave * waves;
 }
 
 /// Beyond the core a lobe is as smooth as its waves along the arc, which spans at most 2 in s_h.
 int tail_node_count(int bands, const GrooveLobe& lobe) {
-    const int waves = static_cast<int>(std::ceil(2.0 / lobe_tail_feature_size(lobe)));
+    const int waves = static_cast<int>(std::ceil(2.0 / lobe_extent(lobe).tail_feature_size));
     return std::max(16, 2 * bands + 6) + kNodesPerWave * waves;
 }
 
@@ -65,13 +65,13 @@ ArcCoefficients::ArcCoefficients(int bands, const GrooveLobe& lobe)
       to_tangent_frame_(arc_to_tangent_axes(), bands) {}
 
 ArcCoefficients::Moments ArcCoefficients::moments(double r, double v_h, double wavelength_nm) const {
-    const double core = lobe_core_half_width(lobe_);
+    const double core = lobe_extent(lobe_).core_half_width;
     const double begin = is_flat(lobe_) ? 0.0 : std::acos(std::clamp((core - v_h) / r, -1.0, 1.0));
     const double end = is_flat(lobe_) ? pi : std::acos(std::clamp((-core - v_h) / r, -1.0, 1.0));
     const LobeDensity density(lobe_, wavelength_nm);
     Moments result;
     add_moments(core_rule_, {begin, end}, {r, v_h}, density, result);
-    if (lobe_half_width(lobe_) > core) {
+    if (lobe_extent(lobe_).half_width > core) {
         add_moments(tail_rule_, {0.0, begin}, {r, v_h}, density, result);
         add_moments(tail_rule_, {end, pi}, {r, v_h}, density, result);
     }

@@ -11,14 +11,14 @@ namespace rowland::diffraction {
 double brdf_agu(const Grating& grating, const glm::dvec3& s, const glm::dvec3& v, double wavelength_nm,
                 double peak_intensity = 1.0);
 
-/// The energy-preserving BRDF at one pair of directions, with the true width of N grooves (PHYSICS §3):
-/// f_E = η_m(λ) (N d/λ) F_N(d u/λ) D_h(s_h + v_h), m the order nearest to d u/λ; 0 if m is not listed, propagates
-/// nowhere, or a direction is below the surface. Under kManyGrooves grooves the groove's own spectrum takes η_m's
-/// place. Reciprocal; with a table of several incidences, as far as the table is. With the "agu" normalisation
-/// order_efficiency()'s factor is included.
-double brdf_energy(const Grating& grating, const glm::dvec3& s, const glm::dvec3& v, double wavelength_nm);
+/// (N/λ) F_N(x/λ) η, per nm of the path difference x: the density in x of the light of wavelength λ. η is the
+/// efficiency of the order m nearest to x/λ for light from s_g, or below kManyGrooves grooves the groove's own spectrum
+/// at x/λ. 0 if m is not listed or propagates nowhere.
+double path_density(const Grating& grating, double path_nm, double wavelength_nm, double s_g = 0.0);
 
-/// f_A/f_E at a peak of a slit with the flat lobe: 2λ/(N d (b/d)²), for peak_intensity 1.
-double agu_to_energy_ratio(const Grating& grating, double wavelength_nm);
+/// The energy-conserving BRDF at one pair of directions, with the true width of N grooves (PHYSICS §3):
+/// f_E = d · path_density(d u, λ) · D_h(s_h + v_h); 0 if a direction is below the surface. Reciprocal, but for tables
+/// of several incidences that are not. With the "agu" normalisation order_efficiency()'s factor is included.
+double brdf_energy(const Grating& grating, const glm::dvec3& s, const glm::dvec3& v, double wavelength_nm);
 
 }  // namespace rowland::diffraction

@@ -2,14 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/matrix.hpp>
 
-#include "engine/colour/observer.h"
 #include "engine/core/check.h"
 #include "engine/core/parallel.h"
+#include "modules/diffraction/model/brdf.h"
 #include "modules/diffraction/model/efficiency.h"
-#include "modules/diffraction/model/fejer.h"
-#include "modules/diffraction/model/grating_equation.h"
 
 namespace rowland::diffraction {
 
@@ -21,13 +18,8 @@ constexpr std::size_t kNanometres = colour::kVisibleMax - colour::kVisibleMin;
 /// 8e-4 of it.
 constexpr double kNodesPerWidth = 32.0;
 
-/// Steps of the phase N x/λ that a sum over wavelengths may take: a 1/8 of the Fejér ratio's period.
+/// Largest step of the phase N x/λ in a sum over wavelengths: 1/8 of the Fejér ratio's period.
 constexpr double kPhaseStep = 0.125;
-
-/// cmf(λ) E(λ)ᵀ.
-glm::dmat3 observed_spectra(const colour::LightSpectra& spectra, double wavelength_nm) {
-    return glm::outerProduct(colour::cie_xyz(wavelength_nm), spectra(wavelength_nm));
-}
 
 double largest_component(const glm::dmat3& matrix) {
     double largest = 0.0;
@@ -36,25 +28,24 @@ double largest_component(const glm::dmat3& matrix) {
     return largest;
 }
 
-bool lists(const Grating& grating, int order) {
-    return std::binary_search(grating.orders.begin(), grating.orders.end(), order);
-}
-
-/// The light of few grooves at one path difference: every wavelength reaches it, by its Fejér ratio.
+/// k(x) of few grooves: every wavelength contributes, by its Fejér ratio.
 glm::dmat3 blurred(const Grating& grating, std::span<const glm::dmat3> observed, double steps_per_nm, double x_nm) {
     glm::dmat3 sum(0.0);
     for (std::size_t i = 0; i < observed.size(); ++i) {
+        const double step_nm = (i == 0 || i + 1 == observed.size() ? 0.5 : 1.0) / steps_per_nm;
         const double wavelength_nm = colour::kVisibleMin + static_cast<double>(i) / steps_per_nm;
-        const double fractional_order = x_nm / wavelength_nm;
-        const double nearest = std::round(fractional_order);
-        const int order = static_cast<int>(nearest);
-        if (!lists(grating, order) || !propagates(order, wavelength_nm, grating.pitch_nm)) continue;
-        const double weight = (i == 0 || i + 1 == observed.size() ? 0.5 : 1.0) / steps_per_nm * grating.grooves /
-                              wavelength_nm * fejer(grating.grooves, fractional_order - nearest) *
-                              fractional_order_efficiency(grating, fractional_order, wavelength_nm);
-        sum += weight * observed[i];
+        sum += step_nm * path_density(grating, x_nm, wavelength_nm) * observed[i];
     }
     return sum;
+}
+
+/// observed_spectra() at even steps over the visible range.
+std::vector<glm::dmat3> observed_at_steps(const colour::LightSpectra& spectra, double steps_per_nm) {
+    std::vector<glm::dmat3> observed;
+    const auto count = static_cast<std::size_t>(kNanometres * steps_per_nm);
+    for (std::size_t i = 0; i <= count; ++i)
+        observed.push_back(observed_spectra(spectra, colour::kVisibleMin + static_cast<double>(i) / steps_per_nm));
+    return observed;
 }
 
 }  // namespace
@@ -87,14 +78,10 @@ glm::dmat3 ColourKernel::Curve::integral_to(double at) const {
 ColourKernel::ColourKernel(const Grating& grating, const colour::LightSpectra& spectra) {
     ROWLAND_CHECK_OP(grating.pitch_nm, >, 0.0);
     ROWLAND_CHECK_OP(grating.grooves, >=, 1.0);
-    if (grating.grooves < kManyGrooves) {
+    if (grating.grooves < kManyGrooves)
         add_wide_orders(grating, spectra);
-        return;
-    }
-    std::vector<glm::dmat3> observed;
-    for (std::size_t j = 0; j <= kNanometres; ++j)
-        observed.push_back(observed_spectra(spectra, colour::kVisibleMin + static_cast<double>(j)));
-    add_sharp_orders(grating, observed);
+    else
+        add_sharp_orders(grating, observed_at_steps(spectra, 1.0));
 }
 
 void ColourKernel::add_sharp_orders(const Grating& grating, std::span<const glm::dmat3> observed) {
@@ -105,24 +92,21 @@ void ColourKernel::add_sharp_orders(const Grating& grating, std::span<const glm:
             values.push_back(order_efficiency(grating, order, wavelength_nm) * observed[j]);
         }
         Curve curve(colour::kVisibleMin, 1.0, std::move(values));
-        if (order == 0)
+        if (order == 0) {
             zero_order_ = curve.integral_to(curve.end());
-        else
-            orders_.push_back({order, std::move(curve)});
+            continue;
+        }
+        const auto [low, high] =
+            std::minmax({order * double{colour::kVisibleMin}, order * double{colour::kVisibleMax}});
+        begin_nm_ = orders_.empty() ? low : std::min(begin_nm_, low);
+        end_nm_ = orders_.empty() ? high : std::max(end_nm_, high);
+        orders_.push_back({order, std::move(curve)});
     }
-    if (orders_.empty()) return;
-    // The lists of orders ascend.
-    const auto outer = [](int order) { return static_cast<double>(order) * colour::kVisibleMax; };
-    const auto inner = [](int order) { return static_cast<double>(order) * colour::kVisibleMin; };
-    const int first = orders_.front().order;
-    const int last = orders_.back().order;
-    begin_nm_ = first < 0 ? outer(first) : inner(first);
-    end_nm_ = last > 0 ? outer(last) : inner(last);
 }
 
 void ColourKernel::add_wide_orders(const Grating& grating, const colour::LightSpectra& spectra) {
     if (grating.orders.empty()) return;
-    // Directions reach |x| = 2d, and a listed order's period reaches half an order beyond it.
+    // |x| ≤ 2d for all directions; the period of a listed order ends half an order beyond it.
     const double reach_nm = 2.0 * grating.pitch_nm;
     const auto period_end = [](double order) {
         return order * (order > 0.0 ? colour::kVisibleMax : colour::kVisibleMin);
@@ -136,10 +120,7 @@ void ColourKernel::add_wide_orders(const Grating& grating, const colour::LightSp
     const double furthest_nm = std::max(std::abs(begin_nm_), std::abs(end_nm_));
     const double phase_per_nm = grating.grooves * furthest_nm / (colour::kVisibleMin * double{colour::kVisibleMin});
     const double steps_per_nm = std::max(1.0, std::ceil(phase_per_nm / kPhaseStep));
-    std::vector<glm::dmat3> observed;
-    const auto count = static_cast<std::size_t>(kNanometres * steps_per_nm);
-    for (std::size_t i = 0; i <= count; ++i)
-        observed.push_back(observed_spectra(spectra, colour::kVisibleMin + static_cast<double>(i) / steps_per_nm));
+    const std::vector<glm::dmat3> observed = observed_at_steps(spectra, steps_per_nm);
 
     const double widest_step_nm = std::min(1.0, colour::kVisibleMin / (kNodesPerWidth * grating.grooves));
     const auto cells = static_cast<std::size_t>(std::ceil((end_nm_ - begin_nm_) / widest_step_nm));
@@ -194,10 +175,10 @@ KernelTable tabulate(const ColourKernel& kernel, std::size_t entries) {
         table.antiderivative.emplace_back(kernel.antiderivative(x_of(static_cast<double>(i))));
     const double rise = largest_component(kernel.antiderivative(table.end_nm) - kernel.antiderivative(table.begin_nm));
     if (rise == 0.0) return table;
-    constexpr int kPlaces = 7;
+    constexpr int kChecked = 7;
     for (std::size_t i = 0; i + 1 < entries; ++i)
-        for (int place = 1; place <= kPlaces; ++place) {
-            const double x_nm = x_of(static_cast<double>(i) + static_cast<double>(place) / (kPlaces + 1));
+        for (int j = 1; j <= kChecked; ++j) {
+            const double x_nm = x_of(static_cast<double>(i) + static_cast<double>(j) / (kChecked + 1));
             table.error = std::max(table.error, largest_component(table.at(x_nm) - kernel.antiderivative(x_nm)) / rise);
         }
     return table;

@@ -10,44 +10,43 @@
 
 namespace rowland::diffraction {
 
-/// The colour kernel of a grating under an illuminant (PHYSICS §4), flat lobe: what colour the light has that left the
-/// grating at the path difference x = d u between neighbouring grooves. 3 × 3 matrices, linear RGB in, XYZ out.
+/// The colour kernel k of a grating under an illuminant, PHYSICS (1), flat lobe: the colour of the light that leaves
+/// the grating at the path difference x = d u between neighbouring grooves. 3 × 3 matrices, linear RGB in, XYZ out.
 ///
 /// k(x) = Σ_m (1/|m|) η_m(λ) cmf(λ) E(λ)ᵀ at λ = x/m, over the listed orders m ≠ 0 with λ in 380–780 nm; per nm. Each
-/// order's product is sampled at 1 nm and linear between, so that integrals of k are closed forms and equal the
-/// trapezoid sums of every other part. Under kManyGrooves grooves k is blurred by the orders' Fejér width, order 0
-/// included: k(x) = ∫ (N/λ) F_N(x/λ) η(x/λ, λ) cmf Eᵀ dλ over the periods of the listed orders.
+/// order's product is sampled at 1 nm and linear between, so integrals of k have a closed form and equal the trapezoid
+/// sums of the rest of the module. Below kManyGrooves grooves k includes the orders' Fejér width and order 0:
+/// k(x) = ∫ path_density(x, λ) cmf Eᵀ dλ.
 ///
-/// XYZ(v) = d ∫ k(d (a + v_g)) A(a) da + zero_order_xyz() · A(−v_g), A the light's arc profile. 58 kB an order.
+/// XYZ(v) = d ∫ k(d (a + v_g)) A(a) da + zero_order_xyz() · A(−v_g), A the light's arc profile. 58 kB per order.
 class ColourKernel {
  public:
     ColourKernel(const Grating& grating, const colour::LightSpectra& spectra);
 
-    /// k(x). Of either sign of x; 0 outside [begin_nm(), end_nm()].
+    /// k(x), x of either sign; 0 outside [begin_nm(), end_nm()].
     glm::dmat3 operator()(double x_nm) const;
 
-    /// 𝒦(x) = ∫₀ˣ k dx': a pure number times XYZ.
+    /// 𝒦(x) = ∫₀ˣ k dx'.
     glm::dmat3 antiderivative(double x_nm) const;
 
-    /// Mean of k over [begin, end], in either order: what a light, a pixel or a cell of that extent in x sees. k(begin)
-    /// where the interval is empty.
+    /// Mean of k between begin and end, in either order: for a light, a pixel or a cell of that extent in x. k(begin)
+    /// if they are equal.
     glm::dmat3 average(double begin_nm, double end_nm) const;
 
-    /// ∫ η_0 cmf Eᵀ dλ if order 0 is listed: the weight of δ(x). 0 under kManyGrooves grooves, whose order 0 is in k.
+    /// ∫ η_0 cmf Eᵀ dλ if order 0 is listed: the weight of δ(x). 0 below kManyGrooves grooves: k includes order 0.
     const glm::dmat3& zero_order_xyz() const { return zero_order_; }
 
     /// The interval outside which k is 0. Empty, both 0, if no order but 0 is listed.
     double begin_nm() const { return begin_nm_; }
     double end_nm() const { return end_nm_; }
 
-    /// One order's product of efficiency, observer and light: linear between even nodes, 0 outside.
+    /// Efficiency × observer × light of one order: linear between equidistant nodes, 0 outside.
     class Curve {
      public:
         Curve(double start, double step, std::vector<glm::dmat3> values);
         glm::dmat3 value(double at) const;
         /// Integral from the first node to `at`.
         glm::dmat3 integral_to(double at) const;
-        double start() const { return start_; }
         double end() const { return start_ + step_ * static_cast<double>(values_.size() - 1); }
 
      private:
@@ -71,13 +70,13 @@ class ColourKernel {
     double end_nm_ = 0.0;
 };
 
-/// 𝒦 at even steps of x over the interval where k is not 0, for look-ups that interpolate linearly (a texture).
+/// 𝒦 at equidistant x over the interval where k is not 0, to be interpolated linearly.
 struct KernelTable {
     double begin_nm = 0.0;
     double end_nm = 0.0;
     std::vector<glm::mat3> antiderivative;  ///< first at begin_nm, last at end_nm
-    /// Largest difference of an interpolated component of 𝒦 from the exact one, over the largest component of 𝒦's
-    /// whole rise; measured at seven places between each two entries.
+    /// Largest error of an interpolated component of 𝒦, relative to the largest component of 𝒦(end) − 𝒦(begin);
+    /// measured at seven points between any two entries.
     double error = 0.0;
 
     /// 𝒦(x), clamped to the table's ends.

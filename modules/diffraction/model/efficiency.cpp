@@ -1,5 +1,8 @@
 #include "modules/diffraction/model/efficiency.h"
 
+#include <glm/matrix.hpp>
+
+#include "engine/colour/observer.h"
 #include "engine/core/check.h"
 
 namespace rowland::diffraction {
@@ -10,7 +13,7 @@ double reflectance(const Grating& grating, double wavelength_nm) {
     return grating.metal ? colour::metal_reflectance(*grating.metal, wavelength_nm) : 1.0;
 }
 
-/// The paper's peak form against the energy form: 2λ/(N d (b/d)²)·I₀, with I₀ such that it is 1 at 550 nm.
+/// The ratio of the paper's peak form to the energy form, 2λ/(N d (b/d)²)·I₀, where I₀ makes it 1 at 550 nm.
 double normalization_factor(const Grating& grating, double wavelength_nm) {
     if (grating.normalization == Normalization::Energy) return 1.0;
     ROWLAND_CHECK(std::holds_alternative<SlitProfile>(grating.profile), "the agu normalisation is for slits");
@@ -32,6 +35,10 @@ double fractional_order_efficiency(const Grating& grating, double fractional_ord
 double zero_order_efficiency(const Grating& grating, double wavelength_nm) {
     return reflectance(grating, wavelength_nm) *
            profile_efficiency(grating.profile, grating.pitch_nm, 0, wavelength_nm);
+}
+
+glm::dmat3 observed_spectra(const colour::LightSpectra& spectra, double wavelength_nm) {
+    return glm::outerProduct(colour::cie_xyz(wavelength_nm), spectra(wavelength_nm));
 }
 
 }  // namespace rowland::diffraction

@@ -12,64 +12,35 @@ namespace {
 
 constexpr double kRadian_deg = 180.0 / std::numbers::pi;
 
-/// The wavelength from which on the order is evanescent for light from s_g: |mλ/d − s_g| = 1.
+/// The longest wavelength at which the order propagates for light from s_g: |mλ/d − s_g| = 1.
 double cut_off_nm(double pitch_nm, int order, double s_g) {
     if (order == 0) return std::numeric_limits<double>::infinity();
     return pitch_nm * (1.0 + (order > 0 ? s_g : -s_g)) / std::abs(order);
 }
 
-/// One order's column in one slice.
-class Column {
- public:
-    Column(const EfficiencySlice& slice, std::size_t columns, std::size_t column, double cut_off)
-        : slice_(slice), columns_(columns), column_(column), cut_off_nm_(cut_off), last_(slice.wavelengths_nm.size()) {
-        while (last_ > 0 && (value(last_ - 1) == 0.0 || is_at_cut_off(last_ - 1))) --last_;
-    }
-
-    /// The efficiency, or nothing where the order is cut off.
-    std::optional<double> at(double wavelength_nm) const {
-        const auto& rows = slice_.wavelengths_nm;
-        if (last_ == 0) return std::nullopt;
-        if (wavelength_nm >= rows[last_ - 1]) {
-            if (wavelength_nm >= end_nm()) return std::nullopt;
-            return value(last_ - 1);
-        }
-        if (wavelength_nm <= rows.front()) return value(0);
-        const auto above = std::upper_bound(rows.begin(), rows.end(), wavelength_nm);
-        const auto i = static_cast<std::size_t>(above - rows.begin());
-        return std::lerp(value(i - 1), value(i), (wavelength_nm - rows[i - 1]) / (rows[i] - rows[i - 1]));
-    }
-
- private:
-    double value(std::size_t row) const { return slice_.efficiencies[row * columns_ + column_]; }
-
-    /// To the digits that a file prints a wavelength with.
-    bool is_at_cut_off(std::size_t row) const {
-        return std::abs(slice_.wavelengths_nm[row] - cut_off_nm_) < 1e-6 * slice_.wavelengths_nm[row];
-    }
-
-    /// Where the last row's value ends.
-    double end_nm() const {
-        const auto& rows = slice_.wavelengths_nm;
-        const double next = last_ < rows.size() ? rows[last_] : std::numeric_limits<double>::infinity();
-        return cut_off_nm_ > rows[last_ - 1] ? std::min(next, cut_off_nm_) : next;
-    }
-
-    const EfficiencySlice& slice_;
-    std::size_t columns_;
-    std::size_t column_;
-    double cut_off_nm_;
-    std::size_t last_;  ///< one past the last row that the order is not cut off in
-};
-
+/// The efficiency of one order in one slice; none where the order is cut off.
 std::optional<double> slice_efficiency(const EfficiencyTable& table, const EfficiencySlice& slice, std::size_t column,
                                        double pitch_nm, double wavelength_nm) {
-    const double s_g = std::sin(slice.incidence_deg / kRadian_deg);
-    return Column(slice, table.orders.size(), column, cut_off_nm(pitch_nm, table.orders[column], s_g))
-        .at(wavelength_nm);
+    const std::vector<double>& rows_nm = slice.wavelengths_nm;
+    const auto value = [&](std::size_t row) { return slice.efficiencies[row * table.orders.size() + column]; };
+    const double cut_nm = cut_off_nm(pitch_nm, table.orders[column], std::sin(slice.incidence_deg / kRadian_deg));
+    // Rows that are 0, or at the cut-off within the digits of a file, end the column.
+    std::size_t count = rows_nm.size();
+    while (count > 0 && (value(count - 1) == 0.0 || std::abs(rows_nm[count - 1] - cut_nm) < 1e-6 * rows_nm[count - 1]))
+        --count;
+    if (count == 0) return std::nullopt;
+    if (const double last_nm = rows_nm[count - 1]; wavelength_nm >= last_nm) {
+        const double next_nm = count < rows_nm.size() ? rows_nm[count] : std::numeric_limits<double>::infinity();
+        const double holds_to_nm = cut_nm > last_nm ? std::min(next_nm, cut_nm) : next_nm;
+        return wavelength_nm < holds_to_nm ? std::optional(value(count - 1)) : std::nullopt;
+    }
+    if (wavelength_nm <= rows_nm.front()) return value(0);
+    const auto above = std::upper_bound(rows_nm.begin(), rows_nm.end(), wavelength_nm);
+    const auto i = static_cast<std::size_t>(above - rows_nm.begin());
+    return std::lerp(value(i - 1), value(i), (wavelength_nm - rows_nm[i - 1]) / (rows_nm[i] - rows_nm[i - 1]));
 }
 
-/// One column's value, before the orders' sum is looked at.
+/// One column's value, before the orders are scaled to a sum of 1.
 double unscaled_efficiency(const EfficiencyTable& table, std::size_t column, double pitch_nm, double wavelength_nm,
                            double s_g) {
     const auto of_slice = [&](const EfficiencySlice& slice) {
@@ -83,9 +54,9 @@ double unscaled_efficiency(const EfficiencyTable& table, std::size_t column, dou
     const EfficiencySlice& below = *(above - 1);
     const std::optional<double> first = of_slice(below);
     const std::optional<double> second = of_slice(*above);
-    const double share = (incidence_deg - below.incidence_deg) / (above->incidence_deg - below.incidence_deg);
-    if (first && second) return std::lerp(*first, *second, share);
-    if (share == 0.0) return first.value_or(0.0);
+    const double t = (incidence_deg - below.incidence_deg) / (above->incidence_deg - below.incidence_deg);
+    if (first && second) return std::lerp(*first, *second, t);
+    if (t == 0.0) return first.value_or(0.0);
     const bool propagates = wavelength_nm < cut_off_nm(pitch_nm, table.orders[column], s_g);
     return propagates ? first.value_or(second.value_or(0.0)) : 0.0;
 }

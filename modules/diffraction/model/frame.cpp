@@ -24,7 +24,7 @@ bool is_valid(const Frame& frame) {
 }
 
 glm::dmat3 world_to_tangent(const Frame& frame) {
-    ROWLAND_CHECK(is_valid(frame), "a frame without three directions");
+    ROWLAND_CHECK(is_valid(frame), "a frame needs three directions, the grating vector not along the normal");
     const glm::dvec3 n = glm::normalize(frame.normal);
     const glm::dvec3 h = glm::normalize(glm::cross(n, glm::normalize(frame.grating)));
     const glm::dvec3 g = glm::cross(h, n);

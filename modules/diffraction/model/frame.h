@@ -5,7 +5,7 @@
 
 namespace rowland::diffraction {
 
-/// A shaded point as the world sees it: toward the eye, the surface normal, and the grating vector (across the
+/// A shaded point in world axes: the direction to the eye, the surface normal, and the grating vector (across the
 /// grooves).
 struct Frame {
     glm::dvec3 view{0.0, 0.0, 1.0};
@@ -16,8 +16,8 @@ struct Frame {
 /// True if all three vectors are finite and not 0, and the grating vector is not along the normal.
 bool is_valid(const Frame& frame);
 
-/// The rotation from world to tangent frame: rows g, h = n × g, n, with g made orthonormal to n. The frame must be
-/// valid.
+/// The rotation from world to tangent frame: rows g, h = n × g, n, g made orthogonal to n (PHYSICS §1). The frame must
+/// be valid.
 glm::dmat3 world_to_tangent(const Frame& frame);
 
 }  // namespace rowland::diffraction

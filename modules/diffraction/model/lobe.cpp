@@ -11,53 +11,31 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// s_h + v_h of two unit vectors.
-constexpr double kLargestSum = 2.0;
+constexpr double kWholeDomain = LobeExtent{}.half_width;
 
 /// exp(−8.4²/2) = 5e-16.
 double gaussian_half_width(double sigma) {
-    return std::min(8.4 * sigma, kLargestSum);
+    return std::min(8.4 * sigma, kWholeDomain);
 }
 
-double core_half_width(const FlatLobe&) {
-    return kLargestSum;
-}
-double core_half_width(const GaussianLobe& lobe) {
-    return gaussian_half_width(lobe.sigma);
-}
-double core_half_width(const PitsLobe& lobe) {
-    return lobe.coherent > 0.0 ? gaussian_half_width(kCoherentSigma) : kLargestSum;
+LobeExtent extent(const FlatLobe&) {
+    return {};
 }
 
-double half_width(const FlatLobe&) {
-    return kLargestSum;
-}
-double half_width(const GaussianLobe& lobe) {
-    return gaussian_half_width(lobe.sigma);
-}
-double half_width(const PitsLobe& lobe) {
-    return lobe.coherent < 1.0 ? kLargestSum : gaussian_half_width(kCoherentSigma);
+LobeExtent extent(const GaussianLobe& lobe) {
+    const double half_width = gaussian_half_width(lobe.sigma);
+    return {
+        .half_width = half_width, .core_half_width = half_width, .feature_size = std::min(lobe.sigma, kWholeDomain)};
 }
 
-double tail_feature_size(const FlatLobe&) {
-    return kLargestSum;
-}
-double tail_feature_size(const GaussianLobe&) {
-    return kLargestSum;
-}
-/// A period of sinc² at the shortest wavelength.
-double tail_feature_size(const PitsLobe& lobe) {
-    return lobe.coherent < 1.0 ? std::min(colour::kVisibleMin / lobe.length_nm, kLargestSum) : kLargestSum;
-}
-
-double feature_size(const FlatLobe&) {
-    return kLargestSum;
-}
-double feature_size(const GaussianLobe& lobe) {
-    return std::min(lobe.sigma, kLargestSum);
-}
-double feature_size(const PitsLobe& lobe) {
-    return std::min(lobe.coherent > 0.0 ? kCoherentSigma : kLargestSum, tail_feature_size(lobe));
+LobeExtent extent(const PitsLobe& lobe) {
+    LobeExtent result = lobe.coherent > 0.0 ? extent(GaussianLobe{kCoherentSigma}) : LobeExtent{};
+    if (lobe.coherent == 1.0) return result;
+    result.half_width = kWholeDomain;
+    // A period of sinc² at the shortest wavelength.
+    result.tail_feature_size = std::min(colour::kVisibleMin / lobe.length_nm, kWholeDomain);
+    result.feature_size = std::min(result.feature_size, result.tail_feature_size);
+    return result;
 }
 
 }  // namespace
@@ -74,10 +52,10 @@ LobeDensity::LobeDensity(const GrooveLobe& lobe, double wavelength_nm) {
     }
 }
 
-void LobeDensity::add_gaussian(double sigma, double share) {
-    const double share_inside = std::erf(1.0 / (sigma * std::numbers::sqrt2));
+void LobeDensity::add_gaussian(double sigma, double fraction) {
+    const double inside = std::erf(1.0 / (sigma * std::numbers::sqrt2));
     inverse_sigma_ = 1.0 / sigma;
-    peak_ = share * std::numbers::inv_sqrtpi / (sigma * std::numbers::sqrt2 * share_inside);
+    peak_ = fraction * std::numbers::inv_sqrtpi / (sigma * std::numbers::sqrt2 * inside);
 }
 
 double LobeDensity::pits(double sum_h) const {
@@ -89,20 +67,8 @@ double lobe_density(const GrooveLobe& lobe, double sum_h, double wavelength_nm) 
     return LobeDensity(lobe, wavelength_nm)(sum_h);
 }
 
-double lobe_half_width(const GrooveLobe& lobe) {
-    return std::visit([](const auto& shape) { return half_width(shape); }, lobe);
-}
-
-double lobe_core_half_width(const GrooveLobe& lobe) {
-    return std::visit([](const auto& shape) { return core_half_width(shape); }, lobe);
-}
-
-double lobe_tail_feature_size(const GrooveLobe& lobe) {
-    return std::visit([](const auto& shape) { return tail_feature_size(shape); }, lobe);
-}
-
-double lobe_feature_size(const GrooveLobe& lobe) {
-    return std::visit([](const auto& shape) { return feature_size(shape); }, lobe);
+LobeExtent lobe_extent(const GrooveLobe& lobe) {
+    return std::visit([](const auto& shape) { return extent(shape); }, lobe);
 }
 
 bool is_flat(const GrooveLobe& lobe) {

@@ -5,7 +5,7 @@
 
 namespace rowland::diffraction {
 
-/// The paper's free case: light scatters evenly along the grooves, D_h = ½.
+/// The paper's case: light scatters evenly along the grooves, D_h = ½.
 struct FlatLobe {};
 
 /// D_h = Normal(s_h + v_h; 0, sigma) / erf(1/(sigma √2)): a pressed disc or foil. Tends to ½ as sigma grows.
@@ -17,20 +17,20 @@ struct GaussianLobe {
 /// D_h = κ·G + (1−κ)·(ℓ/λ) sinc²(ℓ (s_h + v_h)/λ), G the normalised Gaussian of kCoherentSigma.
 struct PitsLobe {
     double length_nm = 850.0;  ///< ℓ > 0
-    double coherent = 0.3;     ///< κ in [0, 1]: the share that the track reflects as if it were unbroken
+    double coherent = 0.3;     ///< κ in [0, 1]: the fraction of the light that the track reflects as if unbroken
 };
 
-/// σ of the coherent share of PitsLobe.
+/// σ of the coherent part of PitsLobe.
 inline constexpr double kCoherentSigma = 0.02;
 
 using GrooveLobe = std::variant<FlatLobe, GaussianLobe, PitsLobe>;
 
 /// D_h: how light spreads along the grooves, per unit of s_h + v_h ∈ [−2, 2]. Even. It integrates to 1 over [−1, 1]
-/// (pits: over all sums, so that a share of λ/(π²ℓ) or less is lost beyond), and to no more over any stretch of length
-/// 2: a lobe never adds power.
+/// (pits: over all sums, so at most λ/(π²ℓ) of it is lost beyond), and to no more over any interval of length 2: a lobe
+/// never adds power.
 class LobeDensity {
  public:
-    /// The wavelength is for lobes that depend on it.
+    /// Only PitsLobe depends on the wavelength.
     LobeDensity(const GrooveLobe& lobe, double wavelength_nm);
 
     double operator()(double sum_h) const {
@@ -44,7 +44,7 @@ class LobeDensity {
     }
 
  private:
-    void add_gaussian(double sigma, double share);
+    void add_gaussian(double sigma, double fraction);
     double pits(double sum_h) const;
 
     double constant_ = 0.0;
@@ -54,23 +54,19 @@ class LobeDensity {
     double pit_wavelengths_ = 0.0;  ///< ℓ/λ
 };
 
-/// D_h at one place. For many places of one lobe and wavelength, keep a LobeDensity.
+/// D_h at one value of s_h + v_h. For many values of one lobe and wavelength, keep a LobeDensity.
 double lobe_density(const GrooveLobe& lobe, double sum_h, double wavelength_nm);
 
-/// |s_h + v_h| beyond which D_h is below 1e-15 of its peak; 2, the whole domain, for a lobe without an end.
-double lobe_half_width(const GrooveLobe& lobe);
+/// What a quadrature must know of a lobe. All are lengths in s_h + v_h, at most 2, which is the whole domain.
+struct LobeExtent {
+    double half_width = 2.0;         ///< beyond it D_h is below 1e-15 of its peak
+    double core_half_width = 2.0;    ///< the narrowest part's: split the quadrature there
+    double feature_size = 2.0;       ///< over which D_h bends at visible wavelengths: the step must resolve it
+    double tail_feature_size = 2.0;  ///< the same beyond the core
+};
+LobeExtent lobe_extent(const GrooveLobe& lobe);
 
-/// |s_h + v_h| beyond which the lobe's narrowest part is over: a quadrature splits there. At most lobe_half_width().
-double lobe_core_half_width(const GrooveLobe& lobe);
-
-/// Distance in s_h over which D_h bends at visible wavelengths: a quadrature's step must resolve it. 2 for the flat
-/// lobe.
-double lobe_feature_size(const GrooveLobe& lobe);
-
-/// The same beyond the core.
-double lobe_tail_feature_size(const GrooveLobe& lobe);
-
-/// True if D_h is the same for every s_h + v_h, so that the view matters through v_g alone.
+/// True if D_h is constant: the radiance then depends on v_g, not on v_h.
 bool is_flat(const GrooveLobe& lobe);
 
 }  // namespace rowland::diffraction

@@ -2,7 +2,9 @@
 
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <numbers>
+#include <type_traits>
 
 #include "engine/core/check.h"
 
@@ -58,7 +60,7 @@ double spectrum(const SlitProfile& slit, double pitch_nm, double x, double) {
 }
 
 double spectrum(const LamellarProfile& lamellar, double, double x, double wavelength_nm) {
-    // The flat period plus what the raised share changes, both centred on the same line.
+    // The flat period plus the change by the raised part; both are centred on the same line.
     const double w = lamellar.duty;
     const double phase = 2.0 * pi * phase_turns(lamellar.depth_nm, wavelength_nm);
     return std::norm(sinc(x) + (std::polar(1.0, phase) - 1.0) * (w * sinc(x * w)));
@@ -86,7 +88,89 @@ double spectrum(const EfficiencyTable&, double, double, double) {
     return 0.0;
 }
 
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+const char* const kScalar = "Goodman, Introduction to Fourier Optics, ch. 4: scalar theory at normal incidence";
+
+/// The number that a member of a profile's struct holds.
+template <typename Shape, double Shape::*Number>
+double& number(Profile& profile) {
+    return std::get<Shape>(profile).*Number;
+}
+
+template <typename Shape>
+ProfileMember depth(double initial_nm) {
+    return {.key = "depth_nm",
+            .label = "Groove depth",
+            .unit = "nm",
+            .less_than = kUnlimited,
+            .slider_least = 10.0,
+            .slider_most = 1000.0,
+            .initial = initial_nm,
+            .help = "Depth of a groove, from top to bottom; above 0. Light from the bottom is late by 4π depth/λ.",
+            .source = kScalar,
+            .value = &number<Shape, &Shape::depth_nm>};
+}
+
+ProfileDescriptor describe(const SlitProfile& slit) {
+    return {.name = "slit",
+            .empty = slit,
+            .members = {{.key = "width_nm",
+                         .label = "Slit width",
+                         .unit = "nm",
+                         .within_pitch = true,
+                         .slider_least = 10.0,
+                         .slider_most = 2000.0,
+                         .initial = 800.0,
+                         .help = "Width b of the part of a groove that reflects; above 0, at most the pitch. "
+                                 "η_m = (b/d)² sinc²(m b/d).",
+                         .source = "Lindsay & Agu 2006, eq. 2",
+                         .value = &number<SlitProfile, &SlitProfile::width_nm>}}};
+}
+
+ProfileDescriptor describe(const LamellarProfile& lamellar) {
+    return {.name = "lamellar",
+            .empty = lamellar,
+            .members = {{.key = "duty",
+                         .label = "Duty",
+                         .less_than = 1.0,
+                         .slider_least = 0.02,
+                         .slider_most = 0.98,
+                         .initial = 0.5,
+                         .help = "Fraction w of the pitch that is raised; between 0 and 1. "
+                                 "η_m = 4w² sinc²(m w) sin²(φ/2), φ = 4π depth/λ.",
+                         .source = kScalar,
+                         .value = &number<LamellarProfile, &LamellarProfile::duty>},
+                        depth<LamellarProfile>(150.0)}};
+}
+
+ProfileDescriptor describe(const SinusoidalProfile& sinusoidal) {
+    return {.name = "sinusoidal", .empty = sinusoidal, .members = {depth<SinusoidalProfile>(150.0)}};
+}
+
+ProfileDescriptor describe(const BlazedProfile& blazed) {
+    return {.name = "blazed", .empty = blazed, .members = {depth<BlazedProfile>(250.0)}};
+}
+
+ProfileDescriptor describe(const EfficiencyTable& table) {
+    return {.name = "table",
+            .empty = table,
+            .members = {{.key = "file",
+                         .label = "Table",
+                         .help = "CSV beside the material: wavelength_nm,R-2,R-1,R+0,R+1,… It includes the metal.",
+                         .source = "a measurement, or a rigorous solver"}}};
+}
+
+template <typename... Shapes>
+std::vector<ProfileDescriptor> describe_all(std::type_identity<std::variant<Shapes...>>) {
+    return {describe(Shapes{})...};
+}
+
 }  // namespace
+
+std::span<const ProfileDescriptor> profile_descriptors() {
+    static const std::vector<ProfileDescriptor> descriptors = describe_all(std::type_identity<Profile>{});
+    return descriptors;
+}
 
 double sinc(double x) {
     return std::abs(x) < 1e-8 ? 1.0 : sin_pi(x) / (pi * x);

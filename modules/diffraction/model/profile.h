@@ -1,17 +1,20 @@
 #pragma once
 
+#include <span>
+#include <string_view>
 #include <variant>
+#include <vector>
 
 #include "modules/diffraction/model/efficiency_table.h"
 
 namespace rowland::diffraction {
 
-/// A slit of width b in every pitch d (Agu's groove): η_m = (b/d)² sinc²(m b/d).
+/// A slit of width b in every pitch d (Agu's groove).
 struct SlitProfile {
     double width_nm = 0.0;  ///< 0 < b ≤ pitch
 };
 
-/// A rectangular groove: a share `duty` of the pitch is raised by `depth_nm`.
+/// A rectangular groove: the fraction `duty` of the pitch is raised by `depth_nm`.
 struct LamellarProfile {
     double duty = 0.5;  ///< 0 < w < 1
     double depth_nm = 0.0;
@@ -27,11 +30,40 @@ struct BlazedProfile {
     double depth_nm = 0.0;
 };
 
+/// The shape of a groove. A new one also needs, in profile.cpp, the overloads efficiency(), spectrum() and describe()
+/// (it does not compile without), and its members in material.schema.json (a test compares the two).
 using Profile = std::variant<SlitProfile, LamellarProfile, SinusoidalProfile, BlazedProfile, EfficiencyTable>;
 
-/// η_m of a perfectly reflecting groove (R = 1): the share of the incident power that goes to `order`. In [0, 1].
+/// One member of a profile in a material file: a number greater than 0, or the name of a file.
+struct ProfileMember {
+    const char* key = "";       ///< in the file; profiles may have a key in common, which then means the same
+    const char* label = "";     ///< in a user interface
+    const char* unit = "";      ///< "" for a pure number
+    double less_than = 0.0;     ///< values lie in (0, less_than); infinity: no upper limit
+    bool within_pitch = false;  ///< values lie in (0, pitch_nm] instead
+    double slider_least = 0.0;  ///< the range that a user interface offers
+    double slider_most = 0.0;
+    double initial = 0.0;  ///< when a user chooses the profile
+    const char* help = "";
+    const char* source = "";  ///< of the formula
+    /// Where the number is, of a Profile that holds the profile described. Null: the member names the file that the
+    /// profile is read from.
+    double& (*value)(Profile&) = nullptr;
+};
+
+/// A profile as files and user interfaces know it.
+struct ProfileDescriptor {
+    std::string_view name;  ///< `type` in a material file
+    Profile empty;          ///< the profile described, its numbers not set
+    std::vector<ProfileMember> members;
+};
+
+/// One descriptor per profile, in the order of the variant.
+std::span<const ProfileDescriptor> profile_descriptors();
+
+/// η_m of a perfectly reflecting groove (R = 1): the fraction of the incident power that goes to `order`. In [0, 1].
 /// Scalar theory at normal incidence, phase φ = 4π depth/λ (PHYSICS §3; Goodman, Introduction to Fourier Optics, §4.4).
-/// A table's share is table_efficiency() for light from s_g: what its metal takes is already gone.
+/// Of a table: table_efficiency() for light from s_g, which includes the metal's absorption.
 /// pitch_nm > 0, wavelength_nm > 0, |s_g| ≤ 1.
 double profile_efficiency(const Profile& profile, double pitch_nm, int order, double wavelength_nm, double s_g = 0.0);
 
@@ -39,8 +71,8 @@ double profile_efficiency(const Profile& profile, double pitch_nm, int order, do
 bool depends_on_incidence(const Profile& profile);
 
 /// The groove's own spectrum |∫ t(y) exp(−2πi x y) dy|² over one pitch at the fractional order x = d u/λ. At every
-/// integer x it equals profile_efficiency(); between, it takes η_m's place where few grooves make orders wide. A table
-/// has no groove and must not be asked.
+/// integer x it equals profile_efficiency(); between, it replaces η_m where few grooves make orders wide. A table has
+/// no groove: a contract violation.
 double groove_spectrum(const Profile& profile, double pitch_nm, double fractional_order, double wavelength_nm);
 
 /// sin(πx)/(πx), 1 at 0.

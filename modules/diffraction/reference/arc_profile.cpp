@@ -13,28 +13,27 @@ namespace {
 
 using std::numbers::pi;
 
-/// Even the shortest arc gets this many nodes or more: the midpoint rule's error is then under 1e-4 of the arc.
+/// Of any arc: the midpoint rule's error is then below 1e-4 of the arc.
 constexpr int kMinimumNodes = 64;
 
-/// The share of the half circle that the lobe reaches.
+/// The part of the half circle that the lobe reaches.
 struct ArcSpan {
     double begin = 0.0;
     double end = pi;
 };
 
 ArcSpan lobe_span(const GrooveLobe& lobe, double v_h, double r) {
-    const double half_width = lobe_half_width(lobe);
+    const double half_width = lobe_extent(lobe).half_width;
     // s_h = r cos t falls with t.
     return {std::acos(std::clamp((-v_h + half_width) / r, -1.0, 1.0)),
             std::acos(std::clamp((-v_h - half_width) / r, -1.0, 1.0))};
 }
 
-/// Panels short enough for the light, and for the lobe: a sixth of its width a node, or a width where a panel is a
-/// many-node rule.
+/// Panels no longer than the light asks for, nor than the lobe's feature size (a sixth of it if a panel has one node).
 int panel_count(const IncidentLight& light, const GrooveLobe& lobe, double r, double length) {
-    const double lobe_panel = lobe_feature_size(lobe) * (light.nodes_per_panel() > 1 ? 1.0 : 1.0 / 6.0);
-    const double panel = std::min(light.panel_angle(), lobe_panel);
-    const int minimum = (kMinimumNodes + light.nodes_per_panel() - 1) / light.nodes_per_panel();
+    const double lobe_panel = lobe_extent(lobe).feature_size * (light.nodes_per_panel > 1 ? 1.0 : 1.0 / 6.0);
+    const double panel = std::min(light.panel_angle, lobe_panel);
+    const int minimum = (kMinimumNodes + light.nodes_per_panel - 1) / light.nodes_per_panel;
     return std::max(static_cast<int>(std::ceil(length * r / panel)), minimum);
 }
 
@@ -57,8 +56,8 @@ glm::dvec3 arc_profile(const IncidentLight& light, const glm::dmat3& world_to_ta
     const glm::dmat3 axes = glm::transpose(world_to_tangent);
     const int panels = arc.refinement * panel_count(light, lobe, r, length);
     const double panel_length = length / panels;
-    const math::QuadratureRule& rule = panel_rule(light.nodes_per_panel());
-    const double shift = light.nodes_per_panel() == 1 ? arc.node_offset - 0.5 : 0.0;
+    const math::QuadratureRule& rule = panel_rule(light.nodes_per_panel);
+    const double shift = light.nodes_per_panel == 1 ? arc.node_offset - 0.5 : 0.0;
     const LobeDensity density(lobe, arc.wavelength_nm);
     glm::dvec3 sum(0.0);
     for (int panel = 0; panel < panels; ++panel) {

@@ -8,16 +8,18 @@
 
 namespace rowland::diffraction {
 
-/// The arc profile A_c(a) of PHYSICS §4: ½ ∫₀^π L_c(a, r cos t, r sin t) · 2 D_h(r cos t + v_h) · r sin t dt with
-/// r = √(1−a²), directions in the tangent frame whose world axes are the rows of `world_to_tangent`. 0 for |a| ≥ 1.
-/// With the flat lobe 2 D_h = 1.
+/// The half circle s_g = a, and the view for which the light on it is integrated.
 struct Arc {
     double a = 0.0;              ///< s_g
-    double v_h = 0.0;            ///< the view, for the lobe
-    double wavelength_nm = 0.0;  ///< for the lobe
-    double node_offset = 0.5;    ///< where a panel's only node lies, in [0, 1]; light of many-node panels ignores it
-    int refinement = 1;          ///< as many times more panels than usual
+    double v_h = 0.0;            ///< only the lobe depends on it
+    double wavelength_nm = 0.0;  ///< likewise
+    double node_offset = 0.5;    ///< position of a panel's node in [0, 1]; ignored by panels of several nodes
+    int refinement = 1;          ///< multiplies the number of panels
 };
+
+/// The arc profile A_c(a), PHYSICS (2): ½ ∫₀^π L_c(a, r cos t, r sin t) · 2 D_h(r cos t + v_h) · r sin t dt with
+/// r = √(1−a²), directions in the tangent frame whose world axes are the rows of `world_to_tangent`. 0 for |a| ≥ 1.
+/// With the flat lobe 2 D_h = 1.
 glm::dvec3 arc_profile(const IncidentLight& light, const glm::dmat3& world_to_tangent, const GrooveLobe& lobe,
                        const Arc& arc);
 

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/matrix.hpp>
 
-#include "engine/colour/observer.h"
 #include "engine/core/check.h"
 #include "engine/core/parallel.h"
 #include "modules/diffraction/model/efficiency.h"
@@ -15,56 +13,47 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// cmf_o(λ) E_c(λ) as a matrix from RGB to XYZ.
-glm::dmat3 observed_spectra(const colour::LightSpectra& spectra, double wavelength_nm) {
-    return glm::outerProduct(colour::cie_xyz(wavelength_nm), spectra(wavelength_nm));
-}
-
-constexpr int kRange_nm = colour::kVisibleMax - colour::kVisibleMin;
-
-/// Node i of the trapezoid rule over the visible range.
-struct WavelengthNode {
-    WavelengthNode(int i, int nodes_per_nm)
-        : wavelength_nm(colour::kVisibleMin + static_cast<double>(i) / nodes_per_nm),
-          step_nm((i == 0 || i == kRange_nm * nodes_per_nm ? 0.5 : 1.0) / nodes_per_nm) {}
-
-    double wavelength_nm;
-    double step_nm;
+/// cmf Eᵀ dλ at one node of the trapezoid rule over the visible range.
+struct ObservedNode {
+    double wavelength_nm = 0.0;
+    glm::dmat3 observed{0.0};
 };
+
+std::vector<ObservedNode> observed_nodes(const colour::LightSpectra& spectra, int nodes_per_nm) {
+    const int last = (colour::kVisibleMax - colour::kVisibleMin) * nodes_per_nm;
+    std::vector<ObservedNode> nodes;
+    for (int i = 0; i <= last; ++i) {
+        const double wavelength_nm = colour::kVisibleMin + static_cast<double>(i) / nodes_per_nm;
+        const double step_nm = (i == 0 || i == last ? 0.5 : 1.0) / nodes_per_nm;
+        nodes.push_back({wavelength_nm, step_nm * observed_spectra(spectra, wavelength_nm)});
+    }
+    return nodes;
+}
 
 /// Sharp orders: the light of order m and wavelength λ lies on one arc.
 std::vector<PathWeight> sharp_orders(const Grating& grating, const colour::LightSpectra& spectra, double largest_step,
                                      int refinement) {
     std::vector<PathWeight> weights;
-    const bool efficiency_later = depends_on_incidence(grating.profile);
+    const bool at_each_arc = depends_on_incidence(grating.profile);
     for (const int order : grating.orders) {
         const double step_at_1nm = std::abs(order) / grating.pitch_nm;
         const int nodes_per_nm = refinement * std::max(1, static_cast<int>(std::ceil(step_at_1nm / largest_step)));
-        for (int i = 0; i <= kRange_nm * nodes_per_nm; ++i) {
-            const WavelengthNode node(i, nodes_per_nm);
-            const double efficiency = efficiency_later ? 1.0 : order_efficiency(grating, order, node.wavelength_nm);
-            weights.push_back({order * node.wavelength_nm, node.wavelength_nm,
-                               node.step_nm * efficiency * observed_spectra(spectra, node.wavelength_nm), order});
+        for (const auto& [wavelength_nm, observed] : observed_nodes(spectra, nodes_per_nm)) {
+            const double efficiency = at_each_arc ? 1.0 : order_efficiency(grating, order, wavelength_nm);
+            weights.push_back({order * wavelength_nm, wavelength_nm, efficiency * observed, order});
         }
     }
     return weights;
 }
 
-/// What a wavelength adds to the sum, but for its efficiency.
-struct ObservedWavelength {
-    double wavelength_nm = 0.0;
-    glm::dmat3 observed{0.0};
-};
-
-/// The weight at one path difference of few grooves: every wavelength reaches it, by its Fejér ratio.
-glm::dmat3 blurred_weight(const Grating& grating, const std::vector<ObservedWavelength>& spectrum, double path_nm) {
+/// The weight at one path difference of few grooves: every wavelength contributes, by its Fejér ratio.
+glm::dmat3 blurred_weight(const Grating& grating, const std::vector<ObservedNode>& spectrum, double path_nm) {
     glm::dmat3 sum(0.0);
-    for (const ObservedWavelength& node : spectrum) {
+    for (const ObservedNode& node : spectrum) {
         const double fractional_order = path_nm / node.wavelength_nm;
         const double nearest = std::round(fractional_order);
         const int order = static_cast<int>(nearest);
-        if (std::find(grating.orders.begin(), grating.orders.end(), order) == grating.orders.end()) continue;
-        if (!propagates(order, node.wavelength_nm, grating.pitch_nm)) continue;
+        if (!lists(grating, order) || !propagates(order, node.wavelength_nm, grating.pitch_nm)) continue;
         const double density = grating.grooves / node.wavelength_nm *
                                fejer(grating.grooves, fractional_order - nearest) *
                                fractional_order_efficiency(grating, fractional_order, node.wavelength_nm);
@@ -73,15 +62,11 @@ glm::dmat3 blurred_weight(const Grating& grating, const std::vector<ObservedWave
     return sum;
 }
 
-/// Wide orders. The lobe is taken at the middle of the range: none of the lobes that may be combined with few grooves
-/// depends on wavelength.
+/// Wide orders. The lobe is evaluated at the middle of the range: those allowed with few grooves do not depend on
+/// wavelength.
 std::vector<PathWeight> wide_orders(const Grating& grating, const colour::LightSpectra& spectra, double largest_step,
                                     int refinement) {
-    std::vector<ObservedWavelength> spectrum;
-    for (int i = 0; i <= kRange_nm * refinement; ++i) {
-        const WavelengthNode node(i, refinement);
-        spectrum.push_back({node.wavelength_nm, node.step_nm * observed_spectra(spectra, node.wavelength_nm)});
-    }
+    const std::vector<ObservedNode> spectrum = observed_nodes(spectra, refinement);
     ROWLAND_CHECK(!std::holds_alternative<PitsLobe>(grating.lobe), "pits with few grooves");
     // An order is λ/N ≥ 7.7 nm wide in x.
     const double step_nm = std::min(1.0, largest_step * grating.pitch_nm) / refinement;
@@ -96,10 +81,6 @@ std::vector<PathWeight> wide_orders(const Grating& grating, const colour::LightS
     return weights;
 }
 
-bool is_zero(const PathWeight& term) {
-    return term.weight == glm::dmat3(0.0);
-}
-
 }  // namespace
 
 std::vector<PathWeight> path_weights(const Grating& grating, const colour::LightSpectra& spectra, double largest_step,
@@ -110,7 +91,7 @@ std::vector<PathWeight> path_weights(const Grating& grating, const colour::Light
     ROWLAND_CHECK_OP(refinement, >=, 1);
     auto weights = grating.grooves >= kManyGrooves ? sharp_orders(grating, spectra, largest_step, refinement)
                                                    : wide_orders(grating, spectra, largest_step, refinement);
-    std::erase_if(weights, is_zero);
+    std::erase_if(weights, [](const PathWeight& term) { return term.weight == glm::dmat3(0.0); });
     return weights;
 }
 

@@ -14,8 +14,8 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// Several neighbouring wavelengths' arcs cross each texel. Their nodes are staggered by multiples of the golden ratio,
-/// so that together they sample it that much more finely than each does.
+/// The arcs of several neighbouring wavelengths cross each texel. Their nodes are staggered by multiples of the golden
+/// ratio, so that together they sample the texel more finely than one arc does.
 double node_offset(std::size_t arc) {
     const double multiple = static_cast<double>(arc) * (std::numbers::phi - 1.0);
     return multiple - std::floor(multiple);
@@ -33,14 +33,13 @@ glm::dvec3 frame_radiance(const IncidentLight& light, const Grating& grating, co
     const glm::dvec3 v = tangent * glm::normalize(frame.view);
     if (v.z <= 0.0) return glm::dvec3(0.0);
     glm::dvec3 xyz(0.0);
-    // Order 0 has one arc for all wavelengths: it is integrated once.
+    // All wavelengths of order 0 have the same arc: it is integrated once.
     double last_arc = 2.0;
     glm::dvec3 profile(0.0);
-    const bool lobe_is_fixed = is_flat(grating.lobe);
     for (std::size_t i = 0; i < weights.size(); ++i) {
         const double a = weights[i].path_nm / grating.pitch_nm - v.x;
         if (a <= -1.0 || a >= 1.0) continue;
-        if (a != last_arc || !lobe_is_fixed)
+        if (a != last_arc || !is_flat(grating.lobe))
             profile = arc_profile(light, tangent, grating.lobe,
                                   {.a = a,
                                    .v_h = v.y,
@@ -55,7 +54,7 @@ glm::dvec3 frame_radiance(const IncidentLight& light, const Grating& grating, co
 
 std::vector<glm::dvec3> radiance(const Grating& grating, const IncidentLight& light,
                                  const colour::LightSpectra& spectra, std::span<const Frame> frames, int refinement) {
-    const std::vector<PathWeight> weights = path_weights(grating, spectra, light.panel_angle(), refinement);
+    const std::vector<PathWeight> weights = path_weights(grating, spectra, light.panel_angle, refinement);
     std::vector<glm::dvec3> result(frames.size());
     Progress progress(refinement == 1 ? "reference" : "reference, finer", frames.size());
     parallel_for(frames.size(), [&](std::size_t i) {
@@ -65,38 +64,23 @@ std::vector<glm::dvec3> radiance(const Grating& grating, const IncidentLight& li
     return result;
 }
 
-std::vector<CheckedRadiance> check(const Grating& grating, const IncidentLight& light,
-                                   const colour::LightSpectra& spectra, std::span<const Frame> frames) {
-    const std::vector<glm::dvec3> usual = radiance(grating, light, spectra, frames, 1);
-    const std::vector<glm::dvec3> finer = radiance(grating, light, spectra, frames, 2);
-    std::vector<CheckedRadiance> result;
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-        const double difference = glm::length(usual[i] - finer[i]);
-        result.push_back({usual[i], difference == 0.0 ? 0.0 : difference / glm::length(finer[i])});
-    }
-    return result;
-}
-
 }  // namespace
 
-std::vector<glm::dvec3> reference_radiance(const Grating& grating, const lighting::ProbeImage& probe,
+std::vector<glm::dvec3> reference_radiance(const Grating& grating, const IncidentLight& light,
                                            const colour::LightSpectra& spectra, std::span<const Frame> frames) {
-    return radiance(grating, ProbeLight(probe), spectra, frames, 1);
+    return radiance(grating, light, spectra, frames, 1);
 }
 
-std::vector<glm::dvec3> reference_radiance(const Grating& grating, const lighting::ShLight& light,
-                                           const colour::LightSpectra& spectra, std::span<const Frame> frames) {
-    return radiance(grating, BandlimitedLight(light), spectra, frames, 1);
-}
-
-std::vector<CheckedRadiance> checked_reference(const Grating& grating, const lighting::ProbeImage& probe,
+std::vector<CheckedRadiance> checked_reference(const Grating& grating, const IncidentLight& light,
                                                const colour::LightSpectra& spectra, std::span<const Frame> frames) {
-    return check(grating, ProbeLight(probe), spectra, frames);
-}
-
-std::vector<CheckedRadiance> checked_reference(const Grating& grating, const lighting::ShLight& light,
-                                               const colour::LightSpectra& spectra, std::span<const Frame> frames) {
-    return check(grating, BandlimitedLight(light), spectra, frames);
+    const std::vector<glm::dvec3> coarse = radiance(grating, light, spectra, frames, 1);
+    const std::vector<glm::dvec3> fine = radiance(grating, light, spectra, frames, 2);
+    std::vector<CheckedRadiance> result;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        const double difference = glm::length(coarse[i] - fine[i]);
+        result.push_back({coarse[i], difference == 0.0 ? 0.0 : difference / glm::length(fine[i])});
+    }
+    return result;
 }
 
 }  // namespace rowland::diffraction

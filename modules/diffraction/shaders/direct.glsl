@@ -1,4 +1,4 @@
-// Lights of their own, shaded by the colour kernel (PHYSICS, "direct"): XYZ = sum of 1/2 s_n d k(d u) F * 2 D_h, the
+// Analytic lights, shaded by the colour kernel (PHYSICS §4): XYZ = sum of 1/2 s_n d k(d u) F * 2 D_h, the
 // kernel smoothed over the light and the pixel.
 #include "modules/diffraction/shaders/small_light.glsl"
 #include "modules/diffraction/shaders/key_lobes.glsl"

@@ -33,9 +33,9 @@ TEST(Lobe, NarrowGaussianIsFinite) {
 
 TEST(Lobe, IsBelowAnyNoticeBeyondItsHalfWidth) {
     const GaussianLobe lobe{0.1};
-    EXPECT_LT(lobe_density(lobe, lobe_half_width(lobe), 550.0), 1e-15 * lobe_density(lobe, 0.0, 550.0));
-    EXPECT_EQ(lobe_half_width(GaussianLobe{3.0}), 2.0);
-    EXPECT_EQ(lobe_half_width(FlatLobe{}), 2.0);
+    EXPECT_LT(lobe_density(lobe, lobe_extent(lobe).half_width, 550.0), 1e-15 * lobe_density(lobe, 0.0, 550.0));
+    EXPECT_EQ(lobe_extent(GaussianLobe{3.0}).half_width, 2.0);
+    EXPECT_EQ(lobe_extent(FlatLobe{}).half_width, 2.0);
 }
 
 /// PHYSICS §3: κ·G + (1−κ)·(ℓ/λ) sinc²(ℓz/λ), here at its peak, its first zero and between. 0.0794: G at 2.5 σ.
@@ -60,7 +60,7 @@ TEST(Lobe, WhollyCoherentPitsAreTheGaussian) {
     const PitsLobe pits{.length_nm = 850.0, .coherent = 1.0};
     for (const double z : {-0.07, 0.0, 0.03, 1.4})
         EXPECT_EQ(lobe_density(pits, z, 550.0), lobe_density(GaussianLobe{kCoherentSigma}, z, 550.0));
-    EXPECT_EQ(lobe_half_width(pits), lobe_half_width(GaussianLobe{kCoherentSigma}));
+    EXPECT_EQ(lobe_extent(pits).half_width, lobe_extent(GaussianLobe{kCoherentSigma}).half_width);
 }
 
 /// A share of ∫ over any stretch of length 2 (what a view at v_h leaves to s_h ∈ [−1, 1]); midpoint rule, 1e-6.
@@ -84,11 +84,11 @@ TEST(Lobe, NeverAddsPower) {
 
 TEST(Lobe, PitsAreSplitAtTheirBump) {
     const PitsLobe pits{.length_nm = 850.0, .coherent = 0.3};
-    EXPECT_EQ(lobe_half_width(pits), 2.0);
-    EXPECT_EQ(lobe_core_half_width(pits), lobe_half_width(GaussianLobe{kCoherentSigma}));
-    EXPECT_EQ(lobe_core_half_width(PitsLobe{850.0, 0.0}), 2.0);
-    EXPECT_EQ(lobe_feature_size(pits), kCoherentSigma);
-    EXPECT_EQ(lobe_feature_size(PitsLobe{38000.0, 0.3}), 0.01);
+    EXPECT_EQ(lobe_extent(pits).half_width, 2.0);
+    EXPECT_EQ(lobe_extent(pits).core_half_width, lobe_extent(GaussianLobe{kCoherentSigma}).half_width);
+    EXPECT_EQ(lobe_extent(PitsLobe{850.0, 0.0}).core_half_width, 2.0);
+    EXPECT_EQ(lobe_extent(pits).feature_size, kCoherentSigma);
+    EXPECT_EQ(lobe_extent(PitsLobe{38000.0, 0.3}).feature_size, 0.01);
     EXPECT_FALSE(is_flat(pits));
 }
 

@@ -1,4 +1,4 @@
-#include "modules/diffraction/reference/brute_force.h"
+#include "tests/unit/modules/diffraction/reference/brute_force.h"
 
 #include <gtest/gtest.h>
 

@@ -62,7 +62,7 @@ double luminance_at_normal_incidence(const Grating& grating, const Share& share)
 
 const Frame kNormalIncidence{.view = {0, 0, 1}, .normal = {0, 0, 1}, .grating = {1, 0, 0}};
 
-/// The flat lobe loses what it would scatter below the horizon: of order m √(1−(mλ/d)²) is left. PHYSICS: 1e-4.
+/// The flat lobe loses what it would scatter below the horizon: of order m √(1−(mλ/d)²) is left, to 1e-4.
 TEST(Energy, FlatLobeUnderUniformLightIsTheSumOfShortenedOrders) {
     const auto probe = white_probe();
     for (const Profile& profile : profiles()) {
@@ -76,7 +76,7 @@ TEST(Energy, FlatLobeUnderUniformLightIsTheSumOfShortenedOrders) {
 }
 
 /// A narrow lobe loses nothing away from cut-off. Orders to ±2: 2·780/1600 leaves a half circle of radius 0.22, wider
-/// than the lobe's half width. PHYSICS: 1e-3.
+/// than the lobe's half width. To 1e-3.
 TEST(Energy, NarrowLobeUnderUniformLightIsTheSumOfOrders) {
     const auto probe = white_probe();
     for (const Profile& profile : profiles()) {
