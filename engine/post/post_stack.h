@@ -9,14 +9,10 @@
 #include "engine/gpu/shader_library.h"
 #include "engine/gpu/texture.h"
 #include "engine/post/auto_exposure.h"
-#include "engine/post/auto_exposure_pass.h"
 #include "engine/post/bloom.h"
-#include "engine/post/bloom_pass.h"
 #include "engine/post/display_pass.h"
 #include "engine/post/dither.h"
-#include "engine/post/dither_pass.h"
 #include "engine/post/vignette.h"
-#include "engine/post/vignette_pass.h"
 
 namespace rowland::post {
 
