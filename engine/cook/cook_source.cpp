@@ -12,7 +12,7 @@ namespace rowland::cook {
 
 namespace {
 
-/// Throws if a file is not what it was when the bake first saw it.
+/// Throws if a file has changed since the bake first read it.
 Hash128 content_hash(const Context& context, const AssetType& type) {
     std::vector<Hash128> hashes;
     for (std::size_t i = 0; i < context.dependencies().size(); ++i) {
@@ -30,7 +30,6 @@ Hash128 content_hash(const Context& context, const AssetType& type) {
     return content_hash(type, hashes);
 }
 
-/// A slip on the command line must not cost the user a source.
 void check_output_is_no_source(const std::filesystem::path& output, const std::filesystem::path& source) {
     std::error_code missing;
     if (!std::filesystem::equivalent(output, source, missing)) return;

@@ -47,7 +47,7 @@ struct AssetType {
     std::string name;           ///< "probe", "material", "mesh"
     std::uint32_t version = 1;  ///< raise it whenever the payload's layout or the bake's result changes
     std::string extension;      ///< of the cooked file, with the dot
-    bool in_container = true;   ///< false: the payload is a file format of its own (GLB) and is written as it is
+    bool in_container = true;   ///< false: the payload is itself a file (GLB), written without the container
 
     /// Whether a source is of this type. `json` is the parsed source if its extension is .json, else null.
     std::function<bool(const std::filesystem::path& source, const nlohmann::json* json)> recognises;
@@ -72,7 +72,7 @@ class Registry {
     /// The type of a source file, or null. Throws Error (input) if it is JSON that cannot be read, and if two types
     /// claim it.
     const AssetType* recognise(const std::filesystem::path& source) const;
-    /// The same; throws Error (input) listing what is known if there is none.
+    /// The same; throws Error (input) that lists the known types if there is none.
     const AssetType& type_of_source(const std::filesystem::path& source) const;
     /// The type called `name`, or null.
     const AssetType* find(const std::string& name) const;

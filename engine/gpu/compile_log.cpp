@@ -11,7 +11,7 @@ namespace rowland::gpu {
 
 namespace {
 
-/// Takes a log line apart from its front.
+/// Parses a log line from its start.
 struct Scanner {
     std::string_view rest;
 
@@ -29,8 +29,8 @@ struct Scanner {
     }
 };
 
-/// The line's number, past which the scanner then stands. The number before it is the source string's, always 0 here.
-std::optional<std::size_t> scan_place(Scanner& scanner) {
+/// Reads the position, up to the message; returns the line. The number before it is the source string's, always 0 here.
+std::optional<std::size_t> scan_position(Scanner& scanner) {
     const bool has_severity_first = scanner.skip("ERROR: ") || scanner.skip("WARNING: ");
     if (!scanner.number()) return std::nullopt;
     if (scanner.skip("(")) {  // NVIDIA
@@ -46,7 +46,7 @@ std::optional<std::size_t> scan_place(Scanner& scanner) {
 
 CompileMessage parse_line(std::string_view line, std::span<const std::string> files) {
     Scanner scanner{line};
-    const std::optional<std::size_t> number = scan_place(scanner);
+    const std::optional<std::size_t> number = scan_position(scanner);
     if (number && *number / lines_per_file < files.size()) {
         return {files[*number / lines_per_file], *number % lines_per_file, std::string(scanner.rest)};
     }

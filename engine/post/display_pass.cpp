@@ -77,7 +77,7 @@ void DisplayPass::set_transform(const gpu::ShaderLibrary& library, const Display
     try {
         const OCIO::ConstGPUProcessorRcPtr processor = transform.processor()->getDefaultGPUProcessor();
         processor->extractGpuShaderInfo(shader);
-        // The processor's id stands for the tables, the shader's for the code.
+        // The processor's id identifies the tables, the shader's the code.
         cache_id = fmt::format("{} {}", processor->getCacheID(), shader->getCacheID());
     } catch (const OCIO::Exception& exception) {
         throw Error({.file = transform.config_source(),

@@ -75,7 +75,7 @@ DisplayTransform::DisplayTransform(const OcioConfig& config, const DisplaySelect
                      .place = fmt::format("display \"{}\", view \"{}\"", selection_.display, selection_.view),
                      .found = exception.what(),
                      .expected = "a view that can be built",
-                     .remedy = "mend the configuration, or choose another view"});
+                     .remedy = "correct the configuration, or choose another view"});
     }
 }
 

@@ -13,7 +13,7 @@ std::vector<std::uint16_t> to_working_space(const lighting::PackedEnvironmentMap
     for (std::size_t i = 0; i + 2 < halves.size(); i += 3) {
         const glm::vec3 rgb(glm::unpackHalf1x16(packed.halves[i]), glm::unpackHalf1x16(packed.halves[i + 1]),
                             glm::unpackHalf1x16(packed.halves[i + 2]));
-        // Rec.709 lies inside ACEScg and its rows sum to 1: no value grows beyond the largest of the three.
+        // Rec.709 lies inside ACEScg and its rows sum to 1: no component exceeds the largest of the three.
         const glm::vec3 working = to_working * rgb;
         for (int c = 0; c < 3; ++c) halves[i + static_cast<std::size_t>(c)] = glm::packHalf1x16(working[c]);
     }

@@ -7,7 +7,7 @@
 
 namespace rowland::render {
 
-/// What a light probe's surroundings look like, on the GPU, in the working space.
+/// A light probe's prefiltered environment on the GPU, in the working space.
 class Environment {
  public:
     Environment(const lighting::LightProbe& probe, const glm::dmat3& rec709_to_working);

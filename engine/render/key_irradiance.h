@@ -8,12 +8,12 @@
 
 namespace rowland::render {
 
-/// Irradiance from a probe's key lights over the surface's normal, so that a pixel pays one look-up for all of them. A
+/// Irradiance from a probe's key lights over the surface's normal, so that all of them cost one look-up per pixel. A
 /// cube map of half floats, times scale().
 class KeyIrradiance {
  public:
-    /// In the working space. At the map's 64² texels a face it is off by at most 6e-3 of a point light's irradiance
-    /// (where its cosine is cut off at the horizon), and by less for wider lobes.
+    /// In the working space. With 64² texels per face the error is at most 6e-3 of a point light's irradiance (where
+    /// its cosine is clamped at the horizon), and less for wider lobes.
     KeyIrradiance(std::span<const lighting::KeyLight> keys, const glm::dmat3& rec709_to_working);
 
     const gpu::Texture& map() const { return map_; }

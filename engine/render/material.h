@@ -19,7 +19,7 @@ namespace rowland::render {
 
 /// A texture on a surface.
 struct SurfaceTexture {
-    std::shared_ptr<const gpu::Texture> texture;  ///< none: the factor alone
+    std::shared_ptr<const gpu::Texture> texture;  ///< null: the factor alone
     int uv_set = 0;
     scene::TextureTransform transform;
 
@@ -43,7 +43,7 @@ struct StandardMaterial {
     scene::AlphaMode alpha_mode = scene::AlphaMode::Opaque;
     float alpha_cutoff = 0.5F;
     bool double_sided = false;
-    bool unlit = false;  ///< shows base colour and emission, whatever the light
+    bool unlit = false;  ///< shows base colour and emission, independent of light
 };
 
 /// A DirectionalLight of the scene in world axes.

@@ -24,7 +24,7 @@ namespace {
 constexpr int kBrdfTableSize = 64;
 constexpr const char* kPlainShader = "plain";
 constexpr const char* kShadowShader = "shadow";
-// Where the surface steepens within a texel, the lift in direct_light.glsl alone falls short.
+// For surfaces whose slope changes within a texel: there the lift in direct_light.glsl is not enough.
 constexpr float kShadowSlopeBias = 1.0F;
 
 gpu::Texture make_brdf_texture() {
@@ -41,7 +41,7 @@ gpu::ProgramDesc shader_pair(const std::string& name) {
     return desc;
 }
 
-/// Writes values to a buffer that grows with them.
+/// Replaces a buffer's content; grows it if needed.
 void upload(gpu::Buffer& buffer, std::span<const std::byte> data) {
     if (buffer.size() < data.size()) {
         buffer = gpu::Buffer(data, gpu::BufferUse::Dynamic);
@@ -50,11 +50,11 @@ void upload(gpu::Buffer& buffer, std::span<const std::byte> data) {
     }
 }
 
-/// The pixels that a draw may change; none where it may change all.
+/// The pixels that a draw may change; null: all.
 std::optional<gpu::Scissor> scissor_of(const Draw& draw, glm::ivec2 size) {
     if (draw.columns == nullptr) return std::nullopt;
-    const auto edge = [&](float share) {
-        return static_cast<int>(std::lround(std::clamp(share, 0.0F, 1.0F) * static_cast<float>(size.x)));
+    const auto edge = [&](float fraction) {
+        return static_cast<int>(std::lround(std::clamp(fraction, 0.0F, 1.0F) * static_cast<float>(size.x)));
     };
     const int begin = edge(draw.columns->begin);
     return gpu::Scissor{.x = begin, .y = 0, .width = std::max(edge(draw.columns->end) - begin, 0), .height = size.y};
@@ -66,7 +66,7 @@ glm::vec3 centre_of(const scene::Bounds& box) {
 
 }  // namespace
 
-/// What one call of render() works on.
+/// The state of one call of render().
 struct Renderer::Frame {
     const scene::Camera* camera = nullptr;
     float aspect = 1.0F;
@@ -78,7 +78,7 @@ struct Renderer::Frame {
     std::vector<const Draw*> blended;
     std::vector<const Draw*> casters;
     ShadowView shadow;
-    float farthest = 0.0F;  ///< along the camera's axis, of what is in the picture
+    float farthest = 0.0F;  ///< extent of the drawn entities along the camera's axis
 };
 
 Renderer::Renderer(const glm::dmat3& xyz_to_working)

@@ -30,25 +30,25 @@
 
 namespace rowland::render {
 
-/// How the opaque pass shades; the sky is drawn in either.
+/// How the opaque pass shades. The sky is drawn in both.
 enum class Shading {
     Full,
     Unlit,  ///< every surface its base colour: what a frame costs without any shading
 };
 
-/// What the last frame took.
+/// Counts of the last frame.
 struct FrameReport {
     int drawn = 0;                      ///< entities in the picture
     int culled = 0;                     ///< entities outside it
     int shadow_drawn = 0;               ///< entities in the shadow map
     int programs = 0;                   ///< compiled so far
-    std::vector<gpu::PassTime> passes;  ///< of the frame so far, if someone times it
+    std::vector<gpu::PassTime> passes;  ///< so far in the frame, if set_pass_times() was called
 };
 
 /// Forward HDR renderer: draws all entities with a MeshInstance, a StandardMaterial and a WorldMatrix, then the sky,
 /// then those that blend, into a float framebuffer with depth, in the working space. Light comes from the probe and
 /// from entities with a DirectionalLight or a PunctualLight, at most 64; the first directional light that casts_shadow
-/// does. What has PictureColumns shows in those alone, and casts its whole shadow.
+/// does. An entity with PictureColumns is drawn in those only, and casts its whole shadow.
 class Renderer {
  public:
     /// `xyz_to_working`: from XYZ to the linear space images are made in (normally ACEScg).
@@ -61,12 +61,12 @@ class Renderer {
 
     /// Lights the scene with this probe.
     void set_probe(lighting::LightProbe probe);
-    /// Whether the probe's key lights are shaded as analytic lights (FrameLight::key_lights_apart). Off at first:
+    /// Whether the probe's key lights are shaded as analytic lights (FrameLight::key_lights_apart). Off by default:
     /// diffuse light is the probe's first nine SH terms.
     void use_key_lights(bool use);
-    /// Texels along a side of the shadow map, at least 32; 2048 at first.
+    /// Texels along a side of the shadow map, at least 32; 2048 by default.
     void set_shadow_map_size(int size);
-    /// Where the times of the passes "shadow", "opaque", "sky" and "blend" are written; null, as at first: nowhere. The
+    /// Where the times of the passes "shadow", "opaque", "sky" and "blend" are written; null, the default: nowhere. The
     /// owner calls begin_frame(). Must outlive the draws.
     void set_pass_times(gpu::PassTimes* times) { times_ = times; }
     /// Rebuilds all programs in use, from `source_tree` where it has their files. If one does not compile, all stay as

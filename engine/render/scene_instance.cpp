@@ -16,7 +16,7 @@ namespace rowland::render {
 
 namespace {
 
-/// Makes one scene's entities, sharing what instances share.
+/// Makes one scene's entities. Instances share meshes and textures.
 class Builder {
  public:
     Builder(ecs::World& world, const scene::ImportedScene& scene, Renderer& renderer, const std::string& file,

@@ -42,7 +42,7 @@ SurfaceFeatures map_features(const StandardMaterial& material) {
     return features;
 }
 
-/// Leaves only the maps in `kept`, and no transform if none is left.
+/// Removes all maps but `kept`, and the transform if no map remains.
 SurfaceFeatures keep_maps(SurfaceFeatures features, SurfaceFeatures kept) {
     for (const SurfaceMap& map : kSurfaceMaps)
         if ((map.bit & kept) == 0) features &= ~(map.bit | second_uv(map.bit));

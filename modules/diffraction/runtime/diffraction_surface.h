@@ -42,7 +42,7 @@ class DiffractionSurfaceType final : public render::MaterialType {
 
     std::string name() const override { return "diffraction"; }
     std::string gltf_extension() const override;
-    /// Bakes the grating now; equal ones share their tables while one of them lives.
+    /// Bakes the grating now. Equal gratings share their tables.
     void attach(ecs::World& world, ecs::Entity entity, const nlohmann::json& extension,
                 render::SurfaceTextures& textures, const std::string& file, const std::string& place) override;
 

@@ -3,9 +3,11 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "engine/colour/illuminant.h"
 #include "engine/lighting/light_texels.h"
 #include "engine/render/material.h"
 
@@ -22,8 +24,8 @@ struct LightParts {
     std::shared_ptr<const lighting::LightTexels> texels;        ///< the same without `key_lights`
     /// The whole probe as a cube map of one level: its mean over each texel. Null: no probe.
     std::shared_ptr<const lighting::PackedEnvironmentMap> radiance;
-    std::string illuminant;                  ///< name of the spectrum of the probe's white
-    std::vector<glm::vec3> light_strengths;  ///< see render::FrameLight; not part of `version`
+    std::string illuminant = colour::d65().name;  ///< name of the spectrum of the probe's white
+    std::vector<glm::vec3> light_strengths;       ///< see render::FrameLight; not part of `version`
     std::uint64_t version = 0;
 };
 
