@@ -58,7 +58,7 @@ PassTimes::Scope::Scope(PassTimes* times, std::string_view name) : times_(times)
     times_->runs_.push_back({std::string(name), 0.0});
     if (times_->slot_) {
         times_->write_time(2 * run_);
-        // As for Timer: llvmpipe writes the time when it has rasterised the draws queued so far; a clear of another
+        // llvmpipe writes the time when it has rasterised the draws queued so far; a clear of another
         // framebuffer starts a new queue.
         times_->boundary_.clear(glm::vec4(0.0F));
     }

@@ -109,7 +109,7 @@ std::vector<std::string> Renderer::gltf_extensions() const {
 }
 
 void Renderer::set_probe(lighting::LightProbe probe) {
-    environment_.emplace(probe, rec709_to_working_);
+    environment_ = environment_map(probe, rec709_to_working_);
     light_.probe = std::make_shared<const lighting::LightProbe>(std::move(probe));
     probe_changed_ = true;
 }
@@ -188,7 +188,7 @@ void Renderer::update_ambient() {
     ambient_ = probe.ambient;
     if (!keys.empty()) {
         ambient_ = lighting::ambient_coefficients(lighting::residual(probe.sh, keys, probe.sh.bands), keys);
-        key_irradiance_.emplace(keys, rec709_to_working_);
+        key_irradiance_ = key_irradiance_map(keys, rec709_to_working_);
     }
     probe_changed_ = false;
 }
@@ -247,15 +247,15 @@ void Renderer::upload_frame(const Frame& frame) {
     block.eye = glm::vec4(camera.eye, 1.0F);
     for (std::size_t i = 0; i < 9; ++i)
         block.ambient[i] = glm::vec4(glm::vec3(rec709_to_working_ * ambient_.coefficients[i]), 0.0F);
-    block.environment = glm::vec4(static_cast<float>(environment_->map().levels() - 1), environment_->radiance_scale(),
-                                  key_irradiance_ ? key_irradiance_->scale() : 0.0F, 0.0F);
+    block.environment = glm::vec4(static_cast<float>(environment_->map.levels() - 1), environment_->scale,
+                                  key_irradiance_ ? key_irradiance_->scale : 0.0F, 0.0F);
     block.shadow = glm::vec4(frame.shadow.texel_m, 1.0F / static_cast<float>(shadow_map_size_), 0.0F, 0.0F);
     frame_buffer_.update_value(block);
     frame_buffer_.bind_uniform(kFrameBinding);
     light_buffer_.update_value(lights_.block);
     light_buffer_.bind_uniform(kLightBinding);
-    if (key_irradiance_) key_irradiance_->map().bind(kKeyIrradianceUnit);
-    environment_->map().bind(kEnvironmentUnit);
+    if (key_irradiance_) key_irradiance_->map.bind(kKeyIrradianceUnit);
+    environment_->map.bind(kEnvironmentUnit);
     brdf_table_.bind(kBrdfUnit);
 }
 

@@ -20,8 +20,7 @@
 #include "engine/lighting/ambient.h"
 #include "engine/lighting/light_probe.h"
 #include "engine/render/draw_list.h"
-#include "engine/render/environment.h"
-#include "engine/render/key_irradiance.h"
+#include "engine/render/light_maps.h"
 #include "engine/render/material.h"
 #include "engine/render/program_cache.h"
 #include "engine/render/scene_lights.h"
@@ -110,8 +109,8 @@ class Renderer {
     gpu::Buffer joint_buffer_;
     std::size_t object_stride_;
     gpu::Texture brdf_table_;
-    std::optional<Environment> environment_;
-    std::optional<KeyIrradiance> key_irradiance_;  ///< none without key lights
+    std::optional<LightMap> environment_;
+    std::optional<LightMap> key_irradiance_;  ///< none without key lights
     std::optional<gpu::Framebuffer> shadow_map_;
     int shadow_map_size_ = 2048;
 
