@@ -83,7 +83,7 @@ class MaterialType {
     MaterialType(const MaterialType&) = delete;
     MaterialType& operator=(const MaterialType&) = delete;
 
-    /// For messages: "diffraction".
+    /// For messages: "metal".
     virtual std::string name() const = 0;
     /// The glTF material extension that describes such a surface; empty if none does.
     virtual std::string gltf_extension() const { return {}; }
