@@ -1,7 +1,8 @@
 #include "content/demo/assets.h"
 
 #include <array>
-#include <utility>
+
+#include "modules/asset_types.h"
 
 namespace rowland::demo {
 
@@ -32,11 +33,9 @@ std::vector<cook::Recooker::Job> shipped_jobs(const Options& options) {
 
 }  // namespace
 
-diffraction::LiveAssets open_assets(const Options& options, std::vector<std::string> handled_extensions) {
-    return diffraction::LiveAssets({.probe_mapping = options.probe_mapping,
-                                    .handled_extensions = std::move(handled_extensions),
-                                    .watch = options.watch,
-                                    .follow_also = shipped_jobs(options)});
+LiveAssets open_assets(const Options& options) {
+    return {modules::asset_types(),
+            {.probe_mapping = options.probe_mapping, .watch = options.watch, .follow_also = shipped_jobs(options)}};
 }
 
 std::vector<std::filesystem::path> probe_paths(const Options& options) {

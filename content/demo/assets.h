@@ -5,15 +5,14 @@
 #include <vector>
 
 #include "content/demo/options.h"
-#include "modules/diffraction/live_assets.h"
+#include "engine/live/live_assets.h"
 
 namespace rowland::demo {
 
-using diffraction::LiveAssets;
+using live::LiveAssets;
 
-/// The demo's assets; the shipped cooked ones follow their sources. `handled_extensions`: the glTF material extensions
-/// that the renderer's materials read.
-LiveAssets open_assets(const Options& options, std::vector<std::string> handled_extensions);
+/// The demo's assets; the shipped cooked ones follow their sources.
+LiveAssets open_assets(const Options& options);
 
 /// The probe of the command line, or all shipped ones.
 std::vector<std::filesystem::path> probe_paths(const Options& options);

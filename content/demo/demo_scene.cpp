@@ -83,7 +83,9 @@ DemoScene::DemoScene(const Options& options, LiveAssets& assets, render::Rendere
         show_scene();
     } else {
         grating_mesh_ = {assets.scene(options.mesh.value_or(options.cooked_folder / "cd.glb"))};
-        material_ = {assets.material(options.material.value_or(options.cooked_folder / "cd.material"))};
+        material_ = {assets.load<diffraction::CookedMaterial>(
+            options.material.value_or(options.cooked_folder / "cd.material"), diffraction::kMaterialAssetType,
+            diffraction::read_cooked_material)};
         show_grating_mesh();
         show_grating_material();
     }

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "content/demo/demo_scene.h"
-#include "modules/diffraction/module.h"
+#include "modules/material_types.h"
 
 namespace rowland::demo {
 
@@ -33,7 +33,7 @@ std::unique_ptr<view::Picture> open_picture(const Options& options, const post::
                                             Pace pace) {
     auto picture = std::make_unique<view::Picture>(config, options.view, size);
     picture->post_settings() = post_settings(options);
-    diffraction::register_module(picture->renderer(), diffraction_settings(options, pace));
+    modules::register_material_types(picture->renderer(), {.diffraction = diffraction_settings(options, pace)});
     return picture;
 }
 

@@ -43,7 +43,7 @@ Session::Session(const Options& options, const post::OcioConfig& config, glm::iv
     : options_(options),
       config_(config),
       picture_(open_picture(options, config, pixels, pace)),
-      assets_(open_assets(options, picture_->renderer().gltf_extensions())),
+      assets_(open_assets(options)),
       scene_(options, assets_, picture_->renderer(), picture_->xyz_to_working()),
       play_(scene_.world(), scene_.toys(), scene_.camera(), scene_.room(), window),
       comparison_(scene_.world(), picture_->xyz_to_working()),

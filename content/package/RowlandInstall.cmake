@@ -26,7 +26,7 @@ function(rowland_export component)
           COMPONENT ${component})
 endfunction()
 
-# The headers of folders, not of what is below them.
+# The headers of folders without their subfolders.
 function(rowland_install_headers component)
   foreach(folder IN LISTS ARGN)
     cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${PROJECT_SOURCE_DIR})
@@ -77,7 +77,7 @@ endforeach()
 
 configure_package_config_file(content/package/RowlandConfig.cmake.in ${PROJECT_BINARY_DIR}/RowlandConfig.cmake
   INSTALL_DESTINATION ${package_folder} PATH_VARS shaders_folder)
-# Before 1.0 a minor version may change what it likes.
+# Before 1.0 a minor version may change any interface.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/RowlandConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/RowlandConfig.cmake ${PROJECT_BINARY_DIR}/RowlandConfigVersion.cmake
         DESTINATION ${package_folder} COMPONENT library)

@@ -7,7 +7,8 @@
 #include "engine/core/json_reader.h"
 #include "engine/image/load.h"
 #include "engine/lighting/probe_recipe.h"
-#include "modules/diffraction/live_assets.h"
+#include "engine/live/live_assets.h"
+#include "engine/module.h"
 
 namespace rowland::inspector {
 
@@ -34,7 +35,7 @@ std::pair<lighting::ProbeImage, int> read_image(const std::filesystem::path& pat
 std::shared_ptr<const InspectedLight> load_light(const std::filesystem::path& path, const std::string& mapping) {
     auto [image, key_lights] = read_image(path, mapping);
     std::vector<std::filesystem::path> read_files;
-    lighting::LightProbe probe = diffraction::load_probe(*diffraction::make_registry(), path, mapping, read_files);
+    lighting::LightProbe probe = live::load_probe(*make_registry({}), path, mapping, read_files);
     diffraction::EvaluationLight divided(image, key_lights, math::SphericalWindow::None);
     return std::make_shared<const InspectedLight>(
         InspectedLight{path, std::move(image), std::move(probe), key_lights, std::move(divided)});

@@ -9,7 +9,7 @@
 #include "engine/core/check.h"
 #include "engine/scene/directional_light.h"
 #include "engine/scene/transform.h"
-#include "modules/diffraction/module.h"
+#include "modules/material_types.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
 
 namespace rowland::inspector {
@@ -54,7 +54,7 @@ scene::Camera opening_camera() {
 Preview::Side::Side(const post::OcioConfig& config, bool still) : picture(config, {}, {1, 1}) {
     diffraction::DiffractionSettings settings;
     if (still) settings.slices_per_frame = std::numeric_limits<int>::max();
-    diffraction::register_module(picture.renderer(), settings);
+    modules::register_material_types(picture.renderer(), {.diffraction = settings});
     object = world.create();
     world.add(object, scene::Transform{});
 }

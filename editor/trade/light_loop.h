@@ -45,6 +45,7 @@ struct LightLoopSurface {
 /// Draws entities that have a LightLoopSurface, over their StandardMaterial as a grating's base.
 class LightLoopType final : public render::MaterialType {
  public:
+    std::string name() const override { return "light loop"; }
     void add_shaders(gpu::ShaderLibrary& library) const override;
     bool owns(ecs::World& world, ecs::Entity entity) const override;
     gpu::ProgramDesc program(ecs::World& world, ecs::Entity entity) const override;

@@ -13,7 +13,7 @@
 #include "engine/render/gpu_mesh.h"
 #include "engine/scene/directional_light.h"
 #include "engine/scene/transform.h"
-#include "modules/diffraction/module.h"
+#include "modules/material_types.h"
 
 namespace rowland::trade {
 
@@ -52,7 +52,7 @@ Stage::Stage(glm::ivec2 size, const scene::Camera& camera)
       post_shaders_(post_shaders()),
       display_(post_shaders_, post::DisplayTransform(config_)),
       post_stack_(post_shaders_) {
-    diffraction::register_module(renderer_, {.slices_per_frame = std::numeric_limits<int>::max()});
+    modules::register_material_types(renderer_, {.diffraction = {.slices_per_frame = std::numeric_limits<int>::max()}});
     renderer_.add_material_type(std::make_unique<LightLoopType>());
     disc_ = add_surface(disc_mesh(), glm::vec3(0.0F));
     vertices_ = world_.get<render::MeshInstance>(disc_).mesh->positions.size();

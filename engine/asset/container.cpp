@@ -126,7 +126,7 @@ bool begins_like_magic(std::span<const std::byte> bytes) {
                       [](std::byte a, char b) { return a == static_cast<std::byte>(b); });
 }
 
-/// unpack, with errors that say what is wrong but not yet what to do.
+/// unpack() with errors that lack the remedy.
 CookedAsset parse(std::span<const std::byte> bytes, const std::string& file) {
     if (!begins_like_magic(bytes)) refuse_input(file, "byte 0", "not a cooked asset", "one that ./rowland cook wrote");
     ByteReader reader(bytes, file);
@@ -139,7 +139,7 @@ CookedAsset parse(std::span<const std::byte> bytes, const std::string& file) {
     const auto stored = reader.take(fields.stored_size);
     if (reader.remaining() != 0)
         refuse_input(file, fmt::format("byte {}", reader.offset()),
-                     fmt::format("{} bytes too many", reader.remaining()), "the end of the file");
+                     fmt::format("{} bytes after the payload", reader.remaining()), "the end of the file");
     const Hash128 found = checksum(checked, stored);
     if (found != expected) refuse_input(file, "checksum", found.hex(), expected.hex());
     check_sizes(fields, file);

@@ -28,7 +28,7 @@ struct CookedAsset {
 std::vector<std::byte> pack(const CookedAsset& asset);
 
 /// Inverse of pack for bytes that may be hostile: the checksum is over every other byte, and sizes are checked before
-/// anything is allocated. Throws Error (input) naming `file`, the place and the command that recooks it.
+/// anything is allocated. Throws Error (input) naming `file`, the position and the command that recooks it.
 CookedAsset unpack(std::span<const std::byte> bytes, const std::string& file);
 
 /// True if the bytes begin with the container's magic.

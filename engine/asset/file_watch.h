@@ -7,16 +7,16 @@
 
 namespace rowland::asset {
 
-/// Tells when one of a set of files has been written, made or removed, by its time and size.
+/// Detects when one of a set of files is written, created or removed, by its time and size.
 class FileWatch {
  public:
     FileWatch() = default;
-    /// Watches from now on. A file written after `since`, so perhaps while somebody was reading it, counts as changed.
+    /// Watches from now on. A file written after `since`, perhaps while it was being read, counts as changed.
     FileWatch(std::vector<std::filesystem::path> files, std::filesystem::file_time_type since);
     explicit FileWatch(std::vector<std::filesystem::path> files)
         : FileWatch(std::move(files), std::filesystem::file_time_type::max()) {}
 
-    /// Whether a file is not what it was; true once for every change.
+    /// Whether a file has changed since the last call.
     bool changed();
     const std::vector<std::filesystem::path>& files() const { return files_; }
 

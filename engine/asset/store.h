@@ -17,7 +17,7 @@
 
 namespace rowland::asset {
 
-/// What the store keeps of every asset, whatever its type.
+/// The part of an asset's slot that does not depend on its type.
 class Slot {
  public:
     Slot(std::string asset_name, const std::type_info& asset_type) : name(std::move(asset_name)), type(asset_type) {}
@@ -25,7 +25,7 @@ class Slot {
     Slot(const Slot&) = delete;
     Slot& operator=(const Slot&) = delete;
 
-    /// Loads the asset anew on another thread.
+    /// Reloads the asset on another thread.
     virtual void start_loading() = 0;
     virtual bool loading() const = 0;
     virtual void wait() const = 0;
@@ -40,8 +40,8 @@ class Slot {
     std::string failure;
 };
 
-/// Loads one asset from files and tells which it read, also those it could not read. It runs on another thread when the
-/// asset is loaded anew, so it must not touch OpenGL. Throws what it likes.
+/// Loads one asset and adds the files it reads, or fails to read, to `read_files`. Reloading runs it on another thread,
+/// so it must not call OpenGL. It may throw anything.
 template <typename T>
 using Loader = std::function<T(std::vector<std::filesystem::path>& read_files)>;
 
@@ -116,7 +116,7 @@ class TypedSlot final : public Slot {
     std::future<Attempt> running_;
 };
 
-/// An asset in a store, shared by all who asked for it; keeps it alive.
+/// A shared asset of a store; keeps it alive.
 template <typename T>
 class Handle {
  public:
@@ -125,7 +125,7 @@ class Handle {
 
     const T& operator*() const { return *slot_->value(); }
     const T* operator->() const { return slot_->value().get(); }
-    /// The asset as it is now; it stays the same when the store takes a newer one.
+    /// The present asset; it does not change when the store replaces it.
     std::shared_ptr<const T> share() const { return slot_->value(); }
     /// Grows whenever the asset is replaced.
     std::uint64_t version() const { return slot_->version; }
@@ -135,14 +135,14 @@ class Handle {
     std::shared_ptr<TypedSlot<T>> slot_;
 };
 
-/// Holds assets while somebody has a handle on them, and loads them anew when a file they were made from changes. A
-/// load that fails keeps the old asset. Used from one thread; loading anew runs on others.
+/// Holds assets while a handle on them exists, and reloads them when a file they were made from changes. A failed load
+/// keeps the old asset. Used from one thread; reloading runs on others.
 class Store {
  public:
-    /// How often files are looked at, at most.
+    /// `interval`: between two looks at the files.
     explicit Store(std::chrono::milliseconds interval = std::chrono::milliseconds(50)) : interval_(interval) {}
 
-    /// The asset called `name`, loaded now unless somebody holds it already. Throws what the loader throws. It is a
+    /// The asset called `name`, loaded now unless a handle on it exists. Throws what the loader throws. It is a
     /// logic error to ask for one name with two types.
     template <typename T>
     Handle<T> load(const std::string& name, Loader<T> loader) {
@@ -155,15 +155,15 @@ class Store {
         return Handle<T>(std::move(slot));
     }
 
-    /// Once a frame: starts loading what has changed, takes over what has been loaded. Returns whether an asset was
+    /// Once a frame: starts reloading what has changed, adopts what has been loaded. Returns whether an asset was
     /// replaced or a load failed.
     bool poll();
-    /// Loads every asset anew.
+    /// Reloads every asset.
     void reload_all();
-    /// Waits for all loading to end; the next poll() takes it over.
+    /// Waits for all loading to end; the next poll() adopts the results.
     void wait() const;
 
-    /// What could not be loaded anew, "name: why" each, until it can.
+    /// Assets that failed to reload, "name: why" each, until they succeed.
     std::vector<std::string> failures() const;
 
  private:

@@ -30,11 +30,8 @@ DescribedAsset load_cooked(const Registry& registry, const std::filesystem::path
     const asset::Header& header = described.asset.header;
     const AssetType* type = registry.find(header.type);
     if (type == nullptr || !type->describe)
-        throw Error({.file = path.string(),
-                     .place = "header",
-                     .found = fmt::format("a cooked asset of the unknown type \"{}\"", header.type),
-                     .expected = "a type this program knows",
-                     .remedy = {}});
+        refuse_input(path.string(), "header", fmt::format("a cooked asset of the unknown type \"{}\"", header.type),
+                     "a type this program knows");
     asset::check_type(header, type->name, type->version, path.string());
     described.description = type->describe(described.asset.payload, path.string());
     return described;
@@ -63,11 +60,8 @@ std::string describe_file(const Registry& registry, const std::filesystem::path&
         }
         const AssetType& type = registry.type_of_source(path);
         if (type.in_container || !type.describe)
-            throw Error({.file = path.string(),
-                         .place = {},
-                         .found = fmt::format("a {} source", type.name),
-                         .expected = "a cooked asset",
-                         .remedy = fmt::format("cook it first: rowland-cook cook {} -o OUTPUT", path.string())});
+            refuse_input(path.string(), {}, fmt::format("a {} source", type.name), "a cooked asset",
+                         fmt::format("cook it first: rowland-cook cook {} -o OUTPUT", path.string()));
         const std::vector<std::byte> bytes = read_file(path, kMaximumSourceBytes);
         return fmt::format("type: {}\npayload: {} bytes\n{}", type.name, bytes.size(),
                            type.describe(bytes, path.string()));

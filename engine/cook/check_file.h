@@ -7,9 +7,9 @@
 
 namespace rowland::cook {
 
-/// Loads a source, or a cooked asset (told by its magic), as the engine would. Returns what it is, e.g. "probe source"
-/// or "cooked probe". Throws Error (input) if it is refused or of no known kind; whatever else a loader throws becomes
-/// such an Error too, since it was the file that made it.
+/// Loads a source, or a cooked asset (recognised by its magic), as the engine would. Returns its kind, such as "probe
+/// source" or "cooked probe". Throws Error (input) if it is refused or of no known kind. Other exceptions of a loader
+/// become such an Error.
 std::string check_file(const Registry& registry, const std::filesystem::path& path);
 
 /// What a cooked asset holds, a "name: value" line each: its header, then its payload as its type describes it.

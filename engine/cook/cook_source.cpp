@@ -12,7 +12,7 @@ namespace rowland::cook {
 
 namespace {
 
-/// Throws if a file is not what it was when the bake first saw it.
+/// Throws if a file has changed since the bake first read it.
 Hash128 content_hash(const Context& context, const AssetType& type) {
     std::vector<Hash128> hashes;
     for (std::size_t i = 0; i < context.dependencies().size(); ++i) {
@@ -20,25 +20,17 @@ Hash128 content_hash(const Context& context, const AssetType& type) {
         const std::optional<Hash128> now = hash_file(path);
         if (now != context.fingerprints()[i]) fail_changed(path);
         if (!now)
-            throw Error({.file = path.string(),
-                         .place = {},
-                         .found = "an unreadable file",
-                         .expected = fmt::format("a file of at most {} bytes", kMaximumSourceBytes),
-                         .remedy = {}});
+            refuse_input(path.string(), {}, "an unreadable file",
+                         fmt::format("a file of at most {} bytes", kMaximumSourceBytes));
         hashes.push_back(*now);
     }
     return content_hash(type, hashes);
 }
 
-/// A slip on the command line must not cost the user a source.
 void check_output_is_no_source(const std::filesystem::path& output, const std::filesystem::path& source) {
     std::error_code missing;
     if (!std::filesystem::equivalent(output, source, missing)) return;
-    throw Error({.file = output.string(),
-                 .place = {},
-                 .found = "the output is one of the sources",
-                 .expected = "a file of its own",
-                 .remedy = "name another output"});
+    refuse_input(output.string(), {}, "the output is one of the sources", "a file of its own", "name another output");
 }
 
 }  // namespace
@@ -59,11 +51,8 @@ BakedAsset bake_source(const Registry& registry, const std::filesystem::path& so
     const AssetType& type =
         as_refusal_of(source, [&]() -> const AssetType& { return registry.type_of_source(source); });
     if (!type.cook)
-        throw Error({.file = source.string(),
-                     .place = {},
-                     .found = fmt::format("a {}, which is only checked, never cooked", type.name),
-                     .expected = "a source that is cooked",
-                     .remedy = {}});
+        refuse_input(source.string(), {}, fmt::format("a {}, which is only checked, never cooked", type.name),
+                     "a source that is cooked");
     Context context(source);
     BakedAsset baked;
     baked.asset.payload = as_refusal_of(source, [&] { return type.cook(context); });

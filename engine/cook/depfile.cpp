@@ -12,11 +12,8 @@ std::string escaped(const std::filesystem::path& path) {
     std::size_t backslashes = 0;
     for (const char c : path.string()) {
         if (c == '\n' || c == '\r' || c == '\0')
-            throw Error({.file = path.string(),
-                         .place = "name",
-                         .found = "a line break",
-                         .expected = "a name that a dependency file can hold",
-                         .remedy = "rename the file"});
+            refuse_input(path.string(), "name", "a line break", "a name that a dependency file can hold",
+                         "rename the file");
         if (c == ' ' || c == '\t') text.append(backslashes, '\\');
         if (c == ' ' || c == '\t' || c == '#') text += '\\';
         if (c == '$') text += '$';

@@ -10,7 +10,7 @@
 
 namespace rowland::cook {
 
-/// Runs a loader on `file`. What a library under it throws becomes an Error (input): the file made it do so.
+/// Runs a loader on `file`. Exceptions of the libraries it uses become an Error (input).
 template <typename Loader>
 decltype(auto) as_refusal_of(const std::filesystem::path& file, const Loader& loader) {
     const auto refuse = [&file](std::string reason) {

@@ -75,7 +75,7 @@ Recooker::Result Recooker::find_dependencies(const Job& job) const {
     try {
         registry_.type_of_source(job.source).check(context);
     } catch (const std::exception&) {
-        // The source alone is watched then; that it is refused is said when it is cooked.
+        // Only the source is watched then; cooking it reports why it is refused.
     }
     return {asset::FileWatch(context.dependencies(), started), {}};
 }

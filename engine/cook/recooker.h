@@ -11,8 +11,8 @@
 
 namespace rowland::cook {
 
-/// Cooks sources again, on another thread, when they or the files they name change: what the build does, while a
-/// program runs. A source that is refused leaves the cooked file as it was.
+/// Cooks sources again, on another thread, when they or the files they name change. A source that is refused leaves the
+/// cooked file as it was.
 class Recooker {
  public:
     struct Job {
@@ -24,11 +24,11 @@ class Recooker {
     Recooker(const Registry& registry, std::vector<Job> jobs,
              std::chrono::milliseconds interval = std::chrono::milliseconds(50));
 
-    /// Once a frame: starts cooking what has changed.
+    /// Once a frame: cooks what has changed.
     void poll();
-    /// Waits for what is being cooked.
+    /// Waits for all running cooks.
     void wait() const;
-    /// Why sources could not be cooked, until they can.
+    /// Messages of sources that could not be cooked, until they can.
     std::vector<std::string> failures() const;
 
  private:
@@ -40,7 +40,7 @@ class Recooker {
         Job job;
         asset::FileWatch watch;
         std::string failure;
-        bool cooking = false;  ///< or only finding out which files the source names
+        bool cooking = false;  ///< false: only finding the files that the source names
         std::future<Result> running;
     };
 

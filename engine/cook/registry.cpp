@@ -77,11 +77,7 @@ const AssetType& Registry::type_of_source(const std::filesystem::path& source) c
 void Registry::fail_type(const std::filesystem::path& source, std::string found) const {
     std::vector<std::string> names;
     for (const AssetType& type : types_) names.push_back(type.name);
-    throw Error({.file = source.string(),
-                 .place = {},
-                 .found = std::move(found),
-                 .expected = fmt::format("one of {}", fmt::join(names, ", ")),
-                 .remedy = {}});
+    refuse_input(source.string(), {}, std::move(found), fmt::format("one of {}", fmt::join(names, ", ")));
 }
 
 const AssetType* Registry::find(const std::string& name) const {

@@ -14,7 +14,7 @@
 
 namespace rowland::cook {
 
-/// What one cook reads: every file goes through here, so that the dependency file is complete.
+/// What one cook reads. Every file is read through it, so that the dependency file is complete.
 class Context {
  public:
     explicit Context(std::filesystem::path source) : source_(std::move(source)) { depend_on(source_); }
@@ -22,16 +22,16 @@ class Context {
     const std::filesystem::path& source() const { return source_; }
     /// A path named inside the source, relative to the source's folder.
     std::filesystem::path beside_source(const std::string& name) const { return source_.parent_path() / name; }
-    /// Records that the result depends on `path`, and what the file holds now. Call it before reading. It throws
-    /// nothing: a file that cannot be read is for its reader to refuse, who knows why it is wanted.
+    /// Records that the result depends on `path`, and the hash of what the file holds now. Call it before reading. It
+    /// throws nothing: the reader refuses a file that cannot be read.
     void depend_on(const std::filesystem::path& path);
     /// Each file once, in the order of the first mention; the source comes first.
     const std::vector<std::filesystem::path>& dependencies() const { return dependencies_; }
-    /// What each of `dependencies()` held when it was first mentioned; null if it could not be read then.
+    /// The hash of each of `dependencies()` when it was first mentioned; null if it could not be read then.
     const std::vector<std::optional<Hash128>>& fingerprints() const { return fingerprints_; }
 
-    /// Reads the source, or another file, and records it. Throws Error (input) as rowland::read_file does, and Error
-    /// (system) if it is not what it was when it was first mentioned.
+    /// Reads and records a file. Throws Error (input) as rowland::read_file does, and Error (system) if it has changed
+    /// since it was first mentioned.
     std::vector<std::byte> read(const std::filesystem::path& path, std::uint64_t max_bytes);
     /// A file parsed as JSON (at most 16 MiB, depth-limited), and recorded. Throws Error (input).
     nlohmann::json read_json(const std::filesystem::path& path);
@@ -47,7 +47,7 @@ struct AssetType {
     std::string name;           ///< "probe", "material", "mesh"
     std::uint32_t version = 1;  ///< raise it whenever the payload's layout or the bake's result changes
     std::string extension;      ///< of the cooked file, with the dot
-    bool in_container = true;   ///< false: the payload is a file format of its own (GLB) and is written as it is
+    bool in_container = true;   ///< false: the payload is itself a file (GLB), written without the container
 
     /// Whether a source is of this type. `json` is the parsed source if its extension is .json, else null.
     std::function<bool(const std::filesystem::path& source, const nlohmann::json* json)> recognises;
@@ -66,10 +66,13 @@ class Registry {
     /// Adds a type; its name must be new, and it must recognise and check its sources.
     void add(AssetType type);
     const std::vector<AssetType>& types() const { return types_; }
+    /// Adds a glTF material extension that a module reads. Files that require any other are refused.
+    void add_gltf_extension(std::string name) { gltf_extensions_.push_back(std::move(name)); }
+    const std::vector<std::string>& gltf_extensions() const { return gltf_extensions_; }
     /// The type of a source file, or null. Throws Error (input) if it is JSON that cannot be read, and if two types
     /// claim it.
     const AssetType* recognise(const std::filesystem::path& source) const;
-    /// The same; throws Error (input) listing what is known if there is none.
+    /// The same; throws Error (input) that lists the known types if there is none.
     const AssetType& type_of_source(const std::filesystem::path& source) const;
     /// The type called `name`, or null.
     const AssetType* find(const std::string& name) const;
@@ -78,6 +81,7 @@ class Registry {
     [[noreturn]] void fail_type(const std::filesystem::path& source, std::string found) const;
 
     std::vector<AssetType> types_;
+    std::vector<std::string> gltf_extensions_;
 };
 
 }  // namespace rowland::cook

@@ -16,8 +16,7 @@ namespace rowland::cook {
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& path, std::string found) {
-    throw Error(
-        {.file = path.string(), .place = {}, .found = std::move(found), .expected = "a readable file", .remedy = {}});
+    refuse_input(path.string(), {}, std::move(found), "a readable file");
 }
 
 /// A regular file open for reading.

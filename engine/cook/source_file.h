@@ -10,16 +10,16 @@
 
 namespace rowland::cook {
 
-/// No source is larger; a sparse file of terabytes must not keep a cook busy for hours.
+/// The largest source, so that a sparse file of terabytes does not occupy a cook for hours.
 inline constexpr std::uint64_t kMaximumSourceBytes = std::uint64_t{1} << 30;
 
-/// Content hash of a file, or nothing if it is no regular file, unreadable or larger than kMaximumSourceBytes.
+/// Content hash of a file, or null if it is no regular file, unreadable or larger than kMaximumSourceBytes.
 std::optional<Hash128> hash_file(const std::filesystem::path& path);
 
-/// Throws Error (system): a file is not what it was when the cook first saw it.
+/// Throws Error (system): a file has changed since the cook first read it.
 [[noreturn]] void fail_changed(const std::filesystem::path& path);
 
-/// The first `size` bytes of a file, or all of a shorter one. Throws Error (input) for what no loader must be given:
+/// The first `size` bytes of a file, or all of a shorter one. Throws Error (input) for inputs that no loader accepts:
 /// an empty file, a folder, a pipe, a device, a file that cannot be read.
 std::vector<std::byte> read_beginning(const std::filesystem::path& path, std::size_t size);
 

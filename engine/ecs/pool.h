@@ -53,7 +53,7 @@ class SparseSet {
         (*pages_[page])[entity.index % kPageSize] = static_cast<std::uint32_t>(dense_.size());
         dense_.push_back(entity);
     }
-    /// Moves the last entity into `position`, as the components must be moved too.
+    /// Moves the last entity into `position`; the components must be moved likewise.
     void erase_entity(std::uint32_t entity_index, std::uint32_t position) {
         const Entity last = dense_.back();
         dense_[position] = last;

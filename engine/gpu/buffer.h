@@ -32,8 +32,8 @@ class Buffer {
         update(std::as_bytes(std::span<const T>(&value, 1)));
     }
 
-    /// Overwrites the start of a dynamic buffer; what lies behind becomes undefined. Does not wait for draws that still
-    /// read the old content.
+    /// Overwrites the start of a dynamic buffer; the rest becomes undefined. Does not wait for draws that still read
+    /// the old content.
     void replace(std::span<const std::byte> data);
 
     void bind_uniform(unsigned binding) const;
@@ -53,7 +53,7 @@ class Buffer {
     BufferUse use_ = BufferUse::Static;
 };
 
-/// What offsets of uniform blocks in a buffer must be multiples of.
+/// Offsets of uniform blocks in a buffer must be multiples of this.
 std::size_t uniform_alignment();
 
 }  // namespace rowland::gpu

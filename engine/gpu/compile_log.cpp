@@ -1,9 +1,7 @@
 #include "engine/gpu/compile_log.h"
 
 #include <algorithm>
-#include <charconv>
-#include <optional>
-#include <system_error>
+#include <regex>
 
 #include "engine/gpu/shader_library.h"
 
@@ -11,44 +9,23 @@ namespace rowland::gpu {
 
 namespace {
 
-/// Takes a log line apart from its front.
-struct Scanner {
-    std::string_view rest;
-
-    bool skip(std::string_view text) {
-        if (!rest.starts_with(text)) return false;
-        rest.remove_prefix(text.size());
-        return true;
-    }
-    std::optional<std::size_t> number() {
-        std::size_t value = 0;
-        const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
-        if (error != std::errc()) return std::nullopt;
-        rest.remove_prefix(static_cast<std::size_t>(end - rest.data()));
-        return value;
-    }
-};
-
-/// The line's number, past which the scanner then stands. The number before it is the source string's, always 0 here.
-std::optional<std::size_t> scan_place(Scanner& scanner) {
-    const bool has_severity_first = scanner.skip("ERROR: ") || scanner.skip("WARNING: ");
-    if (!scanner.number()) return std::nullopt;
-    if (scanner.skip("(")) {  // NVIDIA
-        const std::optional<std::size_t> line = scanner.number();
-        return scanner.skip(") : ") ? line : std::nullopt;
-    }
-    if (!scanner.skip(":")) return std::nullopt;
-    const std::optional<std::size_t> line = scanner.number();
-    if (has_severity_first) return scanner.skip(": ") ? line : std::nullopt;
-    const bool has_column = scanner.skip("(") && scanner.number() && scanner.skip("): ");  // Mesa
-    return has_column ? line : std::nullopt;
+/// A line's position up to its message: NVIDIA's, Mesa's and others'. The number before the line's is the source
+/// string's, always 0 here.
+const std::regex& position_pattern() {
+    static const std::regex pattern(
+        R"(\d{1,9}\((\d{1,9})\) : |\d{1,9}:(\d{1,9})\(\d{1,9}\): |(?:ERROR|WARNING): \d{1,9}:(\d{1,9}): )");
+    return pattern;
 }
 
 CompileMessage parse_line(std::string_view line, std::span<const std::string> files) {
-    Scanner scanner{line};
-    const std::optional<std::size_t> number = scan_place(scanner);
-    if (number && *number / lines_per_file < files.size()) {
-        return {files[*number / lines_per_file], *number % lines_per_file, std::string(scanner.rest)};
+    std::cmatch match;
+    if (std::regex_search(line.data(), line.data() + line.size(), match, position_pattern(),
+                          std::regex_constants::match_continuous)) {
+        std::size_t number = 0;
+        for (std::size_t i = 1; i < match.size(); ++i)
+            if (match[i].matched) number = std::stoul(match[i].str());
+        if (number / lines_per_file < files.size())
+            return {files[number / lines_per_file], number % lines_per_file, match.suffix().str()};
     }
     return {"", 0, std::string(line)};
 }

@@ -18,7 +18,7 @@ class FullScreenTriangle {
     /// Runs `program` once for every pixel of `target`: no depth, no blending. Textures and uniforms are set by the
     /// caller.
     void draw(const Program& program, const Framebuffer& target) const;
-    /// The same onto whatever is bound.
+    /// The same onto the bound framebuffer.
     void draw(const Program& program) const;
 
  private:

@@ -9,7 +9,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Adds to the total of that name, behind the others if there is none yet.
+/// Adds to the total of that name; appends it if there is none.
 template <typename Total>
 void add(std::vector<Total>& totals, const std::string& name, double ms) {
     const auto found =
@@ -58,8 +58,8 @@ PassTimes::Scope::Scope(PassTimes* times, std::string_view name) : times_(times)
     times_->runs_.push_back({std::string(name), 0.0});
     if (times_->slot_) {
         times_->write_time(2 * run_);
-        // As for Timer: llvmpipe writes the time when it has rasterised the draws gathered so far; a clear elsewhere
-        // makes those that follow a gathering of their own.
+        // llvmpipe writes the time when it has rasterised the draws queued so far; a clear of another
+        // framebuffer starts a new queue.
         times_->boundary_.clear(glm::vec4(0.0F));
     }
     start_ = Clock::now();

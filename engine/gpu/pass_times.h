@@ -12,15 +12,15 @@
 
 namespace rowland::gpu {
 
-/// What one pass of a frame took.
+/// The times of one pass of a frame.
 struct PassTime {
     std::string name;
-    double cpu_ms = 0.0;           ///< in this frame, or in the last one while this one has not come to it
-    std::optional<double> gpu_ms;  ///< in the last frame the GPU has finished; nothing until one is
+    double cpu_ms = 0.0;           ///< in this frame, or in the last one until this one has run it
+    std::optional<double> gpu_ms;  ///< in the last frame that the GPU has finished; null before
 };
 
-/// Times the passes of every frame on both processors without ever waiting for the GPU. A pass that runs several times
-/// in a frame counts as their sum. Each boundary ends what a tiling GPU gathers, which costs it a little.
+/// Times the passes of every frame on CPU and GPU without waiting for the GPU. A pass that runs several times in a
+/// frame counts as their sum. Each boundary flushes a tiling GPU, which costs a little.
 class PassTimes {
  public:
     PassTimes();
@@ -52,7 +52,7 @@ class PassTimes {
         std::string name;
         double ms = 0.0;
     };
-    /// A frame the GPU may still be at: queries 2i and 2i + 1 are the start and the end of its i-th pass.
+    /// A frame that the GPU may not have finished: queries 2i and 2i + 1 are the start and the end of its i-th pass.
     struct QueuedFrame {
         std::vector<Handle<Release>> queries;
         std::vector<std::string> passes;
@@ -69,7 +69,7 @@ class PassTimes {
     std::vector<Total> finished_gpu_;
     std::array<QueuedFrame, 4> ring_;
     std::size_t oldest_ = 0;
-    std::optional<std::size_t> slot_;  ///< this frame's; none while the GPU is so far behind that the ring is full
+    std::optional<std::size_t> slot_;  ///< this frame's; null while the ring is full because the GPU lags
     Framebuffer boundary_;
 };
 

@@ -2,6 +2,9 @@
 
 #include <epoxy/gl.h>
 
+#include <array>
+#include <cstddef>
+
 namespace rowland::gpu {
 
 namespace {
@@ -14,51 +17,31 @@ void set_enabled(GLenum capability, bool enabled) {
     }
 }
 
-void apply_blend(Blend blend) {
-    set_enabled(GL_BLEND, blend != Blend::Off);
-    switch (blend) {
-        case Blend::Off:
-            return;
-        case Blend::Add:
-            glBlendFunc(GL_ONE, GL_ONE);
-            return;
-        case Blend::Over:
-            glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-            return;
-        case Blend::Premultiplied:
-            glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-            return;
-    }
-}
-
-void apply_depth(DepthTest test, bool write) {
-    // With the test disabled GL would not write depth either.
-    set_enabled(GL_DEPTH_TEST, test != DepthTest::Off || write);
-    glDepthMask(write ? GL_TRUE : GL_FALSE);
-    switch (test) {
-        case DepthTest::Off:
-            glDepthFunc(GL_ALWAYS);
-            return;
-        case DepthTest::Less:
-            glDepthFunc(GL_LESS);
-            return;
-        case DepthTest::LessEqual:
-            glDepthFunc(GL_LEQUAL);
-            return;
-        case DepthTest::Equal:
-            glDepthFunc(GL_EQUAL);
-            return;
-    }
-}
+struct BlendFactors {
+    GLenum source, target;
+    GLenum source_alpha;
+};
+/// By Blend.
+constexpr std::array<BlendFactors, 4> kBlendFactors = {{{GL_ONE, GL_ZERO, GL_ONE},
+                                                        {GL_ONE, GL_ONE, GL_ONE},
+                                                        {GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE},
+                                                        {GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE}}};
+/// By DepthTest.
+constexpr std::array<GLenum, 4> kDepthFunctions = {GL_ALWAYS, GL_LESS, GL_LEQUAL, GL_EQUAL};
 
 }  // namespace
 
 void apply(const PipelineState& state) {
-    apply_depth(state.depth_test, state.depth_write);
+    // With the test disabled GL would not write depth either.
+    set_enabled(GL_DEPTH_TEST, state.depth_test != DepthTest::Off || state.depth_write);
+    glDepthMask(state.depth_write ? GL_TRUE : GL_FALSE);
+    glDepthFunc(kDepthFunctions.at(static_cast<std::size_t>(state.depth_test)));
     set_enabled(GL_CULL_FACE, state.cull != Cull::None);
     glFrontFace(state.front == FrontFace::Clockwise ? GL_CW : GL_CCW);
     glCullFace(state.cull == Cull::Front ? GL_FRONT : GL_BACK);
-    apply_blend(state.blend);
+    set_enabled(GL_BLEND, state.blend != Blend::Off);
+    const BlendFactors& factors = kBlendFactors.at(static_cast<std::size_t>(state.blend));
+    glBlendFuncSeparate(factors.source, factors.target, factors.source_alpha, factors.target);
     set_enabled(GL_POLYGON_OFFSET_FILL, state.slope_bias != 0.0F);
     if (state.slope_bias != 0.0F) glPolygonOffset(state.slope_bias, 0.0F);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);

@@ -116,10 +116,10 @@ void Program::find_uniforms() {
         GLenum type = GL_NONE;
         glGetActiveUniform(id(), static_cast<GLuint>(i), longest, &length, &size, &type, name.data());
         name.resize(static_cast<std::size_t>(length));
-        const GLint place = glGetUniformLocation(id(), name.c_str());
-        if (place < 0) continue;  // a member of a block
+        const GLint location = glGetUniformLocation(id(), name.c_str());
+        if (location < 0) continue;  // a member of a block
         if (name.ends_with("[0]")) name.resize(name.size() - 3);
-        uniforms_[name] = place;
+        uniforms_[name] = location;
     }
 }
 

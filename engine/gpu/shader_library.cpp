@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <regex>
+#include <sstream>
 
 #include "engine/core/error.h"
 #include "engine/core/file.h"
@@ -24,42 +26,15 @@ constexpr std::uint64_t max_shader_bytes = 1 << 20;
                  .fault = Fault::System});
 }
 
-std::vector<std::string> lines_of(const std::string& text) {
-    std::vector<std::string> lines;
-    for (std::size_t start = 0; start < text.size();) {
-        const std::size_t end = std::min(text.find('\n', start), text.size());
-        std::string line = text.substr(start, end - start);
-        if (!line.empty() && line.back() == '\r') line.pop_back();
-        lines.push_back(std::move(line));
-        start = end + 1;
-    }
-    return lines;
+/// Matches `#include "name"`. Includes in angle brackets are C++'s, in headers that both languages read.
+const std::regex& include_pattern() {
+    static const std::regex pattern(R"re([ \t]*#[ \t]*include[ \t]*"([^"]*)")re");
+    return pattern;
 }
 
-std::string_view without_leading_blanks(std::string_view text) {
-    return text.substr(std::min(text.find_first_not_of(" \t"), text.size()));
-}
-
-/// What follows `#name` on a line that is such a directive.
-std::optional<std::string_view> after_directive(std::string_view line, std::string_view name) {
-    line = without_leading_blanks(line);
-    if (!line.starts_with('#')) return std::nullopt;
-    line = without_leading_blanks(line.substr(1));
-    if (!line.starts_with(name)) return std::nullopt;
-    return without_leading_blanks(line.substr(name.size()));
-}
-
-/// The name in `#include "name"`. Includes in angle brackets are C++'s, in headers that both languages read.
-std::optional<std::string> included_name(std::string_view line) {
-    const std::optional<std::string_view> rest = after_directive(line, "include");
-    if (!rest || !rest->starts_with('"')) return std::nullopt;
-    const std::size_t end = rest->find('"', 1);
-    if (end == std::string_view::npos) return std::nullopt;
-    return std::string(rest->substr(1, end - 1));
-}
-
-bool is_version(std::string_view line) {
-    return after_directive(line, "version").has_value();
+bool is_version(const std::string& line) {
+    static const std::regex pattern(R"([ \t]*#[ \t]*version)");
+    return std::regex_search(line, pattern, std::regex_constants::match_continuous);
 }
 
 std::string defines_text(std::span<const Define> defines) {
@@ -125,21 +100,23 @@ void ShaderLibrary::paste(const std::string& name, std::span<const Define> defin
 
     bool versioned = false;
     std::size_t line_number = 0;
-    for (const std::string& line : lines_of(read(name))) {
+    std::istringstream text(read(name));
+    for (std::string line; std::getline(text, line);) {
         ++line_number;
+        if (line.ends_with('\r')) line.pop_back();
         if (is_version(line)) {
             if (!is_root) fail(name, line_number, line, "no #version in an included file");
             versioned = true;
             result.text += line + "\n" + defines_text(defines) + line_directive(index, line_number + 1);
             continue;
         }
-        const std::optional<std::string> include = included_name(line);
-        if (!include) {
+        std::smatch include;
+        if (!std::regex_search(line, include, include_pattern(), std::regex_constants::match_continuous)) {
             result.text += line + "\n";
             continue;
         }
         if (is_root && !versioned) fail(name, line_number, line, "#version as the first directive");
-        const std::string included = resolve_include(*include, name, line_number);
+        const std::string included = resolve_include(include[1].str(), name, line_number);
         const bool is_new = std::find(result.files.begin(), result.files.end(), included) == result.files.end();
         if (is_new) paste(included, {}, result);
         result.text += line_directive(index, line_number + 1);

@@ -39,8 +39,9 @@ class ShaderLibrary {
  public:
     ShaderLibrary();
 
-    /// Adds files that live as long as the program. A name already there is replaced.
+    /// Adds files that outlive it. A file of the same name is replaced.
     void add_embedded(std::span<const EmbeddedFile> files);
+    void add(std::string name, std::string_view text) { embedded_[std::move(name)] = text; }
     /// From now on, files are read from `folder` (the top of a source tree) if they are there.
     void set_source_folder(std::optional<std::filesystem::path> folder) { source_folder_ = std::move(folder); }
 

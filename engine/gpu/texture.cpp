@@ -10,32 +10,13 @@ namespace rowland::gpu {
 
 namespace {
 
-GLenum target_of(TextureKind kind) {
-    switch (kind) {
-        case TextureKind::Line:
-            return GL_TEXTURE_1D;
-        case TextureKind::Plane:
-            return GL_TEXTURE_2D;
-        case TextureKind::PlaneArray:
-            return GL_TEXTURE_2D_ARRAY;
-        case TextureKind::Volume:
-            return GL_TEXTURE_3D;
-        case TextureKind::CubeMap:
-            return GL_TEXTURE_CUBE_MAP;
-    }
-    check_failed(__FILE__, __LINE__, "unknown kind of texture");
-}
+/// By TextureKind.
+constexpr std::array<GLenum, 5> kTargets = {GL_TEXTURE_1D, GL_TEXTURE_2D, GL_TEXTURE_2D_ARRAY, GL_TEXTURE_3D,
+                                            GL_TEXTURE_CUBE_MAP};
 
 GLint wrap_mode(Wrap wrap) {
-    switch (wrap) {
-        case Wrap::Clamp:
-            return GL_CLAMP_TO_EDGE;
-        case Wrap::Repeat:
-            return GL_REPEAT;
-        case Wrap::Mirror:
-            return GL_MIRRORED_REPEAT;
-    }
-    check_failed(__FILE__, __LINE__, "unknown wrap mode");
+    constexpr std::array<GLint, 3> kModes = {GL_CLAMP_TO_EDGE, GL_REPEAT, GL_MIRRORED_REPEAT};
+    return kModes.at(static_cast<std::size_t>(wrap));
 }
 
 /// Checks the sizes and fills in the number of levels.
@@ -93,7 +74,7 @@ void Texture::Release::operator()(GLuint name) const {
 
 Texture::Texture(const TextureDesc& desc, const Sampling& sampling) : desc_(complete(desc)) {
     GLuint name = 0;
-    glCreateTextures(target_of(desc_.kind), 1, &name);
+    glCreateTextures(kTargets.at(static_cast<std::size_t>(desc_.kind)), 1, &name);
     handle_ = Handle<Release>(name);
     allocate(name, desc_);
     set_sampling(sampling);

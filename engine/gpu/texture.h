@@ -32,11 +32,11 @@ struct Sampling {
     Wrap wrap_s = Wrap::Clamp;
     Wrap wrap_t = Wrap::Clamp;
     Wrap wrap_r = Wrap::Clamp;
-    float anisotropy = 1.0F;     ///< at most what max_anisotropy() says
+    float anisotropy = 1.0F;     ///< at most max_anisotropy()
     bool compare_depth = false;  ///< of a depth texture: sampler2DShadow, 1 where the reference ≤ the texel
 };
 
-/// The most a texture can ask for; 1 where the driver cannot.
+/// The largest anisotropy; 1 without driver support.
 float max_anisotropy();
 
 /// Which part of a texture an upload or a read means: all of a level's width and height, and `layers` layers (array),
@@ -47,15 +47,15 @@ struct TextureSlice {
     int layers = 1;
 };
 
-/// A texture of fixed size and format. Rows are uploaded as they come: the first lies at t = 0.
+/// A texture of fixed size and format. The first uploaded row is at t = 0.
 class Texture {
  public:
     Texture() = default;
     /// It is a logic error if a size is below 1 or does not suit the kind.
     explicit Texture(const TextureDesc& desc, const Sampling& sampling = {});
 
-    /// Writes whole slices. The data's length tells the components of its texels (1 to 4, whatever the format has;
-    /// those missing become 0, alpha 1). 8- and 16-bit data is normalised, but for half-float formats 16-bit data is
+    /// Writes whole slices. The data's length gives the components per texel (1 to 4, independent of the format;
+    /// missing ones become 0, alpha 1). 8- and 16-bit data is normalised, but for half-float formats 16-bit data is
     /// the bits of the halves. It is a logic error if the length is not 1 to 4 times the texels of the slice.
     void upload(std::span<const float> data, TextureSlice slice = {});
     void upload(std::span<const std::uint8_t> data, TextureSlice slice = {});

@@ -1,7 +1,5 @@
 #include "engine/gpu/vertex_array.h"
 
-#include <cstdint>
-
 #include "engine/core/check.h"
 
 namespace rowland::gpu {
@@ -16,11 +14,9 @@ VertexArray::VertexArray() {
     handle_ = Handle<Release>(name);
 }
 
-void VertexArray::attach(const Buffer& buffer, int stride, std::initializer_list<VertexAttribute> attributes,
-                         bool per_instance) {
+void VertexArray::attach(const Buffer& buffer, int stride, std::initializer_list<VertexAttribute> attributes) {
     const unsigned binding = bindings_++;
     glVertexArrayVertexBuffer(id(), binding, buffer.id(), 0, stride);
-    glVertexArrayBindingDivisor(id(), binding, per_instance ? 1 : 0);
     for (const VertexAttribute& attribute : attributes) {
         glEnableVertexArrayAttrib(id(), attribute.location);
         if (attribute.number == VertexNumber::UInt16) {
@@ -44,13 +40,11 @@ void VertexArray::draw(int count, int instances) const {
     glDrawArraysInstanced(GL_TRIANGLES, 0, count, instances);
 }
 
-void VertexArray::draw_indexed(int count, int first, int instances) const {
-    ROWLAND_CHECK_OP(first, >=, 0);
+void VertexArray::draw_indexed(int count) const {
     ROWLAND_CHECK_OP(count, >=, 0);
-    ROWLAND_CHECK_OP(static_cast<std::size_t>(first) + static_cast<std::size_t>(count), <=, indices_);
+    ROWLAND_CHECK_OP(static_cast<std::size_t>(count), <=, indices_);
     glBindVertexArray(id());
-    const auto offset = static_cast<std::uintptr_t>(first) * sizeof(std::uint32_t);
-    glDrawElementsInstanced(GL_TRIANGLES, count, GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset), instances);
+    glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, nullptr);
 }
 
 }  // namespace rowland::gpu

@@ -10,7 +10,7 @@ namespace rowland::gpu {
 
 enum class VertexNumber {
     Float,
-    UInt16,  ///< an integer in GLSL too: uvec4 and the like
+    UInt16,  ///< an integer in GLSL: uvec4 and so on
 };
 
 /// One attribute of a vertex: `layout(location = location)` in GLSL.
@@ -27,16 +27,15 @@ class VertexArray {
     /// With nothing attached it draws vertices made from gl_VertexID alone.
     VertexArray();
 
-    /// Reads the attributes from `buffer`, one vertex every `stride` bytes; per instance if `per_instance`.
-    void attach(const Buffer& buffer, int stride, std::initializer_list<VertexAttribute> attributes,
-                bool per_instance = false);
+    /// Reads the attributes from `buffer`, one vertex every `stride` bytes.
+    void attach(const Buffer& buffer, int stride, std::initializer_list<VertexAttribute> attributes);
     /// 32-bit indices.
     void attach_indices(const Buffer& buffer);
 
     /// Triangles from `count` vertices.
     void draw(int count, int instances = 1) const;
-    /// Triangles from `count` indices, the first of them at `first`.
-    void draw_indexed(int count, int first = 0, int instances = 1) const;
+    /// Triangles from the first `count` indices.
+    void draw_indexed(int count) const;
 
     GLuint id() const { return handle_.get(); }
 

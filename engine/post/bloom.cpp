@@ -1,98 +1,72 @@
 #include "engine/post/bloom.h"
 
-#include <algorithm>
-#include <cmath>
-#include <glm/common.hpp>
-#include <glm/vec4.hpp>
-
 #include "engine/core/check.h"
 
 namespace rowland::post {
 
 namespace {
 
-/// Light in rgb and area in alpha, both relative to those of a texel inside the picture.
-struct Grid {
-    glm::ivec2 size{0};
-    std::vector<glm::vec4> texels;
-
-    explicit Grid(glm::ivec2 grid_size)
-        : size(grid_size), texels(static_cast<std::size_t>(grid_size.x) * static_cast<std::size_t>(grid_size.y)) {}
-
-    glm::vec4& at(int x, int y) { return texels[index(x, y)]; }
-    const glm::vec4& at(int x, int y) const { return texels[index(x, y)]; }
-    glm::vec3 value(int x, int y) const { return glm::vec3(at(x, y)) / at(x, y).a; }
-
- private:
-    std::size_t index(int x, int y) const {
-        return static_cast<std::size_t>(y) * static_cast<std::size_t>(size.x) + static_cast<std::size_t>(x);
-    }
-};
-
-float usable(float value) {
-    constexpr float largest_half = 65504.0F;
-    return std::isfinite(value) ? std::clamp(value, -largest_half, largest_half) : 0.0F;
+gpu::Program program(const gpu::ShaderLibrary& library, const char* fragment, bool is_picture) {
+    return {library,
+            {.vertex = gpu::full_screen_vertex_shader,
+             .fragment = fragment,
+             .defines = {{"FINE_IS_PICTURE", is_picture ? "1" : "0"}}}};
 }
 
-/// Where the centre of a fine texel lies among the centres of the coarse ones.
-float coarse_position(int fine, int coarse_count) {
-    const float position = 0.5F * (static_cast<float>(fine) + 0.5F) - 0.5F;
-    return std::clamp(position, 0.0F, static_cast<float>(coarse_count - 1));
-}
-
-/// W(fine, coarse).
-float weight(int fine, int coarse, int coarse_count) {
-    return std::max(0.0F, 1.0F - std::abs(coarse_position(fine, coarse_count) - static_cast<float>(coarse)));
-}
-
-/// What reaches coarse texel (x, y). At most four by four fine texels have a weight there; light and area are divided
-/// by 4, the area of a coarse texel inside.
-glm::vec4 gathered(const Grid& fine, glm::ivec2 coarse_size, int x, int y) {
-    glm::vec4 sum(0.0F);
-    for (int fine_y = std::max(0, 2 * y - 1); fine_y <= std::min(2 * y + 2, fine.size.y - 1); ++fine_y) {
-        for (int fine_x = std::max(0, 2 * x - 1); fine_x <= std::min(2 * x + 2, fine.size.x - 1); ++fine_x) {
-            sum += weight(fine_x, x, coarse_size.x) * weight(fine_y, y, coarse_size.y) * fine.at(fine_x, fine_y);
-        }
-    }
-    return 0.25F * sum;
-}
-
-Grid coarser(const Grid& fine, glm::ivec2 coarse_size) {
-    Grid coarse(coarse_size);
-    for (int y = 0; y < coarse_size.y; ++y) {
-        for (int x = 0; x < coarse_size.x; ++x) coarse.at(x, y) = gathered(fine, coarse_size, x, y);
-    }
-    return coarse;
-}
-
-glm::vec3 interpolated(const Grid& coarse, int fine_x, int fine_y) {
-    const glm::vec2 position(coarse_position(fine_x, coarse.size.x), coarse_position(fine_y, coarse.size.y));
-    const glm::ivec2 low(position);
-    const glm::ivec2 high = glm::min(low + 1, coarse.size - 1);
-    const glm::vec2 share = position - glm::vec2(low);
-    const glm::vec3 lower = glm::mix(coarse.value(low.x, low.y), coarse.value(high.x, low.y), share.x);
-    const glm::vec3 upper = glm::mix(coarse.value(low.x, high.y), coarse.value(high.x, high.y), share.x);
-    return glm::mix(lower, upper, share.y);
-}
-
-/// Mixes `share` of the coarser level into a finer one.
-void mix_in(Grid& fine, const Grid& coarse, float share) {
-    for (int y = 0; y < fine.size.y; ++y) {
-        for (int x = 0; x < fine.size.x; ++x) {
-            fine.at(x, y) = glm::vec4(glm::mix(fine.value(x, y), interpolated(coarse, x, y), share), 1.0F);
-        }
-    }
-}
-
-Grid as_grid(std::span<const glm::vec3> pixels, glm::ivec2 size) {
-    Grid grid(size);
-    std::transform(pixels.begin(), pixels.end(), grid.texels.begin(), [](const glm::vec3& pixel) {
-        return glm::vec4(usable(pixel.r), usable(pixel.g), usable(pixel.b), 1.0F);
-    });
-    return grid;
-}
+constexpr const char* down_shader = "engine/post/shaders/bloom_down.frag.glsl";
+constexpr const char* up_shader = "engine/post/shaders/bloom_up.frag.glsl";
 
 }  // namespace
+
+BloomPass::BloomPass(const gpu::ShaderLibrary& library)
+    : picture_to_coarser_(program(library, down_shader, true)),
+      level_to_coarser_(program(library, down_shader, false)),
+      mix_into_level_(program(library, up_shader, false)),
+      mix_into_picture_(program(library, up_shader, true)) {}
+
+void BloomPass::make_levels(glm::ivec2 size, int levels) {
+    const std::vector<glm::ivec2> sizes = bloom_level_sizes(size, levels);
+    if (down_.size() == sizes.size() && down_.front().size() == sizes.front()) return;
+    down_.clear();
+    up_.clear();
+    for (const glm::ivec2 level_size : sizes) {
+        const gpu::FramebufferDesc desc{
+            .width = level_size.x, .height = level_size.y, .colours = {gpu::Format::RGBA16F}};
+        down_.emplace_back(desc);
+        if (down_.size() < sizes.size()) up_.emplace_back(desc);
+    }
+}
+
+void BloomPass::draw_coarser(const gpu::Program& program, const gpu::Texture& fine, const gpu::Framebuffer& target) {
+    fine.bind(0);
+    program.set("coarse_size", target.size());
+    triangle_.draw(program, target);
+    ++passes_;
+}
+
+void BloomPass::mix_in(const gpu::Program& program, const gpu::Texture& fine, const gpu::Texture& coarse, float weight,
+                       const gpu::Framebuffer& target) {
+    fine.bind(0);
+    coarse.bind(1);
+    program.set("coarse_weight", weight);
+    triangle_.draw(program, target);
+    ++passes_;
+}
+
+void BloomPass::draw(const gpu::Texture& source, const BloomSettings& settings, const gpu::Framebuffer& target) {
+    require_valid(settings);
+    ROWLAND_CHECK(source.size() == target.size(), "the target of bloom must have the source's size");
+    passes_ = 0;
+    make_levels(source.size(), settings.levels);
+    draw_coarser(picture_to_coarser_, source, down_.front());
+    for (std::size_t i = 1; i < down_.size(); ++i) draw_coarser(level_to_coarser_, down_[i - 1].colour(), down_[i]);
+    const gpu::Texture* blurred = &down_.back().colour();
+    for (std::size_t i = up_.size(); i-- > 0;) {
+        mix_in(mix_into_level_, down_[i].colour(), *blurred, bloom_coarser_weight(i, down_.size()), up_[i]);
+        blurred = &up_[i].colour();
+    }
+    mix_in(mix_into_picture_, source, *blurred, settings.strength, target);
+}
 
 void require_valid(const BloomSettings& settings) {
     ROWLAND_CHECK_OP(settings.strength, >=, 0.0F);
@@ -109,25 +83,8 @@ std::vector<glm::ivec2> bloom_level_sizes(glm::ivec2 picture, int levels) {
     return sizes;
 }
 
-float bloom_coarser_share(std::size_t index, std::size_t count) {
+float bloom_coarser_weight(std::size_t index, std::size_t count) {
     return static_cast<float>(count - index - 1) / static_cast<float>(count - index);
-}
-
-void apply_bloom(std::span<glm::vec3> pixels, glm::ivec2 size, const BloomSettings& settings) {
-    require_valid(settings);
-    ROWLAND_CHECK_OP(pixels.size(), ==, static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
-    if (settings.strength == 0.0F || pixels.empty()) return;
-    Grid picture = as_grid(pixels, size);
-    std::vector<Grid> levels;
-    for (const glm::ivec2 level_size : bloom_level_sizes(size, settings.levels)) {
-        levels.push_back(coarser(levels.empty() ? picture : levels.back(), level_size));
-    }
-    for (std::size_t i = levels.size() - 1; i-- > 0;) {
-        mix_in(levels[i], levels[i + 1], bloom_coarser_share(i, levels.size()));
-    }
-    mix_in(picture, levels.front(), settings.strength);
-    std::transform(picture.texels.begin(), picture.texels.end(), pixels.begin(),
-                   [](const glm::vec4& texel) { return glm::vec3(texel); });
 }
 
 }  // namespace rowland::post

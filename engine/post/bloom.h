@@ -1,23 +1,27 @@
 #pragma once
 
 #include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-#include <span>
 #include <vector>
+
+#include "engine/gpu/framebuffer.h"
+#include "engine/gpu/full_screen_pass.h"
+#include "engine/gpu/program.h"
+#include "engine/gpu/shader_library.h"
+#include "engine/gpu/texture.h"
 
 namespace rowland::post {
 
-/// Light scattered in the lens. There is no threshold: every pixel scatters the same share of its light.
+/// Light scattered in the lens. There is no threshold: every pixel scatters the same fraction of its light.
 struct BloomSettings {
-    float strength = 0.05F;  ///< share of the light that is scattered, 0 to 1; at 0 nothing is done
-    int levels = 6;          ///< how far: the blur is the even mean of those of 2, 4, ... 2^levels pixels; from 1 on
+    float strength = 0.05F;  ///< fraction of the light that is scattered, 0 to 1; at 0 no pass runs
+    int levels = 6;          ///< reach: the blur is the mean of those of 2, 4, ... 2^levels pixels; at least 1
 };
 
-/// Replaces a scene-linear picture, row by row, by mix(picture, blurred picture, strength). The twin of BloomPass.
+/// Replaces a scene-linear picture by mix(picture, blurred picture, strength), in RGBA16F.
 ///
 /// The blur keeps the sum over the picture, wherever the light is and whatever the size, and leaves a picture of one
-/// colour as it is. Each level halves the one before, rounding up. With W(i,k) the weights by which linear
-/// interpolation makes fine texel i from coarse texels k, positions held within the grid (so sum_k W = 1), going down
+/// colour unchanged. Each level halves the one before, rounding up. With W(i,k) the weights by which linear
+/// interpolation makes fine texel i from coarse texels k, positions clamped to the grid (so sum_k W = 1), going down
 /// scatters light by W and going up interpolates by W:
 ///     light'(k) = sum_i W(i,k) light(i),  area'(k) = sum_i W(i,k) area(i),  value(i) = sum_k W(i,k)
 ///     light'(k)/area'(k).
@@ -25,15 +29,41 @@ struct BloomSettings {
 /// Chaikin's subdivision, whose repetition is smooth. Levels are mixed on the way up, as in Jimenez, "Next generation
 /// post processing in Call of Duty: Advanced Warfare", SIGGRAPH 2014, but without his gain.
 ///
-/// Components that are not finite count as 0, and others are held within the half floats' ±65504; both also in the
-/// picture that is mixed in. It is a logic error if `size` is not that of `pixels` or the settings are out of range.
-void apply_bloom(std::span<glm::vec3> pixels, glm::ivec2 size, const BloomSettings& settings);
+/// Non-finite components count as 0, others are clamped to the half floats' ±65504; both also in the picture that is
+/// mixed in. Values are rounded to nearest between the levels whatever the driver does, so the sum is kept to 1e-3.
+class BloomPass {
+ public:
+    /// `library` must hold post::shader_files().
+    explicit BloomPass(const gpu::ShaderLibrary& library);
+
+    /// Writes the picture with bloom; alpha is kept. Source (RGBA16F or RGBA32F) and target have the same size, else it
+    /// is a logic error. Allocates textures when the size or the number of levels changes.
+    void draw(const gpu::Texture& source, const BloomSettings& settings, const gpu::Framebuffer& target);
+
+    /// Passes of the last draw: two per level.
+    int passes() const { return passes_; }
+
+ private:
+    void make_levels(glm::ivec2 size, int levels);
+    void draw_coarser(const gpu::Program& program, const gpu::Texture& fine, const gpu::Framebuffer& target);
+    void mix_in(const gpu::Program& program, const gpu::Texture& fine, const gpu::Texture& coarse, float weight,
+                const gpu::Framebuffer& target);
+
+    gpu::Program picture_to_coarser_;
+    gpu::Program level_to_coarser_;
+    gpu::Program mix_into_level_;
+    gpu::Program mix_into_picture_;
+    gpu::FullScreenTriangle triangle_;
+    std::vector<gpu::Framebuffer> down_;  ///< light and area, finest first
+    std::vector<gpu::Framebuffer> up_;    ///< the mixes; one fewer, as the coarsest level has nothing to mix in
+    int passes_ = 0;
+};
 
 /// The sizes of the blur's levels, finest first: at least one, and none beyond 1×1.
 std::vector<glm::ivec2> bloom_level_sizes(glm::ivec2 picture, int levels);
 
-/// The share of the coarser levels in level `index` of `count` on the way up, which makes their mean an even one.
-float bloom_coarser_share(std::size_t index, std::size_t count);
+/// The weight of the coarser levels in level `index` of `count` on the way up, which makes the result their mean.
+float bloom_coarser_weight(std::size_t index, std::size_t count);
 
 /// A logic error if strength or levels are out of range.
 void require_valid(const BloomSettings& settings);

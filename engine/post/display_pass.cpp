@@ -77,14 +77,12 @@ void DisplayPass::set_transform(const gpu::ShaderLibrary& library, const Display
     try {
         const OCIO::ConstGPUProcessorRcPtr processor = transform.processor()->getDefaultGPUProcessor();
         processor->extractGpuShaderInfo(shader);
-        // The processor's id stands for the tables, the shader's for the code.
+        // The processor's id identifies the tables, the shader's the code.
         cache_id = fmt::format("{} {}", processor->getCacheID(), shader->getCacheID());
     } catch (const OCIO::Exception& exception) {
-        throw Error({.file = transform.config_source(),
-                     .place = fmt::format("display \"{}\", view \"{}\"", transform.display(), transform.view()),
-                     .found = exception.what(),
-                     .expected = "a view that OpenColorIO can run on the GPU",
-                     .remedy = "choose another view"});
+        refuse_input(transform.config_source(),
+                     fmt::format("display \"{}\", view \"{}\"", transform.display(), transform.view()),
+                     exception.what(), "a view that OpenColorIO can run on the GPU", "choose another view");
     }
     // A new description has its own dynamic properties even where the code is the same.
     shader_ = shader;

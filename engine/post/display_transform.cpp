@@ -24,11 +24,9 @@ DisplaySelection resolve(const OcioConfig& config, DisplaySelection selection) {
     if (selection.view.empty()) selection.view = config.default_view(selection.display);
     if (std::find(views.begin(), views.end(), selection.view) != views.end()) return selection;
     const std::optional<std::string> nearest = nearest_word(selection.view, views);
-    throw Error({.file = config.source(),
-                 .place = fmt::format("display \"{}\"", selection.display),
-                 .found = fmt::format("no view \"{}\"", selection.view),
-                 .expected = fmt::format("one of {}", views),
-                 .remedy = nearest ? fmt::format("did you mean \"{}\"?", *nearest) : ""});
+    refuse_input(config.source(), fmt::format("display \"{}\"", selection.display),
+                 fmt::format("no view \"{}\"", selection.view), fmt::format("one of {}", views),
+                 nearest ? fmt::format("did you mean \"{}\"?", *nearest) : "");
 }
 
 /// What a view transform makes of NaN and infinities differs between OpenColorIO's CPU and GPU code (an infinite
@@ -61,21 +59,16 @@ OCIO::ConstProcessorRcPtr make_processor(const OcioConfig& config, const Display
 DisplayTransform::DisplayTransform(const OcioConfig& config, const DisplaySelection& selection)
     : selection_(resolve(config, selection)), config_source_(config.source()) {
     if (!config.ocio()->hasRole(OCIO::ROLE_SCENE_LINEAR)) {
-        throw Error({.file = config.source(),
-                     .place = "roles",
-                     .found = "no scene_linear",
-                     .expected = "the colour space light is computed in, as the role scene_linear",
-                     .remedy = "add the role to the configuration"});
+        refuse_input(config.source(), "roles", "no scene_linear",
+                     "the colour space light is computed in, as the role scene_linear",
+                     "add the role to the configuration");
     }
     try {
         processor_ = make_processor(config, selection_);
         cpu_ = processor_->getDefaultCPUProcessor();
     } catch (const OCIO::Exception& exception) {
-        throw Error({.file = config.source(),
-                     .place = fmt::format("display \"{}\", view \"{}\"", selection_.display, selection_.view),
-                     .found = exception.what(),
-                     .expected = "a view that can be built",
-                     .remedy = "mend the configuration, or choose another view"});
+        refuse_input(config.source(), fmt::format("display \"{}\", view \"{}\"", selection_.display, selection_.view),
+                     exception.what(), "a view that can be built", "correct the configuration, or choose another view");
     }
 }
 

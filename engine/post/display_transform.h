@@ -17,9 +17,9 @@ struct DisplaySelection {
 };
 
 /// From the working space (the configuration's scene_linear) to the encoded values of a display: exposure, the view's
-/// looks (gamut compression), the view transform, the display's encoding. On the way in NaN becomes 0 and what lies
-/// beyond the half floats' ±65504 is clamped to that; what comes out is not clamped. This is the twin on the CPU and
-/// the source of what DisplayPass runs on the GPU.
+/// looks (gamut compression), the view transform, the display's encoding. NaN input becomes 0, and input is clamped
+/// to the half floats' ±65504; output is not clamped. This is the CPU reference, and the source of the code that
+/// DisplayPass runs on the GPU.
 class DisplayTransform {
  public:
     /// Throws Error (input) if there is no such display or view (the message lists those there are and names the

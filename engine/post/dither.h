@@ -1,9 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-#include <span>
+
+#include "engine/gpu/framebuffer.h"
+#include "engine/gpu/full_screen_pass.h"
+#include "engine/gpu/program.h"
+#include "engine/gpu/shader_library.h"
+#include "engine/gpu/texture.h"
 
 namespace rowland::post {
 
@@ -12,16 +15,25 @@ struct DitherSettings {
     int bits = 8;  ///< of a channel of the target, 1 to 12
 };
 
-/// Noise in steps of the target: evenly distributed between -½ and ½ (never either), so that the mean of rounded values
-/// is the value. The same for the same pixel and frame on every machine. The fractional parts of an additive lattice of
-/// pixels, with the 2D golden ratio (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences"), which
-/// fills small areas evenly as blue noise does; frames go on by the golden ratio.
-float dither_offset(glm::ivec2 pixel, std::uint32_t frame);
+/// The last pass: adds noise to display values, the same in all channels so that greys stay grey. It is evenly
+/// distributed between -½ and ½ (never either) steps of the target, so that the mean of rounded values is the value,
+/// and the same for the same pixel and frame on every machine: the fractional parts of an additive lattice of pixels,
+/// with the 2D golden ratio (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences"), which fills
+/// small areas as evenly as blue noise; frames advance by the golden ratio. 0 and 1 stay as they are.
+class DitherPass {
+ public:
+    /// `library` must hold post::shader_files().
+    explicit DitherPass(const gpu::ShaderLibrary& library);
 
-/// Adds dither_offset steps to the display values of a picture, row by row, the same in all channels so that greys stay
-/// grey. Rounding to the target's steps is left to it; 0 and 1 still come out as they are. The twin of DitherPass. It
-/// is a logic error if `size` is not that of `pixels` or the settings are out of range.
-void apply_dither(std::span<glm::vec3> pixels, glm::ivec2 size, std::uint32_t frame, const DitherSettings& settings);
+    /// Writes display values with noise; alpha is kept. The source must be finer than the target: RGBA16 or RGBA32F.
+    /// The target must not be larger than the source.
+    void draw(const gpu::Texture& source, std::uint32_t frame, const DitherSettings& settings,
+              const gpu::Framebuffer& target) const;
+
+ private:
+    gpu::Program program_;
+    gpu::FullScreenTriangle triangle_;
+};
 
 /// The size of a step: 1 / (2^bits - 1). A logic error if the settings are out of range.
 float dither_step(const DitherSettings& settings);

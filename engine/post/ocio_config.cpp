@@ -4,11 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdlib>
+#include <regex>
 #include <sstream>
-#include <string_view>
-#include <system_error>
 
 #include "engine/core/error.h"
 #include "engine/core/file.h"
@@ -25,27 +23,15 @@ constexpr std::uint64_t max_config_bytes = 64U << 20U;
 constexpr const char* other_config_remedy =
     "name another configuration, or unset OCIO to use the one shipped with Rowland";
 
-/// Takes a number off the front of the text.
-std::optional<unsigned> take_number(std::string_view& text) {
-    unsigned value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc()) return std::nullopt;
-    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
-    return value;
-}
-
-/// "ocio_profile_version: 2.1" → (2, 1); nothing if the text does not say.
-std::optional<std::pair<unsigned, unsigned>> profile_version(std::string_view text) {
-    constexpr std::string_view key = "ocio_profile_version";
-    const std::size_t start = text.find(key);
-    if (start == std::string_view::npos) return std::nullopt;
-    text.remove_prefix(start + key.size());
-    text.remove_prefix(std::min(text.find_first_not_of(" \t:"), text.size()));
-    const std::optional<unsigned> major = take_number(text);
-    if (!major) return std::nullopt;
-    if (!text.starts_with('.')) return std::pair{*major, 0U};
-    text.remove_prefix(1);
-    return std::pair{*major, take_number(text).value_or(0)};
+/// "ocio_profile_version: 2.1" → (2, 1); null if the text has none.
+std::optional<std::pair<unsigned, unsigned>> profile_version(const std::string& text) {
+    static const std::regex pattern(R"(ocio_profile_version[ \t:]*(\d{1,9})(?:\.(\d{1,9}))?)");
+    const std::size_t start = std::min(text.find("ocio_profile_version"), text.size());
+    std::cmatch match;
+    if (!std::regex_search(text.c_str() + start, match, pattern, std::regex_constants::match_continuous))
+        return std::nullopt;
+    const auto number = [&](std::size_t i) { return match[i].matched ? std::stoul(match[i].str()) : 0UL; };
+    return std::pair{static_cast<unsigned>(number(1)), static_cast<unsigned>(number(2))};
 }
 
 /// OpenColorIO gives a new configuration the latest version it knows.
@@ -69,19 +55,12 @@ void require_readable_version(const std::string& text, const std::string& source
 }
 
 [[noreturn]] void fail_to_load(const std::string& source, const OCIO::Exception& exception) {
-    throw Error({.file = source,
-                 .place = {},
-                 .found = exception.what(),
-                 .expected = "a valid OpenColorIO configuration",
-                 .remedy = other_config_remedy});
+    refuse_input(source, {}, exception.what(), "a valid OpenColorIO configuration", other_config_remedy);
 }
 
 [[noreturn]] void fail_builtin_name(const std::string& source) {
-    throw Error({.file = source,
-                 .place = {},
-                 .found = "the name of a configuration built into OpenColorIO",
-                 .expected = fmt::format("a file: OpenColorIO {} has none built in", OCIO::GetVersion()),
-                 .remedy = other_config_remedy});
+    refuse_input(source, {}, "the name of a configuration built into OpenColorIO",
+                 fmt::format("a file: OpenColorIO {} has none built in", OCIO::GetVersion()), other_config_remedy);
 }
 
 std::vector<std::string> views_of(const OCIO::ConstConfigRcPtr& config, const std::string& display) {
@@ -117,11 +96,7 @@ OcioConfig OcioConfig::from_named_file(const std::filesystem::path& path, const 
     if (is_builtin_name && latest_version() < std::pair{2U, 2U}) fail_builtin_name(source);
     if (!is_builtin_name) {
         if (!std::filesystem::is_regular_file(path)) {
-            throw Error({.file = source,
-                         .place = {},
-                         .found = "no such file",
-                         .expected = "an OpenColorIO configuration",
-                         .remedy = other_config_remedy});
+            refuse_input(source, {}, "no such file", "an OpenColorIO configuration", other_config_remedy);
         }
         require_readable_version(read_text_file(path, max_config_bytes), source);
     }
@@ -159,11 +134,8 @@ std::vector<std::string> OcioConfig::views(const std::string& display) const {
     const std::vector<std::string> names = displays();
     if (std::find(names.begin(), names.end(), display) == names.end()) {
         const std::optional<std::string> nearest = nearest_word(display, names);
-        throw Error({.file = source_,
-                     .place = {},
-                     .found = fmt::format("no display \"{}\"", display),
-                     .expected = fmt::format("one of {}", names),
-                     .remedy = nearest ? fmt::format("did you mean \"{}\"?", *nearest) : ""});
+        refuse_input(source_, {}, fmt::format("no display \"{}\"", display), fmt::format("one of {}", names),
+                     nearest ? fmt::format("did you mean \"{}\"?", *nearest) : "");
     }
     return views_of(config_, display);
 }

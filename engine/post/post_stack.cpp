@@ -14,9 +14,9 @@ Pass& made(std::optional<Pass>& pass, const gpu::ShaderLibrary& library) {
     return *pass;
 }
 
-/// As many passes as there were, compiled anew.
+/// The pass rebuilt, if there was one.
 template <typename Pass>
-std::optional<Pass> anew(const std::optional<Pass>& pass, const gpu::ShaderLibrary& library) {
+std::optional<Pass> rebuilt(const std::optional<Pass>& pass, const gpu::ShaderLibrary& library) {
     return pass ? std::optional<Pass>(std::in_place, library) : std::nullopt;
 }
 
@@ -88,10 +88,10 @@ void PostStack::draw_display(const gpu::Texture& picture, const DisplayPass& dis
 }
 
 void PostStack::reload(const gpu::ShaderLibrary& library) {
-    std::optional<BloomPass> bloom = anew(bloom_, library);
-    std::optional<AutoExposurePass> auto_exposure = anew(auto_exposure_, library);
-    std::optional<VignettePass> vignette = anew(vignette_, library);
-    std::optional<DitherPass> dither = anew(dither_, library);
+    std::optional<BloomPass> bloom = rebuilt(bloom_, library);
+    std::optional<AutoExposurePass> auto_exposure = rebuilt(auto_exposure_, library);
+    std::optional<VignettePass> vignette = rebuilt(vignette_, library);
+    std::optional<DitherPass> dither = rebuilt(dither_, library);
     bloom_ = std::move(bloom);
     auto_exposure_ = std::move(auto_exposure);
     vignette_ = std::move(vignette);

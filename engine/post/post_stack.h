@@ -9,24 +9,20 @@
 #include "engine/gpu/shader_library.h"
 #include "engine/gpu/texture.h"
 #include "engine/post/auto_exposure.h"
-#include "engine/post/auto_exposure_pass.h"
 #include "engine/post/bloom.h"
-#include "engine/post/bloom_pass.h"
 #include "engine/post/display_pass.h"
 #include "engine/post/dither.h"
-#include "engine/post/dither_pass.h"
 #include "engine/post/vignette.h"
-#include "engine/post/vignette_pass.h"
 
 namespace rowland::post {
 
-/// Which effects there are; as it stands, none but the display transform.
+/// The effects; by default none but the display transform.
 struct PostSettings {
     std::optional<BloomSettings> bloom = {};
     std::optional<AutoExposureSettings> auto_exposure = {};
-    float exposure_stops = 0.0F;  ///< the exposure; with auto_exposure, what is added to the automatic one
+    float exposure_stops = 0.0F;  ///< added to the automatic exposure, if that is on
     std::optional<VignetteSettings> vignette = {};
-    std::optional<DitherSettings> dither = {};  ///< values are then held within 0 to 1; off for comparisons
+    std::optional<DitherSettings> dither = {};  ///< clamps values to 0 to 1; turn off for comparisons
 };
 
 /// What changes from frame to frame.
@@ -49,17 +45,17 @@ class PostStack {
     void draw(const gpu::Texture& hdr, const DisplayPass& display, const PostSettings& settings, const PostFrame& frame,
               const gpu::Framebuffer& target);
 
-    /// How many passes the last draw took: 1 with all effects off, that of the display.
+    /// Passes of the last draw: 1 with all effects off, that of the display.
     int passes() const { return passes_; }
     /// The stops the last draw exposed by, manual and automatic together.
     float exposure_stops() const { return exposure_stops_; }
     /// Makes the next frame start at its own automatic exposure, as the first does: for cuts.
     void forget_exposure() { automatic_stops_.reset(); }
-    /// Compiles the programs in use anew from `library`, which takes the place of the one it had. If one does not
-    /// compile, all stay as they were and its Error (system) is thrown.
+    /// Rebuilds the programs in use from `library`, which replaces the present one. If one does not compile, all stay
+    /// as they were and its Error (system) is thrown.
     void reload(const gpu::ShaderLibrary& library);
     /// Where the time of each effect that runs is written: "bloom", "auto exposure", "vignette", "display", "dither".
-    /// Null, as at first: nothing is timed. Must outlive the draws.
+    /// Null, the default: nothing is timed. Must outlive the draws.
     void set_pass_times(gpu::PassTimes* times) { times_ = times; }
 
  private:

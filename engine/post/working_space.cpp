@@ -68,11 +68,8 @@ std::optional<glm::dmat3> as_matrix(const OCIO::ConstCPUProcessorRcPtr& processo
 }
 
 [[noreturn]] void fail(const OcioConfig& config, std::string found) {
-    throw Error({.file = config.source(),
-                 .place = "role scene_linear",
-                 .found = std::move(found),
-                 .expected = "a colour space that is linear in XYZ",
-                 .remedy = "set the role scene_linear, to ACEScg for one"});
+    refuse_input(config.source(), "role scene_linear", std::move(found), "a colour space that is linear in XYZ",
+                 "set the role scene_linear, to ACEScg for one");
 }
 
 }  // namespace

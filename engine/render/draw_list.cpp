@@ -15,13 +15,6 @@ namespace rowland::render {
 
 namespace {
 
-const MaterialType* type_of(ecs::World& world, ecs::Entity entity,
-                            std::span<const std::unique_ptr<MaterialType>> types) {
-    for (const auto& type : types)
-        if (type->owns(world, entity)) return type.get();
-    return nullptr;
-}
-
 /// Appends the entity's joint matrices, if it has a skin and its mesh can follow it.
 void add_pose(ecs::World& world, Draw& draw, std::vector<glm::mat4>& joints) {
     const scene::Skin* skin = draw.mesh->is_skinned() ? world.find<scene::Skin>(draw.entity) : nullptr;
@@ -34,12 +27,6 @@ void add_pose(ecs::World& world, Draw& draw, std::vector<glm::mat4>& joints) {
     joints.insert(joints.end(), pose.begin(), pose.end());
 }
 
-void set_transform(const scene::TextureTransform& transform, glm::vec4& linear, glm::vec4& offset) {
-    const UvTransform uv = uv_transform(transform);
-    linear = uv.linear;
-    offset = glm::vec4(uv.offset, 0.0F, 0.0F);
-}
-
 }  // namespace
 
 DrawList gather_draws(ecs::World& world, std::span<const std::unique_ptr<MaterialType>> types, SurfaceFeatures lights) {
@@ -50,7 +37,7 @@ DrawList gather_draws(ecs::World& world, std::span<const std::unique_ptr<Materia
             Draw draw{.entity = entity,
                       .mesh = mesh.gpu.get(),
                       .material = &material,
-                      .type = type_of(world, entity, types),
+                      .type = owner_of(world, entity, types, "scene"),
                       .matrix = world_matrix.matrix,
                       .bounds = transformed(mesh.gpu->bounds(), world_matrix.matrix),
                       .mirrored = glm::determinant(glm::mat3(world_matrix.matrix)) < 0.0F};
@@ -84,11 +71,11 @@ ObjectBlock object_block(const Draw& draw, const glm::mat3& rec709_to_working) {
     block.map_strength = glm::vec4(material.normal_scale, material.occlusion_strength, draw.mirrored ? -1.0F : 1.0F,
                                    static_cast<float>(draw.first_joint));
     if ((draw.features & feature::kTextureTransform) == 0) return block;
-    set_transform(material.base_colour_texture.transform, block.uv_linear[0], block.uv_offset[0]);
-    set_transform(material.metallic_roughness_texture.transform, block.uv_linear[1], block.uv_offset[1]);
-    set_transform(material.normal_texture.transform, block.uv_linear[2], block.uv_offset[2]);
-    set_transform(material.occlusion_texture.transform, block.uv_linear[3], block.uv_offset[3]);
-    set_transform(material.emissive_texture.transform, block.uv_linear[4], block.uv_offset[4]);
+    for (std::size_t i = 0; i < kSurfaceMaps.size(); ++i) {
+        const UvTransform uv = uv_transform((material.*kSurfaceMaps[i].texture).transform);
+        block.uv_linear[i] = uv.linear;
+        block.uv_offset[i] = glm::vec4(uv.offset, 0.0F, 0.0F);
+    }
     return block;
 }
 

@@ -20,7 +20,7 @@
 
 namespace rowland::render {
 
-/// An entity to be drawn in this frame. The pointers hold while no component storage changes.
+/// An entity to be drawn in this frame. The pointers are valid until a component storage changes.
 struct Draw {
     ecs::Entity entity;
     const GpuMesh* mesh = nullptr;
@@ -32,7 +32,7 @@ struct Draw {
     bool skinned = false;
     std::size_t first_joint = 0;
     SurfaceFeatures features = 0;
-    const gpu::Program* program = nullptr;    ///< set for what is drawn in the main pass
+    const gpu::Program* program = nullptr;    ///< null if it is not drawn in the main pass
     std::size_t block_offset = 0;             ///< of its ObjectBlock, bytes
     float distance2 = 0.0F;                   ///< from the eye to the bounds' centre, squared
     const PictureColumns* columns = nullptr;  ///< null: all
@@ -56,7 +56,7 @@ UvTransform uv_transform(const scene::TextureTransform& transform);
 
 ObjectBlock object_block(const Draw& draw, const glm::mat3& rec709_to_working);
 
-/// By program, and from front to back within one: fewest changes of state, fewest pixels shaded in vain.
+/// By program, and from front to back within one: few changes of state, little overdraw.
 void sort_opaque(std::vector<const Draw*>& draws);
 /// From back to front.
 void sort_blended(std::vector<const Draw*>& draws);

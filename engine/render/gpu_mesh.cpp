@@ -21,7 +21,7 @@ std::vector<Vertex> interleave(const scene::Mesh& mesh) {
     return vertices;
 }
 
-/// The joints with those of no weight, which may be any, replaced by one that has weight.
+/// Joints of weight 0, whose indices may be out of range, are replaced by the heaviest.
 std::vector<glm::u16vec4> joints_in_use(const scene::Mesh& mesh) {
     std::vector<glm::u16vec4> joints = mesh.joints;
     for (std::size_t i = 0; i < joints.size(); ++i) {

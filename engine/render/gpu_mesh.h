@@ -9,9 +9,9 @@
 
 namespace rowland::render {
 
-/// A mesh on the GPU: position, normal and tangent interleaved at locations 0, 1 and 2. What not every mesh has lies in
-/// a buffer of its own, so that programs which do not read it do not fetch it: first and second texture coordinates at
-/// 3 and 4, colour at 5, joints and weights at 6 and 7.
+/// A mesh on the GPU: position, normal and tangent interleaved at locations 0, 1 and 2. Optional
+/// attributes have separate buffers, so that programs which do not read them do not fetch them: first and second
+/// texture coordinates at 3 and 4, colour at 5, joints and weights at 6 and 7.
 class GpuMesh {
  public:
     explicit GpuMesh(const scene::Mesh& mesh);
@@ -39,7 +39,7 @@ class GpuMesh {
     scene::Bounds bounds_;
 };
 
-/// Component: what an entity looks like. The CPU mesh stays for what is computed per vertex.
+/// Component: an entity's mesh. The CPU copy is for per-vertex computations.
 struct MeshInstance {
     std::shared_ptr<const scene::Mesh> mesh;
     std::shared_ptr<const GpuMesh> gpu;

@@ -1,14 +1,49 @@
 #include "engine/render/material.h"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "engine/core/check.h"
+#include "engine/core/error.h"
+#include "engine/scene/node_label.h"
+#include "engine/scene/transform.h"
 
 namespace rowland::render {
+
+namespace {
+
+/// The name of the nearest named node at or above an entity; a number where there is none.
+std::string entity_name(ecs::World& world, ecs::Entity entity) {
+    for (const ecs::Entity* at = &entity; at != nullptr && world.alive(*at);) {
+        const auto* label = world.find<scene::NodeLabel>(*at);
+        if (label != nullptr && !label->name.empty()) return fmt::format("entity \"{}\"", label->name);
+        const auto* parent = world.find<scene::Parent>(*at);
+        at = parent != nullptr ? &parent->entity : nullptr;
+    }
+    return fmt::format("entity {}", entity.index);
+}
+
+}  // namespace
 
 void MaterialType::attach(ecs::World& /*world*/, ecs::Entity /*entity*/, const nlohmann::json& /*extension*/,
                           SurfaceTextures& /*textures*/, const std::string& /*file*/, const std::string& place) {
     ROWLAND_CHECK(false, "attach() on a material type without a glTF extension, for " + place);
+}
+
+const MaterialType* owner_of(ecs::World& world, ecs::Entity entity,
+                             std::span<const std::unique_ptr<MaterialType>> types, const std::string& file,
+                             const std::string& place) {
+    const MaterialType* owner = nullptr;
+    for (const auto& type : types) {
+        if (!type->owns(world, entity)) continue;
+        if (owner != nullptr)
+            refuse_input(file, place.empty() ? entity_name(world, entity) : place + ", " + entity_name(world, entity),
+                         fmt::format("both {} and {}", owner->name(), type->name()), "at most one material type",
+                         "remove one of the two from this surface");
+        owner = type.get();
+    }
+    return owner;
 }
 
 }  // namespace rowland::render

@@ -2,8 +2,8 @@
 
 namespace rowland::render {
 
-/// Component: the entity shows in these columns of the picture only, given as shares of its width from its left side.
-/// Two entities in one place that share the picture between them cost what one does, but for their vertices.
+/// Component: limits the entity to these columns of the picture, given as fractions of its width from the left. Two
+/// entities at one position that split the picture cost as many pixels as one.
 struct PictureColumns {
     float begin = 0.0F;
     float end = 1.0F;

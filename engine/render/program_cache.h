@@ -9,7 +9,7 @@
 
 namespace rowland::render {
 
-/// Programs by what they are built from, each compiled when it is first asked for.
+/// Programs by description, each compiled on first use.
 class ProgramCache {
  public:
     gpu::ShaderLibrary& library() { return library_; }
@@ -17,8 +17,8 @@ class ProgramCache {
 
     /// Valid until reload(). Throws Error (system) if it does not compile.
     const gpu::Program& get(const gpu::ProgramDesc& desc);
-    /// Compiles all anew, from `source_tree` where it has their files. If one does not compile, all stay as they were
-    /// and its Error (system) is thrown.
+    /// Recompiles all, from `source_tree` where it has their files. If one does not compile, all stay as they were and
+    /// its Error (system) is thrown.
     void reload(const std::filesystem::path& source_tree);
     std::size_t size() const { return programs_.size(); }
 

@@ -5,10 +5,12 @@
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <span>
+#include <utility>
 
 #include "engine/colour/working_space.h"
 #include "engine/core/check.h"
 #include "engine/core/log.h"
+#include "engine/lighting/key_lights.h"
 #include "engine/render/bindings.h"
 #include "engine/render/brdf_table.h"
 #include "engine/render/shader_files.h"
@@ -22,7 +24,7 @@ namespace {
 constexpr int kBrdfTableSize = 64;
 constexpr const char* kPlainShader = "plain";
 constexpr const char* kShadowShader = "shadow";
-// Where the surface steepens within a texel, the lift in direct_light.glsl alone falls short.
+// For surfaces whose slope changes within a texel: there the lift in direct_light.glsl is not enough.
 constexpr float kShadowSlopeBias = 1.0F;
 
 gpu::Texture make_brdf_texture() {
@@ -39,7 +41,7 @@ gpu::ProgramDesc shader_pair(const std::string& name) {
     return desc;
 }
 
-/// Writes values to a buffer that grows with them.
+/// Replaces a buffer's content; grows it if needed.
 void upload(gpu::Buffer& buffer, std::span<const std::byte> data) {
     if (buffer.size() < data.size()) {
         buffer = gpu::Buffer(data, gpu::BufferUse::Dynamic);
@@ -48,11 +50,11 @@ void upload(gpu::Buffer& buffer, std::span<const std::byte> data) {
     }
 }
 
-/// The pixels that a draw may change; none where it may change all.
+/// The pixels that a draw may change; null: all.
 std::optional<gpu::Scissor> scissor_of(const Draw& draw, glm::ivec2 size) {
     if (draw.columns == nullptr) return std::nullopt;
-    const auto edge = [&](float share) {
-        return static_cast<int>(std::lround(std::clamp(share, 0.0F, 1.0F) * static_cast<float>(size.x)));
+    const auto edge = [&](float fraction) {
+        return static_cast<int>(std::lround(std::clamp(fraction, 0.0F, 1.0F) * static_cast<float>(size.x)));
     };
     const int begin = edge(draw.columns->begin);
     return gpu::Scissor{.x = begin, .y = 0, .width = std::max(edge(draw.columns->end) - begin, 0), .height = size.y};
@@ -64,7 +66,7 @@ glm::vec3 centre_of(const scene::Bounds& box) {
 
 }  // namespace
 
-/// What one call of render() works on.
+/// The state of one call of render().
 struct Renderer::Frame {
     const scene::Camera* camera = nullptr;
     float aspect = 1.0F;
@@ -76,7 +78,7 @@ struct Renderer::Frame {
     std::vector<const Draw*> blended;
     std::vector<const Draw*> casters;
     ShadowView shadow;
-    float farthest = 0.0F;  ///< along the camera's axis, of what is in the picture
+    float farthest = 0.0F;  ///< extent of the drawn entities along the camera's axis
 };
 
 Renderer::Renderer(const glm::dmat3& xyz_to_working)
@@ -106,22 +108,15 @@ std::vector<std::string> Renderer::gltf_extensions() const {
     return names;
 }
 
-MaterialType* Renderer::type_for_extension(const std::string& extension) const {
-    for (const auto& type : types_)
-        if (!extension.empty() && type->gltf_extension() == extension) return type.get();
-    return nullptr;
-}
-
-void Renderer::set_probe(const lighting::LightProbe& probe) {
-    environment_.emplace(probe, rec709_to_working_);
-    probe_light_ = ProbeLight(probe);
-    light_.illuminant = probe.illuminant;
+void Renderer::set_probe(lighting::LightProbe probe) {
+    environment_ = environment_map(probe, rec709_to_working_);
+    light_.probe = std::make_shared<const lighting::LightProbe>(std::move(probe));
     probe_changed_ = true;
 }
 
 void Renderer::use_key_lights(bool use) {
-    if (use != use_key_lights_) probe_changed_ = true;
-    use_key_lights_ = use;
+    if (use != light_.key_lights_apart) probe_changed_ = true;
+    light_.key_lights_apart = use;
 }
 
 void Renderer::set_shadow_map_size(int size) {
@@ -173,36 +168,33 @@ void Renderer::render(ecs::World& world, const scene::Camera& camera, const gpu:
 
 void Renderer::update_light(ecs::World& world) {
     lights_ = gather_lights(world, rec709_to_working_);
-    if (lights_.left_out > 0 && !told_of_left_out_) {
-        log_warning("the scene has {} lights; only the first {} shine", lights_.left_out + ROWLAND_MAXIMUM_LIGHTS,
+    if (lights_.dropped > 0 && !warned_dropped_lights_) {
+        log_warning("the scene has {} lights; only the first {} shine", lights_.dropped + ROWLAND_MAXIMUM_LIGHTS,
                     ROWLAND_MAXIMUM_LIGHTS);
-        told_of_left_out_ = true;
+        warned_dropped_lights_ = true;
     }
-    light_.light_colours = lights_.colours;
+    light_.light_strengths = lights_.strengths;
     std::vector<DistantLight> distant = distant_lights(world);
     if (!probe_changed_ && distant == light_.distant_lights) return;
-    if (probe_changed_) divide_probe();
-    light_.sh = probe_light_.sh();
-    add_distant_lights(distant, light_.sh);
+    if (probe_changed_) update_ambient();
     light_.distant_lights = std::move(distant);
     ++light_.version;
 }
 
-void Renderer::divide_probe() {
-    probe_light_.divide(use_key_lights_);
-    light_.residual = probe_light_.residual();
-    light_.key_lights = probe_light_.key_lights();
-    light_.texels = probe_light_.texels();
-    light_.probe_sh = probe_light_.sh();
-    light_.probe_texels = probe_light_.whole_texels();
-    light_.radiance = probe_light_.radiance();
+void Renderer::update_ambient() {
+    const lighting::LightProbe& probe = *light_.probe;
+    const std::span<const lighting::KeyLight> keys = light_.key_lights();
     key_irradiance_.reset();
-    if (!light_.key_lights.empty()) key_irradiance_.emplace(light_.key_lights, rec709_to_working_);
+    ambient_ = probe.ambient;
+    if (!keys.empty()) {
+        ambient_ = lighting::ambient_coefficients(lighting::residual(probe.sh, keys, probe.sh.bands), keys);
+        key_irradiance_ = key_irradiance_map(keys, rec709_to_working_);
+    }
     probe_changed_ = false;
 }
 
 void Renderer::select_draws(ecs::World& world, Frame& frame) {
-    const SurfaceFeatures key_lights = light_.key_lights.empty() ? 0 : feature::kKeyLights;
+    const SurfaceFeatures key_lights = light_.key_lights().empty() ? 0 : feature::kKeyLights;
     frame.list = gather_draws(world, types_, lights_.features() | key_lights);
     const Frustum frustum(frame.view_projection);
     const glm::vec3 forward = glm::normalize(frame.camera->target - frame.camera->eye);
@@ -254,16 +246,16 @@ void Renderer::upload_frame(const Frame& frame) {
     block.rec709_to_working = glm::mat4(glm::mat3(rec709_to_working_));
     block.eye = glm::vec4(camera.eye, 1.0F);
     for (std::size_t i = 0; i < 9; ++i)
-        block.ambient[i] = glm::vec4(glm::vec3(rec709_to_working_ * probe_light_.ambient()[i]), 0.0F);
-    block.environment = glm::vec4(static_cast<float>(environment_->map().levels() - 1), environment_->radiance_scale(),
-                                  key_irradiance_ ? key_irradiance_->scale() : 0.0F, 0.0F);
+        block.ambient[i] = glm::vec4(glm::vec3(rec709_to_working_ * ambient_.coefficients[i]), 0.0F);
+    block.environment = glm::vec4(static_cast<float>(environment_->map.levels() - 1), environment_->scale,
+                                  key_irradiance_ ? key_irradiance_->scale : 0.0F, 0.0F);
     block.shadow = glm::vec4(frame.shadow.texel_m, 1.0F / static_cast<float>(shadow_map_size_), 0.0F, 0.0F);
     frame_buffer_.update_value(block);
     frame_buffer_.bind_uniform(kFrameBinding);
     light_buffer_.update_value(lights_.block);
     light_buffer_.bind_uniform(kLightBinding);
-    if (key_irradiance_) key_irradiance_->map().bind(kKeyIrradianceUnit);
-    environment_->map().bind(kEnvironmentUnit);
+    if (key_irradiance_) key_irradiance_->map.bind(kKeyIrradianceUnit);
+    environment_->map.bind(kEnvironmentUnit);
     brdf_table_.bind(kBrdfUnit);
 }
 
@@ -298,8 +290,7 @@ void Renderer::draw_shadow_map(Frame& frame) {
         object_buffer_.bind_uniform(kObjectBinding, draw->block_offset, sizeof(ObjectBlock));
         const SurfaceFeatures features = of_shadow(draw->features);
         surface_program(kShadowShader, features).use();
-        if ((features & feature::kBaseColourMap) != 0)
-            draw->material->base_colour_texture.texture->bind(kBaseColourUnit);
+        if ((features & feature::kBaseColourMap) != 0) draw->material->base_colour_texture.texture->bind(kFirstMapUnit);
         draw->mesh->draw();
     }
     report_.shadow_drawn = static_cast<int>(frame.casters.size());
@@ -307,14 +298,9 @@ void Renderer::draw_shadow_map(Frame& frame) {
 }
 
 void Renderer::bind_surface(const Draw& draw) const {
-    const auto bind = [&](SurfaceFeatures map, const SurfaceTexture& texture, unsigned unit) {
-        if ((draw.features & map) != 0) texture.texture->bind(unit);
-    };
-    bind(feature::kBaseColourMap, draw.material->base_colour_texture, kBaseColourUnit);
-    bind(feature::kMetallicRoughnessMap, draw.material->metallic_roughness_texture, kMetallicRoughnessUnit);
-    bind(feature::kNormalMap, draw.material->normal_texture, kNormalUnit);
-    bind(feature::kOcclusionMap, draw.material->occlusion_texture, kOcclusionUnit);
-    bind(feature::kEmissiveMap, draw.material->emissive_texture, kEmissiveUnit);
+    for (std::size_t i = 0; i < kSurfaceMaps.size(); ++i)
+        if ((draw.features & kSurfaceMaps[i].bit) != 0)
+            (draw.material->*kSurfaceMaps[i].texture).texture->bind(kFirstMapUnit + static_cast<unsigned>(i));
 }
 
 void Renderer::set_state(const gpu::PipelineState& state) {

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,12 +17,11 @@
 #include "engine/gpu/pipeline_state.h"
 #include "engine/gpu/texture.h"
 #include "engine/gpu/vertex_array.h"
+#include "engine/lighting/ambient.h"
 #include "engine/lighting/light_probe.h"
 #include "engine/render/draw_list.h"
-#include "engine/render/environment.h"
-#include "engine/render/key_irradiance.h"
+#include "engine/render/light_maps.h"
 #include "engine/render/material.h"
-#include "engine/render/probe_light.h"
 #include "engine/render/program_cache.h"
 #include "engine/render/scene_lights.h"
 #include "engine/render/shadow_fit.h"
@@ -29,48 +29,47 @@
 
 namespace rowland::render {
 
-/// How the opaque pass shades; the sky is drawn in either.
+/// How the opaque pass shades. The sky is drawn in both.
 enum class Shading {
     Full,
     Unlit,  ///< every surface its base colour: what a frame costs without any shading
 };
 
-/// What the last frame took.
+/// Counts of the last frame.
 struct FrameReport {
     int drawn = 0;                      ///< entities in the picture
     int culled = 0;                     ///< entities outside it
     int shadow_drawn = 0;               ///< entities in the shadow map
     int programs = 0;                   ///< compiled so far
-    std::vector<gpu::PassTime> passes;  ///< of the frame so far, if someone times it
+    std::vector<gpu::PassTime> passes;  ///< so far in the frame, if set_pass_times() was called
 };
 
 /// Forward HDR renderer: draws all entities with a MeshInstance, a StandardMaterial and a WorldMatrix, then the sky,
 /// then those that blend, into a float framebuffer with depth, in the working space. Light comes from the probe and
 /// from entities with a DirectionalLight or a PunctualLight, at most 64; the first directional light that casts_shadow
-/// does. What has PictureColumns shows in those alone, and casts its whole shadow.
+/// does. An entity with PictureColumns is drawn in those only, and casts its whole shadow.
 class Renderer {
  public:
     /// `xyz_to_working`: from XYZ to the linear space images are made in (normally ACEScg).
     explicit Renderer(const glm::dmat3& xyz_to_working);
 
     void add_material_type(std::unique_ptr<MaterialType> type);
-    /// The glTF material extensions that registered types describe their surfaces by.
+    std::span<const std::unique_ptr<MaterialType>> material_types() const { return types_; }
+    /// The glTF material extensions of the registered types.
     std::vector<std::string> gltf_extensions() const;
-    /// The type that a glTF material extension belongs to; null if none.
-    MaterialType* type_for_extension(const std::string& extension) const;
 
-    /// From now on the scene stands in this light.
-    void set_probe(const lighting::LightProbe& probe);
-    /// Whether the probe's key lights are lights of their own (shaders see KEY_LIGHTS, FrameLight has them) and all
-    /// else that is diffuse does without them. Off at first: diffuse light is the probe's first nine SH terms.
+    /// Lights the scene with this probe.
+    void set_probe(lighting::LightProbe probe);
+    /// Whether the probe's key lights are shaded as analytic lights (FrameLight::key_lights_apart). Off by default:
+    /// diffuse light is the probe's first nine SH terms.
     void use_key_lights(bool use);
-    /// Texels along a side of the shadow map, at least 32; 2048 at first.
+    /// Texels along a side of the shadow map, at least 32; 2048 by default.
     void set_shadow_map_size(int size);
-    /// Where the times of the passes "shadow", "opaque", "sky" and "blend" are written; null, as at first: nowhere. The
+    /// Where the times of the passes "shadow", "opaque", "sky" and "blend" are written; null, the default: nowhere. The
     /// owner calls begin_frame(). Must outlive the draws.
     void set_pass_times(gpu::PassTimes* times) { times_ = times; }
-    /// Compiles all programs in use anew, from `source_tree` where it has their files. If one does not compile, all
-    /// stay as they were and its Error (system) with file and line is thrown.
+    /// Rebuilds all programs in use, from `source_tree` where it has their files. If one does not compile, all stay as
+    /// they were and its Error (system) with file and line is thrown.
     void reload_shaders(const std::filesystem::path& source_tree);
 
     /// Draws a frame. A probe must have been set. Programs are compiled when something is first drawn with them.
@@ -85,7 +84,7 @@ class Renderer {
     struct Frame;
 
     void update_light(ecs::World& world);
-    void divide_probe();
+    void update_ambient();
     void select_draws(ecs::World& world, Frame& frame);
     void select_casters(Frame& frame);
     void upload_frame(const Frame& frame);
@@ -110,17 +109,16 @@ class Renderer {
     gpu::Buffer joint_buffer_;
     std::size_t object_stride_;
     gpu::Texture brdf_table_;
-    std::optional<Environment> environment_;
-    std::optional<KeyIrradiance> key_irradiance_;  ///< none without key lights
+    std::optional<LightMap> environment_;
+    std::optional<LightMap> key_irradiance_;  ///< none without key lights
     std::optional<gpu::Framebuffer> shadow_map_;
     int shadow_map_size_ = 2048;
 
-    ProbeLight probe_light_;
-    bool use_key_lights_ = false;
-    bool probe_changed_ = false;  ///< or how it is divided
+    bool probe_changed_ = false;  ///< or whether its key lights are apart
     FrameLight light_;
+    lighting::AmbientLight ambient_;  ///< of the probe without its analytic key lights
     SceneLights lights_;
-    bool told_of_left_out_ = false;
+    bool warned_dropped_lights_ = false;
     std::optional<gpu::PipelineState> state_;
     gpu::PassTimes* times_ = nullptr;
     FrameReport report_;

@@ -16,7 +16,7 @@ namespace rowland::render {
 
 namespace {
 
-/// Makes one scene's entities, sharing what instances share.
+/// Makes one scene's entities. Instances share meshes and textures.
 class Builder {
  public:
     Builder(ecs::World& world, const scene::ImportedScene& scene, Renderer& renderer, const std::string& file,
@@ -83,10 +83,12 @@ class Builder {
     }
 
     void attach_extensions(ecs::Entity entity, const scene::MaterialDescription& material, std::size_t index) {
+        const std::string place = fmt::format("/materials/{}/extensions", index);
         for (const auto& [name, json] : material.extensions)
-            if (MaterialType* type = renderer_.type_for_extension(name))
-                type->attach(world_, entity, json, textures_, file_,
-                             fmt::format("/materials/{}/extensions/{}", index, name));
+            for (const auto& type : renderer_.material_types())
+                if (type->gltf_extension() == name)
+                    type->attach(world_, entity, json, textures_, file_, place + "/" + name);
+        owner_of(world_, entity, renderer_.material_types(), file_, place);
     }
 
     ecs::World& world_;

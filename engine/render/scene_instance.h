@@ -13,14 +13,14 @@
 
 namespace rowland::render {
 
-/// An imported scene that stands in a world.
+/// The entities of an imported scene.
 struct SceneInstance {
-    std::vector<ecs::Entity> nodes;   ///< one a node, in the import's order: Transform, Parent and NodeLabel
-    std::vector<ecs::Entity> drawn;   ///< one an instance of a primitive: MeshInstance and StandardMaterial
-    std::vector<ecs::Entity> lights;  ///< one a light
+    std::vector<ecs::Entity> nodes;   ///< one per node, in the import's order: Transform, Parent and NodeLabel
+    std::vector<ecs::Entity> drawn;   ///< one per instance of a primitive: MeshInstance and StandardMaterial
+    std::vector<ecs::Entity> lights;  ///< one per light
     std::vector<scene::Animation> animations;
 
-    /// Poses the nodes as an animation does at a time; those it does not move stay. World matrices follow with the next
+    /// Sets the nodes' transforms to an animation's at a time. World matrices follow with the next
     /// scene::update_world_matrices().
     void animate(ecs::World& world, std::size_t animation, float time_s) const;
 
@@ -29,9 +29,9 @@ struct SceneInstance {
 };
 
 /// Makes entities of a scene and puts its meshes and textures on the GPU. Primitives and lights are children of their
-/// nodes, skinned primitives have no parent. Where a material has an extension that a material type of the renderer
-/// describes, the type attaches its surface. `file` is for messages. Throws Error (input) where such an extension's
-/// JSON is wrong; the world is then as before.
+/// nodes, skinned primitives have no parent. The renderer's material types attach their surfaces to materials that
+/// have their extensions. `file` is for messages. Throws Error (input) if such an extension's JSON is wrong, or if two
+/// types claim one surface; the world is then as before.
 SceneInstance instantiate(ecs::World& world, const scene::ImportedScene& scene, Renderer& renderer,
                           const std::string& file);
 

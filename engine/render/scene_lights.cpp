@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/vector_relational.hpp>
 #include <utility>
 #include <vector>
 
-#include "engine/math/sh_basis.h"
 #include "engine/scene/directional_light.h"
 #include "engine/scene/punctual_light.h"
 #include "engine/scene/transform.h"
@@ -25,23 +23,10 @@ glm::vec3 world_direction(ecs::World& world, ecs::Entity entity, const scene::Di
     return glm::normalize(glm::mat3(matrix_of(world, entity)) * light.direction);
 }
 
-/// Notes the colour of a light of strength `rgb` (Rec.709) among those of its frame.
-void set_strength(const glm::vec3& rgb, const glm::mat3& to_working, std::vector<glm::vec3>& colours, Light& light) {
-    constexpr float kSameColour = 1e-4F;
-    const float largest = std::max({rgb.r, rgb.g, rgb.b});
-    const glm::vec3 colour = largest > 0.0F ? rgb / largest : glm::vec3(1.0F);
-    const auto same = std::find_if(colours.begin(), colours.end(), [&](const glm::vec3& other) {
-        return glm::all(glm::lessThan(glm::abs(other - colour), glm::vec3(kSameColour)));
-    });
-    light.strength = glm::vec4(to_working * rgb, static_cast<float>(same - colours.begin()));
-    light.cone.z = largest;
-    if (same == colours.end()) colours.push_back(colour);
-}
-
 Light block_light(const scene::PunctualLight& light, const glm::mat4& matrix) {
     Light result = {};
     const float range2 = light.range_m * light.range_m;
-    result.place = glm::vec4(glm::vec3(matrix[3]), range2 > 0.0F ? 1.0F / (range2 * range2) : 0.0F);
+    result.position = glm::vec4(glm::vec3(matrix[3]), range2 > 0.0F ? 1.0F / (range2 * range2) : 0.0F);
     if (!light.spot) return result;
     result.axis = glm::vec4(glm::normalize(glm::mat3(matrix) * glm::vec3(0.0F, 0.0F, -1.0F)), 1.0F);
     const float scale = 1.0F / std::max(1e-3F, std::cos(light.inner_cone) - std::cos(light.outer_cone));
@@ -64,11 +49,11 @@ SceneLights gather_lights(ecs::World& world, const glm::dmat3& rec709_to_working
     const glm::mat3 to_working(rec709_to_working);
     SceneLights result;
     std::vector<Light> lights;
-    std::vector<glm::vec3> strengths;
+    std::vector<glm::vec3>& strengths = result.strengths;
     world.view<scene::DirectionalLight>().each([&](ecs::Entity entity, const scene::DirectionalLight& light) {
         const glm::vec3 direction = world_direction(world, entity, light);
         lights.push_back({});
-        lights.back().place = glm::vec4(direction, 0.0F);
+        lights.back().position = glm::vec4(direction, 0.0F);
         strengths.push_back(light.irradiance);
         if (!light.casts_shadow || result.shadow_light) return;
         result.shadow_light = direction;
@@ -83,10 +68,11 @@ SceneLights gather_lights(ecs::World& world, const glm::dmat3& rec709_to_working
     constexpr std::size_t kMaximum = ROWLAND_MAXIMUM_LIGHTS;
     const std::size_t kept = std::min(lights.size(), kMaximum);
     for (std::size_t i = 0; i < kept; ++i) {
-        set_strength(strengths[i], to_working, result.colours, lights[i]);
+        lights[i].strength = glm::vec4(to_working * strengths[i], 0.0F);
         result.block.lights[i] = lights[i];
     }
-    result.left_out = static_cast<int>(lights.size() - kept);
+    strengths.resize(kept);
+    result.dropped = static_cast<int>(lights.size() - kept);
     result.block.light_counts =
         glm::vec4(static_cast<float>(std::min(directional, kept)), static_cast<float>(kept), 0.0F, 0.0F);
     return result;
@@ -98,14 +84,6 @@ std::vector<DistantLight> distant_lights(ecs::World& world) {
         lights.push_back({world_direction(world, entity, light), light.irradiance});
     });
     return lights;
-}
-
-void add_distant_lights(std::span<const DistantLight> lights, lighting::ShLight& sh) {
-    std::vector<double> basis(sh.coefficients.size());
-    for (const DistantLight& light : lights) {
-        math::evaluate_sh(glm::dvec3(light.direction), sh.bands, basis);
-        for (std::size_t i = 0; i < basis.size(); ++i) sh.coefficients[i] += basis[i] * glm::dvec3(light.irradiance);
-    }
 }
 
 }  // namespace rowland::render

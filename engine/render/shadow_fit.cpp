@@ -14,7 +14,7 @@ namespace rowland::render {
 
 namespace {
 
-constexpr float kMarginTexels = 4.0F;  ///< kept empty at each edge: the reach of the filter, the lift and the snapping
+constexpr float kMarginTexels = 4.0F;  ///< empty border at each edge, for the filter, the lift and the snapping
 
 /// The next step of 2^¼ that is not smaller.
 float in_steps(float length) {
@@ -27,7 +27,7 @@ glm::mat3 light_axes(const glm::vec3& toward_light) {
     return glm::transpose(glm::mat3(x, glm::cross(toward_light, x), toward_light));
 }
 
-/// What both cover across the light, and the casters' depth; what is seen where they do not meet.
+/// The overlap of both across the light, with the casters' depth; `seen` where they do not overlap.
 scene::Bounds shadowed_region(const scene::Bounds& casters, const scene::Bounds& seen) {
     scene::Bounds region{glm::max(casters.minimum, seen.minimum), glm::min(casters.maximum, seen.maximum)};
     if (region.minimum.x > region.maximum.x || region.minimum.y > region.maximum.y) region = seen;

@@ -22,13 +22,13 @@ struct ShadowView {
     glm::mat4 world_to_clip{1.0F};
     float texel_m = 1.0F;  ///< width of a texel in the world
 
-    /// Whether the box casts into the map; depth does not matter.
+    /// Whether the box casts into the map, at any depth.
     bool may_see(const scene::Bounds& box) const;
 };
 
-/// Fits a square map of `size` texels to those of the casters whose shadow can be seen: their boxes' extent across the
-/// light, cut to the seen sphere's. Depth spans all casters, so none is lost. Sizes go in steps of 2^¼ and the place in
-/// whole texels, so that a shadow's edge does not crawl as camera and casters move.
+/// Fits a square map of `size` texels to the casters whose shadow can be seen: their boxes' extent across the light,
+/// cut to the seen sphere's. Depth spans all casters, so none is lost. Sizes are rounded to steps of 2^¼ and the
+/// position to whole texels, so that a shadow's edge does not crawl as camera and casters move.
 ShadowView fit_shadow(const glm::vec3& toward_light, std::span<const scene::Bounds> casters, const Sphere& seen,
                       int size);
 

@@ -8,19 +8,6 @@ namespace rowland::render {
 
 namespace {
 
-struct Map {
-    SurfaceFeatures bit;
-    const char* define;
-    SurfaceTexture StandardMaterial::*texture;
-};
-
-constexpr std::array<Map, 5> kMaps = {
-    {{feature::kBaseColourMap, "BASE_COLOUR_MAP", &StandardMaterial::base_colour_texture},
-     {feature::kMetallicRoughnessMap, "METALLIC_ROUGHNESS_MAP", &StandardMaterial::metallic_roughness_texture},
-     {feature::kNormalMap, "NORMAL_MAP", &StandardMaterial::normal_texture},
-     {feature::kOcclusionMap, "OCCLUSION_MAP", &StandardMaterial::occlusion_texture},
-     {feature::kEmissiveMap, "EMISSIVE_MAP", &StandardMaterial::emissive_texture}}};
-
 constexpr std::array<std::pair<SurfaceFeatures, const char*>, 12> kSwitches = {
     {{feature::kColours, "HAS_COLOURS"},
      {feature::kSkinned, "SKINNED"},
@@ -45,7 +32,7 @@ SurfaceFeatures second_uv(SurfaceFeatures map) {
 
 SurfaceFeatures map_features(const StandardMaterial& material) {
     SurfaceFeatures features = 0;
-    for (const Map& map : kMaps) {
+    for (const SurfaceMap& map : kSurfaceMaps) {
         const SurfaceTexture& texture = material.*map.texture;
         if (!texture) continue;
         features |= map.bit;
@@ -55,9 +42,9 @@ SurfaceFeatures map_features(const StandardMaterial& material) {
     return features;
 }
 
-/// Leaves only the maps in `kept`, and no transform if none is left.
+/// Removes all maps but `kept`, and the transform if no map remains.
 SurfaceFeatures keep_maps(SurfaceFeatures features, SurfaceFeatures kept) {
-    for (const Map& map : kMaps)
+    for (const SurfaceMap& map : kSurfaceMaps)
         if ((map.bit & kept) == 0) features &= ~(map.bit | second_uv(map.bit));
     if ((features & kept) == 0) features &= ~feature::kTextureTransform;
     return features;
@@ -91,7 +78,7 @@ std::vector<gpu::Define> defines_of(SurfaceFeatures features) {
     std::vector<gpu::Define> defines;
     bool uses_uv = false;
     bool uses_uv1 = false;
-    for (const Map& map : kMaps) {
+    for (const SurfaceMap& map : kSurfaceMaps) {
         if ((features & map.bit) == 0) continue;
         const bool second = (features & second_uv(map.bit)) != 0;
         (second ? uses_uv1 : uses_uv) = true;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -9,7 +10,7 @@
 
 namespace rowland::render {
 
-/// What an object's shaders must be able to do, a bit each; no program has more than its objects need.
+/// What an object's shaders must do, a bit each. A program does only what its objects need.
 using SurfaceFeatures = std::uint32_t;
 
 namespace feature {
@@ -20,7 +21,7 @@ inline constexpr SurfaceFeatures kMetallicRoughnessMap = 1U << 3U;
 inline constexpr SurfaceFeatures kNormalMap = 1U << 4U;
 inline constexpr SurfaceFeatures kOcclusionMap = 1U << 5U;
 inline constexpr SurfaceFeatures kEmissiveMap = 1U << 6U;
-inline constexpr unsigned kSecondUvShift = 8;  ///< a map's bit, so far to the left: it uses the second set of UVs
+inline constexpr unsigned kSecondUvShift = 8;  ///< a map's bit shifted left by this: the map uses the second UV set
 inline constexpr SurfaceFeatures kTextureTransform = 1U << 16U;
 inline constexpr SurfaceFeatures kDoubleSided = 1U << 17U;
 inline constexpr SurfaceFeatures kAlphaMask = 1U << 18U;
@@ -35,17 +36,31 @@ inline constexpr SurfaceFeatures kLights =
     kDirectionalLights | kSeveralDirectionalLights | kPunctualLights | kShadows | kKeyLights;
 }  // namespace feature
 
+/// A texture of a surface. Its index in kSurfaceMaps is that of its unit from kFirstMapUnit on and of its transform in
+/// ObjectBlock.
+struct SurfaceMap {
+    SurfaceFeatures bit;
+    const char* define;
+    SurfaceTexture StandardMaterial::*texture;
+};
+inline constexpr std::array<SurfaceMap, 5> kSurfaceMaps = {
+    {{feature::kBaseColourMap, "BASE_COLOUR_MAP", &StandardMaterial::base_colour_texture},
+     {feature::kMetallicRoughnessMap, "METALLIC_ROUGHNESS_MAP", &StandardMaterial::metallic_roughness_texture},
+     {feature::kNormalMap, "NORMAL_MAP", &StandardMaterial::normal_texture},
+     {feature::kOcclusionMap, "OCCLUSION_MAP", &StandardMaterial::occlusion_texture},
+     {feature::kEmissiveMap, "EMISSIVE_MAP", &StandardMaterial::emissive_texture}}};
+
 /// Of a surface on a mesh. `lights`: those of feature::kLights that the frame has.
 SurfaceFeatures features_of(const StandardMaterial& material, const GpuMesh& mesh, bool skinned,
                             SurfaceFeatures lights);
-/// What is left of them where nothing is lit: base colour, alpha and emission.
+/// Those that an unlit surface needs: base colour, alpha and emission.
 SurfaceFeatures without_light(SurfaceFeatures features);
-/// What is left of them in a shadow map: which pixels there are.
+/// Those that a shadow map needs: the surface's outline.
 SurfaceFeatures of_shadow(SurfaceFeatures features);
 
-/// The same as defines for the shaders.
+/// As defines for the shaders.
 std::vector<gpu::Define> defines_of(SurfaceFeatures features);
-/// Adds the defines to a program that has some of its own; those it has already stay as they are.
+/// Adds the defines to a program's own, which win.
 void add_defines(SurfaceFeatures features, gpu::ProgramDesc& desc);
 
 }  // namespace rowland::render

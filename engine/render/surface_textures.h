@@ -11,13 +11,13 @@
 
 namespace rowland::render {
 
-/// What an image's bytes stand for.
+/// How an image's bytes are read.
 enum class TexelMeaning {
     Linear,  ///< numbers: roughness, normals
-    Srgb,    ///< encoded colours; alpha is linear all the same
+    Srgb,    ///< encoded colours; alpha is linear
 };
 
-/// An imported scene's textures on the GPU: one for each picture, meaning and way of sampling that is asked for.
+/// An imported scene's textures on the GPU, uploaded on demand: one for each image, meaning and sampling.
 class SurfaceTextures {
  public:
     /// `scene` must outlive it.

@@ -13,17 +13,18 @@ namespace rowland::render {
 /// Axis-parallel box around a transformed box [Arvo 1990].
 scene::Bounds transformed(const scene::Bounds& box, const glm::mat4& matrix);
 
-/// Around all of them; nothing if there are none.
+/// Around all of them; null if there are none.
 std::optional<scene::Bounds> united(std::span<const scene::Bounds> boxes);
 
-/// Around a skinned mesh in any pose: a vertex is a mean of its places by single joints, so the joints' boxes hold it.
+/// Around a skinned mesh in a pose: a vertex is a weighted mean of its positions under single joints, so the joints'
+/// boxes contain it.
 scene::Bounds posed_bounds(const scene::Bounds& box, std::span<const glm::mat4> joints);
 
-/// What a camera sees, as six planes that look inward [Gribb & Hartmann 2001].
+/// A camera's view volume as six planes that face inward [Gribb & Hartmann 2001].
 class Frustum {
  public:
     explicit Frustum(const glm::mat4& view_projection);
-    /// False only if the box is wholly outside one plane; some boxes near a corner pass though nothing of them is seen.
+    /// False only if the box is wholly outside one plane: some invisible boxes near a corner pass.
     bool may_see(const scene::Bounds& box) const;
 
  private:

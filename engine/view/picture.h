@@ -23,8 +23,8 @@
 
 namespace rowland::view {
 
-/// From a world to display values: the renderer, four samples a pixel, the post stack. The same with and without a
-/// window. Material modules register with `renderer()`.
+/// From a world to display values: the renderer with four samples per pixel, and the post stack. The same with and
+/// without a window. Modules register with `renderer()`.
 class Picture {
  public:
     /// `view`: one of the display's; empty for its default. Throws Error (input) if the display has no such view.
@@ -35,19 +35,19 @@ class Picture {
     /// Throws Error (input) if the display has no such view.
     void set_view(const post::OcioConfig& config, const std::string& view);
     void resize(glm::ivec2 size);
-    /// Compiles all shaders in use anew from a source tree; throws Error and keeps the old if one is broken.
+    /// Rebuilds all shaders in use from a source tree; throws Error and keeps the old ones if one does not compile.
     void reload_shaders(const std::filesystem::path& source_tree);
-    /// Where a source tree has, or would have, the shaders that are in use.
+    /// The paths of the shaders in use below a source tree.
     std::vector<std::filesystem::path> shader_sources(const std::filesystem::path& source_tree) const;
     render::Renderer& renderer() { return renderer_; }
 
     /// Draws a frame, `seconds` after the last. Throws Error (system) if the context is lost.
     void draw(ecs::World& world, const scene::Camera& camera, float seconds);
 
-    /// What the passes of the last frames took.
+    /// Times of the passes of the last frames.
     const gpu::PassTimes& pass_times() const { return pass_times_; }
     post::PostSettings& post_settings() { return post_settings_; }
-    /// The stops that the last frame was exposed by, manual and automatic together.
+    /// Exposure of the last frame in stops, manual and automatic together.
     float exposure_stops() const { return post_stack_.exposure_stops(); }
     /// Scene-linear working RGB.
     const gpu::Framebuffer& linear() const { return targets_->linear; }

@@ -5,6 +5,7 @@
 #include "engine/lighting/clear_sky.h"
 #include "engine/lighting/probe_recipe.h"
 #include "modules/diffraction/asset/cooked_material.h"
+#include "modules/diffraction/asset/gltf_extension.h"
 #include "modules/diffraction/asset/material_json.h"
 #include "modules/diffraction/evaluate/budget.h"
 #include "modules/diffraction/evaluate/frame_sets.h"
@@ -56,7 +57,7 @@ std::vector<BudgetProbe> read_probes(cook::Context& context, const Quality& qual
     return probes;
 }
 
-/// Chooses what the material's max_error takes, and pins it in `json`, so that the cooked material is one that pins.
+/// Chooses the cheapest settings within the material's max_error, and pins them in `json`.
 CookedMaterial choose(cook::Context& context, const Material& material, nlohmann::json& json) {
     const std::string file = context.source().string();
     require_baked_grooves(material.grating, file);
@@ -87,7 +88,8 @@ void check_source(cook::Context& context) {
 
 }  // namespace
 
-void register_cook_types(cook::Registry& registry) {
+void register_module(cook::Registry& registry) {
+    registry.add_gltf_extension(kGltfExtension);
     cook::AssetType type;
     type.name = kMaterialAssetType;
     type.version = kMaterialAssetVersion;

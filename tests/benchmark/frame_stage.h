@@ -10,7 +10,6 @@
 
 #include "engine/gpu/framebuffer.h"
 #include "engine/gpu/shader_library.h"
-#include "engine/gpu/timer.h"
 #include "engine/post/display_pass.h"
 #include "engine/post/post_stack.h"
 #include "engine/render/gpu_mesh.h"
@@ -18,6 +17,7 @@
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/runtime/gpu_material.h"
 #include "tests/benchmark/frame_variant.h"
+#include "tests/benchmark/gpu_timer.h"
 
 namespace rowland::benchmark {
 

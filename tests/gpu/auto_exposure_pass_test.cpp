@@ -1,4 +1,4 @@
-#include "engine/post/auto_exposure_pass.h"
+#include "engine/post/auto_exposure.h"
 
 #include <fmt/format.h>
 
@@ -6,9 +6,9 @@
 #include <limits>
 #include <random>
 
-#include "engine/post/auto_exposure.h"
 #include "engine/post/shader_files.h"
 #include "tests/gpu/gl_test.h"
+#include "tests/unit/engine/post/cpu_effects.h"
 
 namespace rowland {
 

@@ -1,4 +1,4 @@
-#include "engine/post/bloom_pass.h"
+#include "engine/post/bloom.h"
 
 #include <fmt/format.h>
 
@@ -8,6 +8,7 @@
 
 #include "engine/post/shader_files.h"
 #include "tests/gpu/gl_test.h"
+#include "tests/unit/engine/post/cpu_effects.h"
 
 namespace rowland {
 

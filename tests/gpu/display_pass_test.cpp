@@ -8,11 +8,11 @@
 #include <random>
 
 #include "engine/core/file.h"
-#include "engine/post/exposure.h"
 #include "engine/post/shader_files.h"
 #include "tests/gpu/gl_test.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"
+#include "tests/unit/engine/post/cpu_effects.h"
 
 namespace rowland {
 

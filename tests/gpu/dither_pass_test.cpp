@@ -1,10 +1,11 @@
-#include "engine/post/dither_pass.h"
+#include "engine/post/dither.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "engine/post/shader_files.h"
 #include "tests/gpu/gl_test.h"
+#include "tests/unit/engine/post/cpu_effects.h"
 
 namespace rowland {
 

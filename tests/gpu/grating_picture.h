@@ -54,10 +54,10 @@ inline lighting::ProbeImage smooth_probe() {
 }
 
 /// A frame's light: a probe, and key lights that come on top of it.
-inline render::FrameLight light_of(const lighting::ProbeImage& probe, std::vector<lighting::KeyLight> keys,
-                                   std::uint64_t version = 1) {
+inline LightParts light_of(const lighting::ProbeImage& probe, std::vector<lighting::KeyLight> keys,
+                           std::uint64_t version = 1) {
     constexpr int kBands = 10;
-    render::FrameLight light;
+    LightParts light;
     light.residual = lighting::project(probe, kBands);
     light.sh = light.residual;
     const lighting::ShLight lobes = lighting::project(keys, kBands);
@@ -118,17 +118,18 @@ inline scene::Mesh flat_triangle() {
 /// A DiffractionSurfaceType under light that the test sets, whatever the renderer's is.
 class UnderLight final : public render::MaterialType {
  public:
-    UnderLight(const DiffractionSettings& settings, const render::FrameLight& light)
+    UnderLight(const DiffractionSettings& settings, const LightParts& light)
         : inner_(glm::dmat3(1.0), settings), light_(&light) {}
 
+    std::string name() const override { return "diffraction"; }
     void add_shaders(gpu::ShaderLibrary& library) const override { inner_.add_shaders(library); }
     bool owns(ecs::World& world, ecs::Entity entity) const override { return inner_.owns(world, entity); }
     gpu::ProgramDesc program(ecs::World& world, ecs::Entity entity) const override {
         return inner_.program(world, entity);
     }
     void update(ecs::World& world, const render::FrameLight& frame) override {
-        render::FrameLight light = *light_;
-        light.light_colours = frame.light_colours;  // of the world's own lights
+        LightParts light = *light_;
+        light.light_strengths = frame.light_strengths;  // of the world's own lights
         inner_.update(world, light);
     }
     void bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const override {
@@ -137,7 +138,7 @@ class UnderLight final : public render::MaterialType {
 
  private:
     DiffractionSurfaceType inner_;
-    const render::FrameLight* light_;
+    const LightParts* light_;
 };
 
 /// What the CPU shades: a point of a triangle.
@@ -306,7 +307,7 @@ class GratingPicture : public rowland::test::GlTest {
     std::optional<render::Renderer> renderer_;
     ecs::World world_;
     ecs::Entity entity_;
-    render::FrameLight light_ = light_of(smooth_probe(), {});
+    LightParts light_ = light_of(smooth_probe(), {});
     scene::Mesh mesh_ = crooked_triangle();
     scene::Transform transform_;
     scene::Camera camera_;

@@ -7,10 +7,10 @@
 #include <limits>
 #include <random>
 
-#include "engine/post/exposure.h"
 #include "engine/post/shader_files.h"
 #include "engine/post/working_space.h"
 #include "tests/gpu/gl_test.h"
+#include "tests/unit/engine/post/cpu_effects.h"
 
 namespace rowland {
 

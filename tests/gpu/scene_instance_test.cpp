@@ -24,6 +24,7 @@ struct Marked {
 /// A material type that marks the entities with its extension and draws none.
 class MarkType final : public MaterialType {
  public:
+    std::string name() const override { return "mark"; }
     std::string gltf_extension() const override { return "TEST_mark"; }
     void attach(ecs::World& world, ecs::Entity entity, const nlohmann::json& extension, SurfaceTextures& /*textures*/,
                 const std::string& file, const std::string& place) override {

@@ -1,4 +1,4 @@
-#include "engine/gpu/timer.h"
+#include "tests/benchmark/gpu_timer.h"
 
 #include <epoxy/gl.h>
 

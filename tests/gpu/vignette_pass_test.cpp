@@ -1,7 +1,8 @@
-#include "engine/post/vignette_pass.h"
+#include "engine/post/vignette.h"
 
 #include "engine/post/shader_files.h"
 #include "tests/gpu/gl_test.h"
+#include "tests/unit/engine/post/cpu_effects.h"
 
 namespace rowland {
 

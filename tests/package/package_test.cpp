@@ -203,6 +203,20 @@ TEST_F(PackageTest, EngineExampleDrawsAGltfSceneWithAGrating) {
     EXPECT_GT(difference.x + difference.y + difference.z, 20);
 }
 
+TEST_F(PackageTest, AModuleOfAnotherProjectChangesHowLightIsReflected) {
+    install("runtime");
+    install("tools");
+    const std::string program = build_example("own_module");
+    ::setenv("ROWLAND_HELPER_FOLDER", path("prefix/libexec/rowland").c_str(), 1);
+    const glm::ivec3 grey =
+        middle_of_card(program, R"({ "EXAMPLE_materials_metal": { "n": [0.18, 0.18, 0.18], "k": [3.4, 3.4, 3.4] } })");
+    const glm::ivec3 gold = middle_of_card(
+        program, R"({ "EXAMPLE_materials_metal": { "n": [0.18, 0.42, 1.37], "k": [3.4, 2.35, 1.77] } })");
+    EXPECT_GT(grey.b, grey.r);  // the probe's sky is blue
+    EXPECT_LT(gold.b, grey.b - 20);
+    EXPECT_GT(gold.r, gold.b);
+}
+
 TEST_F(PackageTest, ARuntimeThatIsNotInstalledIsSaid) {
     const auto configured = configure(ROWLAND_SOURCE_DIR "/content/examples/engine_scene");
     EXPECT_NE(configured.code, 0);

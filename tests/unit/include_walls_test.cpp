@@ -38,6 +38,10 @@ std::vector<Wall> walls() {
         {"engine/lighting/", kGraphics},
         {"engine/scene/", kGraphics},
         {"engine/cook/", with_graphics({"engine/lighting/", "engine/scene/"})},
+        {"engine/live/", kGraphics},
+        {"engine/module.", kGraphics},
+        {"modules/asset_types.", kGraphics},
+        {"modules/diffraction/cook.", kGraphics},
     };
 }
 

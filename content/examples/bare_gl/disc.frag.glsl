@@ -9,7 +9,7 @@ uniform float lamp_radius;    // angular, in radians
 uniform float exposure;
 
 layout(location = 0) out vec4 picture;
-layout(location = 1) out vec4 probe_xyz;    // these three are for who checks the numbers
+layout(location = 1) out vec4 probe_xyz;    // these three let a test check the numbers
 layout(location = 2) out vec4 lamp_xyz;
 layout(location = 3) out vec4 place;
 

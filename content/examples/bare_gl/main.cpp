@@ -108,7 +108,7 @@ void draw(GLuint program) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, kSize, kSize);
     glClear(GL_COLOR_BUFFER_BIT);
-    GLuint vertices = 0;  // OpenGL wants one, empty as it is
+    GLuint vertices = 0;  // OpenGL needs one, even empty
     glCreateVertexArrays(1, &vertices);
     glBindVertexArray(vertices);
     glUseProgram(program);

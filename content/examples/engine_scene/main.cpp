@@ -1,57 +1,11 @@
-// engine_scene SCENE PROBE PICTURE: a glTF scene through its first camera under a light probe (.hdr or .exr,
-// equirectangular), drawn by Rowland's engine and written as PNG. Materials with the extension
+// engine_scene SCENE PROBE PICTURE: a glTF scene, drawn by Rowland's engine. Materials with the extension
 // ROWLAND_materials_diffraction are gratings.
-#include <engine/image/load.h>
-#include <engine/platform/headless_context.h>
-#include <engine/post/ocio_config.h>
-#include <engine/render/scene_instance.h>
-#include <engine/scene/gltf_import.h>
-#include <engine/scene/transform.h>
-#include <engine/view/capture.h>
-#include <engine/view/picture.h>
 #include <modules/diffraction/module.h>
 
-#include <cstdio>
-#include <exception>
-#include <stdexcept>
+#include "draw_scene.h"
 
-using namespace rowland;
-
-namespace {
-
-/// The scene's first camera.
-scene::Camera first_camera(const scene::ImportedScene& scene) {
-    if (scene.cameras.empty()) throw std::runtime_error("the scene has no camera");
-    const scene::ImportedCamera& camera = scene.cameras.front();
-    const glm::mat4& world = scene.nodes[camera.node].world;
-    const glm::vec3 eye(world[3]);
-    return {.eye = eye,
-            .target = eye - glm::vec3(world[2]),
-            .up = glm::vec3(world[1]),
-            .vertical_field_of_view = camera.vertical_field_of_view,
-            .near_plane = camera.near_plane};
-}
-
-}  // namespace
-
-int main(int argc, char** argv) try {
-    if (argc != 4) return std::fprintf(stderr, "usage: engine_scene SCENE PROBE PICTURE\n"), 2;
-    const platform::HeadlessContext context;
-
-    view::Picture picture(post::OcioConfig::choose(), "", {960, 540});
-    diffraction::register_module(picture.renderer(), {.slices_per_frame = 1000});  // whole maps at once
-    const lighting::ProbeImage probe(image::load_image(argv[2]), lighting::Mapping::Equirectangular, argv[2]);
-    picture.set_probe(lighting::build_light_probe(probe));
-
-    const scene::ImportedScene scene = scene::load_gltf(argv[1], picture.renderer().gltf_extensions());
-    ecs::World world;
-    render::instantiate(world, scene, picture.renderer(), argv[1]);
-    scene::update_world_matrices(world);
-
-    const scene::Camera camera = first_camera(scene);
-    for (int frame = 0; frame < 2; ++frame) picture.draw(world, camera, 0.0F);  // maps are filled for what rests
-    view::write_display_capture(picture.encoded(), argv[3]);
-    return 0;
-} catch (const std::exception& error) {
-    return std::fprintf(stderr, "error: %s\n", error.what()), 2;
+int main(int argc, char** argv) {
+    return draw_scene(argc, argv, [](rowland::render::Renderer& renderer) {
+        rowland::diffraction::register_module(renderer, {.slices_per_frame = 1000});  // whole maps at once
+    });
 }

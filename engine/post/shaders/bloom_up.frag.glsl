@@ -5,7 +5,7 @@
 layout(location = 0) out vec4 mixed;
 
 layout(binding = 1) uniform sampler2D coarse;
-uniform float share;
+uniform float coarse_weight;
 
 vec3 coarse_value(int x, int y) {
     vec4 texel = texelFetch(coarse, ivec2(x, y), 0);
@@ -26,7 +26,7 @@ vec3 interpolated(ivec2 fine_position) {
 void main() {
     ivec2 position = ivec2(gl_FragCoord.xy);
     vec4 here = fine_texel(position);
-    vec3 value = mix(here.rgb / here.a, interpolated(position), share);
+    vec3 value = mix(here.rgb / here.a, interpolated(position), coarse_weight);
 #if FINE_IS_PICTURE
     mixed = vec4(value, texelFetch(fine, position, 0).a);
 #else

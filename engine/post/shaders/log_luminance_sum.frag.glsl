@@ -8,7 +8,7 @@ uniform vec3 weights;
 uniform float darkest;
 #endif
 
-const int block = 8;  // as in auto_exposure_pass.cpp
+const int block = 8;  // as in auto_exposure.cpp
 
 vec2 logarithm_and_count(ivec2 position) {
 #if SOURCE_IS_PICTURE

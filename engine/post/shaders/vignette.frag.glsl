@@ -8,14 +8,14 @@ uniform float strength;
 uniform float radius;
 uniform float softness;
 
-// As vignette_factor() in vignette.cpp.
+// As in vignette.h.
 float vignette_factor() {
     vec2 half_size = 0.5 * vec2(textureSize(scene_linear, 0));
     float distance = length(gl_FragCoord.xy - half_size);
-    float taste = 1.0 - strength * smoothstep(radius, radius + softness, distance / length(half_size));
+    float artistic = 1.0 - strength * smoothstep(radius, radius + softness, distance / length(half_size));
     float tangent = tan_half_fov * distance / half_size.y;
     float squared_secant = 1.0 + tangent * tangent;
-    return taste / (squared_secant * squared_secant);
+    return artistic / (squared_secant * squared_secant);
 }
 
 void main() {

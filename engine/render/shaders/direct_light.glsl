@@ -1,19 +1,26 @@
-// Light from points and directions on a GGX surface. Defines: DIRECTIONAL_LIGHTS, SEVERAL_DIRECTIONAL_LIGHTS,
-// PUNCTUAL_LIGHTS, SHADOWS (of the first directional light).
+// The scene's lights on a GGX surface. Defines: DIRECTIONAL_LIGHTS, SEVERAL_DIRECTIONAL_LIGHTS, PUNCTUAL_LIGHTS, SHADOWS
+// (of the first directional light).
 #include "engine/render/shaders/light_block.h"
 
-// GGX with height-correlated Smith visibility [Heitz 2014] and Schlick's Fresnel term, times n.l.
-vec3 reflected_share(vec3 l, vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness) {
+// Radiance that a light of this irradiance (on a surface that faces it) leaves toward v: GGX with height-correlated
+// Smith visibility [Heitz 2014].
+vec3 reflected_radiance(vec3 irradiance, vec3 l, vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness) {
     vec3 h = normalize(l + v);
     float n_l = max(dot(n, l), 0.0);
     float n_v = max(dot(n, v), 1e-4);
     float n_h = clamp(dot(n, h), 0.0, 1.0);
+    float v_h = clamp(dot(v, h), 0.0, 1.0);
     float alpha2 = max(roughness * roughness * roughness * roughness, 1e-6);
     float d = n_h * n_h * (alpha2 - 1.0) + 1.0;
     float distribution = alpha2 / (PI * d * d);
     float shadowing = n_l * sqrt(n_v * n_v * (1.0 - alpha2) + alpha2) + n_v * sqrt(n_l * n_l * (1.0 - alpha2) + alpha2);
-    vec3 fresnel = f0 + (1.0 - f0) * pow(1.0 - clamp(dot(v, h), 0.0, 1.0), 5.0);
-    return (diffuse / PI + fresnel * distribution * 0.5 / max(shadowing, 1e-6)) * n_l;
+#ifdef MATERIAL_SPECULAR
+    vec3 specular = reflect_specular(irradiance, f0, v_h) * distribution * 0.5 / max(shadowing, 1e-6);
+    return (diffuse / PI * irradiance + specular) * n_l;
+#else
+    vec3 fresnel = schlick_reflectance(f0, v_h);
+    return (diffuse / PI + fresnel * distribution * 0.5 / max(shadowing, 1e-6)) * n_l * irradiance;
+#endif
 }
 
 #ifdef SHADOWS
@@ -24,23 +31,24 @@ layout(binding = 2) uniform sampler2DShadow shadow_map;
 // times the sine stays above it.
 const float SHADOW_LIFT = 2.2;
 
-float shadow_share(vec3 l) {
+// Fraction of the first directional light that reaches the point.
+float shadow_visibility(vec3 l) {
     vec3 n = normalize(world_normal);
     if (dot(n, l) < 0.0) n = -n;
     vec3 lifted = world_position + n * (SHADOW_LIFT * shadow.x * length(cross(n, l)));
-    vec3 place = (world_to_shadow * vec4(lifted, 1.0)).xyz * 0.5 + 0.5;
-    place.z = min(place.z, 1.0);  // behind all that casts a shadow
+    vec3 at = (world_to_shadow * vec4(lifted, 1.0)).xyz * 0.5 + 0.5;
+    at.z = min(at.z, 1.0);  // behind everything that casts a shadow
     vec2 half_texel = vec2(0.5, -0.5) * shadow.y;
-    return 0.25 * (texture(shadow_map, vec3(place.xy + half_texel.xx, place.z)) +
-                   texture(shadow_map, vec3(place.xy + half_texel.xy, place.z)) +
-                   texture(shadow_map, vec3(place.xy + half_texel.yx, place.z)) +
-                   texture(shadow_map, vec3(place.xy + half_texel.yy, place.z)));
+    return 0.25 * (texture(shadow_map, vec3(at.xy + half_texel.xx, at.z)) +
+                   texture(shadow_map, vec3(at.xy + half_texel.xy, at.z)) +
+                   texture(shadow_map, vec3(at.xy + half_texel.yx, at.z)) +
+                   texture(shadow_map, vec3(at.xy + half_texel.yy, at.z)));
 }
 #endif
 
-// glTF's KHR_lights_punctual: inverse square, a window at the range, a spot's cone; irradiance over the strength.
-float punctual_share(Light light, float distance2, vec3 l) {
-    float window = clamp(1.0 - distance2 * distance2 * light.place.w, 0.0, 1.0);
+// glTF's KHR_lights_punctual: inverse square, a window at the range, a spot's cone.
+float punctual_attenuation(Light light, float distance2, vec3 l) {
+    float window = clamp(1.0 - distance2 * distance2 * light.position.w, 0.0, 1.0);
     float cone = 1.0;
     if (light.axis.w > 0.0) cone = clamp(dot(light.axis.xyz, -l) * light.cone.x + light.cone.y, 0.0, 1.0);
     return window * cone * cone / max(distance2, 1e-8);
@@ -52,24 +60,23 @@ vec3 direct_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness) {
 #ifdef SEVERAL_DIRECTIONAL_LIGHTS
     int directional = int(light_counts.x);
 #else
-    const int directional = 1;  // the usual sun alone: a loop of unknown length costs a quarter of the frame
+    const int directional = 1;  // most scenes have one sun: a loop of unknown length costs a quarter of the frame
 #endif
     for (int i = 0; i < directional; ++i) {
-        vec3 l = lights[i].place.xyz;
-        vec3 share = reflected_share(l, n, v, diffuse, f0, roughness);
+        vec3 irradiance = lights[i].strength.rgb;
 #ifdef SHADOWS
-        if (i == 0) share *= shadow_share(l);
+        if (i == 0) irradiance *= shadow_visibility(lights[i].position.xyz);
 #endif
-        sum += share * lights[i].strength.rgb;
+        sum += reflected_radiance(irradiance, lights[i].position.xyz, n, v, diffuse, f0, roughness);
     }
 #endif
 #ifdef PUNCTUAL_LIGHTS
     for (int i = int(light_counts.x); i < int(light_counts.y); ++i) {
-        vec3 to_light = lights[i].place.xyz - world_position;
+        vec3 to_light = lights[i].position.xyz - world_position;
         float distance2 = dot(to_light, to_light);
         vec3 l = to_light * inversesqrt(max(distance2, 1e-12));
-        sum += reflected_share(l, n, v, diffuse, f0, roughness) * punctual_share(lights[i], distance2, l) *
-               lights[i].strength.rgb;
+        vec3 irradiance = punctual_attenuation(lights[i], distance2, l) * lights[i].strength.rgb;
+        sum += reflected_radiance(irradiance, l, n, v, diffuse, f0, roughness);
     }
 #endif
     return sum;

@@ -1,5 +1,9 @@
 // What a material's fragment stage sees before it defines
 //   MaterialTerms material_terms();
+// and, if it defines MATERIAL_SPECULAR before this file,
+//   vec3 reflect_specular(vec3 light, vec3 f0, float cosine);
+// the light that the base's microfacets reflect of `light` (radiance or irradiance, working space) that meets them at the
+// angle of this cosine. `f0`: the base's reflectance at normal incidence. Without it: light * schlick_reflectance().
 #include "engine/render/shaders/frame_block.h"
 #include "engine/render/shaders/object_block.h"
 
@@ -21,7 +25,11 @@ in vec4 colour;
 
 // What a material adds to, and leaves of, the engine's metallic-roughness surface. Working space.
 struct MaterialTerms {
-    vec3 base_weight;    // share of the light that reaches the metallic-roughness base
-    vec3 mirror_weight;  // share reflected as by a mirror: the zero order of a grating
-    vec3 added;          // radiance of the material's own
+    vec3 base_weight;    // fraction of the light that reaches the metallic-roughness base
+    vec3 mirror_weight;  // fraction that is reflected as by a mirror; read only if the
+                         // material defines MATERIAL_HAS_MIRROR
+    vec3 added;          // the material's own radiance
 };
+
+// Fresnel reflectance [Schlick 1994].
+vec3 schlick_reflectance(vec3 f0, float cosine) { return f0 + (1.0 - f0) * pow(1.0 - cosine, 5.0); }

@@ -15,7 +15,7 @@ const float PI = 3.14159265358979;
 vec3 direct_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness) { return vec3(0.0); }
 #endif
 
-// Irradiance / pi from the shared probe: nine terms [Ramamoorthi & Hanrahan 2001] of all that is no key light.
+// Irradiance / pi from the probe: nine SH terms [Ramamoorthi & Hanrahan 2001], and the key lights if they are apart.
 vec3 ambient_light(vec3 n) {
     vec3 sum = 0.282095 * ambient[0].xyz;
     sum += 0.488603 * (n.y * ambient[1].xyz + n.z * ambient[2].xyz + n.x * ambient[3].xyz);
@@ -32,16 +32,31 @@ vec3 environment_light(vec3 direction, float roughness) {
     return textureLod(environment_map, direction, roughness * environment.x).rgb * environment.y;
 }
 
+// `split`: the lobe's albedo for reflectance 1 - (1 - cosine)^5 and for (1 - cosine)^5.
+vec3 environment_reflection(vec3 light, vec3 f0, float n_v, vec2 split) {
+#ifdef MATERIAL_SPECULAR
+    // The angle at which (1 - cosine)^5 equals its mean over the lobe; a smooth surface has n_v itself, which the
+    // table's half floats cannot resolve near normal incidence.
+    float albedo = split.x + split.y;
+    float cosine = max(n_v, 1.0 - pow(split.y / max(albedo, 1e-6), 0.2));
+    return reflect_specular(light, f0, min(cosine, 1.0)) * albedo;
+#else
+    return (f0 * split.x + split.y) * light;
+#endif
+}
+
 // The metallic-roughness surface: split sum [Karis 2013] over the prefiltered probe, and the lights.
 vec3 base_radiance(vec3 base, vec3 n, vec3 v) {
     vec2 factors = surface_metallic_roughness();
     float roughness = factors.y;
     vec3 f0 = mix(vec3(0.04), base, factors.x);
     vec3 diffuse = base * (1.0 - factors.x);
-    vec2 split = texture(brdf_table, vec2(max(dot(n, v), 0.0), roughness)).rg;
-    vec3 reflected = (f0 * split.x + split.y) * environment_light(reflect(-v, n), roughness);
-    vec3 from_around = (diffuse * ambient_light(n) + reflected) * surface_occlusion();
-    return from_around + direct_light(n, v, diffuse, f0, roughness);
+    float n_v = max(dot(n, v), 0.0);
+    vec2 split = texture(brdf_table, vec2(n_v, roughness)).rg;
+    vec3 from_mirror = environment_light(reflect(-v, n), roughness);
+    vec3 reflected = environment_reflection(from_mirror, f0, n_v, split);
+    vec3 from_probe = (diffuse * ambient_light(n) + reflected) * surface_occlusion();
+    return from_probe + direct_light(n, v, diffuse, f0, roughness);
 }
 
 void main() {

@@ -41,7 +41,7 @@ mat4 pose() {
 mat4 pose() { return mat4(1.0); }
 #endif
 
-// Hands the attributes that the fragment stage reads on as they are.
+// Passes the attributes of the fragment stage through.
 void pass_attributes() {
 #ifdef HAS_UV
     uv = vertex_uv;

@@ -20,7 +20,7 @@ void main() {
     world_position = world.xyz;
     world_normal = n;
 #ifdef NORMAL_MAP
-    // A mirroring transform turns the cross product round.
+    // A mirroring transform flips the cross product.
     world_tangent = vec4(g, vertex_tangent.w * mirroring);
 #endif
     pass_attributes();

@@ -1,4 +1,4 @@
-// What every shader of a frame may read. Included by C++ and GLSL; std140, so vec4 and mat4 only.
+// Per-frame data for every shader. Included by C++ and GLSL; std140, so vec4 and mat4 only.
 #ifdef __cplusplus
 #pragma once
 #include <glm/mat4x4.hpp>

@@ -1,4 +1,4 @@
-// All lights of a frame besides the probe, the directional ones first. Included by C++ and GLSL; std140.
+// The scene's lights, the directional ones first. Included by C++ and GLSL; std140.
 #ifdef __cplusplus
 #pragma once
 #include <glm/vec4.hpp>
@@ -7,11 +7,10 @@ using glm::vec4;
 #endif
 #define ROWLAND_MAXIMUM_LIGHTS 64
 struct Light {
-    vec4 place;     // xyz: unit direction toward a directional light, else position in metres; w: 1 / range^4, 0: none
-    vec4 strength;  // xyz: irradiance, of others than directional at 1 m; working space; w: which light colour
-    vec4 axis;      // xyz: unit, where a spot shines; w: 1: a spot
-    vec4 cone;      // x, y: scale and offset of the cosine from the axis; 0 outside the cone, 1 inside the inner one;
-                    // z: strength over the light colour
+    vec4 position;  // xyz: unit direction toward a directional light, else metres; w: 1 / range^4, or 0 without a range
+    vec4 strength;  // xyz: irradiance, for points and spots at 1 m; working space
+    vec4 axis;      // xyz: unit, where a spot shines; w: 1 for a spot
+    vec4 cone;      // x, y: scale and offset that take the cosine from the axis to 0 outside the cone, 1 in the inner one
 };
 #ifdef __cplusplus
 struct LightBlock {

@@ -1,4 +1,4 @@
-// What is particular to one drawn object. Included by C++ and GLSL; std140.
+// Per-object data. Included by C++ and GLSL; std140.
 #ifdef __cplusplus
 #pragma once
 #include <glm/mat4x4.hpp>

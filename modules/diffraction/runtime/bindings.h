@@ -6,6 +6,7 @@ namespace rowland::diffraction {
 inline constexpr unsigned kVertexLightBinding = 4;  ///< storage
 inline constexpr unsigned kTableRangeBinding = 5;   ///< storage
 inline constexpr unsigned kKeyLobeBinding = 6;      ///< uniform
+inline constexpr unsigned kLightColourBinding = 7;  ///< uniform
 inline constexpr unsigned kStreakNodeBinding = 6;   ///< storage, which counts apart
 inline constexpr unsigned kTableUnit = 8;
 inline constexpr unsigned kWavelengthTableUnit = 9;

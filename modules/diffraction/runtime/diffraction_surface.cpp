@@ -18,9 +18,9 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// Takes down what the state is for; true if any of it is new. What another material has kept is dropped.
-bool renew(const DiffractionSurface& surface, const render::MeshInstance& instance, const glm::mat3& orientation,
-           std::uint64_t light_version, SurfaceState& state) {
+/// Updates the cache key in `state`; true if it changes. Another material's data is dropped.
+bool update_key(const DiffractionSurface& surface, const render::MeshInstance& instance, const glm::mat3& orientation,
+                std::uint64_t light_version, SurfaceState& state) {
     const bool same = state.material == surface.material && state.mesh == instance.mesh &&
                       state.orientation == orientation && state.groove_rotation == surface.groove_rotation &&
                       state.grooves == surface.grooves && state.light_version == light_version;
@@ -88,20 +88,24 @@ gpu::ProgramDesc DiffractionSurfaceType::program(ecs::World& world, ecs::Entity 
 
 void DiffractionSurfaceType::warn_of_other_white(const std::string& baked_for, const std::string& lit_by) {
     if (baked_for == lit_by || !warned_of_.emplace(baked_for, lit_by).second) return;
-    log_warning("a grating that is baked for the illuminant {} is lit by {}: its colours are those of {}", baked_for,
-                lit_by, baked_for);
+    log_warning("a grating baked for the illuminant {} is lit by {}: it shows the colours of {}", baked_for, lit_by,
+                baked_for);
 }
 
 void DiffractionSurfaceType::update(ecs::World& world, const render::FrameLight& light) {
+    if (world.view<DiffractionSurface>().count() > 0) update(world, division_.of(light));
+}
+
+void DiffractionSurfaceType::update(ecs::World& world, const LightParts& light) {
     light_.set(light);
     world.view<DiffractionSurface, render::MeshInstance, scene::WorldMatrix>().each(
         [&](ecs::Entity entity, const DiffractionSurface& surface, const render::MeshInstance& instance,
             const scene::WorldMatrix& world_matrix) {
             if (world.find<SurfaceState>(entity) == nullptr) world.add(entity, SurfaceState{});
             SurfaceState& state = world.get<SurfaceState>(entity);
-            warn_of_other_white(surface.material->illuminant(), light.illuminant.name);
-            const bool changed = renew(surface, instance, glm::mat3(world_matrix.matrix), light_.version(), state);
-            const auto bring_up_to_date = [&](const scene::Mesh& mesh, bool skinned) {
+            warn_of_other_white(surface.material->illuminant(), light.illuminant);
+            const bool changed = update_key(surface, instance, glm::mat3(world_matrix.matrix), light_.version(), state);
+            const auto update_surface = [&](const scene::Mesh& mesh, bool skinned) {
                 surface.material->update({.mesh = mesh,
                                           .object_to_world = world_matrix.matrix,
                                           .groove_rotation = static_cast<double>(surface.groove_rotation),
@@ -111,9 +115,9 @@ void DiffractionSurfaceType::update(ecs::World& world, const render::FrameLight&
                                          light_, state);
             };
             if (const scene::Skin* skin = world.find<scene::Skin>(entity))
-                bring_up_to_date(scene::posed(*instance.mesh, scene::joint_matrices(world, *skin)), true);
+                update_surface(scene::posed(*instance.mesh, scene::joint_matrices(world, *skin)), true);
             else
-                bring_up_to_date(*instance.mesh, false);
+                update_surface(*instance.mesh, false);
         });
 }
 

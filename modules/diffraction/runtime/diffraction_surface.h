@@ -23,25 +23,26 @@ struct DiffractionSurface {
 };
 
 struct DiffractionSettings {
-    /// Tames the ringing of band-limited light; nothing stands for the mildest one that does.
+    /// Against the ringing of band-limited light; nullopt: the weakest sufficient window.
     std::optional<math::SphericalWindow> window = std::nullopt;
-    /// Most azimuths of a planar map that one frame fills, and slices of a circle map that it uploads; more than there
-    /// are: frames wait for whole maps.
+    /// The most azimuths of a planar map that one frame fills, and slices of a circle map that it uploads. At the
+    /// map's size or above, frames wait for whole maps.
     int slices_per_frame = 8;
 };
 
-/// Whether maps are still being filled for the light and the objects as they were last drawn.
+/// Whether maps are still being filled for the light and the objects that were last drawn.
 bool maps_are_filling(ecs::World& world);
 
-/// Draws entities that have a DiffractionSurface, each as its material's representation is drawn; what is kept per
-/// object is made anew only when the light, the object or its material has changed.
+/// Draws entities that have a DiffractionSurface, each by its material's representation. Per-object data is updated
+/// when the light, the object or its material changes.
 class DiffractionSurfaceType final : public render::MaterialType {
  public:
     /// `xyz_to_working` as the renderer's.
     explicit DiffractionSurfaceType(const glm::dmat3& xyz_to_working, const DiffractionSettings& settings = {});
 
+    std::string name() const override { return "diffraction"; }
     std::string gltf_extension() const override;
-    /// Bakes the grating now; equal ones share their tables while one of them lives.
+    /// Bakes the grating now. Equal gratings share their tables.
     void attach(ecs::World& world, ecs::Entity entity, const nlohmann::json& extension,
                 render::SurfaceTextures& textures, const std::string& file, const std::string& place) override;
 
@@ -49,6 +50,8 @@ class DiffractionSurfaceType final : public render::MaterialType {
     bool owns(ecs::World& world, ecs::Entity entity) const override;
     gpu::ProgramDesc program(ecs::World& world, ecs::Entity entity) const override;
     void update(ecs::World& world, const render::FrameLight& light) override;
+    /// The same under light that does not come from the renderer.
+    void update(ecs::World& world, const LightParts& light);
     void bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const override;
 
  private:
@@ -59,6 +62,7 @@ class DiffractionSurfaceType final : public render::MaterialType {
     int slices_per_frame_;
     std::map<std::string, std::weak_ptr<const GpuMaterial>> baked_;  ///< by the extension's text
     std::set<std::pair<std::string, std::string>> warned_of_;        ///< illuminants baked for, lit by
+    LightDivision division_;
     SurfaceLight light_;
 };
 

@@ -22,7 +22,7 @@ class GpuKernel {
 
     void add_defines(gpu::ProgramDesc& desc) const;
     /// Puts the kernel on the GPU when first a program reads it, and the key lights seen through it when they change.
-    /// `light_colours`: see render::FrameLight.
+    /// `light_colours`: see SurfaceLight.
     void bind(const gpu::Program& program, std::span<const lighting::KeyLight> key_lights,
               std::span<const glm::vec3> light_colours) const;
 

@@ -54,6 +54,7 @@ gpu::ProgramDesc GpuMaterial::program(const SurfaceState& state) const {
 void GpuMaterial::bind(const gpu::Program& program, const SurfaceLight& light, const SurfaceState& state) const {
     bind_tables(program, state);
     kernel_.bind(program, light.key_lights(), light.light_colours());
+    light.bind_light_colours();
     if (key_lights_) light.bind_key_lights();
     if (state.grooves) state.grooves->bind(program);
     program.set("mirror_weight", mirror_weight_);

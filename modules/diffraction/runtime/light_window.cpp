@@ -52,8 +52,8 @@ std::vector<std::vector<double>> arc_rows(int bands) {
     return rows;
 }
 
-/// Of what the arcs of one frame gather of light rotated into it, the share of negative sign.
-double negative_share(const std::vector<std::vector<double>>& rows, const std::vector<glm::dvec3>& rotated) {
+/// The negative fraction of what the arcs of one frame gather of the light rotated into it.
+double negative_fraction(const std::vector<std::vector<double>>& rows, const std::vector<glm::dvec3>& rotated) {
     double negative = 0.0;
     double all = 0.0;
     for (const std::vector<double>& row : rows) {
@@ -76,12 +76,12 @@ double ringing(const lighting::ShLight& light) {
     double sum = 0.0;
     for (const glm::dmat3& frame : frames) {
         math::ShRotation(frame, light.bands).apply(std::span<const glm::dvec3>(light.coefficients), rotated);
-        sum += negative_share(rows, rotated);
+        sum += negative_fraction(rows, rotated);
     }
     return sum / static_cast<double>(frames.size());
 }
 
-math::SphericalWindow mildest_window(const lighting::ShLight& light, int bands) {
+math::SphericalWindow weakest_window(const lighting::ShLight& light, int bands) {
     for (const auto window : {math::SphericalWindow::None, math::SphericalWindow::Lanczos})
         if (ringing(lighting::limit_bands(light, bands, window)) <= kTolerableRinging) return window;
     return math::SphericalWindow::Hann;

@@ -5,17 +5,15 @@
 
 namespace rowland::diffraction {
 
-/// How much a grating under this band-limited light would ring: of the light that half circles around the grating
-/// vector gather (flat lobe), the share that comes out negative, averaged over a fixed set of tangent frames. In [0,
-/// 1].
+/// How much a grating under this band-limited light would ring: the negative fraction of the light that half circles
+/// around the grating vector gather (flat lobe), averaged over a fixed set of tangent frames. In [0, 1].
 double ringing(const lighting::ShLight& light);
 
-/// Ringing up to this share does not show as dark patches on a disc: seen on pictures under captured and made-up probes
-/// (captures of indoor and outdoor light 0 … 0.03, a single lamp in a dark room 0.27 without a window, 0.02 with
-/// Lanczos').
+/// Ringing up to this does not show as dark patches on a disc, judged on pictures under captured and synthetic probes:
+/// captures of indoor and outdoor light have 0 … 0.03, a single lamp in a dark room 0.27, with Lanczos 0.02.
 inline constexpr double kTolerableRinging = 0.03;
 
-/// The mildest of none, Lanczos and Hann under which the light in `bands` bands rings tolerably; Hann if none does.
-math::SphericalWindow mildest_window(const lighting::ShLight& light, int bands);
+/// The weakest of none, Lanczos and Hann under which the light in `bands` bands rings tolerably; Hann if none does.
+math::SphericalWindow weakest_window(const lighting::ShLight& light, int bands);
 
 }  // namespace rowland::diffraction

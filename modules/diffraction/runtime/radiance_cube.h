@@ -6,7 +6,7 @@
 
 namespace rowland::diffraction {
 
-/// A probe's radiance on the GPU with plain levels, those of bake/cube_pyramid.h: shaders/radiance_cube.glsl.
+/// A probe's radiance on the GPU with the box-filtered levels of CubePyramid: radiance_cube.glsl.
 class RadianceCube {
  public:
     /// `map`: level 0, at least.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 #include <vector>
 
 #include "engine/core/log.h"
@@ -15,7 +17,7 @@ static_assert(lighting::kMaximumKeyLights <= ROWLAND_MAXIMUM_KEY_LOBES);
 
 namespace {
 
-/// The share of a lobe's variance in ψ that lies between its three nodes, as in bake/direct.cpp.
+/// Fraction of a lobe's variance in ψ that lies between its three nodes, as in direct.cpp.
 constexpr double kBetween = 0.3;
 
 KeyLobe key_lobe(const lighting::KeyLight& light) {
@@ -32,8 +34,26 @@ KeyLobe key_lobe(const lighting::KeyLight& light) {
 
 SurfaceLight::SurfaceLight(std::optional<math::SphericalWindow> window) : window_(window) {}
 
-void SurfaceLight::set(const render::FrameLight& light) {
-    light_.light_colours = light.light_colours;
+void SurfaceLight::set_light_colours(std::span<const glm::vec3> strengths) {
+    constexpr float kSameColour = 1e-4F;
+    light_colours_.clear();
+    colour_block_ = {};
+    colour_buffer_ = {};
+    for (std::size_t i = 0; i < strengths.size(); ++i) {
+        const float largest = std::max({strengths[i].r, strengths[i].g, strengths[i].b});
+        const glm::vec3 colour = largest > 0.0F ? strengths[i] / largest : glm::vec3(1.0F);
+        const auto same = std::find_if(light_colours_.begin(), light_colours_.end(), [&](const glm::vec3& other) {
+            return glm::all(glm::lessThan(glm::abs(other - colour), glm::vec3(kSameColour)));
+        });
+        colour_block_.light_colours[i] =
+            glm::vec4(static_cast<float>(same - light_colours_.begin()), largest, 0.0F, 0.0F);
+        if (same == light_colours_.end()) light_colours_.push_back(colour);
+    }
+}
+
+void SurfaceLight::set(const LightParts& light) {
+    if (light_.light_strengths != light.light_strengths) set_light_colours(light.light_strengths);
+    light_.light_strengths = light.light_strengths;
     if (lit_ && light_.version == light.version) return;
     light_ = light;
     lit_ = true;
@@ -47,7 +67,7 @@ const lighting::ShLight& SurfaceLight::harmonics(int bands, LightShare share) {
     const lighting::ShLight& light = share == LightShare::Whole   ? light_.sh
                                      : share == LightShare::Probe ? light_.probe_sh
                                                                   : light_.residual;
-    const math::SphericalWindow window = window_ ? *window_ : mildest_window(light, bands);
+    const math::SphericalWindow window = window_ ? *window_ : weakest_window(light, bands);
     return windowed_.emplace(std::pair(bands, share), lighting::limit_bands(light, bands, window)).first->second;
 }
 
@@ -65,6 +85,12 @@ std::shared_ptr<const RadianceCube> SurfaceLight::radiance() {
 std::span<const lighting::KeyLight> SurfaceLight::key_lights() const {
     return std::span(light_.key_lights)
         .first(std::min<std::size_t>(light_.key_lights.size(), ROWLAND_MAXIMUM_KEY_LOBES));
+}
+
+void SurfaceLight::bind_light_colours() const {
+    if (colour_buffer_.size() == 0)
+        colour_buffer_ = gpu::Buffer::of(std::span<const LightColourBlock>(&colour_block_, 1));
+    colour_buffer_.bind_uniform(kLightColourBinding);
 }
 
 void SurfaceLight::bind_key_lights() const {

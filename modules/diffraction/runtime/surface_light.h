@@ -10,53 +10,60 @@
 #include "engine/gpu/buffer.h"
 #include "engine/lighting/sh_light.h"
 #include "engine/math/sh_window.h"
-#include "engine/render/material.h"
+#include "modules/diffraction/runtime/light_parts.h"
 #include "modules/diffraction/runtime/radiance_cube.h"
+#include "modules/diffraction/shaders/light_colour_block.h"
 
 namespace rowland::diffraction {
 
 /// Which part of a frame's light.
 enum class LightShare {
-    Whole,  ///< probe and directional lights in one
+    Whole,  ///< the probe and the directional lights
     Probe,  ///< the probe alone
-    Rest,   ///< the probe less its key lights
+    Rest,   ///< the probe without its key lights
 };
 
-/// A frame's light as gratings take it; what is derived is kept until the light changes.
+/// A frame's light as gratings read it: windowed harmonics and GPU resources, cached until the light changes.
 class SurfaceLight {
  public:
-    /// `window` tames the ringing of band-limited light; nothing stands for the mildest one that does.
+    /// `window`: against the ringing of band-limited light; nullopt: the weakest sufficient one.
     explicit SurfaceLight(std::optional<math::SphericalWindow> window);
 
-    void set(const render::FrameLight& light);
+    void set(const LightParts& light);
     std::uint64_t version() const { return light_.version; }
 
-    /// The light in so many bands, windowed.
+    /// The light in this number of bands, windowed.
     const lighting::ShLight& harmonics(int bands, LightShare share);
     /// The probe, or LightShare::Rest of it, at full resolution; null if the probe has no texels.
     const std::shared_ptr<const lighting::LightTexels>& texels(LightShare share) const {
         return share == LightShare::Rest ? light_.texels : light_.probe_texels;
     }
 
-    /// The whole probe on the GPU: made when first asked for, and anew for another probe. Black if the light has none.
+    /// The whole probe on the GPU, uploaded on demand and once per probe. Black if the light has none.
     std::shared_ptr<const RadianceCube> radiance();
 
-    /// How many cubes were made.
+    /// How many probes were uploaded.
     int radiance_uploads() const { return radiance_uploads_; }
 
-    /// As many as the uniform block holds.
+    /// The first ROWLAND_MAXIMUM_KEY_LOBES.
     std::span<const lighting::KeyLight> key_lights() const;
-    /// See render::FrameLight.
-    std::span<const glm::vec3> light_colours() const { return light_.light_colours; }
-    /// The key lights' uniform block.
+    /// Colours of the engine's lights[], linear Rec.709, the largest component 1, each once.
+    std::span<const glm::vec3> light_colours() const { return light_colours_; }
+    /// Their uniform block (light_colour_block.h) and the key lights' (key_lobe_block.h).
+    void bind_light_colours() const;
     void bind_key_lights() const;
 
  private:
     std::optional<math::SphericalWindow> window_;
-    render::FrameLight light_;
+    void set_light_colours(std::span<const glm::vec3> strengths);
+
+    LightParts light_;
     bool lit_ = false;  ///< light_ was set
+    std::vector<glm::vec3> light_colours_;
+    LightColourBlock colour_block_ = {};
+    mutable gpu::Buffer colour_buffer_;  ///< empty until bound, and after a change
     std::map<std::pair<int, LightShare>, lighting::ShLight> windowed_;
-    mutable gpu::Buffer key_lights_;  ///< made when first bound
+    mutable gpu::Buffer key_lights_;  ///< empty until bound
     std::shared_ptr<const lighting::PackedEnvironmentMap> cube_of_;
     std::shared_ptr<const RadianceCube> cube_;
     int radiance_uploads_ = 0;

@@ -11,10 +11,10 @@ in vec3 lights_at_vertex;
 in vec3 shadowed_at_vertex;
 #endif
 #ifdef PUNCTUAL_LIGHTS
-float punctual_share(Light light, float distance2, vec3 l);  // the engine's
+float punctual_attenuation(Light light, float distance2, vec3 l);  // the engine's
 #endif
 #ifdef SHADOWS
-float shadow_share(vec3 l);  // the engine's
+float shadow_visibility(vec3 l);  // the engine's
 #endif
 
 // What the vertices have shaded and not yet added.
@@ -24,7 +24,7 @@ vec3 lights_from_vertices_xyz() {
     xyz += lights_at_vertex;
 #endif
 #ifdef SHADOWED_AT_PIXELS
-    xyz += shadow_share(lights[0].place.xyz) * shadowed_at_vertex;
+    xyz += shadow_visibility(lights[0].position.xyz) * shadowed_at_vertex;
 #endif
     return xyz;
 }
@@ -48,20 +48,20 @@ vec3 direct_xyz(GrooveView view) {
     const int directional = 1;
 #endif
     for (int i = 0; i < directional; ++i) {
-        float share = 1.0;
+        float visibility = 1.0;
 #ifdef SHADOWS
-        if (i == 0) share = shadow_share(lights[i].place.xyz);
+        if (i == 0) visibility = shadow_visibility(lights[i].position.xyz);
 #endif
-        xyz += small_light_xyz(lights[i], share, lights[i].place.xyz, view.axes, view.direction, row, view.pitch);
+        xyz += small_light_xyz(i, visibility, lights[i].position.xyz, view.axes, view.direction, row, view.pitch);
     }
 #endif
 #endif
 #ifdef PUNCTUAL_LIGHTS
     for (int i = int(light_counts.x); i < int(light_counts.y); ++i) {
-        vec3 to_light = lights[i].place.xyz - world_position;
+        vec3 to_light = lights[i].position.xyz - world_position;
         float distance2 = dot(to_light, to_light);
         vec3 l = to_light * inversesqrt(max(distance2, 1e-12));
-        xyz += small_light_xyz(lights[i], punctual_share(lights[i], distance2, l), l, view.axes, view.direction, row,
+        xyz += small_light_xyz(i, punctual_attenuation(lights[i], distance2, l), l, view.axes, view.direction, row,
                                view.pitch);
     }
 #endif

@@ -22,7 +22,7 @@ vec3 shade_lights(vec3 position, mat3 axes) {
 #endif
 #ifdef DIRECTIONAL_LIGHTS
     KernelRow row = kernel_row(0.0);
-    vec3 first = above * small_light_xyz(lights[0], 1.0, lights[0].place.xyz, axes, direction, row, 1.0);
+    vec3 first = above * small_light_xyz(0, 1.0, lights[0].position.xyz, axes, direction, row, 1.0);
 #ifdef SHADOWED_AT_PIXELS
     shadowed_at_vertex = first;
 #else
@@ -30,7 +30,7 @@ vec3 shade_lights(vec3 position, mat3 axes) {
 #endif
 #ifdef SEVERAL_DIRECTIONAL_LIGHTS
     for (int i = 1; i < int(light_counts.x); ++i)
-        xyz += above * small_light_xyz(lights[i], 1.0, lights[i].place.xyz, axes, direction, row, 1.0);
+        xyz += above * small_light_xyz(i, 1.0, lights[i].position.xyz, axes, direction, row, 1.0);
 #endif
 #endif
 #ifdef LIGHTS_BESIDE

@@ -7,6 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include "tests/unit/engine/post/cpu_effects.h"
+
 namespace rowland::post {
 
 namespace {

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <random>
 
+#include "tests/unit/engine/post/cpu_effects.h"
+
 namespace rowland::post {
 
 namespace {
@@ -95,9 +97,9 @@ TEST(Bloom, EveryLevelSpreadsFurther) {
 }
 
 TEST(Bloom, LevelsShareEvenly) {
-    EXPECT_FLOAT_EQ(bloom_coarser_share(0, 3), 2.0F / 3.0F);
-    EXPECT_FLOAT_EQ(bloom_coarser_share(1, 3), 1.0F / 2.0F);
-    EXPECT_EQ(bloom_coarser_share(2, 3), 0.0F);
+    EXPECT_FLOAT_EQ(bloom_coarser_weight(0, 3), 2.0F / 3.0F);
+    EXPECT_FLOAT_EQ(bloom_coarser_weight(1, 3), 1.0F / 2.0F);
+    EXPECT_EQ(bloom_coarser_weight(2, 3), 0.0F);
 }
 
 TEST(Bloom, LevelsRoundUpAndStopAtOneTexel) {

@@ -1,18 +1,20 @@
-#include "engine/post/exposure.h"
+#include "tests/unit/engine/post/cpu_effects.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
+#include <utility>
 
 namespace rowland::post {
 
 namespace {
 
 TEST(Exposure, AStopIsAFactorOfTwo) {
-    EXPECT_EQ(exposure_scale(0.0F), 1.0F);
-    EXPECT_EQ(exposure_scale(3.0F), 8.0F);
-    EXPECT_EQ(exposure_scale(-2.0F), 0.25F);
-    EXPECT_NEAR(exposure_scale(0.5F), 1.41421356F, 1e-7F);
+    for (const auto& [stops, factor] : {std::pair{0.0F, 1.0F}, {3.0F, 8.0F}, {-2.0F, 0.25F}, {0.5F, 1.41421356F}}) {
+        glm::vec3 pixel(1.0F);
+        apply_exposure(std::span(&pixel, 1), stops);
+        EXPECT_NEAR(pixel.g, factor, 1e-7F);
+    }
 }
 
 TEST(Exposure, ScalesEveryComponentOfEitherSign) {

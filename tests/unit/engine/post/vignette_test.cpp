@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "tests/unit/engine/post/cpu_effects.h"
+
 namespace rowland::post {
 
 namespace {

@@ -4,7 +4,6 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "engine/math/sh_basis.h"
 #include "engine/scene/directional_light.h"
 #include "engine/scene/punctual_light.h"
 #include "engine/scene/transform.h"
@@ -52,7 +51,7 @@ TEST(SceneLights, CountsThoseThatDoNotFit) {
     for (int i = 0; i < 60; ++i) add_directional(world, 1.0F, false);
     for (int i = 0; i < 9; ++i) world.add(world.create(), scene::PunctualLight{});
     const SceneLights lights = gather_lights(world, glm::dmat3(1.0));
-    EXPECT_EQ(lights.left_out, 5);
+    EXPECT_EQ(lights.dropped, 5);
     EXPECT_EQ(lights.block.light_counts.x, 60.0F);
     EXPECT_EQ(lights.block.light_counts.y, 64.0F);
 }
@@ -65,35 +64,25 @@ TEST(SceneLights, StrengthIsInTheWorkingSpace) {
     EXPECT_EQ(glm::vec3(gather_lights(world, swap).block.lights[0].strength), glm::vec3(0.0F, 2.0F, 0.0F));
 }
 
-TEST(SceneLights, LightsOfOneColourShareIt) {
+TEST(SceneLights, StrengthsAreInTheShadersOrder) {
     ecs::World world;
-    for (const float strength : {2.0F, 6.0F})
-        world.add(world.create(), scene::DirectionalLight{.irradiance = glm::vec3(0.5F, 1.0F, 0.25F) * strength});
-    world.add(world.create(), scene::PunctualLight{.intensity = glm::vec3(3.0F)});
-    world.add(world.create(), scene::PunctualLight{.intensity = glm::vec3(0.0F)});
+    for (int i = 0; i < 70; ++i) add_directional(world, static_cast<float>(i + 1), i == 5);
     const SceneLights lights = gather_lights(world, glm::dmat3(1.0));
-    ASSERT_EQ(lights.colours.size(), 2U);
-    for (int i = 0; i < 4; ++i) {
-        const Light& light = lights.block.lights[i];
-        const glm::vec3 colour = lights.colours.at(static_cast<std::size_t>(light.strength.w));
-        EXPECT_EQ(light.cone.z * colour, glm::vec3(light.strength)) << i;
-    }
+    ASSERT_EQ(lights.strengths.size(), 64U);
+    EXPECT_EQ(lights.strengths[0], glm::vec3(6.0F));  // casts the shadow
+    for (std::size_t i = 0; i < 64; ++i) EXPECT_EQ(lights.strengths[i], glm::vec3(lights.block.lights[i].strength));
 }
 
-TEST(SceneLights, EveryDirectionalLightJoinsTheShAsTurnedByItsMatrix) {
+TEST(SceneLights, DirectionalLightsAreTurnedByTheirMatrices) {
     ecs::World world;
     const ecs::Entity turned = world.create();
     world.add(turned, scene::DirectionalLight{.direction = {0.0F, 0.0F, 1.0F}, .irradiance = {1.0F, 0.0F, 0.0F}});
     world.add(turned, scene::WorldMatrix{glm::rotate(glm::mat4(1.0F), 1.5707963F, {0.0F, 1.0F, 0.0F})});
-    world.add(world.create(),
-              scene::DirectionalLight{.direction = {0.0F, 1.0F, 0.0F}, .irradiance = {0.0F, 2.0F, 0.0F}});
-    lighting::ShLight sh{.bands = 2, .coefficients = std::vector<glm::dvec3>(4, glm::dvec3(1.0))};
-    add_distant_lights(distant_lights(world), sh);
-    // Y_1,1 = 0.488603 x and Y_1,-1 = 0.488603 y, to six digits.
-    EXPECT_NEAR(sh.coefficients[3].r, 1.0 + 0.488603, 1e-6);
-    EXPECT_NEAR(sh.coefficients[1].g, 1.0 + 2.0 * 0.488603, 1e-6);
-    EXPECT_NEAR(sh.coefficients[1].r, 1.0, 1e-6);
-    EXPECT_NEAR(sh.coefficients[0].g, 1.0 + 2.0 * 0.282095, 1e-6);
+    const std::vector<DistantLight> lights = distant_lights(world);
+    ASSERT_EQ(lights.size(), 1U);
+    EXPECT_NEAR(lights[0].direction.x, 1.0F, 1e-6F);
+    EXPECT_NEAR(lights[0].direction.z, 0.0F, 1e-6F);
+    EXPECT_EQ(lights[0].irradiance, glm::vec3(1.0F, 0.0F, 0.0F));
 }
 
 }  // namespace

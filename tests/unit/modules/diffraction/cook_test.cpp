@@ -26,7 +26,7 @@ class BudgetMaterial : public ::testing::Test {
             "floor": [0.1, 0.1, 0.1], "width": 64, "key_lights": 3, "boxes": [{"azimuth_deg": 40, "elevation_deg": 50,
             "half_size_deg": [20, 10], "soft_edge_deg": 4, "radiance": [9, 8, 7]}]}})");
         write({{"max_error", 0.2}, {"illuminant", "F2"}, {"probes", {"room.json"}}});
-        register_cook_types(registry_);
+        register_module(registry_);
     }
 
     std::filesystem::path source() const { return folder_.path() / "m.json"; }

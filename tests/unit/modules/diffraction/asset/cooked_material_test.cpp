@@ -219,7 +219,7 @@ class SodiumMaterial : public ::testing::Test {
         json_["quality"]["illuminant"] = "sodium.csv";
         write_file_atomic(folder_.path() / "m.json", json_.dump());
         write_file_atomic(folder_.path() / "sodium.csv", "wavelength_nm,relative_power\n588,0\n589.3,1\n591,0\n");
-        register_cook_types(registry_);
+        register_module(registry_);
     }
 
     std::filesystem::path source() const { return folder_.path() / "m.json"; }
@@ -280,7 +280,7 @@ class TableMaterial : public ::testing::Test {
         json_["grating"]["profile"] = {{"type", "table"}, {"file", "t.csv"}};
         write_file_atomic(folder_.path() / "m.json", json_.dump());
         write_file_atomic(folder_.path() / "t.csv", "wavelength_nm,R-1,R+1\n400,0.1,0.4\n700,0.2,0.3\n");
-        register_cook_types(registry_);
+        register_module(registry_);
     }
 
     std::filesystem::path source() const { return folder_.path() / "m.json"; }

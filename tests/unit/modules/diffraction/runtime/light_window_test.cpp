@@ -21,14 +21,14 @@ lighting::ShLight lamp(int bands, double ambient) {
 
 TEST(LightWindow, EvenLightDoesNotRing) {
     EXPECT_EQ(ringing(lamp(5, 100.0)), 0.0);
-    EXPECT_EQ(mildest_window(lamp(5, 100.0), 5), math::SphericalWindow::None);
+    EXPECT_EQ(weakest_window(lamp(5, 100.0), 5), math::SphericalWindow::None);
 }
 
 TEST(LightWindow, ALampInADarkRoomRingsAndIsWindowed) {
     for (const int bands : {5, 8, 12}) {
         const lighting::ShLight light = lamp(bands, 0.01);
         EXPECT_GT(ringing(light), 0.1);
-        const math::SphericalWindow window = mildest_window(light, bands);
+        const math::SphericalWindow window = weakest_window(light, bands);
         EXPECT_NE(window, math::SphericalWindow::None);
         EXPECT_LT(ringing(lighting::limit_bands(light, bands, window)), 0.5 * ringing(light));
     }

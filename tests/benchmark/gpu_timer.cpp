@@ -1,4 +1,4 @@
-#include "engine/gpu/timer.h"
+#include "tests/benchmark/gpu_timer.h"
 
 #include <glm/vec4.hpp>
 
@@ -26,8 +26,8 @@ Timer::Timer() : query_(create_query()), first_pass_(FramebufferDesc{.colours = 
 
 void Timer::begin() {
     glBeginQuery(GL_TIME_ELAPSED, query_.get());
-    // llvmpipe takes the start time when it rasterises the next pass, and reads near zero if the pass to be measured is
-    // that one; a clear of one pixel is a pass of its own.
+    // llvmpipe takes the start time when it rasterises the next pass, and measures near zero if that is the measured
+    // pass itself: a clear of one pixel is a separate pass.
     first_pass_.clear(glm::vec4(0.0F));
 }
 

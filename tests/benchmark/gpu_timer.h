@@ -14,7 +14,7 @@ class Timer {
 
     void begin();
     void end();
-    /// Milliseconds of the last begin–end, once the GPU has got there; nothing before.
+    /// Milliseconds of the last begin–end; null until the GPU has finished it.
     std::optional<double> poll() const;
     /// The same, but waits.
     double wait() const;

@@ -1,0 +1,8 @@
+// own_module SCENE PROBE PICTURE: a glTF scene, drawn by Rowland's engine with a module of this project. Materials with
+// the extension EXAMPLE_materials_metal are metals of that complex index of refraction.
+#include "draw_scene.h"
+#include "metal_surface.h"
+
+int main(int argc, char** argv) {
+    return draw_scene(argc, argv, metal::register_module);
+}

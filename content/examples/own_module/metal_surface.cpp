@@ -1,0 +1,91 @@
+#include "metal_surface.h"
+
+#include <engine/core/error.h>
+#include <engine/render/material.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+namespace metal {
+
+namespace {
+
+using namespace rowland;
+
+constexpr const char* kFragmentFile = "metal.frag.glsl";
+constexpr const char* kFragmentText = R"(#version 450 core
+#define MATERIAL_SPECULAR
+#include "engine/render/shaders/forward_fragment_interface.glsl"
+
+uniform vec3 n;
+uniform vec3 k;
+
+// The base alone: nothing covers it, nothing is added.
+MaterialTerms material_terms() { return MaterialTerms(vec3(1.0), vec3(0.0), vec3(0.0)); }
+
+// Unpolarised reflectance of a conductor [Born & Wolf, Principles of Optics, 14.2].
+vec3 conductor_reflectance(float cosine) {
+    float c2 = cosine * cosine;
+    float s2 = 1.0 - c2;
+    vec3 difference = n * n - k * k - s2;
+    vec3 sum = sqrt(difference * difference + 4.0 * n * n * k * k);  // a^2 + b^2
+    vec3 twice_ac = 2.0 * cosine * sqrt(max(0.5 * (sum + difference), 0.0));
+    vec3 across = (sum + c2 - twice_ac) / (sum + c2 + twice_ac);
+    vec3 along = across * (c2 * sum + s2 * s2 - twice_ac * s2) / (c2 * sum + s2 * s2 + twice_ac * s2);
+    return 0.5 * (across + along);
+}
+
+// Light comes in the working space, and goes back in it.
+vec3 reflect_specular(vec3 light, vec3 f0, float cosine) {
+    mat3 to_working = mat3(rec709_to_working);
+    return to_working * (conductor_reflectance(cosine) * (inverse(to_working) * light));
+}
+
+#include "engine/render/shaders/forward_fragment_main.glsl"
+)";
+
+glm::vec3 three_numbers(const nlohmann::json& extension, const char* key, const std::string& file,
+                        const std::string& place) {
+    const auto found = extension.find(key);
+    const bool three = found != extension.end() && found->is_array() && found->size() == 3;
+    glm::vec3 values(0.0F);
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (!three || !(*found)[i].is_number() || (*found)[i].get<float>() < 0.0F)
+            refuse_input(file, place + "/" + key, three ? (*found)[i].dump() : "no list of three",
+                         "three numbers from 0 up: red, green, blue");
+        values[static_cast<int>(i)] = (*found)[i].get<float>();
+    }
+    return values;
+}
+
+class MetalType final : public render::MaterialType {
+ public:
+    std::string name() const override { return "metal"; }
+    std::string gltf_extension() const override { return "EXAMPLE_materials_metal"; }
+    void attach(ecs::World& world, ecs::Entity entity, const nlohmann::json& extension,
+                render::SurfaceTextures& /*textures*/, const std::string& file, const std::string& place) override {
+        world.add(entity, MetalSurface{.n = three_numbers(extension, "n", file, place),
+                                       .k = three_numbers(extension, "k", file, place)});
+    }
+    void add_shaders(gpu::ShaderLibrary& library) const override { library.add(kFragmentFile, kFragmentText); }
+    bool owns(ecs::World& world, ecs::Entity entity) const override {
+        return world.find<MetalSurface>(entity) != nullptr;
+    }
+    gpu::ProgramDesc program(ecs::World& /*world*/, ecs::Entity /*entity*/) const override {
+        return {.vertex = "engine/render/shaders/plain.vert.glsl", .fragment = kFragmentFile};
+    }
+    void update(ecs::World& /*world*/, const render::FrameLight& /*light*/) override {}  // nothing to prepare
+    void bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const override {
+        const MetalSurface& surface = world.get<MetalSurface>(entity);
+        program.set("n", surface.n);
+        program.set("k", surface.k);
+    }
+};
+
+}  // namespace
+
+void register_module(render::Renderer& renderer) {
+    renderer.add_material_type(std::make_unique<MetalType>());
+}
+
+}  // namespace metal

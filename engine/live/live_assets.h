@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/asset/store.h"
+#include "engine/cook/recooker.h"
+#include "engine/cook/registry.h"
+#include "engine/lighting/light_probe.h"
+#include "engine/scene/imported_scene.h"
+
+namespace rowland::live {
+
+struct LiveAssetSettings {
+    std::string probe_mapping = "equirect";          ///< of probe images
+    bool watch = true;                               ///< cooked assets follow their sources
+    std::vector<cook::Recooker::Job> follow_also{};  ///< cooks these when they change, if `watch`
+};
+
+/// The assets of a running program, from cooked files or from sources that are baked on loading. They follow their
+/// files while poll() is called.
+class LiveAssets {
+ public:
+    LiveAssets(std::shared_ptr<const cook::Registry> registry, LiveAssetSettings settings);
+
+    /// A cooked probe, a probe recipe, or an image with the mapping of the settings. Like all below it throws Error
+    /// (input).
+    asset::Handle<lighting::LightProbe> probe(const std::filesystem::path& path);
+    /// A glTF file.
+    asset::Handle<scene::ImportedScene> scene(const std::filesystem::path& path);
+    /// An asset of a registered type, cooked or as its source; `read` parses the cooked payload (`file` is for
+    /// messages).
+    template <typename T>
+    asset::Handle<T> load(const std::filesystem::path& path, const std::string& type,
+                          std::function<T(std::span<const std::byte> payload, const std::string& file)> read) {
+        return store_.load<T>(path.string(), [registry = registry_, path, type, read = std::move(read)](Files& files) {
+            return read(payload(*registry, path, type, files), path.string());
+        });
+    }
+
+    /// Once a frame. True if an asset was replaced, or could not be.
+    bool poll();
+    /// Loads all assets again, changed or not.
+    void reload_all() { store_.reload_all(); }
+    /// What could not be cooked or reloaded, and why, until it can.
+    std::vector<std::string> failures() const;
+
+ private:
+    using Files = std::vector<std::filesystem::path>;
+    static std::vector<std::byte> payload(const cook::Registry& registry, const std::filesystem::path& path,
+                                          const std::string& type, Files& files);
+    friend lighting::LightProbe load_probe(const cook::Registry& registry, const std::filesystem::path& path,
+                                           const std::string& mapping, Files& read_files);
+
+    std::string probe_mapping_;
+    std::shared_ptr<const cook::Registry> registry_;
+    asset::Store store_;
+    std::optional<cook::Recooker> recooker_;
+};
+
+/// What LiveAssets::probe() loads; adds the files it read to `read_files`. May be called from any thread. Throws Error
+/// (input).
+lighting::LightProbe load_probe(const cook::Registry& registry, const std::filesystem::path& path,
+                                const std::string& mapping, std::vector<std::filesystem::path>& read_files);
+
+}  // namespace rowland::live

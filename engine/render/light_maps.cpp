@@ -1,0 +1,83 @@
+#include "engine/render/light_maps.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <glm/gtc/packing.hpp>
+#include <vector>
+
+#include "engine/core/parallel.h"
+#include "engine/lighting/environment_map.h"
+
+namespace rowland::render {
+
+namespace {
+
+gpu::Texture cube_map(const lighting::CubeLayout& layout, gpu::Filter filter) {
+    return gpu::Texture({.kind = gpu::TextureKind::CubeMap,
+                         .format = gpu::Format::RGBA16F,
+                         .width = layout.face_size,
+                         .height = layout.face_size,
+                         .levels = layout.levels},
+                        {.filter = filter});
+}
+
+/// The packed map's texels in the working space, still in units of its scale.
+std::vector<std::uint16_t> to_working_space(const lighting::PackedEnvironmentMap& packed, const glm::mat3& to_working) {
+    std::vector<std::uint16_t> halves(packed.halves.size());
+    for (std::size_t i = 0; i + 2 < halves.size(); i += 3) {
+        const glm::vec3 rgb(glm::unpackHalf1x16(packed.halves[i]), glm::unpackHalf1x16(packed.halves[i + 1]),
+                            glm::unpackHalf1x16(packed.halves[i + 2]));
+        // Rec.709 lies inside ACEScg and its rows sum to 1: no component exceeds the largest of the three.
+        const glm::vec3 working = to_working * rgb;
+        for (int c = 0; c < 3; ++c) halves[i + static_cast<std::size_t>(c)] = glm::packHalf1x16(working[c]);
+    }
+    return halves;
+}
+
+constexpr int kIrradianceFace = 64;
+
+std::vector<glm::vec3> irradiance_texels(std::span<const lighting::KeyLight> keys, const glm::dmat3& to_working) {
+    const lighting::CubeLayout layout{.face_size = kIrradianceFace, .levels = 1};
+    std::vector<glm::vec3> texels(layout.offset(1));
+    parallel_for(std::size_t{6} * kIrradianceFace, [&](std::size_t line) {
+        const int face = static_cast<int>(line) / kIrradianceFace;
+        const int row = static_cast<int>(line) % kIrradianceFace;
+        for (int column = 0; column < kIrradianceFace; ++column) {
+            const glm::dvec3 normal = glm::normalize(lighting::cube_direction(
+                face, (2.0 * column + 1.0) / kIrradianceFace - 1.0, (2.0 * row + 1.0) / kIrradianceFace - 1.0));
+            glm::dvec3 sum(0.0);
+            for (const lighting::KeyLight& key : keys) sum += lighting::irradiance(key, normal);
+            texels[layout.index(0, face, column, row)] = glm::vec3(to_working * sum);
+        }
+    });
+    return texels;
+}
+
+}  // namespace
+
+LightMap environment_map(const lighting::LightProbe& probe, const glm::dmat3& rec709_to_working) {
+    const lighting::CubeLayout& layout = probe.environment.layout;
+    LightMap light{.map = cube_map(layout, gpu::Filter::Trilinear), .scale = probe.environment.scale};
+    const std::vector<std::uint16_t> halves = to_working_space(probe.environment, glm::mat3(rec709_to_working));
+    for (int level = 0; level < layout.levels; ++level) {
+        const std::size_t begin = 3 * layout.offset(level);
+        const std::size_t end = 3 * layout.offset(level + 1);
+        light.map.upload(std::span(halves).subspan(begin, end - begin), {.level = level, .layers = 6});
+    }
+    return light;
+}
+
+LightMap key_irradiance_map(std::span<const lighting::KeyLight> keys, const glm::dmat3& rec709_to_working) {
+    LightMap light{.map = cube_map({.face_size = kIrradianceFace, .levels = 1}, gpu::Filter::Linear)};
+    std::vector<glm::vec3> texels = irradiance_texels(keys, rec709_to_working);
+    float largest = 0.0F;
+    for (const glm::vec3& texel : texels) largest = std::max({largest, texel.x, texel.y, texel.z});
+    if (largest > 0.0F) light.scale = largest;
+    for (glm::vec3& texel : texels) texel /= light.scale;
+    light.map.upload(std::span<const glm::vec3>(texels), {.layers = 6});
+    return light;
+}
+
+}  // namespace rowland::render

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <span>
+
+#include "engine/gpu/texture.h"
+#include "engine/lighting/light_probe.h"
+
+namespace rowland::render {
+
+/// Light by direction: a cube map of half floats in the working space, times `scale`.
+struct LightMap {
+    gpu::Texture map;
+    float scale = 1.0F;
+};
+
+/// A probe's prefiltered environment.
+LightMap environment_map(const lighting::LightProbe& probe, const glm::dmat3& rec709_to_working);
+
+/// Irradiance from a probe's key lights over the surface's normal, so that all of them cost one look-up per pixel. With
+/// 64² texels per face the error is at most 6e-3 of a point light's irradiance (where its cosine is clamped at the
+/// horizon), and less for wider lobes.
+LightMap key_irradiance_map(std::span<const lighting::KeyLight> keys, const glm::dmat3& rec709_to_working);
+
+}  // namespace rowland::render
