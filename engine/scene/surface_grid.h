@@ -15,7 +15,7 @@ struct Angle {
 };
 Angle angle(int i, int count);
 
-/// Adds a vertex of a made-up shape. In all of them v grows along cross(normal, tangent), so the tangent's w is −1.
+/// Adds a vertex of a generated shape. In all of them v grows along cross(normal, tangent), so the tangent's w is −1.
 void add_vertex(Mesh& mesh, const glm::dvec3& position, const glm::dvec3& normal, const glm::dvec3& tangent,
                 const glm::dvec2& uv);
 
