@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <fstream>  // tinygltf uses it even with TINYGLTF_NO_FS
 #include <string_view>
 
@@ -35,20 +36,15 @@ namespace {
 constexpr const char* kRemedy = "put it beside the glTF file";
 
 std::string percent_decode(const std::string& uri) {
-    const auto digit = [](char c) {
-        if (c >= '0' && c <= '9') return c - '0';
-        if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-        if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-        return -1;
-    };
     std::string text;
     for (std::size_t i = 0; i < uri.size(); ++i) {
-        if (uri[i] == '%' && i + 2 < uri.size() && digit(uri[i + 1]) >= 0 && digit(uri[i + 2]) >= 0) {
-            text += static_cast<char>(digit(uri[i + 1]) * 16 + digit(uri[i + 2]));
-            i += 2;
-        } else {
-            text += uri[i];
-        }
+        text += uri[i];
+        if (uri[i] != '%' || i + 2 >= uri.size()) continue;
+        const char* const end = uri.data() + i + 3;
+        unsigned code = 0;
+        if (std::from_chars(uri.data() + i + 1, end, code, 16).ptr != end) continue;
+        text.back() = static_cast<char>(code);
+        i += 2;
     }
     return text;
 }

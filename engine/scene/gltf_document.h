@@ -26,16 +26,8 @@ enum class ComponentType : std::uint16_t {
     Float = 5126,
 };
 
-/// glTF's primitive modes, with glTF's numbers.
-enum class PrimitiveMode : std::uint8_t {
-    Points = 0,
-    Lines = 1,
-    LineLoop = 2,
-    LineStrip = 3,
-    Triangles = 4,
-    TriangleStrip = 5,
-    TriangleFan = 6,
-};
+/// The primitive modes that we draw, with glTF's numbers; 0 to 3 are points and lines.
+enum class PrimitiveMode : std::uint8_t { Triangles = 4, TriangleStrip = 5, TriangleFan = 6 };
 
 /// Owned unless it is the GLB's binary chunk.
 struct GltfBuffer {
