@@ -100,7 +100,7 @@ std::string pointer_step(const std::string& key) {
     return step;
 }
 
-/// The JSON pointer of the first key that an object of `text` holds twice; empty if there is none.
+/// The JSON pointer of the first repeated key of an object in `text`; empty if there is none.
 std::string find_repeated_key(std::string_view text) {
     using Event = nlohmann::json::parse_event_t;
     struct Level {
@@ -136,8 +136,7 @@ nlohmann::json parse_json(std::string_view text, const std::string& file) {
         nlohmann::json json = nlohmann::json::parse(text);
         // Of two equal keys the library keeps one without saying so.
         if (count_keys(json) != keys)
-            refuse_input(file, find_repeated_key(text), "a key that its object holds already", "each key once",
-                         "remove one of the two");
+            refuse_input(file, find_repeated_key(text), "a repeated key", "each key once", "remove one of the two");
         return json;
     } catch (const nlohmann::json::parse_error& error) {
         const std::size_t end = std::min(error.byte == 0 ? 0 : error.byte - 1, text.size());

@@ -15,7 +15,7 @@
 namespace rowland {
 
 /// Parses JSON text that may be hostile. Throws Error (input) with line and column for bad syntax and invalid UTF-8,
-/// for nesting deeper than 64, and with the JSON pointer for a key that an object holds twice.
+/// for nesting deeper than 64, and with the JSON pointer for a repeated key of an object.
 nlohmann::json parse_json(std::string_view text, const std::string& file);
 
 /// A number's domain; the message shows it as an interval. Open ends exclude the bound.

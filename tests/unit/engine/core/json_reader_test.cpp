@@ -56,9 +56,9 @@ TEST(ParseJson, ClosingBracketsDoNotBuyDepth) {
     EXPECT_THROW(parse_json(std::string(100, ']') + nested(100), "a.json"), Error);
 }
 
-TEST(ParseJson, KeysThatStandTwiceAreRefusedWithTheirPointer) {
+TEST(ParseJson, RepeatedKeysAreRefusedWithTheirPointer) {
     EXPECT_EQ(parse_message(R"({"a": 1, "b": 2, "a": 1})"),
-              "a.json: /a: a key that its object holds already; expected each key once; remove one of the two");
+              "a.json: /a: a repeated key; expected each key once; remove one of the two");
     EXPECT_THAT(parse_message(R"({"list": [0, [], {"x/y": {"k": 1, "k": {}}}]})"),
                 StartsWith("a.json: /list/2/x~1y/k: "));
     EXPECT_THAT(parse_message(R"([{"a": {}}, {"a": {}, "\u0061": {}}])"), StartsWith("a.json: /1/a: "));

@@ -334,11 +334,11 @@ TEST(GltfImport, OnlyABufferThatIsUsedNeedsData) {
     EXPECT_THAT(error_of(file), HasSubstr("/buffers/1: 0 bytes of data"));
 }
 
-TEST(GltfImport, KeysThatStandTwiceAreRefused) {
+TEST(GltfImport, RepeatedKeysAreRefused) {
     const std::string text = R"({"asset": {"version": "2.0"}, "nodes": [{}, {"name": "a", "name": "b"}]})";
     EXPECT_THAT(
         rowland::test::message_of([&] { load_glb(std::as_bytes(std::span(text.data(), text.size())), "f.gltf"); }),
-        HasSubstr("f.gltf: /nodes/1/name: a key that its object holds already"));
+        HasSubstr("f.gltf: /nodes/1/name: a repeated key"));
 }
 
 TEST(GltfImport, WithoutScenesTheRootNodesAreShown) {
