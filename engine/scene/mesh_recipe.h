@@ -18,7 +18,7 @@ struct DiscRecipe {
     double inner_radius = 0.0;  ///< metres, >= 0
     double outer_radius = 0.0;  ///< metres, > inner_radius
     int rings = 99;             ///< rows of quads between the edges, 1 … 2048
-    int segments = 249;         ///< sectors, 3 … 2048; the seam's vertices are there twice, with v = 0 and v = 1
+    int segments = 249;         ///< sectors, 3 … 2048; the seam's vertices are doubled, with v = 0 and v = 1
 };
 
 /// Rectangle around the origin in the XZ plane, normal +Y, tangent +X, v towards −Z.
