@@ -14,11 +14,7 @@ std::span<const std::byte> ByteReader::take(std::size_t size) {
 }
 
 void ByteReader::fail(std::string found, std::string expected) const {
-    throw Error({.file = file_,
-                 .place = fmt::format("byte {}", offset_),
-                 .found = std::move(found),
-                 .expected = std::move(expected),
-                 .remedy = {}});
+    refuse_input(file_, fmt::format("byte {}", offset_), std::move(found), std::move(expected));
 }
 
 bool ByteReader::truth() {

@@ -11,7 +11,7 @@ namespace rowland {
 
 }  // namespace rowland
 
-/// Contract: a logic error if it does not hold. Prints both operands. On in every build.
+/// Contract: aborts with both operands if it does not hold. Checked in every build.
 #define ROWLAND_CHECK_OP(a, op, b)                                                                      \
     do {                                                                                                \
         const auto& rowland_check_a = (a);                                                              \

@@ -27,15 +27,11 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const fs::path& program, const std::string& what, int code) {
-    throw Error({.file = program.string(),
-                 .place = {},
-                 .found = fmt::format("{}: {}", what, std::strerror(code)),
-                 .expected = {},
-                 .remedy = "install Rowland again, or free processes and files",
-                 .fault = Fault::System});
+    fail_system(program.string(), fmt::format("{}: {}", what, std::strerror(code)),
+                "install Rowland again, or free processes and files");
 }
 
-/// Not fork: it would copy page tables, and the locks of drivers' threads with them.
+/// posix_spawn, because fork copies page tables and the locks that the drivers' threads hold.
 pid_t spawn(const fs::path& program, int standard_input) {
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
@@ -74,35 +70,35 @@ ChildProcess::~ChildProcess() {
     reap();
 }
 
-ChildProcess::Exchange ChildProcess::send(std::span<const std::byte> bytes, Deadline deadline) {
+/// Calls `transfer` until all bytes are sent or received.
+template <typename Byte, typename Transfer>
+ChildProcess::Exchange ChildProcess::exchange(std::span<Byte> bytes, short event, Deadline deadline,
+                                              const Transfer& transfer) {
     while (!bytes.empty()) {
-        const ssize_t sent = ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
-        if (sent > 0) {
-            bytes = bytes.subspan(static_cast<std::size_t>(sent));
-        } else if (errno == EAGAIN) {
-            if (const Exchange waited = wait(POLLOUT, deadline); waited != Exchange::Done) return waited;
-        } else if (errno != EINTR) {
+        const ssize_t count = transfer(bytes.data(), bytes.size());
+        if (count > 0) {
+            bytes = bytes.subspan(static_cast<std::size_t>(count));
+        } else if (count < 0 && errno == EAGAIN) {
+            if (const Exchange waited = wait(event, deadline); waited != Exchange::Done) return waited;
+        } else if (count == 0 || errno != EINTR) {
             return Exchange::Ended;
         }
     }
     return Exchange::Done;
+}
+
+ChildProcess::Exchange ChildProcess::send(std::span<const std::byte> bytes, Deadline deadline) {
+    return exchange(bytes, POLLOUT, deadline, [&](const std::byte* data, std::size_t size) {
+        return ::send(socket_, data, size, MSG_NOSIGNAL | MSG_DONTWAIT);
+    });
 }
 
 ChildProcess::Exchange ChildProcess::receive(std::span<std::byte> bytes, Deadline deadline) {
-    while (!bytes.empty()) {
-        const ssize_t received = recv(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT);
-        if (received > 0) {
-            bytes = bytes.subspan(static_cast<std::size_t>(received));
-        } else if (received < 0 && errno == EAGAIN) {
-            if (const Exchange waited = wait(POLLIN, deadline); waited != Exchange::Done) return waited;
-        } else if (received == 0 || errno != EINTR) {
-            return Exchange::Ended;
-        }
-    }
-    return Exchange::Done;
+    return exchange(bytes, POLLIN, deadline,
+                    [&](std::byte* data, std::size_t size) { return recv(socket_, data, size, MSG_DONTWAIT); });
 }
 
-/// Until `event` or the end of the program, which shows at the next exchange.
+/// Waits for `event` or the end of the program, which the next exchange reports.
 ChildProcess::Exchange ChildProcess::wait(short event, Deadline deadline) const {
     while (true) {
         const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now());
@@ -125,7 +121,7 @@ int ChildProcess::reap() {
 
 std::string ChildProcess::ending() {
     if (process_ == -1) return "ended";
-    kill(process_, SIGKILL);  // changes nothing for one that is ending, and there is no waiting for another
+    kill(process_, SIGKILL);  // reap() must not wait; a process that is ending keeps its own status
     const int status = reap();
     if (WIFSIGNALED(status)) return fmt::format("ended by signal {}", WTERMSIG(status));
     return fmt::format("ended with code {}", WEXITSTATUS(status));
@@ -136,7 +132,7 @@ fs::path helper_program(const std::string& name) {
     if (const char* named = std::getenv("ROWLAND_HELPER_FOLDER")) {
         folders = {named};
     } else {
-        std::error_code unknown;  // without /proc the last one remains
+        std::error_code unknown;  // without /proc only the installed folder is searched
         const fs::path running = fs::read_symlink("/proc/self/exe", unknown).parent_path();
         if (!unknown) folders = {running, running.parent_path() / "libexec" / "rowland"};
         folders.emplace_back(ROWLAND_INSTALLED_HELPER_FOLDER);
@@ -146,12 +142,8 @@ fs::path helper_program(const std::string& name) {
         if (fs::path program = folder / name; access(program.c_str(), X_OK) == 0) return program;
         looked_at += (looked_at.empty() ? "" : ", ") + folder.string();
     }
-    throw Error({.file = name,
-                 .place = {},
-                 .found = "not in " + looked_at,
-                 .expected = "a helper program of Rowland",
-                 .remedy = "install Rowland again, or name its folder in ROWLAND_HELPER_FOLDER",
-                 .fault = Fault::System});
+    fail_system(name, "not in " + looked_at, "install Rowland again, or name its folder in ROWLAND_HELPER_FOLDER",
+                "a helper program of Rowland");
 }
 
 }  // namespace rowland

@@ -10,8 +10,8 @@
 
 namespace rowland {
 
-/// A program of ours that runs beside us, for work that may crash, hang or swallow memory. It talks with us through its
-/// standard input, which is a socket; its standard output and error go nowhere. It is killed at the end of the scope.
+/// A helper program for work that may crash, hang or exhaust memory. Both sides exchange bytes over a socket, which is
+/// the helper's standard input; its standard output and error are discarded. The destructor kills it.
 class ChildProcess {
  public:
     using Deadline = std::chrono::steady_clock::time_point;
@@ -23,14 +23,16 @@ class ChildProcess {
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;
 
-    /// Hands all bytes to the program. Ended: it is gone; Late: it did not take them by the deadline.
+    /// Sends all bytes to the program. Ended: the program has ended; Late: it did not take them by the deadline.
     Exchange send(std::span<const std::byte> bytes, Deadline deadline);
     /// Fills `bytes` with what the program sends.
     Exchange receive(std::span<std::byte> bytes, Deadline deadline);
-    /// How the program that has Ended did so: "ended by signal 11", "ended with code 1".
+    /// How the program ended: "ended by signal 11", "ended with code 1".
     std::string ending();
 
  private:
+    template <typename Byte, typename Transfer>
+    Exchange exchange(std::span<Byte> bytes, short event, Deadline deadline, const Transfer& transfer);
     Exchange wait(short event, Deadline deadline) const;
     int reap();
 
@@ -38,9 +40,9 @@ class ChildProcess {
     int socket_ = -1;
 };
 
-/// Where the helper program `name` is: in the folder $ROWLAND_HELPER_FOLDER names, else beside the running program, in
-/// ../libexec/rowland from there, or in the folder the library was built to be installed to. Throws Error (system) if
-/// in none of them.
+/// The path of the helper program `name`: in the folder $ROWLAND_HELPER_FOLDER, else beside the running program, in
+/// ../libexec/rowland from there, or in the installation folder the library was built for. Throws Error (system) if it
+/// is in none of them.
 std::filesystem::path helper_program(const std::string& name);
 
 }  // namespace rowland

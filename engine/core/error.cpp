@@ -57,4 +57,13 @@ void refuse_input(std::string file, std::string place, std::string found, std::s
                  .remedy = std::move(remedy)});
 }
 
+void fail_system(std::string file, std::string found, std::string remedy, std::string expected) {
+    throw Error({.file = std::move(file),
+                 .place = {},
+                 .found = std::move(found),
+                 .expected = std::move(expected),
+                 .remedy = std::move(remedy),
+                 .fault = Fault::System});
+}
+
 }  // namespace rowland

@@ -8,7 +8,7 @@ namespace rowland {
 /// Who is at fault: the user's input or arguments (exit code 2), or the system under us (exit code 1).
 enum class Fault { Input, System };
 
-/// What a user needs in order to mend a failure. Empty fields are left out of the message.
+/// What a user needs to repair a failure. Empty fields are left out of the message.
 struct ErrorInfo {
     std::string file;      ///< the file (or option) at fault, as the user named it
     std::string place;     ///< where in it: line and column, JSON pointer, byte offset, row
@@ -34,5 +34,7 @@ class Error : public std::runtime_error {
 /// Throws Error (input).
 [[noreturn]] void refuse_input(std::string file, std::string place, std::string found, std::string expected,
                                std::string remedy = "");
+/// Throws Error (system).
+[[noreturn]] void fail_system(std::string file, std::string found, std::string remedy = "", std::string expected = "");
 
 }  // namespace rowland

@@ -18,18 +18,9 @@ namespace rowland {
 
 namespace {
 
-[[noreturn]] void fail_system(const std::filesystem::path& path, const char* action, int error_number) {
-    throw Error({.file = path.string(),
-                 .place = {},
-                 .found = fmt::format("{} failed: {}", action, std::strerror(error_number)),
-                 .expected = {},
-                 .remedy = "check permissions and free space",
-                 .fault = Fault::System});
-}
-
-[[noreturn]] void fail_input(const std::filesystem::path& path, std::string found, std::string expected) {
-    throw Error(
-        {.file = path.string(), .place = {}, .found = std::move(found), .expected = std::move(expected), .remedy = {}});
+[[noreturn]] void fail_action(const std::filesystem::path& path, const char* action, int error_number) {
+    fail_system(path.string(), fmt::format("{} failed: {}", action, std::strerror(error_number)),
+                "check permissions and free space");
 }
 
 /// An open file descriptor.
@@ -51,19 +42,21 @@ template <typename Buffer>
 Buffer read_whole(const std::filesystem::path& path, std::uint64_t max_bytes) {
     // Non-blocking: opening a pipe must not wait for a writer. It changes nothing for regular files.
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
-    if (file.get() < 0) fail_input(path, fmt::format("cannot be opened: {}", std::strerror(errno)), "a readable file");
+    if (file.get() < 0)
+        refuse_input(path.string(), "", fmt::format("cannot be opened: {}", std::strerror(errno)), "a readable file");
     struct stat status = {};
-    if (::fstat(file.get(), &status) != 0) fail_system(path, "stat", errno);
-    if (!S_ISREG(status.st_mode)) fail_input(path, "not a regular file", "a readable file");
+    if (::fstat(file.get(), &status) != 0) fail_action(path, "stat", errno);
+    if (!S_ISREG(status.st_mode)) refuse_input(path.string(), "", "not a regular file", "a readable file");
     const auto size = static_cast<std::uint64_t>(status.st_size);
-    if (size > max_bytes) fail_input(path, fmt::format("{} bytes", size), fmt::format("at most {} bytes", max_bytes));
+    if (size > max_bytes)
+        refuse_input(path.string(), "", fmt::format("{} bytes", size), fmt::format("at most {} bytes", max_bytes));
     Buffer data(static_cast<std::size_t>(size), {});
     std::size_t done = 0;
     while (done < data.size()) {
         const ssize_t count = ::read(file.get(), data.data() + done, data.size() - done);
         if (count < 0 && errno == EINTR) continue;
-        if (count < 0) fail_system(path, "reading", errno);
-        if (count == 0) break;  // the file was cut while we read
+        if (count < 0) fail_action(path, "reading", errno);
+        if (count == 0) break;  // the file was truncated while we read
         done += static_cast<std::size_t>(count);
     }
     data.resize(done);
@@ -82,10 +75,10 @@ bool write_all(int fd, std::span<const std::byte> data) {
     return true;
 }
 
-/// A new file beside `target` that takes its place once it is whole; until then the old one stays, and if it never
-/// comes to that, nothing is left of the new one. Where the file system can do that it has no name while it is written,
-/// so that nothing is left of it by a program that is killed either. Its permissions are those that the user's mask
-/// grants any new file. (mkstemp's files are private, and the mask cannot be read without setting it for all threads.)
+/// A new file that replaces `target` once it is complete; if it is destroyed before, the old file stays and the new one
+/// is removed. Where the file system supports O_TMPFILE the file has no name while it is written, so that a killed
+/// program leaves nothing. Its permissions follow the user's umask. (mkstemp's files are private, and the umask cannot
+/// be read without setting it for all threads.)
 class Replacement {
  public:
     explicit Replacement(const std::filesystem::path& target)
@@ -99,23 +92,23 @@ class Replacement {
     Replacement& operator=(const Replacement&) = delete;
 
     void write(std::span<const std::byte> data) const {
-        if (!write_all(file_.get(), data) || ::fsync(file_.get()) != 0) fail_system(target_, "writing", errno);
+        if (!write_all(file_.get(), data) || ::fsync(file_.get()) != 0) fail_action(target_, "writing", errno);
     }
 
-    void take_the_place() {
+    void replace_target() {
         if (temporary_.empty()) {
             const std::string nameless = fmt::format("/proc/self/fd/{}", file_.get());
             take_new_name([&](const char* name) {
                 return ::linkat(AT_FDCWD, nameless.c_str(), AT_FDCWD, name, AT_SYMLINK_FOLLOW);
             });
         }
-        if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail_system(target_, "renaming", errno);
+        if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail_action(target_, "renaming", errno);
         temporary_.clear();
     }
 
  private:
     int create() {
-        // A nameless file gets its name by way of /proc.
+        // A nameless file gets its name through /proc.
         const bool can_be_named = ::access("/proc/self/fd", X_OK) == 0;
         const int fd = can_be_named ? ::open(folder_.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666) : -1;
         if (fd >= 0) return fd;
@@ -123,7 +116,7 @@ class Replacement {
             [](const char* name) { return ::open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666); });
     }
 
-    /// `make(name)` makes the file unless there is one of that name; negative, with errno set, if it could not.
+    /// `make(name)` creates the file; negative, with errno EEXIST, if the name is taken.
     template <typename Make>
     int take_new_name(const Make& make) {
         std::random_device random;
@@ -134,7 +127,7 @@ class Replacement {
                 temporary_ = name;
                 return result;
             }
-            if (errno != EEXIST || attempt == 100) fail_system(target_, "creating a temporary file beside it", errno);
+            if (errno != EEXIST || attempt == 100) fail_action(target_, "creating a temporary file beside it", errno);
         }
     }
 
@@ -157,19 +150,19 @@ std::string read_text_file(const std::filesystem::path& path, std::uint64_t max_
 void create_folder(const std::filesystem::path& path) {
     std::error_code code;
     std::filesystem::create_directories(path, code);
-    if (code) fail_system(path, "creating the folder", code.value());
+    if (code) fail_action(path, "creating the folder", code.value());
 }
 
 void write_file_atomic(const std::filesystem::path& path, std::span<const std::byte> data) {
     // Renaming over a device or a pipe would replace it by a file.
     struct stat old = {};
     if (::stat(path.c_str(), &old) == 0 && !S_ISREG(old.st_mode))
-        fail_input(path, "exists and is not a regular file", "a file to write");
+        refuse_input(path.string(), "", "exists and is not a regular file", "a file to write");
 
     if (path.has_parent_path()) create_folder(path.parent_path());
     Replacement replacement(path);
     replacement.write(data);
-    replacement.take_the_place();
+    replacement.replace_target();
 }
 
 void write_file_atomic(const std::filesystem::path& path, std::string_view text) {

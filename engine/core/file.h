@@ -15,12 +15,12 @@ namespace rowland {
 std::vector<std::byte> read_file(const std::filesystem::path& path, std::uint64_t max_bytes);
 std::string read_text_file(const std::filesystem::path& path, std::uint64_t max_bytes);
 
-/// Creates a folder and those it lies in, unless they are there. Throws Error (system).
+/// Creates a folder and its missing parents. Throws Error (system).
 void create_folder(const std::filesystem::path& path);
 
-/// Writes a new file beside `path` that takes its place: readers see the old file or the new one, whole, and a program
-/// that is killed leaves one of them. Creates the folder. Throws Error (system) and leaves nothing of the new file if
-/// anything fails, and Error (input) if `path` is a folder, a device or a pipe.
+/// Replaces the file `path`: readers see the old file or the complete new one, even if the program is killed. Creates
+/// the folder. Throws Error (system), leaving the old file, if anything fails, and Error (input) if `path` is a folder,
+/// a device or a pipe.
 void write_file_atomic(const std::filesystem::path& path, std::span<const std::byte> data);
 void write_file_atomic(const std::filesystem::path& path, std::string_view text);
 

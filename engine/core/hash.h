@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+struct XXH3_state_s;  // of xxhash.h
+
 namespace rowland {
 
 /// 128-bit content hash (XXH3).
@@ -22,17 +24,13 @@ struct Hash128 {
 class Hasher {
  public:
     Hasher();
-    ~Hasher();
-    Hasher(const Hasher&) = delete;
-    Hasher& operator=(const Hasher&) = delete;
 
     Hasher& bytes(std::span<const std::byte> data);
     Hasher& text(std::string_view data);
     Hash128 digest() const;
 
  private:
-    struct State;
-    std::unique_ptr<State> state_;
+    std::unique_ptr<XXH3_state_s, void (*)(XXH3_state_s*)> state_;
 };
 
 }  // namespace rowland

@@ -54,10 +54,11 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     return row.back();
 }
 
-/// Depth is checked before parsing, so that nothing recursive ever sees a deep document.
-void check_depth(std::string_view text, const std::string& file) {
+/// Counts the keys of a JSON text. Refuses deep nesting before any recursive function sees the document.
+std::size_t check_depth(std::string_view text, const std::string& file) {
     int depth = 0;
     bool in_string = false;
+    std::size_t keys = 0;
     for (std::size_t i = 0; i < text.size(); ++i) {
         const char c = text[i];
         if (in_string) {
@@ -65,17 +66,24 @@ void check_depth(std::string_view text, const std::string& file) {
             if (c == '"') in_string = false;
         } else if (c == '"') {
             in_string = true;
+        } else if (c == ':') {
+            ++keys;
         } else if (c == '{' || c == '[') {
             if (++depth > kMaximumDepth)
-                throw Error({.file = file,
-                             .place = fmt::format("byte {}", i),
-                             .found = "JSON nested too deep",
-                             .expected = fmt::format("at most {} levels", kMaximumDepth),
-                             .remedy = {}});
+                refuse_input(file, fmt::format("byte {}", i), "JSON nested too deep",
+                             fmt::format("at most {} levels", kMaximumDepth));
         } else if (c == '}' || c == ']') {
             --depth;
         }
     }
+    return keys;
+}
+
+std::size_t count_keys(const nlohmann::json& value) {
+    std::size_t keys = value.is_object() ? value.size() : 0;
+    if (value.is_structured())
+        for (const nlohmann::json& element : value) keys += count_keys(element);
+    return keys;
 }
 
 /// A key as a step of a JSON pointer (RFC 6901).
@@ -92,43 +100,65 @@ std::string pointer_step(const std::string& key) {
     return step;
 }
 
+/// The JSON pointer of the first repeated key of an object in `text`; empty if there is none.
+std::string find_repeated_key(std::string_view text) {
+    using Event = nlohmann::json::parse_event_t;
+    struct Level {
+        bool is_array;
+        std::size_t index = 0;  ///< of the array's next element
+        std::string step = {};
+        std::set<std::string> keys = {};
+    };
+    std::vector<Level> levels;
+    std::string repeated;
+    const nlohmann::json unused = nlohmann::json::parse(text, [&](int, Event event, nlohmann::json& value) {
+        const bool ends = event == Event::object_end || event == Event::array_end;
+        if (!ends && event != Event::key && !levels.empty() && levels.back().is_array)
+            levels.back().step = fmt::format("{}", levels.back().index++);
+        if (ends) levels.pop_back();
+        if (event == Event::object_start || event == Event::array_start)
+            levels.push_back({.is_array = event == Event::array_start});
+        if (event == Event::key) {
+            levels.back().step = pointer_step(value.get<std::string>());
+            if (!levels.back().keys.insert(levels.back().step).second && repeated.empty())
+                for (const Level& level : levels) repeated += "/" + level.step;
+        }
+        return true;
+    });
+    return repeated;
+}
+
 }  // namespace
 
 nlohmann::json parse_json(std::string_view text, const std::string& file) {
-    check_depth(text, file);
+    const std::size_t keys = check_depth(text, file);
     try {
-        return nlohmann::json::parse(text);
+        nlohmann::json json = nlohmann::json::parse(text);
+        // Of two equal keys the library keeps one without saying so.
+        if (count_keys(json) != keys)
+            refuse_input(file, find_repeated_key(text), "a repeated key", "each key once", "remove one of the two");
+        return json;
     } catch (const nlohmann::json::parse_error& error) {
         const std::size_t end = std::min(error.byte == 0 ? 0 : error.byte - 1, text.size());
         const std::string_view before = text.substr(0, end);
         const auto line = std::count(before.begin(), before.end(), '\n') + 1;
         const auto line_start = before.rfind('\n');
         const std::size_t column = before.size() - (line_start == std::string_view::npos ? 0 : line_start + 1) + 1;
-        // The library's text after "- " says what it met; its prefix repeats the position.
+        // The library's prefix up to ": " repeats the position.
         std::string reason = error.what();
-        if (const auto dash = reason.find(": "); dash != std::string::npos) reason = reason.substr(dash + 2);
-        throw Error({.file = file,
-                     .place = fmt::format("line {}, column {}", line, column),
-                     .found = reason,
-                     .expected = "valid JSON",
-                     .remedy = {}});
+        if (const auto prefix = reason.find(": "); prefix != std::string::npos) reason = reason.substr(prefix + 2);
+        refuse_input(file, fmt::format("line {}, column {}", line, column), reason, "valid JSON");
     } catch (const nlohmann::json::out_of_range& error) {
         // The library says which number it is, but not where.
         std::string reason = error.what();
         if (const auto end = reason.find("] "); end != std::string::npos) reason = reason.substr(end + 2);
-        throw Error(
-            {.file = file, .place = {}, .found = reason, .expected = "numbers that fit a double", .remedy = {}});
+        refuse_input(file, "", reason, "numbers that fit a double");
     }
 }
 
 JsonReader::JsonReader(const nlohmann::json& value, std::string file, std::string pointer)
     : value_(&value), file_(std::move(file)), pointer_(std::move(pointer)) {
-    if (!value.is_object())
-        throw Error({.file = file_,
-                     .place = pointer_.empty() ? "/" : pointer_,
-                     .found = describe(value),
-                     .expected = "an object",
-                     .remedy = {}});
+    if (!value.is_object()) refuse_input(file_, pointer_.empty() ? "/" : pointer_, describe(value), "an object");
 }
 
 bool JsonReader::has(const std::string& key) {
@@ -181,6 +211,10 @@ std::string JsonReader::text(const std::string& key) {
     return value.get<std::string>();
 }
 
+std::string JsonReader::text_or(const std::string& key, std::string fallback) {
+    return has(key) ? text(key) : std::move(fallback);
+}
+
 bool JsonReader::boolean_or(const std::string& key, bool fallback) {
     if (!has(key)) return fallback;
     const nlohmann::json& value = require(key);
@@ -200,12 +234,21 @@ std::vector<double> JsonReader::numbers(const std::string& key, std::size_t coun
     return result;
 }
 
-std::string JsonReader::choice(const std::string& key, const std::vector<std::string_view>& choices) {
-    std::string word = text(key);
-    if (std::find(choices.begin(), choices.end(), word) != choices.end()) return word;
+std::vector<double> JsonReader::numbers_or(const std::string& key, std::vector<double> fallback, NumberRange range) {
+    return has(key) ? numbers(key, fallback.size(), range) : std::move(fallback);
+}
+
+std::ptrdiff_t JsonReader::choice_index(const std::string& key, const std::vector<std::string_view>& choices) {
+    const std::string word = text(key);
+    const auto found = std::find(choices.begin(), choices.end(), word);
+    if (found != choices.end()) return found - choices.begin();
     const auto near = nearest_word(word, {choices.begin(), choices.end()});
     fail(key, fmt::format("\"{}\"", word), fmt::format("one of {}", fmt::join(choices, ", ")),
          near ? fmt::format("is \"{}\" meant?", *near) : "");
+}
+
+std::string JsonReader::choice(const std::string& key, const std::vector<std::string_view>& choices) {
+    return std::string(choices[static_cast<std::size_t>(choice_index(key, choices))]);
 }
 
 std::string JsonReader::choice_or(const std::string& key, std::string fallback,
@@ -215,6 +258,10 @@ std::string JsonReader::choice_or(const std::string& key, std::string fallback,
 
 JsonReader JsonReader::object(const std::string& key) {
     return {require(key), file_, pointer_to(key)};
+}
+
+std::optional<JsonReader> JsonReader::object_if_there(const std::string& key) {
+    return has(key) ? std::optional(object(key)) : std::nullopt;
 }
 
 const nlohmann::json& JsonReader::raw(const std::string& key) {
@@ -230,6 +277,10 @@ std::vector<JsonReader> JsonReader::objects(const std::string& key) {
     return result;
 }
 
+std::vector<JsonReader> JsonReader::objects_if_there(const std::string& key) {
+    return has(key) ? objects(key) : std::vector<JsonReader>();
+}
+
 void JsonReader::finish() const {
     for (const auto& [key, ignored] : value_->items()) {
         if (known_.contains(key)) continue;
@@ -241,11 +292,7 @@ void JsonReader::finish() const {
 }
 
 void JsonReader::fail(const std::string& key, std::string found, std::string expected, std::string remedy) const {
-    throw Error({.file = file_,
-                 .place = pointer_to(key),
-                 .found = std::move(found),
-                 .expected = std::move(expected),
-                 .remedy = std::move(remedy)});
+    refuse_input(file_, pointer_to(key), std::move(found), std::move(expected), std::move(remedy));
 }
 
 std::optional<std::string> nearest_word(std::string_view word, const std::vector<std::string>& candidates) {

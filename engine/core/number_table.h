@@ -7,7 +7,7 @@
 
 namespace rowland {
 
-/// A table of numbers from CSV, with the row of the file that each stands in for messages (the header is row 1).
+/// A table of numbers from CSV, with each row's number in the file for messages (the header is row 1).
 struct NumberTable {
     std::string file;
     std::vector<std::vector<double>> rows;

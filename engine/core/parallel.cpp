@@ -18,8 +18,8 @@ namespace rowland {
 
 #ifdef __SANITIZE_THREAD__
 
-// ThreadSanitizer sees nothing of what orders TBB's threads, as their library is not built for it, and would report
-// every hand-over; these are ordered by what it knows.
+// The TBB library is not built for ThreadSanitizer, which would report every synchronisation inside it as a race. These
+// threads are ordered by operations that it knows.
 
 namespace {
 

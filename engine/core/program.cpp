@@ -16,14 +16,9 @@ namespace rowland {
 int run_program(const std::function<int()>& body) {
     try {
         const int code = body();
-        // A full disk or a closed pipe shows only when the results leave the buffer.
+        // A full disk or a closed pipe is noticed only when the buffer is written.
         if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-            throw Error({.file = "standard output",
-                         .place = {},
-                         .found = fmt::format("writing failed: {}", std::strerror(errno)),
-                         .expected = {},
-                         .remedy = {},
-                         .fault = Fault::System});
+            fail_system("standard output", fmt::format("writing failed: {}", std::strerror(errno)));
         return code;
     } catch (const Error& error) {
         log_error("{}", error.what());

@@ -10,17 +10,17 @@ namespace rowland {
 
 namespace {
 
-/// Long work within long work has no line of its own.
+/// Nested work shows no second line.
 std::atomic<bool> one_is_visible{false};
 
-bool take_the_line() {
+bool claim_line() {
     return ::isatty(STDERR_FILENO) == 1 && !one_is_visible.exchange(true);
 }
 
 }  // namespace
 
 Progress::Progress(std::string label, std::size_t total)
-    : label_(std::move(label)), total_(std::max<std::size_t>(total, 1)), visible_(take_the_line()) {}
+    : label_(std::move(label)), total_(std::max<std::size_t>(total, 1)), visible_(claim_line()) {}
 
 Progress::~Progress() {
     if (visible_) one_is_visible = false;
@@ -35,9 +35,9 @@ void Progress::advance(std::size_t steps) {
     if (!lock.owns_lock() || now - drawn_ < std::chrono::milliseconds(100)) return;
     drawn_ = now;
     const double elapsed_s = std::chrono::duration<double>(now - started_).count();
-    const double share = static_cast<double>(done) / static_cast<double>(total_);
-    fmt::print(stderr, "\r\033[K{} {:3.0f} % ({:.0f} s left)", label_, 100.0 * share,
-               elapsed_s * (1.0 - share) / share);
+    const double fraction = static_cast<double>(done) / static_cast<double>(total_);
+    fmt::print(stderr, "\r\033[K{} {:3.0f} % ({:.0f} s left)", label_, 100.0 * fraction,
+               elapsed_s * (1.0 - fraction) / fraction);
     std::fflush(stderr);
 }
 

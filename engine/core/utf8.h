@@ -6,11 +6,10 @@
 
 namespace rowland {
 
-/// A text for documents that must be UTF-8: bytes that are none become U+FFFD. File names may hold any.
+/// `text` as valid UTF-8: invalid bytes, which file names may hold, become U+FFFD.
 std::string valid_utf8(std::string_view text);
 
-/// A path's text for documents from which the file is found again. Throws Error (input), with the remedy, if it is no
-/// UTF-8.
+/// A path's text, for documents that refer to the file. Throws Error (input), with the remedy, if it is not UTF-8.
 std::string require_utf8(const std::filesystem::path& path, const std::string& remedy);
 
 }  // namespace rowland

@@ -12,12 +12,12 @@ namespace rowland::scene {
 
 namespace {
 
-/// Where a time is between two keys.
+/// The two keys around a time.
 struct Span {
     std::size_t first = 0;
     std::size_t second = 0;
-    double share = 0.0;    ///< of the way from the first to the second, in [0, 1]
-    double seconds = 0.0;  ///< between them
+    double fraction = 0.0;  ///< of the time from the first to the second, in [0, 1]
+    double seconds = 0.0;   ///< between them
 };
 
 Span find_span(const std::vector<float>& times, float time) {
@@ -33,22 +33,22 @@ Span find_span(const std::vector<float>& times, float time) {
 }
 
 /// Spherical interpolation of unit quaternions along the shorter arc (glTF 2.0, appendix C.4).
-glm::dvec4 slerp(const glm::dvec4& a, glm::dvec4 b, double share) {
+glm::dvec4 slerp(const glm::dvec4& a, glm::dvec4 b, double fraction) {
     double cosine = glm::dot(a, b);
     if (cosine < 0.0) {
         b = -b;
         cosine = -cosine;
     }
-    // Below this angle the arc is the chord to double precision, and the quotient would be one of rounding errors.
+    // Below this angle arc and chord agree in double precision, and the quotient would be rounding errors.
     constexpr double kNearlyParallel = 1.0 - 1e-12;
-    if (cosine > kNearlyParallel) return a + share * (b - a);
+    if (cosine > kNearlyParallel) return a + fraction * (b - a);
     const double angle = std::acos(cosine);
-    return (std::sin((1.0 - share) * angle) * a + std::sin(share * angle) * b) / std::sin(angle);
+    return (std::sin((1.0 - fraction) * angle) * a + std::sin(fraction * angle) * b) / std::sin(angle);
 }
 
 /// glTF 2.0, appendix C.5. Keys are in-tangent, value, out-tangent.
 glm::dvec4 cubic(const std::vector<glm::vec4>& values, const Span& span) {
-    const double t = span.share;
+    const double t = span.fraction;
     const double t2 = t * t;
     const double t3 = t2 * t;
     const auto at = [&](std::size_t index) { return glm::dvec4(values[index]); };
@@ -68,8 +68,8 @@ glm::dvec4 interpolate(const AnimationChannel& channel, const Span& span) {
     const glm::dvec4 first(channel.values[span.first]);
     if (channel.interpolation == Interpolation::Step) return first;
     const glm::dvec4 second(channel.values[span.second]);
-    if (channel.property == AnimatedProperty::Rotation) return slerp(unit(first), unit(second), span.share);
-    return (1.0 - span.share) * first + span.share * second;
+    if (channel.property == AnimatedProperty::Rotation) return slerp(unit(first), unit(second), span.fraction);
+    return (1.0 - span.fraction) * first + span.fraction * second;
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ struct AnimationChannel {
     AnimatedProperty property = AnimatedProperty::Translation;
     Interpolation interpolation = Interpolation::Linear;
     std::vector<float> times_s;     ///< strictly ascending, not empty
-    std::vector<glm::vec4> values;  ///< one a key (xyz, or a quaternion xyzw); CubicSpline: in-tangent, value and
+    std::vector<glm::vec4> values;  ///< one per key (xyz, or a quaternion xyzw); CubicSpline: in-tangent, value and
                                     ///< out-tangent of every key
 };
 
@@ -29,11 +29,11 @@ struct Animation {
     float duration_s = 0.0F;  ///< the last key's time
 };
 
-/// A channel's value at a time: held before the first and after the last key; rotations by the shortest arc, of unit
-/// length.
+/// A channel's value at a time, constant before the first and after the last key. Rotations are unit quaternions,
+/// interpolated along the shortest arc.
 glm::vec4 sample(const AnimationChannel& channel, float time_s);
 
-/// Writes what the animation moves into `nodes` (indexed by AnimationChannel::node); the rest stays.
+/// Writes the animated properties into `nodes` (indexed by AnimationChannel::node).
 void pose(const Animation& animation, float time_s, std::span<Transform> nodes);
 
 }  // namespace rowland::scene

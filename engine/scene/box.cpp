@@ -16,7 +16,7 @@ namespace {
 struct OutlinePoint {
     glm::dvec2 at;
     glm::dvec2 normal;
-    bool joined = true;  ///< with the next one; not within a sharp corner, whose points differ in their normals alone
+    bool joined = true;  ///< with the next one; false within a sharp corner, whose points differ only in their normals
 };
 
 /// Counter-clockwise seen from above, from the +X side of the corner at (+X, −Z); `inset` metres inside the widest.
@@ -68,7 +68,7 @@ class BoxMaking {
                   double high, double rise) {
         const auto first = static_cast<std::uint32_t>(mesh_.positions.size());
         const auto count = static_cast<std::uint32_t>(lower.size());
-        // The first point comes again at the end: there u is 1.
+        // The first point is repeated at the end with u = 1.
         for (const auto& [points, y] : {std::pair(&lower, low), std::pair(&upper, high)}) {
             double walked = 0.0;
             for (std::uint32_t i = 0; i <= count; ++i) {

@@ -4,8 +4,8 @@
 
 namespace rowland::scene {
 
-/// A box that stands on the XZ plane around the origin: tables, blocks, cards, rules. Seen from above its corners may
-/// be round; the edges of its top and bottom may be cut off at 45°.
+/// A box on the XZ plane around the origin: tables, blocks, cards, rules. Its vertical edges may be rounded, and the
+/// edges of its top and bottom bevelled at 45°.
 struct BoxRecipe {
     double width = 0.0;          ///< metres along X, > 0
     double height = 0.0;         ///< along Y, > 0
@@ -13,7 +13,7 @@ struct BoxRecipe {
     double corner_radius = 0.0;  ///< at most half the width and half the depth
     int corner_steps = 8;        ///< facets of a round corner, 1 … 256
     double bevel = 0.0;          ///< less than half of each size, and than the corner radius unless that is 0
-    bool top = true;             ///< which faces there are; bevels go with the sides
+    bool top = true;             ///< which faces to build; bevels belong to the sides
     bool sides = true;
     bool bottom = true;
 };

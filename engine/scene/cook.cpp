@@ -41,12 +41,18 @@ std::string describe_scene(const ImportedScene& scene) {
                        scene.skins.size(), scene.animations.size(), scene.lights.size());
 }
 
-cook::AssetType mesh_type() {
+/// An asset that is a .glb file without a container.
+cook::AssetType glb_type(const std::string& name, int version) {
     cook::AssetType type;
-    type.name = "mesh";
-    type.version = 3;
+    type.name = name;
+    type.version = version;
     type.extension = ".glb";
     type.in_container = false;
+    return type;
+}
+
+cook::AssetType mesh_type() {
+    cook::AssetType type = glb_type("mesh", 4);
     type.recognises = [](const std::filesystem::path&, const nlohmann::json* json) {
         return json != nullptr && is_mesh_recipe(*json);
     };
@@ -61,21 +67,13 @@ GlbScene build_scene_source(cook::Context& context) {
     return build_scene(parse_scene_recipe(document, context.source().string()));
 }
 
-cook::AssetType scene_type(std::vector<std::string> handled_extensions) {
-    cook::AssetType type;
-    type.name = "scene";
-    type.version = 1;
-    type.extension = ".glb";
-    type.in_container = false;
+cook::AssetType scene_type() {
+    cook::AssetType type = glb_type("scene", 2);
     type.recognises = [](const std::filesystem::path&, const nlohmann::json* json) {
         return json != nullptr && is_scene_recipe(*json);
     };
     type.cook = [](cook::Context& context) { return write_glb(build_scene_source(context)); };
     type.check = [](cook::Context& context) { build_scene_source(context); };
-    type.describe = [handled = std::move(handled_extensions)](std::span<const std::byte> payload,
-                                                              const std::string& file) {
-        return describe_scene(load_glb(payload, file, handled));
-    };
     return type;
 }
 
@@ -87,24 +85,16 @@ std::string lower_extension(const std::filesystem::path& path) {
     return extension;
 }
 
-cook::AssetType gltf_type(std::vector<std::string> handled_extensions) {
-    cook::AssetType type;
-    type.name = "gltf";
-    type.version = 1;
-    type.extension = ".glb";
-    type.in_container = false;
+cook::AssetType gltf_type(const std::vector<std::string>& handled_extensions) {
+    cook::AssetType type = glb_type("gltf", 1);
     type.recognises = [](const std::filesystem::path& source, const nlohmann::json*) {
         const std::string extension = lower_extension(source);
         return extension == ".gltf" || extension == ".glb";
     };
-    type.check = [handled = handled_extensions](cook::Context& context) {
+    type.check = [handled_extensions](cook::Context& context) {
         std::vector<std::filesystem::path> files;
-        merge_instances(load_gltf(context.source(), handled, &files));
+        merge_instances(load_gltf(context.source(), handled_extensions, &files));
         for (const std::filesystem::path& file : files) context.depend_on(file);
-    };
-    type.describe = [handled = std::move(handled_extensions)](std::span<const std::byte> payload,
-                                                              const std::string& file) {
-        return describe_scene(load_glb(payload, file, handled));
     };
     return type;
 }
@@ -113,8 +103,12 @@ cook::AssetType gltf_type(std::vector<std::string> handled_extensions) {
 
 void register_cook_types(cook::Registry& registry, std::vector<std::string> handled_extensions) {
     registry.add(mesh_type());
-    registry.add(scene_type(handled_extensions));
-    registry.add(gltf_type(std::move(handled_extensions)));
+    for (cook::AssetType type : {scene_type(), gltf_type(handled_extensions)}) {
+        type.describe = [handled_extensions](std::span<const std::byte> payload, const std::string& file) {
+            return describe_scene(load_glb(payload, file, handled_extensions));
+        };
+        registry.add(std::move(type));
+    }
 }
 
 }  // namespace rowland::scene

@@ -11,11 +11,11 @@ namespace rowland::scene {
 
 namespace {
 
-// Files hold floats, some written with six digits: what differs by less in relation to the largest axis is rounding.
+// Relative to the largest axis. Files hold floats, some written with six digits.
 constexpr double kRounding = 1e-5;
 
-/// The unit vector along the part of `axis` that is perpendicular to the unit vectors `x` and `y` (either may be zero:
-/// none), or zero if there is none.
+/// The unit vector along the part of `axis` perpendicular to `x` and `y`, which are unit or zero; zero if there is
+/// none.
 glm::dvec3 perpendicular_part(glm::dvec3 axis, const glm::dvec3& x, const glm::dvec3& y) {
     const double length = glm::length(axis);
     if (!(length > 0.0)) return glm::dvec3(0.0);
@@ -30,13 +30,13 @@ bool is_zero(const glm::dvec3& v) {
     return v == glm::dvec3(0.0);
 }
 
-/// A right-handed rotation whose axes are the matrix's where those have a direction.
+/// A right-handed rotation along those of the matrix's axes that have a direction.
 glm::dmat3 rotation_along(const glm::dmat3& linear) {
     const glm::dvec3 none(0.0);
     glm::dvec3 x = perpendicular_part(linear[0], none, none);
     glm::dvec3 y = perpendicular_part(linear[1], x, none);
     glm::dvec3 z = perpendicular_part(linear[2], x, y);
-    // One axis that is missing follows from the others; the first that is missing of more is any perpendicular one.
+    // One missing axis follows from the other two; the first of two missing ones is any perpendicular vector.
     if (is_zero(x) && is_zero(y) && is_zero(z)) return glm::dmat3(1.0);
     const auto any = [](const glm::dvec3& a) { return glm::dvec3(any_perpendicular(glm::vec3(a))); };
     if (is_zero(x) && is_zero(y)) x = perpendicular_part(any(z), z, none);

@@ -4,7 +4,7 @@
 
 namespace rowland::scene {
 
-/// Component: a distant small light, as the sun.
+/// Component: a distant light, such as the sun.
 struct DirectionalLight {
     glm::vec3 direction{0.0F, 1.0F, 0.0F};  ///< unit, toward the light; its entity's WorldMatrix, if any, turns it
     glm::vec3 irradiance{0.0F};             ///< on a surface that faces it; linear Rec.709/D65, the probe's scale

@@ -17,12 +17,7 @@ namespace rowland::scene {
 namespace {
 
 [[noreturn]] void fail(const std::string& found) {
-    throw Error({.file = {},
-                 .place = "Draco",
-                 .found = found,
-                 .expected = {},
-                 .remedy = "check the mesh",
-                 .fault = Fault::System});
+    fail_system("Draco", found, "check the mesh");
 }
 
 void check_mesh(const Mesh& mesh) {
@@ -79,7 +74,7 @@ std::vector<char> encode(const Mesh& mesh, const DracoBits& bits) {
     return {buffer.data(), buffer.data() + buffer.size()};
 }
 
-/// The bounds that readers will find: those of the decoded positions, not of the ones before quantisation.
+/// The bounds after quantisation, as readers will decode them.
 Bounds decoded_bounds(std::span<const char> stream, std::size_t vertex_count) {
     draco::DecoderBuffer buffer;
     buffer.Init(stream.data(), stream.size());

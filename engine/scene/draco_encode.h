@@ -30,8 +30,8 @@ struct DracoStream {
     Bounds bounds;  ///< of the positions as readers will decode them
 };
 
-/// Encodes positions, normals, tangents and uvs sequentially: every vertex and triangle survives, in order. The same
-/// mesh gives the same bytes. Throws Error (system) if Draco fails.
+/// Encodes positions, normals, tangents and uvs sequentially: every vertex and triangle keeps its index. Deterministic.
+/// Throws Error (system) if Draco fails.
 DracoStream encode_draco(const Mesh& mesh, const DracoBits& bits = {});
 
 }  // namespace rowland::scene

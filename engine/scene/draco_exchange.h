@@ -4,31 +4,29 @@
 #include <cstdint>
 #include <string_view>
 
-// What the importer and its Draco helper send each other, as it lies in memory: both are of one build. Kept free of
-// the library, so that the helper has nothing in it but the decoder.
+// The messages between the importer and its Draco helper, as they lie in memory: both are of one build. This header
+// needs nothing of the library, so that the helper links the decoder only.
 namespace rowland::scene {
 
 constexpr std::string_view kDracoHelper = "rowland-decode-draco";
 
 enum class DracoAsk : std::uint32_t {
     Decode,   ///< `size` bytes of a stream follow the request; `attributes` DracoAttributes follow the reply
-    Indices,  ///< three std::uint32_t a face follow the reply
-    Values,   ///< `components` of each point's `attribute` follow the reply, as `element`
+    Indices,  ///< three std::uint32_t per face follow the reply
+    Values,   ///< `components` floats per point of `attribute` follow the reply
 };
-
-enum class DracoElement : std::uint32_t { Float, UnsignedShort };
 
 struct DracoRequest {
     DracoAsk ask = DracoAsk::Decode;
     std::uint32_t attribute = 0;  ///< Draco's unique id
     std::uint32_t components = 0;
-    DracoElement element = DracoElement::Float;
+    std::uint32_t unused = 0;
     std::uint64_t size = 0;
     std::uint64_t memory = 0;  ///< bytes of address space for decoding
 };
 
 struct DracoReply {
-    std::uint32_t done = 0;  ///< 0: nothing follows but the next request, for `reason`
+    std::uint32_t done = 0;  ///< 0: refused for `reason`, and no data follow
     std::uint32_t points = 0;
     std::uint32_t faces = 0;
     std::uint32_t attributes = 0;
@@ -38,7 +36,7 @@ struct DracoReply {
 struct DracoAttribute {
     std::uint32_t unique_id = 0;
     std::uint32_t components = 0;
-    std::uint32_t largest_code = 1;  ///< stands for 1 if the attribute is normalised; 1: its values are what they are
+    std::uint32_t largest_code = 1;  ///< the integer that means 1 in a normalised attribute; 1 for floats
 };
 
 }  // namespace rowland::scene

@@ -19,7 +19,7 @@ Vector finite_or_zero(Vector v) {
     return v;
 }
 
-/// `move` cut to length 1, so that two keys are not faster than one.
+/// `move` limited to length 1, so that two keys are not faster than one.
 glm::vec3 cut_to_one(glm::vec3 move) {
     const float length = glm::length(move);
     return length > 1.0F ? move / length : move;
@@ -44,8 +44,8 @@ glm::vec3 FlyCamera::wanted_velocity(const FlyInput& input) const {
 
 void FlyCamera::update(const FlyInput& input, double seconds) {
     if (!std::isfinite(seconds) || seconds < 0.0) seconds = 0.0;
-    // Yaw grows towards +X, which is to the left of +Z under +Y up. A hand moved down looks down, a stick pushed up
-    // looks up. Half of the turn comes before the flight and half after: second order in the frame's length.
+    // Yaw grows towards +X, which is to the left of +Z with +Y up. A mouse moved down looks down, a stick pushed up
+    // looks up. Half of the turn is applied before the move and half after: second order in the frame's length.
     const glm::dvec2 by_mouse =
         static_cast<double>(settings_.radians_per_pixel) * glm::dvec2(finite_or_zero(input.look));
     const glm::dvec2 by_stick =

@@ -16,8 +16,8 @@ struct FlySettings {
     float speed_m_per_s = 1.0F;
     float fast_factor = 4.0F;         ///< on the speed, while `fast` is held
     float slow_factor = 0.25F;        ///< on the speed, while `slow` is held
-    float response_s = 0.06F;         ///< time constant with which the speed follows the keys, > 0
-    std::optional<Bounds> room = {};  ///< the eye stays inside; none: anywhere
+    float response_s = 0.06F;         ///< time constant of the speed, > 0
+    std::optional<Bounds> room = {};  ///< the eye stays inside; nullopt: unbounded
 };
 
 /// What the user does during one frame.
@@ -29,9 +29,9 @@ struct FlyInput {
     bool slow = false;     ///< Ctrl
 };
 
-/// A camera that flies, +Y up, always upright: the pitch ends short of the poles. The speed eases in and out, solved
-/// exactly for constant input, so the way flown in a time does not depend on the frames it was cut into; only while
-/// the view turns does the frame length enter, to second order. Input that is not finite is ignored.
+/// A camera that flies, +Y up, always upright: the pitch ends short of the poles. The velocity follows the input with a
+/// time constant, solved exactly for constant input, so the path does not depend on the frame rate; only while the view
+/// turns does the frame length enter, to second order. Input that is not finite is ignored.
 class FlyCamera {
  public:
     /// Starts at `start`, whose lens (field of view, near and far plane) it keeps.

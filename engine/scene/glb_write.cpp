@@ -11,7 +11,7 @@
 #include "engine/core/byte_stream.h"
 #include "engine/core/check.h"
 #include "engine/core/parallel.h"
-#include "engine/scene/gltf_document.h"
+#include "engine/scene/gltf_parts.h"
 
 namespace rowland::scene {
 
@@ -20,10 +20,9 @@ namespace {
 /// Keys in the order they are written, so that the bytes are the same every time.
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kLights = "KHR_lights_punctual";
 constexpr const char* kTextureTransform = "KHR_texture_transform";
 
-/// A float with no more digits than tell it from its neighbours.
+/// A float with the fewest digits that distinguish it from its neighbours.
 double few_digits(float x) {
     return std::stod(fmt::format("{}", x));
 }
@@ -51,36 +50,22 @@ class Writing {
         for (const GlbTexture& texture : scene_.textures) add_texture(texture);
         for (const GlbCamera& camera : scene_.cameras) add_camera(camera);
         for (const GlbLight& light : scene_.lights) add_light(light);
-        return pack(describe().dump());
+        return pack(finish().dump());
     }
 
  private:
-    /// The file's JSON. glTF has no empty arrays.
-    Json describe() {
-        Json root;
-        root["asset"] = {{"version", "2.0"}, {"generator", "Rowland"}};
-        const auto add = [&root](const char* key, Json& array) {
-            if (!array.empty()) root[key] = std::move(array);
-        };
-        Json extensions = Json::array();
-        for (const std::string& name : used_) extensions.push_back(name);
-        add("extensionsUsed", extensions);
-        if (used_.contains(kDracoExtension)) root["extensionsRequired"] = Json::array({kDracoExtension});
-        root["scene"] = 0;
-        root["scenes"] = Json::array({Json::object()});
-        if (!roots_.empty()) root["scenes"][0]["nodes"] = std::move(roots_);
-        add("nodes", nodes_);
-        add("meshes", meshes_);
-        add("materials", materials_);
-        add("textures", textures_);
-        add("images", images_);
-        add("samplers", samplers_);
-        add("cameras", cameras_);
-        if (!lights_.empty()) root["extensions"][kLights]["lights"] = std::move(lights_);
-        add("accessors", accessors_);
-        add("bufferViews", views_);
-        if (!binary_.empty()) root["buffers"] = Json::array({Json{{"byteLength", binary_.size()}}});
-        return root;
+    /// The array `key` of the root.
+    Json& array(const char* key) { return root_[key]; }
+
+    /// The complete JSON. glTF has no empty arrays.
+    Json finish() {
+        for (const std::string& name : used_) array("extensionsUsed").push_back(name);
+        if (used_.contains(kDracoExtension)) array("extensionsRequired").push_back(kDracoExtension);
+        if (!binary_.empty()) array("buffers").push_back({{"byteLength", binary_.size()}});
+        Json json;
+        for (auto& [key, value] : root_.items())
+            if (!value.is_null()) json[key] = std::move(value);
+        return json;
     }
 
     void use(const std::string& extension) { used_.insert(extension); }
@@ -96,15 +81,13 @@ class Writing {
         if (node.mesh) json["mesh"] = checked(*node.mesh, scene_.meshes.size());
         if (node.camera) json["camera"] = checked(*node.camera, scene_.cameras.size());
         if (node.light) {
-            use(kLights);
-            json["extensions"][kLights]["light"] = checked(*node.light, scene_.lights.size());
+            use(kLightExtension);
+            json["extensions"][kLightExtension]["light"] = checked(*node.light, scene_.lights.size());
         }
         if (!node.extras.is_null()) json["extras"] = node.extras;
-        nodes_.push_back(std::move(json));
-        if (node.parent)
-            nodes_[checked(*node.parent, index)]["children"].push_back(index);
-        else
-            roots_.push_back(index);
+        array("nodes").push_back(std::move(json));
+        Json& above = node.parent ? array("nodes")[checked(*node.parent, index)] : array("scenes")[0];
+        above[node.parent ? "children" : "nodes"].push_back(index);
     }
 
     /// The streams of all primitives, in order.
@@ -121,7 +104,7 @@ class Writing {
         Json primitives = Json::array();
         for (const GlbPrimitive& primitive : mesh.primitives)
             primitives.push_back(add_primitive(primitive, streams_.at(written_++)));
-        meshes_.push_back(Json{{"name", mesh.name}, {"primitives", std::move(primitives)}});
+        array("meshes").push_back(Json{{"name", mesh.name}, {"primitives", std::move(primitives)}});
     }
 
     Json add_primitive(const GlbPrimitive& primitive, const DracoStream& stream) {
@@ -131,8 +114,8 @@ class Writing {
         const std::size_t vertices = primitive.mesh.positions.size();
         Json attributes;
         attributes["POSITION"] = add_accessor(kFloat, vertices, "VEC3");
-        accessors_.back()["min"] = to_json(stream.bounds.minimum);
-        accessors_.back()["max"] = to_json(stream.bounds.maximum);
+        array("accessors").back()["min"] = to_json(stream.bounds.minimum);
+        array("accessors").back()["max"] = to_json(stream.bounds.maximum);
         attributes["NORMAL"] = add_accessor(kFloat, vertices, "VEC3");
         attributes["TANGENT"] = add_accessor(kFloat, vertices, "VEC4");
         attributes["TEXCOORD_0"] = add_accessor(kFloat, vertices, "VEC2");
@@ -167,30 +150,32 @@ class Writing {
             use(name);
             json["extensions"][name] = value;
         }
-        materials_.push_back(std::move(json));
+        array("materials").push_back(std::move(json));
     }
 
     void add_texture(const GlbTexture& texture) {
-        Json json = {{"name", texture.name}, {"source", images_.size()}};
+        Json json = {{"name", texture.name}, {"source", array("images").size()}};
         if (texture.clamp_x || texture.clamp_y) {
             constexpr int kRepeat = 10497;
             constexpr int kClampToEdge = 33071;
-            json["sampler"] = samplers_.size();
-            samplers_.push_back(Json{{"wrapS", texture.clamp_x ? kClampToEdge : kRepeat},
-                                     {"wrapT", texture.clamp_y ? kClampToEdge : kRepeat}});
+            json["sampler"] = array("samplers").size();
+            array("samplers")
+                .push_back(Json{{"wrapS", texture.clamp_x ? kClampToEdge : kRepeat},
+                                {"wrapT", texture.clamp_y ? kClampToEdge : kRepeat}});
         }
-        textures_.push_back(std::move(json));
-        images_.push_back(
+        array("textures").push_back(std::move(json));
+        array("images").push_back(
             Json{{"name", texture.name}, {"mimeType", "image/png"}, {"bufferView", add_view(texture.png)}});
     }
 
     void add_camera(const GlbCamera& camera) {
         Json lens = {{"yfov", camera.vertical_field_of_view}, {"znear", camera.near_plane}, {"zfar", camera.far_plane}};
-        cameras_.push_back(Json{{"name", camera.name}, {"type", "perspective"}, {"perspective", std::move(lens)}});
+        array("cameras").push_back(
+            Json{{"name", camera.name}, {"type", "perspective"}, {"perspective", std::move(lens)}});
     }
 
     void add_light(const GlbLight& light) {
-        use(kLights);
+        use(kLightExtension);
         Json json = {{"name", light.name}};
         if (const auto* distant = std::get_if<DirectionalLight>(&light.light)) {
             json["type"] = "directional";
@@ -204,7 +189,7 @@ class Writing {
                 json["spot"] = {{"innerConeAngle", few_digits(punctual.inner_cone)},
                                 {"outerConeAngle", few_digits(punctual.outer_cone)}};
         }
-        lights_.push_back(std::move(json));
+        array("extensions")[kLightExtension]["lights"].push_back(std::move(json));
     }
 
     /// Colours are at most 1.
@@ -215,15 +200,16 @@ class Writing {
     }
 
     std::size_t add_accessor(int component, std::size_t count, const char* type) {
-        accessors_.push_back(Json{{"componentType", component}, {"count", count}, {"type", type}});
-        return accessors_.size() - 1;
+        array("accessors").push_back(Json{{"componentType", component}, {"count", count}, {"type", type}});
+        return array("accessors").size() - 1;
     }
 
     std::size_t add_view(std::span<const std::byte> bytes) {
         binary_.resize((binary_.size() + 3) / 4 * 4);
-        views_.push_back(Json{{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", bytes.size()}});
+        array("bufferViews")
+            .push_back(Json{{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", bytes.size()}});
         binary_.insert(binary_.end(), bytes.begin(), bytes.end());
-        return views_.size() - 1;
+        return array("bufferViews").size() - 1;
     }
 
     static std::size_t checked(std::size_t index, std::size_t count) {
@@ -241,8 +227,9 @@ class Writing {
 
     std::vector<std::byte> pack(const std::string& json) const {
         ByteWriter chunks;
-        add_chunk(chunks, 0x4E4F534A, std::as_bytes(std::span(json)), ' ');  // "JSON"
-        add_chunk(chunks, 0x004E4942, binary_, '\0');                        // "BIN"
+        add_chunk(chunks, 0x4E4F534A, std::as_bytes(std::span(json)),
+                  ' ');                                // "JSON"
+        add_chunk(chunks, 0x004E4942, binary_, '\0');  // "BIN"
         ByteWriter file;
         constexpr std::uint32_t kHeaderSize = 12;
         file.value<std::uint32_t>(0x46546C67);  // "glTF"
@@ -255,18 +242,24 @@ class Writing {
 
     const GlbScene& scene_;
     std::vector<DracoStream> streams_;  ///< of the primitives, in order
-    std::size_t written_ = 0;           ///< of them
-    Json roots_ = Json::array();
-    Json nodes_ = Json::array();
-    Json meshes_ = Json::array();
-    Json materials_ = Json::array();
-    Json textures_ = Json::array();
-    Json images_ = Json::array();
-    Json samplers_ = Json::array();
-    Json cameras_ = Json::array();
-    Json lights_ = Json::array();
-    Json accessors_ = Json::array();
-    Json views_ = Json::array();
+    std::size_t written_ = 0;           ///< number of streams written
+    /// In the order in which the members are written; null: left out.
+    Json root_ = {{"asset", {{"version", "2.0"}, {"generator", "Rowland"}}},
+                  {"extensionsUsed", nullptr},
+                  {"extensionsRequired", nullptr},
+                  {"scene", 0},
+                  {"scenes", Json::array({Json::object()})},
+                  {"nodes", nullptr},
+                  {"meshes", nullptr},
+                  {"materials", nullptr},
+                  {"textures", nullptr},
+                  {"images", nullptr},
+                  {"samplers", nullptr},
+                  {"cameras", nullptr},
+                  {"extensions", nullptr},
+                  {"accessors", nullptr},
+                  {"bufferViews", nullptr},
+                  {"buffers", nullptr}};
     std::vector<std::byte> binary_;
     std::set<std::string> used_;
 };

@@ -75,7 +75,7 @@ struct GlbNode {
     nlohmann::json extras;  ///< null: none
 };
 
-/// What can be written; numbers are places in the other arrays, which are written in their order.
+/// A scene to write. Elements refer to each other by index; the file keeps their order.
 struct GlbScene {
     std::vector<GlbTexture> textures;
     std::vector<GlbMaterial> materials;

@@ -9,38 +9,20 @@
 #include <limits>
 #include <type_traits>
 
-#include "engine/core/check.h"
 #include "engine/core/error.h"
 
 namespace rowland::scene {
 
 namespace {
 
-std::string place_of(const char* array, std::size_t index) {
+std::string pointer_to(const char* array, std::size_t index) {
     return fmt::format("/{}/{}", array, index);
 }
 
-[[noreturn]] void fail(const GltfDocument& document, std::string place, std::string found, std::string expected) {
-    throw Error({.file = document.file,
-                 .place = std::move(place),
-                 .found = std::move(found),
-                 .expected = std::move(expected),
-                 .remedy = {}});
-}
-
 std::size_t component_size(ComponentType type) {
-    switch (type) {
-        case ComponentType::Int8:
-        case ComponentType::Uint8:
-            return 1;
-        case ComponentType::Int16:
-        case ComponentType::Uint16:
-            return 2;
-        case ComponentType::Uint32:
-        case ComponentType::Float:
-            return 4;
-    }
-    ROWLAND_CHECK(false, "a component type that the JSON check lets through is unknown here");
+    if (type == ComponentType::Int8 || type == ComponentType::Uint8) return 1;
+    if (type == ComponentType::Int16 || type == ComponentType::Uint16) return 2;
+    return 4;
 }
 
 std::size_t element_size(const GltfAccessor& accessor) {
@@ -61,19 +43,19 @@ std::size_t stride_of(const GltfDocument& document, const GltfAccessor& accessor
     return stride == 0 ? element_size(accessor) : stride;
 }
 
-void check_sparse(const GltfDocument& document, const GltfAccessor& accessor, const std::string& place) {
+void check_sparse(const GltfDocument& document, const GltfAccessor& accessor, const std::string& pointer) {
     const GltfSparse& sparse = *accessor.sparse;
     const std::size_t index_size = component_size(sparse.index_type);
     const std::size_t value_size = element_size(accessor);
     if (sparse.count > accessor.count)
-        fail(document, place, fmt::format("{} sparse elements", sparse.count),
-             fmt::format("at most the accessor's {}", accessor.count));
+        refuse_input(document.file, pointer, fmt::format("{} sparse elements", sparse.count),
+                     fmt::format("at most the accessor's {}", accessor.count));
     if (!fits(sparse.index_offset, index_size, sparse.count, index_size, document.views[sparse.index_view].length) ||
         !fits(sparse.value_offset, value_size, sparse.count, value_size, document.views[sparse.value_view].length))
-        fail(document, place, "sparse elements beyond their buffer views", "elements within them");
+        refuse_input(document.file, pointer, "sparse elements beyond their buffer views", "elements within them");
 }
 
-/// Calls visit(element, bytes) for each element of the accessor's base data, then for each sparse one.
+/// Calls visit(element, bytes) for each element of the accessor's buffer view, then for each sparse one.
 template <typename Visit>
 void for_each_element(const GltfDocument& document, std::size_t index, const Visit& visit) {
     const GltfAccessor& accessor = document.accessors[index];
@@ -92,39 +74,38 @@ void for_each_element(const GltfDocument& document, std::size_t index, const Vis
         std::uint32_t target = 0;  // little-endian, as all of glTF
         std::memcpy(&target, positions.subspan(i * index_size, index_size).data(), index_size);
         if (target >= accessor.count)
-            fail(document, place_of("accessors", index), fmt::format("sparse index {}", target),
-                 fmt::format("below the count, {}", accessor.count));
+            refuse_input(document.file, pointer_to("accessors", index), fmt::format("sparse index {}", target),
+                         fmt::format("below the count, {}", accessor.count));
         visit(target, values.subspan(i * size, size).data());
     }
 }
 
-template <typename Integer>
-float to_float(const std::byte* bytes, bool normalised) {
-    Integer x;
+template <typename Component>
+float read_as(const std::byte* bytes, bool normalised) {
+    Component x;
     std::memcpy(&x, bytes, sizeof x);
-    if (!normalised) return static_cast<float>(x);
-    // glTF 2.0, 3.6.2.2: signed types have two codes for −1.
-    return std::max(static_cast<float>(x) / static_cast<float>(std::numeric_limits<Integer>::max()), -1.0F);
+    const auto value = static_cast<float>(x);
+    if (std::is_floating_point_v<Component> || !normalised) return value;
+    // Signed types have two codes for −1 (glTF 2.0, 3.6.2.2).
+    return std::max(value / static_cast<float>(std::numeric_limits<Component>::max()), -1.0F);
 }
 
 float read_component(const std::byte* bytes, ComponentType type, bool normalised) {
     switch (type) {
         case ComponentType::Int8:
-            return to_float<std::int8_t>(bytes, normalised);
+            return read_as<std::int8_t>(bytes, normalised);
         case ComponentType::Uint8:
-            return to_float<std::uint8_t>(bytes, normalised);
+            return read_as<std::uint8_t>(bytes, normalised);
         case ComponentType::Int16:
-            return to_float<std::int16_t>(bytes, normalised);
+            return read_as<std::int16_t>(bytes, normalised);
         case ComponentType::Uint16:
-            return to_float<std::uint16_t>(bytes, normalised);
+            return read_as<std::uint16_t>(bytes, normalised);
         case ComponentType::Uint32:
-            return to_float<std::uint32_t>(bytes, normalised);
+            return read_as<std::uint32_t>(bytes, normalised);
         case ComponentType::Float:
             break;
     }
-    float x = 0.0F;
-    std::memcpy(&x, bytes, sizeof x);
-    return x;
+    return read_as<float>(bytes, normalised);
 }
 
 }  // namespace
@@ -134,20 +115,21 @@ void check_ranges(const GltfDocument& document) {
         const GltfBufferView& view = document.views[i];
         const std::size_t size = document.buffers.at(view.buffer).bytes.size();
         if (view.offset > size || view.length > size - view.offset)
-            fail(document, place_of("bufferViews", i), fmt::format("bytes {} + {}", view.offset, view.length),
-                 fmt::format("bytes within buffer {}, which has {}", view.buffer, size));
+            refuse_input(document.file, pointer_to("bufferViews", i),
+                         fmt::format("bytes {} + {}", view.offset, view.length),
+                         fmt::format("bytes within buffer {}, which has {}", view.buffer, size));
     }
     for (std::size_t i = 0; i < document.accessors.size(); ++i) {
         const GltfAccessor& accessor = document.accessors[i];
-        const std::string place = place_of("accessors", i);
+        const std::string pointer = pointer_to("accessors", i);
         if (accessor.view && !fits(accessor.offset, stride_of(document, accessor), accessor.count,
                                    element_size(accessor), document.views.at(*accessor.view).length))
-            fail(document, place,
-                 fmt::format("{} elements of {} bytes from offset {}", accessor.count, element_size(accessor),
-                             accessor.offset),
-                 fmt::format("elements within buffer view {}, which has {} bytes", *accessor.view,
-                             document.views[*accessor.view].length));
-        if (accessor.sparse) check_sparse(document, accessor, place);
+            refuse_input(document.file, pointer,
+                         fmt::format("{} elements of {} bytes from offset {}", accessor.count, element_size(accessor),
+                                     accessor.offset),
+                         fmt::format("elements within buffer view {}, which has {} bytes", *accessor.view,
+                                     document.views[*accessor.view].length));
+        if (accessor.sparse) check_sparse(document, accessor, pointer);
     }
 }
 
@@ -158,12 +140,21 @@ std::span<const std::byte> view_bytes(const GltfDocument& document, std::size_t 
 
 namespace {
 
-/// Elements of `Length` floats each that `Element` is made of.
+void require_type(const GltfDocument& document, std::size_t accessor, bool is_expected, const std::string& expected) {
+    if (!is_expected) refuse_input(document.file, pointer_to("accessors", accessor), "another type", expected);
+}
+
+bool is_scalar(const GltfDocument& document, std::size_t accessor, std::initializer_list<ComponentType> types) {
+    const GltfAccessor& at = document.accessors.at(accessor);
+    return at.columns == 1 && at.rows == 1 && std::ranges::find(types, at.type) != types.end();
+}
+
+/// Elements that consist of `Length` floats; zeros where the file holds no data (glTF 2.0, 3.6.2.1).
 template <typename Element, int Length>
 std::vector<Element> read_elements(const GltfDocument& document, std::size_t index, MemoryBudget& budget) {
     const GltfAccessor& accessor = document.accessors.at(index);
     static_assert(sizeof(Element) == Length * sizeof(float));
-    budget.spend(accessor.count, sizeof(Element), place_of("accessors", index));
+    budget.spend(accessor.count, sizeof(Element), pointer_to("accessors", index));
     std::vector<Element> elements(accessor.count, Element(0.0F));
     const std::size_t size = component_size(accessor.type);
     for_each_element(document, index, [&](std::size_t element, const std::byte* bytes) {
@@ -177,19 +168,12 @@ std::vector<Element> read_elements(const GltfDocument& document, std::size_t ind
 
 }  // namespace
 
-void require_data(const GltfDocument& document, std::size_t accessor, const std::string& place,
-                  const std::string& name) {
-    const GltfAccessor& at = document.accessors.at(accessor);
-    if (!at.view && !at.sparse)
-        fail(document, place, fmt::format("an accessor without data for {}", name), "a buffer view");
-}
-
 template <typename Vector>
 std::vector<Vector> read_vectors(const GltfDocument& document, std::size_t index, MemoryBudget& budget) {
     const GltfAccessor& accessor = document.accessors.at(index);
-    if (accessor.columns != 1 || accessor.rows != Vector::length() || accessor.type == ComponentType::Uint32)
-        fail(document, place_of("accessors", index), "another type",
-             fmt::format("vectors of {} components", Vector::length()));
+    require_type(document, index,
+                 accessor.columns == 1 && accessor.rows == Vector::length() && accessor.type != ComponentType::Uint32,
+                 fmt::format("vectors of {} components", Vector::length()));
     return read_elements<Vector, Vector::length()>(document, index, budget);
 }
 template std::vector<glm::vec2> read_vectors<glm::vec2>(const GltfDocument&, std::size_t, MemoryBudget&);
@@ -197,28 +181,24 @@ template std::vector<glm::vec3> read_vectors<glm::vec3>(const GltfDocument&, std
 template std::vector<glm::vec4> read_vectors<glm::vec4>(const GltfDocument&, std::size_t, MemoryBudget&);
 
 std::vector<float> read_floats(const GltfDocument& document, std::size_t index, MemoryBudget& budget) {
-    const GltfAccessor& accessor = document.accessors.at(index);
-    if (accessor.columns != 1 || accessor.rows != 1 || accessor.type != ComponentType::Float)
-        fail(document, place_of("accessors", index), "another type", "scalars of floats");
+    require_type(document, index, is_scalar(document, index, {ComponentType::Float}), "scalars of floats");
     return read_elements<float, 1>(document, index, budget);
 }
 
 std::vector<glm::mat4> read_matrices(const GltfDocument& document, std::size_t index, MemoryBudget& budget) {
     const GltfAccessor& accessor = document.accessors.at(index);
     // Columns of four floats have no padding between them.
-    if (accessor.columns != 4 || accessor.rows != 4 || accessor.type != ComponentType::Float)
-        fail(document, place_of("accessors", index), "another type", "4 x 4 matrices of floats");
+    require_type(document, index, accessor.columns == 4 && accessor.rows == 4 && accessor.type == ComponentType::Float,
+                 "4 x 4 matrices of floats");
     return read_elements<glm::mat4, 16>(document, index, budget);
 }
 
 std::vector<std::uint32_t> read_indices(const GltfDocument& document, std::size_t index, MemoryBudget& budget) {
     const GltfAccessor& accessor = document.accessors.at(index);
-    const std::string place = place_of("accessors", index);
-    const bool is_unsigned = accessor.type == ComponentType::Uint8 || accessor.type == ComponentType::Uint16 ||
-                             accessor.type == ComponentType::Uint32;
-    if (accessor.columns != 1 || accessor.rows != 1 || !is_unsigned)
-        fail(document, place, "another type", "indices: a scalar of unsigned integers");
-    budget.spend(accessor.count, sizeof(std::uint32_t), place);
+    require_type(document, index,
+                 is_scalar(document, index, {ComponentType::Uint8, ComponentType::Uint16, ComponentType::Uint32}),
+                 "indices: a scalar of unsigned integers");
+    budget.spend(accessor.count, sizeof(std::uint32_t), pointer_to("accessors", index));
     std::vector<std::uint32_t> values(accessor.count, 0);
     const std::size_t size = component_size(accessor.type);
     for_each_element(document, index,

@@ -9,26 +9,22 @@
 
 namespace rowland::scene {
 
-/// Checks that every buffer view lies in its buffer and every accessor, sparse parts included, in its views, without
-/// overflow. Throws Error (input).
+/// Checks without overflow that every buffer view lies in its buffer and every accessor, with its sparse parts, in its
+/// views. Throws Error (input).
 void check_ranges(const GltfDocument& document);
 
 /// The bytes of a buffer view of a checked document.
 std::span<const std::byte> view_bytes(const GltfDocument& document, std::size_t view);
 
-/// The elements of an accessor as vectors of floats (glm::vec2, vec3 or vec4), sparse elements put in, normalised
-/// integers mapped to [0, 1] or [−1, 1]. Values may be infinite or NaN if the file says so. Throws Error (input) if the
-/// accessor's type does not fit.
+/// The elements of an accessor as vectors of floats (glm::vec2, vec3 or vec4): zeros without a buffer view, with sparse
+/// elements replaced, normalised integers mapped to [0, 1] or [−1, 1]. Values may be infinite or NaN if the file says
+/// so. Throws Error (input) if the accessor's type does not fit.
 template <typename Vector>
 std::vector<Vector> read_vectors(const GltfDocument& document, std::size_t accessor, MemoryBudget& budget);
 
 /// The same for scalars, and for 4 × 4 matrices of floats.
 std::vector<float> read_floats(const GltfDocument& document, std::size_t accessor, MemoryBudget& budget);
 std::vector<glm::mat4> read_matrices(const GltfDocument& document, std::size_t accessor, MemoryBudget& budget);
-
-/// Throws Error (input) at `place` if an accessor has no data of its own; it would read as zeros.
-void require_data(const GltfDocument& document, std::size_t accessor, const std::string& place,
-                  const std::string& name);
 
 /// The elements of an accessor of unsigned integers. Throws Error (input) if it is not one.
 std::vector<std::uint32_t> read_indices(const GltfDocument& document, std::size_t accessor, MemoryBudget& budget);

@@ -1,19 +1,21 @@
-#include "engine/scene/gltf_animation.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "engine/core/error.h"
-#include "engine/core/json_reader.h"
 #include "engine/scene/gltf_accessor.h"
-#include "engine/scene/gltf_check.h"
-#include "engine/scene/gltf_index.h"
+#include "engine/scene/gltf_parts.h"
 
 namespace rowland::scene {
 
 namespace {
+
+struct AnimationSampler {
+    std::size_t input = 0;  ///< accessors
+    std::size_t output = 0;
+    Interpolation interpolation = Interpolation::Linear;
+};
 
 std::optional<AnimatedProperty> property_of(const std::string& path) {
     if (path == "translation") return AnimatedProperty::Translation;
@@ -22,45 +24,30 @@ std::optional<AnimatedProperty> property_of(const std::string& path) {
     return std::nullopt;
 }
 
-GltfAnimationSampler read_sampler(const nlohmann::json& json, JsonReader& sampler) {
-    GltfAnimationSampler to;
-    to.input = index_into(json, sampler, "input", "accessors");
-    to.output = index_into(json, sampler, "output", "accessors");
-    const std::string name = sampler.choice_or("interpolation", "LINEAR", {"STEP", "LINEAR", "CUBICSPLINE"});
-    to.interpolation = name == "STEP"     ? Interpolation::Step
-                       : name == "LINEAR" ? Interpolation::Linear
-                                          : Interpolation::CubicSpline;
+AnimationSampler read_animation_sampler(const GltfJson& json, JsonReader& sampler) {
+    AnimationSampler to;
+    to.input = json.index(sampler, "input", "accessors");
+    to.output = json.index(sampler, "output", "accessors");
+    if (sampler.has("interpolation"))
+        to.interpolation =
+            sampler.choice<Interpolation>("interpolation", {{"STEP", Interpolation::Step},
+                                                            {"LINEAR", Interpolation::Linear},
+                                                            {"CUBICSPLINE", Interpolation::CubicSpline}});
     return to;
 }
 
-/// The channel if it moves a node.
-std::optional<GltfAnimationChannel> read_channel(const nlohmann::json& json, JsonReader& channel,
-                                                 std::size_t sampler_count, std::vector<std::string>& warnings) {
-    if (sampler_count == 0) channel.fail("sampler", "a sampler", "none: the animation has no samplers");
-    const std::int64_t sampler = channel.integer("sampler", 0, static_cast<std::int64_t>(sampler_count) - 1);
-    JsonReader target = channel.object("target");
-    const std::optional<std::size_t> node = index_if_there(json, target, "node", "nodes");
-    const std::string path = target.text("path");
-    const std::optional<AnimatedProperty> property = property_of(path);
-    if (!property) warn_once(warnings, fmt::format("animation of {:.40} is ignored", path));
-    // Without a node it is an extension's.
-    if (!node || !property) return std::nullopt;
-    return GltfAnimationChannel{static_cast<std::size_t>(sampler), *node, *property, channel.pointer_to("sampler")};
-}
-
-/// Where one channel is imported, for every step of it.
+/// One channel while it is imported.
 struct ChannelImport {
     const GltfDocument& document;
-    const GltfAnimationSampler& sampler;
-    const std::string& place;
+    const AnimationSampler& sampler;
+    const std::string& pointer;  ///< JSON pointer
     MemoryBudget& budget;
 
     [[noreturn]] void fail(std::string found, std::string expected) const {
-        refuse_input(document.file, place, std::move(found), std::move(expected));
+        refuse_input(document.file, pointer, std::move(found), std::move(expected));
     }
 
     std::vector<float> times() const {
-        require_data(document, sampler.input, place, "the times");
         std::vector<float> times = read_floats(document, sampler.input, budget);
         for (std::size_t i = 0; i < times.size(); ++i)
             if (!std::isfinite(times[i]) || (i > 0 && !(times[i] > times[i - 1])))
@@ -81,11 +68,10 @@ struct ChannelImport {
     }
 
     std::vector<glm::vec4> values(AnimatedProperty property) const {
-        require_data(document, sampler.output, place, "the values");
         check_type(property);
         if (property == AnimatedProperty::Rotation) return read_vectors<glm::vec4>(document, sampler.output, budget);
         const std::vector<glm::vec3> read = read_vectors<glm::vec3>(document, sampler.output, budget);
-        budget.spend(read.size(), sizeof(glm::vec4), place);
+        budget.spend(read.size(), sizeof(glm::vec4), pointer);
         std::vector<glm::vec4> values;
         values.reserve(read.size());
         for (const glm::vec3& value : read) values.emplace_back(value, 0.0F);
@@ -106,33 +92,38 @@ struct ChannelImport {
     }
 };
 
-}  // namespace
-
-std::vector<GltfAnimation> read_animations(const nlohmann::json& json, const std::string& file,
-                                           std::vector<std::string>& warnings) {
-    std::vector<GltfAnimation> animations;
-    for (JsonReader& animation : root_objects(json, file, "animations")) {
-        GltfAnimation& added = animations.emplace_back();
-        added.name = text_if_there(animation, "name");
-        for (JsonReader& sampler : animation.objects("samplers")) added.samplers.push_back(read_sampler(json, sampler));
-        for (JsonReader& channel : animation.objects("channels"))
-            if (auto read = read_channel(json, channel, added.samplers.size(), warnings))
-                added.channels.push_back(std::move(*read));
-    }
-    return animations;
+/// The channel; nullopt if it moves no shown node.
+std::optional<AnimationChannel> read_channel(const GltfJson& json, const GltfDocument& document, JsonReader& channel,
+                                             const std::vector<AnimationSampler>& samplers,
+                                             std::span<const std::optional<std::size_t>> shown, MemoryBudget& budget) {
+    if (samplers.empty()) channel.fail("sampler", "a sampler", "none: the animation has no samplers");
+    const AnimationSampler& sampler = samplers[read_index(channel, "sampler", samplers.size(), "samplers")];
+    JsonReader target = channel.object("target");
+    // A channel without a node belongs to an extension.
+    const std::optional<std::size_t> node = json.index_if_there(target, "node", "nodes");
+    const std::string path = target.text("path");
+    const std::optional<AnimatedProperty> property = property_of(path);
+    if (!property) json.warn(fmt::format("animation of {:.40} is ignored", path));
+    if (!node || !property || !shown[*node]) return std::nullopt;
+    return ChannelImport{document, sampler, channel.pointer_to("sampler"), budget}.channel(*property, *shown[*node]);
 }
 
-std::vector<Animation> import_animations(const GltfDocument& document,
+}  // namespace
+
+std::vector<Animation> import_animations(const GltfJson& json, const GltfDocument& document,
                                          std::span<const std::optional<std::size_t>> shown, MemoryBudget& budget) {
     std::vector<Animation> animations;
-    for (const GltfAnimation& from : document.animations) {
+    for (JsonReader& animation : json.objects("animations")) {
         Animation to;
-        to.name = from.name;
-        for (const GltfAnimationChannel& channel : from.channels) {
-            if (!shown[channel.node]) continue;
-            const ChannelImport import{document, from.samplers[channel.sampler], channel.place, budget};
-            to.channels.push_back(import.channel(channel.property, *shown[channel.node]));
-            to.duration_s = std::max(to.duration_s, to.channels.back().times_s.back());
+        to.name = animation.text_or("name", "");
+        std::vector<AnimationSampler> samplers;
+        for (JsonReader& sampler : animation.objects("samplers"))
+            samplers.push_back(read_animation_sampler(json, sampler));
+        for (JsonReader& reader : animation.objects("channels")) {
+            auto channel = read_channel(json, document, reader, samplers, shown, budget);
+            if (!channel) continue;
+            to.duration_s = std::max(to.duration_s, channel->times_s.back());
+            to.channels.push_back(*std::move(channel));
         }
         if (!to.channels.empty()) animations.push_back(std::move(to));
     }

@@ -10,8 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "engine/scene/gltf_import.h"
-#include "engine/scene/gltf_source.h"
+#include "engine/scene/imported_scene.h"
 
 namespace rowland::scene {
 
@@ -27,15 +26,13 @@ enum class ComponentType : std::uint16_t {
     Float = 5126,
 };
 
-/// glTF's primitive modes, with glTF's numbers.
-enum class PrimitiveMode : std::uint8_t {
-    Points = 0,
-    Lines = 1,
-    LineLoop = 2,
-    LineStrip = 3,
-    Triangles = 4,
-    TriangleStrip = 5,
-    TriangleFan = 6,
+/// The primitive modes that we draw, with glTF's numbers; 0 to 3 are points and lines.
+enum class PrimitiveMode : std::uint8_t { Triangles = 4, TriangleStrip = 5, TriangleFan = 6 };
+
+/// Owned unless it is the GLB's binary chunk.
+struct GltfBuffer {
+    std::vector<std::byte> owned;
+    std::span<const std::byte> bytes;
 };
 
 struct GltfBufferView {
@@ -56,7 +53,7 @@ struct GltfSparse {
 };
 
 struct GltfAccessor {
-    std::optional<std::size_t> view;  ///< none: zeros, or the data is in a Draco stream
+    std::optional<std::size_t> view;  ///< nullopt: zeros, unless a Draco stream holds the data
     std::size_t offset = 0;
     std::size_t count = 0;
     ComponentType type = ComponentType::Float;
@@ -87,7 +84,7 @@ struct GltfMesh {
 struct GltfNode {
     std::string name;
     glm::dmat4 local{1.0};
-    Transform rest;  ///< `local` taken apart; without the shear that a matrix may hold
+    Transform rest;  ///< `local` decomposed, without the shear that a matrix may hold
     std::vector<std::size_t> children;
     std::optional<std::size_t> mesh;
     std::optional<std::size_t> skin;
@@ -103,45 +100,18 @@ struct GltfImage {
 };
 
 struct GltfTexture {
-    std::optional<std::size_t> image;  ///< none: only an extension that we do not know offers one
+    std::optional<std::size_t> image;  ///< nullopt: only an unknown extension names one
     ImportedTexture settings;          ///< its image is not set
 };
 
 struct GltfSkin {
     std::vector<std::size_t> joints;
-    std::optional<std::size_t> inverse_bind;  ///< accessor; none: identities
-};
-
-struct GltfAnimationSampler {
-    std::size_t input = 0;  ///< accessors
-    std::size_t output = 0;
-    Interpolation interpolation = Interpolation::Linear;
-};
-
-struct GltfAnimationChannel {
-    std::size_t sampler = 0;
-    std::size_t node = 0;
-    AnimatedProperty property = AnimatedProperty::Translation;
-    std::string place;  ///< JSON pointer
-};
-
-struct GltfAnimation {
-    std::string name;
-    std::vector<GltfAnimationSampler> samplers;
-    std::vector<GltfAnimationChannel> channels;  ///< those that move a node
+    std::optional<std::size_t> inverse_bind;  ///< accessor; nullopt: identities
 };
 
 using GltfLight = std::variant<DirectionalLight, PunctualLight>;
 
-/// A perspective camera.
-struct GltfCamera {
-    std::string name;
-    float vertical_field_of_view = 0.0F;  ///< radians
-    float near_plane = 0.0F;
-    std::optional<float> far_plane;
-};
-
-/// A parsed glTF file. All indices are in range and all offsets within their buffers once check_ranges has passed it.
+/// A parsed glTF file. All indices are in range; all offsets are within their buffers after check_ranges.
 struct GltfDocument {
     std::string file;
     std::vector<GltfBuffer> buffers;
@@ -154,9 +124,8 @@ struct GltfDocument {
     std::vector<GltfTexture> textures;
     std::vector<MaterialDescription> materials;
     std::vector<GltfSkin> skins;
-    std::vector<GltfAnimation> animations;
     std::vector<GltfLight> lights;
-    std::vector<std::optional<GltfCamera>> cameras;  ///< none: ignored
+    std::vector<std::optional<ImportedCamera>> cameras;  ///< without nodes; nullopt: ignored
 };
 
 }  // namespace rowland::scene

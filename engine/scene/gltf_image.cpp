@@ -1,5 +1,3 @@
-#include "engine/scene/gltf_image.h"
-
 #include <fmt/format.h>
 
 #include <exception>
@@ -7,6 +5,8 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
 #include "engine/scene/gltf_accessor.h"
+#include "engine/scene/gltf_buffer.h"
+#include "engine/scene/gltf_parts.h"
 
 namespace rowland::scene {
 
@@ -14,20 +14,16 @@ namespace {
 
 using SharedImage = std::shared_ptr<const image::ByteImage>;
 
-// Decoded pictures are far larger than a scene's other data: a dozen of 4096 × 4096 texels.
+// Decoded images have a budget of their own: a dozen of 4096 × 4096 texels.
 constexpr std::uint64_t kMaximumPictureBytes = std::uint64_t{1} << 30;
 
-SharedImage white_texel() {
-    return std::make_shared<const image::ByteImage>(image::ByteImage{1, 1, {255, 255, 255, 255}});
-}
-
-/// An image of the file that is to be decoded.
+/// An image before it is decoded.
 struct Encoded {
     std::size_t image = 0;
     GltfBuffer bytes;
 };
 
-/// Calls what refuses an image's bytes without knowing where they are from, and says where.
+/// Calls `read` and adds the file and the image to what it throws.
 template <typename Read>
 auto read_at(const std::string& file, std::size_t image, const Read& read) {
     try {
@@ -40,9 +36,9 @@ auto read_at(const std::string& file, std::size_t image, const Read& read) {
     }
 }
 
-/// The images that a texture names, their bytes fetched and the memory they take once decoded spent.
-std::vector<Encoded> fetch(const GltfSource& source, const GltfDocument& document, MemoryBudget& budget,
-                           std::vector<std::filesystem::path>* read_files) {
+/// The bytes of the images that a texture names. Spends the memory of the decoded images.
+std::vector<Encoded> load_encoded(const GltfSource& source, const GltfDocument& document, MemoryBudget& budget,
+                                  std::vector<std::filesystem::path>* read_files) {
     std::vector<bool> named(document.images.size(), false);
     for (const GltfTexture& texture : document.textures)
         if (texture.image) named[*texture.image] = true;
@@ -51,22 +47,22 @@ std::vector<Encoded> fetch(const GltfSource& source, const GltfDocument& documen
     for (std::size_t i = 0; i < document.images.size(); ++i) {
         if (!named[i]) continue;
         const GltfImage& from = document.images[i];
-        const std::string place = fmt::format("/images/{}", i);
+        const std::string pointer = fmt::format("/images/{}", i);
         Encoded& added = encoded.emplace_back(Encoded{i, {}});
         if (from.view)
             added.bytes.bytes = view_bytes(document, *from.view);
         else
-            added.bytes = load_uri(source, from.uri, place, budget, read_files);
+            added.bytes = load_uri(source, from.uri, pointer, budget, read_files);
         const image::ByteImageSize size =
             read_at(document.file, i, [&] { return image::byte_image_size(added.bytes.bytes, ""); });
-        pictures.spend(static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height), 4, place);
+        pictures.spend(static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height), 4, pointer);
     }
     return encoded;
 }
 
-/// Decodes each into its place among `images`, on all cores.
+/// Decodes each into its element of `images`, on all cores.
 void decode(const std::vector<Encoded>& encoded, const std::string& file, std::vector<SharedImage>& images) {
-    // Of several that are broken the first is named, whatever the order they are met in.
+    // The first broken image is named, whichever thread finishes first.
     std::vector<std::exception_ptr> refusals(encoded.size());
     parallel_for(encoded.size(), [&](std::size_t i) {
         try {
@@ -85,9 +81,9 @@ void decode(const std::vector<Encoded>& encoded, const std::string& file, std::v
 
 void import_images(const GltfSource& source, const GltfDocument& document, MemoryBudget& budget,
                    std::vector<std::filesystem::path>* read_files, ImportedScene& scene) {
-    const SharedImage white = white_texel();
+    const auto white = std::make_shared<const image::ByteImage>(image::ByteImage{1, 1, {255, 255, 255, 255}});
     scene.images.assign(document.images.size(), white);
-    decode(fetch(source, document, budget, read_files), document.file, scene.images);
+    decode(load_encoded(source, document, budget, read_files), document.file, scene.images);
     for (const GltfTexture& texture : document.textures) {
         ImportedTexture& added = scene.textures.emplace_back(texture.settings);
         added.image = texture.image.value_or(scene.images.size());

@@ -7,12 +7,9 @@
 #include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/scene/gltf_accessor.h"
-#include "engine/scene/gltf_animation.h"
-#include "engine/scene/gltf_check.h"
-#include "engine/scene/gltf_extras.h"
-#include "engine/scene/gltf_image.h"
+#include "engine/scene/gltf_buffer.h"
 #include "engine/scene/gltf_parse.h"
-#include "engine/scene/gltf_skin.h"
+#include "engine/scene/gltf_parts.h"
 #include "engine/scene/gltf_source.h"
 #include "engine/scene/memory_budget.h"
 #include "engine/scene/node_tree.h"
@@ -22,13 +19,13 @@ namespace rowland::scene {
 
 namespace {
 
-/// A triangle primitive's place in the imported scene.
+/// A triangle primitive in the imported scene.
 struct ImportedPrimitive {
     std::size_t mesh;
     std::optional<std::size_t> material;
 };
 
-/// Imports every triangle primitive; the result has, for each glTF mesh, its primitives.
+/// Imports every triangle primitive; returns the primitives of each glTF mesh.
 std::vector<std::vector<ImportedPrimitive>> import_meshes(const GltfDocument& document, MemoryBudget& budget,
                                                           ImportedScene& scene) {
     std::vector<std::vector<ImportedPrimitive>> imported(document.meshes.size());
@@ -36,30 +33,34 @@ std::vector<std::vector<ImportedPrimitive>> import_meshes(const GltfDocument& do
     for (std::size_t i = 0; i < document.meshes.size(); ++i) {
         const std::vector<GltfPrimitive>& primitives = document.meshes[i].primitives;
         for (std::size_t k = 0; k < primitives.size(); ++k) {
-            if (!has_triangles(primitives[k])) {
-                warn_once(scene.warnings, "points and lines are ignored");
+            if (!has_triangles(primitives[k]) || !has_positions(primitives[k])) {
+                warn_once(scene.warnings, has_positions(primitives[k]) ? "points and lines are ignored"
+                                                                       : "primitives without POSITION are ignored");
                 continue;
             }
-            const std::string place = fmt::format("/meshes/{}/primitives/{}", i, k);
+            const std::string pointer = fmt::format("/meshes/{}/primitives/{}", i, k);
             imported[i].push_back({scene.meshes.size(), primitives[k].material});
-            scene.meshes.push_back(import_primitive(document, primitives[k], place, decoder, budget, scene.warnings));
+            scene.meshes.push_back(import_primitive(document, primitives[k], pointer, decoder, budget, scene.warnings));
         }
     }
     return imported;
 }
 
-/// What a value of JSON takes in memory, per character of its text: a map's node for {"a":0}.
+/// Memory of a JSON value per character of its text, at most: a map node for {"a":0}.
 constexpr std::size_t kJsonBytesPerCharacter = 20;
+
+bool casts_shadow(const nlohmann::json& extras) {
+    const auto found = extras.is_object() ? extras.find("casts_shadow") : extras.end();
+    return found != extras.end() && found->is_boolean() && found->get<bool>();
+}
 
 ImportedLight import_light(const GltfDocument& document, const GltfNode& node, std::size_t at) {
     ImportedLight light{at, document.lights[*node.light]};
-    if (auto* distant = std::get_if<DirectionalLight>(&light.light))
-        distant->casts_shadow = says_true(node.extras, "casts_shadow");
+    if (auto* distant = std::get_if<DirectionalLight>(&light.light)) distant->casts_shadow = casts_shadow(node.extras);
     return light;
 }
 
-/// Adds the shown nodes, their lights and their cameras; the result has, for each node of the document, its place among
-/// them.
+/// Adds the shown nodes, their lights and their cameras; returns the scene's index of each of the document's nodes.
 std::vector<std::optional<std::size_t>> import_nodes(const GltfDocument& document,
                                                      const std::vector<PlacedNode>& placed, MemoryBudget& budget,
                                                      ImportedScene& scene) {
@@ -71,16 +72,15 @@ std::vector<std::optional<std::size_t>> import_nodes(const GltfDocument& documen
         budget.spend(node.extras_bytes, kJsonBytesPerCharacter, fmt::format("/nodes/{}/extras", at.node));
         if (node.light) scene.lights.push_back(import_light(document, node, scene.nodes.size()));
         if (node.camera && document.cameras[*node.camera]) {
-            const GltfCamera& camera = *document.cameras[*node.camera];
-            scene.cameras.push_back(
-                {camera.name, scene.nodes.size(), camera.vertical_field_of_view, camera.near_plane, camera.far_plane});
+            scene.cameras.push_back(*document.cameras[*node.camera]);
+            scene.cameras.back().node = scene.nodes.size();
         }
         scene.nodes.push_back({node.name, at.parent, node.rest, glm::mat4(at.world), node.extras});
     }
     return shown;
 }
 
-/// Adds instances, and of the skins those that an instance has.
+/// Adds instances, and the skins that an instance uses.
 class InstanceImport {
  public:
     InstanceImport(const GltfDocument& document, std::span<const std::optional<std::size_t>> shown,
@@ -91,15 +91,15 @@ class InstanceImport {
 
     void add(std::size_t node_index, const std::vector<ImportedPrimitive>& primitives) {
         const GltfNode& node = document_.nodes[node_index];
-        const std::string place = fmt::format("/nodes/{}", node_index);
+        const std::string pointer = fmt::format("/nodes/{}", node_index);
         const std::string& name = node.name.empty() ? document_.meshes[*node.mesh].name : node.name;
-        // Many nodes may share a mesh of many primitives.
-        budget_.spend(primitives.size(), sizeof(ImportedInstance) + name.size(), place);
+        // Many nodes may use one mesh of many primitives.
+        budget_.spend(primitives.size(), sizeof(ImportedInstance) + name.size(), pointer);
         const std::size_t at = *shown_[node_index];
         for (const ImportedPrimitive& primitive : primitives) {
             ImportedInstance instance{name,        scene_.nodes[at].world, primitive.mesh, primitive.material, at,
                                       std::nullopt};
-            if (node.skin) instance.skin = skin_of(*node.skin, primitive.mesh, place);
+            if (node.skin) instance.skin = skin_of(*node.skin, primitive.mesh, pointer);
             scene_.instances.push_back(std::move(instance));
         }
     }
@@ -113,13 +113,13 @@ class InstanceImport {
         return count;
     }
 
-    std::optional<std::size_t> skin_of(std::size_t skin, std::size_t mesh, const std::string& place) {
+    std::optional<std::size_t> skin_of(std::size_t skin, std::size_t mesh, const std::string& pointer) {
         if (joint_counts_[mesh] == 0) {
             warn_once(scene_.warnings, "a skin of a mesh whose vertices have no joints is ignored");
             return std::nullopt;
         }
         if (joint_counts_[mesh] > document_.skins[skin].joints.size())
-            refuse_input(document_.file, place, fmt::format("a vertex with joint {}", joint_counts_[mesh] - 1),
+            refuse_input(document_.file, pointer, fmt::format("a vertex with joint {}", joint_counts_[mesh] - 1),
                          fmt::format("below the skin's {} joints", document_.skins[skin].joints.size()));
         if (!skins_[skin]) {
             skins_[skin] = scene_.skins.size();
@@ -132,17 +132,17 @@ class InstanceImport {
     std::span<const std::optional<std::size_t>> shown_;
     MemoryBudget& budget_;
     ImportedScene& scene_;
-    std::vector<std::optional<std::size_t>> skins_;  ///< where each of the document's is among the imported ones
+    std::vector<std::optional<std::size_t>> skins_;  ///< the scene's index of each of the document's
     std::vector<std::size_t> joint_counts_;          ///< of each imported mesh
 };
 
 ImportedScene import_source(const GltfSource& source, std::span<const std::string> handled_extensions,
                             std::vector<std::filesystem::path>* read_files) {
     ImportedScene scene;
-    check_gltf_json(source.json, source.file, handled_extensions, scene.warnings);
+    const GltfJson json{source.json, source.file, scene.warnings};
     MemoryBudget budget(source.file);
-    GltfDocument document = parse_gltf(source.json, source.file, scene.warnings);
-    document.buffers = load_buffers(source, budget, read_files);
+    GltfDocument document = parse_gltf(json, handled_extensions);
+    document.buffers = load_buffers(source, document, budget, read_files);
     check_ranges(document);
 
     const std::vector<PlacedNode> placed = place_nodes(document);
@@ -151,7 +151,7 @@ ImportedScene import_source(const GltfSource& source, std::span<const std::strin
     InstanceImport instances(document, shown, budget, scene);
     for (const PlacedNode& at : placed)
         if (const auto mesh = document.nodes[at.node].mesh) instances.add(at.node, imported[*mesh]);
-    scene.animations = import_animations(document, shown, budget);
+    scene.animations = import_animations(json, document, shown, budget);
     import_images(source, document, budget, read_files, scene);
     scene.materials = std::move(document.materials);
     return scene;

@@ -10,10 +10,10 @@
 
 namespace rowland::scene {
 
-/// Loads a .gltf or .glb file, Draco-compressed or not, from a possibly hostile file: sizes, offsets, indices and
-/// depths are checked before use. `handled_extensions` are material extensions someone has a handler for; any other
-/// *required* extension is refused by name. Missing normals and tangents are generated. Throws Error (input).
-/// `read_files`, if given, receives every file read (for dependency tracking).
+/// Loads a .gltf or .glb file, which may be Draco-compressed and hostile: sizes, offsets, indices and depths are
+/// checked before use. `handled_extensions` are the material extensions with a registered handler; any other *required*
+/// extension is refused by name. Missing normals and tangents are generated. Throws Error (input). `read_files`, if
+/// given, receives every file read (for dependency tracking).
 ImportedScene load_gltf(const std::filesystem::path& path, std::span<const std::string> handled_extensions = {},
                         std::vector<std::filesystem::path>* read_files = nullptr);
 
@@ -21,9 +21,9 @@ ImportedScene load_gltf(const std::filesystem::path& path, std::span<const std::
 ImportedScene load_glb(std::span<const std::byte> bytes, const std::string& file,
                        std::span<const std::string> handled_extensions = {});
 
-/// All triangles of a scene in world space as one mesh, skins in their pose at rest (for previews with one material):
-/// positions, normals, tangents and first UVs.
-/// Mirrored instances keep their outside outside. Throws Error (input) if the copies together are unreasonably large.
+/// All triangles of a scene in world space as one mesh, for previews with one material: positions, normals, tangents
+/// and first UVs. Skins are in their rest pose, and mirrored instances keep their winding. Throws Error (input) if the
+/// result is unreasonably large.
 Mesh merge_instances(const ImportedScene& scene);
 
 }  // namespace rowland::scene

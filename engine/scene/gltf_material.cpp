@@ -1,11 +1,8 @@
-#include "engine/scene/gltf_material.h"
-
 #include <algorithm>
+#include <glm/common.hpp>
 #include <limits>
 
-#include "engine/core/json_reader.h"
-#include "engine/scene/gltf_index.h"
-#include "engine/scene/gltf_texture.h"
+#include "engine/scene/gltf_parts.h"
 
 namespace rowland::scene {
 
@@ -13,59 +10,50 @@ namespace {
 
 // Exporters round: what is a little over 1 is clamped.
 constexpr NumberRange kFactor{.minimum = 0.0, .maximum = 1.001};
-// Far above anything that is lit, and their product is finite.
+// Far above any real light; the product of two stays finite.
 constexpr NumberRange kEmission{.minimum = 0.0, .maximum = 1e6};
 constexpr NumberRange kNotNegative{.minimum = 0.0, .maximum = std::numeric_limits<float>::max()};
 
-float share(double x) {
-    return static_cast<float>(std::clamp(x, 0.0, 1.0));
+float factor_or_one(JsonReader& reader, const std::string& key) {
+    return static_cast<float>(std::min(reader.number_or(key, 1.0, kFactor), 1.0));
 }
 
-/// One material of `json`.
-struct Reading {
-    const nlohmann::json& json;
+/// One material of the file.
+struct MaterialReading {
+    const GltfJson& json;
     std::span<const GltfTexture> textures;
-    std::vector<std::string>& warnings;
     JsonReader& material;
-    MaterialDescription to;
+    MaterialDescription to = {};
 
     std::optional<TextureUse> texture(JsonReader& owner, const std::string& key) const {
-        return read_texture_use(json, owner, key, textures, warnings);
+        return read_texture_use(json, owner, key, textures);
     }
 
     void read_metallic_roughness() {
         if (!material.has("pbrMetallicRoughness")) return;
         JsonReader pbr = material.object("pbrMetallicRoughness");
-        if (pbr.has("baseColorFactor")) {
-            const std::vector<double> colour = pbr.numbers("baseColorFactor", 4, kFactor);
-            to.base_colour = {share(colour[0]), share(colour[1]), share(colour[2]), share(colour[3])};
-        }
-        to.metallic = share(pbr.number_or("metallicFactor", 1.0, kFactor));
-        to.roughness = share(pbr.number_or("roughnessFactor", 1.0, kFactor));
+        to.base_colour = glm::min(read_vector_or(pbr, "baseColorFactor", glm::vec4(1.0F), kFactor), glm::vec4(1.0F));
+        to.metallic = factor_or_one(pbr, "metallicFactor");
+        to.roughness = factor_or_one(pbr, "roughnessFactor");
         to.base_colour_texture = texture(pbr, "baseColorTexture");
         to.metallic_roughness_texture = texture(pbr, "metallicRoughnessTexture");
     }
 
     void read_maps() {
         to.normal_texture = texture(material, "normalTexture");
-        if (material.has("normalTexture"))
-            to.normal_scale =
-                static_cast<float>(material.object("normalTexture").number_or("scale", 1.0, kFiniteFloat));
+        if (auto normal = material.object_if_there("normalTexture"))
+            to.normal_scale = static_cast<float>(normal->number_or("scale", 1.0, kFiniteFloat));
         to.occlusion_texture = texture(material, "occlusionTexture");
-        if (material.has("occlusionTexture"))
-            to.occlusion_strength = share(material.object("occlusionTexture").number_or("strength", 1.0, kFactor));
-    }
-
-    void read_emission() {
+        if (auto occlusion = material.object_if_there("occlusionTexture"))
+            to.occlusion_strength = factor_or_one(*occlusion, "strength");
         to.emissive_texture = texture(material, "emissiveTexture");
-        if (!material.has("emissiveFactor")) return;
-        const std::vector<double> emissive = material.numbers("emissiveFactor", 3, kEmission);
-        to.emissive = {emissive[0], emissive[1], emissive[2]};
+        to.emissive = read_vector_or(material, "emissiveFactor", glm::vec3(0.0F), kEmission);
     }
 
     void read_alpha() {
-        const std::string mode = material.choice_or("alphaMode", "OPAQUE", {"OPAQUE", "MASK", "BLEND"});
-        to.alpha_mode = mode == "MASK" ? AlphaMode::Mask : mode == "BLEND" ? AlphaMode::Blend : AlphaMode::Opaque;
+        if (material.has("alphaMode"))
+            to.alpha_mode = material.choice<AlphaMode>(
+                "alphaMode", {{"OPAQUE", AlphaMode::Opaque}, {"MASK", AlphaMode::Mask}, {"BLEND", AlphaMode::Blend}});
         to.alpha_cutoff = static_cast<float>(material.number_or("alphaCutoff", 0.5, kNotNegative));
         to.double_sided = material.boolean_or("doubleSided", false);
     }
@@ -89,16 +77,13 @@ struct Reading {
 
 }  // namespace
 
-std::vector<MaterialDescription> read_materials(const nlohmann::json& json, const std::string& file,
-                                                std::span<const GltfTexture> textures,
-                                                std::vector<std::string>& warnings) {
+std::vector<MaterialDescription> read_materials(const GltfJson& json, std::span<const GltfTexture> textures) {
     std::vector<MaterialDescription> materials;
-    for (JsonReader& material : root_objects(json, file, "materials")) {
-        Reading reading{json, textures, warnings, material, {}};
-        reading.to.name = text_if_there(material, "name");
+    for (JsonReader& material : json.objects("materials")) {
+        MaterialReading reading{json, textures, material};
+        reading.to.name = material.text_or("name", "");
         reading.read_metallic_roughness();
         reading.read_maps();
-        reading.read_emission();
         reading.read_alpha();
         reading.read_extensions();
         materials.push_back(std::move(reading.to));

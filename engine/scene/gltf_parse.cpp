@@ -1,265 +1,215 @@
-// The one translation unit that knows tinygltf. The library reads nothing but JSON here: buffers and images it would
-// open itself, and some index and Draco data it would read unchecked, so those parts never reach it.
-
 #include "engine/scene/gltf_parse.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <fstream>  // tinygltf uses it even with TINYGLTF_NO_FS
-#include <glm/gtc/quaternion.hpp>
+#include <array>
+#include <charconv>
+#include <limits>
+#include <string_view>
 
-#include "engine/core/error.h"
-#include "engine/scene/decompose.h"
-#include "engine/scene/gltf_animation.h"
-#include "engine/scene/gltf_camera.h"
-#include "engine/scene/gltf_check.h"
-#include "engine/scene/gltf_extras.h"
-#include "engine/scene/gltf_light.h"
-#include "engine/scene/gltf_material.h"
-#include "engine/scene/gltf_skin.h"
-#include "engine/scene/gltf_texture.h"
-
-// Draco's shared library exports another build of tinygltf under the same names.
-#define tinygltf rowland_tinygltf
-#define TINYGLTF_IMPLEMENTATION
-#define TINYGLTF_NO_FS
-#define TINYGLTF_NO_STB_IMAGE
-#define TINYGLTF_NO_STB_IMAGE_WRITE
-#define TINYGLTF_NO_EXTERNAL_IMAGE
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wshadow"
-#pragma GCC diagnostic ignored "-Wunused-function"
-#pragma GCC diagnostic ignored "-Wunused-parameter"
-#include <tiny_gltf.h>
-#pragma GCC diagnostic pop
+#include "engine/scene/gltf_parts.h"
+#include "engine/scene/memory_budget.h"
 
 namespace rowland::scene {
 
 namespace {
 
-const nlohmann::json* draco_of(const nlohmann::json& primitive) {
-    const auto extensions = primitive.find("extensions");
-    if (extensions == primitive.end()) return nullptr;
-    const auto draco = extensions->find(kDracoExtension);
-    return draco == extensions->end() ? nullptr : &*draco;
+// Quantised attributes are ordinary accessors to us, so that extension needs nothing more.
+constexpr std::array<std::string_view, 6> kSupportedExtensions = {
+    kDracoExtension,       kLightExtension,         "KHR_materials_emissive_strength",
+    "KHR_materials_unlit", "KHR_mesh_quantization", "KHR_texture_transform"};
+constexpr std::int64_t kMaximumBytes = MemoryBudget::kDefaultLimit;
+constexpr std::int64_t kMaximumCount = std::numeric_limits<std::int32_t>::max();
+
+struct Version {
+    unsigned major = 0;
+    unsigned minor = 0;
+};
+
+std::optional<Version> parse_version(std::string_view text) {
+    Version version;
+    const char* const end = text.data() + text.size();
+    const auto major = std::from_chars(text.data(), end, version.major);
+    if (major.ec != std::errc{} || major.ptr == end || *major.ptr != '.') return std::nullopt;
+    const auto minor = std::from_chars(major.ptr + 1, end, version.minor);
+    return minor.ec == std::errc{} && minor.ptr == end ? std::optional(version) : std::nullopt;
 }
 
-/// What of the file the parser is given. Left out: buffers and images (it would load them), what we read
-/// ourselves (gltf_material.h and its like) or ignore, and the indices of Draco primitives (it refuses those, as their
-/// accessors have no buffer view).
-std::string text_for_parser(const nlohmann::json& checked) {
-    nlohmann::json reduced;
-    for (const char* part : {"asset", "bufferViews", "accessors", "meshes", "nodes", "scenes", "scene"})
-        if (const auto found = checked.find(part); found != checked.end()) reduced[part] = *found;
-    if (const auto meshes = reduced.find("meshes"); meshes != reduced.end())
-        for (nlohmann::json& mesh : *meshes)
-            for (nlohmann::json& primitive : mesh["primitives"])
-                if (draco_of(primitive)) primitive.erase("indices");
-    return reduced.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+/// Refuses a version that is not 2.x and a minVersion that is not 2.0 (glTF 2.0, 3.2).
+void check_asset(JsonReader asset) {
+    const auto check = [&](const std::string& key, unsigned most_minor, const std::string& expected) {
+        const std::string text = asset.text(key);
+        const std::optional<Version> version = parse_version(text);
+        if (!version || version->major != 2 || version->minor > most_minor)
+            asset.fail(key, fmt::format("\"{:.20}\"", text), expected, "export the file as glTF 2.0");
+    };
+    check("version", std::numeric_limits<unsigned>::max(), "glTF version 2");
+    if (asset.has("minVersion")) check("minVersion", 0, "2.0: no later version is read");
 }
 
-std::optional<std::size_t> index_or_none(int index) {
-    if (index < 0) return std::nullopt;
-    return static_cast<std::size_t>(index);
+std::vector<std::string> read_names(JsonReader& root, const std::string& key) {
+    std::vector<std::string> names;
+    if (!root.has(key)) return names;
+    const nlohmann::json& values = root.raw(key);
+    if (!values.is_array()) root.fail(key, values.type_name(), "an array of names");
+    for (const nlohmann::json& value : values) {
+        if (!value.is_string()) root.fail(key, value.type_name(), "a name");
+        names.push_back(value.get<std::string>());
+    }
+    return names;
 }
 
-GltfAccessor convert(const tinygltf::Accessor& from) {
+void check_extensions(JsonReader& root, std::span<const std::string> handled, const GltfJson& json) {
+    const auto supports = [&](const std::string& name) {
+        return std::ranges::find(kSupportedExtensions, name) != kSupportedExtensions.end() ||
+               std::ranges::find(handled, name) != handled.end();
+    };
+    for (const std::string& name : read_names(root, "extensionsRequired"))
+        if (!supports(name))
+            root.fail("extensionsRequired", fmt::format("\"{:.80}\"", name),
+                      fmt::format("no required extension but {}", fmt::join(kSupportedExtensions, ", ")),
+                      "export the file without it");
+    for (const std::string& name : read_names(root, "extensionsUsed"))
+        if (!supports(name)) json.warn(fmt::format("the extension {:.80} is ignored", name));
+}
+
+std::size_t read_bytes(JsonReader& reader, const std::string& key) {
+    return static_cast<std::size_t>(reader.integer_or(key, 0, 0, kMaximumBytes));
+}
+
+std::size_t read_count(JsonReader& reader) {
+    return static_cast<std::size_t>(reader.integer("count", 1, kMaximumCount));
+}
+
+GltfBufferView read_view(const GltfJson& json, JsonReader& view) {
+    GltfBufferView to;
+    to.buffer = json.index(view, "buffer", "buffers");
+    to.length = static_cast<std::size_t>(view.integer("byteLength", 0, kMaximumBytes));
+    to.offset = read_bytes(view, "byteOffset");
+    if (view.has("byteStride")) to.stride = static_cast<std::size_t>(view.integer("byteStride", 4, 252));
+    if (to.stride % 4 != 0) view.fail("byteStride", fmt::format("{}", to.stride), "a multiple of 4");
+    return to;
+}
+
+ComponentType read_component_type(JsonReader& reader, std::initializer_list<std::int64_t> allowed) {
+    const std::int64_t type = reader.integer("componentType", 0, 65535);
+    if (std::ranges::find(allowed, type) == allowed.end())
+        reader.fail("componentType", fmt::format("{}", type), fmt::format("one of {}", fmt::join(allowed, ", ")));
+    return static_cast<ComponentType>(type);
+}
+
+GltfSparse read_sparse(const GltfJson& json, JsonReader sparse) {
+    GltfSparse to;
+    to.count = read_count(sparse);
+    JsonReader indices = sparse.object("indices");
+    to.index_view = json.index(indices, "bufferView", "bufferViews");
+    to.index_offset = read_bytes(indices, "byteOffset");
+    to.index_type = read_component_type(indices, {5121, 5123, 5125});
+    JsonReader values = sparse.object("values");
+    to.value_view = json.index(values, "bufferView", "bufferViews");
+    to.value_offset = read_bytes(values, "byteOffset");
+    return to;
+}
+
+GltfAccessor read_accessor(const GltfJson& json, JsonReader& accessor) {
+    struct Shape {
+        int rows;
+        int columns;
+    };
+    const auto shape = accessor.choice<Shape>("type", {{"SCALAR", {1, 1}},
+                                                       {"VEC2", {2, 1}},
+                                                       {"VEC3", {3, 1}},
+                                                       {"VEC4", {4, 1}},
+                                                       {"MAT2", {2, 2}},
+                                                       {"MAT3", {3, 3}},
+                                                       {"MAT4", {4, 4}}});
     GltfAccessor to;
-    to.view = index_or_none(from.bufferView);
-    to.offset = from.byteOffset;
-    to.count = from.count;
-    to.type = static_cast<ComponentType>(from.componentType);
-    to.normalised = from.normalized;
-    switch (from.type) {
-        case TINYGLTF_TYPE_VEC2:
-            to.rows = 2;
-            break;
-        case TINYGLTF_TYPE_VEC3:
-            to.rows = 3;
-            break;
-        case TINYGLTF_TYPE_VEC4:
-            to.rows = 4;
-            break;
-        case TINYGLTF_TYPE_MAT2:
-            to.rows = to.columns = 2;
-            break;
-        case TINYGLTF_TYPE_MAT3:
-            to.rows = to.columns = 3;
-            break;
-        case TINYGLTF_TYPE_MAT4:
-            to.rows = to.columns = 4;
-            break;
-        default:
-            break;
-    }
-    if (from.sparse.isSparse)
-        to.sparse = GltfSparse{.count = static_cast<std::size_t>(from.sparse.count),
-                               .index_view = static_cast<std::size_t>(from.sparse.indices.bufferView),
-                               .index_offset = static_cast<std::size_t>(from.sparse.indices.byteOffset),
-                               .index_type = static_cast<ComponentType>(from.sparse.indices.componentType),
-                               .value_view = static_cast<std::size_t>(from.sparse.values.bufferView),
-                               .value_offset = static_cast<std::size_t>(from.sparse.values.byteOffset)};
+    to.view = json.index_if_there(accessor, "bufferView", "bufferViews");
+    to.offset = read_bytes(accessor, "byteOffset");
+    to.count = read_count(accessor);
+    to.type = read_component_type(accessor, {5120, 5121, 5122, 5123, 5125, 5126});
+    to.rows = shape.rows;
+    to.columns = shape.columns;
+    to.normalised = accessor.boolean_or("normalized", false);
+    if (accessor.has("sparse")) to.sparse = read_sparse(json, accessor.object("sparse"));
     return to;
 }
 
-GltfPrimitive convert(const tinygltf::Primitive& from, const nlohmann::json& json) {
+GltfDraco read_draco(const GltfJson& json, JsonReader draco) {
+    GltfDraco to;
+    to.view = json.index(draco, "bufferView", "bufferViews");
+    JsonReader ids = draco.object("attributes");
+    for (const auto& [name, ignored] : draco.raw("attributes").items())
+        to.attributes[name] = static_cast<std::uint32_t>(ids.integer(name, 0, kMaximumCount));
+    return to;
+}
+
+GltfPrimitive read_primitive(const GltfJson& json, JsonReader& primitive) {
     GltfPrimitive to;
-    for (const auto& [name, accessor] : from.attributes) to.attributes[name] = static_cast<std::size_t>(accessor);
-    if (const auto indices = json.find("indices"); indices != json.end()) to.indices = indices->get<std::size_t>();
-    to.material = index_or_none(from.material);
-    to.mode = static_cast<PrimitiveMode>(from.mode);
-    if (const nlohmann::json* draco = draco_of(json)) {
-        to.draco.emplace();
-        to.draco->view = draco->at("bufferView").get<std::size_t>();
-        for (const auto& [name, id] : draco->at("attributes").items())
-            to.draco->attributes[name] = id.get<std::uint32_t>();
-    }
+    JsonReader attributes = primitive.object("attributes");
+    for (const auto& [name, ignored] : primitive.raw("attributes").items())
+        to.attributes[name] = json.index(attributes, name, "accessors");
+    to.indices = json.index_if_there(primitive, "indices", "accessors");
+    to.material = json.index_if_there(primitive, "material", "materials");
+    constexpr auto kTriangles = static_cast<std::int64_t>(PrimitiveMode::Triangles);
+    constexpr auto kLast = static_cast<std::int64_t>(PrimitiveMode::TriangleFan);
+    to.mode = static_cast<PrimitiveMode>(primitive.integer_or("mode", kTriangles, 0, kLast));
+    if (primitive.has("targets")) json.warn("morph targets are ignored");
+    if (const auto draco = extension_of(primitive, kDracoExtension)) to.draco = read_draco(json, *draco);
     return to;
 }
 
-/// Fills `to.local` and `to.rest`.
-void place_node(const tinygltf::Node& from, const std::string& file, std::size_t index, GltfNode& to,
-                std::vector<std::string>& warnings) {
-    if (from.matrix.size() == 16) {
-        std::copy(from.matrix.begin(), from.matrix.end(), &to.local[0][0]);
-        // The bottom row of an affine matrix; anything else glTF forbids, and perspective has no meaning here.
-        for (int column = 0; column < 4; ++column) to.local[column][3] = column == 3 ? 1.0 : 0.0;
-        const Decomposition parts = decompose(to.local);
-        to.rest = parts.transform;
-        if (parts.sheared)
-            warn_once(warnings, "a node's matrix holds shear, which is lost where something animates it");
-        return;
-    }
-    glm::dvec3 translation(0.0);
-    glm::dquat rotation(1.0, 0.0, 0.0, 0.0);
-    glm::dvec3 scale(1.0);
-    if (from.translation.size() == 3) translation = {from.translation[0], from.translation[1], from.translation[2]};
-    if (from.scale.size() == 3) scale = {from.scale[0], from.scale[1], from.scale[2]};
-    if (from.rotation.size() == 4) {
-        rotation = glm::dquat(from.rotation[3], from.rotation[0], from.rotation[1], from.rotation[2]);
-        const double length = glm::length(rotation);
-        if (!(length > 1e-3))
-            refuse_input(file, fmt::format("/nodes/{}/rotation", index), "a zero quaternion", "a unit quaternion");
-        rotation = rotation / length;
-    }
-    to.local = glm::mat4_cast(rotation);
-    for (int column = 0; column < 3; ++column) to.local[column] *= scale[column];
-    to.local[3] = glm::dvec4(translation, 1.0);
-    to.rest = {glm::vec3(translation), glm::quat(rotation), glm::vec3(scale)};
+GltfMesh read_mesh(const GltfJson& json, JsonReader& mesh) {
+    GltfMesh to{.name = mesh.text_or("name", ""), .primitives = {}};
+    for (JsonReader& primitive : mesh.objects("primitives")) to.primitives.push_back(read_primitive(json, primitive));
+    return to;
 }
 
-/// The nodes to start from: those of the default scene, of the first scene if none is the default, and without any
-/// scene those that are nobody's child.
-std::vector<std::size_t> find_roots(const tinygltf::Model& model) {
-    std::vector<std::size_t> roots;
-    if (!model.scenes.empty()) {
-        const auto scene = static_cast<std::size_t>(std::max(model.defaultScene, 0));
-        for (const int node : model.scenes.at(scene).nodes) roots.push_back(static_cast<std::size_t>(node));
-        return roots;
+/// The root nodes of the scene to show: the default scene, else the first one. A file without scenes shows the nodes
+/// without a parent.
+std::vector<std::size_t> find_roots(const GltfJson& json, JsonReader& root, const std::vector<GltfNode>& nodes) {
+    std::vector<std::vector<std::size_t>> scenes;
+    for (JsonReader& scene : json.objects("scenes")) {
+        scene.text_or("name", "");
+        scenes.push_back(json.indices_if_there(scene, "nodes", "nodes"));
     }
-    std::vector<bool> is_child(model.nodes.size(), false);
-    for (const tinygltf::Node& node : model.nodes)
-        for (const int child : node.children) is_child.at(static_cast<std::size_t>(child)) = true;
+    const std::size_t shown = json.index_if_there(root, "scene", "scenes").value_or(0);
+    if (!scenes.empty()) return scenes[shown];
+    std::vector<bool> is_child(nodes.size(), false);
+    for (const GltfNode& node : nodes)
+        for (const std::size_t child : node.children) is_child[child] = true;
+    std::vector<std::size_t> roots;
     for (std::size_t i = 0; i < is_child.size(); ++i)
         if (!is_child[i]) roots.push_back(i);
     return roots;
 }
 
-tinygltf::Model run_parser(const nlohmann::json& checked, const std::string& file) {
-    const std::string text = text_for_parser(checked);
-    tinygltf::Model model;
-    tinygltf::TinyGLTF parser;
-    std::string error;
-    std::string warning;
-    if (!parser.LoadASCIIFromString(&model, &error, &warning, text.data(), static_cast<unsigned>(text.size()), ""))
-        throw Error({.file = file,
-                     .place = {},
-                     .found = error.substr(0, std::min(error.find('\n'), std::size_t{200})),
-                     .expected = "valid glTF 2.0",
-                     .remedy = {}});
-    return model;
-}
-
-std::size_t array_size(const nlohmann::json& json, const char* key) {
-    const auto found = json.find(key);
-    return found == json.end() ? 0 : found->size();
-}
-
-/// The parser drops what it cannot read. Nothing may be dropped, or the indices between the arrays would be wrong.
-void check_complete(const tinygltf::Model& model, const nlohmann::json& checked, const std::string& file) {
-    bool complete = model.bufferViews.size() == array_size(checked, "bufferViews") &&
-                    model.accessors.size() == array_size(checked, "accessors") &&
-                    model.meshes.size() == array_size(checked, "meshes") &&
-                    model.nodes.size() == array_size(checked, "nodes") &&
-                    model.scenes.size() == array_size(checked, "scenes");
-    for (std::size_t i = 0; complete && i < model.meshes.size(); ++i)
-        complete = model.meshes[i].primitives.size() == checked.at("meshes")[i].at("primitives").size();
-    if (!complete)
-        throw Error({.file = file,
-                     .place = {},
-                     .found = "parts that cannot be read",
-                     .expected = "valid glTF 2.0",
-                     .remedy = "run a glTF validator on it"});
-}
-
 }  // namespace
 
-GltfDocument parse_gltf(const nlohmann::json& checked, const std::string& file, std::vector<std::string>& warnings) {
-    const tinygltf::Model model = run_parser(checked, file);
-    check_complete(model, checked, file);
-
+GltfDocument parse_gltf(const GltfJson& json, std::span<const std::string> handled_extensions) {
+    JsonReader root(json.root, json.file);
+    check_asset(root.object("asset"));
+    check_extensions(root, handled_extensions, json);
     GltfDocument document;
-    document.file = file;
-    for (const tinygltf::BufferView& view : model.bufferViews)
-        document.views.push_back(
-            {static_cast<std::size_t>(view.buffer), view.byteOffset, view.byteLength, view.byteStride});
-    for (const tinygltf::Accessor& accessor : model.accessors) document.accessors.push_back(convert(accessor));
-    for (std::size_t i = 0; i < model.meshes.size(); ++i) {
-        GltfMesh& mesh = document.meshes.emplace_back();
-        mesh.name = model.meshes[i].name;
-        const nlohmann::json& primitives = checked.at("meshes")[i].at("primitives");
-        for (std::size_t k = 0; k < primitives.size(); ++k)
-            mesh.primitives.push_back(convert(model.meshes[i].primitives[k], primitives[k]));
+    document.file = json.file;
+    for (JsonReader& buffer : json.objects("buffers")) {
+        buffer.integer("byteLength", 1, kMaximumBytes);
+        buffer.text_or("uri", "");
     }
-    for (std::size_t i = 0; i < model.nodes.size(); ++i) {
-        GltfNode& node = document.nodes.emplace_back();
-        node.name = model.nodes[i].name;
-        place_node(model.nodes[i], file, i, node, warnings);
-        node.mesh = index_or_none(model.nodes[i].mesh);
-        node.skin = index_or_none(model.nodes[i].skin);
-        for (const int child : model.nodes[i].children) node.children.push_back(static_cast<std::size_t>(child));
-    }
-    document.roots = find_roots(model);
-    document.images = read_images(checked, file);
-    document.textures = read_textures(checked, file, warnings);
-    document.materials = read_materials(checked, file, document.textures, warnings);
-    document.skins = read_skins(checked, file);
-    document.animations = read_animations(checked, file, warnings);
-    document.lights = read_lights(checked, file);
-    read_node_lights(checked, file, document.nodes, document.lights.size());
-    document.cameras = read_cameras(checked, file, warnings);
-    read_node_cameras(checked, file, document.nodes);
-    read_node_extras(checked, file, document.nodes, warnings);
+    for (JsonReader& view : json.objects("bufferViews")) document.views.push_back(read_view(json, view));
+    for (JsonReader& accessor : json.objects("accessors")) document.accessors.push_back(read_accessor(json, accessor));
+    for (JsonReader& mesh : json.objects("meshes")) document.meshes.push_back(read_mesh(json, mesh));
+    document.images = read_images(json);
+    document.textures = read_textures(json);
+    document.materials = read_materials(json, document.textures);
+    document.skins = read_skins(json);
+    document.lights = read_lights(json);
+    document.cameras = read_cameras(json);
+    document.nodes = read_nodes(json, document.lights.size());
+    document.roots = find_roots(json, root, document.nodes);
     return document;
-}
-
-std::vector<std::byte> decode_data_uri(const std::string& uri) {
-    constexpr std::string_view kMarker = ";base64,";
-    const std::size_t comma = uri.find(',');
-    const std::size_t marker = uri.find(kMarker);
-    if (marker == std::string::npos || marker + kMarker.size() != comma + 1) return {};
-    // The parser knows a few media types only; what the bytes are is no concern of the decoding.
-    std::vector<unsigned char> data;
-    std::string media_type;
-    const std::string known = "data:application/octet-stream;base64," + uri.substr(comma + 1);
-    if (!tinygltf::DecodeDataURI(&data, media_type, known, 0, false)) return {};
-    std::vector<std::byte> bytes(data.size());
-    if (!data.empty()) std::memcpy(bytes.data(), data.data(), data.size());
-    return bytes;
 }
 
 }  // namespace rowland::scene

@@ -1,19 +1,17 @@
 #pragma once
 
-#include <cstddef>
-#include <nlohmann/json.hpp>
+#include <span>
 #include <string>
-#include <vector>
 
 #include "engine/scene/gltf_document.h"
+#include "engine/scene/gltf_json.h"
 
 namespace rowland::scene {
 
-/// Parses JSON that has passed check_gltf_json. Buffers are left empty. What is ignored is added to `warnings`. Throws
-/// Error (input).
-GltfDocument parse_gltf(const nlohmann::json& checked, const std::string& file, std::vector<std::string>& warnings);
-
-/// The bytes of a base64 data URI of any media type; empty if it is not one.
-std::vector<std::byte> decode_data_uri(const std::string& uri);
+/// Reads the JSON of a glTF file, all but its animations: every property that we use has the right type and range, and
+/// every index names something. Buffers are left empty. Extensions that we do not read must be among
+/// `handled_extensions` if the file requires them; what is ignored is added to the warnings. Throws Error (input) with
+/// the JSON pointer.
+GltfDocument parse_gltf(const GltfJson& json, std::span<const std::string> handled_extensions);
 
 }  // namespace rowland::scene

@@ -1,9 +1,6 @@
-#include "engine/scene/gltf_texture.h"
-
 #include <fmt/format.h>
 
-#include "engine/scene/gltf_check.h"
-#include "engine/scene/gltf_index.h"
+#include "engine/scene/gltf_parts.h"
 
 namespace rowland::scene {
 
@@ -27,7 +24,7 @@ TextureWrap read_wrap(JsonReader& sampler, const std::string& key) {
                  fmt::format("one of {}, {}, {}", kRepeat, kClampToEdge, kMirroredRepeat));
 }
 
-/// The settings of a sampler; its texture's image is not its business.
+/// A sampler's settings; the image is not set.
 ImportedTexture read_sampler(JsonReader& sampler) {
     ImportedTexture settings;
     settings.wrap_s = read_wrap(sampler, "wrapS");
@@ -43,65 +40,52 @@ ImportedTexture read_sampler(JsonReader& sampler) {
 }
 
 TextureTransform read_transform(JsonReader& extension) {
-    TextureTransform transform;
-    if (extension.has("offset")) {
-        const std::vector<double> offset = extension.numbers("offset", 2, kFiniteFloat);
-        transform.offset = glm::vec2(offset[0], offset[1]);
-    }
-    transform.rotation = static_cast<float>(extension.number_or("rotation", 0.0, kFiniteFloat));
-    if (extension.has("scale")) {
-        const std::vector<double> scale = extension.numbers("scale", 2, kFiniteFloat);
-        transform.scale = glm::vec2(scale[0], scale[1]);
-    }
-    return transform;
+    return {.offset = read_vector_or(extension, "offset", glm::vec2(0.0F), kFiniteFloat),
+            .rotation = static_cast<float>(extension.number_or("rotation", 0.0, kFiniteFloat)),
+            .scale = read_vector_or(extension, "scale", glm::vec2(1.0F), kFiniteFloat)};
 }
 
 }  // namespace
 
-std::vector<GltfImage> read_images(const nlohmann::json& json, const std::string& file) {
+std::vector<GltfImage> read_images(const GltfJson& json) {
     std::vector<GltfImage> images;
-    for (JsonReader& image : root_objects(json, file, "images")) {
-        text_if_there(image, "name");
-        text_if_there(image, "mimeType");
-        images.push_back({index_if_there(json, image, "bufferView", "bufferViews"), text_if_there(image, "uri")});
+    for (JsonReader& image : json.objects("images")) {
+        image.text_or("name", "");
+        image.text_or("mimeType", "");
+        images.push_back({json.index_if_there(image, "bufferView", "bufferViews"), image.text_or("uri", "")});
     }
     return images;
 }
 
-std::vector<GltfTexture> read_textures(const nlohmann::json& json, const std::string& file,
-                                       std::vector<std::string>& warnings) {
+std::vector<GltfTexture> read_textures(const GltfJson& json) {
     std::vector<ImportedTexture> samplers;
-    for (JsonReader& sampler : root_objects(json, file, "samplers")) samplers.push_back(read_sampler(sampler));
+    for (JsonReader& sampler : json.objects("samplers")) samplers.push_back(read_sampler(sampler));
     std::vector<GltfTexture> textures;
-    for (JsonReader& texture : root_objects(json, file, "textures")) {
-        GltfTexture& added = textures.emplace_back();
-        text_if_there(texture, "name");
-        added.image = index_if_there(json, texture, "source", "images");
-        if (const auto sampler = index_if_there(json, texture, "sampler", "samplers"))
-            added.settings = samplers[*sampler];
-        if (!added.image) warn_once(warnings, "textures that have no PNG or JPEG image are ignored");
+    for (JsonReader& texture : json.objects("textures")) {
+        GltfTexture& to = textures.emplace_back();
+        texture.text_or("name", "");
+        to.image = json.index_if_there(texture, "source", "images");
+        if (const auto sampler = json.index_if_there(texture, "sampler", "samplers")) to.settings = samplers[*sampler];
+        if (!to.image) json.warn("textures that have no PNG or JPEG image are ignored");
     }
     return textures;
 }
 
-std::optional<TextureUse> read_texture_use(const nlohmann::json& json, JsonReader& owner, const std::string& key,
-                                           std::span<const GltfTexture> textures, std::vector<std::string>& warnings) {
+std::optional<TextureUse> read_texture_use(const GltfJson& json, JsonReader& owner, const std::string& key,
+                                           std::span<const GltfTexture> textures) {
     if (!owner.has(key)) return std::nullopt;
     JsonReader info = owner.object(key);
     TextureUse use;
-    use.texture = index_into(json, info, "index", "textures");
-    std::int64_t uv_set = info.integer_or("texCoord", 0, 0, 1 << 20);
-    if (info.has("extensions")) {
-        JsonReader extensions = info.object("extensions");
-        if (extensions.has("KHR_texture_transform")) {
-            JsonReader transform = extensions.object("KHR_texture_transform");
-            use.transform = read_transform(transform);
-            uv_set = transform.integer_or("texCoord", uv_set, 0, 1 << 20);
-        }
+    use.texture = json.index(info, "index", "textures");
+    constexpr std::int64_t kLastSet = 1 << 20;
+    std::int64_t uv_set = info.integer_or("texCoord", 0, 0, kLastSet);
+    if (auto transform = extension_of(info, "KHR_texture_transform")) {
+        use.transform = read_transform(*transform);
+        uv_set = transform->integer_or("texCoord", uv_set, 0, kLastSet);
     }
     if (!textures[use.texture].image) return std::nullopt;
     if (uv_set > 1) {
-        warn_once(warnings, "textures that use a third or later set of texture coordinates are ignored");
+        json.warn("textures that use a third or later set of texture coordinates are ignored");
         return std::nullopt;
     }
     use.uv_set = static_cast<int>(uv_set);

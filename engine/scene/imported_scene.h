@@ -29,7 +29,7 @@ struct ImportedTexture {
     bool mipmaps = true;
 };
 
-/// A node of the shown scene.
+/// A node of the scene that is shown.
 struct ImportedNode {
     std::string name;
     std::optional<std::size_t> parent;  ///< an earlier node
@@ -69,19 +69,19 @@ struct ImportedCamera {
     std::optional<float> far_plane;       ///< metres, > near_plane; none: at infinity
 };
 
-/// What a glTF file holds of what we draw.
+/// The contents of a glTF file that we draw.
 struct ImportedScene {
-    std::vector<Mesh> meshes;  ///< one a triangle primitive
+    std::vector<Mesh> meshes;  ///< one per triangle primitive
     std::vector<MaterialDescription> materials;
     std::vector<ImportedInstance> instances;
-    std::vector<std::string> warnings;  ///< what was ignored or repaired, each once
+    std::vector<std::string> warnings;  ///< what was ignored or repaired, without repetition
     std::vector<ImportedNode> nodes;    ///< parents before their children
     std::vector<std::shared_ptr<const image::ByteImage>> images;
     std::vector<ImportedTexture> textures;
     std::vector<ImportedSkin> skins;
     std::vector<Animation> animations;
     std::vector<ImportedLight> lights;
-    std::vector<ImportedCamera> cameras;  ///< one a node that has one, in the order of the nodes
+    std::vector<ImportedCamera> cameras;  ///< one per node with a camera, in the order of the nodes
 };
 
 }  // namespace rowland::scene

@@ -17,10 +17,10 @@ namespace {
 struct Station {
     glm::dvec2 at;
     glm::dvec2 direction;  ///< unit, along the profile
-    double share = 0.0;    ///< of the profile's length up to here
+    double way = 0.0;      ///< fraction of the profile's length up to here
 };
 
-/// Stations that are connected with each other and share no edge with the next strip.
+/// Connected stations; the next strip begins with an edge.
 using Strip = std::vector<Station>;
 
 std::vector<Strip> straight_strips(std::span<const glm::dvec2> profile) {
@@ -75,11 +75,11 @@ void measure(std::vector<Strip>& strips) {
     for (Strip& strip : strips) {
         for (std::size_t i = 0; i < strip.size(); ++i) {
             if (i > 0) length += glm::length(strip[i].at - strip[i - 1].at);
-            strip[i].share = length;
+            strip[i].way = length;
         }
     }
     for (Strip& strip : strips)
-        for (Station& station : strip) station.share /= length;
+        for (Station& station : strip) station.way /= length;
 }
 
 class Turning {
@@ -99,8 +99,8 @@ class Turning {
     }
 
  private:
-    /// The vertices around a station. On the axis there is one a sector, in the sector's middle, so that each triangle
-    /// there has a tangent of its own.
+    /// The vertices around a station. On the axis there is one per sector, in the sector's middle, so that each
+    /// triangle has its own tangent.
     struct Row {
         std::uint32_t first;
         bool on_axis;
@@ -109,8 +109,8 @@ class Turning {
     /// `half_steps`: half sectors from where the turn begins.
     Angle at(int half_steps) const {
         if (recipe_.from_deg == 0.0 && recipe_.to_deg == 360.0) return angle(half_steps, 2 * recipe_.segments);
-        const double share = static_cast<double>(half_steps) / (2 * recipe_.segments);
-        const double radians = std::lerp(recipe_.from_deg, recipe_.to_deg, share) / 180.0 * std::numbers::pi;
+        const double turned = static_cast<double>(half_steps) / (2 * recipe_.segments);
+        const double radians = std::lerp(recipe_.from_deg, recipe_.to_deg, turned) / 180.0 * std::numbers::pi;
         return {std::cos(radians), std::sin(radians)};
     }
 
@@ -131,10 +131,10 @@ class Turning {
         const glm::dvec3 normal = glm::normalize(glm::dvec3(d.y * c, -d.x, -d.y * s / f));
         const double turned = static_cast<double>(half_steps) / (2 * recipe_.segments);
         if (recipe_.tangent == LatheRecipe::Tangent::Around)
-            add_vertex(mesh_, position, normal, glm::normalize(glm::dvec3(-s, 0.0, -f * c)), {turned, station.share});
+            add_vertex(mesh_, position, normal, glm::normalize(glm::dvec3(-s, 0.0, -f * c)), {turned, station.way});
         else
             add_vertex(mesh_, position, normal, glm::normalize(glm::dvec3(d.x * c, d.y, -f * d.x * s)),
-                       {station.share, 1.0 - turned});
+                       {station.way, 1.0 - turned});
     }
 
     void connect(const Row& below, const Row& above) {
@@ -161,6 +161,20 @@ Mesh build_lathe(const LatheRecipe& recipe) {
         strips = straight_strips(recipe.profile);
     measure(strips);
     return Turning(recipe).turn(strips);
+}
+
+Mesh build_sphere(const SphereRecipe& recipe) {
+    Strip meridian;
+    for (int ring = 0; ring <= recipe.rings; ++ring) {
+        const double latitude = static_cast<double>(ring) / recipe.rings;
+        const double polar = std::numbers::pi * (1.0 - latitude);
+        const bool is_pole = ring == 0 || ring == recipe.rings;
+        const glm::dvec2 outward(is_pole ? 0.0 : std::sin(polar), std::cos(polar));
+        meridian.push_back({recipe.radius * outward, {-outward.y, outward.x}, latitude});
+    }
+    LatheRecipe lathe;
+    lathe.segments = recipe.segments;
+    return Turning(lathe).turn({meridian});
 }
 
 }  // namespace rowland::scene

@@ -7,13 +7,13 @@
 
 namespace rowland::scene {
 
-/// A profile turned around the Y axis: stands, rims, rings, shells. The outside is to the right of someone who walks
-/// along the profile with the axis to the left and up ahead, so an outer wall goes up and a top goes inward.
+/// A profile turned around the Y axis: stands, rims, rings, shells. In the (radius, height) plane the outside is to the
+/// right of the profile's direction, so an outer wall goes up and a top goes inward.
 struct LatheRecipe {
     /// Where the tangent, a grating's g, points.
     enum class Tangent {
-        Around,  ///< along growing longitude (+X towards −Z); u = share of the turn, v = share of the profile's length
-        Along,   ///< along the profile; u = share of its length, v = 1 − share of the turn
+        Around,  ///< along growing longitude (+X towards −Z); u = fraction of the turn, v = fraction of the profile
+        Along,   ///< along the profile; u = fraction of its length, v = 1 − fraction of the turn
     };
 
     /// [radius, height] in metres, at least two, neighbours apart; a radius of 0 only at the ends.
@@ -29,7 +29,18 @@ struct LatheRecipe {
     Tangent tangent = Tangent::Around;
 };
 
+/// Sphere around the origin, poles on ±Y. The tangent points along growing longitude (+X towards −Z); u = longitude /
+/// 2π, v grows linearly with latitude from the south to the north pole.
+struct SphereRecipe {
+    double radius = 0.0;  ///< metres, > 0
+    int rings = 64;       ///< bands of latitude, 2 … 2048
+    int segments = 128;   ///< sectors of longitude, 3 … 2048
+};
+
 /// Straight lines: each gives (segments + 1) vertices at either end, `segments` where it meets the axis.
 Mesh build_lathe(const LatheRecipe& recipe);
+
+/// A lathe whose profile is a meridian with exact normals.
+Mesh build_sphere(const SphereRecipe& recipe);
 
 }  // namespace rowland::scene

@@ -31,8 +31,8 @@ enum class AlphaMode {
     Blend,  ///< drawn over what is behind
 };
 
-/// glTF metallic-roughness material. Factors are linear; textures multiply them. Material extensions that nobody here
-/// knows are kept as JSON for whoever registered a handler; the engine learns nothing of them.
+/// glTF metallic-roughness material. Factors are linear; textures multiply them. Other material
+/// extensions are kept as JSON for their registered handlers.
 struct MaterialDescription {
     std::string name;
     glm::vec4 base_colour{1.0F};

@@ -9,13 +9,11 @@ namespace rowland::scene {
 MemoryBudget::MemoryBudget(std::string file, std::uint64_t limit_bytes)
     : file_(std::move(file)), limit_(limit_bytes), left_(limit_bytes) {}
 
-void MemoryBudget::spend(std::uint64_t count, std::uint64_t element_bytes, const std::string& place) {
+void MemoryBudget::spend(std::uint64_t count, std::uint64_t element_bytes, const std::string& pointer) {
     if (element_bytes != 0 && count > left_ / element_bytes)
-        throw Error({.file = file_,
-                     .place = place,
-                     .found = fmt::format("{} elements of {} bytes", count, element_bytes),
-                     .expected = fmt::format("at most {} bytes in the whole scene", limit_),
-                     .remedy = "split the scene, or mend the count"});
+        refuse_input(file_, pointer, fmt::format("{} elements of {} bytes", count, element_bytes),
+                     fmt::format("at most {} bytes in the whole scene", limit_),
+                     "split the scene, or correct the count");
     left_ -= count * element_bytes;
 }
 

@@ -15,41 +15,26 @@ namespace rowland::scene {
 
 namespace {
 
-/// det(m) times the inverse transpose; unlike that it exists for every matrix.
-glm::dmat3 cofactors(const glm::dmat3& m) {
-    return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
-}
-
-/// `x` made unit, or `fallback` if it has no direction.
-glm::vec3 unit_or(const glm::dvec3& x, const glm::vec3& fallback) {
-    const double length = glm::length(x);
-    return length > 0.0 && std::isfinite(length) ? glm::vec3(x / length) : fallback;
+template <typename Value>
+void append(const std::vector<Value>& values, std::vector<Value>& all) {
+    all.insert(all.end(), values.begin(), values.end());
 }
 
 void append(const Mesh& mesh, const glm::mat4& transform, const std::string& name, Mesh& merged) {
-    const glm::dmat4 world(transform);
-    const glm::dmat3 linear(world);
-    const bool mirrored = glm::dot(glm::cross(linear[0], linear[1]), linear[2]) < 0.0;
-    // Cofactors carry the determinant's sign; normals must not.
-    const glm::dmat3 normal_matrix = (mirrored ? -1.0 : 1.0) * cofactors(linear);
     const auto first = static_cast<std::uint32_t>(merged.positions.size());
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        const glm::vec3 position(world * glm::dvec4(glm::dvec3(mesh.positions[i]), 1.0));
+    append(mesh.positions, merged.positions);
+    append(mesh.normals, merged.normals);
+    append(mesh.tangents, merged.tangents);
+    append(mesh.uvs, merged.uvs);
+    for (std::size_t i = first; i < merged.positions.size(); ++i) {
+        transform_vertex(merged, i, transform);
+        const glm::vec3& position = merged.positions[i];
         if (!std::isfinite(position.x) || !std::isfinite(position.y) || !std::isfinite(position.z))
-            throw Error({.file = {},
-                         .place = fmt::format("instance \"{:.60}\"", name),
-                         .found = "a vertex that its transform moves beyond the range of floats",
-                         .expected = "finite positions",
-                         .remedy = {}});
-        merged.positions.push_back(position);
-        const glm::vec3 normal = unit_or(normal_matrix * glm::dvec3(mesh.normals[i]), mesh.normals[i]);
-        merged.normals.push_back(normal);
-        const glm::dvec3 tangent = linear * glm::dvec3(glm::vec3(mesh.tangents[i]));
-        const float w = mirrored ? -mesh.tangents[i].w : mesh.tangents[i].w;
-        glm::vec4& added = merged.tangents.emplace_back(unit_or(tangent, glm::vec3(0.0F)), w);
-        orthonormalise_tangent(added, normal);
+            refuse_input("", fmt::format("instance \"{:.60}\"", name),
+                         "a vertex that its transform moves beyond the range of floats", "finite positions");
     }
-    merged.uvs.insert(merged.uvs.end(), mesh.uvs.begin(), mesh.uvs.end());
+    const glm::dmat3 linear{glm::dmat4(transform)};
+    const bool mirrored = glm::dot(glm::cross(linear[0], linear[1]), linear[2]) < 0.0;
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
         merged.indices.insert(merged.indices.end(),
                               {first + mesh.indices[i], first + mesh.indices[i + (mirrored ? 2 : 1)],
@@ -74,9 +59,9 @@ Mesh merge_instances(const ImportedScene& scene) {
     for (const ImportedInstance& instance : scene.instances) {
         ROWLAND_CHECK_OP(instance.mesh, <, scene.meshes.size());
         const Mesh& mesh = scene.meshes[instance.mesh];
-        const std::string place = fmt::format("instance \"{:.60}\"", instance.name);
-        budget.spend(mesh.positions.size(), 2 * sizeof(glm::vec3) + sizeof(glm::vec4) + sizeof(glm::vec2), place);
-        budget.spend(mesh.indices.size(), sizeof(std::uint32_t), place);
+        const std::string pointer = fmt::format("instance \"{:.60}\"", instance.name);
+        budget.spend(mesh.positions.size(), 2 * sizeof(glm::vec3) + sizeof(glm::vec4) + sizeof(glm::vec2), pointer);
+        budget.spend(mesh.indices.size(), sizeof(std::uint32_t), pointer);
         vertex_count += mesh.positions.size();
         index_count += mesh.indices.size();
     }

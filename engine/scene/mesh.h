@@ -17,11 +17,11 @@ struct Mesh {
     /// growing v. A grating's g (across the grooves) is the tangent.
     std::vector<glm::vec4> tangents;
     std::vector<glm::vec2> uvs;
-    std::vector<glm::vec2> uvs1;         ///< second set of texture coordinates; empty: there is none
+    std::vector<glm::vec2> uvs1;         ///< second set of texture coordinates; empty: none
     std::vector<glm::vec4> colours;      ///< linear RGBA that multiplies the base colour; empty: white
-    std::vector<glm::u16vec4> joints;    ///< of the skin, four a vertex; empty: not skinned
+    std::vector<glm::u16vec4> joints;    ///< of the skin, four per vertex; empty: not skinned
     std::vector<glm::vec4> weights;      ///< of those joints, ≥ 0, sum 1; empty: not skinned
-    std::vector<std::uint32_t> indices;  ///< three a triangle, counter-clockwise from outside
+    std::vector<std::uint32_t> indices;  ///< three per triangle, counter-clockwise from outside
 };
 
 struct Bounds {

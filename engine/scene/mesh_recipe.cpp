@@ -20,60 +20,21 @@ constexpr NumberRange kMeshLength{.minimum = 1e-7, .maximum = 1e6};
 Mesh build(const DiscRecipe& recipe) {
     Mesh mesh;
     for (int ring = 0; ring <= recipe.rings; ++ring) {
-        const double share = static_cast<double>(ring) / recipe.rings;
-        const double radius = std::lerp(recipe.inner_radius, recipe.outer_radius, share);
+        const double u = static_cast<double>(ring) / recipe.rings;
+        const double radius = std::lerp(recipe.inner_radius, recipe.outer_radius, u);
         for (int segment = 0; segment <= recipe.segments; ++segment) {
             const Angle at = angle(segment, recipe.segments);
             const glm::dvec3 radial(at.cosine, 0.0, -at.sine);
             add_vertex(mesh, radius * radial, {0.0, 1.0, 0.0}, radial,
-                       {share, static_cast<double>(segment) / recipe.segments});
+                       {u, static_cast<double>(segment) / recipe.segments});
         }
     }
     add_grid(mesh, 0, static_cast<std::uint32_t>(recipe.rings + 1), static_cast<std::uint32_t>(recipe.segments + 1));
     return mesh;
 }
 
-/// One vertex of a sphere; `segment` may lie between two sectors.
-void add_sphere_vertex(Mesh& mesh, const SphereRecipe& recipe, double polar_sine, double polar_cosine, Angle at,
-                       const glm::dvec2& uv) {
-    const glm::dvec3 normal(polar_sine * at.cosine, polar_cosine, -polar_sine * at.sine);
-    add_vertex(mesh, recipe.radius * normal, normal, {-at.sine, 0.0, -at.cosine}, uv);
-}
-
-/// A pole has a vertex a sector, in the sector's middle, so that each triangle there has a tangent of its own.
-void add_pole(Mesh& mesh, const SphereRecipe& recipe, bool north) {
-    const auto row = static_cast<std::uint32_t>(recipe.segments + 1);
-    const std::uint32_t first = north ? static_cast<std::uint32_t>(recipe.rings - 2) * row : 0;
-    for (int segment = 0; segment < recipe.segments; ++segment) {
-        const auto apex = static_cast<std::uint32_t>(mesh.positions.size());
-        const double u = (segment + 0.5) / recipe.segments;
-        add_sphere_vertex(mesh, recipe, 0.0, north ? 1.0 : -1.0, angle(2 * segment + 1, 2 * recipe.segments),
-                          {u, north ? 1.0 : 0.0});
-        const std::uint32_t a = first + static_cast<std::uint32_t>(segment);
-        if (north)
-            mesh.indices.insert(mesh.indices.end(), {a, a + 1, apex});
-        else
-            mesh.indices.insert(mesh.indices.end(), {a + 1, a, apex});
-    }
-}
-
 Mesh build(const SphereRecipe& recipe) {
-    Mesh mesh;
-    for (int ring = 1; ring < recipe.rings; ++ring) {
-        const double latitude = static_cast<double>(ring) / recipe.rings;
-        const double polar = std::numbers::pi * (1.0 - latitude);
-        for (int segment = 0; segment <= recipe.segments; ++segment)
-            add_sphere_vertex(mesh, recipe, std::sin(polar), std::cos(polar), angle(segment, recipe.segments),
-                              {static_cast<double>(segment) / recipe.segments, latitude});
-    }
-    const auto rows = static_cast<std::uint32_t>(recipe.rings - 1);
-    const auto columns = static_cast<std::uint32_t>(recipe.segments + 1);
-    // Here columns run right and rows run up, the other way round from what add_grid expects.
-    add_grid(mesh, 0, rows, columns);
-    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
-    add_pole(mesh, recipe, false);
-    add_pole(mesh, recipe, true);
-    return mesh;
+    return build_sphere(recipe);
 }
 
 Mesh build(const PlaneRecipe& recipe) {
@@ -103,7 +64,7 @@ int count_or(JsonReader& reader, const std::string& key, int fallback, int minim
     return static_cast<int>(reader.integer_or(key, fallback, minimum, kMaximumSegments));
 }
 
-DiscRecipe parse_disc(JsonReader& reader) {
+MeshRecipe parse_disc(JsonReader& reader) {
     DiscRecipe recipe;
     recipe.inner_radius = reader.number("inner_radius", {.minimum = 0.0, .maximum = kMeshLength.maximum});
     recipe.outer_radius = reader.number("outer_radius", kMeshLength);
@@ -115,7 +76,7 @@ DiscRecipe parse_disc(JsonReader& reader) {
     return recipe;
 }
 
-SphereRecipe parse_sphere(JsonReader& reader) {
+MeshRecipe parse_sphere(JsonReader& reader) {
     SphereRecipe recipe;
     recipe.radius = reader.number("radius", kMeshLength);
     recipe.rings = count_or(reader, "rings", recipe.rings, 2);
@@ -123,7 +84,7 @@ SphereRecipe parse_sphere(JsonReader& reader) {
     return recipe;
 }
 
-PlaneRecipe parse_plane(JsonReader& reader) {
+MeshRecipe parse_plane(JsonReader& reader) {
     PlaneRecipe recipe;
     const std::vector<double> size = reader.numbers("size", 2, kMeshLength);
     recipe.width = size[0];
@@ -141,43 +102,43 @@ std::vector<glm::dvec2> parse_profile(JsonReader& reader) {
                     fmt::format("2 to {} points [radius, height]", kMostPoints));
     std::vector<glm::dvec2> profile;
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const std::string place = fmt::format("{}/{}", key, i);
+        const std::string pointer = fmt::format("{}/{}", key, i);
         const nlohmann::json& point = points[i];
         if (!point.is_array() || point.size() != 2 || !point[0].is_number() || !point[1].is_number())
-            reader.fail(place, point.type_name(), "[radius, height]");
+            reader.fail(pointer, point.type_name(), "[radius, height]");
         const auto radius = point[0].get<double>();
         const auto height = point[1].get<double>();
         const bool end = i == 0 || i + 1 == points.size();
         if (!(radius == 0.0 ? end : radius >= kMeshLength.minimum && radius <= kMeshLength.maximum))
             reader.fail(
-                place + "/0", fmt::format("{}", radius),
+                pointer + "/0", fmt::format("{}", radius),
                 fmt::format("a number in [{}, {}]{}", kMeshLength.minimum, kMeshLength.maximum, end ? " or 0" : ""),
                 end ? "" : "only the first and the last point may lie on the axis");
         if (!(std::abs(height) <= kMeshLength.maximum))
-            reader.fail(place + "/1", fmt::format("{}", height),
+            reader.fail(pointer + "/1", fmt::format("{}", height),
                         fmt::format("a number in [{}, {}]", -kMeshLength.maximum, kMeshLength.maximum));
         profile.emplace_back(radius, height);
         if (i > 0 && glm::distance(profile[i], profile[i - 1]) < kMeshLength.minimum)
-            reader.fail(place, "the point before it again", fmt::format("one at least {} m away", kMeshLength.minimum));
+            reader.fail(pointer, "the point before it again",
+                        fmt::format("one at least {} m away", kMeshLength.minimum));
     }
     if (profile.size() == 2 && profile[0].x == 0.0 && profile[1].x == 0.0)
         reader.fail(key, "both points on the axis", "a radius");
     return profile;
 }
 
-LatheRecipe parse_lathe(JsonReader& reader) {
+MeshRecipe parse_lathe(JsonReader& reader) {
     LatheRecipe recipe;
     recipe.profile = parse_profile(reader);
     recipe.smooth = reader.boolean_or("smooth", recipe.smooth);
     recipe.steps = static_cast<int>(reader.integer_or("steps", recipe.steps, 1, 256));
     recipe.segments = count_or(reader, "segments", recipe.segments, 3);
-    if (reader.has("longitude_deg")) {
-        const std::vector<double> turn = reader.numbers("longitude_deg", 2, {.minimum = 0.0, .maximum = 360.0});
-        recipe.from_deg = turn[0];
-        recipe.to_deg = turn[1];
-        if (!(recipe.to_deg - recipe.from_deg >= 1.0))
-            reader.fail("longitude_deg/1", fmt::format("{}", turn[1]), fmt::format("at least {}", turn[0] + 1.0));
-    }
+    const std::vector<double> turn =
+        reader.numbers_or("longitude_deg", {recipe.from_deg, recipe.to_deg}, {.minimum = 0.0, .maximum = 360.0});
+    recipe.from_deg = turn[0];
+    recipe.to_deg = turn[1];
+    if (!(recipe.to_deg - recipe.from_deg >= 1.0))
+        reader.fail("longitude_deg/1", fmt::format("{}", turn[1]), fmt::format("at least {}", turn[0] + 1.0));
     recipe.flatten = reader.number_or("flatten", recipe.flatten, {.minimum = 1e-3, .maximum = 1e3});
     if (reader.choice_or("tangent", "around", {"around", "along"}) == "along")
         recipe.tangent = LatheRecipe::Tangent::Along;
@@ -200,7 +161,7 @@ void parse_faces(JsonReader& reader, BoxRecipe& recipe) {
     }
 }
 
-BoxRecipe parse_box(JsonReader& reader) {
+MeshRecipe parse_box(JsonReader& reader) {
     BoxRecipe recipe;
     const std::vector<double> size = reader.numbers("size", 3, kMeshLength);
     recipe.width = size[0];
@@ -230,18 +191,13 @@ MeshRecipe parse_mesh_recipe(const nlohmann::json& document, const std::string& 
 }
 
 MeshRecipe parse_shape(JsonReader reader) {
-    const std::string type = reader.choice("type", {"disc", "sphere", "plane", "lathe", "box"});
-    MeshRecipe recipe;
-    if (type == "disc")
-        recipe = parse_disc(reader);
-    else if (type == "sphere")
-        recipe = parse_sphere(reader);
-    else if (type == "plane")
-        recipe = parse_plane(reader);
-    else if (type == "lathe")
-        recipe = parse_lathe(reader);
-    else
-        recipe = parse_box(reader);
+    using Parse = MeshRecipe (*)(JsonReader&);
+    const auto parse = reader.choice<Parse>("type", {{"disc", parse_disc},
+                                                     {"sphere", parse_sphere},
+                                                     {"plane", parse_plane},
+                                                     {"lathe", parse_lathe},
+                                                     {"box", parse_box}});
+    MeshRecipe recipe = parse(reader);
     reader.finish();
     return recipe;
 }

@@ -12,22 +12,13 @@
 namespace rowland::scene {
 
 /// Flat annulus around the origin in the XZ plane, normal +Y: a compact disc. The tangent is radial, outward, exactly;
-/// uv = (share of the way from the inner to the outer edge, angle / 2π), the angle from +X towards −Z,
-/// counter-clockwise seen from above. (rings + 1)(segments + 1) vertices; the default has the 25 000 of Lindsay & Agu
-/// 2006.
+/// u grows from the inner to the outer edge, v = angle / 2π, the angle from +X towards −Z, counter-clockwise seen from
+/// above. (rings + 1)(segments + 1) vertices; the default has the 25 000 of Lindsay & Agu 2006.
 struct DiscRecipe {
     double inner_radius = 0.0;  ///< metres, >= 0
     double outer_radius = 0.0;  ///< metres, > inner_radius
     int rings = 99;             ///< rows of quads between the edges, 1 … 2048
-    int segments = 249;         ///< sectors, 3 … 2048; the seam's vertices are there twice, with v = 0 and v = 1
-};
-
-/// Sphere around the origin, poles on ±Y. The tangent points along growing longitude (+X towards −Z); uv = (longitude /
-/// 2π, share of the way from the south to the north pole).
-struct SphereRecipe {
-    double radius = 0.0;  ///< metres, > 0
-    int rings = 64;       ///< bands of latitude, 2 … 2048
-    int segments = 128;   ///< sectors of longitude, 3 … 2048
+    int segments = 249;         ///< sectors, 3 … 2048; the seam's vertices are doubled, with v = 0 and v = 1
 };
 
 /// Rectangle around the origin in the XZ plane, normal +Y, tangent +X, v towards −Z.
@@ -42,10 +33,9 @@ using MeshRecipe = std::variant<DiscRecipe, SphereRecipe, PlaneRecipe, LatheReci
 /// Whether a JSON document is a mesh recipe: an object with the key "mesh".
 bool is_mesh_recipe(const nlohmann::json& document);
 
-/// Reads `{"mesh": {"type": "disc", …}}`; mesh_recipe.schema.json says what may stand there. Throws Error (input) that
-/// names `file`, the place and, for an unknown key, the nearest valid one.
+/// Reads `{"mesh": {"type": "disc", …}}`, the format of mesh_recipe.schema.json. Throws Error (input).
 MeshRecipe parse_mesh_recipe(const nlohmann::json& document, const std::string& file);
-/// Reads the object that is under "mesh" there. Throws likewise.
+/// Reads the object under "mesh". Throws Error (input).
 MeshRecipe parse_shape(JsonReader reader);
 
 /// The mesh of a recipe, counter-clockwise from outside (from +Y where it is flat).

@@ -5,9 +5,9 @@
 
 namespace rowland::scene {
 
-/// Component: what a scene's file says of a node beyond its place.
+/// Component: the name and the extras of a node in a scene file.
 struct NodeLabel {
-    std::string name;       ///< not always unique, or there
+    std::string name;       ///< not always unique; may be empty
     nlohmann::json extras;  ///< as written; null: none
 };
 

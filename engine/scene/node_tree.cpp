@@ -12,14 +12,6 @@ namespace rowland::scene {
 
 namespace {
 
-[[noreturn]] void fail(const GltfDocument& document, std::size_t node, std::string found, std::string expected) {
-    throw Error({.file = document.file,
-                 .place = fmt::format("/nodes/{}", node),
-                 .found = std::move(found),
-                 .expected = std::move(expected),
-                 .remedy = {}});
-}
-
 bool fits_floats(const glm::dmat4& m) {
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 4; ++row)
@@ -32,17 +24,19 @@ bool fits_floats(const glm::dmat4& m) {
 std::vector<PlacedNode> place_nodes(const GltfDocument& document) {
     std::vector<PlacedNode> placed;
     std::vector<bool> seen(document.nodes.size(), false);
-    // A stack of our own: a chain of nodes may be longer than the thread's stack is deep.
+    // Not recursive: a chain of nodes may be deeper than the thread's stack.
     std::vector<PlacedNode> pending;
     for (const std::size_t root : document.roots | std::views::reverse)
         pending.push_back({root, document.nodes.at(root).local, std::nullopt});
     while (!pending.empty()) {
         const PlacedNode current = pending.back();
         pending.pop_back();
+        const std::string pointer = fmt::format("/nodes/{}", current.node);
         if (seen[current.node])
-            fail(document, current.node, "a node with two parents, or its own descendant", "a tree");
+            refuse_input(document.file, pointer, "a node with two parents, or its own descendant", "a tree");
         seen[current.node] = true;
-        if (!fits_floats(current.world)) fail(document, current.node, "a transform that overflows", "finite numbers");
+        if (!fits_floats(current.world))
+            refuse_input(document.file, pointer, "a transform that overflows", "finite numbers");
         placed.push_back(current);
         for (const std::size_t child : document.nodes[current.node].children | std::views::reverse)
             pending.push_back({child, current.world * document.nodes.at(child).local, placed.size() - 1});

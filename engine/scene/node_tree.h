@@ -9,11 +9,11 @@
 
 namespace rowland::scene {
 
-/// A node of the shown scene and where it stands in the world.
+/// A node of the scene that is shown, with its world matrix.
 struct PlacedNode {
     std::size_t node = 0;
     glm::dmat4 world{1.0};
-    std::optional<std::size_t> parent;  ///< among the placed nodes, an earlier one
+    std::optional<std::size_t> parent;  ///< an earlier one of the placed nodes
 };
 
 /// All nodes below the document's roots, parents before their children. Throws Error (input) if a node is reached twice

@@ -24,12 +24,12 @@ OrbitCamera::OrbitCamera(const Camera& start, OrbitSettings settings) : settings
 }
 
 void OrbitCamera::update(const OrbitInput& input) {
-    // The scene follows the hand: a drag to the right moves the eye to the left, a drag down raises it.
+    // The scene follows the drag: to the right moves the eye to the left, down raises it.
     const double scale = settings_.radians_per_pixel;
     angles_ = turned(angles_, -scale * input.drag.x, scale * input.drag.y);
     if (!std::isfinite(input.scroll)) return;
     const double zoomed = distance_ * std::exp(-static_cast<double>(settings_.zoom_per_notch) * input.scroll);
-    // Clamped before it is narrowed: many notches at once may leave the range of float.
+    // Clamped in double: many notches at once may leave the range of float.
     distance_ = static_cast<float>(std::clamp(zoomed, static_cast<double>(settings_.minimum_distance),
                                               static_cast<double>(settings_.maximum_distance)));
 }

@@ -21,8 +21,7 @@ struct OrbitInput {
 };
 
 /// A camera that turns about a target, +Y up, always upright: the pitch ends short of the poles. The scene follows the
-/// drag, and each notch of the wheel changes the distance by the same factor. Input that is not finite is ignored, so
-/// the camera stays finite whatever it is fed.
+/// drag, and each notch of the wheel changes the distance by the same factor. Input that is not finite is ignored.
 class OrbitCamera {
  public:
     /// Starts at `start`, whose target and lens (field of view, near and far plane) it keeps. A start without a
@@ -40,7 +39,7 @@ class OrbitCamera {
 
  private:
     OrbitSettings settings_;
-    Camera lens_;  ///< its target and lens are used, not its eye
+    Camera lens_;  ///< its eye is not used
     ViewAngles angles_;
     float distance_ = 1.0F;
 };

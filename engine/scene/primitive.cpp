@@ -18,7 +18,6 @@ namespace {
 
 void read_vertices(const PrimitiveImport& import, Mesh& mesh) {
     mesh.positions = read_attribute<glm::vec3>(import, "POSITION");
-    if (mesh.positions.empty()) import.fail("no POSITION attribute", "one");
     mesh.normals = read_attribute<glm::vec3>(import, "NORMAL");
     mesh.tangents = read_attribute<glm::vec4>(import, "TANGENT");
     mesh.uvs = read_attribute<glm::vec2>(import, "TEXCOORD_0");
@@ -27,17 +26,15 @@ void read_vertices(const PrimitiveImport& import, Mesh& mesh) {
     Skinning skinning = read_skinning(import);
     mesh.joints = std::move(skinning.joints);
     mesh.weights = std::move(skinning.weights);
-    const auto check_length = [&](std::size_t length, const char* name) {
-        if (length != 0 && length != mesh.positions.size())
-            import.fail(fmt::format("{} values of {}", length, name),
+    for (const auto& [count, name] : {std::pair(mesh.normals.size(), "NORMAL"),
+                                      {mesh.tangents.size(), "TANGENT"},
+                                      {mesh.uvs.size(), "TEXCOORD_0"},
+                                      {mesh.uvs1.size(), "TEXCOORD_1"},
+                                      {mesh.colours.size(), "COLOR_0"},
+                                      {mesh.joints.size(), "JOINTS_0"}})
+        if (count != 0 && count != mesh.positions.size())
+            import.fail(fmt::format("{} values of {}", count, name),
                         fmt::format("as many as POSITION, {}", mesh.positions.size()));
-    };
-    check_length(mesh.normals.size(), "NORMAL");
-    check_length(mesh.tangents.size(), "TANGENT");
-    check_length(mesh.uvs.size(), "TEXCOORD_0");
-    check_length(mesh.uvs1.size(), "TEXCOORD_1");
-    check_length(mesh.colours.size(), "COLOR_0");
-    check_length(mesh.joints.size(), "JOINTS_0");
     for (const glm::vec3& position : mesh.positions)
         if (!is_finite(position)) import.fail("a position that is infinite or not a number", "finite positions");
 }
@@ -50,7 +47,7 @@ std::vector<std::uint32_t> read_corners(const PrimitiveImport& import, std::size
     } else if (import.primitive.indices) {
         corners = read_indices(import.document, *import.primitive.indices, import.budget);
     } else {
-        import.budget.spend(vertex_count, sizeof(std::uint32_t), import.place);
+        import.budget.spend(vertex_count, sizeof(std::uint32_t), import.pointer);
         corners.resize(vertex_count);
         std::iota(corners.begin(), corners.end(), 0U);
     }
@@ -69,7 +66,7 @@ std::vector<std::uint32_t> triangle_list(const PrimitiveImport& import, Primitiv
         return corners;
     }
     if (corners.size() < 3) import.fail(fmt::format("{} corners", corners.size()), "at least 3");
-    import.budget.spend(corners.size() - 2, 3 * sizeof(std::uint32_t), import.place);
+    import.budget.spend(corners.size() - 2, 3 * sizeof(std::uint32_t), import.pointer);
     std::vector<std::uint32_t> list;
     list.reserve((corners.size() - 2) * 3);
     for (std::size_t i = 0; i + 2 < corners.size(); ++i) {
@@ -95,7 +92,6 @@ void finish_uvs(const PrimitiveImport& import, Mesh& mesh) {
 
 void finish_normals(const PrimitiveImport& import, Mesh& mesh) {
     std::vector<glm::vec3> given = std::move(mesh.normals);
-    // Generated ones stand in for those that are missing or unusable.
     const auto usable = [](const glm::vec3& n) { return is_finite(n) && glm::dot(n, n) > 1e-12F; };
     if (given.empty() || !std::all_of(given.begin(), given.end(), usable)) generate_normals(mesh);
     if (given.empty()) return;
@@ -129,26 +125,31 @@ void finish_tangents(const PrimitiveImport& import, Mesh& mesh) {
 
 }  // namespace
 
+bool has_positions(const GltfPrimitive& primitive) {
+    return primitive.attributes.contains("POSITION") ||
+           (primitive.draco && primitive.draco->attributes.contains("POSITION"));
+}
+
 bool has_triangles(const GltfPrimitive& primitive) {
     return primitive.mode == PrimitiveMode::Triangles || primitive.mode == PrimitiveMode::TriangleStrip ||
            primitive.mode == PrimitiveMode::TriangleFan;
 }
 
-Mesh import_primitive(const GltfDocument& document, const GltfPrimitive& primitive, const std::string& place,
+Mesh import_primitive(const GltfDocument& document, const GltfPrimitive& primitive, const std::string& pointer,
                       DracoProcess& decoder, MemoryBudget& budget, std::vector<std::string>& warnings) {
     std::optional<DracoMesh> stream;
     if (primitive.draco)
-        stream.emplace(view_bytes(document, primitive.draco->view), document.file, place, decoder, budget);
-    const PrimitiveImport import{document, primitive, place, budget, warnings, stream ? &*stream : nullptr};
+        stream.emplace(view_bytes(document, primitive.draco->view), document.file, pointer, decoder, budget);
+    const PrimitiveImport import{document, primitive, pointer, budget, warnings, stream ? &*stream : nullptr};
 
     Mesh mesh;
     read_vertices(import, mesh);
     // A Draco stream holds a list of triangles, whatever the mode says.
     const PrimitiveMode mode = import.draco ? PrimitiveMode::Triangles : primitive.mode;
     mesh.indices = triangle_list(import, mode, read_corners(import, mesh.positions.size()));
-    // What the steps below add at most: normals, tangents and their sums, uvs.
+    // The steps below add at most normals, tangents and their sums, and uvs.
     budget.spend(mesh.positions.size(), sizeof(glm::vec3) + sizeof(glm::vec4) + 6 * sizeof(double) + sizeof(glm::vec2),
-                 place);
+                 pointer);
     finish_uvs(import, mesh);
     finish_normals(import, mesh);
     finish_tangents(import, mesh);

@@ -7,7 +7,7 @@
 
 #include "engine/core/error.h"
 #include "engine/scene/gltf_accessor.h"
-#include "engine/scene/gltf_check.h"
+#include "engine/scene/gltf_json.h"
 
 namespace rowland::scene {
 
@@ -27,36 +27,34 @@ std::optional<std::uint32_t> draco_id(const PrimitiveImport& import, const std::
     return found->second;
 }
 
-bool is_there(const PrimitiveImport& import, const std::string& name) {
+bool has_attribute(const PrimitiveImport& import, const std::string& name) {
     return accessor_of(import, name) != nullptr || draco_id(import, name);
 }
 
-/// What may hold a share of 1: floats, or unsigned integers that are normalised (glTF 2.0, 3.7.2.1).
-void require_shares(const PrimitiveImport& import, const std::string& name) {
+/// Colours and weights are floats or normalised unsigned bytes or shorts, joints unsigned bytes or shorts (glTF 2.0,
+/// 3.7.2.1).
+void require_component_type(const PrimitiveImport& import, const std::string& name, bool is_fraction) {
     const GltfAccessor* accessor = accessor_of(import, name);
-    if (!accessor || accessor->type == ComponentType::Float) return;
+    if (!accessor || (is_fraction && accessor->type == ComponentType::Float)) return;
     const bool is_small = accessor->type == ComponentType::Uint8 || accessor->type == ComponentType::Uint16;
-    if (!is_small || !accessor->normalised)
-        import.fail(fmt::format("{} of another type", name), "floats or normalised unsigned bytes or shorts");
-}
-
-void require_joint_numbers(const PrimitiveImport& import, const std::string& name) {
-    const GltfAccessor* accessor = accessor_of(import, name);
-    if (!accessor) return;
-    const bool is_small = accessor->type == ComponentType::Uint8 || accessor->type == ComponentType::Uint16;
-    if (!is_small || accessor->normalised)
-        import.fail(fmt::format("{} of another type", name), "unsigned bytes or shorts");
+    if (!is_small || accessor->normalised != is_fraction)
+        import.fail(fmt::format("{} of another type", name),
+                    is_fraction ? "floats or normalised unsigned bytes or shorts" : "unsigned bytes or shorts");
 }
 
 std::vector<glm::u16vec4> read_joints(const PrimitiveImport& import, const std::string& name) {
-    require_joint_numbers(import, name);
-    if (const auto id = draco_id(import, name)) return import.draco->vectors<glm::u16vec4>(*id, name);
+    require_component_type(import, name, false);
     // Floats hold every 16-bit number exactly.
     const std::vector<glm::vec4> read = read_attribute<glm::vec4>(import, name);
-    import.budget.spend(read.size(), sizeof(glm::u16vec4), import.place);
+    import.budget.spend(read.size(), sizeof(glm::u16vec4), import.pointer);
     std::vector<glm::u16vec4> joints;
     joints.reserve(read.size());
-    for (const glm::vec4& joint : read) joints.emplace_back(joint);
+    for (const glm::vec4& joint : read) {
+        for (int i = 0; i < 4; ++i)
+            if (!(joint[i] >= 0.0F && joint[i] <= 65535.0F))
+                import.fail(fmt::format("joint {}", joint[i]), "a number from 0 to 65535");
+        joints.emplace_back(joint);
+    }
     return joints;
 }
 
@@ -77,7 +75,7 @@ void finish_weights(const PrimitiveImport& import, Skinning& skinning) {
             weights = glm::vec4(1.0F, 0.0F, 0.0F, 0.0F);
             import.warn("vertices without joint weights were given to their first joint");
         }
-        // What an unused slot names means nothing, and need not be a joint.
+        // An unused slot may name anything.
         for (int k = 0; k < 4; ++k)
             if (weights[k] == 0.0F) skinning.joints[i][k] = 0;
     }
@@ -86,11 +84,11 @@ void finish_weights(const PrimitiveImport& import, Skinning& skinning) {
 }  // namespace
 
 void PrimitiveImport::fail(std::string found, std::string expected) const {
-    refuse_input(document.file, place, std::move(found), std::move(expected));
+    refuse_input(document.file, pointer, std::move(found), std::move(expected));
 }
 
 void PrimitiveImport::warn(const std::string& text) const {
-    warn_once(warnings, place + ": " + text);
+    warn_once(warnings, pointer + ": " + text);
 }
 
 template <typename Vector>
@@ -99,9 +97,7 @@ std::vector<Vector> read_attribute(const PrimitiveImport& import, const std::str
     if (const auto id = draco_id(import, name))
         return import.draco->vectors<Vector>(*id, name, accessor && accessor->normalised);
     if (!accessor) return {};
-    const std::size_t index = import.primitive.attributes.at(name);
-    require_data(import.document, index, import.place, name);
-    return read_vectors<Vector>(import.document, index, import.budget);
+    return read_vectors<Vector>(import.document, import.primitive.attributes.at(name), import.budget);
 }
 template std::vector<glm::vec2> read_attribute<glm::vec2>(const PrimitiveImport&, const std::string&);
 template std::vector<glm::vec3> read_attribute<glm::vec3>(const PrimitiveImport&, const std::string&);
@@ -109,14 +105,14 @@ template std::vector<glm::vec4> read_attribute<glm::vec4>(const PrimitiveImport&
 
 std::vector<glm::vec4> read_colours(const PrimitiveImport& import) {
     const std::string name = "COLOR_0";
-    require_shares(import, name);
+    require_component_type(import, name, true);
     const GltfAccessor* accessor = accessor_of(import, name);
     const auto id = draco_id(import, name);
     const int components = id ? import.draco->component_count(*id, name) : accessor ? accessor->rows : 4;
     std::vector<glm::vec4> colours;
     if (components == 3) {
         const std::vector<glm::vec3> opaque = read_attribute<glm::vec3>(import, name);
-        import.budget.spend(opaque.size(), sizeof(glm::vec4), import.place);
+        import.budget.spend(opaque.size(), sizeof(glm::vec4), import.pointer);
         colours.reserve(opaque.size());
         for (const glm::vec3& colour : opaque) colours.emplace_back(colour, 1.0F);
     } else {
@@ -133,14 +129,14 @@ std::vector<glm::vec4> read_colours(const PrimitiveImport& import) {
 }
 
 Skinning read_skinning(const PrimitiveImport& import) {
-    const bool has_joints = is_there(import, "JOINTS_0");
-    if (has_joints != is_there(import, "WEIGHTS_0")) {
+    const bool has_joints = has_attribute(import, "JOINTS_0");
+    if (has_joints != has_attribute(import, "WEIGHTS_0")) {
         import.warn("joints without weights, or weights without joints, are ignored");
         return {};
     }
     if (!has_joints) return {};
-    if (is_there(import, "JOINTS_1")) warn_once(import.warnings, "joints beyond four a vertex are ignored");
-    require_shares(import, "WEIGHTS_0");
+    if (has_attribute(import, "JOINTS_1")) warn_once(import.warnings, "joints beyond four a vertex are ignored");
+    require_component_type(import, "WEIGHTS_0", true);
     Skinning skinning{read_joints(import, "JOINTS_0"), read_attribute<glm::vec4>(import, "WEIGHTS_0")};
     if (skinning.joints.size() != skinning.weights.size())
         import.fail(fmt::format("{} values of JOINTS_0", skinning.joints.size()),

@@ -12,11 +12,11 @@
 
 namespace rowland::scene {
 
-/// Where one primitive is imported, for every step of it.
+/// One primitive while it is imported.
 struct PrimitiveImport {
     const GltfDocument& document;
     const GltfPrimitive& primitive;
-    const std::string& place;  ///< JSON pointer
+    const std::string& pointer;  ///< JSON pointer
     MemoryBudget& budget;
     std::vector<std::string>& warnings;
     const DracoMesh* draco;  ///< null: not compressed
@@ -47,7 +47,7 @@ struct Skinning {
     std::vector<glm::u16vec4> joints;
     std::vector<glm::vec4> weights;  ///< ≥ 0, sum 1
 };
-/// Weights are made to sum to 1; where none is above 0 the first joint gets all. Throws Error (input).
+/// Normalises the weights to sum 1; a vertex without positive weights follows its first joint. Throws Error (input).
 Skinning read_skinning(const PrimitiveImport& import);
 
 }  // namespace rowland::scene

@@ -13,8 +13,4 @@ struct PunctualLight {
     float outer_cone = 0.785398163F;  ///< radians from the axis, dark outside; > inner_cone
 };
 
-/// Share of `intensity`/distance² that reaches a point: glTF's range window max(0, 1 − (distance/range)⁴) and a spot's
-/// cone (KHR_lights_punctual). `cos_axis`: cosine between the axis and the direction to the point.
-float attenuation(const PunctualLight& light, float distance_m, float cos_axis);
-
 }  // namespace rowland::scene

@@ -12,20 +12,20 @@ namespace rowland::scene {
 
 struct Ray {
     glm::vec3 origin{0.0F};
-    glm::vec3 direction{0.0F, 0.0F, -1.0F};  ///< unit, or what it became in a mesh's space
+    glm::vec3 direction{0.0F, 0.0F, -1.0F};  ///< unit in world space; any length in a mesh's space
 };
 
 /// Where a ray meets a triangle.
 struct TriangleHit {
     std::size_t triangle = 0;  ///< its corners are indices 3 triangle … 3 triangle + 2 of the mesh
-    glm::vec2 weights{0.0F};   ///< of its second and third corner; the first has the rest
+    glm::vec2 weights{0.0F};   ///< barycentric, of its second and third corner
     float distance = 0.0F;     ///< in lengths of the ray's direction
 };
 
-/// Where a ray meets one triangle, its number left 0; nothing if it misses (Möller & Trumbore 1997).
+/// The intersection with one triangle, `triangle` left 0; nullopt if the ray misses (Möller & Trumbore 1997).
 std::optional<TriangleHit> meet(const Ray& ray, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
 
-/// The nearest triangle, seen from either side and at least `nearest_allowed` away; nothing if the ray misses.
+/// The nearest two-sided triangle at least `nearest_allowed` away; nullopt if the ray misses.
 std::optional<TriangleHit> nearest_hit(const Ray& ray, const Mesh& mesh, float nearest_allowed = 0.0F);
 
 /// A vertex attribute at a hit.

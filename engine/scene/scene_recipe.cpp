@@ -12,7 +12,7 @@
 #include <numbers>
 
 #include "engine/core/error.h"
-#include "engine/core/json_reader.h"
+#include "engine/core/json_vector.h"
 #include "engine/core/parallel.h"
 #include "engine/image/png.h"
 
@@ -24,16 +24,10 @@ constexpr std::size_t kMostElements = 4096;      ///< of each array
 constexpr std::size_t kMostVertices = 1U << 23;  ///< of all meshes
 constexpr std::size_t kMostTexels = 1U << 24;    ///< of all textures
 constexpr double kRadians = std::numbers::pi / 180.0;
-constexpr NumberRange kShare{.minimum = 0.0, .maximum = 1.0};
-constexpr NumberRange kPlace{.minimum = -1e6, .maximum = 1e6};
+constexpr NumberRange kPosition{.minimum = -1e6, .maximum = 1e6};
 constexpr NumberRange kDegrees{.minimum = -360.0, .maximum = 360.0};
 
-glm::dvec3 vector_of(JsonReader& reader, const std::string& key, NumberRange range) {
-    const std::vector<double> v = reader.numbers(key, 3, range);
-    return {v[0], v[1], v[2]};
-}
-
-/// The place of what is called by the text under `key`.
+/// The index of the element whose name is the text under `key`.
 template <typename Element>
 std::size_t find_named(JsonReader& reader, const std::string& key, const std::vector<Element>& among) {
     const std::string name = reader.text(key);
@@ -63,10 +57,8 @@ std::string new_name(JsonReader& reader, const std::vector<Element>& among) {
     return name;
 }
 
-/// Objects under `key`; none if it is not there.
-std::vector<JsonReader> objects_if_there(JsonReader& reader, const std::string& key) {
-    if (!reader.has(key)) return {};
-    std::vector<JsonReader> objects = reader.objects(key);
+std::vector<JsonReader> read_elements_of(JsonReader& reader, const std::string& key) {
+    std::vector<JsonReader> objects = reader.objects_if_there(key);
     if (objects.size() > kMostElements)
         reader.fail(key, fmt::format("{} of them", objects.size()), fmt::format("at most {}", kMostElements));
     return objects;
@@ -77,36 +69,34 @@ class Parsing {
     Parsing(JsonReader reader, const std::string& file) : reader_(std::move(reader)) { recipe_.file = file; }
 
     SceneRecipe parse() {
-        for (JsonReader& texture : objects_if_there(reader_, "textures")) add_texture(texture);
-        for (JsonReader& material : objects_if_there(reader_, "materials")) add_material(material);
-        for (JsonReader& mesh : objects_if_there(reader_, "meshes")) add_mesh(mesh);
-        for (JsonReader& camera : objects_if_there(reader_, "cameras")) add_camera(camera);
-        for (JsonReader& light : objects_if_there(reader_, "lights")) add_light(light);
-        for (JsonReader& node : objects_if_there(reader_, "nodes")) add_node(node);
+        for (JsonReader& texture : read_elements_of(reader_, "textures")) add_texture(texture);
+        for (JsonReader& material : read_elements_of(reader_, "materials")) add_material(material);
+        for (JsonReader& mesh : read_elements_of(reader_, "meshes")) add_mesh(mesh);
+        for (JsonReader& camera : read_elements_of(reader_, "cameras")) add_camera(camera);
+        for (JsonReader& light : read_elements_of(reader_, "lights")) add_light(light);
+        for (JsonReader& node : read_elements_of(reader_, "nodes")) add_node(node);
         reader_.finish();
         return std::move(recipe_);
     }
 
  private:
     void add_texture(JsonReader& reader) {
-        std::string name = new_name(reader, recipe_.textures);
-        TextureRecipe texture = parse_texture(reader);
-        const auto clamps = [&](const char* key) {
-            return reader.choice_or(key, "repeat", {"repeat", "clamp"}) == "clamp";
-        };
-        const bool clamp_x = clamps("wrap_x");
-        const bool clamp_y = clamps("wrap_y");
+        GlbTexture texture;
+        texture.name = new_name(reader, scene_.textures);
+        recipe_.textures.push_back(parse_texture(reader));
+        texture.clamp_x = reader.choice_or("wrap_x", "repeat", {"repeat", "clamp"}) == "clamp";
+        texture.clamp_y = reader.choice_or("wrap_y", "repeat", {"repeat", "clamp"}) == "clamp";
         reader.finish();
-        recipe_.textures.push_back({std::move(name), std::move(texture), clamp_x, clamp_y});
+        scene_.textures.push_back(std::move(texture));
     }
 
     void add_material(JsonReader& reader) {
         GlbMaterial material;
-        material.name = new_name(reader, recipe_.materials);
-        if (reader.has("color")) material.colour = glm::dvec4(vector_of(reader, "color", kShare), 1.0);
-        material.colour.a = reader.number_or("alpha", 1.0, kShare);
-        material.metallic = reader.number_or("metallic", material.metallic, kShare);
-        material.roughness = reader.number_or("roughness", material.roughness, kShare);
+        material.name = new_name(reader, scene_.materials);
+        const auto colour = read_vector_or(reader, "color", glm::dvec3(material.colour), kFraction);
+        material.colour = glm::dvec4(colour, reader.number_or("alpha", 1.0, kFraction));
+        material.metallic = reader.number_or("metallic", material.metallic, kFraction);
+        material.roughness = reader.number_or("roughness", material.roughness, kFraction);
         if (reader.has("color_texture")) material.colour_texture = colour_texture(reader.object("color_texture"));
         material.blend = reader.boolean_or("blend", false);
         material.double_sided = reader.boolean_or("double_sided", false);
@@ -115,57 +105,53 @@ class Parsing {
             material.extensions = reader.raw("extensions");
         }
         reader.finish();
-        recipe_.materials.push_back(std::move(material));
+        scene_.materials.push_back(std::move(material));
     }
 
     GlbMaterial::ColourTexture colour_texture(JsonReader reader) const {
         GlbMaterial::ColourTexture use;
-        use.texture = find_named(reader, "name", recipe_.textures);
-        if (reader.has("repeat")) {
-            const std::vector<double> repeat = reader.numbers("repeat", 2, {.minimum = 1e-3, .maximum = 1e6});
-            use.repeat = {repeat[0], repeat[1]};
-        }
+        use.texture = find_named(reader, "name", scene_.textures);
+        use.repeat = read_vector_or(reader, "repeat", use.repeat, {.minimum = 1e-3, .maximum = 1e6});
         reader.finish();
         return use;
     }
 
     void add_mesh(JsonReader& reader) {
-        SceneRecipe::SceneMesh mesh;
-        mesh.name = new_name(reader, recipe_.meshes);
+        scene_.meshes.push_back({.name = new_name(reader, scene_.meshes), .primitives = {}});
         std::vector<JsonReader> parts = reader.objects("parts");
         if (parts.empty() || parts.size() > kMostElements)
             reader.fail("parts", fmt::format("{} parts", parts.size()), fmt::format("1 to {}", kMostElements));
+        std::vector<SceneRecipe::Part>& mesh = recipe_.meshes.emplace_back();
         for (JsonReader& part : parts) {
-            mesh.parts.push_back({parse_shape(part.object("shape")), find_named(part, "material", recipe_.materials)});
+            mesh.push_back({parse_shape(part.object("shape")), find_named(part, "material", scene_.materials)});
             part.finish();
         }
         reader.finish();
-        recipe_.meshes.push_back(std::move(mesh));
     }
 
     void add_camera(JsonReader& reader) {
         GlbCamera camera;
-        camera.name = new_name(reader, recipe_.cameras);
+        camera.name = new_name(reader, scene_.cameras);
         camera.vertical_field_of_view =
             kRadians * reader.number("vertical_field_of_view_deg", {.minimum = 1.0, .maximum = 170.0});
         camera.near_plane = reader.number_or("near", camera.near_plane, {.minimum = 1e-4, .maximum = 1.0});
         camera.far_plane = reader.number_or("far", camera.far_plane, {.minimum = 2.0, .maximum = 1e6});
         reader.finish();
-        recipe_.cameras.push_back(std::move(camera));
+        scene_.cameras.push_back(std::move(camera));
     }
 
     void add_light(JsonReader& reader) {
         GlbLight light;
-        light.name = new_name(reader, recipe_.lights);
+        light.name = new_name(reader, scene_.lights);
         const std::string type = reader.choice("type", {"directional", "point", "spot"});
         glm::dvec3 strength(reader.number("intensity", {.minimum = 0.0, .maximum = 1e6}));
-        if (reader.has("color")) strength *= vector_of(reader, "color", kShare);
+        strength *= read_vector_or(reader, "color", glm::dvec3(1.0), kFraction);
         if (type == "directional")
             light.light = DirectionalLight{.irradiance = glm::vec3(strength)};
         else
             light.light = punctual(reader, type == "spot", strength);
         reader.finish();
-        recipe_.lights.push_back(std::move(light));
+        scene_.lights.push_back(std::move(light));
     }
 
     static PunctualLight punctual(JsonReader& reader, bool spot, const glm::dvec3& strength) {
@@ -183,27 +169,26 @@ class Parsing {
 
     void add_node(JsonReader& reader) {
         GlbNode node;
-        node.name = new_name(reader, recipe_.nodes);
-        node.parent = find_named_if_there(reader, "parent", recipe_.nodes);
-        if (reader.has("translation")) node.local.translation = glm::vec3(vector_of(reader, "translation", kPlace));
+        node.name = new_name(reader, scene_.nodes);
+        node.parent = find_named_if_there(reader, "parent", scene_.nodes);
+        node.local.translation = read_vector_or(reader, "translation", glm::vec3(0.0F), kPosition);
         node.local.rotation = rotation(reader);
         node.local.scale =
             glm::vec3(static_cast<float>(reader.number_or("scale", 1.0, {.minimum = 1e-3, .maximum = 1e3})));
-        node.mesh = find_named_if_there(reader, "mesh", recipe_.meshes);
-        node.camera = find_named_if_there(reader, "camera", recipe_.cameras);
-        node.light = find_named_if_there(reader, "light", recipe_.lights);
+        node.mesh = find_named_if_there(reader, "mesh", scene_.meshes);
+        node.camera = find_named_if_there(reader, "camera", scene_.cameras);
+        node.light = find_named_if_there(reader, "light", scene_.lights);
         if (reader.has("extras")) {
             reader.object("extras");
             node.extras = reader.raw("extras");
         }
         reader.finish();
-        recipe_.nodes.push_back(std::move(node));
+        scene_.nodes.push_back(std::move(node));
     }
 
     static glm::quat rotation(JsonReader& reader) {
         if (reader.has("look_at")) return looking_at(reader);
-        if (!reader.has("yaw_pitch_roll_deg")) return {1.0F, 0.0F, 0.0F, 0.0F};
-        const glm::dvec3 turns = kRadians * vector_of(reader, "yaw_pitch_roll_deg", kDegrees);
+        const glm::dvec3 turns = kRadians * read_vector_or(reader, "yaw_pitch_roll_deg", glm::dvec3(0.0), kDegrees);
         return glm::quat(glm::angleAxis(turns.x, glm::dvec3(0.0, 1.0, 0.0)) *
                          glm::angleAxis(turns.y, glm::dvec3(1.0, 0.0, 0.0)) *
                          glm::angleAxis(turns.z, glm::dvec3(0.0, 0.0, 1.0)));
@@ -212,10 +197,9 @@ class Parsing {
     static glm::quat looking_at(JsonReader& reader) {
         if (reader.has("yaw_pitch_roll_deg"))
             reader.fail("yaw_pitch_roll_deg", "beside look_at", "one of the two", "remove one");
-        glm::dvec3 from(0.0);
-        if (reader.has("translation")) from = vector_of(reader, "translation", kPlace);
-        const glm::dvec3 way = vector_of(reader, "look_at", kPlace) - from;
-        if (!(glm::length(way) > 1e-6)) reader.fail("look_at", "the node's own place", "another point");
+        const auto from = read_vector_or(reader, "translation", glm::dvec3(0.0), kPosition);
+        const glm::dvec3 way = read_vector<glm::dvec3>(reader, "look_at", kPosition) - from;
+        if (!(glm::length(way) > 1e-6)) reader.fail("look_at", "the node's own position", "another point");
         const glm::dvec3 ahead = glm::normalize(way);
         const bool upright = std::abs(ahead.y) > 1.0 - 1e-9;
         return glm::quat(glm::quatLookAt(ahead, upright ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(0.0, 1.0, 0.0)));
@@ -223,12 +207,13 @@ class Parsing {
 
     JsonReader reader_;
     SceneRecipe recipe_;
+    GlbScene& scene_ = recipe_.scene;
 };
 
 void check_texels(const SceneRecipe& recipe) {
     std::size_t texels = 0;
     for (std::size_t i = 0; i < recipe.textures.size(); ++i) {
-        const TextureRecipe& texture = recipe.textures[i].recipe;
+        const TextureRecipe& texture = recipe.textures[i];
         texels += static_cast<std::size_t>(texture.width) * static_cast<std::size_t>(texture.height);
         if (texels > kMostTexels)
             refuse_input(recipe.file, fmt::format("/scene/textures/{}/size", i), fmt::format("{} texels", texels),
@@ -251,9 +236,9 @@ SceneRecipe parse_scene_recipe(const nlohmann::json& document, const std::string
 
 namespace {
 
-/// What was painted last. A running program cooks a scene at every save, and its textures are most of the work but
-/// seldom what was changed.
-class PaintedBefore {
+/// The textures painted last. A running program cooks a scene at every save; its textures are most of the work and
+/// rarely change.
+class TextureCache {
  public:
     std::optional<std::vector<std::byte>> find(const TextureRecipe& recipe) {
         const std::lock_guard lock(mutex_);
@@ -279,11 +264,11 @@ class PaintedBefore {
 };
 
 std::vector<std::byte> png_of(const TextureRecipe& recipe) {
-    static PaintedBefore before;
-    if (auto png = before.find(recipe)) return *std::move(png);
+    static TextureCache cache;
+    if (auto png = cache.find(recipe)) return *std::move(png);
     const PaintedTexture painted = paint(recipe);
     std::vector<std::byte> png = image::encode_png(recipe.width, recipe.height, painted.channels, painted.texels);
-    before.keep(recipe, png);
+    cache.keep(recipe, png);
     return png;
 }
 
@@ -291,23 +276,13 @@ std::vector<std::byte> png_of(const TextureRecipe& recipe) {
 
 GlbScene build_scene(const SceneRecipe& recipe) {
     check_texels(recipe);
-    GlbScene scene;
-    scene.materials = recipe.materials;
-    scene.cameras = recipe.cameras;
-    scene.lights = recipe.lights;
-    scene.nodes = recipe.nodes;
-    scene.textures.resize(recipe.textures.size());
-    parallel_for(recipe.textures.size(), [&](std::size_t i) {
-        const SceneRecipe::Texture& texture = recipe.textures[i];
-        scene.textures[i] = {texture.name, png_of(texture.recipe), texture.clamp_x, texture.clamp_y};
-    });
+    GlbScene scene = recipe.scene;
+    parallel_for(recipe.textures.size(), [&](std::size_t i) { scene.textures[i].png = png_of(recipe.textures[i]); });
     std::size_t vertices = 0;
     for (std::size_t i = 0; i < recipe.meshes.size(); ++i) {
-        GlbMesh& mesh = scene.meshes.emplace_back();
-        mesh.name = recipe.meshes[i].name;
-        for (const SceneRecipe::Part& part : recipe.meshes[i].parts) {
-            mesh.primitives.push_back({build_mesh(part.shape), part.material});
-            vertices += mesh.primitives.back().mesh.positions.size();
+        for (const SceneRecipe::Part& part : recipe.meshes[i]) {
+            scene.meshes[i].primitives.push_back({build_mesh(part.shape), part.material});
+            vertices += scene.meshes[i].primitives.back().mesh.positions.size();
             if (vertices > kMostVertices)
                 refuse_input(recipe.file, fmt::format("/scene/meshes/{}", i), fmt::format("{} vertices", vertices),
                              fmt::format("at most {} in all meshes", kMostVertices), "take fewer rings and segments");

@@ -8,19 +8,19 @@
 
 namespace rowland::scene {
 
-/// i-th of `count` equal steps around the circle; the last is exactly the first again.
+/// The i-th of `count` equal steps around the circle; step `count` equals step 0 exactly.
 struct Angle {
     double cosine;
     double sine;
 };
 Angle angle(int i, int count);
 
-/// Adds a vertex of a made-up shape. In all of them v grows along cross(normal, tangent), so the tangent's w is −1.
+/// Adds a vertex of a generated shape. In all of them v grows along cross(normal, tangent), so the tangent's w is −1.
 void add_vertex(Mesh& mesh, const glm::dvec3& position, const glm::dvec3& normal, const glm::dvec3& tangent,
                 const glm::dvec2& uv);
 
-/// Triangulates rows of `columns` vertices each, beginning at vertex `first`. Counter-clockwise seen from where growing
-/// rows point right and growing columns point up.
+/// Triangulates a grid of vertices, row by row from vertex `first`. Counter-clockwise where the row index grows to the
+/// right and the column index upwards.
 void add_grid(Mesh& mesh, std::uint32_t first, std::uint32_t rows, std::uint32_t columns);
 
 }  // namespace rowland::scene

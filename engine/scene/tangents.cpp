@@ -65,7 +65,7 @@ void generate_normals(Mesh& mesh) {
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         const std::uint32_t* corner = &mesh.indices[i];
         const glm::dvec3 p0(mesh.positions[corner[0]]);
-        // The cross product's length is twice the area: the weight comes by itself.
+        // The cross product's length is twice the area, which is the weight.
         const glm::dvec3 normal =
             glm::cross(glm::dvec3(mesh.positions[corner[1]]) - p0, glm::dvec3(mesh.positions[corner[2]]) - p0);
         for (int k = 0; k < 3; ++k) sums[corner[k]] += normal;
@@ -104,6 +104,24 @@ bool orthonormalise_tangent(glm::vec4& tangent, const glm::vec3& n) {
     const bool usable = part != glm::dvec3(0.0);
     tangent = glm::vec4(usable ? glm::vec3(part) : any_perpendicular(n), w);
     return usable;
+}
+
+void transform_vertex(Mesh& mesh, std::size_t vertex, const glm::mat4& matrix) {
+    const glm::dmat4 affine(matrix);
+    const glm::dmat3 linear(affine);
+    // The cofactors are det times the inverse transpose, and exist for every matrix. Normals must not take the sign.
+    const glm::dmat3 cofactors(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
+                               glm::cross(linear[0], linear[1]));
+    const double side = glm::dot(cofactors[2], linear[2]) < 0.0 ? -1.0 : 1.0;
+    mesh.positions[vertex] = glm::vec3(affine * glm::dvec4(glm::dvec3(mesh.positions[vertex]), 1.0));
+    const glm::dvec3 normal = side * (cofactors * glm::dvec3(mesh.normals[vertex]));
+    const double length = glm::length(normal);
+    if (length > 0.0 && std::isfinite(length)) mesh.normals[vertex] = glm::vec3(normal / length);
+    glm::vec4& tangent = mesh.tangents[vertex];
+    const glm::dvec3 turned = linear * glm::dvec3(glm::vec3(tangent));
+    const double size = glm::length(turned);
+    tangent = glm::vec4(size > 0.0 ? turned / size : turned, side * tangent.w);
+    orthonormalise_tangent(tangent, mesh.normals[vertex]);
 }
 
 }  // namespace rowland::scene

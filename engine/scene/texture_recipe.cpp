@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "engine/core/json_vector.h"
 #include "engine/core/parallel.h"
 
 namespace rowland::scene {
@@ -16,14 +17,14 @@ namespace {
 constexpr int kLargestSide = 8192;
 constexpr std::size_t kMostLayers = 32;
 constexpr NumberRange kTextureLength{.minimum = 1e-4, .maximum = 1e4};
-constexpr NumberRange kShareBelowOne{.minimum = 0.0, .maximum = 1.0, .maximum_open = true};
+constexpr NumberRange kBelowOne{.minimum = 0.0, .maximum = 1.0, .maximum_open = true};
 
 double fraction(double x) {
     return x - std::floor(x);
 }
 
-/// Where a point lies within a layer's pattern; each 0 … 1.
-struct Place {
+/// A point within a cell of a layer's pattern; each 0 … 1.
+struct CellPoint {
     double cell;
     double radius;
     double angle;
@@ -39,18 +40,18 @@ double turn_of(const glm::dvec2& from_centre) {
     return fraction(std::atan2(from_centre.y, from_centre.x) / (2.0 * std::numbers::pi));
 }
 
-std::optional<Place> in_tiles(const LayerRecipe& layer, const glm::dvec2& at) {
+std::optional<CellPoint> in_tiles(const LayerRecipe& layer, const glm::dvec2& at) {
     const glm::dvec2 index = glm::floor(at / layer.size);
     const glm::dvec2 offset = at / layer.size - index - 0.5;
     // The same gap on all sides, whatever the tile's proportions.
     const glm::dvec2 free = layer.gap * std::min(layer.size.x, layer.size.y) / layer.size;
     if (std::abs(offset.x) > 0.5 * (1.0 - free.x) || std::abs(offset.y) > 0.5 * (1.0 - free.y)) return std::nullopt;
     const glm::dvec2 from_centre = offset * layer.size;
-    return Place{spread(index.x, index.y), std::min(1.0, glm::length(from_centre) / (0.5 * glm::length(layer.size))),
-                 turn_of(from_centre)};
+    return CellPoint{spread(index.x, index.y),
+                     std::min(1.0, glm::length(from_centre) / (0.5 * glm::length(layer.size))), turn_of(from_centre)};
 }
 
-std::optional<Place> in_hexagons(const LayerRecipe& layer, const glm::dvec2& at) {
+std::optional<CellPoint> in_hexagons(const LayerRecipe& layer, const glm::dvec2& at) {
     const double width = layer.size.x;
     const double row_height = width * std::sqrt(3.0) / 2.0;
     // The nearest of the centres of the two rows around the point.
@@ -69,23 +70,23 @@ std::optional<Place> in_hexagons(const LayerRecipe& layer, const glm::dvec2& at)
     const glm::dvec2 across = glm::abs(nearest);
     const double to_flat = std::max(across.x, 0.5 * across.x + std::sqrt(0.75) * across.y);
     if (to_flat > 0.5 * width * (1.0 - layer.gap)) return std::nullopt;
-    return Place{spread(index.x, index.y), std::min(1.0, least * std::sqrt(3.0) / width), turn_of(nearest)};
+    return CellPoint{spread(index.x, index.y), std::min(1.0, least * std::sqrt(3.0) / width), turn_of(nearest)};
 }
 
-std::optional<Place> in_rosette(const LayerRecipe& layer, const glm::dvec2& at) {
+std::optional<CellPoint> in_rosette(const LayerRecipe& layer, const glm::dvec2& at) {
     const glm::dvec2 from_centre = at - layer.centre;
     const double turn = turn_of(from_centre);
     double edge = layer.radius;
     if (layer.petals > 0)
         edge *= 1.0 - layer.petal_depth * 0.5 * (1.0 - std::cos(2.0 * std::numbers::pi * layer.petals * turn));
-    const double share = glm::length(from_centre) / edge;
-    if (share >= 1.0) return std::nullopt;
-    const double ring = std::floor(share * layer.rings);
-    if (share * layer.rings - ring > 1.0 - layer.gap) return std::nullopt;
-    return Place{spread(ring, 0.0), share, turn};
+    const double radius = glm::length(from_centre) / edge;
+    if (radius >= 1.0) return std::nullopt;
+    const double ring = std::floor(radius * layer.rings);
+    if (radius * layer.rings - ring > 1.0 - layer.gap) return std::nullopt;
+    return CellPoint{spread(ring, 0.0), radius, turn};
 }
 
-std::optional<Place> place_in(const LayerRecipe& layer, const glm::dvec2& at, double aspect) {
+std::optional<CellPoint> point_in(const LayerRecipe& layer, const glm::dvec2& at, double aspect) {
     switch (layer.pattern) {
         case LayerRecipe::Pattern::Tiles:
             return in_tiles(layer, at);
@@ -97,41 +98,26 @@ std::optional<Place> place_in(const LayerRecipe& layer, const glm::dvec2& at, do
             break;
     }
     const glm::dvec2 middle(0.5 * aspect, 0.5);
-    return Place{0.5, std::min(1.0, glm::length(at - middle) / glm::length(middle)), turn_of(at - middle)};
+    return CellPoint{0.5, std::min(1.0, glm::length(at - middle) / glm::length(middle)), turn_of(at - middle)};
 }
 
-double value(const ChannelRecipe& channel, const Place& place, const glm::dvec2& share) {
-    double t = 0.0;
-    switch (channel.by) {
-        case ChannelRecipe::By::Cell:
-            t = place.cell;
-            break;
-        case ChannelRecipe::By::Radius:
-            t = place.radius;
-            break;
-        case ChannelRecipe::By::Angle:
-            t = place.angle;
-            break;
-        case ChannelRecipe::By::X:
-            t = share.x;
-            break;
-        case ChannelRecipe::By::Y:
-            t = share.y;
-            break;
-    }
-    t = std::clamp((t - channel.begin) / (channel.end - channel.begin), 0.0, 1.0);
+double value(const ChannelRecipe& channel, const CellPoint& point, const glm::dvec2& at) {
+    // In the order of By.
+    const std::array<double, 5> coordinates = {point.cell, point.radius, point.angle, at.x, at.y};
+    const double t = std::clamp(
+        (coordinates[static_cast<std::size_t>(channel.by)] - channel.begin) / (channel.end - channel.begin), 0.0, 1.0);
     return std::lerp(channel.from, channel.to, channel.repeat == 1.0 ? t : fraction(t * channel.repeat));
 }
 
 std::array<std::uint8_t, 4> texel(const TextureRecipe& recipe, int column, int row) {
     const double aspect = static_cast<double>(recipe.width) / recipe.height;
-    const glm::dvec2 share((column + 0.5) / recipe.width, 1.0 - (row + 0.5) / recipe.height);
+    const glm::dvec2 at((column + 0.5) / recipe.width, 1.0 - (row + 0.5) / recipe.height);
     std::array<double, 4> painted = {0.0, 0.0, 0.0, 1.0};
     for (const LayerRecipe& layer : recipe.layers) {
-        const std::optional<Place> place = place_in(layer, {share.x * aspect, share.y}, aspect);
-        if (!place) continue;
+        const std::optional<CellPoint> point = point_in(layer, {at.x * aspect, at.y}, aspect);
+        if (!point) continue;
         for (std::size_t c = 0; c < painted.size(); ++c)
-            if (layer.channels[c]) painted[c] = value(*layer.channels[c], *place, share);
+            if (layer.channels[c]) painted[c] = value(*layer.channels[c], *point, at);
     }
     std::array<std::uint8_t, 4> bytes;
     for (std::size_t c = 0; c < painted.size(); ++c)
@@ -140,57 +126,44 @@ std::array<std::uint8_t, 4> texel(const TextureRecipe& recipe, int column, int r
 }
 
 ChannelRecipe parse_channel(JsonReader& layer, const std::string& key) {
-    constexpr NumberRange share{.minimum = 0.0, .maximum = 1.0};
     ChannelRecipe channel;
     if (!layer.raw(key).is_object()) {
-        channel.from = channel.to = layer.number(key, share);
+        channel.from = channel.to = layer.number(key, kFraction);
         return channel;
     }
     JsonReader reader = layer.object(key);
-    channel.from = reader.number("from", share);
-    channel.to = reader.number("to", share);
-    const std::string by = reader.choice("by", {"cell", "radius", "angle", "x", "y"});
-    channel.by = by == "cell"     ? ChannelRecipe::By::Cell
-                 : by == "radius" ? ChannelRecipe::By::Radius
-                 : by == "angle"  ? ChannelRecipe::By::Angle
-                 : by == "x"      ? ChannelRecipe::By::X
-                                  : ChannelRecipe::By::Y;
-    if (reader.has("over")) {
-        const std::vector<double> over = reader.numbers("over", 2, share);
-        channel.begin = over[0];
-        channel.end = over[1];
-        if (!(channel.begin < channel.end))
-            reader.fail("over/1", fmt::format("{}", over[1]), fmt::format("more than {}", over[0]));
-    }
+    channel.from = reader.number("from", kFraction);
+    channel.to = reader.number("to", kFraction);
+    using By = ChannelRecipe::By;
+    channel.by = reader.choice<By>(
+        "by", {{"cell", By::Cell}, {"radius", By::Radius}, {"angle", By::Angle}, {"x", By::X}, {"y", By::Y}});
+    const std::vector<double> over = reader.numbers_or("over", {0.0, 1.0}, kFraction);
+    channel.begin = over[0];
+    channel.end = over[1];
+    if (!(channel.begin < channel.end))
+        reader.fail("over/1", fmt::format("{}", over[1]), fmt::format("more than {}", over[0]));
     channel.repeat = reader.number_or("repeat", 1.0, {.minimum = 1e-3, .maximum = 1e4});
     reader.finish();
     return channel;
 }
 
-void parse_rosette(JsonReader& reader, LayerRecipe& layer) {
-    layer.pattern = LayerRecipe::Pattern::Rosette;
-    const std::vector<double> centre = reader.numbers("centre", 2, {.minimum = -1e4, .maximum = 1e4});
-    layer.centre = {centre[0], centre[1]};
-    layer.radius = reader.number("radius", kTextureLength);
-    layer.petals = static_cast<int>(reader.integer_or("petals", 0, 0, 64));
-    layer.petal_depth = reader.number_or("petal_depth", layer.petal_depth, kShareBelowOne);
-    layer.rings = static_cast<int>(reader.integer_or("rings", 1, 1, 256));
-}
-
 LayerRecipe parse_layer(JsonReader& reader) {
+    using Pattern = LayerRecipe::Pattern;
     LayerRecipe layer;
-    const std::string pattern = reader.choice("pattern", {"all", "tiles", "hexagons", "rosette"});
-    if (pattern == "tiles") {
-        layer.pattern = LayerRecipe::Pattern::Tiles;
-        const std::vector<double> size = reader.numbers("size", 2, kTextureLength);
-        layer.size = {size[0], size[1]};
-    } else if (pattern == "hexagons") {
-        layer.pattern = LayerRecipe::Pattern::Hexagons;
-        layer.size = glm::dvec2(reader.number("size", kTextureLength));
-    } else if (pattern == "rosette") {
-        parse_rosette(reader, layer);
+    layer.pattern = reader.choice<Pattern>("pattern", {{"all", Pattern::All},
+                                                       {"tiles", Pattern::Tiles},
+                                                       {"hexagons", Pattern::Hexagons},
+                                                       {"rosette", Pattern::Rosette}});
+    if (layer.pattern == Pattern::Tiles) layer.size = read_vector<glm::dvec2>(reader, "size", kTextureLength);
+    if (layer.pattern == Pattern::Hexagons) layer.size = glm::dvec2(reader.number("size", kTextureLength));
+    if (layer.pattern == Pattern::Rosette) {
+        layer.centre = read_vector<glm::dvec2>(reader, "centre", {.minimum = -1e4, .maximum = 1e4});
+        layer.radius = reader.number("radius", kTextureLength);
+        layer.petals = static_cast<int>(reader.integer_or("petals", 0, 0, 64));
+        layer.petal_depth = reader.number_or("petal_depth", layer.petal_depth, kBelowOne);
+        layer.rings = static_cast<int>(reader.integer_or("rings", 1, 1, 256));
     }
-    if (pattern != "all") layer.gap = reader.number_or("gap", 0.0, kShareBelowOne);
+    if (layer.pattern != Pattern::All) layer.gap = reader.number_or("gap", 0.0, kBelowOne);
     constexpr std::array<const char*, 4> kKeys = {"r", "g", "b", "a"};
     for (std::size_t c = 0; c < kKeys.size(); ++c)
         if (reader.has(kKeys[c])) layer.channels[c] = parse_channel(reader, kKeys[c]);

@@ -11,11 +11,11 @@
 
 namespace rowland::scene {
 
-/// What a layer paints into one channel: from + (to − from) · t, where t runs from 0 to 1 `repeat` times over a share
-/// of what it goes by, and stays as it is before and behind.
+/// What a layer paints into one channel: from + (to − from) · t. t runs from 0 to 1 `repeat` times while the coordinate
+/// `by` runs from `begin` to `end`; outside t is clamped.
 struct ChannelRecipe {
     enum class By {
-        Cell,    ///< a value of the cell's own, evenly spread over the cells
+        Cell,    ///< a constant per cell, evenly distributed over the cells
         Radius,  ///< from the cell's centre to its edge
         Angle,   ///< around the centre, counter-clockwise from the right
         X,       ///< across the picture, from the left
@@ -32,7 +32,7 @@ struct ChannelRecipe {
     bool operator==(const ChannelRecipe&) const = default;
 };
 
-/// Lengths are in heights of the picture, places from its lower left corner.
+/// Lengths are in heights of the picture, positions from its lower left corner.
 struct LayerRecipe {
     enum class Pattern {
         All,       ///< everywhere; one cell
@@ -43,19 +43,19 @@ struct LayerRecipe {
 
     Pattern pattern = Pattern::All;
     glm::dvec2 size{0.0};      ///< of tiles; of hexagons x, across their flats; > 0
-    double gap = 0.0;          ///< share of a tile's, hexagon's or ring's width that is left free, 0 … < 1
+    double gap = 0.0;          ///< fraction of a tile's, hexagon's or ring's width that is not painted, 0 … < 1
     glm::dvec2 centre{0.0};    ///< of a rosette
     double radius = 0.0;       ///< of a rosette, out to the petals' tips, > 0
     int petals = 0;            ///< 0 … 64
-    double petal_depth = 0.3;  ///< how far it goes in between petals, as a share of the radius, 0 … < 1
+    double petal_depth = 0.3;  ///< of the notches between petals, as a fraction of the radius, 0 … < 1
     int rings = 1;             ///< 1 … 256; each is a cell
-    std::array<std::optional<ChannelRecipe>, 4> channels;  ///< R, G, B, A; those that are absent stay as they were
+    std::array<std::optional<ChannelRecipe>, 4> channels;  ///< R, G, B, A; nullopt: not painted
 
     bool operator==(const LayerRecipe&) const = default;
 };
 
-/// A picture painted in layers, each over those before it; black and opaque at first. Plain numbers: whether they mean
-/// colours or anything else is for whoever uses the texture.
+/// A picture painted in layers, each over those before it, on opaque black. Plain numbers: the user of the texture
+/// decides whether they mean colours.
 struct TextureRecipe {
     int width = 1;  ///< texels, 1 … 8192
     int height = 1;
@@ -64,8 +64,8 @@ struct TextureRecipe {
     bool operator==(const TextureRecipe&) const = default;
 };
 
-/// Reads "size" and "layers" of an object that may hold more; scene_recipe.schema.json says what may stand there.
-/// Throws Error (input) that names the place. `finish()` is the caller's.
+/// Reads "size" and "layers" of an object that may hold more; the format is in scene_recipe.schema.json. The caller
+/// calls `finish()`. Throws Error (input).
 TextureRecipe parse_texture(JsonReader& reader);
 
 struct PaintedTexture {

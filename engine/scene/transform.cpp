@@ -9,7 +9,7 @@ namespace rowland::scene {
 
 namespace {
 
-/// World matrices, each computed once however deep the chains of parents are: a scene from a file may hold any.
+/// Computes each world matrix once, without recursion: a scene from a file may hold chains of parents of any depth.
 class Placement {
  public:
     explicit Placement(ecs::World& world) : world_(world) {}
@@ -35,8 +35,8 @@ class Placement {
         return states_[entity.index];
     }
 
-    /// Fills the chain with `entity` and its ancestors up to one that is placed, whose matrix it returns, or to the
-    /// root.
+    /// Fills the chain with `entity` and its ancestors, up to the root or to one that is placed; returns the latter's
+    /// matrix.
     glm::mat4 collect_chain(ecs::Entity entity) {
         while (world_.alive(entity)) {
             State& state = state_of(entity);

@@ -5,10 +5,10 @@
 
 namespace rowland::scene {
 
-/// Steepest pitch of the interactive cameras, 89 degrees: at the pole the +Y up vector says nothing.
+/// Steepest pitch of the interactive cameras, 89 degrees: at the poles the up vector +Y gives no orientation.
 constexpr double kMaximumPitch = 89.0 / 180.0 * std::numbers::pi;
 
-/// A direction as radians, in double: a view turns by many small steps, whose rounding would add up in float.
+/// A direction in radians; double, because a view turns by many small steps whose rounding adds up.
 struct ViewAngles {
     double yaw = 0.0;    ///< about +Y, 0 = +Z, growing towards +X; -pi to pi
     double pitch = 0.0;  ///< growing towards +Y; -kMaximumPitch to kMaximumPitch
@@ -17,10 +17,10 @@ struct ViewAngles {
 /// The unit vector.
 glm::vec3 direction_of(ViewAngles angles);
 
-/// The angles of `direction` (any length), zero if it has none or is not finite; the pitch clamped.
+/// The angles of `direction` (any length), with the pitch clamped; zeros if it is zero or not finite.
 ViewAngles angles_of(glm::vec3 direction);
 
-/// `angles` turned by `yaw` and `pitch` radians, wrapped and clamped. A turn that is not finite counts as none.
+/// `angles` turned by `yaw` and `pitch` radians, wrapped and clamped. A turn that is not finite is ignored.
 ViewAngles turned(ViewAngles angles, double yaw, double pitch);
 
 }  // namespace rowland::scene

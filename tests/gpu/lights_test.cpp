@@ -7,6 +7,7 @@
 #include "engine/scene/directional_light.h"
 #include "engine/scene/punctual_light.h"
 #include "tests/gpu/render_test.h"
+#include "tests/unit/engine/scene/punctual_attenuation.h"
 
 namespace rowland::render {
 namespace {

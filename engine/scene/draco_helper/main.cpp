@@ -1,16 +1,15 @@
-// Decodes Draco streams for the importer, which cannot trust the decoder with files from anywhere: a few damaged bytes
-// make it run on or take gigabytes. Here it may; the importer ends this process and refuses the file.
+// Decodes Draco streams for the importer. A few damaged bytes make Draco's decoder hang or take gigabytes; here that
+// does no harm, because the importer ends this process and refuses the file.
 #include <draco/compression/decode.h>
 #include <draco/mesh/mesh.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <csignal>
 #include <cstddef>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
@@ -26,31 +25,17 @@ namespace {
 
 using rowland::scene::DracoAsk;
 using rowland::scene::DracoAttribute;
-using rowland::scene::DracoElement;
 using rowland::scene::DracoReply;
 using rowland::scene::DracoRequest;
 
-/// From and to the importer. There is nobody to tell if it is gone.
+// From and to the importer. If it has ended, so does this process.
 void receive(void* data, std::size_t size) {
-    auto* at = static_cast<std::byte*>(data);
-    while (size > 0) {
-        const ssize_t count = read(STDIN_FILENO, at, size);
-        if (count < 0 && errno == EINTR) continue;
-        if (count <= 0) std::_Exit(0);
-        at += count;
-        size -= static_cast<std::size_t>(count);
-    }
+    if (std::fread(data, 1, size, stdin) != size) std::_Exit(0);
 }
 
 void send(const void* data, std::size_t size) {
-    const auto* at = static_cast<const std::byte*>(data);
-    while (size > 0) {
-        const ssize_t count = ::send(STDIN_FILENO, at, size, MSG_NOSIGNAL);
-        if (count < 0 && errno == EINTR) continue;
-        if (count <= 0) std::_Exit(0);
-        at += count;
-        size -= static_cast<std::size_t>(count);
-    }
+    static std::FILE* const importer = fdopen(STDIN_FILENO, "w");
+    if (std::fwrite(data, 1, size, importer) != size || std::fflush(importer) != 0) std::_Exit(0);
 }
 
 template <typename Value>
@@ -75,8 +60,7 @@ std::unique_ptr<draco::Mesh> decode(const DracoRequest& request) {
     return std::move(result).value();
 }
 
-/// The largest code of integers that the decoder leaves as they are, and that stand for fractions in a normalised
-/// attribute.
+/// The integer that means 1, if the attribute holds integers that the decoder does not normalise.
 std::uint32_t largest_code(const draco::PointAttribute& attribute) {
     if (attribute.normalized()) return 1;
     switch (attribute.data_type()) {
@@ -110,18 +94,17 @@ std::vector<std::uint32_t> indices(const draco::Mesh& mesh) {
     return result;
 }
 
-template <typename Component>
-std::vector<Component> values(const draco::Mesh& mesh, const DracoRequest& request) {
+std::vector<float> values(const draco::Mesh& mesh, const DracoRequest& request) {
     const draco::PointAttribute* attribute = mesh.GetAttributeByUniqueId(request.attribute);
     const std::size_t components = request.components;
     if (!attribute || components != attribute->num_components()) throw std::runtime_error("no such attribute");
     if (!attribute->is_mapping_identity() && attribute->indices_map_size() < mesh.num_points())
         throw std::runtime_error("fewer values than vertices");
-    std::vector<Component> result(mesh.num_points() * components);
+    std::vector<float> result(mesh.num_points() * components);
     for (std::uint32_t i = 0; i < mesh.num_points(); ++i) {
         const draco::AttributeValueIndex value = attribute->mapped_index(draco::PointIndex(i));
         if (value.value() >= attribute->size() ||
-            !attribute->ConvertValue<Component>(value, static_cast<std::int8_t>(components), &result[i * components]))
+            !attribute->ConvertValue<float>(value, static_cast<std::int8_t>(components), &result[i * components]))
             throw std::runtime_error("a value that is not there or does not fit");
     }
     return result;
@@ -153,10 +136,8 @@ class Helper {
             send(list);
         } else if (request.ask == DracoAsk::Indices) {
             agree_and_send(indices(*mesh_));
-        } else if (request.element == DracoElement::Float) {
-            agree_and_send(values<float>(*mesh_, request));
         } else {
-            agree_and_send(values<std::uint16_t>(*mesh_, request));
+            agree_and_send(values(*mesh_, request));
         }
     }
 
@@ -177,6 +158,7 @@ class Helper {
 
     static void refuse(std::string reason) {
         DracoReply reply;
+        if (reason.empty()) reason = "no reason given";
         reason.resize(std::min(reason.size(), reply.reason.size() - 1));
         std::copy(reason.begin(), reason.end(), reply.reason.begin());
         send(&reply, sizeof reply);
@@ -188,8 +170,9 @@ class Helper {
 }  // namespace
 
 int main() {
-    // The importer's end of us may come while the decoder runs.
+    // The importer may be killed while the decoder runs.
     prctl(PR_SET_PDEATHSIG, SIGKILL);
+    std::signal(SIGPIPE, SIG_IGN);
     limit(RLIMIT_CORE, 0);
     Helper().run();
 }

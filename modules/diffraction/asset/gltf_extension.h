@@ -27,14 +27,14 @@ struct GrooveTexture {
 /// A material's ROWLAND_materials_diffraction object.
 struct GltfGrating {
     Material material;
-    bool has_base = false;         ///< false: the glTF's own metallic-roughness surface lies under the grating
+    bool has_base = false;         ///< false: the base layer is the glTF's metallic-roughness surface
     double groove_rotation = 0.0;  ///< radians by which g is turned from the tangent toward the bitangent
     std::optional<GrooveTexture> groove_texture;
 };
 
 /// Parses the extension's object: a material object with the optional members "grooveRotation" and "grooveTexture";
-/// "extras" and "extensions" are passed over, as glTF asks. A table's file name is relative to `folder`, that of the
-/// glTF. `pointer` is where in `file` the object lies. Throws Error (input) as parse_material() does.
+/// "extras" and "extensions" are ignored, as glTF asks. A table's file name is relative to `folder`, that of the glTF.
+/// `pointer` is the object's JSON pointer in `file`. Throws Error (input) as parse_material() does.
 GltfGrating parse_gltf_extension(const nlohmann::json& json, const std::string& file,
                                  const std::filesystem::path& folder, const std::string& pointer = "");
 

@@ -56,6 +56,15 @@ TEST(ParseJson, ClosingBracketsDoNotBuyDepth) {
     EXPECT_THROW(parse_json(std::string(100, ']') + nested(100), "a.json"), Error);
 }
 
+TEST(ParseJson, RepeatedKeysAreRefusedWithTheirPointer) {
+    EXPECT_EQ(parse_message(R"({"a": 1, "b": 2, "a": 1})"),
+              "a.json: /a: a repeated key; expected each key once; remove one of the two");
+    EXPECT_THAT(parse_message(R"({"list": [0, [], {"x/y": {"k": 1, "k": {}}}]})"),
+                StartsWith("a.json: /list/2/x~1y/k: "));
+    EXPECT_THAT(parse_message(R"([{"a": {}}, {"a": {}, "\u0061": {}}])"), StartsWith("a.json: /1/a: "));
+    EXPECT_EQ(parse_json(R"([{"a": {"a": ":"}}, {"a": "\":\""}])", "a.json").size(), 2U);
+}
+
 TEST(ParseJson, InvalidUtf8IsRefused) {
     EXPECT_THAT(parse_message("{\"a\": \"\xff\"}"), HasSubstr("UTF-8"));
 }
@@ -76,6 +85,14 @@ TEST(JsonReader, ReadsEveryKind) {
     EXPECT_TRUE(reader.boolean_or("b", false));
     EXPECT_EQ(reader.numbers("v", 2, {}), (std::vector{1.0, 2.0}));
     EXPECT_EQ(reader.choice("c", {"slit", "blazed"}), "slit");
+    EXPECT_EQ(reader.choice<char>("c", {{"blazed", 'b'}, {"slit", 's'}}), 's');
+    EXPECT_EQ(reader.text_or("t", "y"), "x");
+    EXPECT_EQ(reader.text_or("none", "y"), "y");
+    EXPECT_EQ(reader.numbers_or("v", {0.0, 0.0}, {}), (std::vector{1.0, 2.0}));
+    EXPECT_EQ(reader.numbers_or("none", {3.0}, {}), (std::vector{3.0}));
+    EXPECT_EQ(reader.object_if_there("o")->integer("k", 0, 9), 1);
+    EXPECT_FALSE(reader.object_if_there("none"));
+    EXPECT_TRUE(reader.objects_if_there("none").empty());
     EXPECT_EQ(reader.object("o").integer("k", 0, 9), 1);
     EXPECT_EQ(reader.objects("l").at(0).integer("k", 0, 9), 2);
     EXPECT_TRUE(reader.raw("r").is_null());

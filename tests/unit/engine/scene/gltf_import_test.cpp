@@ -10,6 +10,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/file.h"
+#include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/unit/engine/scene/hand_written_gltf.h"
 #include "tests/unit/engine/scene/mesh_sanity.h"
@@ -25,6 +26,7 @@ using test::document;
 using test::error_of;
 using test::indexed;
 using test::load;
+using test::set_attribute;
 
 // The vertices of test::document.
 constexpr std::array<float, 15> kPositions = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0};
@@ -215,8 +217,7 @@ TEST(GltfImport, SparseIndicesAndRangesAreChecked) {
 TEST(GltfImport, AccessorWithoutDataDoesNotAllocateItsCount) {
     json file = document(5);
     file["accessors"][0] = {{"componentType", 5126}, {"count", 2000000000}, {"type", "VEC3"}};
-    EXPECT_THAT(error_of(file), HasSubstr("an accessor without data"));
-    // A sparse one may stand without base data; then the memory budget says no.
+    EXPECT_THAT(error_of(file), HasSubstr("2000000000 elements of 12 bytes"));
     file["accessors"][0]["sparse"] = {
         {"count", 1}, {"indices", {{"bufferView", 0}, {"componentType", 5123}}}, {"values", {{"bufferView", 0}}}};
     EXPECT_THAT(error_of(file), HasSubstr("2000000000 elements of 12 bytes"));
@@ -259,10 +260,85 @@ TEST(GltfImport, IndicesBeyondTheVerticesAreRefused) {
     EXPECT_THAT(error_of(indexed(4, {0, 1})), HasSubstr("a multiple of 3"));
 }
 
-TEST(GltfImport, OlderVersionsAreRefused) {
+TEST(GltfImport, OnlyVersionTwoIsRead) {
     json file = document(5);
-    file["asset"]["version"] = "1.0";
-    EXPECT_THAT(error_of(file), HasSubstr("glTF version 2"));
+    for (const char* other : {"1.0", "3.0", "20.0", "2", "2.x", ""}) {
+        file["asset"]["version"] = other;
+        EXPECT_THAT(error_of(file),
+                    HasSubstr("/asset/version: \"" + std::string(other) + "\"; expected glTF version 2"));
+    }
+    file["asset"]["version"] = "2.1";
+    EXPECT_EQ(error_of(file), "no error");
+}
+
+TEST(GltfImport, FilesThatNeedALaterVersionAreRefused) {
+    json file = document(5);
+    file["asset"]["minVersion"] = "2.0";
+    EXPECT_EQ(error_of(file), "no error");
+    for (const char* later : {"2.1", "3.0", "1.0", "new"}) {
+        file["asset"]["minVersion"] = later;
+        EXPECT_THAT(error_of(file), HasSubstr("/asset/minVersion: \"" + std::string(later) + "\"; expected 2.0"));
+    }
+}
+
+TEST(GltfImport, AccessorWithoutBufferViewReadsAsZeros) {
+    json file = document(4);
+    for (const auto& [name, type] :
+         {std::pair("POSITION", "VEC3"), {"NORMAL", "VEC3"}, {"COLOR_0", "VEC4"}, {"TEXCOORD_1", "VEC2"}}) {
+        set_attribute(file, name, file["accessors"].size());
+        file["accessors"].push_back({{"componentType", 5126}, {"count", 4}, {"type", type}});
+    }
+    file["meshes"][0]["primitives"][0]["indices"] = file["accessors"].size();
+    file["accessors"].push_back({{"componentType", 5123}, {"count", 3}, {"type", "SCALAR"}});
+    const Mesh mesh = load(file).meshes.at(0);
+    EXPECT_EQ(mesh.positions, std::vector(4, glm::vec3(0.0F)));
+    EXPECT_EQ(mesh.colours, std::vector(4, glm::vec4(0.0F)));
+    EXPECT_EQ(mesh.uvs1, std::vector(4, glm::vec2(0.0F)));
+    EXPECT_THAT(mesh.indices, testing::ElementsAre(0, 0, 0));
+    EXPECT_TRUE(test::is_sane(mesh));
+}
+
+TEST(GltfImport, SparseElementsReplaceZeros) {
+    json file = document(5);
+    file["bufferViews"][0]["byteLength"] = 60;
+    const std::uint16_t target = 3;
+    const std::size_t index_view = test::add_view(file, std::as_bytes(std::span(&target, 1)));
+    file["accessors"][0] = {{"componentType", 5126}, {"count", 5}, {"type", "VEC3"}};
+    // The second vertex of the document, (1, 0, 0).
+    file["accessors"][0]["sparse"] = {{"count", 1},
+                                      {"indices", {{"bufferView", index_view}, {"componentType", 5123}}},
+                                      {"values", {{"bufferView", 0}, {"byteOffset", 12}}}};
+    const Mesh mesh = load(file).meshes.at(0);
+    std::vector<glm::vec3> expected(5, glm::vec3(0.0F));
+    expected[3] = glm::vec3(1.0F, 0.0F, 0.0F);
+    EXPECT_EQ(mesh.positions, expected);
+}
+
+TEST(GltfImport, PrimitivesWithoutPositionsAreLeftOutWithOneWarning) {
+    json file = document(5);
+    const json whole = file["meshes"][0]["primitives"][0];
+    json without = whole;
+    without["attributes"] = {{"NORMAL", 0}};
+    file["meshes"][0]["primitives"] = {without, whole, without};
+    const ImportedScene scene = load(file);
+    EXPECT_EQ(scene.meshes.size(), 1U);
+    EXPECT_EQ(scene.instances.size(), 1U);
+    EXPECT_THAT(scene.warnings, testing::ElementsAre("primitives without POSITION are ignored"));
+}
+
+TEST(GltfImport, OnlyABufferThatIsUsedNeedsData) {
+    json file = document(5);
+    file["buffers"].push_back({{"byteLength", 100}});
+    EXPECT_EQ(load(file).meshes.at(0).positions.size(), 5U);
+    file["bufferViews"].push_back({{"buffer", 1}, {"byteLength", 100}});
+    EXPECT_THAT(error_of(file), HasSubstr("/buffers/1: 0 bytes of data"));
+}
+
+TEST(GltfImport, RepeatedKeysAreRefused) {
+    const std::string text = R"({"asset": {"version": "2.0"}, "nodes": [{}, {"name": "a", "name": "b"}]})";
+    EXPECT_THAT(
+        rowland::test::message_of([&] { load_glb(std::as_bytes(std::span(text.data(), text.size())), "f.gltf"); }),
+        HasSubstr("f.gltf: /nodes/1/name: a repeated key"));
 }
 
 TEST(GltfImport, WithoutScenesTheRootNodesAreShown) {

@@ -1,4 +1,4 @@
-#include "engine/scene/gltf_light.h"
+#include "engine/scene/gltf_parts.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "engine/scene/punctual_light.h"
+#include "tests/unit/engine/scene/punctual_attenuation.h"
 
 #include <gtest/gtest.h>
 
