@@ -46,7 +46,7 @@ bool is_choice(const Json& value, const Choice& choice, const std::string& discr
                        [&](const auto& member) { return value.contains(member.key()); });
 }
 
-/// The value of another choice, with the members of `from` that it has, too.
+/// The value of another choice, with those members of `from` that it also has.
 Json carried_over(const Json& from, const Choice& to, const std::string& discriminator) {
     Json result = to.value;
     if (!from.is_object() || !result.is_object()) return result;
@@ -55,7 +55,7 @@ Json carried_over(const Json& from, const Choice& to, const std::string& discrim
     return result;
 }
 
-/// Whole numbers without a fraction.
+/// A whole number loses its fraction: 5.0 is written as 5.
 Json plain(const Json& value) {
     constexpr double kExact = 9e15;  // up to here every double with a zero fraction converts exactly
     if (!value.is_number_float()) return value;

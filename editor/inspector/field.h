@@ -16,7 +16,7 @@ enum class FieldKind {
     Choice,  ///< one of `choices`
     Orders,  ///< a list of whole numbers, or "all"
     Colour,  ///< three numbers in [0, 1], linear
-    Name,    ///< of a file that lies beside the material
+    Name,    ///< of a file in the material's folder
 };
 
 /// A value that a field is set to by name. An object holds the members that the choice starts with.
@@ -49,7 +49,7 @@ struct Field {
 /// All fields of a material file, in the order they are shown.
 std::span<const Field> fields();
 
-/// The field at a JSON pointer. A contract violation if there is none.
+/// The field at a JSON pointer, which must exist.
 const Field& field_at(std::string_view pointer);
 
 /// The field that contains the JSON pointer of a refusal; the innermost of several, null if none does.

@@ -20,9 +20,9 @@ namespace rowland::inspector {
 
 /// Settings of light and exposure.
 struct Stage {
-    float rotation_deg = 0.0F;  ///< of the surroundings about the vertical
+    float rotation_deg = 0.0F;  ///< of the probe about the vertical axis
     float exposure_stops = 0.0F;
-    bool lamp = false;  ///< a distant lamp beside the probe; it does not turn with the surroundings
+    bool lamp = false;  ///< a distant lamp in addition to the probe; it does not turn with the probe
     float lamp_azimuth_deg = 35.0F;
     float lamp_elevation_deg = 50.0F;
     float lamp_irradiance = 3.0F;
@@ -71,7 +71,7 @@ class Preview {
     const glm::dmat3& xyz_to_working() const { return now_.picture.xyz_to_working(); }
 
     /// The surface at a point of the last frame, given from its upper left corner in [0, 1], in the probe's axes;
-    /// nullopt beside the object.
+    /// nullopt where the object is not.
     std::optional<diffraction::Frame> pick(const glm::vec2& at) const;
 
  private:

@@ -40,7 +40,7 @@ void draw_slider(const Slider& slider, Stage& stage, ControlMap& controls) {
     controls.mark(slider.name);
 }
 
-/// Stays on the line of the last control if that many letters fit beside it; a narrow preview has several lines.
+/// Stays on the line of the last control if that many letters fit; a narrow preview has several lines of tools.
 void continue_line(float letters) {
     const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
     const float end = ImGui::GetItemRectMax().x + ImGui::GetStyle().ItemSpacing.x + letters * ImGui::GetFontSize();

@@ -54,7 +54,7 @@ void Session::open(const std::filesystem::path& path) {
             adopt(std::move(*model), file);
         } else if (auto* table = std::get_if<diffraction::EfficiencyTable>(&opened)) {
             opened_table_ = std::move(*table);
-            messages_.say(file + ": plotted beside the profile's own efficiencies");
+            messages_.say(file + ": compared with the efficiencies of the profile");
         } else {
             choose_light(path);
         }
@@ -69,7 +69,7 @@ void Session::adopt(Document document) {
     document_ = std::move(document);
     all_prices_.reset();
     pinned_price_.reset();
-    messages_.say(document_.name() + (document_.path().empty() ? ": a start for a new material" : ": opened"));
+    messages_.say(document_.name() + (document_.path().empty() ? ": the start of a new material" : ": opened"));
 }
 
 void Session::adopt(OpenedModel model, const std::string& file) {
@@ -275,8 +275,8 @@ void Session::cook_to_budget(double max_error) {
         messages_.say("no measured choice is within that error: measure all choices, or allow more", true);
 }
 
-std::vector<std::string> Session::presets() const {
-    return {kPresets.begin(), kPresets.end()};
+std::span<const char* const> Session::presets() {
+    return kPresets;
 }
 
 std::vector<std::filesystem::path> Session::shipped_lights() const {

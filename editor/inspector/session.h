@@ -4,6 +4,7 @@
 #include <glm/vec2.hpp>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -101,11 +102,11 @@ class Session {
     /// Of the picked point, or one near the picture's middle; null before the first.
     const PointNumbers* point_numbers() const { return point_.value(); }
     bool point_numbers_are_current() const { return point_.current(); }
-    /// What the efficiency pane plots beside the material: the opened table beside a scalar profile, the last scalar
-    /// profile beside a table.
+    /// The grating that the efficiency pane compares the material with: a scalar profile with the opened table, a table
+    /// with the last scalar profile. nullopt: none.
     std::optional<diffraction::Grating> compared() const;
 
-    std::vector<std::string> presets() const;
+    static std::span<const char* const> presets();
     std::vector<std::filesystem::path> shipped_lights() const;
 
     /// What the user is told, newest last.

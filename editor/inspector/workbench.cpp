@@ -96,7 +96,7 @@ std::vector<Command> Workbench::commands() {
         {"Edit", "Undo", "Ctrl+Z", Key::Z, [&document] { document.undo(); }, document.can_undo()},
         {"Edit", "Redo", "Ctrl+Shift+Z", Key::Z, [&document] { document.redo(); }, document.can_redo()},
     };
-    for (const std::string& preset : session_.presets())
+    for (const char* preset : Session::presets())
         result.push_back({"Presets", preset, {}, {}, [this, preset] {
                               dialogs_.unless_lost([this, preset] { session_.open_preset(preset); });
                           }});
