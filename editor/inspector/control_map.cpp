@@ -14,11 +14,7 @@ namespace rowland::inspector {
 void ControlMap::mark(const std::string& name) {
     const ImVec2 low = ImGui::GetItemRectMin();
     const ImVec2 high = ImGui::GetItemRectMax();
-    mark(name, low.x, low.y, high.x, high.y);
-}
-
-void ControlMap::mark(const std::string& name, float left, float top, float right, float bottom) {
-    if (file_) entries_[name] = fmt::format("{:.0f} {:.0f} {:.0f} {:.0f}", left, top, right, bottom);
+    if (file_) entries_[name] = fmt::format("{:.0f} {:.0f} {:.0f} {:.0f}", low.x, low.y, high.x, high.y);
 }
 
 void ControlMap::note(const std::string& name, const std::string& value) {

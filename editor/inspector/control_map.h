@@ -8,19 +8,18 @@
 
 namespace rowland::inspector {
 
-/// Where the controls of the last frame are, by name, written to a file for those who drive the program from outside
+/// Writes the rectangles of the last frame's controls, by name, to a file, for programs that drive the inspector
 /// (tests, screen readers). Does nothing without a file.
 class ControlMap {
  public:
     explicit ControlMap(std::optional<std::filesystem::path> file) : file_(std::move(file)) {}
 
-    /// The control that ImGui was last told of.
+    /// Adds ImGui's last control.
     void mark(const std::string& name);
-    void mark(const std::string& name, float left, float top, float right, float bottom);
-    /// A fact beside the places.
+    /// Adds a fact.
     void note(const std::string& name, const std::string& value);
-    /// Writes what has changed since the last frame, and, to a file of the same name with ".frames", how many frames
-    /// there were: who waits for two more knows that the program has seen what they did.
+    /// Writes the file if it changed, and the number of frames to a file of the same name with ".frames": two frames
+    /// after an input the program has seen it.
     void end_frame();
 
  private:

@@ -26,7 +26,7 @@ Field choice_of_profile() {
                 .label = "Profile",
                 .kind = FieldKind::Choice,
                 .required = true,
-                .told_by = "type",
+                .discriminator = "type",
                 .help =
                     "Shape of a groove: it decides how much light each order gets. A table of measured or rigorous "
                     "efficiencies includes the effects that scalar theory neglects.",
@@ -36,7 +36,7 @@ Field choice_of_profile() {
         for (const ProfileMember& member : descriptor.members) profile[member.key] = initial_value(member);
         field.choices.push_back({std::string(descriptor.name), profile});
     }
-    field.usual = field.choices.front().value;
+    field.default_value = field.choices.front().value;
     return field;
 }
 
@@ -44,7 +44,7 @@ Field profile_field(const ProfileMember& member) {
     Field field{.pointer = std::string("/grating/profile/") + member.key,
                 .label = member.label,
                 .unit = member.unit,
-                .usual = initial_value(member),
+                .default_value = initial_value(member),
                 .required = true,
                 .only_with = "/grating/profile",
                 .help = member.help,
@@ -80,7 +80,7 @@ Field pitch_field() {
             .minimum = 200.0,
             .maximum = 20000.0,
             .logarithmic = true,
-            .usual = 1600,
+            .default_value = 1600,
             .required = true,
             .help =
                 "Distance d of neighbouring grooves: order m of wavelength λ goes where d (s_g + v_g) = m λ. 1 to "
@@ -93,7 +93,7 @@ std::vector<Field> other_fields() {
         {.pointer = "/grating/orders",
          .label = "Orders",
          .kind = FieldKind::Orders,
-         .usual = {-2, -1, 1, 2},
+         .default_value = {-2, -1, 1, 2},
          .help = "Orders that are shaded, or \"all\" that propagate for some visible wavelength. Without 0 the mirror "
                  "order goes to the reflection of the surroundings.",
          .source = "Lindsay & Agu 2006"},
@@ -102,13 +102,13 @@ std::vector<Field> other_fields() {
          .minimum = 50.0,
          .maximum = 10000.0,
          .logarithmic = true,
-         .usual = 1500,
+         .default_value = 1500,
          .help = "Number N of grooves that are lit together; at least 1. From 50 on an order is a sharp line.",
          .source = "Lindsay & Agu 2006, eq. 3 (N = 1500)"},
         {.pointer = "/grating/normalization",
          .label = "Normalisation",
          .kind = FieldKind::Choice,
-         .usual = "energy",
+         .default_value = "energy",
          .choices = {{"energy", "energy"}, {"agu", "agu"}},
          .help = "energy: each order carries its efficiency. agu: the paper's peak form, each order times λ/550 nm; "
                  "slits only.",
@@ -116,7 +116,7 @@ std::vector<Field> other_fields() {
         {.pointer = "/grating/groove_lobe",
          .label = "Lobe",
          .kind = FieldKind::Choice,
-         .usual = "flat",
+         .default_value = "flat",
          .choices = {{"flat", "flat"},
                      {"gaussian", {{"sigma", 0.1}}},
                      {"pits", {{"pits", {{"length_nm", 850}, {"coherent", 0.3}}}}}},
@@ -129,7 +129,7 @@ std::vector<Field> other_fields() {
          .minimum = 0.005,
          .maximum = 1.0,
          .logarithmic = true,
-         .usual = 0.1,
+         .default_value = 0.1,
          .required = true,
          .only_with = "/grating/groove_lobe",
          .only_for = {"gaussian"},
@@ -140,7 +140,7 @@ std::vector<Field> other_fields() {
          .unit = "nm",
          .minimum = 200.0,
          .maximum = 4000.0,
-         .usual = 850,
+         .default_value = 850,
          .required = true,
          .only_with = "/grating/groove_lobe",
          .only_for = {"pits"},
@@ -148,7 +148,7 @@ std::vector<Field> other_fields() {
          .source = "Stam 1999, Diffraction shaders"},
         {.pointer = "/grating/groove_lobe/pits/coherent",
          .label = "Coherent part",
-         .usual = 0.3,
+         .default_value = 0.3,
          .required = true,
          .only_with = "/grating/groove_lobe",
          .only_for = {"pits"},

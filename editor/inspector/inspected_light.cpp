@@ -16,10 +16,10 @@ namespace {
 
 constexpr std::uint64_t kLargestRecipe = 16 << 20;
 
-/// The probe's image, and the key lights its recipe asks for.
+/// The probe's image and its number of key lights.
 std::pair<lighting::ProbeImage, int> read_image(const std::filesystem::path& path, const std::string& mapping) {
     if (path.extension() == ".probe")
-        refuse_input(path.string(), "", "a cooked probe, which has lost its full resolution",
+        refuse_input(path.string(), "", "a cooked probe, which does not have the full resolution",
                      "its source: an .hdr or .exr image, or a recipe", "the reference needs every texel");
     if (path.extension() != ".json")
         return {lighting::ProbeImage(image::load_image(path), lighting::parse_mapping(mapping), path.string()),

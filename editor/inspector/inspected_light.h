@@ -10,13 +10,13 @@
 
 namespace rowland::inspector {
 
-/// A probe in the forms that the preview and the panes take.
+/// A probe as the preview and the panes need it.
 struct InspectedLight {
     std::filesystem::path path;
-    lighting::ProbeImage image;  ///< at full resolution: what the reference integrates
-    lighting::LightProbe probe;  ///< as the demo loads it
-    int key_lights = 0;          ///< at most, that are taken out of it
-    diffraction::EvaluationLight divided;
+    lighting::ProbeImage image;            ///< at full resolution, for the reference
+    lighting::LightProbe probe;            ///< as the demo loads it
+    int key_lights = 0;                    ///< the largest number of key lights
+    diffraction::EvaluationLight divided;  ///< into key lights and the rest
 };
 
 /// Loads a probe recipe (.json) or an image (.hdr, .exr; `mapping` "equirect" or "angular"). Runs on any thread; takes

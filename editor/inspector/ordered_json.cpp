@@ -24,7 +24,7 @@ std::string on_one_line(const Json& value) {
     return text + (value.is_object() ? " }" : "]");
 }
 
-/// `used`: columns that stand before the value, and the comma behind it.
+/// `used`: the columns before the value, and one for the comma after it.
 void write(const Json& value, std::size_t level, std::size_t used, std::string& text) {
     const std::string line = on_one_line(value);
     if (!value.is_structured() || value.empty() || (level > 0 && used + line.size() <= kColumns)) {
@@ -51,7 +51,7 @@ void write(const Json& value, std::size_t level, std::size_t used, std::string& 
 }  // namespace
 
 Json parse_ordered(std::string_view text, const std::string& file) {
-    parse_json(text, file);  // refuses with a place what the second parse must not meet
+    parse_json(text, file);  // throws an Error with line and column
     return Json::parse(text);
 }
 

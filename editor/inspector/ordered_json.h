@@ -9,11 +9,11 @@ namespace rowland::inspector {
 /// JSON whose members keep the order of the file.
 using Json = nlohmann::ordered_json;
 
-/// Parses text that may be hostile. Throws Error (input) as parse_json() does.
+/// Parses untrusted text. Throws Error (input) as parse_json() does.
 Json parse_ordered(std::string_view text, const std::string& file);
 
-/// Text as this tree's material files are written: two spaces a level, the outermost object a member a line, an array
-/// or an inner object on one line if that stays within 100 columns. Ends with a line break.
+/// The text in the style of content/materials: indented by two spaces, one line per member of the outermost object;
+/// arrays and inner objects on one line if that is at most 100 columns wide. Ends with a line break.
 std::string format_json(const Json& value);
 
 }  // namespace rowland::inspector

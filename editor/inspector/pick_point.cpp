@@ -20,10 +20,10 @@ std::optional<diffraction::Frame> pick_point(const scene::Mesh& mesh, const glm:
     if (!hit) return std::nullopt;
     const glm::vec3 normal = scene::interpolated(mesh.normals, mesh, *hit);
     const glm::vec3 tangent(scene::interpolated(mesh.tangents, mesh, *hit));
-    const glm::mat3 turn(object_to_world);
+    const glm::mat3 linear(object_to_world);
     diffraction::Frame frame{.view = -glm::dvec3(ray.direction),
-                             .normal = glm::normalize(glm::dvec3(glm::transpose(glm::inverse(turn)) * normal)),
-                             .grating = glm::normalize(glm::dvec3(turn * tangent))};
+                             .normal = glm::normalize(glm::dvec3(glm::transpose(glm::inverse(linear)) * normal)),
+                             .grating = glm::normalize(glm::dvec3(linear * tangent))};
     if (!diffraction::is_valid(frame)) return std::nullopt;
     return frame;
 }

@@ -13,12 +13,11 @@ namespace rowland::inspector {
 
 using scene::Ray;
 
-/// A ray through a picture's point; `at` from its upper left corner, each in [0, 1].
+/// The ray from the eye through a point of the picture, given from its upper left corner in [0, 1].
 Ray ray_through(const scene::Camera& camera, float aspect, const glm::vec2& at);
 
-/// The frame of the nearest point of a mesh on the ray, in world axes, as its shaders see it: the eye, the interpolated
-/// normal and grating vector. Nothing if the ray misses, or the
-/// mesh has no valid frame there.
+/// The frame of the nearest point of a mesh on the ray, in world axes, as its shaders have it: toward the eye, the
+/// interpolated normal and grating vector. nullopt if the ray misses or the frame is not valid.
 std::optional<diffraction::Frame> pick_point(const scene::Mesh& mesh, const glm::mat4& object_to_world, const Ray& ray);
 
 }  // namespace rowland::inspector

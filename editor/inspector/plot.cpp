@@ -13,7 +13,7 @@ namespace {
 constexpr ImU32 kFrame = IM_COL32(255, 255, 255, 60);
 constexpr ImU32 kGrid = IM_COL32(255, 255, 255, 22);
 
-/// Lengths of strokes and gaps in pixels at scale 1; 0: one stroke.
+/// Lengths of dashes and gaps in pixels at scale 1; 0: a solid line.
 constexpr std::array kDashes = {0.0F, 7.0F, 3.0F, 12.0F};
 
 void dashed(ImDrawList& draw, const ImVec2& a, const ImVec2& b, ImU32 colour, float dash, float width, float& done) {
@@ -84,14 +84,14 @@ Plot::Plot(const char* name, float height, const PlotAxis& x, const PlotAxis& y)
     draw_axes();
 }
 
-double Plot::share(double value, const PlotAxis& axis) const {
+double Plot::fraction(double value, const PlotAxis& axis) const {
     if (!axis.logarithmic) return (value - axis.minimum) / (axis.maximum - axis.minimum);
     return std::log(std::max(value, axis.minimum) / axis.minimum) / std::log(axis.maximum / axis.minimum);
 }
 
 ImVec2 Plot::at(double x, double y) const {
-    const double across = std::clamp(share(x, x_), 0.0, 1.0);
-    const double up = std::clamp(share(y, y_), 0.0, 1.0);
+    const double across = std::clamp(fraction(x, x_), 0.0, 1.0);
+    const double up = std::clamp(fraction(y, y_), 0.0, 1.0);
     return {minimum_.x + static_cast<float>(across) * (maximum_.x - minimum_.x),
             maximum_.y - static_cast<float>(up) * (maximum_.y - minimum_.y)};
 }
@@ -146,6 +146,10 @@ void Plot::vertical(double x, ImU32 colour) const {
     draw_->AddLine({at_x, minimum_.y}, {at_x, maximum_.y}, colour, 1.5F);
 }
 
+void Plot::bar(double begin, double end, double y, ImU32 colour) const {
+    draw_->AddRectFilled(at(begin, y), {at(end, y).x + 0.5F, maximum_.y}, colour);
+}
+
 void Plot::legend(const std::string& name, std::size_t series) {
     const float font = ImGui::GetFontSize();
     const float y = minimum_.y - 0.7F * font;
@@ -157,9 +161,9 @@ void Plot::legend(const std::string& name, std::size_t series) {
 
 void Plot::text(double x, double y, const char* words, ImU32 colour) const {
     const ImVec2 size = ImGui::CalcTextSize(words);
-    const ImVec2 place = at(x, y);
-    const float left = std::clamp(place.x - size.x / 2.0F, minimum_.x, maximum_.x - size.x);
-    draw_->AddText({left, std::max(place.y - size.y - 2.0F, minimum_.y)}, colour, words);
+    const ImVec2 anchor = at(x, y);
+    const float left = std::clamp(anchor.x - size.x / 2.0F, minimum_.x, maximum_.x - size.x);
+    draw_->AddText({left, std::max(anchor.y - size.y - 2.0F, minimum_.y)}, colour, words);
 }
 
 }  // namespace rowland::inspector

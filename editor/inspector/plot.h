@@ -10,7 +10,7 @@
 
 namespace rowland::inspector {
 
-/// Colours that stay apart for all kinds of colour vision [Okabe & Ito 2008]; lines differ in their dashes, too.
+/// Colours that differ for all kinds of colour vision [Okabe & Ito 2008]; lines also differ in their dashes.
 ImU32 series_colour(std::size_t index, float alpha = 1.0F);
 
 inline constexpr ImU32 kPlotWords = IM_COL32(205, 205, 205, 255);
@@ -25,21 +25,23 @@ struct PlotAxis {
 /// A rectangle with axes, drawn with ImGui's own draw lists.
 class Plot {
  public:
-    /// Takes the width there is. `name` is unique in its window.
+    /// As wide as the window. `name` is unique in it.
     Plot(const char* name, float height, const PlotAxis& x, const PlotAxis& y);
 
-    /// Pixels of a point; clamped to the plot vertically, so that no line leaves it.
+    /// Screen coordinates of a point, clamped to the plot.
     ImVec2 at(double x, double y) const;
-    /// A line; not finite points part it. `series` gives colour and dashes.
+    /// A line with a gap at points that are not finite. `series` gives colour and dashes.
     void line(std::span<const glm::dvec2> points, std::size_t series) const;
     void marker(double x, double y, std::size_t series) const;
     void vertical(double x, ImU32 colour) const;
-    /// A name with its line's colour and dashes, one after another along the plot's upper edge.
+    /// A filled rectangle from the lower edge to y.
+    void bar(double begin, double end, double y, ImU32 colour) const;
+    /// A name with its line's colour and dashes, to the right of the last one, along the plot's upper edge.
     void legend(const std::string& name, std::size_t series);
     void text(double x, double y, const char* words, ImU32 colour) const;
 
     bool hovered() const { return hovered_; }
-    /// Where the mouse is, on the x axis.
+    /// The mouse's position on the x axis.
     double mouse_x() const;
     ImVec2 minimum() const { return minimum_; }
     ImVec2 maximum() const { return maximum_; }
@@ -47,7 +49,7 @@ class Plot {
 
  private:
     void draw_axes() const;
-    double share(double value, const PlotAxis& axis) const;
+    double fraction(double value, const PlotAxis& axis) const;
 
     ImDrawList* draw_;
     PlotAxis x_;
@@ -58,7 +60,7 @@ class Plot {
     bool hovered_ = false;
 };
 
-/// Round places for about `count` ticks.
+/// About `count` round numbers within the axis.
 std::vector<double> ticks(const PlotAxis& axis, int count);
 
 }  // namespace rowland::inspector

@@ -17,11 +17,11 @@ inline constexpr std::array kPreviewShapes = {PreviewShape::Disc, PreviewShape::
 const char* preview_shape_name(PreviewShape shape);
 std::optional<PreviewShape> parse_preview_shape(std::string_view name);
 
-/// The mesh of a shape but Model, about 0.1 m large around the origin. The disc is the demo's, flat in XZ; the card
-/// stands in XY; the sheet is a card bent around the vertical by 120°, the grating vector around the bend.
+/// The mesh of a shape other than Model, about 0.1 m in size, at the origin. The disc is the demo's and lies in XZ; the
+/// card stands in XY; the sheet is a card bent around the vertical by 120°, with the grating vector around the bend.
 scene::Mesh preview_mesh(PreviewShape shape);
 
-/// A user's model, scaled to the size of the other shapes around the origin.
+/// A user's model, moved to the origin and scaled to the size of the other shapes.
 scene::Mesh fitted_model(scene::Mesh mesh);
 
 }  // namespace rowland::inspector

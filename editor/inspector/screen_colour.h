@@ -6,14 +6,13 @@
 
 namespace rowland::inspector {
 
-/// XYZ as a plain sRGB colour for plots, which no view transform touches: what is out of gamut is mixed with white
-/// until it fits, what is brighter than 1 is dimmed.
+// Plain sRGB for plots, which no view transform touches.
+
+/// XYZ, mixed with white until it is in the gamut, and dimmed if it is brighter than 1.
 glm::vec3 screen_colour(const glm::dvec3& xyz);
+ImU32 screen_colour_u32(const glm::dvec3& xyz);
 
-/// The same for ImGui.
-ImU32 screen_colour_u32(const glm::dvec3& xyz, float alpha = 1.0F);
-
-/// The colour of one wavelength, as bright as the screen can.
+/// The colour of one wavelength, as bright as the screen allows.
 ImU32 wavelength_colour(double wavelength_nm, float alpha = 1.0F);
 
 }  // namespace rowland::inspector

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # take_pictures.sh INSPECTOR
-# Takes the pictures of README.md anew, without a display, by the inspector at that path.
+# Takes the pictures of README.md again with the inspector at that path. Needs no display.
 set -euo pipefail
 inspector=$1
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)

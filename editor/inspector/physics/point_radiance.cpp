@@ -14,7 +14,7 @@ namespace rowland::inspector {
 
 namespace {
 
-constexpr std::size_t kFramesAtOnce = 4;  ///< between two looks at whether to stop
+constexpr std::size_t kFramesAtOnce = 4;  ///< between two checks of the stop token
 
 std::vector<double> luminances(const std::vector<glm::dvec3>& xyz) {
     std::vector<double> result;
@@ -22,7 +22,7 @@ std::vector<double> luminances(const std::vector<glm::dvec3>& xyz) {
     return result;
 }
 
-/// The material drawn by harmonics alone.
+/// The material with transfer in place of its own representation, without key lights.
 diffraction::CookedMaterial as_harmonics(const diffraction::CookedMaterial& cooked, int bands) {
     diffraction::CookedMaterial result = cooked;
     diffraction::Quality& quality = result.material.quality;

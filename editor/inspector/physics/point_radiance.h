@@ -12,34 +12,33 @@
 
 namespace rowland::inspector {
 
-/// What the listed orders send to the eye from one point.
+/// The light that the listed orders send to the eye from one point.
 struct PointRadiance {
     std::vector<double> spectrum;  ///< relative radiance per nm at 380, 381, … 780 nm
     glm::dvec3 reference{0.0};     ///< XYZ by the reference
     glm::dvec3 drawn{0.0};         ///< XYZ by the material's representation
 };
 
-/// The probe is what `light` was made of, or turned; its white has the material's illuminant. The frame must be valid.
+/// `light` must be made from `probe`. White light has the material's illuminant. The frame must be valid.
 PointRadiance point_radiance(const diffraction::CookedMaterial& cooked, const lighting::ProbeImage& probe,
                              const diffraction::EvaluationLight& light, const diffraction::Frame& frame);
 
 /// Spectral radiance Σ_m η_m(λ) Σ_c E_c(λ) A_c(mλ/d − v_g), the integrand of PHYSICS §4, every nanometre from 380 to
-/// 780. The mirror's order, a δ in wavelength and direction alike, is left out.
+/// 780. Order 0, a δ in wavelength and direction, is left out.
 std::vector<double> spectrum_at(const diffraction::Material& material, const lighting::ProbeImage& probe,
                                 const diffraction::Frame& frame);
 
-/// Luminance Y over the angle of view, in the plane across the grooves: how well a representation follows the
-/// reference.
+/// Luminance Y over the angle of view, in the plane across the grooves.
 struct ViewSweep {
     std::vector<double> angles_deg;
     std::vector<double> reference;
-    std::vector<double> harmonics;  ///< by `bands` bands of SH alone, without key lights
+    std::vector<double> harmonics;  ///< by `bands` bands of SH without key lights
     std::vector<double> drawn;      ///< by the material's representation
     int bands = 0;
 };
 
-/// A sweep of `views` views from −80° to 80° over a surface of the frame's normal and grating vector. Asked to stop it
-/// soon returns what is of no use.
+/// A sweep of `views` views from −80° to 80° over a surface with the frame's normal and grating vector. If it is asked
+/// to stop, it returns early with an incomplete result.
 ViewSweep view_sweep(const diffraction::CookedMaterial& cooked, const lighting::ProbeImage& probe,
                      const diffraction::EvaluationLight& light, const diffraction::Frame& surface, int bands,
                      int views = 61, const std::stop_token& stop = {});

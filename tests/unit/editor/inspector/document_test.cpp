@@ -105,19 +105,19 @@ TEST_F(DocumentTest, ADragIsOneStep) {
 TEST_F(DocumentTest, ABadValueIsReportedAtItsFieldAndTheLastGoodMaterialStays) {
     Document document = opened();
     document.set_value(pitch(), 740);
-    const std::uint64_t version = document.version();
+    const auto accepted = document.accepted();
     document.set_value(field_at("/grating/orders"), parse_orders("1 x"));
     ASSERT_TRUE(document.refusal());
     EXPECT_EQ(document.refusal()->field, &field_at("/grating/orders"));
     EXPECT_THAT(document.refusal()->message, HasSubstr("list of whole numbers"));
     EXPECT_EQ(document.material().grating.orders, (std::vector<int>{-2, -1, 1, 2}));
-    EXPECT_EQ(document.version(), version);
+    EXPECT_EQ(document.accepted(), accepted);
     document.undo();
     EXPECT_FALSE(document.refusal());
-    EXPECT_EQ(document.version(), version);
+    EXPECT_EQ(document.accepted(), accepted);
 }
 
-TEST_F(DocumentTest, ASlitKeepsItsShareOfThePitch) {
+TEST_F(DocumentTest, ASlitStaysTheSameFractionOfThePitch) {
     Document document = opened();
     document.set_value(pitch(), 740);
     EXPECT_EQ(document.json()["grating"]["profile"].dump(), R"({"type":"slit","width_nm":370})");
@@ -142,7 +142,7 @@ TEST_F(DocumentTest, ABadTableIsReportedAtItsName) {
     EXPECT_THAT(document.refusal()->message, HasSubstr("bad.csv"));
 }
 
-TEST_F(DocumentTest, WhatIsRefusedIsNotSaved) {
+TEST_F(DocumentTest, ARefusedMaterialIsNotSaved) {
     Document document = opened();
     document.set_value(pitch(), -1);
     EXPECT_THAT(test::message_of([&] { document.save(); }),
@@ -171,7 +171,7 @@ TEST_F(DocumentTest, EveryPresetIsASaneMaterial) {
     }
 }
 
-TEST_F(DocumentTest, FilesThatAMaterialNamesAreFoundFromItsNewPlace) {
+TEST_F(DocumentTest, FilesThatAMaterialNamesAreFoundFromItsNewFolder) {
     Document document = Document::open_as_new(kMaterials / "vinyl.json");
     document.save_as(path("deep/down/mine.json"));
     EXPECT_FALSE(document.refusal());
@@ -179,7 +179,7 @@ TEST_F(DocumentTest, FilesThatAMaterialNamesAreFoundFromItsNewPlace) {
     EXPECT_NO_THROW(diffraction::load_material(path("deep/down/mine.json")));
 }
 
-TEST_F(DocumentTest, AnUnwritablePlaceLosesNothing) {
+TEST_F(DocumentTest, AFileThatCannotBeWrittenLosesNothing) {
     Document document = opened();
     document.set_value(pitch(), 740);
     std::filesystem::create_directory(path("folder"));
@@ -218,7 +218,7 @@ TEST_F(DocumentTest, AMaterialMovedSoThatJsonCannotNameItsFilesIsNotSaved) {
     EXPECT_FALSE(std::filesystem::exists(path("m.json")));
 }
 
-TEST_F(DocumentTest, EditsAreRescuedToAFileOfTheirOwn) {
+TEST_F(DocumentTest, EditsAreRescuedToANewFile) {
     Document document = opened();
     EXPECT_EQ(document.rescue(), std::nullopt);
     document.set_value(pitch(), -5);  // refused
@@ -232,7 +232,7 @@ TEST_F(DocumentTest, EditsAreRescuedToAFileOfTheirOwn) {
     EXPECT_EQ(Document::open_as_new(path("cd.json")).rescue(), std::nullopt) << "the start of a new material";
 }
 
-TEST_F(DocumentTest, EditsAreRescuedWhereThereIsNoFolderAnyMore) {
+TEST_F(DocumentTest, EditsAreRescuedIfTheFolderWasRemoved) {
     std::filesystem::create_directory(path("here"));
     std::filesystem::copy_file(kMaterials / "cd.json", path("here/cd.json"));
     Document document = Document::open(path("here/cd.json"));
@@ -246,8 +246,7 @@ TEST_F(DocumentTest, EditsAreRescuedWhereThereIsNoFolderAnyMore) {
     EXPECT_EQ(Document::open(path("temporary/cd.unsaved.json")).json(), document.json());
 }
 
-// A child saves two materials in turn as fast as it can and is killed somewhere in it; whatever moment that was, the
-// file is one of the two.
+// A child process saves two materials alternately and is killed at some moment; the file is then one of the two.
 TEST_F(DocumentTest, KilledWhileSavingItLeavesTheOldOrTheNewFile) {
     opened();
     const auto save_for_ever = [&] {

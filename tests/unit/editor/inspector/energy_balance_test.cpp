@@ -1,10 +1,9 @@
-#include "editor/inspector/physics/energy_balance.h"
-
 #include <gtest/gtest.h>
 
 #include <variant>
 #include <vector>
 
+#include "editor/inspector/physics/order_panes.h"
 #include "engine/colour/metal.h"
 
 namespace rowland::inspector {
@@ -28,18 +27,18 @@ std::vector<Grating> gratings() {
     return {slit, dense, blazed, agu, table};
 }
 
-TEST(EnergyBalance, SharesSumToOne) {
+TEST(EnergyBalance, FractionsSumToOne) {
     for (const Grating& grating : gratings())
         for (const double nm : {400.0, 550.0, 700.0})
             for (const double s_g : {-0.9, 0.0, 0.5}) {
                 const EnergyBalance b = energy_balance(grating, nm, s_g);
-                for (const double share : {b.orders, b.zero, b.evanescent, b.absorbed, b.rest}) EXPECT_GE(share, 0.0);
+                for (const double part : {b.orders, b.zero, b.evanescent, b.absorbed, b.rest}) EXPECT_GE(part, 0.0);
                 // Sums of five doubles near 1.
                 EXPECT_NEAR(b.orders + b.zero + b.evanescent + b.absorbed + b.rest, 1.0, 1e-12);
             }
 }
 
-TEST(EnergyBalance, ASlitsSharesAreThoseOfTheFormula) {
+TEST(EnergyBalance, ASlitsFractionsAreThoseOfTheFormula) {
     const Grating slit = gratings()[0];
     const EnergyBalance b = energy_balance(slit, 550.0, 0.0);
     const double r = colour::metal_reflectance(colour::Metal::Al, 550.0);

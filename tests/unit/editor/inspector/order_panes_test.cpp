@@ -1,13 +1,11 @@
+#include "editor/inspector/physics/order_panes.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "editor/inspector/physics/angle_curve.h"
-#include "editor/inspector/physics/efficiency_curves.h"
-#include "editor/inspector/physics/kernel_strip.h"
-#include "editor/inspector/physics/order_directions.h"
 #include "engine/colour/light_spectra.h"
 #include "engine/colour/observer.h"
 #include "modules/diffraction/model/efficiency.h"
@@ -51,14 +49,13 @@ TEST(AngleCurve, TheCurveReachesThePeaksAndAscends) {
 TEST(EfficiencyCurves, AreTheModelsAndOfManyOrdersTheStrongest) {
     diffraction::Grating many = kCd;
     many.orders = {-4, -3, -2, -1, 1, 2, 3, 4};
-    const std::vector<double> wavelengths = plotted_wavelengths();
-    const auto curves = efficiency_curves(many, wavelengths, 5);
+    const auto curves = efficiency_curves(many, 5);
     ASSERT_EQ(curves.size(), 5U);
     std::vector<int> orders;
     for (const EfficiencyCurve& curve : curves) orders.push_back(curve.order);
     EXPECT_EQ(orders, (std::vector<int>{-2, -1, 0, 1, 2}));
-    EXPECT_EQ(curves[3].efficiency[10], diffraction::order_efficiency(many, 1, wavelengths[10]));
-    EXPECT_EQ(curves[2].efficiency[10], diffraction::zero_order_efficiency(many, wavelengths[10]));
+    EXPECT_EQ(curves[3].points[10], glm::dvec2(420.0, diffraction::order_efficiency(many, 1, 420.0)));
+    EXPECT_EQ(curves[2].points[10], glm::dvec2(420.0, diffraction::zero_order_efficiency(many, 420.0)));
 }
 
 TEST(KernelStrip, ItsCellsSumToTheKernelsRise) {

@@ -84,10 +84,10 @@ TEST(PointRadiance, ItsSpectrumIsItsColour) {
     ASSERT_EQ(point.spectrum.size(), 401U);
     glm::dvec3 xyz(0.0);
     for (std::size_t i = 0; i < point.spectrum.size(); ++i) {
-        const double share = i == 0 || i + 1 == point.spectrum.size() ? 0.5 : 1.0;  // trapezoid
-        xyz += share * point.spectrum[i] * colour::cie_xyz(380.0 + static_cast<double>(i));
+        const double weight = i == 0 || i + 1 == point.spectrum.size() ? 0.5 : 1.0;  // trapezoid
+        xyz += weight * point.spectrum[i] * colour::cie_xyz(380.0 + static_cast<double>(i));
     }
-    // The reference takes finer steps where the probe is sharp, and other places within the panels of an arc.
+    // The reference takes finer steps where the probe is sharp, and samples the panels of an arc at other points.
     expect_same(xyz, point.reference, 5e-3, "spectrum");
 }
 
