@@ -1,8 +1,14 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <span>
 #include <vector>
 
 #include "editor/inspector/field.h"
 #include "editor/inspector/grating_fields.h"
+#include "engine/colour/illuminant.h"
+#include "modules/diffraction/representations/representation.h"
 
 namespace rowland::inspector {
 
@@ -33,89 +39,111 @@ std::vector<Field> surface_fields() {
     };
 }
 
-std::vector<Choice> representations() {
-    return {{"by budget", {{"max_error", 0.05}}},
-            {"spikes", {{"representation", "spikes"}, {"bands", 5}, {"spikes", 4}}},
-            {"bins", {{"representation", "bins"}, {"bands", 5}, {"bins", 16}}},
-            {"transfer", {{"representation", "transfer"}, {"bands", 5}}},
-            {"arc", {{"representation", "arc"}, {"bands", 8}, {"rank", 12}}},
-            {"direct", {{"representation", "direct"}}},
-            {"planar", {{"representation", "planar"}, {"map_resolution", 128}}},
-            {"circle", {{"representation", "circle"}, {"map_resolution", 64}}},
-            {"streak", {{"representation", "streak"}, {"nodes", 8}, {"taps", 3}}}};
+std::vector<Choice> representation_choices() {
+    std::vector<Choice> choices{{"by budget", {{"max_error", 0.05}}}};
+    for (const auto* info : diffraction::representations()) {
+        Json start = {{"representation", info->name}};
+        for (const char* key : info->editor_start) start[key] = Json(info->find(key)->default_value);
+        choices.push_back({info->name, std::move(start)});
+    }
+    return choices;
 }
 
-std::vector<Field> quality_fields() {
-    const auto count = [](const char* name, const char* label, double maximum, int usual,
-                          std::vector<std::string> representations, const char* help) {
-        return Field{.pointer = std::string("/quality/") + name,
-                     .label = label,
-                     .kind = FieldKind::Count,
-                     .minimum = 1.0,
-                     .maximum = maximum,
-                     .default_value = usual,
-                     .only_with = "/quality",
-                     .only_for = std::move(representations),
-                     .help = help,
-                     .source = kPaper};
-    };
-    std::vector<Field> result = {
-        {.pointer = "/quality",
-         .label = "Representation",
-         .kind = FieldKind::Choice,
-         .default_value = {{"max_error", 0.05}},
-         .choices = representations(),
-         .discriminator = "representation",
-         .help = "How the surface is drawn. by budget: the cooker takes the cheapest that is within the error.",
-         .source = "spikes: Lindsay & Agu 2006; the others go beyond it"},
-        {.pointer = "/quality/max_error",
-         .label = "Error allowed",
-         .minimum = 0.002,
-         .maximum = 1.0,
-         .logarithmic = true,
-         .default_value = 0.05,
-         .only_with = "/quality",
-         .only_for = {"by budget"},
-         .help = "Relative RMS error against the reference that can be borne; above 0.",
-         .source = "√(Σ|XYZ − XYZ_ref|² / Σ|XYZ_ref|²) over 120 views"},
-        {.pointer = "/quality/surface",
-         .label = "Measured on",
-         .kind = FieldKind::Choice,
-         .default_value = "flat",
-         .choices = {{"flat", "flat"}, {"curved", "curved"}},
-         .only_with = "/quality",
-         .only_for = {"by budget"},
-         .help = "What the error is measured on: a compact disc tilted by 35°, or a sphere.",
-         .source = "120 views each"},
-        count("bands", "Bands", 16.0, 5, {"spikes", "bins", "transfer", "arc", "planar"},
-              "Bands n of spherical harmonics, n² coefficients; 1 to 16. More follow sharper light."),
-        count("spikes", "Spikes", 64.0, 4, {"spikes"}, "Wavelengths of the composite model a view; 1 to 64."),
-        count("bins", "Bins", 64.0, 16, {"bins"}, "Fixed wavelength bins; 1 to 64."),
-        count("rank", "Rank", 16.0, 8, {"arc", "planar"}, "Products of the arc table's decomposition; 1 to 16."),
-        count("map_resolution", "Map resolution", 512.0, 128, {"planar", "circle"},
-              "Cells along a side of the map; planar 8 to 1024, circle 8 to 128."),
-        count("nodes", "Nodes", 32.0, 8, {"streak"}, "Wavelength nodes an order; 1 to 32."),
-        count("taps", "Taps", 9.0, 3, {"streak"}, "Look-ups across the lobe; 1 to 9."),
-        {.pointer = "/quality/key_lights",
-         .label = "Key lights",
-         .kind = FieldKind::Choice,
-         .choices = {{"usual", nullptr}, {"on", true}, {"off", false}},
-         .only_with = "/quality",
-         .only_for = {"spikes", "bins", "transfer", "arc", "planar", "circle"},
-         .help = "Whether the probe's bright parts are shaded as lights of their own, at full sharpness.",
-         .source = "von Mises–Fisher lobes fitted to the probe"},
-        {.pointer = "/quality/illuminant",
-         .label = "Illuminant",
-         .kind = FieldKind::Name,
-         .default_value = "D65",
-         .help = "Spectrum of the light's white: A, D65, E, F2, F11, LED-B3, or a CSV beside the material.",
-         .source = "CIE 15, Colorimetry"}};
+Field setting_field(const diffraction::SettingInfo& setting) {
+    Field field{.pointer = std::string("/quality/") + setting.key,
+                .label = setting.label,
+                .kind = FieldKind::Count,
+                .minimum = static_cast<double>(setting.minimum),
+                .maximum = static_cast<double>(setting.maximum),
+                .default_value = setting.default_value,
+                .only_with = "/quality",
+                .help = fmt::format("{} {} to {}.", setting.help, setting.minimum, setting.maximum),
+                .source = kPaper};
+    if (setting.words.empty()) return field;
+    field.kind = FieldKind::Choice;
+    field.help = setting.help;
+    field.default_value = nullptr;
+    field.choices = {{"default", nullptr}};
+    for (const std::string_view word : setting.words) field.choices.push_back({std::string(word), word});
+    return field;
+}
+
+/// A field for each setting; representations whose limits and default of a setting agree share its field.
+std::vector<Field> setting_fields() {
+    std::vector<Field> result;
+    for (const auto* info : diffraction::representations())
+        for (const diffraction::SettingInfo& setting : info->settings) {
+            if (setting.words.empty() && setting.default_value.is_null()) continue;
+            Field field = setting_field(setting);
+            const auto known = std::find_if(result.begin(), result.end(), [&](const Field& other) {
+                return other.pointer == field.pointer && other.maximum == field.maximum &&
+                       other.default_value == field.default_value;
+            });
+            Field& shown = known != result.end() ? *known : result.emplace_back(std::move(field));
+            shown.only_for.emplace_back(info->name);
+        }
     return result;
+}
+
+std::vector<std::string> with_optional_key_lights() {
+    std::vector<std::string> names;
+    for (const auto* info : diffraction::representations())
+        if (info->key_lights != diffraction::KeyLightUse::Always) names.emplace_back(info->name);
+    return names;
+}
+
+std::vector<Field> budget_fields() {
+    return {{.pointer = "/quality",
+             .label = "Representation",
+             .kind = FieldKind::Choice,
+             .default_value = {{"max_error", 0.05}},
+             .choices = representation_choices(),
+             .discriminator = "representation",
+             .help = "How the surface is drawn. by budget: the cooker takes the cheapest that is within the error.",
+             .source = "spikes: Lindsay & Agu 2006; the others go beyond it"},
+            {.pointer = "/quality/max_error",
+             .label = "Error allowed",
+             .minimum = 0.002,
+             .maximum = 1.0,
+             .logarithmic = true,
+             .default_value = 0.05,
+             .only_with = "/quality",
+             .only_for = {"by budget"},
+             .help = "Relative RMS error against the reference that is tolerated; above 0.",
+             .source = "√(Σ|XYZ − XYZ_ref|² / Σ|XYZ_ref|²) over 120 views"},
+            {.pointer = "/quality/surface",
+             .label = "Measured on",
+             .kind = FieldKind::Choice,
+             .default_value = "flat",
+             .choices = {{"flat", "flat"}, {"curved", "curved"}},
+             .only_with = "/quality",
+             .only_for = {"by budget"},
+             .help = "What the error is measured on: a compact disc tilted by 35°, or a sphere.",
+             .source = "120 views each"}};
+}
+
+std::vector<Field> light_fields() {
+    return {{.pointer = "/quality/key_lights",
+             .label = "Key lights",
+             .kind = FieldKind::Choice,
+             .choices = {{"default", nullptr}, {"on", true}, {"off", false}},
+             .only_with = "/quality",
+             .only_for = with_optional_key_lights(),
+             .help = "Whether the probe's bright parts are shaded one by one, at full sharpness.",
+             .source = "von Mises–Fisher lobes fitted to the probe"},
+            {.pointer = "/quality/illuminant",
+             .label = "Illuminant",
+             .kind = FieldKind::Name,
+             .default_value = "D65",
+             .help = fmt::format("Spectrum of the light's white: {}, or a CSV beside the material.",
+                                 fmt::join(colour::illuminant_names(), ", ")),
+             .source = "CIE 15, Colorimetry"}};
 }
 
 std::vector<Field> make_fields() {
     std::vector<Field> all = grating_fields();
-    for (auto part : {surface_fields(), quality_fields()}) all.insert(all.end(), part.begin(), part.end());
+    for (auto part : {surface_fields(), budget_fields(), setting_fields(), light_fields()})
+        all.insert(all.end(), part.begin(), part.end());
     return all;
 }
 

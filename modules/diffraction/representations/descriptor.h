@@ -51,7 +51,7 @@ struct RepresentationInfo {
     bool in_demo = true;              ///< among the looks that the demo compares
     KeyLightUse key_lights = KeyLightUse::ByDefault;
     std::vector<SettingInfo> settings{};
-    const char* editor_start = "";         ///< settings that an editor writes when the representation is chosen
+    std::vector<const char*> editor_start{};  ///< settings that an editor writes when the representation is chosen
     const char* sweep_tier = "";           ///< settings of the sweep's starting point; key_lights may be among them
     std::vector<int> sweep_key_lights{};   ///< numbers of key lights that the sweep takes
     std::vector<math::SphericalWindow> sweep_windows{};

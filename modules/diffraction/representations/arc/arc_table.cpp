@@ -302,7 +302,7 @@ const RepresentationInfo& ArcSettings::info() {
         .settings = {bands_setting({2, 3, 4, 6, 8, 10, 12, 16}, {3, 5, 8}),
                      rank_setting({2, 4, 6, 12, 16}, {4, 8, 16}), view_mapping_setting(), view_resolution_setting(),
                      storage_setting(ArcSettings().storage, {"fp32", "unorm16", "unorm8"})},
-        .editor_start = "bands=8/rank=12",
+        .editor_start = {"bands", "rank"},
         .sweep_tier = "bands=5/rank=8/storage=fp16/key_lights=16",
         .sweep_key_lights = {0, 4, 8, 32, 64},
         .sweep_windows = {math::SphericalWindow::Lanczos, math::SphericalWindow::Hann},

@@ -142,7 +142,7 @@ const RepresentationInfo& BinSettings::info() {
                       .default_value = BinSettings().bins,
                       .sweep = {4, 8, 32}},
                      view_mapping_setting(), view_resolution_setting({16, 64}), storage_setting(BinSettings().storage)},
-        .editor_start = "bands=5/bins=16",
+        .editor_start = {"bands", "bins"},
         .sweep_tier = "bands=5/bins=16/view_resolution=32",
         // Budgets try transfer tables instead: as large as eight bins, with fewer fetches and smaller errors.
         .budget = [](bool, SurfaceShape) { return std::vector<std::string>(); }};

@@ -11,7 +11,7 @@ const RepresentationInfo& CircleSettings::info() {
         .lobes = Lobes::Flat,
         .is_map = true,
         .settings = {map_resolution_setting(64, 128, {16, 24, 32, 48, 80}, {16, 32, 64})},
-        .editor_start = "map_resolution=64",
+        .editor_start = {"map_resolution"},
         .sweep_tier = "map_resolution=64/key_lights=16",
         .sweep_key_lights = {0, 1, 2, 4, 8, 32},
         // Flat surfaces have a better map; beyond 64 a map takes hundreds of megabytes.

@@ -16,7 +16,7 @@ const RepresentationInfo& PlanarSettings::info() {
         .needs_flat_surface = true,
         .settings = {map_resolution_setting(128, 1024, {16, 32, 64, 256, 512}, {32, 128, 256}), bands_setting(),
                      rank_setting()},
-        .editor_start = "map_resolution=128",
+        .editor_start = {"map_resolution"},
         .sweep_tier = "map_resolution=128/key_lights=16",
         .sweep_key_lights = {0, 4, 32},
         .sweep_more = {"map_resolution=64", "map_resolution=256", "map_resolution=512"},

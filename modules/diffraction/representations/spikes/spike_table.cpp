@@ -128,7 +128,7 @@ const RepresentationInfo& SpikeTableSettings::info() {
                       .details = {4, 4, 8}},
                      view_mapping_setting(), view_resolution_setting({8, 16, 64, 128}),
                      storage_setting(SpikeTableSettings().storage, {"fp32", "fp16", "unorm8"})},
-        .editor_start = "bands=5/spikes=4",
+        .editor_start = {"bands", "spikes"},
         .sweep_tier = "bands=5/spikes=4/view_resolution=32/storage=unorm16/view_mapping=spherical",
         .sweep_key_lights = {4, 8, 16, 32, 64},
         .sweep_windows = {math::SphericalWindow::Lanczos, math::SphericalWindow::Hann},

@@ -33,7 +33,7 @@ const RepresentationInfo& StreakSurfaceSettings::info() {
                       .sweep = {1, 2, 5, 9},
                       .details = {1, 3, 5}},
                      bands_setting(), rank_setting(), view_resolution_setting()},
-        .editor_start = "nodes=8/taps=3",
+        .editor_start = {"nodes", "taps"},
         .budget = [](bool flat_lobe, SurfaceShape) {
             std::vector<std::string> settings;
             for (const int nodes : {4, 8, 16})

@@ -85,7 +85,7 @@ const RepresentationInfo& TransferSettings::info() {
         .settings = {bands_setting({2, 3, 4, 6, 8, 12, 16}, {3, 5, 8}), view_mapping_setting(),
                      view_resolution_setting(),
                      storage_setting(TransferSettings().storage, {"fp32", "unorm16", "unorm8"})},
-        .editor_start = "bands=5",
+        .editor_start = {"bands"},
         .sweep_tier = "bands=5/storage=fp16/key_lights=16",
         .sweep_key_lights = {0, 4, 64},
         .sweep_more = {"bands=5/storage=fp16/key_lights=16/view_mapping=one-dimensional/view_resolution=32",
