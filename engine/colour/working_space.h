@@ -5,6 +5,11 @@
 
 namespace rowland::colour {
 
+/// Luminance of linear Rec.709, to four digits.
+inline double luminance(const glm::dvec3& rgb) {
+    return 0.2126 * rgb.r + 0.7152 * rgb.g + 0.0722 * rgb.b;
+}
+
 /// D65's white as our tables give it: XYZ of spectral rgb (1,1,1), Y = 1. Chromaticity (0.3127, 0.3290) to four digits.
 /// All matrices below use it, so that white stays neutral to rounding whichever way it comes.
 glm::dvec3 white_d65();

@@ -13,6 +13,7 @@
 
 #include "engine/core/byte_stream.h"
 #include "engine/core/error.h"
+#include "engine/image/image.h"
 #include "engine/image/limits.h"
 
 // Layout: "OpenEXR File Layout", openexr.com, versions 2.0 to 3.1.
@@ -176,7 +177,8 @@ void check_part(const Part& part, const ByteReader& reader) {
     const std::uint64_t lines = lines_per_chunk(part.compression, reader);
     const std::uint64_t chunk_width = part.tiled ? part.tile_width : static_cast<std::uint64_t>(width);
     const std::uint64_t chunk_height = part.tiled ? part.tile_height : lines;
-    if (chunk_width * chunk_height * std::max<std::uint64_t>(part.channels, 1) * 4 > kMaximumChunkBytes)
+    const std::uint64_t chunk_bytes = chunk_width * chunk_height * std::max<std::uint64_t>(part.channels, 1) * 4;
+    if (chunk_bytes > kMaximumChunkBytes)
         reader.fail(fmt::format("chunks of {} x {} texels, {} channels", chunk_width, chunk_height, part.channels),
                     fmt::format("at most {} bytes a chunk", kMaximumChunkBytes));
     // A file has a table of chunk offsets, and each chunk has at least a header of eight bytes.
@@ -186,6 +188,12 @@ void check_part(const Part& part, const ByteReader& reader) {
     if (chunks > reader.remaining() / 16)
         reader.fail(fmt::format("{} bytes left", reader.remaining()),
                     fmt::format("at least {} for {} x {} texels", 16 * chunks, width, height));
+    // The library decodes a row of tiles at a time and keeps a chunk packed, unpacked and rearranged.
+    const std::uint64_t row_bytes =
+        part.tiled ? whole(static_cast<std::uint64_t>(width), chunk_width) * chunk_bytes : 0;
+    check_decoded_bytes(width, height,
+                        static_cast<std::uint64_t>(width * height) * sizeof(glm::vec3) + 3 * chunk_bytes + row_bytes,
+                        reader.offset() + reader.remaining(), reader.file());
 }
 
 }  // namespace

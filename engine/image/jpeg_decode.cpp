@@ -52,6 +52,9 @@ ByteImageSize size_of(std::span<const std::byte> bytes, const Decoder& decoder, 
           decoder, file);
     check_image_size(width, height, file, "");
     check_compression(width, height, bytes.size(), kMaximumTexelsPerJpegByte, file);
+    // RGBA, and 16-bit coefficients of three channels, all of which a progressive file has decoded at once.
+    const std::uint64_t texels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+    check_decoded_bytes(width, height, (4 + 3 * 2) * texels, bytes.size(), file);
     return {width, height};
 }
 

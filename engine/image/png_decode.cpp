@@ -95,6 +95,7 @@ ByteImageSize png_size(std::span<const std::byte> bytes, const std::string& file
     const std::int64_t height = big_endian(header.data.subspan(4));
     check_image_size(width, height, file, fmt::format("byte {}", kSignature.size()));
     check_compression(width, height, bytes.size(), kMaximumTexelsPerPngByte, file);
+    check_decoded_bytes(width, height, 4 * static_cast<std::uint64_t>(width * height), bytes.size(), file);
     return {static_cast<int>(width), static_cast<int>(height)};
 }
 

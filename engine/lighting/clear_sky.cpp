@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "engine/colour/working_space.h"
 #include "engine/core/check.h"
 #include "engine/core/parallel.h"
 #include "engine/lighting/sphere_angles.h"
@@ -134,8 +135,7 @@ glm::dvec3 sun_irradiance(const ClearSkyRecipe& recipe) {
     for (int c = 0; c < 3; ++c)
         colour[c] = std::exp(
             -air_mass * (0.008735 * std::pow(wavelength_um[c], -4.08) + aerosol * std::pow(wavelength_um[c], -1.3)));
-    const double luminance = glm::dot(colour, glm::dvec3(0.2126, 0.7152, 0.0722));
-    return colour / luminance * 127.5 * std::exp(-0.21 * air_mass);
+    return colour / colour::luminance(colour) * 127.5 * std::exp(-0.21 * air_mass);
 }
 
 image::Image render_clear_sky(const ClearSkyRecipe& recipe, int width) {

@@ -14,8 +14,8 @@ struct PrefilterSettings {
 CubeLayout environment_layout(const ProbeImage& probe, const PrefilterSettings& settings);
 
 /// Level 0: the probe's mean over each texel. Level k: radiance under the GGX lobe of that level's roughness, with view
-/// = normal = reflection [Karis 2013, split sum], weights normalised so that a constant probe stays constant. The
-/// result does not depend on the number of threads.
+/// = normal = reflection [Karis 2013, split sum], weights normalised so that a constant probe stays constant. Does
+/// not depend on the number of threads.
 EnvironmentMap prefilter(const ProbeImage& probe, const PrefilterSettings& settings = {});
 
 }  // namespace rowland::lighting

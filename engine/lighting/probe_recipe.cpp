@@ -142,7 +142,9 @@ ProbeImage render_recipe(const ProbeRecipe& recipe, const std::function<image::I
         for (glm::vec3& texel : image.texels) texel *= static_cast<float>(recipe.intensity);
     const auto* capture = std::get_if<ImageRecipe>(&recipe.source);
     if (capture == nullptr) return {std::move(image), Mapping::Equirectangular, file};
-    return {std::move(image), capture->mapping, capture->file};
+    ProbeImage probe(std::move(image), capture->mapping, capture->file);
+    warn_about(probe, capture->file);
+    return probe;
 }
 
 }  // namespace rowland::lighting

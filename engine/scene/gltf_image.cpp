@@ -6,6 +6,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
+#include "engine/image/limits.h"
 #include "engine/scene/gltf_accessor.h"
 
 namespace rowland::scene {
@@ -40,6 +41,20 @@ auto read_at(const std::string& file, std::size_t image, const Read& read) {
     }
 }
 
+/// Throws Error (input) if highly compressed images would use memory out of proportion to the file.
+void check_decoded_total(const std::vector<Encoded>& encoded, const std::string& file) {
+    std::uint64_t decoded = 0;
+    std::uint64_t bytes = 0;
+    for (const Encoded& picture : encoded) {
+        const image::ByteImageSize size = image::byte_image_size(picture.bytes.bytes, file);
+        decoded += 4 * static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height);
+        bytes += picture.bytes.bytes.size();
+    }
+    if (const std::uint64_t limit = image::decoded_limit(bytes); decoded > limit)
+        refuse_input(file, "/images", fmt::format("{} bytes of images that decode to {}", bytes, decoded),
+                     fmt::format("at most {}", limit), "scale the images down");
+}
+
 /// The images that a texture names, their bytes fetched and the memory they take once decoded spent.
 std::vector<Encoded> fetch(const GltfSource& source, const GltfDocument& document, MemoryBudget& budget,
                            std::vector<std::filesystem::path>* read_files) {
@@ -61,6 +76,7 @@ std::vector<Encoded> fetch(const GltfSource& source, const GltfDocument& documen
             read_at(document.file, i, [&] { return image::byte_image_size(added.bytes.bytes, ""); });
         pictures.spend(static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height), 4, place);
     }
+    check_decoded_total(encoded, document.file);
     return encoded;
 }
 

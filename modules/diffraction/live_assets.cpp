@@ -6,7 +6,6 @@
 #include "engine/asset/container.h"
 #include "engine/cook/cook_source.h"
 #include "engine/core/log.h"
-#include "engine/image/load.h"
 #include "engine/lighting/cook.h"
 #include "engine/scene/cook.h"
 #include "engine/scene/gltf_import.h"
@@ -29,14 +28,6 @@ std::vector<std::byte> payload(const cook::Registry& registry, const std::filesy
     return std::move(baked.asset.payload);
 }
 
-lighting::LightProbe probe_from_image(const std::filesystem::path& path, const std::string& mapping) {
-    const lighting::ProbeImage probe(image::load_image(path), lighting::parse_mapping(mapping), path.string());
-    if (const lighting::TexelReport& report = probe.report(); report.total() > 0)
-        log_warning("{}: {} NaN, {} infinite and {} negative components are treated as 0", path.string(), report.nan,
-                    report.infinite, report.negative);
-    return lighting::build_light_probe(probe);
-}
-
 }  // namespace
 
 std::shared_ptr<const cook::Registry> make_registry() {
@@ -53,7 +44,7 @@ lighting::LightProbe load_probe(const cook::Registry& registry, const std::files
         return lighting::deserialise(payload(registry, path, "probe", lighting::kLightProbeVersion, read_files),
                                      path.string());
     read_files.push_back(path);
-    return probe_from_image(path, mapping);
+    return lighting::build_light_probe(lighting::load_probe_image(path, lighting::parse_mapping(mapping)));
 }
 
 LiveAssets::LiveAssets(LiveAssetSettings settings)

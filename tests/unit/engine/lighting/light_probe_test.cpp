@@ -53,7 +53,7 @@ TEST(LightProbe, SurvivesSerialisation) {
     EXPECT_EQ(read.light.face_size, 8);
     EXPECT_EQ(read.light.scale, probe.light.scale);
     EXPECT_EQ(read.light.halves, probe.light.halves);
-    EXPECT_EQ(read.light.places, probe.light.places);
+    EXPECT_EQ(read.light.positions, probe.light.positions);
     EXPECT_EQ(read.environment.layout, probe.environment.layout);
     EXPECT_EQ(read.environment.scale, probe.environment.scale);
     EXPECT_EQ(read.environment.halves, probe.environment.halves);
