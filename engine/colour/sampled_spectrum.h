@@ -19,10 +19,10 @@ T integrate_visible(const Function& f) {
     return sum;
 }
 
-/// What a spectrum is beyond its table.
+/// Values of a spectrum outside its table.
 enum class Outside {
-    Zero,   ///< nothing was measured there: emission and sensitivity
-    Clamp,  ///< the nearest value: a property of a material, which does not stop
+    Zero,   ///< for emission and sensitivity
+    Clamp,  ///< the nearest value: for properties of materials
 };
 
 /// A function of wavelength given by samples, linear between them.

@@ -115,7 +115,7 @@ void read_rows(Imf::InputPart& part, const ChannelNames& names, const Imath::Box
     for (std::size_t i = 0; i < count; ++i) rows[i] = glm::vec3(rows[i].x);
 }
 
-/// What turns the channels' colours into Rec.709; nullopt if they are in it.
+/// The conversion of the channels to Rec.709; nullopt if they are in it.
 std::optional<glm::dmat3> conversion(const Imf::Header& header, const ChannelNames& names, const std::string& file) {
     if (names == kXyz) return colour::xyz_to_rec709();
     if (!Imf::hasChromaticities(header)) return std::nullopt;

@@ -31,10 +31,10 @@ constexpr std::size_t kMaximumName = 255;
 constexpr std::size_t kMaximumAttributes = 1024;
 constexpr std::size_t kMaximumParts = 64;
 constexpr std::uint64_t kMaximumChannels = 128;
-/// OpenEXR decodes whole chunks (blocks of lines, tiles), all channels at once.
+/// OpenEXR decodes a chunk (a block of lines, a tile) at once, with all channels.
 constexpr std::uint64_t kMaximumChunkBytes = std::uint64_t{1} << 28;
 
-/// What a part's header says of sizes.
+/// The sizes in a part's header.
 struct Part {
     std::array<std::int32_t, 4> data_window = {};
     bool has_window = false;
@@ -76,7 +76,7 @@ void read_tiles(ByteReader reader, Part& part) {
                     fmt::format("sides in [1, {}]", kMaximumSide));
 }
 
-/// The library fills a preview before it reads it.
+/// The library allocates a preview before it reads it.
 void check_preview(ByteReader reader, std::size_t size) {
     const std::uint64_t width = reader.value<std::uint32_t>();
     const std::uint64_t height = reader.value<std::uint32_t>();
@@ -106,8 +106,8 @@ std::optional<std::uint32_t> fixed_size(const std::string& type) {
     return std::nullopt;
 }
 
-/// The library reads what a type needs, whatever size the attribute claims: where these differ, what it takes for the
-/// next attribute is not what has been checked here.
+/// The library reads as many bytes as a type has, whatever size the attribute claims. Where these differ, it would read
+/// the next attribute from another position than this check.
 void check_value(ByteReader value, const std::string& name, const std::string& type, std::uint32_t size) {
     const auto fixed = fixed_size(type);
     if (fixed && *fixed != size)

@@ -48,7 +48,7 @@ Rgbe read_texel(ByteReader& reader) {
     return texel;
 }
 
-/// What the header says beyond the size.
+/// The header's lines.
 struct Header {
     glm::dvec3 divisor{1.0};  ///< product of EXPOSURE and COLORCORR lines
     std::optional<colour::Primaries> primaries;
@@ -94,7 +94,7 @@ void read_header_line(std::string_view line, Header& header, const ByteReader& r
     if (key == "PRIMARIES") {
         const auto n = parse_numbers<8>(value, reader, key);
         const colour::Primaries primaries{{n[0], n[1]}, {n[2], n[3]}, {n[4], n[5]}, {n[6], n[7]}};
-        // Photoshop writes eight zeros, which say nothing.
+        // Photoshop writes eight zeros for unknown primaries.
         if (std::any_of(n.begin(), n.end(), [](double x) { return x != 0; })) {
             if (!colour::is_usable(primaries))
                 reader.fail(fmt::format("PRIMARIES={}", value.substr(0, 80)), "chromaticities that span a triangle");
@@ -208,8 +208,8 @@ std::uint64_t fewest_bytes(const Resolution& resolution) {
     return static_cast<std::uint64_t>(resolution.scanlines()) * (resolution.length() > 1 ? 8u : 4u);
 }
 
-/// Puts a scanline where it belongs in the image.
-void place(const std::vector<Rgbe>& scanline, int number, const Resolution& resolution, const glm::dvec3& factor,
+/// Decodes a scanline into the image.
+void store(const std::vector<Rgbe>& scanline, int number, const Resolution& resolution, const glm::dvec3& factor,
            Image& image) {
     for (int i = 0; i < resolution.length(); ++i) {
         const int x = resolution.by_columns ? number : i;
@@ -248,7 +248,7 @@ Image read_radiance_hdr(std::span<const std::byte> bytes, const std::string& fil
             read_new_scanline(reader, scanline);
         else
             read_old_scanline(reader, scanline);
-        place(scanline, i, resolution, factor, image);
+        store(scanline, i, resolution, factor, image);
     }
     if (header.primaries)
         if (const auto matrix = colour::to_rec709(*header.primaries)) transform_colours(image, *matrix);

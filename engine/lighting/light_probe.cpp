@@ -20,13 +20,13 @@ namespace rowland::lighting {
 
 namespace {
 
-/// A cube map's faces are at most this in a file; prefiltering makes none larger than 1024.
+/// Largest face of a cube map in a file; prefilter() makes none larger than 1024.
 constexpr std::uint32_t kMaximumFace = 8192;
 
-/// Bytes of an illuminant's name in a file: a recipe names a file beside it.
+/// Longest name of an illuminant in a file; a recipe may name a path.
 constexpr std::size_t kMaximumIlluminantName = 4096;
 
-/// Concentrations of key lights in a file; fitted ones lie well inside.
+/// Range of a key light's concentration in a file; fit_key_lights() gives 40 to 3000.
 constexpr double kLeastConcentration = 1e-3;
 constexpr double kGreatestConcentration = 1e6;
 

@@ -93,7 +93,8 @@ PackedLight pack(std::span<const CubeCell> cells, int face_size) {
     double largest = 0.0;
     for (const CubeCell& cell : cells)
         for (int c = 0; c < 3; ++c) {
-            ROWLAND_CHECK(std::isfinite(cell.flux[c]) && cell.flux[c] >= 0.0, "a probe sends finite light");
+            ROWLAND_CHECK(std::isfinite(cell.flux[c]) && cell.flux[c] >= 0.0,
+                          "the flux of a probe is finite and not negative");
             largest = std::max(largest, cell.flux[c]);
         }
     PackedLight packed;

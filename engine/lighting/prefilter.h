@@ -6,7 +6,7 @@
 namespace rowland::lighting {
 
 struct PrefilterSettings {
-    int face_size = 256;  ///< power of two in [16, 1024]; lowered to what the probe can fill
+    int face_size = 256;  ///< power of two in [16, 1024]; lowered to the probe's resolution
 };
 
 /// The cube map a probe is prefiltered into: faces of about half an equirectangular image's height (a quarter of an

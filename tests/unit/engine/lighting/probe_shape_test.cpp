@@ -17,8 +17,8 @@ using std::numbers::pi;
 /// 1 × n, n × 1 and powers of ten, up to the largest sides that are read.
 std::vector<glm::ivec2> shapes() {
     std::vector<glm::ivec2> all;
-    for (const int n : {1, 2, 3, 10, 100, 1000, 10000, 20000, 32768})
-        for (const int m : {1, 2, 10}) {
+    for (const int n : {1, 10, 100, 1000, 10000, 32768})
+        for (const int m : {1, 10}) {
             all.emplace_back(n, m);
             all.emplace_back(m, n);
         }
@@ -78,20 +78,19 @@ TEST(ProbeShape, AveragingKeepsFluxAndDirection) {
     EXPECT_NEAR(sh.coefficients[1].x * std::sqrt(4 * pi / 3), expected * std::sqrt(0.5), 0.005 * expected);
 }
 
-void expect_all_light(const glm::ivec2& shape, Mapping mapping) {
+void expect_all_light(const glm::ivec2& shape, Mapping mapping, int key_lights = 0) {
     SCOPED_TRACE(testing::Message() << shape.x << " x " << shape.y << (mapping == Mapping::Angular ? " angular" : ""));
     const ProbeImage probe = slope(shape, mapping);
     LightProbeSettings settings;
     settings.bands = 1;
-    settings.key_lights = 1;
+    settings.key_lights = key_lights;
     settings.light_face = 16;
     settings.prefilter.face_size = 16;
     const LightProbe cooked = build_light_probe(probe, settings);
     const glm::dvec3 mean = cooked.sh.coefficients[0] / std::sqrt(4 * pi);
     EXPECT_NEAR(mean.x, 1.0, 1e-9);
-    EXPECT_GE(mean.y, 1.0);
-    EXPECT_LT(mean.y, 2.0);
-    EXPECT_LT(mean.z, 2.0);
+    for (int c = 1; c < 3; ++c) EXPECT_GE(mean[c], 1.0 - 1e-9);
+    for (int c = 1; c < 3; ++c) EXPECT_LT(mean[c], 2.0);
     // An angular map's rim: 2e-3. Bilinear radiance between few texels has another mean than the texels.
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(flux(unpack(cooked.light))[c] / (4 * pi), mean[c], c == 0 ? 3e-3 : 0.06);
     const EnvironmentMap map = unpack(cooked.environment);
@@ -107,10 +106,13 @@ void expect_all_light(const glm::ivec2& shape, Mapping mapping) {
 
 TEST(ProbeShape, EveryEquirectangularShapeGivesAllItsLight) {
     for (const glm::ivec2 shape : shapes()) expect_all_light(shape, Mapping::Equirectangular);
+    for (const glm::ivec2 shape : {glm::ivec2(1, 1), {2, 1}, {1, 10000}, {10000, 1}})
+        expect_all_light(shape, Mapping::Equirectangular, 1);
 }
 
 TEST(ProbeShape, EveryAngularSizeGivesAllItsLight) {
     for (const int n : {1, 2, 3, 5, 10, 33, 100, 1000}) expect_all_light({n, n}, Mapping::Angular);
+    expect_all_light({2, 2}, Mapping::Angular, 1);
 }
 
 TEST(ProbeShape, SamplesFollowTheTexels) {
