@@ -6,9 +6,7 @@
 #include <optional>
 
 #include "engine/core/error.h"
-#include "engine/core/log.h"
 #include "engine/core/number_table.h"
-#include "engine/image/load.h"
 #include "engine/math/sh_basis.h"
 
 namespace rowland::trade {
@@ -66,11 +64,7 @@ lighting::ShLight read_sh_light(const std::filesystem::path& path) {
 }
 
 lighting::ProbeImage read_probe(const std::filesystem::path& path, const std::string& mapping) {
-    lighting::ProbeImage probe(image::load_image(path), lighting::parse_mapping(mapping), path.string());
-    if (probe.report().total() > 0)
-        log_warning("{}: {} components taken as 0 ({} NaN, {} infinite, {} negative)", path.string(),
-                    probe.report().total(), probe.report().nan, probe.report().infinite, probe.report().negative);
-    return probe;
+    return lighting::load_probe_image(path, lighting::parse_mapping(mapping));
 }
 
 }  // namespace rowland::trade

@@ -9,13 +9,13 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-double lightness_curve(double share) {
+double lightness_curve(double ratio) {
     constexpr double kLinearBelow = 216.0 / 24389.0;
     constexpr double kSlope = 24389.0 / 27.0;
-    return share > kLinearBelow ? std::cbrt(share) : (kSlope * share + 16.0) / 116.0;
+    return ratio > kLinearBelow ? std::cbrt(ratio) : (kSlope * ratio + 16.0) / 116.0;
 }
 
-double seventh_power_share(double chroma) {
+double seventh_power_ratio(double chroma) {
     const double c7 = std::pow(chroma, 7.0);
     return std::sqrt(c7 / (c7 + std::pow(25.0, 7.0)));
 }
@@ -52,7 +52,7 @@ glm::dvec3 xyz_to_lab(const glm::dvec3& xyz, const glm::dvec3& white) {
 // Symbols as in Sharma, Wu & Dalal, eq. 2 to 22.
 double delta_e_2000(const glm::dvec3& lab_1, const glm::dvec3& lab_2) {
     const double mean_chroma = 0.5 * (std::hypot(lab_1.y, lab_1.z) + std::hypot(lab_2.y, lab_2.z));
-    const double stretch = 1.0 + 0.5 * (1.0 - seventh_power_share(mean_chroma));
+    const double stretch = 1.0 + 0.5 * (1.0 - seventh_power_ratio(mean_chroma));
     const double a1 = stretch * lab_1.y;
     const double a2 = stretch * lab_2.y;
     const double c1 = std::hypot(a1, lab_1.z);
@@ -76,7 +76,7 @@ double delta_e_2000(const glm::dvec3& lab_1, const glm::dvec3& lab_2) {
     const double s_h = 1.0 + 0.015 * c * t;
     const double from_blue = (h / kDegree - 275.0) / 25.0;
     const double turn = 30.0 * kDegree * std::exp(-from_blue * from_blue);
-    const double r_t = -std::sin(2.0 * turn) * 2.0 * seventh_power_share(c);
+    const double r_t = -std::sin(2.0 * turn) * 2.0 * seventh_power_ratio(c);
 
     const double x = delta_l / s_l;
     const double y = delta_c / s_c;

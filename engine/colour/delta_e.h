@@ -4,8 +4,7 @@
 
 namespace rowland::colour {
 
-/// CIE 1976 (L*, a*, b*) of a colour, relative to a white of the same kind of XYZ. Negative components are kept, by the
-/// linear part of the scale.
+/// CIE 1976 (L*, a*, b*) of a colour, relative to a white. Negative components use the linear part of the scale.
 glm::dvec3 xyz_to_lab(const glm::dvec3& xyz, const glm::dvec3& white);
 
 /// CIEDE2000 colour difference of two L*a*b* colours, parametric factors 1; about 1 is just noticeable side by side

@@ -16,21 +16,20 @@ struct Illuminant {
     SampledSpectrum power;
 };
 
-/// Illuminants that are built in: "A", "D65", "E", "F2", "F11", "LED-B3".
+/// The built-in illuminants: "A", "D65", "E", "F2", "F11", "LED-B3".
 std::vector<std::string> illuminant_names();
 
-/// A built-in illuminant. Throws Error (input) naming the ones there are.
+/// A built-in illuminant. Throws Error (input) that lists them for another name.
 const Illuminant& illuminant(const std::string& name);
 
 /// CIE standard illuminant D65.
 const Illuminant& d65();
 
-/// An illuminant from CSV text `wavelength_nm,relative_power`. Throws Error (input) naming the file and the row for
-/// what parse_spectrum_csv() refuses, for negative power, and if ∫S ȳ dλ is 0, or no number to
-/// divide by: the eye must see something of it.
+/// An illuminant from CSV text `wavelength_nm,relative_power`. Throws Error (input) naming the file and the row as
+/// parse_spectrum_csv() does, for negative power, and if it is not visible.
 Illuminant parse_illuminant(std::string_view text, const std::string& file);
 
-/// An illuminant's file may be so large.
+/// Largest file of an illuminant.
 inline constexpr std::uint64_t kMaximumIlluminantBytes = 1 << 20;
 
 /// The same from a file of at most kMaximumIlluminantBytes.
@@ -42,7 +41,7 @@ std::string write_illuminant_csv(const Illuminant& illuminant);
 /// ∫S ȳ dλ over the visible range, trapezoid at 1 nm.
 double luminous_power(const Illuminant& illuminant);
 
-/// Whether luminous_power() is a positive number that can be divided by.
+/// Whether luminous_power() is positive and finite, as is its reciprocal.
 bool is_visible(const Illuminant& illuminant);
 
 }  // namespace rowland::colour

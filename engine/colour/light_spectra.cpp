@@ -3,7 +3,6 @@
 #include <array>
 #include <glm/geometric.hpp>
 
-#include "engine/colour/embedded_tables.h"
 #include "engine/colour/observer.h"
 #include "engine/colour/spectrum_csv.h"
 
@@ -12,12 +11,8 @@ namespace rowland::colour {
 namespace {
 
 std::array<SampledSpectrum, 3> load_basis() {
-    const SpectrumTable table =
-        parse_spectrum_csv(embedded::kMallett2019, "mallett2019_srgb_basis_5nm.csv", "wavelength_nm,r,g,b");
-    const auto column = [&](std::size_t i) {
-        return SampledSpectrum(table.wavelengths_nm, table.columns[i], Outside::Clamp);
-    };
-    return {column(0), column(1), column(2)};
+    const SpectrumTable table = builtin_table("mallett2019_srgb_basis_5nm.csv", "wavelength_nm,r,g,b");
+    return {spectrum(table, 0, Outside::Clamp), spectrum(table, 1, Outside::Clamp), spectrum(table, 2, Outside::Clamp)};
 }
 
 }  // namespace
@@ -35,12 +30,8 @@ glm::dvec3 LightSpectra::operator()(double wavelength_nm) const {
 }
 
 glm::dvec3 rgb_to_xyz(const LightSpectra& spectra, const glm::dvec3& rgb) {
-    glm::dvec3 sum(0.0);
-    for (int wavelength_nm = kVisibleMin; wavelength_nm <= kVisibleMax; ++wavelength_nm) {
-        const double weight = wavelength_nm == kVisibleMin || wavelength_nm == kVisibleMax ? 0.5 : 1.0;
-        sum += weight * glm::dot(spectra(wavelength_nm), rgb) * cie_xyz(wavelength_nm);
-    }
-    return sum;
+    return integrate_visible<glm::dvec3>(
+        [&](double wavelength_nm) { return glm::dot(spectra(wavelength_nm), rgb) * cie_xyz(wavelength_nm); });
 }
 
 }  // namespace rowland::colour

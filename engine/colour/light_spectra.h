@@ -6,7 +6,7 @@
 
 namespace rowland::colour {
 
-/// B_c(λ): the spectral shares of linear Rec.709 red, green and blue, which sum to 1 [Mallett & Yuksel 2019]. Clamped
+/// B_c(λ): the spectra of linear Rec.709 red, green and blue, which sum to 1 [Mallett & Yuksel 2019]. Clamped
 /// to the table's ends (380 and 780 nm).
 glm::dvec3 rgb_basis(double wavelength_nm);
 

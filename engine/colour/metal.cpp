@@ -3,7 +3,6 @@
 #include <array>
 #include <string_view>
 
-#include "engine/colour/embedded_tables.h"
 #include "engine/colour/sampled_spectrum.h"
 #include "engine/colour/spectrum_csv.h"
 
@@ -18,10 +17,9 @@ struct RefractiveIndex {
     SampledSpectrum k;
 };
 
-RefractiveIndex load_index(std::string_view text, std::string_view name) {
-    const SpectrumTable table = parse_spectrum_csv(text, std::string(name) + "_nk.csv", "wavelength_nm,n,k");
-    return {SampledSpectrum(table.wavelengths_nm, table.columns[0], Outside::Clamp),
-            SampledSpectrum(table.wavelengths_nm, table.columns[1], Outside::Clamp)};
+RefractiveIndex load_index(Metal metal) {
+    const SpectrumTable table = builtin_table("metals/" + metal_name(metal) + "_nk.csv", "wavelength_nm,n,k");
+    return {spectrum(table, 0, Outside::Clamp), spectrum(table, 1, Outside::Clamp)};
 }
 
 }  // namespace
@@ -37,9 +35,8 @@ std::string metal_name(Metal metal) {
 }
 
 double metal_reflectance(Metal metal, double wavelength_nm) {
-    static const std::array<RefractiveIndex, 4> indices = {
-        load_index(embedded::kMetalAl, kNames[0]), load_index(embedded::kMetalAg, kNames[1]),
-        load_index(embedded::kMetalAu, kNames[2]), load_index(embedded::kMetalCu, kNames[3])};
+    static const std::array<RefractiveIndex, 4> indices = {load_index(Metal::Al), load_index(Metal::Ag),
+                                                           load_index(Metal::Au), load_index(Metal::Cu)};
     const RefractiveIndex& index = indices[static_cast<std::size_t>(metal)];
     const double n = index.n(wavelength_nm);
     const double k = index.k(wavelength_nm);

@@ -11,7 +11,7 @@ enum class Metal { Al, Ag, Au, Cu };
 std::optional<Metal> parse_metal(const std::string& name);
 std::string metal_name(Metal metal);
 
-/// R(λ) = ((n−1)² + k²) / ((n+1)² + k²): the share of power that a polished face reflects at normal incidence. n and k
+/// R(λ) = ((n−1)² + k²) / ((n+1)² + k²): power reflectance of a polished face at normal incidence. n and k
 /// are linear between the table's samples and clamped outside 299–886 nm.
 double metal_reflectance(Metal metal, double wavelength_nm);
 

@@ -1,9 +1,7 @@
 #include "engine/colour/observer.h"
 
 #include <array>
-#include <string>
 
-#include "engine/colour/embedded_tables.h"
 #include "engine/colour/spectrum_csv.h"
 
 namespace rowland::colour {
@@ -11,12 +9,8 @@ namespace rowland::colour {
 namespace {
 
 std::array<SampledSpectrum, 3> load_observer() {
-    const SpectrumTable table =
-        parse_spectrum_csv(embedded::kCie1931, "cie1931_2deg_xyz_1nm.csv", "wavelength_nm,xbar,ybar,zbar");
-    const auto column = [&](std::size_t i) {
-        return SampledSpectrum(table.wavelengths_nm, table.columns[i], Outside::Zero);
-    };
-    return {column(0), column(1), column(2)};
+    const SpectrumTable table = builtin_table("cie1931_2deg_xyz_1nm.csv", "wavelength_nm,xbar,ybar,zbar");
+    return {spectrum(table, 0, Outside::Zero), spectrum(table, 1, Outside::Zero), spectrum(table, 2, Outside::Zero)};
 }
 
 }  // namespace

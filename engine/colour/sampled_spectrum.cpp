@@ -9,7 +9,7 @@ namespace rowland::colour {
 
 namespace {
 
-/// The common distance of the samples, or 0. Even tables are looked up without a search.
+/// The distance of evenly spaced samples, else 0. Even tables need no search.
 double even_step(const std::vector<double>& x) {
     const double step = x[1] - x[0];
     for (std::size_t i = 1; i < x.size(); ++i)

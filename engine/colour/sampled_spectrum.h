@@ -8,10 +8,21 @@ namespace rowland::colour {
 inline constexpr int kVisibleMin = 380;
 inline constexpr int kVisibleMax = 780;
 
-/// What a spectrum is beyond its table.
+/// ∫ f(λ) dλ over that range. `T` is what f returns.
+template <typename T, typename Function>
+T integrate_visible(const Function& f) {
+    T sum(0.0);
+    for (int wavelength_nm = kVisibleMin; wavelength_nm <= kVisibleMax; ++wavelength_nm) {
+        const bool at_an_end = wavelength_nm == kVisibleMin || wavelength_nm == kVisibleMax;
+        sum += (at_an_end ? 0.5 : 1.0) * f(wavelength_nm);
+    }
+    return sum;
+}
+
+/// Values of a spectrum outside its table.
 enum class Outside {
-    Zero,   ///< nothing was measured there: emission and sensitivity
-    Clamp,  ///< the nearest value: a property of a material, which does not stop
+    Zero,   ///< for emission and sensitivity
+    Clamp,  ///< the nearest value: for properties of materials
 };
 
 /// A function of wavelength given by samples, linear between them.

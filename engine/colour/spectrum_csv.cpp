@@ -2,10 +2,14 @@
 
 #include <fmt/format.h>
 
+#include "engine/core/embedded_file.h"
 #include "engine/core/error.h"
 #include "engine/core/number_table.h"
 
 namespace rowland::colour {
+
+/// The files of data/.
+std::span<const EmbeddedFile> table_files();
 
 namespace {
 
@@ -33,6 +37,14 @@ SpectrumTable parse_spectrum_csv(std::string_view text, const std::string& file,
         for (std::size_t c = 1; c < row.size(); ++c) table.columns[c - 1].push_back(row[c]);
     }
     return table;
+}
+
+SpectrumTable builtin_table(const std::string& name, const std::string& header) {
+    return parse_spectrum_csv(embedded_text(table_files(), "engine/colour/data/" + name), name, header);
+}
+
+SampledSpectrum spectrum(const SpectrumTable& table, std::size_t i, Outside outside) {
+    return {table.wavelengths_nm, table.columns[i], outside};
 }
 
 }  // namespace rowland::colour

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "engine/colour/sampled_spectrum.h"
 
 namespace rowland::colour {
 
@@ -17,5 +20,11 @@ struct SpectrumTable {
 /// header, a wrong number of fields, a field that is no finite number, wavelengths that do not ascend or lie outside
 /// (0, 1e6], and fewer than two rows. The header is row 1.
 SpectrumTable parse_spectrum_csv(std::string_view text, const std::string& file, const std::string& header);
+
+/// A table of data/, which is built in: "metals/Al_nk.csv".
+SpectrumTable builtin_table(const std::string& name, const std::string& header);
+
+/// Column `i` of a table as a function of wavelength.
+SampledSpectrum spectrum(const SpectrumTable& table, std::size_t i, Outside outside);
 
 }  // namespace rowland::colour

@@ -71,6 +71,10 @@ class ByteReader {
         return {characters.begin(), characters.end()};
     }
     std::span<const std::byte> take(std::size_t size);
+    /// The next `size` bytes, or as many as are left; the offset stays.
+    std::span<const std::byte> peek(std::size_t size) const {
+        return data_.subspan(offset_, size < remaining() ? size : remaining());
+    }
     std::size_t remaining() const { return data_.size() - offset_; }
     std::size_t offset() const { return offset_; }
     const std::string& file() const { return file_; }

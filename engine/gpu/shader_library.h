@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/gpu/embedded_file.h"
+#include "engine/core/embedded_file.h"
 
 namespace rowland::gpu {
 

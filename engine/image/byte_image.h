@@ -20,12 +20,11 @@ struct ByteImageSize {
     int height = 0;
 };
 
-/// The size that a PNG's or JPEG's header claims, for who must know before anything is allocated for it. Throws Error
-/// (input), also above the limits of image/limits.h.
+/// The size in a PNG's or JPEG's header. Throws Error (input), also above the limits of image/limits.h.
 ByteImageSize byte_image_size(std::span<const std::byte> bytes, const std::string& file);
 
-/// Decodes a PNG or a JPEG, told apart by their first bytes. Grey and palette become RGB, missing alpha 255, 16 bits 8.
-/// Colour profiles and gamma are ignored, as glTF 2.0, 3.8.3 wants it. `file` names the bytes in messages. Throws Error
+/// Decodes a PNG or a JPEG, whichever the first bytes say. Grey and palette become RGB, missing alpha 255, 16 bits 8.
+/// Colour profiles and gamma are ignored, as glTF 2.0, 3.8.3 requires. `file` names the bytes in messages. Throws Error
 /// (input), also for pictures above the limits of image/limits.h, before anything is allocated for them, and for cut
 /// ones.
 ByteImage decode_byte_image(std::span<const std::byte> bytes, const std::string& file);

@@ -4,11 +4,11 @@
 #include <ImfChromaticitiesAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
-#include <ImfIO.h>
 #include <ImfInputPart.h>
 #include <ImfMultiPartInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfStandardAttributes.h>
+#include <ImfStdIO.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,15 +19,13 @@
 #include <new>
 #include <optional>
 #include <stdexcept>
-#include <utility>
-#include <vector>
 
+#include "engine/colour/primaries.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/image/exr_header.h"
 #include "engine/image/limits.h"
-#include "engine/image/primaries.h"
 
 namespace rowland::image {
 
@@ -57,44 +55,24 @@ class SpanStream : public Imf::IStream {
     std::uint64_t position_ = 0;
 };
 
-/// OpenEXR's output, into memory.
-class VectorStream : public Imf::OStream {
- public:
-    VectorStream() : OStream("memory") {}
-
-    void write(const char source[], int count) override {
-        const auto size = static_cast<std::size_t>(count);
-        bytes_.resize(std::max(bytes_.size(), position_ + size));
-        std::memcpy(bytes_.data() + position_, source, size);
-        position_ += size;
-    }
-    std::uint64_t tellp() override { return position_; }
-    void seekp(std::uint64_t position) override { position_ = position; }
-    const std::vector<std::byte>& bytes() const { return bytes_; }
-
- private:
-    std::vector<std::byte> bytes_;
-    std::uint64_t position_ = 0;
-};
-
 /// The names of the channels that become red, green and blue.
 using ChannelNames = std::array<std::string, 3>;
+const ChannelNames kRgb{"R", "G", "B"};
+const ChannelNames kXyz{"X", "Y", "Z"};  ///< CIE 1931 tristimulus values
 
-/// R, G and B of the unnamed layer, else Y, else of the first layer that has them.
+/// R, G and B of the unnamed layer, else X, Y and Z, else Y, else R, G and B of the first layer that has them.
 std::optional<ChannelNames> pick_channels(const Imf::ChannelList& channels) {
-    const auto layer = [&channels](const std::string& prefix) -> std::optional<ChannelNames> {
-        ChannelNames names = {prefix + "R", prefix + "G", prefix + "B"};
-        for (const std::string& name : names)
-            if (channels.findChannel(name) == nullptr) return std::nullopt;
-        return names;
-    };
-    if (auto names = layer("")) return names;
-    const bool chroma = channels.findChannel("RY") != nullptr || channels.findChannel("BY") != nullptr;
-    if (channels.findChannel("Y") != nullptr && !chroma) return ChannelNames{"Y", "Y", "Y"};
+    const auto has = [&channels](const std::string& name) { return channels.findChannel(name) != nullptr; };
+    const auto all = [&has](const ChannelNames& names) { return has(names[0]) && has(names[1]) && has(names[2]); };
+    if (all(kRgb)) return kRgb;
+    if (all(kXyz)) return kXyz;
+    // Y beside RY and BY is luminance and chroma; beside X or Z it is a part of something else.
+    if (has("Y") && !has("RY") && !has("BY") && !has("X") && !has("Z")) return ChannelNames{"Y", "Y", "Y"};
     for (auto it = channels.begin(); it != channels.end(); ++it) {
         const std::string name = it.name();
         if (!name.ends_with(".R")) continue;
-        if (auto names = layer(name.substr(0, name.size() - 1))) return names;
+        const std::string layer = name.substr(0, name.size() - 1);
+        if (const ChannelNames names{layer + "R", layer + "G", layer + "B"}; all(names)) return names;
     }
     return std::nullopt;
 }
@@ -108,7 +86,7 @@ std::string list_channels(const Imf::ChannelList& channels) {
 
 ChannelNames check_channels(const Imf::ChannelList& channels, const std::string& file) {
     const auto names = pick_channels(channels);
-    if (!names) refuse_input(file, "channels", list_channels(channels), "R, G and B, or Y");
+    if (!names) refuse_input(file, "channels", list_channels(channels), "R, G and B, or X, Y and Z, or Y");
     for (const std::string& name : *names) {
         const Imf::Channel& channel = channels[name];
         if (channel.type != Imf::HALF && channel.type != Imf::FLOAT)
@@ -137,37 +115,38 @@ void read_rows(Imf::InputPart& part, const ChannelNames& names, const Imath::Box
     for (std::size_t i = 0; i < count; ++i) rows[i] = glm::vec3(rows[i].x);
 }
 
+/// The conversion of the channels to Rec.709; nullopt if they are in it.
+std::optional<glm::dmat3> conversion(const Imf::Header& header, const ChannelNames& names, const std::string& file) {
+    if (names == kXyz) return colour::xyz_to_rec709();
+    if (!Imf::hasChromaticities(header)) return std::nullopt;
+    const Imf::Chromaticities& c = Imf::chromaticities(header);
+    const auto xy = [](const Imath::V2f& v) { return glm::dvec2(v.x, v.y); };
+    const colour::Primaries primaries{xy(c.red), xy(c.green), xy(c.blue), xy(c.white)};
+    if (!colour::is_usable(primaries))
+        refuse_input(file, "chromaticities", "chromaticities of no colour space", "primaries that span a triangle");
+    return colour::to_rec709(primaries);
+}
+
 Image read_part(Imf::InputPart& part, const std::string& file) {
     const Imf::Header& header = part.header();
     const Imath::Box2i window = header.dataWindow();
     if (window != header.displayWindow())
         refuse_input(file, "dataWindow", "a data window that is not the display window", "a whole image",
                      "crop or pad the image so that both agree");
+    if (Imf::hasEnvmap(header) && Imf::envmap(header) == Imf::ENVMAP_CUBE)
+        refuse_input(file, "envmap", "a cube map", "an equirectangular (latitude-longitude) or angular map",
+                     "convert it, for example with exrenvmap -l");
     const ChannelNames names = check_channels(header.channels(), file);
+    const std::optional<glm::dmat3> to_rec709 = conversion(header, names, file);
 
-    const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
-    const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
-    check_image_size(width, height, file, "dataWindow");
-    Image image{static_cast<int>(width), static_cast<int>(height), {}};
-    // Grows as rows are really there, so that a truncated file does not cost its whole claim.
-    for (std::int64_t row = 0; row < height; row += kRowsAtATime) {
-        const std::int64_t end = std::min<std::int64_t>(height, row + kRowsAtATime);
-        const auto before = image.texels.size();
-        image.texels.resize(before + static_cast<std::size_t>(width * (end - row)));
-        read_rows(part, names, window, static_cast<int>(window.min.y + row), static_cast<int>(window.min.y + end - 1),
-                  image.texels.data() + before);
+    // The header's check has limited the size.
+    Image image = make_image(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1);
+    for (int row = 0; row < image.height; row += kRowsAtATime) {
+        const int last = std::min(image.height, row + kRowsAtATime) - 1;
+        read_rows(part, names, window, window.min.y + row, window.min.y + last, &image.at(0, row));
     }
+    if (to_rec709) transform_colours(image, *to_rec709);
     return image;
-}
-
-void convert_to_rec709(Image& image, const Imf::Header& header, const std::string& file) {
-    if (!Imf::hasChromaticities(header)) return;
-    const Imf::Chromaticities& c = Imf::chromaticities(header);
-    const auto xy = [](const Imath::V2f& v) { return glm::dvec2(v.x, v.y); };
-    const Primaries primaries{xy(c.red), xy(c.green), xy(c.blue), xy(c.white)};
-    if (!is_usable(primaries))
-        refuse_input(file, "chromaticities", "chromaticities of no colour space", "primaries that span a triangle");
-    if (const auto matrix = to_rec709(primaries)) transform_colours(image, *matrix);
 }
 
 /// Writes `count` floats a texel ("RGB" or "RGBA"). ZIP is deterministic and lossless.
@@ -175,25 +154,20 @@ void write_floats(const std::filesystem::path& path, int width, int height, cons
     ROWLAND_CHECK_OP(width, >=, 1);
     ROWLAND_CHECK_OP(height, >=, 1);
     constexpr std::array<const char*, 4> kNames = {"R", "G", "B", "A"};
+    Imf::StdOSStream stream;
     try {
-        VectorStream stream;
-        {
-            Imf::Header header(width, height);
-            header.compression() = Imf::ZIP_COMPRESSION;
-            Imf::FrameBuffer buffer;
-            for (std::size_t c = 0; c < count; ++c) {
-                header.channels().insert(kNames[c], Imf::Channel(Imf::FLOAT));
-                buffer.insert(kNames[c],
-                              Imf::Slice::Make(Imf::FLOAT, texels + c, {0, 0}, width, height, sizeof(float) * count,
-                                               sizeof(float) * count * static_cast<std::size_t>(width)));
-            }
-            Imf::OutputFile file(stream, header, 0);
-            file.setFrameBuffer(buffer);
-            file.writePixels(height);
+        Imf::Header header(width, height);
+        header.compression() = Imf::ZIP_COMPRESSION;
+        Imf::FrameBuffer buffer;
+        for (std::size_t c = 0; c < count; ++c) {
+            header.channels().insert(kNames[c], Imf::Channel(Imf::FLOAT));
+            buffer.insert(kNames[c],
+                          Imf::Slice::Make(Imf::FLOAT, texels + c, {0, 0}, width, height, sizeof(float) * count,
+                                           sizeof(float) * count * static_cast<std::size_t>(width)));
         }
-        write_file_atomic(path, stream.bytes());
-    } catch (const Error&) {
-        throw;
+        Imf::OutputFile file(stream, header, 0);
+        file.setFrameBuffer(buffer);
+        file.writePixels(height);
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& error) {
@@ -204,6 +178,7 @@ void write_floats(const std::filesystem::path& path, int width, int height, cons
                      .remedy = {},
                      .fault = Fault::System});
     }
+    write_file_atomic(path, stream.str());
 }
 
 }  // namespace
@@ -220,9 +195,7 @@ Image read_exr(std::span<const std::byte> bytes, const std::string& file) {
         // No threads of the library's own, and no guessing at a broken offset table.
         Imf::MultiPartInputFile input(stream, 0, false);
         Imf::InputPart part(input, 0);
-        Image image = read_part(part, file);
-        convert_to_rec709(image, part.header(), file);
-        return image;
+        return read_part(part, file);
     } catch (const Error&) {
         throw;
     } catch (const std::bad_alloc&) {

@@ -11,9 +11,10 @@
 namespace rowland::image {
 
 /// Decodes the first part of an OpenEXR file: half or float R, G, B (of the unnamed layer, else of the first layer that
-/// has them) or Y alone, scanlines or tiles, any compression OpenEXR knows. Alpha is ignored. Chromaticities other than
-/// Rec.709 are converted to it. Throws Error (input) for anything else: deep data, luminance/chroma, subsampled or
-/// integer channels, a data window that is not the display window, sizes over limits.h (checked before allocating).
+/// has them), CIE X, Y, Z, or Y alone; scanlines or tiles, any compression OpenEXR knows. Alpha is ignored. X, Y, Z and
+/// chromaticities other than Rec.709's are converted to it. Throws Error (input) for anything else: deep data,
+/// luminance/chroma, subsampled or integer channels, cube maps, a data window that is not the display window, and sizes
+/// over limits.h (checked before allocating).
 Image read_exr(std::span<const std::byte> bytes, const std::string& file);
 Image read_exr(const std::filesystem::path& path);
 

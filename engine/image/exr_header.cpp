@@ -13,6 +13,7 @@
 
 #include "engine/core/byte_stream.h"
 #include "engine/core/error.h"
+#include "engine/image/image.h"
 #include "engine/image/limits.h"
 
 // Layout: "OpenEXR File Layout", openexr.com, versions 2.0 to 3.1.
@@ -30,10 +31,10 @@ constexpr std::size_t kMaximumName = 255;
 constexpr std::size_t kMaximumAttributes = 1024;
 constexpr std::size_t kMaximumParts = 64;
 constexpr std::uint64_t kMaximumChannels = 128;
-/// OpenEXR decodes whole chunks (blocks of lines, tiles), all channels at once.
+/// OpenEXR decodes a chunk (a block of lines, a tile) at once, with all channels.
 constexpr std::uint64_t kMaximumChunkBytes = std::uint64_t{1} << 28;
 
-/// What a part's header says of sizes.
+/// The sizes in a part's header.
 struct Part {
     std::array<std::int32_t, 4> data_window = {};
     bool has_window = false;
@@ -75,7 +76,7 @@ void read_tiles(ByteReader reader, Part& part) {
                     fmt::format("sides in [1, {}]", kMaximumSide));
 }
 
-/// The library fills a preview before it reads it.
+/// The library allocates a preview before it reads it.
 void check_preview(ByteReader reader, std::size_t size) {
     const std::uint64_t width = reader.value<std::uint32_t>();
     const std::uint64_t height = reader.value<std::uint32_t>();
@@ -105,8 +106,8 @@ std::optional<std::uint32_t> fixed_size(const std::string& type) {
     return std::nullopt;
 }
 
-/// The library reads what a type needs, whatever size the attribute claims: where these differ, what it takes for the
-/// next attribute is not what has been checked here.
+/// The library reads as many bytes as a type has, whatever size the attribute claims. Where these differ, it would read
+/// the next attribute from another position than this check.
 void check_value(ByteReader value, const std::string& name, const std::string& type, std::uint32_t size) {
     const auto fixed = fixed_size(type);
     if (fixed && *fixed != size)
@@ -176,7 +177,8 @@ void check_part(const Part& part, const ByteReader& reader) {
     const std::uint64_t lines = lines_per_chunk(part.compression, reader);
     const std::uint64_t chunk_width = part.tiled ? part.tile_width : static_cast<std::uint64_t>(width);
     const std::uint64_t chunk_height = part.tiled ? part.tile_height : lines;
-    if (chunk_width * chunk_height * std::max<std::uint64_t>(part.channels, 1) * 4 > kMaximumChunkBytes)
+    const std::uint64_t chunk_bytes = chunk_width * chunk_height * std::max<std::uint64_t>(part.channels, 1) * 4;
+    if (chunk_bytes > kMaximumChunkBytes)
         reader.fail(fmt::format("chunks of {} x {} texels, {} channels", chunk_width, chunk_height, part.channels),
                     fmt::format("at most {} bytes a chunk", kMaximumChunkBytes));
     // A file has a table of chunk offsets, and each chunk has at least a header of eight bytes.
@@ -186,6 +188,12 @@ void check_part(const Part& part, const ByteReader& reader) {
     if (chunks > reader.remaining() / 16)
         reader.fail(fmt::format("{} bytes left", reader.remaining()),
                     fmt::format("at least {} for {} x {} texels", 16 * chunks, width, height));
+    // The library decodes a row of tiles at a time and keeps a chunk packed, unpacked and rearranged.
+    const std::uint64_t row_bytes =
+        part.tiled ? whole(static_cast<std::uint64_t>(width), chunk_width) * chunk_bytes : 0;
+    check_decoded_bytes(width, height,
+                        static_cast<std::uint64_t>(width * height) * sizeof(glm::vec3) + 3 * chunk_bytes + row_bytes,
+                        reader.offset() + reader.remaining(), reader.file());
 }
 
 }  // namespace

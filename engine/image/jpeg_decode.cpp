@@ -13,7 +13,7 @@ namespace rowland::image {
 
 namespace {
 
-/// A block of 8 × 8 takes a bit, its brightness; twice that for good measure.
+/// A block of 8 × 8 texels takes at least one bit; twice that to be safe.
 constexpr std::uint64_t kMaximumTexelsPerJpegByte = std::uint64_t{8} * 64 * 2;
 
 struct Close {
@@ -52,6 +52,9 @@ ByteImageSize size_of(std::span<const std::byte> bytes, const Decoder& decoder, 
           decoder, file);
     check_image_size(width, height, file, "");
     check_compression(width, height, bytes.size(), kMaximumTexelsPerJpegByte, file);
+    // RGBA, and 16-bit coefficients of three channels, all of which a progressive file has decoded at once.
+    const std::uint64_t texels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+    check_decoded_bytes(width, height, (4 + 3 * 2) * texels, bytes.size(), file);
     return {width, height};
 }
 
@@ -71,8 +74,8 @@ ByteImage decode_jpeg(std::span<const std::byte> bytes, const std::string& file)
     const ByteImageSize size = size_of(bytes, decoder, file);
     ByteImage result{size.width, size.height, {}};
     result.rgba.resize(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height) * 4);
-    // Damage is a warning to the library, after which it makes texels up. A few bytes a scan can name any number of
-    // scans of a large picture, each of which costs as much as decoding it.
+    // The library warns of damage and then invents texels. A progressive file can have any number of scans of a few
+    // bytes each, and each scan costs as much as decoding the image.
     constexpr int kFlags = TJFLAG_ACCURATEDCT | TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS;
     check(tjDecompress2(decoder.get(), data_of(bytes), bytes.size(), result.rgba.data(), size.width, 0, size.height,
                         TJPF_RGBA, kFlags),

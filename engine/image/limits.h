@@ -6,8 +6,7 @@
 
 namespace rowland::image {
 
-/// What an image file may claim, so that a few hostile bytes cannot make us swallow memory: 16384 × 8192 texels, the
-/// largest panoramas in use, are 1.5 GiB as Image.
+/// What an image file may claim: 16384 × 8192 texels are the largest panoramas in use, 1.5 GiB as Image.
 inline constexpr int kMaximumSide = 32768;
 inline constexpr std::uint64_t kMaximumTexels = std::uint64_t{16384} * 8192;
 /// Largest image file read (an uncompressed float image of kMaximumTexels and some room).
@@ -17,9 +16,18 @@ inline constexpr std::uint64_t kMaximumFileBytes = std::uint64_t{2} << 30;
 /// kMaximumTexels texels.
 void check_image_size(std::int64_t width, std::int64_t height, const std::string& file, const std::string& place);
 
-/// Throws Error (input) if more than `texels_per_byte` texels would have to come from each of `length` bytes, more than
-/// the format can compress: so that a few bytes cannot make us allocate a large image that cannot be in them.
-void check_compression(std::int64_t width, std::int64_t height, std::size_t length, std::uint64_t texels_per_byte,
+/// Memory in bytes that images of `file_bytes` bytes may be decoded to: 192 bytes for each byte (16 texels of an
+/// Image), and at least 400 MiB. The environment variable ROWLAND_IMAGE_MEMORY, in MiB, raises the latter.
+std::uint64_t decoded_limit(std::uint64_t file_bytes);
+
+/// Throws Error (input) if decoding an image takes more than decoded_limit(): a highly compressed file would use memory
+/// out of proportion to its size. `decoded_bytes` is all that decoding allocates.
+void check_decoded_bytes(std::int64_t width, std::int64_t height, std::uint64_t decoded_bytes, std::size_t file_bytes,
+                         const std::string& file);
+
+/// Throws Error (input) if each of `file_bytes` bytes would have to give more than `texels_per_byte` texels, which is
+/// more than the format can compress.
+void check_compression(std::int64_t width, std::int64_t height, std::size_t file_bytes, std::uint64_t texels_per_byte,
                        const std::string& file);
 
 }  // namespace rowland::image

@@ -9,7 +9,7 @@
 
 namespace rowland::image {
 
-/// Reads a Radiance or OpenEXR image, told apart by their first bytes whatever the name says. Throws Error (input).
+/// Reads a Radiance or OpenEXR image, whichever the first bytes say. Throws Error (input).
 Image load_image(const std::filesystem::path& path);
 /// The same for bytes in memory; `file` names them in messages.
 Image decode_image(std::span<const std::byte> bytes, const std::string& file);

@@ -12,8 +12,8 @@ namespace rowland::image {
 /// top. The same picture gives the same bytes. Throws Error (system) if encoding fails.
 std::vector<std::byte> encode_png(int width, int height, int channels, std::span<const std::uint8_t> pixels);
 
-/// Writes an 8-bit RGB image (width·height·3 bytes, row by row from the top), atomically. The bytes are written as they
-/// are: encode for the display first. Throws Error (system) if writing fails.
+/// Writes an 8-bit RGB image (width·height·3 bytes, row by row from the top), atomically. Values are not encoded for
+/// the display here. Throws Error (system) if writing fails.
 void write_png(const std::filesystem::path& path, int width, int height, std::span<const std::uint8_t> rgb);
 
 }  // namespace rowland::image

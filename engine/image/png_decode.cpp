@@ -49,14 +49,14 @@ Chunk chunk_at(std::span<const std::byte> bytes, std::size_t at, const std::stri
             bytes.subspan(at + 8, length)};
 }
 
-/// The picture's own chunks. What is left out speaks of gamma and profiles, which libpng would apply to the values, or
-/// is text, which it would inflate.
+/// The chunks that hold the image. Dropped are gamma and profiles, which libpng would apply to the values, and texts,
+/// which it would inflate.
 std::vector<std::byte> picture_chunks(std::span<const std::byte> bytes, const std::string& file) {
     std::vector<std::byte> kept(bytes.begin(), bytes.begin() + kSignature.size());
     kept.reserve(bytes.size());
     for (std::size_t at = kSignature.size();;) {
         const Chunk chunk = chunk_at(bytes, at, file);
-        // An upper-case first letter marks a chunk that must be understood; let libpng say so.
+        // An upper-case first letter marks a critical chunk, which libpng refuses if it does not know it.
         const bool critical = chunk.type[0] >= 'A' && chunk.type[0] <= 'Z';
         if (critical || chunk.type == "tRNS") kept.insert(kept.end(), chunk.framed.begin(), chunk.framed.end());
         if (chunk.type == "IEND") return kept;
@@ -95,6 +95,7 @@ ByteImageSize png_size(std::span<const std::byte> bytes, const std::string& file
     const std::int64_t height = big_endian(header.data.subspan(4));
     check_image_size(width, height, file, fmt::format("byte {}", kSignature.size()));
     check_compression(width, height, bytes.size(), kMaximumTexelsPerPngByte, file);
+    check_decoded_bytes(width, height, 4 * static_cast<std::uint64_t>(width * height), bytes.size(), file);
     return {static_cast<int>(width), static_cast<int>(height)};
 }
 

@@ -33,7 +33,7 @@ AmbientLight convolve(const ShLight& light, const AmbientWindow& window) {
     return ambient;
 }
 
-/// A direction that irradiance must not be negative in: basis values, and E/π of the key lights.
+/// A direction in which irradiance must not be negative: basis values, and E/π of the key lights.
 struct Trial {
     std::array<double, 9> basis{};
     glm::dvec3 from_keys{0.0};
@@ -57,7 +57,7 @@ std::vector<Trial> spread_trials(std::span<const KeyLight> keys) {
 }
 
 bool is_non_negative(const AmbientLight& ambient, const std::vector<Trial>& trials) {
-    // A probe that is dark on one side reaches zero; rounding may cross it.
+    // E of a probe that is dark on one side reaches 0, up to rounding.
     const glm::dvec3 tolerance = -1e-12 * glm::abs(ambient.coefficients[0]);
     for (const Trial& trial : trials) {
         glm::dvec3 sum = trial.from_keys;
@@ -77,7 +77,7 @@ AmbientLight ambient_coefficients(const ShLight& light, std::span<const KeyLight
         AmbientLight ambient = convolve(light, {window, 0});
         if (is_non_negative(ambient, trials)) return ambient;
     }
-    // At damping 4 band 1 keeps .0003 of itself: no light is left that could go negative.
+    // Damping 4 multiplies band 1 by .0003: nothing can go negative any more.
     for (double damping = 0.25; damping < 4; damping *= 1.25) {
         AmbientLight ambient = convolve(light, {math::SphericalWindow::None, damping});
         if (is_non_negative(ambient, trials)) return ambient;

@@ -10,24 +10,24 @@
 
 namespace rowland::lighting {
 
-/// What band factors keep the diffuse lobe from going negative.
+/// The band factors that keep irradiance from going negative.
 struct AmbientWindow {
     math::SphericalWindow window = math::SphericalWindow::None;
     double damping = 0;  ///< if > 0: exp(−damping·l(l+1)) in place of `window`
 };
 
-/// Diffuse light from all around in 9 SH coefficients of E(n)/π: the radiance that a white diffuse surface of normal n
-/// reflects. Linear Rec.709 RGB, world axes, index l(l+1)+m.
+/// 9 SH coefficients of E(n)/π, the radiance that a white diffuse surface of normal n reflects. Linear Rec.709 RGB,
+/// world axes, index l(l+1)+m.
 struct AmbientLight {
     std::array<glm::dvec3, 9> coefficients = {};
     AmbientWindow window;
 };
 
-/// The first three bands convolved with the clamped cosine, under the mildest window (none, Lanczos or Hann over three
-/// bands, then exponentials of growing strength) that keeps E non-negative in every direction of a dense set
-/// (PHYSICS §7). Fewer than three bands count as zeros.
-/// `keys`: lobes beside that light, which irradiance() adds. Then it is the sum that must not go negative: what lobes
-/// leave may, where they overlap what is dark.
+/// The first three bands convolved with the clamped cosine, under the weakest window (none, Lanczos or Hann over three
+/// bands, then exponentials of growing strength) that keeps E non-negative in every direction of a dense set. Missing
+/// bands count as zeros.
+/// `keys`: lobes that are added to `light`, as irradiance() has them. Then only the sum must not go negative: a
+/// residual may.
 AmbientLight ambient_coefficients(const ShLight& light, std::span<const KeyLight> keys = {});
 
 /// E(n)/π for the unit normal.

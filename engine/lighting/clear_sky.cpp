@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "engine/colour/working_space.h"
 #include "engine/core/check.h"
 #include "engine/core/parallel.h"
 #include "engine/lighting/sphere_angles.h"
@@ -69,7 +70,7 @@ double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-/// Share of a texel that the sun's disc covers, by a grid of points; the disc never reaches below the horizon.
+/// Fraction of a texel that the sun's disc covers above the horizon, by a grid of points.
 double disc_coverage(const glm::dvec3& sun, double radius, int column, int row, int width) {
     constexpr int kSteps = 32;
     int hits = 0;
@@ -90,7 +91,7 @@ double texel_solid_angle(int row, int width) {
 void add_sun(const ClearSkyRecipe& recipe, image::Image& image) {
     struct Covered {
         int column, row;
-        double share;
+        double fraction;
     };
     const glm::dvec3 sun = sun_direction(recipe);
     const double radius = glm::radians(recipe.sun_angular_diameter_deg) / 2;
@@ -101,15 +102,15 @@ void add_sun(const ClearSkyRecipe& recipe, image::Image& image) {
         for (int column = 0; column < image.width; ++column) {
             const glm::dvec3 centre = equirectangular_direction(column + 0.5, row + 0.5, image.width);
             if (angle_between(centre, sun) > reach) continue;
-            const double share = disc_coverage(sun, radius, column, row, image.width);
-            if (share == 0) continue;
-            covered.push_back({column, row, share});
-            solid_angle += share * texel_solid_angle(row, image.width);
+            const double fraction = disc_coverage(sun, radius, column, row, image.width);
+            if (fraction == 0) continue;
+            covered.push_back({column, row, fraction});
+            solid_angle += fraction * texel_solid_angle(row, image.width);
         }
     ROWLAND_CHECK_OP(solid_angle, >, 0.0);
-    // By the solid angle that the texels really cover, so that the irradiance is right however coarse they are.
+    // Over the solid angle of the covered texels: exact irradiance at any resolution.
     const glm::dvec3 radiance = sun_irradiance(recipe) / solid_angle;
-    for (const Covered& texel : covered) image.at(texel.column, texel.row) += glm::vec3(texel.share * radiance);
+    for (const Covered& texel : covered) image.at(texel.column, texel.row) += glm::vec3(texel.fraction * radiance);
 }
 
 }  // namespace
@@ -134,8 +135,7 @@ glm::dvec3 sun_irradiance(const ClearSkyRecipe& recipe) {
     for (int c = 0; c < 3; ++c)
         colour[c] = std::exp(
             -air_mass * (0.008735 * std::pow(wavelength_um[c], -4.08) + aerosol * std::pow(wavelength_um[c], -1.3)));
-    const double luminance = glm::dot(colour, glm::dvec3(0.2126, 0.7152, 0.0722));
-    return colour / luminance * 127.5 * std::exp(-0.21 * air_mass);
+    return colour / colour::luminance(colour) * 127.5 * std::exp(-0.21 * air_mass);
 }
 
 image::Image render_clear_sky(const ClearSkyRecipe& recipe, int width) {

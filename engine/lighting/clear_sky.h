@@ -6,7 +6,7 @@
 
 namespace rowland::lighting {
 
-/// A cloudless sky over flat ground. Radiance is luminance in kcd/m² carried by linear Rec.709 colour.
+/// A cloudless sky over flat ground. Radiance is linear Rec.709 with luminance in kcd/m².
 struct ClearSkyRecipe {
     double sun_azimuth_deg = 0;               ///< 0 = −Z, 90 = +X
     double sun_elevation_deg = 45;            ///< in [1, 90]
@@ -24,7 +24,7 @@ glm::dvec3 sky_radiance(const ClearSkyRecipe& recipe, const glm::dvec3& directio
 glm::dvec3 sun_irradiance(const ClearSkyRecipe& recipe);
 
 /// Equirectangular image of `width` × `width`/2 texels: sky, ground as a diffuse reflector of sky and sun, and the
-/// sun's disc, anti-aliased with its irradiance kept.
+/// sun's disc, anti-aliased, of exact irradiance.
 image::Image render_clear_sky(const ClearSkyRecipe& recipe, int width);
 
 }  // namespace rowland::lighting

@@ -7,16 +7,16 @@
 
 namespace rowland::lighting {
 
-/// The light of a cube map as a quadtree on each face: what a node sends, and from where. A sum over any cut through
-/// the tree counts each texel once, so it has neither gaps nor noise, however few and bright the lamps.
+/// The light of a cube map as a quadtree on each face. A sum over any cut through the tree counts each texel once, so
+/// it has neither gaps nor noise, however few and bright the lamps.
 class CubeTree {
  public:
     struct Node {
         glm::vec3 flux{0.0f};    ///< radiance · solid angle of all its texels
         float solid_angle = 0;   ///< steradians
-        glm::vec3 source{0.0f};  ///< unit vector to the light's centre, by luminance
-        float size = 0;          ///< about its side as an angle: √solid_angle
-        glm::vec3 centre{0.0f};  ///< unit vector to its solid angle's centre
+        glm::vec3 source{0.0f};  ///< unit vector to the light's centroid, by luminance
+        float size = 0;          ///< side as an angle, about: √solid_angle
+        glm::vec3 centre{0.0f};  ///< unit vector to the centroid of its solid angle
     };
 
     /// `texels`: 6·face_size² of radiance in CubeLayout's order; face_size a power of two ≥ 4.

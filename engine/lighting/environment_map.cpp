@@ -1,12 +1,11 @@
 #include "engine/lighting/environment_map.h"
 
-#include <half.h>
-
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
 
 #include "engine/core/check.h"
+#include "engine/lighting/scaled_halves.h"
 
 namespace rowland::lighting {
 
@@ -81,11 +80,10 @@ PackedEnvironmentMap pack(const EnvironmentMap& map) {
         }
     PackedEnvironmentMap packed;
     packed.layout = map.layout;
-    // The largest value lands in [16384, 32768): as far from underflow as a power of two gets it without overflow.
-    if (largest > 0) packed.scale = std::ldexp(1.0f, std::max(std::ilogb(largest) + 1 - 15, -120));
+    packed.scale = half_scale(largest);
     packed.halves.reserve(3 * map.texels.size());
     for (const glm::vec3& texel : map.texels)
-        for (int c = 0; c < 3; ++c) packed.halves.push_back(half(texel[c] / packed.scale).bits());
+        for (int c = 0; c < 3; ++c) packed.halves.push_back(to_half(texel[c], packed.scale));
     return packed;
 }
 
@@ -94,11 +92,8 @@ EnvironmentMap unpack(const PackedEnvironmentMap& packed) {
     map.layout = packed.layout;
     map.texels.resize(packed.halves.size() / 3);
     for (std::size_t i = 0; i < map.texels.size(); ++i)
-        for (std::size_t c = 0; c < 3; ++c) {
-            half value;
-            value.setBits(packed.halves[3 * i + c]);
-            map.texels[i][static_cast<int>(c)] = static_cast<float>(value) * packed.scale;
-        }
+        for (std::size_t c = 0; c < 3; ++c)
+            map.texels[i][static_cast<int>(c)] = from_half(packed.halves[3 * i + c]) * packed.scale;
     return map;
 }
 

@@ -9,8 +9,8 @@
 namespace rowland::lighting {
 
 /// A cube map with levels. Faces in OpenGL's order +X, −X, +Y, −Y, +Z, −Z and orientation: with s, t in [−1, 1] growing
-/// with column and row, they look along (1,−t,−s), (−1,−t,s), (s,1,t), (s,−1,−t), (s,−t,1), (−s,−t,−1). So a level
-/// uploads as it is, and a shader samples it with a world direction.
+/// with column and row, they look along (1,−t,−s), (−1,−t,s), (s,1,t), (s,−1,−t), (s,−t,1), (−s,−t,−1). A level can be
+/// uploaded unchanged and sampled with a world direction.
 struct CubeLayout {
     int face_size = 0;  ///< of level 0; a power of two
     int levels = 0;     ///< level k has faces of face_size >> k
@@ -57,7 +57,7 @@ struct PackedEnvironmentMap {
 PackedEnvironmentMap pack(const EnvironmentMap& map);
 EnvironmentMap unpack(const PackedEnvironmentMap& map);
 
-/// Level 0 alone.
+/// Only level 0.
 PackedEnvironmentMap finest_level(const PackedEnvironmentMap& map);
 
 }  // namespace rowland::lighting

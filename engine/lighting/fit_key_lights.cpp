@@ -1,9 +1,13 @@
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <numeric>
+#include <utility>
 
+#include "engine/colour/working_space.h"
 #include "engine/core/check.h"
 #include "engine/core/parallel.h"
 #include "engine/lighting/key_lights.h"
@@ -16,22 +20,17 @@ namespace {
 
 using std::numbers::pi;
 
-/// Cube faces of the light that lobes are fitted to: cells of 0.025 rad, finer than what a grating's colours resolve.
+/// Cells a side of a cube face that the probe is summed in before lobes are fitted: 0.025 rad.
 constexpr int kFaceSize = 64;
 
-/// The error that counts is that of light smoothed by a lobe of this concentration (0.06 rad), about what one order's
-/// colours do at a pitch of 1 to 2 µm; and without the bands below kExactBands, which SH carries.
-constexpr double kSmoothing = 300.0;
-constexpr int kExactBands = 5;
-
-/// Lobes that greedy peeling tries, then refined.
+/// Concentrations of the lobes that greedy selection tries; refinement changes them.
 constexpr std::array<double, 3> kTrialConcentrations{40.0, 150.0, 600.0};
 constexpr double kNarrowestConcentration = 3000.0;
 
 /// exp(−this) of a lobe's peak is left out of sums.
 constexpr double kReach = 12.0;
 
-/// Share by which lobes resist being each other's opposite.
+/// Tikhonov regularisation, relative to the matrix's diagonal: keeps overlapping lobes from cancelling each other.
 constexpr double kRidge = 1e-3;
 
 struct Shape {
@@ -39,31 +38,30 @@ struct Shape {
     double concentration = 0.0;
 };
 
-/// A lobe of this concentration smoothed twice, once for itself and once for what it is compared with. Widths of narrow
-/// lobes add; the error of that is of order 1/κ².
-double smoothed_twice(double a, double b) {
-    return 1.0 / (a + b + 2.0 / kSmoothing);
+/// Concentration of the convolution of two lobes of variance a and b and of two smoothing kernels, one for each factor
+/// of an inner product. Variances of narrow lobes add; the error is of order 1/κ².
+double smoothed_twice(double a, double b, const KeyLightFit& settings) {
+    return 1.0 / (a + b + 2.0 / settings.smoothing);
 }
 
-/// Inner products of smoothed light without its low bands: probe with lobes, lobes with lobes.
+/// Inner products of the smoothed probe with smoothed lobes, both without their low bands.
 class SmoothedProbe {
  public:
-    explicit SmoothedProbe(const LightTexels& cells)
-        : cells_(cells), low_(math::sh_count(kExactBands), glm::dvec3(0.0)) {
-        std::array<double, math::sh_count(kExactBands)> basis{};
-        for (std::size_t i = 0; i < cells.size(); ++i) {
-            math::evaluate_sh(glm::normalize(direction(i)), kExactBands, basis);
-            for (std::size_t k = 0; k < basis.size(); ++k) low_[k] += basis[k] * flux(i);
+    SmoothedProbe(LightTexels cells, const KeyLightFit& settings)
+        : cells_(std::move(cells)), settings_(settings), low_(coefficients(), glm::dvec3(0.0)) {
+        std::vector<double> basis(coefficients());
+        for (std::size_t i = 0; i < cells_.size(); ++i) {
+            math::evaluate_sh(glm::normalize(cells_.direction(i)), settings.exact_bands, basis);
+            for (std::size_t k = 0; k < basis.size(); ++k) low_[k] += basis[k] * cells_.flux(i);
         }
     }
 
-    std::size_t size() const { return cells_.size(); }
-    glm::dvec3 direction(std::size_t i) const { return {cells_.x[i], cells_.y[i], cells_.z[i]}; }
-    glm::dvec3 flux(std::size_t i) const { return {cells_.red[i], cells_.green[i], cells_.blue[i]}; }
+    const LightTexels& cells() const { return cells_; }
+    const KeyLightFit& settings() const { return settings_; }
 
     /// ⟨probe, lobe of flux 1⟩.
     glm::dvec3 with(const Shape& lobe) const {
-        const KeyLight wide{lobe.direction, glm::dvec3(1.0), smoothed_twice(1.0 / lobe.concentration, 0.0)};
+        const KeyLight wide{lobe.direction, glm::dvec3(1.0), smoothed_twice(1.0 / lobe.concentration, 0.0, settings_)};
         const auto concentration = static_cast<float>(wide.concentration);
         const float nearest = 1.0F - static_cast<float>(kReach) / concentration;
         const double peak = lobe_density(wide, lobe.direction);
@@ -72,13 +70,13 @@ class SmoothedProbe {
         for (std::size_t i = 0; i < cells_.size(); ++i) {
             const float cosine = cells_.x[i] * axis.x + cells_.y[i] * axis.y + cells_.z[i] * axis.z;
             if (cosine <= nearest) continue;
-            // Smoothed lobes are so wide that floats' cosines do.
-            sum += peak * static_cast<double>(std::exp(concentration * (cosine - 1.0F))) * flux(i);
+            // Single precision suffices: smoothed lobes are wide.
+            sum += peak * static_cast<double>(std::exp(concentration * (cosine - 1.0F))) * cells_.flux(i);
         }
-        std::array<double, math::sh_count(kExactBands)> basis{};
-        math::evaluate_sh(lobe.direction, kExactBands, basis);
-        const std::vector<double> factors = lobe_band_factors(wide.concentration, kExactBands);
-        for (int l = 0; l < kExactBands; ++l)
+        std::vector<double> basis(coefficients());
+        math::evaluate_sh(lobe.direction, settings_.exact_bands, basis);
+        const std::vector<double> factors = lobe_band_factors(wide.concentration, settings_.exact_bands);
+        for (int l = 0; l < settings_.exact_bands; ++l)
             for (int m = -l; m <= l; ++m) {
                 const auto k = static_cast<std::size_t>(math::sh_index(l, m));
                 sum -= factors[static_cast<std::size_t>(l)] * basis[k] * low_[k];
@@ -87,24 +85,27 @@ class SmoothedProbe {
     }
 
  private:
-    const LightTexels& cells_;
-    std::vector<glm::dvec3> low_;
+    std::size_t coefficients() const { return static_cast<std::size_t>(math::sh_count(settings_.exact_bands)); }
+
+    LightTexels cells_;
+    KeyLightFit settings_;
+    std::vector<glm::dvec3> low_;  ///< SH of the probe
 };
 
 /// ⟨lobe, lobe⟩, both of flux 1, for lobes of two concentrations.
 class LobeProduct {
  public:
-    LobeProduct(double a, double b)
-        : concentration_(smoothed_twice(1.0 / a, 1.0 / b)),
+    LobeProduct(double a, double b, const KeyLightFit& settings)
+        : concentration_(smoothed_twice(1.0 / a, 1.0 / b, settings)),
           peak_(lobe_density({glm::dvec3(0, 1, 0), glm::dvec3(1.0), concentration_}, glm::dvec3(0, 1, 0))),
-          factors_(lobe_band_factors(concentration_, kExactBands)) {}
+          factors_(lobe_band_factors(concentration_, settings.exact_bands)) {}
 
     double operator()(const glm::dvec3& a, const glm::dvec3& b) const {
         const double cosine = glm::dot(a, b);
         double product = peak_ * std::exp(concentration_ * (cosine - 1.0));
         double before = 0.0;
         double legendre = 1.0;
-        for (int l = 0; l < kExactBands; ++l) {
+        for (int l = 0; l < static_cast<int>(factors_.size()); ++l) {
             product -= (2 * l + 1) / (4.0 * pi) * factors_[static_cast<std::size_t>(l)] * legendre;
             const double next = ((2 * l + 1) * cosine * legendre - l * before) / (l + 1);
             before = legendre;
@@ -119,141 +120,110 @@ class LobeProduct {
     std::vector<double> factors_;
 };
 
-double between(const Shape& a, const Shape& b) {
-    return LobeProduct(a.concentration, b.concentration)(a.direction, b.direction);
+double inner_product(const Shape& a, const Shape& b, const KeyLightFit& settings) {
+    return LobeProduct(a.concentration, b.concentration, settings)(a.direction, b.direction);
 }
 
-/// Solves the symmetric positive definite system of those unknowns that are in use, by Cholesky's factors; the others
-/// are 0.
-std::vector<double> solve(const std::vector<double>& matrix, const std::vector<double>& right,
-                          const std::vector<bool>& used) {
-    std::vector<std::size_t> index;
-    for (std::size_t i = 0; i < used.size(); ++i)
-        if (used[i]) index.push_back(i);
-    const std::size_t n = index.size();
-    std::vector<double> lower(n * n);
-    std::vector<double> x(n);
-    for (std::size_t i = 0; i < n; ++i) {
-        for (std::size_t j = 0; j <= i; ++j) {
-            double sum = matrix[index[i] * used.size() + index[j]];
-            for (std::size_t k = 0; k < j; ++k) sum -= lower[i * n + k] * lower[j * n + k];
-            lower[i * n + j] = i == j ? std::sqrt(std::max(sum, 1e-30)) : sum / lower[j * n + j];
+/// Least squares with fluxes ≥ 0: while a flux is negative, its lobe is left out and the others are solved again.
+Eigen::VectorXd solve_non_negative(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right) {
+    std::vector<Eigen::Index> used(static_cast<std::size_t>(right.size()));
+    std::iota(used.begin(), used.end(), Eigen::Index{0});
+    while (!used.empty()) {
+        const Eigen::VectorXd x = matrix(used, used).llt().solve(right(used));
+        if (x.minCoeff() >= 0.0) {
+            Eigen::VectorXd all = Eigen::VectorXd::Zero(right.size());
+            all(used) = x;
+            return all;
         }
-        double sum = right[index[i]];
-        for (std::size_t k = 0; k < i; ++k) sum -= lower[i * n + k] * x[k];
-        x[i] = sum / lower[i * n + i];
+        std::vector<Eigen::Index> kept;
+        for (std::size_t i = 0; i < used.size(); ++i)
+            if (!(x[static_cast<Eigen::Index>(i)] < 0.0)) kept.push_back(used[i]);
+        used = std::move(kept);
     }
-    std::vector<double> result(used.size(), 0.0);
-    for (std::size_t i = n; i-- > 0;) {
-        for (std::size_t k = i + 1; k < n; ++k) x[i] -= lower[k * n + i] * x[k];
-        x[i] /= lower[i * n + i];
-        result[index[i]] = x[i];
-    }
-    return result;
+    return Eigen::VectorXd::Zero(right.size());
 }
 
-/// Lobes with the products that their best fluxes follow from.
+/// Lobes and their least-squares fluxes.
 class Fit {
  public:
-    explicit Fit(const SmoothedProbe& probe) : probe_(probe) {}
+    explicit Fit(const SmoothedProbe& probe) : probe_(&probe) {}
 
     const std::vector<Shape>& lobes() const { return lobes_; }
     const std::vector<glm::dvec3>& fluxes() const { return fluxes_; }
-    /// What the lobes take off the squared error.
+    /// By how much the lobes reduce the squared error.
     double gain() const { return gain_; }
 
     void add(const Shape& lobe) {
-        lobes_.push_back(lobe);
-        right_.push_back(probe_.with(lobe));
-        update();
+        lobes_.emplace_back();
+        const auto n = static_cast<Eigen::Index>(lobes_.size());
+        right_.conservativeResize(n, 3);
+        matrix_.conservativeResize(n, n);
+        replace(lobes_.size() - 1, lobe);
     }
 
-    /// Moves a lobe if that helps; returns whether it did.
-    bool try_move(std::size_t k, const Shape& lobe) {
-        const Fit before = *this;
-        lobes_[k] = lobe;
-        right_[k] = probe_.with(lobe);
-        update(k);
-        if (gain_ > before.gain_) return true;
-        lobes_ = before.lobes_;
-        right_ = before.right_;
-        matrix_ = before.matrix_;
-        fluxes_ = before.fluxes_;
-        gain_ = before.gain_;
-        return false;
+    /// Replaces a lobe if that increases the gain; returns whether it did.
+    bool try_replace(std::size_t k, const Shape& lobe) {
+        Fit changed = *this;
+        changed.replace(k, lobe);
+        if (!(changed.gain_ > gain_)) return false;
+        *this = std::move(changed);
+        return true;
     }
 
  private:
-    void update() {
-        const std::size_t n = lobes_.size();
-        matrix_.assign(n * n, 0.0);
-        for (std::size_t i = 0; i < n; ++i) fill_row(i);
-        solve_fluxes();
-    }
-    void update(std::size_t k) {
-        fill_row(k);
-        solve_fluxes();
-    }
-    void fill_row(std::size_t k) {
-        const std::size_t n = lobes_.size();
-        for (std::size_t j = 0; j < n; ++j) {
-            const double product = between(lobes_[k], lobes_[j]) * (j == k ? 1.0 + kRidge : 1.0);
-            matrix_[k * n + j] = matrix_[j * n + k] = product;
+    void replace(std::size_t k, const Shape& lobe) {
+        lobes_[k] = lobe;
+        const auto row = static_cast<Eigen::Index>(k);
+        const glm::dvec3 with_probe = probe_->with(lobe);
+        right_.row(row) << with_probe.x, with_probe.y, with_probe.z;
+        for (std::size_t j = 0; j < lobes_.size(); ++j) {
+            const double product = inner_product(lobe, lobes_[j], probe_->settings()) * (j == k ? 1.0 + kRidge : 1.0);
+            const auto column = static_cast<Eigen::Index>(j);
+            matrix_(row, column) = matrix_(column, row) = product;
         }
+        solve_fluxes();
     }
 
-    /// Least squares a channel; a lobe that would take light away is left out of the channel.
     void solve_fluxes() {
-        const std::size_t n = lobes_.size();
-        fluxes_.assign(n, glm::dvec3(0.0));
+        fluxes_.assign(lobes_.size(), glm::dvec3(0.0));
         gain_ = 0.0;
-        std::vector<double> right(n);
         for (int c = 0; c < 3; ++c) {
-            for (std::size_t i = 0; i < n; ++i) right[i] = right_[i][c];
-            std::vector<bool> used(n, true);
-            std::vector<double> x = solve(matrix_, right, used);
-            while (std::any_of(x.begin(), x.end(), [](double flux) { return flux < 0.0; })) {
-                for (std::size_t i = 0; i < n; ++i)
-                    if (x[i] < 0.0) used[i] = false;
-                x = solve(matrix_, right, used);
-            }
-            for (std::size_t i = 0; i < n; ++i) {
-                fluxes_[i][c] = x[i];
-                gain_ += x[i] * right[i];
-            }
+            const Eigen::VectorXd flux = solve_non_negative(matrix_, right_.col(c));
+            for (std::size_t i = 0; i < lobes_.size(); ++i) fluxes_[i][c] = flux[static_cast<Eigen::Index>(i)];
+            gain_ += flux.dot(right_.col(c));
         }
     }
 
-    const SmoothedProbe& probe_;
+    const SmoothedProbe* probe_;
     std::vector<Shape> lobes_;
-    std::vector<glm::dvec3> right_;
-    std::vector<double> matrix_;
+    Eigen::MatrixX3d right_;  ///< ⟨probe, lobe⟩ by channel
+    Eigen::MatrixXd matrix_;  ///< ⟨lobe, lobe⟩
     std::vector<glm::dvec3> fluxes_;
     double gain_ = 0.0;
 };
 
-/// The lobes that peeling may begin with, and how much of the probe's error each would take.
+/// The lobes that greedy selection chooses from, with their inner products.
 class Candidates {
  public:
-    explicit Candidates(const SmoothedProbe& probe) {
-        constexpr std::size_t kStride = 4;  // neighbours along a row differ by less than any trial lobe's width
+    explicit Candidates(const SmoothedProbe& probe) : settings_(probe.settings()) {
+        constexpr std::size_t kStride = 4;  // the trial lobes are wider than four cells
         for (const double concentration : kTrialConcentrations)
-            for (std::size_t i = 0; i < probe.size(); i += kStride)
-                shapes_.push_back({glm::normalize(probe.direction(i)), concentration});
+            for (std::size_t i = 0; i < probe.cells().size(); i += kStride)
+                shapes_.push_back({glm::normalize(probe.cells().direction(i)), concentration});
         products_.resize(shapes_.size());
         parallel_for(shapes_.size(), [&](std::size_t i) { products_[i] = probe.with(shapes_[i]); });
         for (const double concentration : kTrialConcentrations)
-            norms_.push_back(between({glm::dvec3(0, 0, 1), concentration}, {glm::dvec3(0, 0, 1), concentration}));
+            norms_.push_back(LobeProduct(concentration, concentration, settings_)({0, 0, 1}, {0, 0, 1}));
     }
 
-    /// The one that gains most beside the lobes of a fit, which has grown by one lobe since the last call.
+    /// The one that reduces the residual of a fit most. The fit has one lobe more than at the call before.
     Shape best(const Fit& fit) {
         const std::size_t each = shapes_.size() / kTrialConcentrations.size();
         if (!fit.lobes().empty()) {
             const Shape& lobe = fit.lobes().back();
             std::vector<double>& column = with_lobes_.emplace_back(shapes_.size());
             for (std::size_t trial = 0; trial < kTrialConcentrations.size(); ++trial) {
-                const LobeProduct product(kTrialConcentrations[trial], lobe.concentration);
+                const LobeProduct product(kTrialConcentrations[trial], lobe.concentration, settings_);
                 for (std::size_t i = trial * each; i < (trial + 1) * each; ++i)
                     column[i] = product(shapes_[i].direction, lobe.direction);
             }
@@ -261,10 +231,10 @@ class Candidates {
         std::size_t best = 0;
         double best_gain = -1.0;
         for (std::size_t i = 0; i < shapes_.size(); ++i) {
-            glm::dvec3 left = products_[i];
-            for (std::size_t k = 0; k < with_lobes_.size(); ++k) left -= with_lobes_[k][i] * fit.fluxes()[k];
-            left = glm::max(left, glm::dvec3(0.0));
-            const double gain = glm::dot(left, left) / norms_[i / each];
+            glm::dvec3 residual = products_[i];
+            for (std::size_t k = 0; k < with_lobes_.size(); ++k) residual -= with_lobes_[k][i] * fit.fluxes()[k];
+            residual = glm::max(residual, glm::dvec3(0.0));
+            const double gain = glm::dot(residual, residual) / norms_[i / each];
             if (gain <= best_gain) continue;
             best_gain = gain;
             best = i;
@@ -273,13 +243,14 @@ class Candidates {
     }
 
  private:
+    KeyLightFit settings_;
     std::vector<Shape> shapes_;
-    std::vector<glm::dvec3> products_;
-    std::vector<double> norms_;
+    std::vector<glm::dvec3> products_;             ///< ⟨probe, candidate⟩
+    std::vector<double> norms_;                    ///< ⟨candidate, candidate⟩, one for each concentration
     std::vector<std::vector<double>> with_lobes_;  ///< ⟨candidate, lobe⟩, lobe by lobe
 };
 
-/// One round of small moves of a lobe: along two tangents, then wider and narrower.
+/// Line search by one step: along two tangents, then in width.
 void refine(Fit& fit, std::size_t k, double step, double narrowest) {
     const auto turned = [&](int way) {
         const Shape lobe = fit.lobes()[k];
@@ -290,14 +261,14 @@ void refine(Fit& fit, std::size_t k, double step, double narrowest) {
         return Shape{glm::normalize(lobe.direction + (way % 2 == 0 ? width : -width) * tangent), lobe.concentration};
     };
     for (const int way : {0, 2})
-        if (!fit.try_move(k, turned(way))) fit.try_move(k, turned(way + 1));
+        if (!fit.try_replace(k, turned(way))) fit.try_replace(k, turned(way + 1));
     const auto scaled = [&](double factor) {
         Shape lobe = fit.lobes()[k];
         lobe.concentration = std::clamp(lobe.concentration * factor, kWidestConcentration, narrowest);
         return lobe;
     };
     const double factor = 1.0 + step;
-    if (!fit.try_move(k, scaled(factor))) fit.try_move(k, scaled(1.0 / factor));
+    if (!fit.try_replace(k, scaled(factor))) fit.try_replace(k, scaled(1.0 / factor));
 }
 
 std::vector<KeyLight> brightest_first(const Fit& fit) {
@@ -306,24 +277,24 @@ std::vector<KeyLight> brightest_first(const Fit& fit) {
         const glm::dvec3 flux = fit.fluxes()[k];
         if (flux != glm::dvec3(0.0)) keys.push_back({fit.lobes()[k].direction, flux, fit.lobes()[k].concentration});
     }
-    const auto luminance = [](const KeyLight& key) { return glm::dot(key.flux, glm::dvec3(0.2126, 0.7152, 0.0722)); };
-    std::stable_sort(keys.begin(), keys.end(),
-                     [&](const KeyLight& a, const KeyLight& b) { return luminance(a) > luminance(b); });
+    std::stable_sort(keys.begin(), keys.end(), [](const KeyLight& a, const KeyLight& b) {
+        return colour::luminance(a.flux) > colour::luminance(b.flux);
+    });
     return keys;
 }
 
 }  // namespace
 
-std::vector<KeyLight> fit_key_lights(const ProbeImage& probe, int count) {
+std::vector<KeyLight> fit_key_lights(const ProbeImage& probe, int count, const KeyLightFit& settings) {
     ROWLAND_CHECK_OP(count, >=, 0);
     ROWLAND_CHECK_OP(count, <=, kMaximumKeyLights);
+    ROWLAND_CHECK_OP(settings.smoothing, >, 0.0);
     if (count == 0) return {};
-    const LightTexels cells = gather_texels(light_texels(probe), kFaceSize);
-    if (cells.size() == 0) return {};
+    const SmoothedProbe smoothed(cell_samples(gather_cells(probe, kFaceSize)), settings);
+    if (smoothed.cells().size() == 0) return {};
     // A lobe's deviation is at least 0.7 of a texel's side.
     const double side = 2.0 * pi / probe.image().width;
     const double narrowest = std::clamp(1.0 / (0.5 * side * side), kWidestConcentration, kNarrowestConcentration);
-    const SmoothedProbe smoothed(cells);
     Candidates candidates(smoothed);
     Fit fit(smoothed);
     while (fit.lobes().size() < static_cast<std::size_t>(count)) {

@@ -43,11 +43,11 @@ std::vector<double> factors_downward(double concentration, int bands) {
     return factors;
 }
 
-double normal_density(double x) {
+double normal_pdf(double x) {
     return std::exp(-0.5 * x * x) / std::sqrt(2.0 * pi);
 }
 
-double normal_share_below(double x) {
+double normal_cdf(double x) {
     return 0.5 * std::erfc(-x / std::numbers::sqrt2);
 }
 
@@ -84,10 +84,10 @@ ShLight project(std::span<const KeyLight> keys, int bands) {
 }
 
 ShLight residual(const ShLight& probe, std::span<const KeyLight> keys, int bands) {
-    ShLight left = limit_bands(probe, bands);
-    const ShLight taken = project(keys, bands);
-    for (std::size_t i = 0; i < left.coefficients.size(); ++i) left.coefficients[i] -= taken.coefficients[i];
-    return left;
+    ShLight light = limit_bands(probe, bands);
+    const ShLight lobes = project(keys, bands);
+    for (std::size_t i = 0; i < light.coefficients.size(); ++i) light.coefficients[i] -= lobes.coefficients[i];
+    return light;
 }
 
 LobeMoments lobe_moments(double concentration) {
@@ -100,17 +100,17 @@ LobeMoments lobe_moments(double concentration) {
 }
 
 ClampedNormal clamp_normal(double mean, double deviation) {
-    // Beyond 12 σ below the horizon nothing is left that a double could divide.
+    // Beyond 12 σ below 0 the moments underflow.
     if (mean < -12.0 * deviation) return {};
     if (deviation <= 0.0) return {.mean = mean, .weighted_mean = mean, .weighted_variance = 0.0};
     const double z = mean / deviation;
-    const double share = normal_share_below(z);
-    const double density = deviation * normal_density(z);
+    const double above = normal_cdf(z);  // probability of x > 0
+    const double density = deviation * normal_pdf(z);
     const double variance = deviation * deviation;
-    const double first = mean * share + density;
+    const double first = mean * above + density;
     if (!(first > 1e-12 * deviation)) return {};
-    const double second = (mean * mean + variance) * share + mean * density;
-    const double third = mean * (mean * mean + 3.0 * variance) * share + (mean * mean + 2.0 * variance) * density;
+    const double second = (mean * mean + variance) * above + mean * density;
+    const double third = mean * (mean * mean + 3.0 * variance) * above + (mean * mean + 2.0 * variance) * density;
     const double weighted_mean = second / first;
     return {.mean = first,
             .weighted_mean = weighted_mean,

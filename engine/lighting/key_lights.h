@@ -16,7 +16,7 @@ struct KeyLight {
     double concentration = 100.0;         ///< κ > 0; about 1/κ is the variance of the angle along each axis
 };
 
-/// Most key lights that a shader loops over.
+/// Shaders loop over at most so many.
 inline constexpr int kMaximumKeyLights = 64;
 
 /// κ/(4π sinh κ) exp(κ s·direction), 1/sr; it integrates to 1. Stable for κ in [1e-3, 1e5] and beyond.
@@ -26,12 +26,20 @@ double lobe_density(const KeyLight& key, const glm::dvec3& s);
 /// I_{l+½}(κ)/I_½(κ), to 1e-10.
 std::vector<double> lobe_band_factors(double concentration, int bands);
 
-/// Up to `count` (0 to 64) lobes for the bright parts of a probe, brightest first; fewer where there is no more to
-/// gain. They aim at the error along arcs: what is left, smoothed as a grating's colours smooth it, is to be small
-/// (greedy peeling, then refinement of all lobes against what the others leave). Fluxes are the least squares' own,
-/// never negative, so that what is left is small on either side of 0. No lobe is narrower than a texel or wider than
-/// kWidestConcentration. Does not depend on the number of threads; .3 s of two cores for 16.
-std::vector<KeyLight> fit_key_lights(const ProbeImage& probe, int count);
+/// What the fit of key lights minimises: the squared error of the light, summed over the sphere, after smoothing and
+/// without the lowest bands.
+struct KeyLightFit {
+    /// Concentration of the lobe that smooths: detail below 1/√smoothing rad, 0.06 by default, does not count.
+    double smoothing = 300.0;
+    /// These bands do not count: who uses the residual() has them exactly, as SH.
+    int exact_bands = 5;
+};
+
+/// Up to `count` (0 to 64) lobes for the bright parts of a probe, brightest first; fewer where more do not help. Greedy
+/// selection, then refinement of each lobe against the residual of the others. Fluxes are those of least squares, never
+/// negative, so the residual is small on either side of 0. No lobe is narrower than a texel or wider than
+/// kWidestConcentration. Does not depend on the number of threads; 0.3 s of two cores for 16.
+std::vector<KeyLight> fit_key_lights(const ProbeImage& probe, int count, const KeyLightFit& settings = {});
 
 /// The widest lobe that fit_key_lights() gives.
 inline constexpr double kWidestConcentration = 40.0;
@@ -39,8 +47,8 @@ inline constexpr double kWidestConcentration = 40.0;
 /// Raw radiance SH of the lobes, in closed form; 1 ≤ bands ≤ 32.
 ShLight project(std::span<const KeyLight> keys, int bands);
 
-/// What the lobes leave of a probe's SH, in exactly `bands` bands: SH(probe) − SH(lobes). Its sum with the lobes has
-/// the probe's low bands, however crude the lobes are.
+/// SH(probe) − SH(lobes) in exactly `bands` bands. Its sum with the lobes has the probe's low bands, however crude the
+/// lobes are.
 ShLight residual(const ShLight& probe, std::span<const KeyLight> keys, int bands);
 
 /// Means over a lobe: A₁(κ) = mean of s·direction, and the variances of s along the direction and across it.
@@ -59,12 +67,11 @@ struct ClampedNormal {
 };
 ClampedNormal clamp_normal(double mean, double deviation);
 
-/// Mean of the clamped cosine max(0, s·normal) over a lobe. The cosine is taken as normally distributed, with its exact
-/// mean and variance: off by .001 at κ = 25 and .0001 at 100 (.004 at 10, .023 at worst, κ = 1), against quadrature.
+/// Mean of the clamped cosine max(0, s·normal) over a lobe. Takes the cosine as normally distributed, with its exact
+/// mean and variance: error .001 at κ = 25 and .0001 at 100 (.004 at 10, .023 at worst, κ = 1), against quadrature.
 double lobe_cosine(const KeyLight& key, const glm::dvec3& normal);
 
-/// Irradiance on a surface of unit normal `normal`: flux · lobe_cosine(). Divided by π it is what a white diffuse
-/// surface reflects.
+/// Irradiance on a surface of unit normal `normal`: flux · lobe_cosine().
 glm::dvec3 irradiance(const KeyLight& key, const glm::dvec3& normal);
 
 }  // namespace rowland::lighting

@@ -10,24 +10,23 @@
 #include <string>
 #include <utility>
 
+#include "engine/colour/working_space.h"
 #include "engine/core/byte_stream.h"
 #include "engine/core/check.h"
+#include "engine/lighting/scaled_halves.h"
 #include "engine/math/sh_basis.h"
 
 namespace rowland::lighting {
 
 namespace {
 
-/// A cube map's faces are at most this in a file; prefiltering makes none larger than 1024.
+/// Largest face of a cube map in a file; prefilter() makes none larger than 1024.
 constexpr std::uint32_t kMaximumFace = 8192;
 
-/// Bytes of an illuminant's name in a file: a recipe names a file beside it.
-constexpr std::size_t kMaximumName = 4096;
+/// Longest name of an illuminant in a file; a recipe may name a path.
+constexpr std::size_t kMaximumIlluminantName = 4096;
 
-/// Half floats from here on are infinite, NaN or negative.
-constexpr std::uint16_t kInfiniteHalf = 0x7c00;
-
-/// Concentrations of key lights in a file; fitted ones lie well inside.
+/// Range of a key light's concentration in a file; fit_key_lights() gives 40 to 3000.
 constexpr double kLeastConcentration = 1e-3;
 constexpr double kGreatestConcentration = 1e6;
 
@@ -37,6 +36,21 @@ void write_sh(const ShLight& light, ByteWriter& writer) {
     std::vector<double> values;
     for (const glm::dvec3& c : light.coefficients) values.insert(values.end(), {c.x, c.y, c.z});
     writer.array(std::span<const double>(values));
+}
+
+float read_scale(ByteReader& reader) {
+    const auto scale = reader.value<float>();
+    if (!(std::isnormal(scale) && scale > 0)) reader.fail("a scale that is no positive number", "a scale");
+    return scale;
+}
+
+std::vector<std::uint16_t> read_halves(ByteReader& reader, std::size_t count, const char* what) {
+    std::vector<std::uint16_t> halves = reader.array<std::uint16_t>();
+    if (halves.size() != count) reader.fail(fmt::format("{} {}", halves.size(), what), fmt::format("{}", count));
+    for (const std::uint16_t bits : halves)
+        if (bits >= kFirstHalfNotLight)
+            reader.fail(fmt::format("{} that are negative or not finite", what), "finite values >= 0");
+    return halves;
 }
 
 ShLight read_sh(ByteReader& reader) {
@@ -64,14 +78,8 @@ PackedEnvironmentMap read_environment(ByteReader& reader) {
         levels > static_cast<std::uint32_t>(std::bit_width(size)))
         reader.fail(fmt::format("{} levels of faces of {} texels", levels, size), "a power of two and its levels");
     map.layout = {static_cast<int>(size), static_cast<int>(levels)};
-    map.scale = reader.value<float>();
-    if (!(std::isnormal(map.scale) && map.scale > 0)) reader.fail("a scale that is no positive number", "a scale");
-    map.halves = reader.array<std::uint16_t>();
-    const std::size_t expected = 3 * map.layout.offset(map.layout.levels);
-    if (map.halves.size() != expected)
-        reader.fail(fmt::format("{} environment values", map.halves.size()), fmt::format("{}", expected));
-    for (const std::uint16_t bits : map.halves)
-        if (bits >= kInfiniteHalf) reader.fail("an environment value that is no light", "finite values >= 0");
+    map.scale = read_scale(reader);
+    map.halves = read_halves(reader, 3 * map.layout.offset(map.layout.levels), "environment values");
     return map;
 }
 
@@ -94,7 +102,7 @@ std::vector<KeyLight> read_key_lights(ByteReader& reader) {
     for (std::size_t i = 0; i < values.size(); i += kNumbers) {
         const double* v = values.data() + i;
         const KeyLight key{{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, v[6]};
-        // Negated so that NaN fails too.
+        // Negated so that NaN fails as well.
         if (!(std::abs(glm::dot(key.direction, key.direction) - 1.0) < 1e-6))
             reader.fail("a key light's direction of another length", "length 1");
         for (int c = 0; c < 3; ++c)
@@ -112,25 +120,21 @@ void write_light(const PackedLight& light, ByteWriter& writer) {
     writer.value(static_cast<std::uint32_t>(light.face_size));
     writer.value(light.scale);
     writer.array(std::span<const std::uint16_t>(light.halves));
-    writer.array(std::span<const std::uint8_t>(light.places));
+    writer.array(std::span<const std::uint8_t>(light.positions));
 }
 
 PackedLight read_light(ByteReader& reader) {
     PackedLight light;
     const auto size = reader.value<std::uint32_t>();
     if (size > static_cast<std::uint32_t>(kMaximumLightFace))
-        reader.fail(fmt::format("faces of {} small lights a side", size), fmt::format("at most {}", kMaximumLightFace));
+        reader.fail(fmt::format("light cells of {} a side", size), fmt::format("at most {}", kMaximumLightFace));
     light.face_size = static_cast<int>(size);
-    light.scale = reader.value<float>();
-    if (!(std::isnormal(light.scale) && light.scale > 0)) reader.fail("a scale that is no positive number", "a scale");
-    light.halves = reader.array<std::uint16_t>();
-    light.places = reader.array<std::uint8_t>();
+    light.scale = read_scale(reader);
     const std::size_t count = std::size_t{6} * size * size;
-    if (light.halves.size() != 3 * count || light.places.size() != 2 * count)
-        reader.fail(fmt::format("{} fluxes and {} places of small lights", light.halves.size(), light.places.size()),
-                    fmt::format("{} and {}", 3 * count, 2 * count));
-    for (const std::uint16_t bits : light.halves)
-        if (bits >= kInfiniteHalf) reader.fail("a flux that is no light", "finite values >= 0");
+    light.halves = read_halves(reader, 3 * count, "flux values");
+    light.positions = reader.array<std::uint8_t>();
+    if (light.positions.size() != 2 * count)
+        reader.fail(fmt::format("{} positions of light samples", light.positions.size()), fmt::format("{}", 2 * count));
     return light;
 }
 
@@ -142,8 +146,9 @@ void write_illuminant(const colour::Illuminant& illuminant, ByteWriter& writer) 
 
 colour::Illuminant read_illuminant(ByteReader& reader) {
     std::string name = reader.text();
-    if (name.empty() || name.size() > kMaximumName)
-        reader.fail(fmt::format("an illuminant's name of {} bytes", name.size()), fmt::format("1 to {}", kMaximumName));
+    if (name.empty() || name.size() > kMaximumIlluminantName)
+        reader.fail(fmt::format("an illuminant's name of {} bytes", name.size()),
+                    fmt::format("1 to {}", kMaximumIlluminantName));
     std::vector<double> wavelengths_nm = reader.array<double>();
     std::vector<double> power = reader.array<double>();
     if (wavelengths_nm.size() < 2 || wavelengths_nm.size() != power.size())
@@ -157,19 +162,15 @@ colour::Illuminant read_illuminant(ByteReader& reader) {
     colour::Illuminant illuminant{
         .name = std::move(name),
         .power = colour::SampledSpectrum(std::move(wavelengths_nm), std::move(power), colour::Outside::Zero)};
-    if (!colour::is_visible(illuminant)) reader.fail("an illuminant that nobody sees", "visible power");
+    if (!colour::is_visible(illuminant)) reader.fail("an illuminant without visible power", "visible power");
     return illuminant;
-}
-
-double luminance(const glm::dvec3& rgb) {
-    return glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722));  // Rec.709's Y, to four digits
 }
 
 std::string describe_key_lights(const LightProbe& probe) {
     if (probe.key_lights.empty()) return "key lights: none\n";
     double flux = 0.0;
-    for (const KeyLight& key : probe.key_lights) flux += luminance(key.flux);
-    const double whole = luminance(probe.sh.coefficients[0]) * std::sqrt(4 * std::numbers::pi);
+    for (const KeyLight& key : probe.key_lights) flux += colour::luminance(key.flux);
+    const double whole = colour::luminance(probe.sh.coefficients[0]) * std::sqrt(4 * std::numbers::pi);
     const KeyLight& first = probe.key_lights.front();
     return fmt::format(
         "key lights: {}, {:.3g} % of the flux\n"
@@ -189,8 +190,8 @@ LightProbe build_light_probe(const ProbeImage& probe, const LightProbeSettings& 
     light.sh = project(probe, settings.bands);
     light.illuminant = settings.illuminant;
     light.ambient = ambient_coefficients(light.sh);
-    light.key_lights = fit_key_lights(probe, settings.key_lights);
-    light.light = pack(light_texels(probe), settings.light_face);
+    light.key_lights = fit_key_lights(probe, settings.key_lights, settings.key_light_fit);
+    light.light = pack(gather_cells(probe, settings.light_face), settings.light_face);
     light.environment = pack(prefilter(probe, settings.prefilter));
     light.report = probe.report();
     return light;
@@ -242,7 +243,7 @@ std::string describe(const LightProbe& probe) {
     text += fmt::format("light texels: {0} x {0} x 6, {1} bytes\n", probe.light.face_size, probe.light.bytes());
     text += fmt::format("environment: {} x {} x 6, {} levels, half floats times {:g}\n", layout.face_size,
                         layout.face_size, layout.levels, probe.environment.scale);
-    text += fmt::format("texels that were no light: {} (NaN {}, infinite {}, negative {})\n", probe.report.total(),
+    text += fmt::format("texels taken as black: {} (NaN {}, infinite {}, negative {})\n", probe.report.total(),
                         probe.report.nan, probe.report.infinite, probe.report.negative);
     return text;
 }

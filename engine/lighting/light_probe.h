@@ -18,26 +18,26 @@
 namespace rowland::lighting {
 
 struct LightProbeSettings {
-    int bands = 16;       ///< of the raw SH, 1 to 32; modules take what they need of them
-    int key_lights = 16;  ///< at most so many lobes for its bright parts, 0 to kMaximumKeyLights
-    int light_face =
-        256;  ///< of the cube that the full-resolution light is stored in; as fine as a probe of 1024 × 512
+    int bands = 16;       ///< of the raw SH, 1 to 32
+    int key_lights = 16;  ///< at most, 0 to kMaximumKeyLights
+    KeyLightFit key_light_fit = {};
+    int light_face = 256;  ///< cells a side of the packed light; about the texels of a probe of 1024 × 512
     PrefilterSettings prefilter;
     colour::Illuminant illuminant = colour::d65();  ///< the spectrum of the probe's white
 };
 
-/// The cooked probe: one source for the engine's ambient and reflections and for every module's lighting.
+/// The cooked probe: the engine's ambient light and reflections and every module's lighting come from it.
 struct LightProbe {
     ShLight sh;                                     ///< raw radiance
     colour::Illuminant illuminant = colour::d65();  ///< the spectrum of its white
     AmbientLight ambient;                           ///< derived from sh, never stored
-    std::vector<KeyLight> key_lights;  ///< brightest first. What they leave is derived: residual(), unpack()
-    PackedLight light;                 ///< all of it, the key lights' too, at full resolution
+    std::vector<KeyLight> key_lights;  ///< brightest first. residual() and unpack() give the light without them
+    PackedLight light;                 ///< at full resolution, with the key lights
     PackedEnvironmentMap environment;  ///< prefiltered for glossy reflection
-    TexelReport report;                ///< what the source image held that was not light
+    TexelReport report;                ///< texels of the source image that were taken as black
 };
 
-/// Version of serialise()'s layout and of what build_light_probe() computes; part of the cooked header.
+/// Version of serialise()'s layout and of build_light_probe()'s results; part of the cooked header.
 inline constexpr std::uint32_t kLightProbeVersion = 3;
 
 /// Deterministic for any number of threads.
@@ -45,7 +45,7 @@ LightProbe build_light_probe(const ProbeImage& probe, const LightProbeSettings& 
 
 std::vector<std::byte> serialise(const LightProbe& probe);
 
-/// Inverse of serialise() for bytes that may be hostile; recomputes what is derived. Throws Error (input) naming `file`
+/// Inverse of serialise() for bytes that may be hostile; computes `ambient` again. Throws Error (input) naming `file`
 /// and the byte.
 LightProbe deserialise(std::span<const std::byte> bytes, const std::string& file);
 

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 #include <numbers>
+#include <optional>
 
 #include "engine/core/check.h"
 #include "engine/core/parallel.h"
@@ -14,142 +16,164 @@ namespace rowland::lighting {
 
 namespace {
 
-/// κ(1 − cos) beyond which a lobe's density, at most exp(−this) of its peak, is left out.
-constexpr double kLobeReach = 30.0;
+/// Into how many parts a texel is divided along x and along y, so that none is longer than `largest_side`.
+glm::ivec2 parts_of(const ProbeImage& probe, double largest_side) {
+    const auto parts = [largest_side](double side) {
+        return std::max(1, static_cast<int>(std::ceil(side / largest_side - 1e-9)));
+    };
+    const double width = 2.0 * std::numbers::pi / probe.image().width;
+    if (probe.mapping() == Mapping::Angular) return glm::ivec2(parts(width));
+    return {parts(width), parts(std::numbers::pi / probe.image().height)};
+}
 
-/// The probe, each texel cut into parts × parts, with the bilinear lookup's radiance.
-ProbeImage cut_texels(const ProbeImage& probe, int parts) {
-    image::Image fine{.width = probe.image().width * parts, .height = probe.image().height * parts, .texels = {}};
-    fine.texels.resize(static_cast<std::size_t>(fine.width) * static_cast<std::size_t>(fine.height));
-    parallel_for(static_cast<std::size_t>(fine.height), [&](std::size_t row) {
-        for (int column = 0; column < fine.width; ++column) {
-            const double x = (column + 0.5) / parts;
-            const double y = (static_cast<double>(row) + 0.5) / parts;
-            fine.at(column, static_cast<int>(row)) = glm::vec3(probe.radiance(probe.direction(x, y)));
-        }
+/// The probe with each texel divided, of bilinearly interpolated radiance.
+ProbeImage divide_texels(const ProbeImage& probe, const glm::ivec2& parts) {
+    image::Image fine = image::make_image(probe.image().width * parts.x, probe.image().height * parts.y);
+    parallel_for(static_cast<std::size_t>(fine.height), [&](std::size_t task) {
+        const int row = static_cast<int>(task);
+        for (int column = 0; column < fine.width; ++column)
+            fine.at(column, row) =
+                glm::vec3(probe.radiance(probe.direction((column + 0.5) / parts.x, (row + 0.5) / parts.y)));
     });
     return {std::move(fine), probe.mapping()};
 }
 
-/// Side of the probe's largest texels in radians: 2π of the width at the equator, or along the angular map's radius.
-double texel_side(const ProbeImage& probe) {
-    return 2.0 * std::numbers::pi / probe.image().width;
-}
+/// A probe whose texels are no longer than a given side: the given one where that is so.
+class FineProbe {
+ public:
+    FineProbe(const ProbeImage& probe, double largest_side) : probe_(&probe) {
+        ROWLAND_CHECK_OP(largest_side, >, 0.0);
+        const glm::ivec2 parts = parts_of(probe, largest_side);
+        if (parts != glm::ivec2(1)) probe_ = &divided_.emplace(divide_texels(probe, parts));
+    }
+    FineProbe(const FineProbe&) = delete;
+    FineProbe& operator=(const FineProbe&) = delete;
+    const ProbeImage& operator*() const { return *probe_; }
+    const ProbeImage* operator->() const { return probe_; }
 
-LightTexels texels_of(const ProbeImage& probe) {
-    const auto width = static_cast<std::size_t>(probe.image().width);
-    const auto height = static_cast<std::size_t>(probe.image().height);
-    LightTexels texels;
-    for (auto* array : {&texels.x, &texels.y, &texels.z, &texels.red, &texels.green, &texels.blue})
-        array->assign(width * height, 0.0F);
-    parallel_for(height, [&](std::size_t row) {
-        const int r = static_cast<int>(row);
-        const bool even_rows = probe.mapping() == Mapping::Equirectangular;
-        double solid_angle = even_rows ? probe.solid_angle(0, r) : 0.0;
-        for (std::size_t column = 0; column < width; ++column) {
-            const int c = static_cast<int>(column);
-            if (!even_rows) solid_angle = probe.solid_angle(c, r);
-            const std::size_t i = row * width + column;
-            const glm::vec3 s(probe.direction(c + 0.5, r + 0.5));
-            const glm::vec3 flux(solid_angle * glm::dvec3(probe.image().at(c, r)));
-            texels.x[i] = s.x;
-            texels.y[i] = s.y;
-            texels.z[i] = s.z;
-            texels.red[i] = flux.x;
-            texels.green[i] = flux.y;
-            texels.blue[i] = flux.z;
-        }
-    });
-    return texels;
-}
-
-/// The lobe's flux in each texel that it reaches, as shares that sum to 1.
-struct LobeShares {
-    std::vector<std::size_t> texels;
-    std::vector<double> shares;
+ private:
+    std::optional<ProbeImage> divided_;
+    const ProbeImage* probe_;
 };
 
-LobeShares lobe_shares(const KeyLight& key, const LightTexels& texels, const ProbeImage& probe) {
-    LobeShares result;
-    double sum = 0.0;
-    std::size_t nearest = 0;
-    double nearest_cosine = -2.0;
-    const auto width = static_cast<std::size_t>(probe.image().width);
-    for (std::size_t i = 0; i < texels.size(); ++i) {
-        const glm::dvec3 s(texels.x[i], texels.y[i], texels.z[i]);
-        const double cosine = glm::dot(s, key.direction);
-        const bool reached = key.concentration * (1.0 - cosine) < kLobeReach;
-        if (!reached && cosine <= nearest_cosine) continue;
-        const double solid_angle = probe.solid_angle(static_cast<int>(i % width), static_cast<int>(i / width));
-        if (solid_angle <= 0.0) continue;
-        if (cosine > nearest_cosine) {
-            nearest_cosine = cosine;
-            nearest = i;
+/// A sample for each texel of rows [first, end).
+LightTexels row_samples(const ProbeImage& probe, int first, int end) {
+    const int width = probe.image().width;
+    LightTexels samples;
+    samples.resize(static_cast<std::size_t>(end - first) * static_cast<std::size_t>(width));
+    parallel_for(static_cast<std::size_t>(end - first), [&](std::size_t task) {
+        const int row = first + static_cast<int>(task);
+        const bool same_in_row = probe.mapping() == Mapping::Equirectangular;
+        double solid_angle = same_in_row ? probe.solid_angle(0, row) : 0.0;
+        for (int column = 0; column < width; ++column) {
+            if (!same_in_row) solid_angle = probe.solid_angle(column, row);
+            samples.set(task * static_cast<std::size_t>(width) + static_cast<std::size_t>(column),
+                        probe.direction(column + 0.5, row + 0.5),
+                        solid_angle * glm::dvec3(probe.image().at(column, row)));
         }
-        if (!reached) continue;
-        result.texels.push_back(i);
-        result.shares.push_back(lobe_density(key, s) * solid_angle);
-        sum += result.shares.back();
-    }
-    // A lobe so narrow that it falls between texel centres lies in the nearest.
-    if (!(sum > 1e-3)) return {{nearest}, {1.0}};
-    for (double& share : result.shares) share /= sum;
-    return result;
+    });
+    return samples;
 }
+
+/// The cells that samples are added to.
+class Gatherer {
+ public:
+    explicit Gatherer(int face_size) : layout_{face_size, 1}, cells_(layout_.offset(1)) {
+        ROWLAND_CHECK_OP(face_size, >=, 1);
+    }
+
+    void add(const LightTexels& samples) {
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+            const glm::dvec3 flux = samples.flux(i);
+            const double weight = std::abs(flux.x) + std::abs(flux.y) + std::abs(flux.z);
+            if (weight == 0.0) continue;
+            const glm::dvec3 direction = samples.direction(i);
+            const CubePoint point = cube_point(direction);
+            const double size = layout_.face_size;
+            const glm::dvec2 at = 0.5 * size * glm::dvec2(point.s + 1.0, point.t + 1.0);
+            const glm::dvec2 corner = glm::clamp(glm::floor(at), glm::dvec2(0.0), glm::dvec2(size - 1.0));
+            CubeCell& cell =
+                cells_[layout_.index(0, point.face, static_cast<int>(corner.x), static_cast<int>(corner.y))];
+            cell.flux += flux;
+            cell.direction += weight * direction;
+            cell.position += weight * (at - corner);
+        }
+    }
+    std::vector<CubeCell> take() { return std::move(cells_); }
+
+ private:
+    CubeLayout layout_;
+    std::vector<CubeCell> cells_;
+};
 
 }  // namespace
 
+void LightTexels::resize(std::size_t size) {
+    for (auto* array : {&x, &y, &z, &red, &green, &blue}) array->resize(size);
+}
+
+void LightTexels::set(std::size_t i, const glm::dvec3& direction, const glm::dvec3& flux) {
+    x[i] = static_cast<float>(direction.x);
+    y[i] = static_cast<float>(direction.y);
+    z[i] = static_cast<float>(direction.z);
+    red[i] = static_cast<float>(flux.x);
+    green[i] = static_cast<float>(flux.y);
+    blue[i] = static_cast<float>(flux.z);
+}
+
+void LightTexels::push_back(const glm::dvec3& direction, const glm::dvec3& flux) {
+    for (auto* array : {&x, &y, &z, &red, &green, &blue}) array->push_back(0.0F);
+    set(size() - 1, direction, flux);
+}
+
 LightTexels light_texels(const ProbeImage& probe, std::span<const KeyLight> keys, double largest_side) {
-    ROWLAND_CHECK_OP(largest_side, >, 0.0);
-    const int parts = static_cast<int>(std::ceil(texel_side(probe) / largest_side - 1e-9));
-    const ProbeImage cut = parts > 1 ? cut_texels(probe, parts) : probe;
-    LightTexels texels = texels_of(cut);
-    std::vector<LobeShares> lobes(keys.size());
-    parallel_for(keys.size(), [&](std::size_t k) { lobes[k] = lobe_shares(keys[k], texels, cut); });
-    for (std::size_t k = 0; k < keys.size(); ++k)
-        for (std::size_t j = 0; j < lobes[k].texels.size(); ++j) {
-            const std::size_t i = lobes[k].texels[j];
-            const glm::vec3 taken(lobes[k].shares[j] * keys[k].flux);
-            texels.red[i] -= taken.x;
-            texels.green[i] -= taken.y;
-            texels.blue[i] -= taken.z;
+    const FineProbe fine(probe, largest_side);
+    LightTexels texels = row_samples(*fine, 0, fine->image().height);
+    const std::size_t count = texels.size();
+    const auto width = static_cast<std::size_t>(fine->image().width);
+    std::vector<LobeFractions> lobes(keys.size());
+    parallel_for(keys.size(), [&](std::size_t k) {
+        lobes[k] = lobe_fractions(
+            keys[k], count, [&](std::size_t i) { return texels.direction(i); },
+            [&](std::size_t i) { return fine->solid_angle(static_cast<int>(i % width), static_cast<int>(i / width)); });
+    });
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+        if (lobes[k].indices.empty()) texels.push_back(keys[k].direction, -keys[k].flux);
+        for (std::size_t j = 0; j < lobes[k].indices.size(); ++j) {
+            const std::size_t i = lobes[k].indices[j];
+            const glm::vec3 lobe(lobes[k].fractions[j] * keys[k].flux);
+            texels.red[i] -= lobe.x;
+            texels.green[i] -= lobe.y;
+            texels.blue[i] -= lobe.z;
         }
+    }
     return texels;
 }
 
+std::vector<CubeCell> gather_cells(const ProbeImage& probe, int face_size) {
+    const FineProbe fine(probe, kTexelSide);
+    const int height = fine->image().height;
+    const int rows = std::max(1, (1 << 18) / fine->image().width);  // at a time: 6 MB of samples
+    Gatherer gatherer(face_size);
+    for (int row = 0; row < height; row += rows) gatherer.add(row_samples(*fine, row, std::min(height, row + rows)));
+    return gatherer.take();
+}
+
+std::vector<CubeCell> gather_cells(const LightTexels& texels, int face_size) {
+    Gatherer gatherer(face_size);
+    gatherer.add(texels);
+    return gatherer.take();
+}
+
+LightTexels cell_samples(std::span<const CubeCell> cells) {
+    LightTexels samples;
+    for (const CubeCell& cell : cells)
+        if (cell.direction != glm::dvec3(0.0)) samples.push_back(glm::normalize(cell.direction), cell.flux);
+    return samples;
+}
+
 LightTexels gather_texels(const LightTexels& texels, int face_size) {
-    ROWLAND_CHECK_OP(face_size, >=, 1);
-    struct Cell {
-        glm::dvec3 flux{0.0};
-        glm::dvec3 place{0.0};
-    };
-    const auto side = static_cast<std::size_t>(face_size);
-    std::vector<Cell> cells(6 * side * side);
-    const auto index = [&](double at) {
-        return static_cast<std::size_t>(std::clamp(static_cast<int>(0.5 * (at + 1.0) * face_size), 0, face_size - 1));
-    };
-    for (std::size_t i = 0; i < texels.size(); ++i) {
-        const glm::dvec3 flux(texels.red[i], texels.green[i], texels.blue[i]);
-        const double magnitude = std::abs(flux.x) + std::abs(flux.y) + std::abs(flux.z);
-        if (magnitude == 0.0) continue;
-        const glm::dvec3 s(texels.x[i], texels.y[i], texels.z[i]);
-        const CubePoint point = cube_point(s);
-        Cell& cell = cells[(static_cast<std::size_t>(point.face) * side + index(point.t)) * side + index(point.s)];
-        cell.flux += flux;
-        cell.place += magnitude * s;
-    }
-    LightTexels gathered;
-    for (const Cell& cell : cells) {
-        if (cell.place == glm::dvec3(0.0)) continue;
-        const glm::vec3 s(glm::normalize(cell.place));
-        gathered.x.push_back(s.x);
-        gathered.y.push_back(s.y);
-        gathered.z.push_back(s.z);
-        gathered.red.push_back(static_cast<float>(cell.flux.x));
-        gathered.green.push_back(static_cast<float>(cell.flux.y));
-        gathered.blue.push_back(static_cast<float>(cell.flux.z));
-    }
-    return gathered;
+    return cell_samples(gather_cells(texels, face_size));
 }
 
 }  // namespace rowland::lighting

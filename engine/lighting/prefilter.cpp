@@ -19,16 +19,18 @@ constexpr int kSmallestFace = 16;
 constexpr int kLargestFace = 1024;
 constexpr int kLastLevelFace = 4;
 
-/// Columns of an equirectangular image as fine as this probe.
-double equivalent_width(const ProbeImage& probe) {
-    return probe.image().width;
+/// Columns of equirectangular images of 2:1 whose texels are as wide as this probe's, and as high.
+glm::ivec2 equivalent_width(const ProbeImage& probe) {
+    const image::Image& image = probe.image();
+    return {image.width, probe.mapping() == Mapping::Angular ? image.width : 2 * image.height};
 }
 
 /// Level 0 where the probe is about as fine as the cube map, or coarser: the mean of bilinear look-ups, at least two a
-/// texel of the probe.
+/// texel of the probe in each direction (as long as that is 16 or fewer).
 void gather_level0(const ProbeImage& probe, EnvironmentMap& map) {
     const int size = map.layout.face_size;
-    const double probe_texels = equivalent_width(probe) / (4.0 * size);
+    const glm::ivec2 width = equivalent_width(probe);
+    const double probe_texels = std::max(width.x, width.y) / (4.0 * size);
     const int steps = std::clamp(2 * static_cast<int>(std::ceil(probe_texels)), 4, 16);
     parallel_for(std::size_t{6} * static_cast<std::size_t>(size), [&](std::size_t task) {
         const int face = static_cast<int>(task) / size;
@@ -51,8 +53,8 @@ void gather_level0(const ProbeImage& probe, EnvironmentMap& map) {
     });
 }
 
-/// Level 0 where an equirectangular probe is much finer: each of its texels, in four parts, goes into the cube texel it
-/// lies in, so that none is missed. Flux is kept exactly.
+/// Level 0 where an equirectangular probe is much finer: each of its texels, in four parts, is added to the cube texel
+/// it lies in. Flux is kept exactly.
 void scatter_level0(const ProbeImage& probe, EnvironmentMap& map) {
     const image::Image& image = probe.image();
     const int size = map.layout.face_size;
@@ -76,31 +78,32 @@ void scatter_level0(const ProbeImage& probe, EnvironmentMap& map) {
         }
     }
     for (std::size_t i = 0; i < sums.size(); ++i) {
-        ROWLAND_CHECK_OP(sums[i].w, >, 0.0);  // four times finer than the cube: no texel is missed
+        ROWLAND_CHECK_OP(sums[i].w, >, 0.0);  // eight parts along each side of a cube texel: none is missed
         map.texels[i] = glm::vec3(glm::dvec3(sums[i]) / sums[i].w);
     }
 }
 
 void fill_level0(const ProbeImage& probe, EnvironmentMap& map) {
-    constexpr double kMuchFiner = 4;
-    const bool finer = equivalent_width(probe) >= kMuchFiner * 4.0 * map.layout.face_size;
+    constexpr int kMuchFiner = 4;
+    const glm::ivec2 width = equivalent_width(probe);
+    const bool finer = std::min(width.x, width.y) >= kMuchFiner * 4 * map.layout.face_size;
     if (finer && probe.mapping() == Mapping::Equirectangular)
         scatter_level0(probe, map);
     else
         gather_level0(probe, map);
 }
 
-/// What light off the normal weighs, per solid angle: D(h) cos θ, the GGX distribution at the half vector [Walter et
-/// al. 2007, eq. 33] without its constant; `cosine` = cos θ.
+/// Weight of light per solid angle: D(h) cos θ, the GGX distribution at the half vector [Walter et al. 2007, eq. 33]
+/// without its constant; `cosine` = cos θ.
 float lobe_weight(float cosine, float alpha_squared) {
     if (cosine <= 0) return 0;
     const float root = (1 + cosine) / 2 * (alpha_squared - 1) + 1;
     return cosine / (root * root);
 }
 
-/// Radiance under the lobe around the unit vector `normal`: a sum over nodes that are small against their distance from
-/// the normal, or against the lobe's width. A node's light is weighed where it comes from, so a lamp alone in its node
-/// counts exactly; the weights are summed over the nodes' centres, so that constant light stays constant.
+/// Radiance under the lobe around the unit vector `normal`: a sum over nodes that are small compared with their
+/// distance from the normal, or with the lobe's width. A node's light is weighted at its centroid, so a lamp alone in
+/// its node counts exactly; the weights are summed at the nodes' centres, so constant light stays constant.
 class LobeSum {
  public:
     LobeSum(const CubeTree& tree, double alpha)
@@ -115,7 +118,7 @@ class LobeSum {
     }
 
  private:
-    /// Of a node's side over its distance from the lobe's core.
+    /// Largest side of a node over its distance from the lobe's core.
     static constexpr float kNodeSize = 0.25f;
 
     struct Sum {

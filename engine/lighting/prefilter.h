@@ -6,7 +6,7 @@
 namespace rowland::lighting {
 
 struct PrefilterSettings {
-    int face_size = 256;  ///< power of two in [16, 1024]; lowered to what the probe can fill
+    int face_size = 256;  ///< power of two in [16, 1024]; lowered to the probe's resolution
 };
 
 /// The cube map a probe is prefiltered into: faces of about half an equirectangular image's height (a quarter of an
@@ -14,8 +14,8 @@ struct PrefilterSettings {
 CubeLayout environment_layout(const ProbeImage& probe, const PrefilterSettings& settings);
 
 /// Level 0: the probe's mean over each texel. Level k: radiance under the GGX lobe of that level's roughness, with view
-/// = normal = reflection [Karis 2013, split sum], weights normalised so that a constant probe stays constant. The
-/// result does not depend on the number of threads.
+/// = normal = reflection [Karis 2013, split sum], weights normalised so that a constant probe stays constant. Does
+/// not depend on the number of threads.
 EnvironmentMap prefilter(const ProbeImage& probe, const PrefilterSettings& settings = {});
 
 }  // namespace rowland::lighting

@@ -11,6 +11,9 @@
 
 #include "engine/core/check.h"
 #include "engine/core/error.h"
+#include "engine/core/log.h"
+#include "engine/core/parallel.h"
+#include "engine/image/load.h"
 
 namespace rowland::lighting {
 
@@ -18,7 +21,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// Counts what is no light and sets it to 0. A texel counts once, for its worst component.
+/// Counts components that are no radiance and sets them to 0. A texel counts once, for its worst component.
 TexelReport clean(image::Image& image) {
     TexelReport report;
     for (glm::vec3& texel : image.texels) {
@@ -46,14 +49,10 @@ void check_shape(const image::Image& image, Mapping mapping, const std::string& 
     ROWLAND_CHECK_OP(image.texels.size(), ==,
                      static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
     const auto size = fmt::format("an image of {} x {} texels", image.width, image.height);
-    if (image.width < 1 || image.height < 1)
-        throw Error({.file = file, .place = {}, .found = size, .expected = "at least one texel", .remedy = {}});
+    if (image.width < 1 || image.height < 1) refuse_input(file, "", size, "at least one texel");
     if (mapping == Mapping::Angular && image.width != image.height)
-        throw Error({.file = file,
-                     .place = {},
-                     .found = size,
-                     .expected = "a square image for the angular mapping",
-                     .remedy = "use the mapping \"equirect\" if it is a panorama"});
+        refuse_input(file, "", size, "a square image for the angular mapping",
+                     "use the mapping \"equirect\" if it is a panorama");
 }
 
 /// sin(πρ)/(πρ): the angular map's solid angle per area of the (πu, πv) plane.
@@ -62,8 +61,8 @@ double angular_density(double radius) {
     return angle < 1e-4 ? 1 - angle * angle / 6 : std::sin(angle) / angle;
 }
 
-/// Solid angle of an angular map's texel that the rim crosses, or of a coarse map's: midpoint sums over what lies
-/// inside the disc. (x, y) is the texel's corner nearest the origin of its quadrant, in units of the radius, `side` its
+/// Solid angle of an angular map's texel that the rim crosses, or of a coarse map's: midpoint sums over the part inside
+/// the disc. (x, y) is the texel's corner nearest the origin of its quadrant, in units of the radius, `side` its
 /// side.
 double sampled_angular_solid_angle(double x, double y, double side) {
     constexpr int kSteps = 16;
@@ -82,14 +81,14 @@ double sampled_angular_solid_angle(double x, double y, double side) {
 
 double angular_solid_angle(int size, int column, int row) {
     const double side = 2.0 / size;
-    // All four quadrants are alike, so the centre may be taken in the first.
+    // By symmetry, the texel's mirror image in the first quadrant.
     const double u = std::abs((column + 0.5) * side - 1);
     const double v = std::abs(1 - (row + 0.5) * side);
     const double radius = std::hypot(u, v);
     if (radius > 1) return 0;
     constexpr int kCoarse = 64;
     if (size < kCoarse || std::hypot(u + side / 2, v + side / 2) > 1) {
-        // An odd map's middle texels reach across the axes; midpoint sums do not mind.
+        // An odd map's middle texels reach across the axes, which midpoint sums allow.
         return sampled_angular_solid_angle(u - side / 2, v - side / 2, side);
     }
     // The formula at the centre, f = sin(πρ)/(πρ), and its second-order correction side²/24 · ∇²f, where
@@ -136,7 +135,7 @@ glm::dvec3 angular_map_radiance(const image::Image& image, const glm::dvec3& d) 
     const int size = image.width;
     const double across = std::hypot(d.x, d.y);
     const double radius = std::atan2(across, -d.z) / pi;
-    // +Z is the whole rim; any point of it will do.
+    // +Z is the whole rim.
     const double u = across > 0 ? radius * d.x / across : radius;
     const double v = across > 0 ? radius * d.y / across : 0;
     const Position x = locate((u + 1) / 2 * size - 0.5);
@@ -160,7 +159,7 @@ glm::dvec3 angular_map_radiance(const image::Image& image, const glm::dvec3& d) 
                 inner = texel;
             }
         }
-    // At the very rim the texels inside may carry no weight: then the nearest of them stands for all.
+    // At the very rim the texels inside may have no weight: then the nearest of them.
     return total > 1e-6 ? sum / total : inner;
 }
 
@@ -172,16 +171,59 @@ image::Image everywhere(const glm::vec3& radiance, Mapping mapping) {
     return {columns, kRows, std::vector<glm::vec3>(static_cast<std::size_t>(columns * kRows), radiance)};
 }
 
+/// Weight of texel i of `count` in each new texel that it overlaps: calls add(new texel, overlap in texels).
+template <typename Add>
+void spread(int i, int count, int new_count, const Add& add) {
+    const double scale = static_cast<double>(new_count) / count;
+    for (int k = static_cast<int>(i * scale); k < new_count && k < (i + 1) * scale; ++k) {
+        const double overlap = std::min<double>(k + 1, (i + 1) * scale) - std::max<double>(k, i * scale);
+        if (overlap > 0) add(k, overlap);
+    }
+}
+
+/// The image in fewer columns and rows, each texel the mean by solid angle of those it replaces.
+image::Image averaged(const image::Image& image, int width, int height) {
+    if (width == image.width && height == image.height) return image;
+    std::vector<glm::dvec4> sums(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), glm::dvec4(0.0));
+    for (int row = 0; row < image.height; ++row) {
+        const double sine = std::sin(pi * (row + 0.5) / image.height);
+        spread(row, image.height, height, [&](int new_row, double row_overlap) {
+            for (int column = 0; column < image.width; ++column)
+                spread(column, image.width, width, [&](int new_column, double overlap) {
+                    sums[static_cast<std::size_t>(new_row) * static_cast<std::size_t>(width) +
+                         static_cast<std::size_t>(new_column)] +=
+                        sine * row_overlap * overlap * glm::dvec4(image.at(column, row), 1.0);
+                });
+        });
+    }
+    image::Image result = image::make_image(width, height);
+    for (std::size_t i = 0; i < sums.size(); ++i) result.texels[i] = glm::vec3(glm::dvec3(sums[i]) / sums[i].w);
+    return result;
+}
+
 }  // namespace
+
+glm::ivec2 probe_shape(int width, int height) {
+    constexpr double kLongest = 8;
+    const double most = std::max(2.0 * width * height, std::exp2(20));
+    const glm::dvec2 size(width, height);
+    // Texels are 2π/width wide and π/height high.
+    const double ratio = 2 * size.y / size.x;
+    if (ratio > kLongest) {
+        const double rows = std::min(size.y, std::floor(std::sqrt(most * kLongest / 2)));
+        return {static_cast<int>(std::ceil(2 * rows / kLongest)), static_cast<int>(rows)};
+    }
+    if (ratio < 1 / kLongest) {
+        const double columns = std::min(size.x, std::floor(std::sqrt(most * kLongest * 2)));
+        return {static_cast<int>(columns), static_cast<int>(std::ceil(columns / (2 * kLongest)))};
+    }
+    return {width, height};
+}
 
 Mapping parse_mapping(const std::string& name) {
     if (name == "equirect") return Mapping::Equirectangular;
     if (name == "angular") return Mapping::Angular;
-    throw Error({.file = "probe mapping",
-                 .place = {},
-                 .found = fmt::format("\"{}\"", name.substr(0, 40)),
-                 .expected = "equirect or angular",
-                 .remedy = {}});
+    refuse_input("probe mapping", "", fmt::format("\"{}\"", name.substr(0, 40)), "equirect or angular");
 }
 
 ProbeImage::ProbeImage(image::Image image, Mapping mapping, const std::string& file)
@@ -189,6 +231,40 @@ ProbeImage::ProbeImage(image::Image image, Mapping mapping, const std::string& f
     check_shape(image_, mapping_, file);
     report_ = clean(image_);
     if (image_.width == 1 && image_.height == 1) image_ = everywhere(image_.texels[0], mapping_);
+    if (mapping_ == Mapping::Equirectangular) resample();
+}
+
+void ProbeImage::resample() {
+    const glm::ivec2 shape = probe_shape(image_.width, image_.height);
+    if (shape == glm::ivec2(image_.width, image_.height)) return;
+    image_ = averaged(image_, std::min(shape.x, image_.width), std::min(shape.y, image_.height));
+    image::Image divided = image::make_image(shape.x, shape.y);
+    parallel_for(static_cast<std::size_t>(shape.y), [&](std::size_t task) {
+        const int row = static_cast<int>(task);
+        for (int column = 0; column < shape.x; ++column)
+            divided.at(column, row) = glm::vec3(
+                radiance(direction((column + 0.5) * image_.width / shape.x, (row + 0.5) * image_.height / shape.y)));
+    });
+    image_ = std::move(divided);
+}
+
+ProbeImage load_probe_image(const std::filesystem::path& path, Mapping mapping) {
+    ProbeImage probe(image::load_image(path), mapping, path.string());
+    warn_about(probe, path.string());
+    return probe;
+}
+
+void warn_about(const ProbeImage& probe, const std::string& file) {
+    const TexelReport& report = probe.report();
+    if (report.total() > 0)
+        log_warning("{}: {} texels are negative or not finite and taken as black ({} NaN, {} infinite, {} negative)",
+                    file, report.total(), report.nan, report.infinite, report.negative);
+    const image::Image& image = probe.image();
+    if (probe.mapping() == Mapping::Equirectangular && image.width == image.height)
+        log_warning(
+            "{}: a square image of {} x {} texels as \"equirect\", which is twice as wide as high; did you mean "
+            "the mapping \"angular\"?",
+            file, image.width, image.height);
 }
 
 glm::dvec3 ProbeImage::direction(double x, double y) const {

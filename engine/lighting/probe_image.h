@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <string>
 #include <vector>
@@ -19,7 +21,7 @@ enum class Mapping {
 /// "equirect" or "angular". Throws Error (input) otherwise.
 Mapping parse_mapping(const std::string& name);
 
-/// Texels that were not light, counted when the probe was made and treated as 0.
+/// Texels that were counted and set to 0 when the probe was made.
 struct TexelReport {
     std::uint64_t nan = 0;
     std::uint64_t infinite = 0;
@@ -30,21 +32,22 @@ struct TexelReport {
 /// A light probe at full resolution: an image, its mapping, and the lookup.
 class ProbeImage {
  public:
-    /// Replaces NaN, infinite and negative components by 0 (see report()). An image of one texel, whose centre would be
-    /// all the light's direction, becomes a larger one of the same light everywhere. Throws Error (input) if the image
-    /// is empty, or not square for an angular map; `file` names it in messages.
+    /// Replaces NaN, infinite and negative components by 0 (see report()). Two kinds of images are resampled: one of a
+    /// single texel, to a larger one of the same radiance; and an equirectangular one with texels more than 8 times as
+    /// long as wide, so that sums over texels cost in proportion to the image (see probe_shape()). Throws Error (input)
+    /// if the image is empty, or not square for an angular map; `file` names it in messages.
     ProbeImage(image::Image image, Mapping mapping, const std::string& file = "probe");
 
     const image::Image& image() const { return image_; }
     Mapping mapping() const { return mapping_; }
     const TexelReport& report() const { return report_; }
 
-    /// Unit vector through a texel's centre, or through any point of the image in texel units (column + ½, row + ½ is a
-    /// centre). For an angular map outside the disc the result is meaningless; its solid angle is 0.
+    /// Unit vector through a point of the image in texel units: (column + ½, row + ½) is a texel's centre. Meaningless
+    /// outside an angular map's disc, where solid_angle() is 0.
     glm::dvec3 direction(double x, double y) const;
 
     /// Solid angle of a texel in steradians. Equirectangular: exact for the texel's rectangle on the sphere. Angular:
-    /// the exact integral over the texel, or the formula of PHYSICS §1 where that is within 1e-4; 0 outside the disc.
+    /// the integral over the texel, to 1e-4; 0 outside the disc.
     double solid_angle(int column, int row) const;
 
     /// Radiance from the unit vector `direction`: bilinear between texel centres; equirectangular wraps in columns and
@@ -52,13 +55,27 @@ class ProbeImage {
     glm::dvec3 radiance(const glm::dvec3& direction) const;
 
  private:
+    void resample();
+
     image::Image image_;
     Mapping mapping_;
     TexelReport report_;
 };
 
+/// Reads a .hdr or .exr file. Logs a warning for texels that were set to 0, and for a square image as
+/// `Equirectangular`, which is more likely an angular map. Throws Error (input).
+ProbeImage load_probe_image(const std::filesystem::path& path, Mapping mapping);
+
+/// Logs the warnings of load_probe_image().
+void warn_about(const ProbeImage& probe, const std::string& file);
+
+/// The size that an equirectangular image of `width` × `height` texels is resampled to. Its texels are at most 8 times
+/// as long as wide on the equator, and it has at most max(2 · width · height, 2²⁰) texels. The long side is divided; if
+/// that makes too many texels, the short one is averaged.
+glm::ivec2 probe_shape(int width, int height);
+
 /// Raw radiance SH coefficients of a probe, in double, weighted by solid angles that are normalised to sum to 4π;
-/// 1 ≤ bands ≤ 32. The result does not depend on the number of threads.
+/// 1 ≤ bands ≤ 32. Does not depend on the number of threads.
 ShLight project(const ProbeImage& probe, int bands);
 
 }  // namespace rowland::lighting

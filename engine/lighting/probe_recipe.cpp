@@ -19,7 +19,7 @@ namespace {
 constexpr NumberRange kRadiance{.minimum = 0, .maximum = 1e6};
 constexpr NumberRange kAzimuth{.minimum = -360, .maximum = 360};
 
-glm::dvec3 colour(JsonReader& reader, const std::string& key, NumberRange range) {
+glm::dvec3 read_rgb(JsonReader& reader, const std::string& key, NumberRange range) {
     const auto values = reader.numbers(key, 3, range);
     return {values[0], values[1], values[2]};
 }
@@ -33,16 +33,16 @@ SoftBox parse_box(JsonReader& reader) {
     box.half_width_deg = half[0];
     box.half_height_deg = half[1];
     box.soft_edge_deg = reader.number_or("soft_edge_deg", 0, {.minimum = 0, .maximum = 80});
-    box.radiance = colour(reader, "radiance", kRadiance);
+    box.radiance = read_rgb(reader, "radiance", kRadiance);
     reader.finish();
     return box;
 }
 
 StudioRecipe parse_studio(JsonReader& reader) {
     StudioRecipe studio;
-    studio.ceiling = colour(reader, "ceiling", kRadiance);
-    studio.wall = colour(reader, "wall", kRadiance);
-    studio.floor = colour(reader, "floor", kRadiance);
+    studio.ceiling = read_rgb(reader, "ceiling", kRadiance);
+    studio.wall = read_rgb(reader, "wall", kRadiance);
+    studio.floor = read_rgb(reader, "floor", kRadiance);
     for (JsonReader& box : reader.objects("boxes")) {
         studio.boxes.push_back(parse_box(box));
         constexpr std::size_t kMaximumBoxes = 256;
@@ -58,7 +58,8 @@ ClearSkyRecipe parse_clear_sky(JsonReader& reader) {
     sky.sun_angular_diameter_deg =
         reader.number_or("sun_angular_diameter_deg", sky.sun_angular_diameter_deg, {.minimum = 0.2, .maximum = 20});
     sky.turbidity = reader.number_or("turbidity", sky.turbidity, {.minimum = 2, .maximum = 6});
-    if (reader.has("ground_albedo")) sky.ground_albedo = colour(reader, "ground_albedo", {.minimum = 0, .maximum = 1});
+    if (reader.has("ground_albedo"))
+        sky.ground_albedo = read_rgb(reader, "ground_albedo", {.minimum = 0, .maximum = 1});
     return sky;
 }
 
@@ -142,7 +143,9 @@ ProbeImage render_recipe(const ProbeRecipe& recipe, const std::function<image::I
         for (glm::vec3& texel : image.texels) texel *= static_cast<float>(recipe.intensity);
     const auto* capture = std::get_if<ImageRecipe>(&recipe.source);
     if (capture == nullptr) return {std::move(image), Mapping::Equirectangular, file};
-    return {std::move(image), capture->mapping, capture->file};
+    ProbeImage probe(std::move(image), capture->mapping, capture->file);
+    warn_about(probe, capture->file);
+    return probe;
 }
 
 }  // namespace rowland::lighting

@@ -14,7 +14,7 @@
 
 namespace rowland::lighting {
 
-/// A capture to be cooked as it is.
+/// A probe from an image file.
 struct ImageRecipe {
     std::string file;  ///< .hdr or .exr, relative to the recipe
     Mapping mapping = Mapping::Equirectangular;
@@ -42,11 +42,11 @@ struct ProbeRecipe {
 ProbeRecipe parse_probe_recipe(const nlohmann::json& json, const std::string& file);
 
 /// Puts the illuminant of a recipe that names a file into its settings. `load_text` is called with illuminant_file and
-/// returns its text. Nothing happens to other recipes. Throws Error (input) for what parse_illuminant() refuses.
+/// returns its text. Leaves other recipes unchanged. Throws Error (input) as parse_illuminant() does.
 void load_illuminant(ProbeRecipe& recipe, const std::function<std::string(const std::string&)>& load_text);
 
-/// The probe at full resolution. `load` is called with ImageRecipe::file and returns its image; the cooker records what
-/// it read there. Errors (input) name `file`.
+/// The probe at full resolution. `load` is called with ImageRecipe::file and returns its image. Logs the warnings of
+/// warn_about(). Errors (input) name `file`.
 ProbeImage render_recipe(const ProbeRecipe& recipe, const std::function<image::Image(const std::string&)>& load,
                          const std::string& file);
 

@@ -20,7 +20,7 @@ std::size_t to_size(int x) {
     return static_cast<std::size_t>(x);
 }
 
-/// Terms of a dot product that are summed apart, so that the compiler may use vectors without changing any result.
+/// Partial sums of a dot product, so that the compiler can use vectors without changing the result.
 constexpr std::size_t kPartialSums = 4;
 
 constexpr std::size_t kRowsPerTask = 16;
@@ -53,8 +53,8 @@ struct Waves {
     }
 };
 
-/// A row folded about its middle column, channel after channel: L(φ) + L(−φ), which cosines see, and L(φ) − L(−φ),
-/// which sines see.
+/// A row folded about its middle column, channel after channel: L(φ) + L(−φ) for the cosines, L(φ) − L(−φ) for the
+/// sines.
 struct FoldedRow {
     std::vector<double> even;  ///< 3 × padded
     std::vector<double> odd;
@@ -111,9 +111,9 @@ std::vector<Moments> all_row_moments(const image::Image& image, const Waves& wav
     return rows;
 }
 
-/// Rows are circles around the image's own axis +Y, where Y_lm is a Legendre function of the row times cos mφ or
-/// sin mφ of the column: 2n−1 sums a texel in place of n², half of them over folded rows, then one rotation into world
-/// axes. Sums are in double and in fixed order.
+/// In a frame whose polar axis is the image's, Y_lm is a Legendre function of the row times cos mφ or sin mφ of the
+/// column: 2n−1 sums a texel instead of n², over folded rows, then one rotation into world axes. Sums are in double and
+/// in fixed order.
 std::vector<glm::dvec3> project_equirectangular(const ProbeImage& probe, int bands) {
     const image::Image& image = probe.image();
     const Waves waves(image.width, bands);

@@ -12,8 +12,8 @@ namespace rowland::lighting {
 
 namespace {
 
-/// A soft box with its frame worked out.
-struct PlacedBox {
+/// A soft box in radians, with its frame.
+struct OrientedBox {
     glm::dvec3 forward;  ///< toward its centre
     glm::dvec3 right;    ///< as the object sees it
     glm::dvec3 up;
@@ -24,23 +24,23 @@ struct PlacedBox {
     glm::dvec3 radiance = {};
 };
 
-PlacedBox place(const SoftBox& box) {
+OrientedBox orient(const SoftBox& box) {
     const double azimuth = glm::radians(box.azimuth_deg);
     const double elevation = glm::radians(box.elevation_deg);
     const double roll = glm::radians(box.roll_deg);
     const glm::dvec3 right(std::cos(azimuth), 0, std::sin(azimuth));
-    PlacedBox placed;
-    placed.forward = direction_at(azimuth, elevation);
-    const glm::dvec3 up = glm::cross(right, placed.forward);
-    placed.right = std::cos(roll) * right + std::sin(roll) * up;
-    placed.up = std::cos(roll) * up - std::sin(roll) * right;
-    placed.half_width = glm::radians(box.half_width_deg);
-    placed.half_height = glm::radians(box.half_height_deg);
-    placed.soft_edge = glm::radians(box.soft_edge_deg);
-    placed.cosine =
-        1 / std::sqrt(1 + std::pow(std::tan(placed.half_width), 2) + std::pow(std::tan(placed.half_height), 2));
-    placed.radiance = box.radiance;
-    return placed;
+    OrientedBox oriented;
+    oriented.forward = direction_at(azimuth, elevation);
+    const glm::dvec3 up = glm::cross(right, oriented.forward);
+    oriented.right = std::cos(roll) * right + std::sin(roll) * up;
+    oriented.up = std::cos(roll) * up - std::sin(roll) * right;
+    oriented.half_width = glm::radians(box.half_width_deg);
+    oriented.half_height = glm::radians(box.half_height_deg);
+    oriented.soft_edge = glm::radians(box.soft_edge_deg);
+    oriented.cosine =
+        1 / std::sqrt(1 + std::pow(std::tan(oriented.half_width), 2) + std::pow(std::tan(oriented.half_height), 2));
+    oriented.radiance = box.radiance;
+    return oriented;
 }
 
 /// 1 well inside a half extent, 0 outside, falling smoothly over `soft_edge`.
@@ -52,7 +52,7 @@ double inside(double angle, double half_extent, double soft_edge) {
     return x * x * (3 - 2 * x);
 }
 
-glm::dvec3 box_radiance(const PlacedBox& box, const glm::dvec3& d) {
+glm::dvec3 box_radiance(const OrientedBox& box, const glm::dvec3& d) {
     const double along = glm::dot(d, box.forward);
     if (along < box.cosine) return glm::dvec3(0.0);
     const double x = std::atan(glm::dot(d, box.right) / along);
@@ -62,8 +62,8 @@ glm::dvec3 box_radiance(const PlacedBox& box, const glm::dvec3& d) {
 
 glm::dvec3 room_radiance(const StudioRecipe& recipe, double height) {
     // Linear in the angle from the horizon.
-    const double share = std::abs(std::asin(std::clamp(height, -1.0, 1.0))) / (std::numbers::pi / 2);
-    return glm::mix(recipe.wall, height > 0 ? recipe.ceiling : recipe.floor, share);
+    const double fraction = std::abs(std::asin(std::clamp(height, -1.0, 1.0))) / (std::numbers::pi / 2);
+    return glm::mix(recipe.wall, height > 0 ? recipe.ceiling : recipe.floor, fraction);
 }
 
 }  // namespace
@@ -71,8 +71,8 @@ glm::dvec3 room_radiance(const StudioRecipe& recipe, double height) {
 image::Image render_studio(const StudioRecipe& recipe, int width) {
     constexpr int kSteps = 4;
     const int height = width / 2;
-    std::vector<PlacedBox> boxes;
-    for (const SoftBox& box : recipe.boxes) boxes.push_back(place(box));
+    std::vector<OrientedBox> boxes;
+    for (const SoftBox& box : recipe.boxes) boxes.push_back(orient(box));
     image::Image image{width, height, {}};
     image.texels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     parallel_for(static_cast<std::size_t>(height), [&](std::size_t task) {
@@ -84,7 +84,7 @@ image::Image render_studio(const StudioRecipe& recipe, int width) {
                     const glm::dvec3 d =
                         equirectangular_direction(column + (i + 0.5) / kSteps, row + (j + 0.5) / kSteps, width);
                     sum += room_radiance(recipe, d.y);
-                    for (const PlacedBox& box : boxes) sum += box_radiance(box, d);
+                    for (const OrientedBox& box : boxes) sum += box_radiance(box, d);
                 }
             image.at(column, row) = glm::vec3(sum / static_cast<double>(kSteps * kSteps));
         }

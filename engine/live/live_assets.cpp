@@ -6,22 +6,9 @@
 #include "engine/cook/cook_source.h"
 #include "engine/core/check.h"
 #include "engine/core/log.h"
-#include "engine/image/load.h"
 #include "engine/scene/gltf_import.h"
 
 namespace rowland::live {
-
-namespace {
-
-lighting::LightProbe probe_from_image(const std::filesystem::path& path, const std::string& mapping) {
-    const lighting::ProbeImage probe(image::load_image(path), lighting::parse_mapping(mapping), path.string());
-    if (const lighting::TexelReport& report = probe.report(); report.total() > 0)
-        log_warning("{}: {} NaN, {} infinite and {} negative components are treated as 0", path.string(), report.nan,
-                    report.infinite, report.negative);
-    return lighting::build_light_probe(probe);
-}
-
-}  // namespace
 
 std::vector<std::byte> LiveAssets::payload(const cook::Registry& registry, const std::filesystem::path& path,
                                            const std::string& type, Files& files) {
@@ -40,7 +27,7 @@ lighting::LightProbe load_probe(const cook::Registry& registry, const std::files
     if (path.extension() == ".json" || path.extension() == ".probe")
         return lighting::deserialise(LiveAssets::payload(registry, path, "probe", read_files), path.string());
     read_files.push_back(path);
-    return probe_from_image(path, mapping);
+    return lighting::build_light_probe(lighting::load_probe_image(path, lighting::parse_mapping(mapping)));
 }
 
 LiveAssets::LiveAssets(std::shared_ptr<const cook::Registry> registry, LiveAssetSettings settings)

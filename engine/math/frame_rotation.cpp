@@ -8,7 +8,6 @@
 #include "engine/core/check.h"
 #include "engine/core/parallel.h"
 #include "engine/math/sh_basis.h"
-#include "engine/math/sh_batch.h"
 #include "engine/math/sh_rotation.h"
 #include "engine/math/simd/dispatch.h"
 #include "engine/math/simd/exchange_rule.h"

@@ -10,6 +10,9 @@
 
 namespace rowland::math {
 
+/// The single-precision paths take up to so many bands.
+inline constexpr int kMaximumFastBands = 16;
+
 /// Tangent frames (g, h, n), one array per component: n is `normal`, g is `tangent` less its part along n, h = n × g.
 /// Neither needs to be of unit length; a tangent along its normal gives some frame around that normal.
 struct FrameArrays {
@@ -22,7 +25,7 @@ struct FrameArrays {
 /// Turns band-limited RGB light into many tangent frames, in single precision and on all cores: the frame change as
 /// turns about z, y and z [Pinchon & Hoggan 2007, "Rotation matrices for real spherical harmonics"], the one about y by
 /// exchanging y and z, which is a fixed sparse matrix. No angle is computed and the last turn is read off the tangent
-/// after the other two, so no frame is singular. Error ≤ 2e-6 of the light's norm √Σ‖c‖² against ShRotation.
+/// after the other two, so no frame is singular. Error ≤ 2e-6 of the light's norm √Σ‖c‖², compared with ShRotation.
 ///
 /// For each frame writes bands² × 3 floats, RGB innermost. `light` holds bands² coefficients in the axes the frames are
 /// given in, 1 ≤ bands ≤ 16. out.size() ≥ frames.size() · bands² · 3.
@@ -30,7 +33,7 @@ void rotate_to_frames(std::span<const glm::dvec3> light, int bands, const FrameA
                       InstructionSet set = best_instruction_set());
 
 /// A constant matrix of rows × bands² that is applied to light in a tangent frame, such as the one from coefficients to
-/// arc moments (PHYSICS §5). Its zeros cost nothing: entries below 1e-9 of the largest are dropped.
+/// moments along an arc. Entries below 1e-9 of the largest are dropped, so zeros cost nothing.
 class FrameProjection {
  public:
     /// `matrix` is row-major, 1 to 256 rows of bands² entries, 1 ≤ bands ≤ 16.
@@ -38,7 +41,7 @@ class FrameProjection {
 
     int bands() const { return bands_; }
     int rows() const { return static_cast<int>(first_.size()) - 1; }
-    /// Entries that are kept.
+    /// Entries that were not dropped.
     int entries() const { return static_cast<int>(column_.size()); }
 
     std::span<const std::int32_t> first() const { return first_; }    ///< rows + 1: where each row's entries begin

@@ -2,8 +2,8 @@
 
 namespace rowland::math {
 
-/// What the fast single-precision paths of run-time code are compiled for. Bake code never dispatches: cooked bytes
-/// must not depend on the machine.
+/// Instruction sets that the fast single-precision paths are compiled for. Bake code never uses them: cooked bytes must
+/// not depend on the machine.
 enum class InstructionSet {
     Baseline,  ///< what every processor of the target architecture has; on x86-64 that is SSE2, four lanes
     Avx2,      ///< x86-64 with AVX2 and FMA, eight lanes

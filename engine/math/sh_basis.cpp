@@ -1,16 +1,30 @@
 #include "engine/math/sh_basis.h"
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
 
 #include "engine/core/check.h"
-#include "engine/math/sh_recurrence.h"
 
 namespace rowland::math {
 
-ShRecurrence::ShRecurrence() {
-    constexpr auto kBands = static_cast<std::size_t>(kMaximumBands);
+namespace {
+
+constexpr auto kBands = static_cast<std::size_t>(kMaximumBands);
+
+/// Factors of the recurrences of the normalised associated Legendre functions divided by sin^m θ,
+/// P_m,m = diagonal[m],  P_l,m = a[m][l] z P_l−1,m − b[m][l] P_l−2,m  [Press et al., Numerical Recipes, 3rd ed., §6.7].
+/// m ≠ 0 has the √2 of the real basis.
+struct Recurrence {
+    std::array<double, kBands> diagonal{};
+    std::array<std::array<double, kBands>, kBands> a{};
+    std::array<std::array<double, kBands>, kBands> b{};
+
+    Recurrence();
+};
+
+Recurrence::Recurrence() {
     double squared = 1 / (4 * std::numbers::pi);
     diagonal[0] = std::sqrt(squared);
     for (std::size_t m = 1; m < kBands; ++m) {
@@ -27,16 +41,13 @@ ShRecurrence::ShRecurrence() {
         }
 }
 
-const ShRecurrence& sh_recurrence() {
-    static const ShRecurrence factors;
-    return factors;
-}
+}  // namespace
 
 void evaluate_sh(const glm::dvec3& direction, int bands, std::span<double> values) {
     ROWLAND_CHECK_OP(bands, >=, 1);
     ROWLAND_CHECK_OP(bands, <=, kMaximumBands);
     ROWLAND_CHECK_OP(values.size(), >=, static_cast<std::size_t>(sh_count(bands)));
-    const ShRecurrence& factors = sh_recurrence();
+    static const Recurrence factors;
     const double z = direction.z;
     // sin^m θ cos mφ and sin^m θ sin mφ as polynomials in x and y: no angle, no pole.
     double cosine = 1;

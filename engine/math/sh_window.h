@@ -4,8 +4,8 @@
 
 namespace rowland::math {
 
-/// Windows against ringing, from none to strongest. A window multiplies band l of band-limited light by a factor that
-/// falls from 1 at l = 0; it trades peak height for undershoot [Sloan 2008, "Stupid SH tricks", windowing].
+/// Windows against ringing, the weakest first. A window multiplies band l of band-limited light by a factor that falls
+/// from 1 at l = 0; it trades peak height for undershoot [Sloan 2008, "Stupid SH tricks", windowing].
 enum class SphericalWindow { None, Lanczos, Hann };
 
 /// "none", "lanczos" or "hann".
@@ -17,7 +17,7 @@ SphericalWindow parse_window(std::string_view name);
 /// peaks at 1.99, 1.05 and 0.82.
 double window_factor(SphericalWindow window, int l, int bands);
 
-/// exp(−damping·l(l+1)): the window of heat diffusion on the sphere, as strong as `damping` ≥ 0 says.
+/// exp(−damping·l(l+1)), damping ≥ 0: the window of heat diffusion on the sphere.
 double exponential_window_factor(double damping, int l);
 
 }  // namespace rowland::math

@@ -2,11 +2,11 @@
 
 #include <span>
 
-#include "engine/gpu/embedded_file.h"
+#include "engine/core/embedded_file.h"
 
 namespace rowland::post {
 
 /// The shaders of the post effects, for gpu::ShaderLibrary::add_embedded.
-std::span<const gpu::EmbeddedFile> shader_files();
+std::span<const EmbeddedFile> shader_files();
 
 }  // namespace rowland::post

@@ -2,11 +2,11 @@
 
 #include <span>
 
-#include "engine/gpu/embedded_file.h"
+#include "engine/core/embedded_file.h"
 
 namespace rowland::post {
 
 /// One file: content/ocio/rowland.ocio.
-std::span<const gpu::EmbeddedFile> shipped_config_file();
+std::span<const EmbeddedFile> shipped_config_file();
 
 }  // namespace rowland::post

@@ -4,6 +4,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
+#include "engine/image/limits.h"
 #include "engine/scene/gltf_accessor.h"
 #include "engine/scene/gltf_buffer.h"
 #include "engine/scene/gltf_parts.h"
@@ -36,9 +37,23 @@ auto read_at(const std::string& file, std::size_t image, const Read& read) {
     }
 }
 
-/// The bytes of the images that a texture names. Spends the memory of the decoded images.
-std::vector<Encoded> load_encoded(const GltfSource& source, const GltfDocument& document, MemoryBudget& budget,
-                                  std::vector<std::filesystem::path>* read_files) {
+/// Throws Error (input) if highly compressed images would use memory out of proportion to the file.
+void check_decoded_total(const std::vector<Encoded>& encoded, const std::string& file) {
+    std::uint64_t decoded = 0;
+    std::uint64_t bytes = 0;
+    for (const Encoded& picture : encoded) {
+        const image::ByteImageSize size = image::byte_image_size(picture.bytes.bytes, file);
+        decoded += 4 * static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height);
+        bytes += picture.bytes.bytes.size();
+    }
+    if (const std::uint64_t limit = image::decoded_limit(bytes); decoded > limit)
+        refuse_input(file, "/images", fmt::format("{} bytes of images that decode to {}", bytes, decoded),
+                     fmt::format("at most {}", limit), "scale the images down");
+}
+
+/// The images that a texture names, their bytes fetched and the memory they take once decoded spent.
+std::vector<Encoded> fetch(const GltfSource& source, const GltfDocument& document, MemoryBudget& budget,
+                           std::vector<std::filesystem::path>* read_files) {
     std::vector<bool> named(document.images.size(), false);
     for (const GltfTexture& texture : document.textures)
         if (texture.image) named[*texture.image] = true;
@@ -57,6 +72,7 @@ std::vector<Encoded> load_encoded(const GltfSource& source, const GltfDocument& 
             read_at(document.file, i, [&] { return image::byte_image_size(added.bytes.bytes, ""); });
         pictures.spend(static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height), 4, pointer);
     }
+    check_decoded_total(encoded, document.file);
     return encoded;
 }
 
@@ -83,7 +99,7 @@ void import_images(const GltfSource& source, const GltfDocument& document, Memor
                    std::vector<std::filesystem::path>* read_files, ImportedScene& scene) {
     const auto white = std::make_shared<const image::ByteImage>(image::ByteImage{1, 1, {255, 255, 255, 255}});
     scene.images.assign(document.images.size(), white);
-    decode(load_encoded(source, document, budget, read_files), document.file, scene.images);
+    decode(fetch(source, document, budget, read_files), document.file, scene.images);
     for (const GltfTexture& texture : document.textures) {
         ImportedTexture& added = scene.textures.emplace_back(texture.settings);
         added.image = texture.image.value_or(scene.images.size());

@@ -1,9 +1,7 @@
-// Spherical harmonics one at a time, in double: evaluation, and building and applying a rotation. And many at a time,
-// in single precision.
+// Spherical harmonics in double: evaluation, and building and applying a rotation.
 #include <string>
 
 #include "engine/math/sh_basis.h"
-#include "engine/math/sh_batch.h"
 #include "engine/math/sh_rotation.h"
 #include "tests/benchmark/microbenchmarks.h"
 #include "tests/benchmark/random_frames.h"
@@ -15,10 +13,9 @@ namespace {
 using ::benchmark::DoNotOptimize;
 using ::benchmark::State;
 
-// Few enough for the coefficients to stay in the second cache, and no power of two between their rows.
 constexpr std::size_t kDirections = 1000;
 
-void evaluate_slowly(State& state, int bands) {
+void evaluate(State& state, int bands) {
     RandomDirections random;
     std::vector<glm::dvec3> directions(kDirections);
     for (glm::dvec3& d : directions) d = random.next();
@@ -28,17 +25,6 @@ void evaluate_slowly(State& state, int bands) {
             math::evaluate_sh(d, bands, values);
             DoNotOptimize(values.data());
         }
-    report_each(state, kDirections);
-}
-
-void evaluate_fast(State& state, int bands, math::InstructionSet set) {
-    const RandomFrames directions(kDirections);
-    const auto spans = directions.arrays().normal;
-    std::vector<float> values(static_cast<std::size_t>(math::sh_count(bands)) * kDirections);
-    for (auto _ : state) {
-        math::evaluate_sh_batch(spans, bands, kDirections, values, set);
-        DoNotOptimize(values.data());
-    }
     report_each(state, kDirections);
 }
 
@@ -71,12 +57,8 @@ void apply_rotation(State& state, int bands) {
 
 void register_sh_evaluation() {
     for (const int bands : {5, 11}) {
-        const std::string name = "sh_evaluate/bands:" + std::to_string(bands);
-        ::benchmark::RegisterBenchmark((name + "/double").c_str(), evaluate_slowly, bands);
-        for (const auto set : {math::InstructionSet::Baseline, math::InstructionSet::Avx2})
-            if (math::is_supported(set))
-                ::benchmark::RegisterBenchmark((name + "/" + math::instruction_set_name(set)).c_str(), evaluate_fast,
-                                               bands, set);
+        const std::string name = "sh_evaluate/bands:" + std::to_string(bands) + "/double";
+        ::benchmark::RegisterBenchmark(name.c_str(), evaluate, bands);
     }
 }
 

@@ -66,7 +66,7 @@ void main() { colour = value; })");
 
 TEST_F(BufferTest, TakesWhatAComputeProgramWrites) {
     const gpu::ShaderLibrary library = [] {
-        static constexpr std::array files{gpu::EmbeddedFile{"test.comp.glsl", R"(#version 450 core
+        static constexpr std::array files{EmbeddedFile{"test.comp.glsl", R"(#version 450 core
 layout(local_size_x = 4) in;
 layout(std430, binding = 2) buffer Values { float values[]; };
 void main() { values[gl_GlobalInvocationID.x] *= FACTOR; })"}};

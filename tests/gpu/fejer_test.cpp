@@ -11,15 +11,15 @@
 #include <span>
 #include <vector>
 
+#include "engine/core/embedded_file.h"
 #include "engine/gpu/buffer.h"
-#include "engine/gpu/embedded_file.h"
 #include "tests/gpu/gl_test.h"
 #include "tests/support/csv.h"
 #include "tests/support/test_data.h"
 
 namespace rowland::diffraction {
 
-std::span<const gpu::EmbeddedFile> fejer_shader_files();
+std::span<const EmbeddedFile> fejer_shader_files();
 
 namespace {
 
@@ -40,7 +40,7 @@ class GlslFejer : public rowland::test::GlTest {
     static std::vector<float> ratios(const std::vector<glm::vec2>& arguments) {
         gpu::ShaderLibrary library;
         library.add_embedded(fejer_shader_files());
-        const std::array<gpu::EmbeddedFile, 1> own{{{"fejer_test.comp.glsl", kCompute}}};
+        const std::array<EmbeddedFile, 1> own{{{"fejer_test.comp.glsl", kCompute}}};
         library.add_embedded(own);
         const gpu::Program program(library, {.compute = "fejer_test.comp.glsl"});
         const gpu::Buffer in = gpu::Buffer::of(std::span<const glm::vec2>(arguments));

@@ -15,30 +15,30 @@ using ProgramTest = test::GlTest;
 using ::testing::HasSubstr;
 
 constexpr std::array kProgramFiles{
-    gpu::EmbeddedFile{"t/broken.frag.glsl",
-                      "#version 450 core\n"
-                      "#include \"good.glsl\"\n"
-                      "#include \"broken.glsl\"\n"
-                      "layout(location = 0) out vec4 colour;\n"
-                      "void main() { colour = vec4(good() + broken()); }\n"},
-    gpu::EmbeddedFile{"t/broken_after_include.frag.glsl",
-                      "#version 450 core\n"
-                      "#include \"good.glsl\"\n"
-                      "layout(location = 0) out vec4 colour;\n"
-                      "void main() {\n"
-                      "    colour = vec4(nowhere);\n"
-                      "}\n"},
-    gpu::EmbeddedFile{"t/good.glsl", "float good() { return 1.0; }\n\n\n"},
-    gpu::EmbeddedFile{"t/broken.glsl", "// first\n\nfloat broken() {\n    return undeclared_name;\n}\n"},
-    gpu::EmbeddedFile{"t/unlinkable.frag.glsl",
-                      "#version 450 core\n"
-                      "layout(location = 0) out vec4 colour;\n"
-                      "vec4 never_defined();\n"
-                      "void main() { colour = never_defined(); }\n"},
-    gpu::EmbeddedFile{"t/defined.frag.glsl",
-                      "#version 450 core\n"
-                      "layout(location = 0) out vec4 colour;\n"
-                      "void main() { colour = vec4(VALUE); }\n"},
+    EmbeddedFile{"t/broken.frag.glsl",
+                 "#version 450 core\n"
+                 "#include \"good.glsl\"\n"
+                 "#include \"broken.glsl\"\n"
+                 "layout(location = 0) out vec4 colour;\n"
+                 "void main() { colour = vec4(good() + broken()); }\n"},
+    EmbeddedFile{"t/broken_after_include.frag.glsl",
+                 "#version 450 core\n"
+                 "#include \"good.glsl\"\n"
+                 "layout(location = 0) out vec4 colour;\n"
+                 "void main() {\n"
+                 "    colour = vec4(nowhere);\n"
+                 "}\n"},
+    EmbeddedFile{"t/good.glsl", "float good() { return 1.0; }\n\n\n"},
+    EmbeddedFile{"t/broken.glsl", "// first\n\nfloat broken() {\n    return undeclared_name;\n}\n"},
+    EmbeddedFile{"t/unlinkable.frag.glsl",
+                 "#version 450 core\n"
+                 "layout(location = 0) out vec4 colour;\n"
+                 "vec4 never_defined();\n"
+                 "void main() { colour = never_defined(); }\n"},
+    EmbeddedFile{"t/defined.frag.glsl",
+                 "#version 450 core\n"
+                 "layout(location = 0) out vec4 colour;\n"
+                 "void main() { colour = vec4(VALUE); }\n"},
 };
 
 gpu::ShaderLibrary program_library() {

@@ -14,7 +14,6 @@ namespace rowland {
 
 namespace {
 
-using gpu::EmbeddedFile;
 using gpu::ShaderLibrary;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;

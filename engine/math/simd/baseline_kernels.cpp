@@ -1,10 +1,9 @@
-#include "engine/math/simd/evaluate_kernel.h"
 #include "engine/math/simd/rotate_kernel.h"
 
 namespace rowland::math::simd {
 
 Kernels baseline_kernels() {
-    return {evaluate, rotate, project};
+    return {rotate, project};
 }
 
 }  // namespace rowland::math::simd

@@ -14,7 +14,7 @@ struct ExchangeColumns {
 inline constexpr ExchangeColumns exchange_columns(int l, int m) {
     const int size = m < 0 ? -m : m;
     const bool even_in_x = (m >= 0) == (size % 2 == 0);
-    const int parity = (l + (m < 0 ? 1 : 0)) % 2;  // of |column|: even in z just if the row is even in y
+    const int parity = (l + (m < 0 ? 1 : 0)) % 2;  // of |column|: even in z if and only if the row is even in y
     const int sign = even_in_x == (parity == 0) ? 1 : -1;
     return {parity == 0 && sign < 0 ? 2 : parity, sign};
 }

@@ -5,22 +5,8 @@
 
 namespace rowland::math::simd {
 
-// What the fast paths compute, as plain pointers: the translation units compiled for a wider instruction set must not
-// instantiate anything of external linkage, or the linker could pick their copy for everyone.
-
-/// Factors of the recurrences of sh_basis.cpp: P_m,m = diagonal[m], P_l,m = a[l² + m] z P_l−1,m − b[l² + m] P_l−2,m.
-struct Recurrence {
-    float diagonal[16];
-    float a[256];
-    float b[256];
-};
-
-struct Directions {
-    const float* x;
-    const float* y;
-    const float* z;
-    std::size_t count;
-};
+// Arguments of the fast paths, as plain pointers: translation units compiled for a wider instruction set must not
+// instantiate anything of external linkage, or the linker could use that copy everywhere.
 
 struct Light {
     const float* coefficients;  ///< bands² × 3, RGB innermost
@@ -42,7 +28,6 @@ struct SparseMatrix {
 };
 
 struct Kernels {
-    void (*evaluate)(const Directions&, int bands, const Recurrence&, std::size_t stride, float* values);
     void (*rotate)(const Light&, const Frames&, float* out);
     void (*project)(const Light&, const Frames&, const SparseMatrix&, float* out);
 };

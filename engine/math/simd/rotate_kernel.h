@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kChannels = 3;
 
-/// Bands for which the loops are written out, 0: none. An instrumented build would take minutes to compile that.
+/// Bands for which the loops are written out, 0: none. An instrumented build would take minutes to compile.
 #ifdef ROWLAND_MATH_KEEP_LOOPS
 constexpr int kWrittenOutBands = 0;
 #else
@@ -144,7 +144,7 @@ ROWLAND_INLINE void rotate_lanes(const Light& light, const Vec (&g)[3], const Ve
     turn_about_z<Bands>(turned, turns.last, 1, bands, rotated);
 }
 
-/// What becomes of the rotated light: as it is, or a sparse matrix times it.
+/// How rotated light is written: unchanged, or multiplied by a sparse matrix.
 struct Keep {
     int rows;
     int count() const { return rows; }

@@ -7,8 +7,8 @@
 
 namespace rowland::diffraction {
 
-/// The named frame sets of PHYSICS §1, 120 frames each: a compact disc tilted by 35° for flat surfaces; for curved ones
-/// a sphere with the grooves along its meridians, down to v_n = 0.1.
+/// The frames that errors are measured at, 120 for each shape: a compact disc tilted by 35° for flat surfaces; for
+/// curved ones a sphere with the grooves along its meridians, down to v_n = 0.1.
 std::vector<Frame> measured_frames(SurfaceShape surface);
 
 }  // namespace rowland::diffraction

@@ -148,6 +148,32 @@ TEST(Exr, ChromaticitiesAreConvertedToRec709) {
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(image.at(2, 0)[c], 2.5f, 1e-5f);  // neutral stays neutral
 }
 
+/// X, Y and Z of 0.5, 1.5, … each: the equal-energy white, with the rows of XYZ → Rec.709 summed [IEC 61966-2-1].
+TEST(Exr, TristimulusValuesAreConvertedToRec709) {
+    const test::TemporaryFolder folder;
+    const auto path = folder.path() / "a.exr";
+    for (const auto type : {Imf::HALF, Imf::FLOAT}) {
+        const Image image = read_exr(made_file(Imf::Header(4, 2), {"X", "Y", "Z"}, type, path), "a.exr");
+        EXPECT_NEAR(image.at(2, 0).r, 2.5F * 1.2048F, 2e-3F);
+        EXPECT_NEAR(image.at(2, 0).g, 2.5F * 0.9483F, 2e-3F);
+        EXPECT_NEAR(image.at(2, 0).b, 2.5F * 0.9088F, 2e-3F);
+    }
+    // R, G and B are preferred, and X, Y and Z without one of them mean nothing.
+    const auto both = made_file(Imf::Header(4, 2), {"R", "G", "B", "X", "Y", "Z"}, Imf::HALF, path);
+    EXPECT_EQ(read_exr(both, "a.exr").at(2, 0), glm::vec3(2.5F));
+    EXPECT_THAT(refusal(made_file(Imf::Header(4, 2), {"X", "Y"}, Imf::HALF, path)), HasSubstr("channels X, Y"));
+    EXPECT_THAT(refusal(made_file(Imf::Header(4, 2), {"X", "Y", "Z"}, Imf::UINT, path)), HasSubstr("integers"));
+}
+
+TEST(Exr, CubeMapsAreRefused) {
+    const test::TemporaryFolder folder;
+    Imf::Header header(4, 2);
+    Imf::addEnvmap(header, Imf::ENVMAP_LATLONG);
+    EXPECT_NO_THROW(read_exr(made_file(header, {"R", "G", "B"}, Imf::HALF, folder.path() / "a.exr"), "a.exr"));
+    Imf::addEnvmap(header, Imf::ENVMAP_CUBE);
+    EXPECT_THAT(refusal(made_file(header, {"R", "G", "B"}, Imf::HALF, folder.path() / "a.exr")), HasSubstr("cube map"));
+}
+
 TEST(Exr, OtherChannelsAndWindowsAreRefused) {
     const test::TemporaryFolder folder;
     const auto path = folder.path() / "a.exr";

@@ -144,6 +144,23 @@ TEST(FitKeyLights, FindsTheLobesAProbeIsMadeOf) {
     EXPECT_NEAR(keys[1].concentration, 600.0, 150.0);
 }
 
+/// Light that varies slowly lies in the bands that do not count, unless fewer are left out.
+TEST(FitKeyLights, LeavesTheExactBandsAlone) {
+    image::Image image = image::make_image(64, 32);
+    const ProbeImage empty(image, Mapping::Equirectangular);
+    for (int row = 0; row < image.height; ++row)
+        for (int column = 0; column < image.width; ++column)
+            image.at(column, row) = glm::vec3(glm::dvec3(1.0 + empty.direction(column + 0.5, row + 0.5).x));
+    const ProbeImage probe(image, Mapping::Equirectangular);
+    const auto flux = [&](const KeyLightFit& settings) {
+        double sum = 0.0;
+        for (const KeyLight& key : fit_key_lights(probe, 4, settings)) sum += key.flux.x;
+        return sum / (4 * pi);
+    };
+    EXPECT_LT(flux({.exact_bands = 5}), 0.01);
+    EXPECT_GT(flux({.exact_bands = 1}), 0.05);
+}
+
 TEST(FitKeyLights, DoesNotDependOnTheThreads) {
     const ProbeImage probe(two_lobes(64), Mapping::Equirectangular);
     const auto run = [&](unsigned threads) {

@@ -10,6 +10,27 @@ namespace {
 
 using std::numbers::pi;
 
+/// The lines that a probe of a recipe or of a file would log.
+std::string warnings(int width, int height, Mapping mapping, float radiance = 1.0F) {
+    image::Image image = image::make_image(width, height);
+    for (glm::vec3& texel : image.texels) texel = glm::vec3(radiance);
+    testing::internal::CaptureStderr();
+    warn_about(ProbeImage(std::move(image), mapping), "a.hdr");
+    return testing::internal::GetCapturedStderr();
+}
+
+TEST(ProbeImage, SquareImagesAsEquirectangularAreWarnedAbout) {
+    EXPECT_NE(warnings(64, 64, Mapping::Equirectangular).find("did you mean the mapping \"angular\"?"),
+              std::string::npos);
+    for (const glm::ivec2 size : {glm::ivec2(64, 32), {64, 63}, {1, 1}})
+        EXPECT_EQ(warnings(size.x, size.y, Mapping::Equirectangular), "") << size.x << " x " << size.y;
+    EXPECT_EQ(warnings(64, 64, Mapping::Angular), "");
+}
+
+TEST(ProbeImage, TexelsThatAreNoRadianceAreWarnedAbout) {
+    EXPECT_NE(warnings(4, 2, Mapping::Equirectangular, -1.0F).find("8 negative"), std::string::npos);
+}
+
 TEST(ProbeImage, CentreLooksAlongMinusZRightIsPlusXTopIsPlusY) {
     for (const Mapping mapping : test::kMappings) {
         const ProbeImage probe = test::constant_probe(mapping, 8);

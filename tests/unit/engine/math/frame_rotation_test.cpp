@@ -11,7 +11,6 @@
 
 #include "engine/core/parallel.h"
 #include "engine/math/sh_basis.h"
-#include "engine/math/sh_batch.h"
 #include "engine/math/sh_rotation.h"
 #include "tests/unit/engine/math/directions.h"
 #include "tests/unit/engine/math/instruction_sets.h"

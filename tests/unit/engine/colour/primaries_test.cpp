@@ -1,8 +1,8 @@
-#include "engine/image/primaries.h"
+#include "engine/colour/primaries.h"
 
 #include <gtest/gtest.h>
 
-namespace rowland::image {
+namespace rowland::colour {
 namespace {
 
 /// ACES AP1 with its white (about D60) [S-2014-004].
@@ -26,6 +26,11 @@ TEST(Primaries, AcesCgToRec709IsThePublishedMatrix) {
             EXPECT_NEAR((*matrix)[column][row], expected[row][column], 2e-4) << row << ", " << column;
 }
 
+TEST(Primaries, WhiteOfD65IsWhite) {
+    const glm::dvec3 white = xyz_to_rec709() * xy_to_xyz(kRec709.white);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(white[c], 1, 1e-12);
+}
+
 TEST(Primaries, WhiteStaysWhite) {
     const glm::dvec3 white = *to_rec709(kAcesCg) * glm::dvec3(1.0);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(white[c], 1, 1e-12);
@@ -40,4 +45,4 @@ TEST(Primaries, DegenerateOnesAreNotUsable) {
 }
 
 }  // namespace
-}  // namespace rowland::image
+}  // namespace rowland::colour

@@ -1,12 +1,11 @@
-# rowland_embed_shaders(<target> <function> FILES <file>...)
-# Puts text files into <target> at build time, so that programs need no paths at run time, and defines
-#   std::span<const rowland::gpu::EmbeddedFile> <function>();
-# with <function> qualified ("rowland::render::shader_files"); the part that calls it declares it in a header of its own.
-# A file's name is its path from the top of the source tree. Serves shaders and any other small text file. <target> must
-# link rowland_gpu.
+# rowland_embed_files(<target> <function> FILES <file>...)
+# Builds text files into <target>, so that programs need no paths at run time, and defines
+#   std::span<const rowland::EmbeddedFile> <function>();
+# <function> is qualified ("rowland::render::shader_files"); whoever calls it declares it. A file's name is its path from
+# the top of the source tree. <target> must link rowland_core.
 set(ROWLAND_EMBED_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/embed_files.cmake CACHE INTERNAL "")
 
-function(rowland_embed_shaders target function)
+function(rowland_embed_files target function)
   cmake_parse_arguments(ARG "" "" "FILES" ${ARGN})
   set(paths)
   foreach(file IN LISTS ARG_FILES)
@@ -15,7 +14,7 @@ function(rowland_embed_shaders target function)
   endforeach()
   string(REPLACE "::" "_" output_name ${function})
   set(output ${CMAKE_CURRENT_BINARY_DIR}/${output_name}.cpp)
-  # The list of files is written out, so that adding or removing one rebuilds the output as changing one does.
+  # The output depends on a file that lists the names, so that adding or removing one rebuilds it.
   set(list_file ${CMAKE_CURRENT_BINARY_DIR}/${output_name}.txt)
   file(CONFIGURE OUTPUT ${list_file} CONTENT "${paths}" @ONLY)
   add_custom_command(
