@@ -6,7 +6,7 @@
 
 namespace rowland::demo {
 
-/// How an object is called: the name of the nearest node above it that has one.
+/// The name of an object: that of the nearest node at or above it that has one; else "grating".
 std::string name_of_object(ecs::World& world, ecs::Entity entity);
 
 }  // namespace rowland::demo

@@ -9,10 +9,10 @@
 
 namespace rowland::demo {
 
-/// Whether what takes long may be spread over frames.
+/// Whether maps may fill over several frames.
 enum class Pace {
-    Fluent,  ///< a window: maps fill by and by
-    Still,   ///< pictures: a map is full in the second frame at rest
+    Fluent,  ///< for a window: incrementally
+    Still,   ///< for pictures: a map is full in the second frame in which nothing moves
 };
 
 /// A picture that shows diffraction, with the effects that the options ask for. Throws Error (input) for an unknown

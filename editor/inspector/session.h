@@ -12,10 +12,10 @@
 
 #include "editor/inspector/document.h"
 #include "editor/inspector/inspected_light.h"
-#include "editor/inspector/latest_task.h"
 #include "editor/inspector/physics/point_radiance.h"
 #include "editor/inspector/physics/price.h"
 #include "editor/inspector/preview.h"
+#include "engine/core/latest_task.h"
 
 namespace rowland::inspector {
 

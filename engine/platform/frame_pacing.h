@@ -53,6 +53,8 @@ class FrameTimes {
     explicit FrameTimes(std::size_t capacity = 240);  ///< > 0
 
     void add(std::chrono::nanoseconds frame);
+    /// Milliseconds, the last frame last.
+    std::vector<float> in_order_ms() const;
     /// All zero before the first frame.
     FrameStatistics statistics() const;
 

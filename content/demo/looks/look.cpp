@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::array kRepresentations = {"spikes", "arc", "transfer", "planar", "circle", "streak", "direct"};
 
-/// A member of "quality" at each detail.
+/// A member of "quality", and its value at each detail.
 struct Step {
     const char* key;
     std::array<int, 3> values;
@@ -39,7 +39,7 @@ nlohmann::json settings_of(const Look& look) {
 }  // namespace
 
 const char* detail_name(Detail detail) {
-    constexpr std::array kNames = {"coarse", "usual", "fine"};
+    constexpr std::array kNames = {"coarse", "medium", "fine"};
     return kNames[static_cast<std::size_t>(detail)];
 }
 
@@ -49,10 +49,12 @@ std::string look_name(const Look& look) {
     return look.representation + ", " + detail_name(look.detail);
 }
 
-std::optional<Look> look_named(std::string_view name) {
+std::optional<Look> look_named(std::string name) {
     if (name == look_name({})) return Look{};
+    if (const auto old = name.find(", usual"); old != std::string::npos)
+        name.replace(old, std::string::npos, ", medium");
     for (const char* representation : kRepresentations)
-        for (const Detail detail : {Detail::Usual, Detail::Coarse, Detail::Fine})
+        for (const Detail detail : {Detail::Medium, Detail::Coarse, Detail::Fine})
             if (const Look look{representation, detail}; look_name(look) == name) return look;
     return std::nullopt;
 }

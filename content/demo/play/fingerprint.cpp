@@ -24,10 +24,10 @@ std::string fingerprint(Play& play) {
     add(hasher, play.camera().target);
     for (const Body& body : play.bodies()) {
         hasher.text(body.name);
-        add(hasher, placement(play.world(), body.node));
+        add(hasher, object_to_world(play.world(), body.node));
         add(hasher, body.state.spin);
     }
-    for (const ecs::Entity light : play.lights().entities()) add(hasher, placement(play.world(), light));
+    for (const ecs::Entity light : play.lights().entities()) add(hasher, object_to_world(play.world(), light));
     return hasher.digest().hex().substr(0, 16);
 }
 

@@ -6,8 +6,7 @@
 
 namespace rowland::demo {
 
-/// A short text that two plays share only if every object, light and the camera stand the same to the bit, and their
-/// times and steps are equal.
+/// A short hash of the pose of every object, light and the camera, to the bit, and of time and steps.
 std::string fingerprint(Play& play);
 
 }  // namespace rowland::demo

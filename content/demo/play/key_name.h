@@ -8,9 +8,9 @@
 
 namespace rowland::demo {
 
-/// What is written on a key, as "W", "F5" or "Left Shift": for help and in recordings. No two keys share a name.
+/// The label of a key, as "W", "F5" or "Left Shift", for help and recordings. Unique.
 std::string name_of(platform::Key key);
-/// The key of that name; nothing if there is none.
+/// The key of that name; nullopt if there is none.
 std::optional<platform::Key> key_named(std::string_view name);
 
 }  // namespace rowland::demo

@@ -71,8 +71,8 @@ void Play::apply(const PlayEvent& event) {
     if (const auto* input = std::get_if<platform::InputEvent>(&event)) input_.apply(*input);
     if (const auto* resize = std::get_if<ResizeEvent>(&event)) window_ = glm::max(resize->size, glm::ivec2(1));
     if (const auto* chosen = std::get_if<ActionEvent>(&event))
-        if (!perform(chosen->action)) orders_.emplace_back(chosen->action);
-    if (const auto* setting = std::get_if<SettingEvent>(&event)) orders_.emplace_back(*setting);
+        if (!perform(chosen->action)) commands_.emplace_back(chosen->action);
+    if (const auto* setting = std::get_if<SettingEvent>(&event)) commands_.emplace_back(*setting);
 }
 
 void Play::read_keys() {
@@ -86,7 +86,7 @@ void Play::read_keys() {
         }
         held_steps_[i] = state.down ? held_steps_[i] + 1 : 0;
         const bool acts = state.pressed || (rows[i].repeats && acts_again(held_steps_[i]));
-        if (acts && !perform(rows[i].action)) orders_.emplace_back(rows[i].action);
+        if (acts && !perform(rows[i].action)) commands_.emplace_back(rows[i].action);
     }
 }
 
@@ -95,7 +95,7 @@ bool Play::perform(Action action) {
         case Action::Walk:
             toggle_walking();
             return true;
-        case Action::Close:  // the key first ends what it can
+        case Action::Close:  // ends walking first
             if (!walking()) return false;
             toggle_walking();
             return true;
@@ -132,8 +132,8 @@ bool Play::perform(Action action) {
     }
 }
 
-std::vector<Play::Order> Play::take_orders() {
-    return std::exchange(orders_, {});
+std::vector<Play::Command> Play::take_commands() {
+    return std::exchange(commands_, {});
 }
 
 double Play::speed() const {
@@ -154,13 +154,13 @@ std::optional<std::size_t> Play::held_body() const {
 }
 
 glm::dvec2 Play::pointer() const {
-    // A walker looks at what lies in the middle; so does one who only has a game pad.
+    // Walking, or with a game pad, the player points at the middle.
     const bool middle = walking() || input_.gamepad_button(kPadGrab).down;
     return middle ? 0.5 * glm::dvec2(window_) : input_.mouse_position();
 }
 
-std::optional<Hit> Play::hit_at(glm::dvec2 place) const {
-    return pick(world_, toys_.targets, ray_through(camera(), place, window_));
+std::optional<Hit> Play::hit_at(glm::dvec2 point) const {
+    return pick(world_, toys_.targets, ray_through(camera(), point, window_));
 }
 
 void Play::try_to_grab() {
@@ -187,10 +187,10 @@ bool Play::move_hand() {
     const HandMove move{.drag = mouse + stick,
                         .wheel = static_cast<float>(input_.scroll().y),
                         .about_own_axis = input_.key(key_of(Held::Spin)).down};
-    const bool opens = !button.down && !pad.down;
-    // A step that only lets go says nothing of the hand's speed.
-    if (!opens || move.drag != glm::vec2(0.0F)) hand_->move(world_, toys_.bodies[hand_->body()], move, kStep_s);
-    if (opens) let_go();
+    const bool released = !button.down && !pad.down;
+    // A step with only the release does not tell the hand's speed.
+    if (!released || move.drag != glm::vec2(0.0F)) hand_->move(world_, toys_.bodies[hand_->body()], move, kStep_s);
+    if (released) let_go();
     return true;
 }
 
@@ -222,16 +222,16 @@ void Play::put_back() {
 }
 
 void Play::add_light() {
-    // In front of what is pointed at, as far from it as it takes to light a good part of what is in view.
-    constexpr float kShareOfDistance = 0.25F;
+    // In front of what is pointed at, far enough from it to light a good part of what is in view.
+    constexpr float kReachInDistances = 0.25F;
     const scene::Camera seen_from = camera();
     const Ray ray = ray_through(seen_from, pointer(), window_);
     const auto hit = pick(world_, toys_.targets, ray);
     const float distance = hit ? hit->triangle.distance : glm::length(seen_from.target - seen_from.eye);
-    const float reach = kShareOfDistance * distance;
-    const glm::vec3 place = ray.origin + (distance - reach) * ray.direction + glm::vec3(0.0F, 0.5F * reach, 0.0F);
+    const float reach = kReachInDistances * distance;
+    const glm::vec3 position = ray.origin + (distance - reach) * ray.direction + glm::vec3(0.0F, 0.5F * reach, 0.0F);
     const glm::quat turned = world_.get<scene::Transform>(toys_.root).rotation;
-    if (lights_.add(world_, toys_.root, glm::conjugate(turned) * place, reach))
+    if (lights_.add(world_, toys_.root, glm::conjugate(turned) * position, reach))
         log_info("{} lights", light_count(world_));
     else
         log_info("{} lights are the most", light_count(world_));
@@ -239,7 +239,7 @@ void Play::add_light() {
 
 void Play::turn_environment(double radians) {
     turn_ = std::remainder(turn_ + radians, 2.0 * std::numbers::pi);
-    // The environment stays and everything else turns the other way: the same picture.
+    // The environment stays, and everything else turns the other way: the picture is the same.
     world_.get<scene::Transform>(toys_.root).rotation = glm::quat(glm::angleAxis(-turn_, glm::dvec3(0.0, 1.0, 0.0)));
 }
 

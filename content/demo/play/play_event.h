@@ -9,16 +9,16 @@
 
 namespace rowland::demo {
 
-/// The window has this size now, in the mouse's units; each >= 1.
+/// The window's new size, in the mouse's units; each >= 1.
 struct ResizeEvent {
     glm::ivec2 size{1};
 };
-/// An action was called for otherwise than by its key, say in a menu.
+/// An action that was chosen in a panel, not by its key.
 struct ActionEvent {
     Action action;
 };
 
-/// All that a play depends on besides the scene: the same events at the same steps make the same play.
+/// All input of a play besides the scene: the same events at the same steps make the same play.
 using PlayEvent = std::variant<platform::InputEvent, ResizeEvent, ActionEvent, SettingEvent>;
 
 }  // namespace rowland::demo

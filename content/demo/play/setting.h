@@ -7,10 +7,10 @@
 
 namespace rowland::demo {
 
-/// What the user sets to a value of his own, say with a slider, where an action only goes on to the next.
+/// What the user sets to a value, say with a slider; an Action only steps to the next one.
 enum class Setting { Exposure, Bloom, Vignette, Wipe, WipeLine, Probe, View, LeftLook, RightLook };
 
-/// What a setting may be. Those without a range are texts.
+/// The name and values of a setting. One without a range is a text.
 struct SettingKind {
     Setting setting;
     const char* name;  ///< as recordings write it
@@ -27,7 +27,7 @@ std::optional<Setting> setting_named(std::string_view name);
 struct SettingEvent {
     Setting setting;
     std::variant<double, std::string> value;  ///< a number within the range, or a text
-    std::string object = {};                  ///< whose look it is; empty: all of them
+    std::string object = {};                  ///< whose look it is; empty: of all
 
     friend bool operator==(const SettingEvent&, const SettingEvent&) = default;
 };

@@ -66,7 +66,7 @@ TEST(DemoPick, PlacementFollowsTheChainOfParents) {
     test::SmallWorld small;
     scene::update_world_matrices(small.world);
     for (const ecs::Entity entity : {small.root, small.stand, small.left, small.right})
-        EXPECT_EQ(placement(small.world, entity), small.world.get<scene::WorldMatrix>(entity).matrix);
+        EXPECT_EQ(object_to_world(small.world, entity), small.world.get<scene::WorldMatrix>(entity).matrix);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "editor/inspector/latest_task.h"
+#include "engine/core/latest_task.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <thread>
 
-namespace rowland::inspector {
+namespace rowland {
 namespace {
 
 /// The next outcome; fails after a minute.
@@ -67,4 +67,4 @@ TEST(LatestTask, WhatWasCancelledHasNoOutcome) {
 }
 
 }  // namespace
-}  // namespace rowland::inspector
+}  // namespace rowland

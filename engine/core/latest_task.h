@@ -8,17 +8,17 @@
 #include <string>
 #include <utility>
 
-namespace rowland::inspector {
+namespace rowland {
 
-/// Work beside the frames of which only the newest counts: what is started while another runs waits for it, asks it to
-/// stop, and takes the place of what waited before. Used from one thread, which never waits but in the destructor.
+/// Background work of which only the newest counts: a start while another work runs asks that one to stop, waits for
+/// its end, and replaces what waited before. Used from one thread, which blocks in the destructor only.
 template <typename T>
 class LatestTask {
  public:
     using Work = std::function<T(std::stop_token)>;
 
     struct Outcome {
-        std::optional<T> value;  ///< nothing if it failed
+        std::optional<T> value;  ///< nullopt if it failed
         std::string failure;
     };
 
@@ -36,7 +36,7 @@ class LatestTask {
         if (!running_.valid()) begin();
     }
 
-    /// What runs is asked to stop, and its outcome is dropped.
+    /// Asks the running work to stop and drops its outcome.
     void cancel() {
         stop_.request_stop();
         waiting_ = nullptr;
@@ -44,7 +44,7 @@ class LatestTask {
 
     bool busy() const { return running_.valid() || waiting_ != nullptr; }
 
-    /// Once a frame: the outcome of what has ended, if nothing newer waits and nobody cancelled it.
+    /// To be called once per frame: the outcome of work that has ended, unless it was cancelled or newer work waits.
     std::optional<Outcome> poll() {
         if (!running_.valid() || running_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
             return std::nullopt;
@@ -73,4 +73,4 @@ class LatestTask {
     std::future<T> running_;
 };
 
-}  // namespace rowland::inspector
+}  // namespace rowland
