@@ -30,7 +30,7 @@ void settle(Session& session) {
 }
 
 void require_picture(const Session& session) {
-    if (session.preview().ready()) return;
+    if (session.ready()) return;
     throw Error({.file = {},
                  .place = {},
                  .found = session.messages().empty() ? "no light" : session.messages().back().text,

@@ -16,12 +16,13 @@ namespace {
 constexpr std::uint64_t kLargestMaterial = 1 << 20;
 constexpr std::size_t kMostSteps = 1000;
 
-/// What the module makes of it.
-diffraction::Material parse(const Json& material, const std::string& file, const std::filesystem::path& folder) {
-    return diffraction::parse_material(nlohmann::json::parse(material.dump()), file, diffraction::read_beside(folder));
+std::shared_ptr<const MaterialSource> accept(const Json& material, const std::string& file,
+                                             const std::filesystem::path& folder) {
+    return std::make_shared<const MaterialSource>(MaterialSource{
+        material, diffraction::parse_material(nlohmann::json(material), file, diffraction::read_beside(folder)), file});
 }
 
-/// A name relative to one folder, relative to another.
+/// Rewrites a file name that is relative to one folder so that it is relative to another.
 void move_name(Json& name, const std::filesystem::path& from, const std::filesystem::path& to) {
     if (!name.is_string()) return;
     const std::filesystem::path file = name.get<std::string>();
@@ -29,7 +30,7 @@ void move_name(Json& name, const std::filesystem::path& from, const std::filesys
     name = require_utf8(std::filesystem::proximate(from / file, to), "rename it, or save elsewhere");
 }
 
-/// The material with the files it names named from another folder.
+/// The material with its file names relative to another folder.
 Json moved(Json material, const std::filesystem::path& from, const std::filesystem::path& to) {
     Json& profile = material["grating"]["profile"];
     if (profile.contains("file")) move_name(profile["file"], from, to);
@@ -47,7 +48,7 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
     return std::filesystem::absolute(path).parent_path();
 }
 
-/// A file of that name that is not there yet: cd.unsaved.json, cd.unsaved-2.json, …
+/// The first name that does not exist yet: cd.unsaved.json, cd.unsaved-2.json, …
 std::filesystem::path unsaved_file(const std::filesystem::path& folder, const std::string& name) {
     const std::string stem = std::filesystem::path(name).stem().string();
     std::filesystem::path file = folder / (stem + ".unsaved.json");
@@ -58,17 +59,14 @@ std::filesystem::path unsaved_file(const std::filesystem::path& folder, const st
 }  // namespace
 
 Document::Document(Json material, std::string name, std::filesystem::path folder)
-    : name_(std::move(name)),
-      folder_(std::move(folder)),
-      material_(parse(material, name_, folder_)),
-      good_json_(material) {
+    : name_(std::move(name)), folder_(std::move(folder)), accepted_(accept(material, name_, folder_)) {
     steps_.push_back(std::move(material));
 }
 
 Document Document::open(const std::filesystem::path& path) {
     Document document = open_as_new(path);
     document.path_ = path;
-    document.saved_ = document.json();
+    document.saved_ = document.accepted_;
     return document;
 }
 
@@ -101,8 +99,7 @@ void Document::replace_quality(const Json& quality) {
 void Document::edit(Json edited, const Field* field) {
     if (edited == json()) return;
     steps_.resize(at_ + 1);
-    const bool goes_on = field != nullptr && field == editing_ && at_ > 0;
-    if (goes_on) {
+    if (field != nullptr && field == editing_ && at_ > 0) {
         steps_[at_] = std::move(edited);
     } else {
         steps_.push_back(std::move(edited));
@@ -114,68 +111,64 @@ void Document::edit(Json edited, const Field* field) {
 }
 
 void Document::undo() {
-    if (!can_undo()) return;
-    --at_;
-    editing_ = nullptr;
-    reparse();
+    if (can_undo()) move_to(at_ - 1);
 }
 
 void Document::redo() {
-    if (!can_redo()) return;
-    ++at_;
+    if (can_redo()) move_to(at_ + 1);
+}
+
+void Document::move_to(std::size_t step) {
+    at_ = step;
     editing_ = nullptr;
     reparse();
 }
 
 void Document::reparse() {
     refusal_.reset();
-    if (json() == good_json_) return;
+    if (json() == accepted_->json) return;
     try {
-        material_ = parse(json(), name_, folder_);
-        good_json_ = json();
-        ++version_;
+        accepted_ = accept(json(), name_, folder_);
     } catch (const Error& error) {
         const Field* field = field_of_refusal(error.info().place);
-        // A file that the material names is refused by its own rows.
+        // The parser names the table's file, not the material's, if a row of the table is wrong.
         if (field == nullptr && error.info().file != name_) field = &field_at("/grating/profile/file");
         refusal_ = Refusal{field, error.what()};
     }
 }
 
-void Document::require_sane() const {
+void Document::require_accepted() const {
     if (refusal_)
         throw Error({.file = name_,
                      .place = {},
                      .found = refusal_->message,
                      .expected = "a material that can be cooked",
-                     .remedy = "nothing was written; mend the field or undo"});
+                     .remedy = "nothing was written; correct the field or undo"});
 }
 
 void Document::save() {
-    require_sane();
+    require_accepted();
     if (path_.empty())
         throw Error({.file = name_,
                      .place = {},
                      .found = "a new material",
-                     .expected = "a place to save it",
+                     .expected = "a file to save it to",
                      .remedy = "save it under a name"});
     write_file_atomic(path_, format_json(json()));
-    saved_ = json();
+    saved_ = accepted_;
     editing_ = nullptr;
 }
 
 void Document::save_as(const std::filesystem::path& path) {
-    require_sane();
+    require_accepted();
     const std::filesystem::path folder = folder_of(path);
     Json there = moved(json(), folder_, folder);
     write_file_atomic(path, format_json(there));
     path_ = path;
     name_ = path.filename().string();
     folder_ = folder;
-    if (there != json()) {
-        edit(std::move(there), nullptr);
-    }
-    saved_ = json();
+    edit(std::move(there), nullptr);
+    saved_ = accepted_;
     editing_ = nullptr;
 }
 

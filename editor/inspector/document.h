@@ -1,7 +1,7 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,31 +18,35 @@ struct Refusal {
     std::string message;
 };
 
-/// A material file that is being edited: what it says, what the module makes of it, the way back. A value that the
-/// module's parser refuses stays where it was put, and the last good material stays beside it.
+/// A material that the module's parser accepted, with its source. Never changes, so the pointer to it is its identity.
+struct MaterialSource {
+    Json json;
+    diffraction::Material material;
+    std::string name;  ///< of the file, for messages
+};
+
+/// A material file in the editor, with its history for undo and redo. A value that the module's parser refuses stays in
+/// json(); accepted() is then still the last material without such a value.
 class Document {
  public:
     /// Opens a material file. Throws Error (input) if it is refused; nothing is written.
     static Document open(const std::filesystem::path& path);
-    /// Opens a file as a start for a new material: it is never written over. Throws likewise.
+    /// Opens a file as the start of a new material, which save() does not write over. Throws Error (input).
     static Document open_as_new(const std::filesystem::path& path);
-    /// A new material. `folder`: where files that it names are. Throws Error (input) naming `name`.
+    /// A new material. Files that it names are relative to `folder`. Throws Error (input) naming `name`.
     static Document make_new(Json material, std::string name, std::filesystem::path folder);
 
     const Json& json() const { return steps_[at_]; }
-    /// The last material that was not refused.
-    const diffraction::Material& material() const { return material_; }
-    /// Its source.
-    const Json& good_json() const { return good_json_; }
-    /// Grows whenever material() changes.
-    std::uint64_t version() const { return version_; }
+    /// The last material that was not refused; another pointer whenever it changes.
+    const std::shared_ptr<const MaterialSource>& accepted() const { return accepted_; }
+    const diffraction::Material& material() const { return accepted_->material; }
     const std::optional<Refusal>& refusal() const { return refusal_; }
 
-    /// Edits. Those of one field between two calls of finish_edit() are one step back.
+    /// Edits. All edits of one field between two calls of finish_edit() are one step of undo.
     void set_value(const Field& field, const Json& value);
     void set_choice(const Field& field, const std::string& name);
     void revert(const Field& field);
-    /// Several members at once, as one step: the quality that a budget chose.
+    /// Replaces all members of the quality in one step.
     void replace_quality(const Json& quality);
     void finish_edit() { editing_ = nullptr; }
 
@@ -51,43 +55,40 @@ class Document {
     void undo();
     void redo();
 
-    /// Whether there is something that no file holds.
-    bool dirty() const { return !saved_ || *saved_ != json(); }
-    /// The material as saved last; null if it never was.
-    const Json* saved() const { return saved_ ? &*saved_ : nullptr; }
+    /// Whether json() differs from the file, or there is no file.
+    bool dirty() const { return !saved_ || saved_->json != json(); }
+    /// The material in the file; null if there is none.
+    const std::shared_ptr<const MaterialSource>& saved() const { return saved_; }
     /// Where save() writes; empty for a new material.
     const std::filesystem::path& path() const { return path_; }
-    /// The file's name, or what a new material was made from.
+    /// The file's name, or that of the file a new material started from.
     const std::string& name() const { return name_; }
-    /// Where files that the material names are.
-    const std::filesystem::path& folder() const { return folder_; }
 
-    /// Writes the file whole or not at all. Throws Error: (input) if the material is refused as it is, or there is no
-    /// path; (system) if it cannot be written. The document is then as it was.
+    /// Writes the file completely or not at all. Throws Error: (input) if json() is refused or there is no path;
+    /// (system) if the file cannot be written. The document is unchanged then.
     void save();
-    /// The same elsewhere; files that the material names stay where they are, named from the new place.
+    /// Writes another file. Files that the material names stay where they are; their relative names are adapted.
     void save_as(const std::filesystem::path& path);
-    /// Writes edits that no file holds, refused or not, to a new file, when the program must end: cd.unsaved.json
-    /// beside cd.json; for a new material in the current folder; in the temporary one if that cannot be written.
-    /// Nothing if there are none. Throws Error (system).
+    /// Writes unsaved edits, refused or not, to a new file when the program must end: cd.unsaved.json beside cd.json;
+    /// for a new material into the current folder; into the temporary folder if that fails. Returns nullopt if there
+    /// are no edits. Throws Error (system).
     std::optional<std::filesystem::path> rescue() const;
 
  private:
     Document(Json material, std::string name, std::filesystem::path folder);
     void edit(Json edited, const Field* field);
+    void move_to(std::size_t step);
     void reparse();
-    void require_sane() const;
+    void require_accepted() const;
 
     std::vector<Json> steps_;
     std::size_t at_ = 0;
-    const Field* editing_ = nullptr;  ///< whose edits the last step holds
-    std::optional<Json> saved_;
+    const Field* editing_ = nullptr;  ///< further edits of this field change the last step
+    std::shared_ptr<const MaterialSource> saved_;
     std::filesystem::path path_;
     std::string name_;
     std::filesystem::path folder_;
-    diffraction::Material material_;
-    Json good_json_;
-    std::uint64_t version_ = 1;
+    std::shared_ptr<const MaterialSource> accepted_;
     std::optional<Refusal> refusal_;
 };
 

@@ -14,77 +14,50 @@ namespace rowland::inspector {
 
 namespace {
 
-/// The members of a material file in the order they are usually written.
-constexpr std::array kUsualOrder = {
-    "grating",        "pitch_nm",       "grooves", "profile",       "type",        "width_nm",  "duty",
-    "depth_nm",       "file",           "orders",  "normalization", "groove_lobe", "sigma",     "pits",
-    "length_nm",      "coherent",       "metal",   "base",          "color",       "roughness", "quality",
-    "representation", "max_error",      "probes",  "surface",       "bands",       "rank",      "spikes",
-    "bins",           "map_resolution", "nodes",   "taps",          "key_lights",  "lights_at", "illuminant"};
+/// Members in the order of files. Others go to the end of their object.
+constexpr std::array kFileOrder = {"grating",     "pitch_nm", "grooves", "profile", "orders",    "normalization",
+                                   "groove_lobe", "metal",    "base",    "color",   "roughness", "quality"};
 
-std::size_t place_of(const std::string& key) {
-    return static_cast<std::size_t>(std::find(kUsualOrder.begin(), kUsualOrder.end(), key) - kUsualOrder.begin());
+auto position_in_file(const std::string& key) {
+    return std::find(kFileOrder.begin(), kFileOrder.end(), key) - kFileOrder.begin();
 }
 
-/// Adds a member before the first that usually comes after it.
+/// Adds a member before the first that follows it in files.
 void insert(Json& object, const std::string& key, const Json& value) {
-    Json result = Json::object();
-    bool inserted = false;
-    for (const auto& [name, member] : object.items()) {
-        if (!inserted && place_of(name) > place_of(key)) {
-            result[key] = value;
-            inserted = true;
-        }
-        result[name] = member;
-    }
-    if (!inserted) result[key] = value;
-    object = std::move(result);
+    auto& members = object.get_ref<Json::object_t&>();
+    const auto next = std::find_if(members.begin(), members.end(), [&](const auto& member) {
+        return position_in_file(member.first) > position_in_file(key);
+    });
+    Json::object_t result(members.begin(), next);
+    result.push_back({key, value});
+    for (auto later = next; later != members.end(); ++later) result.push_back(*later);
+    members = std::move(result);
 }
 
-std::vector<std::string> steps(std::string_view pointer) {
-    std::vector<std::string> result;
-    while (!pointer.empty()) {
-        pointer.remove_prefix(1);
-        const std::size_t end = std::min(pointer.find('/'), pointer.size());
-        result.emplace_back(pointer.substr(0, end));
-        pointer.remove_prefix(end);
-    }
-    return result;
+const Json* find(const Json& material, const std::string& pointer) {
+    const Json::json_pointer at(pointer);
+    return material.contains(at) ? &material.at(at) : nullptr;
 }
 
-const Json* find(const Json& material, std::string_view pointer) {
-    const Json* at = &material;
-    for (const std::string& step : steps(pointer)) {
-        if (!at->is_object() || !at->contains(step)) return nullptr;
-        at = &(*at)[step];
-    }
-    return at;
-}
-
-bool is_choice(const Json& value, const Choice& choice, const std::string& told_by) {
-    if (!told_by.empty()) {
-        const auto tell = [&](const Json& json) {
-            return json.is_object() && json.contains(told_by) ? json[told_by] : Json();
-        };
-        return tell(value) == tell(choice.value);
-    }
-    if (!value.is_object() || !choice.value.is_object()) return value == choice.value;
+bool is_choice(const Json& value, const Choice& choice, const std::string& discriminator) {
+    if (!value.is_object() || !choice.value.is_object()) return discriminator.empty() && value == choice.value;
+    if (!discriminator.empty()) return value.value(discriminator, Json()) == choice.value.value(discriminator, Json());
     return std::all_of(choice.value.items().begin(), choice.value.items().end(),
                        [&](const auto& member) { return value.contains(member.key()); });
 }
 
-/// What another choice may keep: the members that mean the same there.
-Json carried_over(const Json& from, const Choice& to, const std::string& told_by) {
+/// The value of another choice, with the members of `from` that it has, too.
+Json carried_over(const Json& from, const Choice& to, const std::string& discriminator) {
     Json result = to.value;
     if (!from.is_object() || !result.is_object()) return result;
     for (const auto& [key, member] : from.items())
-        if (key != told_by && result.contains(key)) result[key] = member;
+        if (key != discriminator && result.contains(key)) result[key] = member;
     return result;
 }
 
-/// Whole numbers are written without a fraction.
+/// Whole numbers without a fraction.
 Json plain(const Json& value) {
-    constexpr double kExact = 9e15;  // whole doubles below are whole numbers
+    constexpr double kExact = 9e15;  // up to here every double with a zero fraction converts exactly
     if (!value.is_number_float()) return value;
     const double number = value.get<double>();
     if (number != std::floor(number) || std::abs(number) > kExact) return value;
@@ -101,12 +74,12 @@ const Field& field_at(std::string_view pointer) {
     return *found;
 }
 
-const Field* field_of_refusal(std::string_view place) {
+const Field* field_of_refusal(std::string_view pointer) {
     const Field* best = nullptr;
     for (const Field& field : fields()) {
-        const std::string& pointer = field.pointer;
-        const bool begins = place == pointer || (place.starts_with(pointer) && place[pointer.size()] == '/');
-        if (begins && (best == nullptr || pointer.size() > best->pointer.size())) best = &field;
+        const std::string& own = field.pointer;
+        const bool contains = pointer == own || (pointer.starts_with(own) && pointer[own.size()] == '/');
+        if (contains && (best == nullptr || own.size() > best->pointer.size())) best = &field;
     }
     return best;
 }
@@ -119,40 +92,43 @@ bool is_shown(const Field& field, const Json& material) {
 
 Json value_of(const Field& field, const Json& material) {
     const Json* found = find(material, field.pointer);
-    return found != nullptr ? *found : field.usual;
+    return found != nullptr ? *found : field.default_value;
 }
 
 bool can_revert(const Field& field, const Json& material) {
     const Json* found = find(material, field.pointer);
-    return field.required ? found == nullptr || *found != field.usual : found != nullptr;
+    return field.required ? found == nullptr || *found != field.default_value : found != nullptr;
 }
 
 std::string choice_of(const Field& field, const Json& material) {
     const Json value = value_of(field, material);
     for (const Choice& choice : field.choices)
-        if (is_choice(value, choice, field.told_by)) return choice.name;
+        if (is_choice(value, choice, field.discriminator)) return choice.name;
     return {};
 }
 
 Json with_value(const Json& material, const Field& field, const Json& value) {
     Json result = material;
     Json* at = &result;
-    const std::vector<std::string> path = steps(field.pointer);
-    for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    std::string_view rest = field.pointer;
+    for (;;) {
+        rest.remove_prefix(1);
+        const std::size_t end = std::min(rest.find('/'), rest.size());
+        const std::string key(rest.substr(0, end));
+        rest.remove_prefix(end);
         if (!at->is_object()) *at = Json::object();
-        if (!at->contains(path[i])) {
-            if (value.is_null()) return result;
-            insert(*at, path[i], Json::object());
+        if (rest.empty() && value.is_null()) {
+            at->erase(key);
+            return result;
         }
-        at = &(*at)[path[i]];
+        if (!at->contains(key)) {
+            if (value.is_null()) return result;
+            insert(*at, key, Json::object());
+        }
+        at = &(*at)[key];
+        if (rest.empty()) break;
     }
-    if (!at->is_object()) *at = Json::object();
-    if (value.is_null())
-        at->erase(path.back());
-    else if (at->contains(path.back()))
-        (*at)[path.back()] = plain(value);
-    else
-        insert(*at, path.back(), plain(value));
+    *at = plain(value);
     return result;
 }
 
@@ -172,15 +148,15 @@ Json with_choice(const Json& material, const Field& field, const std::string& na
     const auto found = std::find_if(field.choices.begin(), field.choices.end(),
                                     [&](const Choice& choice) { return choice.name == name; });
     ROWLAND_CHECK(found != field.choices.end(), fmt::format("{} has no choice {}", field.pointer, name));
-    Json value = carried_over(value_of(field, material), *found, field.told_by);
-    // Every quality knows its illuminant.
+    Json value = carried_over(value_of(field, material), *found, field.discriminator);
+    // Every quality has an illuminant.
     const Json* illuminant = find(material, "/quality/illuminant");
     if (field.pointer == "/quality" && illuminant != nullptr) value["illuminant"] = *illuminant;
     return with_value(material, field, value);
 }
 
 Json reverted(const Json& material, const Field& field) {
-    return with_value(material, field, field.required ? field.usual : Json());
+    return with_value(material, field, field.required ? field.default_value : Json());
 }
 
 Json parse_orders(std::string_view text) {

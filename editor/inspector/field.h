@@ -16,33 +16,33 @@ enum class FieldKind {
     Choice,  ///< one of `choices`
     Orders,  ///< a list of whole numbers, or "all"
     Colour,  ///< three numbers in [0, 1], linear
-    Name,    ///< of a file beside the material
+    Name,    ///< of a file that lies beside the material
 };
 
-/// What a field may be set to by name. A choice that is an object brings the members it starts with.
+/// A value that a field is set to by name. An object holds the members that the choice starts with.
 struct Choice {
     std::string name;
     Json value;  ///< null: the member is left out
 };
 
-/// One field of a material file: this description drives the editor, its ranges, its tooltips and reverting.
+/// One field of a material file: the editor's control, its range, its tooltip and its reset value.
 struct Field {
-    std::string pointer;  ///< JSON pointer; refusals of the module's parser name the same place
+    std::string pointer;  ///< JSON pointer, as in the refusals of the module's parser
     std::string label;
     std::string unit{};  ///< empty: none
     FieldKind kind = FieldKind::Number;
-    double minimum = 0.0;  ///< ends of the slider; the parser alone says what is allowed
+    double minimum = 0.0;  ///< ends of the slider; only the parser decides what is allowed
     double maximum = 1.0;
     bool logarithmic = false;  ///< the slider
-    Json usual{};              ///< what an absent member means, and what reverting a required one sets
-    bool required = false;     ///< reverting sets `usual` in place of leaving the member out
+    Json default_value{};      ///< of an absent member
+    bool required = false;     ///< reverting sets `default_value` instead of removing the member
     std::vector<Choice> choices{};
-    /// Member that tells choices apart which are objects; empty: each has members of its own, or is no object.
-    std::string told_by{};
-    /// Shown only where the choice of another field is one of these; empty: always.
-    std::string only_with{};  ///< that field's pointer
+    /// The member whose value identifies a choice that is an object; empty: the names of its members identify it.
+    std::string discriminator{};
+    /// Shown only if the choice of the field `only_with` (a pointer) is one of `only_for`; empty: always.
+    std::string only_with{};
     std::vector<std::string> only_for{};
-    std::string help{};    ///< what it does and what it may be
+    std::string help{};    ///< the effect and the allowed values
     std::string source{};  ///< of the formula
 };
 
@@ -52,38 +52,37 @@ std::span<const Field> fields();
 /// The field at a JSON pointer. A contract violation if there is none.
 const Field& field_at(std::string_view pointer);
 
-/// The field that a refusal at `place` is about: the one whose pointer is the longest beginning of it; null if none.
-const Field* field_of_refusal(std::string_view place);
+/// The field that contains the JSON pointer of a refusal; the innermost of several, null if none does.
+const Field* field_of_refusal(std::string_view pointer);
 
-/// Whether the field means something to the material.
+/// Whether the field has a meaning for the material.
 bool is_shown(const Field& field, const Json& material);
 
-/// The field's value, or what its absence means.
+/// The field's value, or its default if the member is absent.
 Json value_of(const Field& field, const Json& material);
 
 /// Whether reverting would change the material.
 bool can_revert(const Field& field, const Json& material);
 
-/// Name of the present choice; empty if it is none of them.
+/// Name of the present choice; empty if the value is none of them.
 std::string choice_of(const Field& field, const Json& material);
 
-/// The material with a field set; null leaves the member out. New members go where files usually have them.
+// Edits return the changed material.
+
+/// Sets a field; null removes the member. A new member is inserted where files usually have it.
 Json with_value(const Json& material, const Field& field, const Json& value);
-
-/// The material with another pitch; a slit keeps its share of it.
+/// Sets the pitch. The width of a slit stays the same fraction of it.
 Json with_pitch(const Json& material, double pitch_nm);
-
-/// The material with another choice. Members that both choices have keep their values.
+/// Makes another choice. Members that both choices have keep their values.
 Json with_choice(const Json& material, const Field& field, const std::string& name);
-
-/// The material with the field as it is when nobody has set it.
+/// Sets the field to its default.
 Json reverted(const Json& material, const Field& field);
 
-/// "-2 -1, 1 2" or "all" as the value of an Orders field; other text as itself, for the parser to refuse.
+/// "-2 -1, 1 2" or "all" as the value of an Orders field; other text is returned unchanged, for the parser to refuse.
 Json parse_orders(std::string_view text);
 std::string format_orders(const Json& orders);
 
-/// Grooves a millimetre ↔ nanometres between two. A pitch comes out in whole picometres, so that files stay legible.
+/// Converts between the pitch and lines per millimetre. A pitch is rounded to 0.001 nm, so that files stay readable.
 double lines_per_mm(double pitch_nm);
 double pitch_of_lines(double per_mm);
 

@@ -120,7 +120,8 @@ void MaterialPanel::draw_field(Document& document, const Field& field, ControlMa
         if (ImGui::SmallButton("↺")) document.revert(field);
         controls.mark(field.pointer + " revert");
         if (ImGui::IsItemHovered())
-            ImGui::SetTooltip("Revert to %s", field.usual.is_null() ? "none" : field.usual.dump().c_str());
+            ImGui::SetTooltip("Revert to %s",
+                              field.default_value.is_null() ? "none" : field.default_value.dump().c_str());
     }
     // Reverting may have changed what is refused.
     if (refused && document.refusal()) {

@@ -125,7 +125,7 @@ void PhysicsPanel::draw_efficiencies(const Session& session) const {
     const std::vector<double> wavelengths = plotted_wavelengths();
     const auto curves = efficiency_curves(session.document().material().grating, wavelengths);
     std::vector<EfficiencyCurve> other;
-    if (session.compared()) other = efficiency_curves(*session.compared(), wavelengths);
+    if (const auto compared = session.compared()) other = efficiency_curves(*compared, wavelengths);
     double top = 0.0;
     for (const auto* list : {&curves, static_cast<const std::vector<EfficiencyCurve>*>(&other)})
         for (const EfficiencyCurve& curve : *list) top = std::max(top, highest({&curve.efficiency}));
@@ -224,12 +224,12 @@ void PhysicsPanel::draw_directions(const diffraction::Grating& grating) const {
 }
 
 void PhysicsPanel::draw_point(const Session& session, ControlMap& controls) const {
-    const auto& slow = session.slow_numbers();
-    if (!slow) {
+    const PointNumbers* numbers = session.point_numbers();
+    if (numbers == nullptr) {
         ImGui::TextDisabled("Computing…");
         return;
     }
-    const std::vector<double>& spectrum = slow->point.spectrum;
+    const std::vector<double>& spectrum = numbers->radiance.spectrum;
     Plot plot("##spectrum", plot_height(), {380.0, 780.0, "wavelength, nm"}, {0.0, 1.1 * highest({&spectrum}), ""});
     for (std::size_t i = 0; i < spectrum.size(); ++i) {
         const double nm = 380.0 + static_cast<double>(i);
@@ -237,11 +237,11 @@ void PhysicsPanel::draw_point(const Session& session, ControlMap& controls) cons
         const ImVec2 right = plot.at(nm + 1.0, 0.0);
         plot.draw().AddRectFilled(top, {right.x + 0.5F, plot.maximum().y}, wavelength_colour(nm, 0.85F));
     }
-    const glm::dvec3 working = session.preview().xyz_to_working() * slow->point.reference;
+    const glm::dvec3 working = session.preview().xyz_to_working() * numbers->radiance.reference;
     glm::vec3 shown(working);
     display_.apply_cpu(std::span(&shown, 1), session.stage.exposure_stops);
-    row("XYZ, reference", numbers_of(slow->point.reference));
-    row("XYZ, as drawn", numbers_of(slow->point.drawn));
+    row("XYZ, reference", numbers_of(numbers->radiance.reference));
+    row("XYZ, as drawn", numbers_of(numbers->radiance.drawn));
     row("Working RGB", numbers_of(working));
     row("Display value", numbers_of(glm::dvec3(shown)));
     const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -257,17 +257,17 @@ void PhysicsPanel::draw_point(const Session& session, ControlMap& controls) cons
     } else {
         ImGui::TextDisabled("Click the picture to pick another point.");
     }
-    if (!session.slow_numbers_are_current()) ImGui::TextDisabled("Computing anew…");
-    controls.note("point", numbers_of(slow->point.reference));
+    if (!session.point_numbers_are_current()) ImGui::TextDisabled("Updating…");
+    controls.note("point", numbers_of(numbers->radiance.reference));
 }
 
 void PhysicsPanel::draw_sweep(const Session& session) const {
-    const auto& slow = session.slow_numbers();
-    if (!slow || slow->sweep.angles_deg.empty()) {
+    const PointNumbers* numbers = session.point_numbers();
+    if (numbers == nullptr) {
         ImGui::TextDisabled("Computing…");
         return;
     }
-    const ViewSweep& sweep = slow->sweep;
+    const ViewSweep& sweep = numbers->sweep;
     double lowest = 0.0;
     for (const double value : sweep.harmonics) lowest = std::min(lowest, value);
     Plot plot("##sweep", plot_height(), {-80.0, 80.0, "angle of view, degrees"},

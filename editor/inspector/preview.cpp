@@ -17,7 +17,7 @@ namespace rowland::inspector {
 namespace {
 
 constexpr glm::vec3 kUp(0.0F, 1.0F, 0.0F);
-constexpr glm::vec3 kPlace(0.0F, 0.052F, 0.0F);  ///< of the object, metres
+constexpr glm::vec3 kPosition(0.0F, 0.052F, 0.0F);  ///< of the object, metres
 
 /// How far each shape leans back, so that it shows its colours.
 float lean_deg(PreviewShape shape) {
@@ -25,20 +25,30 @@ float lean_deg(PreviewShape shape) {
     return shape == PreviewShape::Card || shape == PreviewShape::Sheet ? -28.0F : 0.0F;
 }
 
-glm::mat4 placed(PreviewShape shape) {
-    return glm::rotate(glm::translate(glm::mat4(1.0F), kPlace), glm::radians(lean_deg(shape)), {1.0F, 0.0F, 0.0F});
+constexpr int kFramesToFill = 90;  ///< upper bound of the frames that maps take to fill
+
+/// The probe's axes are kept; everything else turns the other way, which gives the same picture.
+glm::mat4 turn_of(const Stage& stage) {
+    return glm::rotate(glm::mat4(1.0F), -glm::radians(stage.rotation_deg), kUp);
+}
+
+glm::mat4 object_to_world(const PreviewInputs& inputs) {
+    return glm::rotate(glm::translate(turn_of(inputs.stage), kPosition), glm::radians(lean_deg(inputs.object->shape)),
+                       {1.0F, 0.0F, 0.0F});
+}
+
+scene::Camera turned_camera(const PreviewInputs& inputs) {
+    const glm::mat4 turn = turn_of(inputs.stage);
+    scene::Camera camera = opening_camera();
+    camera.eye = glm::vec3(turn * glm::vec4(inputs.eye, 1.0F));
+    camera.target = glm::vec3(turn * glm::vec4(inputs.target, 1.0F));
+    return camera;
 }
 
 glm::vec3 lamp_direction(const Stage& stage) {
     const float azimuth = glm::radians(stage.lamp_azimuth_deg);
     const float elevation = glm::radians(stage.lamp_elevation_deg);
     return {std::cos(elevation) * std::sin(azimuth), std::sin(elevation), std::cos(elevation) * std::cos(azimuth)};
-}
-
-scene::Camera turned(scene::Camera camera, const glm::mat4& turn) {
-    camera.eye = glm::vec3(turn * glm::vec4(camera.eye, 1.0F));
-    camera.target = glm::vec3(turn * glm::vec4(camera.target, 1.0F));
-    return camera;
 }
 
 }  // namespace
@@ -55,89 +65,66 @@ Preview::Side::Side(const post::OcioConfig& config, bool still) : picture(config
     diffraction::DiffractionSettings settings;
     if (still) settings.slices_per_frame = std::numeric_limits<int>::max();
     diffraction::register_module(picture.renderer(), settings);
-    object = world.create();
-    world.add(object, scene::Transform{});
+    entity = world.create();
+    world.add(entity, scene::Transform{});
 }
 
-void Preview::Side::show(const diffraction::CookedMaterial& cooked) {
-    auto material = diffraction::make_gpu_material(cooked, picture.xyz_to_working());
-    render::StandardMaterial base = material->base();
-    base.double_sided = true;
-    world.add(object, base);
-    world.add(object, diffraction::DiffractionSurface{std::move(material)});
+void Preview::Side::show(const PreviewInputs& inputs,
+                         const std::shared_ptr<const diffraction::CookedMaterial>& cooked) {
+    if (std::exchange(object, inputs.object) != inputs.object) world.add(entity, object->mesh);
+    if (std::exchange(light, inputs.light) != inputs.light) picture.set_probe(light->probe);
+    if (std::exchange(material, cooked) != cooked) {
+        auto uploaded = diffraction::make_gpu_material(*cooked, picture.xyz_to_working());
+        render::StandardMaterial base = uploaded->base();
+        base.double_sided = true;
+        world.add(entity, base);
+        world.add(entity, diffraction::DiffractionSurface{std::move(uploaded)});
+    }
 }
 
-void Preview::Side::place(const glm::mat4& object_to_world, const Stage& stage, const glm::mat4& turn) {
-    world.get<scene::Transform>(object) = {.translation = glm::vec3(object_to_world[3]),
-                                           .rotation = glm::quat_cast(glm::mat3(object_to_world))};
+void Preview::Side::draw(const PreviewInputs& inputs, float seconds) {
+    const glm::mat4 to_world = object_to_world(inputs);
+    const Stage& stage = inputs.stage;
+    world.get<scene::Transform>(entity) = {.translation = glm::vec3(to_world[3]),
+                                           .rotation = glm::quat_cast(glm::mat3(to_world))};
     if (stage.lamp) {
         if (!world.alive(lamp)) lamp = world.create();
-        world.add(lamp, scene::DirectionalLight{.direction = glm::normalize(glm::mat3(turn) * lamp_direction(stage)),
-                                                .irradiance = glm::vec3(stage.lamp_irradiance),
-                                                .casts_shadow = false});
+        world.add(lamp, scene::DirectionalLight{
+                            .direction = glm::normalize(glm::mat3(turn_of(stage)) * lamp_direction(stage)),
+                            .irradiance = glm::vec3(stage.lamp_irradiance),
+                            .casts_shadow = false});
     } else if (world.alive(lamp)) {
         world.destroy(lamp);
     }
     scene::update_world_matrices(world);
     picture.post_settings().exposure_stops = stage.exposure_stops;
+    picture.resize(inputs.size);
+    picture.draw(world, turned_camera(inputs), seconds);
 }
 
-Preview::Preview(const post::OcioConfig& config, bool still)
-    : config_(config), still_(still), now_(std::make_unique<Side>(config, still)) {
-    set_shape(PreviewShape::Disc, std::nullopt);
+void Preview::show(const PreviewInputs& inputs) {
+    ROWLAND_CHECK(inputs.object && inputs.light && inputs.material, "a preview needs an object, light and a material");
+    if (inputs == inputs_) return;
+    inputs_ = inputs;
+    unchanged_ = 0;
+    if (inputs.saved && !saved_) saved_.emplace(config_, still_);
+    now_.show(inputs, inputs.material);
+    if (inputs.saved) saved_->show(inputs, inputs.saved);
 }
 
-Preview::Side& Preview::saved_side() {
-    if (saved_) return *saved_;
-    saved_ = std::make_unique<Side>(config_, still_);
-    saved_->world.add(saved_->object, mesh_);
-    if (light_) saved_->picture.set_probe(light_->probe);
-    if (saved_material_) saved_->show(*saved_material_);
-    return *saved_;
-}
-
-void Preview::set_shape(PreviewShape shape, const std::optional<scene::Mesh>& model) {
-    ROWLAND_CHECK(shape != PreviewShape::Model || model, "a model is shown once there is one");
-    shape_ = shape;
-    mesh_ = render::make_mesh_instance(shape == PreviewShape::Model ? *model : preview_mesh(shape));
-    now_->world.add(now_->object, mesh_);
-    if (saved_) saved_->world.add(saved_->object, mesh_);
-}
-
-void Preview::set_light(std::shared_ptr<const InspectedLight> light) {
-    light_ = std::move(light);
-    now_->picture.set_probe(light_->probe);
-    if (saved_) saved_->picture.set_probe(light_->probe);
-}
-
-void Preview::set_material(std::shared_ptr<const diffraction::CookedMaterial> cooked) {
-    material_ = std::move(cooked);
-    now_->show(*material_);
-}
-
-void Preview::set_saved(std::shared_ptr<const diffraction::CookedMaterial> cooked) {
-    saved_material_ = std::move(cooked);
-    if (saved_ && saved_material_) saved_->show(*saved_material_);
-}
-
-void Preview::draw(glm::ivec2 size, const scene::Camera& camera, const Stage& stage, bool with_saved, float seconds) {
-    ROWLAND_CHECK(ready(), "a preview is drawn once it has light and a material");
-    // The probe stays where it is; all else turns the other way, which is the same picture.
-    const glm::mat4 turn = glm::rotate(glm::mat4(1.0F), -glm::radians(stage.rotation_deg), kUp);
-    camera_ = turned(camera, turn);
-    object_to_world_ = turn * placed(shape_);
-    aspect_ = static_cast<float>(size.x) / static_cast<float>(size.y);
-    const auto draw_side = [&](Side& side) {
-        side.place(object_to_world_, stage, turn);
-        side.picture.resize(size);
-        side.picture.draw(side.world, camera_, seconds);
-    };
-    draw_side(*now_);
-    if (with_saved && saved_material_) draw_side(saved_side());
+void Preview::draw(float seconds) {
+    if (unchanged_ > kFramesToFill) return;
+    ++unchanged_;
+    drawn_ = true;
+    now_.draw(inputs_, seconds);
+    if (inputs_.saved) saved_->draw(inputs_, seconds);
 }
 
 std::optional<diffraction::Frame> Preview::pick(const glm::vec2& at) const {
-    return pick_point(*mesh_.mesh, object_to_world_, ray_through(camera_, aspect_, at));
+    if (!drawn_) return std::nullopt;
+    const float aspect = static_cast<float>(inputs_.size.x) / static_cast<float>(inputs_.size.y);
+    return pick_point(*inputs_.object->mesh.mesh, object_to_world(inputs_),
+                      ray_through(turned_camera(inputs_), aspect, at));
 }
 
 }  // namespace rowland::inspector

@@ -18,11 +18,11 @@
 
 namespace rowland::inspector {
 
-/// How the material is lit and seen.
+/// Settings of light and exposure.
 struct Stage {
     float rotation_deg = 0.0F;  ///< of the surroundings about the vertical
     float exposure_stops = 0.0F;
-    bool lamp = false;  ///< a distant lamp beside the probe, fixed to the user
+    bool lamp = false;  ///< a distant lamp beside the probe; it does not turn with the surroundings
     float lamp_azimuth_deg = 35.0F;
     float lamp_elevation_deg = 50.0F;
     float lamp_irradiance = 3.0F;
@@ -30,65 +30,77 @@ struct Stage {
     friend bool operator==(const Stage&, const Stage&) = default;
 };
 
-/// The live picture of a material, and of its saved version beside it. Needs a current context.
+/// What the material is shown on. Never changes, so the pointer to it is its identity.
+struct PreviewObject {
+    PreviewShape shape = PreviewShape::Disc;
+    render::MeshInstance mesh;
+};
+
+/// All that the picture depends on.
+struct PreviewInputs {
+    glm::ivec2 size{0};
+    glm::vec3 eye{0.0F};     ///< of the user's camera, whose lens is opening_camera()'s
+    glm::vec3 target{0.0F};  ///< likewise
+    Stage stage;
+    std::shared_ptr<const PreviewObject> object;
+    std::shared_ptr<const InspectedLight> light;
+    std::shared_ptr<const diffraction::CookedMaterial> material;
+    std::shared_ptr<const diffraction::CookedMaterial> saved;  ///< drawn into a second picture; null: not drawn
+
+    friend bool operator==(const PreviewInputs&, const PreviewInputs&) = default;
+};
+
+/// The live picture of a material, and one of its saved version. Needs a current context.
 class Preview {
  public:
-    /// `still`: maps are full in the second frame, for pictures; else they fill by and by.
-    Preview(const post::OcioConfig& config, bool still);
+    /// `still`, for captures: maps are complete in the second frame; otherwise they fill over many frames.
+    Preview(const post::OcioConfig& config, bool still) : config_(config), still_(still), now_(config, still) {}
 
-    /// `model`: the mesh of PreviewShape::Model, fitted.
-    void set_shape(PreviewShape shape, const std::optional<scene::Mesh>& model);
-    void set_light(std::shared_ptr<const InspectedLight> light);
-    void set_material(std::shared_ptr<const diffraction::CookedMaterial> cooked);
-    /// Null: there is no saved version to compare with.
-    void set_saved(std::shared_ptr<const diffraction::CookedMaterial> cooked);
+    /// States the inputs, once a frame; all but `saved` must be there. Uploads what changed. Throws Error if the GPU
+    /// refuses the light or a material; it is not tried again, and the last one stays in the picture.
+    void show(const PreviewInputs& inputs);
+    /// Draws a frame, `seconds` after the last, until the picture of the inputs no longer changes.
+    void draw(float seconds);
+    bool drawn() const { return drawn_; }
 
-    /// Whether there are a light and a material to draw.
-    bool ready() const { return light_ && material_; }
-    bool has_saved() const { return saved_material_ != nullptr; }
-    /// Draws the material, and the saved one if `with_saved`; ready() must hold. `camera` is the user's: surroundings
-    /// that are turned turn beneath it.
-    void draw(glm::ivec2 size, const scene::Camera& camera, const Stage& stage, bool with_saved, float seconds);
-
-    /// Of the last draw. Display values.
-    const gpu::Framebuffer& display() const { return now_->picture.encoded(); }
+    /// Of the last frame. Display values.
+    const gpu::Framebuffer& display() const { return now_.picture.encoded(); }
     const gpu::Framebuffer& saved_display() const { return saved_->picture.encoded(); }
     /// Scene-linear working RGB.
-    const gpu::Framebuffer& linear() const { return now_->picture.linear(); }
-    const glm::dmat3& xyz_to_working() const { return now_->picture.xyz_to_working(); }
+    const gpu::Framebuffer& linear() const { return now_.picture.linear(); }
+    const glm::dmat3& xyz_to_working() const { return now_.picture.xyz_to_working(); }
 
-    /// The surface seen at a point of the last picture, from its upper left corner in [0, 1], in the probe's axes.
+    /// The surface at a point of the last frame, given from its upper left corner in [0, 1], in the probe's axes;
+    /// nullopt beside the object.
     std::optional<diffraction::Frame> pick(const glm::vec2& at) const;
 
  private:
     /// A world with one object in it, and what draws it.
     struct Side {
         Side(const post::OcioConfig& config, bool still);
-        void show(const diffraction::CookedMaterial& cooked);
-        void place(const glm::mat4& object_to_world, const Stage& stage, const glm::mat4& turn);
+        void show(const PreviewInputs& inputs, const std::shared_ptr<const diffraction::CookedMaterial>& cooked);
+        void draw(const PreviewInputs& inputs, float seconds);
 
         view::Picture picture;
         ecs::World world;
-        ecs::Entity object;
+        ecs::Entity entity;
         ecs::Entity lamp;
+        // What is uploaded.
+        std::shared_ptr<const PreviewObject> object;
+        std::shared_ptr<const InspectedLight> light;
+        std::shared_ptr<const diffraction::CookedMaterial> material;
     };
-    Side& saved_side();
 
     const post::OcioConfig& config_;
     bool still_;
-    std::unique_ptr<Side> now_;
-    std::unique_ptr<Side> saved_;  ///< made when it is first looked at
-    PreviewShape shape_ = PreviewShape::Disc;
-    render::MeshInstance mesh_;
-    std::shared_ptr<const InspectedLight> light_;
-    std::shared_ptr<const diffraction::CookedMaterial> material_;
-    std::shared_ptr<const diffraction::CookedMaterial> saved_material_;
-    scene::Camera camera_;
-    glm::mat4 object_to_world_{1.0F};
-    float aspect_ = 1.0F;
+    Side now_;
+    std::optional<Side> saved_;  ///< empty until a saved version is shown
+    PreviewInputs inputs_;
+    int unchanged_ = 0;  ///< frames drawn since the inputs changed
+    bool drawn_ = false;
 };
 
-/// Where the user first stands: the demo's place before its disc.
+/// The camera at the start, as the demo sees its disc.
 scene::Camera opening_camera();
 
 }  // namespace rowland::inspector

@@ -42,7 +42,7 @@ std::string bytes_in_words(std::size_t bytes) {
 }
 
 void draw_numbers(const PriceList& list, const Session& session, double frame_ms) {
-    const auto& cooked = session.cooked();
+    const auto cooked = session.cooked();
     if (!cooked) return;
     const diffraction::ShadingCost cost = diffraction::shading_cost(cooked->tables);
     const auto present = std::find_if(list.choices.begin(), list.choices.end(),

@@ -1,179 +1,172 @@
 #pragma once
 
-#include <chrono>
-#include <cstdint>
 #include <filesystem>
 #include <glm/vec2.hpp>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "editor/inspector/document.h"
 #include "editor/inspector/inspected_light.h"
+
+#include "editor/inspector/open_file.h"
 #include "editor/inspector/physics/point_radiance.h"
 #include "editor/inspector/physics/price.h"
 #include "editor/inspector/preview.h"
-#include "engine/core/latest_task.h"
+#include "engine/core/computed.h"
+#include "engine/core/messages.h"
 
 namespace rowland::inspector {
 
 struct SessionSettings {
     std::filesystem::path content_folder;    ///< holds materials/ and probes/
     std::string probe_mapping = "equirect";  ///< of images
-    bool still = false;                      ///< for pictures: nothing is spread over frames
+    bool still = false;                      ///< for captures: maps are complete in the second frame
 };
 
-/// A pixel that the user picked.
+/// The pixel that the user picked.
 struct PickedPixel {
-    glm::vec2 at{0.5F};        ///< from the picture's upper left corner, in [0, 1]
-    diffraction::Frame frame;  ///< of the surface there, in the probe's axes
-    glm::vec3 working{0.0F};   ///< scene-linear
-    glm::ivec3 display{0};     ///< 8-bit values
+    glm::vec2 at{0.5F};                                 ///< from the picture's upper left corner, in [0, 1]
+    std::shared_ptr<const diffraction::Frame> surface;  ///< there, in the probe's axes
+    glm::vec3 working{0.0F};                            ///< scene-linear
+    glm::ivec3 display{0};                              ///< 8-bit values
 };
 
-/// What the slow panes show, and what it was computed for.
-struct SlowNumbers {
-    PointRadiance point;
+/// What takes seconds to compute at a point of the surface.
+struct PointNumbers {
+    PointRadiance radiance;
     ViewSweep sweep;
-    std::uint64_t of_material = 0;
 };
 
-/// Everything the inspector does, without its controls: the document, the work beside the frames, the preview. Bad
-/// input becomes a message, and all stays as it was. Needs a current context.
+/// The inspector without its controls: the document, the values computed from it, the preview. Bad input becomes a
+/// message and changes nothing else. Needs a current context.
 class Session {
  public:
+    using Cooked = std::shared_ptr<const diffraction::CookedMaterial>;
+    using Light = std::shared_ptr<const InspectedLight>;
+
     Session(const post::OcioConfig& config, SessionSettings settings);
 
     Document& document() { return document_; }
     const Document& document() const { return document_; }
+    Stage stage;
 
-    /// A material, a glTF file, a probe or a table of efficiencies, by what the file is.
+    /// A material, a glTF file, a probe or a table of efficiencies.
     void open(const std::filesystem::path& path);
-    /// A shipped material as a start for a new one: "cd".
+    /// A shipped material as the start of a new one: "cd".
     void open_preset(const std::string& name);
     void save();
     void save_as(const std::filesystem::path& path);
     void choose_light(const std::filesystem::path& path);
     void choose_shape(PreviewShape shape);
+    /// Picks the surface at a point of the last picture, if there is one.
+    void pick(const glm::vec2& at);
 
-    /// Once a frame: starts what edits ask for, takes over what has ended.
+    /// Updates all values from their inputs; call it every frame.
     void update();
     /// Whether something is being computed that the picture or the panes will show.
     bool busy() const;
-    /// Draws the preview, if there is something to draw and it is not as it was.
+    /// Draws the preview if there is something to draw and the picture may have changed.
     void draw(glm::ivec2 size, const scene::Camera& camera, bool with_saved, float seconds);
-    /// Picks the surface at a point of the last picture; nothing happens where there is none.
-    void pick(const glm::vec2& at);
 
-    /// Measures all choices from now on, or stops. What the material pins is measured whenever nothing else is done.
-    void price() { start_pricing(false); }
-    void stop_pricing() { price_task_.cancel(); }
-    bool pricing() const { return price_task_.busy(); }
+    /// Measures all choices for the present material and light. What the material pins is measured without this, once
+    /// nothing else is computed.
+    void price() { measure_all_of_ = price_inputs(true); }
+    void stop_pricing();
+    bool pricing() const { return all_prices_.busy() || pinned_price_.busy(); }
     PriceList prices() const;
-    /// Whether prices() are of the material as it is.
-    bool prices_are_current() const { return priced_version_ == document_.version() && priced_light_ == light_; }
-    /// Pins a choice that was measured.
+    /// Whether prices() are those of the present material and light.
+    bool prices_are_current() const {
+        return all_prices_.is_of(price_inputs(true)) || pinned_price_.is_of(price_inputs(false));
+    }
+    /// Pins a measured choice.
     void choose_priced(const PricedChoice& choice);
     /// Pins the cheapest measured choice within an error.
     void cook_to_budget(double max_error);
 
     const Preview& preview() const { return preview_; }
-    const std::shared_ptr<const InspectedLight>& light() const { return light_; }
-    /// As last cooked: of the last good material, or on its way to be. Null before the first.
-    const std::shared_ptr<const diffraction::CookedMaterial>& cooked() const { return cooked_; }
-    bool cooking() const { return cook_task_.busy(); }
-    bool loading_light() const { return light_task_.busy(); }
+    /// Null before the first is loaded.
+    Light light() const { return light_.value() ? *light_.value() : nullptr; }
+    /// The last material that was cooked; null before the first.
+    Cooked cooked() const { return cooked_.value() ? *cooked_.value() : nullptr; }
+    /// The file's material, cooked; null if there is none, or not yet.
+    Cooked saved() const { return document_.saved() && saved_.value() ? *saved_.value() : nullptr; }
+    bool cooking() const { return cooked_.busy(); }
+    bool loading_light() const { return light_.busy(); }
+    /// Whether there are a light and a material to draw.
+    bool ready() const { return light() && cooked(); }
+    PreviewShape shape() const { return object_->shape; }
     bool has_model() const { return model_.has_value(); }
     const std::optional<PickedPixel>& picked() const { return picked_; }
-    const std::optional<SlowNumbers>& slow_numbers() const { return slow_; }
-    bool slow_numbers_are_current() const { return slow_ && slow_->of_material == cooked_count_ && !slow_task_.busy(); }
-    /// The other grating of the efficiency pane: a table to lay beside a scalar profile, or the last scalar one.
-    const std::optional<diffraction::Grating>& compared() const { return compared_; }
+    /// Of the picked point, or one near the picture's middle; null before the first.
+    const PointNumbers* point_numbers() const { return point_.value(); }
+    bool point_numbers_are_current() const { return point_.current(); }
+    /// What the efficiency pane plots beside the material: the opened table beside a scalar profile, the last scalar
+    /// profile beside a table.
+    std::optional<diffraction::Grating> compared() const;
 
     std::vector<std::string> presets() const;
     std::vector<std::filesystem::path> shipped_lights() const;
 
-    Stage stage;
-    PreviewShape shape() const { return shape_; }
-
-    /// What the user is to know, newest last.
-    struct Message {
-        std::string text;
-        bool failure = false;
-    };
-    const std::vector<Message>& messages() const { return messages_; }
-    void say(std::string text, bool failure);
+    /// What the user is told, newest last.
+    const std::vector<Message>& messages() const { return messages_.all(); }
 
  private:
-    using Cooked = std::shared_ptr<const diffraction::CookedMaterial>;
+    struct PointInputs {
+        Cooked cooked;
+        Light light;
+        std::shared_ptr<const diffraction::Frame> surface;  ///< null: near the middle of the picture
 
-    template <typename F>
-    bool attempt(F&& action);
-    void open_gltf(const std::filesystem::path& path);
-    void open_table(const std::filesystem::path& path);
-    void adopt_document(Document document);
-    void start_cooking();
-    void start_slow_numbers();
-    void start_pricing(bool present_only);
-    bool rested() const;
-    diffraction::Frame middle_frame() const;
+        friend bool operator==(const PointInputs&, const PointInputs&) = default;
+    };
+    struct PixelInputs {
+        PointInputs point;
+        Stage stage;
+
+        friend bool operator==(const PixelInputs&, const PixelInputs&) = default;
+    };
+    struct PriceInputs {
+        Json material;
+        Light light;
+
+        friend bool operator==(const PriceInputs&, const PriceInputs&) = default;
+    };
+    using PriceWork = Computed<PriceInputs, PriceList>::Work;
+
+    template <typename Key, typename Value>
+    bool poll(Computed<Key, Value>& computed);
+    void adopt(Document document);
+    void adopt(OpenedModel model, const std::string& file);
+    PointInputs point_inputs() const { return {cooked(), light(), picked_ ? picked_->surface : nullptr}; }
+    /// The material decides the errors of all choices but for its own choice; `of_all` leaves that out.
+    PriceInputs price_inputs(bool of_all) const;
+    PriceWork price_work(bool present_only) const;
+    void want_point_numbers();
+    void want_prices();
     void read_picked_pixel();
 
-    /// All that the picture depends on.
-    struct PictureKey {
-        glm::ivec2 size{0};
-        glm::vec3 eye{0.0F};
-        glm::vec3 target{0.0F};
-        Stage stage;
-        bool with_saved = false;
-        std::uint64_t cooked = 0;
-        const InspectedLight* light = nullptr;
-        PreviewShape shape = PreviewShape::Disc;
-        bool has_saved = false;
-
-        friend bool operator==(const PictureKey&, const PictureKey&) = default;
-    };
-
     SessionSettings settings_;
+    Messages messages_;
     Preview preview_;
     Document document_;
-    std::shared_ptr<const InspectedLight> light_;
-    Cooked cooked_;
+    std::shared_ptr<const LightSource> chosen_light_;
     std::optional<scene::Mesh> model_;
-    PreviewShape shape_ = PreviewShape::Disc;
+    std::shared_ptr<const PreviewObject> object_;
     std::optional<PickedPixel> picked_;
-    std::optional<SlowNumbers> slow_;
-    std::optional<diffraction::Grating> compared_;
-    std::vector<Message> messages_;
+    PixelInputs pixel_inputs_;  ///< of the colours in picked_
+    std::optional<diffraction::EfficiencyTable> opened_table_;
+    std::optional<diffraction::Grating> last_scalar_;  ///< the last cooked grating with a scalar profile
+    std::optional<PriceInputs> measure_all_of_;        ///< the user asked for it
+    std::optional<PriceInputs> stopped_price_of_;      ///< the user stopped it
 
-    std::uint64_t asked_version_ = 0;  ///< of the document, that cooking was last started for
-    std::uint64_t cooked_count_ = 0;
-    std::uint64_t slow_asked_ = 0;  ///< a count of cooked_count_ and of other reasons
-    std::uint64_t slow_reasons_ = 0;
-    std::optional<Json> saved_asked_;
-    std::chrono::steady_clock::time_point last_edit_;
-    std::uint64_t seen_version_ = 0;
-    PictureKey picture_key_;
-    int unchanged_ = 0;  ///< frames in a row
-    std::uint64_t drawn_ = 0;
-    std::uint64_t picked_of_draw_ = 0;
-    std::uint64_t priced_version_ = 0;
-    std::shared_ptr<const InspectedLight> priced_light_;
-
-    struct SharedPrices {
-        std::mutex lock;
-        PriceList list;
-    };
-    std::shared_ptr<SharedPrices> prices_ = std::make_shared<SharedPrices>();
-
-    // Last, so that they end before what they work on.
-    LatestTask<Cooked> cook_task_;
-    LatestTask<Cooked> saved_task_;
-    LatestTask<std::shared_ptr<const InspectedLight>> light_task_;
-    LatestTask<SlowNumbers> slow_task_;
-    LatestTask<int> price_task_;
+    // The destructors wait for the work, so these are last.
+    Computed<std::shared_ptr<const MaterialSource>, Cooked> cooked_;
+    Computed<std::shared_ptr<const MaterialSource>, Cooked> saved_;
+    Computed<std::shared_ptr<const LightSource>, Light> light_;
+    Computed<PointInputs, PointNumbers> point_;
+    Computed<PriceInputs, PriceList> all_prices_;
+    Computed<PriceInputs, PriceList> pinned_price_;
 };
 
 }  // namespace rowland::inspector
