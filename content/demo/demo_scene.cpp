@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "content/demo/play/hierarchy.h"
 #include "content/demo/scene_views.h"
 #include "content/demo/toys_of_scene.h"
 #include "engine/core/error.h"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "content/demo/play/fingerprint.h"
+#include "content/demo/play/play.h"
 #include "engine/core/error.h"
 #include "engine/core/log.h"
 #include "engine/core/utf8.h"
@@ -24,8 +24,8 @@ std::optional<Recording> recording_for(const Options& options) {
     return recording;
 }
 
-void log_state(Play& play) {
-    log_info("played {} steps, state {}", play.steps(), fingerprint(play));
+void log_state(const Play& play) {
+    log_info("played {} steps, state {}", play.steps(), play.fingerprint());
 }
 
 }  // namespace rowland::demo

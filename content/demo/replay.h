@@ -18,6 +18,6 @@ std::string scene_name(const Options& options);
 std::optional<Recording> recording_for(const Options& options);
 
 /// Logs the step count and fingerprint of a play. A recording and its playback end with the same line.
-void log_state(Play& play);
+void log_state(const Play& play);
 
 }  // namespace rowland::demo

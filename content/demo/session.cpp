@@ -3,13 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
-#include "content/demo/object_name.h"
+#include "content/demo/play/hierarchy.h"
 #include "engine/core/error.h"
 #include "engine/core/log.h"
 #include "engine/scene/transform.h"
 #include "engine/view/capture.h"
+#include "modules/diffraction/module.h"
 
 namespace rowland::demo {
 
@@ -17,16 +19,6 @@ namespace {
 
 constexpr float kExposureStep = 0.25F;
 constexpr int kFramesBetweenShaderChecks = 10;
-
-/// Logs what bad input throws.
-template <typename F>
-void attempt(F&& action) {
-    try {
-        action();
-    } catch (const Error& error) {
-        log_error("{}", error.what());
-    }
-}
 
 template <typename T>
 void toggle(std::optional<T>& effect, const T& settings = {}) {
@@ -41,6 +33,33 @@ template <typename T>
 const T& next_in(const std::vector<T>& list, const T& present) {
     const auto at = std::ranges::find(list, present);
     return at == list.end() || at + 1 == list.end() ? list.front() : *(at + 1);
+}
+
+post::PostSettings post_settings(const Options& options) {
+    post::PostSettings settings;
+    settings.exposure_stops = options.exposure_stops;
+    if (options.bloom > 0.0F) settings.bloom = post::BloomSettings{.strength = options.bloom};
+    if (options.auto_exposure) settings.auto_exposure = post::AutoExposureSettings{};
+    if (options.vignette > 0.0F)
+        settings.vignette = post::VignetteSettings{.vertical_fov = kFieldOfView, .strength = options.vignette};
+    if (options.dither) settings.dither = post::DitherSettings{};
+    return settings;
+}
+
+diffraction::DiffractionSettings diffraction_settings(const Options& options, Pace pace) {
+    diffraction::DiffractionSettings settings;
+    if (options.light_window != "auto") settings.window = math::parse_window(options.light_window);
+    if (pace == Pace::Still) settings.slices_per_frame = std::numeric_limits<int>::max();
+    return settings;
+}
+
+/// A picture that shows diffraction, with the effects that the options ask for.
+std::unique_ptr<view::Picture> open_picture(const Options& options, const post::OcioConfig& config, glm::ivec2 size,
+                                            Pace pace) {
+    auto picture = std::make_unique<view::Picture>(config, options.view, size);
+    picture->post_settings() = post_settings(options);
+    diffraction::register_module(picture->renderer(), diffraction_settings(options, pace));
+    return picture;
 }
 
 }  // namespace
@@ -65,7 +84,7 @@ Session::Session(const Options& options, const post::OcioConfig& config, glm::iv
 std::vector<Action> Session::carry_out() {
     std::vector<Action> unknown;
     for (const Play::Command& command : play_.take_commands())
-        attempt([&] {
+        messages_.attempt([&] {
             if (const auto* setting = std::get_if<SettingEvent>(&command))
                 set(*setting);
             else if (const Action action = std::get<Action>(command); !perform(action))
@@ -207,13 +226,13 @@ void Session::refresh_scene() {
     if (scene_.refresh())
         play_.set_toys(scene_.toys());
     else
-        play_.place_all();
+        play_.update_nodes();
 }
 
 void Session::draw(float seconds) {
     draw_from(play_.camera(), seconds);
     for (const Action action : std::exchange(screenshots_, {}))
-        attempt([&] { write_screenshot(action == Action::LinearScreenshot); });
+        messages_.attempt([&] { write_screenshot(action == Action::LinearScreenshot); });
 }
 
 void Session::draw_from(const scene::Camera& camera, float seconds) {

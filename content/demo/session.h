@@ -10,14 +10,20 @@
 #include "content/demo/assets.h"
 #include "content/demo/demo_scene.h"
 #include "content/demo/looks/comparison.h"
-#include "content/demo/open_picture.h"
 #include "content/demo/options.h"
 #include "content/demo/play/play.h"
 #include "engine/asset/file_watch.h"
+#include "engine/core/messages.h"
 #include "engine/post/ocio_config.h"
 #include "engine/view/picture.h"
 
 namespace rowland::demo {
+
+/// Whether maps may fill over several frames.
+enum class Pace {
+    Fluent,  ///< for a window: incrementally
+    Still,   ///< for pictures: a map is full in the second frame in which nothing moves
+};
 
 /// The setting of a side's looks.
 inline Setting look_setting(Side side) {
@@ -68,6 +74,7 @@ class Session {
     void refresh_scene();
     void write_screenshot(bool linear);
 
+    Messages messages_;
     const Options& options_;
     const post::OcioConfig& config_;
     std::unique_ptr<view::Picture> picture_;

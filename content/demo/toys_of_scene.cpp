@@ -10,6 +10,7 @@
 #include <numbers>
 #include <optional>
 
+#include "content/demo/play/hierarchy.h"
 #include "engine/render/gpu_mesh.h"
 #include "engine/scene/node_label.h"
 

@@ -77,7 +77,7 @@ class Program {
             events.emplace_back(ResizeEvent{frame.size});
         }
         events.insert(events.end(), frame.events.begin(), frame.events.end());
-        if (!frame.dropped.empty()) events.emplace_back(SettingEvent{Setting::Probe, frame.dropped.front().string()});
+        if (!frame.dropped.empty()) hud_.use_probe(frame.dropped.front());
         events = hud_.begin_frame(std::move(events),
                                   {.size = window_size_, .framebuffer_size = frame.pixels, .seconds = frame.seconds()});
         if (recording_)

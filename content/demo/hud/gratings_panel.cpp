@@ -6,7 +6,7 @@
 
 #include "content/demo/hud/memory.h"
 #include "content/demo/hud/panel.h"
-#include "content/demo/object_name.h"
+#include "content/demo/play/hierarchy.h"
 #include "modules/diffraction/asset/representation.h"
 
 namespace rowland::demo {

@@ -7,8 +7,8 @@
 #include <utility>
 #include <variant>
 
-#include "content/demo/object_name.h"
 #include "content/demo/pixel/surface_point.h"
+#include "content/demo/play/hierarchy.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/core/log.h"

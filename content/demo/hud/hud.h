@@ -27,6 +27,8 @@ class Hud {
 
     /// Begins a frame. Returns the events that the HUD does not consume, and its own.
     std::vector<PlayEvent> begin_frame(std::vector<PlayEvent> events, const ui::UiFrame& frame);
+    /// Lights the scene with a probe, in the next frame.
+    void use_probe(const std::filesystem::path& probe) { panel().set(Setting::Probe, probe.string()); }
     /// Carries out an action of the HUD itself; false if it is another's.
     bool perform(Action action);
     /// Builds all windows from the session's present state.

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "content/demo/assets.h"
-#include "content/demo/play/key_name.h"
+#include "engine/platform/key.h"
 
 namespace rowland::demo {
 
@@ -14,7 +14,7 @@ namespace {
 
 void key_tooltip(Action action) {
     const ActionKey& row = row_of(action);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s  (%s)", row.help, name_of(row.key).c_str());
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s  (%s)", row.help, platform::name_of(row.key).c_str());
 }
 
 void text_choice(const Panel& panel, Setting setting, const char* label, const std::vector<std::string>& names,

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "content/demo/hud/windows.h"
-#include "content/demo/play/key_name.h"
+#include "engine/platform/key.h"
 
 namespace rowland::demo {
 
@@ -75,7 +75,7 @@ bool pixel_window(const PixelTarget* target, const PixelMeter& meter, const glm:
             } else if (meter.reading()) {
                 reading_table(*meter.reading(), xyz_to_working);
                 ImGui::SameLine();
-                const std::string key(name_of(row_of(Action::WritePixel).key));
+                const std::string key(platform::name_of(row_of(Action::WritePixel).key));
                 write = ImGui::SmallButton(("write (" + key + ")").c_str());
             }
         }

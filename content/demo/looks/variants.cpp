@@ -21,21 +21,17 @@ GpuMaterialPointer Variants::find(const GpuMaterialPointer& own,
 }
 
 void Variants::poll() {
-    if (auto outcome = bake_.poll()) {
-        if (outcome->value)
-            running_->uploaded = diffraction::make_gpu_material(std::move(*outcome->value), xyz_to_working_);
-        else
-            log_error("{}: {}", look_name(running_->look), outcome->failure);
-        running_ = nullptr;
-    }
+    const auto change = baked_.poll();
+    if (change.value) running_->uploaded = diffraction::make_gpu_material(*baked_.value(), xyz_to_working_);
+    if (!change.failure.empty()) log_error("{}: {}", look_name(running_->look), change.failure);
+    if (change.value || !change.failure.empty()) running_ = nullptr;
     std::erase_if(variants_, [](const auto& variant) { return variant->own.expired(); });
     if (running_) return;
-    const auto next =
-        std::ranges::find_if(variants_, [](const auto& variant) { return variant->material.has_value(); });
+    const auto next = std::ranges::find_if(variants_, [](const auto& v) { return v->material.has_value(); });
     if (next == variants_.end()) return;
     running_ = *next;
-    bake_.start([material = *std::exchange(running_->material, std::nullopt)](const std::stop_token&) {
-        return diffraction::bake_material(material);
+    baked_.want(running_, [material = *std::exchange(running_->material, std::nullopt)](const auto&, const auto&) {
+        return std::optional(diffraction::bake_material(material));
     });
 }
 

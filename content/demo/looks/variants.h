@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "content/demo/looks/look.h"
-#include "engine/core/latest_task.h"
+#include "engine/core/computed.h"
 #include "modules/diffraction/runtime/gpu_material.h"
 
 namespace rowland::demo {
@@ -40,7 +40,7 @@ class Variants {
     glm::dmat3 xyz_to_working_;
     std::vector<std::shared_ptr<Variant>> variants_;
     std::shared_ptr<Variant> running_;
-    LatestTask<diffraction::CookedMaterial> bake_;
+    Computed<std::shared_ptr<Variant>, diffraction::CookedMaterial> baked_;  ///< of running_
 };
 
 }  // namespace rowland::demo

@@ -56,20 +56,14 @@ struct PixelMeter::Lit {
 };
 
 void PixelMeter::poll() {
-    if (auto outcome = task_.poll()) {
-        failure_ = outcome->failure;
-        if (outcome->value) reading_ = std::move(outcome->value);
-    }
-    if (task_.busy() || !wanted_ || asked_ == wanted_) return;
     if (!lit_) lit_ = std::make_shared<Lit>();
-    asked_ = wanted_;
-    failure_.clear();
-    task_.start([lit = lit_, query = *wanted_](const std::stop_token&) { return lit->measure(query); });
-}
-
-const std::string& PixelMeter::failure() const {
-    static const std::string none;
-    return wanted_ && asked_ == wanted_ ? failure_ : none;
+    if (!reading_.wants(wanted_)) {
+        failure_.clear();
+        reading_.want(wanted_, [lit = lit_, query = wanted_](const auto&, const auto&) {
+            return std::optional(lit->measure(*query));
+        });
+    }
+    if (const auto change = reading_.poll(); !change.failure.empty()) failure_ = change.failure;
 }
 
 std::string reading_json(const PixelReading& reading) {

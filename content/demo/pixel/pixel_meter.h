@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/core/latest_task.h"
+#include "engine/core/computed.h"
 #include "engine/math/sh_window.h"
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/evaluate/point_comparison.h"
@@ -53,22 +53,20 @@ class PixelMeter {
     /// To be called once per frame: takes the result and starts the next measurement.
     void poll();
 
-    /// The last result, perhaps of an earlier query.
-    const std::optional<PixelReading>& reading() const { return reading_; }
+    /// The last result, perhaps of an earlier query; null before the first.
+    const PixelReading* reading() const { return reading_.value(); }
     /// Whether the last result is of the last query.
-    bool current() const { return wanted_ && reading_ && reading_->query == *wanted_; }
+    bool current() const { return wanted_ && reading_.is_of(*wanted_); }
     /// Why the last query has no result; empty if it has, or may get one.
-    const std::string& failure() const;
+    const std::string& failure() const { return failure_; }
 
  private:
     struct Lit;
 
-    std::shared_ptr<Lit> lit_;  ///< used by the running task only
+    std::shared_ptr<Lit> lit_;  ///< used by the work only
     std::optional<PixelQuery> wanted_;
-    std::optional<PixelQuery> asked_;  ///< last, of task_
-    std::optional<PixelReading> reading_;
-    std::string failure_;  ///< of asked_
-    LatestTask<PixelReading> task_;
+    std::string failure_;
+    Computed<PixelQuery, PixelReading> reading_;
 };
 
 /// A reading as JSON: "representation", "probe", "key_lights", "window", "shown_xyz",

@@ -1,8 +1,7 @@
 #include "content/demo/pixel/reference_still.h"
 
 #include <algorithm>
-#include <atomic>
-#include <mutex>
+#include <chrono>
 #include <span>
 
 #include "content/demo/pixel/surface_point.h"
@@ -15,11 +14,32 @@
 
 namespace rowland::demo {
 
+/// Everything that a still depends on.
+struct StillView {
+    scene::Camera camera;
+    glm::ivec2 size{0};  ///< texels
+    PixelProbe probe;
+    std::vector<PlacedMesh> meshes;                      ///< all, since others may hide a grating
+    std::vector<std::optional<PlacedGrating>> gratings;  ///< of each mesh, if it is one
+    std::vector<std::shared_ptr<const diffraction::CookedMaterial>> materials;  ///< likewise
+
+    bool equals(const StillView& other) const {
+        const auto same_mesh = [](const PlacedMesh& a, const PlacedMesh& b) {
+            return a.mesh == b.mesh && a.to_world == b.to_world;
+        };
+        return camera.eye == other.camera.eye && camera.target == other.camera.target && camera.up == other.camera.up &&
+               camera.vertical_field_of_view == other.camera.vertical_field_of_view && size == other.size &&
+               probe == other.probe && materials == other.materials &&
+               std::equal(meshes.begin(), meshes.end(), other.meshes.begin(), other.meshes.end(), same_mesh);
+    }
+};
+
 namespace {
 
 constexpr int kCoarsest = 8;       ///< texels between those of the first pass
 constexpr std::size_t kBatch = 8;  ///< texels between two checks of the stop token
 constexpr int kFramesToRest = 3;
+constexpr std::chrono::milliseconds kBetweenPublications(50);
 
 /// Fills the square of each coarse texel where no finer pass has computed one. `steps`: of the pass that each texel is
 /// from, 0: none.
@@ -38,65 +58,9 @@ std::vector<glm::vec4> filled_up(const std::vector<glm::vec4>& xyz, const std::v
     return texels;
 }
 
-bool same(const scene::Camera& a, const scene::Camera& b) {
-    return a.eye == b.eye && a.target == b.target && a.up == b.up &&
-           a.vertical_field_of_view == b.vertical_field_of_view;
-}
-
-}  // namespace
-
-/// Everything that a still depends on.
-struct ReferenceStill::View {
-    scene::Camera camera;
-    glm::ivec2 size{0};  ///< texels
-    PixelProbe probe;
-    std::vector<PlacedMesh> meshes;                      ///< all, since others may hide a grating
-    std::vector<std::optional<PlacedGrating>> gratings;  ///< of each mesh, if it is one
-    std::vector<std::shared_ptr<const diffraction::CookedMaterial>> materials;  ///< likewise
-
-    bool equals(const View& other) const {
-        const auto same_mesh = [](const PlacedMesh& a, const PlacedMesh& b) {
-            return a.mesh == b.mesh && a.to_world == b.to_world;
-        };
-        return same(camera, other.camera) && size == other.size && probe == other.probe &&
-               materials == other.materials &&
-               std::equal(meshes.begin(), meshes.end(), other.meshes.begin(), other.meshes.end(), same_mesh);
-    }
-};
-
-/// The computation of a still. Its task writes it, and frames read it.
-struct ReferenceStill::Job {
-    std::shared_ptr<const View> view;
-    int line = 0;  ///< of the wipe, in texels from the left
-    std::atomic<std::size_t> done = 0;
-    std::atomic<std::size_t> all = 1;
-    std::mutex mutex;
-    std::vector<glm::vec4> xyz;  ///< row by row from the bottom; alpha 1: known
-    std::vector<int> step;       ///< of the pass that each known texel is from, 0: none
-
-    /// False if it was stopped.
-    bool compute(const std::stop_token& stop);
-
- private:
-    using Points = std::vector<std::optional<VisiblePoint>>;
-    /// A texel that shows a grating from its front.
-    struct Texel {
-        std::size_t at;  ///< in xyz
-        diffraction::Frame frame;
-    };
-    struct Columns {
-        int begin;
-        int end;
-    };
-    std::vector<Texel> texels_of_pass(const Points& points, int pass_step, std::size_t mesh,
-                                      const Columns& columns) const;
-    bool compute_pass(const std::vector<Texel>& texels, int pass_step, const diffraction::Material& material,
-                      const lighting::ProbeImage& probe, const std::stop_token& stop);
-};
-
-ReferenceStill::View ReferenceStill::view_of(ecs::World& world, Comparison& comparison, const scene::Camera& camera,
-                                             glm::ivec2 pixels, const PixelProbe& probe) {
-    View view;
+StillView view_of(ecs::World& world, Comparison& comparison, const scene::Camera& camera, glm::ivec2 pixels,
+                  const PixelProbe& probe) {
+    StillView view;
     view.camera = camera;
     view.size = (pixels + kStillTexel - 1) / kStillTexel;
     view.probe = probe;
@@ -115,114 +79,135 @@ ReferenceStill::View ReferenceStill::view_of(ecs::World& world, Comparison& comp
     return view;
 }
 
-void ReferenceStill::update(ecs::World& world, Comparison& comparison, const scene::Camera& camera, glm::ivec2 pixels,
-                            const PixelProbe& probe) {
-    auto now = std::make_shared<const View>(view_of(world, comparison, camera, pixels, probe));
-    if (!view_ || !now->equals(*view_)) {
-        stop(comparison);
-        view_ = std::move(now);
-    }
-    if (++frames_at_rest_ == kFramesToRest) begin(comparison.line());
-    if (job_) show(comparison);
-    if (const auto outcome = task_.poll()) failure_ = outcome->failure;
-}
+using Columns = std::pair<int, int>;  ///< first and end
+using Points = std::vector<std::optional<VisiblePoint>>;
+using Publish = Computed<std::shared_ptr<const StillView>, StillTexels>::Publish;
 
-void ReferenceStill::stop(Comparison& comparison) {
-    task_.cancel();
-    job_.reset();
-    view_.reset();
-    frames_at_rest_ = 0;
-    shown_ = 0;
-    still_.reset();
-    comparison.set_still(nullptr);
-}
+/// A texel that shows a grating from its front.
+struct Texel {
+    std::size_t at;  ///< in StillTexels::xyz
+    diffraction::Frame frame;
+};
 
-double ReferenceStill::progress() const {
-    return job_ ? static_cast<double>(job_->done) / static_cast<double>(job_->all) : 0.0;
-}
-
-void ReferenceStill::begin(float line) {
-    failure_.clear();
-    job_ = std::make_shared<Job>();
-    job_->view = view_;
-    job_->line = static_cast<int>(line * static_cast<float>(view_->size.x));
-    task_.start([job = job_](const std::stop_token& stop) { return job->compute(stop); });
-}
-
-std::vector<ReferenceStill::Job::Texel> ReferenceStill::Job::texels_of_pass(const Points& points, int pass_step,
-                                                                            std::size_t mesh,
-                                                                            const Columns& columns) const {
+/// The texels of one mesh in one pass, without those of coarser passes.
+std::vector<Texel> texels_of_pass(const StillView& view, const Points& points, int step, std::size_t mesh,
+                                  const Columns& columns) {
     std::vector<Texel> texels;
-    const auto width = static_cast<std::size_t>(view->size.x);
-    for (int row = 0; row < view->size.y; row += pass_step)
-        for (int column = 0; column < view->size.x; column += pass_step) {
-            const bool beside = column < columns.begin || column >= columns.end;
-            const bool earlier = pass_step < kCoarsest && row % (2 * pass_step) == 0 && column % (2 * pass_step) == 0;
+    const auto width = static_cast<std::size_t>(view.size.x);
+    for (int row = 0; row < view.size.y; row += step)
+        for (int column = 0; column < view.size.x; column += step) {
+            const bool beside = column < columns.first || column >= columns.second;
+            const bool earlier = step < kCoarsest && row % (2 * step) == 0 && column % (2 * step) == 0;
             const auto x = static_cast<std::size_t>(column);
             const auto& seen = points[static_cast<std::size_t>(row) * width + x];
             if (beside || earlier || !seen || seen->mesh != mesh) continue;
-            const auto frame = frame_at(*view->gratings[mesh], seen->hit, seen->point, view->camera.eye);
-            if (frame) texels.push_back({static_cast<std::size_t>(view->size.y - 1 - row) * width + x, *frame});
+            const auto frame = frame_at(*view.gratings[mesh], seen->hit, seen->point, view.camera.eye);
+            if (frame) texels.push_back({static_cast<std::size_t>(view.size.y - 1 - row) * width + x, *frame});
         }
     return texels;
 }
 
-bool ReferenceStill::Job::compute_pass(const std::vector<Texel>& texels, int pass_step,
-                                       const diffraction::Material& material, const lighting::ProbeImage& probe,
-                                       const std::stop_token& stop) {
-    const colour::LightSpectra spectra(material.quality.illuminant);
-    for (std::size_t begin = 0; begin < texels.size(); begin += kBatch) {
-        if (stop.stop_requested()) return false;
-        const std::size_t count = std::min(kBatch, texels.size() - begin);
-        std::vector<diffraction::Frame> frames;
-        for (std::size_t i = 0; i < count; ++i) frames.push_back(texels[begin + i].frame);
-        const auto radiance = diffraction::reference_radiance(material.grating, probe, spectra, frames);
-        const std::lock_guard lock(mutex);
-        for (std::size_t i = 0; i < count; ++i) {
-            xyz[texels[begin + i].at] = glm::vec4(glm::vec3(radiance[i]), 1.0F);
-            step[texels[begin + i].at] = pass_step;
+/// The computation of a still.
+class StillWork {
+ public:
+    StillWork(const StillView& view, const std::stop_token& stop, const Publish& publish)
+        : view_(view),
+          stop_(stop),
+          publish_(publish),
+          probe_(load_whole_probe(view.probe.path, view.probe.mapping, view.probe.recipes)),
+          points_(visible_points(view.camera, view.size, view.meshes)),
+          xyz_(points_.size(), glm::vec4(0.0F)),
+          steps_(points_.size(), 0),
+          all_(static_cast<std::size_t>(
+              std::ranges::count_if(points_, [&](const auto& seen) { return seen && view.gratings[seen->mesh]; }))) {}
+
+    /// `line`: of the wipe, in texels from the left; what is right of it comes first.
+    std::optional<StillTexels> run(int line) {
+        for (const Columns& columns : {Columns{line, view_.size.x}, Columns{0, line}})
+            for (int step = kCoarsest; step >= 1; step /= 2)
+                for (std::size_t mesh = 0; mesh < view_.meshes.size(); ++mesh)
+                    if (view_.gratings[mesh] && !pass(step, mesh, columns)) return std::nullopt;
+        return StillTexels{.xyz = filled_up(xyz_, steps_, view_.size), .done = 1, .all = 1};
+    }
+
+ private:
+    /// False if it was stopped.
+    bool pass(int step, std::size_t mesh, const Columns& columns) {
+        const diffraction::Material& material = view_.materials[mesh]->material;
+        const colour::LightSpectra spectra(material.quality.illuminant);
+        const std::vector<Texel> texels = texels_of_pass(view_, points_, step, mesh, columns);
+        for (std::size_t begin = 0; begin < texels.size(); begin += kBatch) {
+            if (stop_.stop_requested()) return false;
+            const std::size_t count = std::min(kBatch, texels.size() - begin);
+            std::vector<diffraction::Frame> frames;
+            for (std::size_t i = 0; i < count; ++i) frames.push_back(texels[begin + i].frame);
+            const auto radiance = diffraction::reference_radiance(material.grating, probe_.image, spectra, frames);
+            for (std::size_t i = 0; i < count; ++i) {
+                xyz_[texels[begin + i].at] = glm::vec4(glm::vec3(radiance[i]), 1.0F);
+                steps_[texels[begin + i].at] = step;
+            }
+            done_ += count;
+            publish_sometimes();
         }
-        done += count;
+        return true;
     }
-    return true;
+
+    void publish_sometimes() {
+        const auto now = std::chrono::steady_clock::now();
+        if (now - published_ < kBetweenPublications) return;
+        published_ = now;
+        publish_({.xyz = filled_up(xyz_, steps_, view_.size), .done = done_, .all = std::max<std::size_t>(all_, 1)});
+    }
+
+    const StillView& view_;
+    const std::stop_token& stop_;
+    const Publish& publish_;
+    WholeProbe probe_;
+    Points points_;
+    std::vector<glm::vec4> xyz_;
+    std::vector<int> steps_;  ///< of the pass that each texel is from, 0: none
+    std::size_t all_;
+    std::size_t done_ = 0;
+    std::chrono::steady_clock::time_point published_;
+};
+
+}  // namespace
+
+void ReferenceStill::update(ecs::World& world, Comparison& comparison, const scene::Camera& camera, glm::ivec2 pixels,
+                            const PixelProbe& probe) {
+    auto now = std::make_shared<const StillView>(view_of(world, comparison, camera, pixels, probe));
+    if (!view_ || !now->equals(*view_)) {
+        stop(comparison);
+        view_ = std::move(now);
+    }
+    frames_at_rest_ = std::min(frames_at_rest_ + 1, kFramesToRest);
+    if (frames_at_rest_ < kFramesToRest) return;
+    const int line = static_cast<int>(comparison.line() * static_cast<float>(view_->size.x));
+    texels_.want(view_, [view = view_, line](const std::stop_token& token, const Publish& publish) {
+        return StillWork(*view, token, publish).run(line);
+    });
+    const auto change = texels_.poll();
+    if (!change.failure.empty()) failure_ = change.failure;
+    if (!change.value) return;
+    if (!texture_)
+        texture_ = std::make_shared<gpu::Texture>(
+            gpu::TextureDesc{.format = gpu::Format::RGBA32F, .width = view_->size.x, .height = view_->size.y});
+    texture_->upload(std::span<const glm::vec4>(texels_.value()->xyz));
+    comparison.set_still(texture_);
 }
 
-bool ReferenceStill::Job::compute(const std::stop_token& stop) {
-    if (stop.stop_requested()) return false;
-    const WholeProbe probe = load_whole_probe(view->probe.path, view->probe.mapping, view->probe.recipes);
-    const Points points = visible_points(view->camera, view->size, view->meshes);
-    {
-        const std::lock_guard lock(mutex);
-        xyz.assign(points.size(), glm::vec4(0.0F));
-        step.assign(points.size(), 0);
-    }
-    const auto shows_grating = [&](const auto& seen) { return seen && view->gratings[seen->mesh]; };
-    all = std::max<std::size_t>(static_cast<std::size_t>(std::ranges::count_if(points, shows_grating)), 1);
-    for (const Columns columns : {Columns{line, view->size.x}, Columns{0, line}})
-        for (int pass_step = kCoarsest; pass_step >= 1; pass_step /= 2)
-            for (std::size_t mesh = 0; mesh < view->meshes.size(); ++mesh)
-                if (view->gratings[mesh] && !compute_pass(texels_of_pass(points, pass_step, mesh, columns), pass_step,
-                                                          view->materials[mesh]->material, probe.image, stop))
-                    return false;
-    done = all.load();
-    return true;
+void ReferenceStill::stop(Comparison& comparison) {
+    texels_.reset();
+    failure_.clear();
+    view_.reset();
+    frames_at_rest_ = 0;
+    texture_.reset();
+    comparison.set_still(nullptr);
 }
 
-void ReferenceStill::show(Comparison& comparison) {
-    const std::size_t done = job_->done;
-    if (done == shown_) return;
-    shown_ = done;
-    const glm::ivec2 size = job_->view->size;
-    std::vector<glm::vec4> texels;
-    {
-        const std::lock_guard lock(job_->mutex);
-        texels = filled_up(job_->xyz, job_->step, size);
-    }
-    if (!still_)
-        still_ = std::make_shared<gpu::Texture>(
-            gpu::TextureDesc{.format = gpu::Format::RGBA32F, .width = size.x, .height = size.y});
-    still_->upload(std::span<const glm::vec4>(texels));
-    comparison.set_still(still_);
+double ReferenceStill::progress() const {
+    const StillTexels* texels = texels_.value();
+    return texels == nullptr ? 0.0 : static_cast<double>(texels->done) / static_cast<double>(texels->all);
 }
 
 }  // namespace rowland::demo

@@ -1,13 +1,14 @@
 #pragma once
 
+#include <glm/vec4.hpp>
 #include <memory>
-#include <optional>
+#include <string>
 #include <vector>
 
 #include "content/demo/looks/comparison.h"
 #include "content/demo/pixel/pixel_meter.h"
 #include "content/demo/pixel/visible_points.h"
-#include "engine/core/latest_task.h"
+#include "engine/core/computed.h"
 #include "engine/gpu/texture.h"
 #include "engine/scene/camera.h"
 #include "modules/diffraction/model/frame.h"
@@ -16,6 +17,16 @@ namespace rowland::demo {
 
 /// Side of a still's texel, in pixels of the picture.
 inline constexpr int kStillTexel = 4;
+
+/// Everything that a still depends on.
+struct StillView;
+
+/// A still, or what is known of it so far.
+struct StillTexels {
+    std::vector<glm::vec4> xyz;  ///< row by row from the bottom; alpha 0: no grating
+    std::size_t done = 0;        ///< texels that are computed
+    std::size_t all = 1;
+};
 
 /// The reference's picture of all gratings, computed in the background from coarse to fine: first every eighth texel of
 /// every eighth row, then every fourth, and so on; first right of the wipe's line. It restarts after any motion, once
@@ -30,27 +41,18 @@ class ReferenceStill {
     void stop(Comparison& comparison);
 
     /// Whether it is being computed or done.
-    bool begun() const { return job_ != nullptr; }
+    bool begun() const { return view_ != nullptr && texels_.wants(view_); }
     /// Fraction of the texels that are computed.
     double progress() const;
     /// Why the computation failed; empty if it did not.
     const std::string& failure() const { return failure_; }
 
  private:
-    struct View;
-    struct Job;
-    static View view_of(ecs::World& world, Comparison& comparison, const scene::Camera& camera, glm::ivec2 pixels,
-                        const PixelProbe& probe);
-    void begin(float line);
-    void show(Comparison& comparison);
-
-    std::shared_ptr<const View> view_;  ///< at present
+    std::shared_ptr<const StillView> view_;  ///< at present
     int frames_at_rest_ = 0;
-    std::shared_ptr<Job> job_;
-    std::shared_ptr<gpu::Texture> still_;  ///< that the comparison shows
-    std::size_t shown_ = 0;                ///< texels of it that are computed
+    std::shared_ptr<gpu::Texture> texture_;  ///< that the comparison shows
     std::string failure_;
-    LatestTask<bool> task_;
+    Computed<std::shared_ptr<const StillView>, StillTexels> texels_;
 };
 
 }  // namespace rowland::demo

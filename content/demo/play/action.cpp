@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 
-#include "content/demo/play/key_name.h"
 #include "engine/core/check.h"
+#include "engine/platform/key.h"
 
 namespace rowland::demo {
 
@@ -105,10 +105,10 @@ platform::Key key_of(Held held) {
 std::vector<HelpLine> help_lines() {
     std::vector<HelpLine> lines{{"drag an object", "turn it; release it in motion and it goes on turning"},
                                 {"wheel on a held object", "spin it about its own axis"},
-                                {"drag beside objects", "orbit"},
+                                {"drag the background", "orbit"},
                                 {"wheel", "zoom"}};
-    for (const HeldKey& row : kHeldKeys) lines.push_back({name_of(row.key), row.help});
-    for (const ActionKey& row : kActionKeys) lines.push_back({name_of(row.key), row.help});
+    for (const HeldKey& row : kHeldKeys) lines.push_back({platform::name_of(row.key), row.help});
+    for (const ActionKey& row : kActionKeys) lines.push_back({platform::name_of(row.key), row.help});
     lines.push_back({"pad sticks", "orbit, or walk and look; with A held: turn the object in the middle"});
     for (const ActionKey& row : kActionKeys)
         if (row.button) lines.push_back({std::string("pad ") + button_name(*row.button), row.help});

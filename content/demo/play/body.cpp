@@ -5,7 +5,7 @@
 #include <glm/matrix.hpp>
 #include <numbers>
 
-#include "content/demo/play/pick.h"
+#include "content/demo/play/hierarchy.h"
 
 namespace rowland::demo {
 
@@ -63,7 +63,7 @@ scene::Transform transform_of(const Body& body, const glm::vec3& up) {
     return now;
 }
 
-void place(ecs::World& world, const Body& body) {
+void update_node(ecs::World& world, const Body& body) {
     const glm::mat3 parent_to_world(object_to_world(world, parent_of(world, body.node)));
     const glm::vec3 up = glm::inverse(parent_to_world) * glm::vec3(0.0F, 1.0F, 0.0F);
     world.get<scene::Transform>(body.node) = transform_of(body, up);

@@ -59,6 +59,6 @@ void step_lift(Body& body, double seconds);
 scene::Transform transform_of(const Body& body, const glm::vec3& up);
 
 /// Sets the Transform of its node.
-void place(ecs::World& world, const Body& body);
+void update_node(ecs::World& world, const Body& body);
 
 }  // namespace rowland::demo

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "engine/scene/transform.h"
+#include "content/demo/play/hierarchy.h"
 
 namespace rowland::demo {
 
@@ -59,18 +59,6 @@ Ray ray_through(const scene::Camera& camera, glm::dvec2 point, glm::ivec2 size) 
     const auto x = static_cast<float>(scale * (point.x - 0.5 * size.x));
     const auto y = static_cast<float>(scale * (0.5 * size.y - point.y));
     return {camera.eye, glm::normalize(forward + x * right + y * up)};
-}
-
-ecs::Entity parent_of(ecs::World& world, ecs::Entity entity) {
-    const auto* parent = world.find<scene::Parent>(entity);
-    return parent == nullptr ? ecs::Entity{} : parent->entity;
-}
-
-glm::mat4 object_to_world(ecs::World& world, ecs::Entity entity) {
-    glm::mat4 matrix(1.0F);
-    for (; world.alive(entity); entity = parent_of(world, entity))
-        if (const auto* transform = world.find<scene::Transform>(entity)) matrix = transform->matrix() * matrix;
-    return matrix;
 }
 
 }  // namespace rowland::demo

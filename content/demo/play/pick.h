@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
@@ -37,11 +36,5 @@ std::optional<Hit> pick(ecs::World& world, std::span<const PickTarget> targets, 
 
 /// The ray through a point of a window of that size; both in screen coordinates from the upper left, y down.
 Ray ray_through(const scene::Camera& camera, glm::dvec2 point, glm::ivec2 size);
-
-/// Null (never alive) at the top of the hierarchy.
-ecs::Entity parent_of(ecs::World& world, ecs::Entity entity);
-
-/// Object to world, from the present transforms: needs no update_world_matrices().
-glm::mat4 object_to_world(ecs::World& world, ecs::Entity entity);
 
 }  // namespace rowland::demo

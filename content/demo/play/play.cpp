@@ -6,7 +6,9 @@
 #include <numbers>
 #include <utility>
 
+#include "content/demo/play/hierarchy.h"
 #include "engine/core/check.h"
+#include "engine/core/hash.h"
 #include "engine/core/log.h"
 #include "engine/scene/transform.h"
 
@@ -38,12 +40,12 @@ Play::Play(ecs::World& world, Toys toys, const scene::Camera& start, const scene
       camera_(start, room),
       window_(window),
       held_steps_(action_keys().size(), 0) {
-    place_all();
+    update_nodes();
 }
 
 void Play::set_pose(Pose pose) {
     pose_ = std::move(pose);
-    place_all();
+    update_nodes();
 }
 
 void Play::set_toys(Toys toys) {
@@ -53,7 +55,7 @@ void Play::set_toys(Toys toys) {
             if (before.name == body.name) body.state = before.state;
     toys_ = std::move(toys);
     turn_environment(0.0);
-    place_all();
+    update_nodes();
 }
 
 void Play::step(std::span<const PlayEvent> events) {
@@ -63,7 +65,7 @@ void Play::step(std::span<const PlayEvent> events) {
     const bool hand_drags = move_hand();
     camera_.step(input_, kStep_s, !hand_drags);
     advance_time();
-    place_all();
+    update_nodes();
     ++steps_;
 }
 
@@ -136,6 +138,19 @@ std::vector<Play::Command> Play::take_commands() {
     return std::exchange(commands_, {});
 }
 
+std::string Play::fingerprint() const {
+    Hasher hasher;
+    const auto add = [&](const auto&... values) { (hasher.bytes(std::as_bytes(std::span(&values, 1))), ...); };
+    const scene::Camera seen_from = camera();
+    add(steps_, time_s_, turn_, seen_from.eye, seen_from.target);
+    for (const Body& body : toys_.bodies) {
+        hasher.text(body.name);
+        add(object_to_world(world_, body.node), body.state.spin);
+    }
+    for (const ecs::Entity light : lights_.entities()) add(object_to_world(world_, light));
+    return hasher.digest().hex().substr(0, 16);
+}
+
 double Play::speed() const {
     if (paused_) return 0.0;
     return slow_ ? kSlowMotion : 1.0;
@@ -205,10 +220,10 @@ void Play::advance_time() {
     }
 }
 
-void Play::place_all() {
+void Play::update_nodes() {
     if (pose_) pose_(*this);
     for (const Body& body : toys_.bodies)
-        if (world_.alive(body.node)) place(world_, body);
+        if (world_.alive(body.node)) update_node(world_, body);
 }
 
 void Play::rest() {

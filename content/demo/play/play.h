@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -48,7 +49,7 @@ class Play {
     /// Moves all bodies to their rest pose until the next step, for measuring the scene itself.
     void rest();
     /// Moves everything to its present pose.
-    void place_all();
+    void update_nodes();
 
     /// One step, with what the user did meanwhile.
     void step(std::span<const PlayEvent> events);
@@ -71,6 +72,8 @@ class Play {
     /// The body that is grabbed.
     std::optional<std::size_t> held_body() const;
     const PlayerLights& lights() const { return lights_; }
+    /// A short hash of the pose of every object, light and the camera, to the bit, and of time and steps.
+    std::string fingerprint() const;
     ecs::World& world() { return world_; }
     const Toys& toys() const { return toys_; }
     /// What is at a point of the window now.

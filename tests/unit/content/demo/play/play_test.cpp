@@ -1,4 +1,5 @@
 #include "content/demo/play/play.h"
+#include "content/demo/play/hierarchy.h"
 
 #include <gtest/gtest.h>
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "content/demo/play/hierarchy.h"
 #include "content/demo/play/play_clock.h"
 #include "engine/scene/transform.h"
 #include "tests/support/temporary_folder.h"

@@ -1,4 +1,4 @@
-#include "content/demo/play/setting.h"
+#include "content/demo/play/play_event.h"
 
 #include <algorithm>
 #include <array>
