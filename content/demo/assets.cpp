@@ -6,28 +6,19 @@
 
 namespace rowland::demo {
 
-namespace {
-
-/// What content/CMakeLists.txt cooks for the demo: source below content/, cooked file.
-struct ShippedAsset {
-    const char* source;
-    const char* cooked;
-};
-constexpr std::array<ShippedAsset, 8> kShippedAssets = {{{"materials/cd.json", "cd.material"},
-                                                         {"meshes/cd.json", "cd.glb"},
-                                                         {"meshes/ground.json", "ground.glb"},
-                                                         {"meshes/sphere.json", "sphere.glb"},
-                                                         {"probes/clear_sky.json", "clear_sky.probe"},
-                                                         {"probes/night.json", "night.probe"},
-                                                         {"probes/studio.json", "studio.probe"},
-                                                         {"scenes/cabinet.json", "cabinet.glb"}}};
-
 std::vector<cook::Recooker::Job> shipped_jobs(const Options& options) {
+    constexpr std::array<std::array<const char*, 2>, 8> kShipped = {{{"materials/cd.json", "cd.material"},
+                                                                     {"meshes/cd.json", "cd.glb"},
+                                                                     {"meshes/ground.json", "ground.glb"},
+                                                                     {"meshes/sphere.json", "sphere.glb"},
+                                                                     {"probes/clear_sky.json", "clear_sky.probe"},
+                                                                     {"probes/night.json", "night.probe"},
+                                                                     {"probes/studio.json", "studio.probe"},
+                                                                     {"scenes/cabinet.json", "cabinet.glb"}}};
     std::vector<cook::Recooker::Job> jobs;
-    for (const ShippedAsset& shipped : kShippedAssets) {
-        const std::filesystem::path source = options.content_folder / shipped.source;
-        if (std::filesystem::exists(source)) jobs.push_back({source, options.cooked_folder / shipped.cooked});
-    }
+    for (const auto& [source, cooked] : kShipped)
+        if (const auto path = options.content_folder / source; std::filesystem::exists(path))
+            jobs.push_back({path, options.cooked_folder / cooked});
     return jobs;
 }
 

@@ -14,10 +14,13 @@ using live::LiveAssets;
 /// The demo's assets; the shipped cooked ones follow their sources.
 LiveAssets open_assets(const Options& options);
 
+/// What content/CMakeLists.txt cooks for the demo: sources and cooked files.
+std::vector<cook::Recooker::Job> shipped_jobs(const Options& options);
+
 /// The probe of the command line, or all shipped ones.
 std::vector<std::filesystem::path> probe_paths(const Options& options);
 
-/// The folder that holds the cooked assets when the command line names none: ../cooked beside the program.
+/// The folder of cooked assets if the command line names none: ../cooked beside the program.
 std::filesystem::path default_cooked_folder();
 
 }  // namespace rowland::demo

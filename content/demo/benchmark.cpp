@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "content/demo/camera_path.h"
-#include "engine/core/file.h"
 #include "engine/core/progress.h"
+#include "engine/platform/frame_pacing.h"
 #include "engine/scene/transform.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
 
@@ -23,7 +22,7 @@ std::chrono::nanoseconds nanoseconds(double ms) {
     return std::chrono::nanoseconds(static_cast<std::int64_t>(ms * 1e6));
 }
 
-/// While it lives, what has a grating is drawn as the plain surface under it.
+/// During its life gratings are drawn as the plain surfaces under them.
 class WithoutGratings {
  public:
     explicit WithoutGratings(ecs::World& world) : world_(world) {
@@ -52,6 +51,7 @@ std::chrono::nanoseconds draw(Session& session, const scene::Camera& camera) {
     return std::chrono::steady_clock::now() - start;
 }
 
+/// The median ratio of a frame's time to that of the same frame without gratings, drawn right after it.
 double times_plain(Session& session, int frames) {
     std::vector<double> ratios;
     for (int frame = -kWarmUpFrames; frame < frames; ++frame) {
@@ -66,7 +66,7 @@ double times_plain(Session& session, int frames) {
     return *middle;
 }
 
-/// The times of one pass, frame by frame.
+/// The times of one pass in each frame. The GPU's may come too late to be known.
 struct PassSamples {
     std::string name;
     platform::FrameTimes cpu;
@@ -98,7 +98,7 @@ nlohmann::ordered_json to_json(const platform::FrameStatistics& statistics) {
 
 }  // namespace
 
-BenchmarkResult fly_around(Session& session, int frames) {
+nlohmann::ordered_json fly_around(Session& session, int frames, const std::string& device) {
     view::Picture& picture = session.picture();
     const auto capacity = static_cast<std::size_t>(frames);
     platform::FrameTimes frame_times(capacity);
@@ -114,30 +114,18 @@ BenchmarkResult fly_around(Session& session, int frames) {
         add(passes, picture.pass_times().latest(), capacity);
         progress.advance();
     }
-    BenchmarkResult result;
-    result.size = picture.encoded().size();
-    result.frame = frame_times.statistics();
-    result.times_plain = times_plain(session, std::clamp(frames / 4, 1, 40));
+    nlohmann::ordered_json report = {{"device", device},
+                                     {"width", picture.encoded().size().x},
+                                     {"height", picture.encoded().size().y},
+                                     {"frame", to_json(frame_times.statistics())},
+                                     {"times_plain", times_plain(session, std::clamp(frames / 4, 1, 40))},
+                                     {"passes", nlohmann::ordered_json::array()}};
     for (const PassSamples& pass : passes)
-        result.passes.push_back({pass.name, pass.cpu.statistics(), pass.gpu.statistics()});
-    result.drawn = picture.renderer().report().drawn;
-    result.culled = picture.renderer().report().culled;
-    return result;
-}
-
-void write_benchmark(const std::filesystem::path& path, const BenchmarkResult& result, const std::string& device) {
-    nlohmann::ordered_json passes = nlohmann::ordered_json::array();
-    for (const BenchmarkResult::Pass& pass : result.passes)
-        passes.push_back({{"name", pass.name}, {"cpu", to_json(pass.cpu)}, {"gpu", to_json(pass.gpu)}});
-    const nlohmann::ordered_json json = {{"device", device},
-                                         {"width", result.size.x},
-                                         {"height", result.size.y},
-                                         {"frame", to_json(result.frame)},
-                                         {"times_plain", result.times_plain},
-                                         {"passes", passes},
-                                         {"drawn", result.drawn},
-                                         {"culled", result.culled}};
-    write_file_atomic(path, json.dump(2) + "\n");
+        report["passes"].push_back(
+            {{"name", pass.name}, {"cpu", to_json(pass.cpu.statistics())}, {"gpu", to_json(pass.gpu.statistics())}});
+    report["drawn"] = picture.renderer().report().drawn;
+    report["culled"] = picture.renderer().report().culled;
+    return report;
 }
 
 }  // namespace rowland::demo

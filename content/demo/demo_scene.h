@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -20,83 +22,68 @@ namespace rowland::demo {
 /// The camera's vertical field of view, radians.
 inline constexpr float kFieldOfView = 0.36F;
 
-/// A CD (or the user's mesh as a grating, or the user's scene, scaled to stand in the CD's place), a diffuse and a
-/// metallic sphere, and a ground. A scene that brings a camera is shown alone, at its own size, with its own lights.
+/// A CD (or the user's mesh as a grating, or the user's scene, scaled to the CD's size), a diffuse and a metallic
+/// sphere, and a ground. A scene with a camera is shown alone, unscaled, with its own lights.
 class DemoScene {
  public:
     /// `xyz_to_working` as the renderer's. Throws Error (input).
     DemoScene(const Options& options, LiveAssets& assets, render::Renderer& renderer, const glm::dmat3& xyz_to_working);
 
-    /// Takes over what was loaded anew; true if that was a mesh, so that toys() are others now. What cannot be used
-    /// stays as it was, and `failures()` says why.
+    /// Shows reloaded assets. True if one was a mesh, so that toys() have changed. An asset that cannot be used changes
+    /// nothing, and failures() says why.
     bool refresh();
     const std::vector<std::string>& failures() const { return failures_; }
 
-    /// What can be played with, at rest. The play places it from then on.
+    /// What can be played with, at rest. From then on the play moves it.
     Toys toys();
     /// Moves what moves by itself to where it is at the play's time.
     void pose(const Play& play);
-    /// Where one may walk.
+    /// Where the player may walk.
     scene::Bounds room();
-    /// Lights or puts out the lamp that casts shadows.
+    /// Turns the lamp that casts shadows on or off.
     void set_sun(bool on);
     bool sun() const { return world_.alive(sun_); }
 
     ecs::World& world() { return world_; }
     const scene::Camera& camera() const { return camera_; }
-    /// All views that the scene brings, the opening one first; or that one alone.
+    /// All views of the scene, the first one being camera(); or that one alone.
     std::vector<scene::Camera> views() const;
 
  private:
-    /// An asset and the version of it that the world shows.
-    template <typename T>
-    struct Shown {
-        asset::Handle<T> handle;
-        std::uint64_t version = 0;
+    /// An asset in the world.
+    struct Part {
+        std::function<std::uint64_t()> version;
+        std::function<void()> show;
+        std::uint64_t shown;  ///< version
     };
 
-    ecs::Entity add_mesh_entity(const glm::vec3& place, const render::StandardMaterial& surface);
-    void add_spheres();
-    void show_scene();
-    void fit_scene(const scene::Mesh& merged);
-    void add_under_root(ecs::Entity entity);
+    template <typename T, typename Show>
+    void add_part(const asset::Handle<T>& handle, Show show);
+    ecs::Entity add_under(ecs::Entity parent, const glm::vec3& position = glm::vec3(0.0F));
     void add_surroundings(const Options& options, LiveAssets& assets);
-    void show_grating_mesh();
-    void show_grating_material();
-    void show_spheres();
-    void show_ground();
+    void show_scene(const scene::ImportedScene& imported, const std::string& file);
+    void show_grating_mesh(const scene::ImportedScene& imported);
+    void show_grating_material(const diffraction::CookedMaterial& cooked);
     void pose_stand();
-    /// Runs `show` if there is a newer asset.
-    template <typename T, typename F>
-    void refresh(Shown<T>& shown, F&& show);
 
     render::Renderer& renderer_;
     glm::dmat3 xyz_to_working_;
-    Shown<scene::ImportedScene> scene_;
-    Shown<scene::ImportedScene> grating_mesh_;
-    Shown<diffraction::CookedMaterial> material_;
-    Shown<scene::ImportedScene> sphere_mesh_;
-    Shown<scene::ImportedScene> ground_mesh_;
-    std::string scene_file_;
+    asset::Handle<scene::ImportedScene> scene_;
+    std::vector<Part> parts_;
     std::vector<std::string> failures_;
 
     ecs::World world_;
     ecs::Entity root_;     ///< above everything
     ecs::Entity stand_;    ///< tilts, or turns
     ecs::Entity grating_;  ///< on the stand
-    std::vector<ecs::Entity> spheres_;
-    ecs::Entity ground_;
     ecs::Entity sun_;
     std::optional<render::SceneInstance> instance_;
     bool disc_ = true;
-    bool own_view_ = false;  ///< the scene brings a camera
+    bool own_view_ = false;  ///< the scene has a camera
     bool meshes_changed_ = false;
     double posed_s_ = 0.0;  ///< the play's time at the last pose
     double stand_s_ = 0.0;  ///< for which the stand has moved
     scene::Camera camera_;
 };
-
-/// Moves and scales a mesh so that it stands on the origin and fits into a box of the given size.
-void fit_to_box(scene::Mesh& mesh, float size_m);
 
 }  // namespace rowland::demo

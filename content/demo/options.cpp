@@ -1,10 +1,12 @@
 #include "content/demo/options.h"
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 
+#include "content/demo/assets.h"
 #include "content/demo/play/action.h"
-#include "engine/core/error.h"
+#include "engine/command_line/command_line.h"
+#include "engine/core/outputs.h"
+#include "engine/view/capture.h"
 
 namespace rowland::demo {
 
@@ -13,67 +15,78 @@ namespace {
 constexpr const char* kFooter =
     "example:\n"
     "  rowland-demo --headless --probe capture.hdr --probe-mapping angular --capture picture.png\n\n"
-    "With a display, and neither --headless nor a capture, the demo opens in a window. Else a short flight through "
-    "the\n"
-    "scene is written to the output folder, or the pictures that the captures name, of the first probe. With --frames\n"
-    "above 1 what moves does so from frame to frame, and the frame's number is put into the names of the files.\n\n"
-    "While the window is open, shaders, assets and their sources are followed: save a file and see it; if it is "
-    "broken\n"
-    "the picture stays and the title says why. Drop a probe onto the window to light the scene by it.\n\n"
+    "With a display, and neither --headless nor a capture, the demo opens a window. Otherwise it writes a short "
+    "flight\n"
+    "through the scene to the output folder, or the captures, lit by the first probe. With --frames above 1 the scene\n"
+    "moves from frame to frame, and the file names get the frame's number.\n\n"
+    "While the window is open, the demo reloads shaders, assets and their sources when they are saved. If one is\n"
+    "broken, the picture stays and the title says why. Drop a probe onto the window to light the scene with it.\n\n"
     "in the window:\n";
 
 void add_options(CLI::App& app, Options& options) {
-    app.add_flag("--headless", options.headless, "Render without a window, as where there is no display");
-    app.add_option("--probe", options.probe, "Light probe: .hdr, .exr, a probe recipe (.json) or a cooked .probe");
-    app.add_option("--probe-mapping", options.probe_mapping, "How an image covers the sphere: equirect or angular")
-        ->capture_default_str();
+    app::add_common_options(app, options, "Write the picture as PNG");
+    app.add_flag("--headless", options.headless, "Render without a window");
     app.add_option("--scene", options.scene,
-                   "glTF or GLB file to show, with its own materials, in place of the cabinet; if it brings a\ncamera, "
-                   "alone and as it is");
+                   "glTF or GLB file to show, with its own materials, in place of the cabinet. One with a camera is\n"
+                   "shown alone and unscaled");
     app.add_flag("--disc", options.disc, "Show one CD between two spheres in place of the cabinet");
     app.add_option("--mesh", options.mesh, "glTF or GLB file to show as a grating in place of that CD");
     app.add_option("--material", options.material, "Material of that CD or mesh: .json, or a cooked .material");
-    app.add_option("--ocio", options.ocio_config, "OpenColorIO config in place of $OCIO and the shipped one");
-    app.add_option("--width", options.width, "Width in pixels")->check(CLI::Range(1, 16384))->capture_default_str();
-    app.add_option("--height", options.height, "Height in pixels")->check(CLI::Range(1, 16384))->capture_default_str();
-    app.add_option(
-           "--frames", options.frames,
-           "Frames to render, 1/30 s apart: 1 for captures, 300 for a benchmark, at most all of a play;\nthose of "
-           "the flight share its way: 12")
-        ->check(CLI::Range(1, 100000));
+    app.add_option("--width", options.width, "Width in pixels")->check(finite(1, 16384))->capture_default_str();
+    app.add_option("--height", options.height, "Height in pixels")->check(finite(1, 16384))->capture_default_str();
+    app.add_option("--frames", options.frames,
+                   "Frames to render, 1/30 s apart. Default: 1 for captures, 300 for a benchmark, all of a recording,\n"
+                   "12 for the flight, which they divide evenly")
+        ->check(finite(1, 100000));
     app.add_option("--light-window", options.light_window,
-                   "Window against ringing of the grating's light; auto: the mildest that does")
+                   "Window against ringing of the grating's light; auto: the weakest sufficient one")
         ->check(CLI::IsMember({"auto", "none", "lanczos", "hann"}))
         ->capture_default_str();
     app.add_option("--view", options.view, "View of the display (see --list-views)");
     app.add_option("--exposure", options.exposure_stops, "Exposure in stops")
-        ->check(CLI::Range(-32.0F, 32.0F))
+        ->check(finite(-32.0, 32.0))
         ->capture_default_str();
-    app.add_option("--bloom", options.bloom, "Share of the light that the lens scatters, 0 to 1")
-        ->check(CLI::Range(0.0F, 1.0F));
-    app.add_option("--vignette", options.vignette, "Share of the light lost in the corners, 0 to 1")
-        ->check(CLI::Range(0.0F, 1.0F));
+    app.add_option("--bloom", options.bloom, "Fraction of the light that the lens scatters")->check(finite(0.0, 1.0));
+    app.add_option("--vignette", options.vignette, "Fraction of the light lost in the corners")
+        ->check(finite(0.0, 1.0));
     app.add_flag("--auto-exposure", options.auto_exposure, "Expose for the picture's mean; --exposure is added");
     app.add_flag("--dither", options.dither, "Hide the steps of 8-bit gradients");
     app.add_flag("--sun", options.sun, "Add a lamp that casts shadows");
     app.add_flag("--list-views", options.list_views, "List the views of the display and stop");
-    app.add_option("--capture", options.capture, "Write the picture as PNG");
     app.add_option("--capture-linear", options.capture_linear, "Write the scene-linear picture as OpenEXR");
     app.add_option("--benchmark", options.benchmark,
                    "Fly once around the scene without a window and write the times of frames and passes as JSON");
-    CLI::Option* record =
-        app.add_option("--record", options.record, "Write what the user does in the window to a file");
-    app.add_option("--play", options.play, "Do again what such a file says; with --headless in frames of 1/30 s")
+    CLI::Option* record = app.add_option("--record", options.record, "Record what the user does in the window");
+    app.add_option("--play", options.play, "Play a recording back; with --headless in frames of 1/30 s")
         ->excludes(record);
-    app.add_flag("--no-watch{false}", options.watch, "Do not follow changes of assets, their sources and shaders");
-    app.add_option("--output-folder", options.output_folder, "Where pictures without --capture go")
+    app.add_flag("--no-watch{false}", options.watch, "Do not reload assets, sources and shaders when they change");
+    app.add_option("--output-folder", options.output_folder, "Folder of pictures that have no --capture")
         ->take_last()
         ->capture_default_str();
     app.add_option("--cooked-folder", options.cooked_folder, "Cooked assets (default: ../cooked beside the program)");
-    app.add_option("--content-folder", options.content_folder, "Sources of the cooked assets, cooked again on change")
-        ->capture_default_str();
     app.add_option("--shader-folder", options.shader_folder, "Source tree that shaders are reloaded from")
         ->capture_default_str();
+}
+
+bool is_numbered(const std::filesystem::path& file, const std::filesystem::path& capture) {
+    const std::string name = file.stem().string();
+    const std::string start = capture.stem().string() + "_";
+    return file.extension() == capture.extension() && name.starts_with(start) && name.size() > start.size() &&
+           name.find_first_not_of("0123456789", start.size()) == std::string::npos;
+}
+
+/// Of several frames: the first one's picture, and all numbered ones that exist and would be overwritten.
+void add_captures(std::vector<Output>& outputs, const Options& options, const char* option,
+                  const std::optional<std::filesystem::path>& path, const char* extension) {
+    if (!path) return;
+    const bool one = !options.play && options.frames.value_or(1) == 1;
+    const std::filesystem::path first = view::numbered(*path, 0, one ? 1 : 2);
+    outputs.push_back({option, first, extension});
+    std::error_code ignored;
+    for (const auto& file :
+         std::filesystem::directory_iterator(std::filesystem::absolute(first).parent_path(), ignored))
+        if (!one && is_numbered(file, *path) && file.path().filename() != first.filename())
+            outputs.push_back({option, file, extension});
 }
 
 }  // namespace
@@ -85,19 +98,23 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
     options.shader_folder = ROWLAND_SOURCE_DIR;
     options.content_folder = options.shader_folder / "content";
     add_options(app, options);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::CallForHelp&) {
-        std::fputs(app.help().c_str(), stdout);
-        return std::nullopt;
-    } catch (const CLI::ParseError& error) {
-        throw Error({.file = "rowland-demo",
-                     .place = {},
-                     .found = error.what(),
-                     .expected = {},
-                     .remedy = "see rowland-demo --help"});
-    }
+    if (!parse_command_line(app, argc, argv)) return std::nullopt;
+    if (options.cooked_folder.empty()) options.cooked_folder = default_cooked_folder();
+    if (!options.scene && !options.mesh && !options.material && !options.disc)
+        options.scene = options.cooked_folder / "cabinet.glb";
     return options;
+}
+
+void check_outputs(const Options& options) {
+    std::vector<Output> outputs;
+    add_captures(outputs, options, "--capture", options.capture, ".png");
+    add_captures(outputs, options, "--capture-linear", options.capture_linear, ".exr");
+    if (options.benchmark) outputs.push_back({"--benchmark", *options.benchmark});
+    if (options.record) outputs.push_back({"--record", *options.record});
+    std::vector<std::filesystem::path> inputs =
+        app::given({options.probe, options.ocio_config, options.scene, options.mesh, options.material, options.play});
+    for (const cook::Recooker::Job& job : shipped_jobs(options)) inputs.insert(inputs.end(), {job.source, job.output});
+    rowland::check_outputs(inputs, outputs);
 }
 
 }  // namespace rowland::demo

@@ -4,44 +4,47 @@
 #include <optional>
 #include <string>
 
+#include "engine/app/options.h"
+
 namespace rowland::demo {
 
-/// What the command line asks for.
-struct Options {
-    std::optional<std::filesystem::path> probe;
-    std::string probe_mapping = "equirect";
+/// The values of the command line.
+struct Options : app::CommonOptions {
     std::optional<std::filesystem::path> scene;
-    bool disc = false;  ///< one CD, in place of the cabinet
+    bool disc = false;  ///< one CD in place of the cabinet
     std::optional<std::filesystem::path> mesh;
     std::optional<std::filesystem::path> material;
-    std::optional<std::filesystem::path> ocio_config;
     bool headless = false;
     int width = 1280;
     int height = 720;
-    std::optional<int> frames;  ///< none: 1 for captures, 12 for a flight, 300 for a benchmark, all of a play
+    std::optional<int> frames;  ///< none: 1 for captures, 12 for a flight, 300 for a benchmark, all of a recording
     std::string light_window = "auto";
     std::string view;
     float exposure_stops = 0.0F;
-    float bloom = 0.0F;     ///< share of the light that is scattered
-    float vignette = 0.0F;  ///< share of the light lost in the corners, beside the lens' own
+    float bloom = 0.0F;     ///< fraction of the light that is scattered
+    float vignette = 0.0F;  ///< fraction of the light lost in the corners, on top of the lens' own falloff
     bool auto_exposure = false;
     bool dither = false;
     bool sun = false;  ///< a lamp that casts shadows
     bool list_views = false;
-    std::optional<std::filesystem::path> capture;
     std::optional<std::filesystem::path> capture_linear;
     std::optional<std::filesystem::path> benchmark;
-    std::optional<std::filesystem::path> record;  ///< where what the user does is written
-    std::optional<std::filesystem::path> play;    ///< such a file, to be done again
-    bool watch = true;                            ///< follow changes of files
+    std::optional<std::filesystem::path> record;  ///< a recording to write
+    std::optional<std::filesystem::path> play;    ///< a recording to play back
+    bool watch = true;                            ///< reload files that change
     std::filesystem::path output_folder = "demo";
     std::filesystem::path cooked_folder;
-    std::filesystem::path content_folder;  ///< the sources of the cooked assets
     std::filesystem::path shader_folder;
+
+    bool captures() const { return capture || capture_linear; }
 };
 
-/// Parses the command line. Throws Error (input) for bad usage; nothing if it only asked for help, which is printed
-/// then.
+/// Parses the command line. Prints help and returns nullopt if only that was asked for. Throws Error (input) for bad
+/// usage.
 std::optional<Options> parse_options(int argc, const char* const* argv);
+
+/// Throws Error (input) if a file that the options name cannot be written, or is read too. To be called before work
+/// begins.
+void check_outputs(const Options& options);
 
 }  // namespace rowland::demo

@@ -1,22 +1,23 @@
 #pragma once
 
-#include <filesystem>
+#include <optional>
 #include <string>
 
 #include "content/demo/options.h"
 #include "content/demo/play/recording.h"
-#include "content/demo/session.h"
 
 namespace rowland::demo {
 
-/// The name of what the options show, by which a recording knows its scene.
+class Play;
+
+/// What the options show, by the name that a recording stores.
 std::string scene_name(const Options& options);
 
-/// Loads the recording that the options name. Throws Error (input) if it is damaged or was made with another scene.
-Recording recording_for(const Options& options);
+/// The recording that the options name, if they name one. Throws Error (input) if it is damaged or was made with
+/// another scene.
+std::optional<Recording> recording_for(const Options& options);
 
-/// Plays it without a window, in frames of 1/30 s and at most as many as the options say. Pictures go where the options
-/// name captures, numbered; else the last one is written to the output folder. Says how it ended.
-void play_back(Session& session, const Options& options, const Recording& recording);
+/// Logs the step count and fingerprint of a play. A recording and its playback end with the same line.
+void log_state(const Play& play);
 
 }  // namespace rowland::demo

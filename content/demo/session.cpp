@@ -3,30 +3,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
-#include "content/demo/object_name.h"
+#include "content/demo/play/hierarchy.h"
 #include "engine/core/error.h"
 #include "engine/core/log.h"
 #include "engine/scene/transform.h"
 #include "engine/view/capture.h"
+#include "modules/material_types.h"
 
 namespace rowland::demo {
 
 namespace {
 
 constexpr float kExposureStep = 0.25F;
-constexpr int kFramesBetweenShaderLooks = 10;
-
-/// Runs something that bad input may refuse; all goes on as it was.
-template <typename F>
-void attempt(F&& action) {
-    try {
-        action();
-    } catch (const Error& error) {
-        log_error("{}", error.what());
-    }
-}
+constexpr int kFramesBetweenShaderChecks = 10;
 
 template <typename T>
 void toggle(std::optional<T>& effect, const T& settings = {}) {
@@ -34,6 +26,40 @@ void toggle(std::optional<T>& effect, const T& settings = {}) {
         effect.reset();
     else
         effect = settings;
+}
+
+/// The element after `present`; the first one after the last, or if `present` is none of them.
+template <typename T>
+const T& next_in(const std::vector<T>& list, const T& present) {
+    const auto at = std::ranges::find(list, present);
+    return at == list.end() || at + 1 == list.end() ? list.front() : *(at + 1);
+}
+
+post::PostSettings post_settings(const Options& options) {
+    post::PostSettings settings;
+    settings.exposure_stops = options.exposure_stops;
+    if (options.bloom > 0.0F) settings.bloom = post::BloomSettings{.strength = options.bloom};
+    if (options.auto_exposure) settings.auto_exposure = post::AutoExposureSettings{};
+    if (options.vignette > 0.0F)
+        settings.vignette = post::VignetteSettings{.vertical_fov = kFieldOfView, .strength = options.vignette};
+    if (options.dither) settings.dither = post::DitherSettings{};
+    return settings;
+}
+
+diffraction::DiffractionSettings diffraction_settings(const Options& options, Pace pace) {
+    diffraction::DiffractionSettings settings;
+    if (options.light_window != "auto") settings.window = math::parse_window(options.light_window);
+    if (pace == Pace::Still) settings.slices_per_frame = std::numeric_limits<int>::max();
+    return settings;
+}
+
+/// A picture that shows diffraction, with the effects that the options ask for.
+std::unique_ptr<view::Picture> open_picture(const Options& options, const post::OcioConfig& config, glm::ivec2 size,
+                                            Pace pace) {
+    auto picture = std::make_unique<view::Picture>(config, options.view, size);
+    picture->post_settings() = post_settings(options);
+    modules::register_material_types(picture->renderer(), {.diffraction = diffraction_settings(options, pace)});
+    return picture;
 }
 
 }  // namespace
@@ -56,13 +82,15 @@ Session::Session(const Options& options, const post::OcioConfig& config, glm::iv
 }
 
 std::vector<Action> Session::carry_out() {
-    std::vector<Action> left;
-    for (const Play::Order& order : play_.take_orders())
-        if (const auto* setting = std::get_if<SettingEvent>(&order))
-            attempt([&] { set(*setting); });
-        else if (const Action action = std::get<Action>(order); !perform(action))
-            left.push_back(action);
-    return left;
+    std::vector<Action> unknown;
+    for (const Play::Command& command : play_.take_commands())
+        messages_.attempt([&] {
+            if (const auto* setting = std::get_if<SettingEvent>(&command))
+                set(*setting);
+            else if (const Action action = std::get<Action>(command); !perform(action))
+                unknown.push_back(action);
+        });
+    return unknown;
 }
 
 void Session::set(const SettingEvent& event) {
@@ -100,7 +128,7 @@ void Session::set(const SettingEvent& event) {
     }
 }
 
-/// One of the demo's by its stem, any other by its path.
+/// A shipped probe by its stem, any other by its path.
 std::filesystem::path Session::probe_named(const std::string& name) const {
     const auto found = std::ranges::find(probe_paths_, name, [](const auto& path) { return path.stem().string(); });
     return found == probe_paths_.end() ? std::filesystem::path(name) : *found;
@@ -109,10 +137,7 @@ std::filesystem::path Session::probe_named(const std::string& name) const {
 void Session::set_look(Side side, const std::string& object, const std::string& name) {
     const auto look = look_named(name);
     if (!look) refuse_input("look", "", name, "a look, as \"arc, fine\"");
-    if (object.empty()) {
-        comparison_.set_look_of_all(side, *look);
-        return;
-    }
+    if (object.empty()) comparison_.set_look_of_all(side, *look);
     for (const ecs::Entity grating : comparison_.gratings())
         if (name_of_object(scene_.world(), grating) == object) comparison_.set_look(grating, side, *look);
 }
@@ -122,61 +147,55 @@ bool Session::perform(Action action) {
     switch (action) {
         case Action::Lamp:
             scene_.set_sun(!scene_.sun());
-            return true;
+            break;
         case Action::NextProbe:
-            attempt([this] { next_probe(); });
-            return true;
+            use_probe(next_in(probe_paths_, probe_path_));
+            break;
         case Action::NextView:
-            attempt([this] { next_view(); });
-            return true;
+            use_view(next_in(views_, view_));
+            break;
         case Action::LessExposure:
             post.exposure_stops -= kExposureStep;
-            return true;
+            break;
         case Action::MoreExposure:
             post.exposure_stops += kExposureStep;
-            return true;
+            break;
         case Action::Bloom:
             toggle(post.bloom);
-            return true;
+            break;
         case Action::Vignette:
             toggle(post.vignette, {.vertical_fov = kFieldOfView, .strength = 0.5F});
-            return true;
+            break;
         case Action::AutoExposure:
             toggle(post.auto_exposure);
-            return true;
+            break;
         case Action::Dither:
             toggle(post.dither);
-            return true;
+            break;
         case Action::Reload:
             reload_shaders();
             assets_.reload_all();
-            return true;
+            break;
         case Action::Screenshot:
         case Action::LinearScreenshot:
             screenshots_.push_back(action);
-            return true;
+            break;
         default:
             return false;
     }
-}
-
-void Session::next_probe() {
-    const std::size_t next = (probe_index_ + 1) % probe_paths_.size();
-    use_probe(probe_paths_[next]);
-    probe_index_ = next;
+    return true;
 }
 
 void Session::use_probe(const std::filesystem::path& path) {
     probe_ = assets_.probe(path);
     probe_path_ = path;
+    show_probe();
+}
+
+void Session::show_probe() {
     picture_->set_probe(*probe_);
     probe_version_ = probe_.version();
     ++probe_changes_;
-}
-
-void Session::next_view() {
-    const auto at = std::find(views_.begin(), views_.end(), view_);
-    use_view(at == views_.end() || at + 1 == views_.end() ? views_.front() : *(at + 1));
 }
 
 void Session::use_view(const std::string& view) {
@@ -197,38 +216,29 @@ void Session::reload_shaders() {
 }
 
 void Session::follow_files() {
-    if (assets_.poll()) take_over();
-    if (probe_version_ != probe_.version()) {
-        picture_->set_probe(*probe_);
-        probe_version_ = probe_.version();
-        ++probe_changes_;
-    }
-    shader_age_ += 1;
-    if (shader_age_ % kFramesBetweenShaderLooks == 0 && shaders_.changed()) reload_shaders();
+    if (assets_.poll()) refresh_scene();
+    if (probe_version_ != probe_.version()) show_probe();
+    if (++frames_followed_ % kFramesBetweenShaderChecks == 0 && shaders_.changed()) reload_shaders();
 }
 
-void Session::take_over() {
+void Session::refresh_scene() {
     play_.rest();
     if (scene_.refresh())
         play_.set_toys(scene_.toys());
     else
-        play_.place_all();
+        play_.update_nodes();
 }
 
 void Session::draw(float seconds) {
     draw_from(play_.camera(), seconds);
-    take_screenshots();
+    for (const Action action : std::exchange(screenshots_, {}))
+        messages_.attempt([&] { write_screenshot(action == Action::LinearScreenshot); });
 }
 
 void Session::draw_from(const scene::Camera& camera, float seconds) {
     scene::update_world_matrices(scene_.world());
     comparison_.update();
     picture_->draw(scene_.world(), camera, seconds);
-}
-
-void Session::take_screenshots() {
-    for (const Action action : std::exchange(screenshots_, {}))
-        attempt([&] { write_screenshot(action == Action::LinearScreenshot); });
 }
 
 void Session::write_screenshot(bool linear) {
@@ -238,7 +248,6 @@ void Session::write_screenshot(bool linear) {
         view::write_linear_capture(picture_->linear(), path);
     else
         view::write_display_capture(picture_->encoded(), path);
-    log_info("wrote {}", path.string());
 }
 
 std::string Session::failure() const {

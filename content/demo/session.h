@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec2.hpp>
@@ -11,69 +10,71 @@
 #include "content/demo/assets.h"
 #include "content/demo/demo_scene.h"
 #include "content/demo/looks/comparison.h"
-#include "content/demo/open_picture.h"
 #include "content/demo/options.h"
 #include "content/demo/play/play.h"
 #include "engine/asset/file_watch.h"
+#include "engine/core/messages.h"
 #include "engine/post/ocio_config.h"
 #include "engine/view/picture.h"
 
 namespace rowland::demo {
+
+/// Whether maps may fill over several frames.
+enum class Pace {
+    Fluent,  ///< for a window: incrementally
+    Still,   ///< for pictures: a map is full in the second frame in which nothing moves
+};
 
 /// The setting of a side's looks.
 inline Setting look_setting(Side side) {
     return side == Side::Left ? Setting::LeftLook : Setting::RightLook;
 }
 
-/// A running demo, in a window or without one: the scene, what the player does with it, its picture and the files that
-/// all come from.
+/// A running demo, in a window or without one: the scene, what the player does with it, its picture, and the files
+/// that it is made of.
 class Session {
  public:
-    /// `pixels`: of the picture; `window`: the mouse's units. Throws Error (input).
+    /// `pixels`: of the picture; `window`: in the mouse's units. Throws Error (input).
     Session(const Options& options, const post::OcioConfig& config, glm::ivec2 pixels, glm::ivec2 window, Pace pace);
 
     Play& play() { return play_; }
     DemoScene& scene() { return scene_; }
     view::Picture& picture() { return *picture_; }
     Comparison& comparison() { return comparison_; }
-    LiveAssets& assets() { return assets_; }
     const lighting::LightProbe& probe() const { return *probe_; }
-    /// Grows whenever the probe becomes another.
+    /// Grows with every change of the probe.
     std::uint64_t probe_version() const { return probe_changes_; }
     const std::filesystem::path& probe_path() const { return probe_path_; }
     const std::string& view() const { return view_; }
-
-    /// Lights the scene by another probe. Throws Error (input), with the old one kept.
-    void use_probe(const std::filesystem::path& path);
-    /// Shows another view of the display. Throws Error (input).
-    void use_view(const std::string& view);
-    /// Does what a setting says. Throws Error (input) if there is no such probe, view or look.
-    void set(const SettingEvent& setting);
     const std::vector<std::string>& views() const { return views_; }
 
-    /// Carries out what the play left over, and hands back what is not for a session. What bad input refuses is logged
-    /// and stays as it was.
+    /// Lights the scene with another probe. Throws Error (input) and keeps the old one.
+    void use_probe(const std::filesystem::path& path);
+
+    /// Carries out the play's commands, and returns the actions that a session does not know. Bad input is logged and
+    /// changes nothing.
     std::vector<Action> carry_out();
-    /// Looks whether files changed, and takes them over.
+    /// Reloads files that have changed.
     void follow_files();
-    /// Draws the world as it stands, `seconds` after the last frame, then takes the screenshots that were asked for.
+    /// Draws the world as the play has it, `seconds` after the last frame, then takes the screenshots asked for.
     void draw(float seconds);
-    /// The same through another camera, for a picture beside the play.
+    /// The same through another camera, without screenshots.
     void draw_from(const scene::Camera& camera, float seconds);
-    /// Why something in the picture is not what its file says; empty if all is well.
+    /// Why the picture does not show a file's present content; empty if it does.
     std::string failure() const;
 
  private:
+    void set(const SettingEvent& setting);
     bool perform(Action action);
-    void next_probe();
-    void next_view();
-    std::filesystem::path probe_named(const std::string& name) const;
+    void use_view(const std::string& view);
     void set_look(Side side, const std::string& object, const std::string& look);
+    void show_probe();
+    std::filesystem::path probe_named(const std::string& name) const;
     void reload_shaders();
-    void take_over();
-    void take_screenshots();
+    void refresh_scene();
     void write_screenshot(bool linear);
 
+    Messages messages_;
     const Options& options_;
     const post::OcioConfig& config_;
     std::unique_ptr<view::Picture> picture_;
@@ -83,9 +84,8 @@ class Session {
     Comparison comparison_;
     asset::FileWatch shaders_;
     std::string shader_failure_;
-    int shader_age_ = 0;
+    int frames_followed_ = 0;
     std::vector<std::filesystem::path> probe_paths_;
-    std::size_t probe_index_ = 0;
     std::filesystem::path probe_path_;
     asset::Handle<lighting::LightProbe> probe_;
     std::uint64_t probe_version_ = 0;

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <optional>
 
+#include "content/demo/play/hierarchy.h"
 #include "engine/render/gpu_mesh.h"
 #include "engine/scene/node_label.h"
 
@@ -39,12 +40,8 @@ bool may_be_grabbed(const nlohmann::json& extras) {
 }
 
 bool is_below(ecs::World& world, ecs::Entity entity, ecs::Entity node) {
-    while (entity != node) {
-        const auto* parent = world.find<scene::Parent>(entity);
-        if (parent == nullptr) return false;
-        entity = parent->entity;
-    }
-    return true;
+    while (world.alive(entity) && entity != node) entity = parent_of(world, entity);
+    return entity == node;
 }
 
 /// All vertices below a node, in the world.
@@ -52,7 +49,7 @@ std::vector<glm::vec3> vertices_below(ecs::World& world, ecs::Entity node) {
     std::vector<glm::vec3> vertices;
     world.view<render::MeshInstance>().each([&](ecs::Entity entity, const render::MeshInstance& instance) {
         if (instance.gpu->is_skinned() || !is_below(world, entity, node)) return;
-        const glm::mat4 to_world = placement(world, entity);
+        const glm::mat4 to_world = object_to_world(world, entity);
         for (const glm::vec3& position : instance.mesh->positions)
             vertices.emplace_back(to_world * glm::vec4(position, 1.0F));
     });
@@ -75,8 +72,8 @@ Body body_of(ecs::World& world, ecs::Entity node) {
     }
     const glm::vec3 centre = 0.5F * (lowest + highest);
     for (const glm::vec3& vertex : vertices) body.radius = std::max(body.radius, glm::length(vertex - centre));
-    body.centre = glm::vec3(glm::inverse(placement(world, node)) * glm::vec4(centre, 1.0F));
-    // Its ball must come free of what it lies on, and of the stand that holds its foot.
+    body.centre = glm::vec3(glm::inverse(object_to_world(world, node)) * glm::vec4(centre, 1.0F));
+    // Its bounding sphere must clear what it lies on, and the stand that holds its foot.
     constexpr float kStandInRadii = 0.25F;
     body.clearance = std::max(0.0F, body.radius - (centre.y - lowest.y)) + kStandInRadii * body.radius;
     return body;
@@ -101,13 +98,10 @@ std::vector<Body> bodies_of(ecs::World& world, const render::SceneInstance& inst
 
 void add_targets(ecs::World& world, Toys& toys) {
     const auto body_above = [&](ecs::Entity entity) -> std::optional<std::size_t> {
-        for (;;) {
+        for (; world.alive(entity); entity = parent_of(world, entity))
             for (std::size_t i = 0; i < toys.bodies.size(); ++i)
                 if (toys.bodies[i].grab && toys.bodies[i].node == entity) return i;
-            const auto* parent = world.find<scene::Parent>(entity);
-            if (parent == nullptr) return std::nullopt;
-            entity = parent->entity;
-        }
+        return std::nullopt;
     };
     world.view<render::MeshInstance>().each([&](ecs::Entity entity, const render::MeshInstance& instance) {
         if (instance.gpu->is_skinned()) return;

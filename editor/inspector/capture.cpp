@@ -3,24 +3,19 @@
 #include <chrono>
 #include <thread>
 
-#include "editor/inspector/session.h"
 #include "editor/inspector/start_session.h"
-#include "editor/inspector/workbench.h"
+#include "editor/inspector/window_frame.h"
+#include "engine/app/context.h"
 #include "engine/core/error.h"
-#include "engine/core/log.h"
-#include "engine/gpu/debug.h"
-#include "engine/gpu/framebuffer.h"
-#include "engine/platform/headless_context.h"
-#include "engine/ui/ui.h"
 #include "engine/view/capture.h"
 
 namespace rowland::inspector {
 
 namespace {
 
-constexpr float kFrame_s = 1.0F / 30.0F;
+constexpr double kFrame_s = 1.0 / 30.0;
 
-/// Waits for the work beside the frames.
+/// Waits for background work.
 void settle(Session& session) {
     do {
         session.update();
@@ -39,53 +34,45 @@ void require_picture(const Session& session) {
 }
 
 void capture_preview(Session& session, const Options& options, glm::ivec2 size) {
-    // Maps are filled for what has come to rest.
-    for (int frame = 0; frame < 2; ++frame) session.draw(size, opening_camera(), false, kFrame_s);
+    // Maps are filled in the second frame in which nothing moves.
+    for (int frame = 0; frame < 2; ++frame) session.draw(size, opening_camera(), false, static_cast<float>(kFrame_s));
     view::write_display_capture(session.preview().display(), *options.capture);
 }
 
 void capture_window(Session& session, const Options& options, const post::OcioConfig& config, Layout layout) {
-    ui::Ui ui({.scale = layout.scale});
+    WindowFrame window_frame(options, config, session, layout);
     const glm::ivec2 size(layout.width, layout.height);
-    const gpu::Framebuffer target({.width = size.x, .height = size.y, .colours = {gpu::Format::RGBA8}});
-    ControlMap controls(options.controls);
-    Workbench workbench(config, session, layout, controls);
-    const platform::InputState nobody;
-    const auto draw_frame = [&] {
+    const platform::InputState no_input;
+    const auto draw_frame = [&]() -> const gpu::Framebuffer& {
         session.update();
-        ui.begin_frame(nobody, {.size = size, .framebuffer_size = size, .seconds = static_cast<double>(kFrame_s)});
-        workbench.draw(nobody, false,
-                       {.size = glm::vec2(size), .pixels_per_unit = 1.0F, .seconds = kFrame_s, .frame_ms = 0.0});
-        target.clear({0.05F, 0.05F, 0.05F, 1.0F});
-        ui.draw(target);
+        return window_frame.draw(no_input, false, {.size = size, .framebuffer_size = size, .seconds = kFrame_s}, 0.0);
     };
     draw_frame();
     if (options.measure) session.price();
-    // What the panes show of a point is computed once there is a picture.
+    // The panes' numbers at a point are computed once there is a picture.
     do {
         draw_frame();
         settle(session);
     } while (session.busy());
-    for (int frame = 0; frame < 3; ++frame) draw_frame();
-    view::write_display_capture(target, *options.capture);
+    for (int frame = 0; frame < 2; ++frame) draw_frame();
+    view::write_display_capture(draw_frame(), *options.capture);
 }
 
 }  // namespace
 
 void capture(const Options& options, const post::OcioConfig& config) {
-    const platform::HeadlessContext context;
-    gpu::enable_debug_output(false);
-    const Layout layout = chosen_layout(options);
-    Session session(config,
-                    {.content_folder = options.content_folder, .probe_mapping = options.probe_mapping, .still = true});
-    start_session(session, options, layout);
-    settle(session);
-    require_picture(session);
-    if (options.preview_only)
-        capture_preview(session, options, {layout.width, layout.height});
-    else
-        capture_window(session, options, config, layout);
-    log_info("wrote {}", options.capture->string());
+    app::render_offscreen([&](const std::string&) {
+        const Layout layout = chosen_layout(options);
+        Session session(
+            config, {.content_folder = options.content_folder, .probe_mapping = options.probe_mapping, .still = true});
+        start_session(session, options, layout);
+        settle(session);
+        require_picture(session);
+        if (options.preview_only)
+            capture_preview(session, options, {layout.width, layout.height});
+        else
+            capture_window(session, options, config, layout);
+    });
 }
 
 }  // namespace rowland::inspector

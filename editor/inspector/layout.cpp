@@ -14,9 +14,20 @@ namespace {
 
 constexpr std::uint64_t kLargestLayout = 1 << 16;
 
-template <typename T>
-void take(const Json& json, const char* key, T& value, T minimum, T maximum) {
-    if (json.contains(key) && json[key].is_number()) value = std::clamp(json[key].get<T>(), minimum, maximum);
+/// Calls `visit(key, member, least, most)` for every number of a layout.
+template <typename AnyLayout, typename Visit>
+void visit_numbers(AnyLayout& layout, Visit&& visit) {
+    visit("width", layout.width, 640, 16384);
+    visit("height", layout.height, 400, 16384);
+    visit("scale", layout.scale, 0.5F, 4.0F);
+    visit("material_width", layout.material_width, 12.0F, 60.0F);
+    visit("physics_width", layout.physics_width, 12.0F, 80.0F);
+    visit("price_height", layout.price_height, 4.0F, 60.0F);
+    visit("rotation_deg", layout.stage.rotation_deg, -180.0F, 180.0F);
+    visit("exposure_stops", layout.stage.exposure_stops, -16.0F, 16.0F);
+    visit("lamp_azimuth_deg", layout.stage.lamp_azimuth_deg, -180.0F, 180.0F);
+    visit("lamp_elevation_deg", layout.stage.lamp_elevation_deg, 0.0F, 90.0F);
+    visit("lamp_irradiance", layout.stage.lamp_irradiance, 0.0F, 100.0F);
 }
 
 }  // namespace
@@ -28,46 +39,26 @@ Layout load_layout(const std::filesystem::path& path) {
     try {
         const Json json = parse_ordered(read_text_file(path, kLargestLayout), path.string());
         if (!json.is_object()) return layout;
-        take(json, "width", layout.width, 640, 16384);
-        take(json, "height", layout.height, 400, 16384);
-        take(json, "scale", layout.scale, 0.5F, 4.0F);
-        take(json, "material_width", layout.material_width, 12.0F, 60.0F);
-        take(json, "physics_width", layout.physics_width, 12.0F, 80.0F);
-        take(json, "price_height", layout.price_height, 4.0F, 60.0F);
-        take(json, "rotation_deg", layout.stage.rotation_deg, -180.0F, 180.0F);
-        take(json, "exposure_stops", layout.stage.exposure_stops, -16.0F, 16.0F);
-        take(json, "lamp_azimuth_deg", layout.stage.lamp_azimuth_deg, -180.0F, 180.0F);
-        take(json, "lamp_elevation_deg", layout.stage.lamp_elevation_deg, 0.0F, 90.0F);
-        take(json, "lamp_irradiance", layout.stage.lamp_irradiance, 0.0F, 100.0F);
+        visit_numbers(layout, [&]<typename T>(const char* key, T& value, T least, T most) {
+            if (json.contains(key) && json[key].is_number()) value = std::clamp(json[key].get<T>(), least, most);
+        });
         layout.stage.lamp = json.value("lamp", false);
         layout.shape = json.value("shape", layout.shape);
         layout.light = json.value("light", layout.light);
     } catch (const std::exception& error) {
-        log_warning("{}: the layout is as usual: {}", path.string(), error.what());
+        log_warning("{}: using the default layout: {}", path.string(), error.what());
     }
     return layout;
 }
 
 void save_layout(const Layout& layout, const std::filesystem::path& path) {
-    const Json json = {{"width", layout.width},
-                       {"height", layout.height},
-                       {"scale", layout.scale},
-                       {"material_width", layout.material_width},
-                       {"physics_width", layout.physics_width},
-                       {"price_height", layout.price_height},
-                       {"shape", layout.shape},
-                       {"light", layout.light},
-                       {"rotation_deg", layout.stage.rotation_deg},
-                       {"exposure_stops", layout.stage.exposure_stops},
-                       {"lamp", layout.stage.lamp},
-                       {"lamp_azimuth_deg", layout.stage.lamp_azimuth_deg},
-                       {"lamp_elevation_deg", layout.stage.lamp_elevation_deg},
-                       {"lamp_irradiance", layout.stage.lamp_irradiance}};
+    Json json = {{"shape", layout.shape}, {"light", layout.light}, {"lamp", layout.stage.lamp}};
+    visit_numbers(layout, [&](const char* key, auto value, auto, auto) { json[key] = value; });
     // A path need not be UTF-8.
     write_file_atomic(path, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
-std::optional<std::filesystem::path> usual_layout_file() {
+std::optional<std::filesystem::path> default_layout_file() {
     if (const char* config = std::getenv("XDG_CONFIG_HOME"); config != nullptr && *config != '\0')
         return std::filesystem::path(config) / "rowland" / "inspector.json";
     if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')

@@ -8,12 +8,12 @@
 
 namespace rowland::inspector {
 
-/// How the user left the window; kept over restarts.
+/// The state of the window that is restored at the next start.
 struct Layout {
     int width = 1280;
     int height = 800;
     float scale = 1.0F;         ///< of text and controls
-    float material_width = 22;  ///< of the column of fields, in letters' heights; so are the others
+    float material_width = 22;  ///< of the column of fields, in units of the font's height, as the next two
     float physics_width = 26;
     float price_height = 17;
     std::string shape = "disc";
@@ -21,14 +21,14 @@ struct Layout {
     Stage stage{};
 };
 
-/// The file's layout; what it lacks, or what is out of range, is as usual. A missing or broken file is an empty one: a
-/// layout is not worth a refusal.
+/// The file's layout. Missing members have their defaults, and numbers are clamped to their ranges. A missing or broken
+/// file gives the default layout, since a layout is not worth a refusal.
 Layout load_layout(const std::filesystem::path& path);
 
 /// Throws Error (system).
 void save_layout(const Layout& layout, const std::filesystem::path& path);
 
-/// $XDG_CONFIG_HOME/rowland/inspector.json, or the same under ~/.config; nothing if there is neither.
-std::optional<std::filesystem::path> usual_layout_file();
+/// $XDG_CONFIG_HOME/rowland/inspector.json, or the same under ~/.config; nullopt if there is neither.
+std::optional<std::filesystem::path> default_layout_file();
 
 }  // namespace rowland::inspector

@@ -5,11 +5,9 @@
 #include "editor/inspector/capture.h"
 #include "editor/inspector/options.h"
 #include "editor/inspector/window_loop.h"
-#include "engine/core/error.h"
+#include "engine/app/context.h"
 #include "engine/core/parallel.h"
 #include "engine/core/program.h"
-#include "engine/platform/window.h"
-#include "engine/post/ocio_config.h"
 
 namespace rowland::inspector {
 namespace {
@@ -22,15 +20,8 @@ int run(int argc, char** argv) {
         capture(*options, config);
         return 0;
     }
-    if (!platform::display_available())
-        throw Error({.file = "rowland-inspector",
-                     .place = {},
-                     .found = "no display",
-                     .expected = "X11 or Wayland",
-                     .remedy = "write a picture with --capture FILE",
-                     .fault = Fault::System});
-    // A core is left for the frames.
-    const ThreadLimit limit(std::max(1U, std::thread::hardware_concurrency() - 1));
+    app::require_display("rowland-inspector", "write a picture with --capture FILE");
+    const ThreadLimit one_core_for_frames(std::max(1U, std::thread::hardware_concurrency() - 1));
     run_in_window(*options, config);
     return 0;
 }

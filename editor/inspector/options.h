@@ -5,18 +5,15 @@
 #include <string>
 
 #include "editor/inspector/preview_shape.h"
+#include "engine/app/options.h"
 
 namespace rowland::inspector {
 
-/// What the command line asks for.
-struct Options {
+/// The values of the command line.
+struct Options : app::CommonOptions {
     std::optional<std::filesystem::path> file;  ///< material or glTF
     std::optional<std::string> preset;
-    std::optional<std::filesystem::path> probe;
-    std::string probe_mapping = "equirect";
     std::optional<PreviewShape> shape;
-    std::optional<std::filesystem::path> ocio_config;
-    std::optional<std::filesystem::path> capture;
     bool preview_only = false;
     bool measure = false;
     int width = 0;  ///< 0: the layout's
@@ -24,11 +21,10 @@ struct Options {
     float scale = 0.0F;                           ///< 0: the layout's
     std::optional<std::filesystem::path> layout;  ///< none: the user's
     std::optional<std::filesystem::path> controls;
-    std::filesystem::path content_folder;
 };
 
-/// Parses the command line. Throws Error (input) for bad usage; nothing if it only asked for help, which is printed
-/// then.
+/// Parses the command line. Prints help and returns nullopt if only that was asked for. Throws Error (input) for bad
+/// usage, and for a file that cannot be written or is read too.
 std::optional<Options> parse_options(int argc, const char* const* argv);
 
 }  // namespace rowland::inspector

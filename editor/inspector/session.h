@@ -8,14 +8,15 @@
 #include <string>
 #include <vector>
 
-#include "editor/inspector/computed.h"
 #include "editor/inspector/document.h"
 #include "editor/inspector/inspected_light.h"
-#include "editor/inspector/messages.h"
+
 #include "editor/inspector/open_file.h"
 #include "editor/inspector/physics/point_radiance.h"
 #include "editor/inspector/physics/price.h"
 #include "editor/inspector/preview.h"
+#include "engine/core/computed.h"
+#include "engine/core/messages.h"
 
 namespace rowland::inspector {
 

@@ -16,7 +16,7 @@ void require_opened(const Session& session) {
 
 Layout chosen_layout(const Options& options) {
     Layout layout;
-    if (const auto file = options.layout ? options.layout : usual_layout_file()) layout = load_layout(*file);
+    if (const auto file = options.layout ? options.layout : default_layout_file()) layout = load_layout(*file);
     if (options.width > 0) layout.width = options.width;
     if (options.height > 0) layout.height = options.height;
     if (options.scale > 0.0F) layout.scale = options.scale;

@@ -6,11 +6,11 @@
 
 namespace rowland::inspector {
 
-/// The layout that the options name, with what they ask for in place of it.
+/// The layout that the options name, changed by the other options.
 Layout chosen_layout(const Options& options);
 
-/// Opens what the options name, else what the layout remembers. A file of the command line that is refused throws
-/// Error; a probe of the layout that has gone is passed over.
+/// Opens the files of the options, else of the layout. Throws Error (input) if one of the options' is refused; a probe
+/// of the layout that no longer exists is ignored.
 void start_session(Session& session, const Options& options, const Layout& layout);
 
 }  // namespace rowland::inspector

@@ -58,6 +58,14 @@ void FrameTimes::add(std::chrono::nanoseconds frame) {
     next_ = (next_ + 1) % capacity_;
 }
 
+std::vector<float> FrameTimes::in_order_ms() const {
+    std::vector<float> result;
+    for (const auto time : times_) result.push_back(static_cast<float>(milliseconds(time)));
+    if (times_.size() == capacity_)
+        std::rotate(result.begin(), result.begin() + static_cast<std::ptrdiff_t>(next_), result.end());
+    return result;
+}
+
 FrameStatistics FrameTimes::statistics() const {
     if (times_.empty()) return {};
     std::vector<std::chrono::nanoseconds> sorted = times_;

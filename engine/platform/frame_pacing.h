@@ -7,14 +7,13 @@
 
 namespace rowland::platform {
 
-/// Cuts the time of uneven frames into steps of one length, so that a simulation runs the same at any frame rate.
-/// Counts in integers: how many steps have come depends on the sum of the frames' times alone, never on how that sum
-/// was split or rounded (as long as no frame is cut, see the constructor).
+/// Divides the time of uneven frames into equal steps, so that a simulation runs the same at any frame rate. Counts in
+/// integers: the number of steps depends on the sum of the frame times alone, never on its split or rounding (unless a
+/// frame is clamped, see the constructor).
 class FixedStep {
  public:
-    /// `steps_per_second` in 1 to 1 000 000. A frame longer than `longest_frame` (> 0, at most 10 s) counts as that
-    /// long: after a breakpoint or a slow load the simulation goes on slowly instead of trying to catch up with ever
-    /// longer frames.
+    /// `steps_per_second` in 1 to 1 000 000. Frame times are clamped to `longest_frame` (> 0, at most 10 s), so that
+    /// the simulation does not try to catch up after a breakpoint or a slow load.
     explicit FixedStep(int steps_per_second = 120,
                        std::chrono::nanoseconds longest_frame = std::chrono::milliseconds(250));
 
@@ -35,7 +34,7 @@ class FixedStep {
     std::int64_t steps_ = 0;
 };
 
-/// Times in milliseconds. Median and percentiles by the nearest-rank method, so each is a time that occurred.
+/// Times in milliseconds. Median and percentiles by nearest rank, so each is a time that occurred.
 struct FrameStatistics {
     std::size_t count = 0;
     double mean_ms = 0.0;
@@ -53,6 +52,8 @@ class FrameTimes {
     explicit FrameTimes(std::size_t capacity = 240);  ///< > 0
 
     void add(std::chrono::nanoseconds frame);
+    /// Milliseconds, the last frame last.
+    std::vector<float> in_order_ms() const;
     /// All zero before the first frame.
     FrameStatistics statistics() const;
 

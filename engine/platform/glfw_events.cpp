@@ -3,59 +3,13 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-#include <algorithm>
+#include "engine/platform/key.h"
 
 namespace rowland::platform {
 
 namespace {
 
-struct KeyName {
-    int glfw;
-    Key key;
-};
-
-// Keys that do not lie in one run with their neighbours in both enumerations.
-constexpr std::array kSingleKeys{
-    KeyName{GLFW_KEY_LEFT, Key::Left},
-    KeyName{GLFW_KEY_RIGHT, Key::Right},
-    KeyName{GLFW_KEY_UP, Key::Up},
-    KeyName{GLFW_KEY_DOWN, Key::Down},
-    KeyName{GLFW_KEY_HOME, Key::Home},
-    KeyName{GLFW_KEY_END, Key::End},
-    KeyName{GLFW_KEY_PAGE_UP, Key::PageUp},
-    KeyName{GLFW_KEY_PAGE_DOWN, Key::PageDown},
-    KeyName{GLFW_KEY_INSERT, Key::Insert},
-    KeyName{GLFW_KEY_DELETE, Key::Delete},
-    KeyName{GLFW_KEY_SPACE, Key::Space},
-    KeyName{GLFW_KEY_ENTER, Key::Enter},
-    KeyName{GLFW_KEY_KP_ENTER, Key::Enter},
-    KeyName{GLFW_KEY_ESCAPE, Key::Escape},
-    KeyName{GLFW_KEY_TAB, Key::Tab},
-    KeyName{GLFW_KEY_BACKSPACE, Key::Backspace},
-    KeyName{GLFW_KEY_MINUS, Key::Minus},
-    KeyName{GLFW_KEY_EQUAL, Key::Equal},
-    KeyName{GLFW_KEY_COMMA, Key::Comma},
-    KeyName{GLFW_KEY_PERIOD, Key::Period},
-    KeyName{GLFW_KEY_SLASH, Key::Slash},
-    KeyName{GLFW_KEY_GRAVE_ACCENT, Key::GraveAccent},
-    KeyName{GLFW_KEY_LEFT_BRACKET, Key::LeftBracket},
-    KeyName{GLFW_KEY_RIGHT_BRACKET, Key::RightBracket},
-    KeyName{GLFW_KEY_LEFT_SHIFT, Key::LeftShift},
-    KeyName{GLFW_KEY_RIGHT_SHIFT, Key::RightShift},
-    KeyName{GLFW_KEY_LEFT_CONTROL, Key::LeftControl},
-    KeyName{GLFW_KEY_RIGHT_CONTROL, Key::RightControl},
-    KeyName{GLFW_KEY_LEFT_ALT, Key::LeftAlt},
-    KeyName{GLFW_KEY_RIGHT_ALT, Key::RightAlt},
-};
-
-/// The key of a run that begins at `glfw_first` and `first` and has `count` keys in the same order in both
-/// enumerations.
-std::optional<Key> in_run(int key, int glfw_first, Key first, int count) {
-    if (key < glfw_first || key >= glfw_first + count) return std::nullopt;
-    return static_cast<Key>(static_cast<int>(first) + key - glfw_first);
-}
-
-// Both enumerations name the pad's buttons in the same order.
+// Both enumerations list the pad's buttons in the same order.
 static_assert(static_cast<int>(GamepadButton::North) == GLFW_GAMEPAD_BUTTON_Y);
 static_assert(static_cast<int>(GamepadButton::Left) == GLFW_GAMEPAD_BUTTON_LAST);
 static_assert(static_cast<int>(GamepadButton::Count) == GLFW_GAMEPAD_BUTTON_LAST + 1);
@@ -82,15 +36,6 @@ void on_drop(GLFWwindow* window, int count, const char** paths) {
 }
 
 }  // namespace
-
-std::optional<Key> key_of_glfw(int key) {
-    if (const auto letter = in_run(key, GLFW_KEY_A, Key::A, 26)) return letter;
-    if (const auto digit = in_run(key, GLFW_KEY_0, Key::Digit0, 10)) return digit;
-    if (const auto function = in_run(key, GLFW_KEY_F1, Key::F1, 12)) return function;
-    const auto* const single =
-        std::find_if(kSingleKeys.begin(), kSingleKeys.end(), [key](const KeyName& name) { return name.glfw == key; });
-    return single == kSingleKeys.end() ? std::nullopt : std::optional(single->key);
-}
 
 std::optional<MouseButton> mouse_button_of_glfw(int button) {
     switch (button) {

@@ -10,20 +10,19 @@ struct GLFWwindow;
 
 namespace rowland::platform {
 
-/// GLFW's number for a key or button, as ours; nothing for one that we do not name.
-std::optional<Key> key_of_glfw(int key);
+/// The button of a GLFW number; nullopt for one that MouseButton does not have.
 std::optional<MouseButton> mouse_button_of_glfw(int button);
 
-/// What happened in a window since someone last looked.
+/// What happened in a window since the last poll.
 struct WindowEvents {
     std::vector<InputEvent> input;
     std::vector<std::vector<std::filesystem::path>> drops;  ///< the files of each drop
 };
 
-/// Appends what happens in `window` to `events`, which becomes the window's user pointer and must outlive it.
+/// Appends what happens in `window` to `events`, which becomes the window's user pointer and must outlive the window.
 void collect_events(GLFWwindow* window, WindowEvents& events);
 
-/// The first game pad that GLFW knows the layout of; not connected if there is none.
+/// The first game pad whose layout GLFW knows; not connected if there is none.
 GamepadEvent read_gamepad();
 
 }  // namespace rowland::platform

@@ -5,10 +5,10 @@
 
 namespace rowland::platform {
 
-/// GLFW as long as someone holds it. Main thread only.
+/// GLFW is initialised while someone holds this. Main thread only.
 class GlfwLibrary {
  public:
-    /// The library, started if nobody holds it; null if it does not start, with GLFW's reason in `reason`.
+    /// Initialises GLFW if nobody holds it; null if that fails, with GLFW's reason in `reason`.
     static std::shared_ptr<GlfwLibrary> acquire(std::string& reason);
     ~GlfwLibrary();
     GlfwLibrary(const GlfwLibrary&) = delete;
@@ -18,7 +18,7 @@ class GlfwLibrary {
     GlfwLibrary() = default;
 };
 
-/// What GLFW says about its last failure, which is then forgotten; empty if there was none.
+/// Returns and clears GLFW's last error; empty if there was none.
 std::string take_glfw_error();
 
 }  // namespace rowland::platform

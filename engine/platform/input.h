@@ -8,7 +8,7 @@
 
 namespace rowland::platform {
 
-/// Keys by their place on a US keyboard, so that WASD is the same cluster on every layout.
+/// Keys by their position on a US keyboard, so that WASD is the same cluster on every layout.
 enum class Key {
     // clang-format off
     A, B, C, D, E, F, G, H, I, J, K, L, M, N, O, P, Q, R, S, T, U, V, W, X, Y, Z,
@@ -23,7 +23,7 @@ enum class Key {
 
 enum class MouseButton { Left, Right, Middle, Count };
 
-/// Sticks: x to the right and y *up* (away from the player), -1 to 1. Triggers: 0 (let go) to 1.
+/// Sticks: x to the right and y *up* (away from the player), -1 to 1. Triggers: 0 (released) to 1.
 enum class GamepadAxis { LeftX, LeftY, RightX, RightY, LeftTrigger, RightTrigger, Count };
 
 /// South, East, West and North are the four face buttons (A, B, X and Y on an Xbox pad).
@@ -56,18 +56,18 @@ struct ScrollEvent {
 struct FocusEvent {
     bool focused;
 };
-/// The cursor was captured or let go; positions before and after are not comparable.
+/// The cursor was captured or released; positions before and after are not comparable.
 struct CursorCaptureEvent {
     bool captured;
 };
-/// A whole reading of the game pad, before any dead zone.
+/// The whole state of the game pad, before any dead zone.
 struct GamepadEvent {
     bool connected = false;
     PerEnum<GamepadAxis, float> axes{};
     PerEnum<GamepadButton, bool> buttons{};
 };
 
-/// A character was typed, by the user's layout and with the repeats of a held key.
+/// A typed character, by the user's layout. A held key repeats.
 struct CharEvent {
     char32_t codepoint = 0;
 };
@@ -75,12 +75,12 @@ struct CharEvent {
 using InputEvent = std::variant<KeyEvent, MouseButtonEvent, MouseMoveEvent, ScrollEvent, FocusEvent, CursorCaptureEvent,
                                 GamepadEvent, CharEvent>;
 
-/// Share of a stick's travel that counts as rest; worn sticks come to rest anywhere inside it.
+/// Fraction of a stick's travel that counts as rest; worn sticks rest anywhere inside it.
 constexpr float kStickDeadZone = 0.15F;
 
-/// `stick` (each axis -1 to 1) without its dead zone: 0 up to length `zone` (0 <= zone < 1), growing from 0 at its edge
-/// to length 1 at full travel and never longer, direction kept. Radial, so that a stick does not snap to the axes. A
-/// reading that is not finite gives 0.
+/// Removes the dead zone of `stick` (each axis -1 to 1): 0 up to length `zone` (0 <= zone < 1), then growing to length
+/// 1 at full travel, in the same direction. Radial, so that a stick does not snap to the axes. A stick that is not
+/// finite gives 0.
 glm::vec2 radial_dead_zone(glm::vec2 stick, float zone = kStickDeadZone);
 
 /// A button of any device during one frame. Pressed and released within one frame is both, and not down at its end.
@@ -92,12 +92,12 @@ struct ButtonState {
     friend bool operator==(const ButtonState&, const ButtonState&) = default;
 };
 
-/// What the user's devices did during one frame. Fed by events, so it needs no window: `begin_frame`, then `apply` each
-/// event of the frame in order, then ask. Losing the focus releases every key and button and rests the game pad, which
-/// stays at rest until the focus is back.
+/// The user's input during one frame. It is fed by events and needs no window: `begin_frame`, then `apply` each event
+/// of the frame in order, then query. Losing the focus releases every key and button and centres the game pad until the
+/// focus is back.
 class InputState {
  public:
-    /// Forgets what happened during the last frame and keeps what is held.
+    /// Clears everything but what is held down.
     void begin_frame();
     void apply(const InputEvent& event);
 
@@ -108,17 +108,17 @@ class InputState {
     /// -1, 0 or 1 as the one key, neither (or both), or the other was down at any time of the frame.
     float key_axis(Key negative, Key positive) const;
 
-    /// Screen coordinates, y down; while the cursor is captured, unbounded and only good for differences.
+    /// Screen coordinates, y down; unbounded while the cursor is captured, when only differences have a meaning.
     glm::dvec2 mouse_position() const { return mouse_position_; }
     /// Movement during the frame. The first movement after a start, a change of focus or a capture counts as none.
     glm::dvec2 mouse_delta() const { return mouse_delta_; }
     /// The part of `mouse_delta` made while `button` was down, even if it went down or up within the frame.
     glm::dvec2 mouse_drag(MouseButton button) const { return mouse_drag_[static_cast<std::size_t>(button)]; }
-    /// Where the mouse was when `button` last went down. In a long frame it may be elsewhere since.
+    /// Where the mouse was when `button` last went down.
     glm::dvec2 press_position(MouseButton button) const { return press_position_[static_cast<std::size_t>(button)]; }
     glm::dvec2 scroll() const { return scroll_; }  ///< notches during the frame
 
-    /// What was typed during the frame: Unicode scalar values without control characters (those are keys).
+    /// Text typed during the frame: Unicode scalar values without control characters (those are keys).
     const std::u32string& typed() const { return typed_; }
 
     bool focused() const { return focused_; }

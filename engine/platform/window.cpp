@@ -41,7 +41,7 @@ GLFWwindow* open(const WindowOptions& options) {
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, options.debug ? GLFW_TRUE : GLFW_FALSE);
-    // To be told of a reset of the GPU (gpu/lost_context.h), where the driver can do that.
+    // Resets of the GPU are reported (gpu/lost_context.h), where the driver can.
     glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
     // The scene is drawn into framebuffer objects that bring their own.
     glfwWindowHint(GLFW_DEPTH_BITS, 0);
@@ -89,7 +89,7 @@ bool display_available() {
 #if defined(__unix__) && !defined(__APPLE__)
     if (!announced("DISPLAY") && !announced("WAYLAND_DISPLAY")) return false;
 #endif
-    // Kept for the window that is to open: a server that starts anew when its last client leaves, as Xvfb does, may
+    // Kept for the window that is to open: a server that restarts when its last client leaves, as Xvfb does, may
     // refuse the next one.
     static std::shared_ptr<GlfwLibrary> kept;
     std::string reason;

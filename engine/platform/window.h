@@ -14,8 +14,8 @@ struct GLFWwindow;
 
 namespace rowland::platform {
 
-/// Whether a display can be reached on which a Window may open: X11 or Wayland is announced and answers. Never throws
-/// and opens nothing; a program that gets `false` renders with a HeadlessContext. Main thread only.
+/// Whether a Window can open: X11 or Wayland is announced in the environment and answers. Never throws and opens
+/// nothing. Main thread only.
 bool display_available();
 
 struct WindowOptions {
@@ -50,12 +50,12 @@ class Window {
     /// Makes this window's context current.
     void set_vsync(bool on);
 
-    /// What the user did since the last poll, in order, then hands dropped files to the drop handler; what that throws
-    /// is passed on.
+    /// The input since the last poll, in order. Passes dropped files to the drop handler first, and what that throws to
+    /// the caller.
     std::vector<InputEvent> poll_events();
     /// Starts a frame of `input` and feeds it poll_events().
     void poll(InputState& input);
-    /// `handler` is called from a poll with the files of each drop; empty: drops are ignored.
+    /// Called from a poll with the files of each drop; empty: drops are ignored.
     void set_drop_handler(DropHandler handler);
 
     bool should_close() const;
@@ -73,11 +73,11 @@ class Window {
     bool focused() const;
 
     bool fullscreen() const;
-    /// Fills the monitor that shows most of the window, in the mode it has; back restores the old place and size.
+    /// Fills the monitor that shows most of the window, in the mode it has; back restores the old position and size.
     void set_fullscreen(bool on);
 
     bool cursor_captured() const;
-    /// Hides the cursor and holds it in the window, for looking around; InputState sees no jump when it begins or ends.
+    /// Hides the cursor and keeps it in the window, for looking around. InputState sees no jump at begin and end.
     void set_cursor_captured(bool captured);
 
     /// For user interface libraries that attach to GLFW. Callbacks installed later must call the ones they replace.

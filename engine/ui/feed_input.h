@@ -9,12 +9,12 @@ struct ImGuiIO;
 
 namespace rowland::ui {
 
-/// Tells ImGui which of our keys edit text and move through controls. Its numbers for keys are then ours.
+/// Tells ImGui which keys edit text and move through controls. ImGui then uses our key numbers.
 void map_keys(ImGuiIO& io);
 
-/// Hands a frame's keys, text and mouse to ImGui, which sees one state of each a frame. So that no click or drag is
-/// lost at a low frame rate, what was pressed and let go within a frame counts as down in it; a press is seen where it
-/// was made; and what was dragged meanwhile moves in the next frame, and is let go in the one after it.
+/// Passes a frame's keys, text and mouse to ImGui, which takes one state of each per frame. At low frame rates no click
+/// or drag is lost: a button pressed and released within a frame is down in it, at the position of the press; a drag
+/// within it moves in the next frame and is released in the one after.
 class InputFeed {
  public:
     void feed(const platform::InputState& input, ImGuiIO& io);
@@ -22,8 +22,8 @@ class InputFeed {
  private:
     void feed_mouse(const platform::InputState& input, ImGuiIO& io);
 
-    std::array<bool, 3> down_{};  ///< mouse buttons, as ImGui saw them last
-    glm::dvec2 seen_{0.0};        ///< and the mouse
+    std::array<bool, 3> down_{};  ///< mouse buttons, as last passed
+    glm::dvec2 seen_{0.0};        ///< mouse position, as last passed
 };
 
 }  // namespace rowland::ui

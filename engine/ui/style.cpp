@@ -13,7 +13,7 @@ namespace rowland::ui {
 namespace {
 
 constexpr float kFontSize = 15.0F;         ///< pixels at scale 1
-constexpr float kBuiltInFontSize = 13.0F;  ///< that ImGui's own font is drawn for
+constexpr float kBuiltInFontSize = 13.0F;  ///< of ImGui's own font
 
 /// First and last of each range, then 0: Latin, Greek, general punctuation, super- and subscripts, arrows, mathematics,
 /// geometric shapes.
@@ -24,7 +24,7 @@ ImVec4 grey(float value, float alpha = 1.0F) {
     return {value, value, value, alpha};
 }
 
-/// A calm blue that stays itself for all kinds of colour vision.
+/// A blue that is distinguishable with all kinds of colour vision.
 ImVec4 accent(float alpha) {
     return {0.26F, 0.55F, 0.85F, alpha};
 }
@@ -76,7 +76,7 @@ ImGuiStyle make_style(float scale) {
 
 void load_font(ImGuiIO& io, float scale) {
     io.Fonts->Clear();
-    // Looked for first: ImGui takes a missing file for a mistake of the program.
+    // Checked first, since ImGui asserts that the file exists.
     std::error_code ignored;
     if (std::filesystem::is_regular_file(ROWLAND_UI_FONT, ignored) &&
         io.Fonts->AddFontFromFileTTF(ROWLAND_UI_FONT, std::round(kFontSize * scale), nullptr, kGlyphs.data()) !=

@@ -5,11 +5,11 @@ struct ImGuiStyle;
 
 namespace rowland::ui {
 
-/// The look of all our programs: dark and neutral, so that it tints no judgement of colours beside it, with one accent.
+/// The style of all our programs: dark and neutral, so that it does not affect the perception of colours beside it.
 ImGuiStyle make_style(float scale);
 
-/// Loads the one font at `scale`: DejaVu Sans with Greek letters, arrows and mathematical signs; where the system has
-/// not got it, ImGui's own, which has Latin letters only.
+/// Loads the font at `scale`: DejaVu Sans with Greek letters, arrows and mathematical signs; or ImGui's own, with Latin
+/// letters only, if the system does not have it.
 void load_font(ImGuiIO& io, float scale);
 
 }  // namespace rowland::ui

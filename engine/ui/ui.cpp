@@ -4,12 +4,8 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <string>
 
 #include "engine/core/check.h"
-#include "engine/core/error.h"
-#include "engine/core/file.h"
-#include "engine/core/log.h"
 #include "engine/ui/feed_input.h"
 #include "engine/ui/style.h"
 
@@ -17,21 +13,8 @@ namespace rowland::ui {
 
 namespace {
 
-constexpr std::uint64_t kLargestLayoutFile = 1 << 20;
-
 /// ImGui divides by the time between frames.
 constexpr double kShortestFrame_s = 1e-4;
-
-void load_layout(const std::filesystem::path& path) {
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(path, ignored)) return;
-    try {
-        const std::string text = read_text_file(path, kLargestLayoutFile);
-        ImGui::LoadIniSettingsFromMemory(text.data(), text.size());
-    } catch (const Error& error) {
-        log_warning("{}", error.what());
-    }
-}
 
 }  // namespace
 
@@ -49,7 +32,7 @@ Ui::Ui(const UiOptions& options) : state_(std::make_unique<State>()) {
     state_->context = ImGui::CreateContext();
     ImGui::SetCurrentContext(state_->context);
     ImGuiIO& io = ImGui::GetIO();
-    // Layouts are ours to read and write: whole, and where we say.
+    // ImGui stores no layout: programs place their windows themselves.
     io.IniFilename = nullptr;
     io.LogFilename = nullptr;
     io.BackendPlatformName = "rowland";
@@ -57,25 +40,14 @@ Ui::Ui(const UiOptions& options) : state_(std::make_unique<State>()) {
     io.ConfigWindowsMoveFromTitleBarOnly = true;
     map_keys(io);
     set_scale(options.scale);
-    if (options.layout_file) load_layout(*options.layout_file);
     ImGui_ImplOpenGL3_Init("#version 450 core");
 }
 
 Ui::~Ui() {
     ImGui::SetCurrentContext(state_->context);
     if (state_->in_frame) ImGui::EndFrame();
-    save_layout();
     ImGui_ImplOpenGL3_Shutdown();
     ImGui::DestroyContext(state_->context);
-}
-
-void Ui::save_layout() {
-    if (!state_->options.layout_file) return;
-    try {
-        write_file_atomic(*state_->options.layout_file, std::string(ImGui::SaveIniSettingsToMemory()));
-    } catch (const Error& error) {
-        log_warning("{}", error.what());
-    }
 }
 
 void Ui::set_scale(float scale) {
@@ -110,10 +82,6 @@ void Ui::begin_frame(const platform::InputState& input, const UiFrame& frame) {
     state_->has_drawn = true;
     ImGui::NewFrame();
     state_->in_frame = true;
-    if (io.WantSaveIniSettings) {
-        io.WantSaveIniSettings = false;
-        save_layout();
-    }
 }
 
 bool Ui::wants_mouse() const {

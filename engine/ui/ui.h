@@ -1,9 +1,7 @@
 #pragma once
 
-#include <filesystem>
 #include <glm/vec2.hpp>
 #include <memory>
-#include <optional>
 
 #include "engine/gpu/framebuffer.h"
 #include "engine/platform/input.h"
@@ -11,8 +9,7 @@
 namespace rowland::ui {
 
 struct UiOptions {
-    float scale = 1.0F;  ///< enlarges text and controls, kSmallestScale to kLargestScale
-    std::optional<std::filesystem::path> layout_file = {};  ///< where windows were left; none: forgotten
+    float scale = 1.0F;  ///< of text and controls, kSmallestScale to kLargestScale
 };
 inline constexpr float kSmallestScale = 0.5F;
 inline constexpr float kLargestScale = 4.0F;
@@ -24,7 +21,7 @@ struct UiFrame {
     double seconds = 0.0;            ///< since the last frame
 };
 
-/// Dear ImGui on our own input and context: what is recorded plays back, and tests need no window. The context must be
+/// Dear ImGui on our own input and context, so that recordings play back and tests need no window. The context must be
 /// current from construction to destruction. Between begin_frame() and draw() any ImGui:: function may be called.
 ///
 ///     window.poll(input);
@@ -37,9 +34,7 @@ struct UiFrame {
 ///     ui.draw(target);                   // over it; or draw_in_window()
 class Ui {
  public:
-    /// A layout file that is not there yet, or holds nonsense, is an empty layout.
     explicit Ui(const UiOptions& options = {});
-    /// Saves the layout; failures are logged.
     ~Ui();
     Ui(const Ui&) = delete;
     Ui& operator=(const Ui&) = delete;
@@ -67,7 +62,6 @@ class Ui {
  private:
     struct State;
     void render();
-    void save_layout();
 
     std::unique_ptr<State> state_;
 };

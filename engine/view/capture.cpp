@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/core/error.h"
+#include "engine/core/log.h"
 #include "engine/gpu/lost_context.h"
 #include "engine/image/exr.h"
 #include "engine/image/png.h"
@@ -46,6 +47,7 @@ void write_display_capture(const gpu::Framebuffer& display, const std::filesyste
     rgb.reserve(rgba.size() / 4 * 3);
     for (std::size_t i = 0; i < rgba.size(); i += 4) rgb.insert(rgb.end(), {rgba[i], rgba[i + 1], rgba[i + 2]});
     image::write_png(path, display.size().x, display.size().y, rgb);
+    log_info("wrote {}", path.string());
 }
 
 void write_linear_capture(const gpu::Framebuffer& linear, const std::filesystem::path& path) {
@@ -55,6 +57,7 @@ void write_linear_capture(const gpu::Framebuffer& linear, const std::filesystem:
     const image::Image picture{
         .width = linear.size().x, .height = linear.size().y, .texels = {pixels.begin(), pixels.end()}};
     image::write_exr(path, picture);
+    log_info("wrote {}", path.string());
 }
 
 }  // namespace rowland::view

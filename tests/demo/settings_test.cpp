@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "content/demo/object_name.h"
+#include "content/demo/play/hierarchy.h"
 #include "content/demo/session.h"
 #include "engine/platform/headless_context.h"
 

@@ -1,4 +1,4 @@
-#include "content/demo/tour.h"
+#include "content/demo/camera_path.h"
 
 #include <gtest/gtest.h>
 

@@ -7,10 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/file.h"
 #include "engine/gpu/pipeline_state.h"
 #include "tests/gpu/gl_test.h"
-#include "tests/support/temporary_folder.h"
 
 namespace rowland {
 namespace {
@@ -211,55 +209,6 @@ TEST_F(UiTest, TheFontHasThePhysicistsLetters) {
         for (const char16_t letter : std::u16string(u"ληΣ±−√→"))
             EXPECT_NE(ImGui::GetFont()->FindGlyphNoFallback(letter), nullptr) << int{letter};
     });
-}
-
-/// Where a movable window lies after `input` was played to a user interface with this layout file.
-ImVec2 place_of_window(const std::filesystem::path& layout, glm::dvec2 drag) {
-    const gpu::Framebuffer target({.width = kSize.x, .height = kSize.y, .colours = {gpu::Format::RGBA8}});
-    platform::InputState input;
-    ui::Ui ui({.layout_file = layout});
-    ImVec2 place;
-    const auto frame = [&](const std::vector<platform::InputEvent>& events) {
-        input.begin_frame();
-        for (const platform::InputEvent& event : events) input.apply(event);
-        ui.begin_frame(input, {.size = kSize, .framebuffer_size = kSize, .seconds = 1.0 / 60.0});
-        ImGui::SetNextWindowPos({10.0F, 10.0F}, ImGuiCond_FirstUseEver);
-        ImGui::SetNextWindowSize({80.0F, 60.0F}, ImGuiCond_FirstUseEver);
-        ImGui::Begin("movable");
-        place = ImGui::GetWindowPos();
-        ImGui::End();
-        ui.draw(target);
-    };
-    const glm::dvec2 title(60.0, 18.0);
-    frame({MouseMoveEvent{title}});
-    frame({});
-    if (drag != glm::dvec2(0.0)) {
-        frame({MouseButtonEvent{MouseButton::Left, true}});
-        frame({MouseMoveEvent{title + drag}});
-        frame({MouseButtonEvent{MouseButton::Left, false}});
-    }
-    frame({});
-    return place;
-}
-
-TEST_F(UiTest, AWindowIsFoundAgainWhereItWasLeft) {
-    const test::TemporaryFolder folder;
-    const std::filesystem::path layout = folder.path() / "layout.ini";
-    const ImVec2 left = place_of_window(layout, {33.0, 21.0});
-    EXPECT_EQ(left.x, 43.0F);
-    EXPECT_EQ(left.y, 31.0F);
-    const ImVec2 found = place_of_window(layout, {});
-    EXPECT_EQ(found.x, 43.0F);
-    EXPECT_EQ(found.y, 31.0F);
-}
-
-TEST_F(UiTest, ABrokenLayoutIsNoLayout) {
-    const test::TemporaryFolder folder;
-    const std::filesystem::path layout = folder.path() / "layout.ini";
-    write_file_atomic(layout, std::string("[Window][mov\0\xFF\npos=,,\n[[[", 24));
-    const ImVec2 place = place_of_window(layout, {});
-    EXPECT_EQ(place.x, 10.0F);
-    EXPECT_EQ(place.y, 10.0F);
 }
 
 }  // namespace

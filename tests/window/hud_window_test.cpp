@@ -154,7 +154,7 @@ TEST_F(HudWindow, WhatIsNoKeyIsRecorded) {
          "--record " + folder + "/play.jsonl");
     const std::string recording = read_text_file(folder_.path() / "play.jsonl", 1 << 20);
     EXPECT_THAT(recording, HasSubstr(R"("set":"wipe","to":1.0)"));
-    EXPECT_THAT(recording, HasSubstr(R"("set":"right look","to":"spikes, usual")"));
+    EXPECT_THAT(recording, HasSubstr(R"("set":"right look","to":"spikes, medium")"));
     EXPECT_THAT(recording, HasSubstr(R"("set":"wipe line","to":0.5)"));
     EXPECT_THAT(recording, HasSubstr(R"("set":"probe","to":")" + folder + "/turned.hdr"));
 }

@@ -1,7 +1,5 @@
-#include <fmt/format.h>
 #include <imgui.h>
 
-#include <algorithm>
 #include <vector>
 
 #include "content/demo/hud/windows.h"
@@ -10,16 +8,13 @@ namespace rowland::demo {
 
 namespace {
 
-void graph(const std::deque<float>& frame_ms) {
-    if (frame_ms.empty()) return;
-    const std::vector<float> times(frame_ms.begin(), frame_ms.end());
-    const float longest = *std::max_element(times.begin(), times.end());
-    std::vector<float> sorted = times;
-    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
-    const float median = sorted[sorted.size() / 2];
-    const std::string label = fmt::format("{:.1f} ms, median {:.1f}, longest {:.1f}", times.back(), median, longest);
-    ImGui::TextUnformatted(label.c_str());
-    ImGui::PlotLines("##frames", times.data(), static_cast<int>(times.size()), 0, nullptr, 0.0F, 1.1F * longest,
+void graph(const platform::FrameTimes& times) {
+    const std::vector<float> ms = times.in_order_ms();
+    if (ms.empty()) return;
+    const platform::FrameStatistics all = times.statistics();
+    ImGui::Text("%.1f ms, median %.1f, longest %.1f", ms.back(), all.median_ms, all.maximum_ms);
+    ImGui::PlotLines("##frames", ms.data(), static_cast<int>(ms.size()), 0, nullptr, 0.0F,
+                     1.1F * static_cast<float>(all.maximum_ms),
                      {ImGui::GetContentRegionAvail().x, 4.0F * ImGui::GetFontSize()});
 }
 
@@ -55,12 +50,12 @@ void pass_table(const std::vector<gpu::PassTime>& passes) {
 
 }  // namespace
 
-void frame_window(const std::deque<float>& frame_ms, const std::vector<gpu::PassTime>& passes, bool& open) {
+void frame_window(const platform::FrameTimes& times, const std::vector<gpu::PassTime>& passes, bool& open) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({size.x - 10.0F, 10.0F}, ImGuiCond_Always, {1.0F, 0.0F});
     if (ImGui::Begin("Frames", &open, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove)) {
         ImGui::Dummy({18.0F * ImGui::GetFontSize(), 0.0F});
-        graph(frame_ms);
+        graph(times);
         pass_table(passes);
     }
     ImGui::End();

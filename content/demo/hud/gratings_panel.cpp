@@ -6,14 +6,14 @@
 
 #include "content/demo/hud/memory.h"
 #include "content/demo/hud/panel.h"
-#include "content/demo/object_name.h"
+#include "content/demo/play/hierarchy.h"
 #include "modules/diffraction/representations/representation.h"
 
 namespace rowland::demo {
 
 namespace {
 
-/// Gratings that go by one name: the parts of one object.
+/// The gratings of one object, which have its name.
 struct Object {
     std::string name;
     std::vector<ecs::Entity> parts;
@@ -30,7 +30,7 @@ std::vector<Object> objects_of(ecs::World& world, const std::vector<ecs::Entity>
     return objects;
 }
 
-/// A look as the list names it; what "as cooked" is, is said.
+/// The name of a look; the own look by its representation.
 std::string title_of(Comparison& comparison, ecs::Entity grating, Side side) {
     const Look& look = comparison.look(grating, side);
     if (!look.own()) return look_name(look);
@@ -44,9 +44,9 @@ void look_choice(const Panel& panel, const Object& object, Side side) {
     ImGui::SetNextItemWidth(-1.0F);
     if (ImGui::BeginCombo("##look", title_of(comparison, example, side).c_str(), ImGuiComboFlags_HeightLargest)) {
         const LookSubject subject = comparison.subject(example);
-        for (const Detail detail : {Detail::Usual, Detail::Coarse, Detail::Fine})
+        for (const Detail detail : {Detail::Medium, Detail::Coarse, Detail::Fine})
             for (const Look& look : looks_of(subject, detail)) {
-                if (look.own() && detail != Detail::Usual) continue;
+                if (look.own() && detail != Detail::Medium) continue;
                 const std::string name = look_name(look);
                 if (ImGui::Selectable(name.c_str(), look == comparison.look(example, side)))
                     panel.set(look_setting(side), name, object.name);
@@ -56,7 +56,7 @@ void look_choice(const Panel& panel, const Object& object, Side side) {
     ImGui::PopID();
 }
 
-/// Bytes of all tables, those that several objects share counted once.
+/// Bytes of all tables; tables of several objects count once.
 std::size_t bytes_of_tables(Comparison& comparison, const std::vector<ecs::Entity>& gratings) {
     std::vector<const diffraction::GpuMaterial*> counted;
     std::size_t bytes = 0;
@@ -99,10 +99,10 @@ void gratings_panel(const Panel& panel) {
     ImGui::SameLine();
     action_check_box(panel, Action::Reference, "reference", panel.reference);
     ImGui::SameLine();
-    action_button(panel, Action::NextLook, "next of all");
+    action_button(panel, Action::NextLook, "next for all");
     if (comparison.baking()) {
         ImGui::SameLine();
-        ImGui::TextDisabled("baking ...");
+        ImGui::TextDisabled("baking…");
     }
     const std::vector<ecs::Entity> gratings = comparison.gratings();
     if (ImGui::BeginTable("gratings", comparison.wiping() ? 4 : 3, ImGuiTableFlags_None)) {

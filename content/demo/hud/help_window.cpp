@@ -4,7 +4,7 @@
 
 #include "content/demo/hud/windows.h"
 #include "content/demo/play/action.h"
-#include "content/demo/play/key_name.h"
+#include "engine/platform/key.h"
 
 namespace rowland::demo {
 
@@ -32,7 +32,7 @@ void help_window(bool& open) {
 
 void hint_line() {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
-    const auto key = [](Action action) { return std::string(name_of(row_of(action).key)); };
+    const auto key = [](Action action) { return std::string(platform::name_of(row_of(action).key)); };
     const std::string text = key(Action::Help) + " controls    " + key(Action::Hud) + " panels    " +
                              key(Action::FrameGraph) + " times    " + key(Action::Wipe) + " wipe    " +
                              key(Action::Close) + " end";

@@ -7,8 +7,8 @@
 #include <utility>
 #include <variant>
 
-#include "content/demo/object_name.h"
 #include "content/demo/pixel/surface_point.h"
+#include "content/demo/play/hierarchy.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/core/log.h"
@@ -19,31 +19,25 @@ namespace rowland::demo {
 namespace {
 
 constexpr glm::ivec2 kRoomForPanels{900, 500};
-constexpr std::size_t kFramesShown = 240;
 
-/// What a recording or a menu called for is the play's, and so is every release: a key or button that the HUD hid going
-/// down is up for the play anyway.
-struct ForPlay {
-    bool mouse;
-    bool keys;
-
-    bool operator()(const platform::InputEvent& event) const {
-        if (const auto* key = std::get_if<platform::KeyEvent>(&event))
-            return keys || !key->down || (key->key >= platform::Key::F1 && key->key <= platform::Key::F12);
-        if (const auto* button = std::get_if<platform::MouseButtonEvent>(&event)) return mouse || !button->down;
-        if (std::holds_alternative<platform::ScrollEvent>(event)) return mouse;
-        return true;
-    }
-    bool operator()(const ResizeEvent&) const { return true; }
-    bool operator()(const ActionEvent&) const { return true; }
-    bool operator()(const SettingEvent&) const { return true; }
-};
+/// Whether the HUD consumes an event. It consumes no release: a key or button whose press it consumed is up for the
+/// play anyway.
+bool is_for_hud(const PlayEvent& event, bool wants_mouse, bool wants_keys) {
+    const auto* input = std::get_if<platform::InputEvent>(&event);
+    if (input == nullptr) return false;
+    if (const auto* key = std::get_if<platform::KeyEvent>(input))
+        return wants_keys && key->down && (key->key < platform::Key::F1 || key->key > platform::Key::F12);
+    if (const auto* button = std::get_if<platform::MouseButtonEvent>(input)) return wants_mouse && button->down;
+    return wants_mouse && std::holds_alternative<platform::ScrollEvent>(*input);
+}
 
 }  // namespace
 
-Hud::Hud(const Options& options, Session& session, glm::ivec2 window, float scale)
+Hud::Hud(const Options& options, Session& session, const platform::FrameTimes& frame_times, glm::ivec2 window,
+         float scale)
     : options_(options),
       session_(session),
+      frame_times_(frame_times),
       ui_({.scale = scale}),
       window_(window),
       panels_(window.x >= kRoomForPanels.x && window.y >= kRoomForPanels.y) {}
@@ -53,12 +47,10 @@ std::vector<PlayEvent> Hud::begin_frame(std::vector<PlayEvent> events, const ui:
     for (const PlayEvent& event : events)
         if (const auto* input = std::get_if<platform::InputEvent>(&event)) input_.apply(*input);
     window_ = frame.size;
-    if (frame.seconds > 0.0) frame_ms_.push_back(static_cast<float>(1000.0 * frame.seconds));
-    if (frame_ms_.size() > kFramesShown) frame_ms_.pop_front();
     ui_.begin_frame(input_, frame);
-    const ForPlay for_play{.mouse = !ui_.wants_mouse() || session_.play().walking(), .keys = !ui_.wants_keyboard()};
-    std::erase_if(events, [&](const PlayEvent& event) { return !std::visit(for_play, event); });
-    for (PlayEvent& event : std::exchange(called_for_, {})) events.push_back(std::move(event));
+    const bool wants_mouse = ui_.wants_mouse() && !session_.play().walking();
+    std::erase_if(events, [&](const auto& event) { return is_for_hud(event, wants_mouse, ui_.wants_keyboard()); });
+    for (PlayEvent& event : std::exchange(events_, {})) events.push_back(std::move(event));
     return events;
 }
 
@@ -66,34 +58,36 @@ bool Hud::perform(Action action) {
     switch (action) {
         case Action::Help:
             help_ = !help_;
-            return true;
+            break;
         case Action::Hud:
             panels_ = !panels_;
             if (!panels_) help_ = times_ = false;
-            return true;
+            break;
         case Action::FrameGraph:
             times_ = !times_;
-            return true;
+            break;
         case Action::Wipe:
             toggle_wipe();
-            return true;
+            break;
         case Action::Reference:
-            toggle_reference();
-            return true;
+            reference_ = !reference_;
+            if (reference_) panel().set(Setting::Wipe, 1.0);
+            break;
         case Action::NextLook:
         case Action::NextDetail:
             choose_look(action == Action::NextDetail);
-            return true;
+            break;
         case Action::WritePixel:
             write_pixel();
-            return true;
+            break;
         default:
             return false;
     }
+    return true;
 }
 
 Panel Hud::panel() {
-    return {options_, session_, called_for_, reference_};
+    return {options_, session_, events_, reference_};
 }
 
 glm::dvec2 Hud::pointer() const {
@@ -115,7 +109,7 @@ std::optional<Hud::Pointed> Hud::pointed() const {
     return Pointed{entity, *hit};
 }
 
-/// Of the grating under the cursor, else of all: each object then has what suits it best of one choice.
+/// Of the grating under the cursor, else of all.
 void Hud::choose_look(bool detail) {
     Comparison& comparison = session_.comparison();
     const Side side = side_of_pointer();
@@ -130,7 +124,7 @@ void Hud::choose_look(bool detail) {
     log_info("{}: {}", object.empty() ? "all" : object, look_name(next));
 }
 
-/// The first wipe is of the paper's method against what the scene is made with.
+/// The first wipe compares the scene's own looks with the paper's method.
 void Hud::toggle_wipe() {
     Comparison& comparison = session_.comparison();
     panel().set(Setting::Wipe, comparison.wiping() ? 0.0 : 1.0);
@@ -138,11 +132,6 @@ void Hud::toggle_wipe() {
     for (const ecs::Entity grating : comparison.gratings())
         if (!(comparison.look(grating, Side::Left) == comparison.look(grating, Side::Right))) return;
     panel().set(Setting::RightLook, look_name({.representation = "spikes"}));
-}
-
-void Hud::toggle_reference() {
-    reference_ = !reference_;
-    if (reference_) panel().set(Setting::Wipe, 1.0);
 }
 
 PixelProbe Hud::probe() const {
@@ -166,7 +155,7 @@ std::string Hud::name_of_all(Side side) {
     if (side == Side::Right && reference_) {
         if (!still_.failure().empty()) return still_.failure();
         return still_.begun() ? fmt::format("reference, {:.0f} %", 100.0 * still_.progress())
-                              : std::string("reference, when all rests");
+                              : std::string("reference, once nothing moves");
     }
     std::optional<Look> common;
     for (const ecs::Entity grating : comparison.gratings()) {
@@ -180,11 +169,9 @@ std::string Hud::name_of_all(Side side) {
 
 void Hud::measure_pixel() {
     target_.reset();
+    meter_.forget();
     const auto under_cursor = pointed();
-    if (!under_cursor) {
-        meter_.forget();
-        return;
-    }
+    if (!under_cursor) return;
     Comparison& comparison = session_.comparison();
     ecs::World& world = session_.play().world();
     const ecs::Entity grating = under_cursor->grating;
@@ -192,15 +179,13 @@ void Hud::measure_pixel() {
     target_ = PixelTarget{
         .object = name_of_object(world, grating), .look = look_name(comparison.look(grating, side)), .refusal = {}};
     if (world.get<diffraction::DiffractionSurface>(grating).grooves) {
-        target_->refusal = "its grooves vary over the surface: a point of it is no single grating";
-        meter_.forget();
+        target_->refusal = "not measured: its grooves vary over the surface";
         return;
     }
-    const auto frame = frame_at(grating_place(world, grating).value(), under_cursor->hit.triangle,
+    const auto frame = frame_at(placed_grating(world, grating).value(), under_cursor->hit.triangle,
                                 under_cursor->hit.point, session_.play().camera().eye);
     if (!frame) {
         target_->refusal = "seen from behind";
-        meter_.forget();
         return;
     }
     PixelQuery query{
@@ -209,7 +194,7 @@ void Hud::measure_pixel() {
     meter_.ask(query);
 }
 
-/// The frame for rowland-trade to read, and what was measured there.
+/// Writes the frame, for rowland-trade, and the reading.
 void Hud::write_pixel() {
     if (!target_ || !meter_.current()) {
         log_info("no pixel to write: {}", target_ ? "it is being measured" : "point at a grating");
@@ -241,7 +226,7 @@ void Hud::main_window() {
         ImGui::PushItemWidth(-5.0F * ImGui::GetFontSize());
         section("Light", light_panel, true);
         section("Picture", picture_panel, false);
-        section("Play", simulation_panel, false);
+        section("Play", play_panel, false);
         section("Gratings", gratings_panel, true);
         ImGui::PopItemWidth();
     }
@@ -258,12 +243,12 @@ void Hud::build() {
         measure_pixel();
         meter_.poll();
         main_window();
-        // Help lies where the pixel is.
+        // Help covers the pixel window.
         if (!help_ && pixel_window(target_ ? &*target_ : nullptr, meter_, session_.picture().xyz_to_working()))
             write_pixel();
         hint_line();
     }
-    if (times_) frame_window(frame_ms_, session_.picture().pass_times().latest(), times_);
+    if (times_) frame_window(frame_times_, session_.picture().pass_times().latest(), times_);
     if (help_) help_window(help_);
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,23 +10,28 @@
 #include "content/demo/pixel/reference_still.h"
 #include "content/demo/play/play_event.h"
 #include "content/demo/session.h"
+#include "engine/platform/frame_pacing.h"
 #include "engine/platform/input.h"
 #include "engine/ui/ui.h"
 
 namespace rowland::demo {
 
-/// What lies over the picture: panels, times, the pixel under the cursor, the line of a wipe, help. It changes the
-/// session as keys do, by calling for actions, so that what a panel does is recorded, too.
+/// The overlay of the picture: panels, times, the pixel under the cursor, the line of a wipe, help. It changes the
+/// session by events, as keys do, so that recordings contain what panels do.
 class Hud {
  public:
-    /// Panels are open from the start in windows that have room for them. A context must be current.
-    Hud(const Options& options, Session& session, glm::ivec2 window, float scale);
+    /// Panels are open at first in windows that have room for them. A context must be current. `frame_times` must
+    /// outlive it.
+    Hud(const Options& options, Session& session, const platform::FrameTimes& frame_times, glm::ivec2 window,
+        float scale);
 
-    /// A frame begins: takes what happened, and hands back what is not for the HUD, with what it called for itself.
+    /// Begins a frame. Returns the events that the HUD does not consume, and its own.
     std::vector<PlayEvent> begin_frame(std::vector<PlayEvent> events, const ui::UiFrame& frame);
-    /// Carries out an action that is the HUD's own; false if it is not.
+    /// Lights the scene with a probe, in the next frame.
+    void use_probe(const std::filesystem::path& probe) { panel().set(Setting::Probe, probe.string()); }
+    /// Carries out an action of the HUD itself; false if it is another's.
     bool perform(Action action);
-    /// All windows, as the session stands now.
+    /// Builds all windows from the session's present state.
     void build();
     /// Over the picture, in the window's own framebuffer.
     void draw_in_window();
@@ -44,7 +48,6 @@ class Hud {
     Panel panel();
     void choose_look(bool detail);
     void toggle_wipe();
-    void toggle_reference();
     void show_reference();
     PixelProbe probe() const;
     void measure_pixel();
@@ -54,11 +57,11 @@ class Hud {
 
     const Options& options_;
     Session& session_;
+    const platform::FrameTimes& frame_times_;
     ui::Ui ui_;
     platform::InputState input_;
     glm::ivec2 window_;
-    std::vector<PlayEvent> called_for_;
-    std::deque<float> frame_ms_;
+    std::vector<PlayEvent> events_;
     PixelMeter meter_;
     ReferenceStill still_;
     bool reference_ = false;  ///< right of a wipe's line

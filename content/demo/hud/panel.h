@@ -13,27 +13,27 @@
 
 namespace rowland::demo {
 
-/// What the panels show. What they are to change is not done here but called for, so that it is recorded.
+/// What the panels show. They change nothing themselves but emit events, which are recorded.
 struct Panel {
     const Options& options;
     Session& session;
-    std::vector<PlayEvent>& called_for;
-    bool reference = false;  ///< its still is wanted
+    std::vector<PlayEvent>& events;
+    bool reference = false;  ///< the reference is shown right of the wipe's line
 
-    void call_for(Action action) const { called_for.emplace_back(ActionEvent{action}); }
+    void act(Action action) const { events.emplace_back(ActionEvent{action}); }
     void set(Setting setting, std::variant<double, std::string> value, std::string object = {}) const {
-        called_for.emplace_back(SettingEvent{setting, std::move(value), std::move(object)});
+        events.emplace_back(SettingEvent{setting, std::move(value), std::move(object)});
     }
     Comparison& comparison() const { return session.comparison(); }
 };
 
-/// A section each, within the window that is being built.
+/// One section each, within the window that is being built.
 void light_panel(const Panel& panel);
 void picture_panel(const Panel& panel);
-void simulation_panel(const Panel& panel);
+void play_panel(const Panel& panel);
 void gratings_panel(const Panel& panel);
 
-/// A control for an action, with its key in the tooltip. A check box returns nothing: the action turns it over.
+/// A control for an action, with its key in the tooltip.
 void action_button(const Panel& panel, Action action, const char* label);
 void action_check_box(const Panel& panel, Action action, const char* label, bool on);
 

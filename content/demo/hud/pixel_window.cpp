@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "content/demo/hud/windows.h"
-#include "content/demo/play/key_name.h"
+#include "engine/platform/key.h"
 
 namespace rowland::demo {
 
 namespace {
 
-/// About what a display shows of it, with `white` as white: for telling two colours apart at a glance.
+/// Roughly what a display shows, with `white` as white.
 ImVec4 swatch(const glm::dvec3& rgb, double white) {
     const auto encoded = [white](double linear) {
         return static_cast<float>(std::pow(std::clamp(linear / white, 0.0, 1.0), 1.0 / 2.2));
@@ -66,7 +66,7 @@ bool pixel_window(const PixelTarget* target, const PixelMeter& meter, const glm:
         } else {
             ImGui::Text("%s, %s", target->object.c_str(), target->look.c_str());
             ImGui::SameLine();
-            ImGui::TextDisabled(meter.current() ? "under the probe" : "measuring ...");
+            ImGui::TextDisabled(meter.current() ? "under the probe" : "measuring…");
             const std::string& refusal = target->refusal.empty() ? meter.failure() : target->refusal;
             if (!refusal.empty()) {
                 ImGui::PushTextWrapPos(24.0F * ImGui::GetFontSize());
@@ -75,7 +75,7 @@ bool pixel_window(const PixelTarget* target, const PixelMeter& meter, const glm:
             } else if (meter.reading()) {
                 reading_table(*meter.reading(), xyz_to_working);
                 ImGui::SameLine();
-                const std::string key(name_of(row_of(Action::WritePixel).key));
+                const std::string key(platform::name_of(row_of(Action::WritePixel).key));
                 write = ImGui::SmallButton(("write (" + key + ")").c_str());
             }
         }

@@ -11,8 +11,8 @@ namespace {
 constexpr float kGrabWidth = 14.0F;
 constexpr float kHandleRadius = 9.0F;
 
-/// A name on a plate whose left or right edge is at `x`.
-void plate(ImDrawList* list, float x, float y, const std::string& text, bool to_the_left) {
+/// A label whose left edge, or right edge if `to_the_left`, is at `x`.
+void draw_label(ImDrawList* list, float x, float y, const std::string& text, bool to_the_left) {
     const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
     const float left = to_the_left ? x - extent.x - 12.0F : x;
     list->AddRectFilled({left, y}, {left + extent.x + 12.0F, y + extent.y + 6.0F},
@@ -46,8 +46,8 @@ std::optional<double> wipe_line(float line, const std::string& left, const std::
     list->AddLine({x + 1.0F, 0.0F}, {x + 1.0F, size.y}, IM_COL32(0, 0, 0, 160), 3.0F);
     list->AddLine({x, 0.0F}, {x, size.y}, colour, 1.5F);
     list->AddCircleFilled({x, 0.5F * size.y}, kHandleRadius, colour);
-    plate(list, x - 8.0F, 10.0F, left, true);
-    plate(list, x + 8.0F, 10.0F, right, false);
+    draw_label(list, x - 8.0F, 10.0F, left, true);
+    draw_label(list, x + 8.0F, 10.0F, right, false);
     return moved;
 }
 

@@ -20,31 +20,31 @@ struct Comparison::Looks {
     Look left;
     Look right;
     GpuMaterialPointer own{};                     ///< the object's own material
-    GpuMaterialPointer assigned{};                ///< what we gave it last: another one now is a new own
-    GpuMaterialPointer of_right{};                ///< what its twin shows
-    std::shared_ptr<const gpu::Texture> still{};  ///< that still_material shows
+    GpuMaterialPointer assigned{};                ///< by us, last: a different one now is a new own material
+    GpuMaterialPointer of_right{};                ///< shown by the copy
+    std::shared_ptr<const gpu::Texture> still{};  ///< shown by still_material
     GpuMaterialPointer still_of{};
     GpuMaterialPointer still_material{};
     std::shared_ptr<const scene::Mesh> mesh{};
     bool flat = false;  ///< that mesh
-    std::optional<ecs::Entity> twin{};
+    std::optional<ecs::Entity> copy{};
 };
 
-/// Component of what stands in a grating's place to show its other look.
-struct Comparison::TwinOf {
+/// Component of the copy of a grating that shows its right look.
+struct Comparison::CopyOf {
     ecs::Entity grating;
 };
 
 Comparison::Comparison(ecs::World& world, const glm::dmat3& xyz_to_working)
     : world_(world), variants_(xyz_to_working) {}
 
-void Comparison::set_line(float share) {
-    line_ = std::clamp(share, 0.0F, 1.0F);
+void Comparison::set_line(float position) {
+    line_ = std::clamp(position, 0.0F, 1.0F);
 }
 
 std::vector<ecs::Entity> Comparison::gratings() {
     std::vector<ecs::Entity> found;
-    world_.view<DiffractionSurface, render::MeshInstance>(ecs::Exclude<TwinOf>{})
+    world_.view<DiffractionSurface, render::MeshInstance>(ecs::Exclude<CopyOf>{})
         .each([&](ecs::Entity entity, const DiffractionSurface&, const render::MeshInstance&) {
             found.push_back(entity);
         });
@@ -52,11 +52,11 @@ std::vector<ecs::Entity> Comparison::gratings() {
 }
 
 bool Comparison::is_grating(ecs::Entity entity) {
-    return world_.find<DiffractionSurface>(entity) != nullptr && world_.find<TwinOf>(entity) == nullptr;
+    return world_.find<DiffractionSurface>(entity) != nullptr && world_.find<CopyOf>(entity) == nullptr;
 }
 
-bool Comparison::is_twin(ecs::Entity entity) {
-    return world_.find<TwinOf>(entity) != nullptr;
+bool Comparison::is_copy(ecs::Entity entity) {
+    return world_.find<CopyOf>(entity) != nullptr;
 }
 
 GpuMaterialPointer Comparison::own(ecs::Entity grating) {
@@ -111,11 +111,7 @@ void Comparison::update() {
     remove_orphans();
     for (const ecs::Entity grating : gratings()) {
         show(grating);
-        if (wiping_) {
-            show_twin(grating);
-        } else {
-            remove_twin(grating);
-        }
+        wiping_ ? show_copy(grating) : remove_copy(grating);
     }
 }
 
@@ -128,7 +124,7 @@ void Comparison::show(ecs::Entity grating) {
     }
 }
 
-GpuMaterialPointer Comparison::material_of_twin(ecs::Entity grating) {
+GpuMaterialPointer Comparison::material_of_copy(ecs::Entity grating) {
     Looks& looks = looks_of_grating(grating);
     const auto& grooves = world_.get<DiffractionSurface>(grating).grooves;
     if (!looks.of_right) looks.of_right = looks.own;
@@ -143,42 +139,42 @@ GpuMaterialPointer Comparison::material_of_twin(ecs::Entity grating) {
     return looks.still_material;
 }
 
-void Comparison::show_twin(ecs::Entity grating) {
-    if (!looks_of_grating(grating).twin) {
+void Comparison::show_copy(ecs::Entity grating) {
+    if (!looks_of_grating(grating).copy) {
         const ecs::Entity made = world_.create();
-        world_.add(made, TwinOf{grating});
-        looks_of_grating(grating).twin = made;
+        world_.add(made, CopyOf{grating});
+        looks_of_grating(grating).copy = made;
     }
     Looks& looks = looks_of_grating(grating);
-    const ecs::Entity twin = *looks.twin;
+    const ecs::Entity copy = *looks.copy;
     DiffractionSurface surface = world_.get<DiffractionSurface>(grating);
-    surface.material = material_of_twin(grating);
-    world_.add(twin, surface);
-    world_.add(twin, render::MeshInstance(world_.get<render::MeshInstance>(grating)));
-    world_.add(twin, render::StandardMaterial(world_.get<render::StandardMaterial>(grating)));
-    if (const auto* matrix = world_.find<scene::WorldMatrix>(grating)) world_.add(twin, scene::WorldMatrix(*matrix));
-    if (const auto* skin = world_.find<scene::Skin>(grating)) world_.add(twin, scene::Skin(*skin));
+    surface.material = material_of_copy(grating);
+    world_.add(copy, surface);
+    world_.add(copy, render::MeshInstance(world_.get<render::MeshInstance>(grating)));
+    world_.add(copy, render::StandardMaterial(world_.get<render::StandardMaterial>(grating)));
+    if (const auto* matrix = world_.find<scene::WorldMatrix>(grating)) world_.add(copy, scene::WorldMatrix(*matrix));
+    if (const auto* skin = world_.find<scene::Skin>(grating)) world_.add(copy, scene::Skin(*skin));
     world_.add(grating, render::PictureColumns{.begin = 0.0F, .end = line_});
-    world_.add(twin, render::PictureColumns{.begin = line_, .end = 1.0F});
+    world_.add(copy, render::PictureColumns{.begin = line_, .end = 1.0F});
 }
 
-void Comparison::remove_twin(ecs::Entity grating) {
+void Comparison::remove_copy(ecs::Entity grating) {
     Looks& looks = looks_of_grating(grating);
-    if (!looks.twin) return;
-    const ecs::Entity twin = *looks.twin;
-    looks.twin.reset();
+    if (!looks.copy) return;
+    const ecs::Entity copy = *looks.copy;
+    looks.copy.reset();
     looks.of_right.reset();
-    if (world_.alive(twin)) world_.destroy(twin);
+    if (world_.alive(copy)) world_.destroy(copy);
     if (world_.find<render::PictureColumns>(grating) != nullptr) world_.remove<render::PictureColumns>(grating);
 }
 
 void Comparison::remove_orphans() {
     std::vector<ecs::Entity> orphans;
-    world_.view<TwinOf>().each([&](ecs::Entity twin, const TwinOf& of) {
+    world_.view<CopyOf>().each([&](ecs::Entity copy, const CopyOf& of) {
         if (!world_.alive(of.grating) || world_.find<DiffractionSurface>(of.grating) == nullptr)
-            orphans.push_back(twin);
+            orphans.push_back(copy);
     });
-    for (const ecs::Entity twin : orphans) world_.destroy(twin);
+    for (const ecs::Entity copy : orphans) world_.destroy(copy);
 }
 
 }  // namespace rowland::demo

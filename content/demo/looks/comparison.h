@@ -15,9 +15,9 @@ namespace rowland::demo {
 
 enum class Side { Left, Right };
 
-/// Shows gratings in looks of the user's choice: one for each object, or two that share the picture at a vertical line
-/// (a wipe). The objects' own materials are not lost: an object whose material is loaded anew keeps its looks, and one
-/// that is new has those that were chosen for all.
+/// Shows gratings in looks of the user's choice: one per object, or two, left and right of a vertical line (a wipe).
+/// The objects' own materials are kept: an object whose material is reloaded keeps its looks, and a new object gets
+/// those that were chosen for all.
 class Comparison {
  public:
     /// `world` must outlive it. `xyz_to_working` as the renderer's.
@@ -25,41 +25,41 @@ class Comparison {
 
     bool wiping() const { return wiping_; }
     void set_wiping(bool on) { wiping_ = on; }
-    /// Share of the picture's width, from its left, 0 to 1.
+    /// Position of the line, from 0 (left) to 1 (right).
     float line() const { return line_; }
-    void set_line(float share);
+    void set_line(float position);
 
-    /// The gratings of the world; twins that a wipe draws are none.
+    /// The gratings of the world, without the copies that a wipe draws.
     std::vector<ecs::Entity> gratings();
     bool is_grating(ecs::Entity entity);
-    bool is_twin(ecs::Entity entity);
+    bool is_copy(ecs::Entity entity);
     const Look& look(ecs::Entity grating, Side side);
-    /// Its own where the look does not suit the object.
+    /// A look that does not suit the object becomes its own look.
     void set_look(ecs::Entity grating, Side side, const Look& look);
     void set_look_of_all(Side side, const Look& look);
-    /// Of an object, for looks_of() and the like.
+    /// Of an object, for looks_of().
     LookSubject subject(ecs::Entity grating);
-    /// The material that an object shows on a side now; the last one while a new one is baked.
+    /// The material that an object shows on a side; the last one while a new one is baked.
     GpuMaterialPointer shown(ecs::Entity grating, Side side);
     /// The object's own material.
     GpuMaterialPointer own(ecs::Entity grating);
-    /// What all gratings show right of the line in place of their looks: a picture as GpuStill takes it; null: nothing.
+    /// A picture (as for GpuStill) that all gratings show right of the line in place of their looks; null: none.
     /// Gratings whose grooves vary keep their looks.
     void set_still(std::shared_ptr<const gpu::Texture> still) { still_ = std::move(still); }
     bool shows_still() const { return still_ != nullptr; }
     bool baking() const { return variants_.baking(); }
 
-    /// Once a frame, after world matrices are up to date and before the world is drawn.
+    /// To be called once per frame, between the update of world matrices and drawing.
     void update();
 
  private:
     struct Looks;
-    struct TwinOf;
+    struct CopyOf;
     Looks& looks_of_grating(ecs::Entity grating);
     void show(ecs::Entity grating);
-    void show_twin(ecs::Entity grating);
-    GpuMaterialPointer material_of_twin(ecs::Entity grating);
-    void remove_twin(ecs::Entity grating);
+    void show_copy(ecs::Entity grating);
+    GpuMaterialPointer material_of_copy(ecs::Entity grating);
+    void remove_copy(ecs::Entity grating);
     void remove_orphans();
 
     ecs::World& world_;

@@ -34,7 +34,7 @@ std::vector<const diffraction::RepresentationInfo*> shown_representations() {
 }  // namespace
 
 const char* detail_name(Detail detail) {
-    constexpr std::array kNames = {"coarse", "usual", "fine"};
+    constexpr std::array kNames = {"coarse", "medium", "fine"};
     return kNames[static_cast<std::size_t>(detail)];
 }
 
@@ -44,10 +44,12 @@ std::string look_name(const Look& look) {
     return look.representation + ", " + detail_name(look.detail);
 }
 
-std::optional<Look> look_named(std::string_view name) {
+std::optional<Look> look_named(std::string name) {
     if (name == look_name({})) return Look{};
+    if (const auto old = name.find(", usual"); old != std::string::npos)
+        name.replace(old, std::string::npos, ", medium");
     for (const auto* info : shown_representations())
-        for (const Detail detail : {Detail::Usual, Detail::Coarse, Detail::Fine})
+        for (const Detail detail : {Detail::Medium, Detail::Coarse, Detail::Fine})
             if (const Look look{info->name, detail}; look_name(look) == name) return look;
     return std::nullopt;
 }

@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "modules/diffraction/asset/material.h"
@@ -11,13 +10,13 @@
 
 namespace rowland::demo {
 
-enum class Detail { Coarse, Usual, Fine };
+enum class Detail { Coarse, Medium, Fine };
 const char* detail_name(Detail detail);
 
-/// How a grating is shown for the sake of comparison.
+/// A representation to compare a grating in.
 struct Look {
-    std::string representation;  ///< its name in material files; empty: as the material itself says
-    Detail detail = Detail::Usual;
+    std::string representation;  ///< its name in material files; empty: the material's own
+    Detail detail = Detail::Medium;
 
     bool own() const { return representation.empty(); }
     friend bool operator==(const Look&, const Look&) = default;
@@ -25,21 +24,20 @@ struct Look {
 
 /// "as cooked", or "arc, fine".
 std::string look_name(const Look& look);
-/// Its inverse; nothing for another text.
-std::optional<Look> look_named(std::string_view name);
+/// Its inverse; nullopt for another text. Recordings of earlier versions say "usual" for "medium".
+std::optional<Look> look_named(std::string name);
 
-/// What a look is baked from: the grating of an object, and what of the object it depends on.
+/// What a look is baked from.
 struct LookSubject {
     diffraction::Material material;
     bool flat = false;                                                ///< the mesh lies in a plane
     std::shared_ptr<const diffraction::GrooveMap> grooves = nullptr;  ///< varies the grating over the surface
 };
 
-/// The material with a look's settings in place of its own; nothing where the module's parser refuses them for this
-/// grating, or they do not suit the object.
+/// The material with the look's settings in place of its own; nullopt if they do not suit its grating or the object.
 std::optional<diffraction::Material> with_look(const LookSubject& subject, const Look& look);
 
-/// The material's own look, then those that suit the object, in one detail.
+/// The material's own look, then all that suit the object, in one detail.
 std::vector<Look> looks_of(const LookSubject& subject, Detail detail);
 
 /// The one after `look` among looks_of() its detail, the first after the last.

@@ -1,44 +1,43 @@
 #include "content/demo/looks/variants.h"
 
 #include <algorithm>
+#include <utility>
 
-#include "engine/core/error.h"
 #include "engine/core/log.h"
 
 namespace rowland::demo {
-
-Variants::Variants(const glm::dmat3& xyz_to_working) : xyz_to_working_(xyz_to_working) {}
 
 GpuMaterialPointer Variants::find(const GpuMaterialPointer& own,
                                   const std::shared_ptr<const diffraction::GrooveMap>& grooves, bool flat,
                                   const Look& look) {
     if (look.own()) return own;
-    for (const Variant& variant : variants_)
-        if (variant.own.lock() == own && variant.grooves == grooves && variant.look == look) return variant.uploaded;
-    Variant& variant = variants_.emplace_back();
-    variant.own = own;
-    variant.grooves = grooves;
-    variant.look = look;
-    const auto material = with_look({.material = own->cooked()->material, .flat = flat, .grooves = grooves}, look);
-    if (material) variant.baked = background_.run([wanted = *material] { return diffraction::bake_material(wanted); });
+    for (const auto& variant : variants_)
+        if (variant->own.lock() == own && variant->grooves == grooves && variant->look == look)
+            return variant->uploaded;
+    const LookSubject subject{.material = own->cooked()->material, .flat = flat, .grooves = grooves};
+    variants_.push_back(std::make_shared<Variant>(
+        Variant{.own = own, .grooves = grooves, .look = look, .material = with_look(subject, look), .uploaded = {}}));
     return nullptr;
 }
 
 void Variants::poll() {
-    for (Variant& variant : variants_) {
-        if (!is_ready(variant.baked)) continue;
-        try {
-            variant.uploaded = diffraction::make_gpu_material(variant.baked.get(), xyz_to_working_);
-        } catch (const Error& error) {
-            log_error("{}: {}", look_name(variant.look), error.what());
-        }
-    }
-    std::erase_if(variants_, [](const Variant& variant) { return variant.own.expired() && !variant.baked.valid(); });
+    const auto change = baked_.poll();
+    if (change.value) running_->uploaded = diffraction::make_gpu_material(*baked_.value(), xyz_to_working_);
+    if (!change.failure.empty()) log_error("{}: {}", look_name(running_->look), change.failure);
+    if (change.value || !change.failure.empty()) running_ = nullptr;
+    std::erase_if(variants_, [](const auto& variant) { return variant->own.expired(); });
+    if (running_) return;
+    const auto next = std::ranges::find_if(variants_, [](const auto& v) { return v->material.has_value(); });
+    if (next == variants_.end()) return;
+    running_ = *next;
+    baked_.want(running_, [material = *std::exchange(running_->material, std::nullopt)](const auto&, const auto&) {
+        return std::optional(diffraction::bake_material(material));
+    });
 }
 
 bool Variants::baking() const {
-    return std::any_of(variants_.begin(), variants_.end(),
-                       [](const Variant& variant) { return variant.baked.valid(); });
+    return running_ != nullptr ||
+           std::ranges::any_of(variants_, [](const auto& variant) { return variant->material.has_value(); });
 }
 
 }  // namespace rowland::demo

@@ -1,12 +1,11 @@
 #pragma once
 
 #include <filesystem>
-#include <future>
 #include <memory>
 #include <optional>
 #include <string>
 
-#include "content/demo/looks/background.h"
+#include "engine/core/computed.h"
 #include "engine/math/sh_window.h"
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/evaluate/point_comparison.h"
@@ -14,11 +13,11 @@
 
 namespace rowland::demo {
 
-/// The probe that points are measured under.
+/// The probe under which points are measured.
 struct PixelProbe {
     std::filesystem::path path;
     std::string mapping;            ///< of images
-    std::filesystem::path recipes;  ///< where cooked probes have theirs
+    std::filesystem::path recipes;  ///< folder of the recipes of cooked probes
     std::uint64_t version = 0;      ///< grows with every change of its content
 
     friend bool operator==(const PixelProbe&, const PixelProbe&) = default;
@@ -28,47 +27,46 @@ struct PixelProbe {
 struct PixelQuery {
     std::shared_ptr<const diffraction::CookedMaterial> cooked;
     diffraction::Frame frame;
-    /// On tables over harmonics; none: the mildest that does, as the renderer chooses.
+    /// On tables over harmonics; nullopt: the weakest sufficient one, as the renderer chooses.
     std::optional<math::SphericalWindow> window;
     PixelProbe probe;
+
+    friend bool operator==(const PixelQuery& a, const PixelQuery& b) {
+        return a.cooked == b.cooked && a.probe == b.probe && a.window == b.window && a.frame.view == b.frame.view &&
+               a.frame.normal == b.frame.normal && a.frame.grating == b.frame.grating;
+    }
 };
-bool same(const PixelQuery& a, const PixelQuery& b);
 
 struct PixelReading {
     PixelQuery query;
-    math::SphericalWindow window = math::SphericalWindow::None;  ///< that was taken
-    int key_lights = 0;                                          ///< most that were taken out of the probe
+    math::SphericalWindow window = math::SphericalWindow::None;  ///< that was applied
+    int key_lights = 0;                                          ///< the most that were separated from the probe
     diffraction::PointComparison point;
 };
 
-/// How far a point of the picture is from the reference, measured beside the frames: of several questions that come
-/// while one is worked on, the last is answered next.
+/// Measures in the background how far a point of the picture is from the reference. Of several queries that come during
+/// a measurement, the last is measured next.
 class PixelMeter {
  public:
-    void ask(const PixelQuery& query);
+    void ask(const PixelQuery& query) { wanted_ = query; }
     void forget() { wanted_.reset(); }
-    /// Once a frame: takes what is done and begins what is wanted.
+    /// To be called once per frame: takes the result and starts the next measurement.
     void poll();
 
-    /// The last answer; it may be of an earlier question.
-    const std::optional<PixelReading>& reading() const { return reading_; }
-    /// Whether the last answer is that of the last question.
-    bool current() const;
-    /// Why the last question has no answer; empty if it has.
+    /// The last result, perhaps of an earlier query; null before the first.
+    const PixelReading* reading() const { return reading_.value(); }
+    /// Whether the last result is of the last query.
+    bool current() const { return wanted_ && reading_.is_of(*wanted_); }
+    /// Why the last query has no result; empty if it has, or may get one.
     const std::string& failure() const { return failure_; }
 
  private:
     struct Lit;
-    static PixelReading measure(const std::shared_ptr<Lit>& lit, const PixelQuery& query);
 
-    std::shared_ptr<Lit> lit_;  ///< touched by the worker alone
+    std::shared_ptr<Lit> lit_;  ///< used by the work only
     std::optional<PixelQuery> wanted_;
-    std::optional<PixelQuery> asked_;  ///< of running_
-    std::optional<PixelReading> reading_;
-    std::optional<PixelQuery> failed_;
     std::string failure_;
-    std::future<PixelReading> running_;
-    Background background_;
+    Computed<PixelQuery, PixelReading> reading_;
 };
 
 /// A reading as JSON: "representation", "probe", "key_lights", "window", "shown_xyz",

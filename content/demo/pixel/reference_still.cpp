@@ -1,12 +1,12 @@
 #include "content/demo/pixel/reference_still.h"
 
 #include <algorithm>
+#include <chrono>
 #include <span>
 
 #include "content/demo/pixel/surface_point.h"
 #include "content/demo/pixel/whole_probe.h"
 #include "engine/colour/light_spectra.h"
-#include "engine/core/error.h"
 #include "engine/render/gpu_mesh.h"
 #include "engine/scene/transform.h"
 #include "modules/diffraction/reference/reference.h"
@@ -14,14 +14,35 @@
 
 namespace rowland::demo {
 
+/// Everything that a still depends on.
+struct StillView {
+    scene::Camera camera;
+    glm::ivec2 size{0};  ///< texels
+    PixelProbe probe;
+    std::vector<PlacedMesh> meshes;                      ///< all, since others may hide a grating
+    std::vector<std::optional<PlacedGrating>> gratings;  ///< of each mesh, if it is one
+    std::vector<std::shared_ptr<const diffraction::CookedMaterial>> materials;  ///< likewise
+
+    bool equals(const StillView& other) const {
+        const auto same_mesh = [](const PlacedMesh& a, const PlacedMesh& b) {
+            return a.mesh == b.mesh && a.to_world == b.to_world;
+        };
+        return camera.eye == other.camera.eye && camera.target == other.camera.target && camera.up == other.camera.up &&
+               camera.vertical_field_of_view == other.camera.vertical_field_of_view && size == other.size &&
+               probe == other.probe && materials == other.materials &&
+               std::equal(meshes.begin(), meshes.end(), other.meshes.begin(), other.meshes.end(), same_mesh);
+    }
+};
+
 namespace {
 
 constexpr int kCoarsest = 8;       ///< texels between those of the first pass
-constexpr std::size_t kBatch = 8;  ///< texels between two looks at whether to go on
+constexpr std::size_t kBatch = 8;  ///< texels between two checks of the stop token
 constexpr int kFramesToRest = 3;
+constexpr std::chrono::milliseconds kBetweenPublications(50);
 
-/// Where a finer pass has not been, the texel of a coarser one stands for its whole square. `steps`: of the pass that
-/// each texel is from, 0: of none.
+/// Fills the square of each coarse texel where no finer pass has computed one. `steps`: of the pass that each texel is
+/// from, 0: none.
 std::vector<glm::vec4> filled_up(const std::vector<glm::vec4>& xyz, const std::vector<int>& steps, glm::ivec2 size) {
     std::vector<glm::vec4> texels = xyz;
     const auto at = [size](int row, int column) {
@@ -37,125 +58,45 @@ std::vector<glm::vec4> filled_up(const std::vector<glm::vec4>& xyz, const std::v
     return texels;
 }
 
-bool same(const scene::Camera& a, const scene::Camera& b) {
-    return a.eye == b.eye && a.target == b.target && a.up == b.up &&
-           a.vertical_field_of_view == b.vertical_field_of_view;
-}
-
-}  // namespace
-
-/// All that a still depends on.
-struct ReferenceStill::View {
-    scene::Camera camera;
-    glm::ivec2 size{0};  ///< texels
-    PixelProbe probe;
-    std::vector<PlacedMesh> meshes;                     ///< all, since others may stand before a grating
-    std::vector<std::optional<GratingPlace>> gratings;  ///< of each mesh, if it is one
-    std::vector<std::shared_ptr<const diffraction::CookedMaterial>> materials;  ///< likewise
-
-    bool is(const View& other) const {
-        const auto same_mesh = [](const PlacedMesh& a, const PlacedMesh& b) {
-            return a.mesh == b.mesh && a.to_world == b.to_world;
-        };
-        return same(camera, other.camera) && size == other.size && probe == other.probe &&
-               materials == other.materials &&
-               std::equal(meshes.begin(), meshes.end(), other.meshes.begin(), other.meshes.end(), same_mesh);
-    }
-};
-
-struct ReferenceStill::Job {
-    std::shared_ptr<const View> view;
-    int line = 0;  ///< of the wipe, in texels from the left
-    std::atomic<bool> cancelled = false;
-    std::atomic<std::size_t> done = 0;
-    std::atomic<std::size_t> all = 1;
-    std::mutex mutex;
-    std::vector<glm::vec4> xyz;  ///< row by row from the bottom; alpha 1: known
-    std::vector<int> step;       ///< of the pass that each known texel is from, 0: none
-};
-
-ReferenceStill::~ReferenceStill() {
-    if (job_) job_->cancelled = true;
-}
-
-ReferenceStill::View ReferenceStill::view_of(ecs::World& world, Comparison& comparison, const scene::Camera& camera,
-                                             glm::ivec2 pixels, const PixelProbe& probe) {
-    View view;
+StillView view_of(ecs::World& world, Comparison& comparison, const scene::Camera& camera, glm::ivec2 pixels,
+                  const PixelProbe& probe) {
+    StillView view;
     view.camera = camera;
     view.size = (pixels + kStillTexel - 1) / kStillTexel;
     view.probe = probe;
     world.view<render::MeshInstance, scene::WorldMatrix>().each(
         [&](ecs::Entity entity, const render::MeshInstance& instance, const scene::WorldMatrix& matrix) {
-            if (comparison.is_twin(entity)) return;
+            if (comparison.is_copy(entity)) return;
             view.meshes.push_back({instance.mesh, matrix.matrix});
             const auto* surface = world.find<diffraction::DiffractionSurface>(entity);
             const bool known = surface != nullptr && !surface->grooves;
-            view.gratings.push_back(known ? std::optional(GratingPlace{.mesh = instance.mesh,
-                                                                       .to_world = matrix.matrix,
-                                                                       .groove_rotation = surface->groove_rotation})
+            view.gratings.push_back(known ? std::optional(PlacedGrating{.mesh = instance.mesh,
+                                                                        .to_world = matrix.matrix,
+                                                                        .groove_rotation = surface->groove_rotation})
                                           : std::nullopt);
             view.materials.push_back(known ? comparison.own(entity)->cooked() : nullptr);
         });
     return view;
 }
 
-void ReferenceStill::update(ecs::World& world, Comparison& comparison, const scene::Camera& camera, glm::ivec2 pixels,
-                            const PixelProbe& probe) {
-    auto now = std::make_shared<const View>(view_of(world, comparison, camera, pixels, probe));
-    if (!view_ || !now->is(*view_)) {
-        stop(comparison);
-        view_ = std::move(now);
-    }
-    if (++frames_at_rest_ == kFramesToRest) begin(comparison.line());
-    if (job_) show(comparison);
-    if (!is_ready(running_)) return;
-    try {
-        running_.get();
-    } catch (const Error& error) {
-        failure_ = error.what();
-    }
-}
-
-void ReferenceStill::stop(Comparison& comparison) {
-    if (job_) job_->cancelled = true;
-    job_.reset();
-    view_.reset();
-    frames_at_rest_ = 0;
-    shown_ = 0;
-    still_.reset();
-    comparison.set_still(nullptr);
-}
-
-double ReferenceStill::progress() const {
-    return job_ ? static_cast<double>(job_->done) / static_cast<double>(job_->all) : 0.0;
-}
-
-void ReferenceStill::begin(float line) {
-    failure_.clear();
-    job_ = std::make_shared<Job>();
-    job_->view = view_;
-    job_->line = static_cast<int>(line * static_cast<float>(view_->size.x));
-    running_ = background_.run([job = job_] { compute(*job); });
-}
+using Columns = std::pair<int, int>;  ///< first and end
+using Points = std::vector<std::optional<VisiblePoint>>;
+using Publish = Computed<std::shared_ptr<const StillView>, StillTexels>::Publish;
 
 /// A texel that shows a grating from its front.
-struct ReferenceStill::Texel {
-    std::size_t at;  ///< in Job::xyz
+struct Texel {
+    std::size_t at;  ///< in StillTexels::xyz
     diffraction::Frame frame;
 };
 
-struct ReferenceStill::Columns {
-    int begin;
-    int end;
-};
-
-std::vector<ReferenceStill::Texel> ReferenceStill::texels_of_pass(const View& view, const Points& points, int step,
-                                                                  std::size_t mesh, const Columns& columns) {
+/// The texels of one mesh in one pass, without those of coarser passes.
+std::vector<Texel> texels_of_pass(const StillView& view, const Points& points, int step, std::size_t mesh,
+                                  const Columns& columns) {
     std::vector<Texel> texels;
     const auto width = static_cast<std::size_t>(view.size.x);
     for (int row = 0; row < view.size.y; row += step)
         for (int column = 0; column < view.size.x; column += step) {
-            const bool beside = column < columns.begin || column >= columns.end;
+            const bool beside = column < columns.first || column >= columns.second;
             const bool earlier = step < kCoarsest && row % (2 * step) == 0 && column % (2 * step) == 0;
             const auto x = static_cast<std::size_t>(column);
             const auto& seen = points[static_cast<std::size_t>(row) * width + x];
@@ -166,70 +107,107 @@ std::vector<ReferenceStill::Texel> ReferenceStill::texels_of_pass(const View& vi
     return texels;
 }
 
-/// False if the job was cancelled.
-bool ReferenceStill::compute_pass(Job& job, const lighting::ProbeImage& probe, const std::vector<Texel>& texels,
-                                  int step, const diffraction::Material& material) {
-    const colour::LightSpectra spectra(material.quality.illuminant);
-    for (std::size_t begin = 0; begin < texels.size(); begin += kBatch) {
-        if (job.cancelled) return false;
-        const std::size_t count = std::min(kBatch, texels.size() - begin);
-        std::vector<diffraction::Frame> frames;
-        for (std::size_t i = 0; i < count; ++i) frames.push_back(texels[begin + i].frame);
-        const auto xyz = diffraction::reference_radiance(material.grating, probe, spectra, frames);
-        const std::lock_guard lock(job.mutex);
-        for (std::size_t i = 0; i < count; ++i) {
-            job.xyz[texels[begin + i].at] = glm::vec4(glm::vec3(xyz[i]), 1.0F);
-            job.step[texels[begin + i].at] = step;
+/// The computation of a still.
+class StillWork {
+ public:
+    StillWork(const StillView& view, const std::stop_token& stop, const Publish& publish)
+        : view_(view),
+          stop_(stop),
+          publish_(publish),
+          probe_(load_whole_probe(view.probe.path, view.probe.mapping, view.probe.recipes)),
+          points_(visible_points(view.camera, view.size, view.meshes)),
+          xyz_(points_.size(), glm::vec4(0.0F)),
+          steps_(points_.size(), 0),
+          all_(static_cast<std::size_t>(
+              std::ranges::count_if(points_, [&](const auto& seen) { return seen && view.gratings[seen->mesh]; }))) {}
+
+    /// `line`: of the wipe, in texels from the left; what is right of it comes first.
+    std::optional<StillTexels> run(int line) {
+        for (const Columns& columns : {Columns{line, view_.size.x}, Columns{0, line}})
+            for (int step = kCoarsest; step >= 1; step /= 2)
+                for (std::size_t mesh = 0; mesh < view_.meshes.size(); ++mesh)
+                    if (view_.gratings[mesh] && !pass(step, mesh, columns)) return std::nullopt;
+        return StillTexels{.xyz = filled_up(xyz_, steps_, view_.size), .done = 1, .all = 1};
+    }
+
+ private:
+    /// False if it was stopped.
+    bool pass(int step, std::size_t mesh, const Columns& columns) {
+        const diffraction::Material& material = view_.materials[mesh]->material;
+        const colour::LightSpectra spectra(material.quality.illuminant);
+        const std::vector<Texel> texels = texels_of_pass(view_, points_, step, mesh, columns);
+        for (std::size_t begin = 0; begin < texels.size(); begin += kBatch) {
+            if (stop_.stop_requested()) return false;
+            const std::size_t count = std::min(kBatch, texels.size() - begin);
+            std::vector<diffraction::Frame> frames;
+            for (std::size_t i = 0; i < count; ++i) frames.push_back(texels[begin + i].frame);
+            const auto radiance = diffraction::reference_radiance(material.grating, probe_.image, spectra, frames);
+            for (std::size_t i = 0; i < count; ++i) {
+                xyz_[texels[begin + i].at] = glm::vec4(glm::vec3(radiance[i]), 1.0F);
+                steps_[texels[begin + i].at] = step;
+            }
+            done_ += count;
+            publish_sometimes();
         }
-        job.done += count;
+        return true;
     }
-    return true;
+
+    void publish_sometimes() {
+        const auto now = std::chrono::steady_clock::now();
+        if (now - published_ < kBetweenPublications) return;
+        published_ = now;
+        publish_({.xyz = filled_up(xyz_, steps_, view_.size), .done = done_, .all = std::max<std::size_t>(all_, 1)});
+    }
+
+    const StillView& view_;
+    const std::stop_token& stop_;
+    const Publish& publish_;
+    WholeProbe probe_;
+    Points points_;
+    std::vector<glm::vec4> xyz_;
+    std::vector<int> steps_;  ///< of the pass that each texel is from, 0: none
+    std::size_t all_;
+    std::size_t done_ = 0;
+    std::chrono::steady_clock::time_point published_;
+};
+
+}  // namespace
+
+void ReferenceStill::update(ecs::World& world, Comparison& comparison, const scene::Camera& camera, glm::ivec2 pixels,
+                            const PixelProbe& probe) {
+    auto now = std::make_shared<const StillView>(view_of(world, comparison, camera, pixels, probe));
+    if (!view_ || !now->equals(*view_)) {
+        stop(comparison);
+        view_ = std::move(now);
+    }
+    frames_at_rest_ = std::min(frames_at_rest_ + 1, kFramesToRest);
+    if (frames_at_rest_ < kFramesToRest) return;
+    const int line = static_cast<int>(comparison.line() * static_cast<float>(view_->size.x));
+    texels_.want(view_, [view = view_, line](const std::stop_token& token, const Publish& publish) {
+        return StillWork(*view, token, publish).run(line);
+    });
+    const auto change = texels_.poll();
+    if (!change.failure.empty()) failure_ = change.failure;
+    if (!change.value) return;
+    if (!texture_)
+        texture_ = std::make_shared<gpu::Texture>(
+            gpu::TextureDesc{.format = gpu::Format::RGBA32F, .width = view_->size.x, .height = view_->size.y});
+    texture_->upload(std::span<const glm::vec4>(texels_.value()->xyz));
+    comparison.set_still(texture_);
 }
 
-/// False if the job was cancelled.
-bool ReferenceStill::compute_passes(Job& job, const lighting::ProbeImage& probe, const Points& points,
-                                    const Columns& columns) {
-    const View& view = *job.view;
-    for (int step = kCoarsest; step >= 1; step /= 2)
-        for (std::size_t mesh = 0; mesh < view.meshes.size(); ++mesh)
-            if (view.gratings[mesh] && !compute_pass(job, probe, texels_of_pass(view, points, step, mesh, columns),
-                                                     step, view.materials[mesh]->material))
-                return false;
-    return true;
+void ReferenceStill::stop(Comparison& comparison) {
+    texels_.reset();
+    failure_.clear();
+    view_.reset();
+    frames_at_rest_ = 0;
+    texture_.reset();
+    comparison.set_still(nullptr);
 }
 
-void ReferenceStill::compute(Job& job) {
-    const View& view = *job.view;
-    if (job.cancelled) return;
-    const WholeProbe probe = load_whole_probe(view.probe.path, view.probe.mapping, view.probe.recipes);
-    const Points points = visible_points(view.camera, view.size, view.meshes);
-    {
-        const std::lock_guard lock(job.mutex);
-        job.xyz.assign(points.size(), glm::vec4(0.0F));
-        job.step.assign(points.size(), 0);
-    }
-    std::size_t all = 0;
-    for (const auto& seen : points) all += seen && view.gratings[seen->mesh] ? 1 : 0;
-    job.all = std::max<std::size_t>(all, 1);
-    if (compute_passes(job, probe.image, points, {job.line, view.size.x}))
-        compute_passes(job, probe.image, points, {0, job.line});
-}
-
-void ReferenceStill::show(Comparison& comparison) {
-    const std::size_t done = job_->done;
-    if (done == shown_) return;
-    shown_ = done;
-    const glm::ivec2 size = job_->view->size;
-    std::vector<glm::vec4> texels;
-    {
-        const std::lock_guard lock(job_->mutex);
-        texels = filled_up(job_->xyz, job_->step, size);
-    }
-    if (!still_)
-        still_ = std::make_shared<gpu::Texture>(
-            gpu::TextureDesc{.format = gpu::Format::RGBA32F, .width = size.x, .height = size.y});
-    still_->upload(std::span<const glm::vec4>(texels));
-    comparison.set_still(still_);
+double ReferenceStill::progress() const {
+    const StillTexels* texels = texels_.value();
+    return texels == nullptr ? 0.0 : static_cast<double>(texels->done) / static_cast<double>(texels->all);
 }
 
 }  // namespace rowland::demo

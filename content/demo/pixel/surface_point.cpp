@@ -12,27 +12,27 @@
 
 namespace rowland::demo {
 
-std::optional<GratingPlace> grating_place(ecs::World& world, ecs::Entity grating) {
+std::optional<PlacedGrating> placed_grating(ecs::World& world, ecs::Entity grating) {
     const auto* surface = world.find<diffraction::DiffractionSurface>(grating);
     const auto* instance = world.find<render::MeshInstance>(grating);
     const auto* matrix = world.find<scene::WorldMatrix>(grating);
     if (surface == nullptr || instance == nullptr || matrix == nullptr) return std::nullopt;
-    return GratingPlace{instance->mesh, matrix->matrix, surface->groove_rotation};
+    return PlacedGrating{instance->mesh, matrix->matrix, surface->groove_rotation};
 }
 
-std::optional<diffraction::Frame> frame_at(const GratingPlace& place, const TriangleHit& hit, const glm::vec3& point,
+std::optional<diffraction::Frame> frame_at(const PlacedGrating& grating, const TriangleHit& hit, const glm::vec3& point,
                                            const glm::vec3& eye) {
-    const scene::Mesh& mesh = *place.mesh;
-    const glm::mat3 linear(place.to_world);
+    const scene::Mesh& mesh = *grating.mesh;
+    const glm::mat3 linear(grating.to_world);
     const glm::vec3 normal = glm::inverseTranspose(linear) * interpolated(mesh.normals, mesh, hit);
     const glm::vec4 tangent = interpolated(mesh.tangents, mesh, hit);
     const glm::dvec3 n = glm::normalize(glm::dvec3(normal));
     glm::dvec3 t(linear * glm::vec3(tangent));
     t = glm::normalize(t - glm::dot(t, n) * n);
-    // Mirrored placements turn the handedness of the tangent space over, as the shaders do.
+    // A mirroring transform inverts the handedness of the tangent frame, as in the shaders.
     const double side = static_cast<double>(tangent.w) * (glm::determinant(linear) < 0.0F ? -1.0 : 1.0);
     const glm::dvec3 b = glm::cross(n, t) * (side < 0.0 ? -1.0 : 1.0);
-    const double turn = static_cast<double>(place.groove_rotation);
+    const double turn = static_cast<double>(grating.groove_rotation);
     const diffraction::Frame frame{.view = glm::normalize(glm::dvec3(eye) - glm::dvec3(point)),
                                    .normal = n,
                                    .grating = std::cos(turn) * t + std::sin(turn) * b};

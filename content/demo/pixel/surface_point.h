@@ -12,22 +12,22 @@
 
 namespace rowland::demo {
 
-/// A mesh with grooves where it stands.
-struct GratingPlace {
+/// A mesh with grooves, and its pose.
+struct PlacedGrating {
     std::shared_ptr<const scene::Mesh> mesh;
     glm::mat4 to_world{1.0F};
     float groove_rotation = 0.0F;  ///< as in DiffractionSurface
 };
 
-/// The place of an entity; nothing if it is no grating.
-std::optional<GratingPlace> grating_place(ecs::World& world, ecs::Entity grating);
+/// Of an entity; nullopt if it is no grating.
+std::optional<PlacedGrating> placed_grating(ecs::World& world, ecs::Entity grating);
 
-/// The frame that a grating is shaded with where a ray from `eye` meets it: toward the eye, the interpolated normal and
-/// the grating vector there, world axes. Nothing where it is seen from behind, or has no directions.
-std::optional<diffraction::Frame> frame_at(const GratingPlace& place, const TriangleHit& hit, const glm::vec3& point,
+/// The shading frame of a grating where a ray from `eye` hits it: direction to the eye, interpolated normal and grating
+/// vector, in world axes. Nullopt where it is seen from behind or its tangent frame is degenerate.
+std::optional<diffraction::Frame> frame_at(const PlacedGrating& grating, const TriangleHit& hit, const glm::vec3& point,
                                            const glm::vec3& eye);
 
-/// A frame as `rowland-trade evaluate --frames` reads it: header and one row, every digit.
+/// A frame as `rowland-trade evaluate --frames` reads it: header and one row, exact.
 std::string frames_csv(const diffraction::Frame& frame);
 
 }  // namespace rowland::demo

@@ -44,19 +44,19 @@ class Picture {
         glm::ivec2 end;
     };
 
-    /// The texels whose centres a triangle may cover; none if it is outside or reaches behind the near plane.
+    /// The texels whose centres a triangle may cover; nullopt if it is outside or reaches behind the near plane.
     std::optional<Box> texels_of(const std::array<glm::vec3, 3>& corners, const glm::mat4& to_clip) const {
         glm::vec2 low(1e9F);
         glm::vec2 high(-1e9F);
         for (const glm::vec3& corner : corners) {
             const glm::vec4 clip = to_clip * glm::vec4(corner, 1.0F);
             if (clip.w < camera_.near_plane) return std::nullopt;
-            const glm::vec2 place =
+            const glm::vec2 texel =
                 glm::vec2(0.5F + 0.5F * clip.x / clip.w, 0.5F - 0.5F * clip.y / clip.w) * glm::vec2(size_);
-            low = glm::min(low, place);
-            high = glm::max(high, place);
+            low = glm::min(low, texel);
+            high = glm::max(high, texel);
         }
-        // A margin of a hundredth for rounding; beyond the picture nothing is asked for.
+        // With a margin of a hundredth texel for rounding, clamped to the picture.
         const auto first = [](float edge, int size) {
             return static_cast<int>(std::clamp(std::ceil(edge - 0.51F), 0.0F, static_cast<float>(size)));
         };

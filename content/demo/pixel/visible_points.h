@@ -13,21 +13,21 @@
 
 namespace rowland::demo {
 
-/// A mesh that stands in a scene.
+/// A mesh and its pose.
 struct PlacedMesh {
     std::shared_ptr<const scene::Mesh> mesh;
     glm::mat4 to_world{1.0F};
 };
 
-/// What a camera sees in the middle of a texel.
+/// What a camera sees at the centre of a texel.
 struct VisiblePoint {
-    std::size_t mesh = 0;  ///< which of the placed ones
+    std::size_t mesh = 0;  ///< index
     TriangleHit hit;       ///< its distance in metres
     glm::vec3 point{0.0F};
 };
 
-/// A picture of so many texels, row by row from its top: the nearest front or back of all meshes. Triangles that reach
-/// behind the near plane are left out.
+/// The nearest point of all meshes, front or back, at each texel, row by row from the top. Triangles that reach behind
+/// the near plane are left out.
 std::vector<std::optional<VisiblePoint>> visible_points(const scene::Camera& camera, glm::ivec2 size,
                                                         const std::vector<PlacedMesh>& meshes);
 

@@ -7,14 +7,14 @@
 
 namespace rowland::demo {
 
-/// A probe at full resolution, as the reference takes it.
+/// A probe at full resolution, for the reference.
 struct WholeProbe {
     lighting::ProbeImage image;
-    int key_lights = 16;  ///< most that it is cooked with
+    int key_lights = 16;  ///< the most that it is cooked with
 };
 
-/// The image that a probe was made from: an image file (`mapping` "equirect" or "angular"), or a recipe's. A cooked
-/// probe is looked for as the recipe of its name in `recipes`. Throws Error (input), also where there is none.
+/// The image of a probe: an image file (`mapping` "equirect" or "angular"), or that of a recipe. For a cooked probe,
+/// the recipe of its name in `recipes`. Throws Error (input), also if there is none.
 WholeProbe load_whole_probe(const std::filesystem::path& path, const std::string& mapping,
                             const std::filesystem::path& recipes);
 

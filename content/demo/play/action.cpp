@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 
-#include "content/demo/play/key_name.h"
 #include "engine/core/check.h"
+#include "engine/platform/key.h"
 
 namespace rowland::demo {
 
@@ -17,22 +17,21 @@ using platform::Key;
 
 constexpr std::array kActionKeys{
     ActionKey{Action::Walk, Key::C, "walk", "walk; again, or Esc: orbit", false, GamepadButton::North},
-    ActionKey{Action::ResetView, Key::Home, "reset view", "the first view again"},
+    ActionKey{Action::ResetView, Key::Home, "reset view", "return to the first view"},
     ActionKey{Action::PutBack, Key::R, "put back", "put everything back where it was", false, GamepadButton::Back},
-    ActionKey{Action::Pause, Key::Space, "pause", "stop what moves by itself, or let it go on", false,
-              GamepadButton::Start},
-    ActionKey{Action::SlowMotion, Key::M, "slow motion", "a tenth of the speed, or all of it", false,
+    ActionKey{Action::Pause, Key::Space, "pause", "pause or resume what moves by itself", false, GamepadButton::Start},
+    ActionKey{Action::SlowMotion, Key::M, "slow motion", "slow motion (a tenth of the speed) on or off", false,
               GamepadButton::West},
-    ActionKey{Action::OneStep, Key::N, "one step", "pause, and go on by 1/30 s", true},
-    ActionKey{Action::AddLight, Key::G, "add light", "a light before what is under the cursor, at most 64", true,
-              GamepadButton::RightBumper},
-    ActionKey{Action::RemoveLight, Key::Backspace, "remove light", "take the last added light away", true,
+    ActionKey{Action::OneStep, Key::N, "one step", "pause and advance by 1/30 s", true},
+    ActionKey{Action::AddLight, Key::G, "add light", "add a light in front of what is under the cursor, at most 64",
+              true, GamepadButton::RightBumper},
+    ActionKey{Action::RemoveLight, Key::Backspace, "remove light", "remove the last added light", true,
               GamepadButton::LeftBumper},
     ActionKey{Action::TurnLightLeft, Key::Comma, "turn environment left", "turn the environment left", true,
               GamepadButton::Left},
     ActionKey{Action::TurnLightRight, Key::Period, "turn environment right", "turn the environment right", true,
               GamepadButton::Right},
-    ActionKey{Action::Lamp, Key::L, "lamp", "a lamp with shadow, on or off"},
+    ActionKey{Action::Lamp, Key::L, "lamp", "lamp with shadow on or off"},
     ActionKey{Action::NextProbe, Key::P, "next probe", "the next light probe", false, GamepadButton::Up},
     ActionKey{Action::NextView, Key::V, "next view", "the next view of the display"},
     ActionKey{Action::LessExposure, Key::Minus, "less exposure", "a quarter of a stop darker", true},
@@ -45,16 +44,16 @@ constexpr std::array kActionKeys{
               "the next representation of the grating under the cursor, or of all"},
     ActionKey{Action::NextDetail, Key::Y, "next detail", "the same representation coarser or finer"},
     ActionKey{Action::Wipe, Key::X, "wipe", "two representations side by side; drag the line between them"},
-    ActionKey{Action::Reference, Key::Z, "reference", "the reference's still picture right of the line of a wipe"},
+    ActionKey{Action::Reference, Key::Z, "reference", "the reference, as a still picture, right of the wipe's line"},
     ActionKey{Action::Help, Key::F1, "help", "this list"},
     ActionKey{Action::Hud, Key::F2, "panels", "show or hide all panels"},
-    ActionKey{Action::Reload, Key::F5, "reload", "load shaders and assets anew"},
+    ActionKey{Action::Reload, Key::F5, "reload", "reload shaders and assets"},
     ActionKey{Action::WritePixel, Key::F8, "write pixel", "write the measured pixel to files (CSV, JSON)"},
     ActionKey{Action::LinearScreenshot, Key::F9, "linear screenshot", "scene-linear screenshot (EXR)"},
-    ActionKey{Action::FrameGraph, Key::F10, "times", "times of frames and passes"},
+    ActionKey{Action::FrameGraph, Key::F10, "times", "show times of frames and passes"},
     ActionKey{Action::FullScreen, Key::F11, "full screen", "full screen on or off"},
     ActionKey{Action::Screenshot, Key::F12, "screenshot", "screenshot (PNG)"},
-    ActionKey{Action::Close, Key::Escape, "close", "end"}};
+    ActionKey{Action::Close, Key::Escape, "close", "quit"}};
 
 constexpr std::array kHeldKeys{HeldKey{Held::Forward, Key::W, "walk forward"},
                                HeldKey{Held::Left, Key::A, "walk left"},
@@ -104,12 +103,12 @@ platform::Key key_of(Held held) {
 }
 
 std::vector<HelpLine> help_lines() {
-    std::vector<HelpLine> lines{{"drag an object", "turn it; let it go in motion and it turns on"},
+    std::vector<HelpLine> lines{{"drag an object", "turn it; release it in motion and it goes on turning"},
                                 {"wheel on a held object", "spin it about its own axis"},
-                                {"drag beside objects", "orbit"},
-                                {"wheel", "nearer and farther"}};
-    for (const HeldKey& row : kHeldKeys) lines.push_back({name_of(row.key), row.help});
-    for (const ActionKey& row : kActionKeys) lines.push_back({name_of(row.key), row.help});
+                                {"drag the background", "orbit"},
+                                {"wheel", "zoom"}};
+    for (const HeldKey& row : kHeldKeys) lines.push_back({platform::name_of(row.key), row.help});
+    for (const ActionKey& row : kActionKeys) lines.push_back({platform::name_of(row.key), row.help});
     lines.push_back({"pad sticks", "orbit, or walk and look; with A held: turn the object in the middle"});
     for (const ActionKey& row : kActionKeys)
         if (row.button) lines.push_back({std::string("pad ") + button_name(*row.button), row.help});

@@ -20,22 +20,22 @@ enum class Action {
     // clang-format on
 };
 
-/// How an action is called for. The tables below are all that reads keys for actions and all that help is made of.
+/// The key and the description of an action. Input and help both read these tables.
 struct ActionKey {
     Action action;
     platform::Key key;
     const char* name;      ///< as recordings write it
-    const char* help;      ///< what it does, for a list of keys
-    bool repeats = false;  ///< again and again while the key is held
+    const char* help;      ///< what it does, for the help
+    bool repeats = false;  ///< while the key is held
     std::optional<platform::GamepadButton> button{};
 };
 
-/// One row an action, in the order of the help.
+/// One row per action, in the order of the help.
 std::span<const ActionKey> action_keys();
 const ActionKey& row_of(Action action);
 std::optional<Action> action_named(std::string_view name);
 
-/// What lasts while a key is held.
+/// Effects that last while a key is held.
 enum class Held { Forward, Back, Left, Right, Down, Up, Fast, Slow, Spin };
 
 struct HeldKey {
@@ -46,7 +46,7 @@ struct HeldKey {
 std::span<const HeldKey> held_keys();
 platform::Key key_of(Held held);
 
-/// What a stick at full travel moves, as the drag of a mouse.
+/// Mouse drag that equals a stick at full travel.
 inline constexpr float kStickPixelsPerSecond = 400.0F;
 
 /// A line of the list of controls: "F12", "screenshot".
@@ -54,7 +54,7 @@ struct HelpLine {
     std::string control;
     std::string what;
 };
-/// Mouse, keys and game pad, each line from the tables that also read them.
+/// Mouse, keys and game pad.
 std::vector<HelpLine> help_lines();
 /// The lines as text in two columns.
 std::string help_text();

@@ -5,7 +5,7 @@
 #include <glm/matrix.hpp>
 #include <numbers>
 
-#include "content/demo/play/pick.h"
+#include "content/demo/play/hierarchy.h"
 
 namespace rowland::demo {
 
@@ -39,10 +39,10 @@ void step(Body& body, double seconds) {
     const double speed = glm::length(state.spin);
     if (speed == 0.0) return;
     // dw/dt = -w / decay: the angle of a step is the integral of the speed over it.
-    const double share = -std::expm1(-seconds / kSpinDecay_s);
-    turn(body, glm::angleAxis(speed * kSpinDecay_s * share, state.spin / speed));
+    const double lost = -std::expm1(-seconds / kSpinDecay_s);
+    turn(body, glm::angleAxis(speed * kSpinDecay_s * lost, state.spin / speed));
     constexpr double kRest = 1e-3;  // radians per second, too slow to see
-    state.spin = speed > kRest ? state.spin * (1.0 - share) : glm::dvec3(0.0);
+    state.spin = speed > kRest ? state.spin * (1.0 - lost) : glm::dvec3(0.0);
 }
 
 void step_lift(Body& body, double seconds) {
@@ -56,17 +56,16 @@ scene::Transform transform_of(const Body& body, const glm::vec3& up) {
     scene::Transform now = body.rest;
     if (body.state == BodyState{}) return now;
     now.rotation = glm::quat(rotation_of(body));
-    // The centre keeps its place, but for the lift.
+    // The centre stays where it is, but for the lift.
     const glm::vec3 arm = body.rest.scale * body.centre;
     now.translation += body.rest.rotation * arm - now.rotation * arm;
     now.translation += static_cast<float>(body.state.lift) * body.clearance * up;
     return now;
 }
 
-void place(ecs::World& world, const Body& body) {
-    glm::mat4 parent(1.0F);
-    if (const auto* above = world.find<scene::Parent>(body.node)) parent = placement(world, above->entity);
-    const glm::vec3 up = glm::inverse(glm::mat3(parent)) * glm::vec3(0.0F, 1.0F, 0.0F);
+void update_node(ecs::World& world, const Body& body) {
+    const glm::mat3 parent_to_world(object_to_world(world, parent_of(world, body.node)));
+    const glm::vec3 up = glm::inverse(parent_to_world) * glm::vec3(0.0F, 1.0F, 0.0F);
     world.get<scene::Transform>(body.node) = transform_of(body, up);
 }
 

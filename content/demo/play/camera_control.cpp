@@ -9,7 +9,7 @@ namespace rowland::demo {
 
 namespace {
 
-/// From one side of what is looked at to the other in about four seconds.
+/// Crosses the view in about four seconds.
 float walking_speed(const scene::Camera& start) {
     constexpr float kDistancesPerSecond = 0.5F;
     return std::clamp(kDistancesPerSecond * glm::length(start.target - start.eye), 0.02F, 2.0F);

@@ -18,11 +18,11 @@ class CameraControl {
 
     bool walking() const { return walking_.has_value(); }
     void walk();
-    /// Orbits on about what is `distance` ahead.
+    /// Returns to orbiting, about the point `distance` ahead.
     void stop_walking(float distance);
     void reset();
 
-    /// One step of `seconds`. `drags`: the mouse's drags (or, walking, its movements) are for the camera.
+    /// One step of `seconds`. `drags`: the mouse is the camera's (and does not hold a body).
     void step(const platform::InputState& input, double seconds, bool drags);
     scene::Camera camera() const;
 

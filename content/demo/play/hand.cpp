@@ -4,35 +4,27 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "content/demo/play/hierarchy.h"
 #include "engine/core/check.h"
 
 namespace rowland::demo {
 
 namespace {
 
-constexpr double kMemory_s = 0.05;    ///< of the hand's speed: mice report less often than we step
-constexpr double kSmallestBall = 40;  ///< pixels; small things must not whirl at a touch
+constexpr double kMemory_s = 0.05;    ///< over which the hand's speed is averaged: mice report less often than we step
+constexpr double kSmallestBall = 40;  ///< pixels; small objects must not spin fast at a touch
 constexpr double kWheelPush = 3.0;    ///< radians per second a notch
 
-/// A node's rotation to the world, whatever its scales.
+/// A node's rotation to the world, without the scales.
 glm::dquat rotation_to_world(ecs::World& world, ecs::Entity node) {
     glm::dquat rotation(1.0, 0.0, 0.0, 0.0);
-    while (world.alive(node)) {
+    for (; world.alive(node); node = parent_of(world, node))
         if (const auto* transform = world.find<scene::Transform>(node))
             rotation = glm::dquat(transform->rotation) * rotation;
-        const auto* parent = world.find<scene::Parent>(node);
-        if (parent == nullptr) break;
-        node = parent->entity;
-    }
     return glm::normalize(rotation);
 }
 
-glm::dquat parent_to_world(ecs::World& world, const Body& body) {
-    const auto* parent = world.find<scene::Parent>(body.node);
-    return parent == nullptr ? glm::dquat(1.0, 0.0, 0.0, 0.0) : rotation_to_world(world, parent->entity);
-}
-
-glm::dvec3 cut(const glm::dvec3& spin) {
+glm::dvec3 limited(const glm::dvec3& spin) {
     const double speed = glm::length(spin);
     return speed > kFastestSpin ? spin * (kFastestSpin / speed) : spin;
 }
@@ -50,7 +42,7 @@ Hand::Hand(ecs::World& world, std::size_t index, Body& body, const glm::vec3& po
     metres_per_pixel_ = 2.0 * depth * std::tan(0.5 * static_cast<double>(camera.vertical_field_of_view)) /
                         static_cast<double>(window_height);
     radius_ = std::max(static_cast<double>(body.radius), kSmallestBall * metres_per_pixel_);
-    const glm::vec3 centre = glm::vec3(placement(world, body.node) * glm::vec4(body.centre, 1.0F));
+    const glm::vec3 centre = glm::vec3(object_to_world(world, body.node) * glm::vec4(body.centre, 1.0F));
     taken_ = glm::inverse(rotation_to_world(world, body.node)) * glm::dvec3(point - centre);
     body.state.touched = true;
     body.state.spin = glm::dvec3(0.0);
@@ -64,14 +56,14 @@ glm::dvec3 Hand::own_turn(const Body& body, const glm::dvec2& drag, const glm::d
     const glm::dvec3 axis = to_world * own_axis(body);
     const glm::dvec3 arm = to_world * (rotation_of(body) * taken_);
     const glm::dvec3 motion = (drag.x * right_ - drag.y * up_) * metres_per_pixel_;
-    const glm::dvec3 along = glm::cross(axis, arm);  // how the point moves by a radian
-    // Near the axis a short way would be a large angle.
+    const glm::dvec3 along = glm::cross(axis, arm);  // motion of the point per radian
+    // Near the axis a short drag would be a large angle.
     const double shortest = 0.3 * radius_;
     return axis * (glm::dot(motion, along) / std::max(glm::dot(along, along), shortest * shortest));
 }
 
 void Hand::move(ecs::World& world, Body& body, const HandMove& move, double seconds) {
-    const glm::dquat to_world = parent_to_world(world, body);
+    const glm::dquat to_world = rotation_to_world(world, parent_of(world, body.node));
     const glm::dvec2 drag(move.drag);
     glm::dvec3 turned(0.0);  // radians, world
     if (drag != glm::dvec2(0.0)) {
@@ -82,12 +74,12 @@ void Hand::move(ecs::World& world, Body& body, const HandMove& move, double seco
     if (const double angle = glm::length(in_parent); angle > 0.0) turn(body, glm::angleAxis(angle, in_parent / angle));
     velocity_ += (in_parent / seconds - velocity_) * -std::expm1(-seconds / kMemory_s);
     if (move.wheel != 0.0F)
-        body.state.spin = cut(body.state.spin + own_axis(body) * (kWheelPush * static_cast<double>(move.wheel)));
+        body.state.spin = limited(body.state.spin + own_axis(body) * (kWheelPush * static_cast<double>(move.wheel)));
 }
 
 void Hand::let_go(Body& body) const {
-    constexpr double kStill = 0.3;  // radians per second: a hand that holds still trembles
-    if (glm::length(velocity_) > kStill) body.state.spin = cut(body.state.spin + velocity_);
+    constexpr double kStill = 0.3;  // radians per second: a resting hand trembles
+    if (glm::length(velocity_) > kStill) body.state.spin = limited(body.state.spin + velocity_);
 }
 
 }  // namespace rowland::demo

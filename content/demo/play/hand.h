@@ -12,19 +12,19 @@
 
 namespace rowland::demo {
 
-/// What the mouse does with a held body during one step.
+/// The mouse's input to a held body during one step.
 struct HandMove {
     glm::vec2 drag{0.0F};  ///< screen coordinates, x right and y down
     float wheel = 0.0F;    ///< notches
     bool about_own_axis = false;
 };
 
-/// Holds one body. A drag turns it as if the cursor held the near side of a ball around it: about the axis in the
-/// picture's plane across the drag; or about its own axis, so that the point taken stays under the cursor. Let go in
-/// motion, it turns on as fast as the hand moved in the last moments.
+/// Holds one body. A drag turns it like a ball whose near side the cursor holds: about the axis in the picture's plane
+/// perpendicular to the drag; or about its own axis, so that the grabbed point stays under the cursor. Released in
+/// motion, it goes on turning as fast as the hand moved in the last 0.05 s.
 class Hand {
  public:
-    /// Takes `body` at `point` (world), seen by `camera` in a window of that height.
+    /// Grabs `body` at `point` (world), seen by `camera` in a window of that height.
     Hand(ecs::World& world, std::size_t index, Body& body, const glm::vec3& point, const scene::Camera& camera,
          int window_height);
 
@@ -38,12 +38,12 @@ class Hand {
     glm::dvec3 own_turn(const Body& body, const glm::dvec2& drag, const glm::dquat& to_world) const;
 
     std::size_t index_;
-    glm::dvec3 right_;          ///< of the picture, world
-    glm::dvec3 up_;             ///< of the picture, world
-    double metres_per_pixel_;   ///< at the point taken
-    double radius_;             ///< of the ball, metres
-    glm::dvec3 taken_{0.0};     ///< from the centre to the point taken, in the body's own axes but world's lengths
-    glm::dvec3 velocity_{0.0};  ///< radians per second in the parent's axes, over the last moments
+    glm::dvec3 right_;         ///< of the picture, world
+    glm::dvec3 up_;            ///< of the picture, world
+    double metres_per_pixel_;  ///< at the grabbed point
+    double radius_;            ///< of the ball, metres
+    glm::dvec3 taken_{0.0};    ///< from the centre to the grabbed point, in the body's own axes and the world's lengths
+    glm::dvec3 velocity_{0.0};  ///< radians per second in the parent's axes, averaged
 };
 
 }  // namespace rowland::demo

@@ -5,13 +5,13 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "engine/scene/transform.h"
+#include "content/demo/play/hierarchy.h"
 
 namespace rowland::demo {
 
 namespace {
 
-/// Whether the ray goes through the box, made a little larger so that rounding loses no flat one (Kay & Kajiya 1986).
+/// Whether the ray meets the box (Kay & Kajiya 1986), enlarged a little so that rounding misses no flat one.
 bool meets(const Ray& ray, const scene::Bounds& box) {
     const glm::vec3 margin = 1e-4F * (box.maximum - box.minimum) + 1e-6F;
     float enter = 0.0F;
@@ -37,7 +37,7 @@ std::optional<Hit> pick(ecs::World& world, std::span<const PickTarget> targets, 
     std::optional<Hit> nearest;
     for (std::size_t i = 0; i < targets.size(); ++i) {
         if (!world.alive(targets[i].entity)) continue;
-        const glm::mat4 to_world = placement(world, targets[i].entity);
+        const glm::mat4 to_world = object_to_world(world, targets[i].entity);
         if (glm::determinant(to_world) == 0.0F) continue;
         const glm::mat4 to_mesh = glm::inverse(to_world);
         // The direction keeps its length in the mesh's space, so that distances stay metres.
@@ -50,26 +50,15 @@ std::optional<Hit> pick(ecs::World& world, std::span<const PickTarget> targets, 
     return nearest;
 }
 
-Ray ray_through(const scene::Camera& camera, glm::dvec2 place, glm::ivec2 size) {
+Ray ray_through(const scene::Camera& camera, glm::dvec2 point, glm::ivec2 size) {
     const glm::vec3 forward = glm::normalize(camera.target - camera.eye);
     const glm::vec3 right = glm::normalize(glm::cross(forward, camera.up));
     const glm::vec3 up = glm::cross(right, forward);
     // The window's height is 2 tan(fov / 2) at distance 1.
     const double scale = 2.0 * std::tan(0.5 * static_cast<double>(camera.vertical_field_of_view)) / size.y;
-    const auto x = static_cast<float>(scale * (place.x - 0.5 * size.x));
-    const auto y = static_cast<float>(scale * (0.5 * size.y - place.y));
+    const auto x = static_cast<float>(scale * (point.x - 0.5 * size.x));
+    const auto y = static_cast<float>(scale * (0.5 * size.y - point.y));
     return {camera.eye, glm::normalize(forward + x * right + y * up)};
-}
-
-glm::mat4 placement(ecs::World& world, ecs::Entity entity) {
-    glm::mat4 matrix(1.0F);
-    while (world.alive(entity)) {
-        if (const auto* transform = world.find<scene::Transform>(entity)) matrix = transform->matrix() * matrix;
-        const auto* parent = world.find<scene::Parent>(entity);
-        if (parent == nullptr) break;
-        entity = parent->entity;
-    }
-    return matrix;
 }
 
 }  // namespace rowland::demo

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
@@ -18,27 +17,24 @@ namespace rowland::demo {
 using scene::Ray;
 using scene::TriangleHit;
 
-/// Something that can be pointed at.
+/// A mesh that a ray can hit.
 struct PickTarget {
     ecs::Entity entity;
     std::shared_ptr<const scene::Mesh> mesh;
     scene::Bounds bounds;  ///< of the mesh
 };
 
-/// What a ray meets first in the world.
+/// The nearest intersection of a ray with the targets.
 struct Hit {
     std::size_t target = 0;
     TriangleHit triangle;   ///< its distance in metres
     glm::vec3 point{0.0F};  ///< world
 };
 
-/// The nearest of the targets that are alive; nothing if the ray misses all.
+/// The nearest hit among the targets that are alive; nullopt if the ray misses all.
 std::optional<Hit> pick(ecs::World& world, std::span<const PickTarget> targets, const Ray& ray);
 
-/// The ray through a place of a window, both in screen coordinates from the upper left, y down.
-Ray ray_through(const scene::Camera& camera, glm::dvec2 place, glm::ivec2 size);
-
-/// Object to world, from the transforms as they are now: needs no update_world_matrices().
-glm::mat4 placement(ecs::World& world, ecs::Entity entity);
+/// The ray through a point of a window of that size; both in screen coordinates from the upper left, y down.
+Ray ray_through(const scene::Camera& camera, glm::dvec2 point, glm::ivec2 size);
 
 }  // namespace rowland::demo

@@ -6,7 +6,9 @@
 #include <numbers>
 #include <utility>
 
+#include "content/demo/play/hierarchy.h"
 #include "engine/core/check.h"
+#include "engine/core/hash.h"
 #include "engine/core/log.h"
 #include "engine/scene/transform.h"
 
@@ -38,12 +40,12 @@ Play::Play(ecs::World& world, Toys toys, const scene::Camera& start, const scene
       camera_(start, room),
       window_(window),
       held_steps_(action_keys().size(), 0) {
-    place_all();
+    update_nodes();
 }
 
 void Play::set_pose(Pose pose) {
     pose_ = std::move(pose);
-    place_all();
+    update_nodes();
 }
 
 void Play::set_toys(Toys toys) {
@@ -53,7 +55,7 @@ void Play::set_toys(Toys toys) {
             if (before.name == body.name) body.state = before.state;
     toys_ = std::move(toys);
     turn_environment(0.0);
-    place_all();
+    update_nodes();
 }
 
 void Play::step(std::span<const PlayEvent> events) {
@@ -63,7 +65,7 @@ void Play::step(std::span<const PlayEvent> events) {
     const bool hand_drags = move_hand();
     camera_.step(input_, kStep_s, !hand_drags);
     advance_time();
-    place_all();
+    update_nodes();
     ++steps_;
 }
 
@@ -71,8 +73,8 @@ void Play::apply(const PlayEvent& event) {
     if (const auto* input = std::get_if<platform::InputEvent>(&event)) input_.apply(*input);
     if (const auto* resize = std::get_if<ResizeEvent>(&event)) window_ = glm::max(resize->size, glm::ivec2(1));
     if (const auto* chosen = std::get_if<ActionEvent>(&event))
-        if (!perform(chosen->action)) orders_.emplace_back(chosen->action);
-    if (const auto* setting = std::get_if<SettingEvent>(&event)) orders_.emplace_back(*setting);
+        if (!perform(chosen->action)) commands_.emplace_back(chosen->action);
+    if (const auto* setting = std::get_if<SettingEvent>(&event)) commands_.emplace_back(*setting);
 }
 
 void Play::read_keys() {
@@ -86,7 +88,7 @@ void Play::read_keys() {
         }
         held_steps_[i] = state.down ? held_steps_[i] + 1 : 0;
         const bool acts = state.pressed || (rows[i].repeats && acts_again(held_steps_[i]));
-        if (acts && !perform(rows[i].action)) orders_.emplace_back(rows[i].action);
+        if (acts && !perform(rows[i].action)) commands_.emplace_back(rows[i].action);
     }
 }
 
@@ -95,7 +97,7 @@ bool Play::perform(Action action) {
         case Action::Walk:
             toggle_walking();
             return true;
-        case Action::Close:  // the key first ends what it can
+        case Action::Close:  // ends walking first
             if (!walking()) return false;
             toggle_walking();
             return true;
@@ -132,8 +134,21 @@ bool Play::perform(Action action) {
     }
 }
 
-std::vector<Play::Order> Play::take_orders() {
-    return std::exchange(orders_, {});
+std::vector<Play::Command> Play::take_commands() {
+    return std::exchange(commands_, {});
+}
+
+std::string Play::fingerprint() const {
+    Hasher hasher;
+    const auto add = [&](const auto&... values) { (hasher.bytes(std::as_bytes(std::span(&values, 1))), ...); };
+    const scene::Camera seen_from = camera();
+    add(steps_, time_s_, turn_, seen_from.eye, seen_from.target);
+    for (const Body& body : toys_.bodies) {
+        hasher.text(body.name);
+        add(object_to_world(world_, body.node), body.state.spin);
+    }
+    for (const ecs::Entity light : lights_.entities()) add(object_to_world(world_, light));
+    return hasher.digest().hex().substr(0, 16);
 }
 
 double Play::speed() const {
@@ -154,13 +169,13 @@ std::optional<std::size_t> Play::held_body() const {
 }
 
 glm::dvec2 Play::pointer() const {
-    // A walker looks at what lies in the middle; so does one who only has a game pad.
+    // Walking, or with a game pad, the player points at the middle.
     const bool middle = walking() || input_.gamepad_button(kPadGrab).down;
     return middle ? 0.5 * glm::dvec2(window_) : input_.mouse_position();
 }
 
-std::optional<Hit> Play::hit_at(glm::dvec2 place) const {
-    return pick(world_, toys_.targets, ray_through(camera(), place, window_));
+std::optional<Hit> Play::hit_at(glm::dvec2 point) const {
+    return pick(world_, toys_.targets, ray_through(camera(), point, window_));
 }
 
 void Play::try_to_grab() {
@@ -187,10 +202,10 @@ bool Play::move_hand() {
     const HandMove move{.drag = mouse + stick,
                         .wheel = static_cast<float>(input_.scroll().y),
                         .about_own_axis = input_.key(key_of(Held::Spin)).down};
-    const bool opens = !button.down && !pad.down;
-    // A step that only lets go says nothing of the hand's speed.
-    if (!opens || move.drag != glm::vec2(0.0F)) hand_->move(world_, toys_.bodies[hand_->body()], move, kStep_s);
-    if (opens) let_go();
+    const bool released = !button.down && !pad.down;
+    // A step with only the release does not tell the hand's speed.
+    if (!released || move.drag != glm::vec2(0.0F)) hand_->move(world_, toys_.bodies[hand_->body()], move, kStep_s);
+    if (released) let_go();
     return true;
 }
 
@@ -205,10 +220,10 @@ void Play::advance_time() {
     }
 }
 
-void Play::place_all() {
+void Play::update_nodes() {
     if (pose_) pose_(*this);
     for (const Body& body : toys_.bodies)
-        if (world_.alive(body.node)) place(world_, body);
+        if (world_.alive(body.node)) update_node(world_, body);
 }
 
 void Play::rest() {
@@ -222,16 +237,16 @@ void Play::put_back() {
 }
 
 void Play::add_light() {
-    // In front of what is pointed at, as far from it as it takes to light a good part of what is in view.
-    constexpr float kShareOfDistance = 0.25F;
+    // In front of what is pointed at, far enough from it to light a good part of what is in view.
+    constexpr float kReachInDistances = 0.25F;
     const scene::Camera seen_from = camera();
     const Ray ray = ray_through(seen_from, pointer(), window_);
     const auto hit = pick(world_, toys_.targets, ray);
     const float distance = hit ? hit->triangle.distance : glm::length(seen_from.target - seen_from.eye);
-    const float reach = kShareOfDistance * distance;
-    const glm::vec3 place = ray.origin + (distance - reach) * ray.direction + glm::vec3(0.0F, 0.5F * reach, 0.0F);
+    const float reach = kReachInDistances * distance;
+    const glm::vec3 position = ray.origin + (distance - reach) * ray.direction + glm::vec3(0.0F, 0.5F * reach, 0.0F);
     const glm::quat turned = world_.get<scene::Transform>(toys_.root).rotation;
-    if (lights_.add(world_, toys_.root, glm::conjugate(turned) * place, reach))
+    if (lights_.add(world_, toys_.root, glm::conjugate(turned) * position, reach))
         log_info("{} lights", light_count(world_));
     else
         log_info("{} lights are the most", light_count(world_));
@@ -239,7 +254,7 @@ void Play::add_light() {
 
 void Play::turn_environment(double radians) {
     turn_ = std::remainder(turn_ + radians, 2.0 * std::numbers::pi);
-    // The environment stays and everything else turns the other way: the same picture.
+    // The environment stays, and everything else turns the other way: the picture is the same.
     world_.get<scene::Transform>(toys_.root).rotation = glm::quat(glm::angleAxis(-turn_, glm::dvec3(0.0, 1.0, 0.0)));
 }
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -20,66 +21,68 @@
 namespace rowland::demo {
 
 inline constexpr int kStepsPerSecond = 120;
-inline constexpr int kFramesPerSecond = 30;  ///< of what is drawn without a window
+inline constexpr int kFramesPerSecond = 30;  ///< without a window
 
-/// What of a scene can be played with.
+/// The objects of a scene that can be played with.
 struct Toys {
-    ecs::Entity root;                 ///< above everything that the environment does not turn with
-    std::vector<Body> bodies;         ///< one that another one carries comes after it
-    std::vector<PickTarget> targets;  ///< all that can be pointed at
-    /// The body that each target belongs to, if it may be grabbed.
+    ecs::Entity root;                 ///< above everything; turns against the environment
+    std::vector<Body> bodies;         ///< parents before their children
+    std::vector<PickTarget> targets;  ///< everything that can be pointed at
+    /// For each target, the body that may be grabbed there.
     std::vector<std::optional<std::size_t>> body_of_target;
 };
 
-/// The state of a play, moved on by steps of 1/120 s that know nothing of frames: the same world and the same events at
+/// The state of a play. It advances in steps of 1/120 s, independent of frames: the same world and the same events at
 /// the same steps give the same state, to the bit, on any machine at any frame rate (with the same program).
 class Play {
  public:
-    /// Called in each step before bodies are placed: moves what moves as a function of time_s().
+    /// Called in each step before bodies are placed: moves everything that is a function of time_s().
     using Pose = std::function<void(const Play&)>;
 
     /// `world` must outlive the play. `room`: where the player may walk. `window`: as for ResizeEvent.
     Play(ecs::World& world, Toys toys, const scene::Camera& start, const scene::Bounds& room, glm::ivec2 window);
 
     void set_pose(Pose pose);
-    /// The scene was loaded anew: bodies keep the state of those of the same name before.
+    /// After the scene was reloaded: bodies keep the state of the earlier ones of the same name.
     void set_toys(Toys toys);
 
-    /// Has everything stand as in its file until the next step: for one who looks at the scene itself.
+    /// Moves all bodies to their rest pose until the next step, for measuring the scene itself.
     void rest();
-    /// Puts everything where it is in the play.
-    void place_all();
+    /// Moves everything to its present pose.
+    void update_nodes();
 
     /// One step, with what the user did meanwhile.
     void step(std::span<const PlayEvent> events);
-    /// What was called for since the last call that is for others to carry out, in order.
-    using Order = std::variant<Action, SettingEvent>;
-    std::vector<Order> take_orders();
-    /// Carries out an action if it is one of the play's own; false if it is for others.
+    /// The commands since the last call that the caller must carry out, in order.
+    using Command = std::variant<Action, SettingEvent>;
+    std::vector<Command> take_commands();
+    /// Carries out an action of the play itself; false if it is the caller's.
     bool perform(Action action);
 
-    /// In the world that is drawn: the root stands turned against the environment, and the camera with it.
+    /// In the world that is drawn, where the root and the camera with it turn against the environment.
     scene::Camera camera() const;
     bool walking() const { return camera_.walking(); }
     bool paused() const { return paused_; }
-    /// Share of the usual speed at which time goes on.
+    /// Factor on the speed of time: 1, 0.1 in slow motion, 0 while paused.
     double speed() const;
     double time_s() const { return time_s_; }          ///< of the scene
     std::uint64_t steps() const { return steps_; }     ///< so far
     double environment_turn() const { return turn_; }  ///< radians about +Y, from above counter-clockwise
     const std::vector<Body>& bodies() const { return toys_.bodies; }
-    /// The body in the player's hand.
+    /// The body that is grabbed.
     std::optional<std::size_t> held_body() const;
     const PlayerLights& lights() const { return lights_; }
+    /// A short hash of the pose of every object, light and the camera, to the bit, and of time and steps.
+    std::string fingerprint() const;
     ecs::World& world() { return world_; }
     const Toys& toys() const { return toys_; }
-    /// What lies under a place of the window, as the world stands now.
-    std::optional<Hit> hit_at(glm::dvec2 place) const;
+    /// What is at a point of the window now.
+    std::optional<Hit> hit_at(glm::dvec2 point) const;
 
  private:
     void apply(const PlayEvent& event);
     void read_keys();
-    /// True if what the mouse did in this step, it did to a body.
+    /// True if this step's mouse input was for a body.
     bool move_hand();
     void try_to_grab();
     void let_go();
@@ -96,13 +99,13 @@ class Play {
     glm::ivec2 window_;
     Pose pose_;
     platform::InputState input_;
-    std::vector<Order> orders_;
+    std::vector<Command> commands_;
     PlayerLights lights_;
     std::optional<Hand> hand_;
-    std::vector<int> held_steps_;  ///< for how many steps each action's key is down
+    std::vector<int> held_steps_;  ///< for how many steps each action's key has been down
     bool paused_ = false;
     bool slow_ = false;
-    int extra_steps_ = 0;  ///< to simulate though time stands still
+    int extra_steps_ = 0;  ///< to simulate while paused
     double time_s_ = 0.0;
     double turn_ = 0.0;
     std::uint64_t steps_ = 0;

@@ -6,7 +6,7 @@ namespace rowland::demo {
 
 namespace {
 
-bool lets_go(const PlayEvent& event) {
+bool is_release(const PlayEvent& event) {
     const auto* input = std::get_if<platform::InputEvent>(&event);
     const auto* button = input == nullptr ? nullptr : std::get_if<platform::MouseButtonEvent>(input);
     return button != nullptr && !button->down;
@@ -19,7 +19,7 @@ std::span<const PlayEvent> events_of_step(std::span<const PlayEvent> events, int
     // Event i falls on step floor(i steps / events).
     const auto begin_of = [&](std::size_t s) {
         std::size_t begin = (events.size() * s + n - 1) / n;
-        while (begin > 0 && begin < events.size() && lets_go(events[begin])) ++begin;
+        while (begin > 0 && begin < events.size() && is_release(events[begin])) ++begin;
         return begin;
     };
     const std::size_t begin = begin_of(static_cast<std::size_t>(step));
@@ -27,7 +27,7 @@ std::span<const PlayEvent> events_of_step(std::span<const PlayEvent> events, int
 }
 
 void PlayClock::live(Play& play, std::chrono::nanoseconds frame, std::vector<PlayEvent> events, Recorder* recorder) {
-    std::erase_if(events, [this](const PlayEvent& event) { return says_nothing_new(event); });
+    std::erase_if(events, [this](const PlayEvent& event) { return is_unchanged_pad(event); });
     waiting_.insert(waiting_.end(), events.begin(), events.end());
     const int steps = pace_.advance(frame);
     for (int i = 0; i < steps; ++i) {
@@ -39,7 +39,7 @@ void PlayClock::live(Play& play, std::chrono::nanoseconds frame, std::vector<Pla
     if (recorder != nullptr) recorder->flush();
 }
 
-bool PlayClock::says_nothing_new(const PlayEvent& event) {
+bool PlayClock::is_unchanged_pad(const PlayEvent& event) {
     const auto* input = std::get_if<platform::InputEvent>(&event);
     const auto* pad = input == nullptr ? nullptr : std::get_if<platform::GamepadEvent>(input);
     if (pad == nullptr) return false;

@@ -10,26 +10,26 @@
 
 namespace rowland::demo {
 
-/// A frame's events fall on its steps evenly and in order, the first one on the first, but a mouse button comes up with
-/// what was before it: those of step `step` of `steps`. What happened during a long frame is so neither all at once nor
-/// out of order, and a drag keeps about the speed it had until it ends, in its last frame or at the start of the next.
+/// Distributes a frame's events over its steps, evenly and in order, the first on the first; returns those of step
+/// `step` of `steps`. The release of a mouse button stays with the event before it, so that a drag across a long frame
+/// keeps about its speed to its end.
 std::span<const PlayEvent> events_of_step(std::span<const PlayEvent> events, int step, int steps);
 
-/// Cuts frames into the steps of a play and deals their events out to them.
+/// Divides frames into the steps of a play.
 class PlayClock {
  public:
-    /// Lives through a frame of that length in which `events` happened; those of frames shorter than a step wait for
-    /// the next, and a reading of the game pad that says nothing new counts as none. What the play gets is also
-    /// recorded, if there is a recorder.
+    /// Advances the play by a frame of that length in which `events` happened. Events of a frame shorter than a step
+    /// wait for the next frame; unchanged game pad readings are dropped. What the play gets goes to `recorder` too, if
+    /// there is one.
     void live(Play& play, std::chrono::nanoseconds frame, std::vector<PlayEvent> events, Recorder* recorder);
 
     /// Plays a frame of that length from a recording, which began with the play; false once it is over.
     bool replay(Play& play, std::chrono::nanoseconds frame, const Recording& recording);
 
  private:
-    bool says_nothing_new(const PlayEvent& event);
+    bool is_unchanged_pad(const PlayEvent& event);
 
-    // A picture a second is the slowest at which a hand still keeps its speed.
+    // One frame per second is the slowest at which a drag keeps its speed.
     platform::FixedStep pace_{kStepsPerSecond, std::chrono::seconds(1)};
     std::vector<PlayEvent> waiting_;
     platform::GamepadEvent pad_;  ///< as last read

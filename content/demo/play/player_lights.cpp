@@ -26,10 +26,10 @@ std::size_t light_count(ecs::World& world) {
     return world.view<scene::DirectionalLight>().count() + world.view<scene::PunctualLight>().count();
 }
 
-bool PlayerLights::add(ecs::World& world, ecs::Entity parent, const glm::vec3& place, float reach) {
+bool PlayerLights::add(ecs::World& world, ecs::Entity parent, const glm::vec3& position, float reach) {
     if (light_count(world) >= kMostLights) return false;
     const ecs::Entity entity = world.create();
-    world.add(entity, scene::Transform{.translation = place});
+    world.add(entity, scene::Transform{.translation = position});
     world.add(entity, scene::Parent{parent});
     constexpr float kRangeInReaches = 8.0F;
     world.add(entity, scene::PunctualLight{

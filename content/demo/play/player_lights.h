@@ -9,19 +9,19 @@
 
 namespace rowland::demo {
 
-/// A world has at most so many lights, as the renderer draws.
+/// The most lights in a world: as many as the renderer draws.
 inline constexpr std::size_t kMostLights = 64;
 
-/// How many lights the world has, whoever put them there.
+/// All lights of the world, not only the player's.
 std::size_t light_count(ecs::World& world);
 
-/// Lights that the player puts into the world, each in the next of a few colours.
+/// Lights that the player adds, each in the next of a few colours.
 class PlayerLights {
  public:
-    /// A light at `place` that lights what is `reach` metres away about as a room does. Its place is relative to
-    /// `parent`. False, and nothing is added, if the world has kMostLights.
-    bool add(ecs::World& world, ecs::Entity parent, const glm::vec3& place, float reach);
-    /// Takes the last one away; false if there is none.
+    /// A light at `position`, relative to `parent`, that lights what is `reach` metres away about as a room does. Adds
+    /// nothing and returns false if the world has kMostLights.
+    bool add(ecs::World& world, ecs::Entity parent, const glm::vec3& position, float reach);
+    /// Removes the last one; false if there is none.
     bool remove(ecs::World& world);
 
     const std::vector<ecs::Entity>& entities() const { return lights_; }

@@ -8,12 +8,12 @@
 #include <type_traits>
 #include <utility>
 
-#include "content/demo/play/key_name.h"
 #include "content/demo/play/play.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/core/json_reader.h"
 #include "engine/core/utf8.h"
+#include "engine/platform/key.h"
 
 namespace rowland::demo {
 
@@ -35,7 +35,7 @@ ordered_json line_of(const platform::InputEvent& event, std::uint64_t step) {
         [&line](const auto& e) {
             using E = std::decay_t<decltype(e)>;
             if constexpr (std::is_same_v<E, platform::KeyEvent>) {
-                line["key"] = name_of(e.key);
+                line["key"] = platform::name_of(e.key);
                 line["down"] = e.down;
             } else if constexpr (std::is_same_v<E, platform::MouseButtonEvent>) {
                 line["button"] = kButtons[static_cast<std::size_t>(e.button)];
@@ -110,7 +110,7 @@ platform::GamepadEvent pad_of(JsonReader reader) {
 
 PlayEvent key_event(JsonReader& reader) {
     const std::string name = reader.text("key");
-    const auto key = key_named(name);
+    const auto key = platform::key_named(name);
     if (!key) reader.fail("key", name, "a key, as \"Space\" or \"F5\"");
     return platform::InputEvent(platform::KeyEvent{*key, truth(reader, "down")});
 }
@@ -163,16 +163,16 @@ RecordingHead head_of(const nlohmann::json& line, const std::string& file) {
     if (const std::int64_t version = reader.integer("rowland_play", 0, std::numeric_limits<std::int64_t>::max());
         version != kVersion)
         refuse_input(file, "line 1", fmt::format("version {}", version), fmt::format("version {}", kVersion),
-                     "record it anew with --record FILE");
+                     "record it again with --record FILE");
     if (const std::int64_t rate = reader.integer("steps_per_second", 1, 1'000'000); rate != kStepsPerSecond)
         refuse_input(file, "line 1", fmt::format("{} steps a second", rate), fmt::format("{}", kStepsPerSecond),
-                     "record it anew with --record FILE");
+                     "record it again with --record FILE");
     RecordingHead head{.scene = reader.text("scene"), .window = window_size(reader)};
     reader.finish();
     return head;
 }
 
-/// Reads lines one by one, so that messages can name them.
+/// Reads line by line, so that messages can name the line.
 class Reading {
  public:
     Reading(std::string text, std::string file) : text_(std::move(text)), file_(std::move(file)) {}
@@ -231,7 +231,7 @@ class Reading {
 
 Recorder::Recorder(const std::filesystem::path& path, const RecordingHead& head) : path_(path) {
     if (path.has_parent_path()) {
-        std::error_code ignored;  // opening the file tells
+        std::error_code ignored;  // opening the file reports it
         std::filesystem::create_directories(path.parent_path(), ignored);
     }
     file_.open(path, std::ios::binary | std::ios::trunc);

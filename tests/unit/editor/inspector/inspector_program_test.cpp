@@ -71,10 +71,24 @@ TEST_F(InspectorProgram, AMissingProbeIsRefusedByName) {
 }
 
 TEST_F(InspectorProgram, BadUsageIsRefused) {
-    for (const char* usage : {"--size 12", "--size 100x100", "--shape teapot", "--scale 9", "--nonsense"}) {
+    for (const char* usage : {"--size 12", "--size 100x100", "--size 1280x99999999999", "--size nanx800",
+                              "--shape teapot", "--scale 9", "--scale nan", "--scale inf", "--nonsense"}) {
         const Finished refused = inspect(usage);
         EXPECT_EQ(refused.exit_code, 2) << usage;
         EXPECT_THAT(refused.messages, HasSubstr("--help"));
+    }
+}
+
+TEST_F(InspectorProgram, OutputsAreCheckedBeforeWork) {
+    const std::string material = R"({"grating": {"pitch_nm": 1600, "profile": {"type": "slit", "width_nm": 800}}})";
+    write_file_atomic(path("mine.json"), material);
+    for (const std::string& outputs :
+         {"--capture '" + path("a.jpg") + "'", std::string("--capture /dev/full"),
+          std::string("--capture /proc/nowhere/a.png"), fmt::format("--capture '{0}' --controls '{0}'", path("a.png")),
+          fmt::format("--controls '{}'", path("mine.json")), fmt::format("--layout '{}'", path("mine.json"))}) {
+        const Finished refused = run(ROWLAND_INSPECTOR, fmt::format("'{}' {}", path("mine.json"), outputs));
+        EXPECT_EQ(refused.exit_code, 2) << outputs << ": " << refused.messages;
+        EXPECT_EQ(read_text_file(path("mine.json"), 1 << 10), material);
     }
 }
 

@@ -24,7 +24,7 @@ TEST(InspectorLayout, IsReadAsItWasWritten) {
     EXPECT_EQ(again.stage, layout.stage);
 }
 
-TEST(InspectorLayout, NonsenseIsAsUsual) {
+TEST(InspectorLayout, NonsenseGivesTheDefault) {
     const test::TemporaryFolder folder;
     const auto file = folder.path() / "layout.json";
     for (const char* text : {"{", "[]", "{\"width\": \"wide\", \"shape\": 3}", "{\"width\": -5, \"scale\": 1e9}"}) {

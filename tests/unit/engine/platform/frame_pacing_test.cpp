@@ -89,6 +89,15 @@ TEST(FrameTimes, StatisticsAreThoseOfTheTimes) {
     EXPECT_DOUBLE_EQ(statistics.maximum_ms, 100.0);
 }
 
+TEST(FrameTimes, TheLastFramesAreInOrder) {
+    FrameTimes times(3);
+    EXPECT_TRUE(times.in_order_ms().empty());
+    for (const int ms : {1, 2}) times.add(std::chrono::milliseconds(ms));
+    EXPECT_EQ(times.in_order_ms(), (std::vector<float>{1, 2}));
+    for (const int ms : {3, 4, 5}) times.add(std::chrono::milliseconds(ms));
+    EXPECT_EQ(times.in_order_ms(), (std::vector<float>{3, 4, 5}));
+}
+
 TEST(FrameTimes, OneFrameIsAllOfThem) {
     FrameTimes times;
     times.add(16ms);

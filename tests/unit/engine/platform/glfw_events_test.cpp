@@ -6,6 +6,8 @@
 
 #include <set>
 
+#include "engine/platform/key.h"
+
 namespace rowland::platform {
 namespace {
 

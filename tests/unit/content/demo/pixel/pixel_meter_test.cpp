@@ -51,7 +51,7 @@ class PixelMeterTest : public ::testing::Test {
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         }
         EXPECT_TRUE(meter.current()) << meter.failure();
-        return meter.reading().value_or(PixelReading{});
+        return meter.reading() ? *meter.reading() : PixelReading{};
     }
     /// What the module's own comparison says of it.
     diffraction::PointComparison direct(const PixelQuery& asked, math::SphericalWindow window) const {

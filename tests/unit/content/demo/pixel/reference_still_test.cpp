@@ -71,7 +71,7 @@ class ReferenceStillTest : public test::RenderTest {
         black->upload(std::vector<float>{0.0F, 0.0F, 0.0F, 1.0F});
         comparison_.set_still(black);
         const std::vector<glm::vec4> without = drawn();
-        const GratingPlace place = grating_place(world_, grating_).value();
+        const PlacedGrating place = placed_grating(world_, grating_).value();
         const auto points = visible_points(camera_, kPixels, {{place.mesh, place.to_world}});
         const auto inside = [&](int row, int column) {
             for (const int y : {row - margin, row + margin})

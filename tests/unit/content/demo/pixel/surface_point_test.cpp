@@ -23,7 +23,7 @@ class SurfacePointTest : public test::RenderTest {
         return entity;
     }
     std::optional<diffraction::Frame> seen(ecs::Entity entity, const glm::vec3& point, const glm::vec3& eye) {
-        return frame_at(grating_place(world_, entity).value(), hit_, point, eye);
+        return frame_at(placed_grating(world_, entity).value(), hit_, point, eye);
     }
     static void expect_near(const glm::dvec3& value, const glm::dvec3& expected) {
         EXPECT_LT(glm::length(value - expected), kRounding) << value.x << ", " << value.y << ", " << value.z;
@@ -64,7 +64,7 @@ TEST_F(SurfacePointTest, FollowsThePlacementEvenStretchedOrMirrored) {
 
 TEST_F(SurfacePointTest, TheBackIsNotMeasured) {
     EXPECT_FALSE(seen(grating(glm::mat4(1.0F), 0.0F), {}, {0.0F, 0.0F, -2.0F}));
-    EXPECT_FALSE(grating_place(world_, world_.create()));
+    EXPECT_FALSE(placed_grating(world_, world_.create()));
 }
 
 }  // namespace

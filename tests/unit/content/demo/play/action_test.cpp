@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "content/demo/play/key_name.h"
+#include "engine/platform/key.h"
 
 namespace rowland::demo {
 namespace {
@@ -28,24 +28,25 @@ TEST(DemoAction, EveryActionHasAKeyAndANameOfItsOwn) {
 TEST(DemoAction, HelpHasALineForEveryKey) {
     const std::vector<HelpLine> lines = help_lines();
     const auto has = [&](platform::Key key, const char* help) {
-        return std::any_of(lines.begin(), lines.end(),
-                           [&](const HelpLine& line) { return line.control == name_of(key) && line.what == help; });
+        return std::any_of(lines.begin(), lines.end(), [&](const HelpLine& line) {
+            return line.control == platform::name_of(key) && line.what == help;
+        });
     };
     for (const ActionKey& row : action_keys()) EXPECT_TRUE(has(row.key, row.help)) << row.name;
     for (const HeldKey& row : held_keys()) EXPECT_TRUE(has(row.key, row.help)) << row.help;
 }
 
 TEST(DemoAction, KeysAreKnownByTheirNames) {
-    EXPECT_EQ(name_of(platform::Key::W), "W");
-    EXPECT_EQ(name_of(platform::Key::Digit3), "3");
-    EXPECT_EQ(name_of(platform::Key::F12), "F12");
-    EXPECT_EQ(name_of(platform::Key::Escape), "Esc");
-    EXPECT_EQ(name_of(platform::Key::RightAlt), "Right Alt");
+    EXPECT_EQ(platform::name_of(platform::Key::W), "W");
+    EXPECT_EQ(platform::name_of(platform::Key::Digit3), "3");
+    EXPECT_EQ(platform::name_of(platform::Key::F12), "F12");
+    EXPECT_EQ(platform::name_of(platform::Key::Escape), "Esc");
+    EXPECT_EQ(platform::name_of(platform::Key::RightAlt), "Right Alt");
     for (int i = 0; i < static_cast<int>(platform::Key::Count); ++i) {
         const auto key = static_cast<platform::Key>(i);
-        EXPECT_EQ(key_named(name_of(key)), key) << name_of(key);
+        EXPECT_EQ(platform::key_named(platform::name_of(key)), key) << platform::name_of(key);
     }
-    EXPECT_FALSE(key_named("Any"));
+    EXPECT_FALSE(platform::key_named("Any"));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include "content/demo/play/pick.h"
+#include "content/demo/play/hierarchy.h"
 
 #include <gtest/gtest.h>
 
@@ -66,7 +67,7 @@ TEST(DemoPick, PlacementFollowsTheChainOfParents) {
     test::SmallWorld small;
     scene::update_world_matrices(small.world);
     for (const ecs::Entity entity : {small.root, small.stand, small.left, small.right})
-        EXPECT_EQ(placement(small.world, entity), small.world.get<scene::WorldMatrix>(entity).matrix);
+        EXPECT_EQ(object_to_world(small.world, entity), small.world.get<scene::WorldMatrix>(entity).matrix);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include "content/demo/play/play.h"
+#include "content/demo/play/hierarchy.h"
 
 #include <gtest/gtest.h>
 
@@ -27,7 +28,7 @@ constexpr std::size_t kLeft = 0;
 constexpr std::size_t kRight = 1;
 
 glm::vec3 normal_of(SmallWorld& small, ecs::Entity node) {
-    return glm::normalize(glm::mat3(placement(small.world, node)) * glm::vec3(0.0F, 0.0F, 1.0F));
+    return glm::normalize(glm::mat3(object_to_world(small.world, node)) * glm::vec3(0.0F, 0.0F, 1.0F));
 }
 
 /// Angle by which a body is turned from rest, radians.
@@ -144,14 +145,14 @@ TEST(DemoPlay, ShiftAndDragTurnsAboutItsOwnAxisWithTheCursor) {
 TEST(DemoPlay, ADragLiftsTheObjectAndPuttingBackRestoresIt) {
     SmallWorld small;
     Play play = small.play();
-    const glm::mat4 before = placement(small.world, small.right);
+    const glm::mat4 before = object_to_world(small.world, small.right);
     drag(play, kOnRight, {2.0, 1.0}, 20);
     test::wait(play, 120);
-    const glm::vec3 lifted = placement(small.world, small.right)[3];
+    const glm::vec3 lifted = object_to_world(small.world, small.right)[3];
     EXPECT_NEAR(lifted.y - before[3].y, 0.05F, 1e-4F);
     play.step(std::vector{test::button(false)});
     tap(play, Key::R);
-    EXPECT_EQ(placement(small.world, small.right), before);
+    EXPECT_EQ(object_to_world(small.world, small.right), before);
 }
 
 TEST(DemoPlay, PauseStopsWhatMovesByItselfButNotTheHand) {
@@ -160,16 +161,16 @@ TEST(DemoPlay, PauseStopsWhatMovesByItselfButNotTheHand) {
     tap(play, Key::Space);
     ASSERT_TRUE(play.paused());
     const double time = play.time_s();
-    const glm::mat4 before = placement(small.world, small.left);
+    const glm::mat4 before = object_to_world(small.world, small.left);
     test::wait(play, 60);
     EXPECT_EQ(play.time_s(), time);
-    EXPECT_EQ(placement(small.world, small.left), before);
+    EXPECT_EQ(object_to_world(small.world, small.left), before);
     drag(play, kOnRight, {2.0, 0.0}, 10);
     EXPECT_GT(turned(play, kRight), 0.4);
     play.step(std::vector{test::button(false)});
     tap(play, Key::Space);
     test::wait(play, 60);
-    EXPECT_NE(placement(small.world, small.left), before);
+    EXPECT_NE(object_to_world(small.world, small.left), before);
 }
 
 TEST(DemoPlay, SlowMotionIsATenthAndOneStepAThirtieth) {
@@ -207,7 +208,7 @@ TEST(DemoPlay, TurningTheEnvironmentTurnsEverythingElseTheOtherWay) {
     SmallWorld small;
     Play play = small.play();
     tap(play, Key::Space);
-    const auto seen = [&](ecs::Entity entity) { return play.camera().view() * placement(small.world, entity); };
+    const auto seen = [&](ecs::Entity entity) { return play.camera().view() * object_to_world(small.world, entity); };
     const glm::mat4 left = seen(small.left);
     const glm::mat4 right = seen(small.right);
     const glm::vec3 eye = play.camera().eye;
@@ -226,7 +227,7 @@ TEST(DemoPlay, TurningTheEnvironmentTurnsEverythingElseTheOtherWay) {
     EXPECT_EQ(hit->target, 1U);
     play.step(std::vector{test::mouse(kOnRight)});
     tap(play, Key::G);
-    EXPECT_LT(glm::distance(glm::vec3(placement(small.world, play.lights().entities()[0])[3]), hit->point), 0.5F);
+    EXPECT_LT(glm::distance(glm::vec3(object_to_world(small.world, play.lights().entities()[0])[3]), hit->point), 0.5F);
 }
 
 TEST(DemoPlay, LightsAreAddedBeforeWhatIsUnderTheCursorUpToTheMost) {
@@ -237,7 +238,7 @@ TEST(DemoPlay, LightsAreAddedBeforeWhatIsUnderTheCursorUpToTheMost) {
     play.step(std::vector{test::mouse(kOnRight)});
     tap(play, Key::G);
     ASSERT_EQ(light_count(small.world), 2U);
-    const glm::vec3 place = placement(small.world, play.lights().entities()[0])[3];
+    const glm::vec3 place = object_to_world(small.world, play.lights().entities()[0])[3];
     EXPECT_GT(place.z, 0.1F);
     EXPECT_LT(glm::distance(place, glm::vec3(0.15F, 0.0F, 0.0F)), 0.5F);
     for (int i = 0; i < 70; ++i) tap(play, Key::G);
@@ -264,9 +265,9 @@ TEST(DemoPlay, AWalkerStaysInTheRoomAndEscapeEndsTheWalkFirst) {
     EXPECT_EQ(play.camera().eye.z, -2.0F);
     tap(play, Key::Escape);
     EXPECT_FALSE(play.walking());
-    EXPECT_TRUE(play.take_orders().empty());
+    EXPECT_TRUE(play.take_commands().empty());
     tap(play, Key::Escape);
-    EXPECT_EQ(play.take_orders(), std::vector<Play::Order>{Action::Close});
+    EXPECT_EQ(play.take_commands(), std::vector<Play::Command>{Action::Close});
 }
 
 TEST(DemoPlay, TheViewStaysWhereTheWalkEnded) {
@@ -321,8 +322,8 @@ TEST(DemoPlay, AnActionChosenInAMenuIsAsGoodAsItsKey) {
     Play play = small.play();
     play.step(std::vector<PlayEvent>{ActionEvent{Action::Pause}, ActionEvent{Action::NextProbe}});
     EXPECT_TRUE(play.paused());
-    EXPECT_EQ(play.take_orders(), std::vector<Play::Order>{Action::NextProbe});
-    EXPECT_TRUE(play.take_orders().empty());
+    EXPECT_EQ(play.take_commands(), std::vector<Play::Command>{Action::NextProbe});
+    EXPECT_TRUE(play.take_commands().empty());
 }
 
 TEST(DemoPlay, ASceneLoadedAnewKeepsWhatItsObjectsBecame) {
@@ -333,16 +334,16 @@ TEST(DemoPlay, ASceneLoadedAnewKeepsWhatItsObjectsBecame) {
     test::wait(play, 30);
     const BodyState before = play.bodies()[kRight].state;
     ASSERT_GT(glm::length(before.spin), 1.0);
-    const glm::mat4 stood = placement(small.world, small.right);
+    const glm::mat4 stood = object_to_world(small.world, small.right);
     play.rest();
-    EXPECT_NE(placement(small.world, small.right), stood);
+    EXPECT_NE(object_to_world(small.world, small.right), stood);
     Toys toys = small.toys();
     std::swap(toys.bodies[0], toys.bodies[1]);
     toys.body_of_target = {1, 0};
     play.set_toys(toys);
     EXPECT_EQ(play.bodies()[0].name, "right");
     EXPECT_EQ(play.bodies()[0].state, before);
-    EXPECT_EQ(placement(small.world, small.right), stood);
+    EXPECT_EQ(object_to_world(small.world, small.right), stood);
 }
 
 }  // namespace

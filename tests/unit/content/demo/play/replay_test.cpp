@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "content/demo/play/hierarchy.h"
 #include "content/demo/play/play_clock.h"
 #include "engine/scene/transform.h"
 #include "tests/support/temporary_folder.h"
@@ -81,8 +82,9 @@ struct Outcome {
 
 Outcome outcome_of(SmallWorld& small, Play& play) {
     Outcome outcome{{}, {}, play.camera().eye, play.steps(), light_count(small.world)};
-    small.world.view<scene::Transform>().each(
-        [&](ecs::Entity entity, const scene::Transform&) { outcome.places.push_back(placement(small.world, entity)); });
+    small.world.view<scene::Transform>().each([&](ecs::Entity entity, const scene::Transform&) {
+        outcome.places.push_back(object_to_world(small.world, entity));
+    });
     for (const Body& body : play.bodies()) outcome.states.push_back(body.state);
     return outcome;
 }
@@ -179,7 +181,7 @@ TEST(DemoReplay, FramesShorterThanAStepLoseNothing) {
     EXPECT_EQ(play.steps(), 0U);
     clock.live(play, std::chrono::milliseconds(9), {}, nullptr);
     EXPECT_EQ(play.steps(), 1U);
-    EXPECT_EQ(play.take_orders().size(), 10U);
+    EXPECT_EQ(play.take_commands().size(), 10U);
 }
 
 }  // namespace

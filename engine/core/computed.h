@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-namespace rowland::inspector {
+namespace rowland {
 
 /// A value that another thread computes from named inputs. `Key` holds the inputs; the value is current while its key
 /// equals the wanted one. Used from one thread, which waits only in the destructor.
@@ -116,4 +116,4 @@ class Computed {
     std::future<std::optional<Value>> running_;
 };
 
-}  // namespace rowland::inspector
+}  // namespace rowland

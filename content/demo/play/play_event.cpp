@@ -1,4 +1,4 @@
-#include "content/demo/play/setting.h"
+#include "content/demo/play/play_event.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@ namespace rowland::demo {
 
 namespace {
 
-/// One row a setting.
+/// One row per setting.
 constexpr std::array<SettingKind, 9> kKinds{{
     {Setting::Exposure, "exposure", {{-12.0, 12.0}}},
     {Setting::Bloom, "bloom", {{0.0, 1.0}}},

@@ -1,4 +1,4 @@
-#include "editor/inspector/computed.h"
+#include "engine/core/computed.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-namespace rowland::inspector {
+namespace rowland {
 namespace {
 
 using Doubled = Computed<int, int>;
@@ -163,4 +163,4 @@ TEST(Computed, AResetDropsTheValueAndWhatIsOnItsWay) {
 }
 
 }  // namespace
-}  // namespace rowland::inspector
+}  // namespace rowland

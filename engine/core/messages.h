@@ -8,7 +8,7 @@
 
 #include "engine/core/log.h"
 
-namespace rowland::inspector {
+namespace rowland {
 
 struct Message {
     std::string text;
@@ -41,4 +41,4 @@ class Messages {
     std::vector<Message> messages_;
 };
 
-}  // namespace rowland::inspector
+}  // namespace rowland

@@ -1,0 +1,27 @@
+#include "engine/app/options.h"
+
+#include <CLI/CLI.hpp>
+
+namespace rowland::app {
+
+void add_common_options(CLI::App& app, CommonOptions& options, const std::string& capture_help) {
+    app.add_option("--probe", options.probe, "Light probe: .hdr, .exr, a probe recipe (.json) or a cooked .probe");
+    app.add_option("--probe-mapping", options.probe_mapping, "How an image covers the sphere: equirect or angular")
+        ->check(CLI::IsMember({"equirect", "angular"}))
+        ->capture_default_str();
+    app.add_option("--ocio", options.ocio_config, "OpenColorIO config in place of $OCIO and the shipped one");
+    app.add_option("--capture", options.capture, capture_help);
+    app.add_option("--content-folder", options.content_folder,
+                   "Sources of the shipped assets: materials, probes, meshes and scenes")
+        ->capture_default_str();
+}
+
+std::vector<std::filesystem::path> given(
+    std::initializer_list<std::reference_wrapper<const std::optional<std::filesystem::path>>> options) {
+    std::vector<std::filesystem::path> paths;
+    for (const std::optional<std::filesystem::path>& option : options)
+        if (option) paths.push_back(*option);
+    return paths;
+}
+
+}  // namespace rowland::app

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rowland::app {
+
+/// The options of every program that draws.
+struct CommonOptions {
+    std::optional<std::filesystem::path> probe;
+    std::string probe_mapping = "equirect";
+    std::optional<std::filesystem::path> ocio_config;
+    std::optional<std::filesystem::path> capture;  ///< PNG
+    std::filesystem::path content_folder;          ///< sources: materials, probes, meshes, scenes
+};
+
+/// Declares them. `capture_help` says what the picture shows. `options` must outlive `app`.
+void add_common_options(CLI::App& app, CommonOptions& options, const std::string& capture_help);
+
+/// The values that are there, for check_outputs().
+std::vector<std::filesystem::path> given(
+    std::initializer_list<std::reference_wrapper<const std::optional<std::filesystem::path>>> options);
+
+}  // namespace rowland::app
