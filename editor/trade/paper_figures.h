@@ -17,26 +17,26 @@ struct Curve {
     std::vector<double> y;
 };
 
-/// Fig. 2 of Lindsay & Agu 2006: how fast diffraction and interference vary.
+/// Fig. 2 of Lindsay & Agu 2006: diffraction varies faster than interference.
 struct Figure2 {
     Curve diffraction;   ///< x: half the phase between neighbouring grooves, −π to π; y: 1 at the highest peak
     Curve interference;  ///< of a thin film over the same phase; y likewise
-    Curve peak;          ///< one order alone: x in degrees of view from it, y 1 at the peak
+    Curve peak;          ///< one order: x in degrees of view from its peak, y 1 at the peak
     double peak_width_degrees = 0.0;  ///< between the half heights of `peak`
 };
 
-/// A slit grating's own curves (other profiles: those of a slit of half the pitch) at normal incidence, at its first
+/// The curves of a slit grating (for other profiles, of slits of half the pitch) at normal incidence, at its first
 /// order for 550 nm; the film is two-beam interference of a soap film.
 Figure2 figure_2(const diffraction::Grating& grating);
 
-/// Fig. 3: frames a second against the number of lights.
+/// Fig. 3: frames per second against the number of lights.
 struct Figure3 {
     std::vector<int> lights;
     std::vector<double> loop_fps;  ///< light by light, order by order
     std::vector<double> sh_fps;    ///< the paper's 5 bands and 4 spikes
 };
 
-/// Fig. 6: direct above, SH below; one light left, several right.
+/// Fig. 6: light by light, and by SH; one light, and several.
 struct Figure6 {
     RgbPicture direct_one;
     RgbPicture direct_several;
@@ -53,8 +53,8 @@ struct PaperRates {
     double fps_with_effects = 0.0;  ///< environment, blur, exposure, vignette, display transform, dither
 };
 
-/// Everything that needs a GL device, on one stage of `size` pixels. `paper`: a material as the paper's setting shades
-/// it; its grating has the flat lobe.
+/// The figures that need a GL device, drawn on one stage of `size` pixels. `paper`: a material in the paper's setting;
+/// its grating has the flat lobe.
 class PaperStage {
  public:
     PaperStage(const diffraction::CookedMaterial& paper, glm::ivec2 size);
@@ -62,12 +62,11 @@ class PaperStage {
     Figure3 figure_3(const std::vector<int>& light_counts);
     Figure6 figure_6();
     PaperRates rates();
-    const std::string& device() const { return context_.renderer(); }
 
  private:
-    double loop_ms(int lights);
-    double sh_ms(int lights);
-    double fastest(bool effects);
+    void show_loop(int lights);
+    void show_sh(int lights);
+    double fps(bool effects = false);
 
     platform::HeadlessContext context_;
     glm::ivec2 size_;

@@ -71,6 +71,17 @@ bool takes_all_light_as_sh(const std::string& representation) {
     return std::find(kNames.begin(), kNames.end(), representation) != kNames.end();
 }
 
+/// The material with the setting in place of its "quality", but for the illuminant.
+nlohmann::json with_setting(nlohmann::json json, const Setting& setting) {
+    nlohmann::json quality = setting.quality;
+    if (takes_all_light_as_sh(setting.quality.value("representation", "")))
+        quality["key_lights"] = setting.key_lights > 0;
+    if (json.contains("quality") && json["quality"].contains("illuminant"))
+        quality["illuminant"] = json["quality"]["illuminant"];
+    json["quality"] = std::move(quality);
+    return json;
+}
+
 }  // namespace
 
 Setting parse_setting(const std::string& text) {
@@ -123,14 +134,13 @@ Setting setting_from_json(const nlohmann::json& json, const std::string& file) {
     return setting;
 }
 
+void check(nlohmann::json json, const std::string& file, const Setting& setting) {
+    const nlohmann::json whole = with_setting(std::move(json), setting);
+    diffraction::require_baked_grooves(diffraction::parse_material(whole, file).grating, file);
+}
+
 diffraction::CookedMaterial cook(nlohmann::json json, const std::string& file, const Setting& setting) {
-    nlohmann::json quality = setting.quality;
-    const std::string representation = representation_of(setting);
-    if (takes_all_light_as_sh(representation)) quality["key_lights"] = setting.key_lights > 0;
-    if (json.contains("quality") && json["quality"].contains("illuminant"))
-        quality["illuminant"] = json["quality"]["illuminant"];
-    json["quality"] = std::move(quality);
-    return diffraction::cook_material(json, file);
+    return diffraction::cook_material(with_setting(std::move(json), setting), file);
 }
 
 }  // namespace rowland::trade

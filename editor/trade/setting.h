@@ -32,6 +32,9 @@ Setting setting_from_json(const nlohmann::json& json, const std::string& file);
 
 std::string representation_of(const Setting& setting);
 
+/// Throws Error (input) if cook() would, without baking anything.
+void check(nlohmann::json json, const std::string& file, const Setting& setting);
+
 /// The material `json` of the file `file`, shaded as the setting says. Throws Error (input), also if the setting does
 /// not suit the grating.
 diffraction::CookedMaterial cook(nlohmann::json json, const std::string& file, const Setting& setting);

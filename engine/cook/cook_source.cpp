@@ -7,6 +7,7 @@
 #include "engine/cook/source_file.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
+#include "engine/core/outputs.h"
 
 namespace rowland::cook {
 
@@ -28,17 +29,6 @@ Hash128 content_hash(const Context& context, const AssetType& type) {
         hashes.push_back(*now);
     }
     return content_hash(type, hashes);
-}
-
-/// A slip on the command line must not cost the user a source.
-void check_output_is_no_source(const std::filesystem::path& output, const std::filesystem::path& source) {
-    std::error_code missing;
-    if (!std::filesystem::equivalent(output, source, missing)) return;
-    throw Error({.file = output.string(),
-                 .place = {},
-                 .found = "the output is one of the sources",
-                 .expected = "a file of its own",
-                 .remedy = "name another output"});
 }
 
 }  // namespace
@@ -75,9 +65,11 @@ BakedAsset bake_source(const Registry& registry, const std::filesystem::path& so
 
 BakedAsset cook_source(const Registry& registry, const std::filesystem::path& source,
                        const std::filesystem::path& output, const CookSettings& settings) {
-    check_output_is_no_source(output, source);
+    std::vector<Output> outputs = {{"--output", output}};
+    if (settings.depfile) outputs.push_back({"--depfile", *settings.depfile});
+    check_outputs({&source, 1}, outputs);
     BakedAsset baked = bake_source(registry, source);
-    for (const std::filesystem::path& dependency : baked.dependencies) check_output_is_no_source(output, dependency);
+    check_outputs(baked.dependencies, outputs);  // what the source names is known only now
     // Made before anything is written, since it may refuse a name.
     const std::string depfile = settings.depfile ? depfile_text(output, baked.dependencies) : std::string();
 

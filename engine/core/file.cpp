@@ -32,6 +32,14 @@ namespace {
         {.file = path.string(), .place = {}, .found = std::move(found), .expected = std::move(expected), .remedy = {}});
 }
 
+/// Renaming over a device or a pipe would replace it by a file.
+void require_no_device(const std::filesystem::path& path) {
+    if (!path.has_filename()) fail_input(path, "names a folder", "a file to write");
+    struct stat old = {};
+    if (::stat(path.c_str(), &old) == 0 && !S_ISREG(old.st_mode))
+        fail_input(path, "exists and is not a regular file", "a file to write");
+}
+
 /// An open file descriptor.
 class Descriptor {
  public:
@@ -160,12 +168,16 @@ void create_folder(const std::filesystem::path& path) {
     if (code) fail_system(path, "creating the folder", code.value());
 }
 
-void write_file_atomic(const std::filesystem::path& path, std::span<const std::byte> data) {
-    // Renaming over a device or a pipe would replace it by a file.
-    struct stat old = {};
-    if (::stat(path.c_str(), &old) == 0 && !S_ISREG(old.st_mode))
-        fail_input(path, "exists and is not a regular file", "a file to write");
+void require_writable(const std::filesystem::path& path) {
+    require_no_device(path);
+    std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
+    std::error_code ignored;
+    while (!std::filesystem::exists(folder, ignored) && folder.has_relative_path()) folder = folder.parent_path();
+    const Replacement attempt(folder / "file");
+}
 
+void write_file_atomic(const std::filesystem::path& path, std::span<const std::byte> data) {
+    require_no_device(path);
     if (path.has_parent_path()) create_folder(path.parent_path());
     Replacement replacement(path);
     replacement.write(data);

@@ -24,4 +24,8 @@ void create_folder(const std::filesystem::path& path);
 void write_file_atomic(const std::filesystem::path& path, std::span<const std::byte> data);
 void write_file_atomic(const std::filesystem::path& path, std::string_view text);
 
+/// Throws the Error that write_file_atomic(path, ...) would throw before it writes: tries a file in the nearest folder
+/// that exists, and leaves nothing of it.
+void require_writable(const std::filesystem::path& path);
+
 }  // namespace rowland

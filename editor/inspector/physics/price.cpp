@@ -41,8 +41,7 @@ void price_choices(const PriceQuery& query, const std::function<void(const Price
         {.name = "the inspector's light", .image = query.probe, .key_lights = query.key_lights}};
     const std::vector<diffraction::Frame> frames = diffraction::measured_frames(query.surface);
     diffraction::SearchQuery search{.material = query.material, .probes = probes, .frames = frames, .settings = {}};
-    if (!query.present_only)
-        search.settings = diffraction::budget_candidates(query.material.grating, query.surface);
+    if (!query.present_only) search.settings = diffraction::budget_candidates(query.material.grating, query.surface);
     if (pinned) search.first = query.quality;
     diffraction::search(
         search, [&](const diffraction::SearchState& state) { report(list_of(state, pinned)); }, stop);

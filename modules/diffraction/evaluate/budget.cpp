@@ -59,8 +59,8 @@ std::vector<nlohmann::json> lobe_candidates() {
 
 }  // namespace
 
-/// Bins are left out: a transfer table costs as much as eight of them and loses less. Circle maps of more than 64 texels
-/// take hundreds of megabytes, and flat surfaces have planar maps instead.
+/// Bins are left out: a transfer table costs as much as eight of them and loses less. Circle maps of more than 64
+/// texels take hundreds of megabytes, and flat surfaces have planar maps instead.
 std::vector<nlohmann::json> budget_candidates(const Grating& grating, SurfaceShape surface) {
     if (!is_flat(grating.lobe)) return lobe_candidates();
     std::vector<nlohmann::json> list;
@@ -88,7 +88,8 @@ BudgetChoice choose_representation(const Material& material, std::span<const Bud
                                       .good_enough = max_error},
                                      [&](const SearchState& state) {
                                          if (!progress)
-                                             progress = std::make_unique<Progress>("choosing a representation", state.total);
+                                             progress =
+                                                 std::make_unique<Progress>("choosing a representation", state.total);
                                          progress->advance();
                                      });
     const MeasuredChoice& best = *std::ranges::min_element(found.measured, {}, &MeasuredChoice::error);

@@ -33,8 +33,8 @@ class MeasuredScene {
     using Reference = std::function<std::vector<glm::dvec3>(std::span<const Frame>)>;
 
     /// `name` labels the progress. The reference is asked for `part` points at a time.
-    MeasuredScene(std::string name, std::shared_ptr<ProbeLights> lights, std::vector<Surface> surfaces, std::size_t part,
-                  Reference reference);
+    MeasuredScene(std::string name, std::shared_ptr<ProbeLights> lights, std::vector<Surface> surfaces,
+                  std::size_t part, Reference reference);
 
     /// Computes the reference unless it is known. False if it was stopped; another call continues.
     bool prepare(const std::stop_token& stop = {});

@@ -21,8 +21,8 @@ namespace {
 constexpr double kMultiplyAddsPerFetch = 8.0;
 constexpr double kVerticesPerPixel = 25000.0 / (1280.0 * 720.0 / 2.0);
 constexpr double kFetchesPerMebibyte = 0.25;
-constexpr int kProjectedBands = 16;         ///< the most that a setting takes
-constexpr std::size_t kReferencePart = 8;   ///< frames between two looks at the stop token
+constexpr int kProjectedBands = 16;        ///< the most that a setting takes
+constexpr std::size_t kReferencePart = 8;  ///< frames between two looks at the stop token
 
 /// The settings as the material's quality; nullopt if they do not suit its grating.
 std::optional<Quality> as_quality(const nlohmann::json& settings, const Material& material) {
@@ -111,8 +111,7 @@ class Search {
     void measure_up_to(double limit, MeasuredChoice& choice) {
         for (std::size_t i = choice.errors.size(); i < scenes_.size() && choice.error() <= limit; ++i) {
             const int key_lights = choice.quality.key_lights ? query_.probes[i].key_lights : 0;
-            choice.errors.push_back(
-                relative_rms(scenes_[i].shaded(*choice.baked, key_lights), scenes_[i].reference()));
+            choice.errors.push_back(relative_rms(scenes_[i].shaded(*choice.baked, key_lights), scenes_[i].reference()));
         }
     }
 
