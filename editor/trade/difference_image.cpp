@@ -7,6 +7,7 @@
 
 #include "editor/trade/measure_error.h"
 #include "engine/core/check.h"
+#include "engine/image/png.h"
 
 namespace rowland::trade {
 
@@ -30,6 +31,18 @@ void draw_panel(const std::vector<glm::vec3>& panel, int width, int left, int ma
                 picture.rgb[static_cast<std::size_t>(3 * (row * picture.width + left + column) + c)] =
                     static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(colour[c], 0.0F, 1.0F)));
         }
+}
+
+std::string base64(std::span<const std::byte> bytes) {
+    constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const auto byte = [&](std::size_t j) { return j < bytes.size() ? std::to_integer<unsigned>(bytes[j]) : 0U; };
+        const unsigned triple = byte(i) << 16U | byte(i + 1) << 8U | byte(i + 2);
+        for (unsigned digit = 0; digit < 4; ++digit)
+            text += i + digit > bytes.size() ? '=' : kDigits[triple >> (18U - 6U * digit) & 63U];
+    }
+    return text;
 }
 
 }  // namespace
@@ -63,6 +76,10 @@ RgbPicture difference_image(std::span<const glm::dvec3> a, std::span<const glm::
     draw_panel(shown_b, width, (width + kGap) * magnified, magnified, picture);
     draw_panel(difference_colours(shown_a, shown_b), width, 2 * (width + kGap) * magnified, magnified, picture);
     return picture;
+}
+
+std::string data_url(const RgbPicture& picture) {
+    return "data:image/png;base64," + base64(image::encode_png(picture.width, picture.height, 3, picture.rgb));
 }
 
 }  // namespace rowland::trade

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace rowland::trade {
@@ -13,6 +14,9 @@ struct RgbPicture {
     int height = 0;
     std::vector<std::uint8_t> rgb;
 };
+
+/// The picture as a PNG in a data URL.
+std::string data_url(const RgbPicture& picture);
 
 /// ΔE2000 at the end of the colour scale.
 inline constexpr double kFullDifference = 20.0;

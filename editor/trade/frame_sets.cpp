@@ -5,12 +5,6 @@
 
 namespace rowland::trade {
 
-std::size_t FrameSet::size() const {
-    std::size_t count = 0;
-    for (const auto& surface : surfaces) count += surface.size();
-    return count;
-}
-
 std::vector<diffraction::Frame> all_frames(const FrameSet& set) {
     std::vector<diffraction::Frame> frames;
     for (const auto& surface : set.surfaces) frames.insert(frames.end(), surface.begin(), surface.end());

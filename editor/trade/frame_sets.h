@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -13,8 +12,6 @@ namespace rowland::trade {
 struct FrameSet {
     std::string name;
     std::vector<diffraction::Surface> surfaces;
-
-    std::size_t size() const;
 };
 
 /// The points of all surfaces, one surface after the other.

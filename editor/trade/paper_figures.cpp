@@ -4,10 +4,17 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <memory>
 #include <numbers>
+#include <string>
+#include <utility>
 #include <variant>
 
+#include "editor/trade/difference_image.h"
 #include "editor/trade/picture_scene.h"
+#include "editor/trade/stage.h"
+#include "engine/core/progress.h"
+#include "engine/platform/headless_context.h"
 #include "engine/render/scene_lights.h"
 #include "modules/diffraction/model/fejer.h"
 #include "modules/diffraction/model/profile.h"
@@ -21,6 +28,7 @@ constexpr int kCurvePoints = 721;
 constexpr double kWavelength_nm = 550.0;
 constexpr int kShBands = 16;
 constexpr float kExposureStops = 0.5F;
+constexpr int kSeveralLights = 6;
 
 double sinc2(double x) {
     return x == 0.0 ? 1.0 : std::pow(std::sin(pi * x) / (pi * x), 2.0);
@@ -78,6 +86,95 @@ lighting::LightProbe probe_of(const std::vector<render::DistantLight>& lights) {
     return probe;
 }
 
+nlohmann::ordered_json to_json(const Curve& curve) {
+    return {{"x", curve.x}, {"y", curve.y}};
+}
+
+/// The figures that need a GL device, drawn on one stage.
+class PaperStage {
+ public:
+    PaperStage(const diffraction::CookedMaterial& paper, glm::ivec2 size)
+        : context_({.debug = false}),
+          size_(size),
+          stage_(size, close_camera(), false),
+          material_(paper),
+          spikes_(stage_.upload(material_)) {}
+
+    nlohmann::ordered_json figure_3() {
+        nlohmann::ordered_json figure;
+        for (int lights = 1; lights <= 512; lights *= 2) {
+            figure["lights"].push_back(lights);
+            show_sh(lights);
+            figure["sh_fps"].push_back(fps());
+            show_loop(lights);
+            figure["loop_fps"].push_back(fps());
+        }
+        return figure;
+    }
+
+    nlohmann::ordered_json figure_6() {
+        nlohmann::ordered_json figure = {{"several", kSeveralLights}};
+        stage_.set_camera(far_camera());
+        for (const auto& [name, lights] : {std::pair("one", 1), std::pair("several", kSeveralLights)}) {
+            show_sh(lights);
+            figure[std::string("sh_") + name] = picture();
+            show_loop(lights);
+            figure[std::string("direct_") + name] = picture();
+        }
+        stage_.set_camera(close_camera());
+        return figure;
+    }
+
+    nlohmann::ordered_json rates() {
+        stage_.set_probe(probe_of(lights_of(kSeveralLights)));
+        stage_.show_plain();
+        nlohmann::ordered_json rates = {{"vertices", stage_.vertices()}, {"plain_fps", fps()}};
+        stage_.show_grating(spikes_);
+        rates["fps"] = fps();
+        rates["fps_with_effects"] = fps(true);
+        return rates;
+    }
+
+ private:
+    void show_loop(int lights) {
+        auto loop = std::make_shared<LightLoop>(material_.material.grating,
+                                                colour::LightSpectra(material_.material.quality.illuminant),
+                                                stage_.xyz_to_working());
+        loop->set_lights(lights_of(lights));
+        stage_.show_light_loop(loop);
+    }
+
+    void show_sh(int lights) {
+        stage_.set_probe(probe_of(lights_of(lights)));
+        stage_.show_grating(spikes_);
+    }
+
+    std::string picture() {
+        return data_url({.width = size_.x, .height = size_.y, .rgb = stage_.picture(kExposureStops)});
+    }
+
+    /// Of the fastest of some frames.
+    double fps(bool effects = false) {
+        constexpr int kFrames = 4;
+        constexpr double kLongest_ms = 400.0;
+        stage_.draw(effects);  // links programs
+        double ms = std::numeric_limits<double>::infinity();
+        double spent_ms = 0.0;
+        for (int i = 0; i < kFrames && spent_ms < kLongest_ms; ++i) {
+            const double frame = stage_.draw(effects);
+            ms = std::min(ms, frame);
+            spent_ms += frame;
+        }
+        return 1000.0 / ms;
+    }
+
+    platform::HeadlessContext context_;
+    glm::ivec2 size_;
+    Stage stage_;
+    diffraction::CookedMaterial material_;
+    std::shared_ptr<const diffraction::GpuMaterial> spikes_;
+};
+
 }  // namespace
 
 Figure2 figure_2(const diffraction::Grating& grating) {
@@ -96,78 +193,25 @@ Figure2 figure_2(const diffraction::Grating& grating) {
     return figure;
 }
 
-PaperStage::PaperStage(const diffraction::CookedMaterial& paper, glm::ivec2 size)
-    : context_({.debug = false}),
-      size_(size),
-      stage_(size, close_camera(), false),
-      material_(paper),
-      spikes_(stage_.upload(material_)) {}
-
-/// Of the fastest of some frames.
-double PaperStage::fps(bool effects) {
-    constexpr int kFrames = 4;
-    constexpr double kLongest_ms = 400.0;
-    stage_.draw(effects);  // links programs
-    double ms = std::numeric_limits<double>::infinity();
-    double spent_ms = 0.0;
-    for (int i = 0; i < kFrames && spent_ms < kLongest_ms; ++i) {
-        const double frame = stage_.draw(effects);
-        ms = std::min(ms, frame);
-        spent_ms += frame;
-    }
-    return 1000.0 / ms;
-}
-
-void PaperStage::show_loop(int lights) {
-    auto loop = std::make_shared<LightLoop>(material_.material.grating,
-                                            colour::LightSpectra(material_.material.quality.illuminant),
-                                            stage_.xyz_to_working());
-    loop->set_lights(lights_of(lights));
-    stage_.show_light_loop(loop);
-}
-
-void PaperStage::show_sh(int lights) {
-    stage_.set_probe(probe_of(lights_of(lights)));
-    stage_.show_grating(spikes_);
-}
-
-Figure3 PaperStage::figure_3(const std::vector<int>& light_counts) {
-    Figure3 figure{.lights = light_counts, .loop_fps = {}, .sh_fps = {}};
-    for (const int count : light_counts) {
-        show_sh(count);
-        figure.sh_fps.push_back(fps());
-        show_loop(count);
-        figure.loop_fps.push_back(fps());
-    }
-    return figure;
-}
-
-Figure6 PaperStage::figure_6() {
-    stage_.set_camera(far_camera());
-    const auto picture = [&] {
-        return RgbPicture{.width = size_.x, .height = size_.y, .rgb = stage_.picture(kExposureStops)};
-    };
-    Figure6 figure;
-    for (const bool one : {true, false}) {
-        const int lights = one ? 1 : figure.several;
-        show_sh(lights);
-        (one ? figure.sh_one : figure.sh_several) = picture();
-        show_loop(lights);
-        (one ? figure.direct_one : figure.direct_several) = picture();
-    }
-    stage_.set_camera(close_camera());
-    return figure;
-}
-
-PaperRates PaperStage::rates() {
-    PaperRates result{.vertices = stage_.vertices()};
-    stage_.set_probe(probe_of(lights_of(6)));
-    stage_.show_plain();
-    result.plain_fps = fps();
-    stage_.show_grating(spikes_);
-    result.fps = fps();
-    result.fps_with_effects = fps(true);
-    return result;
+nlohmann::ordered_json paper_evidence(const diffraction::CookedMaterial& paper, glm::ivec2 size, bool gpu) {
+    const diffraction::Grating& grating = paper.material.grating;
+    const Figure2 figure = figure_2(grating);
+    nlohmann::ordered_json json;
+    json["figure_2"] = {{"diffraction", to_json(figure.diffraction)},
+                        {"interference", to_json(figure.interference)},
+                        {"peak", to_json(figure.peak)},
+                        {"peak_width_degrees", figure.peak_width_degrees},
+                        {"grooves", grating.grooves}};
+    if (!gpu || !is_flat(grating.lobe)) return json;
+    Progress progress("the paper's figures", 3);
+    PaperStage stage(paper, size);
+    json["rates"] = stage.rates();
+    progress.advance();
+    json["figure_6"] = stage.figure_6();
+    progress.advance();
+    json["figure_3"] = stage.figure_3();
+    progress.advance();
+    return json;
 }
 
 }  // namespace rowland::trade

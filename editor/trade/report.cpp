@@ -11,7 +11,6 @@
 #include "editor/trade/pareto.h"
 #include "editor/trade/sweep_tables.h"
 #include "engine/core/check.h"
-#include "engine/image/png.h"
 
 namespace rowland::trade {
 
@@ -19,26 +18,6 @@ namespace {
 
 constexpr std::size_t kDiscVertices = 25000;
 constexpr const char* kDataMark = "/*DATA*/";
-
-std::string base64(std::span<const std::byte> bytes) {
-    constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const auto byte = [&](std::size_t j) { return j < bytes.size() ? std::to_integer<unsigned>(bytes[j]) : 0U; };
-        const unsigned triple = byte(i) << 16U | byte(i + 1) << 8U | byte(i + 2);
-        for (unsigned digit = 0; digit < 4; ++digit)
-            text += i + digit > bytes.size() ? '=' : kDigits[triple >> (18U - 6U * digit) & 63U];
-    }
-    return text;
-}
-
-std::string data_url(const RgbPicture& picture) {
-    return "data:image/png;base64," + base64(image::encode_png(picture.width, picture.height, 3, picture.rgb));
-}
-
-nlohmann::ordered_json to_json(const Curve& curve) {
-    return {{"x", curve.x}, {"y", curve.y}};
-}
 
 /// The names of all representations, in their fixed order.
 nlohmann::ordered_json representation_names() {
@@ -86,28 +65,6 @@ nlohmann::ordered_json panels(const SweepResults& results) {
     return list;
 }
 
-nlohmann::ordered_json paper_json(const PaperEvidence& paper) {
-    nlohmann::ordered_json json;
-    json["figure_2"] = {{"diffraction", to_json(paper.figure_2.diffraction)},
-                        {"interference", to_json(paper.figure_2.interference)},
-                        {"peak", to_json(paper.figure_2.peak)},
-                        {"peak_width_degrees", paper.figure_2.peak_width_degrees},
-                        {"grooves", paper.grooves}};
-    if (!paper.figure_3 || !paper.figure_6 || !paper.rates) return json;
-    json["figure_3"] = {
-        {"lights", paper.figure_3->lights}, {"loop_fps", paper.figure_3->loop_fps}, {"sh_fps", paper.figure_3->sh_fps}};
-    json["figure_6"] = {{"direct_one", data_url(paper.figure_6->direct_one)},
-                        {"direct_several", data_url(paper.figure_6->direct_several)},
-                        {"sh_one", data_url(paper.figure_6->sh_one)},
-                        {"sh_several", data_url(paper.figure_6->sh_several)},
-                        {"several", paper.figure_6->several}};
-    json["rates"] = {{"vertices", paper.rates->vertices},
-                     {"plain_fps", paper.rates->plain_fps},
-                     {"fps", paper.rates->fps},
-                     {"fps_with_effects", paper.rates->fps_with_effects}};
-    return json;
-}
-
 }  // namespace
 
 std::vector<std::size_t> pictured_settings(const SweepResults& results, std::size_t material, std::size_t probe) {
@@ -124,13 +81,17 @@ std::vector<std::size_t> pictured_settings(const SweepResults& results, std::siz
 }
 
 nlohmann::ordered_json report_data(const SweepResults& results, const SweepInputs& inputs,
-                                   const std::vector<DifferencePicture>& differences, const PaperEvidence& paper) {
-    nlohmann::ordered_json json = {
-        {"device", results.device},           {"frame_size", {inputs.frame_size.x, inputs.frame_size.y}},
-        {"vertices", kDiscVertices},          {"real_time_ratio", kRealTimeRatio},
-        {"full_difference", kFullDifference}, {"representations", representation_names()},
-        {"panels", panels(results)},          {"differences", nlohmann::ordered_json::array()},
-        {"paper", paper_json(paper)}};
+                                   const std::vector<DifferencePicture>& differences,
+                                   const nlohmann::ordered_json& paper) {
+    nlohmann::ordered_json json = {{"device", results.device},
+                                   {"frame_size", {inputs.frame_size.x, inputs.frame_size.y}},
+                                   {"vertices", kDiscVertices},
+                                   {"real_time_ratio", kRealTimeRatio},
+                                   {"full_difference", kFullDifference},
+                                   {"representations", representation_names()},
+                                   {"panels", panels(results)},
+                                   {"differences", nlohmann::ordered_json::array()},
+                                   {"paper", paper}};
     for (const DifferencePicture& difference : differences)
         json["differences"].push_back(
             {{"group", results.materials[difference.material] + " under " + results.probes[difference.probe]},

@@ -187,14 +187,14 @@ std::vector<glm::dvec3> Sweep::reference(std::size_t material, std::size_t probe
     return to_vectors(*references_.find(key));
 }
 
-diffraction::MeasuredScene& Sweep::scene(std::size_t material, std::size_t probe, const FrameSet& set) {
+const diffraction::MeasuredScene& Sweep::scene(std::size_t material, std::size_t probe, const FrameSet& set) {
     const auto by_reference = [this, material, probe](std::span<const diffraction::Frame> part) {
         return reference(material, probe, part);
     };
-    return scenes_
-        .try_emplace({material, probe, set.name}, set.name, probes_[probe].lights, set.surfaces, kReferencePart,
-                     by_reference)
-        .first->second;
+    diffraction::MeasuredScene scene{set.name, probes_[probe].lights, set.surfaces, kReferencePart, by_reference};
+    auto& known = scenes_.try_emplace({material, probe, set.name}, std::move(scene)).first->second;
+    known.prepare();
+    return known;
 }
 
 std::string Sweep::error_key(const ErrorRow& row) const {
@@ -214,7 +214,7 @@ void Sweep::measure_errors(const SweepResults& results) {
     std::erase_if(rows, [&](const ErrorRow& row) { return results_.find(error_key(row)) != nullptr; });
     if (rows.empty()) return;
     log_info("{} errors to measure", rows.size());
-    for (const ErrorRow& row : rows) scene(row.material, row.probe, set_named(row.set)).prepare();
+    for (const ErrorRow& row : rows) scene(row.material, row.probe, set_named(row.set));  // the references first
     Progress progress("errors", rows.size());
     std::optional<diffraction::CookedMaterial> cooked;
     const ErrorRow* cooked_for = nullptr;
@@ -223,9 +223,9 @@ void Sweep::measure_errors(const SweepResults& results) {
         if (cooked_for == nullptr || cooked_for->material != row.material || cooked_for->setting != row.setting)
             cooked = cook(row.material, setting);
         cooked_for = &row;
-        diffraction::MeasuredScene& measured = scene(row.material, row.probe, set_named(row.set));
+        const diffraction::MeasuredScene& measured = scene(row.material, row.probe, set_named(row.set));
         const MethodError error =
-            compare(measured.shaded(*cooked, setting.key_lights, setting.window), measured.reference());
+            compare(measured.shaded(*cooked, setting.key_lights, setting.window), measured.reference);
         nlohmann::json entry = {
             {"of", {results.materials[row.material], results.probes[row.probe], row.set, setting_name(setting)}}};
         for (const auto& [name, value] : kErrorQuantities) entry[name] = error.*value;

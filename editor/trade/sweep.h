@@ -79,7 +79,7 @@ class Sweep {
     SweepResults run();
 
     /// A set under a probe, with the reference of a material. The reference stays valid.
-    diffraction::MeasuredScene& scene(std::size_t material, std::size_t probe, const FrameSet& set);
+    const diffraction::MeasuredScene& scene(std::size_t material, std::size_t probe, const FrameSet& set);
     diffraction::CookedMaterial cook(std::size_t material, const Setting& setting) const;
     const PictureFrames& picture_frames() const { return picture_; }
     const SweepInputs& inputs() const { return inputs_; }

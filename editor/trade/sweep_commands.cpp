@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "editor/trade/commands.h"
+#include "editor/trade/paper_figures.h"
 #include "editor/trade/report.h"
 #include "editor/trade/results.h"
 #include "editor/trade/sweep.h"
@@ -12,7 +13,6 @@
 #include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/core/outputs.h"
-#include "engine/core/progress.h"
 #include "engine/core/utf8.h"
 
 namespace rowland::trade {
@@ -21,7 +21,6 @@ namespace {
 
 constexpr const char* kPaperSetting = "spikes/bands=5/spikes=4";
 constexpr int kMagnified = 3;
-constexpr std::size_t kPaperParts = 3;
 
 struct SweepOptions {
     std::vector<std::filesystem::path> materials;
@@ -140,41 +139,26 @@ std::vector<DifferencePicture> difference_pictures(Sweep& sweep, const SweepResu
         for (std::size_t p = 0; p < results.probes.size(); ++p)
             for (const std::size_t s : pictured_settings(results, m, p)) {
                 const Setting& setting = results.settings[m][s];
-                diffraction::MeasuredScene& scene = sweep.scene(m, p, frames.frames);
+                const diffraction::MeasuredScene& scene = sweep.scene(m, p, frames.frames);
                 const auto shown = scene.shaded(sweep.cook(m, setting), setting.key_lights, setting.window);
                 pictures.push_back(
                     {.material = m,
                      .probe = p,
                      .setting = setting_name(setting),
-                     .error = compare(shown, scene.reference()).relative_rms,
-                     .picture = difference_image(picture(frames, shown), picture(frames, scene.reference()),
-                                                 frames.width, frames.height, kMagnified)});
+                     .error = compare(shown, scene.reference).relative_rms,
+                     .picture = difference_image(picture(frames, shown), picture(frames, scene.reference), frames.width,
+                                                 frames.height, kMagnified)});
             }
     return pictures;
-}
-
-/// Of the first material; its light loop where that can be drawn.
-PaperEvidence paper_evidence(const Sweep& sweep) {
-    const diffraction::CookedMaterial paper = sweep.cook(0, parse_setting(kPaperSetting));
-    const diffraction::Grating& grating = paper.material.grating;
-    PaperEvidence evidence{.figure_2 = figure_2(grating), .grooves = grating.grooves};
-    if (!sweep.inputs().times || !diffraction::is_flat(grating.lobe)) return evidence;
-    Progress progress("the paper's figures", kPaperParts);
-    PaperStage stage(paper, sweep.inputs().frame_size);
-    evidence.rates = stage.rates();
-    progress.advance();
-    evidence.figure_6 = stage.figure_6();
-    progress.advance();
-    evidence.figure_3 = stage.figure_3({1, 2, 4, 8, 16, 32, 64, 128, 256, 512});
-    progress.advance();
-    return evidence;
 }
 
 void run_report(const SweepOptions& options) {
     Sweep sweep(inputs_of(options, {"sweep.csv", "sweep.jsonl", "report.html"}));
     const SweepResults results = run_and_write(sweep);
     const auto differences = difference_pictures(sweep, results);
-    const auto data = report_data(results, sweep.inputs(), differences, paper_evidence(sweep));
+    const auto paper =
+        paper_evidence(sweep.cook(0, parse_setting(kPaperSetting)), sweep.inputs().frame_size, sweep.inputs().times);
+    const auto data = report_data(results, sweep.inputs(), differences, paper);
     write_file_atomic(options.output / "report.html", report_html(data));
     write_results(fmt::format("file\n{}\n", (options.output / "report.html").string()));
 }

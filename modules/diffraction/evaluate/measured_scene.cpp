@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
-#include <utility>
+#include <optional>
 #include <variant>
 
 #include "engine/core/progress.h"
@@ -21,52 +21,29 @@ std::vector<glm::dvec3> shade_surfaces(const CookedMaterial& cooked, const Evalu
                                        std::span<const Surface> surfaces) {
     std::vector<glm::dvec3> result;
     for (const Surface& surface : surfaces) {
-        CookedMaterial stand_in;
-        const auto* planar = std::get_if<PlanarTables>(&cooked.tables);
-        const bool use_stand_in = planar != nullptr && !is_flat(surface);
-        if (use_stand_in) {
+        std::optional<CookedMaterial> stand_in;
+        if (const auto* planar = std::get_if<PlanarTables>(&cooked.tables); planar != nullptr && !is_flat(surface)) {
             stand_in = cooked;
-            stand_in.tables = planar->stand_in;
+            stand_in->tables = planar->stand_in;
         }
-        const std::vector<glm::dvec3> part = evaluate_baked(use_stand_in ? stand_in : cooked, light, surface);
+        const std::vector<glm::dvec3> part = evaluate_baked(stand_in ? *stand_in : cooked, light, surface);
         result.insert(result.end(), part.begin(), part.end());
     }
     return result;
 }
 
-MeasuredScene::MeasuredScene(std::string name, std::shared_ptr<ProbeLights> lights, std::vector<Surface> surfaces,
-                             std::size_t part, Reference reference)
-    : name_(std::move(name)),
-      lights_(std::move(lights)),
-      surfaces_(std::move(surfaces)),
-      part_(part),
-      compute_(std::move(reference)) {}
-
 bool MeasuredScene::prepare(const std::stop_token& stop) {
     std::vector<Frame> frames;
-    for (const Surface& surface : surfaces_) frames.insert(frames.end(), surface.begin(), surface.end());
-    if (reference_.size() == frames.size()) return true;
-    Progress progress("reference, " + name_, frames.size());
-    progress.advance(reference_.size());
-    while (reference_.size() < frames.size()) {
+    for (const Surface& surface : surfaces) frames.insert(frames.end(), surface.begin(), surface.end());
+    Progress progress("reference, " + name, frames.size() - reference.size());
+    while (reference.size() < frames.size()) {
         if (stop.stop_requested()) return false;
-        const std::size_t known = reference_.size();
-        const std::vector<glm::dvec3> part =
-            compute_(std::span(frames).subspan(known, std::min(part_, frames.size() - known)));
-        reference_.insert(reference_.end(), part.begin(), part.end());
-        progress.advance(part.size());
+        const std::size_t known = reference.size();
+        const auto next = by_reference(std::span(frames).subspan(known, std::min(part, frames.size() - known)));
+        reference.insert(reference.end(), next.begin(), next.end());
+        progress.advance(next.size());
     }
     return true;
-}
-
-const std::vector<glm::dvec3>& MeasuredScene::reference() {
-    prepare();
-    return reference_;
-}
-
-std::vector<glm::dvec3> MeasuredScene::shaded(const CookedMaterial& cooked, int key_lights,
-                                              math::SphericalWindow window) {
-    return shade_surfaces(cooked, lights_->split(key_lights, window), surfaces_);
 }
 
 }  // namespace rowland::diffraction

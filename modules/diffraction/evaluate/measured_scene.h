@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "modules/diffraction/asset/cooked_material.h"
-#include "modules/diffraction/evaluate/probe_lights.h"
+#include "modules/diffraction/evaluate/evaluation_light.h"
 #include "modules/diffraction/model/frame.h"
 
 namespace rowland::diffraction {
@@ -27,28 +27,20 @@ std::vector<glm::dvec3> shade_surfaces(const CookedMaterial& cooked, const Evalu
 
 /// Surfaces under one probe, with the reference's XYZ of their points. Every error of a representation is measured
 /// here: by the cooker's budget, the inspector and the sweep.
-class MeasuredScene {
- public:
-    /// XYZ of some of the points by the reference.
-    using Reference = std::function<std::vector<glm::dvec3>(std::span<const Frame>)>;
-
-    /// `name` labels the progress. The reference is asked for `part` points at a time.
-    MeasuredScene(std::string name, std::shared_ptr<ProbeLights> lights, std::vector<Surface> surfaces,
-                  std::size_t part, Reference reference);
+struct MeasuredScene {
+    std::string name;  ///< labels the progress
+    std::shared_ptr<ProbeLights> lights;
+    std::vector<Surface> surfaces;
+    std::size_t part;  ///< points that the reference is asked for at once
+    std::function<std::vector<glm::dvec3>(std::span<const Frame>)> by_reference;
+    std::vector<glm::dvec3> reference{};  ///< of all points once it is prepared
 
     /// Computes the reference unless it is known. False if it was stopped; another call continues.
     bool prepare(const std::stop_token& stop = {});
-    const std::vector<glm::dvec3>& reference();
     std::vector<glm::dvec3> shaded(const CookedMaterial& cooked, int key_lights,
-                                   math::SphericalWindow window = math::SphericalWindow::None);
-
- private:
-    std::string name_;
-    std::shared_ptr<ProbeLights> lights_;
-    std::vector<Surface> surfaces_;
-    std::size_t part_;
-    Reference compute_;
-    std::vector<glm::dvec3> reference_;
+                                   math::SphericalWindow window = math::SphericalWindow::None) const {
+        return shade_surfaces(cooked, lights->split(key_lights, window), surfaces);
+    }
 };
 
 }  // namespace rowland::diffraction

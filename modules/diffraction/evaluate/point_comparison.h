@@ -7,8 +7,8 @@
 #include "engine/lighting/probe_image.h"
 #include "engine/math/sh_window.h"
 #include "modules/diffraction/asset/cooked_material.h"
+#include "modules/diffraction/evaluate/evaluation_light.h"
 #include "modules/diffraction/evaluate/point_shader.h"
-#include "modules/diffraction/evaluate/probe_lights.h"
 #include "modules/diffraction/model/frame.h"
 
 namespace rowland::diffraction {

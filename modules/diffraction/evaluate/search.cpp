@@ -46,11 +46,13 @@ class Search {
         unbaked_.zero_order_xyz = kernel.zero_order_xyz();
         for (const BudgetProbe& probe : query.probes) {
             most_key_lights_ = std::max(most_key_lights_, probe.key_lights);
-            scenes_.emplace_back(probe.name, std::make_shared<ProbeLights>(probe.image, kProjectedBands),
-                                 std::vector<Surface>{{query.frames.begin(), query.frames.end()}}, kReferencePart,
-                                 [this, &probe](std::span<const Frame> part) {
-                                     return reference_radiance(query_.material.grating, probe.image, spectra_, part);
-                                 });
+            scenes_.push_back({.name = probe.name,
+                               .lights = std::make_shared<ProbeLights>(probe.image, kProjectedBands),
+                               .surfaces = {{query.frames.begin(), query.frames.end()}},
+                               .part = kReferencePart,
+                               .by_reference = [this, &probe](std::span<const Frame> part) {
+                                   return reference_radiance(query_.material.grating, probe.image, spectra_, part);
+                               }});
         }
     }
     Search(const Search&) = delete;  // the scenes refer to it
@@ -111,7 +113,7 @@ class Search {
     void measure_up_to(double limit, MeasuredChoice& choice) {
         for (std::size_t i = choice.errors.size(); i < scenes_.size() && choice.error() <= limit; ++i) {
             const int key_lights = choice.quality.key_lights ? query_.probes[i].key_lights : 0;
-            choice.errors.push_back(relative_rms(scenes_[i].shaded(*choice.baked, key_lights), scenes_[i].reference()));
+            choice.errors.push_back(relative_rms(scenes_[i].shaded(*choice.baked, key_lights), scenes_[i].reference));
         }
     }
 

@@ -117,15 +117,16 @@ TEST(MeasuredScene, ItsReferenceCanBeStoppedAndContinued) {
     const std::vector<Frame> frames = six_frames();
     std::stop_source stop;
     int parts = 0;
-    MeasuredScene scene("lamp", std::make_shared<ProbeLights>(probe.image), {frames}, 4,
-                        [&](std::span<const Frame> part) {
-                            ++parts;
-                            stop.request_stop();
-                            return std::vector<glm::dvec3>(part.size(), glm::dvec3(parts));
-                        });
+    MeasuredScene scene{
+        "lamp", std::make_shared<ProbeLights>(probe.image), {frames}, 4, [&](std::span<const Frame> part) {
+            ++parts;
+            stop.request_stop();
+            return std::vector<glm::dvec3>(part.size(), glm::dvec3(parts));
+        }};
     EXPECT_FALSE(scene.prepare(stop.get_token()));
     EXPECT_EQ(parts, 1);
-    const std::vector<glm::dvec3>& reference = scene.reference();
+    EXPECT_TRUE(scene.prepare());
+    const std::vector<glm::dvec3>& reference = scene.reference;
     ASSERT_EQ(reference.size(), frames.size());
     EXPECT_EQ(reference[3], glm::dvec3(1.0));
     EXPECT_EQ(reference[4], glm::dvec3(2.0));
