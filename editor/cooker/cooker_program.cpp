@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -21,74 +21,34 @@ namespace rowland::editor {
 
 namespace {
 
-struct Arguments {
-    std::string source;
-    std::string output;
-    std::string depfile;
-    unsigned threads = 0;
-    std::vector<std::string> checked_files;
-    std::string described_file;
-    PlanCommand plan;
-    RunCommand run;
-};
-
-/// The command line's grammar and help.
-struct Grammar {
-    CLI::App app{"Turns sources into the cooked assets that Rowland loads, and checks both."};
-    CLI::App* cook = app.add_subcommand("cook", "Cook a source: material, probe recipe, mesh recipe");
-    CLI::App* check = app.add_subcommand("check", "Load sources or cooked assets as the engine would");
-    CLI::App* info = app.add_subcommand("info", "Print what a cooked asset holds");
-    CLI::App* plan = nullptr;
-    CLI::App* run = nullptr;
-
-    explicit Grammar(Arguments& arguments) {
-        app.name("rowland-cook");
-        app.set_version_flag("--version", fmt::format("rowland-cook {}", cook::tool_version()));
-        app.require_subcommand(1);
-        app.footer(
-            "Exit codes: 0 success, 2 bad input or usage, 1 any other failure.\n\n"
-            "Example: rowland-cook check content/materials/*.json");
-
-        cook->add_option("SOURCE", arguments.source, "The source file")->required();
-        cook->add_option("-o,--output", arguments.output, "The cooked file; its folder is created")->required();
-        cook->add_option("--depfile", arguments.depfile, "Write what the output was made from, in Makefile syntax");
-        cook->add_option("--threads", arguments.threads, "Use at most N threads; 0: all cores. The result is the same")
-            ->check(CLI::Range(0, 1024))
-            ->type_name("N")
-            ->capture_default_str();
-        cook->footer("Example: rowland-cook cook content/materials/cd.json -o cooked/cd.material --depfile cd.d");
-
-        check->add_option("FILE", arguments.checked_files, "glTF, GLB, .hdr, .exr, material, recipe or cooked asset")
-            ->required();
-        check->footer(
-            "Prints a line for each sane file on standard output and for each refused file on standard\n"
-            "error; exits 2 if one was refused.\n\n"
-            "Example: rowland-cook check scene.glb probe.hdr cooked/cd.material");
-
-        info->add_option("FILE", arguments.described_file, "The cooked asset")->required();
-        info->footer("Example: rowland-cook info cooked/cd.material");
-
-        plan = arguments.plan.declare(app);
-        run = arguments.run.declare(app);
-    }
-};
-
-int cook_one(const cook::Registry& registry, const Arguments& arguments) {
-    const ThreadLimit limit(arguments.threads);
-    cook::CookSettings settings;
-    if (!arguments.depfile.empty()) settings.depfile = arguments.depfile;
-    cook::cook_source(registry, arguments.source, arguments.output, settings);
-    return 0;
+void add_cook_command(CLI::App& program, const cook::Registry& registry) {
+    struct Options {
+        std::filesystem::path source;
+        std::filesystem::path output;
+        cook::CookSettings settings;
+        unsigned threads = 0;
+    };
+    const auto options = std::make_shared<Options>();
+    CLI::App* command = program.add_subcommand("cook", "Cook a source: material, probe recipe, mesh recipe");
+    command->add_option("SOURCE", options->source, "The source file")->required();
+    command->add_option("-o,--output", options->output, "The cooked file; its folder is created")->required();
+    command->add_option("--depfile", options->settings.depfile, "Write the files that were read, in Makefile syntax");
+    add_threads_option(*command, options->threads);
+    command->footer("Example: rowland-cook cook content/materials/cd.json -o cooked/cd.material --depfile cd.d");
+    command->callback([options, &registry] {
+        const ThreadLimit limit(options->threads);
+        cook::cook_source(registry, options->source, options->output, options->settings);
+    });
 }
 
-/// Checks all files even after a refusal.
-int check_all(const cook::Registry& registry, const std::vector<std::string>& files) {
+/// Checks all files, also after a refusal. Returns the exit code.
+int check_all(const cook::Registry& registry, const std::vector<std::filesystem::path>& files) {
     bool refused = false;
     bool failed = false;
-    for (const std::string& file : files) {
+    for (const std::filesystem::path& file : files) {
         try {
-            fmt::print("{}: {}\n", file, cook::check_file(registry, file));
-            std::fflush(stdout);  // in step with standard error, and kept if a later file should end us
+            fmt::print("{}: {}\n", file.string(), cook::check_file(registry, file));
+            std::fflush(stdout);  // in step with standard error, and kept if the program should end at a later file
         } catch (const Error& error) {
             log_error("{}", error.what());
             (error.info().fault == Fault::Input ? refused : failed) = true;
@@ -97,29 +57,49 @@ int check_all(const cook::Registry& registry, const std::vector<std::string>& fi
     return failed ? 1 : refused ? 2 : 0;
 }
 
-int describe_one(const cook::Registry& registry, const std::string& file) {
-    std::string description = cook::describe_file(registry, file);
-    if (!description.ends_with('\n')) description += '\n';
-    fmt::print("{}", description);
-    return 0;
+void add_check_command(CLI::App& program, const cook::Registry& registry, int& exit_code) {
+    const auto files = std::make_shared<std::vector<std::filesystem::path>>();
+    CLI::App* command = program.add_subcommand("check", "Load sources or cooked assets as the engine would");
+    command->add_option("FILE", *files, "glTF, GLB, .hdr, .exr, material, recipe or cooked asset")->required();
+    command->footer(
+        "Prints a line for each sane file on standard output and for each refused file on standard\n"
+        "error; exits 2 if one was refused.\n\n"
+        "Example: rowland-cook check scene.glb probe.hdr cooked/cd.material");
+    command->callback([files, &registry, &exit_code] { exit_code = check_all(registry, *files); });
+}
+
+void add_info_command(CLI::App& program, const cook::Registry& registry) {
+    const auto file = std::make_shared<std::filesystem::path>();
+    CLI::App* command = program.add_subcommand("info", "Print what a cooked asset holds");
+    command->add_option("FILE", *file, "The cooked asset")->required();
+    command->footer("Example: rowland-cook info cooked/cd.material");
+    command->callback([file, &registry] {
+        const std::string description = cook::describe_file(registry, *file);
+        fmt::print("{}{}", description, description.ends_with('\n') ? "" : "\n");
+    });
 }
 
 }  // namespace
 
 int run_cooker(int argc, const char* const* argv, const cook::Registry& registry) {
     return run_program([&] {
-        Arguments arguments;
-        Grammar grammar(arguments);
+        int exit_code = 0;
+        CLI::App program("Turns sources into the cooked assets that Rowland loads, and checks both.", "rowland-cook");
+        program.set_version_flag("--version", fmt::format("rowland-cook {}", cook::tool_version()));
+        program.require_subcommand(1);
+        program.footer(
+            "Exit codes: 0 success, 2 bad input or usage, 1 any other failure.\n\n"
+            "Example: rowland-cook check content/materials/*.json");
+        add_cook_command(program, registry);
+        add_check_command(program, registry, exit_code);
+        add_info_command(program, registry);
+        add_farm_commands(program, registry, exit_code);
         try {
-            grammar.app.parse(argc, argv);
+            program.parse(argc, argv);
         } catch (const CLI::ParseError& error) {
-            return grammar.app.exit(error) == 0 ? 0 : 2;
+            return program.exit(error) == 0 ? 0 : 2;
         }
-        if (grammar.plan->parsed()) return arguments.plan.run(registry);
-        if (grammar.run->parsed()) return arguments.run.run(registry);
-        if (grammar.cook->parsed()) return cook_one(registry, arguments);
-        if (grammar.check->parsed()) return check_all(registry, arguments.checked_files);
-        return describe_one(registry, arguments.described_file);
+        return exit_code;
     });
 }
 

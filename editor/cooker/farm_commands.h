@@ -1,36 +1,20 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <filesystem>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "engine/cook/registry.h"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
 
 namespace rowland::editor {
 
-/// rowland-cook plan: lists what is to be cooked, as jobs that many workers can share.
-struct PlanCommand {
-    std::vector<std::filesystem::path> sources;
-    std::filesystem::path output_folder;
-    bool json = false;
+/// Adds `plan`, which lists what to cook as jobs that many workers can share, and `run`, which does jobs of a plan
+/// beside other workers. They run where the command line names them; `run` sets `exit_code` to 2 if a job's sources
+/// were refused, else to 1 if a job failed otherwise. Both arguments must outlive the program.
+void add_farm_commands(CLI::App& program, const cook::Registry& registry, int& exit_code);
 
-    CLI::App* declare(CLI::App& program);
-    int run(const cook::Registry& registry) const;
-};
-
-/// rowland-cook run: does jobs of a plan, beside other workers.
-struct RunCommand {
-    std::filesystem::path plan;
-    std::vector<std::string> ids;
-    bool all = false;
-    std::optional<std::filesystem::path> state_folder;
-    unsigned threads = 0;
-
-    CLI::App* declare(CLI::App& program);
-    /// The exit code: 2 if a job's sources were refused, else 1 if one failed otherwise.
-    int run(const cook::Registry& registry) const;
-};
+/// Adds the option --threads.
+void add_threads_option(CLI::App& command, unsigned& threads);
 
 }  // namespace rowland::editor

@@ -24,7 +24,7 @@ bool is_hidden(const std::filesystem::path& path) {
     return path.filename().string().starts_with('.');
 }
 
-/// All files below a folder, none of them hidden.
+/// All files below a folder but the hidden ones.
 std::vector<std::filesystem::path> files_below(const std::filesystem::path& folder) {
     std::vector<std::filesystem::path> files;
     for (auto entry = std::filesystem::recursive_directory_iterator(folder);
@@ -46,17 +46,15 @@ Job job_of(const cook::AssetType& type, const std::filesystem::path& source, std
             .output = output_folder / relative};
 }
 
-/// Sorts, and refuses two jobs of one output.
-void put_in_order(std::vector<Job>& jobs) {
+/// Refuses two jobs of one output.
+void sort_jobs(std::vector<Job>& jobs) {
     std::ranges::sort(jobs, {}, &Job::output);
     for (std::size_t i = 1; i < jobs.size(); ++i)
         if (jobs[i].id == jobs[i - 1].id)
-            throw Error({.file = jobs[i].source.string(),
-                         .place = {},
-                         .found = fmt::format("it becomes {}, and so does {}", jobs[i].output.string(),
-                                              jobs[i - 1].source.string()),
-                         .expected = "an output of its own for each source",
-                         .remedy = "name the folder that both are in, or rename one of them"});
+            refuse_input(
+                jobs[i].source.string(), {},
+                fmt::format("it becomes {}, and so does {}", jobs[i].output.string(), jobs[i - 1].source.string()),
+                "a different output for each source", "name the folder that both are in, or rename one of them");
 }
 
 std::string required_text(JsonReader& reader, const std::string& key) {
@@ -72,7 +70,7 @@ std::vector<Job> plan_jobs(const cook::Registry& registry, std::span<const std::
     std::vector<Job> jobs;
     for (const std::filesystem::path& source : sources) {
         if (!std::filesystem::is_directory(source)) {
-            cook::read_beginning(source, 1);  // refuses what is no file by that name
+            cook::read_beginning(source, 1);  // refuses what is not a readable file
             const cook::AssetType& type = registry.type_of_source(source);
             if (!type.cook)
                 refuse_input(source.string(), {}, fmt::format("a {}, which is only checked, never cooked", type.name),
@@ -89,7 +87,7 @@ std::vector<Job> plan_jobs(const cook::Registry& registry, std::span<const std::
     if (jobs.empty())
         refuse_input(sources.empty() ? "" : sources.front().string(), {}, "nothing that can be cooked",
                      "materials, probe, mesh or scene recipes");
-    put_in_order(jobs);
+    sort_jobs(jobs);
     return jobs;
 }
 

@@ -2,8 +2,8 @@
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
-#include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/core/json_reader.h"
 
@@ -25,22 +25,19 @@ void write_job_record(const std::filesystem::path& file, const JobRecord& record
 }
 
 std::optional<JobRecord> read_job_record(const std::filesystem::path& file) {
-    if (!std::filesystem::exists(file)) return std::nullopt;
     try {
         const nlohmann::json json = parse_json(read_text_file(file, kMostRecordBytes), file.string());
-        JsonReader reader(json, file.string());
-        JobRecord record{.cooker = reader.text("cooker"),
+        JobRecord record{.cooker = json.at("cooker"),
                          .dependencies = {},
-                         .content_hash = reader.text("content_hash"),
-                         .output_hash = reader.text("output_hash")};
-        for (const nlohmann::json& path : reader.raw("dependencies"))
+                         .content_hash = json.at("content_hash"),
+                         .output_hash = json.at("output_hash")};
+        for (const nlohmann::json& path : json.at("dependencies"))
             record.dependencies.emplace_back(path.get<std::string>());
         return record;
-    } catch (const Error&) {
-        return std::nullopt;
-    } catch (const nlohmann::json::exception&) {
-        return std::nullopt;
+    } catch (const std::runtime_error&) {         // no such file
+    } catch (const nlohmann::json::exception&) {  // no record
     }
+    return std::nullopt;
 }
 
 }  // namespace rowland::editor

@@ -9,8 +9,7 @@
 
 namespace rowland::editor {
 
-/// What a finished job leaves, so that it need not be done again: from what the output was made, by whom, and what it
-/// is.
+/// The record of a finished job, by which it is not done again: who made the output, from what, and what it is.
 struct JobRecord {
     std::string cooker;                               ///< hash of the program
     std::vector<std::filesystem::path> dependencies;  ///< the source first
@@ -18,10 +17,10 @@ struct JobRecord {
     std::string output_hash;
 };
 
-/// Replaces the file at once. Throws Error (system).
+/// Replaces the file as a whole. Throws Error (system).
 void write_job_record(const std::filesystem::path& file, const JobRecord& record);
 
-/// Nothing if there is no such file, or it is none: then the job is to be done.
+/// nullopt if there is no such file or it is not a record: then the job is to be done.
 std::optional<JobRecord> read_job_record(const std::filesystem::path& file);
 
 }  // namespace rowland::editor

@@ -8,19 +8,19 @@
 #include <utility>
 #include <vector>
 
-#include "editor/cooker/job_lock.h"
 #include "editor/cooker/job_record.h"
 #include "engine/cook/cook_source.h"
 #include "engine/cook/source_file.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
+#include "engine/core/file_lock.h"
 #include "engine/core/progress.h"
 
 namespace rowland::editor {
 
 namespace {
 
-/// How often we look whether others have finished what is left.
+/// Between two looks whether other processes have finished the jobs that are left.
 constexpr std::chrono::milliseconds kPatience{200};
 
 std::string hex(const std::optional<Hash128>& hash) {
@@ -33,17 +33,17 @@ class Worker {
     Worker(const cook::Registry& registry, std::filesystem::path state_folder)
         : registry_(registry),
           state_folder_(std::move(state_folder)),
-          // Of equal sources another build of this program may make something else.
+          // Another build of this program may cook the same sources differently.
           cooker_(hex(cook::hash_file("/proc/self/exe")) + std::string(cook::tool_version())) {
         create_folder(state_folder_);
     }
 
-    /// Nothing if another process is at it.
+    /// nullopt if another process is doing the job.
     std::optional<JobResult> try_job(const Job& job) {
         if (is_done(job)) return JobResult::UpToDate;
-        const std::optional<JobLock> lock = JobLock::try_take(state_folder_ / (job.id + ".lock"));
+        const std::optional<FileLock> lock = FileLock::try_take(state_folder_ / (job.id + ".lock"));
         if (!lock) return std::nullopt;
-        if (is_done(job)) return JobResult::UpToDate;  // by the lock's last owner
+        if (is_done(job)) return JobResult::UpToDate;  // the lock's last owner did it
         const cook::BakedAsset baked = cook::cook_source(registry_, job.source, job.output);
         write_job_record(record_file(job), {.cooker = cooker_,
                                             .dependencies = baked.dependencies,
@@ -70,7 +70,7 @@ class Worker {
                hex(cook::hash_file(job.output)) == record->output_hash;
     }
 
-    /// Probes that many materials name are read once, unless they change.
+    /// A probe that many materials name is read once, unless it changes.
     std::optional<Hash128> hash_of_source(const std::filesystem::path& path) {
         std::error_code code;
         const auto time = std::filesystem::last_write_time(path, code);

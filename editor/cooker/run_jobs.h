@@ -11,20 +11,20 @@
 
 namespace rowland::editor {
 
-/// What became of a job.
+/// How a job ended.
 enum class JobResult {
     Cooked,
-    UpToDate,  ///< it had been done, by this program, from these sources
+    UpToDate,  ///< this program had done it before, from the same sources
     Refused,   ///< bad input
-    Failed,    ///< the system did not let us
+    Failed,    ///< a failure of the system
 };
 const char* job_result_name(JobResult result);
 
 /// Does jobs beside other processes that do the same, on this machine or on others that share the folders. Outputs are
-/// replaced whole, and are the same bytes whoever cooks them, so that two who do one job do no harm; locks (JobLock)
-/// and records, both in `state_folder`, only save the work. Does not return before each job is done or has failed here:
-/// one that another process has begun is waited for, and done here if that process ends without having done it.
-/// `report` is told of each job's result, with the reason where there is none, as they come.
+/// replaced whole and do not depend on who cooks them, so a job that is done twice does no harm; locks (FileLock) and
+/// records (JobRecord), both in `state_folder`, save the work. Returns when each job is done or has failed here: it
+/// waits for a job that another process is doing, and does it if that process ends without having done it. `report`
+/// gets each job's result when it is known, with the reason where it was refused or failed.
 void run_jobs(const cook::Registry& registry, std::span<const Job> jobs, const std::filesystem::path& state_folder,
               const std::function<void(const Job&, JobResult, const std::string& reason)>& report);
 

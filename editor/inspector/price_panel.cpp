@@ -16,17 +16,16 @@ namespace {
 constexpr std::size_t kFrontSeries = 0;
 constexpr std::size_t kPresentSeries = 1;
 
-/// The choices that nothing beats, the cheapest first.
+/// The unbeaten choices, the cheapest first.
 std::vector<PricedChoice> front(const PriceList& list) {
     std::vector<PricedChoice> result;
     for (const PricedChoice& choice : list.choices)
         if (choice.on_front && choice.candidate) result.push_back(choice);
-    std::sort(result.begin(), result.end(),
-              [](const PricedChoice& a, const PricedChoice& b) { return a.price < b.price; });
+    std::ranges::sort(result, {}, &PricedChoice::price);
     return result;
 }
 
-std::string words_of(const PricedChoice& choice) {
+std::string description_of(const PricedChoice& choice) {
     std::string text = choice.settings.value("representation", "?");
     for (const auto& [key, value] : choice.settings.items())
         if (key != "representation" && key != "illuminant" && key != "max_error")
@@ -34,7 +33,7 @@ std::string words_of(const PricedChoice& choice) {
     return text;
 }
 
-std::string bytes_in_words(std::size_t bytes) {
+std::string byte_count(std::size_t bytes) {
     const auto size = static_cast<double>(bytes);
     if (size < 1024.0) return fmt::format("{} B", bytes);
     return size < 1024.0 * 1024.0 ? fmt::format("{:.1f} KiB", size / 1024.0)
@@ -45,8 +44,7 @@ void draw_numbers(const PriceList& list, const Session& session, double frame_ms
     const auto cooked = session.cooked();
     if (!cooked) return;
     const diffraction::ShadingCost cost = diffraction::shading_cost(cooked->tables);
-    const auto present = std::find_if(list.choices.begin(), list.choices.end(),
-                                      [](const PricedChoice& choice) { return choice.present; });
+    const auto present = std::ranges::find(list.choices, true, &PricedChoice::present);
     const bool measured = present != list.choices.end() && session.prices_are_current();
     const std::string waiting = session.document().material().quality.pinned ? "measuring…" : "chosen by the cooker";
     const auto row = [](const char* name, const std::string& value) {
@@ -56,31 +54,31 @@ void draw_numbers(const PriceList& list, const Session& session, double frame_ms
     };
     row("Representation", info(cooked->tables).name);
     row("Measured error", measured ? fmt::format("{:.4f} relative RMS", present->error) : waiting);
-    row("Price", measured ? fmt::format("{:.4g} fetches a pixel", present->price) : waiting);
-    row("Tables", fmt::format("{} ({} B)", bytes_in_words(cost.table_bytes), cost.table_bytes));
-    row("A pixel", fmt::format("{} fetches, {} multiply-adds", cost.fetches_per_pixel, cost.multiply_adds_per_pixel));
-    row("A vertex",
+    row("Price", measured ? fmt::format("{:.4g} fetches per pixel", present->price) : waiting);
+    row("Tables", fmt::format("{} ({} B)", byte_count(cost.table_bytes), cost.table_bytes));
+    row("Per pixel", fmt::format("{} fetches, {} multiply-adds", cost.fetches_per_pixel, cost.multiply_adds_per_pixel));
+    row("Per vertex",
         fmt::format("{} fetches, {} multiply-adds", cost.fetches_per_vertex, cost.multiply_adds_per_vertex));
-    row("A light", fmt::format("{} fetches, {} multiply-adds", cost.fetches_per_light, cost.multiply_adds_per_light));
-    if (frame_ms > 0.0) row("A frame here", fmt::format("{:.1f} ms, the median", frame_ms));
+    row("Per light", fmt::format("{} fetches, {} multiply-adds", cost.fetches_per_light, cost.multiply_adds_per_light));
+    if (frame_ms > 0.0) row("Frame time", fmt::format("{:.1f} ms, the median here", frame_ms));
 }
 
 void draw_plot(const PriceList& list, float height) {
     double cheapest = std::numeric_limits<double>::infinity();
-    double dearest = 0.0;
+    double most_expensive = 0.0;
     double best = std::numeric_limits<double>::infinity();
     double worst = 0.0;
     for (const PricedChoice& choice : list.choices) {
         cheapest = std::min(cheapest, choice.price);
-        dearest = std::max(dearest, choice.price);
+        most_expensive = std::max(most_expensive, choice.price);
         if (choice.error > 0.0) best = std::min(best, choice.error);
         if (std::isfinite(choice.error)) worst = std::max(worst, choice.error);
     }
-    if (!(dearest > 0.0 && worst > 0.0)) {
+    if (!(most_expensive > 0.0 && worst > 0.0)) {
         cheapest = best = 0.1;
-        dearest = worst = 1.0;
+        most_expensive = worst = 1.0;
     }
-    Plot plot("##prices", height, {0.7 * cheapest, 1.4 * dearest, "price: fetches a pixel", true},
+    Plot plot("##prices", height, {0.7 * cheapest, 1.4 * most_expensive, "price: fetches per pixel", true},
               {0.6 * best, 1.7 * worst, "error", true});
     std::vector<glm::dvec2> line;
     for (const PricedChoice& choice : list.choices)
@@ -96,15 +94,15 @@ void draw_plot(const PriceList& list, float height) {
         if (choice.present) plot.draw().AddCircle(at, 0.5F * font, series_colour(kPresentSeries), 0, 2.0F);
         const ImVec2 mouse = ImGui::GetIO().MousePos;
         if (plot.hovered() && std::hypot(mouse.x - at.x, mouse.y - at.y) < 0.4F * font)
-            ImGui::SetTooltip("%s\nerror %.4f, %.4g fetches a pixel, %s", words_of(choice).c_str(), choice.error,
-                              choice.price, bytes_in_words(choice.cost.table_bytes).c_str());
+            ImGui::SetTooltip("%s\nerror %.4f, %.4g fetches per pixel, %s", description_of(choice).c_str(),
+                              choice.error, choice.price, byte_count(choice.cost.table_bytes).c_str());
     }
     plot.legend("unbeaten", kFrontSeries);
     plot.legend("present", kPresentSeries);
 }
 
-/// The place on the front of what the material pins.
-int present_place(const std::vector<PricedChoice>& choices, const Document& document) {
+/// The index of the material's own setting among the choices; -1 if it is none of them.
+int present_index(const std::vector<PricedChoice>& choices, const Document& document) {
     nlohmann::json pinned = nlohmann::json::object();
     if (document.json().contains("quality")) pinned = nlohmann::json::parse(document.json()["quality"].dump());
     pinned.erase("max_error");
@@ -116,15 +114,16 @@ int present_place(const std::vector<PricedChoice>& choices, const Document& docu
 void draw_slider(Session& session, const PriceList& list, ControlMap& controls) {
     const std::vector<PricedChoice> choices = front(list);
     if (choices.empty()) return;
-    int place = present_place(choices, session.document());
-    const std::string name = place < 0 ? "as the material says" : words_of(choices[static_cast<std::size_t>(place)]);
+    int index = present_index(choices, session.document());
+    const std::string name =
+        index < 0 ? "as the material says" : description_of(choices[static_cast<std::size_t>(index)]);
     ImGui::TextDisabled("cheaper");
     ImGui::SameLine();
     const float font = ImGui::GetFontSize();
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - 7.0F * font);
-    int wanted = std::max(place, 0);
+    int wanted = std::max(index, 0);
     if (ImGui::SliderInt("##front", &wanted, 0, static_cast<int>(choices.size()) - 1, "", ImGuiSliderFlags_NoInput) &&
-        wanted != place)
+        wanted != index)
         session.choose_priced(choices[static_cast<std::size_t>(wanted)]);
     controls.mark("cheaper or more accurate");
     ImGui::SameLine();
@@ -142,8 +141,8 @@ void PricePanel::draw(Session& session, double frame_ms, ControlMap& controls) {
     if (session.pricing()) {
         if (ImGui::Button("Stop")) session.stop_pricing();
         ImGui::SameLine();
-        const float share = list.total == 0 ? 0.0F : static_cast<float>(list.done) / static_cast<float>(list.total);
-        ImGui::ProgressBar(share, {-1.0F, 0.0F},
+        const float done = list.total == 0 ? 0.0F : static_cast<float>(list.done) / static_cast<float>(list.total);
+        ImGui::ProgressBar(done, {-1.0F, 0.0F},
                            list.total == 0 ? "the reference" : fmt::format("{} of {}", list.done, list.total).c_str());
     } else {
         if (ImGui::Button("Measure all choices")) session.price();
@@ -157,7 +156,7 @@ void PricePanel::draw(Session& session, double frame_ms, ControlMap& controls) {
         controls.mark("cook to budget");
     }
     if (!list.choices.empty() && !session.prices_are_current())
-        ImGui::TextDisabled("Measured for an earlier edit; measure again.");
+        ImGui::TextDisabled("Measured before the last edit; measure again.");
     const bool wide = ImGui::GetContentRegionAvail().x > 32.0F * font;
     if (wide) {
         ImGui::Columns(2, "##price", false);

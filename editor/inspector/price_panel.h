@@ -5,11 +5,11 @@
 
 namespace rowland::inspector {
 
-/// What the material costs and loses, and what it could cost: error against the reference over price, with a slider
-/// along the choices that nothing beats.
+/// The cost and the error of the material, and of the other representations it could have: a plot of error over price,
+/// with a slider along the unbeaten choices.
 class PricePanel {
  public:
-    /// `frame_ms`: the median frame here; 0: nobody knows.
+    /// `frame_ms`: the median frame time here; 0: unknown.
     void draw(Session& session, double frame_ms, ControlMap& controls);
 
  private:

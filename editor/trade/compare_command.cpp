@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
 
 #include "editor/trade/difference_image.h"
 #include "editor/trade/inputs.h"
@@ -12,6 +13,9 @@
 #include "editor/trade/setting.h"
 #include "editor/trade/sweep.h"
 #include "engine/core/error.h"
+#include "engine/core/file.h"
+#include "engine/core/json_reader.h"
+#include "engine/core/outputs.h"
 #include "engine/image/png.h"
 #include "modules/diffraction/reference/reference.h"
 
@@ -77,6 +81,11 @@ void CompareCommand::run() const {
     if (frames && difference)
         refuse_input("--difference", "", "--frames, which are no picture", "the tool's scene: no --frames");
     const ProbeFile file = parse_probe_file(probe, mapping);
+    if (difference) {
+        std::vector<std::filesystem::path> files = files_named_in(material);
+        files.insert(files.end(), {material, file.path});
+        check_outputs(files, std::array{Output{"--difference", *difference, ".png"}});
+    }
     const lighting::ProbeImage image = read_probe(file.path, file.mapping);
     const PictureFrames scene = picture_frames(far_camera(), size[0], size[1]);
     const FrameSet set = frames ? frames_of_file("frames", *frames) : scene.frames;

@@ -7,6 +7,7 @@
 
 #include "editor/trade/measure_error.h"
 #include "engine/core/check.h"
+#include "engine/image/png.h"
 
 namespace rowland::trade {
 
@@ -22,7 +23,7 @@ std::vector<glm::vec3> difference_colours(const std::vector<glm::vec3>& a, const
     return colours;
 }
 
-void place(const std::vector<glm::vec3>& panel, int width, int left, int magnified, RgbPicture& picture) {
+void draw_panel(const std::vector<glm::vec3>& panel, int width, int left, int magnified, RgbPicture& picture) {
     for (int row = 0; row < picture.height; ++row)
         for (int column = 0; column < width * magnified; ++column) {
             const glm::vec3 colour = panel[static_cast<std::size_t>(row / magnified * width + column / magnified)];
@@ -32,17 +33,29 @@ void place(const std::vector<glm::vec3>& panel, int width, int left, int magnifi
         }
 }
 
+std::string base64(std::span<const std::byte> bytes) {
+    constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const auto byte = [&](std::size_t j) { return j < bytes.size() ? std::to_integer<unsigned>(bytes[j]) : 0U; };
+        const unsigned triple = byte(i) << 16U | byte(i + 1) << 8U | byte(i + 2);
+        for (unsigned digit = 0; digit < 4; ++digit)
+            text += i + digit > bytes.size() ? '=' : kDigits[triple >> (18U - 6U * digit) & 63U];
+    }
+    return text;
+}
+
 }  // namespace
 
-// Even steps of lightness, told apart with any kind of colour vision: after matplotlib's viridis, from black.
-glm::vec3 difference_colour(double share) {
+// Even steps of lightness, distinct for colour-blind readers as well: after matplotlib's viridis, from black.
+glm::vec3 difference_colour(double fraction) {
     constexpr std::array<std::array<float, 3>, 6> kStops = {{{0.0F, 0.0F, 0.0F},
                                                              {0.267F, 0.005F, 0.329F},
                                                              {0.229F, 0.322F, 0.546F},
                                                              {0.128F, 0.567F, 0.551F},
                                                              {0.369F, 0.789F, 0.383F},
                                                              {0.993F, 0.906F, 0.144F}}};
-    const double at = std::clamp(share, 0.0, 1.0) * (kStops.size() - 1);
+    const double at = std::clamp(fraction, 0.0, 1.0) * (kStops.size() - 1);
     const auto first = std::min<std::size_t>(static_cast<std::size_t>(at), kStops.size() - 2);
     const auto stop = [&](std::size_t i) { return glm::vec3(kStops[i][0], kStops[i][1], kStops[i][2]); };
     return glm::mix(stop(first), stop(first + 1), static_cast<float>(at - static_cast<double>(first)));
@@ -59,10 +72,14 @@ RgbPicture difference_image(std::span<const glm::dvec3> a, std::span<const glm::
         .width = (kPanels * width + (kPanels - 1) * kGap) * magnified, .height = height * magnified, .rgb = {}};
     picture.rgb.assign(
         std::size_t{3} * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height), 128);
-    place(shown_a, width, 0, magnified, picture);
-    place(shown_b, width, (width + kGap) * magnified, magnified, picture);
-    place(difference_colours(shown_a, shown_b), width, 2 * (width + kGap) * magnified, magnified, picture);
+    draw_panel(shown_a, width, 0, magnified, picture);
+    draw_panel(shown_b, width, (width + kGap) * magnified, magnified, picture);
+    draw_panel(difference_colours(shown_a, shown_b), width, 2 * (width + kGap) * magnified, magnified, picture);
     return picture;
+}
+
+std::string data_url(const RgbPicture& picture) {
+    return "data:image/png;base64," + base64(image::encode_png(picture.width, picture.height, 3, picture.rgb));
 }
 
 }  // namespace rowland::trade

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace rowland::trade {
@@ -14,16 +15,18 @@ struct RgbPicture {
     std::vector<std::uint8_t> rgb;
 };
 
-/// ΔE2000 that shows as the end of the colour scale.
+/// The picture as a PNG in a data URL.
+std::string data_url(const RgbPicture& picture);
+
+/// ΔE2000 at the end of the colour scale.
 inline constexpr double kFullDifference = 20.0;
 
-/// Two pictures of XYZ as the display shows them, exposed as the second asks for, and between which colours they
-/// differ: ΔE2000 from black (none) over violet and green to yellow (kFullDifference or more). Side by side, each pixel
-/// `magnified` times as large.
+/// Two pictures of XYZ on the display, both exposed for the second, and their difference: ΔE2000 from black (none) over
+/// violet and green to yellow (kFullDifference or more). Side by side, each pixel `magnified` times as large.
 RgbPicture difference_image(std::span<const glm::dvec3> a, std::span<const glm::dvec3> b, int width, int height,
                             int magnified);
 
-/// The colour scale at a share of kFullDifference, 0 to 1.
-glm::vec3 difference_colour(double share);
+/// The colour scale at a fraction of kFullDifference, 0 to 1.
+glm::vec3 difference_colour(double fraction);
 
 }  // namespace rowland::trade

@@ -1,24 +1,9 @@
 #include "editor/trade/frame_sets.h"
 
-#include <algorithm>
-#include <glm/geometric.hpp>
-
 #include "editor/trade/inputs.h"
 #include "modules/diffraction/evaluate/frame_sets.h"
 
 namespace rowland::trade {
-
-namespace {
-
-constexpr double kSameNormal = 1.0 - 1e-9;
-
-}  // namespace
-
-std::size_t FrameSet::size() const {
-    std::size_t count = 0;
-    for (const auto& surface : surfaces) count += surface.size();
-    return count;
-}
 
 std::vector<diffraction::Frame> all_frames(const FrameSet& set) {
     std::vector<diffraction::Frame> frames;
@@ -36,14 +21,6 @@ FrameSet sphere_frames() {
 
 FrameSet frames_of_file(const std::string& name, const std::filesystem::path& path) {
     return {.name = name, .surfaces = {read_frames(path)}};
-}
-
-bool is_flat(const std::vector<diffraction::Frame>& surface) {
-    if (surface.empty()) return true;
-    const glm::dvec3 first = glm::normalize(surface.front().normal);
-    return std::all_of(surface.begin(), surface.end(), [&](const diffraction::Frame& frame) {
-        return glm::dot(first, glm::normalize(frame.normal)) > kSameNormal;
-    });
 }
 
 }  // namespace rowland::trade

@@ -1,12 +1,11 @@
 #include "editor/trade/journal.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 #include "engine/core/error.h"
@@ -27,31 +26,18 @@ constexpr std::uint64_t kLargestJournal = std::uint64_t{1} << 31;
                  .fault = Fault::System});
 }
 
-}  // namespace
-
-struct Journal::File {
-    int descriptor = -1;
-    File() = default;
-    File(const File&) = delete;
-    File& operator=(const File&) = delete;
-    ~File() {
-        if (descriptor >= 0) ::close(descriptor);
-    }
-};
-
-Journal::~Journal() = default;
-
-Journal::Journal(std::filesystem::path path) : path_(std::move(path)), file_(std::make_unique<File>()) {
-    if (path_.has_parent_path()) create_folder(path_.parent_path());
-    file_->descriptor = ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
-    if (file_->descriptor < 0) fail(path_, "opening");
-    if (::flock(file_->descriptor, LOCK_EX | LOCK_NB) != 0)
-        refuse_input(path_.string(), "", "a file that another process writes", "results of one sweep at a time",
+FileLock open_alone(const std::filesystem::path& path) {
+    if (path.has_parent_path()) create_folder(path.parent_path());
+    std::optional<FileLock> file = FileLock::try_take(path);
+    if (!file)
+        refuse_input(path.string(), "", "a file that another process writes", "one sweep at a time in a folder",
                      "wait for it, or name another folder");
-    read();
+    return std::move(*file);
 }
 
-void Journal::read() {
+}  // namespace
+
+Journal::Journal(std::filesystem::path path) : path_(std::move(path)), file_(open_alone(path_)) {
     const std::string text = read_text_file(path_, kLargestJournal);
     const std::size_t whole = text.rfind('\n') == std::string::npos ? 0 : text.rfind('\n') + 1;
     int line_number = 0;
@@ -66,8 +52,8 @@ void Journal::read() {
         entries_[line["key"]] = line["value"];
         begin = end + 1;
     }
-    if (whole < text.size() && ::ftruncate(file_->descriptor, static_cast<off_t>(whole)) != 0)
-        fail(path_, "cutting off a torn line");
+    if (whole < text.size() && ::ftruncate(file_.descriptor(), static_cast<off_t>(whole)) != 0)
+        fail(path_, "cutting off an incomplete line");
 }
 
 const nlohmann::json* Journal::find(const std::string& key) const {
@@ -78,7 +64,7 @@ const nlohmann::json* Journal::find(const std::string& key) const {
 void Journal::add(const std::string& key, nlohmann::json value) {
     const std::string line = nlohmann::json{{"key", key}, {"value", value}}.dump() + "\n";
     for (std::size_t written = 0; written < line.size();) {
-        const ssize_t count = ::write(file_->descriptor, line.data() + written, line.size() - written);
+        const ssize_t count = ::write(file_.descriptor(), line.data() + written, line.size() - written);
         if (count < 0 && errno == EINTR) continue;
         if (count < 0) fail(path_, "writing");
         written += static_cast<std::size_t>(count);

@@ -2,35 +2,30 @@
 
 #include <filesystem>
 #include <map>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "engine/core/file_lock.h"
+
 namespace rowland::trade {
 
-/// Results that survive the program: a file of JSON lines, each written as soon as it is known. Whatever kills the
-/// program, a line is whole or was the last; a torn last line is cut off when the file is opened again.
+/// Results that survive the program: a file of JSON lines, each written as soon as it is known. If the program is
+/// killed, at most the last line is incomplete; it is cut off when the file is opened again.
 class Journal {
  public:
-    /// Reads what is there; creates the folder and the file if need be. Throws Error (input) if a line other than the
-    /// last is no entry or another process has the file open, and Error (system) if it cannot be opened.
+    /// Reads the file, or creates it and its folder. Throws Error (input) if a line other than the last is no entry or
+    /// another process has the file open, and Error (system) if it cannot be opened.
     explicit Journal(std::filesystem::path path);
-    ~Journal();
-    Journal(const Journal&) = delete;
-    Journal& operator=(const Journal&) = delete;
 
-    /// The value under a key; null if there is none.
+    /// The value of a key; null if there is none.
     const nlohmann::json* find(const std::string& key) const;
-    /// Writes an entry out. Throws Error (system).
+    /// Writes an entry to the file. Throws Error (system).
     void add(const std::string& key, nlohmann::json value);
     std::size_t size() const { return entries_.size(); }
 
  private:
-    struct File;
-    void read();
-
     std::filesystem::path path_;
-    std::unique_ptr<File> file_;
+    FileLock file_;
     std::map<std::string, nlohmann::json> entries_;
 };
 

@@ -28,7 +28,7 @@ std::vector<float> orders_other_than_0(const diffraction::Grating& grating) {
     return orders;
 }
 
-/// ½ d/|m| η_m cmf E: what a light of irradiance 1 that faces the surface adds (PHYSICS §4).
+/// ½ d/|m| η_m cmf E: the XYZ that a light of irradiance 1, normal to the surface, adds (PHYSICS §4).
 gpu::Texture colour_rows(const diffraction::Grating& grating, std::span<const float> orders,
                          const colour::LightSpectra& spectra) {
     std::vector<glm::vec4> texels;
@@ -54,11 +54,8 @@ LightLoop::LightLoop(const diffraction::Grating& grating, const colour::LightSpe
                      const glm::dmat3& xyz_to_working)
     : pitch_nm_(grating.pitch_nm), orders_(orders_other_than_0(grating)) {
     if (!is_flat(grating.lobe) || grating.grooves < diffraction::kManyGrooves || orders_.size() > kMostOrders)
-        throw Error({.file = "light loop",
-                     .place = {},
-                     .found = "another grating",
-                     .expected = "a flat groove_lobe, sharp orders (50 grooves or more), at most 64 of them",
-                     .remedy = {}});
+        refuse_input("light loop", {}, "another grating",
+                     "a flat groove_lobe, sharp orders (50 grooves or more), at most 64 of them");
     const diffraction::LayerWeights weights = diffraction::layer_weights(grating);
     mirror_weight_ = glm::vec3(xyz_to_working * weights.mirror);
     base_weight_ = glm::vec3(xyz_to_working * weights.base);

@@ -1,5 +1,5 @@
 #version 450 core
-// Every light and every order on its own: what the paper's fig. 3 shows to be slow.
+// Shades each light and each order separately: the slow method of the paper's fig. 3.
 #define MATERIAL_HAS_MIRROR
 #include "engine/render/shaders/forward_fragment_interface.glsl"
 #include "modules/diffraction/shaders/groove_view.glsl"

@@ -12,16 +12,16 @@
 
 namespace rowland::trade {
 
-/// A grating that is shaded light by light and order by order, as one would without SH: what Lindsay & Agu 2006, fig.
-/// 3, compare with. Per pixel, for each light and order m, the wavelength d u/m is found, and its colour looked up.
+/// A grating that is shaded light by light and order by order, without SH: the comparison of Lindsay & Agu 2006,
+/// fig. 3. Each pixel looks up the colour of the wavelength d u/m for each light and order m.
 class LightLoop {
  public:
-    /// Throws Error (input) for a lobe that is not flat, and for fewer than kManyGrooves grooves. The context is
-    /// current. `xyz_to_working` as the renderer's.
+    /// Needs a current context. `xyz_to_working`: the renderer's. Throws Error (input) for a lobe that is not flat, and
+    /// for fewer than kManyGrooves grooves.
     LightLoop(const diffraction::Grating& grating, const colour::LightSpectra& spectra,
               const glm::dmat3& xyz_to_working);
 
-    /// From now on these light it; any number. Linear Rec.709.
+    /// Replaces the lights, of any number. Linear Rec.709.
     void set_lights(std::span<const render::DistantLight> lights);
 
     void bind(const gpu::Program& program) const;
@@ -29,10 +29,10 @@ class LightLoop {
 
  private:
     double pitch_nm_;
-    glm::vec3 mirror_weight_;  ///< what the grating leaves to the engine, working space
+    glm::vec3 mirror_weight_;  ///< of the layers that the engine shades, working space
     glm::vec3 base_weight_;
     std::vector<float> orders_;  ///< without 0
-    gpu::Texture colours_;       ///< row 3 i + c: light of colour c in order i, a texel a nanometre from 380 to 780
+    gpu::Texture colours_;       ///< row 3 i + c: light of colour c in order i, one texel per nanometre from 380 to 780
     gpu::Buffer lights_;
     int light_count_ = 0;
 };
@@ -42,7 +42,7 @@ struct LightLoopSurface {
     std::shared_ptr<const LightLoop> loop;
 };
 
-/// Draws entities that have a LightLoopSurface, over their StandardMaterial as a grating's base.
+/// Draws entities that have a LightLoopSurface; their StandardMaterial is the grating's base.
 class LightLoopType final : public render::MaterialType {
  public:
     std::string name() const override { return "light loop"; }

@@ -4,14 +4,12 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <variant>
 
 #include "engine/colour/delta_e.h"
 #include "engine/colour/working_space.h"
 #include "engine/core/check.h"
 #include "engine/post/display_transform.h"
 #include "engine/post/working_space.h"
-#include "modules/diffraction/evaluate/point_shader.h"
 #include "modules/diffraction/evaluate/radiance_error.h"
 
 namespace rowland::trade {
@@ -19,16 +17,6 @@ namespace rowland::trade {
 namespace {
 
 constexpr double kMiddleGrey = 0.18;
-
-std::vector<glm::dvec3> shade_curved(const diffraction::CookedMaterial& cooked,
-                                     const diffraction::EvaluationLight& light,
-                                     const std::vector<diffraction::Frame>& surface) {
-    const auto* planar = std::get_if<diffraction::PlanarTables>(&cooked.tables);
-    if (planar == nullptr) return evaluate_baked(cooked, light, surface);
-    diffraction::CookedMaterial stand_in = cooked;
-    stand_in.tables = planar->stand_in;
-    return evaluate_baked(stand_in, light, surface);
-}
 
 glm::dvec3 srgb_to_linear(const glm::vec3& encoded) {
     glm::dvec3 linear;
@@ -43,10 +31,9 @@ glm::dvec3 display_lab(const glm::vec3& encoded) {
     return colour::xyz_to_lab(colour::rec709_to_xyz() * srgb_to_linear(encoded), colour::white_d65());
 }
 
-/// The value that a share of the sorted values does not exceed.
-double quantile(const std::vector<double>& sorted, double share) {
+double quantile(const std::vector<double>& sorted, double fraction) {
     if (sorted.empty()) return 0.0;
-    const auto index = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size())));
+    const auto index = static_cast<std::size_t>(std::ceil(fraction * static_cast<double>(sorted.size())));
     return sorted[std::clamp<std::size_t>(index, 1, sorted.size()) - 1];
 }
 
@@ -74,17 +61,6 @@ double dark_error(std::span<const glm::dvec3> radiance, std::span<const glm::dve
 }
 
 }  // namespace
-
-std::vector<glm::dvec3> shaded(const diffraction::CookedMaterial& cooked, const diffraction::EvaluationLight& light,
-                               const FrameSet& set) {
-    std::vector<glm::dvec3> result;
-    for (const auto& surface : set.surfaces) {
-        const std::vector<glm::dvec3> part =
-            is_flat(surface) ? evaluate_baked(cooked, light, surface) : shade_curved(cooked, light, surface);
-        result.insert(result.end(), part.begin(), part.end());
-    }
-    return result;
-}
 
 float exposure_for(std::span<const glm::dvec3> xyz) {
     double sum = 0.0;

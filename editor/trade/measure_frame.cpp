@@ -11,11 +11,10 @@ namespace {
 
 constexpr int kRounds = 3;
 constexpr int kFramesPerRound = 2;
-constexpr double kSlow_ms = 250.0;  ///< frames above it are not what matters, and are timed once
-/// Before frames count: programs, light that is divided anew, maps that fill once the object is at rest.
-constexpr int kWarmUpFrames = 2;
+constexpr double kSlow_ms = 250.0;  ///< longer frames are timed once
+constexpr int kWarmUpFrames = 2;    ///< not timed: programs are linked, key lights split off, maps filled
 
-/// Key lights are fitted when they are asked for.
+/// Key lights are fitted when a setting asks for them.
 lighting::LightProbe without_key_lights(const lighting::ProbeImage& image) {
     lighting::LightProbeSettings settings;
     settings.key_lights = 0;
@@ -25,9 +24,10 @@ lighting::LightProbe without_key_lights(const lighting::ProbeImage& image) {
 }  // namespace
 
 FrameTimer::FrameTimer(const lighting::ProbeImage& probe, glm::ivec2 size)
-    : context_({.debug = false}), image_(&probe), probe_(without_key_lights(probe)), stage_(size, close_camera()) {
-    stage_.show_sphere(false);
-}
+    : context_({.debug = false}),
+      image_(&probe),
+      probe_(without_key_lights(probe)),
+      stage_(size, close_camera(), true) {}
 
 void FrameTimer::light_by(int key_lights) {
     if (lit_by_ == key_lights) return;

@@ -12,15 +12,15 @@
 
 namespace rowland::trade {
 
-/// A frame's time on the present device: minima over rounds that alternate with the plain material.
+/// A frame's time on this device: the least over rounds that alternate with the plain material.
 struct FrameTime {
     double ms = 0.0;
-    double plain_ms = 0.0;  ///< the plain material (no key lights apart), same mesh, camera and rounds
+    double plain_ms = 0.0;  ///< of the plain material without separate key lights; same mesh, camera and rounds
 
     double ratio() const { return ms / plain_ms; }
 };
 
-/// Times frames of settings on the disc of the stage under one probe, in a headless context of its own.
+/// Times frames of the stage's disc under one probe, in its own headless context.
 class FrameTimer {
  public:
     FrameTimer(const lighting::ProbeImage& probe, glm::ivec2 size);

@@ -4,10 +4,17 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <memory>
 #include <numbers>
+#include <string>
+#include <utility>
 #include <variant>
 
+#include "editor/trade/difference_image.h"
 #include "editor/trade/picture_scene.h"
+#include "editor/trade/stage.h"
+#include "engine/core/progress.h"
+#include "engine/platform/headless_context.h"
 #include "engine/render/scene_lights.h"
 #include "modules/diffraction/model/fejer.h"
 #include "modules/diffraction/model/profile.h"
@@ -21,12 +28,13 @@ constexpr int kCurvePoints = 721;
 constexpr double kWavelength_nm = 550.0;
 constexpr int kShBands = 16;
 constexpr float kExposureStops = 0.5F;
+constexpr int kSeveralLights = 6;
 
 double sinc2(double x) {
     return x == 0.0 ? 1.0 : std::pow(std::sin(pi * x) / (pi * x), 2.0);
 }
 
-double slit_share(const diffraction::Grating& grating) {
+double slit_fraction(const diffraction::Grating& grating) {
     const auto* slit = std::get_if<diffraction::SlitProfile>(&grating.profile);
     return slit != nullptr ? slit->width_nm / grating.pitch_nm : 0.5;
 }
@@ -50,7 +58,7 @@ void draw_peak(const diffraction::Grating& grating, Figure2& figure) {
     figure.peak_width_degrees = 2.0 * inside * degrees_per_order;
 }
 
-/// Lights around the zenith, golden angle apart; they sum to one irradiance whatever their number.
+/// Lights around the zenith, a golden angle apart. Their sum does not depend on their number.
 std::vector<render::DistantLight> lights_of(int count) {
     std::vector<render::DistantLight> lights;
     const double golden_angle = pi * (3.0 - std::sqrt(5.0));
@@ -64,7 +72,7 @@ std::vector<render::DistantLight> lights_of(int count) {
     return lights;
 }
 
-/// A dark room with those lights as SH, as the paper has them.
+/// A dark room with the lights as SH, as in the paper.
 lighting::LightProbe probe_of(const std::vector<render::DistantLight>& lights) {
     const image::Image black{.width = 8, .height = 4, .texels = std::vector<glm::vec3>(32, glm::vec3(0.0F))};
     lighting::LightProbeSettings settings;
@@ -78,20 +86,105 @@ lighting::LightProbe probe_of(const std::vector<render::DistantLight>& lights) {
     return probe;
 }
 
-double frames_a_second(double ms) {
-    return 1000.0 / ms;
+nlohmann::ordered_json to_json(const Curve& curve) {
+    return {{"x", curve.x}, {"y", curve.y}};
 }
+
+/// The figures that need a GL device, drawn on one stage.
+class PaperStage {
+ public:
+    PaperStage(const diffraction::CookedMaterial& paper, glm::ivec2 size)
+        : context_({.debug = false}),
+          size_(size),
+          stage_(size, close_camera(), false),
+          material_(paper),
+          spikes_(stage_.upload(material_)) {}
+
+    nlohmann::ordered_json figure_3() {
+        nlohmann::ordered_json figure;
+        for (int lights = 1; lights <= 512; lights *= 2) {
+            figure["lights"].push_back(lights);
+            show_sh(lights);
+            figure["sh_fps"].push_back(fps());
+            show_loop(lights);
+            figure["loop_fps"].push_back(fps());
+        }
+        return figure;
+    }
+
+    nlohmann::ordered_json figure_6() {
+        nlohmann::ordered_json figure = {{"several", kSeveralLights}};
+        stage_.set_camera(far_camera());
+        for (const auto& [name, lights] : {std::pair("one", 1), std::pair("several", kSeveralLights)}) {
+            show_sh(lights);
+            figure[std::string("sh_") + name] = picture();
+            show_loop(lights);
+            figure[std::string("direct_") + name] = picture();
+        }
+        stage_.set_camera(close_camera());
+        return figure;
+    }
+
+    nlohmann::ordered_json rates() {
+        stage_.set_probe(probe_of(lights_of(kSeveralLights)));
+        stage_.show_plain();
+        nlohmann::ordered_json rates = {{"vertices", stage_.vertices()}, {"plain_fps", fps()}};
+        stage_.show_grating(spikes_);
+        rates["fps"] = fps();
+        rates["fps_with_effects"] = fps(true);
+        return rates;
+    }
+
+ private:
+    void show_loop(int lights) {
+        auto loop = std::make_shared<LightLoop>(material_.material.grating,
+                                                colour::LightSpectra(material_.material.quality.illuminant),
+                                                stage_.xyz_to_working());
+        loop->set_lights(lights_of(lights));
+        stage_.show_light_loop(loop);
+    }
+
+    void show_sh(int lights) {
+        stage_.set_probe(probe_of(lights_of(lights)));
+        stage_.show_grating(spikes_);
+    }
+
+    std::string picture() {
+        return data_url({.width = size_.x, .height = size_.y, .rgb = stage_.picture(kExposureStops)});
+    }
+
+    /// Of the fastest of some frames.
+    double fps(bool effects = false) {
+        constexpr int kFrames = 4;
+        constexpr double kLongest_ms = 400.0;
+        stage_.draw(effects);  // links programs
+        double ms = std::numeric_limits<double>::infinity();
+        double spent_ms = 0.0;
+        for (int i = 0; i < kFrames && spent_ms < kLongest_ms; ++i) {
+            const double frame = stage_.draw(effects);
+            ms = std::min(ms, frame);
+            spent_ms += frame;
+        }
+        return 1000.0 / ms;
+    }
+
+    platform::HeadlessContext context_;
+    glm::ivec2 size_;
+    Stage stage_;
+    diffraction::CookedMaterial material_;
+    std::shared_ptr<const diffraction::GpuMaterial> spikes_;
+};
 
 }  // namespace
 
 Figure2 figure_2(const diffraction::Grating& grating) {
     Figure2 figure;
-    const double share = slit_share(grating);
+    const double fraction = slit_fraction(grating);
     for (int i = 0; i < kCurvePoints; ++i) {
         const double orders = 2.0 * i / (kCurvePoints - 1) - 1.0;
-        // Nodes on whole orders: a peak is there in one of them, and nearly nothing between.
+        // The nodes include the whole orders: each peak is one node wide.
         figure.diffraction.x.push_back(orders * pi);
-        figure.diffraction.y.push_back(sinc2(share * orders) *
+        figure.diffraction.y.push_back(sinc2(fraction * orders) *
                                        diffraction::fejer(grating.grooves, orders - std::round(orders)));
         figure.interference.x.push_back(orders * pi);
         figure.interference.y.push_back(std::pow(std::sin(orders * pi), 2.0));
@@ -100,85 +193,25 @@ Figure2 figure_2(const diffraction::Grating& grating) {
     return figure;
 }
 
-PaperStage::PaperStage(const diffraction::CookedMaterial& paper, glm::ivec2 size)
-    : context_({.debug = false}), size_(size), stage_(size, close_camera()), material_(paper) {
-    stage_.set_directional_light(false);
-    stage_.show_sphere(false);
-    spikes_ = stage_.upload(material_);
-}
-
-double PaperStage::fastest(bool effects) {
-    constexpr int kWarmUp = 1;
-    constexpr int kFrames = 4;
-    constexpr double kLongest_ms = 400.0;
-    double ms = std::numeric_limits<double>::infinity();
-    double spent_ms = 0.0;
-    for (int i = 0; i < kWarmUp + kFrames && (i <= kWarmUp || spent_ms < kLongest_ms); ++i) {
-        const double frame = effects ? stage_.draw_with_effects() : stage_.draw();
-        if (i < kWarmUp) continue;
-        ms = std::min(ms, frame);
-        spent_ms += frame;
-    }
-    return ms;
-}
-
-double PaperStage::loop_ms(int lights) {
-    auto loop = std::make_shared<LightLoop>(material_.material.grating,
-                                            colour::LightSpectra(material_.material.quality.illuminant),
-                                            stage_.xyz_to_working());
-    loop->set_lights(lights_of(lights));
-    stage_.show_light_loop(loop);
-    return fastest(false);
-}
-
-double PaperStage::sh_ms(int lights) {
-    stage_.set_probe(probe_of(lights_of(lights)));
-    stage_.show_grating(spikes_);
-    return fastest(false);
-}
-
-Figure3 PaperStage::figure_3(const std::vector<int>& light_counts) {
-    Figure3 figure;
-    for (const int count : light_counts) {
-        figure.lights.push_back(count);
-        figure.sh_fps.push_back(frames_a_second(sh_ms(count)));
-        figure.loop_fps.push_back(frames_a_second(loop_ms(count)));
-    }
-    return figure;
-}
-
-Figure6 PaperStage::figure_6() {
-    Figure6 figure;
-    stage_.set_camera(far_camera());
-    const auto picture = [&] {
-        return RgbPicture{.width = size_.x, .height = size_.y, .rgb = stage_.picture(kExposureStops)};
-    };
-    const auto draw = [&](int lights, RgbPicture& direct, RgbPicture& sh) {
-        stage_.set_probe(probe_of(lights_of(lights)));
-        auto loop = std::make_shared<LightLoop>(material_.material.grating,
-                                                colour::LightSpectra(material_.material.quality.illuminant),
-                                                stage_.xyz_to_working());
-        loop->set_lights(lights_of(lights));
-        stage_.show_light_loop(loop);
-        direct = picture();
-        stage_.show_grating(spikes_);
-        sh = picture();
-    };
-    draw(1, figure.direct_one, figure.sh_one);
-    draw(figure.several, figure.direct_several, figure.sh_several);
-    stage_.set_camera(close_camera());
-    return figure;
-}
-
-PaperRates PaperStage::rates() {
-    PaperRates result{.vertices = stage_.vertices()};
-    stage_.set_probe(probe_of(lights_of(6)));
-    stage_.show_plain();
-    result.plain_fps = frames_a_second(fastest(false));
-    stage_.show_grating(spikes_);
-    result.fps = frames_a_second(fastest(false));
-    result.fps_with_effects = frames_a_second(fastest(true));
-    return result;
+nlohmann::ordered_json paper_evidence(const diffraction::CookedMaterial& paper, glm::ivec2 size, bool gpu) {
+    const diffraction::Grating& grating = paper.material.grating;
+    const Figure2 figure = figure_2(grating);
+    nlohmann::ordered_json json;
+    json["figure_2"] = {{"diffraction", to_json(figure.diffraction)},
+                        {"interference", to_json(figure.interference)},
+                        {"peak", to_json(figure.peak)},
+                        {"peak_width_degrees", figure.peak_width_degrees},
+                        {"grooves", grating.grooves}};
+    if (!gpu || !is_flat(grating.lobe)) return json;
+    Progress progress("the paper's figures", 3);
+    PaperStage stage(paper, size);
+    json["rates"] = stage.rates();
+    progress.advance();
+    json["figure_6"] = stage.figure_6();
+    progress.advance();
+    json["figure_3"] = stage.figure_3();
+    progress.advance();
+    return json;
 }
 
 }  // namespace rowland::trade

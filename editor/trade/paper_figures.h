@@ -1,12 +1,9 @@
 #pragma once
 
-#include <cstdint>
-#include <string>
+#include <glm/vec2.hpp>
+#include <nlohmann/json.hpp>
 #include <vector>
 
-#include "editor/trade/difference_image.h"
-#include "editor/trade/stage.h"
-#include "engine/platform/headless_context.h"
 #include "modules/diffraction/asset/cooked_material.h"
 
 namespace rowland::trade {
@@ -17,63 +14,24 @@ struct Curve {
     std::vector<double> y;
 };
 
-/// Fig. 2 of Lindsay & Agu 2006: how fast diffraction and interference vary.
+/// Fig. 2 of Lindsay & Agu 2006: diffraction varies faster than interference.
 struct Figure2 {
     Curve diffraction;   ///< x: half the phase between neighbouring grooves, −π to π; y: 1 at the highest peak
     Curve interference;  ///< of a thin film over the same phase; y likewise
-    Curve peak;          ///< one order alone: x in degrees of view from it, y 1 at the peak
+    Curve peak;          ///< one order: x in degrees of view from its peak, y 1 at the peak
     double peak_width_degrees = 0.0;  ///< between the half heights of `peak`
 };
 
-/// A slit grating's own curves (other profiles: those of a slit of half the pitch) at normal incidence, at its first
+/// The curves of a slit grating (for other profiles, of slits of half the pitch) at normal incidence, at its first
 /// order for 550 nm; the film is two-beam interference of a soap film.
 Figure2 figure_2(const diffraction::Grating& grating);
 
-/// Fig. 3: frames a second against the number of lights.
-struct Figure3 {
-    std::vector<int> lights;
-    std::vector<double> loop_fps;  ///< light by light, order by order
-    std::vector<double> sh_fps;    ///< the paper's 5 bands and 4 spikes
-};
-
-/// Fig. 6: direct above, SH below; one light left, several right.
-struct Figure6 {
-    RgbPicture direct_one;
-    RgbPicture direct_several;
-    RgbPicture sh_one;
-    RgbPicture sh_several;
-    int several = 6;
-};
-
-/// The frame rates of section 5: the disc of 25 000 vertices.
-struct PaperRates {
-    std::size_t vertices = 0;
-    double plain_fps = 0.0;
-    double fps = 0.0;
-    double fps_with_effects = 0.0;  ///< environment, blur, exposure, vignette, display transform, dither
-};
-
-/// Everything that needs a GL device, on one stage of `size` pixels. `paper`: a material as the paper's setting shades
-/// it; its grating has the flat lobe.
-class PaperStage {
- public:
-    PaperStage(const diffraction::CookedMaterial& paper, glm::ivec2 size);
-
-    Figure3 figure_3(const std::vector<int>& light_counts);
-    Figure6 figure_6();
-    PaperRates rates();
-    const std::string& device() const { return context_.renderer(); }
-
- private:
-    double loop_ms(int lights);
-    double sh_ms(int lights);
-    double fastest(bool effects);
-
-    platform::HeadlessContext context_;
-    glm::ivec2 size_;
-    Stage stage_;
-    diffraction::CookedMaterial material_;
-    std::shared_ptr<const diffraction::GpuMaterial> spikes_;
-};
+/// The figures of Lindsay & Agu 2006 with this material, as the report's script reads them: "figure_2".
+/// With `gpu`, and for the flat lobe, also what is drawn on frames of `size` pixels:
+/// - "figure_3": frames per second against the number of lights, light by light and by SH
+/// - "figure_6": pictures of one and of several lights, light by light and by SH
+/// - "rates": the frame rates of section 5 on the disc of 25 000 vertices
+/// `paper`: a material in the paper's setting.
+nlohmann::ordered_json paper_evidence(const diffraction::CookedMaterial& paper, glm::ivec2 size, bool gpu);
 
 }  // namespace rowland::trade

@@ -34,7 +34,7 @@ std::optional<double> hit_disc(const glm::dvec3& eye, const glm::dvec3& ray) {
     return radius >= kInnerRadius && radius <= kOuterRadius ? std::optional(distance) : std::nullopt;
 }
 
-/// As the meshes' tangents lie.
+/// The grating vectors are the tangents of the meshes.
 diffraction::Frame disc_frame(const glm::dvec3& eye, const glm::dvec3& ray, double distance) {
     const glm::dvec3 at = eye + distance * ray;
     return {.view = -ray, .normal = {0.0, 1.0, 0.0}, .grating = glm::normalize(glm::dvec3(at.x, 0.0, at.z))};

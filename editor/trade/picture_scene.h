@@ -11,18 +11,18 @@
 
 namespace rowland::trade {
 
-/// The scene that pictures are made of and frames are timed on: a compact disc that lies in the XZ plane with a sphere
-/// over its hole, both of one grating.
+/// The scene of pictures and of timed frames: a compact disc in the XZ plane with a sphere over its hole, both of one
+/// grating. Timed frames show the disc alone.
 scene::Mesh disc_mesh();                                       ///< 25 000 vertices
-scene::Mesh sphere_mesh();                                     ///< around its own centre
+scene::Mesh sphere_mesh();                                     ///< centred at its origin
 inline constexpr glm::vec3 kSphereCentre{0.0F, 0.022F, 0.0F};  ///< metres
 
-/// Sees the disc over half of a wide picture: for times.
+/// For times: the disc covers half of a wide picture.
 scene::Camera close_camera();
-/// Sees disc and sphere whole: for errors.
+/// For errors: disc and sphere are in view as a whole.
 scene::Camera far_camera();
 
-/// What a camera sees of the scene, pixel by pixel; both surfaces are exact, not meshes.
+/// The points of the scene that a camera sees, one per pixel. Both surfaces are exact, not meshes.
 struct PictureFrames {
     int width = 0;
     int height = 0;
@@ -31,7 +31,7 @@ struct PictureFrames {
 };
 PictureFrames picture_frames(const scene::Camera& camera, int width, int height);
 
-/// XYZ of a picture's pixels, black where nothing is.
+/// XYZ of a picture's pixels; black where the camera sees no surface.
 std::vector<glm::dvec3> picture(const PictureFrames& frames, std::span<const glm::dvec3> radiance);
 
 }  // namespace rowland::trade

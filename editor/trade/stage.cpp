@@ -36,13 +36,9 @@ post::PostSettings all_effects(const scene::Camera& camera) {
             .dither = post::DitherSettings{}};
 }
 
-double milliseconds_since(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
 }  // namespace
 
-Stage::Stage(glm::ivec2 size, const scene::Camera& camera)
+Stage::Stage(glm::ivec2 size, const scene::Camera& camera, bool directional_light)
     : camera_(camera),
       config_(post::OcioConfig::shipped()),
       xyz_to_working_(post::xyz_to_scene_linear(config_)),
@@ -51,63 +47,37 @@ Stage::Stage(glm::ivec2 size, const scene::Camera& camera)
       encoded_({.width = size.x, .height = size.y, .colours = {gpu::Format::RGBA8}}),
       post_shaders_(post_shaders()),
       display_(post_shaders_, post::DisplayTransform(config_)),
-      post_stack_(post_shaders_) {
+      post_stack_(post_shaders_),
+      disc_(world_.create()) {
     modules::register_material_types(renderer_, {.diffraction = {.slices_per_frame = std::numeric_limits<int>::max()}});
     renderer_.add_material_type(std::make_unique<LightLoopType>());
-    disc_ = add_surface(disc_mesh(), glm::vec3(0.0F));
-    vertices_ = world_.get<render::MeshInstance>(disc_).mesh->positions.size();
-    show_sphere(true);
-    set_directional_light(true);
+    world_.add(disc_, scene::Transform{});
+    world_.add(disc_, render::make_mesh_instance(disc_mesh()));
+    world_.add(disc_, render::StandardMaterial{.base_colour = glm::vec3(0.02F), .roughness = 0.3F});
+    scene::update_world_matrices(world_);
+    if (directional_light)
+        world_.add(world_.create(), scene::DirectionalLight{.direction = glm::normalize(glm::vec3(0.3F, 1.0F, 0.4F)),
+                                                            .irradiance = glm::vec3(0.5F)});
 }
 
-ecs::Entity Stage::add_surface(scene::Mesh mesh, const glm::vec3& place) {
-    const ecs::Entity entity = world_.create();
-    world_.add(entity, scene::Transform{.translation = place});
-    world_.add(entity, render::make_mesh_instance(std::move(mesh)));
-    world_.add(entity, render::StandardMaterial{.base_colour = glm::vec3(0.02F), .roughness = 0.3F});
-    scene::update_world_matrices(world_);
-    return entity;
+std::size_t Stage::vertices() const {
+    return disc_mesh().positions.size();
 }
 
 void Stage::set_probe(const lighting::LightProbe& probe) {
-    key_lights_ = !probe.key_lights.empty();
+    has_key_lights_ = !probe.key_lights.empty();
     renderer_.set_probe(probe);
 }
 
-void Stage::set_directional_light(bool on) {
-    if (on == light_.has_value()) return;
-    if (on) {
-        light_ = world_.create();
-        world_.add(*light_, scene::DirectionalLight{.direction = glm::normalize(glm::vec3(0.3F, 1.0F, 0.4F)),
-                                                    .irradiance = glm::vec3(0.5F)});
-    } else {
-        world_.destroy(*light_);
-        light_.reset();
-    }
-}
-
-void Stage::show_sphere(bool show) {
-    if (show == sphere_.has_value()) return;
-    if (show) {
-        sphere_ = add_surface(sphere_mesh(), kSphereCentre);
-    } else {
-        world_.destroy(*sphere_);
-        sphere_.reset();
-    }
-}
-
-void Stage::clear_materials() {
-    for (const std::optional<ecs::Entity> entity : {std::optional(disc_), sphere_}) {
-        if (!entity) continue;
-        if (world_.find<diffraction::DiffractionSurface>(*entity) != nullptr)
-            world_.remove<diffraction::DiffractionSurface>(*entity);
-        if (world_.find<LightLoopSurface>(*entity) != nullptr) world_.remove<LightLoopSurface>(*entity);
-    }
+void Stage::clear_surface(bool use_key_lights) {
+    if (world_.find<diffraction::DiffractionSurface>(disc_) != nullptr)
+        world_.remove<diffraction::DiffractionSurface>(disc_);
+    if (world_.find<LightLoopSurface>(disc_) != nullptr) world_.remove<LightLoopSurface>(disc_);
+    renderer_.use_key_lights(use_key_lights);
 }
 
 void Stage::show_plain() {
-    clear_materials();
-    renderer_.use_key_lights(false);
+    clear_surface(false);
 }
 
 std::shared_ptr<const diffraction::GpuMaterial> Stage::upload(const diffraction::CookedMaterial& material) const {
@@ -115,47 +85,35 @@ std::shared_ptr<const diffraction::GpuMaterial> Stage::upload(const diffraction:
 }
 
 void Stage::show_grating(std::shared_ptr<const diffraction::GpuMaterial> material) {
-    clear_materials();
-    renderer_.use_key_lights(key_lights_);
-    world_.add(disc_, diffraction::DiffractionSurface{material});
-    if (sphere_) world_.add(*sphere_, diffraction::DiffractionSurface{std::move(material)});
+    clear_surface(has_key_lights_);
+    world_.add(disc_, diffraction::DiffractionSurface{std::move(material)});
 }
 
 void Stage::show_light_loop(std::shared_ptr<const LightLoop> loop) {
-    clear_materials();
-    renderer_.use_key_lights(false);
-    world_.add(disc_, LightLoopSurface{loop});
-    if (sphere_) world_.add(*sphere_, LightLoopSurface{std::move(loop)});
+    clear_surface(false);
+    world_.add(disc_, LightLoopSurface{std::move(loop)});
 }
 
-void Stage::render() {
-    renderer_.render(world_, camera_, target_);
-}
-
-double Stage::draw() {
-    const Clock::time_point start = Clock::now();
-    render();
-    glFinish();
-    gpu::require_context();
-    return milliseconds_since(start);
-}
-
-double Stage::draw_with_effects() {
-    const Clock::time_point start = Clock::now();
-    render();
+void Stage::draw_effects(const post::PostSettings& settings) {
     post_stack_.draw(
-        target_.colour(), display_, all_effects(camera_),
+        target_.colour(), display_, settings,
         {.index = frame_++, .seconds = kSecondsPerFrame, .luminance_weights = post::luminance_weights(config_)},
         encoded_);
+}
+
+double Stage::draw(bool effects) {
+    const Clock::time_point start = Clock::now();
+    render();
+    if (effects) draw_effects(all_effects(camera_));
     glFinish();
     gpu::require_context();
-    return milliseconds_since(start);
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
 std::vector<std::uint8_t> Stage::picture(float exposure_stops) {
     render();
-    render();  // maps of objects that have just come to rest
-    post_stack_.draw(target_.colour(), display_, {.exposure_stops = exposure_stops}, {.index = frame_++}, encoded_);
+    render();  // fills the maps of an object that has just come to rest
+    draw_effects({.exposure_stops = exposure_stops});
     const std::vector<std::uint8_t> rgba = encoded_.read_rgba8();
     gpu::require_context();
     std::vector<std::uint8_t> rgb;

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "editor/trade/light_loop.h"
@@ -19,37 +18,35 @@
 
 namespace rowland::trade {
 
-/// Disc and sphere on the GPU (picture_scene.h), under a probe and one directional light. Needs a current context.
+/// The disc of picture_scene.h on the GPU, lit by a probe. Needs a current context.
 class Stage {
  public:
-    Stage(glm::ivec2 size, const scene::Camera& camera);
+    /// `directional_light`: one lamp besides the probe.
+    Stage(glm::ivec2 size, const scene::Camera& camera, bool directional_light);
 
-    /// Its key lights are lights of their own for gratings that take them apart, if there are any.
+    /// Gratings that take key lights apart are lit by the probe's, where it has some.
     void set_probe(const lighting::LightProbe& probe);
-    void set_directional_light(bool on);
     void set_camera(const scene::Camera& camera) { camera_ = camera; }
-    void show_sphere(bool show);
 
     std::shared_ptr<const diffraction::GpuMaterial> upload(const diffraction::CookedMaterial& material) const;
-    /// What the surfaces are from now on: the engine's own material, a grating, or one that is shaded light by light.
+    /// Shades the disc by the engine's own material, by a grating, or light by light.
     void show_plain();
     void show_grating(std::shared_ptr<const diffraction::GpuMaterial> material);
     void show_light_loop(std::shared_ptr<const LightLoop> loop);
     const glm::dmat3& xyz_to_working() const { return xyz_to_working_; }
 
-    /// Draws a frame and waits for it. Milliseconds.
-    double draw();
-    /// The same with all effects: bloom, automatic exposure, vignette, display transform, dither.
-    double draw_with_effects();
-    /// A frame as the display shows it, with the display transform alone: RGB, rows from the top.
+    /// Draws a frame and waits for it. Milliseconds. `effects`: with bloom, automatic exposure, vignette, display
+    /// transform and dither.
+    double draw(bool effects = false);
+    /// A frame through the display transform alone: RGB, rows from the top.
     std::vector<std::uint8_t> picture(float exposure_stops);
 
-    std::size_t vertices() const { return vertices_; }
+    std::size_t vertices() const;
 
  private:
-    void render();
-    ecs::Entity add_surface(scene::Mesh mesh, const glm::vec3& place);
-    void clear_materials();
+    void render() { renderer_.render(world_, camera_, target_); }
+    void draw_effects(const post::PostSettings& settings);
+    void clear_surface(bool use_key_lights);
 
     scene::Camera camera_;
     post::OcioConfig config_;
@@ -62,10 +59,7 @@ class Stage {
     post::PostStack post_stack_;
     ecs::World world_;
     ecs::Entity disc_;
-    std::optional<ecs::Entity> sphere_;
-    std::optional<ecs::Entity> light_;
-    bool key_lights_ = false;  ///< the probe has some
-    std::size_t vertices_ = 0;
+    bool has_key_lights_ = false;
     std::uint32_t frame_ = 0;
 };
 

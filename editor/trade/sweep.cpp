@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <memory>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -27,30 +27,36 @@ namespace {
 
 constexpr std::uint64_t kLargestMaterial = 1 << 20;
 constexpr std::uint64_t kLargestProbe = std::uint64_t{1} << 31;
-constexpr int kMostBands = 16;               ///< of a material's light
-constexpr std::size_t kReferenceChunk = 60;  ///< points that are lost if the program is killed
+constexpr int kProjectedBands = 16;         ///< the most that a setting takes
+constexpr std::size_t kReferencePart = 60;  ///< points that are lost if the program is killed
 
 std::string hash_of_file(const std::filesystem::path& path, std::uint64_t largest, const std::string& with) {
     return Hasher().bytes(read_file(path, largest)).text(with).digest().hex();
 }
 
-/// Files that a material names are part of it.
-void hash_named_files(const nlohmann::json& json, const std::filesystem::path& folder, Hasher& hasher) {
+void add_named_files(const nlohmann::json& json, const std::filesystem::path& folder,
+                     std::vector<std::filesystem::path>& files) {
     if (json.is_structured()) {
-        for (const nlohmann::json& value : json) hash_named_files(value, folder, hasher);
+        for (const nlohmann::json& value : json) add_named_files(value, folder, files);
     } else if (json.is_string() && json.get<std::string>().ends_with(".csv")) {
-        hasher.bytes(read_file(folder / json.get<std::string>(), diffraction::kMaximumNamedFileSize));
+        files.push_back(folder / json.get<std::string>());
     }
 }
 
-/// The quality is the setting's, but for the light's spectrum.
+nlohmann::json read_material_json(const std::filesystem::path& path) {
+    return parse_json(read_text_file(path, kLargestMaterial), path.string());
+}
+
+/// Without "quality", which the setting replaces, but with its illuminant, and with the files that the rest names.
 std::string material_hash(nlohmann::json json, const std::filesystem::path& path) {
     std::string illuminant;
     if (json.contains("quality")) illuminant = json["quality"].value("illuminant", "");
     json.erase("quality");
     Hasher hasher;
     hasher.text(json.dump()).text(illuminant);
-    hash_named_files(json, path.parent_path(), hasher);
+    std::vector<std::filesystem::path> files;
+    add_named_files(json, path.parent_path(), files);
+    for (const auto& file : files) hasher.bytes(read_file(file, diffraction::kMaximumNamedFileSize));
     return hasher.digest().hex();
 }
 
@@ -77,22 +83,7 @@ std::vector<glm::dvec3> to_vectors(const nlohmann::json& json) {
     return values;
 }
 
-nlohmann::json to_json(const MethodError& error) {
-    return {{"relative_rms", error.relative_rms},
-            {"largest", error.largest},
-            {"dark_absolute", error.dark_absolute},
-            {"median_delta_e", error.median_delta_e},
-            {"p95_delta_e", error.high_delta_e}};
-}
-
-MethodError to_error(const nlohmann::json& json) {
-    return {.relative_rms = json.at("relative_rms"),
-            .largest = json.at("largest"),
-            .dark_absolute = json.at("dark_absolute"),
-            .median_delta_e = json.at("median_delta_e"),
-            .high_delta_e = json.at("p95_delta_e")};
-}
-
+/// File names without extension; those that repeat are numbered.
 std::vector<std::string> stems(const std::vector<std::filesystem::path>& paths) {
     std::vector<std::string> names;
     for (const auto& path : paths) {
@@ -105,12 +96,13 @@ std::vector<std::string> stems(const std::vector<std::filesystem::path>& paths) 
     return names;
 }
 
-/// A plane's map shades no curved surface; what stands in for it there is a setting of its own.
+/// On a curved surface a planar map's stand-in shades, which is measured as a setting itself.
 bool applies(const Setting& setting, const FrameSet& set) {
-    return representation_of(setting) != "planar" || std::any_of(set.surfaces.begin(), set.surfaces.end(), is_flat);
+    return representation_of(setting) != "planar" ||
+           std::ranges::any_of(set.surfaces, [](const auto& surface) { return is_flat(surface); });
 }
 
-/// Windows change no time: two settings that differ in nothing else are timed once.
+/// A window does not change a frame's time: settings that differ in nothing else are timed once.
 Setting without_window(Setting setting) {
     setting.window = math::SphericalWindow::None;
     return setting;
@@ -122,6 +114,12 @@ ProbeFile parse_probe_file(const std::string& text, const std::string& mapping) 
     for (const std::string known : {"angular", "equirect"})
         if (text.ends_with(":" + known)) return {text.substr(0, text.size() - known.size() - 1), known};
     return {text, mapping};
+}
+
+std::vector<std::filesystem::path> files_named_in(const std::filesystem::path& material) {
+    std::vector<std::filesystem::path> files;
+    add_named_files(read_material_json(material), material.parent_path(), files);
+    return files;
 }
 
 std::size_t vertex_light_bytes(const diffraction::BakedTables& tables) {
@@ -144,63 +142,66 @@ Sweep::Sweep(SweepInputs inputs)
       references_(inputs_.folder / "references.jsonl"),
       results_(inputs_.folder / "journal.jsonl") {
     for (const auto& path : inputs_.materials) {
-        const nlohmann::json json = parse_json(read_text_file(path, kLargestMaterial), path.string());
-        materials_.push_back({json, path.string(), material_hash(json, path), diffraction::load_material(path)});
+        const nlohmann::json json = read_material_json(path);
+        diffraction::Material parsed = diffraction::load_material(path);
+        for (const Setting& setting : inputs_.settings) check(json, path.string(), setting);
+        const auto settings = inputs_.settings.empty() ? sweep_plan(parsed.grating.lobe) : inputs_.settings;
+        materials_.push_back({json, path.string(), material_hash(json, path), std::move(parsed), settings});
     }
     for (const ProbeFile& file : inputs_.probes)
-        probes_.push_back(
-            {read_probe(file.path, file.mapping), hash_of_file(file.path, kLargestProbe, file.mapping), {}});
+        probes_.push_back({read_probe(file.path, file.mapping), hash_of_file(file.path, kLargestProbe, file.mapping)});
+    for (ProbeSource& probe : probes_)
+        probe.lights = std::make_shared<diffraction::ProbeLights>(probe.image, kProjectedBands);
 }
 
-std::vector<const FrameSet*> Sweep::sets() const {
-    std::vector<const FrameSet*> result;
-    for (const FrameSet& set : inputs_.frame_sets) result.push_back(&set);
-    result.push_back(&picture_.frames);
-    return result;
+const FrameSet& Sweep::set_named(const std::string& name) const {
+    const auto found = std::ranges::find(inputs_.frame_sets, name, &FrameSet::name);
+    return found != inputs_.frame_sets.end() ? *found : picture_.frames;
+}
+
+std::vector<ErrorRow> Sweep::all_rows() const {
+    std::vector<std::string> sets;
+    for (const FrameSet& set : inputs_.frame_sets) sets.push_back(set.name);
+    sets.push_back(picture_.frames.name);
+    std::vector<ErrorRow> rows;
+    for (std::size_t m = 0; m < materials_.size(); ++m)
+        for (std::size_t s = 0; s < materials_[m].settings.size(); ++s)
+            for (std::size_t p = 0; p < probes_.size(); ++p)
+                for (const std::string& set : sets)
+                    if (applies(materials_[m].settings[s], set_named(set)))
+                        rows.push_back({.material = m, .probe = p, .set = set, .setting = s});
+    return rows;
 }
 
 diffraction::CookedMaterial Sweep::cook(std::size_t material, const Setting& setting) const {
     return trade::cook(materials_[material].json, materials_[material].file, setting);
 }
 
-std::vector<glm::dvec3> Sweep::reference(std::size_t material, std::size_t probe, const FrameSet& set) {
-    const std::vector<diffraction::Frame> frames = all_frames(set);
-    const diffraction::Material& parsed = materials_[material].parsed;
-    const colour::LightSpectra spectra(parsed.quality.illuminant);
-    std::vector<glm::dvec3> result;
-    Progress progress("reference, " + set.name, frames.size());
-    for (std::size_t begin = 0; begin < frames.size(); begin += kReferenceChunk) {
-        const auto chunk = std::span(frames).subspan(begin, std::min(kReferenceChunk, frames.size() - begin));
-        const std::string key =
-            key_of({reference_version(), materials_[material].hash, probes_[probe].hash, hash_of(chunk)});
-        if (references_.find(key) == nullptr)
-            references_.add(key, to_json(reference_radiance(parsed.grating, probes_[probe].image, spectra, chunk)));
-        const std::vector<glm::dvec3> part = to_vectors(*references_.find(key));
-        result.insert(result.end(), part.begin(), part.end());
-        progress.advance(chunk.size());
-    }
-    return result;
+std::vector<glm::dvec3> Sweep::reference(std::size_t material, std::size_t probe,
+                                         std::span<const diffraction::Frame> frames) {
+    const auto& [json, file, hash, parsed, settings] = materials_[material];
+    const std::string key = key_of({reference_version(), hash, probes_[probe].hash, hash_of(frames)});
+    if (references_.find(key) == nullptr)
+        references_.add(key, to_json(reference_radiance(parsed.grating, probes_[probe].image,
+                                                        colour::LightSpectra(parsed.quality.illuminant), frames)));
+    return to_vectors(*references_.find(key));
 }
 
-const diffraction::EvaluationLight& Sweep::light(std::size_t probe, const Setting& setting) {
-    const auto key = std::tuple(probe, setting.key_lights, setting.window);
-    const auto found = lights_.find(key);
-    if (found != lights_.end()) return found->second;
-    ProbeSource& source = probes_[probe];
-    if (source.projected.bands == 0) source.projected = lighting::project(source.image, kMostBands);
-    return lights_
-        .emplace(key, diffraction::EvaluationLight(source.image, setting.key_lights, setting.window, source.projected))
-        .first->second;
+const diffraction::MeasuredScene& Sweep::scene(std::size_t material, std::size_t probe, const FrameSet& set) {
+    const auto by_reference = [this, material, probe](std::span<const diffraction::Frame> part) {
+        return reference(material, probe, part);
+    };
+    diffraction::MeasuredScene scene{set.name, probes_[probe].lights, set.surfaces, kReferencePart, by_reference};
+    auto& known = scenes_.try_emplace({material, probe, set.name}, std::move(scene)).first->second;
+    known.prepare();
+    return known;
 }
 
-std::vector<glm::dvec3> Sweep::by_setting(std::size_t material, std::size_t probe, const Setting& setting,
-                                          const FrameSet& set) {
-    return shaded(cook(material, setting), light(probe, setting), set);
-}
-
-std::string Sweep::error_key(const Job& job, const Setting& setting, const FrameSet& set) const {
-    return key_of({"error", reference_version(), method_version(), trade::to_json(setting).dump(),
-                   materials_[job.material].hash, probes_[job.probe].hash, hash_of(all_frames(set))});
+std::string Sweep::error_key(const ErrorRow& row) const {
+    const MaterialSource& material = materials_[row.material];
+    return key_of({"error", reference_version(), method_version(),
+                   trade::to_json(material.settings[row.setting]).dump(), material.hash, probes_[row.probe].hash,
+                   hash_of(all_frames(set_named(row.set)))});
 }
 
 std::string Sweep::time_key(std::size_t material, const Setting& setting, const std::string& device) const {
@@ -209,42 +210,26 @@ std::string Sweep::time_key(std::size_t material, const Setting& setting, const 
 }
 
 void Sweep::measure_errors(const SweepResults& results) {
-    std::vector<Job> jobs;
-    for (std::size_t m = 0; m < materials_.size(); ++m)
-        for (std::size_t s = 0; s < results.settings[m].size(); ++s)
-            for (std::size_t p = 0; p < probes_.size(); ++p) {
-                const Job job{m, s, p};
-                for (const FrameSet* set : sets())
-                    if (applies(results.settings[m][s], *set) &&
-                        results_.find(error_key(job, results.settings[m][s], *set)) == nullptr) {
-                        jobs.push_back(job);
-                        break;
-                    }
-            }
-    if (jobs.empty()) return;
-    log_info("errors of {} settings to measure", jobs.size());
-    std::map<std::tuple<std::size_t, std::size_t, std::string>, std::vector<glm::dvec3>> references;
-    for (std::size_t m = 0; m < materials_.size(); ++m)
-        for (std::size_t p = 0; p < probes_.size(); ++p)
-            for (const FrameSet* set : sets()) references[{m, p, set->name}] = reference(m, p, *set);
-
-    Progress progress("errors", jobs.size());
+    std::vector<ErrorRow> rows = all_rows();
+    std::erase_if(rows, [&](const ErrorRow& row) { return results_.find(error_key(row)) != nullptr; });
+    if (rows.empty()) return;
+    log_info("{} errors to measure", rows.size());
+    for (const ErrorRow& row : rows) scene(row.material, row.probe, set_named(row.set));  // the references first
+    Progress progress("errors", rows.size());
     std::optional<diffraction::CookedMaterial> cooked;
-    const Job* cooked_for = nullptr;
-    for (const Job& job : jobs) {
-        const Setting& setting = results.settings[job.material][job.setting];
-        if (cooked_for == nullptr || cooked_for->material != job.material || cooked_for->setting != job.setting)
-            cooked = cook(job.material, setting);
-        cooked_for = &job;
-        for (const FrameSet* set : sets()) {
-            const std::string key = error_key(job, setting, *set);
-            if (!applies(setting, *set) || results_.find(key) != nullptr) continue;
-            const auto radiance = shaded(*cooked, light(job.probe, setting), *set);
-            nlohmann::json entry = to_json(compare(radiance, references[{job.material, job.probe, set->name}]));
-            entry["of"] = {results.materials[job.material], results.probes[job.probe], set->name,
-                           setting_name(setting)};
-            results_.add(key, std::move(entry));
-        }
+    const ErrorRow* cooked_for = nullptr;
+    for (const ErrorRow& row : rows) {
+        const Setting& setting = results.settings[row.material][row.setting];
+        if (cooked_for == nullptr || cooked_for->material != row.material || cooked_for->setting != row.setting)
+            cooked = cook(row.material, setting);
+        cooked_for = &row;
+        const diffraction::MeasuredScene& measured = scene(row.material, row.probe, set_named(row.set));
+        const MethodError error =
+            compare(measured.shaded(*cooked, setting.key_lights, setting.window), measured.reference);
+        nlohmann::json entry = {
+            {"of", {results.materials[row.material], results.probes[row.probe], row.set, setting_name(setting)}}};
+        for (const auto& [name, value] : kErrorQuantities) entry[name] = error.*value;
+        results_.add(error_key(row), std::move(entry));
         progress.advance();
     }
 }
@@ -253,25 +238,25 @@ void Sweep::measure_times(SweepResults& results) {
     if (!inputs_.times || probes_.empty()) return;
     FrameTimer timer(probes_.front().image, inputs_.frame_size);
     results.device = timer.device();
+    struct Job {
+        std::size_t material;
+        Setting setting;
+    };
     std::vector<Job> jobs;
     for (std::size_t m = 0; m < materials_.size(); ++m)
-        for (std::size_t s = 0; s < results.settings[m].size(); ++s)
-            if (results_.find(time_key(m, results.settings[m][s], results.device)) == nullptr)
-                jobs.push_back({m, s, 0});
-    // So that light is divided anew as seldom as can be.
-    std::stable_sort(jobs.begin(), jobs.end(), [&](const Job& a, const Job& b) {
-        return results.settings[a.material][a.setting].key_lights < results.settings[b.material][b.setting].key_lights;
-    });
+        for (const Setting& setting : results.settings[m])
+            if (results_.find(time_key(m, setting, results.device)) == nullptr) jobs.push_back({m, setting});
+    // Fitting key lights is slow: settings with the same number of them are timed together.
+    std::ranges::stable_sort(jobs, {}, [](const Job& job) { return job.setting.key_lights; });
     if (!jobs.empty()) log_info("frames of {} settings to time", jobs.size());
     Progress progress("frame times", jobs.size());
-    for (const Job& job : jobs) {
-        const Setting& setting = results.settings[job.material][job.setting];
-        const std::string key = time_key(job.material, setting, results.device);
+    for (const auto& [material, setting] : jobs) {
+        const std::string key = time_key(material, setting, results.device);
         if (results_.find(key) == nullptr) {
-            const FrameTime time = timer.time(cook(job.material, setting), setting.key_lights);
+            const FrameTime time = timer.time(cook(material, setting), setting.key_lights);
             results_.add(key, {{"ms", time.ms},
                                {"plain_ms", time.plain_ms},
-                               {"of", {results.materials[job.material], setting_name(setting)}}});
+                               {"of", {results.materials[material], setting_name(setting)}}});
         }
         progress.advance();
     }
@@ -292,12 +277,12 @@ void Sweep::collect(SweepResults& results) {
                 cost.time = FrameTime{.ms = time.at("ms"), .plain_ms = time.at("plain_ms")};
             }
             results.costs.push_back(cost);
-            for (std::size_t p = 0; p < probes_.size(); ++p)
-                for (const FrameSet* set : sets())
-                    if (applies(setting, *set))
-                        results.errors.push_back(
-                            {m, p, set->name, s, to_error(*results_.find(error_key({m, s, p}, setting, *set)))});
         }
+    results.errors = all_rows();
+    for (ErrorRow& row : results.errors) {
+        const nlohmann::json& entry = *results_.find(error_key(row));
+        for (const auto& [name, value] : kErrorQuantities) row.error.*value = entry.at(name);
+    }
 }
 
 SweepResults Sweep::run() {
@@ -306,9 +291,7 @@ SweepResults Sweep::run() {
     std::vector<std::filesystem::path> paths;
     for (const ProbeFile& file : inputs_.probes) paths.push_back(file.path);
     results.probes = stems(paths);
-    for (const MaterialSource& material : materials_)
-        results.settings.push_back(inputs_.settings.empty() ? sweep_plan(material.parsed.grating.lobe)
-                                                            : inputs_.settings);
+    for (const MaterialSource& material : materials_) results.settings.push_back(material.settings);
     measure_times(results);
     measure_errors(results);
     collect(results);

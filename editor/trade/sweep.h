@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -19,6 +18,7 @@
 #include "editor/trade/setting.h"
 #include "engine/lighting/probe_image.h"
 #include "modules/diffraction/representations/representation.h"
+#include "modules/diffraction/evaluate/measured_scene.h"
 
 namespace rowland::trade {
 
@@ -34,7 +34,7 @@ ProbeFile parse_probe_file(const std::string& text, const std::string& mapping);
 struct SweepInputs {
     std::vector<std::filesystem::path> materials;
     std::vector<ProbeFile> probes;
-    std::vector<FrameSet> frame_sets;  ///< beside the picture
+    std::vector<FrameSet> frame_sets;  ///< besides the picture
     std::vector<Setting> settings;     ///< empty: sweep_plan()
     glm::ivec2 picture_size{160, 90};
     glm::ivec2 frame_size{640, 360};  ///< of timed frames
@@ -42,13 +42,13 @@ struct SweepInputs {
     std::filesystem::path folder;     ///< of journals and results
 };
 
-/// The error of one setting over one set of frames.
+/// The error of one setting of one material over one set of frames under one probe.
 struct ErrorRow {
     std::size_t material = 0;
     std::size_t probe = 0;
     std::string set;
     std::size_t setting = 0;
-    MethodError error;
+    MethodError error{};
 };
 
 /// What a setting costs with one material, whatever the probe.
@@ -66,27 +66,22 @@ struct SweepResults {
     std::vector<std::vector<Setting>> settings;  ///< of each material: those that suit it
     std::vector<ErrorRow> errors;
     std::vector<CostRow> costs;
-    std::string device;  ///< that times were taken on; empty: none
+    std::string device;  ///< that frames were timed on; empty: none was
 };
 
-/// Measures every setting with every material and probe. What is measured is in journals in the folder at once, so that
-/// the next run of the same folder goes on where this one stopped.
+/// Measures every setting with every material and probe. Each result is written to a journal in the folder at once, so
+/// that the next run in the same folder continues where this one stopped.
 class Sweep {
  public:
-    /// Loads materials and probes. Throws Error (input).
+    /// Loads materials and probes and checks the settings. Throws Error (input).
     explicit Sweep(SweepInputs inputs);
 
     SweepResults run();
 
-    /// XYZ of a set's points by the reference; computed once.
-    std::vector<glm::dvec3> reference(std::size_t material, std::size_t probe, const FrameSet& set);
-    /// XYZ of a set's points by a setting; computed anew.
-    std::vector<glm::dvec3> by_setting(std::size_t material, std::size_t probe, const Setting& setting,
-                                       const FrameSet& set);
-
-    const PictureFrames& picture_frames() const { return picture_; }
-    const lighting::ProbeImage& probe(std::size_t index) const { return probes_[index].image; }
+    /// A set under a probe, with the reference of a material. The reference stays valid.
+    const diffraction::MeasuredScene& scene(std::size_t material, std::size_t probe, const FrameSet& set);
     diffraction::CookedMaterial cook(std::size_t material, const Setting& setting) const;
+    const PictureFrames& picture_frames() const { return picture_; }
     const SweepInputs& inputs() const { return inputs_; }
 
  private:
@@ -95,22 +90,20 @@ class Sweep {
         std::string file;
         std::string hash;
         diffraction::Material parsed;
+        std::vector<Setting> settings;
     };
     struct ProbeSource {
         lighting::ProbeImage image;
         std::string hash;
-        lighting::ShLight projected;  ///< once it is asked for
-    };
-    struct Job {
-        std::size_t material = 0;
-        std::size_t setting = 0;
-        std::size_t probe = 0;
+        std::shared_ptr<diffraction::ProbeLights> lights{};  ///< of `image`
     };
 
-    std::vector<const FrameSet*> sets() const;
-    std::string error_key(const Job& job, const Setting& setting, const FrameSet& set) const;
+    const FrameSet& set_named(const std::string& name) const;
+    std::vector<ErrorRow> all_rows() const;
+    std::vector<glm::dvec3> reference(std::size_t material, std::size_t probe,
+                                      std::span<const diffraction::Frame> frames);
+    std::string error_key(const ErrorRow& row) const;
     std::string time_key(std::size_t material, const Setting& setting, const std::string& device) const;
-    const diffraction::EvaluationLight& light(std::size_t probe, const Setting& setting);
     void measure_errors(const SweepResults& results);
     void measure_times(SweepResults& results);
     void collect(SweepResults& results);
@@ -121,8 +114,11 @@ class Sweep {
     std::vector<ProbeSource> probes_;
     Journal references_;
     Journal results_;
-    std::map<std::tuple<std::size_t, int, math::SphericalWindow>, diffraction::EvaluationLight> lights_;
+    std::map<std::tuple<std::size_t, std::size_t, std::string>, diffraction::MeasuredScene> scenes_;
 };
+
+/// The CSV files that a material file names. Throws Error (input).
+std::vector<std::filesystem::path> files_named_in(const std::filesystem::path& material);
 
 /// Bytes of light that a vertex holds for these tables, uploaded whenever the light or the object turns.
 std::size_t vertex_light_bytes(const diffraction::BakedTables& tables);

@@ -7,6 +7,7 @@
 #include "engine/cook/source_file.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
+#include "engine/core/outputs.h"
 
 namespace rowland::cook {
 
@@ -25,12 +26,6 @@ Hash128 content_hash(const Context& context, const AssetType& type) {
         hashes.push_back(*now);
     }
     return content_hash(type, hashes);
-}
-
-void check_output_is_no_source(const std::filesystem::path& output, const std::filesystem::path& source) {
-    std::error_code missing;
-    if (!std::filesystem::equivalent(output, source, missing)) return;
-    refuse_input(output.string(), {}, "the output is one of the sources", "a file of its own", "name another output");
 }
 
 }  // namespace
@@ -64,9 +59,11 @@ BakedAsset bake_source(const Registry& registry, const std::filesystem::path& so
 
 BakedAsset cook_source(const Registry& registry, const std::filesystem::path& source,
                        const std::filesystem::path& output, const CookSettings& settings) {
-    check_output_is_no_source(output, source);
+    std::vector<Output> outputs = {{"--output", output}};
+    if (settings.depfile) outputs.push_back({"--depfile", *settings.depfile});
+    check_outputs({&source, 1}, outputs);
     BakedAsset baked = bake_source(registry, source);
-    for (const std::filesystem::path& dependency : baked.dependencies) check_output_is_no_source(output, dependency);
+    check_outputs(baked.dependencies, outputs);  // what the source names is known only now
     // Made before anything is written, since it may refuse a name.
     const std::string depfile = settings.depfile ? depfile_text(output, baked.dependencies) : std::string();
 

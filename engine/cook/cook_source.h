@@ -38,7 +38,8 @@ struct CookSettings {
 
 /// Bakes `source` and writes `output`, then the depfile: whole or, if anything fails, not at all. It always bakes:
 /// when to cook is the build system's decision, since only that knows whether the cooker itself is the one that wrote
-/// an existing output. Throws Error like bake_source and write_file_atomic, and if `output` is one of the sources.
+/// an existing output. Throws Error like bake_source and write_file_atomic, and
+/// before it bakes (for the files that the source names: before it writes) where check_outputs() refuses an output.
 BakedAsset cook_source(const Registry& registry, const std::filesystem::path& source,
                        const std::filesystem::path& output, const CookSettings& settings = {});
 

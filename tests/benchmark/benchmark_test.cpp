@@ -97,8 +97,8 @@ TEST(FrameBenchmark, DrawsAndPrintsEveryVariant) {
 
     // Half of the picture, as the product's figures say. Its edge pixels: one of 36 rows.
     EXPECT_NEAR(frames.report.at("coverage"), 0.5, 1.0 / 36.0);
-    // One light, two ways to shade it, in one place each: alike but for the kernel's smoothing over a pixel and the
-    // pixel's own edges (measured: 1e-4 at 640 × 360, where pixels are a tenth as wide).
+    // The same light shaded in two ways: equal but for the kernel's smoothing over a pixel and for edge pixels
+    // (measured: 1e-4 at 640 × 360, where pixels are a tenth as wide).
     for (const char* lights : {"1", "4", "16", "64"})
         EXPECT_NEAR(frames.radiance(std::string("light-loop/lights:") + lights) /
                         frames.radiance(std::string("direct/lights:") + lights),

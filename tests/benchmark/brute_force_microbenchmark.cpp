@@ -1,5 +1,5 @@
 // The compact disc's view table (five bands, 64 × 32 views, all wavelengths) in closed form and as Lindsay & Agu 2006
-// compute it, by 15 000 stratified samples of the sphere a view: what either takes and how wrong either is.
+// compute it, by 15 000 stratified samples of the sphere per view: the time and the error of both.
 #include <cmath>
 #include <cstdlib>
 #include <ctime>
@@ -56,9 +56,9 @@ Grating cd_grating() {
         .grating;
 }
 
-/// What brute force tends to, flat lobe: the same integrand over s = (a, r cos t, r sin t), midpoints in a and Gauss in
-/// t. It shares neither the arc coefficients nor the wavelength sums of the closed form; half the number of midpoints
-/// changes it by less than 1e-5.
+/// The limit of brute force for the flat lobe: the same integrand over s = (a, r cos t, r sin t), midpoints in a and
+/// Gauss in t. It shares neither the arc coefficients nor the wavelength sums of the closed form; half the number of
+/// midpoints changes it by less than 1e-5.
 Coefficients fine_quadrature(const Grating& grating, const glm::dvec3& view) {
     constexpr int kSteps = 16'000;
     const colour::LightSpectra spectra;
@@ -101,13 +101,13 @@ double sum_of_squares(const glm::dmat3& m) {
     return glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]);
 }
 
-/// What a bake takes for a view, in seconds of one core, and its relative RMS error over the nodes.
+/// The time of a bake per view, in seconds of one core, and its relative RMS error over the nodes.
 struct Bake {
     double seconds = 0.0;
     double error = 0.0;
 };
 
-/// Of the processor, which the machine's other work does not disturb.
+/// Processor time, which other programs do not disturb.
 double seconds_now() {
     return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }

@@ -6,12 +6,12 @@
 
 namespace rowland::benchmark {
 
-/// A representation that surfaces are drawn with, at the settings that are timed.
+/// A representation with the settings that are timed.
 struct TimedRepresentation {
     std::string name;
     nlohmann::json quality;  ///< as in the material file
-    /// Whether key lights may be left in the probe, for harmonics or maps. Harmonics take directional lights, too; all
-    /// others shade them one by one.
+    /// Whether key lights may stay in the probe, for harmonics or maps. Harmonics include directional lights; the
+    /// other representations shade them one by one.
     bool folds_lights = false;
     nlohmann::json groove_lobe = "flat";
 };

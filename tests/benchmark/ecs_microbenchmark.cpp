@@ -1,4 +1,4 @@
-// A million entities: made, destroyed, visited and changed. "each" is the time for one entity.
+// A million entities: created, destroyed, visited and changed. "each" is the time for one entity.
 #include <utility>
 #include <vector>
 
@@ -40,7 +40,7 @@ void create(State& state) {
         ecs::World world;
         ::benchmark::DoNotOptimize(fill<N>(world).data());
         state.PauseTiming();  // the world's destruction is not creation
-        { const ecs::World gone = std::move(world); }
+        { const ecs::World destroyed = std::move(world); }
         state.ResumeTiming();
     }
     report_each(state, kEntities);

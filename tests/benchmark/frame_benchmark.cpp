@@ -23,8 +23,8 @@ namespace {
 
 using namespace benchmark;
 
-constexpr int kFramesPerRound = 2;          ///< one after the other: the second finds warm caches
-constexpr double kMost_ms_per_round = 250;  ///< of a variant: slower ones sit rounds out
+constexpr int kFramesPerRound = 2;          ///< in sequence: the second has warm caches
+constexpr double kMost_ms_per_round = 250;  ///< of a variant: slower ones skip rounds
 
 struct Options {
     glm::ivec2 size{1280, 720};
@@ -38,16 +38,15 @@ struct Options {
     std::optional<std::filesystem::path> pictures;
 };
 
-/// Nothing if the program is to end with the status.
+/// nullopt if the program is to end with the status.
 std::optional<Options> parse_options(int argc, char** argv, int& status) {
     Options options;
     CLI::App app{"Frame times of the diffraction material against the plain one: minima over interleaved rounds.",
                  "rowland-benchmark"};
     app.footer(
         "A name is REPRESENTATION[/WHAT IS DIFFERENT]; --list prints all. Ratios are to the frame in the last column,\n"
-        "which is drawn, too: of the time until the picture is done, and of the GPU's own time, or that of all "
-        "threads\n"
-        "where the processor draws, which other programs on the machine hardly disturb.\n"
+        "which is drawn as well: of the time until the picture is done, and of the GPU's own time, or where the\n"
+        "processor draws of the time of all its threads, which other programs hardly disturb.\n"
         "example: rowland-benchmark --only 'planar*,arc' --rounds 30 --json frames.json");
     app.add_option("--width", options.size.x, "Width in pixels")->check(CLI::Range(16, 8192))->capture_default_str();
     app.add_option("--height", options.size.y, "Height in pixels")->check(CLI::Range(16, 8192))->capture_default_str();
@@ -57,9 +56,9 @@ std::optional<Options> parse_options(int argc, char** argv, int& status) {
     app.add_option("--only", options.only, "Names or patterns, with commas between them")->delimiter(',');
     app.add_flag("--list", options.list, "Print the names of all variants and draw nothing");
     app.add_flag("--markdown", options.markdown, "Print a Markdown table");
-    app.add_option("--json", options.json, "Write the results to a file, too");
+    app.add_option("--json", options.json, "Also write the results to a file");
     app.add_option("--output-folder", options.output_folder,
-                   "Write results and table to frames-RENDERER.json and .md in a folder, too");
+                   "Also write results and table to frames-RENDERER.json and .md in a folder");
     app.add_flag("--require-gpu", options.require_gpu, "Fail where the processor draws");
     app.add_option("--pictures", options.pictures, "Write what each variant draws as PNG files to a folder");
     try {
@@ -78,7 +77,7 @@ double mean_radiance(const gpu::Framebuffer& picture) {
     return sum / static_cast<double>(pixels.size());
 }
 
-/// Share of the pixels that show the disc: those that differ between the plain and the unlit frame.
+/// The fraction of the pixels that show the disc: those that differ between the plain and the unlit frame.
 double coverage(FrameStage& stage, bool software) {
     FrameVariant variant = all_variants().front();
     FrameScene(variant, stage, software).draw();

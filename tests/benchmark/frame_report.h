@@ -15,10 +15,10 @@ struct FrameResult {
     double minimum_ms = 0.0;  ///< least time until the picture was done
     double median_ms = 0.0;
     double work_ms = 0.0;        ///< least time of the GPU, or of the processor where that draws
-    double mean_radiance = 0.0;  ///< of the picture: what was drawn, as one number
+    double mean_radiance = 0.0;  ///< of the picture
 };
 
-/// All of a run.
+/// All results of a run.
 struct FrameReport {
     std::string processor;
     unsigned threads = 0;
@@ -28,10 +28,10 @@ struct FrameReport {
     bool software = true;  ///< the processor draws
     glm::ivec2 size{0};
     int rounds = 0;
-    double coverage = 0.0;  ///< share of the picture that shows the disc
+    double coverage = 0.0;  ///< fraction of the picture that shows the disc
     std::vector<FrameResult> results;
 
-    /// A result's least time over its baseline's, and the same of its work.
+    /// A result's least time over its baseline's, and its work over the baseline's.
     double ratio(const FrameResult& result) const;
     double work_ratio(const FrameResult& result) const;
 };
@@ -44,7 +44,7 @@ std::string to_text(const FrameReport& report);
 std::string to_markdown(const FrameReport& report);
 std::string to_json(const FrameReport& report);
 
-/// GL_RENDERER as part of a file's name: lower case, dashes for all that is no letter and no digit.
+/// GL_RENDERER as part of a file's name: lower case, with dashes in place of other characters than letters and digits.
 std::string file_name_of(const std::string& renderer);
 
 }  // namespace rowland::benchmark

@@ -25,7 +25,7 @@ std::vector<glm::dvec3> some_light(int bands) {
 }
 
 /// A matrix as sparse as that of arc moments in a tangent frame: functions odd across the grooves' plane drop out, and
-/// each row takes those of its own parity.
+/// each row has the functions of one parity.
 math::FrameProjection some_projection(int bands) {
     std::vector<double> matrix;
     for (int row = 0; row < 2 * bands - 1; ++row)

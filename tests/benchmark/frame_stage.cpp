@@ -38,7 +38,7 @@ std::filesystem::path cooked_folder() {
     return std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() / "cooked";
 }
 
-/// From above, near enough for the disc to cover half the picture.
+/// From above; the disc covers half the picture.
 scene::Camera camera() {
     scene::Camera result;
     result.eye = {0.0F, 0.096F, 0.02F};

@@ -21,15 +21,15 @@
 
 namespace rowland::benchmark {
 
-/// What frames are drawn with and what several of them share, so that each is kept once.
+/// The renderers, meshes and materials of all variants; those that several variants use are created once.
 class FrameStage {
  public:
     explicit FrameStage(glm::ivec2 size);
 
     const render::MeshInstance& disc(int vertices);
-    /// A renderer for each light, since another light is new work for everything that depends on it.
+    /// One renderer per light: a change of light would update everything that depends on it.
     render::Renderer& renderer(const FrameVariant& variant);
-    /// A variant's material on the GPU; maps of it are filled by its own light.
+    /// A variant's material on the GPU; its light fills the maps.
     std::shared_ptr<const diffraction::GpuMaterial> material(const FrameVariant& variant);
 
     void draw(const FrameVariant& variant, ecs::World& world, render::Shading shading);
@@ -56,11 +56,10 @@ class FrameStage {
         materials_;
 };
 
-/// What a frame took.
+/// The times of a frame.
 struct FrameTime {
     double wall_ms = 0.0;  ///< until the picture is done
-    /// Of what draws: the GPU's own time, or that of all the processor's threads, which other programs on the machine
-    /// hardly disturb.
+    /// The GPU's own time, or where the processor draws that of all its threads; other programs hardly disturb it.
     double work_ms = 0.0;
 };
 
@@ -72,7 +71,7 @@ class FrameScene {
 
     /// Draws the next frame.
     FrameTime draw();
-    /// Draws until nothing is compiled or filled any more.
+    /// Draws until no shader is compiled and no map is filled any more.
     void settle();
     const FrameVariant& variant() const { return variant_; }
 

@@ -73,7 +73,7 @@ void add_plain(std::vector<FrameVariant>& variants) {
 
 void add_representation(const TimedRepresentation& drawn, std::vector<FrameVariant>& variants) {
     variants.push_back(grating(drawn, "", "plain"));
-    if (drawn.name == "streak") return;  // it reads key lights in the probe, and keeps nothing for an object
+    if (drawn.name == "streak") return;  // it reads key lights in the probe, and has no state per object
     variants.push_back(grating(drawn, "/key-lights:16", "plain", Lighting::StudioKeyLights));
     variants.push_back(moving(grating(drawn, "/tilting", "plain"), Motion::Tilting));
     TimedRepresentation at_vertices = drawn;
@@ -86,7 +86,7 @@ void add_representation(const TimedRepresentation& drawn, std::vector<FrameVaria
     variants.push_back(grating(at_vertices, "/key-lights:16/at-vertices", "plain", Lighting::StudioKeyLights));
 }
 
-/// What depends on how many vertices there are.
+/// Variants that show how the time depends on the number of vertices.
 void add_few_vertices(const TimedRepresentation& drawn, std::vector<FrameVariant>& variants) {
     const std::string baseline = "plain/vertices:2500";
     variants.push_back(with_vertices(grating(drawn, "/vertices:2500", baseline), kFewVertices));
@@ -96,7 +96,7 @@ void add_few_vertices(const TimedRepresentation& drawn, std::vector<FrameVariant
 
 void add_lamps_in_probe(const TimedRepresentation& drawn, std::vector<FrameVariant>& variants) {
     for (const int lamps : kLampCounts) {
-        // The whole curve once; of the others where it begins and ends.
+        // The whole curve for one, its ends for the others.
         if (drawn.name != "spikes" && lamps != kLampCounts[0] && lamps != std::end(kLampCounts)[-1]) continue;
         const std::string suffix = "/lights-in-probe:";
         variants.push_back(with_lamps(grating(drawn, suffix, drawn.name + suffix, Lighting::LampsInProbe), lamps));

@@ -16,7 +16,7 @@ enum class Shader {
 
 enum class Motion {
     Rest,
-    Tilting,   ///< its normal turns: what is kept for the object's orientation is made anew each frame
+    Tilting,   ///< its normal turns: what depends on the object's orientation is updated each frame
     Spinning,  ///< about its own axis
 };
 
@@ -41,11 +41,11 @@ struct FrameVariant {
     bool post = false;  ///< bloom, vignette and display transform after it
 };
 
-/// All frames that are timed, each baseline before what is compared with it.
+/// All frames that are timed, each baseline before the variants that are compared with it.
 std::vector<FrameVariant> all_variants();
 
-/// Those whose names match one of the patterns (as file names match a shell's), and their baselines; all if there are
-/// no patterns. Throws Error (input) for a pattern that matches none.
+/// The variants whose names match one of the patterns (as in a shell), and their baselines; without patterns all.
+/// Throws Error (input) for a pattern that matches none.
 std::vector<FrameVariant> choose_variants(const std::vector<std::string>& patterns);
 
 }  // namespace rowland::benchmark

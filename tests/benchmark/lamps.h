@@ -8,11 +8,10 @@
 
 namespace rowland::benchmark {
 
-/// So many lamps, spread evenly over the upper part of the sky; together as bright as one, however many there are.
+/// Lamps spread evenly over the upper part of the sky. Their sum does not depend on their number.
 std::vector<scene::DirectionalLight> lamps(int count);
 
-/// A dim room with the same lamps, six degrees wide, in the picture that the probe is made of; none of them is a key
-/// light.
+/// A probe of a dim room with the same lamps, six degrees wide; none of them becomes a key light.
 lighting::LightProbe lamp_room(int count);
 
 }  // namespace rowland::benchmark

@@ -18,7 +18,7 @@ using ::benchmark::State;
 constexpr int kProbeWidth = 1024;
 constexpr int kLightFace = 256;  ///< of the cube that a cooked probe's light is stored in
 
-/// Made when first asked for: outside of the timed loops.
+/// Built on first use, outside the timed loops.
 const lighting::LightTexels& studio_texels() {
     static const lighting::LightTexels texels = [] {
         const lighting::StudioRecipe room{.ceiling = glm::dvec3(0.02),
@@ -58,7 +58,7 @@ void fill_planar(State& state, int side) {
                                        .xyz.data());
 }
 
-/// What a frame does of it while the map fills: 8 azimuths of 128.
+/// A frame's part of the work while the map fills: 8 of 128 azimuths.
 void fill_planar_in_part(State& state) {
     const glm::dvec3 normal = glm::normalize(glm::dvec3(0.2, 0.9, 0.3));
     const diffraction::PlanarFill fill(studio_texels(), cd().kernel, cd().material.grating.pitch_nm, normal);

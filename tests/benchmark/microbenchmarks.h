@@ -17,7 +17,7 @@ void register_brute_force();
 void register_map_fills();
 void register_entities();
 
-/// Adds the column "each": seconds for one of `items` things an iteration does.
+/// Adds the column "each": seconds for one of the `items` of an iteration.
 inline void report_each(::benchmark::State& state, std::size_t items) {
     state.counters["each"] = ::benchmark::Counter(
         static_cast<double>(items), ::benchmark::Counter::kIsIterationInvariantRate | ::benchmark::Counter::kInvert);

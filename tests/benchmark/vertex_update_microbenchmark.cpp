@@ -1,5 +1,5 @@
-// What an object of 25 000 vertices costs the processor in a frame in which it has turned: the paper's steps 1 and 2
-// without the upload, for each representation that needs them.
+// The processor time for an object of 25 000 vertices in a frame after it has turned: the paper's steps 1 and 2 without
+// the upload, for each representation that needs them.
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <string>
@@ -43,7 +43,7 @@ void turn(State& state, const Update& update) {
     report_each(state, disc.positions.size());
 }
 
-/// Spikes, bins and transfer: 25 coefficients a vertex and colour.
+/// Spikes, bins and transfer: 25 coefficients per vertex and colour.
 void rotate_light(State& state) {
     turn(state, [](const lighting::ShLight& light, const scene::Mesh& mesh, const glm::mat4& matrix) {
         return diffraction::rotate_to_vertices(light, mesh, matrix);

@@ -218,14 +218,28 @@ TEST_F(CookFaults, OnAFullDiskItKeepsTheOldAssetAndSaysWhy) {
     EXPECT_EQ(read_text_file(asset, 1 << 24), cooked());
 }
 
+/// What the user names and cannot be written is bad usage, found before work begins.
+TEST_F(CookFaults, DevicesAndFilesInPlaceOfFoldersAreBadUsage) {
+    for (const std::filesystem::path& output : {std::filesystem::path("/dev/full"), path("efficiency.csv") / "asset"}) {
+        const Ended ended = test::run(cook_to(output));
+        EXPECT_EQ(ended.code, 2) << output;
+        EXPECT_THAT(ended.err, HasSubstr("--output " + output.string()));
+    }
+    test::Command with_depfile = cook_to(path("out/asset"));
+    with_depfile.insert(with_depfile.end(), {"--depfile", path("grating.json")});
+    EXPECT_EQ(test::run(with_depfile).code, 2);
+    EXPECT_EQ(text("grating.json"), material(1600));
+    EXPECT_EQ(outputs(), std::set<std::string>{});
+}
+
 TEST_F(CookFaults, IntoAReadOnlyFolderNothingIsWrittenAndTheMessageSaysWhy) {
     write("out/asset", "old");
     std::filesystem::permissions(path("out"), std::filesystem::perms(0555));
     for (const char* name : {"out/asset", "out/new", "out/folder/new"}) {
         const Ended ended = test::run(cook_to(path(name)), {.obey_modes = true});
-        EXPECT_EQ(ended.code, 1) << name;
+        EXPECT_EQ(ended.code, 2) << name << ": known before work begins";
         EXPECT_THAT(ended.err, AllOf(HasSubstr(path("out").string()), HasSubstr("Permission denied"),
-                                     HasSubstr("check permissions")));
+                                     HasSubstr("name another file")));
     }
     EXPECT_EQ(text("out/asset"), "old");
     EXPECT_EQ(outputs(), std::set<std::string>{"asset"});
@@ -236,7 +250,7 @@ TEST_F(CookFaults, OntoAReadOnlyFileSystemNothingIsWrittenAndTheMessageSaysWhy) 
     ROWLAND_NEEDS_MOUNTED(disk);
     disk.make_read_only();
     const Ended ended = test::run(cook_to(disk.path() / "folder" / "asset"));
-    EXPECT_EQ(ended.code, 1);
+    EXPECT_EQ(ended.code, 2);
     EXPECT_THAT(ended.err, AllOf(HasSubstr(disk.path().string()), HasSubstr("Read-only file system")));
 }
 

@@ -129,7 +129,7 @@ TEST_F(SweepFaults, IntoAReadOnlyFolderItStopsBeforeItMeasures) {
     std::filesystem::create_directory(path("out"));
     std::filesystem::permissions(path("out"), std::filesystem::perms(0555));
     const Ended ended = test::run(sweep_to(path("out/results")), {.obey_modes = true});
-    EXPECT_EQ(ended.code, 1);
+    EXPECT_EQ(ended.code, 2);
     EXPECT_THAT(ended.err, AllOf(HasSubstr(path("out/results").string()), HasSubstr("Permission denied")));
     EXPECT_TRUE(std::filesystem::is_empty(path("out")));
 }

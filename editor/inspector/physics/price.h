@@ -13,18 +13,18 @@
 
 namespace rowland::inspector {
 
-/// A representation with what it costs and what it loses.
+/// A representation with its cost and its error.
 struct PricedChoice {
     nlohmann::json settings;  ///< members of "quality"
     diffraction::ShadingCost cost;
     double price = 0.0;     ///< shading_price()
     double error = 0.0;     ///< relative RMS against the reference
-    bool candidate = true;  ///< of budget_candidates(); else the material's own alone
-    bool present = false;   ///< it is what the material pins
-    bool on_front = false;  ///< nothing measured so far is both cheaper and better
+    bool candidate = true;  ///< one of budget_candidates(); else only what the material pins
+    bool present = false;   ///< what the material pins
+    bool on_front = false;  ///< no other choice is as good in price and error and better in one of them
 };
 
-/// What is measured so far.
+/// What has been measured so far.
 struct PriceList {
     std::vector<PricedChoice> choices;  ///< in the order they were measured, the present one first
     std::size_t done = 0;               ///< steps: bakes and measurements
@@ -33,20 +33,20 @@ struct PriceList {
 
 struct PriceQuery {
     diffraction::Material material;
-    nlohmann::json quality;  ///< the material's, where it pins something
+    nlohmann::json quality;  ///< the material's, where it pins a representation
     const lighting::ProbeImage& probe;
     int key_lights = 16;
     diffraction::SurfaceShape surface = diffraction::SurfaceShape::Flat;
-    bool present_only = false;  ///< what the material pins, and no candidates
+    bool present_only = false;  ///< no candidates, only what the material pins
 };
 
-/// Measures the material as it is, then every one of budget_candidates(), the cheapest first, over measured_frames()
-/// under the probe: the errors by which choose_representation() chooses. `report` gets the list after each. Returns
-/// early when it is asked to stop, between two settings.
+/// Measures the material as it is, then all budget_candidates(), the cheapest first, by diffraction::search() over
+/// measured_frames(): the search by which choose_representation() chooses. `report` gets the list after each step.
+/// Returns early when it is asked to stop, between two settings.
 void price_choices(const PriceQuery& query, const std::function<void(const PriceList&)>& report,
                    const std::stop_token& stop);
 
-/// The cheapest choice within `max_error`: what choose_representation() takes. Nothing if none is.
+/// The cheapest choice within `max_error`: what choose_representation() takes. nullopt if there is none.
 std::optional<PricedChoice> cheapest_within(const PriceList& list, double max_error);
 
 }  // namespace rowland::inspector

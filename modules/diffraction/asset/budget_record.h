@@ -8,27 +8,27 @@
 
 namespace rowland::diffraction {
 
-/// What was measured when a material's representation was chosen for its max_error.
+/// The measurements by which a material's representation was chosen for its max_error.
 struct BudgetRecord {
     struct OfProbe {
         std::string probe;   ///< as the material names it
-        int key_lights = 0;  ///< taken out of it at most, and shaded on their own
+        int key_lights = 0;  ///< taken out of it at most, and shaded one by one
         double error = 0.0;  ///< relative RMS, ≤ max_error
     };
 
     double max_error = 0.0;
     SurfaceShape surface = SurfaceShape::Flat;
-    int frames = 0;      ///< that the error is over
-    double price = 0.0;  ///< shading_price() of what was chosen
+    int frames = 0;      ///< that each error is measured over
+    double price = 0.0;  ///< shading_price() of the chosen representation
     std::vector<OfProbe> probes;
 };
 
 /// "flat" or "curved".
 const char* surface_shape_name(SurfaceShape surface);
 
-/// As compact JSON, the same bytes for the same record.
+/// Compact JSON; equal bytes for equal records.
 std::string write_budget_record(const BudgetRecord& record);
-/// Inverse of write_budget_record() for text that may be hostile. Throws Error (input) naming `file`.
+/// Inverse of write_budget_record() for untrusted text. Throws Error (input) naming `file`.
 BudgetRecord parse_budget_record(std::string_view text, const std::string& file);
 
 }  // namespace rowland::diffraction

@@ -11,23 +11,17 @@
 namespace rowland::diffraction {
 
 PointComparer::PointComparer(lighting::ProbeImage probe, int key_lights)
-    : probe_(std::move(probe)), key_lights_(key_lights) {}
-
-const EvaluationLight& PointComparer::light(bool with_key_lights, math::SphericalWindow window) {
-    for (const Divided& known : divided_)
-        if (known.with_key_lights == with_key_lights && known.window == window) return *known.light;
-    divided_.push_back({with_key_lights, window,
-                        std::make_unique<const EvaluationLight>(probe_, with_key_lights ? key_lights_ : 0, window)});
-    return *divided_.back().light;
-}
+    : probe_(std::make_unique<const lighting::ProbeImage>(std::move(probe))),
+      key_lights_(key_lights),
+      lights_(*probe_) {}
 
 lighting::ShLight PointComparer::harmonics(bool with_key_lights, int bands) {
-    return light(with_key_lights, math::SphericalWindow::None).harmonics(bands);
+    return lights_.split(with_key_lights ? key_lights_ : 0).harmonics(bands);
 }
 
 PointComparison PointComparer::compare(const std::shared_ptr<const CookedMaterial>& cooked,
                                        math::SphericalWindow window, const Frame& frame) {
-    const EvaluationLight& lit = light(cooked->material.quality.key_lights, window);
+    const EvaluationLight& lit = lights_.split(cooked->material.quality.key_lights ? key_lights_ : 0, window);
     if (!ready_ || ready_->cooked != cooked || ready_->light != &lit)
         ready_.emplace(Ready{cooked, &lit, baked_shader(*cooked, lit)});
     const std::array points{frame};
@@ -35,7 +29,7 @@ PointComparison PointComparer::compare(const std::shared_ptr<const CookedMateria
     PointComparison result;
     result.shown =
         evaluate_points(info(cooked->tables).name, ready_->shader, *cooked, lit, points)[0];
-    result.reference = reference_radiance(cooked->material.grating, probe_, spectra, points)[0];
+    result.reference = reference_radiance(cooked->material.grating, *probe_, spectra, points)[0];
     result.error = relative_rms(std::span(&result.shown, 1), std::span(&result.reference, 1));
     return result;
 }

@@ -3,7 +3,6 @@
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
-#include <vector>
 
 #include "engine/lighting/probe_image.h"
 #include "engine/math/sh_window.h"
@@ -17,15 +16,15 @@ namespace rowland::diffraction {
 /// XYZ of one point's listed orders under a probe: no base layer, no mirror, no other lights.
 struct PointComparison {
     glm::dvec3 shown{0.0};      ///< as the material's representation shades it, as evaluate_baked()
-    glm::dvec3 reference{0.0};  ///< as it is: reference_radiance() at the material's illuminant
+    glm::dvec3 reference{0.0};  ///< reference_radiance() at the material's illuminant
     double error = 0.0;         ///< relative_rms() of the two
 };
 
-/// Compares points with the reference one after the other, under one probe. What is derived from the probe and a
-/// material is made for the first point and kept for the next ones. For one thread at a time.
+/// Compares points with the reference one after the other, under one probe. What depends on the probe and the material
+/// alone is computed once. For one thread at a time.
 class PointComparer {
  public:
-    /// `key_lights`: most that are taken out of the probe for materials that shade them on their own.
+    /// `key_lights`: taken out of the probe at most, for materials that shade key lights one by one.
     PointComparer(lighting::ProbeImage probe, int key_lights);
 
     /// `window`: on the light of tables over harmonics. The frame must be valid. Throws Error (input) where the
@@ -37,14 +36,6 @@ class PointComparer {
     lighting::ShLight harmonics(bool with_key_lights, int bands);
 
  private:
-    const EvaluationLight& light(bool with_key_lights, math::SphericalWindow window);
-
-    /// Light divided in one way.
-    struct Divided {
-        bool with_key_lights;
-        math::SphericalWindow window;
-        std::unique_ptr<const EvaluationLight> light;
-    };
     /// The last material, ready to shade.
     struct Ready {
         std::shared_ptr<const CookedMaterial> cooked;
@@ -52,9 +43,9 @@ class PointComparer {
         PointShader shader;
     };
 
-    lighting::ProbeImage probe_;
+    std::unique_ptr<const lighting::ProbeImage> probe_;  ///< on the heap: the lights refer to it
     int key_lights_;
-    std::vector<Divided> divided_;
+    ProbeLights lights_;
     std::optional<Ready> ready_;
 };
 

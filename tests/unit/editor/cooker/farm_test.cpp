@@ -240,5 +240,24 @@ TEST_F(WorkerTest, AnUnknownJobIsRefusedAndAnyKnownOneCanBeDoneAlone) {
     EXPECT_FALSE(std::filesystem::exists(path("cooked/a.cooked")));
 }
 
+TEST_F(WorkerTest, AJobThatWouldOverwriteAnInputOrAnotherOutputIsRefusedBeforeAnyIsDone) {
+    write_sources();
+    const std::vector<Job> good = plan();
+    const auto refusal = [&](std::size_t job, const std::filesystem::path& output) {
+        std::vector<Job> jobs = good;
+        jobs[job].output = output;
+        write("plan.jsonl", write_plan(jobs));
+        const test::Ended ended = test::run(worker());
+        EXPECT_EQ(ended.code, 2) << output;
+        EXPECT_FALSE(std::filesystem::exists(path("cooked"))) << output;
+        return ended.err;
+    };
+    EXPECT_THAT(refusal(1, path("sources/c.tiles")), HasSubstr("the same file as an input"));
+    EXPECT_THAT(refusal(1, path("plan.jsonl")), HasSubstr("the same file as an input"));
+    EXPECT_THAT(refusal(1, good[0].output), HasSubstr("the output of job " + good[0].id));
+    EXPECT_THAT(refusal(1, "/dev/full"), HasSubstr("/dev/full"));
+    EXPECT_EQ(read("sources/c.tiles"), "size 3009\n");
+}
+
 }  // namespace
 }  // namespace rowland::editor

@@ -131,7 +131,7 @@ TEST_F(ReportPage, ChartsShowTheTablesNumbers) {
     const std::string page = report("--frame-size 64 36 --setting direct/key_lights=2");
     const auto measured = rows();
     for (const char* set : {"tilted_cd", "sphere", "picture"}) {
-        expect_points(page, measured, set, "ratio",
+        expect_points(page, measured, set, "frame_ratio",
                       [](const test::Row& row) { return std::stod(row.at("frame_ratio")); });
         expect_points(page, measured, set, "memory", [](const test::Row& row) {
             return (std::stod(row.at("table_bytes")) + 25000.0 * std::stod(row.at("vertex_bytes"))) / 1e6;

@@ -37,7 +37,7 @@ TEST(Report, MarksTheFronts) {
     EXPECT_TRUE(rows[1].contains("front_speed"));
     EXPECT_FALSE(rows[2].contains("front_speed"));
     EXPECT_TRUE(rows[0].contains("front_memory"));
-    EXPECT_EQ(rows[1]["ratio"], 1.2);
+    EXPECT_EQ(rows[1]["frame_ratio"], 1.2);
     EXPECT_EQ(rows[2]["memory"], 3000);
 }
 
@@ -45,7 +45,7 @@ TEST(Report, FiguresFollowTheMeasurements) {
     SweepResults changed = results();
     changed.errors[1].error.relative_rms = 0.9;
     const auto data = report_data(changed, {}, {}, {});
-    EXPECT_EQ(data["panels"][0]["rows"][1]["error"], 0.9);
+    EXPECT_EQ(data["panels"][0]["rows"][1]["relative_rms"], 0.9);
     EXPECT_TRUE(data["panels"][0]["rows"][2].contains("front_speed"));
 }
 

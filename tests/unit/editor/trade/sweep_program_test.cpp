@@ -214,6 +214,63 @@ TEST_F(TradeSweep, WrongUsageExitsWith2AndSaysWhy) {
                 HasSubstr("--difference"));
 }
 
+/// Nothing is timed or measured before all settings are known to be good.
+TEST_F(TradeSweep, AWrongSettingIsRefusedBeforeWorkBegins) {
+    const auto refused =
+        run("sweep --material cd.json --probe sky.hdr --setting arc/bands=4/rank=8 --setting arc/rang=3 "
+            "--output results");
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_THAT(refused.messages, HasSubstr("rank"));
+    EXPECT_EQ(lines("results/references.jsonl") + lines("results/journal.jsonl"), 0U);
+}
+
+TEST_F(TradeSweep, NoOutputIsAnInputOrADevice) {
+    const std::string cd = file("cd.json");
+    const auto refusal = [&](const std::string& arguments) {
+        const auto outcome = run(arguments);
+        EXPECT_EQ(outcome.exit_code, 2) << arguments;
+        EXPECT_EQ(file("cd.json"), cd) << arguments;
+        return outcome.messages;
+    };
+    const std::string common = " --material cd.json --probe sky.hdr ";
+    EXPECT_THAT(refusal("sweep --output /dev/full" + common), HasSubstr("/dev/full"));
+    EXPECT_THAT(refusal("sweep --output cd.json" + common), HasSubstr("cd.json"));
+    EXPECT_THAT(refusal("compare --method arc --difference /dev/full" + common), HasSubstr("--difference"));
+    EXPECT_THAT(refusal("compare --method arc --difference d.jpg" + common), HasSubstr(".png"));
+    std::filesystem::create_hard_link(folder_.path() / "cd.json", folder_.path() / "d.png");
+    EXPECT_THAT(refusal("compare --method arc --difference d.png" + common), HasSubstr("an input"));
+    std::filesystem::create_directory(folder_.path() / "results");
+    for (const char* name : {"journal.jsonl", "references.jsonl", "sweep.csv", "sweep.jsonl", "report.html"}) {
+        const auto link = folder_.path() / "results" / name;
+        std::filesystem::create_symlink(folder_.path() / "cd.json", link);
+        EXPECT_THAT(refusal("report --output results" + common), HasSubstr("an input")) << name;
+        std::filesystem::remove(link);
+    }
+    // A file that the material names is an input as well.
+    write_file_atomic(folder_.path() / "table.json",
+                      R"({"grating": {"pitch_nm": 1600, "profile": {"type": "table", "file": "results/sweep.csv"}}})");
+    write_file_atomic(folder_.path() / "results" / "sweep.csv",
+                      "wavelength_nm,R-1,R+0,R+1\n380,.1,.1,.1\n780,.1,.1,.1\n");
+    EXPECT_THAT(refusal("sweep --output results --material table.json --probe sky.hdr"), HasSubstr("an input"));
+}
+
+TEST_F(TradeSweep, NumbersThatAreNoSizesAreRefused) {
+    for (const char* number : {"nan", "inf", "-inf", "0", "-1", "1e300", "8.5", ""})
+        for (const std::string option : {"--picture-size", "--frame-size", "--size", "--magnified", "--bands"}) {
+            const std::string command = option == "--bands" ? "project --probe sky.hdr"
+                                        : option.ends_with("e-size")
+                                            ? "sweep --output r --material cd.json --probe sky.hdr"
+                                            : "compare --method arc --material cd.json --probe sky.hdr";
+            const std::string values =
+                option.ends_with("size") ? fmt::format("'{0}' '{0}'", number) : fmt::format("'{}'", number);
+            const auto refused = run(fmt::format("{} {} {}", command, option, values));
+            EXPECT_EQ(refused.exit_code, 2) << command << option << number;
+            if (*number != '-') {
+                EXPECT_THAT(refused.messages, HasSubstr(option)) << number;
+            }
+        }
+}
+
 TEST_F(TradeSweep, HelpShowsAnExample) {
     for (const char* command : {"compare --help", "sweep --help", "report --help"}) {
         const auto help = run(command);

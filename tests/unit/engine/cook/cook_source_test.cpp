@@ -171,12 +171,30 @@ TEST_F(CookSourceTest, LibraryFailuresNameTheSource) {
 TEST_F(CookSourceTest, OutputMustNotBeASource) {
     write("b.txt", "x");
     const auto source = write("a.tiles", "include b.txt\n");
-    EXPECT_THAT(refusal_of([&] { cook_source(registry_, source, source); }), HasSubstr("one of the sources"));
-    EXPECT_THAT(refusal_of([&] { cook_source(registry_, source, path("b.txt")); }), HasSubstr("one of the sources"));
+    EXPECT_THAT(refusal_of([&] { cook_source(registry_, source, source); }), HasSubstr("the same file as an input"));
+    EXPECT_THAT(refusal_of([&] { cook_source(registry_, source, path("b.txt")); }),
+                HasSubstr("the same file as an input"));
+    for (const char* file : {"a.tiles", "b.txt"})
+        EXPECT_THAT(refusal_of([&] { cook_source(registry_, source, path("new"), {.depfile = path(file)}); }),
+                    HasSubstr("the same file as an input"));
+    EXPECT_THAT(refusal_of([&] { cook_source(registry_, source, path("new"), {.depfile = path("new")}); }),
+                HasSubstr("the output of --output"));
+    EXPECT_FALSE(std::filesystem::exists(path("new")));
     std::filesystem::create_hard_link(source, path("link"));
-    EXPECT_THAT(refusal_of([&] { cook_source(registry_, source, path("link")); }), HasSubstr("one of the sources"));
+    EXPECT_THAT(refusal_of([&] { cook_source(registry_, source, path("link")); }),
+                HasSubstr("the same file as an input"));
     EXPECT_EQ(text("a.tiles"), "include b.txt\n");
     EXPECT_EQ(text("b.txt"), "x");
+}
+
+/// The bake would fail: the output is refused before it.
+TEST_F(CookSourceTest, OutputThatCannotBeWrittenIsRefusedBeforeTheBake) {
+    const auto source = write("a.tiles", "crash");
+    EXPECT_THAT(refusal_of([&] { cook_source(registry_, source, "/dev/full"); }), HasSubstr("not a regular file"));
+    EXPECT_THAT(refusal_of([&] { cook_source(registry_, source, path("new"), {.depfile = "/dev/full"}); }),
+                HasSubstr("--depfile /dev/full"));
+    EXPECT_THAT(refusal_of([&] { cook_source(registry_, source, path("a.tiles/under_a_file")); }),
+                HasSubstr("Not a directory"));
 }
 
 TEST_F(CookSourceTest, WhatIsNoSourceIsRefused) {

@@ -1,0 +1,17 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace rowland::trade {
+
+/// Each adds a subcommand that runs where the command line names it.
+
+/// `project`: the raw radiance SH of a probe on standard output.
+void add_project_command(CLI::App& program);
+/// `sweep`: errors, times, counts and bytes of many settings, as CSV and JSON lines in a folder.
+/// `report`: the same, drawn into one HTML file with the paper's own figures.
+void add_sweep_commands(CLI::App& program);
+
+}  // namespace rowland::trade

@@ -1,0 +1,160 @@
+#include "modules/diffraction/evaluate/search.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "engine/colour/light_spectra.h"
+#include "modules/diffraction/asset/quality_json.h"
+#include "modules/diffraction/evaluate/measured_scene.h"
+#include "modules/diffraction/evaluate/radiance_error.h"
+#include "modules/diffraction/reference/reference.h"
+
+namespace rowland::diffraction {
+
+namespace {
+
+constexpr double kMultiplyAddsPerFetch = 8.0;
+constexpr double kVerticesPerPixel = 25000.0 / (1280.0 * 720.0 / 2.0);
+constexpr double kFetchesPerMebibyte = 0.25;
+constexpr int kProjectedBands = 16;        ///< the most that a setting takes
+constexpr std::size_t kReferencePart = 8;  ///< frames between two looks at the stop token
+
+/// The settings as the material's quality; nullopt if they do not suit its grating.
+std::optional<Quality> as_quality(const nlohmann::json& settings, const Material& material) {
+    std::variant<Quality, Refusal> suited = suited_quality(settings, material.grating);
+    auto* quality = std::get_if<Quality>(&suited);
+    if (quality == nullptr) return std::nullopt;
+    quality->max_error = material.quality.max_error;
+    quality->illuminant = material.quality.illuminant;
+    return std::move(*quality);
+}
+
+class Search {
+ public:
+    Search(const SearchQuery& query, const std::function<void(const SearchState&)>& report, const std::stop_token& stop)
+        : query_(query), report_(report), stop_(stop), spectra_(query.material.quality.illuminant) {
+        const ColourKernel kernel(query.material.grating, spectra_);
+        unbaked_.material = query.material;
+        unbaked_.kernel = tabulate(kernel);
+        unbaked_.zero_order_xyz = kernel.zero_order_xyz();
+        for (const BudgetProbe& probe : query.probes) {
+            most_key_lights_ = std::max(most_key_lights_, probe.key_lights);
+            scenes_.push_back({.name = probe.name,
+                               .lights = std::make_shared<ProbeLights>(probe.image, kProjectedBands),
+                               .surfaces = {{query.frames.begin(), query.frames.end()}},
+                               .part = kReferencePart,
+                               .by_reference = [this, &probe](std::span<const Frame> part) {
+                                   return reference_radiance(query_.material.grating, probe.image, spectra_, part);
+                               }});
+        }
+    }
+    Search(const Search&) = delete;  // the scenes refer to it
+    Search& operator=(const Search&) = delete;
+
+    SearchState run() {
+        std::vector<MeasuredChoice> choices;
+        for (const nlohmann::json& settings : query_.settings)
+            if (auto quality = as_quality(settings, query_.material))
+                choices.push_back({.settings = settings, .quality = std::move(*quality), .baked = {}});
+        state_.total = 2 * choices.size() + (query_.first ? 1 : 0);
+        for (MeasuredScene& scene : scenes_)
+            if (!scene.prepare(stop_)) return std::move(state_);
+        if (query_.first) {
+            MeasuredChoice first{.settings = *query_.first, .quality = query_.material.quality, .baked = {}};
+            bake(first);
+            measure(std::move(first));
+        }
+        for (MeasuredChoice& choice : choices) {
+            if (stop_.stop_requested()) return std::move(state_);
+            bake(choice);
+            step();
+        }
+        std::ranges::stable_sort(choices, {}, &MeasuredChoice::price);
+        for (MeasuredChoice& choice : choices) {
+            if (stop_.stop_requested() || found()) return std::move(state_);
+            measure(std::move(choice));
+        }
+        if (query_.good_enough && !found()) find_best();
+        return std::move(state_);
+    }
+
+ private:
+    void step() {
+        ++state_.done;
+        report_(state_);
+    }
+
+    bool found() const {
+        return query_.good_enough && !state_.measured.empty() && state_.measured.back().error() <= *query_.good_enough;
+    }
+
+    void bake(MeasuredChoice& choice) {
+        nlohmann::json tables = choice.settings;
+        tables.erase("key_lights");
+        std::shared_ptr<const CookedMaterial>& known = baked_[tables.dump()];
+        if (!known) {
+            CookedMaterial cooked = unbaked_;
+            cooked.material.quality = choice.quality;
+            cooked.tables = bake_tables(cooked.material.grating, representation(cooked.material));
+            known = std::make_shared<const CookedMaterial>(std::move(cooked));
+        }
+        choice.baked = known;
+        choice.price = shading_price(shading_cost(known->tables), choice.quality.key_lights ? most_key_lights_ : 0);
+    }
+
+    /// Measures under the probes that follow, until an error is above the limit.
+    void measure_up_to(double limit, MeasuredChoice& choice) {
+        for (std::size_t i = choice.errors.size(); i < scenes_.size() && choice.error() <= limit; ++i) {
+            const int key_lights = choice.quality.key_lights ? query_.probes[i].key_lights : 0;
+            choice.errors.push_back(relative_rms(scenes_[i].shaded(*choice.baked, key_lights), scenes_[i].reference));
+        }
+    }
+
+    void measure(MeasuredChoice choice) {
+        measure_up_to(query_.good_enough.value_or(std::numeric_limits<double>::infinity()), choice);
+        state_.measured.push_back(std::move(choice));
+        step();
+    }
+
+    void find_best() {
+        double best = std::numeric_limits<double>::infinity();
+        for (MeasuredChoice& choice : state_.measured) {
+            if (stop_.stop_requested()) return;
+            measure_up_to(best, choice);
+            best = std::min(best, choice.error());
+        }
+    }
+
+    const SearchQuery& query_;
+    const std::function<void(const SearchState&)>& report_;
+    const std::stop_token& stop_;
+    colour::LightSpectra spectra_;
+    CookedMaterial unbaked_;  ///< all but the tables
+    int most_key_lights_ = 0;
+    std::vector<MeasuredScene> scenes_;
+    std::map<std::string, std::shared_ptr<const CookedMaterial>> baked_;  ///< by settings without key_lights
+    SearchState state_;
+};
+
+}  // namespace
+
+double shading_price(const ShadingCost& cost, int key_lights) {
+    const auto work = [](int fetches, int multiply_adds) { return fetches + multiply_adds / kMultiplyAddsPerFetch; };
+    return work(cost.fetches_per_pixel, cost.multiply_adds_per_pixel) +
+           kVerticesPerPixel * work(cost.fetches_per_vertex, cost.multiply_adds_per_vertex) +
+           key_lights * work(cost.fetches_per_light, cost.multiply_adds_per_light) +
+           kFetchesPerMebibyte * static_cast<double>(cost.table_bytes) / (1 << 20);
+}
+
+double MeasuredChoice::error() const {
+    return errors.empty() ? 0.0 : *std::max_element(errors.begin(), errors.end());
+}
+
+SearchState search(const SearchQuery& query, const std::function<void(const SearchState&)>& report,
+                   const std::stop_token& stop) {
+    return Search(query, report, stop).run();
+}
+
+}  // namespace rowland::diffraction

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "engine/lighting/probe_image.h"
+#include "modules/diffraction/asset/cooked_material.h"
+#include "modules/diffraction/model/frame.h"
+
+namespace rowland::diffraction {
+
+/// Light that an error is measured under.
+struct BudgetProbe {
+    std::string name;  ///< for messages and the record
+    lighting::ProbeImage image;
+    int key_lights = 16;  ///< taken out of it at most, for representations that shade key lights one by one
+};
+
+/// The cost of shading a pixel in texture fetches: a fixed count, never a timing. Eight multiply-adds count as a fetch,
+/// and so do 4 MiB of tables or maps. There are as many vertices as the paper's disc has (25 000) on half of 1280 × 720
+/// pixels. Each pixel shades each key light.
+double shading_price(const ShadingCost& cost, int key_lights);
+
+/// A setting of a material, with what it costs and how far it is from the reference.
+struct MeasuredChoice {
+    nlohmann::json settings;  ///< members of the material's "quality"
+    Quality quality;
+    std::shared_ptr<const CookedMaterial> baked;  ///< shared by settings that differ in key_lights alone
+    double price = 0.0;                           ///< shading_price()
+    std::vector<double> errors{};                 ///< relative_rms() under each probe that was measured, in order
+
+    /// The largest of the errors.
+    double error() const;
+};
+
+/// How far a search has come.
+struct SearchState {
+    std::vector<MeasuredChoice> measured;  ///< in the order of measurement
+    std::size_t done = 0;                  ///< steps: bakes and measurements
+    std::size_t total = 0;
+};
+
+struct SearchQuery {
+    const Material& material;
+    std::span<const BudgetProbe> probes;
+    std::span<const Frame> frames;
+    std::vector<nlohmann::json> settings;   ///< those that do not suit the grating are left out
+    std::optional<nlohmann::json> first{};  ///< the "quality" that the material pins, measured before the others
+    /// Ends the search at the first setting whose errors are all at most this; a setting is not measured under the
+    /// probes that follow one where its error is larger. Where no setting is good enough, they are measured under
+    /// further probes until the one with the least error() is certain.
+    std::optional<double> good_enough{};
+};
+
+/// Measures settings, the cheapest first: `relative_rms()` over the frames against reference_radiance() under the
+/// material's illuminant, with no window on the light. `report` is called after each step. Returns early, between two
+/// steps, when it is asked to stop.
+///
+/// Runs on all cores; the result does not depend on their number.
+SearchState search(const SearchQuery& query, const std::function<void(const SearchState&)>& report,
+                   const std::stop_token& stop = {});
+
+}  // namespace rowland::diffraction

@@ -1,0 +1,138 @@
+#include "modules/diffraction/evaluate/search.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "modules/diffraction/asset/material_json.h"
+#include "modules/diffraction/evaluate/frame_sets.h"
+#include "modules/diffraction/evaluate/measured_scene.h"
+#include "modules/diffraction/evaluate/point_shader.h"
+#include "modules/diffraction/evaluate/radiance_error.h"
+#include "modules/diffraction/reference/reference.h"
+
+namespace rowland::diffraction {
+namespace {
+
+Material searched_material() {
+    return parse_material(
+        nlohmann::json::parse(R"({"grating": {"pitch_nm": 1600, "profile": {"type": "slit", "width_nm": 800}}})"),
+        "cd.json");
+}
+
+BudgetProbe lamp(std::size_t texel) {
+    image::Image image{.width = 32, .height = 16, .texels = std::vector(std::size_t{32} * 16, glm::vec3(0.2F))};
+    image.texels[texel] = glm::vec3(30.0F, 25.0F, 20.0F);
+    return {.name = "lamp", .image = {std::move(image), lighting::Mapping::Equirectangular, "lamp"}, .key_lights = 2};
+}
+
+std::vector<Frame> six_frames() {
+    std::vector<Frame> frames = measured_frames(SurfaceShape::Flat);
+    frames.resize(6);
+    return frames;
+}
+
+const std::vector<nlohmann::json> kSearched = {
+    {{"representation", "arc"}, {"bands", 8}, {"rank", 16}, {"key_lights", true}},
+    {{"representation", "arc"}, {"bands", 3}, {"rank", 4}, {"key_lights", false}},
+    {{"representation", "streak"}},  // does not suit a flat lobe
+    {{"representation", "planar"}, {"map_resolution", 64}},
+};
+
+SearchState searched(const SearchQuery& query, int stop_after = 1000) {
+    std::stop_source stop;
+    int reports = 0;
+    const SearchState found = search(
+        query,
+        [&](const SearchState& state) {
+            EXPECT_EQ(state.done, static_cast<std::size_t>(++reports));
+            if (reports == stop_after) stop.request_stop();
+        },
+        stop.get_token());
+    EXPECT_EQ(found.done, static_cast<std::size_t>(reports));
+    return found;
+}
+
+/// Every suitable setting, by price, each with the error of evaluating it by itself.
+TEST(Search, MeasuresWhatSuitsTheGratingTheCheapestFirst) {
+    const Material material = searched_material();
+    const std::vector<BudgetProbe> probes = {lamp(100), lamp(200)};
+    const std::vector<Frame> frames = six_frames();
+    const SearchState found =
+        searched({.material = material, .probes = probes, .frames = frames, .settings = kSearched});
+    ASSERT_EQ(found.measured.size(), 3U);
+    EXPECT_EQ(found.done, found.total);
+    EXPECT_TRUE(std::ranges::is_sorted(found.measured, {}, &MeasuredChoice::price));
+    for (const MeasuredChoice& choice : found.measured) {
+        ASSERT_EQ(choice.errors.size(), probes.size());
+        nlohmann::json json = {{"grating", {{"pitch_nm", 1600}, {"profile", {{"type", "slit"}, {"width_nm", 800}}}}},
+                               {"quality", choice.settings}};
+        const CookedMaterial alone = cook_material(json, "alone.json");
+        for (std::size_t i = 0; i < probes.size(); ++i) {
+            const EvaluationLight light(probes[i].image, alone.material.quality.key_lights ? probes[i].key_lights : 0,
+                                        math::SphericalWindow::None);
+            const auto reference =
+                reference_radiance(material.grating, probes[i].image, colour::LightSpectra(), frames);
+            EXPECT_NEAR(choice.errors[i], relative_rms(evaluate_baked(alone, light, frames), reference), 1e-12)
+                << choice.settings;
+        }
+    }
+}
+
+TEST(Search, EndsAtTheFirstThatIsGoodEnough) {
+    const Material material = searched_material();
+    const std::vector<BudgetProbe> probes = {lamp(100), lamp(200)};
+    const std::vector<Frame> frames = six_frames();
+    SearchQuery query{.material = material, .probes = probes, .frames = frames, .settings = kSearched};
+    const SearchState all = searched(query);
+    query.good_enough = all.measured[1].error();
+    const std::size_t first = all.measured[0].error() <= *query.good_enough ? 0 : 1;
+    const SearchState some = searched(query);
+    ASSERT_EQ(some.measured.size(), first + 1);
+    EXPECT_EQ(some.measured.back().settings, all.measured[first].settings);
+    EXPECT_EQ(some.measured.back().errors, all.measured[first].errors);
+    // Out of reach: the best of all is certain.
+    query.good_enough = 1e-9;
+    const SearchState none = searched(query);
+    const auto best = std::ranges::min_element(none.measured, {}, &MeasuredChoice::error);
+    EXPECT_EQ(best->settings, std::ranges::min_element(all.measured, {}, &MeasuredChoice::error)->settings);
+    EXPECT_EQ(best->errors.size(), probes.size());
+}
+
+TEST(Search, StopsBetweenTwoSteps) {
+    const Material material = searched_material();
+    const std::vector<BudgetProbe> probes = {lamp(100)};
+    const std::vector<Frame> frames = six_frames();
+    const SearchQuery query{.material = material, .probes = probes, .frames = frames, .settings = kSearched};
+    const SearchState baking = searched(query, 2);
+    EXPECT_EQ(baking.done, 2U);
+    EXPECT_EQ(baking.total, 6U);
+    EXPECT_TRUE(baking.measured.empty());
+    EXPECT_EQ(searched(query, 4).measured.size(), 1U);
+}
+
+/// Stopped between two parts, it continues where it was.
+TEST(MeasuredScene, ItsReferenceCanBeStoppedAndContinued) {
+    const BudgetProbe probe = lamp(100);
+    const std::vector<Frame> frames = six_frames();
+    std::stop_source stop;
+    int parts = 0;
+    MeasuredScene scene{
+        "lamp", std::make_shared<ProbeLights>(probe.image), {frames}, 4, [&](std::span<const Frame> part) {
+            ++parts;
+            stop.request_stop();
+            return std::vector<glm::dvec3>(part.size(), glm::dvec3(parts));
+        }};
+    EXPECT_FALSE(scene.prepare(stop.get_token()));
+    EXPECT_EQ(parts, 1);
+    EXPECT_TRUE(scene.prepare());
+    const std::vector<glm::dvec3>& reference = scene.reference;
+    ASSERT_EQ(reference.size(), frames.size());
+    EXPECT_EQ(reference[3], glm::dvec3(1.0));
+    EXPECT_EQ(reference[4], glm::dvec3(2.0));
+    EXPECT_TRUE(scene.prepare(stop.get_token())) << "nothing is left to stop";
+    EXPECT_EQ(parts, 2);
+}
+
+}  // namespace
+}  // namespace rowland::diffraction
