@@ -11,7 +11,7 @@
 #include "tests/faults/small_disk.h"
 #include "tests/support/program.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/window/needs_xvfb.h"
+#include "tests/support/virtual_display.h"
 
 namespace rowland {
 namespace {
@@ -58,12 +58,6 @@ class PictureFaults : public testing::Test {
     static std::vector<Command> windows() {
         return {{ROWLAND_DEMO, "--disc", "--width", "64", "--height", "36"}, {ROWLAND_INSPECTOR, "--preset", "cd"}};
     }
-    static Command under_xvfb(Command command) {
-        const std::vector<std::string> before = {"/usr/bin/env", "xvfb-run", "-a", "-s",
-                                                 "-noreset -screen 0 400x400x24"};
-        command.insert(command.begin(), before.begin(), before.end());
-        return command;
-    }
 
     test::TemporaryFolder folder_;
 };
@@ -95,13 +89,12 @@ TEST_F(PictureFaults, LostContextEndsWithOneClearLineAndNoPicture) {
 }
 
 TEST_F(PictureFaults, ContextLostInAWindowClosesItWithOneClearLine) {
-    ROWLAND_NEEDS_XVFB();
-    for (Command command : windows()) {
-        // xvfb-run's own programs are to know nothing of it.
-        const std::vector<std::string> before = {"/usr/bin/env", "LD_PRELOAD=" ROWLAND_LOST_CONTEXT,
-                                                 "ROWLAND_TEST_LOST_AFTER=3", "ASAN_OPTIONS=verify_asan_link_order=0"};
-        command.insert(command.begin(), before.begin(), before.end());
-        const Ended ended = test::run(under_xvfb(command));
+    ROWLAND_NEEDS_VIRTUAL_DISPLAY();
+    const test::VirtualDisplay display(400, 400);
+    for (const Command& command : windows()) {
+        const Ended ended =
+            test::run(command, {.environment = {{"DISPLAY", display.name()}, {"ROWLAND_TEST_LOST_AFTER", "3"}},
+                                .preload = ROWLAND_LOST_CONTEXT});
         expect_one_clear_line(ended, HasSubstr("its context is lost"));
     }
 }
@@ -111,10 +104,12 @@ TEST_F(PictureFaults, TooOldOpenGlIsRefusedWithWhatIsNeeded) {
     for (const char* version : {"3.3", "4.4"}) {
         for (const Command& command : drawers())
             expect_one_clear_line(test::run(command, {.environment = {{"MESA_GL_VERSION_OVERRIDE", version}}}), needed);
-        if (!test::has_xvfb()) continue;
+        if (!test::has_virtual_display()) continue;
+        const test::VirtualDisplay display(400, 400);
         for (const Command& command : windows())
-            expect_one_clear_line(
-                test::run(under_xvfb(command), {.environment = {{"MESA_GL_VERSION_OVERRIDE", version}}}), needed);
+            expect_one_clear_line(test::run(command, {.environment = {{"DISPLAY", display.name()},
+                                                                      {"MESA_GL_VERSION_OVERRIDE", version}}}),
+                                  needed);
     }
 }
 

@@ -44,6 +44,9 @@ class Running {
     Running& operator=(const Running&) = delete;
 
     pid_t pid() const;
+    bool alive() const;
+    /// What it has written to standard error until now.
+    std::string err() const;
     void kill();
     /// Waits for its end, at most to its limit.
     Ended wait();
