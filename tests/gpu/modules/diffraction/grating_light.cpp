@@ -1,4 +1,4 @@
-#include "tests/gpu/grating_light.h"
+#include "tests/gpu/modules/diffraction/grating_light.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -5,7 +5,7 @@
 #include "engine/lighting/key_lights.h"
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/bake/direct.h"
-#include "tests/gpu/drawn_triangle.h"
+#include "tests/gpu/modules/diffraction/drawn_triangle.h"
 
 namespace rowland::diffraction {
 

@@ -1,4 +1,4 @@
-#include "tests/gpu/key_light_reference.h"
+#include "tests/gpu/modules/diffraction/key_light_reference.h"
 
 #include <map>
 #include <tuple>

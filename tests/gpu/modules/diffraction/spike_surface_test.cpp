@@ -19,7 +19,7 @@
 #include "modules/diffraction/module.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
 #include "modules/diffraction/runtime/tangent_light.h"
-#include "tests/gpu/cook_grating.h"
+#include "tests/gpu/modules/diffraction/cook_grating.h"
 
 namespace rowland::diffraction {
 namespace {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "modules/diffraction/runtime/gpu_circle.h"
-#include "tests/gpu/grating_picture.h"
+#include "tests/gpu/modules/diffraction/grating_picture.h"
 
 namespace rowland::diffraction {
 namespace {

@@ -1,4 +1,4 @@
-#include "tests/gpu/grating_picture.h"
+#include "tests/gpu/modules/diffraction/grating_picture.h"
 
 #include <algorithm>
 #include <cmath>

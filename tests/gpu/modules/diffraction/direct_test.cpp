@@ -4,7 +4,7 @@
 #include "engine/scene/directional_light.h"
 #include "engine/scene/punctual_light.h"
 #include "modules/diffraction/asset/layer_weights.h"
-#include "tests/gpu/grating_picture.h"
+#include "tests/gpu/modules/diffraction/grating_picture.h"
 #include "tests/gpu/render_test.h"
 
 namespace rowland::diffraction {

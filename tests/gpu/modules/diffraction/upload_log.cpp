@@ -1,4 +1,4 @@
-#include "tests/gpu/upload_log.h"
+#include "tests/gpu/modules/diffraction/upload_log.h"
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/json_reader.h"
-#include "tests/gpu/grating_picture.h"
+#include "tests/gpu/modules/diffraction/grating_picture.h"
 #include "tests/support/message_of.h"
 
 namespace rowland::diffraction {

@@ -1,7 +1,7 @@
 // Representations that shade vertices, against the CPU's evaluation of the same tables.
 #include <gtest/gtest.h>
 
-#include "tests/gpu/grating_picture.h"
+#include "tests/gpu/modules/diffraction/grating_picture.h"
 
 namespace rowland::diffraction {
 namespace {

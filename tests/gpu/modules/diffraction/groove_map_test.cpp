@@ -9,7 +9,7 @@
 #include "engine/core/json_reader.h"
 #include "modules/diffraction/asset/material_json.h"
 #include "modules/diffraction/bake/cube_pyramid.h"
-#include "tests/gpu/grating_picture.h"
+#include "tests/gpu/modules/diffraction/grating_picture.h"
 #include "tests/support/message_of.h"
 
 namespace rowland::diffraction {

@@ -13,7 +13,7 @@
 #include "modules/diffraction/asset/material_json.h"
 #include "modules/diffraction/module.h"
 #include "tests/gpu/render_test.h"
-#include "tests/gpu/upload_log.h"
+#include "tests/gpu/modules/diffraction/upload_log.h"
 
 namespace rowland::diffraction {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "modules/diffraction/bake/cube_pyramid.h"
 #include "modules/diffraction/runtime/surface_light.h"
-#include "tests/gpu/grating_picture.h"
+#include "tests/gpu/modules/diffraction/grating_picture.h"
 
 namespace rowland::diffraction {
 namespace {

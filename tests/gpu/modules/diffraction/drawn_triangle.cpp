@@ -1,4 +1,4 @@
-#include "tests/gpu/drawn_triangle.h"
+#include "tests/gpu/modules/diffraction/drawn_triangle.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
