@@ -10,6 +10,7 @@
 #include "engine/core/file.h"
 #include "tests/faults/small_disk.h"
 #include "tests/support/program.h"
+#include "tests/support/source_tree.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/virtual_display.h"
 
@@ -43,7 +44,7 @@ class PictureFaults : public testing::Test {
         std::vector<Command> commands = captures(path("picture.png"));
         commands.push_back({ROWLAND_DEMO, "--disc", "--width", "64", "--height", "36", "--frames", "2", "--benchmark",
                             path("times.json")});
-        commands.push_back({ROWLAND_TRADE, "sweep", "--material", std::string(ROWLAND_CONTENT) + "/materials/cd.json",
+        commands.push_back({ROWLAND_TRADE, "sweep", "--material", test::content_path("materials/cd.json"),
                             "--probe", probe(), "--setting", "arc/bands=3/rank=4", "--frame-size", "32", "18",
                             "--picture-size", "8", "8", "--output", path("results")});
         return commands;

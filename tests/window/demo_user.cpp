@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <stdexcept>
 #include <thread>
 #include <utility>
 
@@ -23,11 +24,17 @@ Command demo_command(const std::filesystem::path& folder, Command arguments) {
     return arguments;
 }
 
+/// Whether a window's title says how long the demo's frames take.
+bool draws(const std::string& title) {
+    return title.find(" ms a frame") != std::string::npos;
+}
+
 }  // namespace
 
 DemoUser::DemoUser(const std::filesystem::path& folder, Command arguments)
     : folder_(folder), user_(kDemoScreen, demo_command(folder, std::move(arguments)), "Rowland") {
-    shot();
+    if (!wait_until([&] { return draws(user_.title()) || !user_.program().alive(); }, 120s))
+        throw std::runtime_error("the demo does not draw: " + messages());
 }
 
 DemoUser::~DemoUser() {
@@ -107,7 +114,7 @@ void DemoUser::wait_for_maps(std::chrono::seconds limit) {
     wait_until(
         [&] {
             const std::string title = user_.title();
-            return title.find(" ms a frame") != std::string::npos && title.find("filling maps") == std::string::npos;
+            return draws(title) && title.find("filling maps") == std::string::npos;
         },
         limit);
 }

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "engine/core/file.h"
+#include "tests/support/source_tree.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/window/demo_user.h"
 
@@ -175,7 +176,7 @@ TEST_F(PlayWindow, ARecordingPlaysAgainToTheSameStateWithAndWithoutAWindow) {
 TEST_F(PlayWindow, ASavedSceneIsShownAndTurnedObjectsStayTurned) {
     const std::filesystem::path source = path("content/scenes/cabinet.json");
     std::filesystem::copy(std::filesystem::path(ROWLAND_DEMO).parent_path().parent_path() / "cooked", path("cooked"));
-    const std::string text = read_text_file(std::filesystem::path(ROWLAND_CONTENT) / "scenes/cabinet.json", 1 << 22);
+    const std::string text = read_text_file(test::content_path("scenes/cabinet.json"), 1 << 22);
     std::string other = text;
     const std::string plaster = R"("name": "plaster", "color": [0.75, 0.75, 0.75])";
     ASSERT_NE(other.find(plaster), std::string::npos);

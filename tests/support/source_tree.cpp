@@ -1,0 +1,13 @@
+#include "tests/support/source_tree.h"
+
+namespace rowland::test {
+
+std::filesystem::path source_path(const std::string& path) {
+    return std::filesystem::path(ROWLAND_SOURCE_TREE) / path;
+}
+
+std::filesystem::path content_path(const std::string& path) {
+    return source_path("content") / path;
+}
+
+}  // namespace rowland::test
