@@ -34,10 +34,17 @@ class PictureFaults : public testing::Test {
  protected:
     std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
 
-    /// A picture of the demo, and of the inspector's preview, at `picture`.
-    static std::vector<Command> captures(const std::string& picture) {
+    /// A picture of the demo, and of the inspector's preview, at `picture`; of a material and light that load quickly.
+    std::vector<Command> captures(const std::string& picture) const {
         return {{ROWLAND_DEMO, "--headless", "--disc", "--width", "64", "--height", "36", "--capture", picture},
-                {ROWLAND_INSPECTOR, "--preset", "cd", "--preview-only", "--size", "320x320", "--capture", picture}};
+                {ROWLAND_INSPECTOR, material(), "--probe", probe(), "--preview-only", "--size", "320x320", "--capture",
+                 picture}};
+    }
+    std::string material() const {
+        write_file_atomic(path("small.json"), std::string_view(R"({
+            "grating": {"pitch_nm": 1600, "profile": {"type": "slit", "width_nm": 800}},
+            "quality": {"representation": "spikes", "bands": 2, "view_resolution": 4}})"));
+        return path("small.json");
     }
     /// All that draws without a window: the captures, and times of frames.
     std::vector<Command> drawers() const {
