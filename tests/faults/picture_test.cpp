@@ -1,4 +1,4 @@
-// The programs that draw, when the GPU, the display or the place for their pictures fails them.
+// The programs that draw, when the GPU, the display or the disk for their pictures fails.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -51,9 +51,9 @@ class PictureFaults : public testing::Test {
         std::vector<Command> commands = captures(path("picture.png"));
         commands.push_back({ROWLAND_DEMO, "--disc", "--width", "64", "--height", "36", "--frames", "2", "--benchmark",
                             path("times.json")});
-        commands.push_back({ROWLAND_TRADE, "sweep", "--material", test::content_path("materials/cd.json"),
-                            "--probe", probe(), "--setting", "arc/bands=3/rank=4", "--frame-size", "32", "18",
-                            "--picture-size", "8", "8", "--output", path("results")});
+        commands.push_back({ROWLAND_TRADE, "sweep", "--material", test::content_path("materials/cd.json"), "--probe",
+                            probe(), "--setting", "arc/bands=3/rank=4", "--frame-size", "32", "18", "--picture-size",
+                            "8", "8", "--output", path("results")});
         return commands;
     }
     /// A probe of 2 × 1 texels.

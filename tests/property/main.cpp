@@ -1,5 +1,6 @@
-// Sets RapidCheck up from the environment: ROWLAND_PROPERTY_SEED, a number or "random"; ROWLAND_PROPERTY_RUNS, cases for
-// each property (30, or 100 with ROWLAND_TEST_ALL). RC_PARAMS, RapidCheck's own, overrides both: it is what a failure prints to be reproduced.
+// Sets RapidCheck up from the environment: ROWLAND_PROPERTY_SEED, a number or "random"; ROWLAND_PROPERTY_RUNS, cases
+// for each property (30, or 100 with ROWLAND_TEST_ALL). RC_PARAMS, RapidCheck's own, overrides both: it is what a
+// failure prints to be reproduced.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>

@@ -3,7 +3,8 @@
 namespace rowland::test {
 
 std::filesystem::path source_path(const std::string& path) {
-    return std::filesystem::path(ROWLAND_SOURCE_TREE) / path;
+    const std::filesystem::path root = ROWLAND_SOURCE_TREE;
+    return path.empty() ? root : root / path;
 }
 
 std::filesystem::path content_path(const std::string& path) {

@@ -17,7 +17,7 @@ using Facts = std::map<std::string, std::string>;
 /// the inspector has drawn what it changed; what does not come is a std::runtime_error that says so.
 class InspectorUser {
  public:
-    /// Starts the inspector in a small window, whose frames a software renderer draws in half the time of the usual
+    /// Starts the inspector in a small window, whose frames a software renderer draws in half the time of the default
     /// one, with its layout kept in `folder`, and waits for its picture.
     InspectorUser(const std::filesystem::path& folder, Command arguments, Surroundings surroundings = {});
     /// Leaves, if the test has not; the exit code must be 0.

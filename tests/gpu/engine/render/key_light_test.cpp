@@ -1,4 +1,4 @@
-// Key lights as lights of their own: against the lobe on the CPU, against brute force over the whole probe, and against
+// Key lights as analytic lights: against the lobe on the CPU, against brute force over the whole probe, and against
 // the same frame without them.
 #include <array>
 #include <cmath>
@@ -245,7 +245,7 @@ TEST_F(KeyLightTest, ModulesLearnOfEveryChangeOfTheLight) {
     EXPECT_GT(on, first);
     renderer_.use_key_lights(true);
     EXPECT_EQ(version(), on);
-    // Two half lights in one place have the same SH as the one whole.
+    // Two half lights at one position have the same SH as the one whole.
     const auto add_light = [&](float irradiance) {
         const ecs::Entity entity = world_.create();
         world_.add(entity,

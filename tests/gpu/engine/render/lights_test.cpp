@@ -24,7 +24,7 @@ class LightsTest : public test::RenderTest {
         world_.add(entity, scene::WorldMatrix{matrix});
         return entity;
     }
-    /// Radiance of a place on the square under unit irradiance from a direction.
+    /// Radiance of a position on the square under unit irradiance from a direction.
     static glm::dvec3 share(const glm::vec3& place, const glm::dvec3& toward) {
         const glm::dvec3 v = glm::normalize(glm::dvec3(0.0, 0.0, kEye) - glm::dvec3(place));
         return test::reflected(glm::normalize(toward), {0.0, 0.0, 1.0}, v, glm::dvec3(kBase), 0.25, 0.6);

@@ -83,7 +83,7 @@ TEST_F(RenderReportTest, ASkinnedMeshIsDrawnAsTheCpuPosesIt) {
     world_.add(world_.create(), scene::DirectionalLight{.direction = glm::normalize(glm::vec3(0.7F, 0.4F, 0.8F)),
                                                         .irradiance = glm::vec3(3.0F)});
     StandardMaterial material{.base_colour = glm::vec3(0.5F), .roughness = 0.4F, .double_sided = true};
-    material.normal_texture = texture(1, {{0.7F, 0.6F, 0.9F, 1.0F}});  // the tangent shows too
+    material.normal_texture = texture(1, {{0.7F, 0.6F, 0.9F, 1.0F}});  // the tangent matters
 
     // Another skinned mesh before it in the buffer of joints.
     scene::Mesh other = square(0.1F);
@@ -106,7 +106,7 @@ TEST_F(RenderReportTest, ASkinnedMeshIsDrawnAsTheCpuPosesIt) {
     int differing = 0;
     for (std::size_t i = 0; i < on_cpu.size(); ++i) {
         lit += on_cpu[i].g > 0.05F ? 1 : 0;
-        // Positions that differ by 1e-5 of the size move an edge across a pixel's centre now and then; within, shading
+        // Positions that differ by 1e-5 of the size sometimes move an edge across a pixel's centre; within, shading
         // differs by less than a thousandth.
         differing += std::abs(on_cpu[i].g - on_gpu[i].g) > 1e-3F * (1.0F + on_cpu[i].g) ? 1 : 0;
     }

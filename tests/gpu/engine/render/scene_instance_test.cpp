@@ -189,7 +189,7 @@ TEST_F(SceneInstanceTest, ASkinnedPrimitiveStandsWhereItsJointsAre) {
     scene.meshes[0].weights.assign(4, {1.0F, 0.0F, 0.0F, 0.0F});
     scene.skins = {{.joints = {0}, .inverse_bind = {glm::translate(glm::mat4(1.0F), {0.25F, 0.0F, 0.0F})}}};
     scene.instances[0].skin = 0;
-    scene.nodes[1].local.translation = {9.0F, 9.0F, 9.0F};  // its own node does not place it
+    scene.nodes[1].local.translation = {9.0F, 9.0F, 9.0F};  // its own node does not move it
     const SceneInstance instance = instantiate(world_, scene, renderer_, "test.gltf");
     EXPECT_EQ(world_.find<scene::Parent>(instance.drawn[0]), nullptr);
     const auto pixels = draw_updated();

@@ -1,4 +1,4 @@
-// The shadow of a directional light: there, in the right place, and nowhere else.
+// The shadow of a directional light: that it is there, at the right position, and nowhere else.
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
@@ -144,7 +144,7 @@ class GrazingSunTest : public test::GlTest {
         renderer_.render(world_, camera_, target_);
         return target_.read_rgba_float();
     }
-    /// Share of the lit pixels that the shadow map darkens by more than a hundredth.
+    /// Fraction of the lit pixels that the shadow map darkens by more than a hundredth.
     double darkened(float degrees_from_zenith, float azimuth) {
         set_sun(degrees_from_zenith, azimuth, false);
         const auto open = draw();

@@ -9,7 +9,7 @@ namespace {
 
 class Arc : public GratingPicture {
  protected:
-    /// The rest of the light, without lights of their own.
+    /// The rest of the light, without analytic lights.
     std::function<glm::dvec3(const Point&)> evaluation(const CookedMaterial& cooked, const lighting::ShLight& light) {
         const auto& table = std::get<ArcTable>(cooked.tables);
         std::vector<std::vector<glm::dvec3>> products;

@@ -79,7 +79,7 @@ TEST_F(Surface, ViewsFromBelowAreBlack) {
                                 R"({"representation": "circle", "map_resolution": 24})"}) {
         use(cook(kSlitCd, quality));
         render::StandardMaterial both_sides = material_->base();
-        both_sides.double_sided = true;  // the back is drawn, too
+        both_sides.double_sided = true;  // the back is drawn as well
         world_.add(entity_, render::StandardMaterial(both_sides));
         const auto brightest = [&](float eye_z) {
             camera_.eye = {0.4F, 0.5F, eye_z};

@@ -1,4 +1,4 @@
-// Lights of their own on the GPU against the CPU.
+// Analytic lights on the GPU against the CPU.
 #include <gtest/gtest.h>
 
 #include "engine/scene/directional_light.h"
@@ -50,7 +50,7 @@ TEST_F(Direct, KeyLightsEqualTheCpuWithTheSmoothedKernel) {
     }
 }
 
-/// Shaded at the vertices, what lies between them is interpolated; but for shadows, directional lights are, too.
+/// Shading at the vertices is interpolated between them, also that of directional lights without shadows.
 TEST_F(Direct, LightsAtTheVerticesAreInterpolated) {
     light_ = light_of(smooth_probe(), three_keys());
     const CookedMaterial cooked = cook(kFoil, R"({"representation": "direct", "lights_at": "vertices"})");
@@ -128,7 +128,7 @@ TEST_F(Direct, DirectionalLightsEqualTheCpu) {
     EXPECT_GT(brightest_, 0.05);
 }
 
-/// The kernel has a layer for each colour, made anew when there are others.
+/// The kernel has a layer for each colour, and is rebuilt when the colours change.
 TEST_F(Direct, LightsOfOtherColoursEqualTheCpu) {
     const CookedMaterial cooked = cook(kSlitCd, kDirect);
     show(cooked, 0.5);

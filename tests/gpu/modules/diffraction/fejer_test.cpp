@@ -1,4 +1,4 @@
-// fejer.glsl against 60-digit arithmetic and against its twin in double.
+// fejer.glsl against 60-digit arithmetic and against the CPU in double.
 #include "modules/diffraction/model/fejer.h"
 
 #include <epoxy/gl.h>
@@ -75,7 +75,7 @@ TEST_F(GlslFejer, MatchesHighPrecision) {
 }
 
 /// The same bound everywhere between: δ over twelve decades, at both ends of the series and of the period, for N from 1
-/// to a million. The twin takes the float δ as it is, so that only the evaluation differs.
+/// to a million. The CPU takes the float δ as it is, so that only the evaluation differs.
 TEST_F(GlslFejer, MatchesItsTwinEverywhere) {
     std::mt19937 random(5);
     std::uniform_real_distribution<float> uniform(0.0F, 1.0F);
@@ -103,7 +103,7 @@ TEST_F(GlslFejer, MatchesItsTwinEverywhere) {
         const auto grooves = static_cast<double>(arguments[i].x);
         const auto delta = static_cast<double>(arguments[i].y);
         const double difference = std::abs(static_cast<double>(found[i]) - fejer(grooves, delta));
-        ASSERT_LT(difference, 1e-5) << "N " << grooves << " delta " << delta;  // NaN fails too
+        ASSERT_LT(difference, 1e-5) << "N " << grooves << " delta " << delta;  // NaN fails as well
         largest = std::max(largest, difference);
     }
     RecordProperty("largest_error", std::to_string(largest));

@@ -9,9 +9,9 @@
 
 #include "engine/render/renderer.h"
 #include "modules/diffraction/module.h"
+#include "tests/gpu/gl_test.h"
 #include "tests/gpu/modules/diffraction/cook_grating.h"
 #include "tests/gpu/modules/diffraction/drawn_triangle.h"
-#include "tests/gpu/gl_test.h"
 #include "tests/gpu/modules/diffraction/grating_light.h"
 #include "tests/gpu/modules/diffraction/key_light_reference.h"
 

@@ -64,7 +64,7 @@ TEST_F(Planar, KeyLightsComeOnTop) {
               kPictureTolerance);
 }
 
-/// Without lights of their own the map is of the whole probe, and nothing comes on top.
+/// Without analytic lights the map holds the whole probe, and nothing is added to it.
 TEST_F(Planar, KeyLightsMayStayInTheMap) {
     light_ = light_of(smooth_probe(), three_keys());
     light_.probe_texels = light_.texels;

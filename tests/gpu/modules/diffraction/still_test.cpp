@@ -1,4 +1,4 @@
-// A picture in place of a representation.
+// A picture that is shown instead of a representation.
 #include "modules/diffraction/runtime/gpu_still.h"
 
 #include "modules/diffraction/asset/material_json.h"

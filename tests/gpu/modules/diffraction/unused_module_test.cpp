@@ -12,8 +12,8 @@
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/asset/material_json.h"
 #include "modules/diffraction/module.h"
-#include "tests/gpu/render_test.h"
 #include "tests/gpu/modules/diffraction/upload_log.h"
+#include "tests/gpu/render_test.h"
 
 namespace rowland::diffraction {
 namespace {

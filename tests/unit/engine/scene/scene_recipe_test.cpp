@@ -203,9 +203,10 @@ TEST(SceneRecipe, UnreasonableSizesAreRefused) {
 
 class Cabinet : public testing::Test {
  protected:
-    json recipe_ = parse_json(read_text_file(rowland::test::content_path("scenes/cabinet.json"), 1 << 20), "cabinet.json")["scene"];
-    std::vector<std::byte> glb_ = write_glb(build_scene(
-        parse_scene_recipe(parse_json(read_text_file(rowland::test::content_path("scenes/cabinet.json"), 1 << 20), ""), "")));
+    json recipe_ = parse_json(read_text_file(rowland::test::content_path("scenes/cabinet.json"), 1 << 20),
+                              "cabinet.json")["scene"];
+    std::vector<std::byte> glb_ = write_glb(build_scene(parse_scene_recipe(
+        parse_json(read_text_file(rowland::test::content_path("scenes/cabinet.json"), 1 << 20), ""), "")));
 };
 
 TEST_F(Cabinet, ImportFindsEverythingInIt) {
