@@ -15,6 +15,8 @@ namespace {
 constexpr glm::ivec2 kInspectorScreen{1280, 800};
 /// For what takes a second on a quiet machine, and much longer on one that draws in software and does other things.
 constexpr auto kLimit = 180s;
+/// Frames after which the inspector has seen an input: the one under way, and a whole one.
+constexpr int kSeen = 2;
 
 Command inspector_command(const std::filesystem::path& folder, Command arguments) {
     arguments.insert(arguments.begin(), ROWLAND_INSPECTOR);
@@ -75,14 +77,14 @@ int InspectorUser::frames() const {
     return count;
 }
 
-void InspectorUser::wait_for_frames() {
+void InspectorUser::wait_for_frames(int count) {
     std::this_thread::sleep_for(60ms);
     int first = 0;
     const bool drawn = wait_until(
         [&] {
             const int now = frames();
             if (first == 0) first = now;
-            return (first > 0 && now >= first + 3) || !user_.program().alive();
+            return (first > 0 && now >= first + count) || !user_.program().alive();
         },
         kLimit);
     if (!drawn) throw std::runtime_error("the inspector draws no frames");
@@ -97,9 +99,9 @@ glm::ivec2 InspectorUser::middle_of(const std::string& control) const {
 
 void InspectorUser::press_at(glm::ivec2 position) {
     user_.move_to(position);
-    wait_for_frames();
+    wait_for_frames(kSeen);
     user_.press();
-    wait_for_frames();
+    wait_for_frames(kSeen);
 }
 
 void InspectorUser::click_at(glm::ivec2 position) {
@@ -115,7 +117,7 @@ void InspectorUser::click(const std::string& control) {
 void InspectorUser::drag(const std::string& control, glm::ivec2 distance) {
     press_at(middle_of(control));
     user_.move_by(distance);
-    wait_for_frames();
+    wait_for_frames(kSeen);
     user_.release();
     wait_for_frames();
 }

@@ -48,8 +48,8 @@ class InspectorUser {
  private:
     Facts read_facts() const;
     int frames() const;
-    /// Waits for three frames: by then the inspector has seen the last input, and shows it.
-    void wait_for_frames();
+    /// Waits for so many frames. After three the inspector has seen the last input, and shows it.
+    void wait_for_frames(int count = 3);
     /// The middle of a control, once it is there.
     glm::ivec2 middle_of(const std::string& control) const;
     void click_at(glm::ivec2 position);

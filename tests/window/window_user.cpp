@@ -49,7 +49,7 @@ void WindowUser::release_key(const std::string& name) {
     act({"keyup", name});
 }
 void WindowUser::type(const std::string& text) {
-    act({"type", "--delay", "30", text});
+    act({"type", "--delay", "10", text});
 }
 
 void WindowUser::move_to(glm::ivec2 position) {
