@@ -15,10 +15,11 @@ macro(declare name filter label)
   add_test(${name} ${program} --gtest_filter=${filter})
   set_tests_properties(${name} PROPERTIES TIMEOUT ${timeout} LABELS "${label};${program_name}")
 endmacro()
-# A single test may be reported as skipped; a suite may not, as another test of it may have failed.
+# Tests that take seconds each; COST: they start first. A single test may be reported as skipped; a suite may not, as
+# another test of it may have failed.
 macro(declare_single name label)
   declare(${name} ${name} ${label})
-  set_tests_properties(${name} PROPERTIES SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]")
+  set_tests_properties(${name} PROPERTIES COST 10 SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]")
 endmacro()
 macro(declare_suite)
   if(quick_tests AND all_tests STREQUAL quick_tests)
