@@ -129,7 +129,7 @@ TEST_F(HudWindow, AClickInThePanelLightsTheLampAndHiddenPanelsTakeNone) {
     user.key("space");
     const image::ByteImage dark = user.shot();
     user.click(kLampBox);
-    const image::ByteImage lit = user.shot_unlike(dark, 20s);
+    const image::ByteImage lit = user.shot_unlike(dark, 60s);
     EXPECT_GT(differing(dark, lit, 0, kWidth), 0);
     user.key("F2");
     user.click(kLampBox);
@@ -146,9 +146,9 @@ TEST_F(HudWindow, AWipeShowsTheOtherLookRightOfItsLineWhichIsDragged) {
     user.key("x");
     const image::ByteImage two_looks = user.shot_unlike(one_look, 60s);
     user.drag({middle, kHeight / 2}, {moved - middle, 0});
-    const image::ByteImage dragged = user.shot_unlike(two_looks, 20s);
+    const image::ByteImage dragged = user.shot_unlike(two_looks, 60s);
     user.key("x");
-    const image::ByteImage again = user.shot_unlike(dragged, 20s);
+    const image::ByteImage again = user.shot_unlike(dragged, 60s);
     // llvmpipe's scissor lets half the samples of the pixels before its edge through, and whichever look is drawn first
     // is seen there.
     EXPECT_EQ(differing(one_look, two_looks, 0, middle - 1), 0);
@@ -201,7 +201,7 @@ TEST_F(HudWindow, ThePixelsErrorBecomesWhatEvaluatePrintsWhenMaterialAndProbeCha
     const auto replace = [&](const char* file, const std::string& content) {
         const image::ByteImage before = user.shot();
         write_file_atomic(path(file), content);
-        user.shot_unlike(before, 20s);
+        user.shot_unlike(before, 60s);
         std::this_thread::sleep_for(1s);
     };
     const std::filesystem::path first = user.measured_pixel(30s);

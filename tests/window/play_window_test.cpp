@@ -189,7 +189,7 @@ TEST_F(PlayWindow, ASavedSceneIsShownAndTurnedObjectsStayTurned) {
     std::this_thread::sleep_for(1s);
     const image::ByteImage first = full_shot(user);
     write_file_atomic(source, other);
-    user.shot_unlike(first, 30s);
+    user.shot_unlike(first, 60s);
     std::this_thread::sleep_for(1s);
     const image::ByteImage saved = full_shot(user);
     EXPECT_GT(difference(first, saved, kDiffuseSphere), 10.0);
