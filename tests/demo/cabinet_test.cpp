@@ -81,7 +81,7 @@ TEST(DemoCabinet, ASpinningNodeTurnsAboutItsAxis) {
     EXPECT_EQ(from_middle(turned, 20, 29), square);
 }
 
-/// Part of a picture, in shares of its width and height from the left and the top.
+/// Part of a picture, in fractions of its width and height from the left and the top.
 struct Region {
     const char* name;
     double left, right, top, bottom;

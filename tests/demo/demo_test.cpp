@@ -23,8 +23,8 @@ using test::render;
 using test::result;
 using test::run_demo;
 
-/// Share of the pixels that differ by more than rounding and the noise of filtering.
-double share_that_differs(const image::Image& a, const image::Image& b) {
+/// Fraction of the pixels that differ by more than rounding and the noise of filtering.
+double fraction_that_differs(const image::Image& a, const image::Image& b) {
     std::size_t differing = 0;
     for (std::size_t i = 0; i < a.texels.size(); ++i) {
         const glm::vec3 difference = glm::abs(a.texels[i] - b.texels[i]);
@@ -57,7 +57,7 @@ void expect_to_show(const std::filesystem::path& file, const image::Image& empty
         ASSERT_GE(std::min({texel.r, texel.g, texel.b}), -0.05F);  // wide colours lie a little outside the space
     }
     // The object fills a cube of 12 cm in a picture 24 cm wide; the flattest file is one thin triangle.
-    EXPECT_GT(share_that_differs(picture, empty), 0.005);
+    EXPECT_GT(fraction_that_differs(picture, empty), 0.005);
     EXPECT_LE(brightest, 1.5F * brightest_of(empty));  // the lamps' reflection in the metal sphere
 }
 

@@ -99,7 +99,7 @@ TEST_F(CookFaults, KilledAtAnyMomentItLeavesTheOldAssetOrTheNewOneWhole) {
         with_litter += litter.empty() ? 0 : 1;
     }
     EXPECT_GT(number, 10) << "it was stopped nowhere";
-    EXPECT_LE(with_litter, 1) << "between a file's getting its name and its taking the old one's place";
+    EXPECT_LE(with_litter, 1) << "killed after a file was complete and before it replaced the old one";
 }
 
 TEST_F(CookFaults, AfterAKillTheNextCookGivesTheBytesOfAnUndisturbedOne) {

@@ -1,5 +1,5 @@
 /* Loaded before a program: its OpenGL context is lost once the program has asked $ROWLAND_TEST_LOST_AFTER times whether
- * it is, and stays lost; or while the file $ROWLAND_TEST_LOST_WHEN is there, if that is set. It takes the place of
+ * it is, and stays lost; or while the file $ROWLAND_TEST_LOST_WHEN is there, if that is set. It replaces
  * libepoxy's pointer to the driver's function. */
 #include <stdlib.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-// The programs that draw, when the GPU, the display or the place for their pictures fails them.
+// The programs that draw, when the GPU, the display or the disk for their pictures fails.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,8 +10,9 @@
 #include "engine/core/file.h"
 #include "tests/faults/small_disk.h"
 #include "tests/support/program.h"
+#include "tests/support/source_tree.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/window/needs_xvfb.h"
+#include "tests/support/virtual_display.h"
 
 namespace rowland {
 namespace {
@@ -33,19 +34,26 @@ class PictureFaults : public testing::Test {
  protected:
     std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
 
-    /// A picture of the demo, and of the inspector's preview, at `picture`.
-    static std::vector<Command> captures(const std::string& picture) {
+    /// A picture of the demo, and of the inspector's preview, at `picture`; of a material and light that load quickly.
+    std::vector<Command> captures(const std::string& picture) const {
         return {{ROWLAND_DEMO, "--headless", "--disc", "--width", "64", "--height", "36", "--capture", picture},
-                {ROWLAND_INSPECTOR, "--preset", "cd", "--preview-only", "--size", "320x320", "--capture", picture}};
+                {ROWLAND_INSPECTOR, material(), "--probe", probe(), "--preview-only", "--size", "320x320", "--capture",
+                 picture}};
+    }
+    std::string material() const {
+        write_file_atomic(path("small.json"), std::string_view(R"({
+            "grating": {"pitch_nm": 1600, "profile": {"type": "slit", "width_nm": 800}},
+            "quality": {"representation": "spikes", "bands": 2, "view_resolution": 4}})"));
+        return path("small.json");
     }
     /// All that draws without a window: the captures, and times of frames.
     std::vector<Command> drawers() const {
         std::vector<Command> commands = captures(path("picture.png"));
         commands.push_back({ROWLAND_DEMO, "--disc", "--width", "64", "--height", "36", "--frames", "2", "--benchmark",
                             path("times.json")});
-        commands.push_back({ROWLAND_TRADE, "sweep", "--material", std::string(ROWLAND_CONTENT) + "/materials/cd.json",
-                            "--probe", probe(), "--setting", "arc/bands=3/rank=4", "--frame-size", "32", "18",
-                            "--picture-size", "8", "8", "--output", path("results")});
+        commands.push_back({ROWLAND_TRADE, "sweep", "--material", test::content_path("materials/cd.json"), "--probe",
+                            probe(), "--setting", "arc/bands=3/rank=4", "--frame-size", "32", "18", "--picture-size",
+                            "8", "8", "--output", path("results")});
         return commands;
     }
     /// A probe of 2 × 1 texels.
@@ -57,12 +65,6 @@ class PictureFaults : public testing::Test {
     /// The programs in windows; each closes by itself, or never.
     static std::vector<Command> windows() {
         return {{ROWLAND_DEMO, "--disc", "--width", "64", "--height", "36"}, {ROWLAND_INSPECTOR, "--preset", "cd"}};
-    }
-    static Command under_xvfb(Command command) {
-        const std::vector<std::string> before = {"/usr/bin/env", "xvfb-run", "-a", "-s",
-                                                 "-noreset -screen 0 400x400x24"};
-        command.insert(command.begin(), before.begin(), before.end());
-        return command;
     }
 
     test::TemporaryFolder folder_;
@@ -95,13 +97,12 @@ TEST_F(PictureFaults, LostContextEndsWithOneClearLineAndNoPicture) {
 }
 
 TEST_F(PictureFaults, ContextLostInAWindowClosesItWithOneClearLine) {
-    ROWLAND_NEEDS_XVFB();
-    for (Command command : windows()) {
-        // xvfb-run's own programs are to know nothing of it.
-        const std::vector<std::string> before = {"/usr/bin/env", "LD_PRELOAD=" ROWLAND_LOST_CONTEXT,
-                                                 "ROWLAND_TEST_LOST_AFTER=3", "ASAN_OPTIONS=verify_asan_link_order=0"};
-        command.insert(command.begin(), before.begin(), before.end());
-        const Ended ended = test::run(under_xvfb(command));
+    ROWLAND_NEEDS_VIRTUAL_DISPLAY();
+    const test::VirtualDisplay display(400, 400);
+    for (const Command& command : windows()) {
+        const Ended ended =
+            test::run(command, {.environment = {{"DISPLAY", display.name()}, {"ROWLAND_TEST_LOST_AFTER", "3"}},
+                                .preload = ROWLAND_LOST_CONTEXT});
         expect_one_clear_line(ended, HasSubstr("its context is lost"));
     }
 }
@@ -111,10 +112,12 @@ TEST_F(PictureFaults, TooOldOpenGlIsRefusedWithWhatIsNeeded) {
     for (const char* version : {"3.3", "4.4"}) {
         for (const Command& command : drawers())
             expect_one_clear_line(test::run(command, {.environment = {{"MESA_GL_VERSION_OVERRIDE", version}}}), needed);
-        if (!test::has_xvfb()) continue;
+        if (!test::has_virtual_display()) continue;
+        const test::VirtualDisplay display(400, 400);
         for (const Command& command : windows())
-            expect_one_clear_line(
-                test::run(under_xvfb(command), {.environment = {{"MESA_GL_VERSION_OVERRIDE", version}}}), needed);
+            expect_one_clear_line(test::run(command, {.environment = {{"DISPLAY", display.name()},
+                                                                      {"MESA_GL_VERSION_OVERRIDE", version}}}),
+                                  needed);
     }
 }
 

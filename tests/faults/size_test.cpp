@@ -1,5 +1,4 @@
-// The smallest and the largest that users bring: loaded in memory that stands to reason, or refused by what is too
-// much.
+// The smallest and the largest files of users: loaded in memory proportional to the file, or refused by their size.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -33,7 +33,7 @@ class SmallDisk {
 
 }  // namespace rowland::test
 
-/// Only the superuser may mount; for others the test is skipped by name. What a full disk does is tested without it,
-/// too, by a limit on the size of files (tests/unit/engine/core/file_test.cpp).
+/// Only the superuser may mount; for others the test is skipped by name. A full disk is also tested without
+/// it, by a limit on the size of files (tests/unit/engine/core/file_test.cpp).
 #define ROWLAND_NEEDS_MOUNTED(disk) \
     if (!(disk).mounted()) GTEST_SKIP() << "mounting a file system is not allowed here"

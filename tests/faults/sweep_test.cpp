@@ -69,7 +69,7 @@ TEST_F(SweepFaults, KilledAgainAndAgainItLosesNothingAndEndsWithTheSameTable) {
     constexpr int kEach = 2;  // as many as its tables, which it writes last: so it comes to an end
     int kills = 0;
     for (bool killed = true; killed; ++kills) {
-        ASSERT_LT(kills, 20) << "it begins anew each time";
+        ASSERT_LT(kills, 20) << "it begins again each time";
         killed = false;
         int writes = 0;
         const std::string known_references = references("results");

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/support/program.h"
+#include "tests/support/source_tree.h"
 #include "tests/support/test_data.h"
 
 namespace rowland::fuzz {
@@ -68,7 +69,7 @@ TEST(CheckedFile, OfColourConfigsIsSaneOrRefusedInOneLine) {
     expect_handled(folder);
 }
 TEST(CheckedFile, OfTheCorpusIsSaneOrRefusedInOneLine) {
-    expect_handled(ROWLAND_CORPUS_FOLDER);
+    expect_handled(test::source_path("tests/fuzz/corpus"));
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "engine/scene/draco_encode.h"
 #include "engine/scene/mesh_recipe.h"
 #include "modules/diffraction/asset/cooked_material.h"
+#include "tests/support/source_tree.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"
 
@@ -29,7 +30,7 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kLargestSeed = 3 << 20;
 
 std::vector<fs::path> folders() {
-    std::vector<fs::path> result{fs::path(ROWLAND_CONTENT_FOLDER)};
+    std::vector<fs::path> result{test::source_path("content")};
     for (const char* name : {"gltf", "probes", "data"})
         if (const auto found = test::find_data(name)) result.push_back(*found);
     return result;
@@ -166,7 +167,7 @@ void add_files(const fs::path& folder, const Chosen& chosen, std::vector<Seed>& 
 std::vector<Seed> seeds(const Format& format) {
     std::vector<Seed> result = made_seeds(format.name);
     add_files(
-        fs::path(ROWLAND_CORPUS_FOLDER) / format.name, [](const fs::path&) { return true; }, result);
+        test::source_path("tests/fuzz/corpus") / format.name, [](const fs::path&) { return true; }, result);
     for (const fs::path& folder : folders())
         add_files(
             folder, [&](const fs::path& path) { return is_of(format, path); }, result);

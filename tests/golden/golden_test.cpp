@@ -1,5 +1,5 @@
-// The demo's pictures against committed ones. `./rowland update-golden` renders them anew; look at them before
-// committing.
+// The demo's pictures against committed ones. `./rowland update-golden` renders the committed ones again; look
+// at them before you commit.
 #include <gtest/gtest.h>
 
 #define STB_IMAGE_IMPLEMENTATION
@@ -55,7 +55,7 @@ std::string cooked_probe(const std::string& name) {
 // of half a step, and one pixel in 200 by more than 8 steps, are allowed; a wrong order, sign or scale moves far more.
 constexpr double kLargestMean = 0.5;
 constexpr int kLargeDifference = 8;
-constexpr double kLargestShare = 0.005;
+constexpr double kLargestFraction = 0.005;
 
 void expect_equal(const Picture& drawn, const Picture& golden) {
     ASSERT_EQ(drawn.width, golden.width);
@@ -69,7 +69,7 @@ void expect_equal(const Picture& drawn, const Picture& golden) {
     }
     const auto count = static_cast<double>(drawn.rgb.size());
     EXPECT_LT(sum / count, kLargestMean);
-    EXPECT_LT(static_cast<double>(large) / count, kLargestShare);
+    EXPECT_LT(static_cast<double>(large) / count, kLargestFraction);
 }
 
 void check_golden(const std::string& probe) {
@@ -77,7 +77,7 @@ void check_golden(const std::string& probe) {
     const std::filesystem::path drawn = std::filesystem::path(ROWLAND_RESULT_FOLDER) / ("cd_" + probe + ".png");
     const bool update = std::getenv("ROWLAND_UPDATE_GOLDEN") != nullptr;
     ASSERT_EQ(run_demo("--probe " + cooked_probe(probe) + " --capture " + (update ? golden : drawn).string()), 0);
-    if (update) GTEST_SKIP() << "rendered anew: " << golden;
+    if (update) GTEST_SKIP() << "rendered again: " << golden;
     SCOPED_TRACE("compare " + drawn.string() + " with " + golden.string());
     expect_equal(read_png(drawn), read_png(golden));
 }

@@ -23,6 +23,7 @@
 #include "modules/diffraction/bake/blurred_kernel.h"
 #include "modules/diffraction/representations/direct/direct.h"
 #include "tests/support/program.h"
+#include "tests/support/source_tree.h"
 #include "tests/support/temporary_folder.h"
 
 namespace rowland {
@@ -75,7 +76,7 @@ class PackageTest : public testing::Test {
 
     /// The program of an example.
     std::string build_example(const std::string& name) const {
-        const auto configured = configure(std::string(ROWLAND_SOURCE_DIR "/content/examples/") + name);
+        const auto configured = configure(test::content_path(std::string("examples/") + name).string());
         EXPECT_EQ(configured.code, 0) << configured.out << configured.err;
         run({ROWLAND_TEST_CMAKE, "--build", path("build")});
         return path("build") / name;
@@ -218,7 +219,7 @@ TEST_F(PackageTest, AModuleOfAnotherProjectChangesHowLightIsReflected) {
 }
 
 TEST_F(PackageTest, ARuntimeThatIsNotInstalledIsSaid) {
-    const auto configured = configure(ROWLAND_SOURCE_DIR "/content/examples/engine_scene");
+    const auto configured = configure(test::content_path("examples/engine_scene").string());
     EXPECT_NE(configured.code, 0);
     EXPECT_THAT(configured.err, testing::HasSubstr("runtime"));
 }

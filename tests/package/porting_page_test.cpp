@@ -6,6 +6,7 @@
 #include <string>
 
 #include "engine/core/file.h"
+#include "tests/support/source_tree.h"
 
 namespace rowland {
 namespace {
@@ -15,14 +16,14 @@ constexpr std::uint64_t kMostBytes = 1 << 20;
 /// All source of the example, one file after the other.
 std::string example_source() {
     std::string text;
-    for (const auto& entry : std::filesystem::directory_iterator(ROWLAND_SOURCE_DIR "/content/examples/bare_gl"))
+    for (const auto& entry : std::filesystem::directory_iterator(test::content_path("examples/bare_gl")))
         text += read_text_file(entry.path(), kMostBytes);
     return text;
 }
 
 TEST(PortingPage, EveryLineOfItsCodeIsTheExamples) {
     const std::string source = example_source();
-    std::istringstream page(read_text_file(ROWLAND_SOURCE_DIR "/modules/diffraction/PORTING.md", kMostBytes));
+    std::istringstream page(read_text_file(test::source_path("modules/diffraction/PORTING.md"), kMostBytes));
     bool in_code = false;
     int lines = 0;
     for (std::string line; std::getline(page, line);) {

@@ -1,5 +1,6 @@
-// Sets RapidCheck up from the environment: ROWLAND_PROPERTY_SEED, a number or "random"; ROWLAND_PROPERTY_RUNS, cases a
-// property. RC_PARAMS, RapidCheck's own, overrides both: it is what a failure prints to be reproduced.
+// Sets RapidCheck up from the environment: ROWLAND_PROPERTY_SEED, a number or "random"; ROWLAND_PROPERTY_RUNS, cases
+// for each property (30, or 100 with ROWLAND_TEST_ALL). RC_PARAMS, RapidCheck's own, overrides both: it is what a
+// failure prints to be reproduced.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -13,7 +14,8 @@
 namespace {
 
 constexpr const char* kFixedSeed = "2006";  // the year of Lindsay & Agu
-constexpr const char* kRuns = "100";
+constexpr const char* kQuickRuns = "30";
+constexpr const char* kAllRuns = "100";
 
 std::string setting(const char* name, const char* fallback) {
     const char* value = std::getenv(name);
@@ -31,8 +33,9 @@ std::string seed() {
 
 int main(int argc, char** argv) {
     ::testing::InitGoogleTest(&argc, argv);
+    const char* const runs = std::getenv("ROWLAND_TEST_ALL") == nullptr ? kQuickRuns : kAllRuns;
     const std::string parameters =
-        fmt::format("seed={} max_success={}", seed(), setting("ROWLAND_PROPERTY_RUNS", kRuns));
+        fmt::format("seed={} max_success={}", seed(), setting("ROWLAND_PROPERTY_RUNS", runs));
     setenv("RC_PARAMS", parameters.c_str(), 0);
     const int result = RUN_ALL_TESTS();
     if (result != 0) fmt::print(stderr, "to run the same again: RC_PARAMS=\"{}\"\n", std::getenv("RC_PARAMS"));

@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <csignal>
 #include <cstdio>
 #include <stdexcept>
@@ -26,11 +27,13 @@ CaptureFile open_capture() {
     return file;
 }
 
-/// Everything in it, from its beginning.
+/// Everything in it. Its position stays, which a program that still writes shares.
 std::string content(std::FILE* file) {
-    std::rewind(file);
     std::string text;
-    for (int c = std::fgetc(file); c != EOF; c = std::fgetc(file)) text += static_cast<char>(c);
+    std::array<char, 4096> buffer;
+    for (ssize_t size = 0;
+         (size = ::pread(::fileno(file), buffer.data(), buffer.size(), static_cast<off_t>(text.size()))) > 0;)
+        text.append(buffer.data(), static_cast<std::size_t>(size));
     return text;
 }
 
@@ -109,6 +112,15 @@ Running::~Running() {
 
 pid_t Running::pid() const {
     return state_->pid;
+}
+
+bool Running::alive() const {
+    siginfo_t info = {};
+    return ::waitid(P_PID, static_cast<id_t>(state_->pid), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == 0;
+}
+
+std::string Running::err() const {
+    return content(state_->err.get());
 }
 
 void Running::kill() {

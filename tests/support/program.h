@@ -22,7 +22,7 @@ struct Surroundings {
     std::string preload{};                                            ///< a library that comes before all others
     std::filesystem::path folder{};                                   ///< empty: this one
     std::filesystem::path output{};  ///< that standard output goes to, a device as well; empty: it is kept
-    bool obey_modes = false;         ///< the superuser, too, may not write what its mode forbids
+    bool obey_modes = false;         ///< modes also bind the superuser
     bool traced = false;             ///< by the thread that starts it, and stopped before its first instruction
     std::chrono::seconds limit{120};
 };
@@ -44,6 +44,9 @@ class Running {
     Running& operator=(const Running&) = delete;
 
     pid_t pid() const;
+    bool alive() const;
+    /// What it has written to standard error until now.
+    std::string err() const;
     void kill();
     /// Waits for its end, at most to its limit.
     Ended wait();

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/source_tree.h"
+
 namespace rowland {
 namespace {
 
@@ -75,7 +77,7 @@ std::vector<std::string> includes_of(const std::filesystem::path& path) {
 }
 
 TEST(IncludeWalls, NoPartIncludesWhatItMustNotKnow) {
-    const std::filesystem::path top = ROWLAND_SOURCE_DIR;
+    const std::filesystem::path top = rowland::test::source_path("");
     std::size_t includes_read = 0;
     for (const char* part : {"engine", "modules", "editor", "content", "tests"}) {
         for (const auto& entry : std::filesystem::recursive_directory_iterator(top / part)) {

@@ -19,6 +19,7 @@
 #include "modules/diffraction/asset/gltf_extension.h"
 #include "modules/diffraction/asset/material_json.h"
 #include "tests/support/json_schema.h"
+#include "tests/support/source_tree.h"
 #include "tests/support/temporary_folder.h"
 
 namespace rowland {
@@ -27,7 +28,7 @@ namespace {
 using nlohmann::json;
 
 json read(const std::string& path) {
-    const std::filesystem::path full = std::filesystem::path(ROWLAND_SOURCE_DIR) / path;
+    const std::filesystem::path full = rowland::test::source_path(path);
     return parse_json(read_text_file(full, 1 << 20), full.string());
 }
 

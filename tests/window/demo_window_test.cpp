@@ -1,88 +1,99 @@
-// The demo in a real window, used by real keys and drags under Xvfb. Each test compares two screenshots; the same steps
-// without the input under test must leave them equal.
+// The demo in a real window, used by real keys and drags under Xvfb. Each test compares screenshots; without the input
+// under test they are equal.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <span>
 #include <string>
-#include <vector>
+#include <thread>
 
 #include "engine/core/file.h"
-#include "engine/image/byte_image.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"
-#include "tests/window/needs_xvfb.h"
+#include "tests/window/demo_user.h"
 
 namespace rowland {
 namespace {
 
+using test::DemoUser;
+using test::same;
+using test::operator""s;
+
 /// Of display values, 0 to 255.
-int largest_difference(std::span<const std::byte> a, std::span<const std::byte> b) {
-    const image::ByteImage first = image::decode_byte_image(a, "a");
-    const image::ByteImage second = image::decode_byte_image(b, "b");
-    EXPECT_EQ(first.rgba.size(), second.rgba.size());
+int largest_difference(const image::ByteImage& a, const image::ByteImage& b) {
+    EXPECT_EQ(a.rgba.size(), b.rgba.size());
     int largest = 0;
-    for (std::size_t i = 0; i < std::min(first.rgba.size(), second.rgba.size()); ++i)
-        largest = std::max(largest, std::abs(int{first.rgba[i]} - int{second.rgba[i]}));
+    for (std::size_t i = 0; i < std::min(a.rgba.size(), b.rgba.size()); ++i)
+        largest = std::max(largest, std::abs(int{a.rgba[i]} - int{b.rgba[i]}));
     return largest;
 }
 
 class DemoWindow : public ::testing::Test {
  protected:
-    /// Starts the demo, stops the disc's turning, plays the actions and ends it.
-    void play(const std::vector<std::string>& actions, const std::string& arguments = {}) {
-        std::string command = std::string("DROP_FILES=" ROWLAND_DROP_FILES " bash ") + ROWLAND_DRIVE + " " +
-                              folder_.path().string() + " key:space";
-        for (const std::string& action : actions) command += " '" + action + "'";
-        command += std::string(" -- ") + ROWLAND_DEMO + " --width 320 --height 180 --disc --shader-folder " +
-                   folder_.path().string() + " " + arguments;
-        EXPECT_EQ(std::system(command.c_str()), 0) << command;
+    void SetUp() override { ROWLAND_NEEDS_VIRTUAL_DISPLAY(); }
+
+    /// Arguments for the disc in a small window, with shaders of the test's own.
+    test::Command arguments(const test::Command& more = {}) const {
+        test::Command result = {"--width", "320", "--height", "180", "--disc", "--shader-folder", folder_.path()};
+        result.insert(result.end(), more.begin(), more.end());
+        return result;
     }
-    std::vector<std::byte> screenshot(int number) const {
-        return read_file(folder_.path() / ("shot_" + std::to_string(number) + ".png"), 1 << 24);
-    }
-    std::filesystem::path shader(const std::string& name) const {
-        return folder_.path() / "engine/render/shaders" / name;
+    std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
+    /// The file that replaces the sky's fragment shader.
+    std::filesystem::path sky_shader() const {
+        const std::filesystem::path file = path("engine/render/shaders/sky.frag.glsl");
+        std::filesystem::create_directories(file.parent_path());
+        return file;
     }
 
     test::TemporaryFolder folder_;
 };
 
-TEST_F(DemoWindow, WithoutInputThePausedPictureStays) {
-    ROWLAND_NEEDS_XVFB();
-    play({"shot", "shot"});
-    EXPECT_TRUE(screenshot(1) == screenshot(2));
+/// A sky shader whose main() does this.
+std::string sky_that(const std::string& does) {
+    return "#version 450 core\nin vec3 direction;\nlayout(location = 0) out vec4 radiance;\nvoid main() { " + does +
+           " }\n";
 }
 
-TEST_F(DemoWindow, ADragTurnsTheCamera) {
-    ROWLAND_NEEDS_XVFB();
-    play({"shot", "drag:60,20", "shot"});
-    EXPECT_TRUE(screenshot(1) != screenshot(2));
-}
-
-TEST_F(DemoWindow, KeysSwitchViewProbeExposureAndEffects) {
-    ROWLAND_NEEDS_XVFB();
-    play({"shot", "key:v", "shot", "key:p", "shot", "key:equal", "shot", "key:1", "shot", "key:2", "shot"});
-    for (int number = 1; number < 6; ++number) EXPECT_TRUE(screenshot(number) != screenshot(number + 1)) << number;
+TEST_F(DemoWindow, KeysAndDragsChangeThePausedPictureWhichElseStays) {
+    DemoUser user(folder_.path(), arguments());
+    user.key("space");
+    image::ByteImage before = user.shot();
+    const auto changed = [&] {
+        const image::ByteImage last = std::exchange(before, user.shot());
+        return !same(last, before);
+    };
+    EXPECT_FALSE(changed());
+    const image::ByteImage without_lamp = before;
+    user.key("l");
+    EXPECT_TRUE(changed()) << "the lamp";
+    user.key("l");
+    EXPECT_TRUE(changed());
+    EXPECT_TRUE(same(before, without_lamp));
+    for (const char* key : {"v", "p", "equal", "1", "2"}) {
+        user.key(key);
+        EXPECT_TRUE(changed()) << key;
+    }
+    user.drag({100, 100}, {60, 20});
+    EXPECT_TRUE(changed()) << "a drag turns the camera";
 }
 
 TEST_F(DemoWindow, ABrokenShaderKeepsTheOldOneAndAMendedOneIsTaken) {
-    ROWLAND_NEEDS_XVFB();
-    const std::string head = "#version 450 core\nin vec3 direction;\nlayout(location = 0) out vec4 radiance;\n";
-    write_file_atomic(folder_.path() / "broken", head + "void main() { radiance = nonsense; }\n");
-    write_file_atomic(folder_.path() / "mended", head + "void main() { radiance = vec4(1.0, 0.0, 0.0, 1.0); }\n");
-    std::filesystem::create_directories(shader("x").parent_path());
-    const std::string sky = shader("sky.frag.glsl").string();
-    play({"shot", "run:cp " + (folder_.path() / "broken").string() + " " + sky, "key:F5", "shot",
-          "run:cp " + (folder_.path() / "mended").string() + " " + sky, "key:F5", "shot"});
-    // F5 makes light and tables anew, too, whose last digits may round another way.
-    EXPECT_LE(largest_difference(screenshot(1), screenshot(2)), 1);
-    EXPECT_GT(largest_difference(screenshot(2), screenshot(3)), 100);
+    DemoUser user(folder_.path(), arguments());
+    user.key("space");
+    const image::ByteImage first = user.shot();
+    write_file_atomic(sky_shader(), sky_that("radiance = nonsense;"));
+    user.key("F5");
+    const image::ByteImage broken = user.shot();
+    write_file_atomic(sky_shader(), sky_that("radiance = vec4(1.0, 0.0, 0.0, 1.0);"));
+    user.key("F5");
+    // F5 rebuilds light and tables as well, whose last digits may round another way.
+    EXPECT_LE(largest_difference(first, broken), 1);
+    EXPECT_GT(largest_difference(broken, user.shot()), 100);
 }
 
-/// A small material file; a first one is there before the demo starts.
+/// A small material file.
 std::string material(const char* pitch_nm) {
     return std::string(R"({"grating": {"pitch_nm": )") + pitch_nm +
            R"(, "profile": {"type": "slit", "width_nm": 400}},
@@ -90,63 +101,55 @@ std::string material(const char* pitch_nm) {
 }
 
 TEST_F(DemoWindow, ASavedMaterialShowsByItselfAndABrokenOneKeepsTheOld) {
-    ROWLAND_NEEDS_XVFB();
-    const std::string path = (folder_.path() / "material.json").string();
-    write_file_atomic(path, material("1600"));
-    write_file_atomic(path + ".broken", material("-5"));
-    write_file_atomic(path + ".other", material("700"));
-    play({"shot", "run:cp " + path + ".broken " + path, "wait:1", "shot", "run:cp " + path + ".other " + path,
-          "other:10"},
-         "--material " + path);
-    EXPECT_TRUE(screenshot(1) == screenshot(2));
-    EXPECT_TRUE(screenshot(2) != screenshot(3));
+    write_file_atomic(path("material.json"), material("1600"));
+    DemoUser user(folder_.path(), arguments({"--material", path("material.json")}));
+    user.key("space");
+    const image::ByteImage first = user.shot();
+    write_file_atomic(path("material.json"), material("-5"));
+    user.wait_for_message("pitch_nm", 60s);
+    EXPECT_TRUE(same(first, user.shot()));
+    write_file_atomic(path("material.json"), material("700"));
+    EXPECT_FALSE(same(first, user.shot_unlike(first, 60s)));
 }
 
 TEST_F(DemoWindow, AChangedSourceIsCookedAgainAndShown) {
-    ROWLAND_NEEDS_XVFB();
-    const std::filesystem::path demo(ROWLAND_DEMO);
-    const std::filesystem::path cooked = folder_.path() / "cooked";
-    const std::filesystem::path source = folder_.path() / "content/meshes/sphere.json";
-    std::filesystem::copy(demo.parent_path().parent_path() / "cooked", cooked);
+    const std::filesystem::path source = path("content/meshes/sphere.json");
+    std::filesystem::copy(std::filesystem::path(ROWLAND_DEMO).parent_path().parent_path() / "cooked", path("cooked"));
     write_file_atomic(source, R"({"mesh": {"type": "sphere", "radius": 1, "rings": 32, "segments": 64}})");
-    write_file_atomic(source.string() + ".other",
-                      R"({"mesh": {"type": "sphere", "radius": 1, "rings": 2, "segments": 3}})");
-    play({"shot", "wait:1", "run:cp " + source.string() + ".other " + source.string(), "other:10"},
-         "--cooked-folder " + cooked.string() + " --content-folder " + (folder_.path() / "content").string());
-    EXPECT_TRUE(screenshot(1) != screenshot(2));
+    DemoUser user(folder_.path(), arguments({"--cooked-folder", path("cooked"), "--content-folder", path("content")}));
+    user.key("space");
+    const image::ByteImage first = user.shot();
+    std::this_thread::sleep_for(1s);
+    write_file_atomic(source, R"({"mesh": {"type": "sphere", "radius": 1, "rings": 2, "segments": 3}})");
+    EXPECT_FALSE(same(first, user.shot_unlike(first, 60s)));
 }
 
 TEST_F(DemoWindow, AChangedShaderIsTakenWithoutAKey) {
-    ROWLAND_NEEDS_XVFB();
-    std::filesystem::create_directories(shader("x").parent_path());
-    write_file_atomic(folder_.path() / "red",
-                      "#version 450 core\nin vec3 direction;\nlayout(location = 0) out vec4 radiance;\n"
-                      "void main() { radiance = vec4(1.0, 0.0, 0.0, 1.0); }\n");
-    play({"shot", "run:cp " + (folder_.path() / "red").string() + " " + shader("sky.frag.glsl").string(), "other:10"});
-    EXPECT_TRUE(screenshot(1) != screenshot(2));
+    const std::filesystem::path shader = sky_shader();
+    DemoUser user(folder_.path(), arguments());
+    user.key("space");
+    const image::ByteImage first = user.shot();
+    write_file_atomic(shader, sky_that("radiance = vec4(1.0, 0.0, 0.0, 1.0);"));
+    EXPECT_FALSE(same(first, user.shot_unlike(first, 60s)));
 }
 
 TEST_F(DemoWindow, ADroppedProbeLightsTheSceneAndAnythingElseLeavesIt) {
-    ROWLAND_NEEDS_XVFB();
     ROWLAND_TEST_DATA(probe, "probes/venice_sunset_256.hdr");
-    const std::string letter = (folder_.path() / "letter.txt").string();
-    write_file_atomic(letter, "Dear Henry,\n");
-    play({"shot", "drop:" + letter, "log:20,letter.txt", "shot", "drop:" + probe.string(), "other:60"});
-    EXPECT_TRUE(screenshot(1) == screenshot(2));
-    EXPECT_TRUE(screenshot(2) != screenshot(3));
+    write_file_atomic(path("letter.txt"), std::string_view("Dear Henry,\n"));
+    DemoUser user(folder_.path(), arguments());
+    user.key("space");
+    const image::ByteImage first = user.shot();
+    user.drop(path("letter.txt"));
+    user.wait_for_message("letter.txt", 60s);
+    EXPECT_TRUE(same(first, user.shot()));
+    user.drop(probe);
+    EXPECT_FALSE(same(first, user.shot_unlike(first, 60s)));
 }
 
 TEST_F(DemoWindow, F9WritesTheScenesOwnLight) {
-    ROWLAND_NEEDS_XVFB();
-    play({"key:F9", "wait:1"});
-    EXPECT_TRUE(std::filesystem::exists(folder_.path() / "screenshot_0001.exr"));
-}
-
-TEST_F(DemoWindow, LLightsTheLamp) {
-    ROWLAND_NEEDS_XVFB();
-    play({"shot", "key:l", "shot", "key:l", "shot"});
-    EXPECT_TRUE(screenshot(1) != screenshot(2));
-    EXPECT_TRUE(screenshot(1) == screenshot(3));
+    DemoUser user(folder_.path(), arguments());
+    user.key("F9");
+    EXPECT_TRUE(test::wait_until([&] { return std::filesystem::exists(path("screenshot_0000.exr")); }, 60s));
 }
 
 }  // namespace

@@ -4,28 +4,32 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "engine/core/file.h"
 #include "engine/image/byte_image.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/unit/editor/trade/trade_run.h"
-#include "tests/window/needs_xvfb.h"
+#include "tests/window/demo_user.h"
 
 namespace rowland {
 namespace {
 
+using test::DemoUser;
+using test::operator""s;
 using testing::HasSubstr;
 
 constexpr int kWidth = 900;  ///< the least for which panels are open from the start
 constexpr int kHeight = 500;
 /// The check box of the lamp, the last row of the first section.
-constexpr const char* kLampBox = "click:30,150";
+constexpr glm::ivec2 kLampBox{30, 150};
+/// On the disc.
+constexpr glm::ivec2 kOnGrating{590, 240};
 
 class HudWindow : public ::testing::Test {
  protected:
@@ -39,21 +43,26 @@ class HudWindow : public ::testing::Test {
                R"(, "profile": {"type": "slit", "width_nm": 400}},
                    "quality": {"representation": "transfer", "bands": 4}})";
     }
-    /// The demo with one disc, so many pixels large.
-    std::string demo() const {
-        const std::string folder = folder_.path().string();
-        return std::string(ROWLAND_DEMO) + " --disc --width " + std::to_string(kWidth) + " --height " +
-               std::to_string(kHeight) + " --material " + folder + "/grating.json --probe " + folder +
-               "/sky.hdr --light-window none --shader-folder " + folder;
+    void SetUp() override { ROWLAND_NEEDS_VIRTUAL_DISPLAY(); }
+    /// Arguments for one disc under a small probe.
+    test::Command arguments(const test::Command& more = {}) const {
+        test::Command result = {"--disc",
+                                "--width",
+                                std::to_string(kWidth),
+                                "--height",
+                                std::to_string(kHeight),
+                                "--material",
+                                path("grating.json"),
+                                "--probe",
+                                path("sky.hdr"),
+                                "--light-window",
+                                "none",
+                                "--shader-folder",
+                                folder_.path()};
+        result.insert(result.end(), more.begin(), more.end());
+        return result;
     }
-    /// Starts it with the disc at rest, plays the actions and ends it.
-    void play(const std::vector<std::string>& actions, const std::string& arguments = {}) {
-        std::string command = std::string("DROP_FILES=" ROWLAND_DROP_FILES " bash ") + ROWLAND_DRIVE + " " +
-                              folder_.path().string() + " key:space";
-        for (const std::string& action : actions) command += " '" + action + "'";
-        command += " -- " + demo() + " " + arguments;
-        EXPECT_EQ(std::system(command.c_str()), 0) << command;
-    }
+    std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
     /// The probe with its rows turned over.
     std::string turned_sky() const {
         const std::string sky = read_text_file(folder_.path() / "sky.hdr", 1 << 20);
@@ -61,10 +70,6 @@ class HudWindow : public ::testing::Test {
         std::string turned = sky.substr(0, texels);
         for (int row = 15; row >= 0; --row) turned += sky.substr(texels + static_cast<std::size_t>(row) * 128, 128);
         return turned;
-    }
-    image::ByteImage screenshot(int number) const {
-        const std::filesystem::path path = folder_.path() / ("shot_" + std::to_string(number) + ".png");
-        return image::decode_byte_image(read_file(path, 1 << 24), path.string());
     }
     /// How many pixels differ in the columns [begin, end).
     static int differing(const image::ByteImage& a, const image::ByteImage& b, int begin, int end) {
@@ -77,15 +82,10 @@ class HudWindow : public ::testing::Test {
             }
         return count;
     }
-    nlohmann::json pixel(int number) const {
-        const std::filesystem::path path = folder_.path() / ("pixel_000" + std::to_string(number) + ".json");
-        if (!std::filesystem::exists(path)) return {};
-        return nlohmann::json::parse(read_text_file(path, 1 << 20));
-    }
     /// The row that rowland-trade prints for a pixel that was written.
-    std::vector<double> printed(int number, const std::string& arguments) const {
-        const test::TradeRun run = test::run_trade(
-            folder_.path(), "evaluate --frames pixel_000" + std::to_string(number) + ".csv " + arguments);
+    std::vector<double> printed(std::filesystem::path pixel, const std::string& arguments) const {
+        const std::string frames = pixel.replace_extension(".csv").string();
+        const test::TradeRun run = test::run_trade(folder_.path(), "evaluate --frames '" + frames + "' " + arguments);
         EXPECT_EQ(run.exit_code, 0) << run.messages;
         std::istringstream lines(run.output);
         std::string header;
@@ -96,17 +96,17 @@ class HudWindow : public ::testing::Test {
         EXPECT_TRUE(lines) << run.output;
         return xyz;
     }
-    void expect_as_printed(int number, const std::string& pitch_material, const std::string& probe) const {
-        const nlohmann::json shown = pixel(number);
-        ASSERT_TRUE(shown.is_object()) << "pixel " << number << " was not written";
+    void expect_as_printed(const std::filesystem::path& pixel, const std::string& pitch_material,
+                           const std::string& probe) const {
+        ASSERT_TRUE(std::filesystem::exists(pixel)) << pixel << " was not written";
+        const nlohmann::json shown = nlohmann::json::parse(read_text_file(pixel, 1 << 20));
         const std::string light = "--probe " + probe;
         const std::vector<double> reference =
-            printed(number, light + " --method reference --material " + pitch_material);
-        const std::string folder = folder_.path().string();
-        const std::string cook =
-            std::string(ROWLAND_COOK) + " cook " + folder + "/" + pitch_material + " -o " + folder + "/cooked.material";
-        ASSERT_EQ(std::system(cook.c_str()), 0) << cook;
-        const std::vector<double> baked = printed(number, light + " --cooked cooked.material");
+            printed(pixel, light + " --method reference --material " + pitch_material);
+        const test::Ended cooked =
+            test::run({ROWLAND_COOK, "cook", path(pitch_material), "-o", path("cooked.material")});
+        ASSERT_EQ(cooked.code, 0) << cooked.err;
+        const std::vector<double> baked = printed(pixel, light + " --cooked cooked.material");
         double squares = 0.0;
         double of_reference = 0.0;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -125,63 +125,93 @@ class HudWindow : public ::testing::Test {
 };
 
 TEST_F(HudWindow, AClickInThePanelLightsTheLampAndHiddenPanelsTakeNone) {
-    ROWLAND_NEEDS_XVFB();
-    play({"shot", kLampBox, "other:20", "key:F2", kLampBox, "wait:1", "shot"});
-    EXPECT_GT(differing(screenshot(1), screenshot(2), 0, kWidth), 0);
-    EXPECT_EQ(differing(screenshot(2), screenshot(3), 0, kWidth), 0);
+    DemoUser user(folder_.path(), arguments());
+    user.key("space");
+    const image::ByteImage dark = user.shot();
+    user.click(kLampBox);
+    const image::ByteImage lit = user.shot_unlike(dark, 60s);
+    EXPECT_GT(differing(dark, lit, 0, kWidth), 0);
+    user.key("F2");
+    user.click(kLampBox);
+    std::this_thread::sleep_for(1s);
+    EXPECT_EQ(differing(lit, user.shot(), 0, kWidth), 0);
 }
 
 TEST_F(HudWindow, AWipeShowsTheOtherLookRightOfItsLineWhichIsDragged) {
-    ROWLAND_NEEDS_XVFB();
     const int middle = kWidth / 2;
     const int moved = middle + 40;
-    play({"shot", "key:x", "other:60", "dragat:450,250,40,0", "other:20", "key:x", "other:20"});
+    DemoUser user(folder_.path(), arguments());
+    user.key("space");
+    const image::ByteImage one_look = user.shot();
+    user.key("x");
+    const image::ByteImage two_looks = user.shot_unlike(one_look, 60s);
+    user.drag({middle, kHeight / 2}, {moved - middle, 0});
+    const image::ByteImage dragged = user.shot_unlike(two_looks, 60s);
+    user.key("x");
+    const image::ByteImage again = user.shot_unlike(dragged, 60s);
     // llvmpipe's scissor lets half the samples of the pixels before its edge through, and whichever look is drawn first
     // is seen there.
-    EXPECT_EQ(differing(screenshot(1), screenshot(2), 0, middle - 1), 0);
-    EXPECT_GT(differing(screenshot(1), screenshot(2), middle, kWidth), 0);
-    EXPECT_EQ(differing(screenshot(1), screenshot(3), 0, moved - 1), 0);
-    EXPECT_GT(differing(screenshot(1), screenshot(3), moved, kWidth), 0);
-    EXPECT_GT(differing(screenshot(2), screenshot(3), middle, moved), 0);
-    EXPECT_EQ(differing(screenshot(1), screenshot(4), 0, kWidth), 0);
+    EXPECT_EQ(differing(one_look, two_looks, 0, middle - 1), 0);
+    EXPECT_GT(differing(one_look, two_looks, middle, kWidth), 0);
+    EXPECT_EQ(differing(one_look, dragged, 0, moved - 1), 0);
+    EXPECT_GT(differing(one_look, dragged, moved, kWidth), 0);
+    EXPECT_GT(differing(two_looks, dragged, middle, moved), 0);
+    EXPECT_EQ(differing(one_look, again, 0, kWidth), 0);
 }
 
-TEST_F(HudWindow, WhatIsNoKeyIsRecorded) {
-    ROWLAND_NEEDS_XVFB();
-    const std::string folder = folder_.path().string();
-    write_file_atomic(folder_.path() / "turned.hdr", turned_sky());
-    play({"key:x", "wait:1", "dragat:450,250,40,0", "drop:" + folder + "/turned.hdr", "wait:1"},
-         "--record " + folder + "/play.jsonl");
-    const std::string recording = read_text_file(folder_.path() / "play.jsonl", 1 << 20);
+TEST_F(HudWindow, SettingsOfPanelsAndDropsAreRecorded) {
+    write_file_atomic(path("turned.hdr"), turned_sky());
+    {
+        DemoUser user(folder_.path(), arguments({"--record", path("play.jsonl")}));
+        user.key("space");
+        user.key("x");
+        std::this_thread::sleep_for(1s);
+        user.drag({kWidth / 2, kHeight / 2}, {40, 0});
+        user.drop(path("turned.hdr"));
+        std::this_thread::sleep_for(1s);
+    }
+    const std::string recording = read_text_file(path("play.jsonl"), 1 << 20);
     EXPECT_THAT(recording, HasSubstr(R"("set":"wipe","to":1.0)"));
     EXPECT_THAT(recording, HasSubstr(R"("set":"right look","to":"spikes, medium")"));
     EXPECT_THAT(recording, HasSubstr(R"("set":"wipe line","to":0.5)"));
-    EXPECT_THAT(recording, HasSubstr(R"("set":"probe","to":")" + folder + "/turned.hdr"));
+    EXPECT_THAT(recording, HasSubstr(R"("set":"probe","to":")" + path("turned.hdr").string()));
 }
 
 TEST_F(HudWindow, TheNextRepresentationIsShownWhenItIsBaked) {
-    ROWLAND_NEEDS_XVFB();
-    play({"at:590,240", "shot", "key:t", "other:60", "key:y", "other:60"});
-    EXPECT_GT(differing(screenshot(1), screenshot(2), 0, kWidth), 0);
-    EXPECT_GT(differing(screenshot(2), screenshot(3), 0, kWidth), 0);
+    DemoUser user(folder_.path(), arguments());
+    user.key("space");
+    user.point_at(kOnGrating);
+    const image::ByteImage first = user.shot();
+    user.key("t");
+    const image::ByteImage second = user.shot_unlike(first, 60s);
+    EXPECT_GT(differing(first, second, 0, kWidth), 0);
+    user.key("y");
+    EXPECT_GT(differing(second, user.shot_unlike(second, 60s), 0, kWidth), 0);
 }
 
 TEST_F(HudWindow, ThePixelsErrorBecomesWhatEvaluatePrintsWhenMaterialAndProbeChange) {
-    ROWLAND_NEEDS_XVFB();
-    const std::string folder = folder_.path().string();
-    const std::string sky = read_text_file(folder_.path() / "sky.hdr", 1 << 20);
-    write_file_atomic(folder_.path() / "turned.hdr", turned_sky());
-    write_file_atomic(folder_.path() / "first.hdr", sky);
-    write_file_atomic(folder_.path() / "first.json", material("1600"));
-    play({"at:590,240", "pixel:30", "shot", "run:cp " + folder + "/other.json " + folder + "/grating.json", "other:20",
-          "wait:1", "pixel:30", "shot", "run:cp " + folder + "/turned.hdr " + folder + "/sky.hdr", "other:20", "wait:1",
-          "pixel:30"});
-    std::vector<int> written;
-    for (int number = 0; pixel(number).is_object(); ++number) written.push_back(number);
-    ASSERT_GE(written.size(), 3U);
-    expect_as_printed(0, "first.json", "first.hdr");
-    expect_as_printed(written.back(), "other.json", "turned.hdr");
-    EXPECT_NE(pixel(0)["relative_error"], pixel(written.back())["relative_error"]);
+    const std::string sky = read_text_file(path("sky.hdr"), 1 << 20);
+    write_file_atomic(path("turned.hdr"), turned_sky());
+    write_file_atomic(path("first.hdr"), sky);
+    write_file_atomic(path("first.json"), material("1600"));
+    DemoUser user(folder_.path(), arguments());
+    user.key("space");
+    user.point_at(kOnGrating);
+    // Waits until the file that was written shows.
+    const auto replace = [&](const char* file, const std::string& content) {
+        const image::ByteImage before = user.shot();
+        write_file_atomic(path(file), content);
+        user.shot_unlike(before, 60s);
+        std::this_thread::sleep_for(1s);
+    };
+    const std::filesystem::path first = user.measured_pixel(30s);
+    expect_as_printed(first, "first.json", "first.hdr");
+    replace("grating.json", material("1100"));
+    user.measured_pixel(30s);
+    replace("sky.hdr", turned_sky());
+    const std::filesystem::path last = user.measured_pixel(30s);
+    expect_as_printed(last, "other.json", "turned.hdr");
+    EXPECT_NE(read_text_file(first, 1 << 20), read_text_file(last, 1 << 20));
 }
 
 }  // namespace

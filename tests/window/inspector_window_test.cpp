@@ -1,201 +1,198 @@
 // The inspector in a real window, used by real mouse and keys under Xvfb. What each step did is read from the facts
-// that the inspector keeps for its drivers; leave a step out, and what is expected after it fails.
+// that the inspector writes; without the step, what is expected after it fails.
 #include <gmock/gmock.h>
-#include <sys/wait.h>
+#include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <vector>
+#include <thread>
 
 #include "engine/core/file.h"
 #include "modules/diffraction/asset/material_json.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"
-#include "tests/window/needs_xvfb.h"
+#include "tests/window/inspector_user.h"
 
 namespace rowland {
 namespace {
 
+using nlohmann::json;
+using test::Facts;
+using test::InspectorUser;
+using test::operator""ms;
 using testing::HasSubstr;
+
+/// The material that the inspector shows.
+json material(const Facts& facts) {
+    return json::parse(facts.at("material"), nullptr, false);
+}
 
 class InspectorWindow : public ::testing::Test {
  protected:
-    /// Starts the inspector, plays the actions and ends it.
-    void play(const std::vector<std::string>& actions, const std::string& arguments = {}) {
-        EXPECT_EQ(status_of(actions, std::string(ROWLAND_INSPECTOR) + " " + arguments), 0);
-    }
-    /// The same by a command of one's own; returns its exit status.
-    int status_of(const std::vector<std::string>& actions, const std::string& inspector) {
+    void SetUp() override {
+        ROWLAND_NEEDS_VIRTUAL_DISPLAY();
         // A small probe: the reference is quick under it.
         write_file_atomic(
-            folder_.path() / "sky.json",
+            path("sky.json"),
             R"({"probe": {"type": "clear_sky", "sun_azimuth_deg": 40, "sun_elevation_deg": 35, "width": 128}})");
-        std::string command = std::string("DROP_FILES=" ROWLAND_DROP_FILES " bash ") + ROWLAND_INSPECTOR_DRIVE + " " +
-                              folder_.path().string();
-        for (const std::string& action : actions) command += " '" + action + "'";
-        command += " -- " + inspector;
-        const int status = std::system(command.c_str());
-        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }
     std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
-
-    /// A fact that was kept.
-    std::string fact(const std::string& file, const std::string& name) const {
-        std::ifstream text(path(file));
-        for (std::string line; std::getline(text, line);)
-            if (line.starts_with(name + "\t")) return line.substr(name.size() + 1);
-        ADD_FAILURE() << "no " << name << " in " << file;
-        return {};
-    }
-    nlohmann::json material(const std::string& file) const {
-        return nlohmann::json::parse(fact(file, "material"), nullptr, false);
+    /// A preset's material under the small probe.
+    test::Command preset(const std::string& name) const { return {"--preset", name, "--probe", path("sky.json")}; }
+    void save_as(InspectorUser& user, const std::string& file) const {
+        user.key("ctrl+s");
+        std::this_thread::sleep_for(500ms);
+        user.enter(file);
     }
 
     test::TemporaryFolder folder_;
 };
 
 TEST_F(InspectorWindow, AMaterialIsEditedPickedLitSavedAndOpenedAgain) {
-    ROWLAND_NEEDS_XVFB();
     ROWLAND_TEST_DATA(probe, "probes/venice_sunset_256.hdr");
-    play({"click:menu Presets",
-          "click:menu cd",
-          "until:document=cd.json",
-          "keep:preset",
-          "drag:/grating/pitch_nm,-86,0",
-          "keep:dragged",
-          "click:lines per mm",
-          "key:ctrl+a",
-          "type:1200",
-          "key:Return",
-          "keep:typed",
-          "click:/grating/profile",
-          "click:/grating/profile=blazed",
-          "keep:blazed",
-          "key:ctrl+z",
-          "key:ctrl+z",
-          "keep:undone_twice",
-          "key:ctrl+z",
-          "keep:undone",
-          "until:busy=no",
-          "pick:0.66,0.5",
-          "until:busy=no",
-          "keep:picked",
-          "key:ctrl+o",
-          "type:" + probe.string(),
-          "key:Return",
-          "until:light=venice_sunset_256.hdr",
-          "until:busy=no",
-          "keep:lit",
-          "shot:lit.png",
-          "click:/metal",
-          "click:/metal=Au",
-          "keep:gold",
-          "key:ctrl+s",
-          "key:ctrl+a",
-          "type:" + path("mine.json"),
-          "key:Return",
-          "until:message=saved",
-          "keep:saved"},
-         "--preset dvd --probe " + path("sky.json"));
-    EXPECT_EQ(material("preset")["grating"]["pitch_nm"], 1600);
-    EXPECT_EQ(material("dragged")["grating"]["pitch_nm"], 740);
-    EXPECT_EQ(material("dragged")["grating"]["profile"]["width_nm"], 370);
-    EXPECT_EQ(material("typed")["grating"]["pitch_nm"], 833.333);
-    EXPECT_EQ(material("blazed")["grating"]["profile"]["type"], "blazed");
-    EXPECT_EQ(material("undone_twice")["grating"]["pitch_nm"], 740);
-    EXPECT_EQ(material("undone"), material("preset"));
-    EXPECT_THAT(fact("picked", "picked"), testing::MatchesRegex("[0-9]+ [0-9]+ [0-9]+"));
-    EXPECT_NE(fact("lit", "point"), fact("picked", "point"));
-    EXPECT_NE(fact("lit", "picked"), fact("picked", "picked"));
-    EXPECT_EQ(material("gold")["metal"], "Au");
-    EXPECT_EQ(fact("saved", "document"), "mine.json");
+    Facts lit;
+    json gold;
+    {
+        InspectorUser user(folder_.path(), preset("dvd"));
+        user.click("menu Presets");
+        user.click("menu cd");
+        user.wait_for("document", "cd.json");
+        const json cd = material(user.facts());
+        EXPECT_EQ(cd["grating"]["pitch_nm"], 1600);
 
+        user.drag("/grating/pitch_nm", {-86, 0});
+        const json dragged = material(user.facts());
+        EXPECT_EQ(dragged["grating"]["pitch_nm"], 740);
+        EXPECT_EQ(dragged["grating"]["profile"]["width_nm"], 370);
+
+        user.click("lines per mm");
+        user.enter("1200");
+        EXPECT_EQ(material(user.facts())["grating"]["pitch_nm"], 833.333);
+
+        user.click("/grating/profile");
+        user.click("/grating/profile=blazed");
+        EXPECT_EQ(material(user.facts())["grating"]["profile"]["type"], "blazed");
+        user.key("ctrl+z");
+        user.key("ctrl+z");
+        EXPECT_EQ(material(user.facts())["grating"]["pitch_nm"], 740);
+        user.key("ctrl+z");
+        EXPECT_EQ(material(user.facts()), cd);
+
+        user.wait_for("busy", "no");
+        user.pick({0.66, 0.5});
+        user.wait_for("busy", "no");
+        const Facts picked = user.facts();
+        EXPECT_THAT(picked.at("picked"), testing::MatchesRegex("[0-9]+ [0-9]+ [0-9]+"));
+
+        user.key("ctrl+o");
+        user.type(probe.string());
+        user.key("Return");
+        user.wait_for("light", "venice_sunset_256.hdr");
+        user.wait_for("busy", "no");
+        lit = user.facts();
+        EXPECT_NE(lit.at("point"), picked.at("point"));
+        EXPECT_NE(lit.at("picked"), picked.at("picked"));
+
+        user.click("/metal");
+        user.click("/metal=Au");
+        gold = material(user.facts());
+        EXPECT_EQ(gold["metal"], "Au");
+
+        user.key("ctrl+s");
+        user.enter(path("mine.json"));
+        user.wait_for("message", "saved");
+        EXPECT_EQ(user.facts().at("document"), "mine.json");
+        EXPECT_EQ(user.leave(), 0);
+    }
     EXPECT_EQ(diffraction::load_material(path("mine.json")).grating.metal, colour::Metal::Au);
-    play({"until:document=mine.json", "until:light=venice", "keep:opened"}, path("mine.json"));
-    EXPECT_EQ(material("opened"), material("gold"));
-    EXPECT_EQ(fact("opened", "light"), "venice_sunset_256.hdr");  // the layout remembers it
+
+    InspectorUser user(folder_.path(), {path("mine.json")});
+    user.wait_for("document", "mine.json");
+    user.wait_for("light", "venice");  // the layout remembers it
+    EXPECT_EQ(material(user.facts()), gold);
+    EXPECT_EQ(user.leave(), 0);
 }
 
 TEST_F(InspectorWindow, EditsOutliveALostContext) {
-    ROWLAND_NEEDS_XVFB();
     const std::string text = R"({"grating": {"pitch_nm": 1600, "profile": {"type": "slit", "width_nm": 800}}})";
     write_file_atomic(path("mine.json"), text);
-    EXPECT_EQ(status_of({"until:document=mine.json", "click:lines per mm", "key:ctrl+a", "type:1250", "key:Return",
-                         "keep:typed", "run:touch " + path("lost")},
-                        "env LD_PRELOAD=" ROWLAND_LOST_CONTEXT " ASAN_OPTIONS=verify_asan_link_order=0 " +
-                            ("ROWLAND_TEST_LOST_WHEN=" + path("lost")) + " " ROWLAND_INSPECTOR " " + path("mine.json")),
-              1);
+    InspectorUser user(folder_.path(), {path("mine.json")},
+                       {.environment = {{"ROWLAND_TEST_LOST_WHEN", path("lost")}}, .preload = ROWLAND_LOST_CONTEXT});
+    user.wait_for("document", "mine.json");
+    user.click("lines per mm");
+    user.enter("1250");
+    const json typed = material(user.facts());
+    write_file_atomic(path("lost"), std::string_view());
+    EXPECT_EQ(user.wait_for_end(), 1);
     EXPECT_EQ(diffraction::load_material(path("mine.unsaved.json")).grating.pitch_nm, 800);
-    EXPECT_EQ(nlohmann::json::parse(read_text_file(path("mine.unsaved.json"), 1 << 20)), material("typed"));
+    EXPECT_EQ(json::parse(read_text_file(path("mine.unsaved.json"), 1 << 20)), typed);
     EXPECT_EQ(read_text_file(path("mine.json"), 1 << 20), text);
 }
 
-TEST_F(InspectorWindow, WhatIsRefusedIsSaidAndNothingIsLost) {
-    ROWLAND_NEEDS_XVFB();
-    write_file_atomic(path("corrupt.json"), "{\"grating\": {\"pitch_nm\": 16");
+TEST_F(InspectorWindow, RefusedInputIsSaidAndNothingIsLost) {
+    write_file_atomic(path("corrupt.json"), std::string_view("{\"grating\": {\"pitch_nm\": 16"));
     write_file_atomic(path("huge.json"), std::string(40 << 20, ' '));
-    const auto open = [&](const std::string& name) {
-        return std::vector<std::string>{"key:ctrl+o", "type:" + path(name), "key:Return", "until:message=" + name};
-    };
-    // A message stays until the next one.
-    std::vector<std::string> actions = {"until:message=the light",
-                                        "click:/grating/orders",
-                                        "key:ctrl+a",
-                                        "type:1 x",
-                                        "key:Return",
-                                        "until:refused=orders",
-                                        "keep:refused",
-                                        "key:ctrl+s",
-                                        "wait:0.5",
-                                        "key:ctrl+a",
-                                        "type:/proc/nowhere/m.json",
-                                        "key:Return",
-                                        "until:message=orders",
-                                        "key:ctrl+z",
-                                        "until:refused=no",
-                                        "key:ctrl+s",
-                                        "wait:0.5",
-                                        "key:ctrl+a",
-                                        "type:/proc/nowhere/m.json",
-                                        "key:Return",
-                                        "until:message=/proc/nowhere"};
-    for (const char* name : {"corrupt.json", "huge.json", "missing.hdr"})
-        for (const std::string& action : open(name)) actions.push_back(action);
-    actions.insert(actions.end(), {"keep:end"});
-    play(actions, "--preset cd --probe " + path("sky.json"));
-    EXPECT_THAT(fact("refused", "refused"), HasSubstr("/grating/orders"));
-    EXPECT_EQ(fact("end", "document"), "cd.json *");
-    EXPECT_EQ(material("end")["grating"]["orders"], nlohmann::json({-2, -1, 1, 2}));
+    InspectorUser user(folder_.path(), preset("cd"));
+    user.wait_for("message", "the light");  // a message stays until the next one
+    user.click("/grating/orders");
+    user.enter("1 x");
+    user.wait_for("refused", "orders");
+    EXPECT_THAT(user.facts().at("refused"), HasSubstr("/grating/orders"));
+    save_as(user, "/proc/nowhere/m.json");
+    user.wait_for("message", "orders");
+    user.key("ctrl+z");
+    user.wait_for("refused", "no");
+    save_as(user, "/proc/nowhere/m.json");
+    user.wait_for("message", "/proc/nowhere");
+    for (const char* name : {"corrupt.json", "huge.json", "missing.hdr"}) {
+        user.key("ctrl+o");
+        user.type(path(name));
+        user.key("Return");
+        user.wait_for("message", name);
+    }
+    const Facts end = user.facts();
+    EXPECT_EQ(end.at("document"), "cd.json *");
+    EXPECT_EQ(material(end)["grating"]["orders"], json({-2, -1, 1, 2}));
 }
 
-TEST_F(InspectorWindow, DroppedFilesAreOpenedAsWhatTheyAre) {
-    ROWLAND_NEEDS_XVFB();
+TEST_F(InspectorWindow, DroppedFilesAreOpenedByTheirKind) {
     ROWLAND_TEST_DATA(probe, "probes/venice_sunset_256.hdr");
     write_file_atomic(
         path("gold rule.json"),
-        R"({"grating": {"pitch_nm": 1000, "profile": {"type": "slit", "width_nm": 500}}, "metal": "Au"})");
-    write_file_atomic(path("letter.txt"), "Dear Henry,\n");
-    play({"drop:" + probe.string(), "until:light=venice_sunset_256.hdr", "drop:" + path("gold rule.json"),
-          "until:document=gold rule.json", "drop:" + path("letter.txt"), "until:message=letter.txt", "keep:dropped"},
-         "--preset dvd --probe " + path("sky.json"));
-    EXPECT_EQ(fact("dropped", "document"), "gold rule.json");
-    EXPECT_EQ(fact("dropped", "light"), "venice_sunset_256.hdr");
-    EXPECT_EQ(material("dropped")["metal"], "Au");
+        std::string_view(
+            R"({"grating": {"pitch_nm": 1000, "profile": {"type": "slit", "width_nm": 500}}, "metal": "Au"})"));
+    write_file_atomic(path("letter.txt"), std::string_view("Dear Henry,\n"));
+    InspectorUser user(folder_.path(), preset("dvd"));
+    user.drop(probe);
+    user.wait_for("light", "venice_sunset_256.hdr");
+    user.drop(path("gold rule.json"));
+    user.wait_for("document", "gold rule.json");
+    user.drop(path("letter.txt"));
+    user.wait_for("message", "letter.txt");
+    const Facts dropped = user.facts();
+    EXPECT_EQ(dropped.at("document"), "gold rule.json");
+    EXPECT_EQ(dropped.at("light"), "venice_sunset_256.hdr");
+    EXPECT_EQ(material(dropped)["metal"], "Au");
 }
 
 TEST_F(InspectorWindow, TheLayoutSurvivesARestart) {
-    ROWLAND_NEEDS_XVFB();
-    play({"keep:before", "drag:left splitter,40,0", "key:ctrl+equal", "click:shape", "click:shape=card", "wait:0.5",
-          "keep:after"},
-         "--probe " + path("sky.json"));
-    play({"wait:0.5", "keep:again"});
-    EXPECT_NE(fact("before", "picture"), fact("after", "picture"));
-    EXPECT_EQ(fact("again", "picture"), fact("after", "picture"));
-    EXPECT_EQ(fact("again", "shape is"), "card");
+    Facts before;
+    Facts after;
+    {
+        InspectorUser user(folder_.path(), {"--probe", path("sky.json")});
+        before = user.facts();
+        user.drag("left splitter", {40, 0});
+        user.key("ctrl+equal");
+        user.click("shape");
+        user.click("shape=card");
+        user.wait_for("shape is", "card");
+        after = user.facts();
+    }
+    InspectorUser user(folder_.path(), {});
+    user.wait_for("shape is", "card");
+    EXPECT_NE(before.at("picture"), after.at("picture"));
+    EXPECT_EQ(user.facts().at("picture"), after.at("picture"));
 }
 
 }  // namespace

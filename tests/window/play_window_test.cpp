@@ -3,166 +3,198 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <string>
-#include <vector>
+#include <thread>
 
 #include "engine/core/file.h"
-#include "engine/image/byte_image.h"
+#include "tests/support/source_tree.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/window/needs_xvfb.h"
+#include "tests/window/demo_user.h"
 
 namespace rowland {
 namespace {
 
+using test::DemoUser;
+using test::difference;
+using test::Region;
+using test::operator""ms;
+using test::operator""s;
 using testing::HasSubstr;
 using testing::Not;
 
 constexpr int kPlayWidth = 320;
 constexpr int kPlayHeight = 180;
-
-/// Part of the picture, in pixels.
-struct Region {
-    int left, top, right, bottom;
-};
+constexpr Region kWhole{0, 0, kPlayWidth, kPlayHeight};
 // In the opening view of the cabinet.
 constexpr Region kDisc{84, 84, 120, 114};
 constexpr Region kDiffuseSphere{258, 102, 284, 124};
 /// On the disc's grating, right of its hub.
-const std::string kOnDisc = "116,101";
+constexpr glm::ivec2 kOnDisc{116, 101};
+
+/// What the demo says at its end of the state that the play ended in.
+std::string state_in(const std::string& messages) {
+    const std::size_t at = messages.rfind("played ");
+    return at == std::string::npos ? std::string() : messages.substr(at, messages.find('\n', at) - at);
+}
 
 class PlayWindow : public ::testing::Test {
  protected:
-    /// Starts the demo, plays the actions and ends it.
-    void play(const std::vector<std::string>& actions, const std::string& arguments = {}) {
-        std::string command = std::string("bash ") + ROWLAND_DRIVE + " " + folder_.path().string();
-        for (const std::string& action : actions) command += " '" + action + "'";
-        command += std::string(" -- ") + ROWLAND_DEMO + " --width " + std::to_string(kPlayWidth) + " --height " +
-                   std::to_string(kPlayHeight) + " --shader-folder " + folder_.path().string() + " " + arguments;
-        EXPECT_EQ(std::system(command.c_str()), 0) << command;
+    void SetUp() override { ROWLAND_NEEDS_VIRTUAL_DISPLAY(); }
+
+    test::Command arguments(const test::Command& more = {}) const {
+        test::Command result = {"--width",         std::to_string(kPlayWidth),
+                                "--height",        std::to_string(kPlayHeight),
+                                "--shader-folder", folder_.path()};
+        result.insert(result.end(), more.begin(), more.end());
+        return result;
     }
-    image::ByteImage screenshot(int number) const {
-        const std::filesystem::path path = folder_.path() / ("shot_" + std::to_string(number) + ".png");
-        return image::decode_byte_image(read_file(path, 1 << 24), path.string());
-    }
-    /// Mean absolute difference of two screenshots in a region, in steps of 255.
-    double difference(int a, int b, const Region& region) const {
-        const image::ByteImage first = screenshot(a);
-        const image::ByteImage second = screenshot(b);
-        double sum = 0.0;
-        for (int y = region.top; y < region.bottom; ++y)
-            for (int x = 4 * region.left; x < 4 * region.right; ++x) {
-                const auto i = static_cast<std::size_t>(4 * y * kPlayWidth + x);
-                sum += std::abs(int{first.rgba[i]} - int{second.rgba[i]});
-            }
-        return sum / (3.0 * (region.right - region.left) * (region.bottom - region.top));
-    }
-    std::string log() const { return read_text_file(folder_.path() / "log", 1 << 22); }
-    /// What the demo said of the state its play ended in.
-    std::string state() const {
-        const std::string text = log();
-        const std::size_t at = text.rfind("played ");
-        return at == std::string::npos ? std::string() : text.substr(at, text.find('\n', at) - at);
+    std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
+    /// A screenshot once maps are full.
+    static image::ByteImage full_shot(DemoUser& user) {
+        user.wait_for_maps(180s);
+        return user.shot();
     }
 
     test::TemporaryFolder folder_;
 };
 
 TEST_F(PlayWindow, ADraggedDiscTurnsAndNothingElseDoes) {
-    ROWLAND_NEEDS_XVFB();
-    play({"key:space", "filled:180", "shot", "shot", "dragat:" + kOnDisc + ",14,9", "wait:1", "shot"});
-    EXPECT_EQ(difference(1, 2, kDisc), 0.0);
-    // Measured: 50. The wall behind the lifted disc would do, too.
-    EXPECT_GT(difference(2, 3, kDisc), 10.0);
-    EXPECT_EQ(difference(2, 3, kDiffuseSphere), 0.0);
+    DemoUser user(folder_.path(), arguments());
+    user.key("space");
+    const image::ByteImage first = full_shot(user);
+    const image::ByteImage second = user.shot();
+    user.drag(kOnDisc, {14, 9});
+    std::this_thread::sleep_for(1s);
+    const image::ByteImage turned = user.shot();
+    EXPECT_EQ(difference(first, second, kDisc), 0.0);
+    // Measured: 50. The wall behind the lifted disc would do as well.
+    EXPECT_GT(difference(second, turned, kDisc), 10.0);
+    EXPECT_EQ(difference(second, turned, kDiffuseSphere), 0.0);
 }
 
 TEST_F(PlayWindow, AThrownDiscTurnsOnByItself) {
-    ROWLAND_NEEDS_XVFB();
-    // Paused, a throw waits; what differs after that nobody's hand did.
-    play({"key:space", "filled:180", "throw:" + kOnDisc + ",60,30", "wait:1", "filled:180", "shot", "shot", "key:space",
-          "wait:2", "key:space", "wait:1", "filled:180", "shot"});
-    EXPECT_EQ(difference(1, 2, kDisc), 0.0);
-    EXPECT_GT(difference(2, 3, kDisc), 10.0);
+    DemoUser user(folder_.path(), arguments());
+    user.key("space");
+    // One that nobody threw turns in its plane only.
+    const image::ByteImage unthrown = full_shot(user);
+    user.key("space");
+    std::this_thread::sleep_for(1s);
+    user.key("space");
+    EXPECT_LT(difference(unthrown, full_shot(user), kDisc), 10.0);
+    // Paused, a throw waits; no hand causes what differs after that.
+    user.throw_from(kOnDisc, {60, 30});
+    std::this_thread::sleep_for(1s);
+    const image::ByteImage first = full_shot(user);
+    const image::ByteImage second = user.shot();
+    user.key("space");
+    std::this_thread::sleep_for(2s);
+    user.key("space");
+    std::this_thread::sleep_for(1s);
+    EXPECT_EQ(difference(first, second, kDisc), 0.0);
+    EXPECT_GT(difference(second, full_shot(user), kDisc), 10.0);
 }
 
-TEST_F(PlayWindow, OneThatNobodyThrewOnlyTurnsInItsPlane) {
-    ROWLAND_NEEDS_XVFB();
-    play({"key:space", "filled:180", "shot", "shot", "key:space", "wait:1", "key:space", "wait:1", "filled:180",
-          "shot"});
-    EXPECT_LT(difference(2, 3, kDisc), 10.0);
-}
-
-TEST_F(PlayWindow, LightsAreAddedUpToTheMostAndTakenAway) {
-    ROWLAND_NEEDS_XVFB();
-    play({"key:space", "at:160,90", "shot", "key:g", "shot", "key:BackSpace", "shot", "down:g",
-          "log:150,64 lights are the most", "up:g", "shot"},
-         "--no-watch");
-    EXPECT_GT(difference(1, 2, {0, 0, kPlayWidth, kPlayHeight}), 0.5);
-    EXPECT_EQ(difference(1, 3, {0, 0, kPlayWidth, kPlayHeight}), 0.0);
-    EXPECT_GT(difference(3, 4, {0, 0, kPlayWidth, kPlayHeight}), 10.0);
-    EXPECT_THAT(log(), HasSubstr("64 lights are the most"));
-    EXPECT_THAT(log(), Not(HasSubstr("65 lights")));
+TEST_F(PlayWindow, LightsAreAddedUpToTheMostAndRemoved) {
+    DemoUser user(folder_.path(), arguments({"--no-watch"}));
+    user.key("space");
+    user.point_at({160, 90});
+    const image::ByteImage first = user.shot();
+    user.key("g");
+    EXPECT_GT(difference(first, user.shot(), kWhole), 0.5);
+    user.key("BackSpace");
+    const image::ByteImage without = user.shot();
+    EXPECT_EQ(difference(first, without, kWhole), 0.0);
+    user.hold_key("g");
+    user.wait_for_message("64 lights are the most", 150s);
+    user.release_key("g");
+    EXPECT_GT(difference(without, user.shot(), kWhole), 10.0);
+    const std::string messages = user.leave();
+    EXPECT_THAT(messages, HasSubstr("64 lights are the most"));
+    EXPECT_THAT(messages, Not(HasSubstr("65 lights")));
 }
 
 TEST_F(PlayWindow, AWalkGoesForwardAndEscapeOnlyEndsIt) {
-    ROWLAND_NEEDS_XVFB();
-    play({"key:space", "filled:180", "shot", "key:c", "wait:0.5", "shot", "down:w", "wait:1", "up:w", "settle:60",
-          "key:Escape", "wait:0.5", "settle:60"});
-    // The walk starts where the orbit was, but for rounding.
-    EXPECT_LT(difference(1, 2, {0, 0, kPlayWidth, kPlayHeight}), 0.5);
-    EXPECT_GT(difference(2, 3, {0, 0, kPlayWidth, kPlayHeight}), 5.0);
-    // The orbit goes on from where the walk ended, but for rounding.
-    EXPECT_LT(difference(3, 4, {0, 0, kPlayWidth, kPlayHeight}), 0.5);
+    DemoUser user(folder_.path(), arguments());
+    user.key("space");
+    const image::ByteImage orbit = full_shot(user);
+    user.key("c");
+    std::this_thread::sleep_for(500ms);
+    const image::ByteImage start = user.shot();
+    user.hold_key("w");
+    std::this_thread::sleep_for(1s);
+    user.release_key("w");
+    const image::ByteImage end = user.settled_shot(60s);
+    user.key("Escape");
+    std::this_thread::sleep_for(500ms);
+    // The walk starts where the orbit was, but for rounding, and the orbit goes on from where the walk ended.
+    EXPECT_LT(difference(orbit, start, kWhole), 0.5);
+    EXPECT_GT(difference(start, end, kWhole), 5.0);
+    EXPECT_LT(difference(end, user.settled_shot(60s), kWhole), 0.5);
 }
 
 TEST_F(PlayWindow, TheEnvironmentTurnsThereAndBack) {
-    ROWLAND_NEEDS_XVFB();
-    play({"key:space", "filled:180", "shot", "key:comma", "key:comma", "key:comma", "wait:1", "filled:180", "shot",
-          "key:period", "key:period", "key:period", "wait:1", "filled:180", "shot"});
-    const double there = difference(1, 2, {0, 0, kPlayWidth, kPlayHeight});
+    DemoUser user(folder_.path(), arguments());
+    user.key("space");
+    const image::ByteImage first = full_shot(user);
+    const auto turned = [&](const char* key) {
+        for (int i = 0; i < 3; ++i) user.key(key);
+        std::this_thread::sleep_for(1s);
+        return full_shot(user);
+    };
+    const double there = difference(first, turned("comma"), kWhole);
     EXPECT_GT(there, 1.0);
     // Maps may still be filling for the light as it stands again.
-    EXPECT_LT(difference(1, 3, {0, 0, kPlayWidth, kPlayHeight}), 0.3 * there);
+    EXPECT_LT(difference(first, turned("period"), kWhole), 0.3 * there);
 }
 
-TEST_F(PlayWindow, WhatIsRecordedPlaysAgainToTheSameStateWithAndWithoutAWindow) {
-    ROWLAND_NEEDS_XVFB();
-    const std::string file = (folder_.path() / "play.jsonl").string();
-    play({"throw:" + kOnDisc + ",60,30", "wait:1", "key:g", "key:comma", "key:m", "dragat:30,100,40,10", "wait:0.5"},
-         "--no-watch --record " + file);
-    const std::string recorded = state();
+TEST_F(PlayWindow, ARecordingPlaysAgainToTheSameStateWithAndWithoutAWindow) {
+    const std::string file = path("play.jsonl");
+    std::string recorded;
+    {
+        DemoUser user(folder_.path(), arguments({"--no-watch", "--record", file}));
+        user.key("space");
+        user.throw_from(kOnDisc, {60, 30});
+        std::this_thread::sleep_for(1s);
+        for (const char* key : {"g", "comma", "m"}) user.key(key);
+        user.drag({30, 100}, {40, 10});
+        std::this_thread::sleep_for(500ms);
+        recorded = state_in(user.leave());
+    }
     ASSERT_THAT(recorded, HasSubstr("state "));
-    const std::string demo = std::string(ROWLAND_DEMO) + " --width 96 --height 54 --output-folder " +
-                             folder_.path().string() + " --play " + file;
-    ASSERT_EQ(std::system((demo + " --headless 2>" + (folder_.path() / "log").string()).c_str()), 0);
-    EXPECT_EQ(state(), recorded);
-    EXPECT_TRUE(std::filesystem::exists(folder_.path() / "play.png"));
-    // It ends as it was recorded: by Escape.
-    play({"log:120,played"}, "--no-watch --play " + file);
-    EXPECT_EQ(state(), recorded);
+    const test::Ended headless = test::run({ROWLAND_DEMO, "--width", "96", "--height", "54", "--output-folder",
+                                            folder_.path(), "--play", file, "--headless"});
+    ASSERT_EQ(headless.code, 0) << headless.err;
+    EXPECT_EQ(state_in(headless.err), recorded);
+    EXPECT_TRUE(std::filesystem::exists(path("play.png")));
+    // In a window it ends as it was recorded: by Escape.
+    std::filesystem::create_directory(path("window"));
+    DemoUser user(path("window"), arguments({"--no-watch", "--play", file}));
+    EXPECT_EQ(state_in(user.wait_for_end()), recorded);
 }
 
-TEST_F(PlayWindow, ASavedSceneIsShownAndWhatWasTurnedStaysTurned) {
-    ROWLAND_NEEDS_XVFB();
-    const std::filesystem::path demo(ROWLAND_DEMO);
-    const std::filesystem::path cooked = folder_.path() / "cooked";
-    const std::filesystem::path source = folder_.path() / "content/scenes/cabinet.json";
-    std::filesystem::copy(demo.parent_path().parent_path() / "cooked", cooked);
-    const std::string text = read_text_file(std::filesystem::path(ROWLAND_CONTENT) / "scenes/cabinet.json", 1 << 22);
+TEST_F(PlayWindow, ASavedSceneIsShownAndTurnedObjectsStayTurned) {
+    const std::filesystem::path source = path("content/scenes/cabinet.json");
+    std::filesystem::copy(std::filesystem::path(ROWLAND_DEMO).parent_path().parent_path() / "cooked", path("cooked"));
+    const std::string text = read_text_file(test::content_path("scenes/cabinet.json"), 1 << 22);
     std::string other = text;
     const std::string plaster = R"("name": "plaster", "color": [0.75, 0.75, 0.75])";
     ASSERT_NE(other.find(plaster), std::string::npos);
     other.replace(other.find(plaster), plaster.size(), R"("name": "plaster", "color": [0.75, 0.05, 0.75])");
     write_file_atomic(source, text);
-    write_file_atomic(source.string() + ".other", other);
-    play({"key:space", "dragat:" + kOnDisc + ",14,9", "wait:1", "filled:180", "shot",
-          "run:cp " + source.string() + ".other " + source.string(), "other:30", "wait:1", "filled:180", "shot"},
-         "--cooked-folder " + cooked.string() + " --content-folder " + (folder_.path() / "content").string());
-    EXPECT_GT(difference(1, 3, kDiffuseSphere), 10.0);
-    // Its colours may be those of another moment of the maps' filling; its place and outline are the same.
-    EXPECT_LT(difference(1, 3, kDisc), 5.0);
+
+    DemoUser user(folder_.path(), arguments({"--cooked-folder", path("cooked"), "--content-folder", path("content")}));
+    user.key("space");
+    user.drag(kOnDisc, {14, 9});
+    std::this_thread::sleep_for(1s);
+    const image::ByteImage first = full_shot(user);
+    write_file_atomic(source, other);
+    user.shot_unlike(first, 60s);
+    std::this_thread::sleep_for(1s);
+    const image::ByteImage saved = full_shot(user);
+    EXPECT_GT(difference(first, saved, kDiffuseSphere), 10.0);
+    // The disc's colours may be those of another moment of the maps' filling; its position and outline are the same.
+    EXPECT_LT(difference(first, saved, kDisc), 5.0);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "modules/diffraction/asset/cooked_material.h"
-#include "modules/diffraction/evaluate/evaluation_light.h"
+#include "modules/diffraction/representations/evaluation_light.h"
 #include "modules/diffraction/model/frame.h"
 
 namespace rowland::diffraction {

@@ -6,14 +6,15 @@
 #include <string>
 
 #include "engine/core/file.h"
+#include "tests/support/source_tree.h"
 #include "tests/support/temporary_folder.h"
 
 namespace rowland {
 namespace {
 
 std::vector<std::byte> cook(const std::string& source, const std::filesystem::path& output, int threads) {
-    const std::string command = std::string(ROWLAND_COOK) + " cook " + ROWLAND_SOURCE_DIR + "/content/" + source +
-                                " -o " + output.string() + " --threads " + std::to_string(threads);
+    const std::string command = std::string(ROWLAND_COOK) + " cook " + test::content_path(source).string() + " -o " +
+                                output.string() + " --threads " + std::to_string(threads);
     EXPECT_EQ(std::system(command.c_str()), 0) << command;
     return read_file(output, std::uint64_t{1} << 30);
 }

@@ -16,6 +16,7 @@
 #include "engine/core/file.h"
 #include "modules/diffraction/asset/material_json.h"
 #include "tests/support/message_of.h"
+#include "tests/support/source_tree.h"
 #include "tests/support/temporary_folder.h"
 
 namespace rowland::inspector {
@@ -24,7 +25,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-const std::filesystem::path kMaterials = std::filesystem::path(ROWLAND_SOURCE_DIR) / "content/materials";
+const std::filesystem::path kMaterials = test::content_path("materials");
 
 const Field& pitch() {
     return field_at("/grating/pitch_nm");

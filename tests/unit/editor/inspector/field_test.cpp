@@ -7,6 +7,7 @@
 #include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "modules/diffraction/asset/material_json.h"
+#include "tests/support/source_tree.h"
 
 namespace rowland::inspector {
 namespace {
@@ -45,8 +46,8 @@ TEST(Fields, EveryOneHasItsUnitRangeHelpAndSource) {
 
 // The schema lists what a material may hold; whoever adds a member there must tell the inspector of it.
 TEST(Fields, EveryMemberOfTheSchemaHasAField) {
-    const Json schema = Json::parse(
-        read_text_file(std::string(ROWLAND_SOURCE_DIR) + "/modules/diffraction/asset/material.schema.json", 1 << 20));
+    const Json schema =
+        Json::parse(read_text_file(test::source_path("modules/diffraction/asset/material.schema.json"), 1 << 20));
     for (const auto& [name, part] : schema["$defs"]["grating"]["properties"].items())
         EXPECT_NE(field_of_refusal("/grating/" + name), nullptr) << name;
     for (const char* name : {"metal", "quality"}) EXPECT_NE(field_of_refusal(std::string("/") + name), nullptr) << name;

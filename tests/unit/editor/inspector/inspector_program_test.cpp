@@ -13,6 +13,7 @@
 #include "engine/core/file.h"
 #include "engine/image/byte_image.h"
 #include "engine/scene/transform.h"
+#include "tests/support/source_tree.h"
 #include "tests/support/temporary_folder.h"
 
 namespace rowland::inspector {
@@ -20,7 +21,7 @@ namespace {
 
 using testing::HasSubstr;
 
-const std::string kContent = std::string(ROWLAND_SOURCE_DIR) + "/content";
+const std::string kContent = test::source_path("content").string();
 
 struct Finished {
     int exit_code = -1;

@@ -7,13 +7,14 @@
 
 #include "engine/core/file.h"
 #include "tests/support/message_of.h"
+#include "tests/support/source_tree.h"
 
 namespace rowland::inspector {
 namespace {
 
 TEST(OrderedJson, ShippedMaterialsAreWrittenAsTheyWereRead) {
     int files = 0;
-    const std::filesystem::path folder = std::filesystem::path(ROWLAND_SOURCE_DIR) / "content/materials";
+    const std::filesystem::path folder = test::content_path("materials");
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
         if (entry.path().extension() != ".json") continue;
         const std::string text = read_text_file(entry.path(), 1 << 20);

@@ -13,13 +13,14 @@
 #include "engine/colour/observer.h"
 #include "engine/core/file.h"
 #include "engine/image/load.h"
+#include "tests/support/source_tree.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"
 
 namespace rowland::inspector {
 namespace {
 
-const std::filesystem::path kMaterials = std::filesystem::path(ROWLAND_SOURCE_DIR) / "content/materials";
+const std::filesystem::path kMaterials = test::content_path("materials");
 
 /// The frame of a point as the programs read it, and as we do.
 const diffraction::Frame kFrame{.view = {0.2, 0.6, 0.77}, .normal = {0.0, 1.0, 0.1}, .grating = {1.0, 0.0, 0.3}};

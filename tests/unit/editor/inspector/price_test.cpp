@@ -11,12 +11,13 @@
 #include "engine/lighting/clear_sky.h"
 #include "modules/diffraction/evaluate/budget.h"
 #include "modules/diffraction/evaluate/frame_sets.h"
+#include "tests/support/source_tree.h"
 #include "tests/support/temporary_folder.h"
 
 namespace rowland::inspector {
 namespace {
 
-const std::filesystem::path kPricedMaterials = std::filesystem::path(ROWLAND_SOURCE_DIR) / "content/materials";
+const std::filesystem::path kPricedMaterials = test::content_path("materials");
 
 /// A small probe with a sun.
 lighting::ProbeImage sky() {

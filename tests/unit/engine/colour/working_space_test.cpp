@@ -6,13 +6,12 @@
 #include <glm/matrix.hpp>
 
 #include "engine/colour/light_spectra.h"
+#include "tests/support/expect_near.h"
 
 namespace rowland::colour {
 namespace {
 
-void expect_near(const glm::dvec3& a, const glm::dvec3& b, double tolerance) {
-    for (int c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], tolerance) << "component " << c;
-}
+using test::expect_near;
 
 TEST(WorkingSpace, WhiteStaysNeutral) {
     expect_near(rec709_to_acescg() * glm::dvec3(1.0), glm::dvec3(1.0), 1e-12);

@@ -1,4 +1,5 @@
-// Needs a display and xdotool, which moves the pointer and the keys as the server's own devices do.
+// Needs a display (on_virtual_display.cpp) and xdotool, which moves the pointer and the keys as the server's own
+// devices do.
 #include <gtest/gtest.h>
 
 #include <chrono>

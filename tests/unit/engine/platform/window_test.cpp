@@ -1,4 +1,4 @@
-// Needs a display. Runs under a virtual one, where it is alone with the pointer and the keyboard.
+// Needs a display (on_virtual_display.cpp).
 #include "engine/platform/window.h"
 
 #define GLFW_INCLUDE_NONE

@@ -12,6 +12,7 @@
 #include "engine/core/file.h"
 #include "engine/scene/draco_encode.h"
 #include "engine/scene/mesh_recipe.h"
+#include "tests/support/source_tree.h"
 #include "tests/support/temporary_folder.h"
 
 namespace rowland::scene {
@@ -31,7 +32,7 @@ std::vector<std::byte> stream_of(const Mesh& mesh) {
 
 /// A stream that fuzzing found.
 std::vector<std::byte> found(const std::string& name) {
-    return read_file(std::filesystem::path(ROWLAND_CORPUS_FOLDER) / "draco" / name, 1 << 20);
+    return read_file(rowland::test::source_path("tests/fuzz/corpus/draco") / name, 1 << 20);
 }
 
 /// Why a stream is refused; empty if it is decoded.

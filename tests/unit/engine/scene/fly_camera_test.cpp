@@ -7,9 +7,12 @@
 #include <limits>
 
 #include "engine/scene/view_angles.h"
+#include "tests/support/expect_near.h"
 
 namespace rowland::scene {
 namespace {
+
+using test::expect_near;
 
 constexpr float kFlyInfinity = std::numeric_limits<float>::infinity();
 constexpr float kFlyNaN = std::numeric_limits<float>::quiet_NaN();
@@ -24,10 +27,6 @@ FlyCamera flown(FlyInput input, double seconds, int frames, FlyCamera camera = F
     input.look /= static_cast<float>(frames);
     for (int i = 0; i < frames; ++i) camera.update(input, seconds / frames);
     return camera;
-}
-
-void expect_near(glm::vec3 a, glm::vec3 b, float tolerance) {
-    for (int i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], tolerance) << "component " << i;
 }
 
 TEST(FlyCamera, StartsAtTheGivenCamera) {

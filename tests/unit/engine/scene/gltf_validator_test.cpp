@@ -8,6 +8,7 @@
 #include "engine/core/file.h"
 #include "engine/core/json_reader.h"
 #include "engine/scene/scene_recipe.h"
+#include "tests/support/source_tree.h"
 #include "tests/support/temporary_folder.h"
 
 namespace rowland::scene {
@@ -26,7 +27,7 @@ int validate(const std::vector<std::byte>& bytes) {
 }
 
 TEST(GltfValidator, FindsNothingWrongWithTheShippedScene) {
-    const std::string path = ROWLAND_CONTENT "/scenes/cabinet.json";
+    const std::string path = rowland::test::content_path("scenes/cabinet.json").string();
     const SceneRecipe recipe = parse_scene_recipe(parse_json(read_text_file(path, 1 << 20), path), path);
     const int status = validate(write_glb(build_scene(recipe)));
     if (status == kNoValidator || status == kNoSuchCommand)

@@ -10,6 +10,7 @@
 #include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/core/json_reader.h"
+#include "tests/support/source_tree.h"
 #include "tests/unit/engine/scene/mesh_sanity.h"
 
 namespace rowland::scene {
@@ -187,7 +188,7 @@ TEST(MeshRecipe, OnlyObjectsWithAMeshAreRecipes) {
 
 TEST(MeshRecipe, ShippedRecipesBuild) {
     const auto build_shipped = [](const std::string& name) {
-        const std::string path = std::string(ROWLAND_CONTENT) + "/meshes/" + name;
+        const std::string path = rowland::test::content_path("meshes/" + std::string(name)).string();
         return build_mesh(parse_mesh_recipe(parse_json(read_text_file(path, 1 << 20), path), path));
     };
     EXPECT_EQ(build_shipped("cd.json").positions.size(), 25000U);

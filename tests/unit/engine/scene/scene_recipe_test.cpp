@@ -16,6 +16,7 @@
 #include "engine/core/json_reader.h"
 #include "engine/scene/gltf_import.h"
 #include "tests/support/message_of.h"
+#include "tests/support/source_tree.h"
 #include "tests/unit/engine/scene/mesh_sanity.h"
 
 namespace rowland::scene {
@@ -202,9 +203,10 @@ TEST(SceneRecipe, UnreasonableSizesAreRefused) {
 
 class Cabinet : public testing::Test {
  protected:
-    json recipe_ = parse_json(read_text_file(ROWLAND_CONTENT "/scenes/cabinet.json", 1 << 20), "cabinet.json")["scene"];
-    std::vector<std::byte> glb_ = write_glb(build_scene(
-        parse_scene_recipe(parse_json(read_text_file(ROWLAND_CONTENT "/scenes/cabinet.json", 1 << 20), ""), "")));
+    json recipe_ = parse_json(read_text_file(rowland::test::content_path("scenes/cabinet.json"), 1 << 20),
+                              "cabinet.json")["scene"];
+    std::vector<std::byte> glb_ = write_glb(build_scene(parse_scene_recipe(
+        parse_json(read_text_file(rowland::test::content_path("scenes/cabinet.json"), 1 << 20), ""), "")));
 };
 
 TEST_F(Cabinet, ImportFindsEverythingInIt) {

@@ -1,0 +1,164 @@
+// Directional, point and spot lights against the formula on the CPU.
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "engine/math/sh_basis.h"
+#include "engine/render/scene_lights.h"
+#include "engine/scene/directional_light.h"
+#include "engine/scene/punctual_light.h"
+#include "tests/gpu/render_test.h"
+#include "tests/unit/engine/scene/punctual_attenuation.h"
+
+namespace rowland::render {
+namespace {
+
+class LightsTest : public test::RenderTest {
+ protected:
+    LightsTest() { add(square(), {.base_colour = kBase, .metallic = 0.25F, .roughness = 0.6F}); }
+    void add_directional(const glm::vec3& toward, const glm::vec3& irradiance) {
+        world_.add(world_.create(),
+                   scene::DirectionalLight{.direction = glm::normalize(toward), .irradiance = irradiance});
+    }
+    ecs::Entity add_punctual(const scene::PunctualLight& light, const glm::mat4& matrix) {
+        const ecs::Entity entity = world_.create();
+        world_.add(entity, scene::PunctualLight(light));
+        world_.add(entity, scene::WorldMatrix{matrix});
+        return entity;
+    }
+    /// Radiance of a position on the square under unit irradiance from a direction.
+    static glm::dvec3 share(const glm::vec3& place, const glm::dvec3& toward) {
+        const glm::dvec3 v = glm::normalize(glm::dvec3(0.0, 0.0, kEye) - glm::dvec3(place));
+        return test::reflected(glm::normalize(toward), {0.0, 0.0, 1.0}, v, glm::dvec3(kBase), 0.25, 0.6);
+    }
+    /// The same under a light at a point that shines along `axis`.
+    static glm::dvec3 share(const glm::vec3& place, const scene::PunctualLight& light, const glm::vec3& from,
+                            const glm::vec3& axis) {
+        const glm::vec3 to_light = from - place;
+        const float distance = glm::length(to_light);
+        const float cosine = -glm::dot(axis, to_light) / distance;
+        const double reaches = scene::attenuation(light, distance, cosine) / (distance * distance);
+        return share(place, glm::dvec3(to_light)) * reaches * glm::dvec3(light.intensity);
+    }
+    /// Floats through a dozen operations, and GGX's peak.
+    static void expect_equal(const glm::vec4& drawn, const glm::dvec3& expected) {
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(drawn[c], expected[c], 1e-6 + 3e-5 * expected[c]);
+    }
+    static constexpr glm::vec3 kBase{0.5F, 0.3F, 0.1F};
+};
+
+TEST_F(LightsTest, TwoDirectionalLightsAdd) {
+    add_directional({1.0F, 0.2F, 0.7F}, {1.0F, 2.0F, 0.5F});
+    add_directional({-0.5F, 0.6F, 0.4F}, {3.0F, 0.25F, 1.0F});
+    const glm::vec3 place = place_of(0.3F, -0.5F);
+    expect_equal(at(draw(), 0.3F, -0.5F), share(place, {1.0, 0.2, 0.7}) * glm::dvec3(1.0, 2.0, 0.5) +
+                                              share(place, {-0.5, 0.6, 0.4}) * glm::dvec3(3.0, 0.25, 1.0));
+}
+
+TEST_F(LightsTest, AWorldMatrixTurnsADirectionalLight) {
+    const ecs::Entity entity = world_.create();
+    world_.add(entity, scene::DirectionalLight{.direction = {0.0F, 0.0F, 1.0F}, .irradiance = glm::vec3(1.0F)});
+    world_.add(entity, scene::WorldMatrix{glm::rotate(glm::mat4(1.0F), 0.9F, {0.0F, 1.0F, 0.0F})});
+    expect_equal(at(draw(), 0.0F, 0.4F), share(place_of(0.0F, 0.4F), {std::sin(0.9), 0.0, std::cos(0.9)}));
+}
+
+TEST_F(LightsTest, PointLightFallsWithTheSquareOfTheDistanceUpToItsRange) {
+    const glm::vec3 from(0.4F, -0.2F, 0.7F);
+    for (const float range : {0.0F, 1.5F}) {
+        const scene::PunctualLight light{.intensity = {2.0F, 1.0F, 0.5F}, .range_m = range};
+        const ecs::Entity entity = add_punctual(light, glm::translate(glm::mat4(1.0F), from));
+        const auto pixels = draw();
+        for (const glm::vec2 p : {glm::vec2(0.4F, -0.2F), glm::vec2(-0.6F, 0.5F), glm::vec2(0.9F, 0.9F)})
+            expect_equal(at(pixels, p.x, p.y), share(place_of(p.x, p.y), light, from, {0.0F, 0.0F, -1.0F}));
+        world_.destroy(entity);
+    }
+}
+
+TEST_F(LightsTest, BeyondItsRangeAPointLightEnds) {
+    add_punctual({.intensity = glm::vec3(5.0F), .range_m = 0.6F}, glm::translate(glm::mat4(1.0F), {0.0F, 0.0F, 0.5F}));
+    EXPECT_GT(at(draw(), 0.0F, 0.0F).g, 0.1F);
+    EXPECT_EQ(at(draw(), 0.7F, 0.0F).g, 0.0F);
+}
+
+TEST_F(LightsTest, SpotShinesAlongItsMinusZWithinItsCone) {
+    const scene::PunctualLight light{
+        .intensity = glm::vec3(2.0F), .spot = true, .inner_cone = 0.2F, .outer_cone = 0.5F};
+    // Moved aside and tilted: its axis meets the plane at (-0.3, 0.1).
+    const glm::vec3 from(0.2F, 0.1F, 1.4F);
+    const glm::vec3 target(-0.3F, 0.1F, 0.0F);
+    add_punctual(light, glm::inverse(glm::lookAt(from, target, {0.0F, 1.0F, 0.0F})));
+    const auto pixels = draw();
+    int dark = 0;
+    int partly = 0;
+    for (float x = -0.95F; x < 1.0F; x += 0.0727F) {
+        const glm::vec3 place = place_of(x, 0.0F);
+        const glm::dvec3 expected = share(place, light, from, glm::normalize(target - from));
+        expect_equal(at(pixels, x, 0.0F), expected);
+        const float angle = std::acos(glm::dot(glm::normalize(place - from), glm::normalize(target - from)));
+        dark += angle > light.outer_cone ? 1 : 0;
+        partly += angle > light.inner_cone && angle < light.outer_cone ? 1 : 0;
+        if (angle <= light.outer_cone) continue;
+        EXPECT_EQ(at(pixels, x, 0.0F).g, 0.0F);
+    }
+    EXPECT_GT(dark, 2);
+    EXPECT_GT(partly, 2);
+}
+
+TEST_F(LightsTest, AllKindsAddToTheProbe) {
+    const auto centre = [&] { return glm::dvec3(at(draw(), 0.1F, 0.1F)); };
+    renderer_.set_probe(even_light(1.0F));
+    const glm::dvec3 around = centre();
+    renderer_.set_probe(even_light(0.0F));
+    const scene::PunctualLight light{.intensity = glm::vec3(0.3F)};
+    add_punctual(light, glm::translate(glm::mat4(1.0F), {0.0F, 0.0F, 1.0F}));
+    add_directional({0.3F, 0.0F, 1.0F}, glm::vec3(0.7F));
+    const glm::dvec3 direct = centre();
+    const glm::vec3 place = place_of(0.1F, 0.1F);
+    expect_equal(glm::vec4(glm::vec3(direct), 1.0F),
+                 share(place, {0.3, 0.0, 1.0}) * 0.7 + share(place, light, {0.0F, 0.0F, 1.0F}, {0.0F, 0.0F, -1.0F}));
+    renderer_.set_probe(even_light(1.0F));
+    expect_equal(glm::vec4(glm::vec3(centre()), 1.0F), around + direct);
+}
+
+TEST_F(LightsTest, OfTooManyLightsTheFirstSixtyFourShine) {
+    for (int i = 0; i < 70; ++i) add_directional({0.0F, 0.0F, 1.0F}, glm::vec3(0.01F));
+    expect_equal(at(draw(), 0.0F, 0.0F), share(place_of(0.0F, 0.0F), {0.0, 0.0, 1.0}) * 0.64);
+}
+
+TEST_F(LightsTest, ModulesReceiveEveryDirectionalLightAndTheProbesIlluminant) {
+    /// Keeps the light it is given.
+    class Listener final : public MaterialType {
+     public:
+        explicit Listener(FrameLight& light) : light_(&light) {}
+        std::string name() const override { return "listener"; }
+        void add_shaders(gpu::ShaderLibrary& /*library*/) const override {}
+        bool owns(ecs::World& /*world*/, ecs::Entity /*entity*/) const override { return false; }
+        gpu::ProgramDesc program(ecs::World& /*world*/, ecs::Entity /*entity*/) const override { return {}; }
+        void update(ecs::World& /*world*/, const FrameLight& light) override { *light_ = light; }
+        void bind(ecs::World& /*world*/, ecs::Entity /*entity*/, const gpu::Program& /*program*/) const override {}
+
+     private:
+        FrameLight* light_;
+    };
+    FrameLight received;
+    renderer_.add_material_type(std::make_unique<Listener>(received));
+    lighting::LightProbe probe = even_light(1.0F);
+    probe.illuminant = colour::illuminant("A");
+    renderer_.set_probe(probe);
+    add_directional({1.0F, 0.0F, 0.0F}, {1.0F, 2.0F, 3.0F});
+    add_directional({0.0F, 1.0F, 0.0F}, {4.0F, 0.0F, 0.0F});
+    draw();
+    EXPECT_EQ(received.probe->illuminant.name, probe.illuminant.name);
+    EXPECT_EQ(received.distant_lights, (std::vector<DistantLight>{{{1.0F, 0.0F, 0.0F}, {1.0F, 2.0F, 3.0F}},
+                                                                  {{0.0F, 1.0F, 0.0F}, {4.0F, 0.0F, 0.0F}}}));
+
+    const std::uint64_t version = received.version;
+    draw();
+    EXPECT_EQ(received.version, version);
+    probe.illuminant = colour::d65();  // the same coefficients
+    renderer_.set_probe(probe);
+    draw();
+    EXPECT_GT(received.version, version);
+}
+
+}  // namespace
+}  // namespace rowland::render

@@ -1,0 +1,145 @@
+// The map over world-space grating vectors: against the CPU's, and when it is filled.
+#include <gtest/gtest.h>
+
+#include "modules/diffraction/representations/circle/gpu_circle.h"
+#include "tests/gpu/modules/diffraction/grating_picture.h"
+
+namespace rowland::diffraction {
+namespace {
+
+class Circle : public GratingPicture {
+ protected:
+    int fills() const { return static_cast<const GpuCircle&>(*material_).fills(); }
+    int fills_begun() const { return static_cast<const GpuCircle&>(*material_).fills_begun(); }
+    CircleMap map(const CookedMaterial& cooked) const {
+        return fill_circle_map(*light_.texels, cooked.kernel, cooked.material.grating.pitch_nm,
+                               std::get<CircleTables>(cooked.tables).size, cooked.zero_order_xyz);
+    }
+    static glm::dvec3 at(const CircleMap& map, const Point& point) {
+        const glm::dmat3 axes = glm::transpose(point.to_tangent);
+        return sample(map, Frame{.view = axes * point.view, .normal = axes[2], .grating = axes[0]});
+    }
+};
+
+constexpr const char* kCircle = R"({"representation": "circle", "map_resolution": 24})";
+
+/// With one chart, and with two for a kernel that tells +x from −x; with g in both halves of the world.
+TEST_F(Circle, PixelsEqualTheCpusMap) {
+    for (const char* grating : {kSlitCd, kBlazed}) {
+        const CookedMaterial cooked = cook(grating, kCircle);
+        if (!renderer_) show(cooked);
+        const CircleMap expected = map(cooked);
+        EXPECT_EQ(expected.charts, grating == kBlazed ? 2 : 1);
+        for (const double rotation : {0.3, 0.3 + 3.14159265358979}) {
+            rotation_ = rotation;
+            use(cooked);
+            EXPECT_LT(largest_difference(draw(), [&](const Point& point) { return at(expected, point); }),
+                      kPictureTolerance)
+                << grating << rotation;
+            EXPECT_GT(brightest_, 0.01);
+        }
+    }
+}
+
+/// With lights at the pixels and, in one value with the map, at the vertices.
+TEST_F(Circle, AMapAtTheVerticesIsInterpolated) {
+    light_ = light_of(smooth_probe(), three_keys());
+    for (const char* lights_at : {"pixels", "vertices"}) {
+        const std::string quality = R"({"representation": "circle", "map_resolution": 24, "map_at": "vertices",
+            "lights_at": ")";
+        const CookedMaterial cooked = cook(kSlitCd, quality + lights_at + "\"}");
+        if (!renderer_) show(cooked, -0.3);
+        use(cooked);
+        const CircleMap expected = map(cooked);
+        expect_map_at_vertices(cooked, [&](const Point& point) { return at(expected, point); });
+    }
+}
+
+TEST_F(Circle, KeyLightsComeOnTop) {
+    light_ = light_of(smooth_probe(), three_keys());
+    const CookedMaterial cooked = cook(kSlitCd, kCircle);
+    show(cooked, -0.3);
+    const CircleMap expected = map(cooked);
+    EXPECT_LT(largest_difference(draw(),
+                                 [&](const Point& point) {
+                                     return at(expected, point) + key_light_xyz(cooked, light_.key_lights, point);
+                                 }),
+              kPictureTolerance);
+}
+
+TEST_F(Circle, MotionFillsNothingAndObjectsShareTheMap) {
+    const CookedMaterial cooked = cook(kSlitCd, kCircle);
+    show(cooked);
+    const ecs::Entity other = world_.create();
+    world_.add(other, scene::Transform{.translation = {0.0F, 0.0F, -1.0F}});
+    world_.add(other, render::make_mesh_instance(flat_triangle()));
+    world_.add(other, render::StandardMaterial(material_->base()));
+    world_.add(other, DiffractionSurface{material_, 0.5F});
+    draw();
+    const CircleMap expected = map(cooked);
+    world_.destroy(other);
+    for (int step = 1; step < 4; ++step) {
+        transform_.rotation =
+            glm::angleAxis(0.4F * static_cast<float>(step), glm::normalize(glm::vec3(1.0F, 1.0F, 0.3F)));
+        EXPECT_LT(largest_difference(draw(), [&](const Point& point) { return at(expected, point); }),
+                  kPictureTolerance);
+    }
+    ++light_.version;  // the same texels
+    draw();
+    EXPECT_EQ(fills(), 1);
+    light_.texels = std::make_shared<const lighting::LightTexels>(*light_.texels);
+    ++light_.version;
+    draw();
+    EXPECT_EQ(fills(), 2);
+}
+
+/// A frame uploads some slices at most, so that the first frames cannot have the map, however fast it is filled.
+TEST_F(Circle, FramesDoNotWaitForTheMap) {
+    light_ = light_of(smooth_probe(), three_keys());
+    const CookedMaterial cooked = cook(kSlitCd, kCircle);
+    show(cooked, 0.0, 8);
+    const std::vector<glm::vec4> first = draw();
+    EXPECT_EQ(fills(), 0);
+    const auto on_its_own = material_;
+    use(cook(kSlitCd, R"({"representation": "direct"})"));
+    EXPECT_EQ(draw(), first);
+    material_ = on_its_own;
+    world_.add(entity_, DiffractionSurface{material_, 0.0F});
+
+    const auto draw_until = [&](int wanted) {
+        std::vector<glm::vec4> pixels = draw();
+        for (int frame = 0; fills() < wanted && frame < 100000; ++frame) pixels = draw();
+        return pixels;
+    };
+    const auto expect_map = [&](const std::vector<glm::vec4>& pixels) {
+        const CircleMap expected = map(cooked);
+        EXPECT_LT(largest_difference(pixels,
+                                     [&](const Point& point) {
+                                         return at(expected, point) + key_light_xyz(cooked, light_.key_lights, point);
+                                     }),
+                  kPictureTolerance);
+    };
+    const std::vector<glm::vec4> whole = draw_until(1);
+    EXPECT_EQ(fills_begun(), 1);
+    expect_map(whole);
+
+    // Another probe, and yet another while the first one's map is not there: the old map stays until the newest is.
+    const auto brighten = [&] {
+        auto texels = *light_.texels;
+        for (auto* colour : {&texels.red, &texels.green, &texels.blue})
+            for (float& flux : *colour) flux *= 2.0F;
+        light_.texels = std::make_shared<const lighting::LightTexels>(std::move(texels));
+        ++light_.version;
+    };
+    brighten();
+    EXPECT_EQ(draw(), whole);
+    brighten();
+    EXPECT_EQ(draw(), whole);
+    EXPECT_EQ(fills_begun(), 3);
+    const std::vector<glm::vec4> newest = draw_until(2);
+    EXPECT_EQ(fills(), 2);
+    expect_map(newest);
+}
+
+}  // namespace
+}  // namespace rowland::diffraction

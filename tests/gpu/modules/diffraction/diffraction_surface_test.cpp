@@ -1,0 +1,135 @@
+// What all representations have in common: one component, whatever shades it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine/core/json_reader.h"
+#include "tests/gpu/modules/diffraction/grating_picture.h"
+#include "tests/support/message_of.h"
+
+namespace rowland::diffraction {
+namespace {
+
+using ::testing::HasSubstr;
+
+class Surface : public GratingPicture {};
+
+TEST_F(Surface, AnEntityKeepsItsPlaceWhenItsRepresentationChanges) {
+    const char* const qualities[] = {
+        R"({"representation": "spikes"})", R"({"representation": "planar", "map_resolution": 32})",
+        R"({"representation": "arc"})",    R"({"representation": "transfer"})",
+        R"({"representation": "bins"})",   R"({"representation": "circle", "map_resolution": 24})"};
+    mesh_ = flat_triangle();
+    show(cook(kSlitCd, qualities[0]));
+    const ecs::Entity entity = entity_;
+    std::vector<std::vector<glm::vec4>> pictures;
+    for (const char* quality : qualities) {
+        use(cook(kSlitCd, quality));
+        pictures.push_back(draw());
+    }
+    EXPECT_TRUE(world_.alive(entity));
+    // And back again: nothing is left of what was between.
+    use(cook(kSlitCd, qualities[0]));
+    EXPECT_EQ(draw(), pictures[0]);
+    // All show the same grating under the same smooth light: to the 10 % of four spikes, the coarsest.
+    for (std::size_t i = 1; i < pictures.size(); ++i) {
+        double difference = 0.0;
+        double size = 0.0;
+        for (std::size_t pixel = 0; pixel < pictures[i].size(); ++pixel) {
+            const glm::dvec3 reference(pictures[2][pixel]);
+            const glm::dvec3 d = glm::dvec3(pictures[i][pixel]) - reference;
+            difference += glm::dot(d, d);
+            size += glm::dot(reference, reference);
+        }
+        EXPECT_GT(size, 0.1);
+        EXPECT_LT(std::sqrt(difference / size), 0.1) << qualities[i];
+    }
+}
+
+TEST_F(Surface, ATurnOfTheGroovesIsATurnOfTheTangents) {
+    mesh_ = flat_triangle();
+    show(cook(kBlazed, R"({"representation": "arc"})"), 0.6);
+    const std::vector<glm::vec4> turned = draw();
+    for (std::size_t i = 0; i < 3; ++i) {
+        const glm::vec3 g(mesh_.tangents[i]);
+        const glm::vec3 bitangent = mesh_.tangents[i].w * glm::cross(mesh_.normals[i], g);
+        mesh_.tangents[i] = glm::vec4(std::cos(0.6F) * g + std::sin(0.6F) * bitangent, mesh_.tangents[i].w);
+    }
+    world_.add(entity_, render::make_mesh_instance(scene::Mesh(mesh_)));
+    world_.add(entity_, DiffractionSurface{material_, 0.0F});
+    EXPECT_LT(largest_difference(turned, [&](const Point&) { return glm::dvec3(1.0); }), 1e3);  // counts pixels
+    const std::vector<glm::vec4> plain = draw();
+    float largest = 0.0F;
+    float difference = 0.0F;
+    for (std::size_t i = 0; i < plain.size(); ++i)
+        for (int o = 0; o < 3; ++o) {
+            largest = std::max(largest, std::abs(plain[i][o]));
+            difference = std::max(difference, std::abs(plain[i][o] - turned[i][o]));
+        }
+    EXPECT_GT(largest, 0.01F);
+    EXPECT_LT(difference, 1e-4F * largest);  // float, turned before or after the vertices' interpolation
+}
+
+TEST_F(Surface, ViewsFromBelowAreBlack) {
+    light_ = light_of(smooth_probe(), three_keys());
+    mesh_ = flat_triangle();
+    transform_.rotation = glm::quat(1.0F, 0.0F, 0.0F, 0.0F);
+    show(cook(kSlitCd, R"({"representation": "direct"})"));
+    for (const char* quality : {R"({"representation": "direct"})", R"({"representation": "arc"})",
+                                R"({"representation": "planar", "map_resolution": 32})",
+                                R"({"representation": "circle", "map_resolution": 24})"}) {
+        use(cook(kSlitCd, quality));
+        render::StandardMaterial both_sides = material_->base();
+        both_sides.double_sided = true;  // the back is drawn as well
+        world_.add(entity_, render::StandardMaterial(both_sides));
+        const auto brightest = [&](float eye_z) {
+            camera_.eye = {0.4F, 0.5F, eye_z};
+            float largest = 0.0F;
+            for (const glm::vec4& pixel : draw()) largest = std::max({largest, pixel.x, pixel.y, pixel.z});
+            return largest;
+        };
+        EXPECT_GT(brightest(2.5F), 0.01F) << quality;
+        EXPECT_EQ(brightest(-2.5F), 0.0F) << quality;
+    }
+}
+
+TEST_F(Surface, VertexLightIsMadeOnlyWhenSomethingChanges) {
+    show(cook(kSlitCd, R"({"representation": "arc"})"));
+    const auto made = [&] {
+        draw();
+        return world_.get<SurfaceState>(entity_).vertex_light.id();
+    };
+    const GLuint first = made();
+    EXPECT_EQ(made(), first);
+    camera_.eye.x += 0.5F;
+    transform_.translation.x += 0.1F;  // a distant light does not see it
+    EXPECT_EQ(made(), first);
+    transform_.rotation = glm::angleAxis(0.1F, glm::vec3(1.0F, 0.0F, 0.0F));
+    const GLuint turned = made();
+    EXPECT_NE(turned, first);
+    ++light_.version;
+    EXPECT_NE(made(), turned);
+}
+
+TEST_F(Surface, ABrokenQualityIsRefusedByName) {
+    show(cook(kSlitCd, R"({"representation": "direct"})"));
+    DiffractionSurfaceType type(glm::dmat3(1.0));
+    const scene::ImportedScene no_pictures;
+    render::SurfaceTextures textures(no_pictures);
+    const auto attach = [&](const char* members) {
+        return rowland::test::message_of([&] {
+            type.attach(world_, entity_, parse_json(std::string("{\"grating\": ") + kSlitCd + members + "}", "m"),
+                        textures, "scene.gltf", "/materials/0");
+        });
+    };
+    EXPECT_THAT(attach(R"(, "quality": {"representation": "arc", "rnak": 3})"), HasSubstr("/materials/0/quality/rnak"));
+    EXPECT_THAT(attach(R"(, "quality": {"representation": "streak"})"),
+                HasSubstr("/materials/0/quality/representation"));
+    EXPECT_THAT(attach(R"(, "grooveTexture": {"index": 0})"), HasSubstr("/materials/0/grooveTexture/index"));
+    type.attach(world_, entity_,
+                parse_json(std::string("{\"grating\": ") + kSlitCd + R"(, "grooveRotation": 0.25})", "m"), textures,
+                "scene.gltf", "/materials/0");
+    EXPECT_EQ(world_.get<DiffractionSurface>(entity_).groove_rotation, 0.25F);
+}
+
+}  // namespace
+}  // namespace rowland::diffraction

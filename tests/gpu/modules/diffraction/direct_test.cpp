@@ -1,0 +1,187 @@
+// Analytic lights on the GPU against the CPU.
+#include <gtest/gtest.h>
+
+#include "engine/scene/directional_light.h"
+#include "engine/scene/punctual_light.h"
+#include "modules/diffraction/asset/layer_weights.h"
+#include "tests/gpu/modules/diffraction/grating_picture.h"
+#include "tests/gpu/render_test.h"
+
+namespace rowland::diffraction {
+namespace {
+
+class Direct : public GratingPicture {
+ protected:
+    /// What the engine's own surface sends of a light with this irradiance (Rec.709) on what faces it.
+    static glm::dvec3 base_xyz(const CookedMaterial& cooked, const Point& point, const glm::dvec3& l,
+                               const glm::dvec3& irradiance, const glm::vec3& eye) {
+        const glm::dvec3 n = glm::transpose(point.to_tangent)[2];
+        const glm::dvec3 v = glm::normalize(glm::dvec3(eye) - point.position);
+        const double roughness = static_cast<double>(cooked.material.base.roughness);
+        return layer_weights(cooked.material.grating).base *
+               rowland::test::reflected(l, n, v, glm::dvec3(0.0), 0.0, roughness) *
+               (colour::rec709_to_xyz() * irradiance);
+    }
+    /// A light without extent, by the smoothed kernel.
+    static glm::dvec3 small_light_xyz(const CookedMaterial& cooked, const Point& point, const glm::dvec3& l,
+                                      const glm::dvec3& irradiance) {
+        const DirectLight light{.direction = l, .flux = irradiance};
+        return direct_radiance(smoothed(cooked), direct_material(cooked), light_spot(light, point.to_tangent),
+                               DirectView{point.view.x, point.view.y, point.footprint});
+    }
+    void add_light(const scene::PunctualLight& light, const glm::vec3& place) {
+        const ecs::Entity entity = world_.create();
+        world_.add(entity, scene::PunctualLight(light));
+        world_.add(entity, scene::Transform{.translation = place});
+    }
+};
+
+constexpr const char* kDirect = R"({"representation": "direct"})";
+
+TEST_F(Direct, KeyLightsEqualTheCpuWithTheSmoothedKernel) {
+    light_ = light_of(smooth_probe(), three_keys());
+    for (const char* grating : {kSlitCd, kBlazed, kFoil}) {
+        const CookedMaterial cooked = cook(grating, kDirect);
+        if (!renderer_) show(cooked, 0.5);
+        use(cooked);
+        const auto expected = [&](const Point& point) { return key_light_xyz(cooked, light_.key_lights, point); };
+        EXPECT_LT(largest_difference(draw(), expected), kPictureTolerance) << grating;
+        EXPECT_GT(brightest_, 0.01);
+    }
+}
+
+/// Shading at the vertices is interpolated between them, also that of directional lights without shadows.
+TEST_F(Direct, LightsAtTheVerticesAreInterpolated) {
+    light_ = light_of(smooth_probe(), three_keys());
+    const CookedMaterial cooked = cook(kFoil, R"({"representation": "direct", "lights_at": "vertices"})");
+    show(cooked, 0.5);
+    const glm::dvec3 toward = glm::normalize(glm::dvec3(0.3, 0.2, 0.9));
+    const glm::dvec3 irradiance(0.05);
+    world_.add(world_.create(), scene::DirectionalLight{.direction = toward, .irradiance = irradiance});
+    std::vector<glm::dvec3> shaded;
+    for (std::size_t vertex = 0; vertex < 3; ++vertex) {
+        Point point;
+        point.to_tangent = vertex_frame(vertex);
+        point.view = vertex_view(vertex);
+        shaded.push_back(key_light_xyz(cooked, light_.key_lights, point) +
+                         small_light_xyz(cooked, point, toward, irradiance));
+    }
+    EXPECT_LT(largest_difference(draw(),
+                                 [&](const Point& point) {
+                                     return mix(point, shaded) +
+                                            base_xyz(cooked, point, toward, irradiance, camera_.eye);
+                                 }),
+              kPictureTolerance);
+    EXPECT_GT(brightest_, 0.01);
+    const auto at_pixels = [&](const Point& point) { return key_light_xyz(cooked, light_.key_lights, point); };
+    EXPECT_GT(largest_difference(draw(), at_pixels), 0.1);  // three vertices are far too few
+}
+
+TEST_F(Direct, PitsEqualTheCpu) {
+    light_ = light_of(smooth_probe(), three_keys());
+    const CookedMaterial cooked = cook(R"({"pitch_nm": 1500, "profile": {"type": "slit", "width_nm": 700},
+                                           "groove_lobe": {"pits": {"length_nm": 850, "coherent": 0.3}}})",
+                                       kDirect);
+    show(cooked, 0.1);
+    EXPECT_LT(
+        largest_difference(draw(), [&](const Point& point) { return key_light_xyz(cooked, light_.key_lights, point); }),
+        kPictureTolerance);
+    EXPECT_GT(brightest_, 0.01);
+}
+
+/// Order 0 is a delta function of u, which a lobe's parts smooth to normal distributions.
+TEST_F(Direct, OrderZeroShowsTheLobesThemselves) {
+    light_ = light_of(smooth_probe(), three_keys());
+    const CookedMaterial cooked =
+        cook(R"({"pitch_nm": 1601, "profile": {"type": "slit", "width_nm": 700}, "orders": [-1, 0, 1]})", kDirect);
+    show(cooked, 0.5);
+    const auto expected = [&](const Point& point) {
+        glm::dvec3 xyz = key_light_xyz(cooked, light_.key_lights, point);
+        for (const lighting::KeyLight& key : light_.key_lights)
+            for (const LightSpot::Part& part : light_spot(key, point.to_tangent).parts) {
+                if (part.cosine <= 0.0) continue;
+                const double deviation = std::hypot(part.deviation_g, point.footprint / std::sqrt(3.0));
+                const double z = (part.centre_g + point.view.x) / deviation;
+                const double density = std::exp(-0.5 * z * z) / (deviation * std::sqrt(6.28318530717959));
+                xyz += 0.5 * part.cosine * density * (cooked.zero_order_xyz * key.flux);
+            }
+        return xyz;
+    };
+    EXPECT_LT(largest_difference(draw(), expected), kPictureTolerance);
+    CookedMaterial without = cooked;
+    without.zero_order_xyz = glm::dmat3(0.0);
+    use(without);
+    EXPECT_GT(largest_difference(draw(), expected), 0.1);
+}
+
+TEST_F(Direct, DirectionalLightsEqualTheCpu) {
+    const CookedMaterial cooked = cook(kSlitCd, kDirect);
+    show(cooked, 0.5);
+    const glm::dvec3 l = glm::normalize(glm::vec3(0.5F, 0.4F, 1.0F));
+    const glm::dvec3 irradiance(2.0, 1.5, 1.0);
+    world_.add(world_.create(),
+               scene::DirectionalLight{.direction = glm::vec3(l), .irradiance = glm::vec3(irradiance)});
+    const auto expected = [&](const Point& point) {
+        return small_light_xyz(cooked, point, l, irradiance) + base_xyz(cooked, point, l, irradiance, camera_.eye);
+    };
+    EXPECT_LT(largest_difference(draw(), expected), kPictureTolerance);
+    EXPECT_GT(brightest_, 0.05);
+}
+
+/// The kernel has a layer for each colour, and is rebuilt when the colours change.
+TEST_F(Direct, LightsOfOtherColoursEqualTheCpu) {
+    const CookedMaterial cooked = cook(kSlitCd, kDirect);
+    show(cooked, 0.5);
+    const glm::dvec3 directions[] = {glm::normalize(glm::vec3(0.5F, 0.4F, 1.0F)),
+                                     glm::normalize(glm::vec3(-0.6F, 0.2F, 0.8F))};
+    for (const glm::dvec3& colour : {glm::dvec3(1.0, 0.2, 0.1), glm::dvec3(0.1, 0.3, 2.0)}) {
+        const glm::dvec3 irradiances[] = {glm::dvec3(1.0), colour};
+        std::vector<ecs::Entity> lights;
+        for (int i = 0; i < 2; ++i) {
+            lights.push_back(world_.create());
+            world_.add(lights.back(), scene::DirectionalLight{.direction = glm::vec3(directions[i]),
+                                                              .irradiance = glm::vec3(irradiances[i])});
+        }
+        const auto expected = [&](const Point& point) {
+            glm::dvec3 xyz(0.0);
+            for (int i = 0; i < 2; ++i)
+                xyz += small_light_xyz(cooked, point, directions[i], irradiances[i]) +
+                       base_xyz(cooked, point, directions[i], irradiances[i], camera_.eye);
+            return xyz;
+        };
+        EXPECT_LT(largest_difference(draw(), expected), kPictureTolerance);
+        EXPECT_GT(brightest_, 0.05);
+        for (const ecs::Entity light : lights) world_.destroy(light);
+    }
+}
+
+/// Points and spots are no part of a probe: every representation shades them one by one.
+TEST_F(Direct, PointLightsShineOnEveryRepresentation) {
+    const glm::vec3 place(0.9F, 0.5F, 1.6F);
+    const glm::dvec3 intensity(3.0, 2.0, 1.5);
+    const char* const qualities[] = {kDirect, R"({"representation": "spikes"})",
+                                     R"({"representation": "arc", "key_lights": false})",
+                                     R"({"representation": "circle", "map_resolution": 16})"};
+    light_.sh.coefficients.assign(light_.sh.coefficients.size(), glm::dvec3(0.0));
+    light_.residual = light_.sh;
+    light_.texels = std::make_shared<const lighting::LightTexels>();
+    for (const char* quality : qualities) {
+        const CookedMaterial cooked = cook(kSlitCd, quality);
+        if (!renderer_) {
+            show(cooked, 0.5);
+            add_light({.intensity = glm::vec3(intensity)}, place);
+        }
+        use(cooked);
+        const auto expected = [&](const Point& point) {
+            const glm::dvec3 to_light = glm::dvec3(place) - point.position;
+            const glm::dvec3 l = glm::normalize(to_light);
+            const glm::dvec3 irradiance = intensity / glm::dot(to_light, to_light);
+            return small_light_xyz(cooked, point, l, irradiance) + base_xyz(cooked, point, l, irradiance, camera_.eye);
+        };
+        EXPECT_LT(largest_difference(draw(), expected), kPictureTolerance) << quality;
+        EXPECT_GT(brightest_, 0.05);
+    }
+}
+
+}  // namespace
+}  // namespace rowland::diffraction

@@ -1,0 +1,114 @@
+#include "tests/gpu/modules/diffraction/grating_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "engine/lighting/light_probe.h"
+#include "engine/render/gpu_mesh.h"
+
+namespace rowland::diffraction {
+
+namespace {
+
+/// A DiffractionSurfaceType under light that the test sets, whatever the renderer's is.
+class UnderLight final : public render::MaterialType {
+ public:
+    UnderLight(const DiffractionSettings& settings, const LightParts& light)
+        : inner_(glm::dmat3(1.0), settings), light_(&light) {}
+
+    std::string name() const override { return "diffraction"; }
+    void add_shaders(gpu::ShaderLibrary& library) const override { inner_.add_shaders(library); }
+    bool owns(ecs::World& world, ecs::Entity entity) const override { return inner_.owns(world, entity); }
+    gpu::ProgramDesc program(ecs::World& world, ecs::Entity entity) const override {
+        return inner_.program(world, entity);
+    }
+    void update(ecs::World& world, const render::FrameLight& frame) override {
+        LightParts light = *light_;
+        light.light_strengths = frame.light_strengths;  // of the world's own lights
+        inner_.update(world, light);
+    }
+    void bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const override {
+        inner_.bind(world, entity, program);
+    }
+
+ private:
+    DiffractionSurfaceType inner_;
+    const LightParts* light_;
+};
+
+}  // namespace
+
+void GratingPicture::show(const CookedMaterial& cooked, double groove_rotation, int slices_per_frame) {
+    renderer_.emplace(glm::dmat3(1.0));
+    const DiffractionSettings settings{.window = math::SphericalWindow::None, .slices_per_frame = slices_per_frame};
+    renderer_->add_material_type(std::make_unique<UnderLight>(settings, light_));
+    lighting::LightProbe dark;
+    dark.sh = {.bands = 3, .coefficients = std::vector<glm::dvec3>(9, glm::dvec3(0.0))};
+    dark.environment.layout = {.face_size = 4, .levels = 1};
+    dark.environment.halves.assign(3 * dark.environment.layout.offset(1), 0);
+    renderer_->set_probe(dark);
+    rotation_ = groove_rotation;
+    entity_ = world_.create();
+    world_.add(entity_, scene::Transform(transform_));
+    world_.add(entity_, render::make_mesh_instance(scene::Mesh(mesh_)));
+    use(cooked);
+}
+
+void GratingPicture::use(const CookedMaterial& cooked) {
+    material_ = make_gpu_material(cooked, glm::dmat3(1.0));
+    world_.add(entity_, render::StandardMaterial(material_->base()));
+    world_.add(entity_, DiffractionSurface{material_, static_cast<float>(rotation_)});
+}
+
+std::vector<glm::vec4> GratingPicture::draw() {
+    world_.get<scene::Transform>(entity_) = transform_;
+    scene::update_world_matrices(world_);
+    renderer_->render(world_, camera_, target_);
+    return target_.read_rgba_float();
+}
+
+void GratingPicture::expect_map_at_vertices(const CookedMaterial& cooked,
+                                            const std::function<glm::dvec3(const Point&)>& map_xyz) {
+    const auto lights_xyz = [&](const Point& point) { return key_light_xyz(cooked, light_.key_lights, point); };
+    std::vector<glm::dvec3> maps;
+    std::vector<glm::dvec3> lights;
+    for (std::size_t vertex = 0; vertex < 3; ++vertex) {
+        Point point;
+        point.to_tangent = vertex_frame(vertex);
+        point.view = vertex_view(vertex);
+        maps.push_back(map_xyz(point));
+        lights.push_back(lights_xyz(point));
+    }
+    const bool at_vertices = cooked.material.quality.lights_at_vertices;
+    const auto expected = [&](const Point& point) {
+        return mix(point, maps) + (at_vertices ? mix(point, lights) : lights_xyz(point));
+    };
+    EXPECT_LT(largest_difference(draw(), expected), kPictureTolerance) << at_vertices;
+    EXPECT_GT(largest_difference(draw(), map_xyz), 0.1);
+}
+
+double GratingPicture::largest_difference(const std::vector<glm::vec4>& pixels,
+                                          const std::function<glm::dvec3(const Point& point)>& expected) {
+    double difference = 0.0;
+    brightest_ = 0.0;
+    compared_ = 0;
+    for (int row = 0; row < kSize; ++row)
+        for (int column = 0; column < kSize; ++column) {
+            const Point point = point_at(column, row);
+            if (std::min({point.weights.x, point.weights.y, point.weights.z}) < 0.02) continue;
+            const glm::dvec3 wanted = expected(point);
+            const glm::dvec3 drawn = glm::vec3(pixels[static_cast<std::size_t>(row * kSize + column)]);
+            for (int o = 0; o < 3; ++o) {
+                // A NaN is no agreement.
+                difference = std::isfinite(drawn[o]) ? std::max(difference, std::abs(drawn[o] - wanted[o])) : 1e30;
+                brightest_ = std::max(brightest_, std::abs(wanted[o]));
+            }
+            ++compared_;
+        }
+    RecordProperty("largest_difference", std::to_string(difference / brightest_));
+    return difference / brightest_;
+}
+
+}  // namespace rowland::diffraction

@@ -1,0 +1,264 @@
+// Gratings whose direction and pitch vary by texture, pixel by pixel against the CPU.
+#include "modules/diffraction/runtime/groove_map.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "engine/core/json_reader.h"
+#include "modules/diffraction/asset/material_json.h"
+#include "modules/diffraction/bake/cube_pyramid.h"
+#include "tests/gpu/modules/diffraction/grating_picture.h"
+#include "tests/support/message_of.h"
+
+namespace rowland::diffraction {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct Texel {
+    std::uint8_t red = 0;
+    std::uint8_t green = 0;
+};
+
+/// Four patches of different directions and pitches.
+constexpr Texel kPatches[] = {{0, 128}, {60, 180}, {130, 100}, {200, 220}};
+
+class Grooves : public GratingPicture {
+ protected:
+    Grooves() {
+        mesh_ = flat_triangle();
+        for (std::size_t i = 0; i < 3; ++i)
+            mesh_.uvs[i] = {0.5F + 0.45F * mesh_.positions[i].x, 0.5F - 0.45F * mesh_.positions[i].y};
+    }
+
+    /// A picture of so many texels across, not filtered.
+    std::shared_ptr<const GrooveMap> map_of(std::span<const Texel> texels, int width, const GrooveTexture& use = {}) {
+        auto picture = std::make_shared<image::ByteImage>();
+        picture->width = width;
+        picture->height = static_cast<int>(texels.size()) / width;
+        for (const Texel& texel : texels)
+            picture->rgba.insert(picture->rgba.end(), {texel.red, texel.green, std::uint8_t{0}, std::uint8_t{255}});
+        scene_.images = {picture};
+        scene_.textures = {{.nearest = true, .mipmaps = false}};
+        render::SurfaceTextures textures(scene_);
+        return std::make_shared<const GrooveMap>(use, textures, "scene.gltf", "/grooveTexture");
+    }
+    static Material material(const std::string& grating, const std::string& quality) {
+        return parse_material(parse_json("{\"grating\":" + grating + ",\"quality\":" + quality + "}", "test"), "test");
+    }
+    CookedMaterial cook_with(const std::string& grating, const std::string& quality, const GrooveMap& map) {
+        return bake_material(suited_to_grooves(material(grating, quality), map));
+    }
+    void show_with(const CookedMaterial& cooked, std::shared_ptr<const GrooveMap> map, double rotation) {
+        show(cooked, rotation);
+        world_.add(entity_, DiffractionSurface{material_, static_cast<float>(rotation), std::move(map)});
+    }
+
+    /// A pixel as the patches turn it, and its pitch's factor; nothing within a thousandth of a patch's rim.
+    struct Turned {
+        Point point;
+        double pitch = 1.0;
+    };
+    std::optional<Turned> on_patches(const Point& point) const {
+        glm::dvec2 uv(0.0);
+        for (std::size_t i = 0; i < 3; ++i) uv += point.weights[static_cast<int>(i)] * glm::dvec2(mesh_.uvs[i]);
+        const glm::dvec2 place = 2.0 * uv;
+        for (int axis = 0; axis < 2; ++axis)
+            if (std::abs(place[axis] - std::round(place[axis])) < 1e-3) return std::nullopt;
+        const auto wrapped = [](double at) { return (static_cast<int>(std::floor(at)) % 2 + 2) % 2; };
+        const Texel& texel = kPatches[2 * wrapped(place.y) + wrapped(place.x)];
+        const double angle = 3.14159265358979323846 * texel.red / 255.0;
+        const glm::dvec2 turn(std::cos(angle), std::sin(angle));
+        Turned turned{.point = point, .pitch = 2.0 * texel.green / 255.0};
+        const glm::dmat3 axes = glm::transpose(point.to_tangent);
+        turned.point.to_tangent = glm::transpose(
+            glm::dmat3(turn.x * axes[0] + turn.y * axes[1], turn.x * axes[1] - turn.y * axes[0], axes[2]));
+        turned.point.view = turned.point.to_tangent * (axes * point.view);
+        turned.point.footprint = 0.5 * (std::abs(glm::dot(turn, point.beside)) + std::abs(glm::dot(turn, point.below)));
+        return turned;
+    }
+    /// Key lights part by part: their tables know one pitch.
+    glm::dvec3 key_lights(const CookedMaterial& cooked, const Turned& turned) const {
+        DirectMaterial material = direct_material(cooked);
+        material.pitch_nm *= turned.pitch;
+        const Point& point = turned.point;
+        glm::dvec3 xyz(0.0);
+        for (const lighting::KeyLight& key : light_.key_lights)
+            xyz += direct_radiance(smoothed(cooked), material, light_spot(key, point.to_tangent),
+                                   DirectView{point.view.x, point.view.y, point.footprint});
+        return xyz;
+    }
+    glm::dvec3 rest(const CookedMaterial& cooked, const Turned& turned) const {
+        const auto& table = std::get<ArcTable>(cooked.tables);
+        const lighting::ShLight light = lighting::limit_bands(light_.residual, table.bands);
+        lighting::ShLight rotated = light;
+        math::ShRotation(turned.point.to_tangent, table.bands)
+            .apply(std::span<const glm::dvec3>(light.coefficients), rotated.coefficients);
+        return evaluate(table, rotated, turned.point.view, turned.pitch);
+    }
+    /// Compares a picture; pixels on the patches' rims are passed over: a NaN is never the largest difference.
+    double difference(const std::vector<glm::vec4>& pixels, const std::function<glm::dvec3(const Turned&)>& expected) {
+        return largest_difference(pixels, [&](const Point& point) {
+            const auto turned = on_patches(point);
+            return turned ? expected(*turned) : glm::dvec3(std::numeric_limits<double>::quiet_NaN());
+        });
+    }
+
+    scene::ImportedScene scene_;
+};
+
+constexpr const char* kFlatFoil = R"({"pitch_nm": 1300, "profile": {"type": "sinusoidal", "depth_nm": 150}})";
+
+TEST_F(Grooves, PatchesOfAFlatCardEqualTheCpu) {
+    light_ = light_of(smooth_probe(), three_keys());
+    const auto map = map_of(kPatches, 2);
+    EXPECT_NEAR(map->smallest_pitch(), 200.0 / 255.0, 1e-12);
+    EXPECT_NEAR(map->largest_pitch(), 440.0 / 255.0, 1e-12);
+    const CookedMaterial cooked = cook_with(kFlatFoil, R"({"max_error": 0.05})", *map);
+    EXPECT_EQ(std::get<ArcTable>(cooked.tables).rank, 12);
+    show_with(cooked, map, 0.4);
+    EXPECT_LT(
+        difference(draw(), [&](const Turned& turned) { return rest(cooked, turned) + key_lights(cooked, turned); }),
+        kPictureTolerance);
+    EXPECT_GT(compared_, 500);
+    EXPECT_GT(brightest_, 0.02);
+    // Neither part is small.
+    EXPECT_GT(difference(draw(), [&](const Turned& turned) { return rest(cooked, turned); }), 0.05);
+}
+
+TEST_F(Grooves, LightsOfTheirOwnFollowThePatches) {
+    light_ = light_of(smooth_probe(), three_keys());
+    const auto map = map_of(kPatches, 2);
+    const CookedMaterial cooked = cook_with(kFlatFoil, R"({"representation": "direct"})", *map);
+    show_with(cooked, map, -0.7);
+    // The kernel's rounding is multiplied with the pitch's factor, up to 1.73; .0022 found.
+    EXPECT_LT(difference(draw(), [&](const Turned& turned) { return key_lights(cooked, turned); }),
+              1.73 * kPictureTolerance);
+    EXPECT_GT(brightest_, 0.02);
+}
+
+TEST_F(Grooves, StreaksFollowThePatches) {
+    const auto map = map_of(kPatches, 2);
+    const CookedMaterial cooked = cook_with(R"({"pitch_nm": 1100, "profile": {"type": "sinusoidal", "depth_nm": 150},
+                                                "groove_lobe": {"sigma": 0.06}})",
+                                            R"({"representation": "streak"})", *map);
+    show_with(cooked, map, 0.2);
+    const CubePyramid pyramid(lighting::unpack(*light_.radiance));
+    EXPECT_LT(difference(draw(),
+                         [&](const Turned& turned) {
+                             const StreakTables& tables = std::get<StreakTables>(cooked.tables);
+                             Streak streak = tables.streak;
+                             streak.pitch_nm *= turned.pitch;
+                             const glm::dmat3 to_world = glm::transpose(turned.point.to_tangent);
+                             const auto radiance = [&](const glm::dvec3& s, const glm::dvec3& a, const glm::dvec3& b) {
+                                 return pyramid.filtered(to_world * s, to_world * a, to_world * b, kStreakFilterTaps);
+                             };
+                             return evaluate(streak, radiance, turned.point.view, tables.taps);
+                         }),
+              kPictureTolerance);
+    EXPECT_GT(brightest_, 0.02);
+}
+
+double largest_difference_of(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b) {
+    double largest = 0.0;
+    double difference = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        for (int o = 0; o < 3; ++o) {
+            largest = std::max(largest, std::abs(static_cast<double>(a[i][o])));
+            difference = std::max(difference, std::abs(static_cast<double>(a[i][o] - b[i][o])));
+        }
+    return difference / largest;
+}
+
+/// On a mesh that is not flat the vertices take the map's rotation, but a pixel turns a direction that is interpolated,
+/// not one that is interpolated turned: 1 %. On a flat one they are the same to the tolerance of halves.
+TEST_F(Grooves, AMapOfOneRotationIsAGrooveRotation) {
+    for (const bool flat : {false, true}) {
+        if (!flat) mesh_ = crooked_triangle();
+        if (flat) {
+            mesh_ = flat_triangle();
+            // Vertices of one direction: between others, what pixels look up is not what vertices interpolate.
+            mesh_.tangents.assign(3, mesh_.tangents[0]);
+        }
+        const Texel turned[] = {{85, 128}};
+        const auto map = map_of(turned, 1);
+        const CookedMaterial cooked = cook_with(kBlazed, R"({"representation": "arc", "key_lights": false})", *map);
+        show_with(cooked, map, 0.25);
+        const std::vector<glm::vec4> by_map = draw();
+        const double angle = 0.25 + 3.14159265358979323846 / 3.0;
+        world_.add(entity_, DiffractionSurface{material_, static_cast<float>(angle)});
+        EXPECT_LT(largest_difference_of(draw(), by_map), flat ? kPictureTolerance : 1e-2) << flat;
+        world_.add(entity_, DiffractionSurface{material_, 0.25F});
+        EXPECT_GT(largest_difference_of(draw(), by_map), 0.05) << flat;
+        world_.destroy(entity_);
+    }
+}
+
+TEST_F(Grooves, WhereThePitchIsNothingThereIsNoGrating) {
+    const Texel texels[] = {{0, 0}, {0, 0}, {0, 128}, {0, 128}};
+    light_ = light_of(smooth_probe(), three_keys());
+    const auto map = map_of(texels, 2);
+    show_with(cook_with(kFlatFoil, R"({"max_error": 0.05})", *map), map, 0.0);
+    int dark = 0;
+    const std::vector<glm::vec4> pixels = draw();
+    for (int row = 0; row < kSize; ++row)
+        for (int column = 0; column < kSize; ++column) {
+            const Point point = point_at(column, row);
+            if (std::min({point.weights.x, point.weights.y, point.weights.z}) < 0.05) continue;
+            double v = 0.0;
+            for (std::size_t i = 0; i < 3; ++i)
+                v += point.weights[static_cast<int>(i)] * static_cast<double>(mesh_.uvs[i].y);
+            if (std::abs(v - 0.5) < 0.05) continue;
+            const float luminance = pixels[static_cast<std::size_t>(row * kSize + column)].y;
+            if (v < 0.5) {
+                EXPECT_EQ(luminance, 0.0F);
+            }
+            if (v > 0.5) {
+                EXPECT_GT(luminance, 0.0F);
+            }
+            dark += v < 0.5 ? 1 : 0;
+        }
+    EXPECT_GT(dark, 100);
+}
+
+TEST_F(Grooves, TextureTransformsAndTheSecondCoordinatesAreThoseOfTheEngine) {
+    mesh_.uvs1 = mesh_.uvs;
+    const auto plain = map_of(kPatches, 2);
+    const CookedMaterial cooked = cook_with(kFlatFoil, R"({"representation": "arc"})", *plain);
+    show_with(cooked, plain, 0.0);
+    const std::vector<glm::vec4> expected = draw();
+    // The map undoes what is done to the second coordinates: uv = offset + R (scale · uv1), R a quarter turn.
+    for (glm::vec2& uv : mesh_.uvs1) uv = {2.0F * (0.25F - uv.y), 4.0F * (uv.x - 0.5F)};
+    for (glm::vec2& uv : mesh_.uvs) uv = {0.1F, 0.1F};
+    world_.add(entity_, render::make_mesh_instance(scene::Mesh(mesh_)));
+    const GrooveTexture use{
+        .index = 0, .tex_coord = 1, .offset = {0.5, 0.25}, .rotation = 1.57079632679489662, .scale = {0.5, 0.25}};
+    world_.add(entity_, DiffractionSurface{material_, 0.0F, map_of(kPatches, 2, use)});
+    const std::vector<glm::vec4> found = draw();
+    int differ = 0;  // pixels on the patches' rims
+    for (std::size_t i = 0; i < found.size(); ++i) differ += glm::distance(found[i], expected[i]) > 1e-5F ? 1 : 0;
+    EXPECT_LT(differ, 20);
+    EXPECT_GT(largest_difference_of(expected, std::vector<glm::vec4>(expected.size(), expected[0])), 0.1);
+}
+
+TEST_F(Grooves, WhatKnowsOneDirectionOrOnePitchIsRefusedByPlace) {
+    const auto map = map_of(kPatches, 2);
+    const auto refusal = [&](const std::string& grating, const std::string& quality) {
+        return groove_refusal(material(grating, quality), *map).value_or(Refusal{}).key;
+    };
+    for (const char* name : {"spikes", "bins", "transfer", "planar", "circle"})
+        EXPECT_EQ(refusal(kFlatFoil, R"({"representation": ")" + std::string(name) + "\"}"), "quality/representation");
+    EXPECT_EQ(refusal(kFoil, R"({"representation": "arc"})"), "grooveTexture");
+    EXPECT_EQ(refusal(R"({"pitch_nm": 1500, "profile": {"type": "slit", "width_nm": 700},
+                            "groove_lobe": {"pits": {"length_nm": 850, "coherent": 0.3}}})",
+                        R"({"representation": "streak"})"), "quality/representation");
+    EXPECT_THAT(rowland::test::message_of([&] { map_of(kPatches, 2, {.index = 1}); }),
+                HasSubstr("scene.gltf: /grooveTexture/index"));
+    EXPECT_THAT(rowland::test::message_of([&] { map_of(kPatches, 2, {.index = 0, .tex_coord = 2}); }),
+                HasSubstr("/grooveTexture/texCoord"));
+}
+
+}  // namespace
+}  // namespace rowland::diffraction

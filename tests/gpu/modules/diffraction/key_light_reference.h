@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/lighting/key_lights.h"
+#include "modules/diffraction/asset/cooked_material.h"
+#include "modules/diffraction/bake/direct.h"
+#include "tests/gpu/modules/diffraction/drawn_triangle.h"
+
+namespace rowland::diffraction {
+
+/// XYZ of key lights at a point, with the kernel smoothed as on the GPU.
+glm::dvec3 key_light_xyz(const CookedMaterial& cooked, const std::vector<lighting::KeyLight>& keys, const Point& point);
+
+DirectMaterial direct_material(const CookedMaterial& cooked);
+
+/// The material's kernel as the GPU has it. Kept by the pitch: every grating of the tests has its own.
+const BlurredKernel& smoothed(const CookedMaterial& cooked);
+
+}  // namespace rowland::diffraction

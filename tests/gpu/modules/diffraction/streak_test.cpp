@@ -1,0 +1,138 @@
+// Streaks on the GPU against the CPU's evaluation, and who pays for the probe's cube.
+#include <gtest/gtest.h>
+
+#include "modules/diffraction/bake/cube_pyramid.h"
+#include "modules/diffraction/runtime/surface_light.h"
+#include "tests/gpu/modules/diffraction/grating_picture.h"
+
+namespace rowland::diffraction {
+namespace {
+
+constexpr const char* kNarrowCd = R"({"pitch_nm": 1600, "profile": {"type": "slit", "width_nm": 700},
+                                      "groove_lobe": {"sigma": 0.05}})";
+constexpr const char* kPitsCd = R"({"pitch_nm": 1500, "profile": {"type": "slit", "width_nm": 700},
+                                    "groove_lobe": {"pits": {"length_nm": 850, "coherent": 0.4}}})";
+constexpr const char* kStreak = R"({"representation": "streak"})";
+
+/// A dim room with small bright lamps of several colours.
+lighting::ProbeImage lamps() {
+    image::Image picture;
+    picture.width = 256;
+    picture.height = 128;
+    picture.texels.assign(std::size_t{256} * 128, glm::vec3(0.05F));
+    for (int lamp = 0; lamp < 12; ++lamp) {
+        const int column = (lamp * 97 + 11) % 250;
+        const int row = 8 + (lamp * 37) % 100;
+        for (int i = 0; i < 4; ++i)
+            for (int j = 0; j < 3; ++j)
+                picture.texels[static_cast<std::size_t>((row + j) * 256 + column + i)] =
+                    glm::vec3(20.0F + static_cast<float>(lamp), 30.0F - static_cast<float>(lamp), 15.0F);
+    }
+    return {std::move(picture), lighting::Mapping::Equirectangular};
+}
+
+class StreakSurface : public GratingPicture {
+ protected:
+    static const StreakTables& tables(const CookedMaterial& cooked) { return std::get<StreakTables>(cooked.tables); }
+
+    std::function<glm::dvec3(const Point&)> narrow(const CookedMaterial& cooked) const {
+        const auto pyramid = std::make_shared<const CubePyramid>(lighting::unpack(*light_.radiance));
+        return [&cooked, pyramid](const Point& point) {
+            const glm::dmat3 to_world = glm::transpose(point.to_tangent);
+            const auto radiance = [&](const glm::dvec3& s, const glm::dvec3& a, const glm::dvec3& b) {
+                return pyramid->filtered(to_world * s, to_world * a, to_world * b, kStreakFilterTaps);
+            };
+            return evaluate(tables(cooked).streak, radiance, point.view, tables(cooked).taps);
+        };
+    }
+    /// What the streak leaves of pits, and key lights by the lobe of that.
+    std::function<glm::dvec3(const Point&)> rest(const CookedMaterial& cooked) {
+        const ArcTable& table = tables(cooked).rest.value();
+        std::vector<std::vector<glm::dvec3>> products;
+        for (std::size_t vertex = 0; vertex < 3; ++vertex)
+            products.push_back(light_products(table, vertex_light(vertex, light_.residual, table.bands).coefficients));
+        CookedMaterial incoherent = cooked;
+        incoherent.material.grating = incoherent_rest(cooked.material.grating).value();
+        return [this, products, &table, incoherent](const Point& point) {
+            std::vector<glm::dvec3> mixed;
+            for (std::size_t r = 0; r < products[0].size(); ++r)
+                mixed.push_back(mix(point, {products[0][r], products[1][r], products[2][r]}));
+            return shade(table, mixed, point.view) + key_light_xyz(incoherent, light_.key_lights, point);
+        };
+    }
+};
+
+TEST_F(StreakSurface, ANarrowLobeEqualsTheCpu) {
+    for (const bool with_lamps : {false, true}) {
+        light_ = light_of(with_lamps ? lamps() : smooth_probe(), {}, with_lamps ? 2 : 1);
+        const CookedMaterial cooked = cook(kNarrowCd, kStreak);
+        if (!renderer_) show(cooked, 0.3);
+        EXPECT_LT(largest_difference(draw(), narrow(cooked)), kPictureTolerance) << with_lamps;
+        EXPECT_GT(compared_, 500);
+        EXPECT_GT(brightest_, 0.05);
+    }
+}
+
+TEST_F(StreakSurface, PitsEqualTheCpu) {
+    light_ = light_of(lamps(), three_keys());
+    const CookedMaterial cooked =
+        cook(kPitsCd, R"({"representation": "streak", "bands": 3, "rank": 6, "view_resolution": 12})");
+    show(cooked, -0.4);
+    const auto streak = narrow(cooked);
+    const auto smooth = rest(cooked);
+    EXPECT_LT(largest_difference(draw(), [&](const Point& point) { return streak(point) + 0.6 * smooth(point); }),
+              kPictureTolerance);
+    // Neither part is small.
+    const Point middle = point_at(kSize / 2, kSize / 2);
+    EXPECT_GT(glm::length(streak(middle)), 0.005 * brightest_);
+    EXPECT_GT(glm::length(smooth(middle)), 0.005 * brightest_);
+}
+
+TEST_F(StreakSurface, OtherNodesAndTapsEqualTheCpu) {
+    light_ = light_of(lamps(), {});
+    const CookedMaterial cooked = cook(R"({"pitch_nm": 900, "profile": {"type": "blazed", "depth_nm": 250},
+                                           "orders": [-1, 0, 1, 2], "groove_lobe": {"sigma": 0.15}})",
+                                       R"({"representation": "streak", "nodes": 5, "taps": 6})");
+    show(cooked, 1.1);
+    EXPECT_LT(largest_difference(draw(), narrow(cooked)), kPictureTolerance);
+    EXPECT_GT(brightest_, 0.05);
+}
+
+TEST_F(StreakSurface, ANarrowLobeSeesKeyLightsInTheProbeAlone) {
+    light_ = light_of(smooth_probe(), three_keys());
+    const CookedMaterial cooked = cook(kNarrowCd, kStreak);
+    show(cooked);
+    EXPECT_LT(largest_difference(draw(), narrow(cooked)), kPictureTolerance);
+}
+
+TEST_F(StreakSurface, GrazingViewsEqualTheCpu) {
+    light_ = light_of(lamps(), {});
+    mesh_ = flat_triangle();
+    transform_.rotation = glm::quat(1.0F, 0.0F, 0.0F, 0.0F);
+    camera_.eye = {0.5F, -2.5F, 0.02F};
+    const CookedMaterial cooked = cook(kNarrowCd, kStreak);
+    show(cooked, 0.2);
+    EXPECT_LT(largest_difference(draw(), narrow(cooked)), kPictureTolerance);
+    EXPECT_GT(compared_, 5);
+}
+
+TEST_F(StreakSurface, OnlyStreaksPayForTheProbesCubeAndOncePerProbe) {
+    SurfaceLight light(std::nullopt);
+    const auto cubes = [&] { return light.radiance_uploads(); };
+    light.set(light_);
+    EXPECT_EQ(cubes(), 0);
+    const auto first = light.radiance();
+    EXPECT_EQ(light.radiance(), first);
+    EXPECT_EQ(cubes(), 1);
+    ++light_.version;  // another sun
+    light.set(light_);
+    EXPECT_EQ(light.radiance(), first);
+    light_ = light_of(lamps(), {}, light_.version + 1);
+    light.set(light_);
+    EXPECT_EQ(cubes(), 1);
+    EXPECT_NE(light.radiance(), first);
+    EXPECT_EQ(cubes(), 2);
+}
+
+}  // namespace
+}  // namespace rowland::diffraction
