@@ -22,8 +22,6 @@ std::vector<cook::Recooker::Job> shipped_jobs(const Options& options) {
     return jobs;
 }
 
-}  // namespace
-
 LiveAssets open_assets(const Options& options) {
     return {modules::asset_types(),
             {.probe_mapping = options.probe_mapping, .watch = options.watch, .follow_also = shipped_jobs(options)}};

@@ -10,7 +10,7 @@
 #include "editor/trade/measure_error.h"
 #include "editor/trade/picture_scene.h"
 #include "editor/trade/results.h"
-#include "editor/trade/setting.h"
+#include "modules/diffraction/asset/method.h"
 #include "editor/trade/sweep.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
@@ -30,7 +30,7 @@ std::vector<glm::dvec3> radiance(const std::filesystem::path& material, const li
         return reference_radiance(parsed.grating, probe, colour::LightSpectra(parsed.quality.illuminant),
                                   all_frames(set));
     }
-    const Setting setting = parse_setting(method);
+    const diffraction::Method setting = diffraction::parse_method(method);
     return shaded(cook(diffraction::load_material_json(material), material.string(), setting),
                   diffraction::EvaluationLight(probe, setting.key_lights, setting.window), set);
 }

@@ -16,6 +16,7 @@
 #include "engine/core/progress.h"
 #include "engine/platform/headless_context.h"
 #include "engine/render/scene_lights.h"
+#include "modules/diffraction/runtime/light_parts.h"
 #include "modules/diffraction/model/fejer.h"
 #include "modules/diffraction/model/profile.h"
 
@@ -81,7 +82,7 @@ lighting::LightProbe probe_of(const std::vector<render::DistantLight>& lights) {
     settings.light_face = 4;
     lighting::LightProbe probe =
         lighting::build_light_probe(lighting::ProbeImage(black, lighting::Mapping::Equirectangular), settings);
-    render::add_distant_lights(lights, probe.sh);
+    diffraction::add_distant_lights(lights, probe.sh);
     probe.ambient = lighting::ambient_coefficients(probe.sh);
     return probe;
 }

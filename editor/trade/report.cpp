@@ -22,8 +22,7 @@ constexpr const char* kDataMark = "/*DATA*/";
 /// The names of all representations, in their fixed order.
 nlohmann::ordered_json representation_names() {
     nlohmann::ordered_json names;
-    for (std::size_t i = 0; i < std::variant_size_v<diffraction::BakedTables>; ++i)
-        names.push_back(diffraction::representation_name(i));
+    for (const auto* info : diffraction::representations()) names.push_back(info->name);
     return names;
 }
 
@@ -31,7 +30,7 @@ nlohmann::ordered_json representation_names() {
 nlohmann::ordered_json panel_row(const SweepResults& results, const ErrorRow& error) {
     const CostRow& cost = cost_of(results, error);
     nlohmann::ordered_json row = sweep_row(results, error);
-    row["memory"] = cost.cost.table_bytes + cost.vertex_bytes * kDiscVertices;
+    row["memory"] = cost.cost.table_bytes + cost.cost.vertex_bytes * kDiscVertices;
     return row;
 }
 

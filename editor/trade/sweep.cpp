@@ -97,13 +97,13 @@ std::vector<std::string> stems(const std::vector<std::filesystem::path>& paths) 
 }
 
 /// On a curved surface a planar map's stand-in shades, which is measured as a setting itself.
-bool applies(const Setting& setting, const FrameSet& set) {
-    return representation_of(setting) != "planar" ||
+bool applies(const diffraction::Method& setting, const FrameSet& set) {
+    return !info(setting).needs_flat_surface ||
            std::ranges::any_of(set.surfaces, [](const auto& surface) { return is_flat(surface); });
 }
 
 /// A window does not change a frame's time: settings that differ in nothing else are timed once.
-Setting without_window(Setting setting) {
+diffraction::Method without_window(diffraction::Method setting) {
     setting.window = math::SphericalWindow::None;
     return setting;
 }
@@ -122,20 +122,6 @@ std::vector<std::filesystem::path> files_named_in(const std::filesystem::path& m
     return files;
 }
 
-std::size_t vertex_light_bytes(const diffraction::BakedTables& tables) {
-    return std::visit(
-        []<typename Tables>(const Tables& table) -> std::size_t {
-            constexpr bool harmonics = std::is_same_v<Tables, diffraction::SpikeTable> ||
-                                       std::is_same_v<Tables, diffraction::BinTable> ||
-                                       std::is_same_v<Tables, diffraction::TransferTable>;
-            if constexpr (harmonics) return static_cast<std::size_t>(table.bands * table.bands) * 3 * sizeof(float);
-            if constexpr (std::is_same_v<Tables, diffraction::ArcTable>)
-                return diffraction::weight_layers(table.rank) * 3 * sizeof(glm::vec4);
-            return 0;
-        },
-        tables);
-}
-
 Sweep::Sweep(SweepInputs inputs)
     : inputs_(std::move(inputs)),
       picture_(trade::picture_frames(far_camera(), inputs_.picture_size.x, inputs_.picture_size.y)),
@@ -144,7 +130,7 @@ Sweep::Sweep(SweepInputs inputs)
     for (const auto& path : inputs_.materials) {
         const nlohmann::json json = read_material_json(path);
         diffraction::Material parsed = diffraction::load_material(path);
-        for (const Setting& setting : inputs_.settings) check(json, path.string(), setting);
+        for (const diffraction::Method& setting : inputs_.settings) check_method(json, path.string(), setting);
         const auto settings = inputs_.settings.empty() ? sweep_plan(parsed.grating.lobe) : inputs_.settings;
         materials_.push_back({json, path.string(), material_hash(json, path), std::move(parsed), settings});
     }
@@ -173,8 +159,8 @@ std::vector<ErrorRow> Sweep::all_rows() const {
     return rows;
 }
 
-diffraction::CookedMaterial Sweep::cook(std::size_t material, const Setting& setting) const {
-    return trade::cook(materials_[material].json, materials_[material].file, setting);
+diffraction::CookedMaterial Sweep::cook(std::size_t material, const diffraction::Method& setting) const {
+    return diffraction::cook(materials_[material].json, materials_[material].file, setting);
 }
 
 std::vector<glm::dvec3> Sweep::reference(std::size_t material, std::size_t probe,
@@ -200,12 +186,12 @@ const diffraction::MeasuredScene& Sweep::scene(std::size_t material, std::size_t
 std::string Sweep::error_key(const ErrorRow& row) const {
     const MaterialSource& material = materials_[row.material];
     return key_of({"error", reference_version(), method_version(),
-                   trade::to_json(material.settings[row.setting]).dump(), material.hash, probes_[row.probe].hash,
+                   diffraction::to_json(material.settings[row.setting]).dump(), material.hash, probes_[row.probe].hash,
                    hash_of(all_frames(set_named(row.set)))});
 }
 
-std::string Sweep::time_key(std::size_t material, const Setting& setting, const std::string& device) const {
-    return key_of({"time", method_version(), trade::to_json(without_window(setting)).dump(), materials_[material].hash,
+std::string Sweep::time_key(std::size_t material, const diffraction::Method& setting, const std::string& device) const {
+    return key_of({"time", method_version(), diffraction::to_json(without_window(setting)).dump(), materials_[material].hash,
                    probes_.front().hash, device, fmt::format("{}x{}", inputs_.frame_size.x, inputs_.frame_size.y)});
 }
 
@@ -219,7 +205,7 @@ void Sweep::measure_errors(const SweepResults& results) {
     std::optional<diffraction::CookedMaterial> cooked;
     const ErrorRow* cooked_for = nullptr;
     for (const ErrorRow& row : rows) {
-        const Setting& setting = results.settings[row.material][row.setting];
+        const diffraction::Method& setting = results.settings[row.material][row.setting];
         if (cooked_for == nullptr || cooked_for->material != row.material || cooked_for->setting != row.setting)
             cooked = cook(row.material, setting);
         cooked_for = &row;
@@ -227,7 +213,7 @@ void Sweep::measure_errors(const SweepResults& results) {
         const MethodError error =
             compare(measured.shaded(*cooked, setting.key_lights, setting.window), measured.reference);
         nlohmann::json entry = {
-            {"of", {results.materials[row.material], results.probes[row.probe], row.set, setting_name(setting)}}};
+            {"of", {results.materials[row.material], results.probes[row.probe], row.set, method_name(setting)}}};
         for (const auto& [name, value] : kErrorQuantities) entry[name] = error.*value;
         results_.add(error_key(row), std::move(entry));
         progress.advance();
@@ -240,11 +226,11 @@ void Sweep::measure_times(SweepResults& results) {
     results.device = timer.device();
     struct Job {
         std::size_t material;
-        Setting setting;
+        diffraction::Method setting;
     };
     std::vector<Job> jobs;
     for (std::size_t m = 0; m < materials_.size(); ++m)
-        for (const Setting& setting : results.settings[m])
+        for (const diffraction::Method& setting : results.settings[m])
             if (results_.find(time_key(m, setting, results.device)) == nullptr) jobs.push_back({m, setting});
     // Fitting key lights is slow: settings with the same number of them are timed together.
     std::ranges::stable_sort(jobs, {}, [](const Job& job) { return job.setting.key_lights; });
@@ -256,7 +242,7 @@ void Sweep::measure_times(SweepResults& results) {
             const FrameTime time = timer.time(cook(material, setting), setting.key_lights);
             results_.add(key, {{"ms", time.ms},
                                {"plain_ms", time.plain_ms},
-                               {"of", {results.materials[material], setting_name(setting)}}});
+                               {"of", {results.materials[material], method_name(setting)}}});
         }
         progress.advance();
     }
@@ -265,12 +251,11 @@ void Sweep::measure_times(SweepResults& results) {
 void Sweep::collect(SweepResults& results) {
     for (std::size_t m = 0; m < materials_.size(); ++m)
         for (std::size_t s = 0; s < results.settings[m].size(); ++s) {
-            const Setting& setting = results.settings[m][s];
+            const diffraction::Method& setting = results.settings[m][s];
             const auto cooked = cook(m, setting);
             CostRow cost{.material = m,
                          .setting = s,
                          .cost = diffraction::shading_cost(cooked.tables),
-                         .vertex_bytes = vertex_light_bytes(cooked.tables),
                          .time = std::nullopt};
             if (!results.device.empty()) {
                 const nlohmann::json& time = *results_.find(time_key(m, setting, results.device));

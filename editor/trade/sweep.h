@@ -15,7 +15,7 @@
 #include "editor/trade/measure_error.h"
 #include "editor/trade/measure_frame.h"
 #include "editor/trade/picture_scene.h"
-#include "editor/trade/setting.h"
+#include "modules/diffraction/asset/method.h"
 #include "engine/lighting/probe_image.h"
 #include "modules/diffraction/representations/representation.h"
 #include "modules/diffraction/evaluate/measured_scene.h"
@@ -35,7 +35,7 @@ struct SweepInputs {
     std::vector<std::filesystem::path> materials;
     std::vector<ProbeFile> probes;
     std::vector<FrameSet> frame_sets;  ///< besides the picture
-    std::vector<Setting> settings;     ///< empty: sweep_plan()
+    std::vector<diffraction::Method> settings;     ///< empty: sweep_plan()
     glm::ivec2 picture_size{160, 90};
     glm::ivec2 frame_size{640, 360};  ///< of timed frames
     bool times = true;                ///< needs a GL device
@@ -56,14 +56,13 @@ struct CostRow {
     std::size_t material = 0;
     std::size_t setting = 0;
     diffraction::ShadingCost cost;
-    std::size_t vertex_bytes = 0;  ///< of light per vertex
     std::optional<FrameTime> time;
 };
 
 struct SweepResults {
     std::vector<std::string> materials;  ///< file names without extension
     std::vector<std::string> probes;
-    std::vector<std::vector<Setting>> settings;  ///< of each material: those that suit it
+    std::vector<std::vector<diffraction::Method>> settings;  ///< of each material: those that suit it
     std::vector<ErrorRow> errors;
     std::vector<CostRow> costs;
     std::string device;  ///< that frames were timed on; empty: none was
@@ -80,7 +79,7 @@ class Sweep {
 
     /// A set under a probe, with the reference of a material. The reference stays valid.
     const diffraction::MeasuredScene& scene(std::size_t material, std::size_t probe, const FrameSet& set);
-    diffraction::CookedMaterial cook(std::size_t material, const Setting& setting) const;
+    diffraction::CookedMaterial cook(std::size_t material, const diffraction::Method& setting) const;
     const PictureFrames& picture_frames() const { return picture_; }
     const SweepInputs& inputs() const { return inputs_; }
 
@@ -90,7 +89,7 @@ class Sweep {
         std::string file;
         std::string hash;
         diffraction::Material parsed;
-        std::vector<Setting> settings;
+        std::vector<diffraction::Method> settings;
     };
     struct ProbeSource {
         lighting::ProbeImage image;
@@ -103,7 +102,7 @@ class Sweep {
     std::vector<glm::dvec3> reference(std::size_t material, std::size_t probe,
                                       std::span<const diffraction::Frame> frames);
     std::string error_key(const ErrorRow& row) const;
-    std::string time_key(std::size_t material, const Setting& setting, const std::string& device) const;
+    std::string time_key(std::size_t material, const diffraction::Method& setting, const std::string& device) const;
     void measure_errors(const SweepResults& results);
     void measure_times(SweepResults& results);
     void collect(SweepResults& results);
@@ -119,8 +118,5 @@ class Sweep {
 
 /// The CSV files that a material file names. Throws Error (input).
 std::vector<std::filesystem::path> files_named_in(const std::filesystem::path& material);
-
-/// Bytes of light that a vertex holds for these tables, uploaded whenever the light or the object turns.
-std::size_t vertex_light_bytes(const diffraction::BakedTables& tables);
 
 }  // namespace rowland::trade

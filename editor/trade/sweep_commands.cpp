@@ -92,7 +92,7 @@ SweepInputs inputs_of(const SweepOptions& options, std::initializer_list<const c
                        .frame_size = {options.frame_size[0], options.frame_size[1]},
                        .times = !options.no_times,
                        .folder = options.output};
-    for (const std::string& text : options.settings) result.settings.push_back(parse_setting(text));
+    for (const std::string& text : options.settings) result.settings.push_back(diffraction::parse_method(text));
     std::vector<std::filesystem::path> files = options.materials;
     for (const std::string& probe : options.probes) {
         result.probes.push_back(parse_probe_file(probe, options.mapping));
@@ -138,13 +138,13 @@ std::vector<DifferencePicture> difference_pictures(Sweep& sweep, const SweepResu
     for (std::size_t m = 0; m < results.materials.size(); ++m)
         for (std::size_t p = 0; p < results.probes.size(); ++p)
             for (const std::size_t s : pictured_settings(results, m, p)) {
-                const Setting& setting = results.settings[m][s];
+                const diffraction::Method& setting = results.settings[m][s];
                 const diffraction::MeasuredScene& scene = sweep.scene(m, p, frames.frames);
                 const auto shown = scene.shaded(sweep.cook(m, setting), setting.key_lights, setting.window);
                 pictures.push_back(
                     {.material = m,
                      .probe = p,
-                     .setting = setting_name(setting),
+                     .setting = method_name(setting),
                      .error = compare(shown, scene.reference).relative_rms,
                      .picture = difference_image(picture(frames, shown), picture(frames, scene.reference), frames.width,
                                                  frames.height, kMagnified)});
@@ -157,7 +157,7 @@ void run_report(const SweepOptions& options) {
     const SweepResults results = run_and_write(sweep);
     const auto differences = difference_pictures(sweep, results);
     const auto paper =
-        paper_evidence(sweep.cook(0, parse_setting(kPaperSetting)), sweep.inputs().frame_size, sweep.inputs().times);
+        paper_evidence(sweep.cook(0, diffraction::parse_method(kPaperSetting)), sweep.inputs().frame_size, sweep.inputs().times);
     const auto data = report_data(results, sweep.inputs(), differences, paper);
     write_file_atomic(options.output / "report.html", report_html(data));
     write_results(fmt::format("file\n{}\n", (options.output / "report.html").string()));

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "editor/trade/setting.h"
+#include "modules/diffraction/asset/method.h"
 #include "modules/diffraction/model/lobe.h"
 
 namespace rowland::trade {
@@ -11,7 +11,7 @@ namespace rowland::trade {
 /// A named starting point of the sweep: what one would use on some device.
 struct Tier {
     std::string name;
-    std::string setting;  ///< as parse_setting() reads it
+    std::string setting;  ///< as diffraction::parse_method() reads it
 };
 
 /// The tiers a grating with this lobe can be shaded by.
@@ -19,6 +19,6 @@ std::vector<Tier> tiers(const diffraction::GrooveLobe& lobe);
 
 /// One axis at a time around each tier, and what varying one at a time misses: about 120 settings for the flat lobe,
 /// each once, in a fixed order, tiers first. The representations' descriptors name tiers and axes.
-std::vector<Setting> sweep_plan(const diffraction::GrooveLobe& lobe);
+std::vector<diffraction::Method> sweep_plan(const diffraction::GrooveLobe& lobe);
 
 }  // namespace rowland::trade

@@ -1,7 +1,8 @@
 #include "editor/trade/sweep_tables.h"
 
 #include <algorithm>
-#include <array>
+#include <string_view>
+#include <vector>
 
 #include "engine/core/check.h"
 
@@ -9,8 +10,15 @@ namespace rowland::trade {
 
 namespace {
 
-constexpr std::array kSettingColumns = {"bands",        "spikes",          "bins",    "rank",  "map_resolution",
-                                        "view_mapping", "view_resolution", "storage", "nodes", "taps"};
+/// The settings that some representation has, each once.
+std::vector<const char*> setting_columns() {
+    std::vector<const char*> columns;
+    for (const auto* info : diffraction::representations())
+        for (const diffraction::SettingInfo& setting : info->settings)
+            if (std::ranges::none_of(columns, [&](std::string_view known) { return known == setting.key; }))
+                columns.push_back(setting.key);
+    return columns;
+}
 
 /// A cell of a CSV file (RFC 4180).
 std::string csv_cell(const nlohmann::ordered_json& value) {
@@ -33,17 +41,17 @@ const CostRow& cost_of(const SweepResults& results, const ErrorRow& row) {
 }
 
 nlohmann::ordered_json sweep_row(const SweepResults& results, const ErrorRow& row) {
-    const Setting& setting = results.settings[row.material][row.setting];
+    const diffraction::Method& setting = results.settings[row.material][row.setting];
     nlohmann::ordered_json json = {{"material", results.materials[row.material]},
                                    {"probe", results.probes[row.probe]},
                                    {"set", row.set},
-                                   {"setting", setting_name(setting)},
-                                   {"representation", representation_of(setting)}};
-    for (const char* key : kSettingColumns) json[key] = setting.quality.value(key, nlohmann::json());
+                                   {"setting", method_name(setting)},
+                                   {"representation", info(setting).name}};
+    for (const char* key : setting_columns()) json[key] = setting.quality.value(key, nlohmann::json());
     json["key_lights"] = setting.key_lights;
     json["window"] = math::window_name(setting.window);
     for (const auto& [name, value] : kErrorQuantities) json[name] = row.error.*value;
-    const auto& [material, number, cost, vertex_bytes, time] = cost_of(results, row);
+    const auto& [material, number, cost, time] = cost_of(results, row);
     using Json = nlohmann::ordered_json;
     json["frame_ms"] = time ? Json(time->ms) : Json();
     json["plain_ms"] = time ? Json(time->plain_ms) : Json();
@@ -54,7 +62,7 @@ nlohmann::ordered_json sweep_row(const SweepResults& results, const ErrorRow& ro
     json["multiply_adds_per_pixel"] = cost.multiply_adds_per_pixel;
     json["fetches_per_light"] = cost.fetches_per_light;
     json["table_bytes"] = cost.table_bytes;
-    json["vertex_bytes"] = vertex_bytes;
+    json["vertex_bytes"] = cost.vertex_bytes;
     return json;
 }
 

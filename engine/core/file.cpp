@@ -25,10 +25,10 @@ namespace {
 
 /// Renaming over a device or a pipe would replace it by a file.
 void require_no_device(const std::filesystem::path& path) {
-    if (!path.has_filename()) fail_input(path, "names a folder", "a file to write");
+    if (!path.has_filename()) refuse_input(path.string(), "", "names a folder", "a file to write");
     struct stat old = {};
     if (::stat(path.c_str(), &old) == 0 && !S_ISREG(old.st_mode))
-        fail_input(path, "exists and is not a regular file", "a file to write");
+        refuse_input(path.string(), "", "exists and is not a regular file", "a file to write");
 }
 
 /// An open file descriptor.

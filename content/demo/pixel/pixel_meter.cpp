@@ -46,7 +46,7 @@ struct PixelMeter::Lit {
             reading.window = *query.window;
         } else if (const int bands = bands_of(query.cooked->tables); bands > 0) {
             if (windowed != query.cooked)
-                window = diffraction::mildest_window(comparer->harmonics(key_lights, bands), bands);
+                window = diffraction::weakest_window(comparer->harmonics(key_lights, bands), bands);
             windowed = query.cooked;
             reading.window = window;
         }

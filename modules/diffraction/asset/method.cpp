@@ -125,6 +125,10 @@ std::optional<Refusal> refusal(const Method& method, const Grating& grating) {
     return refused != nullptr ? std::optional(*refused) : std::nullopt;
 }
 
+void check_method(const nlohmann::json& json, const std::string& file, const Method& method) {
+    require_baked_grooves(parse_material(with_method(json, method), file).grating, file);
+}
+
 CookedMaterial cook(const nlohmann::json& json, const std::string& file, const Method& method) {
     return cook_material(with_method(json, method), file);
 }

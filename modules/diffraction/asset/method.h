@@ -39,6 +39,9 @@ nlohmann::json with_method(nlohmann::json json, const Method& method);
 /// Why a grating cannot be shaded by the method; nothing if it can.
 std::optional<Refusal> refusal(const Method& method, const Grating& grating);
 
+/// Throws Error (input) if cook() would, without baking.
+void check_method(const nlohmann::json& json, const std::string& file, const Method& method);
+
 /// Bakes the material `json` of the file `file` as the method says. Throws Error (input), also if the method does not
 /// suit the grating.
 CookedMaterial cook(const nlohmann::json& json, const std::string& file, const Method& method);

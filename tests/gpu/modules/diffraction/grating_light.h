@@ -5,7 +5,7 @@
 
 #include "engine/lighting/key_lights.h"
 #include "engine/lighting/probe_image.h"
-#include "engine/render/renderer.h"
+#include "modules/diffraction/runtime/light_parts.h"
 
 namespace rowland::diffraction {
 

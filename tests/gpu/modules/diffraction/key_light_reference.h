@@ -4,7 +4,7 @@
 
 #include "engine/lighting/key_lights.h"
 #include "modules/diffraction/asset/cooked_material.h"
-#include "modules/diffraction/bake/direct.h"
+#include "modules/diffraction/representations/direct/direct.h"
 #include "tests/gpu/modules/diffraction/drawn_triangle.h"
 
 namespace rowland::diffraction {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "editor/trade/setting.h"
+#include "modules/diffraction/asset/method.h"
 #include "engine/colour/working_space.h"
 
 namespace rowland::trade {
@@ -68,13 +68,13 @@ TEST(Shaded, PlanarIsItsStandInOnCurvedSurfaces) {
     FrameSet curved = sphere_frames();
     curved.surfaces.front().resize(6);
     const auto planar =
-        shaded(cook(material, "m", parse_setting("planar/map_resolution=32/bands=4/rank=8")), light, curved);
-    const auto arc = shaded(cook(material, "m", parse_setting("arc/bands=4/rank=8")), light, curved);
+        shaded(cook(material, "m", diffraction::parse_method("planar/map_resolution=32/bands=4/rank=8")), light, curved);
+    const auto arc = shaded(cook(material, "m", diffraction::parse_method("arc/bands=4/rank=8")), light, curved);
     for (std::size_t i = 0; i < arc.size(); ++i) EXPECT_LT(glm::distance(planar[i], arc[i]), 1e-12);
     FrameSet flat = tilted_cd_frames();
     flat.surfaces.front().resize(6);
-    EXPECT_NE(shaded(cook(material, "m", parse_setting("planar/map_resolution=32/bands=4/rank=8")), light, flat),
-              shaded(cook(material, "m", parse_setting("arc/bands=4/rank=8")), light, flat));
+    EXPECT_NE(shaded(cook(material, "m", diffraction::parse_method("planar/map_resolution=32/bands=4/rank=8")), light, flat),
+              shaded(cook(material, "m", diffraction::parse_method("arc/bands=4/rank=8")), light, flat));
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ using ::testing::Not;
 SweepResults results() {
     SweepResults r{.materials = {"cd"},
                    .probes = {"sky"},
-                   .settings = {{parse_setting("spikes"), parse_setting("planar"), parse_setting("circle")}},
+                   .settings = {{diffraction::parse_method("spikes"), diffraction::parse_method("planar"), diffraction::parse_method("circle")}},
                    .errors = {},
                    .costs = {},
                    .device = "a device"};
@@ -23,7 +23,6 @@ SweepResults results() {
         r.costs.push_back({.material = 0,
                            .setting = s,
                            .cost = {.table_bytes = 1000 * (s + 1)},
-                           .vertex_bytes = 0,
                            .time = FrameTime{.ms = ms[s], .plain_ms = 10.0}});
     }
     return r;

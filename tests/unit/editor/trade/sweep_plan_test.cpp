@@ -8,16 +8,16 @@
 namespace rowland::trade {
 namespace {
 
-std::set<std::string> names(const std::vector<Setting>& plan) {
+std::set<std::string> names(const std::vector<diffraction::Method>& plan) {
     std::set<std::string> result;
-    for (const Setting& setting : plan) result.insert(setting_name(setting));
+    for (const diffraction::Method& setting : plan) result.insert(method_name(setting));
     return result;
 }
 
-std::set<int> values(const std::vector<Setting>& plan, const std::string& representation, const char* key) {
+std::set<int> values(const std::vector<diffraction::Method>& plan, const std::string& representation, const char* key) {
     std::set<int> result;
-    for (const Setting& setting : plan)
-        if (representation_of(setting) == representation && setting.quality.contains(key))
+    for (const diffraction::Method& setting : plan)
+        if (info(setting).name == representation && setting.quality.contains(key))
             result.insert(setting.quality[key].get<int>());
     return result;
 }
@@ -34,7 +34,7 @@ TEST(SweepPlan, StartsAtTheTiers) {
          {diffraction::GrooveLobe(diffraction::FlatLobe{}), diffraction::GrooveLobe(diffraction::GaussianLobe{})}) {
         const auto plan = sweep_plan(lobe);
         const auto starts = tiers(lobe);
-        for (std::size_t i = 0; i < starts.size(); ++i) EXPECT_EQ(plan[i], parse_setting(starts[i].setting));
+        for (std::size_t i = 0; i < starts.size(); ++i) EXPECT_EQ(plan[i], diffraction::parse_method(starts[i].setting));
     }
 }
 
@@ -54,7 +54,7 @@ TEST(SweepPlan, CoversTheAxes) {
     std::set<math::SphericalWindow> windows;
     std::set<std::string> storages;
     std::set<std::string> mappings;
-    for (const Setting& setting : plan) {
+    for (const diffraction::Method& setting : plan) {
         key_lights.insert(setting.key_lights);
         windows.insert(setting.window);
         if (setting.quality.contains("storage")) storages.insert(setting.quality["storage"]);
@@ -69,9 +69,9 @@ TEST(SweepPlan, CoversTheAxes) {
 
 /// What a material file takes for a grating is what the plan may ask for; baking all of it is the sweep's.
 TEST(SweepPlan, LeavesOutWhatALobeCannotBeShadedBy) {
-    for (const Setting& setting : sweep_plan(diffraction::GaussianLobe{})) {
-        const std::string representation = representation_of(setting);
-        EXPECT_TRUE(representation != "planar" && representation != "circle") << setting_name(setting);
+    for (const diffraction::Method& setting : sweep_plan(diffraction::GaussianLobe{})) {
+        const std::string representation = info(setting).name;
+        EXPECT_TRUE(representation != "planar" && representation != "circle") << method_name(setting);
         EXPECT_NE(setting.quality.value("view_mapping", ""), "one-dimensional");
     }
     const auto flat = names(sweep_plan(diffraction::FlatLobe{}));
