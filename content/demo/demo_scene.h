@@ -14,6 +14,7 @@
 #include "engine/render/scene_instance.h"
 #include "engine/scene/camera.h"
 #include "engine/scene/mesh.h"
+#include "modules/diffraction/asset/cooked_material.h"
 
 namespace rowland::demo {
 
