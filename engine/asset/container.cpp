@@ -139,7 +139,7 @@ CookedAsset parse(std::span<const std::byte> bytes, const std::string& file) {
     const auto stored = reader.take(fields.stored_size);
     if (reader.remaining() != 0)
         refuse_input(file, fmt::format("byte {}", reader.offset()),
-                     fmt::format("{} bytes after the payload", reader.remaining()), "the end of the file");
+                     fmt::format("{} bytes too many", reader.remaining()), "the end of the file");
     const Hash128 found = checksum(checked, stored);
     if (found != expected) refuse_input(file, "checksum", found.hex(), expected.hex());
     check_sizes(fields, file);

@@ -65,7 +65,8 @@ TEST_F(TextureTest, Rgba16ArraySampledInAVertexShaderIsBilinear) {
     }
     const gpu::Buffer place_buffer = gpu::Buffer::of(std::span<const glm::vec4>(places));
     gpu::VertexArray vertices;
-    vertices.attach(place_buffer, sizeof(glm::vec4), {{0, 3, 0}}, true);
+    vertices.attach(place_buffer, sizeof(glm::vec4), {{0, 3, 0}});
+    glVertexArrayBindingDivisor(vertices.id(), 0, 1);  // a value per instance
 
     // Instance i covers pixel i of a line of pixels with the value its vertices fetched.
     const gpu::Program program = build(fmt::format(R"(#version 450 core
