@@ -35,7 +35,7 @@ void hint_line() {
     const auto key = [](Action action) { return std::string(platform::name_of(row_of(action).key)); };
     const std::string text = key(Action::Help) + " controls    " + key(Action::Hud) + " panels    " +
                              key(Action::FrameGraph) + " times    " + key(Action::Wipe) + " wipe    " +
-                             key(Action::Close) + " end";
+                             key(Action::Close) + " quit";
     const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
     ImDrawList* list = ImGui::GetBackgroundDrawList();
     const ImVec2 at(20.0F, size.y - extent.y - 14.0F);
