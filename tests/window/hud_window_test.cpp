@@ -164,11 +164,13 @@ TEST_F(HudWindow, SettingsOfPanelsAndDropsAreRecorded) {
     {
         DemoUser user(folder_.path(), arguments({"--record", path("play.jsonl")}));
         user.key("space");
+        const image::ByteImage one_look = user.shot();
         user.key("x");
-        std::this_thread::sleep_for(1s);
+        const image::ByteImage two_looks = user.shot_unlike(one_look, 60s);
         user.drag({kWidth / 2, kHeight / 2}, {40, 0});
+        const image::ByteImage dragged = user.shot_unlike(two_looks, 60s);
         user.drop(path("turned.hdr"));
-        std::this_thread::sleep_for(1s);
+        user.shot_unlike(dragged, 60s);
     }
     const std::string recording = read_text_file(path("play.jsonl"), 1 << 20);
     EXPECT_THAT(recording, HasSubstr(R"("set":"wipe","to":1.0)"));

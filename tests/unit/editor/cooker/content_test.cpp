@@ -1,11 +1,12 @@
 // The shipped sources through the cooker itself.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "engine/core/file.h"
+#include "tests/support/program.h"
 #include "tests/support/source_tree.h"
 #include "tests/support/temporary_folder.h"
 
@@ -13,9 +14,9 @@ namespace rowland {
 namespace {
 
 std::vector<std::byte> cook(const std::string& source, const std::filesystem::path& output, int threads) {
-    const std::string command = std::string(ROWLAND_COOK) + " cook " + test::content_path(source).string() + " -o " +
-                                output.string() + " --threads " + std::to_string(threads);
-    EXPECT_EQ(std::system(command.c_str()), 0) << command;
+    const test::Ended cooked = test::run(
+        {ROWLAND_COOK, "cook", test::content_path(source), "-o", output, "--threads", std::to_string(threads)});
+    EXPECT_EQ(cooked.code, 0) << cooked.err;
     return read_file(output, std::uint64_t{1} << 30);
 }
 
