@@ -10,7 +10,7 @@ namespace rowland::scene {
 /// A profile turned around the Y axis: stands, rims, rings, shells. The outside is to the right of someone who walks
 /// along the profile with the axis to the left and up ahead, so an outer wall goes up and a top goes inward.
 struct LatheRecipe {
-    /// Where the tangent, a grating's g, points.
+    /// Where the tangent points.
     enum class Tangent {
         Around,  ///< along growing longitude (+X towards −Z); u = share of the turn, v = share of the profile's length
         Along,   ///< along the profile; u = share of its length, v = 1 − share of the turn
