@@ -14,7 +14,7 @@ struct Mesh {
     std::vector<glm::vec3> positions;  ///< metres
     std::vector<glm::vec3> normals;    ///< unit
     /// xyz unit, perpendicular to the normal; w = ±1: cross(normal, tangent)·w points up in the picture, against
-    /// growing v. A grating's g (across the grooves) is the tangent.
+    /// growing v.
     std::vector<glm::vec4> tangents;
     std::vector<glm::vec2> uvs;
     std::vector<glm::vec2> uvs1;         ///< second set of texture coordinates; empty: none
