@@ -11,7 +11,7 @@
 namespace rowland::colour {
 namespace {
 
-using test::expect_near;
+using rowland::test::expect_near;
 
 TEST(WorkingSpace, WhiteStaysNeutral) {
     expect_near(rec709_to_acescg() * glm::dvec3(1.0), glm::dvec3(1.0), 1e-12);

@@ -12,7 +12,7 @@
 namespace rowland::scene {
 namespace {
 
-using test::expect_near;
+using rowland::test::expect_near;
 
 constexpr float kFlyInfinity = std::numeric_limits<float>::infinity();
 constexpr float kFlyNaN = std::numeric_limits<float>::quiet_NaN();
