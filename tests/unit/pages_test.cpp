@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tests/unit/tree_text.h"
+#include "tests/support/source_tree.h"
 
 namespace rowland::test {
 namespace {
@@ -154,7 +155,7 @@ std::set<std::string> anchors_of(const std::string& page) {
 }
 
 TEST(Pages, EveryLinkLeadsToAFileAndAHeading) {
-    const std::filesystem::path top = ROWLAND_SOURCE_DIR;
+    const std::filesystem::path top = test::source_path("");
     const std::regex link(R"(\]\(([^)\s]+)\))");
     int links = 0;
     for (const TreeFile& file : tree_files()) {

@@ -1,4 +1,5 @@
 #include "tests/unit/tree_text.h"
+#include "tests/support/source_tree.h"
 
 #include <array>
 #include <fstream>
@@ -28,7 +29,7 @@ TreeFile read(const std::filesystem::path& top, const std::filesystem::path& pat
 }  // namespace
 
 std::vector<TreeFile> tree_files() {
-    const std::filesystem::path top = ROWLAND_SOURCE_DIR;
+    const std::filesystem::path top = test::source_path("");
     std::vector<TreeFile> files;
     const auto add = [&](const std::filesystem::directory_entry& entry) {
         if (entry.is_regular_file() && is_text(entry.path())) files.push_back(read(top, entry.path()));

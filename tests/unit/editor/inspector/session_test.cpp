@@ -10,6 +10,7 @@
 #include "engine/core/file.h"
 #include "engine/platform/headless_context.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/source_tree.h"
 
 namespace rowland::inspector {
 namespace {
@@ -69,7 +70,7 @@ class SessionTest : public testing::Test {
     test::TemporaryFolder folder_;
     platform::HeadlessContext context_;
     post::OcioConfig config_ = post::OcioConfig::choose(std::nullopt);
-    Session session_{config_, {.content_folder = std::filesystem::path(ROWLAND_SOURCE_DIR) / "content", .still = true}};
+    Session session_{config_, {.content_folder = test::source_path("content"), .still = true}};
     PriceList list_;
 };
 

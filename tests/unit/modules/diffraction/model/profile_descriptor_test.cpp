@@ -9,6 +9,7 @@
 
 #include "engine/core/file.h"
 #include "modules/diffraction/model/profile.h"
+#include "tests/support/source_tree.h"
 
 namespace rowland::diffraction {
 namespace {
@@ -16,7 +17,7 @@ namespace {
 using nlohmann::json;
 
 std::string read_module_file(const std::string& path) {
-    return read_text_file(std::string(ROWLAND_SOURCE_DIR) + "/modules/diffraction/" + path, 1 << 20);
+    return read_text_file(test::source_path("modules/diffraction/" + path), 1 << 20);
 }
 
 /// What the schema says of a member. That a width is at most the pitch, a schema cannot say.
