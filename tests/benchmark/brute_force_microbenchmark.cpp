@@ -121,7 +121,7 @@ class Comparison {
     Bake closed_form() const {
         const double start = seconds_now();
         const diffraction::TransferTable table = diffraction::bake(
-            grating_, {.bands = kBands, .grid = kGrid, .storage = diffraction::Storage::Float});
+            grating_, diffraction::TransferSettings{.bands = kBands, .grid = kGrid, .storage = diffraction::Storage::Float});
         const double seconds = (seconds_now() - start) / static_cast<double>(kGrid.texels());
         return {seconds, error([&](std::size_t node) { return of_table(table, nodes_[node].texel); })};
     }

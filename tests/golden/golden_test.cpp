@@ -43,7 +43,8 @@ Picture read_png(const std::filesystem::path& path) {
 }
 
 int run_demo(const std::string& arguments) {
-    const std::string command = std::string(ROWLAND_DEMO) + " --headless --disc --width 480 --height 270 " + arguments;
+    std::string command = ROWLAND_DEMO;
+    command += " --headless --disc --width 480 --height 270 " + arguments;
     return std::system(command.c_str());
 }
 

@@ -7,7 +7,7 @@
 #include <glm/vec4.hpp>
 
 #include "engine/core/parallel.h"
-#include "modules/diffraction/bake/lobe_table.h"
+#include "modules/diffraction/representations/direct/lobe_table.h"
 #include "modules/diffraction/runtime/bindings.h"
 
 namespace rowland::diffraction {

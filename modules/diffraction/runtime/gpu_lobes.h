@@ -10,7 +10,7 @@
 
 namespace rowland::diffraction {
 
-/// What each key light adds to one grating, a layer of a texture each (bake/lobe_table.h): shaders/key_lobes.glsl.
+/// What each key light adds to one grating, a layer of a texture each (representations/direct/lobe_table.h): shaders/key_lobes.glsl.
 /// Directions are no part of it, so that turning the light keeps it.
 class GpuLobes {
  public:

@@ -1,4 +1,4 @@
-// The probe's key lights on a grating in one look-up each: bake/lobe_table.h.
+// The probe's key lights on a grating in one look-up each: representations/direct/lobe_table.h.
 #include "modules/diffraction/shaders/light_spot.glsl"
 #include "modules/diffraction/shaders/groove_lobe.glsl"
 #ifdef KEY_LOBE_TABLE

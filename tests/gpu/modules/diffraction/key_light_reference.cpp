@@ -3,7 +3,7 @@
 #include <map>
 #include <tuple>
 
-#include "modules/diffraction/bake/lobe_table.h"
+#include "modules/diffraction/representations/direct/lobe_table.h"
 
 namespace rowland::diffraction {
 

@@ -1,4 +1,4 @@
-#include "modules/diffraction/bake/lobe_table.h"
+#include "modules/diffraction/representations/direct/lobe_table.h"
 
 #include <algorithm>
 #include <cmath>
