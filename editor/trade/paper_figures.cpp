@@ -8,9 +8,9 @@
 #include <variant>
 
 #include "editor/trade/picture_scene.h"
-#include "engine/render/scene_lights.h"
 #include "modules/diffraction/model/fejer.h"
 #include "modules/diffraction/model/profile.h"
+#include "modules/diffraction/runtime/light_parts.h"
 
 namespace rowland::trade {
 
@@ -73,7 +73,7 @@ lighting::LightProbe probe_of(const std::vector<render::DistantLight>& lights) {
     settings.light_face = 4;
     lighting::LightProbe probe =
         lighting::build_light_probe(lighting::ProbeImage(black, lighting::Mapping::Equirectangular), settings);
-    render::add_distant_lights(lights, probe.sh);
+    diffraction::add_distant_lights(lights, probe.sh);
     probe.ambient = lighting::ambient_coefficients(probe.sh);
     return probe;
 }
