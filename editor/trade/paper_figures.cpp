@@ -19,6 +19,7 @@
 #include "modules/diffraction/runtime/light_parts.h"
 #include "modules/diffraction/model/fejer.h"
 #include "modules/diffraction/model/profile.h"
+#include "modules/diffraction/runtime/light_parts.h"
 
 namespace rowland::trade {
 
