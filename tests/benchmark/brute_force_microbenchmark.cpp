@@ -16,9 +16,9 @@
 #include "modules/diffraction/representations/transfer/transfer_table.h"
 #include "modules/diffraction/model/efficiency.h"
 #include "modules/diffraction/model/grating_equation.h"
-#include "tests/unit/modules/diffraction/reference/brute_force.h"
 #include "tests/benchmark/cd_materials.h"
 #include "tests/benchmark/microbenchmarks.h"
+#include "tests/unit/modules/diffraction/reference/brute_force.h"
 
 namespace rowland::microbenchmark {
 

@@ -140,10 +140,6 @@ std::filesystem::path DemoUser::measured_pixel(std::chrono::seconds limit) {
 
 std::string DemoUser::leave() {
     user_.key("Escape");
-    return wait_for_end();
-}
-
-std::string DemoUser::wait_for_end() {
     left_ = true;
     const Ended ended = user_.program().wait();
     EXPECT_EQ(ended.code, 0) << ended.err;

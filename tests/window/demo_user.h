@@ -48,8 +48,6 @@ class DemoUser {
     std::string messages() const { return user_.program().err(); }
     /// Leaves by Escape; returns all that was said.
     std::string leave();
-    /// Waits for an end without Escape; returns all that was said.
-    std::string wait_for_end();
 
  private:
     /// Where the demo writes its next screenshot or pixel.
