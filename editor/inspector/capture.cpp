@@ -27,7 +27,7 @@ void settle(Session& session) {
 void require_picture(const Session& session) {
     if (session.ready()) return;
     throw Error({.file = {},
-                 .place = {},
+                 .location = {},
                  .found = session.messages().empty() ? "no light" : session.messages().back().text,
                  .expected = {},
                  .remedy = "nothing was written"});

@@ -130,7 +130,7 @@ void Document::reparse() {
     try {
         accepted_ = accept(json(), name_, folder_);
     } catch (const Error& error) {
-        const Field* field = field_of_refusal(error.info().place);
+        const Field* field = field_of_refusal(error.info().location);
         // The parser names the table's file, not the material's, if a row of the table is wrong.
         if (field == nullptr && error.info().file != name_) field = &field_at("/grating/profile/file");
         refusal_ = Refusal{field, error.what()};
@@ -140,7 +140,7 @@ void Document::reparse() {
 void Document::require_accepted() const {
     if (refusal_)
         throw Error({.file = name_,
-                     .place = {},
+                     .location = {},
                      .found = refusal_->message,
                      .expected = "a material that can be cooked",
                      .remedy = "nothing was written; correct the field or undo"});
@@ -150,7 +150,7 @@ void Document::save() {
     require_accepted();
     if (path_.empty())
         throw Error({.file = name_,
-                     .place = {},
+                     .location = {},
                      .found = "a new material",
                      .expected = "a file to save it to",
                      .remedy = "save it under a name"});

@@ -12,8 +12,8 @@ Ray ray_through(const scene::Camera& camera, float aspect, const glm::vec2& at) 
     return {camera.eye, glm::normalize(glm::vec3(far) / far.w - camera.eye)};
 }
 
-std::optional<diffraction::Frame> pick_point(const scene::Mesh& mesh, const glm::mat4& object_to_world,
-                                             const Ray& ray) {
+std::optional<diffraction::ShadingPoint> pick_point(const scene::Mesh& mesh, const glm::mat4& object_to_world,
+                                                    const Ray& ray) {
     const glm::mat4 to_object = glm::inverse(object_to_world);
     const Ray local{glm::vec3(to_object * glm::vec4(ray.origin, 1.0F)), glm::mat3(to_object) * ray.direction};
     const auto hit = scene::nearest_hit(local, mesh);
@@ -21,9 +21,9 @@ std::optional<diffraction::Frame> pick_point(const scene::Mesh& mesh, const glm:
     const glm::vec3 normal = scene::interpolated(mesh.normals, mesh, *hit);
     const glm::vec3 tangent(scene::interpolated(mesh.tangents, mesh, *hit));
     const glm::mat3 linear(object_to_world);
-    diffraction::Frame frame{.view = -glm::dvec3(ray.direction),
-                             .normal = glm::normalize(glm::dvec3(glm::transpose(glm::inverse(linear)) * normal)),
-                             .grating = glm::normalize(glm::dvec3(linear * tangent))};
+    diffraction::ShadingPoint frame{.view = -glm::dvec3(ray.direction),
+                                    .normal = glm::normalize(glm::dvec3(glm::transpose(glm::inverse(linear)) * normal)),
+                                    .grating = glm::normalize(glm::dvec3(linear * tangent))};
     if (!diffraction::is_valid(frame)) return std::nullopt;
     return frame;
 }

@@ -7,7 +7,7 @@
 #include "engine/scene/camera.h"
 #include "engine/scene/mesh.h"
 #include "engine/scene/ray.h"
-#include "modules/diffraction/model/frame.h"
+#include "modules/diffraction/model/shading_point.h"
 
 namespace rowland::inspector {
 
@@ -18,6 +18,7 @@ Ray ray_through(const scene::Camera& camera, float aspect, const glm::vec2& at);
 
 /// The frame of the nearest point of a mesh on the ray, in world axes, as its shaders have it: toward the eye, the
 /// interpolated normal and grating vector. nullopt if the ray misses or the frame is not valid.
-std::optional<diffraction::Frame> pick_point(const scene::Mesh& mesh, const glm::mat4& object_to_world, const Ray& ray);
+std::optional<diffraction::ShadingPoint> pick_point(const scene::Mesh& mesh, const glm::mat4& object_to_world,
+                                                    const Ray& ray);
 
 }  // namespace rowland::inspector

@@ -9,8 +9,8 @@
 #include "engine/core/check.h"
 #include "engine/scene/directional_light.h"
 #include "engine/scene/transform.h"
-#include "modules/material_types.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
+#include "modules/material_types.h"
 
 namespace rowland::inspector {
 
@@ -120,7 +120,7 @@ void Preview::draw(float seconds) {
     if (inputs_.saved) saved_->draw(inputs_, seconds);
 }
 
-std::optional<diffraction::Frame> Preview::pick(const glm::vec2& at) const {
+std::optional<diffraction::ShadingPoint> Preview::pick(const glm::vec2& at) const {
     if (!drawn_) return std::nullopt;
     const float aspect = static_cast<float>(inputs_.size.x) / static_cast<float>(inputs_.size.y);
     return pick_point(*inputs_.object->mesh.mesh, object_to_world(inputs_),

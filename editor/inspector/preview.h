@@ -14,7 +14,7 @@
 #include "engine/scene/camera.h"
 #include "engine/view/picture.h"
 #include "modules/diffraction/asset/cooked_material.h"
-#include "modules/diffraction/model/frame.h"
+#include "modules/diffraction/model/shading_point.h"
 
 namespace rowland::inspector {
 
@@ -72,7 +72,7 @@ class Preview {
 
     /// The surface at a point of the last frame, given from its upper left corner in [0, 1], in the probe's axes;
     /// nullopt where the object is not.
-    std::optional<diffraction::Frame> pick(const glm::vec2& at) const;
+    std::optional<diffraction::ShadingPoint> pick(const glm::vec2& at) const;
 
  private:
     /// A world with one object in it, and what draws it.

@@ -29,7 +29,7 @@ bool is_table(const diffraction::Grating& grating) {
 }
 
 /// A point of the surface near the middle of the picture; a default frame if nothing is there.
-diffraction::Frame middle_frame(const Preview& preview) {
+diffraction::ShadingPoint middle_frame(const Preview& preview) {
     for (const glm::vec2 at : {glm::vec2(0.66F, 0.5F), glm::vec2(0.5F, 0.5F), glm::vec2(0.5F, 0.68F)})
         if (auto frame = preview.pick(at)) return *frame;
     return {};
@@ -102,7 +102,7 @@ void Session::choose_shape(PreviewShape shape) {
 
 void Session::pick(const glm::vec2& at) {
     if (const auto frame = preview_.pick(at))
-        picked_ = PickedPixel{.at = at, .surface = std::make_shared<const diffraction::Frame>(*frame)};
+        picked_ = PickedPixel{.at = at, .surface = std::make_shared<const diffraction::ShadingPoint>(*frame)};
 }
 
 template <typename Key, typename Value>
@@ -139,7 +139,7 @@ void Session::want_point_numbers() {
     if (cooked_.current() && light() && preview_.drawn()) inputs = point_inputs();
     if (point_.wants(inputs)) return;  // before the surface is searched for the point
     if (!inputs) return point_.want(inputs, nullptr);
-    const diffraction::Frame frame = inputs->surface ? *inputs->surface : middle_frame(preview_);
+    const diffraction::ShadingPoint frame = inputs->surface ? *inputs->surface : middle_frame(preview_);
     point_.want(inputs,
                 [cooked = inputs->cooked, light = inputs->light, frame](const std::stop_token& stop,
                                                                         auto&&) -> std::optional<PointNumbers> {

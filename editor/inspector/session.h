@@ -28,10 +28,10 @@ struct SessionSettings {
 
 /// The pixel that the user picked.
 struct PickedPixel {
-    glm::vec2 at{0.5F};                                 ///< from the picture's upper left corner, in [0, 1]
-    std::shared_ptr<const diffraction::Frame> surface;  ///< there, in the probe's axes
-    glm::vec3 working{0.0F};                            ///< scene-linear
-    glm::ivec3 display{0};                              ///< 8-bit values
+    glm::vec2 at{0.5F};                                        ///< from the picture's upper left corner, in [0, 1]
+    std::shared_ptr<const diffraction::ShadingPoint> surface;  ///< there, in the probe's axes
+    glm::vec3 working{0.0F};                                   ///< scene-linear
+    glm::ivec3 display{0};                                     ///< 8-bit values
 };
 
 /// What takes seconds to compute at a point of the surface.
@@ -117,7 +117,7 @@ class Session {
     struct PointInputs {
         Cooked cooked;
         Light light;
-        std::shared_ptr<const diffraction::Frame> surface;  ///< null: near the middle of the picture
+        std::shared_ptr<const diffraction::ShadingPoint> surface;  ///< null: near the middle of the picture
 
         friend bool operator==(const PointInputs&, const PointInputs&) = default;
     };

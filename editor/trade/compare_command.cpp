@@ -10,13 +10,13 @@
 #include "editor/trade/measure_error.h"
 #include "editor/trade/picture_scene.h"
 #include "editor/trade/results.h"
-#include "modules/diffraction/asset/method.h"
 #include "editor/trade/sweep.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/core/json_reader.h"
 #include "engine/core/outputs.h"
 #include "engine/image/png.h"
+#include "modules/diffraction/asset/method.h"
 #include "modules/diffraction/reference/reference.h"
 
 namespace rowland::trade {

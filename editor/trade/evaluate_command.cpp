@@ -10,8 +10,8 @@
 #include "editor/trade/inputs.h"
 #include "editor/trade/results.h"
 #include "engine/core/error.h"
-#include "engine/math/sh_window.h"
 #include "engine/lighting/light_probe.h"
+#include "engine/math/sh_window.h"
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/asset/material_json.h"
 #include "modules/diffraction/evaluate/point_shader.h"
@@ -29,7 +29,7 @@ std::vector<std::string> method_names() {
 
 [[noreturn]] void refuse_usage(std::string option, std::string found, std::string expected) {
     throw Error({.file = std::move(option),
-                 .place = {},
+                 .location = {},
                  .found = std::move(found),
                  .expected = std::move(expected),
                  .remedy = "see rowland-trade evaluate --help"});
@@ -146,7 +146,7 @@ diffraction::EvaluationLight EvaluateCommand::light(int key_lights, math::Spheri
 }
 
 std::vector<diffraction::CheckedRadiance> EvaluateCommand::by_reference(
-    const colour::LightSpectra& spectra, const std::vector<diffraction::Frame>& points) const {
+    const colour::LightSpectra& spectra, const std::vector<diffraction::ShadingPoint>& points) const {
     const diffraction::Grating grating = diffraction::load_material(*material).grating;
     const auto evaluate = [&](const auto& lit) {
         if (error) return checked_reference(grating, lit, spectra, points);
@@ -158,7 +158,7 @@ std::vector<diffraction::CheckedRadiance> EvaluateCommand::by_reference(
 }
 
 std::vector<glm::dvec3> EvaluateCommand::by_representation(const colour::Illuminant& white,
-                                                           const std::vector<diffraction::Frame>& points) const {
+                                                           const std::vector<diffraction::ShadingPoint>& points) const {
     if (cooked) {
         const diffraction::CookedMaterial asset = diffraction::load_cooked_material(*cooked);
         const std::string& count = settings.at("--key-lights");

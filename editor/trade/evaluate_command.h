@@ -9,7 +9,7 @@
 
 #include "engine/colour/light_spectra.h"
 #include "modules/diffraction/asset/method.h"
-#include "modules/diffraction/model/frame.h"
+#include "modules/diffraction/model/shading_point.h"
 #include "modules/diffraction/reference/reference.h"
 #include "modules/diffraction/representations/evaluation_light.h"
 
@@ -42,9 +42,9 @@ struct EvaluateCommand {
     diffraction::Method asked_method() const;
     diffraction::EvaluationLight light(int key_lights, math::SphericalWindow window) const;
     std::vector<diffraction::CheckedRadiance> by_reference(const colour::LightSpectra& spectra,
-                                                           const std::vector<diffraction::Frame>& points) const;
+                                                           const std::vector<diffraction::ShadingPoint>& points) const;
     std::vector<glm::dvec3> by_representation(const colour::Illuminant& illuminant,
-                                              const std::vector<diffraction::Frame>& points) const;
+                                              const std::vector<diffraction::ShadingPoint>& points) const;
 };
 
 }  // namespace rowland::trade

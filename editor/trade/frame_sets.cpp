@@ -5,8 +5,8 @@
 
 namespace rowland::trade {
 
-std::vector<diffraction::Frame> all_frames(const FrameSet& set) {
-    std::vector<diffraction::Frame> frames;
+std::vector<diffraction::ShadingPoint> all_frames(const FrameSet& set) {
+    std::vector<diffraction::ShadingPoint> frames;
     for (const auto& surface : set.surfaces) frames.insert(frames.end(), surface.begin(), surface.end());
     return frames;
 }

@@ -15,7 +15,7 @@ struct FrameSet {
 };
 
 /// The points of all surfaces, one surface after the other.
-std::vector<diffraction::Frame> all_frames(const FrameSet& set);
+std::vector<diffraction::ShadingPoint> all_frames(const FrameSet& set);
 
 /// The named sets that material budgets are measured on: "tilted_cd" and "sphere" (diffraction::measured_frames()).
 FrameSet tilted_cd_frames();

@@ -15,7 +15,7 @@ namespace {
 
 [[noreturn]] void fail(const NumberTable& table, std::size_t i, std::string found, std::string expected) {
     throw Error({.file = table.file,
-                 .place = fmt::format("row {}", table.file_rows[i]),
+                 .location = fmt::format("row {}", table.file_rows[i]),
                  .found = std::move(found),
                  .expected = std::move(expected),
                  .remedy = {}});
@@ -23,9 +23,9 @@ namespace {
 
 }  // namespace
 
-std::vector<diffraction::Frame> read_frames(const std::filesystem::path& path) {
+std::vector<diffraction::ShadingPoint> read_frames(const std::filesystem::path& path) {
     const NumberTable table = read_number_table(path, "vx,vy,vz,nx,ny,nz,gx,gy,gz");
-    std::vector<diffraction::Frame> frames;
+    std::vector<diffraction::ShadingPoint> frames;
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
         const auto& x = table.rows[i];
         frames.push_back({.view = {x[0], x[1], x[2]}, .normal = {x[3], x[4], x[5]}, .grating = {x[6], x[7], x[8]}});
@@ -42,7 +42,7 @@ lighting::ShLight read_sh_light(const std::filesystem::path& path) {
         bands > math::kMaximumBands)
         throw Error(
             {.file = table.file,
-             .place = {},
+             .location = {},
              .found = fmt::format("{} rows", table.rows.size()),
              .expected = fmt::format("n² rows, one for every l < n and -l <= m <= l, n <= {}", math::kMaximumBands),
              .remedy = "rowland-trade project writes such a table"});

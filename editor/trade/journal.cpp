@@ -19,7 +19,7 @@ constexpr std::uint64_t kLargestJournal = std::uint64_t{1} << 31;
 
 [[noreturn]] void fail(const std::filesystem::path& path, const char* doing) {
     throw Error({.file = path.string(),
-                 .place = {},
+                 .location = {},
                  .found = fmt::format("{}: {}", doing, std::strerror(errno)),
                  .expected = {},
                  .remedy = {},

@@ -16,7 +16,6 @@
 #include "engine/core/progress.h"
 #include "engine/platform/headless_context.h"
 #include "engine/render/scene_lights.h"
-#include "modules/diffraction/runtime/light_parts.h"
 #include "modules/diffraction/model/fejer.h"
 #include "modules/diffraction/model/profile.h"
 #include "modules/diffraction/runtime/light_parts.h"

@@ -35,11 +35,11 @@ std::optional<double> hit_disc(const glm::dvec3& eye, const glm::dvec3& ray) {
 }
 
 /// The grating vectors are the tangents of the meshes.
-diffraction::Frame disc_frame(const glm::dvec3& eye, const glm::dvec3& ray, double distance) {
+diffraction::ShadingPoint disc_frame(const glm::dvec3& eye, const glm::dvec3& ray, double distance) {
     const glm::dvec3 at = eye + distance * ray;
     return {.view = -ray, .normal = {0.0, 1.0, 0.0}, .grating = glm::normalize(glm::dvec3(at.x, 0.0, at.z))};
 }
-diffraction::Frame sphere_frame(const glm::dvec3& eye, const glm::dvec3& ray, double distance) {
+diffraction::ShadingPoint sphere_frame(const glm::dvec3& eye, const glm::dvec3& ray, double distance) {
     const glm::dvec3 normal = glm::normalize(eye + distance * ray - glm::dvec3(kSphereCentre));
     return {.view = -ray, .normal = normal, .grating = glm::normalize(glm::dvec3(normal.z, 0.0, -normal.x))};
 }
@@ -73,8 +73,8 @@ PictureFrames picture_frames(const scene::Camera& camera, int width, int height)
     const glm::dmat4 to_world = glm::inverse(
         glm::dmat4(camera.projection(static_cast<float>(width) / static_cast<float>(height)) * camera.view()));
     const glm::dvec3 eye(camera.eye);
-    std::vector<diffraction::Frame> disc;
-    std::vector<diffraction::Frame> sphere;
+    std::vector<diffraction::ShadingPoint> disc;
+    std::vector<diffraction::ShadingPoint> sphere;
     std::vector<std::size_t> disc_pixels;
     std::vector<std::size_t> sphere_pixels;
     for (int row = 0; row < height; ++row)

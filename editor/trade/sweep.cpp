@@ -60,7 +60,7 @@ std::string material_hash(nlohmann::json json, const std::filesystem::path& path
     return hasher.digest().hex();
 }
 
-std::string hash_of(std::span<const diffraction::Frame> frames) {
+std::string hash_of(std::span<const diffraction::ShadingPoint> frames) {
     return Hasher().bytes(std::as_bytes(frames)).digest().hex();
 }
 
@@ -164,7 +164,7 @@ diffraction::CookedMaterial Sweep::cook(std::size_t material, const diffraction:
 }
 
 std::vector<glm::dvec3> Sweep::reference(std::size_t material, std::size_t probe,
-                                         std::span<const diffraction::Frame> frames) {
+                                         std::span<const diffraction::ShadingPoint> frames) {
     const auto& [json, file, hash, parsed, settings] = materials_[material];
     const std::string key = key_of({reference_version(), hash, probes_[probe].hash, hash_of(frames)});
     if (references_.find(key) == nullptr)
@@ -174,7 +174,7 @@ std::vector<glm::dvec3> Sweep::reference(std::size_t material, std::size_t probe
 }
 
 const diffraction::MeasuredScene& Sweep::scene(std::size_t material, std::size_t probe, const FrameSet& set) {
-    const auto by_reference = [this, material, probe](std::span<const diffraction::Frame> part) {
+    const auto by_reference = [this, material, probe](std::span<const diffraction::ShadingPoint> part) {
         return reference(material, probe, part);
     };
     diffraction::MeasuredScene scene{set.name, probes_[probe].lights, set.surfaces, kReferencePart, by_reference};
@@ -191,8 +191,9 @@ std::string Sweep::error_key(const ErrorRow& row) const {
 }
 
 std::string Sweep::time_key(std::size_t material, const diffraction::Method& setting, const std::string& device) const {
-    return key_of({"time", method_version(), diffraction::to_json(without_window(setting)).dump(), materials_[material].hash,
-                   probes_.front().hash, device, fmt::format("{}x{}", inputs_.frame_size.x, inputs_.frame_size.y)});
+    return key_of({"time", method_version(), diffraction::to_json(without_window(setting)).dump(),
+                   materials_[material].hash, probes_.front().hash, device,
+                   fmt::format("{}x{}", inputs_.frame_size.x, inputs_.frame_size.y)});
 }
 
 void Sweep::measure_errors(const SweepResults& results) {
@@ -253,10 +254,8 @@ void Sweep::collect(SweepResults& results) {
         for (std::size_t s = 0; s < results.settings[m].size(); ++s) {
             const diffraction::Method& setting = results.settings[m][s];
             const auto cooked = cook(m, setting);
-            CostRow cost{.material = m,
-                         .setting = s,
-                         .cost = diffraction::shading_cost(cooked.tables),
-                         .time = std::nullopt};
+            CostRow cost{
+                .material = m, .setting = s, .cost = diffraction::shading_cost(cooked.tables), .time = std::nullopt};
             if (!results.device.empty()) {
                 const nlohmann::json& time = *results_.find(time_key(m, setting, results.device));
                 cost.time = FrameTime{.ms = time.at("ms"), .plain_ms = time.at("plain_ms")};

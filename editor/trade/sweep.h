@@ -15,10 +15,10 @@
 #include "editor/trade/measure_error.h"
 #include "editor/trade/measure_frame.h"
 #include "editor/trade/picture_scene.h"
-#include "modules/diffraction/asset/method.h"
 #include "engine/lighting/probe_image.h"
-#include "modules/diffraction/representations/representation.h"
+#include "modules/diffraction/asset/method.h"
 #include "modules/diffraction/evaluate/measured_scene.h"
+#include "modules/diffraction/representations/representation.h"
 
 namespace rowland::trade {
 
@@ -34,8 +34,8 @@ ProbeFile parse_probe_file(const std::string& text, const std::string& mapping);
 struct SweepInputs {
     std::vector<std::filesystem::path> materials;
     std::vector<ProbeFile> probes;
-    std::vector<FrameSet> frame_sets;  ///< besides the picture
-    std::vector<diffraction::Method> settings;     ///< empty: sweep_plan()
+    std::vector<FrameSet> frame_sets;           ///< besides the picture
+    std::vector<diffraction::Method> settings;  ///< empty: sweep_plan()
     glm::ivec2 picture_size{160, 90};
     glm::ivec2 frame_size{640, 360};  ///< of timed frames
     bool times = true;                ///< needs a GL device
@@ -100,7 +100,7 @@ class Sweep {
     const FrameSet& set_named(const std::string& name) const;
     std::vector<ErrorRow> all_rows() const;
     std::vector<glm::dvec3> reference(std::size_t material, std::size_t probe,
-                                      std::span<const diffraction::Frame> frames);
+                                      std::span<const diffraction::ShadingPoint> frames);
     std::string error_key(const ErrorRow& row) const;
     std::string time_key(std::size_t material, const diffraction::Method& setting, const std::string& device) const;
     void measure_errors(const SweepResults& results);

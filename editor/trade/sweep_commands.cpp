@@ -156,8 +156,8 @@ void run_report(const SweepOptions& options) {
     Sweep sweep(inputs_of(options, {"sweep.csv", "sweep.jsonl", "report.html"}));
     const SweepResults results = run_and_write(sweep);
     const auto differences = difference_pictures(sweep, results);
-    const auto paper =
-        paper_evidence(sweep.cook(0, diffraction::parse_method(kPaperSetting)), sweep.inputs().frame_size, sweep.inputs().times);
+    const auto paper = paper_evidence(sweep.cook(0, diffraction::parse_method(kPaperSetting)),
+                                      sweep.inputs().frame_size, sweep.inputs().times);
     const auto data = report_data(results, sweep.inputs(), differences, paper);
     write_file_atomic(options.output / "report.html", report_html(data));
     write_results(fmt::format("file\n{}\n", (options.output / "report.html").string()));

@@ -56,7 +56,8 @@ std::vector<Tier> tiers(const diffraction::GrooveLobe& lobe) {
     std::vector<Tier> result;
     for (const auto* info : diffraction::representations()) {
         const std::string text = text_of(*info, info->sweep_tier);
-        if (!refusal(diffraction::parse_method(text), diffraction::Grating{.lobe = lobe})) result.push_back({info->name, text});
+        if (!refusal(diffraction::parse_method(text), diffraction::Grating{.lobe = lobe}))
+            result.push_back({info->name, text});
     }
     return result;
 }

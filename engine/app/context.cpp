@@ -22,7 +22,7 @@ void render_offscreen(const std::function<void(const std::string& renderer)>& bo
 void require_display(const std::string& program, const std::string& remedy) {
     if (platform::display_available()) return;
     throw Error({.file = program,
-                 .place = {},
+                 .location = {},
                  .found = "no display",
                  .expected = "X11 or Wayland",
                  .remedy = remedy,

@@ -28,7 +28,7 @@ bool parse_command_line(CLI::App& app, int argc, const char* const* argv) {
         return false;
     } catch (const CLI::ParseError& error) {
         throw Error({.file = app.get_name(),
-                     .place = {},
+                     .location = {},
                      .found = error.what(),
                      .expected = {},
                      .remedy = "see " + app.get_name() + " --help"});

@@ -14,8 +14,11 @@ namespace rowland::cook {
 template <typename Loader>
 decltype(auto) as_refusal_of(const std::filesystem::path& file, const Loader& loader) {
     const auto refuse = [&file](std::string reason) {
-        return Error(
-            {.file = file.string(), .place = {}, .found = std::move(reason), .expected = "a sane file", .remedy = {}});
+        return Error({.file = file.string(),
+                      .location = {},
+                      .found = std::move(reason),
+                      .expected = "a sane file",
+                      .remedy = {}});
     };
     try {
         return loader();

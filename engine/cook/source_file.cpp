@@ -82,7 +82,7 @@ std::optional<Hash128> hash_file(const std::filesystem::path& path) {
 
 void fail_changed(const std::filesystem::path& path) {
     throw Error({.file = path.string(),
-                 .place = {},
+                 .location = {},
                  .found = "changed while it was being cooked",
                  .expected = {},
                  .remedy = "cook again",

@@ -38,7 +38,7 @@ std::string one_line(const ErrorInfo& info) {
         if (!message.empty()) message += separator;
         message += printable(text);
     };
-    append(": ", info.place);
+    append(": ", info.location);
     append(": ", info.found);
     append("; expected ", info.expected);
     append("; ", info.remedy);
@@ -49,9 +49,9 @@ std::string one_line(const ErrorInfo& info) {
 
 Error::Error(ErrorInfo info) : std::runtime_error(one_line(info)), info_(std::move(info)) {}
 
-void refuse_input(std::string file, std::string place, std::string found, std::string expected, std::string remedy) {
+void refuse_input(std::string file, std::string location, std::string found, std::string expected, std::string remedy) {
     throw Error({.file = std::move(file),
-                 .place = std::move(place),
+                 .location = std::move(location),
                  .found = std::move(found),
                  .expected = std::move(expected),
                  .remedy = std::move(remedy)});
@@ -59,7 +59,7 @@ void refuse_input(std::string file, std::string place, std::string found, std::s
 
 void fail_system(std::string file, std::string found, std::string remedy, std::string expected) {
     throw Error({.file = std::move(file),
-                 .place = {},
+                 .location = {},
                  .found = std::move(found),
                  .expected = std::move(expected),
                  .remedy = std::move(remedy),

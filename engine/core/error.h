@@ -11,7 +11,7 @@ enum class Fault { Input, System };
 /// What a user needs to repair a failure. Empty fields are left out of the message.
 struct ErrorInfo {
     std::string file;      ///< the file (or option) at fault, as the user named it
-    std::string place;     ///< where in it: line and column, JSON pointer, byte offset, row
+    std::string location;  ///< where in it: line and column, JSON pointer, byte offset, row
     std::string found;     ///< what was there
     std::string expected;  ///< what should have been there
     std::string remedy;    ///< what to do about it
@@ -19,7 +19,7 @@ struct ErrorInfo {
 };
 
 /// The one exception type: bad input or a failing system. Logic errors are ROWLAND_CHECKs, not exceptions.
-/// what() is one line, "file: place: found; expected X; remedy": control characters in the fields are shown as \xNN
+/// what() is one line, "file: location: found; expected X; remedy": control characters in the fields are shown as \xNN
 /// and overlong fields are shortened.
 class Error : public std::runtime_error {
  public:
@@ -32,7 +32,7 @@ class Error : public std::runtime_error {
 };
 
 /// Throws Error (input).
-[[noreturn]] void refuse_input(std::string file, std::string place, std::string found, std::string expected,
+[[noreturn]] void refuse_input(std::string file, std::string location, std::string found, std::string expected,
                                std::string remedy = "");
 /// Throws Error (system).
 [[noreturn]] void fail_system(std::string file, std::string found, std::string remedy = "", std::string expected = "");

@@ -16,7 +16,7 @@ std::optional<FileLock> FileLock::try_take(const std::filesystem::path& file) {
     FileLock lock(::open(file.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
     if (lock.descriptor_ < 0)
         throw Error({.file = file.string(),
-                     .place = {},
+                     .location = {},
                      .found = std::string("opening failed: ") + std::strerror(errno),
                      .expected = {},
                      .remedy = "check permissions and free space",

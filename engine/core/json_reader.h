@@ -50,8 +50,7 @@ class JsonReader {
     std::vector<double> numbers_or(const std::string& key, std::vector<double> fallback, NumberRange range);
     /// One of `choices`; the message names the nearest.
     std::string choice(const std::string& key, const std::vector<std::string_view>& choices);
-    std::string choice_or(const std::string& key, std::string fallback,
-                          const std::vector<std::string_view>& choices);
+    std::string choice_or(const std::string& key, std::string fallback, const std::vector<std::string_view>& choices);
     /// The value of the chosen word.
     template <typename Value>
     Value choice(const std::string& key, std::initializer_list<std::pair<std::string_view, Value>> choices) {

@@ -84,7 +84,7 @@ void Framebuffer::require_complete() const {
     const GLenum status = glCheckNamedFramebufferStatus(id(), GL_DRAW_FRAMEBUFFER);
     if (status == GL_FRAMEBUFFER_COMPLETE) return;
     throw Error({.file = "framebuffer",
-                 .place = fmt::format("{}x{}", size_.x, size_.y),
+                 .location = fmt::format("{}x{}", size_.x, size_.y),
                  .found = fmt::format("a combination of formats the driver refuses (status {:#x})", status),
                  .expected = "colour formats that can be drawn into",
                  .remedy = {},

@@ -25,7 +25,7 @@ void require_context() {
     const GLenum status = glGetGraphicsResetStatus();
     if (status == GL_NO_ERROR) return;
     throw Error({.file = "OpenGL",
-                 .place = {},
+                 .location = {},
                  .found = reason_for(status),
                  .expected = {},
                  .remedy = "start the program again",

@@ -28,7 +28,7 @@ std::string info_log(GLuint name, bool is_program) {
 [[noreturn]] void fail_to_compile(const ShaderText& source, const std::string& log) {
     const std::vector<CompileMessage> messages = parse_compile_log(log, source.files);
     ErrorInfo info{.file = source.files.front(),
-                   .place = {},
+                   .location = {},
                    .found = "a shader the driver refuses without saying why",
                    .expected = {},
                    .remedy = {},
@@ -36,7 +36,7 @@ std::string info_log(GLuint name, bool is_program) {
     if (!messages.empty()) {
         const CompileMessage& first = messages.front();
         if (!first.file.empty()) info.file = first.file;
-        if (first.line > 0) info.place = fmt::format("line {}", first.line);
+        if (first.line > 0) info.location = fmt::format("line {}", first.line);
         info.found = first.text;
         for (std::size_t i = 1; i < messages.size(); ++i) {
             info.found += fmt::format(" | {}:{}: {}", messages[i].file, messages[i].line, messages[i].text);
@@ -94,7 +94,7 @@ void Program::link(std::span<const GLuint> shaders, const std::string& names) {
     glGetProgramiv(id(), GL_LINK_STATUS, &linked);
     if (linked != GL_TRUE) {
         throw Error({.file = names,
-                     .place = "linking",
+                     .location = "linking",
                      .found = info_log(id(), true),
                      .expected = {},
                      .remedy = {},

@@ -19,7 +19,7 @@ constexpr std::uint64_t max_shader_bytes = 1 << 20;
 [[noreturn]] void fail(const std::string& file, std::size_t line, std::string found, std::string expected,
                        std::string remedy = "") {
     throw Error({.file = file,
-                 .place = line == 0 ? "" : fmt::format("line {}", line),
+                 .location = line == 0 ? "" : fmt::format("line {}", line),
                  .found = std::move(found),
                  .expected = std::move(expected),
                  .remedy = std::move(remedy),

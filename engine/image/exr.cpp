@@ -172,7 +172,7 @@ void write_floats(const std::filesystem::path& path, int width, int height, cons
         throw;
     } catch (const std::exception& error) {
         throw Error({.file = path.string(),
-                     .place = {},
+                     .location = {},
                      .found = fmt::format("encoding OpenEXR failed: {}", error.what()),
                      .expected = {},
                      .remedy = {},

@@ -25,7 +25,7 @@ Decoder make_decoder(const std::string& file) {
     Decoder decoder(tjInitDecompress());
     if (!decoder)
         throw Error({.file = file,
-                     .place = {},
+                     .location = {},
                      .found = fmt::format("no JPEG decoder ({:.80})", tjGetErrorStr2(nullptr)),
                      .expected = {},
                      .remedy = "free some memory",

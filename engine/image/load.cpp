@@ -16,7 +16,7 @@ Image decode_image(std::span<const std::byte> bytes, const std::string& file) {
     if (is_radiance_hdr(bytes)) return read_radiance_hdr(bytes, file);
     if (is_exr(bytes)) return read_exr(bytes, file);
     throw Error({.file = file,
-                 .place = "byte 0",
+                 .location = "byte 0",
                  .found = bytes.empty() ? "an empty file" : "an unknown image format",
                  .expected = "Radiance (.hdr) or OpenEXR (.exr)",
                  .remedy = "convert the image to one of them"});

@@ -31,7 +31,7 @@ std::vector<std::byte> encode_png(int width, int height, int channels, std::span
     std::vector<std::byte> bytes;
     if (stbi_write_png_to_func(append, &bytes, width, height, channels, pixels.data(), channels * width) == 0)
         throw Error({.file = {},
-                     .place = {},
+                     .location = {},
                      .found = "encoding PNG failed",
                      .expected = {},
                      .remedy = "free some memory",

@@ -11,7 +11,7 @@
 #include "engine/core/check.h"
 #include "engine/core/parallel.h"
 #include "engine/lighting/key_lights.h"
-#include "engine/lighting/light_texels.h"
+#include "engine/lighting/light_samples.h"
 #include "engine/math/sh_basis.h"
 
 namespace rowland::lighting {
@@ -47,7 +47,7 @@ double smoothed_twice(double a, double b, const KeyLightFit& settings) {
 /// Inner products of the smoothed probe with smoothed lobes, both without their low bands.
 class SmoothedProbe {
  public:
-    SmoothedProbe(LightTexels cells, const KeyLightFit& settings)
+    SmoothedProbe(LightSamples cells, const KeyLightFit& settings)
         : cells_(std::move(cells)), settings_(settings), low_(coefficients(), glm::dvec3(0.0)) {
         std::vector<double> basis(coefficients());
         for (std::size_t i = 0; i < cells_.size(); ++i) {
@@ -56,7 +56,7 @@ class SmoothedProbe {
         }
     }
 
-    const LightTexels& cells() const { return cells_; }
+    const LightSamples& cells() const { return cells_; }
     const KeyLightFit& settings() const { return settings_; }
 
     /// ⟨probe, lobe of flux 1⟩.
@@ -87,7 +87,7 @@ class SmoothedProbe {
  private:
     std::size_t coefficients() const { return static_cast<std::size_t>(math::sh_count(settings_.exact_bands)); }
 
-    LightTexels cells_;
+    LightSamples cells_;
     KeyLightFit settings_;
     std::vector<glm::dvec3> low_;  ///< SH of the probe
 };

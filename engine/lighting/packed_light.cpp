@@ -42,9 +42,9 @@ std::uint8_t position_byte(double position) {
     return static_cast<std::uint8_t>(std::clamp(std::floor(position * kPositions), 0.0, kPositions - 1.0));
 }
 
-LightTexels stored_samples(const PackedLight& light) {
+LightSamples stored_samples(const PackedLight& light) {
     const std::size_t count = light.halves.size() / 3;
-    LightTexels samples;
+    LightSamples samples;
     for (std::size_t i = 0; i < count; ++i) {
         const glm::dvec3 stored(from_half(light.halves[i]), from_half(light.halves[count + i]),
                                 from_half(light.halves[2 * count + i]));
@@ -59,7 +59,7 @@ LightTexels stored_samples(const PackedLight& light) {
 
 /// Appends the lobes' samples with negative flux, in the cells of a fixed cube: at the stored samples' directions they
 /// would move the lobes.
-void subtract(std::span<const KeyLight> keys, LightTexels& samples) {
+void subtract(std::span<const KeyLight> keys, LightSamples& samples) {
     constexpr auto kSide = static_cast<std::size_t>(kLobeFace);
     std::vector<glm::dvec3> directions(6 * kSide * kSide);
     std::vector<double> solid_angles(kSide * kSide);
@@ -113,13 +113,13 @@ PackedLight pack(std::span<const CubeCell> cells, int face_size) {
     return packed;
 }
 
-PackedLight pack(const LightTexels& texels, int face_size) {
+PackedLight pack(const LightSamples& texels, int face_size) {
     return pack(gather_cells(texels, face_size), face_size);
 }
 
-LightTexels unpack(const PackedLight& light, std::span<const KeyLight> keys) {
+LightSamples unpack(const PackedLight& light, std::span<const KeyLight> keys) {
     ROWLAND_CHECK_OP(light.halves.size() * 2, ==, light.positions.size() * 3);
-    LightTexels samples = stored_samples(light);
+    LightSamples samples = stored_samples(light);
     if (!keys.empty()) subtract(keys, samples);
     return samples;
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/lighting/key_lights.h"
-#include "engine/lighting/light_texels.h"
+#include "engine/lighting/light_samples.h"
 
 namespace rowland::lighting {
 
@@ -27,11 +27,11 @@ inline constexpr int kMaximumLightFace = 1024;
 /// The light of a probe: flux ≥ 0, none of it subnormal when summed. 1 ≤ face_size ≤ kMaximumLightFace. Flux is rounded
 /// to 1/2048 of itself, positions to 1/512 of a cell's side.
 PackedLight pack(std::span<const CubeCell> cells, int face_size);
-PackedLight pack(const LightTexels& texels, int face_size);
+PackedLight pack(const LightSamples& texels, int face_size);
 
 /// The samples, minus the lobes of `keys`, which are appended as samples of negative flux: lobes and samples together
 /// have the whole flux, whichever lobes those are. Black samples are left out. Does not depend on the number of
 /// threads.
-LightTexels unpack(const PackedLight& light, std::span<const KeyLight> keys = {});
+LightSamples unpack(const PackedLight& light, std::span<const KeyLight> keys = {});
 
 }  // namespace rowland::lighting

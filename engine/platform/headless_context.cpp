@@ -21,7 +21,7 @@ constexpr const char* needed =
 
 [[noreturn]] void fail(std::string found, std::string remedy = "") {
     throw Error({.file = "OpenGL without a window",
-                 .place = {},
+                 .location = {},
                  .found = std::move(found),
                  .expected = needed,
                  .remedy = std::move(remedy),

@@ -17,7 +17,7 @@ namespace {
 
 [[noreturn]] void fail(const std::string& doing, const std::string& reason, std::string expected, std::string remedy) {
     throw Error({.file = "window",
-                 .place = doing,
+                 .location = doing,
                  .found = reason.empty() ? "GLFW failed without a reason" : reason,
                  .expected = std::move(expected),
                  .remedy = std::move(remedy),

@@ -45,7 +45,7 @@ void require_readable_version(const std::string& text, const std::string& source
     const auto latest = latest_version();
     if (!version || *version <= latest) return;
     throw Error({.file = source,
-                 .place = {},
+                 .location = {},
                  .found = fmt::format("a configuration of version {}.{}", version->first, version->second),
                  .expected = fmt::format("at most version {}.{}, the latest OpenColorIO {} reads", latest.first,
                                          latest.second, OCIO::GetVersion()),

@@ -100,7 +100,7 @@ GltfBuffer load_file(const GltfSource& source, const std::string& uri, const std
         // The message names the glTF, which is the file that the user named.
         ErrorInfo info = error.info();
         info.file = source.file;
-        info.place = pointer;
+        info.location = pointer;
         info.found = fmt::format("{:.200} {}", uri, info.found);
         info.remedy = kRemedy;
         throw Error(std::move(info));

@@ -32,7 +32,7 @@ auto read_at(const std::string& file, std::size_t image, const Read& read) {
     } catch (const Error& error) {
         ErrorInfo info = error.info();
         info.file = file;
-        info.place = fmt::format("/images/{}{}{}", image, info.place.empty() ? "" : ", ", info.place);
+        info.location = fmt::format("/images/{}{}{}", image, info.location.empty() ? "" : ", ", info.location);
         throw Error(std::move(info));
     }
 }

@@ -22,7 +22,7 @@ void require_finite(const std::vector<glm::vec4>& pixels, int width, const std::
         if (std::isfinite(pixel.r) && std::isfinite(pixel.g) && std::isfinite(pixel.b)) continue;
         const std::size_t columns = static_cast<std::size_t>(width);
         throw Error({.file = path.string(),
-                     .place = fmt::format("column {}, row {}", i % columns, i / columns),
+                     .location = fmt::format("column {}, row {}", i % columns, i / columns),
                      .found = fmt::format("({}, {}, {})", pixel.r, pixel.g, pixel.b),
                      .expected = "finite radiance",
                      .remedy = "nothing was written; please report the scene",

@@ -62,7 +62,7 @@ CookedMaterial choose(cook::Context& context, const Material& material, nlohmann
     const std::string file = context.source().string();
     require_baked_grooves(material.grating, file);
     const std::vector<BudgetProbe> probes = read_probes(context, material.quality);
-    const std::vector<Frame> frames = measured_frames(material.quality.surface);
+    const std::vector<ShadingPoint> frames = measured_frames(material.quality.surface);
     BudgetChoice choice = choose_representation(material, probes, frames, file);
     const nlohmann::json asked = json.value("quality", nlohmann::json::object());
     json["quality"] = choice.settings;

@@ -13,9 +13,9 @@
 #include "engine/math/quadrature.h"
 #include "engine/math/sh_basis.h"
 #include "modules/diffraction/asset/material_json.h"
-#include "modules/diffraction/representations/transfer/transfer_table.h"
 #include "modules/diffraction/model/efficiency.h"
 #include "modules/diffraction/model/grating_equation.h"
+#include "modules/diffraction/representations/transfer/transfer_table.h"
 #include "tests/benchmark/cd_materials.h"
 #include "tests/benchmark/microbenchmarks.h"
 #include "tests/unit/modules/diffraction/reference/brute_force.h"
@@ -121,7 +121,8 @@ class Comparison {
     Bake closed_form() const {
         const double start = seconds_now();
         const diffraction::TransferTable table = diffraction::bake(
-            grating_, diffraction::TransferSettings{.bands = kBands, .grid = kGrid, .storage = diffraction::Storage::Float});
+            grating_,
+            diffraction::TransferSettings{.bands = kBands, .grid = kGrid, .storage = diffraction::Storage::Float});
         const double seconds = (seconds_now() - start) / static_cast<double>(kGrid.texels());
         return {seconds, error([&](std::size_t node) { return of_table(table, nodes_[node].texel); })};
     }

@@ -165,7 +165,7 @@ int run(int argc, char** argv) {
     FrameReport report = describe_machine(context);
     if (options->require_gpu && report.software)
         throw Error({.file = "--require-gpu",
-                     .place = {},
+                     .location = {},
                      .found = report.renderer,
                      .expected = "a GPU with OpenGL 4.5 and EGL",
                      .remedy = "run it without the option, or on another machine",

@@ -19,8 +19,8 @@ constexpr int kProbeWidth = 1024;
 constexpr int kLightFace = 256;  ///< of the cube that a cooked probe's light is stored in
 
 /// Built on first use, outside the timed loops.
-const lighting::LightTexels& studio_texels() {
-    static const lighting::LightTexels texels = [] {
+const lighting::LightSamples& studio_texels() {
+    static const lighting::LightSamples texels = [] {
         const lighting::StudioRecipe room{.ceiling = glm::dvec3(0.02),
                                           .wall = glm::dvec3(0.035),
                                           .floor = glm::dvec3(0.02),
@@ -36,7 +36,7 @@ const lighting::LightTexels& studio_texels() {
                                                      .radiance = glm::dvec3(1)}}};
         const lighting::ProbeImage picture(lighting::render_studio(room, kProbeWidth),
                                            lighting::Mapping::Equirectangular);
-        return lighting::gather_texels(lighting::light_texels(picture), kLightFace);
+        return lighting::gather_texels(lighting::light_samples(picture), kLightFace);
     }();
     return texels;
 }
@@ -49,7 +49,7 @@ const diffraction::CookedMaterial& cd() {
 
 void fill_planar(State& state, int side) {
     const glm::dvec3 normal = glm::normalize(glm::dvec3(0.2, 0.9, 0.3));
-    const lighting::LightTexels& texels = studio_texels();
+    const lighting::LightSamples& texels = studio_texels();
     const diffraction::CookedMaterial& material = cd();
     for (auto _ : state)
         ::benchmark::DoNotOptimize(diffraction::fill_planar_map(texels, material.kernel,
@@ -70,7 +70,7 @@ void fill_planar_in_part(State& state) {
 }
 
 void fill_circle(State& state, int side) {
-    const lighting::LightTexels& texels = studio_texels();
+    const lighting::LightSamples& texels = studio_texels();
     const diffraction::CookedMaterial& material = cd();
     for (auto _ : state)
         ::benchmark::DoNotOptimize(diffraction::fill_circle_map(texels, material.kernel,

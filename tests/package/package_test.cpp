@@ -159,9 +159,9 @@ glm::dvec3 lamp_radiance(const diffraction::CookedMaterial& material, const diff
                          const std::vector<double>& pixel) {
     const diffraction::DirectLight lamp{
         .direction = {-0.36, 0.80, -0.48}, .flux = glm::dvec3(0.06), .angular_radius = 0.01};
-    const diffraction::Frame frame{.view = {pixel[0], pixel[1], pixel[2]},
-                                   .normal = {pixel[3], pixel[4], pixel[5]},
-                                   .grating = {pixel[6], pixel[7], pixel[8]}};
+    const diffraction::ShadingPoint frame{.view = {pixel[0], pixel[1], pixel[2]},
+                                          .normal = {pixel[3], pixel[4], pixel[5]},
+                                          .grating = {pixel[6], pixel[7], pixel[8]}};
     const glm::dmat3 to_tangent = diffraction::world_to_tangent(frame);
     const glm::dvec3 view = to_tangent * frame.view;
     return direct_radiance(kernel, {.pitch_nm = material.material.grating.pitch_nm}, light_spot(lamp, to_tangent),

@@ -2,8 +2,8 @@
 #include <glm/gtc/matrix_access.hpp>
 
 #include "engine/colour/observer.h"
-#include "modules/diffraction/representations/spikes/spike_table.h"
 #include "modules/diffraction/reference/reference.h"
+#include "modules/diffraction/representations/spikes/spike_table.h"
 #include "tests/property/generators.h"
 #include "tests/unit/modules/diffraction/reference/brute_force.h"
 

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "tests/unit/tree_text.h"
 #include "tests/support/source_tree.h"
+#include "tests/unit/tree_text.h"
 
 namespace rowland::test {
 namespace {

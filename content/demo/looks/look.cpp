@@ -18,8 +18,7 @@ bool has_details(const diffraction::RepresentationInfo& info) {
 nlohmann::json settings_of(const Look& look) {
     nlohmann::json settings = {{"representation", look.representation}};
     for (const diffraction::SettingInfo& setting : diffraction::find_representation(look.representation)->settings)
-        if (!setting.details.empty())
-            settings[setting.key] = setting.details[static_cast<std::size_t>(look.detail)];
+        if (!setting.details.empty()) settings[setting.key] = setting.details[static_cast<std::size_t>(look.detail)];
     return settings;
 }
 

@@ -68,14 +68,13 @@ void PixelMeter::poll() {
 
 std::string reading_json(const PixelReading& reading) {
     const auto list = [](const glm::dvec3& v) { return nlohmann::json::array({v.x, v.y, v.z}); };
-    const nlohmann::json json = {
-        {"representation", info(reading.query.cooked->tables).name},
-        {"probe", reading.query.probe.path.string()},
-        {"key_lights", reading.key_lights},
-        {"window", math::window_name(reading.window)},
-        {"shown_xyz", list(reading.point.shown)},
-        {"reference_xyz", list(reading.point.reference)},
-        {"relative_error", reading.point.error}};
+    const nlohmann::json json = {{"representation", info(reading.query.cooked->tables).name},
+                                 {"probe", reading.query.probe.path.string()},
+                                 {"key_lights", reading.key_lights},
+                                 {"window", math::window_name(reading.window)},
+                                 {"shown_xyz", list(reading.point.shown)},
+                                 {"reference_xyz", list(reading.point.reference)},
+                                 {"relative_error", reading.point.error}};
     return json.dump(2) + '\n';
 }
 

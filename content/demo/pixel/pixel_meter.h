@@ -9,7 +9,7 @@
 #include "engine/math/sh_window.h"
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/evaluate/point_comparison.h"
-#include "modules/diffraction/model/frame.h"
+#include "modules/diffraction/model/shading_point.h"
 
 namespace rowland::demo {
 
@@ -26,7 +26,7 @@ struct PixelProbe {
 /// A point of a grating, as it is shown.
 struct PixelQuery {
     std::shared_ptr<const diffraction::CookedMaterial> cooked;
-    diffraction::Frame frame;
+    diffraction::ShadingPoint frame;
     /// On tables over harmonics; nullopt: the weakest sufficient one, as the renderer chooses.
     std::optional<math::SphericalWindow> window;
     PixelProbe probe;

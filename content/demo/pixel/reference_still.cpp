@@ -86,7 +86,7 @@ using Publish = Computed<std::shared_ptr<const StillView>, StillTexels>::Publish
 /// A texel that shows a grating from its front.
 struct Texel {
     std::size_t at;  ///< in StillTexels::xyz
-    diffraction::Frame frame;
+    diffraction::ShadingPoint frame;
 };
 
 /// The texels of one mesh in one pass, without those of coarser passes.
@@ -139,7 +139,7 @@ class StillWork {
         for (std::size_t begin = 0; begin < texels.size(); begin += kBatch) {
             if (stop_.stop_requested()) return false;
             const std::size_t count = std::min(kBatch, texels.size() - begin);
-            std::vector<diffraction::Frame> frames;
+            std::vector<diffraction::ShadingPoint> frames;
             for (std::size_t i = 0; i < count; ++i) frames.push_back(texels[begin + i].frame);
             const auto radiance = diffraction::reference_radiance(material.grating, probe_.image, spectra, frames);
             for (std::size_t i = 0; i < count; ++i) {

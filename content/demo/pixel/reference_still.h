@@ -11,7 +11,7 @@
 #include "engine/core/computed.h"
 #include "engine/gpu/texture.h"
 #include "engine/scene/camera.h"
-#include "modules/diffraction/model/frame.h"
+#include "modules/diffraction/model/shading_point.h"
 
 namespace rowland::demo {
 

@@ -20,8 +20,8 @@ std::optional<PlacedGrating> placed_grating(ecs::World& world, ecs::Entity grati
     return PlacedGrating{instance->mesh, matrix->matrix, surface->groove_rotation};
 }
 
-std::optional<diffraction::Frame> frame_at(const PlacedGrating& grating, const TriangleHit& hit, const glm::vec3& point,
-                                           const glm::vec3& eye) {
+std::optional<diffraction::ShadingPoint> frame_at(const PlacedGrating& grating, const TriangleHit& hit,
+                                                  const glm::vec3& point, const glm::vec3& eye) {
     const scene::Mesh& mesh = *grating.mesh;
     const glm::mat3 linear(grating.to_world);
     const glm::vec3 normal = glm::inverseTranspose(linear) * interpolated(mesh.normals, mesh, hit);
@@ -33,14 +33,14 @@ std::optional<diffraction::Frame> frame_at(const PlacedGrating& grating, const T
     const double side = static_cast<double>(tangent.w) * (glm::determinant(linear) < 0.0F ? -1.0 : 1.0);
     const glm::dvec3 b = glm::cross(n, t) * (side < 0.0 ? -1.0 : 1.0);
     const double turn = static_cast<double>(grating.groove_rotation);
-    const diffraction::Frame frame{.view = glm::normalize(glm::dvec3(eye) - glm::dvec3(point)),
-                                   .normal = n,
-                                   .grating = std::cos(turn) * t + std::sin(turn) * b};
+    const diffraction::ShadingPoint frame{.view = glm::normalize(glm::dvec3(eye) - glm::dvec3(point)),
+                                          .normal = n,
+                                          .grating = std::cos(turn) * t + std::sin(turn) * b};
     if (!diffraction::is_valid(frame) || glm::dot(frame.view, frame.normal) <= 0.0) return std::nullopt;
     return frame;
 }
 
-std::string frames_csv(const diffraction::Frame& frame) {
+std::string frames_csv(const diffraction::ShadingPoint& frame) {
     const auto three = [](const glm::dvec3& v) { return fmt::format("{:.17g},{:.17g},{:.17g}", v.x, v.y, v.z); };
     return fmt::format("vx,vy,vz,nx,ny,nz,gx,gy,gz\n{},{},{}\n", three(frame.view), three(frame.normal),
                        three(frame.grating));

@@ -8,7 +8,7 @@
 
 #include "content/demo/play/pick.h"
 #include "engine/ecs/world.h"
-#include "modules/diffraction/model/frame.h"
+#include "modules/diffraction/model/shading_point.h"
 
 namespace rowland::demo {
 
@@ -24,10 +24,10 @@ std::optional<PlacedGrating> placed_grating(ecs::World& world, ecs::Entity grati
 
 /// The shading frame of a grating where a ray from `eye` hits it: direction to the eye, interpolated normal and grating
 /// vector, in world axes. Nullopt where it is seen from behind or its tangent frame is degenerate.
-std::optional<diffraction::Frame> frame_at(const PlacedGrating& grating, const TriangleHit& hit, const glm::vec3& point,
-                                           const glm::vec3& eye);
+std::optional<diffraction::ShadingPoint> frame_at(const PlacedGrating& grating, const TriangleHit& hit,
+                                                  const glm::vec3& point, const glm::vec3& eye);
 
 /// A frame as `rowland-trade evaluate --frames` reads it: header and one row, exact.
-std::string frames_csv(const diffraction::Frame& frame);
+std::string frames_csv(const diffraction::ShadingPoint& frame);
 
 }  // namespace rowland::demo

@@ -255,7 +255,7 @@ void Recorder::flush() {
     file_.flush();
     if (!file_)
         throw Error({.file = path_.string(),
-                     .place = {},
+                     .location = {},
                      .found = "the recording could not be written",
                      .expected = {},
                      .remedy = "make room, or name another file",

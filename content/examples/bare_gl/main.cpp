@@ -3,7 +3,7 @@
 // few pixels, where they are and their radiance: modules/diffraction/PORTING.md says what happens here.
 #include <engine/image/load.h>
 #include <engine/image/png.h>
-#include <engine/lighting/light_texels.h>
+#include <engine/lighting/light_samples.h>
 #include <modules/diffraction/asset/cooked_material.h>
 #include <modules/diffraction/bake/blurred_kernel.h>
 #include <modules/diffraction/representations/planar/planar_map.h>
@@ -51,16 +51,17 @@ void bind_kernel(GLuint program, const diffraction::CookedMaterial& material) {
     glBindTextureUnit(10, texture);
 
     const auto uniforms = diffraction::kernel_uniforms(material.kernel, kernel, pitch_nm);
-    glProgramUniform4fv(program, glGetUniformLocation(program, "kernel_place"), 1, glm::value_ptr(uniforms.place));
+    glProgramUniform4fv(program, glGetUniformLocation(program, "kernel_scale_bias"), 1,
+                        glm::value_ptr(uniforms.scale_bias));
     glProgramUniform2fv(program, glGetUniformLocation(program, "kernel_ends"), 1, glm::value_ptr(uniforms.ends));
 }
 
 // Bakes what the probe needs, and binds it: again whenever the probe, or the plane's normal, changes.
 void bind_map(GLuint program, const diffraction::CookedMaterial& material, const char* probe_file) {
     const lighting::ProbeImage probe(image::load_image(probe_file), lighting::Mapping::Equirectangular, probe_file);
-    const diffraction::PlanarMap map =
-        diffraction::fill_planar_map(lighting::light_texels(probe), material.kernel, material.material.grating.pitch_nm,
-                                     glm::dvec3(kNormal), {.azimuths = 256, .views = 256}, material.zero_order_xyz);
+    const diffraction::PlanarMap map = diffraction::fill_planar_map(
+        lighting::light_samples(probe), material.kernel, material.material.grating.pitch_nm, glm::dvec3(kNormal),
+        {.azimuths = 256, .views = 256}, material.zero_order_xyz);
     GLuint texture = 0;
     glCreateTextures(GL_TEXTURE_2D, 1, &texture);
     glTextureStorage2D(texture, 1, GL_RGB32F, map.azimuths, map.views);

@@ -3,8 +3,8 @@
 #include <engine/image/load.h>
 #include <engine/lighting/probe_image.h>
 #include <engine/math/sh_rotation.h>
+#include <modules/diffraction/model/shading_point.h>
 #include <modules/diffraction/representations/transfer/transfer_table.h>
-#include <modules/diffraction/model/frame.h>
 
 #include <cstdio>
 #include <exception>
@@ -24,7 +24,8 @@ int main(int argc, char** argv) try {
     const lighting::ShLight light = lighting::project(probe, table.bands);
 
     // The pixel: where the eye is, the surface's normal, and the direction across the grooves, all seen in the world.
-    const diffraction::Frame pixel{.view = {0.36, 0.48, 0.8}, .normal = {0.0, 0.0, 1.0}, .grating = {1.0, 0.0, 0.0}};
+    const diffraction::ShadingPoint pixel{
+        .view = {0.36, 0.48, 0.8}, .normal = {0.0, 0.0, 1.0}, .grating = {1.0, 0.0, 0.0}};
     const glm::dmat3 to_tangent = diffraction::world_to_tangent(pixel);
     lighting::ShLight tangent_light = light;
     math::ShRotation(to_tangent, light.bands)

@@ -35,7 +35,7 @@ diffraction::CookedMaterial as_harmonics(const diffraction::CookedMaterial& cook
 }  // namespace
 
 std::vector<double> spectrum_at(const diffraction::Material& material, const lighting::ProbeImage& probe,
-                                const diffraction::Frame& frame) {
+                                const diffraction::ShadingPoint& frame) {
     const diffraction::Grating& grating = material.grating;
     const colour::LightSpectra spectra(material.quality.illuminant);
     const diffraction::IncidentLight light(probe);
@@ -57,8 +57,8 @@ std::vector<double> spectrum_at(const diffraction::Material& material, const lig
 }
 
 PointRadiance point_radiance(const diffraction::CookedMaterial& cooked, const lighting::ProbeImage& probe,
-                             const diffraction::EvaluationLight& light, const diffraction::Frame& frame) {
-    const std::span<const diffraction::Frame> frames(&frame, 1);
+                             const diffraction::EvaluationLight& light, const diffraction::ShadingPoint& frame) {
+    const std::span<const diffraction::ShadingPoint> frames(&frame, 1);
     const colour::LightSpectra spectra(cooked.material.quality.illuminant);
     return {.spectrum = spectrum_at(cooked.material, probe, frame),
             .reference = reference_radiance(cooked.material.grating, probe, spectra, frames)[0],
@@ -66,17 +66,17 @@ PointRadiance point_radiance(const diffraction::CookedMaterial& cooked, const li
 }
 
 ViewSweep view_sweep(const diffraction::CookedMaterial& cooked, const lighting::ProbeImage& probe,
-                     const diffraction::EvaluationLight& light, const diffraction::Frame& surface, int bands, int views,
-                     const std::stop_token& stop) {
+                     const diffraction::EvaluationLight& light, const diffraction::ShadingPoint& surface, int bands,
+                     int views, const std::stop_token& stop) {
     constexpr double kWidest_deg = 80.0;
     const glm::dmat3 to_world = glm::transpose(diffraction::world_to_tangent(surface));
     ViewSweep sweep;
     sweep.bands = bands;
-    std::vector<diffraction::Frame> frames;
+    std::vector<diffraction::ShadingPoint> frames;
     for (int i = 0; i < views; ++i) {
         const double angle = kWidest_deg * (2.0 * i / (views - 1) - 1.0);
         const double radians = angle * std::numbers::pi / 180.0;
-        diffraction::Frame frame = surface;
+        diffraction::ShadingPoint frame = surface;
         frame.view = to_world * glm::dvec3(std::sin(radians), 0.0, std::cos(radians));
         frames.push_back(frame);
         sweep.angles_deg.push_back(angle);

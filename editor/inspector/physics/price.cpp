@@ -39,7 +39,7 @@ void price_choices(const PriceQuery& query, const std::function<void(const Price
     const bool pinned = query.material.quality.pinned.has_value();
     const std::vector<diffraction::BudgetProbe> probes = {
         {.name = "the inspector's light", .image = query.probe, .key_lights = query.key_lights}};
-    const std::vector<diffraction::Frame> frames = diffraction::measured_frames(query.surface);
+    const std::vector<diffraction::ShadingPoint> frames = diffraction::measured_frames(query.surface);
     diffraction::SearchQuery search{.material = query.material, .probes = probes, .frames = frames, .settings = {}};
     if (!query.present_only) search.settings = diffraction::budget_candidates(query.material.grating, query.surface);
     if (pinned) search.first = query.quality;

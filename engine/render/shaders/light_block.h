@@ -10,7 +10,7 @@ struct Light {
     vec4 position;  // xyz: unit direction toward a directional light, else metres; w: 1 / range^4, or 0 without a range
     vec4 strength;  // xyz: irradiance, for points and spots at 1 m; working space
     vec4 axis;      // xyz: unit, where a spot shines; w: 1 for a spot
-    vec4 cone;      // x, y: scale and offset that take the cosine from the axis to 0 outside the cone, 1 in the inner one
+    vec4 cone;  // x, y: scale and offset that take the cosine from the axis to 0 outside the cone, 1 in the inner one
 };
 #ifdef __cplusplus
 struct LightBlock {

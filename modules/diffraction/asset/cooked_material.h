@@ -12,8 +12,8 @@
 #include "modules/diffraction/asset/budget_record.h"
 #include "modules/diffraction/asset/material.h"
 #include "modules/diffraction/asset/material_json.h"
-#include "modules/diffraction/representations/representation.h"
 #include "modules/diffraction/model/colour_kernel.h"
+#include "modules/diffraction/representations/representation.h"
 
 namespace rowland::diffraction {
 

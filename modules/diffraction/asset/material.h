@@ -7,8 +7,8 @@
 
 #include "engine/colour/illuminant.h"
 #include "engine/lighting/probe_image.h"
-#include "modules/diffraction/representations/representation.h"
 #include "modules/diffraction/model/grating.h"
+#include "modules/diffraction/representations/representation.h"
 
 namespace rowland::diffraction {
 

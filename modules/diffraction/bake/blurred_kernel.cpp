@@ -39,16 +39,16 @@ std::vector<double> stencil(double deviation, double step) {
 }  // namespace
 
 glm::dmat3 BlurredKernel::at(double x_nm, double deviation_nm) const {
-    const auto place = [](double position, int count, int& low) {
+    const auto interpolate = [](double position, int count, int& low) {
         const double inside = std::clamp(position, 0.0, static_cast<double>(count - 1));
         low = std::min(static_cast<int>(inside), count - 2);
         return inside - low;
     };
     int column = 0;
     int level = 0;
-    const double s = place((x_nm - begin_nm) / (end_nm - begin_nm) * (columns - 1), columns, column);
+    const double s = interpolate((x_nm - begin_nm) / (end_nm - begin_nm) * (columns - 1), columns, column);
     const double t =
-        place(std::log2(std::max(deviation_nm, narrowest_nm) / narrowest_nm) * kLevelsPerOctave, levels, level);
+        interpolate(std::log2(std::max(deviation_nm, narrowest_nm) / narrowest_nm) * kLevelsPerOctave, levels, level);
     const auto value = [&](int i, int j) {
         return glm::dmat3(
             values[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(i)]);
@@ -101,8 +101,8 @@ KernelUniforms kernel_uniforms(const KernelTable& kernel, const BlurredKernel& b
     const double step = 1.0 / blurred.columns;
     const double per_nm = (1.0 - step) / (blurred.end_nm - blurred.begin_nm);
     const double reach_nm = std::max(std::abs(kernel.begin_nm), std::abs(kernel.end_nm));
-    return {.place = glm::dvec4(pitch_nm * per_nm, 0.5 * step - blurred.begin_nm * per_nm,
-                                blurred.narrowest_nm / pitch_nm, pitch_nm),
+    return {.location = glm::dvec4(pitch_nm * per_nm, 0.5 * step - blurred.begin_nm * per_nm,
+                                   blurred.narrowest_nm / pitch_nm, pitch_nm),
             .ends = glm::dvec2(colour::kVisibleMin, reach_nm) / pitch_nm};
 }
 

@@ -10,7 +10,7 @@
 namespace rowland::diffraction {
 
 /// k smoothed by normal distributions, over x and the deviation σ: what a light of that extent sees of a grating in one
-/// look-up. A 2D texture, GL_LINEAR, GL_CLAMP_TO_EDGE, three texels (the matrix's columns) a place.
+/// look-up. A 2D texture, GL_LINEAR, GL_CLAMP_TO_EDGE, three texels (the matrix's columns) per entry.
 ///   s = ((x − begin)/(end − begin) (columns−1) + ½)/columns
 ///   t = (log₂(σ/narrowest)·kLevelsPerOctave + ½)/levels
 struct BlurredKernel {
@@ -35,8 +35,8 @@ BlurredKernel blur_for_lights(const KernelTable& kernel, double pitch_nm);
 
 /// The uniforms of shaders/kernel.glsl, which looks up u = x/d in place of x.
 struct KernelUniforms {
-    glm::vec4 place{0.0F};  ///< scale and offset from u to s; deviation of u in level 0; scale of the values: d
-    glm::vec2 ends{0.0F};   ///< |u| below and above which k is 0
+    glm::vec4 scale_bias{0.0F};  ///< scale and offset from u to s; deviation of u in level 0; scale of the values: d
+    glm::vec2 ends{0.0F};        ///< |u| below and above which k is 0
 };
 KernelUniforms kernel_uniforms(const KernelTable& kernel, const BlurredKernel& blurred, double pitch_nm);
 

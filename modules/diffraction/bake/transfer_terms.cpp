@@ -26,7 +26,7 @@ constexpr std::array<double, 2> kNodes = {0.21132486540518711775, 0.788675134594
 void require_many_grooves(const Grating& grating) {
     if (grating.grooves >= kManyGrooves) return;
     throw Error({.file = {},
-                 .place = "grooves",
+                 .location = "grooves",
                  .found = fmt::format("{}", grating.grooves),
                  .expected = fmt::format("at least {} for a baked representation", kManyGrooves),
                  .remedy = "use the method \"reference\", or more grooves"});

@@ -120,7 +120,7 @@ void check_view_grid(const ViewGrid& grid, const GrooveLobe& lobe) {
     ROWLAND_CHECK(is_valid(grid), "a view grid's sizes must be those of its mapping");
     if (grid.mapping != ViewMapping::OneDimensional || is_flat(lobe)) return;
     throw Error({.file = {},
-                 .place = "view_mapping",
+                 .location = "view_mapping",
                  .found = "one-dimensional for a groove lobe that is not flat",
                  .expected = "spherical or parabolic: such a lobe sees the view along the grooves too",
                  .remedy = "change view_mapping, or the groove lobe to flat"});

@@ -16,7 +16,7 @@ ViewSpectrum::ViewSpectrum(const Grating& grating, int bands)
     ROWLAND_CHECK_OP(grating.pitch_nm, >, 0.0);
     if (grating.grooves < kManyGrooves)
         throw Error({.file = {},
-                     .place = "grooves",
+                     .location = "grooves",
                      .found = fmt::format("{}", grating.grooves),
                      .expected = fmt::format("at least {} for a baked representation", kManyGrooves),
                      .remedy = "use the method \"reference\", or more grooves"});

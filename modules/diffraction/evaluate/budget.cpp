@@ -57,7 +57,7 @@ std::vector<nlohmann::json> budget_candidates(const Grating& grating, SurfaceSha
 }
 
 BudgetChoice choose_representation(const Material& material, std::span<const BudgetProbe> probes,
-                                   std::span<const Frame> frames, const std::string& file) {
+                                   std::span<const ShadingPoint> frames, const std::string& file) {
     ROWLAND_CHECK(!probes.empty() && !frames.empty(), "an error needs light and views to be measured on");
     const double max_error = material.quality.max_error;
     std::unique_ptr<Progress> progress;

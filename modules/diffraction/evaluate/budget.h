@@ -23,6 +23,6 @@ struct BudgetChoice {
 /// search(). The material pins nothing. Throws Error (input) naming `file` and the least error that can be reached, if
 /// that is above max_error.
 BudgetChoice choose_representation(const Material& material, std::span<const BudgetProbe> probes,
-                                   std::span<const Frame> frames, const std::string& file);
+                                   std::span<const ShadingPoint> frames, const std::string& file);
 
 }  // namespace rowland::diffraction

@@ -12,7 +12,7 @@ namespace rowland::diffraction {
 
 bool is_flat(const Surface& surface) {
     constexpr double kSameNormal = 1.0 - 1e-9;
-    return std::all_of(surface.begin(), surface.end(), [&](const Frame& frame) {
+    return std::all_of(surface.begin(), surface.end(), [&](const ShadingPoint& frame) {
         return glm::dot(glm::normalize(surface.front().normal), glm::normalize(frame.normal)) > kSameNormal;
     });
 }
@@ -33,7 +33,7 @@ std::vector<glm::dvec3> shade_surfaces(const CookedMaterial& cooked, const Evalu
 }
 
 bool MeasuredScene::prepare(const std::stop_token& stop) {
-    std::vector<Frame> frames;
+    std::vector<ShadingPoint> frames;
     for (const Surface& surface : surfaces) frames.insert(frames.end(), surface.begin(), surface.end());
     Progress progress("reference, " + name, frames.size() - reference.size());
     while (reference.size() < frames.size()) {

@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "modules/diffraction/asset/cooked_material.h"
+#include "modules/diffraction/model/shading_point.h"
 #include "modules/diffraction/representations/evaluation_light.h"
-#include "modules/diffraction/model/frame.h"
 
 namespace rowland::diffraction {
 
 /// Points of one object. A map of a flat object serves all points of its surface.
-using Surface = std::vector<Frame>;
+using Surface = std::vector<ShadingPoint>;
 
 /// Whether all normals are equal.
 bool is_flat(const Surface& surface);
@@ -32,7 +32,7 @@ struct MeasuredScene {
     std::shared_ptr<ProbeLights> lights;
     std::vector<Surface> surfaces;
     std::size_t part;  ///< points that the reference is asked for at once
-    std::function<std::vector<glm::dvec3>(std::span<const Frame>)> by_reference;
+    std::function<std::vector<glm::dvec3>(std::span<const ShadingPoint>)> by_reference;
     std::vector<glm::dvec3> reference{};  ///< of all points once it is prepared
 
     /// Computes the reference unless it is known. False if it was stopped; another call continues.

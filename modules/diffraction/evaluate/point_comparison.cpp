@@ -20,15 +20,14 @@ lighting::ShLight PointComparer::harmonics(bool with_key_lights, int bands) {
 }
 
 PointComparison PointComparer::compare(const std::shared_ptr<const CookedMaterial>& cooked,
-                                       math::SphericalWindow window, const Frame& frame) {
+                                       math::SphericalWindow window, const ShadingPoint& frame) {
     const EvaluationLight& lit = lights_.split(cooked->material.quality.key_lights ? key_lights_ : 0, window);
     if (!ready_ || ready_->cooked != cooked || ready_->light != &lit)
         ready_.emplace(Ready{cooked, &lit, baked_shader(*cooked, lit)});
     const std::array points{frame};
     const colour::LightSpectra spectra(cooked->material.quality.illuminant);
     PointComparison result;
-    result.shown =
-        evaluate_points(info(cooked->tables).name, ready_->shader, *cooked, lit, points)[0];
+    result.shown = evaluate_points(info(cooked->tables).name, ready_->shader, *cooked, lit, points)[0];
     result.reference = reference_radiance(cooked->material.grating, *probe_, spectra, points)[0];
     result.error = relative_rms(std::span(&result.shown, 1), std::span(&result.reference, 1));
     return result;

@@ -7,9 +7,9 @@
 #include "engine/lighting/probe_image.h"
 #include "engine/math/sh_window.h"
 #include "modules/diffraction/asset/cooked_material.h"
-#include "modules/diffraction/representations/evaluation_light.h"
 #include "modules/diffraction/evaluate/point_shader.h"
-#include "modules/diffraction/model/frame.h"
+#include "modules/diffraction/model/shading_point.h"
+#include "modules/diffraction/representations/evaluation_light.h"
 
 namespace rowland::diffraction {
 
@@ -30,7 +30,7 @@ class PointComparer {
     /// `window`: on the light of tables over harmonics. The frame must be valid. Throws Error (input) where the
     /// material cannot be evaluated under a probe.
     PointComparison compare(const std::shared_ptr<const CookedMaterial>& cooked, math::SphericalWindow window,
-                            const Frame& frame);
+                            const ShadingPoint& frame);
 
     /// The light that tables over so many bands take, without a window.
     lighting::ShLight harmonics(bool with_key_lights, int bands);

@@ -41,7 +41,7 @@ DirectPart direct_part(const CookedMaterial& cooked, const EvaluationLight& ligh
 
 std::vector<glm::dvec3> evaluate_points(const std::string& title, const PointShader& shader,
                                         const CookedMaterial& cooked, const EvaluationLight& light,
-                                        std::span<const Frame> frames) {
+                                        std::span<const ShadingPoint> frames) {
     const DirectPart direct = direct_part(cooked, light);
     std::vector<glm::dvec3> result(frames.size());
     Progress progress(title, frames.size());
@@ -53,14 +53,13 @@ std::vector<glm::dvec3> evaluate_points(const std::string& title, const PointSha
 }
 
 PointShader baked_shader(const CookedMaterial& cooked, const EvaluationLight& light) {
-    const MaterialKernel kernel{.kernel = cooked.kernel,
-                                .pitch_nm = cooked.material.grating.pitch_nm,
-                                .zero_order_xyz = cooked.zero_order_xyz};
+    const MaterialKernel kernel{
+        .kernel = cooked.kernel, .pitch_nm = cooked.material.grating.pitch_nm, .zero_order_xyz = cooked.zero_order_xyz};
     return std::visit([&](const auto& tables) { return point_shader(tables, kernel, light); }, cooked.tables);
 }
 
 std::vector<glm::dvec3> evaluate_baked(const CookedMaterial& cooked, const EvaluationLight& light,
-                                       std::span<const Frame> frames) {
+                                       std::span<const ShadingPoint> frames) {
     const PointShader shader = baked_shader(cooked, light);
     const std::string title = info(cooked.tables).name;
     if (!info(cooked.tables).needs_flat_surface) return evaluate_points(title, shader, cooked, light, frames);

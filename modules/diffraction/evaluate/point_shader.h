@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "modules/diffraction/asset/cooked_material.h"
-#include "modules/diffraction/representations/point_shader.h"
-#include "modules/diffraction/model/frame.h"
 #include "modules/diffraction/model/grating.h"
+#include "modules/diffraction/model/shading_point.h"
+#include "modules/diffraction/representations/point_shader.h"
 
 namespace rowland::diffraction {
 
@@ -22,12 +22,12 @@ PointShader baked_shader(const CookedMaterial& cooked, const EvaluationLight& li
 /// `direct` for the key lights. `planar` fills a map for every plane among the frames. Views below the horizon are
 /// black.
 std::vector<glm::dvec3> evaluate_baked(const CookedMaterial& cooked, const EvaluationLight& light,
-                                       std::span<const Frame> frames);
+                                       std::span<const ShadingPoint> frames);
 
 /// The same by a shader of one's own in place of the tables, and `direct` for the key lights.
 std::vector<glm::dvec3> evaluate_points(const std::string& title, const PointShader& shader,
                                         const CookedMaterial& cooked, const EvaluationLight& light,
-                                        std::span<const Frame> frames);
+                                        std::span<const ShadingPoint> frames);
 
 /// What shades spikes that are baked for each frame's own view.
 PointShader exact_spikes(const Grating& grating, const SpikeSettings& settings, const EvaluationLight& light);

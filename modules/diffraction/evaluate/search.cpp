@@ -45,7 +45,7 @@ class Search {
                                .lights = std::make_shared<ProbeLights>(probe.image, kProjectedBands),
                                .surfaces = {{query.frames.begin(), query.frames.end()}},
                                .part = kReferencePart,
-                               .by_reference = [this, &probe](std::span<const Frame> part) {
+                               .by_reference = [this, &probe](std::span<const ShadingPoint> part) {
                                    return reference_radiance(query_.material.grating, probe.image, spectra_, part);
                                }});
         }

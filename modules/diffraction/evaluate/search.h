@@ -12,7 +12,7 @@
 
 #include "engine/lighting/probe_image.h"
 #include "modules/diffraction/asset/cooked_material.h"
-#include "modules/diffraction/model/frame.h"
+#include "modules/diffraction/model/shading_point.h"
 
 namespace rowland::diffraction {
 
@@ -50,7 +50,7 @@ struct SearchState {
 struct SearchQuery {
     const Material& material;
     std::span<const BudgetProbe> probes;
-    std::span<const Frame> frames;
+    std::span<const ShadingPoint> frames;
     std::vector<nlohmann::json> settings;   ///< those that do not suit the grating are left out
     std::optional<nlohmann::json> first{};  ///< the "quality" that the material pins, measured before the others
     /// Ends the search at the first setting whose errors are all at most this; a setting is not measured under the

@@ -28,7 +28,7 @@ glm::dmat3 weight_on_arc(const Grating& grating, const PathWeight& term, double 
 }
 
 glm::dvec3 frame_radiance(const IncidentLight& light, const Grating& grating, const std::vector<PathWeight>& weights,
-                          const Frame& frame, int refinement) {
+                          const ShadingPoint& frame, int refinement) {
     const glm::dmat3 tangent = world_to_tangent(frame);
     const glm::dvec3 v = tangent * glm::normalize(frame.view);
     if (v.z <= 0.0) return glm::dvec3(0.0);
@@ -53,7 +53,8 @@ glm::dvec3 frame_radiance(const IncidentLight& light, const Grating& grating, co
 }
 
 std::vector<glm::dvec3> radiance(const Grating& grating, const IncidentLight& light,
-                                 const colour::LightSpectra& spectra, std::span<const Frame> frames, int refinement) {
+                                 const colour::LightSpectra& spectra, std::span<const ShadingPoint> frames,
+                                 int refinement) {
     const std::vector<PathWeight> weights = path_weights(grating, spectra, light.panel_angle, refinement);
     std::vector<glm::dvec3> result(frames.size());
     Progress progress(refinement == 1 ? "reference" : "reference, finer", frames.size());
@@ -67,12 +68,13 @@ std::vector<glm::dvec3> radiance(const Grating& grating, const IncidentLight& li
 }  // namespace
 
 std::vector<glm::dvec3> reference_radiance(const Grating& grating, const IncidentLight& light,
-                                           const colour::LightSpectra& spectra, std::span<const Frame> frames) {
+                                           const colour::LightSpectra& spectra, std::span<const ShadingPoint> frames) {
     return radiance(grating, light, spectra, frames, 1);
 }
 
 std::vector<CheckedRadiance> checked_reference(const Grating& grating, const IncidentLight& light,
-                                               const colour::LightSpectra& spectra, std::span<const Frame> frames) {
+                                               const colour::LightSpectra& spectra,
+                                               std::span<const ShadingPoint> frames) {
     const std::vector<glm::dvec3> coarse = radiance(grating, light, spectra, frames, 1);
     const std::vector<glm::dvec3> fine = radiance(grating, light, spectra, frames, 2);
     std::vector<CheckedRadiance> result;

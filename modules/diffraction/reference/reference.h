@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "engine/colour/light_spectra.h"
-#include "modules/diffraction/model/frame.h"
 #include "modules/diffraction/model/grating.h"
+#include "modules/diffraction/model/shading_point.h"
 #include "modules/diffraction/reference/incident_light.h"
 
 namespace rowland::diffraction {
@@ -19,7 +19,7 @@ namespace rowland::diffraction {
 ///
 /// Uses all cores; the result does not depend on their number. Shares no code with the baked representations.
 std::vector<glm::dvec3> reference_radiance(const Grating& grating, const IncidentLight& light,
-                                           const colour::LightSpectra& spectra, std::span<const Frame> frames);
+                                           const colour::LightSpectra& spectra, std::span<const ShadingPoint> frames);
 
 /// A frame's XYZ and an estimate of the reference's own error.
 struct CheckedRadiance {
@@ -31,6 +31,7 @@ struct CheckedRadiance {
 /// than the difference under test, the reference cannot judge it (lamps smaller than a texel, a lobe at the horizon).
 /// Costs five times as much as reference_radiance().
 std::vector<CheckedRadiance> checked_reference(const Grating& grating, const IncidentLight& light,
-                                               const colour::LightSpectra& spectra, std::span<const Frame> frames);
+                                               const colour::LightSpectra& spectra,
+                                               std::span<const ShadingPoint> frames);
 
 }  // namespace rowland::diffraction

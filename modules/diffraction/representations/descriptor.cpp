@@ -150,8 +150,7 @@ std::optional<Refusal> layer_refusal(const char* key, int layers) {
 
 Facts with_view_table(Facts facts, const ViewGrid& grid, const PackedTexels& packed) {
     facts.emplace_back("view_mapping", view_mapping_name(grid.mapping));
-    facts.emplace_back("view_table",
-                       fmt::format("{} x {} x {} layers", grid.columns, grid.rows, packed.scale.size()));
+    facts.emplace_back("view_table", fmt::format("{} x {} x {} layers", grid.columns, grid.rows, packed.scale.size()));
     facts.emplace_back("storage", storage_name(packed.storage));
     return facts;
 }

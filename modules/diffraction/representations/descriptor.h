@@ -52,8 +52,8 @@ struct RepresentationInfo {
     KeyLightUse key_lights = KeyLightUse::ByDefault;
     std::vector<SettingInfo> settings{};
     std::vector<const char*> editor_start{};  ///< settings that an editor writes when the representation is chosen
-    const char* sweep_tier = "";           ///< settings of the sweep's starting point; key_lights may be among them
-    std::vector<int> sweep_key_lights{};   ///< numbers of key lights that the sweep takes
+    const char* sweep_tier = "";              ///< settings of the sweep's starting point; key_lights may be among them
+    std::vector<int> sweep_key_lights{};      ///< numbers of key lights that the sweep takes
     std::vector<math::SphericalWindow> sweep_windows{};
     std::vector<std::string> sweep_more{};  ///< further settings of the sweep
     /// What a budget may try for a lobe and a surface.

@@ -12,13 +12,13 @@ namespace {
 // Band-limited light as texels: at 32 bands, the most there are, a period is 32 texels.
 constexpr int kGridWidth = 1024;
 
-lighting::LightTexels texels_of(const lighting::ShLight& light) {
+lighting::LightSamples texels_of(const lighting::ShLight& light) {
     const int height = kGridWidth / 2;
     const image::Image black{.width = kGridWidth,
                              .height = height,
                              .texels = std::vector<glm::vec3>(static_cast<std::size_t>(kGridWidth * height))};
     const lighting::ProbeImage grid(black, lighting::Mapping::Equirectangular);
-    lighting::LightTexels texels;
+    lighting::LightSamples texels;
     std::vector<double> basis(light.coefficients.size());
     for (int row = 0; row < height; ++row)
         for (int column = 0; column < kGridWidth; ++column) {
@@ -55,8 +55,8 @@ lighting::ShLight EvaluationLight::harmonics(int bands) const {
     return lighting::limit_bands(lighting::residual(whole, key_lights_, bands), bands, window_);
 }
 
-lighting::LightTexels EvaluationLight::texels() const {
-    return probe_ ? lighting::light_texels(*probe_, key_lights_) : texels_of(sh_);
+lighting::LightSamples EvaluationLight::texels() const {
+    return probe_ ? lighting::light_samples(*probe_, key_lights_) : texels_of(sh_);
 }
 
 const EvaluationLight& ProbeLights::split(int key_lights, math::SphericalWindow window) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/lighting/key_lights.h"
-#include "engine/lighting/light_texels.h"
+#include "engine/lighting/light_samples.h"
 #include "engine/lighting/probe_image.h"
 #include "engine/lighting/sh_light.h"
 #include "engine/math/sh_window.h"
@@ -27,7 +27,7 @@ class EvaluationLight {
     /// What the key lights leave, in at most so many bands, under the window.
     lighting::ShLight harmonics(int bands) const;
     /// What the key lights leave, at full resolution.
-    lighting::LightTexels texels() const;
+    lighting::LightSamples texels() const;
     /// The probe with its key lights; none for band-limited light.
     const std::optional<lighting::ProbeImage>& probe() const { return probe_; }
 

@@ -10,7 +10,7 @@
 namespace rowland::diffraction {
 
 PointShader in_tangent_frame(lighting::ShLight light, TangentShader shade) {
-    return [light = std::move(light), shade = std::move(shade)](const Frame& frame) {
+    return [light = std::move(light), shade = std::move(shade)](const ShadingPoint& frame) {
         const glm::dmat3 tangent = world_to_tangent(frame);
         const glm::dvec3 view = tangent * glm::normalize(frame.view);
         if (view.z <= 0.0) return glm::dvec3(0.0);

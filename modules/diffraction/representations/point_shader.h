@@ -6,14 +6,14 @@
 
 #include "engine/lighting/sh_light.h"
 #include "modules/diffraction/model/colour_kernel.h"
-#include "modules/diffraction/model/frame.h"
+#include "modules/diffraction/model/shading_point.h"
 #include "modules/diffraction/representations/evaluation_light.h"
 #include "modules/diffraction/representations/shading_cost.h"
 
 namespace rowland::diffraction {
 
 /// XYZ of one frame. May be called from many threads, but for planar maps'.
-using PointShader = std::function<glm::dvec3(const Frame&)>;
+using PointShader = std::function<glm::dvec3(const ShadingPoint&)>;
 
 /// The part of a baked material that maps are filled from.
 struct MaterialKernel {

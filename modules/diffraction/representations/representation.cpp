@@ -21,7 +21,8 @@ template <typename Use>
 void for_each_representation(const Use& use) {
     [&]<std::size_t... I>(std::index_sequence<I...>) {
         (use.template operator()<std::variant_alternative_t<I, Representation>>(I), ...);
-    }(std::make_index_sequence<kRepresentationCount>());
+    }
+    (std::make_index_sequence<kRepresentationCount>());
 }
 
 bool mirrors(const GrooveLobe& lobe) {
@@ -107,8 +108,7 @@ void set_illuminant(Representation& representation, const colour::Illuminant& il
 }
 
 BakedTables bake_tables(const Grating& grating, const Representation& representation) {
-    return std::visit([&](const auto& settings) -> BakedTables { return bake(grating, settings); },
-                      representation);
+    return std::visit([&](const auto& settings) -> BakedTables { return bake(grating, settings); }, representation);
 }
 
 void write_tables(const BakedTables& tables, ByteWriter& writer) {

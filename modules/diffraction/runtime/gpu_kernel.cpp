@@ -74,10 +74,10 @@ void GpuKernel::bind(const gpu::Program& program, std::span<const lighting::KeyL
         lobes_.bind(program, pitch_nm_);
     }
     set_lobe(program);
-    if (!program.has_uniform("kernel_place")) return;
+    if (!program.has_uniform("kernel_scale_bias")) return;
     if (!smoothed_ || !std::ranges::equal(smoothed_->colours, light_colours)) smoothed_ = smooth(light_colours);
     smoothed_->texture.bind(kKernelUnit);
-    program.set("kernel_place", smoothed_->uniforms.place);
+    program.set("kernel_scale_bias", smoothed_->uniforms.scale_bias);
     program.set("kernel_ends", smoothed_->uniforms.ends);
     program.set("zero_order", zero_order_);
     program.set("working_to_rec709", working_to_rec709_);

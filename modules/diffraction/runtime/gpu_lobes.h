@@ -10,8 +10,8 @@
 
 namespace rowland::diffraction {
 
-/// What each key light adds to one grating, a layer of a texture each (representations/direct/lobe_table.h): shaders/key_lobes.glsl.
-/// Directions are no part of it, so that turning the light keeps it.
+/// What each key light adds to one grating, a layer of a texture each (representations/direct/lobe_table.h):
+/// shaders/key_lobes.glsl. Directions are no part of it, so that turning the light keeps it.
 class GpuLobes {
  public:
     /// Makes the layers anew if the lights' fluxes or concentrations are others than before.

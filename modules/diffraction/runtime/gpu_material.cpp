@@ -22,8 +22,7 @@ namespace rowland::diffraction {
 namespace {
 
 /// The class that draws each of BakedTables, in its order.
-using GpuClasses =
-    std::tuple<GpuSpikes, GpuBins, GpuTransfer, GpuArc, GpuDirect, GpuPlanar, GpuCircle, GpuStreak>;
+using GpuClasses = std::tuple<GpuSpikes, GpuBins, GpuTransfer, GpuArc, GpuDirect, GpuPlanar, GpuCircle, GpuStreak>;
 static_assert(std::tuple_size_v<GpuClasses> == kRepresentationCount);
 
 }  // namespace
@@ -66,12 +65,12 @@ std::shared_ptr<const GpuMaterial> make_gpu_material(const CookedMaterial& cooke
     std::shared_ptr<const GpuMaterial> material;
     const auto make_if = [&]<std::size_t I>(std::integral_constant<std::size_t, I>) {
         if (const auto* tables = std::get_if<I>(&cooked.tables))
-            material =
-                std::make_shared<const std::tuple_element_t<I, GpuClasses>>(cooked, *tables, xyz_to_working);
+            material = std::make_shared<const std::tuple_element_t<I, GpuClasses>>(cooked, *tables, xyz_to_working);
     };
     [&]<std::size_t... I>(std::index_sequence<I...>) {
         (make_if(std::integral_constant<std::size_t, I>()), ...);
-    }(std::make_index_sequence<kRepresentationCount>());
+    }
+    (std::make_index_sequence<kRepresentationCount>());
     return material;
 }
 

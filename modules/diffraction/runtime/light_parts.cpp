@@ -11,7 +11,7 @@ const LightParts& LightDivision::of(const render::FrameLight& light) {
     const bool other_probe = probe_ != light.probe;
     if (other_probe) {
         parts_.probe_sh = probe.sh;
-        parts_.probe_texels = std::make_shared<const lighting::LightTexels>(lighting::unpack(probe.light));
+        parts_.probe_texels = std::make_shared<const lighting::LightSamples>(lighting::unpack(probe.light));
         parts_.radiance =
             std::make_shared<const lighting::PackedEnvironmentMap>(lighting::finest_level(probe.environment));
         parts_.illuminant = probe.illuminant.name;
@@ -22,7 +22,7 @@ const LightParts& LightDivision::of(const render::FrameLight& light) {
         parts_.residual = keys.empty() ? probe.sh : lighting::residual(probe.sh, keys, probe.sh.bands);
         parts_.texels = keys.empty()
                             ? parts_.probe_texels
-                            : std::make_shared<const lighting::LightTexels>(lighting::unpack(probe.light, keys));
+                            : std::make_shared<const lighting::LightSamples>(lighting::unpack(probe.light, keys));
     }
     probe_ = light.probe;
     key_lights_apart_ = light.key_lights_apart;

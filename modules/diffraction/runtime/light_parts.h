@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/colour/illuminant.h"
-#include "engine/lighting/light_texels.h"
+#include "engine/lighting/light_samples.h"
 #include "engine/render/material.h"
 
 namespace rowland::diffraction {
@@ -16,12 +16,12 @@ namespace rowland::diffraction {
 /// The distant light of a frame in the forms that gratings need, linear Rec.709, world axes: whole as `sh`, or as
 /// `residual`, `key_lights` and the scene's directional lights, which sum to the same.
 struct LightParts {
-    lighting::ShLight sh;                                       ///< raw radiance: the probe and the directional lights
-    lighting::ShLight probe_sh;                                 ///< the probe alone
-    lighting::ShLight residual;                                 ///< the probe without `key_lights`
-    std::vector<lighting::KeyLight> key_lights;                 ///< those that are shaded as analytic lights
-    std::shared_ptr<const lighting::LightTexels> probe_texels;  ///< the probe alone, at full resolution
-    std::shared_ptr<const lighting::LightTexels> texels;        ///< the same without `key_lights`
+    lighting::ShLight sh;                                        ///< raw radiance: the probe and the directional lights
+    lighting::ShLight probe_sh;                                  ///< the probe alone
+    lighting::ShLight residual;                                  ///< the probe without `key_lights`
+    std::vector<lighting::KeyLight> key_lights;                  ///< those that are shaded as analytic lights
+    std::shared_ptr<const lighting::LightSamples> probe_texels;  ///< the probe alone, at full resolution
+    std::shared_ptr<const lighting::LightSamples> texels;        ///< the same without `key_lights`
     /// The whole probe as a cube map of one level: its mean over each texel. Null: no probe.
     std::shared_ptr<const lighting::PackedEnvironmentMap> radiance;
     std::string illuminant = colour::d65().name;  ///< name of the spectrum of the probe's white

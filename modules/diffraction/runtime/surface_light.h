@@ -35,7 +35,7 @@ class SurfaceLight {
     /// The light in this number of bands, windowed.
     const lighting::ShLight& harmonics(int bands, LightShare share);
     /// The probe, or LightShare::Rest of it, at full resolution; null if the probe has no texels.
-    const std::shared_ptr<const lighting::LightTexels>& texels(LightShare share) const {
+    const std::shared_ptr<const lighting::LightSamples>& texels(LightShare share) const {
         return share == LightShare::Rest ? light_.texels : light_.probe_texels;
     }
 

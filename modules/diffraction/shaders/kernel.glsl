@@ -1,7 +1,7 @@
 // d k(d u), the colour kernel smoothed by a normal distribution of u: bake/blurred_kernel.h. Layers for red, green and
 // blue light, then one for each colour of the scene's lights.
 layout(binding = 10) uniform sampler2DArray kernel_table;
-uniform vec4 kernel_place;  // scale and offset from u to s; deviation of u in row 0; scale of the values
+uniform vec4 kernel_scale_bias;  // scale and offset from u to s; deviation of u in row 0; scale of the values
 uniform vec2 kernel_ends;   // |u| below and above which k is 0
 #ifdef ZERO_ORDER
 uniform mat3 zero_order;  // RGB in, XYZ out
@@ -19,13 +19,13 @@ struct KernelRow {
 };
 
 KernelRow kernel_row(float deviation) {
-    float wide = max(deviation, kernel_place.z);
+    float wide = max(deviation, kernel_scale_bias.z);
     float levels = float(textureSize(kernel_table, 0).y);
-    return KernelRow(wide, (log2(wide / kernel_place.z) * LEVELS_PER_OCTAVE + 0.5) / levels);
+    return KernelRow(wide, (log2(wide / kernel_scale_bias.z) * LEVELS_PER_OCTAVE + 0.5) / levels);
 }
 
 vec3 kernel_texel(float u, KernelRow row, float layer) {
-    return textureLod(kernel_table, vec3(u * kernel_place.x + kernel_place.y, row.t, layer), 0.0).xyz;
+    return textureLod(kernel_table, vec3(u * kernel_scale_bias.x + kernel_scale_bias.y, row.t, layer), 0.0).xyz;
 }
 
 vec3 zero_order_xyz(float u, float wide, vec3 rgb) {
@@ -43,7 +43,7 @@ vec3 kernel_xyz(float u, float deviation, vec3 rgb) {
     // Most lights miss the orders, so it pays to see that without a look-up.
     if (kernel_reached(u, 5.0 * row.wide)) {
         for (int c = 0; c < 3; ++c) xyz += rgb[c] * kernel_texel(u, row, float(c));
-        xyz *= kernel_place.w;
+        xyz *= kernel_scale_bias.w;
     }
     return xyz + zero_order_xyz(u, row.wide, rgb);
 }
@@ -51,6 +51,6 @@ vec3 kernel_xyz(float u, float deviation, vec3 rgb) {
 // The same of light of one of the scene's colours, of which `rgb` is that much.
 vec3 coloured_kernel_xyz(float u, KernelRow row, float colour, float amount, vec3 rgb) {
     vec3 xyz = vec3(0.0);
-    if (kernel_reached(u, 5.0 * row.wide)) xyz = amount * kernel_place.w * kernel_texel(u, row, 3.0 + colour);
+    if (kernel_reached(u, 5.0 * row.wide)) xyz = amount * kernel_scale_bias.w * kernel_texel(u, row, 3.0 + colour);
     return xyz + zero_order_xyz(u, row.wide, rgb);
 }

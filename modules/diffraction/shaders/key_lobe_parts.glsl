@@ -10,7 +10,7 @@ vec3 key_lobe_xyz(KeyLobe lobe, GrooveView view) {
     if (axis.z * lobe.moments.x < -5.0 * sqrt(lobe.moments.z + lobe.moments.y)) return vec3(0.0);
 #ifndef ZERO_ORDER
     // The parts lie within 2.3 deviations of the lobe's direction, and each reaches 5 times 0.84 of one.
-    float reach = view.pitch * (6.5 * sqrt(lobe.moments.z) + 5.0 * footprint_deviation) + 5.0 * kernel_place.z;
+    float reach = view.pitch * (6.5 * sqrt(lobe.moments.z) + 5.0 * footprint_deviation) + 5.0 * kernel_scale_bias.z;
     if (!kernel_reached(view.pitch * (axis.x + view.direction.x), reach)) return vec3(0.0);
 #endif
     axis.x = clamp(axis.x, -1.0, 1.0);

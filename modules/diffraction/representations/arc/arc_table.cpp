@@ -124,7 +124,7 @@ void check_settings(const Grating& grating, const ArcSettings& settings) {
                   "a pitch axis ascends");
     if (is_flat(grating.lobe)) return;
     throw Error({.file = {},
-                 .place = "groove_lobe",
+                 .location = "groove_lobe",
                  .found = "a lobe that is not flat, with a pitch that varies over the surface",
                  .expected = "the flat lobe: weights over views and pitches would take three dimensions",
                  .remedy = "drop the pitch variation, or use the representation \"transfer\" or \"spikes\""});
@@ -287,8 +287,7 @@ std::vector<std::string> bands_by_rank_by_key_lights() {
     for (const int bands : {3, 8, 16})
         for (const int rank : {4, 8, 16})
             for (const int key_lights : {0, 16, 64})
-                settings.push_back(
-                    fmt::format("bands={}/rank={}/storage=fp16/key_lights={}", bands, rank, key_lights));
+                settings.push_back(fmt::format("bands={}/rank={}/storage=fp16/key_lights={}", bands, rank, key_lights));
     return settings;
 }
 
@@ -299,8 +298,8 @@ const RepresentationInfo& ArcSettings::info() {
         .name = "arc",
         .summary = "a few products of table and light: light at the vertices, views in the pixels",
         .takes_harmonics = true,
-        .settings = {bands_setting({2, 3, 4, 6, 8, 10, 12, 16}, {3, 5, 8}),
-                     rank_setting({2, 4, 6, 12, 16}, {4, 8, 16}), view_mapping_setting(), view_resolution_setting(),
+        .settings = {bands_setting({2, 3, 4, 6, 8, 10, 12, 16}, {3, 5, 8}), rank_setting({2, 4, 6, 12, 16}, {4, 8, 16}),
+                     view_mapping_setting(), view_resolution_setting(),
                      storage_setting(ArcSettings().storage, {"fp32", "unorm16", "unorm8"})},
         .editor_start = {"bands", "rank"},
         .sweep_tier = "bands=5/rank=8/storage=fp16/key_lights=16",

@@ -122,7 +122,8 @@ BinTable read_bin_table(ByteReader& reader) {
     table.grid = read_view_grid(reader);
     table.storage = to_storage(reader, reader.value<std::uint8_t>());
     table.colours = read_matrices(reader, "colours", 1, kMaximumBins);
-    read_packed_texels(reader, table.colours.size() * static_cast<std::size_t>(harmonic_layers(table.bands)), table.grid.texels(), table);
+    read_packed_texels(reader, table.colours.size() * static_cast<std::size_t>(harmonic_layers(table.bands)),
+                       table.grid.texels(), table);
     return table;
 }
 
@@ -141,7 +142,9 @@ const RepresentationInfo& BinSettings::info() {
                       .maximum = 64,
                       .default_value = BinSettings().bins,
                       .sweep = {4, 8, 32}},
-                     view_mapping_setting(), view_resolution_setting({16, 64}), storage_setting(BinSettings().storage)},
+                     view_mapping_setting(),
+                     view_resolution_setting({16, 64}),
+                     storage_setting(BinSettings().storage)},
         .editor_start = {"bands", "bins"},
         .sweep_tier = "bands=5/bins=16/view_resolution=32",
         // Budgets try transfer tables instead: as large as eight bins, with fewer fetches and smaller errors.
@@ -171,8 +174,7 @@ BinTable read(ByteReader& reader, const BinSettings& settings) {
 ShadingCost cost(const BinTable& table) {
     const int layers = table.bins() * harmonic_layers(table.bands);
     return {.fetches_per_vertex = layers,
-            .multiply_adds_per_vertex =
-                4 * layers + 3 * table.bins() * math::sh_count(table.bands) + 9 * table.bins(),
+            .multiply_adds_per_vertex = 4 * layers + 3 * table.bins() * math::sh_count(table.bands) + 9 * table.bins(),
             .table_bytes = table.bytes(),
             .vertex_bytes = harmonics_bytes(table.bands)};
 }

@@ -6,7 +6,8 @@
 namespace rowland::diffraction {
 
 GpuBins::GpuBins(const CookedMaterial& cooked, const BinTable& table, const glm::dmat3& xyz_to_working)
-    : VertexShaded(cooked, xyz_to_working, table.bands, GpuTable(table, table.grid), "representations/bins/bins.vert.glsl"),
+    : VertexShaded(cooked, xyz_to_working, table.bands, GpuTable(table, table.grid),
+                   "representations/bins/bins.vert.glsl"),
       bins_(table.colours.size()) {
     for (const glm::mat3& colour : table.colours)
         for (int c = 0; c < 3; ++c) columns_.push_back(colour[c]);

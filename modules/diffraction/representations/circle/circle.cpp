@@ -52,13 +52,12 @@ ShadingCost cost(const CircleTables& tables) {
 }
 
 Facts facts(const CircleTables& tables) {
-    return {{"map",
-             fmt::format("{0} x {0} x {1}, {2} terms", tables.size.side, tables.size.views, tables.size.terms)}};
+    return {{"map", fmt::format("{0} x {0} x {1}, {2} terms", tables.size.side, tables.size.views, tables.size.terms)}};
 }
 
 PointShader point_shader(const CircleTables& tables, const MaterialKernel& material, const EvaluationLight& light) {
     return [map = fill_circle_map(light.texels(), material.kernel, material.pitch_nm, tables.size,
-                                  material.zero_order_xyz)](const Frame& frame) { return sample(map, frame); };
+                                  material.zero_order_xyz)](const ShadingPoint& frame) { return sample(map, frame); };
 }
 
 }  // namespace rowland::diffraction

@@ -36,7 +36,7 @@ std::vector<std::uint16_t> side_by_side(const CircleMap& map, float scale) {
 
 }  // namespace
 
-CircleFilling::Filled CircleFilling::fill(const std::stop_token& stop, const lighting::LightTexels& texels,
+CircleFilling::Filled CircleFilling::fill(const std::stop_token& stop, const lighting::LightSamples& texels,
                                           const KernelTable& kernel, double pitch_nm, const CircleMapSize& size,
                                           const glm::dmat3& zero_order_xyz) {
     const CircleMap map = fill_circle_map(texels, kernel, pitch_nm, size, zero_order_xyz, stop);
@@ -51,7 +51,7 @@ CircleFilling::Filled CircleFilling::fill(const std::stop_token& stop, const lig
             .halves = side_by_side(map, scale)};
 }
 
-CircleFilling::CircleFilling(std::shared_ptr<const lighting::LightTexels> texels, const KernelTable& kernel,
+CircleFilling::CircleFilling(std::shared_ptr<const lighting::LightSamples> texels, const KernelTable& kernel,
                              double pitch_nm, const CircleMapSize& size, const glm::dmat3& zero_order_xyz) {
     std::packaged_task<Filled(std::stop_token)> task(
         [texels = std::move(texels), kernel, pitch_nm, size, zero_order_xyz](const std::stop_token& stop) {

@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "engine/lighting/light_texels.h"
+#include "engine/lighting/light_samples.h"
 #include "modules/diffraction/representations/circle/circle_map.h"
 #include "modules/diffraction/runtime/gpu_map.h"
 
@@ -18,7 +18,7 @@ namespace rowland::diffraction {
 /// thread within milliseconds when it is destroyed.
 class CircleFilling {
  public:
-    CircleFilling(std::shared_ptr<const lighting::LightTexels> texels, const KernelTable& kernel, double pitch_nm,
+    CircleFilling(std::shared_ptr<const lighting::LightSamples> texels, const KernelTable& kernel, double pitch_nm,
                   const CircleMapSize& size, const glm::dmat3& zero_order_xyz);
 
     /// Blocks until the map is filled.
@@ -38,7 +38,7 @@ class CircleFilling {
         float scale = 1.0F;
         std::vector<std::uint16_t> halves;
     };
-    static Filled fill(const std::stop_token& stop, const lighting::LightTexels& texels, const KernelTable& kernel,
+    static Filled fill(const std::stop_token& stop, const lighting::LightSamples& texels, const KernelTable& kernel,
                        double pitch_nm, const CircleMapSize& size, const glm::dmat3& zero_order_xyz);
 
     std::future<Filled> filled_later_;

@@ -55,7 +55,7 @@ glm::dvec2 chart_point(const glm::dvec3& g, int chart) {
 
 /// Moments of light around one g in cells of a: kLanes terms of red, then of green, then of blue a cell.
 template <int kLanes>
-void add_moments(const lighting::LightTexels& lights, const CircleFrame& frame, int cells,
+void add_moments(const lighting::LightSamples& lights, const CircleFrame& frame, int cells,
                  std::vector<float>& moments) {
     const glm::vec3 g(frame.g);
     const glm::vec3 e1(frame.e1);
@@ -101,7 +101,7 @@ void add_moments(const lighting::LightTexels& lights, const CircleFrame& frame, 
 }
 
 template <int kLanes>
-void fill_column(const lighting::LightTexels& lights, const KernelCells& kernel, int chart, int row, int column,
+void fill_column(const lighting::LightSamples& lights, const KernelCells& kernel, int chart, int row, int column,
                  CircleMap& map) {
     const glm::dvec2 at(column + 0.5, row + 0.5);
     glm::dvec2 p = (at / static_cast<double>(map.side) - 0.5) / map.scale();
@@ -176,7 +176,7 @@ std::size_t CircleMap::index(int chart, int term, int view, int row, int column)
     return (((u(chart) * u(terms) + u(term)) * u(views) + u(view)) * u(side) + u(row)) * u(side) + u(column);
 }
 
-CircleMap fill_circle_map(const lighting::LightTexels& texels, const KernelTable& kernel, double pitch_nm,
+CircleMap fill_circle_map(const lighting::LightSamples& texels, const KernelTable& kernel, double pitch_nm,
                           const CircleMapSize& size, const glm::dmat3& zero_order_xyz, const std::stop_token& stop) {
     ROWLAND_CHECK_OP(size.side, >=, 8);
     ROWLAND_CHECK_OP(size.views, >=, 8);
@@ -184,7 +184,7 @@ CircleMap fill_circle_map(const lighting::LightTexels& texels, const KernelTable
     CircleMap map{
         .charts = is_even(kernel) ? 1 : 2, .terms = size.terms, .views = size.views, .side = size.side, .xyz = {}};
     map.xyz.resize(map.index(map.charts, 0, 0, 0, 0), glm::vec3(0.0F));
-    const lighting::LightTexels lights = lighting::gather_texels(texels, kFaceSize);
+    const lighting::LightSamples lights = lighting::gather_texels(texels, kFaceSize);
     const KernelCells cells(kernel, pitch_nm, size.views, zero_order_xyz);
     const auto side = static_cast<std::size_t>(size.side);
     parallel_for(static_cast<std::size_t>(map.charts) * side * side, [&](std::size_t i) {
@@ -206,7 +206,7 @@ CircleMap fill_circle_map(const lighting::LightTexels& texels, const KernelTable
     return map;
 }
 
-glm::dvec3 sample(const CircleMap& map, const Frame& frame) {
+glm::dvec3 sample(const CircleMap& map, const ShadingPoint& frame) {
     const glm::dmat3 to_tangent = world_to_tangent(frame);
     const glm::dvec3 v = to_tangent * glm::normalize(frame.view);
     if (v.z <= 0.0) return glm::dvec3(0.0);

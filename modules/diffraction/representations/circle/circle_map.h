@@ -7,9 +7,9 @@
 #include <stop_token>
 #include <vector>
 
-#include "engine/lighting/light_texels.h"
+#include "engine/lighting/light_samples.h"
 #include "modules/diffraction/model/colour_kernel.h"
-#include "modules/diffraction/model/frame.h"
+#include "modules/diffraction/model/shading_point.h"
 
 namespace rowland::diffraction {
 
@@ -46,11 +46,11 @@ struct CircleMapSize {
 
 /// Fills the map from texels (key lights taken out, which `direct` adds). Uses all cores; the result does not depend on
 /// them. `zero_order_xyz`: as of ColourKernel. Once it is stopped it returns soon, with a map that is not to be used.
-CircleMap fill_circle_map(const lighting::LightTexels& texels, const KernelTable& kernel, double pitch_nm,
+CircleMap fill_circle_map(const lighting::LightSamples& texels, const KernelTable& kernel, double pitch_nm,
                           const CircleMapSize& size = {}, const glm::dmat3& zero_order_xyz = glm::dmat3(0.0),
                           const std::stop_token& stop = {});
 
 /// XYZ of a frame as texture units interpolate (GL_LINEAR in all three); black for a view below the horizon.
-glm::dvec3 sample(const CircleMap& map, const Frame& frame);
+glm::dvec3 sample(const CircleMap& map, const ShadingPoint& frame);
 
 }  // namespace rowland::diffraction

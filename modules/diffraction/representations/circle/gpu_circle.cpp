@@ -14,10 +14,10 @@ GpuCircle::GpuCircle(const CookedMaterial& cooked, const CircleTables& tables, c
       pitch_nm_(cooked.material.grating.pitch_nm),
       zero_order_xyz_(cooked.zero_order_xyz) {}
 
-void GpuCircle::begin(const std::shared_ptr<const lighting::LightTexels>& texels) const {
+void GpuCircle::begin(const std::shared_ptr<const lighting::LightSamples>& texels) const {
     texels_ = texels;
     if (!texels) log_warning("a grating of representation circle is under a probe without texels: it stays dark");
-    filling_ = std::make_unique<CircleFilling>(texels ? texels : std::make_shared<const lighting::LightTexels>(),
+    filling_ = std::make_unique<CircleFilling>(texels ? texels : std::make_shared<const lighting::LightSamples>(),
                                                kernel_, pitch_nm_, size_, zero_order_xyz_);
     ++fills_begun_;
 }

@@ -3,8 +3,8 @@
 #include <memory>
 #include <optional>
 
-#include "modules/diffraction/representations/circle/circle_map.h"
 #include "modules/diffraction/representations/circle/circle_filling.h"
+#include "modules/diffraction/representations/circle/circle_map.h"
 #include "modules/diffraction/runtime/gpu_map.h"
 #include "modules/diffraction/runtime/gpu_material.h"
 
@@ -27,7 +27,7 @@ class GpuCircle final : public GpuMaterial {
  private:
     void describe(const SurfaceState& state, gpu::ProgramDesc& desc) const override;
     void bind_tables(const gpu::Program& program, const SurfaceState& state) const override;
-    void begin(const std::shared_ptr<const lighting::LightTexels>& texels) const;
+    void begin(const std::shared_ptr<const lighting::LightSamples>& texels) const;
 
     bool map_at_vertices_;
     CircleMapSize size_;
@@ -36,7 +36,7 @@ class GpuCircle final : public GpuMaterial {
     glm::dmat3 zero_order_xyz_;
 
     // The light's side of the material, which its first object in a frame brings up to date.
-    mutable std::optional<std::shared_ptr<const lighting::LightTexels>> texels_;  ///< that the newest map is of
+    mutable std::optional<std::shared_ptr<const lighting::LightSamples>> texels_;  ///< that the newest map is of
     mutable std::unique_ptr<CircleFilling> filling_;
     mutable std::optional<GpuMap> map_;
     mutable int charts_ = 1;

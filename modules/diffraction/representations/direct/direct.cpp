@@ -205,7 +205,7 @@ std::array<LightSpot::Part, 3> lobe_parts(const glm::dvec3& axis, double concent
 
 template <typename Light>
 glm::dvec3 sum_of_lights(const KernelTable& kernel, const DirectMaterial& material, std::span<const Light> lights,
-                         const Frame& frame, double footprint) {
+                         const ShadingPoint& frame, double footprint) {
     const glm::dmat3 to_tangent = world_to_tangent(frame);
     const glm::dvec3 v = to_tangent * glm::normalize(frame.view);
     glm::dvec3 sum(0.0);
@@ -265,12 +265,12 @@ glm::dvec3 direct_radiance(const BlurredKernel& kernel, const DirectMaterial& ma
 }
 
 glm::dvec3 direct_radiance(const KernelTable& kernel, const DirectMaterial& material,
-                           std::span<const DirectLight> lights, const Frame& frame, double footprint) {
+                           std::span<const DirectLight> lights, const ShadingPoint& frame, double footprint) {
     return sum_of_lights(kernel, material, lights, frame, footprint);
 }
 
 glm::dvec3 direct_radiance(const KernelTable& kernel, const DirectMaterial& material,
-                           std::span<const lighting::KeyLight> lights, const Frame& frame, double footprint) {
+                           std::span<const lighting::KeyLight> lights, const ShadingPoint& frame, double footprint) {
     return sum_of_lights(kernel, material, lights, frame, footprint);
 }
 

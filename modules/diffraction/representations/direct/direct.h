@@ -8,8 +8,8 @@
 #include "engine/lighting/key_lights.h"
 #include "modules/diffraction/bake/blurred_kernel.h"
 #include "modules/diffraction/model/colour_kernel.h"
-#include "modules/diffraction/model/frame.h"
 #include "modules/diffraction/model/lobe.h"
+#include "modules/diffraction/model/shading_point.h"
 
 namespace rowland::diffraction {
 
@@ -81,8 +81,9 @@ glm::dvec3 direct_radiance(const BlurredKernel& kernel, const DirectMaterial& ma
 
 /// The sum over lights for a frame; black for a view below the horizon.
 glm::dvec3 direct_radiance(const KernelTable& kernel, const DirectMaterial& material,
-                           std::span<const DirectLight> lights, const Frame& frame, double footprint = 0.0);
+                           std::span<const DirectLight> lights, const ShadingPoint& frame, double footprint = 0.0);
 glm::dvec3 direct_radiance(const KernelTable& kernel, const DirectMaterial& material,
-                           std::span<const lighting::KeyLight> lights, const Frame& frame, double footprint = 0.0);
+                           std::span<const lighting::KeyLight> lights, const ShadingPoint& frame,
+                           double footprint = 0.0);
 
 }  // namespace rowland::diffraction

@@ -3,13 +3,12 @@
 namespace rowland::diffraction {
 
 const RepresentationInfo& DirectSettings::info() {
-    static const RepresentationInfo info{
-        .name = "direct",
-        .summary = "key lights and analytic lights alone",
-        .key_lights = KeyLightUse::Always,
-        .sweep_tier = "key_lights=16",
-        .sweep_key_lights = {4, 16, 64},
-        .budget = [](bool, SurfaceShape) { return std::vector<std::string>{""}; }};
+    static const RepresentationInfo info{.name = "direct",
+                                         .summary = "key lights and analytic lights alone",
+                                         .key_lights = KeyLightUse::Always,
+                                         .sweep_tier = "key_lights=16",
+                                         .sweep_key_lights = {4, 16, 64},
+                                         .budget = [](bool, SurfaceShape) { return std::vector<std::string>{""}; }};
     return info;
 }
 
@@ -40,7 +39,7 @@ Facts facts(const DirectTables&) {
 }
 
 PointShader point_shader(const DirectTables&, const MaterialKernel&, const EvaluationLight&) {
-    return [](const Frame&) { return glm::dvec3(0.0); };
+    return [](const ShadingPoint&) { return glm::dvec3(0.0); };
 }
 
 }  // namespace rowland::diffraction

@@ -4,8 +4,8 @@
 #include <memory>
 #include <optional>
 
-#include "modules/diffraction/representations/planar/planar_map.h"
 #include "modules/diffraction/representations/arc/gpu_arc.h"
+#include "modules/diffraction/representations/planar/planar_map.h"
 #include "modules/diffraction/runtime/gpu_map.h"
 #include "modules/diffraction/runtime/gpu_material.h"
 
@@ -17,7 +17,7 @@ struct PlanarData final : ObjectData {
     std::optional<glm::dvec3> flat;           ///< the mesh's normal, in its own axes
     /// What the map is wanted for, and whether that was so a frame ago, too.
     std::optional<glm::dvec3> normal;
-    std::shared_ptr<const lighting::LightTexels> texels;
+    std::shared_ptr<const lighting::LightSamples> texels;
     bool at_rest = false;
 
     std::optional<PlanarFill> fill;  ///< while azimuths are missing

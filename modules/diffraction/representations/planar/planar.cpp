@@ -34,10 +34,10 @@ std::optional<Refusal> PlanarSettings::refusal(const SettingValues&, const Grati
 
 PlanarSettings PlanarSettings::from(const SettingValues& values, const Grating& grating) {
     const int views = values.number("map_resolution");
-    return {.size = {.azimuths = views + views % 2, .views = views},
-            .stand_in = {.bands = values.number("bands"),
-                         .rank = values.number("rank"),
-                         .grid = default_view_grid(grating.lobe)}};
+    return {
+        .size = {.azimuths = views + views % 2, .views = views},
+        .stand_in = {
+            .bands = values.number("bands"), .rank = values.number("rank"), .grid = default_view_grid(grating.lobe)}};
 }
 
 PlanarTables bake(const Grating& grating, const PlanarSettings& settings) {
@@ -72,7 +72,7 @@ PointShader point_shader(const PlanarTables& tables, const MaterialKernel& mater
         PlanarMap map;
     };
     return [material, size = tables.size, texels = light.texels(),
-            last = std::make_shared<Plane>()](const Frame& frame) {
+            last = std::make_shared<Plane>()](const ShadingPoint& frame) {
         const glm::dvec3 normal = glm::normalize(frame.normal);
         if (normal != last->normal)
             *last = {normal, fill_planar_map(texels, material.kernel, material.pitch_nm, normal, size,

@@ -45,7 +45,7 @@ void splat(Disc& disc, int cells, float x, float y, const std::array<float, 4>& 
 }
 
 /// The upper hemisphere of some texels, projected along n: the light's measure on the disc is L ds_1 ds_2 = L s_n dω.
-void add_texels(const lighting::LightTexels& texels, std::size_t begin, std::size_t end, const glm::vec3& e1,
+void add_texels(const lighting::LightSamples& texels, std::size_t begin, std::size_t end, const glm::vec3& e1,
                 const glm::vec3& e2, const glm::vec3& n, int cells, Disc& disc) {
     const float scale = 0.5F * static_cast<float>(cells);
     for (std::size_t i = begin; i < end; ++i) {
@@ -62,7 +62,7 @@ void add_texels(const lighting::LightTexels& texels, std::size_t begin, std::siz
     }
 }
 
-Disc light_on_disc(const lighting::LightTexels& texels, const glm::vec3& e1, const glm::vec3& e2, const glm::vec3& n,
+Disc light_on_disc(const lighting::LightSamples& texels, const glm::vec3& e1, const glm::vec3& e2, const glm::vec3& n,
                    int cells) {
     const auto floats = static_cast<std::size_t>(cells) * static_cast<std::size_t>(cells) * 4;
     std::vector<Disc> parts(kParts);
@@ -112,7 +112,7 @@ struct PlanarFill::Profile {
     std::vector<float> cells;
 };
 
-PlanarFill::PlanarFill(const lighting::LightTexels& texels, const KernelTable& kernel, double pitch_nm,
+PlanarFill::PlanarFill(const lighting::LightSamples& texels, const KernelTable& kernel, double pitch_nm,
                        const glm::dvec3& normal, const PlanarMapSize& size, const glm::dmat3& zero_order_xyz)
     : size_(size), cells_(2 * (size.views - 1)), kernel_(kernel, pitch_nm, size.views, zero_order_xyz) {
     ROWLAND_CHECK_OP(size.azimuths, >=, 4);
@@ -216,7 +216,7 @@ void PlanarFill::fill(int begin, int end, PlanarMap& map) const {
     });
 }
 
-PlanarMap fill_planar_map(const lighting::LightTexels& texels, const KernelTable& kernel, double pitch_nm,
+PlanarMap fill_planar_map(const lighting::LightSamples& texels, const KernelTable& kernel, double pitch_nm,
                           const glm::dvec3& normal, const PlanarMapSize& size, const glm::dmat3& zero_order_xyz) {
     const PlanarFill fill(texels, kernel, pitch_nm, normal, size, zero_order_xyz);
     PlanarMap map = fill.empty();
@@ -236,7 +236,7 @@ glm::dvec3 sample(const PlanarMap& map, double azimuth, double v_g) {
                     glm::mix(at(s.low, t.high), at(s.high, t.high), s.weight), t.weight);
 }
 
-glm::dvec3 sample(const PlanarMap& map, const Frame& frame) {
+glm::dvec3 sample(const PlanarMap& map, const ShadingPoint& frame) {
     const glm::dmat3 to_tangent = world_to_tangent(frame);
     const glm::dvec3 v = to_tangent * glm::normalize(frame.view);
     if (v.z <= 0.0) return glm::dvec3(0.0);

@@ -4,10 +4,10 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "engine/lighting/light_texels.h"
+#include "engine/lighting/light_samples.h"
 #include "modules/diffraction/bake/kernel_cells.h"
 #include "modules/diffraction/model/colour_kernel.h"
-#include "modules/diffraction/model/frame.h"
+#include "modules/diffraction/model/shading_point.h"
 
 namespace rowland::diffraction {
 
@@ -34,7 +34,7 @@ struct PlanarMapSize {
 class PlanarFill {
  public:
     /// `normal`: unit. `zero_order_xyz`: as of ColourKernel. Uses all cores; the result does not depend on them.
-    PlanarFill(const lighting::LightTexels& texels, const KernelTable& kernel, double pitch_nm,
+    PlanarFill(const lighting::LightSamples& texels, const KernelTable& kernel, double pitch_nm,
                const glm::dvec3& normal, const PlanarMapSize& size = {},
                const glm::dmat3& zero_order_xyz = glm::dmat3(0.0));
 
@@ -63,7 +63,7 @@ class PlanarFill {
 };
 
 /// The whole map.
-PlanarMap fill_planar_map(const lighting::LightTexels& texels, const KernelTable& kernel, double pitch_nm,
+PlanarMap fill_planar_map(const lighting::LightSamples& texels, const KernelTable& kernel, double pitch_nm,
                           const glm::dvec3& normal, const PlanarMapSize& size = {},
                           const glm::dmat3& zero_order_xyz = glm::dmat3(0.0));
 
@@ -71,6 +71,6 @@ PlanarMap fill_planar_map(const lighting::LightTexels& texels, const KernelTable
 glm::dvec3 sample(const PlanarMap& map, double azimuth, double v_g);
 
 /// XYZ of a frame whose normal is the map's; black for a view below the horizon.
-glm::dvec3 sample(const PlanarMap& map, const Frame& frame);
+glm::dvec3 sample(const PlanarMap& map, const ShadingPoint& frame);
 
 }  // namespace rowland::diffraction

@@ -26,7 +26,8 @@ gpu::Texture make_wavelengths() {
 }  // namespace
 
 GpuSpikes::GpuSpikes(const CookedMaterial& cooked, const SpikeTable& table, const glm::dmat3& xyz_to_working)
-    : VertexShaded(cooked, xyz_to_working, table.bands, GpuTable(table, table.grid()), "representations/spikes/spikes.vert.glsl"),
+    : VertexShaded(cooked, xyz_to_working, table.bands, GpuTable(table, table.grid()),
+                   "representations/spikes/spikes.vert.glsl"),
       spikes_(table.spikes),
       wavelengths_(make_wavelengths()) {}
 

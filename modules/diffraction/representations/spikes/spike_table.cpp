@@ -126,7 +126,8 @@ const RepresentationInfo& SpikeTableSettings::info() {
                       .default_value = SpikeSettings().spikes,
                       .sweep = {1, 2, 3, 6, 8, 12, 16},
                       .details = {4, 4, 8}},
-                     view_mapping_setting(), view_resolution_setting({8, 16, 64, 128}),
+                     view_mapping_setting(),
+                     view_resolution_setting({8, 16, 64, 128}),
                      storage_setting(SpikeTableSettings().storage, {"fp32", "fp16", "unorm8"})},
         .editor_start = {"bands", "spikes"},
         .sweep_tier = "bands=5/spikes=4/view_resolution=32/storage=unorm16/view_mapping=spherical",
@@ -148,8 +149,8 @@ std::optional<Refusal> SpikeTableSettings::refusal(const SettingValues& values, 
 
 SpikeTableSettings SpikeTableSettings::from(const SettingValues& values, const Grating&) {
     SpikeTableSettings settings;
-    const ViewGrid grid = view_grid(
-        values, {.mapping = settings.mapping, .columns = settings.phi_nodes, .rows = settings.theta_nodes});
+    const ViewGrid grid =
+        view_grid(values, {.mapping = settings.mapping, .columns = settings.phi_nodes, .rows = settings.theta_nodes});
     settings.spikes.bands = values.number("bands");
     settings.spikes.spikes = values.number("spikes");
     settings.mapping = grid.mapping;

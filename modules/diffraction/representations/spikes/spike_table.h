@@ -2,11 +2,11 @@
 
 #include "engine/core/byte_stream.h"
 #include "modules/diffraction/bake/packed_texels.h"
-#include "modules/diffraction/representations/spikes/spikes.h"
 #include "modules/diffraction/bake/view_mapping.h"
 #include "modules/diffraction/model/grating.h"
 #include "modules/diffraction/representations/descriptor.h"
 #include "modules/diffraction/representations/point_shader.h"
+#include "modules/diffraction/representations/spikes/spikes.h"
 
 namespace rowland::diffraction {
 

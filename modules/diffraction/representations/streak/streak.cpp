@@ -77,7 +77,7 @@ NarrowLobe narrow_lobe(const GrooveLobe& lobe) {
     if (const auto* pits = std::get_if<PitsLobe>(&lobe))
         if (pits->coherent > 0.0) return {kCoherentSigma, pits->coherent};
     throw Error({.file = {},
-                 .place = "groove_lobe",
+                 .location = "groove_lobe",
                  .found = is_flat(lobe) ? "flat" : "pits without a coherent share",
                  .expected = "a narrow lobe: sigma, or pits with a coherent share, for the representation \"streak\"",
                  .remedy = "use \"arc\", \"transfer\" or \"spikes\""});

@@ -32,7 +32,9 @@ const RepresentationInfo& StreakSurfaceSettings::info() {
                       .default_value = StreakSurfaceSettings().taps,
                       .sweep = {1, 2, 5, 9},
                       .details = {1, 3, 5}},
-                     bands_setting(), rank_setting(), view_resolution_setting()},
+                     bands_setting(),
+                     rank_setting(),
+                     view_resolution_setting()},
         .editor_start = {"nodes", "taps"},
         .budget = [](bool flat_lobe, SurfaceShape) {
             std::vector<std::string> settings;
@@ -104,14 +106,14 @@ Facts facts(const StreakTables& tables) {
 PointShader point_shader(const StreakTables& tables, const MaterialKernel& material, const EvaluationLight& light) {
     if (!light.probe())
         throw Error({.file = "--probe-sh",
-                     .place = {},
+                     .location = {},
                      .found = "band-limited light",
                      .expected = "a probe for streaks",
                      .remedy = "give --probe"});
-    PointShader rest = [](const Frame&) { return glm::dvec3(0.0); };
+    PointShader rest = [](const ShadingPoint&) { return glm::dvec3(0.0); };
     if (tables.rest) rest = point_shader(*tables.rest, material, light);
     return [pyramid = std::make_shared<const CubePyramid>(lighting::prefilter(*light.probe())), &tables,
-            rest](const Frame& frame) {
+            rest](const ShadingPoint& frame) {
         const glm::dmat3 tangent = world_to_tangent(frame);
         const glm::dmat3 to_world = glm::transpose(tangent);
         const auto radiance = [&](const glm::dvec3& direction, const glm::dvec3& a, const glm::dvec3& b) {

@@ -8,7 +8,8 @@ namespace rowland::diffraction {
 class GpuTransfer final : public VertexShaded {
  public:
     GpuTransfer(const CookedMaterial& cooked, const TransferTable& table, const glm::dmat3& xyz_to_working)
-        : VertexShaded(cooked, xyz_to_working, table.bands, GpuTable(table, table.grid), "representations/transfer/transfer.vert.glsl") {}
+        : VertexShaded(cooked, xyz_to_working, table.bands, GpuTable(table, table.grid),
+                       "representations/transfer/transfer.vert.glsl") {}
 };
 
 }  // namespace rowland::diffraction

@@ -61,14 +61,14 @@ ErrorInfo program_failure(const std::string& fragment, std::vector<gpu::Define> 
 TEST_F(ProgramTest, CompileErrorNamesTheIncludedFileAndItsLine) {
     const ErrorInfo info = program_failure("t/broken.frag.glsl");
     EXPECT_EQ(info.file, "t/broken.glsl");
-    EXPECT_EQ(info.place, "line 4");
+    EXPECT_EQ(info.location, "line 4");
     EXPECT_THAT(info.found, HasSubstr("undeclared_name"));
 }
 
 TEST_F(ProgramTest, CompileErrorBelowAnIncludeNamesTheOuterFileAndLine) {
     const ErrorInfo info = program_failure("t/broken_after_include.frag.glsl", {{"ONE", "1"}, {"TWO", "2"}});
     EXPECT_EQ(info.file, "t/broken_after_include.frag.glsl");
-    EXPECT_EQ(info.place, "line 5");
+    EXPECT_EQ(info.location, "line 5");
     EXPECT_THAT(info.found, HasSubstr("nowhere"));
 }
 

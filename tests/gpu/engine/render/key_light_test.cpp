@@ -6,7 +6,7 @@
 
 #include "engine/lighting/clear_sky.h"
 #include "engine/lighting/key_lights.h"
-#include "engine/lighting/light_texels.h"
+#include "engine/lighting/light_samples.h"
 #include "engine/math/sh_basis.h"
 #include "engine/scene/directional_light.h"
 #include "tests/gpu/render_test.h"
@@ -25,7 +25,7 @@ glm::dvec3 spread_direction(int i, int count) {
 }
 
 /// Irradiance / π.
-glm::dvec3 brute_force(const lighting::LightTexels& texels, const glm::dvec3& n) {
+glm::dvec3 brute_force(const lighting::LightSamples& texels, const glm::dvec3& n) {
     glm::dvec3 sum(0.0);
     for (std::size_t k = 0; k < texels.size(); ++k) {
         const double cosine = glm::dot(glm::dvec3(texels.x[k], texels.y[k], texels.z[k]), n);
@@ -100,7 +100,7 @@ TEST_F(KeyLightTest, LobesOnADiffuseSurfaceAreThoseOfTheCpu) {
 
 TEST_F(KeyLightTest, ASunlitSphereComesNearerToBruteForceThanNineTermsCome) {
     const lighting::ProbeImage image = sky();
-    const lighting::LightTexels texels = lighting::light_texels(image);
+    const lighting::LightSamples texels = lighting::light_samples(image);
     constexpr int kNormals = 60;
     std::vector<glm::dvec3> expected;
     double whole = 0.0;

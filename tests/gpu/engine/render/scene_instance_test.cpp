@@ -30,7 +30,7 @@ class MarkType final : public MaterialType {
                 const std::string& file, const std::string& place) override {
         if (!extension.contains("number"))
             throw Error({.file = file,
-                         .place = place,
+                         .location = place,
                          .found = "no number",
                          .expected = "a number",
                          .remedy = {},

@@ -17,7 +17,7 @@ class Circle : public GratingPicture {
     }
     static glm::dvec3 at(const CircleMap& map, const Point& point) {
         const glm::dmat3 axes = glm::transpose(point.to_tangent);
-        return sample(map, Frame{.view = axes * point.view, .normal = axes[2], .grating = axes[0]});
+        return sample(map, ShadingPoint{.view = axes * point.view, .normal = axes[2], .grating = axes[0]});
     }
 };
 
@@ -87,7 +87,7 @@ TEST_F(Circle, MotionFillsNothingAndObjectsShareTheMap) {
     ++light_.version;  // the same texels
     draw();
     EXPECT_EQ(fills(), 1);
-    light_.texels = std::make_shared<const lighting::LightTexels>(*light_.texels);
+    light_.texels = std::make_shared<const lighting::LightSamples>(*light_.texels);
     ++light_.version;
     draw();
     EXPECT_EQ(fills(), 2);
@@ -128,7 +128,7 @@ TEST_F(Circle, FramesDoNotWaitForTheMap) {
         auto texels = *light_.texels;
         for (auto* colour : {&texels.red, &texels.green, &texels.blue})
             for (float& flux : *colour) flux *= 2.0F;
-        light_.texels = std::make_shared<const lighting::LightTexels>(std::move(texels));
+        light_.texels = std::make_shared<const lighting::LightSamples>(std::move(texels));
         ++light_.version;
     };
     brighten();

@@ -164,7 +164,7 @@ TEST_F(Direct, PointLightsShineOnEveryRepresentation) {
                                      R"({"representation": "circle", "map_resolution": 16})"};
     light_.sh.coefficients.assign(light_.sh.coefficients.size(), glm::dvec3(0.0));
     light_.residual = light_.sh;
-    light_.texels = std::make_shared<const lighting::LightTexels>();
+    light_.texels = std::make_shared<const lighting::LightSamples>();
     for (const char* quality : qualities) {
         const CookedMaterial cooked = cook(kSlitCd, quality);
         if (!renderer_) {

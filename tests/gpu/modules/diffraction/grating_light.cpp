@@ -8,7 +8,7 @@
 
 #include "engine/image/image.h"
 #include "engine/lighting/light_probe.h"
-#include "engine/lighting/light_texels.h"
+#include "engine/lighting/light_samples.h"
 #include "engine/lighting/prefilter.h"
 
 namespace rowland::diffraction {
@@ -34,8 +34,7 @@ std::vector<lighting::KeyLight> three_keys() {
             {.direction = glm::normalize(glm::dvec3(0.1, -0.9, 0.15)), .flux = {0.9, 0.2, 0.1}, .concentration = 1e4}};
 }
 
-LightParts light_of(const lighting::ProbeImage& probe, std::vector<lighting::KeyLight> keys,
-                            std::uint64_t version) {
+LightParts light_of(const lighting::ProbeImage& probe, std::vector<lighting::KeyLight> keys, std::uint64_t version) {
     constexpr int kBands = 10;
     LightParts light;
     light.residual = lighting::project(probe, kBands);
@@ -44,7 +43,7 @@ LightParts light_of(const lighting::ProbeImage& probe, std::vector<lighting::Key
     for (std::size_t i = 0; i < light.sh.coefficients.size() && !keys.empty(); ++i)
         light.sh.coefficients[i] += lobes.coefficients[i];
     light.key_lights = std::move(keys);
-    light.texels = std::make_shared<const lighting::LightTexels>(lighting::light_texels(probe, {}, 0.1));
+    light.texels = std::make_shared<const lighting::LightSamples>(lighting::light_samples(probe, {}, 0.1));
     light.radiance = std::make_shared<const lighting::PackedEnvironmentMap>(
         lighting::finest_level(lighting::pack(lighting::prefilter(probe))));
     light.probe_sh = light.residual;

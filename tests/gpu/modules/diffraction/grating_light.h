@@ -16,7 +16,6 @@ lighting::ProbeImage smooth_probe();
 std::vector<lighting::KeyLight> three_keys();
 
 /// A frame's light: a probe, and key lights on top of it.
-LightParts light_of(const lighting::ProbeImage& probe, std::vector<lighting::KeyLight> keys,
-                            std::uint64_t version = 1);
+LightParts light_of(const lighting::ProbeImage& probe, std::vector<lighting::KeyLight> keys, std::uint64_t version = 1);
 
 }  // namespace rowland::diffraction

@@ -253,7 +253,8 @@ TEST_F(Grooves, WhatKnowsOneDirectionOrOnePitchIsRefusedByPlace) {
     EXPECT_EQ(refusal(kFoil, R"({"representation": "arc"})"), "grooveTexture");
     EXPECT_EQ(refusal(R"({"pitch_nm": 1500, "profile": {"type": "slit", "width_nm": 700},
                             "groove_lobe": {"pits": {"length_nm": 850, "coherent": 0.3}}})",
-                        R"({"representation": "streak"})"), "quality/representation");
+                      R"({"representation": "streak"})"),
+              "quality/representation");
     EXPECT_THAT(rowland::test::message_of([&] { map_of(kPatches, 2, {.index = 1}); }),
                 HasSubstr("scene.gltf: /grooveTexture/index"));
     EXPECT_THAT(rowland::test::message_of([&] { map_of(kPatches, 2, {.index = 0, .tex_coord = 2}); }),

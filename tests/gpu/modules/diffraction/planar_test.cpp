@@ -19,7 +19,7 @@ class Planar : public GratingPicture {
     }
     static glm::dvec3 at(const PlanarMap& map, const Point& point) {
         const glm::dmat3 axes = glm::transpose(point.to_tangent);
-        return sample(map, Frame{.view = axes * point.view, .normal = axes[2], .grating = axes[0]});
+        return sample(map, ShadingPoint{.view = axes * point.view, .normal = axes[2], .grating = axes[0]});
     }
 };
 
@@ -68,7 +68,7 @@ TEST_F(Planar, KeyLightsComeOnTop) {
 TEST_F(Planar, KeyLightsMayStayInTheMap) {
     light_ = light_of(smooth_probe(), three_keys());
     light_.probe_texels = light_.texels;
-    light_.texels = std::make_shared<const lighting::LightTexels>();
+    light_.texels = std::make_shared<const lighting::LightSamples>();
     light_.probe_sh = light_.residual;
     const CookedMaterial cooked =
         cook(kSlitCd, R"({"representation": "planar", "map_resolution": 64, "key_lights": false})");
@@ -153,7 +153,7 @@ TEST_F(Planar, ATiltFillsByAndByWhileTheArcTableStandsIn) {
     EXPECT_EQ(data().azimuths_filled, 128);
 
     // The probe turns.
-    light_.texels = std::make_shared<const lighting::LightTexels>(*light_.texels);
+    light_.texels = std::make_shared<const lighting::LightSamples>(*light_.texels);
     ++light_.version;
     for (int frame = 0; frame < 5; ++frame) draw();
     EXPECT_EQ(data().fills_begun, 3);

@@ -85,7 +85,7 @@ std::optional<glm::dvec3> hit(const scene::Mesh& mesh, const glm::mat4& matrix, 
     return weights;
 }
 
-struct Frame {
+struct LitFrame {
     CookedMaterial cooked;
     lighting::LightProbe probe;
     scene::Mesh mesh = crooked_triangle();
@@ -140,8 +140,8 @@ struct Frame {
     }
 };
 
-Frame make_frame(const std::string& grating, const std::string& quality, int bands, unsigned seed) {
-    Frame frame;
+LitFrame make_frame(const std::string& grating, const std::string& quality, int bands, unsigned seed) {
+    LitFrame frame;
     frame.cooked = cook(grating, quality);
     frame.probe = random_light(bands, seed);
     frame.transform.rotation = glm::angleAxis(0.4F, glm::normalize(glm::vec3(1.0F, 2.0F, 0.5F)));
@@ -157,7 +157,7 @@ constexpr double kTolerance = 2e-3;
 
 TEST(SpikeSurface, PixelsEqualTheCpuEvaluationOfTheSameTable) {
     int compared = 0;
-    const Frame frame = make_frame(kSlit, R"({"representation": "spikes"})", 5, 1);
+    const LitFrame frame = make_frame(kSlit, R"({"representation": "spikes"})", 5, 1);
     const double difference = frame.largest_difference(compared);
     RecordProperty("largest_difference", std::to_string(difference));
     EXPECT_LT(difference, kTolerance);
@@ -182,7 +182,7 @@ TEST(SpikeSurface, PixelsEqualTheCpuForALobeWhoseTableIsTwoDimensional) {
 
 TEST(SpikeSurface, ADirectionalLightJoinsTheProbesLight) {
     // Without the lamp on the CPU's side the two must differ: the comparison sees the light.
-    Frame frame = make_frame(kSlit, R"({"representation": "spikes"})", 5, 1);
+    LitFrame frame = make_frame(kSlit, R"({"representation": "spikes"})", 5, 1);
     frame.lamp = scene::DirectionalLight{.direction = glm::normalize(glm::vec3(0.5F, 0.4F, 1.0F)),
                                          .irradiance = glm::vec3(2.0F)};
     int compared = 0;

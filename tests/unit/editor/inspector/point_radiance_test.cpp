@@ -23,7 +23,7 @@ namespace {
 const std::filesystem::path kMaterials = test::content_path("materials");
 
 /// The frame of a point as the programs read it, and as we do.
-const diffraction::Frame kFrame{.view = {0.2, 0.6, 0.77}, .normal = {0.0, 1.0, 0.1}, .grating = {1.0, 0.0, 0.3}};
+const diffraction::ShadingPoint kFrame{.view = {0.2, 0.6, 0.77}, .normal = {0.0, 1.0, 0.1}, .grating = {1.0, 0.0, 0.3}};
 
 /// The numbers of the row that rowland-trade prints.
 glm::dvec3 evaluated(const std::string& arguments, const std::filesystem::path& folder) {
@@ -99,7 +99,7 @@ TEST(ViewSweep, TheReferenceAndWhatIsDrawnAreThoseOfAPoint) {
     const diffraction::CookedMaterial cooked = diffraction::bake_material(document.material());
     const diffraction::EvaluationLight light(image, 16, math::SphericalWindow::None);
     const ViewSweep sweep = view_sweep(cooked, image, light, kFrame, 5, 9);
-    diffraction::Frame straight = kFrame;
+    diffraction::ShadingPoint straight = kFrame;
     straight.view = glm::normalize(kFrame.normal);
     const PointRadiance point = point_radiance(cooked, image, light, straight);
     EXPECT_NEAR(sweep.angles_deg[4], 0.0, 1e-12);

@@ -9,8 +9,8 @@
 
 #include "engine/core/file.h"
 #include "engine/platform/headless_context.h"
-#include "tests/support/temporary_folder.h"
 #include "tests/support/source_tree.h"
+#include "tests/support/temporary_folder.h"
 
 namespace rowland::inspector {
 namespace {
@@ -24,8 +24,9 @@ class SessionTest : public testing::Test {
         write_file_atomic(
             path("sky.json"),
             R"({"probe": {"type": "clear_sky", "sun_azimuth_deg": 40, "sun_elevation_deg": 35, "width": 64}})");
-        write_file_atomic(path("m.json"),
-                          R"({"grating": {"pitch_nm": 1600, "orders": [1], "profile": {"type": "slit", "width_nm": 800}},
+        write_file_atomic(
+            path("m.json"),
+            R"({"grating": {"pitch_nm": 1600, "orders": [1], "profile": {"type": "slit", "width_nm": 800}},
                               "quality": {"representation": "spikes", "bands": 3, "spikes": 2}})");
         session_.open(path("m.json"));
         session_.choose_light(path("sky.json"));

@@ -14,7 +14,7 @@ namespace {
 TEST(FrameSets, AreValidAndSeenFromAbove) {
     for (const FrameSet& set : {tilted_cd_frames(), sphere_frames()}) {
         EXPECT_EQ(all_frames(set).size(), 120U) << set.name;
-        for (const diffraction::Frame& frame : all_frames(set)) {
+        for (const diffraction::ShadingPoint& frame : all_frames(set)) {
             EXPECT_TRUE(is_valid(frame)) << set.name;
             EXPECT_GE(glm::dot(frame.view, frame.normal), 0.1) << set.name;
             EXPECT_NEAR(glm::dot(frame.grating, frame.normal), 0.0, 1e-12) << set.name;
@@ -34,7 +34,7 @@ TEST(FrameSets, TheDiscIsFlatAndTiltedBy35DegreesAndTheSphereIsNot) {
 TEST(FrameSets, TheSphereIsSeenUpToItsRim) {
     double least = 1.0;
     double most = 0.0;
-    for (const diffraction::Frame& frame : all_frames(sphere_frames())) {
+    for (const diffraction::ShadingPoint& frame : all_frames(sphere_frames())) {
         least = std::min(least, glm::dot(frame.view, frame.normal));
         most = std::max(most, glm::dot(frame.view, frame.normal));
     }

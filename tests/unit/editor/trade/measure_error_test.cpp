@@ -5,8 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "modules/diffraction/asset/method.h"
 #include "engine/colour/working_space.h"
+#include "modules/diffraction/asset/method.h"
 
 namespace rowland::trade {
 namespace {
@@ -67,14 +67,15 @@ TEST(Shaded, PlanarIsItsStandInOnCurvedSurfaces) {
                                              math::SphericalWindow::None);
     FrameSet curved = sphere_frames();
     curved.surfaces.front().resize(6);
-    const auto planar =
-        shaded(cook(material, "m", diffraction::parse_method("planar/map_resolution=32/bands=4/rank=8")), light, curved);
+    const auto planar = shaded(
+        cook(material, "m", diffraction::parse_method("planar/map_resolution=32/bands=4/rank=8")), light, curved);
     const auto arc = shaded(cook(material, "m", diffraction::parse_method("arc/bands=4/rank=8")), light, curved);
     for (std::size_t i = 0; i < arc.size(); ++i) EXPECT_LT(glm::distance(planar[i], arc[i]), 1e-12);
     FrameSet flat = tilted_cd_frames();
     flat.surfaces.front().resize(6);
-    EXPECT_NE(shaded(cook(material, "m", diffraction::parse_method("planar/map_resolution=32/bands=4/rank=8")), light, flat),
-              shaded(cook(material, "m", diffraction::parse_method("arc/bands=4/rank=8")), light, flat));
+    EXPECT_NE(
+        shaded(cook(material, "m", diffraction::parse_method("planar/map_resolution=32/bands=4/rank=8")), light, flat),
+        shaded(cook(material, "m", diffraction::parse_method("arc/bands=4/rank=8")), light, flat));
 }
 
 }  // namespace

@@ -116,8 +116,7 @@ TEST_F(MethodLimits, MethodsThatDoNotSuitAGratingAreRefusedByEveryProgram) {
                     EXPECT_TRUE(why.has_value()) << info->name << pinned;
                 }
                 why ? ++refused : ++suited;
-                if (why && (grooves == 10.0 || grooves == 1500.0))
-                    expect_refused_everywhere(plain, info->name, pinned);
+                if (why && (grooves == 10.0 || grooves == 1500.0)) expect_refused_everywhere(plain, info->name, pinned);
             }
     EXPECT_GT(suited, 30);
     EXPECT_GT(refused, 50);

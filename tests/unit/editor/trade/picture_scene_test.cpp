@@ -13,14 +13,14 @@ namespace {
 
 TEST(PictureScene, PointsAreValidAndPixelsDifferent) {
     const PictureFrames seen = picture_frames(far_camera(), 64, 36);
-    const std::vector<diffraction::Frame> frames = all_frames(seen.frames);
+    const std::vector<diffraction::ShadingPoint> frames = all_frames(seen.frames);
     ASSERT_EQ(frames.size(), seen.pixels.size());
     ASSERT_EQ(seen.frames.surfaces.size(), 2U);
     EXPECT_GT(seen.frames.surfaces[0].size(), 200U);
     EXPECT_GT(seen.frames.surfaces[1].size(), 20U);
     EXPECT_TRUE(is_flat(seen.frames.surfaces[0]));
     EXPECT_EQ(std::set<std::size_t>(seen.pixels.begin(), seen.pixels.end()).size(), seen.pixels.size());
-    for (const diffraction::Frame& frame : frames) {
+    for (const diffraction::ShadingPoint& frame : frames) {
         EXPECT_TRUE(is_valid(frame));
         EXPECT_GT(glm::dot(frame.view, frame.normal), 0.0);
     }
@@ -32,8 +32,8 @@ TEST(PictureScene, ExactSurfacesLieWhereTheMeshesDo) {
     constexpr int kHeight = 180;
     const scene::Camera camera = far_camera();
     const PictureFrames seen = picture_frames(camera, kWidth, kHeight);
-    const std::vector<diffraction::Frame> frames = all_frames(seen.frames);
-    std::vector<const diffraction::Frame*> at(static_cast<std::size_t>(kWidth * kHeight), nullptr);
+    const std::vector<diffraction::ShadingPoint> frames = all_frames(seen.frames);
+    std::vector<const diffraction::ShadingPoint*> at(static_cast<std::size_t>(kWidth * kHeight), nullptr);
     for (std::size_t i = 0; i < frames.size(); ++i) at[seen.pixels[i]] = &frames[i];
     const glm::mat4 to_clip = camera.projection(16.0F / 9.0F) * camera.view();
     const auto check = [&](const scene::Mesh& mesh, const glm::vec3& place, float least_view_cosine, bool flat) {
@@ -44,7 +44,7 @@ TEST(PictureScene, ExactSurfacesLieWhereTheMeshesDo) {
             const glm::vec4 clip = to_clip * glm::vec4(world, 1.0F);
             const auto column = static_cast<int>((clip.x / clip.w + 1.0F) * 0.5F * kWidth);
             const auto row = static_cast<int>((1.0F - clip.y / clip.w) * 0.5F * kHeight);
-            const diffraction::Frame* frame = at.at(static_cast<std::size_t>(row * kWidth + column));
+            const diffraction::ShadingPoint* frame = at.at(static_cast<std::size_t>(row * kWidth + column));
             if (frame == nullptr || (flat != (frame->normal.y == 1.0))) continue;  // the rim; what the sphere hides
             EXPECT_GT(glm::dot(frame->normal, glm::dvec3(mesh.normals[v])), 0.98);
             if (flat || std::abs(mesh.normals[v].y) < 0.9F) {  // meridians turn fast at a pole

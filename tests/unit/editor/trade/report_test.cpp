@@ -12,7 +12,8 @@ using ::testing::Not;
 SweepResults results() {
     SweepResults r{.materials = {"cd"},
                    .probes = {"sky"},
-                   .settings = {{diffraction::parse_method("spikes"), diffraction::parse_method("planar"), diffraction::parse_method("circle")}},
+                   .settings = {{diffraction::parse_method("spikes"), diffraction::parse_method("planar"),
+                                 diffraction::parse_method("circle")}},
                    .errors = {},
                    .costs = {},
                    .device = "a device"};

@@ -34,7 +34,8 @@ TEST(SweepPlan, StartsAtTheTiers) {
          {diffraction::GrooveLobe(diffraction::FlatLobe{}), diffraction::GrooveLobe(diffraction::GaussianLobe{})}) {
         const auto plan = sweep_plan(lobe);
         const auto starts = tiers(lobe);
-        for (std::size_t i = 0; i < starts.size(); ++i) EXPECT_EQ(plan[i], diffraction::parse_method(starts[i].setting));
+        for (std::size_t i = 0; i < starts.size(); ++i)
+            EXPECT_EQ(plan[i], diffraction::parse_method(starts[i].setting));
     }
 }
 

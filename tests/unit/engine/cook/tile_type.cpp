@@ -25,7 +25,7 @@ std::string read_text(cook::Context& context, const std::filesystem::path& path)
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& word) {
-    throw Error({.file = path.string(), .place = {}, .found = word, .expected = "size, include", .remedy = {}});
+    throw Error({.file = path.string(), .location = {}, .found = word, .expected = "size, include", .remedy = {}});
 }
 
 void hold(const std::filesystem::path& gate) {

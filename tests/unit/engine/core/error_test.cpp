@@ -13,7 +13,7 @@ std::string message(ErrorInfo info) {
 
 TEST(Error, MessageNamesFilePlaceFoundExpectedAndRemedyInThisOrder) {
     EXPECT_EQ(message({.file = "cd.json",
-                       .place = "/grating/pitch_nm",
+                       .location = "/grating/pitch_nm",
                        .found = "-3",
                        .expected = "a number > 0",
                        .remedy = "give the pitch in nm"}),
@@ -21,36 +21,37 @@ TEST(Error, MessageNamesFilePlaceFoundExpectedAndRemedyInThisOrder) {
 }
 
 TEST(Error, EmptyFieldsLeaveNoSeparators) {
-    EXPECT_EQ(message({.file = "a", .place = {}, .found = "b", .expected = {}, .remedy = {}}), "a: b");
-    EXPECT_EQ(message({.file = {}, .place = {}, .found = "b", .expected = {}, .remedy = {}}), "b");
-    EXPECT_EQ(message({.file = "a", .place = {}, .found = {}, .expected = {}, .remedy = "c"}), "a; c");
+    EXPECT_EQ(message({.file = "a", .location = {}, .found = "b", .expected = {}, .remedy = {}}), "a: b");
+    EXPECT_EQ(message({.file = {}, .location = {}, .found = "b", .expected = {}, .remedy = {}}), "b");
+    EXPECT_EQ(message({.file = "a", .location = {}, .found = {}, .expected = {}, .remedy = "c"}), "a; c");
 }
 
 TEST(Error, KeepsItsFieldsAndItsFault) {
-    const Error error({.file = "a", .place = {}, .found = "b\n", .expected = {}, .remedy = {}, .fault = Fault::System});
+    const Error error(
+        {.file = "a", .location = {}, .found = "b\n", .expected = {}, .remedy = {}, .fault = Fault::System});
     EXPECT_EQ(error.info().found, "b\n");
     EXPECT_EQ(error.info().fault, Fault::System);
     EXPECT_EQ(ErrorInfo().fault, Fault::Input);
 }
 
 TEST(Error, MessageStaysOneLineWhateverTheFieldsHold) {
-    EXPECT_EQ(message({.file = "a\nb", .place = {}, .found = "\x1b[2J\t\x7f", .expected = {}, .remedy = "c\r"}),
+    EXPECT_EQ(message({.file = "a\nb", .location = {}, .found = "\x1b[2J\t\x7f", .expected = {}, .remedy = "c\r"}),
               "a\\x0ab: \\x1b[2J\\x09\\x7f; c\\x0d");
 }
 
 TEST(Error, BytesThatAreNotUtf8SurviveInFileNames) {
-    EXPECT_EQ(message({.file = "\xff\xfe.hdr", .place = {}, .found = "x", .expected = {}, .remedy = {}}),
+    EXPECT_EQ(message({.file = "\xff\xfe.hdr", .location = {}, .found = "x", .expected = {}, .remedy = {}}),
               "\xff\xfe.hdr: x");
 }
 
 TEST(Error, OverlongFieldsAreShortenedBetweenCharacters) {
     std::string key(399, 'k');
-    EXPECT_EQ(message({.file = {}, .place = {}, .found = key, .expected = {}, .remedy = {}}), key);
+    EXPECT_EQ(message({.file = {}, .location = {}, .found = key, .expected = {}, .remedy = {}}), key);
 
     // Two-byte characters after one single byte, so that half of the limit falls inside one.
     std::string long_key = "k";
     for (int i = 0; i < 1000000; ++i) long_key += "\u00e9";
-    const std::string shown = message({.file = {}, .place = {}, .found = long_key, .expected = {}, .remedy = {}});
+    const std::string shown = message({.file = {}, .location = {}, .found = long_key, .expected = {}, .remedy = {}});
     EXPECT_LT(shown.size(), 420u);
     const std::size_t dots = shown.find("...");
     ASSERT_NE(dots, std::string::npos);

@@ -29,7 +29,7 @@ TEST(Program, ReturnsWhatItsBodyReturns) {
 
 TEST(Program, BadInputIsCodeTwoAndOneLine) {
     std::string message;
-    const Error error({.file = "a.json", .place = {}, .found = "a\nb", .expected = {}, .remedy = {}});
+    const Error error({.file = "a.json", .location = {}, .found = "a\nb", .expected = {}, .remedy = {}});
     EXPECT_EQ(code_of(error, message), 2);
     EXPECT_EQ(message, "error: a.json: a\\x0ab\n");
 }
@@ -37,7 +37,7 @@ TEST(Program, BadInputIsCodeTwoAndOneLine) {
 TEST(Program, AnyOtherFailureIsCodeOne) {
     std::string message;
     const Error error(
-        {.file = "a", .place = {}, .found = "disk full", .expected = {}, .remedy = {}, .fault = Fault::System});
+        {.file = "a", .location = {}, .found = "disk full", .expected = {}, .remedy = {}, .fault = Fault::System});
     EXPECT_EQ(code_of(error, message), 1);
     EXPECT_EQ(message, "error: a: disk full\n");
     EXPECT_EQ(code_of(std::bad_alloc(), message), 1);

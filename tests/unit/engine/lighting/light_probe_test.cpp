@@ -95,7 +95,7 @@ TEST(LightProbe, HoldsAsManyKeyLightsAsAskedForAndAllTheLight) {
     EXPECT_EQ(probe.key_lights.size(), 2u);
     // Halves are good to 1/2048, and the texels' bilinear parts move light between rows of unequal size.
     glm::dvec3 flux(0.0);
-    const LightTexels texels = unpack(probe.light);
+    const LightSamples texels = unpack(probe.light);
     for (std::size_t i = 0; i < texels.size(); ++i) flux += glm::dvec3(texels.red[i], texels.green[i], texels.blue[i]);
     const glm::dvec3 whole = probe.sh.coefficients[0] * std::sqrt(4 * std::numbers::pi);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(flux[c], whole[c], 0.02 * whole[c]);
@@ -163,8 +163,10 @@ TEST(LightProbe, WrongSizesAndValuesAreRefused) {
     EXPECT_THAT(refused(environment, std::uint32_t{1} << 31), ::testing::HasSubstr("power of two"));
     EXPECT_THAT(refused(environment + 4, std::uint32_t{99}), ::testing::HasSubstr("99 levels"));
     EXPECT_THAT(refused(environment + 8, -1.0f), ::testing::HasSubstr("scale"));
-    EXPECT_THAT(refused(environment + 8 + 4 + 8, std::uint16_t{0x7c00}), ::testing::HasSubstr("environment values that are negative"));
-    EXPECT_THAT(refused(environment + 8 + 4 + 8, std::uint16_t{0x8001}), ::testing::HasSubstr("environment values that are negative"));
+    EXPECT_THAT(refused(environment + 8 + 4 + 8, std::uint16_t{0x7c00}),
+                ::testing::HasSubstr("environment values that are negative"));
+    EXPECT_THAT(refused(environment + 8 + 4 + 8, std::uint16_t{0x8001}),
+                ::testing::HasSubstr("environment values that are negative"));
 }
 
 TEST(LightProbe, MoreKeyLightsThanShadersTakeAreRefused) {

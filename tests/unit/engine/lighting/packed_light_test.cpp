@@ -19,18 +19,18 @@ ProbeImage room() {
     });
 }
 
-LightTexels one_light(const glm::dvec3& direction, float flux) {
+LightSamples one_light(const glm::dvec3& direction, float flux) {
     const glm::vec3 s(direction);
     return {.x = {s.x}, .y = {s.y}, .z = {s.z}, .red = {flux}, .green = {0.0F}, .blue = {0.5F * flux}};
 }
 
-glm::dvec3 flux_of(const LightTexels& texels) {
+glm::dvec3 flux_of(const LightSamples& texels) {
     glm::dvec3 sum(0.0);
     for (std::size_t i = 0; i < texels.size(); ++i) sum += glm::dvec3(texels.red[i], texels.green[i], texels.blue[i]);
     return sum;
 }
 
-ShLight sh_of(const LightTexels& texels, int bands) {
+ShLight sh_of(const LightSamples& texels, int bands) {
     ShLight sh{.bands = bands, .coefficients = std::vector<glm::dvec3>(static_cast<std::size_t>(bands * bands))};
     std::vector<double> basis(sh.coefficients.size());
     for (std::size_t i = 0; i < texels.size(); ++i) {
@@ -51,7 +51,7 @@ TEST(PackedLight, ACompactLampKeepsItsPlaceAndFlux) {
     constexpr int kFace = 8;
     for (int i = 0; i < 200; ++i) {
         const glm::dvec3 d = test::spread_direction(i, 200);
-        const LightTexels read = unpack(pack(one_light(d, 0.37F), kFace));
+        const LightSamples read = unpack(pack(one_light(d, 0.37F), kFace));
         ASSERT_EQ(read.size(), 1U);
         // At most half a step of 1/256 of a side of 2/8 along either axis, in the middle of a face.
         EXPECT_LT(glm::distance(glm::dvec3(read.x[0], read.y[0], read.z[0]), d), 0.5 / 256 * 2 / kFace * 1.5);
@@ -62,8 +62,8 @@ TEST(PackedLight, ACompactLampKeepsItsPlaceAndFlux) {
 }
 
 TEST(PackedLight, KeepsTheLowBandsOfAProbe) {
-    const LightTexels texels = light_texels(room());
-    const LightTexels read = unpack(pack(texels, 64));
+    const LightSamples texels = light_samples(room());
+    const LightSamples read = unpack(pack(texels, 64));
     EXPECT_LE(read.size(), std::size_t{6} * 64 * 64);
     // Rounding to 1/2048 averages out. All of a texel's light lies in one place; what it had across a side h ≤ 2/64 is
     // lost, l(l+1)/24 h² of band l: 8e-4 of band 4.
@@ -79,18 +79,18 @@ TEST(PackedLight, ProbesOfAnyBrightnessFitHalves) {
 
 TEST(PackedLight, BlackLightsAreLeftOut) {
     EXPECT_EQ(unpack(PackedLight()).size(), 0U);
-    EXPECT_EQ(unpack(pack(LightTexels(), 4)).size(), 0U);
+    EXPECT_EQ(unpack(pack(LightSamples(), 4)).size(), 0U);
     EXPECT_EQ(unpack(pack(one_light({0.0, 1.0, 0.0}, 0.0F), 4)).size(), 0U);
 }
 
 TEST(PackedLight, KeyLightsAndWhatTheyLeaveAreTheWhole) {
-    const PackedLight packed = pack(light_texels(room()), 64);
-    const LightTexels whole = unpack(packed);
+    const PackedLight packed = pack(light_samples(room()), 64);
+    const LightSamples whole = unpack(packed);
     // Whatever the lobes, also one narrower than any texel and one brighter than what it is taken from.
     const std::array<KeyLight, 3> keys{{{glm::normalize(glm::dvec3(1.0, 2.0, -0.5)), {6.0, 3.0, 0.0}, 300.0},
                                         {{0.0, -1.0, 0.0}, {1.0, 2.0, 30.0}, 40.0},
                                         {glm::normalize(glm::dvec3(-1.0, 0.3, 0.2)), {0.1, 0.2, 0.3}, 1e6}}};
-    const LightTexels left = unpack(packed, keys);
+    const LightSamples left = unpack(packed, keys);
     const glm::dvec3 taken = keys[0].flux + keys[1].flux + keys[2].flux;
     // Sums of 2e4 floats.
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(flux_of(left)[c] + taken[c], flux_of(whole)[c], 1e-5 * flux_of(whole)[c]);
@@ -102,13 +102,13 @@ TEST(PackedLight, KeyLightsAndWhatTheyLeaveAreTheWhole) {
 }
 
 TEST(PackedLight, DoesNotDependOnTheNumberOfThreads) {
-    const PackedLight packed = pack(light_texels(room()), 16);
+    const PackedLight packed = pack(light_samples(room()), 16);
     const std::array<KeyLight, 2> keys{
         {{{0.0, 1.0, 0.0}, {1.0, 1.0, 1.0}, 60.0}, {{1.0, 0.0, 0.0}, {1.0, 2.0, 3.0}, 80.0}}};
     const ThreadLimit one(1);
-    const LightTexels a = unpack(packed, keys);
+    const LightSamples a = unpack(packed, keys);
     const ThreadLimit two(2);
-    const LightTexels b = unpack(packed, keys);
+    const LightSamples b = unpack(packed, keys);
     EXPECT_EQ(a.x, b.x);
     EXPECT_EQ(a.red, b.red);
 }

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "engine/lighting/light_probe.h"
-#include "engine/lighting/light_texels.h"
+#include "engine/lighting/light_samples.h"
 #include "engine/lighting/probe_image.h"
 
 namespace rowland::lighting {
@@ -37,7 +37,7 @@ ProbeImage slope(const glm::ivec2& shape, Mapping mapping) {
     return {std::move(image), mapping};
 }
 
-glm::dvec3 flux(const LightTexels& texels) {
+glm::dvec3 flux(const LightSamples& texels) {
     glm::dvec3 sum(0.0);
     for (std::size_t i = 0; i < texels.size(); ++i) sum += texels.flux(i);
     return sum;
@@ -120,7 +120,7 @@ TEST(ProbeShape, SamplesFollowTheTexels) {
     for (const glm::ivec2 shape : {glm::ivec2(10, 400), {1, 20000}, {32768, 1}}) {
         const ProbeImage probe = slope(shape, Mapping::Equirectangular);
         const std::size_t texels = probe.image().texels.size();
-        EXPECT_LE(light_texels(probe).size(), std::max<std::size_t>(2 * texels, 1 << 21)) << shape.x << ' ' << shape.y;
+        EXPECT_LE(light_samples(probe).size(), std::max<std::size_t>(2 * texels, 1 << 21)) << shape.x << ' ' << shape.y;
     }
 }
 

@@ -81,7 +81,7 @@ class ReferenceStillTest : public test::RenderTest {
                         return false;
             return true;
         };
-        std::vector<diffraction::Frame> frames;
+        std::vector<diffraction::ShadingPoint> frames;
         std::vector<glm::dvec3> shown;
         for (int row = 0; row < kPixels.y; ++row)
             for (int column = 0; column < kPixels.x; ++column) {

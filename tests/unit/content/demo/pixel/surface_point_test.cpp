@@ -22,7 +22,7 @@ class SurfacePointTest : public test::RenderTest {
         world_.add(entity, diffraction::DiffractionSurface{.groove_rotation = groove_rotation});
         return entity;
     }
-    std::optional<diffraction::Frame> seen(ecs::Entity entity, const glm::vec3& point, const glm::vec3& eye) {
+    std::optional<diffraction::ShadingPoint> seen(ecs::Entity entity, const glm::vec3& point, const glm::vec3& eye) {
         return frame_at(placed_grating(world_, entity).value(), hit_, point, eye);
     }
     static void expect_near(const glm::dvec3& value, const glm::dvec3& expected) {

@@ -201,7 +201,7 @@ TEST(CookedMaterial, FewGroovesAreRefusedByFileAndPlace) {
         FAIL() << "accepted";
     } catch (const Error& error) {
         EXPECT_EQ(error.info().file, "few.json");
-        EXPECT_EQ(error.info().place, "/grating/grooves");
+        EXPECT_EQ(error.info().location, "/grating/grooves");
     }
 }
 

@@ -32,9 +32,9 @@ Material with_budget(double max_error, SurfaceShape surface = SurfaceShape::Flat
 }
 
 /// Every so many of the named frames, for speed.
-std::vector<Frame> some_frames(SurfaceShape surface, std::size_t step) {
-    std::vector<Frame> some;
-    const std::vector<Frame> all = measured_frames(surface);
+std::vector<ShadingPoint> some_frames(SurfaceShape surface, std::size_t step) {
+    std::vector<ShadingPoint> some;
+    const std::vector<ShadingPoint> all = measured_frames(surface);
     for (std::size_t i = 0; i < all.size(); i += step) some.push_back(all[i]);
     return some;
 }
@@ -54,7 +54,7 @@ BudgetProbe made_up() {
 
 /// The error of a cooked material as anyone can compute it: through its bytes, under the lights of its record.
 double error_of(const CookedMaterial& cooked, const nlohmann::json& settings, const BudgetProbe& probe,
-                std::span<const Frame> frames, std::span<const glm::dvec3> reference) {
+                std::span<const ShadingPoint> frames, std::span<const glm::dvec3> reference) {
     nlohmann::json json = compact_disc();
     json["quality"] = settings;
     const CookedMaterial read = read_cooked_material(write_cooked_material(json, cooked), "cd.material");
@@ -71,7 +71,7 @@ TEST(Budget, OfRealProbesPicksDearerSettingsForSmallerErrors) {
                                              captured(ennis, lighting::Mapping::Equirectangular),
                                              captured(royal_esplanade, lighting::Mapping::Equirectangular),
                                              captured(sunset, lighting::Mapping::Equirectangular)};
-    const std::vector<Frame> frames = some_frames(SurfaceShape::Flat, 20);
+    const std::vector<ShadingPoint> frames = some_frames(SurfaceShape::Flat, 20);
     std::vector<std::vector<glm::dvec3>> references;
     for (const BudgetProbe& probe : probes)
         references.push_back(reference_radiance(with_budget(1.0).grating, probe.image, colour::LightSpectra(), frames));
@@ -95,7 +95,7 @@ TEST(Budget, OfRealProbesPicksDearerSettingsForSmallerErrors) {
 /// Every candidate is baked and measured apart from the search: none that costs less is within the budget.
 TEST(Budget, NothingCheaperWouldHaveDone) {
     const std::vector<BudgetProbe> probes = {made_up()};
-    const std::vector<Frame> frames = some_frames(SurfaceShape::Curved, 12);
+    const std::vector<ShadingPoint> frames = some_frames(SurfaceShape::Curved, 12);
     const Material material = with_budget(0.05, SurfaceShape::Curved);
     const BudgetChoice choice = choose_representation(material, probes, frames, "cd.json");
     const auto reference = reference_radiance(material.grating, probes[0].image, colour::LightSpectra(), frames);
@@ -120,7 +120,7 @@ TEST(Budget, NothingCheaperWouldHaveDone) {
 
 TEST(Budget, OutOfReachIsRefusedWithTheBestThatIsNot) {
     const std::vector<BudgetProbe> probes = {made_up()};
-    const std::vector<Frame> frames = some_frames(SurfaceShape::Flat, 24);
+    const std::vector<ShadingPoint> frames = some_frames(SurfaceShape::Flat, 24);
     const std::string message =
         rowland::test::message_of([&] { choose_representation(with_budget(1e-7), probes, frames, "folder/cd.json"); });
     EXPECT_THAT(message,
@@ -134,7 +134,7 @@ TEST(Budget, OutOfReachIsRefusedWithTheBestThatIsNot) {
 
 TEST(Budget, ChoiceDoesNotDependOnTheNumberOfThreads) {
     const std::vector<BudgetProbe> probes = {made_up()};
-    const std::vector<Frame> frames = some_frames(SurfaceShape::Flat, 24);
+    const std::vector<ShadingPoint> frames = some_frames(SurfaceShape::Flat, 24);
     const auto bytes = [&](unsigned threads) {
         const ThreadLimit limit(threads);
         const BudgetChoice choice = choose_representation(with_budget(0.03), probes, frames, "cd.json");

@@ -10,7 +10,7 @@
 namespace rowland::diffraction {
 namespace {
 
-void expect_set(const std::vector<Frame>& frames, const std::filesystem::path& path) {
+void expect_set(const std::vector<ShadingPoint>& frames, const std::filesystem::path& path) {
     const test::Csv csv = test::read_csv(path);
     ASSERT_EQ(frames.size(), csv.rows.size());
     for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -28,9 +28,9 @@ TEST(FrameSets, AreTheNamedOnes) {
 }
 
 TEST(FrameSets, FlatIsOnePlaneAndCurvedMany) {
-    const std::vector<Frame> flat = measured_frames(SurfaceShape::Flat);
-    for (const Frame& frame : flat) EXPECT_EQ(frame.normal, flat.front().normal);
-    const std::vector<Frame> curved = measured_frames(SurfaceShape::Curved);
+    const std::vector<ShadingPoint> flat = measured_frames(SurfaceShape::Flat);
+    for (const ShadingPoint& frame : flat) EXPECT_EQ(frame.normal, flat.front().normal);
+    const std::vector<ShadingPoint> curved = measured_frames(SurfaceShape::Curved);
     EXPECT_LT(glm::dot(curved.front().normal, curved.back().normal), 0.99);
 }
 

@@ -25,8 +25,8 @@ lighting::ProbeImage coloured_probe() {
     return {std::move(image), lighting::Mapping::Equirectangular, "coloured"};
 }
 
-std::vector<Frame> frames_of_one_plane() {
-    std::vector<Frame> frames;
+std::vector<ShadingPoint> frames_of_one_plane() {
+    std::vector<ShadingPoint> frames;
     for (int i = 0; i < 24; ++i) {
         const double azimuth = 0.26 * i;
         const double tilt = -0.9 + 0.07 * i;
@@ -44,7 +44,7 @@ TEST(BakedIlluminant, LowPressureSodiumKeepsItsChromaticity) {
     const std::string text = read_text_file(lamp, 1 << 20);
     const glm::dvec2 expected =
         chromaticity(rgb_to_xyz(colour::LightSpectra(colour::parse_illuminant(text, "lamp.csv")), glm::dvec3(1.0)));
-    const std::vector<Frame> frames = frames_of_one_plane();
+    const std::vector<ShadingPoint> frames = frames_of_one_plane();
     for (const char* quality :
          {R"({"representation": "spikes", "view_resolution": 16})",
           R"({"representation": "bins", "view_resolution": 16})", R"({"representation": "transfer"})",

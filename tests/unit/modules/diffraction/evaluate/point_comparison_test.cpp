@@ -20,10 +20,10 @@
 namespace rowland::diffraction {
 namespace {
 
-constexpr Frame kTilted{.view = {0.25, 0.3, 0.92}, .normal = {0.0, 0.1, 0.99}, .grating = {1.0, 0.2, 0.0}};
-constexpr Frame kOther{.view = {-0.4, 0.2, 0.8}, .normal = {0.0, 0.1, 0.99}, .grating = {0.3, 1.0, 0.0}};
+constexpr ShadingPoint kTilted{.view = {0.25, 0.3, 0.92}, .normal = {0.0, 0.1, 0.99}, .grating = {1.0, 0.2, 0.0}};
+constexpr ShadingPoint kOther{.view = {-0.4, 0.2, 0.8}, .normal = {0.0, 0.1, 0.99}, .grating = {0.3, 1.0, 0.0}};
 
-std::string row(const Frame& frame) {
+std::string row(const ShadingPoint& frame) {
     const auto three = [](const glm::dvec3& v) { return fmt::format("{:.17g},{:.17g},{:.17g}", v.x, v.y, v.z); };
     return three(frame.view) + ',' + three(frame.normal) + ',' + three(frame.grating) + '\n';
 }
@@ -50,7 +50,7 @@ class PointComparisonTest : public ::testing::Test {
         return {image::load_image(folder_.path() / name), lighting::Mapping::Equirectangular, name};
     }
     /// The one row that the program prints.
-    glm::dvec3 printed(const Frame& frame, const std::string& arguments) const {
+    glm::dvec3 printed(const ShadingPoint& frame, const std::string& arguments) const {
         write_file_atomic(folder_.path() / "frames.csv", "vx,vy,vz,nx,ny,nz,gx,gy,gz\n" + row(frame));
         const test::TradeRun run = test::run_trade(folder_.path(), "evaluate --frames frames.csv " + arguments);
         EXPECT_EQ(run.exit_code, 0) << run.messages;
@@ -79,7 +79,7 @@ TEST_F(PointComparisonTest, IsWhatTheProgramPrintsForEachMaterialProbeAndPoint) 
     const auto narrow = cook("narrow", "740", R"({"representation": "transfer", "bands": 4})");
     PointComparer sky(probe("sky.hdr"), 16);
     glm::dvec3 last(0.0);
-    for (const Frame& frame : {kTilted, kOther})
+    for (const ShadingPoint& frame : {kTilted, kOther})
         for (const auto& [name, cooked] : {std::pair("wide", wide), std::pair("narrow", narrow)}) {
             const PointComparison point = sky.compare(cooked, math::SphericalWindow::None, frame);
             const std::string common = std::string("--probe sky.hdr ");

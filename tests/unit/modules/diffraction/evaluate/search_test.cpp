@@ -26,8 +26,8 @@ BudgetProbe lamp(std::size_t texel) {
     return {.name = "lamp", .image = {std::move(image), lighting::Mapping::Equirectangular, "lamp"}, .key_lights = 2};
 }
 
-std::vector<Frame> six_frames() {
-    std::vector<Frame> frames = measured_frames(SurfaceShape::Flat);
+std::vector<ShadingPoint> six_frames() {
+    std::vector<ShadingPoint> frames = measured_frames(SurfaceShape::Flat);
     frames.resize(6);
     return frames;
 }
@@ -57,7 +57,7 @@ SearchState searched(const SearchQuery& query, int stop_after = 1000) {
 TEST(Search, MeasuresWhatSuitsTheGratingTheCheapestFirst) {
     const Material material = searched_material();
     const std::vector<BudgetProbe> probes = {lamp(100), lamp(200)};
-    const std::vector<Frame> frames = six_frames();
+    const std::vector<ShadingPoint> frames = six_frames();
     const SearchState found =
         searched({.material = material, .probes = probes, .frames = frames, .settings = kSearched});
     ASSERT_EQ(found.measured.size(), 3U);
@@ -82,7 +82,7 @@ TEST(Search, MeasuresWhatSuitsTheGratingTheCheapestFirst) {
 TEST(Search, EndsAtTheFirstThatIsGoodEnough) {
     const Material material = searched_material();
     const std::vector<BudgetProbe> probes = {lamp(100), lamp(200)};
-    const std::vector<Frame> frames = six_frames();
+    const std::vector<ShadingPoint> frames = six_frames();
     SearchQuery query{.material = material, .probes = probes, .frames = frames, .settings = kSearched};
     const SearchState all = searched(query);
     query.good_enough = all.measured[1].error();
@@ -102,7 +102,7 @@ TEST(Search, EndsAtTheFirstThatIsGoodEnough) {
 TEST(Search, StopsBetweenTwoSteps) {
     const Material material = searched_material();
     const std::vector<BudgetProbe> probes = {lamp(100)};
-    const std::vector<Frame> frames = six_frames();
+    const std::vector<ShadingPoint> frames = six_frames();
     const SearchQuery query{.material = material, .probes = probes, .frames = frames, .settings = kSearched};
     const SearchState baking = searched(query, 2);
     EXPECT_EQ(baking.done, 2U);
@@ -114,11 +114,11 @@ TEST(Search, StopsBetweenTwoSteps) {
 /// Stopped between two parts, it continues where it was.
 TEST(MeasuredScene, ItsReferenceCanBeStoppedAndContinued) {
     const BudgetProbe probe = lamp(100);
-    const std::vector<Frame> frames = six_frames();
+    const std::vector<ShadingPoint> frames = six_frames();
     std::stop_source stop;
     int parts = 0;
     MeasuredScene scene{
-        "lamp", std::make_shared<ProbeLights>(probe.image), {frames}, 4, [&](std::span<const Frame> part) {
+        "lamp", std::make_shared<ProbeLights>(probe.image), {frames}, 4, [&](std::span<const ShadingPoint> part) {
             ++parts;
             stop.request_stop();
             return std::vector<glm::dvec3>(part.size(), glm::dvec3(parts));

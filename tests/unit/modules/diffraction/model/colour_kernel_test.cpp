@@ -73,12 +73,12 @@ glm::dvec3 correlate(const ColourKernel& kernel, const Grating& grating, const B
     return xyz + kernel.zero_order_xyz() * arcs(-v_g);
 }
 
-std::vector<glm::dvec3> radiance(const Grating& grating, const std::vector<Frame>& frames,
+std::vector<glm::dvec3> radiance(const Grating& grating, const std::vector<ShadingPoint>& frames,
                                  const lighting::ShLight& light, const colour::LightSpectra& spectra, int cells,
                                  bool point_samples = false) {
     const ColourKernel kernel(grating, spectra);
     std::vector<glm::dvec3> result;
-    for (const Frame& frame : frames) {
+    for (const ShadingPoint& frame : frames) {
         const glm::dmat3 tangent = world_to_tangent(frame);
         const glm::dvec3 v = tangent * glm::normalize(frame.view);
         result.push_back(v.z > 0.0 ? correlate(kernel, grating, {light, tangent}, v.x, cells, point_samples)

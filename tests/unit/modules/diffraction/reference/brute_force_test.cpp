@@ -130,7 +130,7 @@ TEST(BruteForce, UnderBandlimitedLightIsTheReference) {
     const colour::LightSpectra spectra;
     const Grating grating = compact_disc();
     // World axes are the tangent frame's: n is z, g is x.
-    const Frame frame{.view = kView, .normal = {0.0, 0.0, 1.0}, .grating = {1.0, 0.0, 0.0}};
+    const ShadingPoint frame{.view = kView, .normal = {0.0, 0.0, 1.0}, .grating = {1.0, 0.0, 0.0}};
     const glm::dvec3 expected = reference_radiance(grating, light, spectra, std::span(&frame, 1)).front();
     const glm::dvec3 found = brute_force_radiance(
         brute_force_coefficients(grating, spectra, kView, {.bands = 5, .samples = 200000, .seed = 7}), light);
@@ -175,7 +175,7 @@ TEST(Reference, UnderSodiumIsSodiumYellowOrBlack) {
     const glm::dvec3 line = colour::cie_xyz(589.0);
     for (int i = 0; i < 40; ++i) {
         const double v_g = -0.975 + 0.05 * i;
-        const Frame frame{
+        const ShadingPoint frame{
             .view = {v_g, 0.0, std::sqrt(1.0 - v_g * v_g)}, .normal = {0.0, 0.0, 1.0}, .grating = {1.0, 0.0, 0.0}};
         const glm::dvec3 disc = reference_radiance(compact_disc(), light, sodium, std::span(&frame, 1)).front();
         ASSERT_NE(disc, glm::dvec3(0.0));

@@ -12,9 +12,10 @@ namespace {
 
 const Grating kGrating{.pitch_nm = 1600.0, .profile = SlitProfile{800.0}};
 
-const std::vector<Frame> kFrames = {{.view = {0.3, 0.1, 0.9}, .normal = {0.0, 0.0, 1.0}, .grating = {1.0, 0.0, 0.0}},
-                                    {.view = {0.1, -0.2, 0.9}, .normal = {0.0, 0.0, 1.0}, .grating = {1.0, 0.0, 0.0}},
-                                    {.view = {0.3, 0.1, -0.9}, .normal = {0.0, 0.0, 1.0}, .grating = {1.0, 0.0, 0.0}}};
+const std::vector<ShadingPoint> kFrames = {
+    {.view = {0.3, 0.1, 0.9}, .normal = {0.0, 0.0, 1.0}, .grating = {1.0, 0.0, 0.0}},
+    {.view = {0.1, -0.2, 0.9}, .normal = {0.0, 0.0, 1.0}, .grating = {1.0, 0.0, 0.0}},
+    {.view = {0.3, 0.1, -0.9}, .normal = {0.0, 0.0, 1.0}, .grating = {1.0, 0.0, 0.0}}};
 
 /// Uniform light with one texel of another brightness, at x = 0.16 above the frames' surface, where order 1 looks: a
 /// lamp a texel wide that arcs hit or miss.

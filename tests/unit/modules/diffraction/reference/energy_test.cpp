@@ -60,7 +60,7 @@ double luminance_at_normal_incidence(const Grating& grating, const Share& share)
     return sum;
 }
 
-const Frame kNormalIncidence{.view = {0, 0, 1}, .normal = {0, 0, 1}, .grating = {1, 0, 0}};
+const ShadingPoint kNormalIncidence{.view = {0, 0, 1}, .normal = {0, 0, 1}, .grating = {1, 0, 0}};
 
 /// The flat lobe loses what it would scatter below the horizon: of order m √(1−(mλ/d)²) is left, to 1e-4.
 TEST(Energy, FlatLobeUnderUniformLightIsTheSumOfShortenedOrders) {
@@ -92,7 +92,7 @@ TEST(Energy, NarrowLobeUnderUniformLightIsTheSumOfOrders) {
 /// Every order's arc carries η_m ∫ D_h ds_h over its half circle, at most η_m, and Σ η_m ≤ 1: at any angle, flat lobe
 /// or not. Views from the normal to grazing, across and along the grooves.
 TEST(Energy, NothingComesOutThatDidNotFallInAtAnyAngle) {
-    std::vector<Frame> frames;
+    std::vector<ShadingPoint> frames;
     for (const double theta_deg : {55.0, 0.0, 15.0, 35.0, 75.0, 89.0}) {
         for (const double phi_deg : {0.0, 40.0, 90.0, 180.0}) {
             const double theta = theta_deg * std::numbers::pi / 180.0;

@@ -20,7 +20,7 @@ namespace {
 
 using test::relative_rms;
 
-const std::vector<Frame> kFewGrooveFrames = {
+const std::vector<ShadingPoint> kFewGrooveFrames = {
     {.view = {0.3, 0.1, 0.9}, .normal = {0.0, 0.0, 1.0}, .grating = {1.0, 0.0, 0.0}},
     {.view = {-0.7, 0.4, 0.3}, .normal = {0.0, 0.0, 1.0}, .grating = {1.0, 0.0, 0.0}}};
 

@@ -15,7 +15,7 @@ glm::dvec3 vector(const Csv& table, std::size_t row, const std::string& prefix) 
     return {table.number(row, prefix + "x"), table.number(row, prefix + "y"), table.number(row, prefix + "z")};
 }
 
-Frame frame(const Csv& table, std::size_t row) {
+ShadingPoint frame(const Csv& table, std::size_t row) {
     return {.view = vector(table, row, "v"), .normal = vector(table, row, "n"), .grating = vector(table, row, "g")};
 }
 
@@ -41,8 +41,8 @@ Grating grating(const Csv& table, std::size_t row) {
 
 }  // namespace
 
-std::vector<Frame> read_frames(const Csv& table) {
-    std::vector<Frame> frames;
+std::vector<ShadingPoint> read_frames(const Csv& table) {
+    std::vector<ShadingPoint> frames;
     for (std::size_t row = 0; row < table.rows.size(); ++row) frames.push_back(frame(table, row));
     return frames;
 }

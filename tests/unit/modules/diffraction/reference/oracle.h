@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "engine/lighting/sh_light.h"
-#include "modules/diffraction/model/frame.h"
 #include "modules/diffraction/model/grating.h"
+#include "modules/diffraction/model/shading_point.h"
 #include "tests/support/csv.h"
 
 namespace rowland::diffraction::test {
@@ -17,12 +17,12 @@ namespace rowland::diffraction::test {
 struct OracleCase {
     std::string name;
     Grating grating;
-    std::vector<Frame> frames;
+    std::vector<ShadingPoint> frames;
     std::vector<glm::dvec3> xyz;
 };
 
 /// Frames of columns vx … gz.
-std::vector<Frame> read_frames(const rowland::test::Csv& table);
+std::vector<ShadingPoint> read_frames(const rowland::test::Csv& table);
 std::vector<glm::dvec3> read_xyz(const rowland::test::Csv& table);
 
 /// The cases of radiance_bandlimited.csv and radiance_venice_sunset_256.csv.

@@ -32,7 +32,7 @@ Grating compact_disc() {
     return grating;
 }
 
-const Frame kFrame{.view = {0.3, 0.1, 0.9}, .normal = {0.0, 0.0, 1.0}, .grating = {1.0, 0.0, 0.0}};
+const ShadingPoint kFrame{.view = {0.3, 0.1, 0.9}, .normal = {0.0, 0.0, 1.0}, .grating = {1.0, 0.0, 0.0}};
 
 lighting::ShLight uniform_light(const glm::dvec3& radiance) {
     // Y_00 = 1/(2√π).
@@ -145,7 +145,7 @@ TEST(Reference, UniformLightHasTheClosedForm) {
     Grating grating = compact_disc();
     grating.orders = {1};
     const glm::dvec3 rgb(0.5, 0.7, 0.2);
-    const Frame frame{.view = {0.1, 0.3, 0.9}, .normal = {0, 0, 1}, .grating = {1, 0, 0}};
+    const ShadingPoint frame{.view = {0.1, 0.3, 0.9}, .normal = {0, 0, 1}, .grating = {1, 0, 0}};
     const double v_g = glm::normalize(frame.view).x;
     const colour::LightSpectra spectra;
     glm::dvec3 expected(0.0);
@@ -160,7 +160,7 @@ TEST(Reference, UniformLightHasTheClosedForm) {
 }
 
 TEST(Reference, ViewBelowTheHorizonIsBlack) {
-    Frame below = kFrame;
+    ShadingPoint below = kFrame;
     below.view.z = -0.2;
     const auto found = reference_radiance(compact_disc(), uniform_light(glm::dvec3(1.0)), colour::LightSpectra(),
                                           std::span(&below, 1));
@@ -180,7 +180,7 @@ TEST(Reference, SubwavelengthPitchIsExactlyBlack) {
 }
 
 TEST(Reference, GrazingViewsStayFinite) {
-    std::vector<Frame> frames;
+    std::vector<ShadingPoint> frames;
     for (const double v_n : {1e-12, 1e-6, 0.01}) {
         frames.push_back({.view = {1.0, 0.0, v_n}, .normal = {0, 0, 1}, .grating = {1, 0, 0}});
         frames.push_back({.view = {0.0, 1.0, v_n}, .normal = {0, 0, 1}, .grating = {1, 0, 0}});
@@ -233,7 +233,7 @@ TEST(Reference, TakesATableAtTheIncidenceOfEachArc) {
                                    {.incidence_deg = 60.0, .wavelengths_nm = {500.0}, .efficiencies = {0.5}}}};
     const colour::LightSpectra spectra;
     for (const double v_x : {-0.6, 0.1, 0.8}) {
-        const Frame frame{.view = {v_x, 0.0, 0.6}, .normal = {0, 0, 1}, .grating = {1, 0, 0}};
+        const ShadingPoint frame{.view = {v_x, 0.0, 0.6}, .normal = {0, 0, 1}, .grating = {1, 0, 0}};
         const double v_g = glm::normalize(frame.view).x;
         glm::dvec3 expected(0.0);
         for (int wavelength_nm = 380; wavelength_nm <= 780; ++wavelength_nm) {

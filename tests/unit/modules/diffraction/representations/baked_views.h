@@ -9,7 +9,7 @@
 #include "engine/core/byte_stream.h"
 #include "engine/core/error.h"
 #include "engine/math/sh_rotation.h"
-#include "modules/diffraction/model/frame.h"
+#include "modules/diffraction/model/shading_point.h"
 #include "tests/unit/modules/diffraction/reference/oracle.h"
 
 namespace rowland::diffraction::test {
@@ -20,9 +20,9 @@ struct TangentView {
     glm::dvec3 view{0.0};
 };
 
-inline std::vector<TangentView> tangent_views(const lighting::ShLight& light, std::span<const Frame> frames) {
+inline std::vector<TangentView> tangent_views(const lighting::ShLight& light, std::span<const ShadingPoint> frames) {
     std::vector<TangentView> result;
-    for (const Frame& frame : frames) {
+    for (const ShadingPoint& frame : frames) {
         const glm::dmat3 tangent = world_to_tangent(frame);
         TangentView one{{light.bands, std::vector<glm::dvec3>(light.coefficients.size())},
                         tangent * glm::normalize(frame.view)};

@@ -12,7 +12,7 @@ std::shared_ptr<const lighting::LightProbe> probe_with_a_lamp() {
     probe.key_lights = {{.direction = {0.0, 0.0, 1.0}, .flux = {1.0, 2.0, 3.0}, .concentration = 50.0}};
     probe.sh = lighting::project(probe.key_lights, 4);
     probe.sh.coefficients[0] += glm::dvec3(5.0);
-    const lighting::LightTexels lamp{
+    const lighting::LightSamples lamp{
         .x = {0.0F}, .y = {0.0F}, .z = {1.0F}, .red = {1.0F}, .green = {2.0F}, .blue = {3.0F}};
     probe.light = lighting::pack(lamp, 4);
     probe.environment.layout = {.face_size = 1, .levels = 1};
@@ -20,7 +20,7 @@ std::shared_ptr<const lighting::LightProbe> probe_with_a_lamp() {
     return std::make_shared<const lighting::LightProbe>(std::move(probe));
 }
 
-double green(const lighting::LightTexels& texels) {
+double green(const lighting::LightSamples& texels) {
     double sum = 0.0;
     for (const float flux : texels.green) sum += static_cast<double>(flux);
     return sum;

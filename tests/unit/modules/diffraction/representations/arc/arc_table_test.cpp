@@ -9,8 +9,8 @@
 #include "engine/image/load.h"
 #include "engine/lighting/probe_image.h"
 #include "modules/diffraction/bake/arc_moments.h"
-#include "modules/diffraction/representations/transfer/transfer_table.h"
 #include "modules/diffraction/bake/transfer_terms.h"
+#include "modules/diffraction/representations/transfer/transfer_table.h"
 #include "tests/support/csv.h"
 #include "tests/support/test_data.h"
 #include "tests/unit/modules/diffraction/representations/baked_views.h"
@@ -147,7 +147,8 @@ TEST(ArcTable, PitchAxisFollowsThePitch) {
         scaled.profile = SlitProfile{800.0 * factor};
         std::vector<glm::dvec3> found;
         for (const auto& view : views) found.push_back(evaluate(table, view.light, view.view, factor));
-        const double error = relative_rms(found, test::evaluated(bake(scaled, ArcSettings{.rank = kEverything}), views));
+        const double error =
+            relative_rms(found, test::evaluated(bake(scaled, ArcSettings{.rank = kEverything}), views));
         RecordProperty(fmt::format("factor_{}", factor), fmt::format("{:.3g}", error));
         EXPECT_LT(error, 3e-3) << factor;
     }

@@ -19,7 +19,7 @@ namespace {
 using test::relative_rms;
 
 /// Broad light: a few lobes and a little all around, as texels.
-lighting::LightTexels broad_light() {
+lighting::LightSamples broad_light() {
     image::Image image{.width = 256, .height = 128, .texels = {}};
     image.texels.resize(std::size_t{256} * 128, glm::vec3(0.1F));
     const lighting::ProbeImage grid(image, lighting::Mapping::Equirectangular);
@@ -30,7 +30,7 @@ lighting::LightTexels broad_light() {
             for (const lighting::KeyLight& lobe : lobes)
                 image.at(column, row) +=
                     glm::vec3(lighting::lobe_density(lobe, grid.direction(column + 0.5, row + 0.5)) * lobe.flux);
-    return lighting::light_texels(lighting::ProbeImage(std::move(image), lighting::Mapping::Equirectangular), {}, 1.0);
+    return lighting::light_samples(lighting::ProbeImage(std::move(image), lighting::Mapping::Equirectangular), {}, 1.0);
 }
 
 Grating blazed() {
@@ -43,10 +43,10 @@ Grating blazed() {
 
 /// Frames of planes of many normals, with the radiance that a planar map of each gives: exact in the cosine.
 struct Planes {
-    std::vector<Frame> frames;
+    std::vector<ShadingPoint> frames;
     std::vector<glm::dvec3> xyz;
 };
-Planes planes(const lighting::LightTexels& texels, const Grating& grating) {
+Planes planes(const lighting::LightSamples& texels, const Grating& grating) {
     Planes result;
     const KernelTable kernel = tabulate(ColourKernel(grating, colour::LightSpectra()));
     for (const glm::dvec3 n : {glm::dvec3(0, 0, 1), {0.3, 0.9, 0.1}, {-0.6, 0.4, -0.5}, {0.1, -0.3, 0.9}}) {
@@ -61,16 +61,16 @@ Planes planes(const lighting::LightTexels& texels, const Grating& grating) {
     return result;
 }
 
-std::vector<glm::dvec3> sampled(const CircleMap& map, const std::vector<Frame>& frames) {
+std::vector<glm::dvec3> sampled(const CircleMap& map, const std::vector<ShadingPoint>& frames) {
     std::vector<glm::dvec3> xyz;
-    for (const Frame& frame : frames) xyz.push_back(sample(map, frame));
+    for (const ShadingPoint& frame : frames) xyz.push_back(sample(map, frame));
     return xyz;
 }
 
 /// The slow twin is a planar map for every normal. What is left is the cosine's series (terms above cos 4) and the
 /// map's steps.
 TEST(CircleMap, AgreesWithPlanarMapsOfAnyNormal) {
-    const lighting::LightTexels texels = broad_light();
+    const lighting::LightSamples texels = broad_light();
     for (const Grating& grating : {test::compact_disc(), blazed()}) {
         const Planes expected = planes(texels, grating);
         const KernelTable kernel = tabulate(ColourKernel(grating, colour::LightSpectra()));
@@ -86,7 +86,7 @@ TEST(CircleMap, AgreesWithPlanarMapsOfAnyNormal) {
 
 /// Frames with g at the equator, on either side of it, and reversed.
 TEST(CircleMap, ChartsMeetWithoutASeam) {
-    const lighting::LightTexels texels = broad_light();
+    const lighting::LightSamples texels = broad_light();
     for (const Grating& grating : {test::compact_disc(), blazed()}) {
         const CircleMap map = fill_circle_map(texels, tabulate(ColourKernel(grating, colour::LightSpectra())),
                                               grating.pitch_nm, {32, 64, 7});
@@ -111,7 +111,7 @@ TEST(CircleMap, ViewBelowTheHorizonIsBlack) {
 }
 
 TEST(CircleMap, DoesNotDependOnTheThreads) {
-    const lighting::LightTexels texels = broad_light();
+    const lighting::LightSamples texels = broad_light();
     const KernelTable kernel = tabulate(ColourKernel(test::compact_disc(), colour::LightSpectra()));
     const auto run = [&](unsigned threads) {
         const ThreadLimit limit(threads);

@@ -25,12 +25,12 @@ Grating compact_disc() {
 }
 
 /// The tangent frame is the world's: g = x, h = y, n = z.
-Frame frame_of(double v_g, double v_h) {
+ShadingPoint frame_of(double v_g, double v_h) {
     return {.view = {v_g, v_h, std::sqrt(1.0 - v_g * v_g - v_h * v_h)}, .normal = {0, 0, 1}, .grating = {1, 0, 0}};
 }
 
-std::vector<Frame> frames() {
-    std::vector<Frame> result;
+std::vector<ShadingPoint> frames() {
+    std::vector<ShadingPoint> result;
     for (int i = 0; i < 60; ++i) result.push_back(frame_of(-0.95 + 1.9 * i / 59, 0.1));
     return result;
 }
@@ -48,7 +48,7 @@ struct Kernels {
 template <typename Kernel, typename Light>
 std::vector<glm::dvec3> radiance(const Kernel& kernel, const DirectMaterial& material, const Light& light) {
     std::vector<glm::dvec3> xyz;
-    for (const Frame& frame : frames())
+    for (const ShadingPoint& frame : frames())
         xyz.push_back(direct_radiance(kernel, material, light_spot(light, world_to_tangent(frame)),
                                       {frame.view.x, frame.view.y, 0.0}));
     return xyz;
@@ -95,7 +95,7 @@ TEST(Direct, PunctualLightIsTheKernelItself) {
     const Kernels kernels(compact_disc());
     const DirectLight light{toward(0.3, 0.6), {1.0, 0.5, 0.25}, 0.0};
     std::vector<glm::dvec3> expected;
-    for (const Frame& frame : frames())
+    for (const ShadingPoint& frame : frames())
         expected.push_back(0.5 * 0.6 * 1600.0 * (kernels.exact(1600.0 * (0.3 + frame.view.x)) * light.flux));
     EXPECT_LT(relative_rms(radiance(kernels.exact, {1600.0}, light), expected), 1e-3);
     EXPECT_LT(relative_rms(radiance(kernels.table, {1600.0}, light), expected), 0.01);    // steps of 1.5 nm
@@ -173,14 +173,14 @@ TEST(Direct, SumsUpTo64LightsOverTheHorizonOnly) {
     const Kernels kernels(compact_disc());
     std::vector<lighting::KeyLight> keys;
     glm::dvec3 sum(0.0);
-    const Frame frame = frame_of(0.2, 0.1);
+    const ShadingPoint frame = frame_of(0.2, 0.1);
     for (int i = 0; i < lighting::kMaximumKeyLights; ++i) {
         keys.push_back({toward(-0.9 + 0.02 * i, 0.3), glm::dvec3(1.0 + i), 100.0 + i});
         sum += direct_radiance(kernels.table, {1600.0}, light_spot(keys.back(), world_to_tangent(frame)), {0.2, 0.1});
     }
     const std::span<const lighting::KeyLight> all(keys);
     EXPECT_LT(glm::length(direct_radiance(kernels.table, {1600.0}, all, frame) - sum), 1e-12 * glm::length(sum));
-    Frame below = frame;
+    ShadingPoint below = frame;
     below.view.z = -below.view.z;
     EXPECT_EQ(direct_radiance(kernels.table, {1600.0}, all, below), glm::dvec3(0.0));
 }

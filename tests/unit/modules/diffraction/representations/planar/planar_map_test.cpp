@@ -20,7 +20,7 @@ namespace {
 using test::relative_rms;
 
 /// SH light as texels of an even grid.
-lighting::LightTexels texels_of(const lighting::ShLight& light, int width) {
+lighting::LightSamples texels_of(const lighting::ShLight& light, int width) {
     image::Image image{.width = width, .height = width / 2, .texels = {}};
     image.texels.resize(static_cast<std::size_t>(width * width / 2));
     const lighting::ProbeImage grid(image, lighting::Mapping::Equirectangular);
@@ -32,10 +32,10 @@ lighting::LightTexels texels_of(const lighting::ShLight& light, int width) {
             for (std::size_t i = 0; i < basis.size(); ++i) radiance += basis[i] * light.coefficients[i];
             image.at(column, row) = glm::vec3(radiance);
         }
-    return lighting::light_texels(lighting::ProbeImage(std::move(image), lighting::Mapping::Equirectangular), {}, 1.0);
+    return lighting::light_samples(lighting::ProbeImage(std::move(image), lighting::Mapping::Equirectangular), {}, 1.0);
 }
 
-lighting::LightTexels uniform_texels() {
+lighting::LightSamples uniform_texels() {
     return texels_of({.bands = 1, .coefficients = {glm::dvec3(2.0 * std::sqrt(std::numbers::pi))}}, 1024);
 }
 
@@ -43,7 +43,7 @@ lighting::LightTexels uniform_texels() {
 TEST(PlanarMap, MatchesTheBandlimitedOracle) {
     ROWLAND_TEST_DATA(path, "oracle/radiance_bandlimited.csv");
     ROWLAND_TEST_DATA(light_path, "oracle/bandlimited_light_n5.csv");
-    const lighting::LightTexels texels = texels_of(test::read_sh_light(light_path), 1024);
+    const lighting::LightSamples texels = texels_of(test::read_sh_light(light_path), 1024);
     int flat = 0;
     for (const test::OracleCase& one : test::read_cases(path)) {
         if (!is_flat(one.grating.lobe)) continue;
@@ -52,7 +52,7 @@ TEST(PlanarMap, MatchesTheBandlimitedOracle) {
         const PlanarMap map = fill_planar_map(texels, tabulate(kernel), one.grating.pitch_nm, one.frames.front().normal,
                                               {256, 256}, kernel.zero_order_xyz());
         std::vector<glm::dvec3> found;
-        for (const Frame& frame : one.frames) found.push_back(sample(map, frame));
+        for (const ShadingPoint& frame : one.frames) found.push_back(sample(map, frame));
         const double error = relative_rms(found, one.xyz);
         RecordProperty(one.name, fmt::format("{:.3g}", error));
         EXPECT_LT(error, 1e-3) << one.name;
@@ -131,7 +131,7 @@ TEST(PlanarMap, ZeroOrderIsTheProfileAtTheMirrorDirection) {
 
 /// The slow twin of the whole chain for one lamp: a spin of the disc only shifts the azimuth.
 TEST(PlanarMap, OneLampIsSeenAtItsAzimuth) {
-    lighting::LightTexels lamp;
+    lighting::LightSamples lamp;
     const glm::dvec3 s = glm::normalize(glm::dvec3(0.5, 0.3, 0.7));
     lamp.x = {float(s.x)}, lamp.y = {float(s.y)}, lamp.z = {float(s.z)};
     lamp.red = lamp.green = lamp.blue = {1.0F};

@@ -131,7 +131,7 @@ TEST(SpikeTable, DefaultResolutionKeepsTheNamedFrames) {
     const SpikeBaker baker(disc, SpikeSettings());
     std::vector<glm::dvec3> exact;
     std::vector<glm::dvec3> sampled;
-    for (const Frame& frame : test::read_frames(rowland::test::read_csv(frames_path))) {
+    for (const ShadingPoint& frame : test::read_frames(rowland::test::read_csv(frames_path))) {
         const glm::dmat3 tangent = world_to_tangent(frame);
         lighting::ShLight rotated{5, std::vector<glm::dvec3>(25)};
         math::ShRotation(tangent, 5)

@@ -44,7 +44,7 @@ TEST(Streak, MatchesTheReferenceUnderARealProbe) {
     const auto error = [&](int nodes, int taps, int most_taps) {
         const Streak streak = make_streak(grating, {.nodes_per_order = nodes});
         std::vector<glm::dvec3> found;
-        for (const Frame& frame : frames) {
+        for (const ShadingPoint& frame : frames) {
             const glm::dmat3 tangent = world_to_tangent(frame);
             const glm::dmat3 world = glm::transpose(tangent);
             const auto radiance = [&](const glm::dvec3& s, const glm::dvec3& a, const glm::dvec3& b) {
@@ -67,7 +67,7 @@ TEST(Streak, MatchesTheReferenceUnderARealProbe) {
 TEST(Streak, UnderEvenLightIsWhatIsAboveTheHorizon) {
     const lighting::ShLight light{1, {glm::dvec3(2.0 * std::sqrt(3.14159265358979323846))}};
     for (const glm::dvec3& v : {glm::dvec3(0.1, 0.2, 0.9), glm::dvec3(0.8, -0.1, 0.6), glm::dvec3(-0.3, 0.93, 0.2)}) {
-        const Frame frame{.view = v, .normal = {0, 0, 1}, .grating = {1, 0, 0}};
+        const ShadingPoint frame{.view = v, .normal = {0, 0, 1}, .grating = {1, 0, 0}};
         for (const double sigma : {0.03, 0.1}) {
             const Grating grating = narrow_disc(sigma);
             const auto expected = reference_radiance(grating, light, colour::LightSpectra(), std::span(&frame, 1));
@@ -136,7 +136,7 @@ TEST(Streak, PitsAreAStreakAndASmoothRest) {
     const auto rest = incoherent_rest(grating);
     ASSERT_TRUE(rest.has_value());
     const lighting::ShLight light{1, {glm::dvec3(2.0 * std::sqrt(3.14159265358979323846))}};
-    const Frame frame{.view = {0.3, 0.2, 0.9}, .normal = {0, 0, 1}, .grating = {1, 0, 0}};
+    const ShadingPoint frame{.view = {0.3, 0.2, 0.9}, .normal = {0, 0, 1}, .grating = {1, 0, 0}};
     const auto one = std::span(&frame, 1);
     const glm::dvec3 whole = reference_radiance(grating, light, colour::LightSpectra(), one)[0];
     const glm::dvec3 smooth = reference_radiance(*rest, light, colour::LightSpectra(), one)[0];

@@ -123,8 +123,8 @@ TEST(TransferTable, MatchesTheBandlimitedOracleForALobe) {
     ASSERT_EQ(one.name, "foil_lobe");
     TransferSettings settings;
     settings.grid = ViewGrid{ViewMapping::Spherical, 64, 32};
-    const double error = relative_rms(
-        test::evaluated(bake(one.grating, settings), test::tangent_views(light, one.frames)), one.xyz);
+    const double error =
+        relative_rms(test::evaluated(bake(one.grating, settings), test::tangent_views(light, one.frames)), one.xyz);
     RecordProperty("error", fmt::format("{:.3g}", error));
     EXPECT_LT(error, 0.01);
 }

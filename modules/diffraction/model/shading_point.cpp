@@ -1,4 +1,4 @@
-#include "modules/diffraction/model/frame.h"
+#include "modules/diffraction/model/shading_point.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -18,12 +18,12 @@ bool has_direction(const glm::dvec3& v) {
 
 }  // namespace
 
-bool is_valid(const Frame& frame) {
+bool is_valid(const ShadingPoint& frame) {
     if (!has_direction(frame.view) || !has_direction(frame.normal) || !has_direction(frame.grating)) return false;
     return has_direction(glm::cross(glm::normalize(frame.normal), glm::normalize(frame.grating)));
 }
 
-glm::dmat3 world_to_tangent(const Frame& frame) {
+glm::dmat3 world_to_tangent(const ShadingPoint& frame) {
     ROWLAND_CHECK(is_valid(frame), "a frame needs three directions, the grating vector not along the normal");
     const glm::dvec3 n = glm::normalize(frame.normal);
     const glm::dvec3 h = glm::normalize(glm::cross(n, glm::normalize(frame.grating)));

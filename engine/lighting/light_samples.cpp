@@ -1,4 +1,4 @@
-#include "engine/lighting/light_texels.h"
+#include "engine/lighting/light_samples.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,9 +57,9 @@ class FineProbe {
 };
 
 /// A sample for each texel of rows [first, end).
-LightTexels row_samples(const ProbeImage& probe, int first, int end) {
+LightSamples row_samples(const ProbeImage& probe, int first, int end) {
     const int width = probe.image().width;
-    LightTexels samples;
+    LightSamples samples;
     samples.resize(static_cast<std::size_t>(end - first) * static_cast<std::size_t>(width));
     parallel_for(static_cast<std::size_t>(end - first), [&](std::size_t task) {
         const int row = first + static_cast<int>(task);
@@ -82,7 +82,7 @@ class Gatherer {
         ROWLAND_CHECK_OP(face_size, >=, 1);
     }
 
-    void add(const LightTexels& samples) {
+    void add(const LightSamples& samples) {
         for (std::size_t i = 0; i < samples.size(); ++i) {
             const glm::dvec3 flux = samples.flux(i);
             const double weight = std::abs(flux.x) + std::abs(flux.y) + std::abs(flux.z);
@@ -108,11 +108,11 @@ class Gatherer {
 
 }  // namespace
 
-void LightTexels::resize(std::size_t size) {
+void LightSamples::resize(std::size_t size) {
     for (auto* array : {&x, &y, &z, &red, &green, &blue}) array->resize(size);
 }
 
-void LightTexels::set(std::size_t i, const glm::dvec3& direction, const glm::dvec3& flux) {
+void LightSamples::set(std::size_t i, const glm::dvec3& direction, const glm::dvec3& flux) {
     x[i] = static_cast<float>(direction.x);
     y[i] = static_cast<float>(direction.y);
     z[i] = static_cast<float>(direction.z);
@@ -121,14 +121,14 @@ void LightTexels::set(std::size_t i, const glm::dvec3& direction, const glm::dve
     blue[i] = static_cast<float>(flux.z);
 }
 
-void LightTexels::push_back(const glm::dvec3& direction, const glm::dvec3& flux) {
+void LightSamples::push_back(const glm::dvec3& direction, const glm::dvec3& flux) {
     for (auto* array : {&x, &y, &z, &red, &green, &blue}) array->push_back(0.0F);
     set(size() - 1, direction, flux);
 }
 
-LightTexels light_texels(const ProbeImage& probe, std::span<const KeyLight> keys, double largest_side) {
+LightSamples light_samples(const ProbeImage& probe, std::span<const KeyLight> keys, double largest_side) {
     const FineProbe fine(probe, largest_side);
-    LightTexels texels = row_samples(*fine, 0, fine->image().height);
+    LightSamples texels = row_samples(*fine, 0, fine->image().height);
     const std::size_t count = texels.size();
     const auto width = static_cast<std::size_t>(fine->image().width);
     std::vector<LobeFractions> lobes(keys.size());
@@ -159,20 +159,20 @@ std::vector<CubeCell> gather_cells(const ProbeImage& probe, int face_size) {
     return gatherer.take();
 }
 
-std::vector<CubeCell> gather_cells(const LightTexels& texels, int face_size) {
+std::vector<CubeCell> gather_cells(const LightSamples& texels, int face_size) {
     Gatherer gatherer(face_size);
     gatherer.add(texels);
     return gatherer.take();
 }
 
-LightTexels cell_samples(std::span<const CubeCell> cells) {
-    LightTexels samples;
+LightSamples cell_samples(std::span<const CubeCell> cells) {
+    LightSamples samples;
     for (const CubeCell& cell : cells)
         if (cell.direction != glm::dvec3(0.0)) samples.push_back(glm::normalize(cell.direction), cell.flux);
     return samples;
 }
 
-LightTexels gather_texels(const LightTexels& texels, int face_size) {
+LightSamples gather_texels(const LightSamples& texels, int face_size) {
     return cell_samples(gather_cells(texels, face_size));
 }
 

@@ -1,4 +1,4 @@
-#include "modules/diffraction/model/frame.h"
+#include "modules/diffraction/model/shading_point.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 namespace rowland::diffraction {
 namespace {
 
-TEST(Frame, RowsAreARightHandedBasis) {
-    const Frame frame{.view = {0, 0, 1}, .normal = {0.0, 2.0, 1.0}, .grating = {1.0, 0.5, -0.2}};
+TEST(ShadingPoint, RowsAreARightHandedBasis) {
+    const ShadingPoint frame{.view = {0, 0, 1}, .normal = {0.0, 2.0, 1.0}, .grating = {1.0, 0.5, -0.2}};
     const glm::dmat3 m = world_to_tangent(frame);
     EXPECT_NEAR(glm::determinant(m), 1.0, 1e-15);
     const glm::dmat3 product = m * glm::transpose(m);
@@ -23,12 +23,12 @@ TEST(Frame, RowsAreARightHandedBasis) {
     EXPECT_GT((m * frame.grating).x, 0.0);
 }
 
-TEST(Frame, HIsNCrossG) {
+TEST(ShadingPoint, HIsNCrossG) {
     const glm::dmat3 m = world_to_tangent({.view = {0, 0, 1}, .normal = {0, 0, 1}, .grating = {1, 0, 0}});
     EXPECT_EQ(m * glm::dvec3(0.0, 1.0, 0.0), glm::dvec3(0.0, 1.0, 0.0));
 }
 
-TEST(Frame, KnowsWhatIsNoFrame) {
+TEST(ShadingPoint, KnowsWhatIsNoFrame) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_TRUE(is_valid({.view = {0, 0, 1}, .normal = {0, 0, 1}, .grating = {1, 0, 0}}));
     EXPECT_FALSE(is_valid({.view = {0, 0, 0}, .normal = {0, 0, 1}, .grating = {1, 0, 0}}));

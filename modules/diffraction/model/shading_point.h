@@ -7,17 +7,17 @@ namespace rowland::diffraction {
 
 /// A shaded point in world axes: the direction to the eye, the surface normal, and the grating vector (across the
 /// grooves).
-struct Frame {
+struct ShadingPoint {
     glm::dvec3 view{0.0, 0.0, 1.0};
     glm::dvec3 normal{0.0, 0.0, 1.0};
     glm::dvec3 grating{1.0, 0.0, 0.0};
 };
 
 /// True if all three vectors are finite and not 0, and the grating vector is not along the normal.
-bool is_valid(const Frame& frame);
+bool is_valid(const ShadingPoint& frame);
 
 /// The rotation from world to tangent frame: rows g, h = n × g, n, g made orthogonal to n (PHYSICS §1). The frame must
 /// be valid.
-glm::dmat3 world_to_tangent(const Frame& frame);
+glm::dmat3 world_to_tangent(const ShadingPoint& frame);
 
 }  // namespace rowland::diffraction

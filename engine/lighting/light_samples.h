@@ -13,9 +13,9 @@ namespace rowland::lighting {
 
 /// A probe as point samples, one array a component, all of one length: for sums over directions that count all of the
 /// sphere once.
-struct LightTexels {
+struct LightSamples {
     std::vector<float> x, y, z;           ///< unit directions, world axes
-    std::vector<float> red, green, blue;  ///< flux: radiance × solid angle. May be negative (see light_texels())
+    std::vector<float> red, green, blue;  ///< flux: radiance × solid angle. May be negative (see light_samples())
 
     std::size_t size() const { return x.size(); }
     glm::dvec3 direction(std::size_t i) const { return {x[i], y[i], z[i]}; }
@@ -30,8 +30,8 @@ inline constexpr double kTexelSide = 0.0065;
 
 /// A sample for each texel of a probe, minus the lobes of `keys`: both together have the probe's flux. Does not depend
 /// on the number of threads. 24 bytes a sample: 12 MB for 1024 × 512 texels.
-LightTexels light_texels(const ProbeImage& probe, std::span<const KeyLight> keys = {},
-                         double largest_side = kTexelSide);
+LightSamples light_samples(const ProbeImage& probe, std::span<const KeyLight> keys = {},
+                           double largest_side = kTexelSide);
 
 /// The sums over the samples that lie in a texel of a cube map. Weights are |red| + |green| + |blue| of the flux.
 struct CubeCell {
@@ -43,12 +43,12 @@ struct CubeCell {
 /// The samples of a probe, summed in the cells of a cube map of `face_size` cells a side, in CubeLayout's order. Memory
 /// is that of the cells, however large the probe.
 std::vector<CubeCell> gather_cells(const ProbeImage& probe, int face_size);
-std::vector<CubeCell> gather_cells(const LightTexels& texels, int face_size);
+std::vector<CubeCell> gather_cells(const LightSamples& texels, int face_size);
 
 /// A sample for each cell that holds light, in its weighted mean direction: a compact lamp keeps its direction.
-LightTexels cell_samples(std::span<const CubeCell> cells);
+LightSamples cell_samples(std::span<const CubeCell> cells);
 /// cell_samples(gather_cells(…)).
-LightTexels gather_texels(const LightTexels& texels, int face_size);
+LightSamples gather_texels(const LightSamples& texels, int face_size);
 
 /// How the flux of a lobe divides among directions: fractions that sum to 1. Empty if the lobe is so narrow that it
 /// lies between the directions.
