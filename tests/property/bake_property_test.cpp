@@ -167,7 +167,7 @@ RC_GTEST_PROP(ReferenceProperty, EqualsTheClosedFormUnderBandlimitedLight, ()) {
     if (lobe_extent(shape.lobe).feature_size < 0.02) shape.lobe = FlatLobe{};  // slow in the reference
     const lighting::ShLight light = *sh_light(6);
     const glm::dvec3 v = *upper_direction();
-    const Frame frame{.view = v, .normal = {0.0, 0.0, 1.0}, .grating = {1.0, 0.0, 0.0}};
+    const ShadingPoint frame{.view = v, .normal = {0.0, 0.0, 1.0}, .grating = {1.0, 0.0, 0.0}};
     const colour::LightSpectra spectra;
     const glm::dvec3 found = reference_radiance(shape, light, spectra, std::span(&frame, 1)).front();
     RC_ASSERT(is_finite(found));
@@ -191,7 +191,7 @@ RC_GTEST_PROP(ReferenceProperty, NoLightAndNoOrderAreBlack, ()) {
     if (shape.grooves < kManyGrooves) shape.lobe = FlatLobe{};
     RC_PRE(lobe_extent(shape.lobe).feature_size > 0.01);
     const glm::dvec3 v = *upper_direction();
-    const Frame frame{.view = v, .normal = {0.0, 0.0, 1.0}, .grating = {1.0, 0.0, 0.0}};
+    const ShadingPoint frame{.view = v, .normal = {0.0, 0.0, 1.0}, .grating = {1.0, 0.0, 0.0}};
     const colour::LightSpectra spectra;
     const lighting::ShLight none{2, std::vector<glm::dvec3>(4, glm::dvec3(0.0))};
     RC_ASSERT(reference_radiance(shape, none, spectra, std::span(&frame, 1)).front() == glm::dvec3(0.0));

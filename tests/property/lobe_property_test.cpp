@@ -20,7 +20,7 @@ lighting::ShLight white_light() {
 }
 
 glm::dvec3 under_white_light(const Grating& shape, const glm::dvec3& view) {
-    const Frame frame{.view = view, .normal = {0.0, 0.0, 1.0}, .grating = {1.0, 0.0, 0.0}};
+    const ShadingPoint frame{.view = view, .normal = {0.0, 0.0, 1.0}, .grating = {1.0, 0.0, 0.0}};
     return reference_radiance(shape, white_light(), colour::LightSpectra(), std::span(&frame, 1)).front();
 }
 

@@ -74,7 +74,7 @@ RC_GTEST_PROP(TableProperty, ReturnsNoMoreLightThanFallsIn, ()) {
     shape.orders = table.orders;
     if (*whole(0, 1) == 0) shape.lobe = GaussianLobe{*log_uniform(0.05, 3.0)};
     const lighting::ShLight white{1, {glm::dvec3(2.0 * std::sqrt(std::numbers::pi))}};
-    const Frame frame{.view = *upper_direction(), .normal = {0.0, 0.0, 1.0}, .grating = {1.0, 0.0, 0.0}};
+    const ShadingPoint frame{.view = *upper_direction(), .normal = {0.0, 0.0, 1.0}, .grating = {1.0, 0.0, 0.0}};
     const glm::dvec3 xyz = reference_radiance(shape, white, colour::LightSpectra(), std::span(&frame, 1)).front();
     RC_ASSERT(is_finite(xyz));
     RC_ASSERT(xyz.x >= 0.0 && xyz.y >= 0.0 && xyz.z >= 0.0);

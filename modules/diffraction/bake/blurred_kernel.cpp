@@ -101,7 +101,7 @@ KernelUniforms kernel_uniforms(const KernelTable& kernel, const BlurredKernel& b
     const double step = 1.0 / blurred.columns;
     const double per_nm = (1.0 - step) / (blurred.end_nm - blurred.begin_nm);
     const double reach_nm = std::max(std::abs(kernel.begin_nm), std::abs(kernel.end_nm));
-    return {.location = glm::dvec4(pitch_nm * per_nm, 0.5 * step - blurred.begin_nm * per_nm,
+    return {.scale_bias = glm::dvec4(pitch_nm * per_nm, 0.5 * step - blurred.begin_nm * per_nm,
                                    blurred.narrowest_nm / pitch_nm, pitch_nm),
             .ends = glm::dvec2(colour::kVisibleMin, reach_nm) / pitch_nm};
 }

@@ -13,7 +13,7 @@ namespace {
 
 /// StreakNode of shaders/streak.frag.glsl, std430.
 struct ShaderNode {
-    glm::vec4 place;      ///< x: path over the pitch; y: width over the pitch
+    glm::vec4 path_width;      ///< x: path over the pitch; y: width over the pitch
     glm::vec4 weight[3];  ///< columns: XYZ of red, green and blue
 };
 static_assert(sizeof(ShaderNode) == 64);
@@ -22,11 +22,11 @@ gpu::Buffer node_buffer(const Streak& streak) {
     std::vector<ShaderNode> nodes;
     for (const StreakNode& node : streak.nodes) {
         const auto pitch = static_cast<float>(streak.pitch_nm);
-        ShaderNode made{.location = {node.path_nm / pitch, node.width_nm / pitch, 0.0F, 0.0F}, .weight = {}};
+        ShaderNode made{.path_width = {node.path_nm / pitch, node.width_nm / pitch, 0.0F, 0.0F}, .weight = {}};
         for (int c = 0; c < 3; ++c) made.weight[c] = glm::vec4(node.weight[c], 0.0F);
         nodes.push_back(made);
     }
-    if (nodes.empty()) nodes.push_back({.location = {4.0F, 0.0F, 0.0F, 0.0F}, .weight = {}});  // never seen
+    if (nodes.empty()) nodes.push_back({.path_width = {4.0F, 0.0F, 0.0F, 0.0F}, .weight = {}});  // never seen
     return gpu::Buffer::of(std::span<const ShaderNode>(nodes));
 }
 

@@ -8,7 +8,7 @@
 #endif
 
 struct StreakNode {
-    vec4 place;      // x: path over the pitch; y: width over the pitch
+    vec4 path_width; // x: path over the pitch; y: width over the pitch
     vec4 weight[3];  // columns: XYZ of red, green and blue
 };
 layout(std430, binding = 6) readonly buffer StreakNodes { StreakNode streak_nodes[]; };
@@ -46,8 +46,8 @@ vec3 lobe_radiance(vec3 across, GrooveView view) {
 vec3 diffracted_xyz(GrooveView view) {
     vec3 xyz = vec3(0.0);
     for (int k = 0; k < streak_nodes.length(); ++k) {
-        vec4 place = streak_nodes[k].place;
-        vec3 across = cut(place.x / view.pitch - view.direction.x, place.y / view.pitch, 1.0);
+        vec2 path_width = streak_nodes[k].path_width.xy;
+        vec3 across = cut(path_width.x / view.pitch - view.direction.x, path_width.y / view.pitch, 1.0);
         if (across.z == 0.0) continue;
         vec3 rgb = across.z * lobe_radiance(across, view);
         for (int c = 0; c < 3; ++c) xyz += streak_nodes[k].weight[c].xyz * rgb[c];
