@@ -1,0 +1,86 @@
+// A representation is described once. The schema and the page, which are written by hand, agree with the descriptors.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "engine/core/file.h"
+#include "modules/diffraction/representations/representation.h"
+#include "tests/support/source_tree.h"
+
+namespace rowland::diffraction {
+namespace {
+
+using nlohmann::json;
+
+std::string read_module_file(const std::string& path) {
+    return read_text_file(test::source_path("modules/diffraction/" + path), 1 << 20);
+}
+
+/// What the schema says of a pinned representation.
+json quality_schema(const RepresentationInfo& info) {
+    const json where = {{"enum", {"pixels", "vertices"}}};
+    json properties = {{"max_error", {{"type", "number"}, {"exclusiveMinimum", 0}}},
+                       {"illuminant", {{"$ref", "#/$defs/illuminant"}}},
+                       {"representation", {{"const", info.name}}},
+                       {"lights_at", where}};
+    properties["key_lights"] =
+        info.key_lights == KeyLightUse::Always ? json{{"const", true}} : json{{"enum", {true, false}}};
+    if (info.is_map) properties["map_at"] = where;
+    for (const SettingInfo& setting : info.settings)
+        properties[setting.key] =
+            setting.words.empty()
+                ? json{{"type", "integer"}, {"minimum", setting.minimum}, {"maximum", setting.maximum}}
+                : json{{"enum", setting.words}};
+    return {{"type", "object"},
+            {"required", {"representation"}},
+            {"additionalProperties", false},
+            {"properties", properties}};
+}
+
+TEST(RepresentationDescriptors, AreWhatTheSchemaSays) {
+    const json schema = json::parse(read_module_file("asset/material.schema.json"));
+    std::map<std::string, json> by_name;
+    for (const json& choice : schema["$defs"]["quality"]["oneOf"])
+        if (choice["properties"].contains("representation"))
+            by_name[choice["properties"]["representation"]["const"]] = choice;
+    EXPECT_EQ(by_name.size(), kRepresentationCount);
+    for (const RepresentationInfo* info : representations()) EXPECT_EQ(by_name[info->name], quality_schema(*info));
+}
+
+/// The row of the page's table of representations: "| `arc` | … | `bands` 5, `rank` 8 … |".
+std::string row_of(const std::string& page, const std::string& name) {
+    const std::size_t table = page.find("| name | light | work | settings (defaults) |");
+    EXPECT_NE(table, std::string::npos);
+    const std::size_t row = page.find("\n| `" + name + "`", table);
+    return row == std::string::npos ? "" : page.substr(row + 1, page.find('\n', row + 1) - row - 1);
+}
+
+TEST(RepresentationDescriptors, HaveARowWithTheirDefaultsInThePage) {
+    const std::string page = read_module_file("README.md");
+    for (const RepresentationInfo* info : representations()) {
+        const std::string row = row_of(page, info->name);
+        EXPECT_FALSE(row.empty()) << info->name;
+        for (const SettingInfo& setting : info->settings) {
+            if (!setting.default_value.is_number()) continue;
+            const std::string expected = std::string("`") + setting.key + "` " + setting.default_value.dump();
+            EXPECT_NE(row.find(expected), std::string::npos) << info->name << " lacks " << expected;
+        }
+    }
+}
+
+TEST(RepresentationDescriptors, HaveDefaultsWithinTheirLimits) {
+    for (const RepresentationInfo* info : representations()) {
+        EXPECT_EQ(find_representation(info->name), info);
+        for (const SettingInfo& setting : info->settings) {
+            EXPECT_EQ(info->find(setting.key), &setting);
+            if (!setting.default_value.is_number()) continue;
+            EXPECT_GE(setting.default_value, setting.minimum);
+            EXPECT_LE(setting.default_value, setting.maximum);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace rowland::diffraction
