@@ -86,6 +86,9 @@ void CompareCommand::run() const {
         files.insert(files.end(), {material, file.path});
         check_outputs(files, std::array{Output{"--difference", *difference, ".png"}});
     }
+    for (const std::string& name : {method, against})
+        if (name != "reference")
+            check_method(diffraction::load_material_json(material), material.string(), diffraction::parse_method(name));
     const lighting::ProbeImage image = read_probe(file.path, file.mapping);
     const PictureFrames scene = picture_frames(far_camera(), size[0], size[1]);
     const FrameSet set = frames ? frames_of_file("frames", *frames) : scene.frames;

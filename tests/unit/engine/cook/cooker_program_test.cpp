@@ -63,9 +63,9 @@ TEST_F(CookerProgramTest, RefusedSourceIsCodeTwo) {
     EXPECT_FALSE(std::filesystem::exists(path("a.cooked")));
 }
 
-TEST_F(CookerProgramTest, OutputThatCannotBeWrittenIsCodeOne) {
+TEST_F(CookerProgramTest, OutputThatCannotBeWrittenIsCodeTwo) {
     const auto source = write("a.tiles", "size 1");
-    EXPECT_EQ(run({"cook", source, "-o", source + "/a.cooked"}).code, 1);
+    EXPECT_EQ(run({"cook", source, "-o", source + "/a.cooked"}).code, 2);
 }
 
 TEST_F(CookerProgramTest, SourceThatChangesWhileCookingIsCodeOne) {
