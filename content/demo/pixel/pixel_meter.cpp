@@ -82,7 +82,7 @@ PixelReading PixelMeter::measure(const std::shared_ptr<Lit>& lit, const PixelQue
         reading.window = *query.window;
     } else if (const int bands = bands_of(query.cooked->tables); bands > 0) {
         if (lit->windowed != query.cooked)
-            lit->window = diffraction::mildest_window(lit->comparer->harmonics(key_lights, bands), bands);
+            lit->window = diffraction::weakest_window(lit->comparer->harmonics(key_lights, bands), bands);
         lit->windowed = query.cooked;
         reading.window = lit->window;
     }
