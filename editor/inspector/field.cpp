@@ -91,8 +91,12 @@ bool is_shown(const Field& field, const Json& material) {
 }
 
 Json value_of(const Field& field, const Json& material) {
-    const Json* found = find(material, field.pointer);
-    return found != nullptr ? *found : field.default_value;
+    if (const Json* found = find(material, field.pointer)) return *found;
+    if (field.defaults_by_choice.empty()) return field.default_value;
+    const std::string present = choice_of(field_at(field.only_with), material);
+    for (const Choice& choice : field.defaults_by_choice)
+        if (choice.name == present) return choice.value;
+    return field.default_value;
 }
 
 bool can_revert(const Field& field, const Json& material) {

@@ -42,6 +42,8 @@ struct Field {
     /// Shown only if the choice of the field `only_with` (a pointer) is one of `only_for`; empty: always.
     std::string only_with{};
     std::vector<std::string> only_for{};
+    /// Values of an absent member that depend on the choice of `only_with`; others have `default_value`.
+    std::vector<Choice> defaults_by_choice{};
     std::string help{};    ///< the effect and the allowed values
     std::string source{};  ///< of the formula
 };

@@ -61,6 +61,7 @@ Field setting_field(const diffraction::SettingInfo& setting) {
                 .source = kPaper};
     if (setting.words.empty()) return field;
     field.kind = FieldKind::Choice;
+    field.maximum = 1.0;
     field.help = setting.help;
     field.default_value = nullptr;
     field.choices = {{"default", nullptr}};
@@ -68,19 +69,20 @@ Field setting_field(const diffraction::SettingInfo& setting) {
     return field;
 }
 
-/// A field for each setting; representations whose limits and default of a setting agree share its field.
+/// A field for each setting, from the least to the largest limit of the representations that have it.
 std::vector<Field> setting_fields() {
     std::vector<Field> result;
     for (const auto* info : diffraction::representations())
         for (const diffraction::SettingInfo& setting : info->settings) {
             if (setting.words.empty() && setting.default_value.is_null()) continue;
             Field field = setting_field(setting);
-            const auto known = std::find_if(result.begin(), result.end(), [&](const Field& other) {
-                return other.pointer == field.pointer && other.maximum == field.maximum &&
-                       other.default_value == field.default_value;
-            });
-            Field& shown = known != result.end() ? *known : result.emplace_back(std::move(field));
+            const auto known = std::find_if(result.begin(), result.end(),
+                                            [&](const Field& other) { return other.pointer == field.pointer; });
+            Field& shown = known != result.end() ? *known : result.emplace_back(field);
+            shown.minimum = std::min(shown.minimum, field.minimum);
+            shown.maximum = std::max(shown.maximum, field.maximum);
             shown.only_for.emplace_back(info->name);
+            if (setting.words.empty()) shown.defaults_by_choice.push_back({info->name, setting.default_value});
         }
     return result;
 }

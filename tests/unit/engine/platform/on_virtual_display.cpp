@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <optional>
 
 #include "tests/support/virtual_display.h"
 
@@ -13,14 +12,11 @@ class OnVirtualDisplay final : public testing::Environment {
  public:
     void SetUp() override {
         ROWLAND_NEEDS_VIRTUAL_DISPLAY();
-        display_.emplace(ROWLAND_TEST_SCREEN_WIDTH, ROWLAND_TEST_SCREEN_HEIGHT);
-        setenv("DISPLAY", display_->name().c_str(), 1);
+        // Made before the driver is loaded, so that it ends after what the driver does at exit.
+        static const test::VirtualDisplay display(ROWLAND_TEST_SCREEN_WIDTH, ROWLAND_TEST_SCREEN_HEIGHT);
+        setenv("DISPLAY", display.name().c_str(), 1);
         unsetenv("WAYLAND_DISPLAY");
     }
-    void TearDown() override { display_.reset(); }
-
- private:
-    std::optional<test::VirtualDisplay> display_;
 };
 
 [[maybe_unused]] const testing::Environment* const kEnvironment =

@@ -15,7 +15,7 @@ namespace {
 using nlohmann::json;
 
 std::string read_module_file(const std::string& path) {
-    return read_text_file(test::source_path("modules/diffraction/" + path), 1 << 20);
+    return read_text_file(rowland::test::source_path("modules/diffraction/" + path), 1 << 20);
 }
 
 /// What the schema says of a pinned representation.
