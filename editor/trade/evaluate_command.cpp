@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <iterator>
 
 #include "editor/trade/inputs.h"
@@ -58,6 +59,26 @@ const std::vector<SettingFlag>& setting_flags() {
          "cooked assets that take key lights)"},
         {"--window", {"window"}, "Window on the light's bands: none, lanczos or hann"}};
     return flags;
+}
+
+bool is_within(const diffraction::SettingInfo& setting, const std::string& text) {
+    if (!setting.words.empty()) return std::ranges::find(setting.words, text) != setting.words.end();
+    int number = 0;
+    const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
+    return failure == std::errc() && end == text.data() + text.size() && number >= setting.minimum &&
+           number <= setting.maximum;
+}
+
+/// Refuses a value that no method takes, also where the method in question ignores the flag.
+void check_flag(const SettingFlag& flag, const std::string& value) {
+    bool has_setting = false;
+    for (const diffraction::RepresentationInfo* info : diffraction::representations())
+        for (const char* key : flag.keys)
+            if (const diffraction::SettingInfo* setting = info->find(key)) {
+                if (is_within(*setting, value)) return;
+                has_setting = true;
+            }
+    if (has_setting) refuse_usage(flag.flag, fmt::format("\"{}\"", value), "a value that some method takes");
 }
 
 /// The key that a flag sets for a method; none if the method has no such setting.
@@ -114,6 +135,8 @@ void EvaluateCommand::check_usage() const {
         refuse_usage("--material, --cooked", material ? "both" : "neither", "one of them");
     if (probe.has_value() == probe_sh.has_value())
         refuse_usage("--probe, --probe-sh", probe ? "both" : "neither", "one of them");
+    for (const SettingFlag& flag : setting_flags())
+        if (const std::string& value = settings.at(flag.flag); !value.empty()) check_flag(flag, value);
     if (cooked) {
         if (error) refuse_usage("--error", "--cooked", "--method reference");
         if (!method.empty()) refuse_usage("--method", method, "no method with --cooked: the asset holds its own");

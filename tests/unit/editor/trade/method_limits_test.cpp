@@ -66,7 +66,6 @@ class MethodLimits : public ::testing::Test {
         EXPECT_FALSE(std::filesystem::exists(folder_.path() / "x.material"));
     }
 
- private:
     void expect_refused(const test::Command& command) {
         const test::Ended ended = test::run(command, {.folder = folder_.path()});
         EXPECT_EQ(ended.code, 2) << fmt::format("{}\n{}{}", fmt::join(command, " "), ended.out, ended.err);
@@ -120,6 +119,15 @@ TEST_F(MethodLimits, MethodsThatDoNotSuitAGratingAreRefusedByEveryProgram) {
             }
     EXPECT_GT(suited, 30);
     EXPECT_GT(refused, 50);
+}
+
+TEST_F(MethodLimits, FlagsThatAMethodIgnoresStillHaveALimit) {
+    write_file_atomic(folder_.path() / "plain.json", material("flat", 1500).dump());
+    for (const char* flag : {"--rank=x", "--rank=nan", "--rank=0", "--bins=65", "--spikes=inf", "--bands=1e300",
+                             "--resolution=-1", "--storage=fp64"})
+        for (const char* method : {"transfer", "reference"})
+            expect_refused({ROWLAND_TRADE, "evaluate", "--material=plain.json", "--probe=probe.hdr", "--method", method,
+                            "--frames", "frames.csv", flag});
 }
 
 TEST_F(MethodLimits, UnknownAndRepeatedSettingsAreRefusedByEveryProgram) {
