@@ -46,7 +46,8 @@ rowland_export(library
   rowland_diffraction_bake DiffractionBake
   rowland_diffraction_representations DiffractionRepresentations
   rowland_diffraction_asset DiffractionAsset)
-file(GLOB representations RELATIVE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/modules/diffraction/representations/*/)
+file(GLOB representations ${PROJECT_SOURCE_DIR}/modules/diffraction/representations/*)
+list(FILTER representations EXCLUDE REGEX "\\.[a-z]+$")
 rowland_install_headers(library ${representations})
 install(DIRECTORY modules/diffraction/representations DESTINATION ${shaders_folder}/modules/diffraction
         COMPONENT library FILES_MATCHING PATTERN "*.glsl")

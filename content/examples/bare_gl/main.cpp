@@ -155,11 +155,11 @@ int main(int argc, char** argv) try {
     if (argc != 4) return std::fprintf(stderr, "usage: bare_gl MATERIAL PROBE PICTURE\n"), 2;
     make_headless_context();
     const std::string from = "#version 450 core\n";
-    const std::string rowland = std::string(ROWLAND_SHADERS) + "/modules/diffraction/shaders/";
-    const GLuint program =
-        make_program({from, read_text(EXAMPLE_SHADERS "/disc.vert.glsl")},
-                     {from, "#define LEVELS_PER_OCTAVE 2.0\n", read_text(rowland + "planar_map.glsl"),
-                      read_text(rowland + "kernel.glsl"), read_text(EXAMPLE_SHADERS "/disc.frag.glsl")});
+    const std::string rowland = std::string(ROWLAND_SHADERS) + "/modules/diffraction/";
+    const GLuint program = make_program(
+        {from, read_text(EXAMPLE_SHADERS "/disc.vert.glsl")},
+        {from, "#define LEVELS_PER_OCTAVE 2.0\n", read_text(rowland + "representations/planar/planar_map.glsl"),
+         read_text(rowland + "shaders/kernel.glsl"), read_text(EXAMPLE_SHADERS "/disc.frag.glsl")});
 
     const diffraction::CookedMaterial material = diffraction::load_cooked_material(argv[1]);
     bind_kernel(program, material);
