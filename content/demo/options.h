@@ -43,8 +43,7 @@ struct Options : app::CommonOptions {
 /// usage.
 std::optional<Options> parse_options(int argc, const char* const* argv);
 
-/// Throws Error (input) if a file that the options name cannot be written, or is read too. To be called before work
-/// begins.
+/// Throws Error (input) if an output file cannot be written or is also an input. To be called before work begins.
 void check_outputs(const Options& options);
 
 }  // namespace rowland::demo

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # take_pictures.sh [PROBE]
-# Takes the gallery's pictures anew, without a display; those under the captured probe only if its file is given
+# Renders the gallery's pictures again, without a display; those under the captured probe only if its file is given
 # (Royal Esplanade, equirectangular). Needs ImageMagick to write JPEG.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)

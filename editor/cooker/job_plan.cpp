@@ -116,12 +116,12 @@ std::vector<Job> parse_plan(const std::string& text, const std::string& file) {
     std::istringstream lines(text);
     int number = 0;
     for (std::string line; std::getline(lines, line);) {
-        const std::string place = fmt::format("{}: line {}", file, ++number);
+        const std::string location = fmt::format("{}: line {}", file, ++number);
         if (!line.starts_with('{'))
             refuse_input(file, fmt::format("line {}", number), "no JSON object", "a job",
                          "write the plan with rowland-cook plan --json");
-        const nlohmann::json object = parse_json(line, place);
-        JsonReader reader(object, place);
+        const nlohmann::json object = parse_json(line, location);
+        JsonReader reader(object, location);
         Job job{.id = required_text(reader, "id"),
                 .kind = required_text(reader, "kind"),
                 .source = required_text(reader, "source"),

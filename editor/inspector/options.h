@@ -24,7 +24,7 @@ struct Options : app::CommonOptions {
 };
 
 /// Parses the command line. Prints help and returns nullopt if only that was asked for. Throws Error (input) for bad
-/// usage, and for a file that cannot be written or is read too.
+/// usage, and for an output file that cannot be written or is also an input.
 std::optional<Options> parse_options(int argc, const char* const* argv);
 
 }  // namespace rowland::inspector

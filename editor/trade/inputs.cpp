@@ -57,7 +57,7 @@ lighting::ShLight read_sh_light(const std::filesystem::path& path) {
         if (slot) fail(table, i, fmt::format("l = {}, m = {} again", x[0], x[1]), "every (l, m) once");
         slot = glm::dvec3(x[2], x[3], x[4]);
     }
-    // As many rows as places, all different: every place is filled.
+    // As many rows as coefficients, all different: every coefficient is set.
     lighting::ShLight light{.bands = bands, .coefficients = {}};
     for (const auto& coefficient : found) light.coefficients.push_back(*coefficient);
     return light;

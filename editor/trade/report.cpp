@@ -106,7 +106,7 @@ std::string report_html(const nlohmann::ordered_json& data) {
     // Nothing in the data may end the script element that holds it.
     for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;) text.replace(at, 1, "\\u003c");
     const std::size_t mark = page.find(kDataMark);
-    ROWLAND_CHECK(mark != std::string::npos, "the template has a place for the data");
+    ROWLAND_CHECK(mark != std::string::npos, "the template has a mark for the data");
     return page.replace(mark, std::string(kDataMark).size(), text);
 }
 

@@ -126,7 +126,7 @@ class Handle {
     const T& operator*() const { return *slot_->value(); }
     const T* operator->() const { return slot_->value().get(); }
     /// The present asset; it does not change when the store replaces it.
-    std::shared_ptr<const T> share() const { return slot_->value(); }
+    std::shared_ptr<const T> value() const { return slot_->value(); }
     /// Grows whenever the asset is replaced.
     std::uint64_t version() const { return slot_->version; }
     explicit operator bool() const { return slot_ != nullptr; }

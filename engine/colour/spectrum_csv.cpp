@@ -26,12 +26,12 @@ SpectrumTable parse_spectrum_csv(std::string_view text, const std::string& file,
     table.columns.resize(numbers.rows[0].size() - 1);
     for (std::size_t i = 0; i < numbers.rows.size(); ++i) {
         const std::vector<double>& row = numbers.rows[i];
-        const std::string place = fmt::format("row {}", numbers.file_rows[i]);
+        const std::string location = fmt::format("row {}", numbers.file_rows[i]);
         if (row[0] <= 0.0 || row[0] > kMaximumWavelength_nm)
-            refuse_input(file, place, fmt::format("wavelength {}", row[0]),
+            refuse_input(file, location, fmt::format("wavelength {}", row[0]),
                          fmt::format("nanometres in (0, {}]", kMaximumWavelength_nm));
         if (i > 0 && row[0] <= table.wavelengths_nm.back())
-            refuse_input(file, place, fmt::format("wavelength {} after {}", row[0], table.wavelengths_nm.back()),
+            refuse_input(file, location, fmt::format("wavelength {} after {}", row[0], table.wavelengths_nm.back()),
                          "ascending wavelengths");
         table.wavelengths_nm.push_back(row[0]);
         for (std::size_t c = 1; c < row.size(); ++c) table.columns[c - 1].push_back(row[c]);

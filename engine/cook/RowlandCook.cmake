@@ -2,7 +2,7 @@
 #
 # Cooks each source, a path relative to the current source folder, to ${ROWLAND_COOKED_DIR}/<output> whenever the
 # source, a file it names or the cooker has changed, and nothing else. <target>, part of `all`, builds them.
-# Only what is listed is cooked, so list what a scene uses. The output is named, not derived, because what a source
+# Cooks only the listed assets, so list what a scene uses. The output is named, not derived, because what a source
 # becomes is the cooker's knowledge.
 #
 #   rowland_cook_assets(cooked_disc ASSETS materials/cd.json cd.material  meshes/disc.json disc.glb)

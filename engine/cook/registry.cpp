@@ -37,8 +37,8 @@ std::vector<std::byte> Context::read(const std::filesystem::path& path, std::uin
     depend_on(path);
     std::vector<std::byte> bytes = read_file(path, max_bytes);
     // What is cooked must be what the content hash is of, even if the file is changed back before anybody looks again.
-    const auto place = std::find(dependencies_.begin(), dependencies_.end(), path) - dependencies_.begin();
-    const std::optional<Hash128>& known = fingerprints_[static_cast<std::size_t>(place)];
+    const auto index = std::find(dependencies_.begin(), dependencies_.end(), path) - dependencies_.begin();
+    const std::optional<Hash128>& known = fingerprints_[static_cast<std::size_t>(index)];
     if (known && Hasher().bytes(bytes).digest() != *known) fail_changed(path);
     return bytes;
 }

@@ -92,7 +92,7 @@ ChannelNames check_channels(const Imf::ChannelList& channels, const std::string&
         if (channel.type != Imf::HALF && channel.type != Imf::FLOAT)
             refuse_input(file, "channel " + name, "integers", "half or float");
         if (channel.xSampling != 1 || channel.ySampling != 1)
-            refuse_input(file, "channel " + name, "a subsampled channel", "one sample a texel");
+            refuse_input(file, "channel " + name, "a subsampled channel", "one sample per texel");
     }
     return *names;
 }
@@ -149,7 +149,7 @@ Image read_part(Imf::InputPart& part, const std::string& file) {
     return image;
 }
 
-/// Writes `count` floats a texel ("RGB" or "RGBA"). ZIP is deterministic and lossless.
+/// Writes `count` floats per texel ("RGB" or "RGBA"). ZIP is deterministic and lossless.
 void write_floats(const std::filesystem::path& path, int width, int height, const float* texels, std::size_t count) {
     ROWLAND_CHECK_OP(width, >=, 1);
     ROWLAND_CHECK_OP(height, >=, 1);

@@ -33,10 +33,10 @@ std::uint64_t memory_mebibytes() {
 
 }  // namespace
 
-void check_image_size(std::int64_t width, std::int64_t height, const std::string& file, const std::string& place) {
+void check_image_size(std::int64_t width, std::int64_t height, const std::string& file, const std::string& location) {
     const bool sides_fit = width >= 1 && height >= 1 && width <= kMaximumSide && height <= kMaximumSide;
     if (sides_fit && static_cast<std::uint64_t>(width * height) <= kMaximumTexels) return;
-    refuse_input(file, place, fmt::format("an image of {} x {} texels", width, height),
+    refuse_input(file, location, fmt::format("an image of {} x {} texels", width, height),
                  fmt::format("sides in [1, {}] and at most {} texels", kMaximumSide, kMaximumTexels),
                  "scale the image down");
 }

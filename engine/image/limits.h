@@ -12,9 +12,9 @@ inline constexpr std::uint64_t kMaximumTexels = std::uint64_t{16384} * 8192;
 /// Largest image file read (an uncompressed float image of kMaximumTexels and some room).
 inline constexpr std::uint64_t kMaximumFileBytes = std::uint64_t{2} << 30;
 
-/// Throws Error (input) naming `file` and `place` if a side is not in [1, kMaximumSide] or there are more than
+/// Throws Error (input) naming `file` and `location` if a side is not in [1, kMaximumSide] or there are more than
 /// kMaximumTexels texels.
-void check_image_size(std::int64_t width, std::int64_t height, const std::string& file, const std::string& place);
+void check_image_size(std::int64_t width, std::int64_t height, const std::string& file, const std::string& location);
 
 /// Memory in bytes that images of `file_bytes` bytes may be decoded to: 192 bytes for each byte (16 texels of an
 /// Image), and at least 400 MiB. The environment variable ROWLAND_IMAGE_MEMORY, in MiB, raises the latter.

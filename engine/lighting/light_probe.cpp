@@ -234,7 +234,7 @@ std::string describe(const LightProbe& probe) {
     const glm::dvec3 mean = mean_radiance(probe.sh);
     const CubeLayout& layout = probe.environment.layout;
     std::string text =
-        fmt::format("bands: {} ({} coefficients a channel)\n", probe.sh.bands, probe.sh.coefficients.size());
+        fmt::format("bands: {} ({} coefficients per channel)\n", probe.sh.bands, probe.sh.coefficients.size());
     text += fmt::format("mean radiance: {:.6g} {:.6g} {:.6g}\n", mean.x, mean.y, mean.z);
     text += fmt::format("illuminant: {}\n", probe.illuminant.name);
     text += window.damping > 0 ? fmt::format("ambient window: exponential, damping {:.4g}\n", window.damping)

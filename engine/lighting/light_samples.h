@@ -29,7 +29,7 @@ struct LightSamples {
 inline constexpr double kTexelSide = 0.0065;
 
 /// A sample for each texel of a probe, minus the lobes of `keys`: both together have the probe's flux. Does not depend
-/// on the number of threads. 24 bytes a sample: 12 MB for 1024 × 512 texels.
+/// on the number of threads. 24 bytes per sample: 12 MB for 1024 × 512 texels.
 LightSamples light_samples(const ProbeImage& probe, std::span<const KeyLight> keys = {},
                            double largest_side = kTexelSide);
 

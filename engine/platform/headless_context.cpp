@@ -42,7 +42,7 @@ const char* client_extensions() {
     return eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
 }
 
-/// Displays on hardware devices, in the driver's order. Mesa lists its software rasteriser as a device too; that one is
+/// Displays on hardware devices, in the driver's order. Mesa also lists its software rasteriser as a device; it is
 /// reached through the surfaceless platform, which every version of it has.
 std::vector<EGLDisplay> hardware_displays() {
     const bool enumerable = has_word(client_extensions(), "EGL_EXT_device_enumeration") ||
@@ -133,7 +133,7 @@ struct HeadlessContext::State {
     State() = default;
     State(const State&) = delete;
     State& operator=(const State&) = delete;
-    // The display is not terminated: EGL hands out one per device to the whole process, other contexts may use it too.
+    // The display is not terminated: EGL has one per device for the whole process, so other contexts may use it.
     ~State() {
         if (context == EGL_NO_CONTEXT) return;
         if (eglGetCurrentContext() == context) {

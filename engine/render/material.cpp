@@ -27,18 +27,19 @@ std::string entity_name(ecs::World& world, ecs::Entity entity) {
 }  // namespace
 
 void MaterialType::attach(ecs::World& /*world*/, ecs::Entity /*entity*/, const nlohmann::json& /*extension*/,
-                          SurfaceTextures& /*textures*/, const std::string& /*file*/, const std::string& place) {
-    ROWLAND_CHECK(false, "attach() on a material type without a glTF extension, for " + place);
+                          SurfaceTextures& /*textures*/, const std::string& /*file*/, const std::string& pointer) {
+    ROWLAND_CHECK(false, "attach() on a material type without a glTF extension, for " + pointer);
 }
 
 const MaterialType* owner_of(ecs::World& world, ecs::Entity entity,
                              std::span<const std::unique_ptr<MaterialType>> types, const std::string& file,
-                             const std::string& place) {
+                             const std::string& pointer) {
     const MaterialType* owner = nullptr;
     for (const auto& type : types) {
         if (!type->owns(world, entity)) continue;
         if (owner != nullptr)
-            refuse_input(file, place.empty() ? entity_name(world, entity) : place + ", " + entity_name(world, entity),
+            refuse_input(file,
+                         pointer.empty() ? entity_name(world, entity) : pointer + ", " + entity_name(world, entity),
                          fmt::format("both {} and {}", owner->name(), type->name()), "at most one material type",
                          "remove one of the two from this surface");
         owner = type.get();

@@ -88,10 +88,10 @@ class MaterialType {
     /// The glTF material extension that describes such a surface; empty if none does.
     virtual std::string gltf_extension() const { return {}; }
     /// Gives an entity, which already has its MeshInstance and StandardMaterial, the surface that the extension's JSON
-    /// describes. `textures`: those of its file. `file` and `place` (a JSON pointer) are for messages. Throws Error
+    /// describes. `textures`: those of its file. `file` and `pointer` (JSON) are for messages. Throws Error
     /// (input).
     virtual void attach(ecs::World& world, ecs::Entity entity, const nlohmann::json& extension,
-                        SurfaceTextures& textures, const std::string& file, const std::string& place);
+                        SurfaceTextures& textures, const std::string& file, const std::string& pointer);
 
     /// Adds its shader files. Called once, when it is registered.
     virtual void add_shaders(gpu::ShaderLibrary& library) const = 0;
@@ -105,10 +105,10 @@ class MaterialType {
     virtual void bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const = 0;
 };
 
-/// The type that draws an entity; null: the engine's own surface. `file` and `place` (empty: the entity's name) are for
-/// messages. Throws Error (input) that names both types if two own it.
+/// The type that draws an entity; null: the engine's own surface. `file` and `pointer` (empty: the entity's name) are
+/// for messages. Throws Error (input) that names both types if two own it.
 const MaterialType* owner_of(ecs::World& world, ecs::Entity entity,
                              std::span<const std::unique_ptr<MaterialType>> types, const std::string& file,
-                             const std::string& place = {});
+                             const std::string& pointer = {});
 
 }  // namespace rowland::render

@@ -83,12 +83,12 @@ class Builder {
     }
 
     void attach_extensions(ecs::Entity entity, const scene::MaterialDescription& material, std::size_t index) {
-        const std::string place = fmt::format("/materials/{}/extensions", index);
+        const std::string pointer = fmt::format("/materials/{}/extensions", index);
         for (const auto& [name, json] : material.extensions)
             for (const auto& type : renderer_.material_types())
                 if (type->gltf_extension() == name)
-                    type->attach(world_, entity, json, textures_, file_, place + "/" + name);
-        owner_of(world_, entity, renderer_.material_types(), file_, place);
+                    type->attach(world_, entity, json, textures_, file_, pointer + "/" + name);
+        owner_of(world_, entity, renderer_.material_types(), file_, pointer);
     }
 
     ecs::World& world_;

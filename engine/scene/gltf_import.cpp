@@ -145,7 +145,7 @@ ImportedScene import_source(const GltfSource& source, std::span<const std::strin
     document.buffers = load_buffers(source, document, budget, read_files);
     check_ranges(document);
 
-    const std::vector<PlacedNode> placed = place_nodes(document);
+    const std::vector<PlacedNode> placed = placed_nodes(document);
     const auto shown = import_nodes(document, placed, budget, scene);
     const auto imported = import_meshes(document, budget, scene);
     InstanceImport instances(document, shown, budget, scene);

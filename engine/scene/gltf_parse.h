@@ -10,8 +10,8 @@ namespace rowland::scene {
 
 /// Reads the JSON of a glTF file, all but its animations: every property that we use has the right type and range, and
 /// every index names something. Buffers are left empty. Extensions that we do not read must be among
-/// `handled_extensions` if the file requires them; what is ignored is added to the warnings. Throws Error (input) with
-/// the JSON pointer.
+/// `handled_extensions` if the file requires them; ignored extensions are added to the warnings. Throws Error (input)
+/// with the JSON pointer.
 GltfDocument parse_gltf(const GltfJson& json, std::span<const std::string> handled_extensions);
 
 }  // namespace rowland::scene

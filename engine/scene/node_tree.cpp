@@ -21,7 +21,7 @@ bool fits_floats(const glm::dmat4& m) {
 
 }  // namespace
 
-std::vector<PlacedNode> place_nodes(const GltfDocument& document) {
+std::vector<PlacedNode> placed_nodes(const GltfDocument& document) {
     std::vector<PlacedNode> placed;
     std::vector<bool> seen(document.nodes.size(), false);
     // Not recursive: a chain of nodes may be deeper than the thread's stack.

@@ -18,6 +18,6 @@ struct PlacedNode {
 
 /// All nodes below the document's roots, parents before their children. Throws Error (input) if a node is reached twice
 /// (a cycle, or two parents) or if a transform overflows.
-std::vector<PlacedNode> place_nodes(const GltfDocument& document);
+std::vector<PlacedNode> placed_nodes(const GltfDocument& document);
 
 }  // namespace rowland::scene

@@ -11,8 +11,8 @@
 
 namespace rowland::scene {
 
-/// A hand-written scene: textures to paint, meshes to build, and nodes that place them. The file refers to elements by
-/// name, these structs by index.
+/// A hand-written scene: textures to paint, meshes to build, and nodes with their transforms. The file refers to
+/// elements by name, these structs by index.
 struct SceneRecipe {
     struct Part {
         MeshRecipe shape;

@@ -42,7 +42,7 @@ glm::dvec3 perpendicular_part(const glm::dvec3& x, const glm::dvec3& n) {
     const glm::dvec3 direction = x / length;
     const glm::dvec3 part = direction - glm::dot(direction, n) * n;
     const double part_length = glm::length(part);
-    // Within 0.06 degrees of the normal what is left is rounding error, not direction.
+    // Within 0.06 degrees of the normal the rest is rounding error, not direction.
     return part_length > 1e-3 ? part / part_length : glm::dvec3(0.0);
 }
 

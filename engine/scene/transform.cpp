@@ -14,7 +14,7 @@ class Placement {
  public:
     explicit Placement(ecs::World& world) : world_(world) {}
 
-    void place(ecs::Entity entity) {
+    void update(ecs::Entity entity) {
         glm::mat4 above = collect_chain(entity);
         for (; !chain_.empty(); chain_.pop_back()) {
             const ecs::Entity next = chain_.back();
@@ -64,7 +64,7 @@ glm::mat4 Transform::matrix() const {
 
 void update_world_matrices(ecs::World& world) {
     Placement placement(world);
-    world.view<Transform>().each([&placement](ecs::Entity entity, Transform&) { placement.place(entity); });
+    world.view<Transform>().each([&placement](ecs::Entity entity, Transform&) { placement.update(entity); });
 }
 
 }  // namespace rowland::scene

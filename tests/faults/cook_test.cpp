@@ -93,7 +93,7 @@ TEST_F(CookFaults, KilledAtAnyMomentItLeavesTheOldAssetOrTheNewOneWhole) {
         litter.erase("asset");
         for (const std::string& name : litter) {
             EXPECT_TRUE(name.starts_with(".rowland-")) << name;
-            EXPECT_EQ(text("out/" + name), after) << "what is left is no torn asset";
+            EXPECT_EQ(text("out/" + name), after) << "the file is no torn asset";
             std::filesystem::remove(path("out/" + name));
         }
         with_litter += litter.empty() ? 0 : 1;

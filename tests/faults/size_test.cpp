@@ -91,7 +91,7 @@ TEST_F(SizeFaults, ProbeOf16kIsLoadedInTheMemoryOfItsTexels) {
                                       {.limit = std::chrono::seconds(240)});
     EXPECT_EQ(projected.code, 0) << projected.err;
     expect_all_light(projected.out);
-    // Three floats a texel, once, and what a program takes anyway (measured: 60 MiB).
+    // Three floats per texel, once, and what a program takes anyway (measured: 60 MiB).
     EXPECT_LT(projected.peak_bytes, kMemoryFactor * (kTexels * 12 + 200 * kMebibyte));
 }
 

@@ -79,7 +79,7 @@ class HostileFile : public testing::TestWithParam<const Format*> {
 TEST_P(HostileFile, IsSaneOrRefused) {
     const std::vector<Seed> all = seeds(*GetParam());
     ASSERT_FALSE(all.empty());
-    std::vector<const Seed*> sound;  // what is refused anyway is not worth damaging
+    std::vector<const Seed*> sound;  // refused files are not worth damaging
     for (const Seed& seed : all) {
         SCOPED_TRACE(seed.name);
         if (read(seed.bytes)) sound.push_back(&seed);
@@ -93,7 +93,7 @@ TEST_P(HostileFile, IsSaneOrRefused) {
         const Seed& seed = *sound[static_cast<std::size_t>(i) % sound.size()];
         SCOPED_TRACE(seed.name + " mutated as " + std::to_string(i));
         const std::vector<std::byte> file = mutate(seed.bytes, static_cast<std::uint64_t>(i));
-        if (const char* folder = std::getenv("ROWLAND_KEEP_MUTATION"))  // the last one is there after a crash, too
+        if (const char* folder = std::getenv("ROWLAND_KEEP_MUTATION"))  // the last one remains after a crash
             write_file_atomic(std::filesystem::path(folder) / GetParam()->name, file);
         read_mutations += read(file) ? 1 : 0;
         if (!kSanitized) {

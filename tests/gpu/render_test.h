@@ -85,7 +85,7 @@ class RenderTest : public GlTest {
         return pixels[static_cast<std::size_t>(row * kSize + column)];
     }
     /// Where on z = 0 the pixel's centre that at() returns lies.
-    static glm::vec3 place_of(float x, float y) {
+    static glm::vec3 position_of(float x, float y) {
         const float scale = 0.5F * kSize / kHalfView;
         const float column = std::floor(0.5F * kSize + x * scale) + 0.5F;
         const float row = std::floor(0.5F * kSize - y * scale) + 0.5F;

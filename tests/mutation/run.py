@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Breaks the code in one place at a time and looks whether the quick tests notice.
+"""Breaks one line of the code at a time and looks whether the quick tests notice.
 
 usage: tests/mutation/run.py [--check] [--first-only] [--work FOLDER] [WORD...]
 

@@ -178,7 +178,7 @@ inline rc::Gen<diffraction::Grating> grating(double least_grooves = 1.0) {
     });
 }
 
-/// Raw SH of 1 to `most_bands` bands, over twelve decades of strength, now and then none at all.
+/// Raw SH of 1 to `most_bands` bands, over twelve decades of strength, sometimes none.
 inline rc::Gen<lighting::ShLight> sh_light(int most_bands) {
     return rc::gen::exec([most_bands] {
         lighting::ShLight light{*whole(1, most_bands), {}};

@@ -58,7 +58,7 @@ RC_GTEST_PROP(PeakProperty, SolvesTheGratingEquation, ()) {
     }
 }
 
-/// η_m is a share of the incident power, and so are all together: Σ η_m ≤ 1. 1e-10: the Bessel function's error over
+/// η_m is a fraction of the incident power, and so is their sum: Σ η_m ≤ 1. 1e-10: the Bessel function's error over
 /// some hundred orders.
 RC_GTEST_PROP(EfficiencyProperty, OrdersShareThePower, ()) {
     const double pitch_nm = *pitch();
@@ -66,10 +66,10 @@ RC_GTEST_PROP(EfficiencyProperty, OrdersShareThePower, ()) {
     const double wavelength_nm = *wavelength();
     double sum = 0.0;
     for (int order = -300; order <= 300; ++order) {
-        const double share = profile_efficiency(shape, pitch_nm, order, wavelength_nm);
-        RC_ASSERT(share >= 0.0);
-        RC_ASSERT(share <= 1.0 + 1e-12);
-        sum += share;
+        const double efficiency = profile_efficiency(shape, pitch_nm, order, wavelength_nm);
+        RC_ASSERT(efficiency >= 0.0);
+        RC_ASSERT(efficiency <= 1.0 + 1e-12);
+        sum += efficiency;
     }
     RC_ASSERT(sum <= 1.0 + 1e-10);
 }

@@ -59,7 +59,7 @@ RC_GTEST_PROP(KernelProperty, AntiderivativeRises, ()) {
 }
 
 /// All light is accounted for once: the whole rise of sharp orders is Σ_m ∫ η_m cmf E dλ, at most Σ_m η_m of white.
-/// With "energy" that is at most white itself, whose Y is 1; 1e-4: Mallett & Yuksel's shares add up to 1 to 1e-5.
+/// With "energy" that is at most white itself, whose Y is 1; 1e-4: Mallett & Yuksel's basis sums to 1 to 1e-5.
 RC_GTEST_PROP(KernelProperty, SendsOutNoMoreThanWhite, ()) {
     Grating shape = *grating(kManyGrooves);
     shape.normalization = Normalization::Energy;

@@ -34,7 +34,7 @@ double brightest(const image::Image& image) {
     return largest_value;
 }
 
-/// A texel that is no light is counted once, for the worst of its channels, and gone; every look-up is within the
+/// A texel that is no light is counted once, for the worst of its channels, and replaced; every look-up is within the
 /// image's own range.
 RC_GTEST_PROP(ProbeProperty, BadTexelsAreCountedAndGone, ()) {
     const image::Image image = any_image();

@@ -44,10 +44,10 @@ RC_GTEST_PROP(GaussianLobeProperty, IsContinuousInDirection, ()) {
 RC_GTEST_PROP(GaussianLobeProperty, IsContinuousInItsWidth, ()) {
     const double sigma = *rc::gen::oneOf(log_uniform(1e-4, 10.0), log_uniform(0.05, 1000.0));
     const double sum_h = *rc::gen::oneOf(uniform(-2.0, 2.0), uniform(-3.0 * sigma, 3.0 * sigma));
-    const double share = *log_uniform(1e-15, 1e-3);
+    const double step = *log_uniform(1e-15, 1e-3);
     const LobeDensity here(GaussianLobe{sigma}, 550.0);
-    const LobeDensity there(GaussianLobe{sigma * (1.0 + share)}, 550.0);
-    RC_ASSERT(std::abs(there(sum_h) - here(sum_h)) <= (2.0 * share * (1.0 + share) + 1e-13) * here(0.0));
+    const LobeDensity there(GaussianLobe{sigma * (1.0 + step)}, 550.0);
+    RC_ASSERT(std::abs(there(sum_h) - here(sum_h)) <= (2.0 * step * (1.0 + step) + 1e-13) * here(0.0));
 }
 
 /// The lobe's shift by ε changes ∫ D Y ds_h by at most ε times D's variation, 2 D(0), times |Y|. 1e-6: the quadrature's

@@ -10,14 +10,14 @@ namespace {
 
 using namespace diffraction;
 
-/// Shares of one wavelength that sum to 1 or less; now and then an order that is cut off.
+/// Efficiencies at one wavelength that sum to 1 or less; sometimes an order is cut off.
 std::vector<double> any_row(std::size_t orders) {
     std::vector<double> row;
     for (std::size_t i = 0; i < orders; ++i) row.push_back(*whole(0, 4) == 0 ? 0.0 : *uniform(0.0, 1.0));
     double sum = 0.0;
-    for (const double share : row) sum += share;
+    for (const double efficiency : row) sum += efficiency;
     const double all = *rc::gen::oneOf(uniform(0.0, 1.0), rc::gen::element(1.0));
-    for (double& share : row) share = sum > 0.0 ? share * all / sum : 0.0;
+    for (double& efficiency : row) efficiency = sum > 0.0 ? efficiency * all / sum : 0.0;
     return row;
 }
 
@@ -46,7 +46,8 @@ EfficiencyTable any_table() {
     return table;
 }
 
-/// Between rows, between slices and where an order is held up to its cut-off: shares of 1. 1e-14: rounding of the sum.
+/// Between rows, between slices and where an order is held up to its cut-off: fractions of 1. 1e-14: rounding of the
+/// sum.
 RC_GTEST_PROP(TableProperty, OrdersShareThePower, ()) {
     const EfficiencyTable table = any_table();
     const double pitch_nm = *pitch();
@@ -54,10 +55,10 @@ RC_GTEST_PROP(TableProperty, OrdersShareThePower, ()) {
     const double s_g = *rc::gen::oneOf(uniform(-1.0, 1.0), rc::gen::element(-1.0, 0.0, 1.0));
     double sum = 0.0;
     for (int order = -5; order <= 5; ++order) {
-        const double share = table_efficiency(table, pitch_nm, order, wavelength_nm, s_g);
-        RC_ASSERT(std::isfinite(share));
-        RC_ASSERT(share >= 0.0);
-        sum += share;
+        const double efficiency = table_efficiency(table, pitch_nm, order, wavelength_nm, s_g);
+        RC_ASSERT(std::isfinite(efficiency));
+        RC_ASSERT(efficiency >= 0.0);
+        sum += efficiency;
     }
     RC_ASSERT(sum <= 1.0 + 1e-14);
 }

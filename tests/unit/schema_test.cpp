@@ -32,23 +32,23 @@ json read(const std::string& path) {
     return parse_json(read_text_file(full, 1 << 20), full.string());
 }
 
-/// Every document that differs from `document` in one place: a member gone, an unknown one added, a value replaced.
+/// Every document that differs from `document` in one member, which is removed, added or replaced.
 std::vector<json> neighbours(const json& document) {
     static const std::vector<json> replacements = {
         nullptr, true, "", "x", "flat", "all", json::array(), json::object(), -1, 0, 1, 2, 3.5, 64, 1e4, 1e12, -1e12};
     std::vector<json> result;
     const json leaves = document.flatten();
     for (const auto& [pointer, value] : leaves.items()) {
-        for (json::json_pointer place(pointer); !place.empty(); place = place.parent_pointer()) {
+        for (json::json_pointer location(pointer); !location.empty(); location = location.parent_pointer()) {
             const auto with = [&](const std::function<void(json&)>& change) {
                 json copy = document;
                 change(copy);
                 result.push_back(std::move(copy));
             };
-            for (const json& replacement : replacements) with([&](json& copy) { copy[place] = replacement; });
-            if (document[place.parent_pointer()].is_object()) {
-                with([&](json& copy) { copy[place.parent_pointer()].erase(place.back()); });
-                with([&](json& copy) { copy[place.parent_pointer()]["unknown"] = 1; });
+            for (const json& replacement : replacements) with([&](json& copy) { copy[location] = replacement; });
+            if (document[location.parent_pointer()].is_object()) {
+                with([&](json& copy) { copy[location.parent_pointer()].erase(location.back()); });
+                with([&](json& copy) { copy[location.parent_pointer()]["unknown"] = 1; });
             }
         }
     }
@@ -93,8 +93,8 @@ bool crosses_quality(const json& document) {
     const json quality = document.value("quality", json::object());
     const bool flat = document["grating"].value("groove_lobe", json("flat")) == "flat";
     const std::string name = quality.value("representation", "spikes");
-    const std::string usual = name == "arc" ? "one-dimensional" : "";
-    const bool along_one_axis = quality.value("view_mapping", usual) == "one-dimensional";
+    const std::string default_mapping = name == "arc" ? "one-dimensional" : "";
+    const bool along_one_axis = quality.value("view_mapping", default_mapping) == "one-dimensional";
     const bool view = flat ? name == "arc" && !along_one_axis : quality.contains("view_mapping") && along_one_axis;
     const bool map = !flat && (name == "planar" || name == "circle");
     const bool narrow = !flat && document["grating"]["groove_lobe"].value("/pits/coherent"_json_pointer, 1.0) > 0.0;
@@ -281,8 +281,8 @@ bool crosses_scene(const json& document) {
         if (lost("parent", before) || lost("mesh", all("meshes")) || lost("camera", all("cameras")) ||
             lost("light", all("lights")))
             return true;
-        const json own_place = node.value("translation", json::array({0, 0, 0}));
-        if (node.contains("look_at") && (node.contains("yaw_pitch_roll_deg") || node["look_at"] == own_place))
+        const json position = node.value("translation", json::array({0, 0, 0}));
+        if (node.contains("look_at") && (node.contains("yaw_pitch_roll_deg") || node["look_at"] == position))
             return true;
         before.push_back(node);
     }

@@ -135,7 +135,7 @@ TEST_F(DemoWindow, AChangedShaderIsTakenWithoutAKey) {
 
 TEST_F(DemoWindow, ADroppedProbeLightsTheSceneAndAnythingElseLeavesIt) {
     ROWLAND_TEST_DATA(probe, "probes/venice_sunset_256.hdr");
-    write_file_atomic(path("letter.txt"), std::string_view("Dear Henry,\n"));
+    write_file_atomic(path("letter.txt"), std::string_view("A letter.\n"));
     DemoUser user(folder_.path(), arguments());
     user.key("space");
     const image::ByteImage first = user.shot();

@@ -162,7 +162,7 @@ TEST_F(InspectorWindow, DroppedFilesAreOpenedByTheirKind) {
         path("gold rule.json"),
         std::string_view(
             R"({"grating": {"pitch_nm": 1000, "profile": {"type": "slit", "width_nm": 500}}, "metal": "Au"})"));
-    write_file_atomic(path("letter.txt"), std::string_view("Dear Henry,\n"));
+    write_file_atomic(path("letter.txt"), std::string_view("A letter.\n"));
     InspectorUser user(folder_.path(), preset("dvd"));
     user.drop(probe);
     user.wait_for("light", "venice_sunset_256.hdr");

@@ -165,7 +165,7 @@ RecordingHead head_of(const nlohmann::json& line, const std::string& file) {
         refuse_input(file, "line 1", fmt::format("version {}", version), fmt::format("version {}", kVersion),
                      "record it again with --record FILE");
     if (const std::int64_t rate = reader.integer("steps_per_second", 1, 1'000'000); rate != kStepsPerSecond)
-        refuse_input(file, "line 1", fmt::format("{} steps a second", rate), fmt::format("{}", kStepsPerSecond),
+        refuse_input(file, "line 1", fmt::format("{} steps per second", rate), fmt::format("{}", kStepsPerSecond),
                      "record it again with --record FILE");
     RecordingHead head{.scene = reader.text("scene"), .window = window_size(reader)};
     reader.finish();

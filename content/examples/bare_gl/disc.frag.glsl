@@ -11,7 +11,7 @@ uniform float exposure;
 layout(location = 0) out vec4 picture;
 layout(location = 1) out vec4 probe_xyz;    // these three let a test check the numbers
 layout(location = 2) out vec4 lamp_xyz;
-layout(location = 3) out vec4 place;
+layout(location = 3) out vec4 world_point;
 
 const mat3 XYZ_TO_REC709 = mat3(3.2409699, -0.9692436, 0.0556301, -1.5373832, 1.8759675, -0.2039770, -0.4986108,
                                 0.0415551, 1.0569715);
@@ -42,5 +42,5 @@ void main() {
     picture = vec4(pow(rgb / brightest * (1.0 - exp(-exposure * brightest)), vec3(1.0 / 2.2)), 1.0);
     probe_xyz = vec4(probe, 1.0);
     lamp_xyz = vec4(lamp, 1.0);
-    place = vec4(world_position, footprint);
+    world_point = vec4(world_position, footprint);
 }

@@ -126,16 +126,16 @@ std::vector<glm::vec4> read_numbers(GLenum buffer) {
 void print_pixels() {
     const auto probe = read_numbers(GL_COLOR_ATTACHMENT1);
     const auto lamp = read_numbers(GL_COLOR_ATTACHMENT2);
-    const auto place = read_numbers(GL_COLOR_ATTACHMENT3);
+    const auto world_point = read_numbers(GL_COLOR_ATTACHMENT3);
     std::puts("vx,vy,vz,nx,ny,nz,gx,gy,gz,footprint,probe_X,probe_Y,probe_Z,lamp_X,lamp_Y,lamp_Z");
     for (int pixel = 0; pixel < kSize * kSize; ++pixel) {
         const auto i = static_cast<std::size_t>(pixel);
         if (pixel % kEvery != 0 || pixel / kSize % kEvery != 0 || probe[i].w == 0.0F) continue;  // 0: not the disc
-        const glm::vec3 position(place[i]);
+        const glm::vec3 position(world_point[i]);
         for (const glm::vec3& vector : {glm::normalize(kEye - position), kNormal, glm::normalize(position)})
             std::printf("%.9g,%.9g,%.9g,", vector.x, vector.y, vector.z);
-        std::printf("%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", place[i].w, probe[i].x, probe[i].y, probe[i].z, lamp[i].x,
-                    lamp[i].y, lamp[i].z);
+        std::printf("%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", world_point[i].w, probe[i].x, probe[i].y, probe[i].z,
+                    lamp[i].x, lamp[i].y, lamp[i].z);
     }
 }
 

@@ -45,13 +45,13 @@ vec3 reflect_specular(vec3 light, vec3 f0, float cosine) {
 )";
 
 glm::vec3 three_numbers(const nlohmann::json& extension, const char* key, const std::string& file,
-                        const std::string& place) {
+                        const std::string& pointer) {
     const auto found = extension.find(key);
     const bool three = found != extension.end() && found->is_array() && found->size() == 3;
     glm::vec3 values(0.0F);
     for (std::size_t i = 0; i < 3; ++i) {
         if (!three || !(*found)[i].is_number() || (*found)[i].get<float>() < 0.0F)
-            refuse_input(file, place + "/" + key, three ? (*found)[i].dump() : "no list of three",
+            refuse_input(file, pointer + "/" + key, three ? (*found)[i].dump() : "no list of three",
                          "three numbers from 0 up: red, green, blue");
         values[static_cast<int>(i)] = (*found)[i].get<float>();
     }
@@ -63,9 +63,9 @@ class MetalType final : public render::MaterialType {
     std::string name() const override { return "metal"; }
     std::string gltf_extension() const override { return "EXAMPLE_materials_metal"; }
     void attach(ecs::World& world, ecs::Entity entity, const nlohmann::json& extension,
-                render::SurfaceTextures& /*textures*/, const std::string& file, const std::string& place) override {
-        world.add(entity, MetalSurface{.n = three_numbers(extension, "n", file, place),
-                                       .k = three_numbers(extension, "k", file, place)});
+                render::SurfaceTextures& /*textures*/, const std::string& file, const std::string& pointer) override {
+        world.add(entity, MetalSurface{.n = three_numbers(extension, "n", file, pointer),
+                                       .k = three_numbers(extension, "k", file, pointer)});
     }
     void add_shaders(gpu::ShaderLibrary& library) const override { library.add(kFragmentFile, kFragmentText); }
     bool owns(ecs::World& world, ecs::Entity entity) const override {

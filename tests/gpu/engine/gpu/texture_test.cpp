@@ -59,22 +59,22 @@ TEST_F(TextureTest, Rgba16ArraySampledInAVertexShaderIsBilinear) {
 
     std::mt19937 random(11);
     std::uniform_real_distribution<float> uniform(0.0F, 1.0F);
-    std::vector<glm::vec4> places;
+    std::vector<glm::vec4> coordinates;
     for (int i = 0; i < samples; ++i) {
-        places.emplace_back(uniform(random), uniform(random), static_cast<float>(i % layers), 0.0F);
+        coordinates.emplace_back(uniform(random), uniform(random), static_cast<float>(i % layers), 0.0F);
     }
-    const gpu::Buffer place_buffer = gpu::Buffer::of(std::span<const glm::vec4>(places));
+    const gpu::Buffer coordinate_buffer = gpu::Buffer::of(std::span<const glm::vec4>(coordinates));
     gpu::VertexArray vertices;
-    vertices.attach(place_buffer, sizeof(glm::vec4), {{0, 3, 0}});
+    vertices.attach(coordinate_buffer, sizeof(glm::vec4), {{0, 3, 0}});
     glVertexArrayBindingDivisor(vertices.id(), 0, 1);  // a value per instance
 
     // Instance i covers pixel i of a line of pixels with the value its vertices fetched.
     const gpu::Program program = build(fmt::format(R"(#version 450 core
-layout(location = 0) in vec3 place;
+layout(location = 0) in vec3 coordinate;
 layout(binding = 4) uniform sampler2DArray table;
 flat out vec4 value;
 void main() {{
-    value = texture(table, place);
+    value = texture(table, coordinate);
     // A triangle of twice the pixel's height whose middle covers the pixel.
     float x = float(gl_InstanceID) + vec3(-0.5, 1.5, 0.5)[gl_VertexID];
     float y = vec3(-0.5, -0.5, 3.5)[gl_VertexID];
@@ -97,7 +97,7 @@ void main() { colour = value; })");
     double worst = 0.0;
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         const glm::dvec4 expected =
-            bilinear(texels, width, height, static_cast<int>(places[i].z), places[i].x, places[i].y);
+            bilinear(texels, width, height, static_cast<int>(coordinates[i].z), coordinates[i].x, coordinates[i].y);
         for (int c = 0; c < 4; ++c) worst = std::max(worst, std::abs(pixels[i][c] - expected[c]));
     }
     RecordProperty("worst", std::to_string(worst));
@@ -158,10 +158,10 @@ TEST_F(TextureTest, VolumesAreSampledInAllThreeAxes) {
     texture.bind(0);
     const gpu::Program program = build_full_screen(R"(#version 450 core
 layout(binding = 0) uniform sampler3D volume;
-uniform vec3 place;
+uniform vec3 coordinate;
 layout(location = 0) out vec4 colour;
-void main() { colour = texture(volume, place); })");
-    program.set("place",
+void main() { colour = texture(volume, coordinate); })");
+    program.set("coordinate",
                 glm::vec3(0.5F, 1.5F / 3.0F, 3.0F / 4.0F));  // between columns, on row 1, between slices 2 and 3
     const gpu::Framebuffer target({.width = 1, .height = 1, .colours = {Format::R32F}});
     gpu::FullScreenTriangle().draw(program, target);
@@ -235,11 +235,11 @@ TEST_F(TextureTest, WrapRepeatsColumnsAndClampsRows) {
     texture.bind(0);
     const gpu::Program program = build_full_screen(R"(#version 450 core
 layout(binding = 0) uniform sampler2D image;
-uniform vec2 place;
+uniform vec2 coordinate;
 layout(location = 0) out vec4 colour;
-void main() { colour = texture(image, place); })");
+void main() { colour = texture(image, coordinate); })");
     const gpu::Framebuffer target({.width = 1, .height = 1, .colours = {Format::R32F}});
-    program.set("place", glm::vec2(1.25F, 1.25F));
+    program.set("coordinate", glm::vec2(1.25F, 1.25F));
     gpu::FullScreenTriangle().draw(program, target);
     EXPECT_EQ(target.read_rgba_float()[0].r, 3.0F);
 }

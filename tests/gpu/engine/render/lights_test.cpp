@@ -26,18 +26,18 @@ class LightsTest : public test::RenderTest {
         return entity;
     }
     /// Radiance of a position on the square under unit irradiance from a direction.
-    static glm::dvec3 share(const glm::vec3& place, const glm::dvec3& toward) {
-        const glm::dvec3 v = glm::normalize(glm::dvec3(0.0, 0.0, kEye) - glm::dvec3(place));
+    static glm::dvec3 reflected(const glm::vec3& position, const glm::dvec3& toward) {
+        const glm::dvec3 v = glm::normalize(glm::dvec3(0.0, 0.0, kEye) - glm::dvec3(position));
         return test::reflected(glm::normalize(toward), {0.0, 0.0, 1.0}, v, glm::dvec3(kBase), 0.25, 0.6);
     }
     /// The same under a light at a point that shines along `axis`.
-    static glm::dvec3 share(const glm::vec3& place, const scene::PunctualLight& light, const glm::vec3& from,
-                            const glm::vec3& axis) {
-        const glm::vec3 to_light = from - place;
+    static glm::dvec3 reflected(const glm::vec3& position, const scene::PunctualLight& light, const glm::vec3& from,
+                                const glm::vec3& axis) {
+        const glm::vec3 to_light = from - position;
         const float distance = glm::length(to_light);
         const float cosine = -glm::dot(axis, to_light) / distance;
         const double reaches = scene::attenuation(light, distance, cosine) / (distance * distance);
-        return share(place, glm::dvec3(to_light)) * reaches * glm::dvec3(light.intensity);
+        return reflected(position, glm::dvec3(to_light)) * reaches * glm::dvec3(light.intensity);
     }
     /// Floats through a dozen operations, and GGX's peak.
     static void expect_equal(const glm::vec4& drawn, const glm::dvec3& expected) {
@@ -49,16 +49,16 @@ class LightsTest : public test::RenderTest {
 TEST_F(LightsTest, TwoDirectionalLightsAdd) {
     add_directional({1.0F, 0.2F, 0.7F}, {1.0F, 2.0F, 0.5F});
     add_directional({-0.5F, 0.6F, 0.4F}, {3.0F, 0.25F, 1.0F});
-    const glm::vec3 place = place_of(0.3F, -0.5F);
-    expect_equal(at(draw(), 0.3F, -0.5F), share(place, {1.0, 0.2, 0.7}) * glm::dvec3(1.0, 2.0, 0.5) +
-                                              share(place, {-0.5, 0.6, 0.4}) * glm::dvec3(3.0, 0.25, 1.0));
+    const glm::vec3 position = position_of(0.3F, -0.5F);
+    expect_equal(at(draw(), 0.3F, -0.5F), reflected(position, {1.0, 0.2, 0.7}) * glm::dvec3(1.0, 2.0, 0.5) +
+                                              reflected(position, {-0.5, 0.6, 0.4}) * glm::dvec3(3.0, 0.25, 1.0));
 }
 
 TEST_F(LightsTest, AWorldMatrixTurnsADirectionalLight) {
     const ecs::Entity entity = world_.create();
     world_.add(entity, scene::DirectionalLight{.direction = {0.0F, 0.0F, 1.0F}, .irradiance = glm::vec3(1.0F)});
     world_.add(entity, scene::WorldMatrix{glm::rotate(glm::mat4(1.0F), 0.9F, {0.0F, 1.0F, 0.0F})});
-    expect_equal(at(draw(), 0.0F, 0.4F), share(place_of(0.0F, 0.4F), {std::sin(0.9), 0.0, std::cos(0.9)}));
+    expect_equal(at(draw(), 0.0F, 0.4F), reflected(position_of(0.0F, 0.4F), {std::sin(0.9), 0.0, std::cos(0.9)}));
 }
 
 TEST_F(LightsTest, PointLightFallsWithTheSquareOfTheDistanceUpToItsRange) {
@@ -68,7 +68,7 @@ TEST_F(LightsTest, PointLightFallsWithTheSquareOfTheDistanceUpToItsRange) {
         const ecs::Entity entity = add_punctual(light, glm::translate(glm::mat4(1.0F), from));
         const auto pixels = draw();
         for (const glm::vec2 p : {glm::vec2(0.4F, -0.2F), glm::vec2(-0.6F, 0.5F), glm::vec2(0.9F, 0.9F)})
-            expect_equal(at(pixels, p.x, p.y), share(place_of(p.x, p.y), light, from, {0.0F, 0.0F, -1.0F}));
+            expect_equal(at(pixels, p.x, p.y), reflected(position_of(p.x, p.y), light, from, {0.0F, 0.0F, -1.0F}));
         world_.destroy(entity);
     }
 }
@@ -90,10 +90,10 @@ TEST_F(LightsTest, SpotShinesAlongItsMinusZWithinItsCone) {
     int dark = 0;
     int partly = 0;
     for (float x = -0.95F; x < 1.0F; x += 0.0727F) {
-        const glm::vec3 place = place_of(x, 0.0F);
-        const glm::dvec3 expected = share(place, light, from, glm::normalize(target - from));
+        const glm::vec3 position = position_of(x, 0.0F);
+        const glm::dvec3 expected = reflected(position, light, from, glm::normalize(target - from));
         expect_equal(at(pixels, x, 0.0F), expected);
-        const float angle = std::acos(glm::dot(glm::normalize(place - from), glm::normalize(target - from)));
+        const float angle = std::acos(glm::dot(glm::normalize(position - from), glm::normalize(target - from)));
         dark += angle > light.outer_cone ? 1 : 0;
         partly += angle > light.inner_cone && angle < light.outer_cone ? 1 : 0;
         if (angle <= light.outer_cone) continue;
@@ -112,16 +112,17 @@ TEST_F(LightsTest, AllKindsAddToTheProbe) {
     add_punctual(light, glm::translate(glm::mat4(1.0F), {0.0F, 0.0F, 1.0F}));
     add_directional({0.3F, 0.0F, 1.0F}, glm::vec3(0.7F));
     const glm::dvec3 direct = centre();
-    const glm::vec3 place = place_of(0.1F, 0.1F);
+    const glm::vec3 position = position_of(0.1F, 0.1F);
     expect_equal(glm::vec4(glm::vec3(direct), 1.0F),
-                 share(place, {0.3, 0.0, 1.0}) * 0.7 + share(place, light, {0.0F, 0.0F, 1.0F}, {0.0F, 0.0F, -1.0F}));
+                 reflected(position, {0.3, 0.0, 1.0}) * 0.7 +
+                     reflected(position, light, {0.0F, 0.0F, 1.0F}, {0.0F, 0.0F, -1.0F}));
     renderer_.set_probe(even_light(1.0F));
     expect_equal(glm::vec4(glm::vec3(centre()), 1.0F), around + direct);
 }
 
 TEST_F(LightsTest, OfTooManyLightsTheFirstSixtyFourShine) {
     for (int i = 0; i < 70; ++i) add_directional({0.0F, 0.0F, 1.0F}, glm::vec3(0.01F));
-    expect_equal(at(draw(), 0.0F, 0.0F), share(place_of(0.0F, 0.0F), {0.0, 0.0, 1.0}) * 0.64);
+    expect_equal(at(draw(), 0.0F, 0.0F), reflected(position_of(0.0F, 0.0F), {0.0, 0.0, 1.0}) * 0.64);
 }
 
 TEST_F(LightsTest, ModulesReceiveEveryDirectionalLightAndTheProbesIlluminant) {

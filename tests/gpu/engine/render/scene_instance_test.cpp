@@ -17,7 +17,7 @@ namespace {
 /// Component of the test's own kind of surface.
 struct Marked {
     int number = 0;
-    std::string place;
+    std::string pointer;
     bool had_mesh_and_material = false;
 };
 
@@ -27,15 +27,15 @@ class MarkType final : public MaterialType {
     std::string name() const override { return "mark"; }
     std::string gltf_extension() const override { return "TEST_mark"; }
     void attach(ecs::World& world, ecs::Entity entity, const nlohmann::json& extension, SurfaceTextures& /*textures*/,
-                const std::string& file, const std::string& place) override {
+                const std::string& file, const std::string& pointer) override {
         if (!extension.contains("number"))
             throw Error({.file = file,
-                         .location = place,
+                         .location = pointer,
                          .found = "no number",
                          .expected = "a number",
                          .remedy = {},
                          .fault = Fault::Input});
-        world.add(entity, Marked{extension["number"].get<int>(), place,
+        world.add(entity, Marked{extension["number"].get<int>(), pointer,
                                  world.find<MeshInstance>(entity) && world.find<StandardMaterial>(entity)});
     }
     void add_shaders(gpu::ShaderLibrary& /*library*/) const override {}
@@ -245,7 +245,7 @@ TEST_F(SceneInstanceTest, AMaterialExtensionReachesTheTypeThatHandlesIt) {
     const Marked* marked = world_.find<Marked>(instance.drawn[0]);
     ASSERT_NE(marked, nullptr);
     EXPECT_EQ(marked->number, 7);
-    EXPECT_EQ(marked->place, "/materials/0/extensions/TEST_mark");
+    EXPECT_EQ(marked->pointer, "/materials/0/extensions/TEST_mark");
     EXPECT_TRUE(marked->had_mesh_and_material);
 }
 

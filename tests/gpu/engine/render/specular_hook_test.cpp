@@ -51,7 +51,7 @@ class SpecularHook : public test::RenderTest {
         world_.add(world_.create(), scene::DirectionalLight{.direction = kSun, .irradiance = irradiance});
     }
     static glm::dvec3 view_at(float x, float y) {
-        return glm::normalize(glm::dvec3(0.0, 0.0, kEye) - glm::dvec3(place_of(x, y)));
+        return glm::normalize(glm::dvec3(0.0, 0.0, kEye) - glm::dvec3(position_of(x, y)));
     }
     const glm::vec3 kSun = glm::normalize(glm::vec3(0.6F, 0.3F, 0.9F));
 };

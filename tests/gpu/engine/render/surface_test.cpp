@@ -56,8 +56,8 @@ TEST_F(SurfaceTest, UvTransformTurnsAsTheExtensionSays) {
     SurfaceTexture map = texture(2, {kRed, kGreen, kBlue, kWhite});
     map.transform = {.offset = {0.0F, 1.0F}, .rotation = 1.57079632679F, .scale = {0.49F, 0.49F}};
     const ecs::Entity entity = add(square(), four_colours(map));
-    for (const glm::vec2 place : {glm::vec2(-0.8F, 0.8F), glm::vec2(0.8F, 0.8F), glm::vec2(0.8F, -0.8F)})
-        expect_near(at(draw(), place.x, place.y), kBlue);
+    for (const glm::vec2 position : {glm::vec2(-0.8F, 0.8F), glm::vec2(0.8F, 0.8F), glm::vec2(0.8F, -0.8F)})
+        expect_near(at(draw(), position.x, position.y), kBlue);
     // The full picture, turned clockwise: u' = v, v' = 1 − u.
     world_.get<StandardMaterial>(entity).base_colour_texture.transform.scale = {1.0F, 1.0F};
     const auto pixels = draw();
@@ -77,8 +77,8 @@ TEST_F(SurfaceTest, UvTransformScalesBeforeItTurnsAndMovesLast) {
     int compared = 0;
     for (const float x : {-0.7F, -0.3F, 0.15F, 0.6F})
         for (const float y : {-0.65F, 0.1F, 0.35F, 0.8F}) {
-            const glm::vec3 place = place_of(x, y);
-            const glm::vec2 uv(2.0F * (0.5F + 0.5F * place.x), 0.75F * (0.5F - 0.5F * place.y));
+            const glm::vec3 position = position_of(x, y);
+            const glm::vec2 uv(2.0F * (0.5F + 0.5F * position.x), 0.75F * (0.5F - 0.5F * position.y));
             const glm::vec2 turned(std::cos(0.5F) * uv.x + std::sin(0.5F) * uv.y,
                                    -std::sin(0.5F) * uv.x + std::cos(0.5F) * uv.y);
             const glm::vec2 texel = 4.0F * glm::fract(turned + glm::vec2(0.125F, 0.5F));
@@ -106,7 +106,7 @@ TEST_F(SurfaceTest, VertexColoursMultiplyTheBaseColour) {
     mesh.colours = {
         {0.0F, 0.5F, 1.0F, 1.0F}, {1.0F, 0.5F, 1.0F, 1.0F}, {1.0F, 0.5F, 1.0F, 1.0F}, {0.0F, 0.5F, 1.0F, 1.0F}};
     add(mesh, {.base_colour = {0.5F, 0.5F, 0.25F}, .unlit = true});
-    const float across = 0.5F + 0.5F * place_of(0.4F, 0.0F).x;
+    const float across = 0.5F + 0.5F * position_of(0.4F, 0.0F).x;
     expect_near(at(draw(), 0.4F, 0.0F), {0.5F * across, 0.25F, 0.25F});
 }
 
@@ -136,9 +136,9 @@ TEST_F(SurfaceTest, UnlitShadingShowsTexturesToo) {
 }
 
 /// Radiance of the square's pixel that at(pixels, x, y) is, of a light of irradiance π from `toward`.
-glm::vec3 lit(const glm::vec3& place, const glm::vec3& toward, const glm::vec3& normal, double metallic,
+glm::vec3 lit(const glm::vec3& position, const glm::vec3& toward, const glm::vec3& normal, double metallic,
               double roughness) {
-    const glm::dvec3 v = glm::normalize(glm::dvec3(0.0, 0.0, 3.0) - glm::dvec3(place));
+    const glm::dvec3 v = glm::normalize(glm::dvec3(0.0, 0.0, 3.0) - glm::dvec3(position));
     return glm::vec3(3.14159265358979 * test::reflected(glm::normalize(glm::dvec3(toward)),
                                                         glm::normalize(glm::dvec3(normal)), v, glm::dvec3(0.5),
                                                         metallic, roughness));
@@ -159,8 +159,8 @@ TEST_F(LitSurfaceTest, MetallicAndRoughnessComeFromBlueAndGreen) {
                    .metallic = 0.8F,
                    .roughness = 0.9F,
                    .metallic_roughness_texture = texture(1, {{0.0F, 0.5F, 0.25F, 1.0F}})});
-    const glm::vec3 place = place_of(0.2F, -0.3F);
-    expect_near(at(draw(), 0.2F, -0.3F), lit(place, kToward, {0.0F, 0.0F, 1.0F}, 0.8 * 0.25, 0.9 * 0.5), kTolerance);
+    const glm::vec3 position = position_of(0.2F, -0.3F);
+    expect_near(at(draw(), 0.2F, -0.3F), lit(position, kToward, {0.0F, 0.0F, 1.0F}, 0.8 * 0.25, 0.9 * 0.5), kTolerance);
 }
 
 TEST_F(LitSurfaceTest, NormalMapTiltsTheShadingNormalInTheTangentFrame) {
@@ -171,19 +171,19 @@ TEST_F(LitSurfaceTest, NormalMapTiltsTheShadingNormalInTheTangentFrame) {
                                     .normal_texture = texture(1, {glm::vec4(0.5F * normal + 0.5F, 1.0F)}),
                                     .normal_scale = 0.5F};
     const ecs::Entity entity = add(square(), material);
-    const glm::vec3 place = place_of(-0.3F, 0.4F);
-    expect_near(at(draw(), -0.3F, 0.4F), lit(place, kToward, {0.3F, 0.1F, 0.77F}, 0.0, 0.6), kTolerance);
+    const glm::vec3 position = position_of(-0.3F, 0.4F);
+    expect_near(at(draw(), -0.3F, 0.4F), lit(position, kToward, {0.3F, 0.1F, 0.77F}, 0.0, 0.6), kTolerance);
 
     // The other handedness turns y over.
     scene::Mesh mesh = square();
     for (glm::vec4& tangent : mesh.tangents) tangent.w = -1.0F;
     world_.add(entity, make_mesh_instance(mesh));
-    expect_near(at(draw(), -0.3F, 0.4F), lit(place, kToward, {0.3F, -0.1F, 0.77F}, 0.0, 0.6), kTolerance);
+    expect_near(at(draw(), -0.3F, 0.4F), lit(position, kToward, {0.3F, -0.1F, 0.77F}, 0.0, 0.6), kTolerance);
 
     // Mirrored in x: the tangent points along −x, the picture's up stays up.
     world_.add(entity, make_mesh_instance(square()));
     world_.get<scene::WorldMatrix>(entity).matrix = glm::scale(glm::mat4(1.0F), {-1.0F, 1.0F, 1.0F});
-    expect_near(at(draw(), -0.3F, 0.4F), lit(place, kToward, {-0.3F, 0.1F, 0.77F}, 0.0, 0.6), kTolerance);
+    expect_near(at(draw(), -0.3F, 0.4F), lit(position, kToward, {-0.3F, 0.1F, 0.77F}, 0.0, 0.6), kTolerance);
 }
 
 TEST_F(LitSurfaceTest, TheBackOfADoubleSidedSurfaceIsLitAsAFront) {
@@ -191,16 +191,19 @@ TEST_F(LitSurfaceTest, TheBackOfADoubleSidedSurfaceIsLitAsAFront) {
     const ecs::Entity entity = add(square(), {.base_colour = glm::vec3(0.5F), .roughness = 0.7F}, turned);
     expect_near(at(draw(), 0.1F, 0.2F), glm::vec3(0.0F));  // single-sided: its back does not show
     world_.get<StandardMaterial>(entity).double_sided = true;
-    expect_near(at(draw(), 0.1F, 0.2F), lit(place_of(0.1F, 0.2F), kToward, {0.0F, 0.0F, 1.0F}, 0.0, 0.7), kTolerance);
+    expect_near(at(draw(), 0.1F, 0.2F), lit(position_of(0.1F, 0.2F), kToward, {0.0F, 0.0F, 1.0F}, 0.0, 0.7),
+                kTolerance);
     // Both mirrored and turned, the back is still the back.
     world_.get<scene::WorldMatrix>(entity).matrix = glm::scale(turned, {-1.0F, 1.0F, 1.0F});
-    expect_near(at(draw(), 0.1F, 0.2F), lit(place_of(0.1F, 0.2F), kToward, {0.0F, 0.0F, 1.0F}, 0.0, 0.7), kTolerance);
+    expect_near(at(draw(), 0.1F, 0.2F), lit(position_of(0.1F, 0.2F), kToward, {0.0F, 0.0F, 1.0F}, 0.0, 0.7),
+                kTolerance);
 }
 
 TEST_F(LitSurfaceTest, AMirroredObjectShowsItsFront) {
     add(square(), {.base_colour = glm::vec3(0.5F), .roughness = 0.7F},
         glm::scale(glm::mat4(1.0F), {-1.0F, 1.0F, 1.0F}));
-    expect_near(at(draw(), 0.1F, 0.2F), lit(place_of(0.1F, 0.2F), kToward, {0.0F, 0.0F, 1.0F}, 0.0, 0.7), kTolerance);
+    expect_near(at(draw(), 0.1F, 0.2F), lit(position_of(0.1F, 0.2F), kToward, {0.0F, 0.0F, 1.0F}, 0.0, 0.7),
+                kTolerance);
 }
 
 TEST_F(LitSurfaceTest, OcclusionDarkensWhatComesFromAroundAndNothingElse) {

@@ -29,10 +29,10 @@ class Direct : public GratingPicture {
         return direct_radiance(smoothed(cooked), direct_material(cooked), light_spot(light, point.to_tangent),
                                DirectView{point.view.x, point.view.y, point.footprint});
     }
-    void add_light(const scene::PunctualLight& light, const glm::vec3& place) {
+    void add_light(const scene::PunctualLight& light, const glm::vec3& position) {
         const ecs::Entity entity = world_.create();
         world_.add(entity, scene::PunctualLight(light));
-        world_.add(entity, scene::Transform{.translation = place});
+        world_.add(entity, scene::Transform{.translation = position});
     }
 };
 
@@ -157,7 +157,7 @@ TEST_F(Direct, LightsOfOtherColoursEqualTheCpu) {
 
 /// Points and spots are no part of a probe: every representation shades them one by one.
 TEST_F(Direct, PointLightsShineOnEveryRepresentation) {
-    const glm::vec3 place(0.9F, 0.5F, 1.6F);
+    const glm::vec3 position(0.9F, 0.5F, 1.6F);
     const glm::dvec3 intensity(3.0, 2.0, 1.5);
     const char* const qualities[] = {kDirect, R"({"representation": "spikes"})",
                                      R"({"representation": "arc", "key_lights": false})",
@@ -169,11 +169,11 @@ TEST_F(Direct, PointLightsShineOnEveryRepresentation) {
         const CookedMaterial cooked = cook(kSlitCd, quality);
         if (!renderer_) {
             show(cooked, 0.5);
-            add_light({.intensity = glm::vec3(intensity)}, place);
+            add_light({.intensity = glm::vec3(intensity)}, position);
         }
         use(cooked);
         const auto expected = [&](const Point& point) {
-            const glm::dvec3 to_light = glm::dvec3(place) - point.position;
+            const glm::dvec3 to_light = glm::dvec3(position) - point.position;
             const glm::dvec3 l = glm::normalize(to_light);
             const glm::dvec3 irradiance = intensity / glm::dot(to_light, to_light);
             return small_light_xyz(cooked, point, l, irradiance) + base_xyz(cooked, point, l, irradiance, camera_.eye);

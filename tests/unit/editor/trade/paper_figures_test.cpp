@@ -25,12 +25,12 @@ TEST(PaperFigures, ThePeakHasItsTrueWidth) {
 
 TEST(PaperFigures, DiffractionIsSpikesWhereInterferenceIsSmooth) {
     const Figure2 figure = figure_2(slit(1500.0));
-    const auto share_above_half = [](const Curve& curve) {
+    const auto fraction_above = [](const Curve& curve) {
         return static_cast<double>(std::count_if(curve.y.begin(), curve.y.end(), [](double y) { return y > 0.3; })) /
                static_cast<double>(curve.y.size());
     };
-    EXPECT_LT(share_above_half(figure.diffraction), 0.01);
-    EXPECT_GT(share_above_half(figure.interference), 0.4);
+    EXPECT_LT(fraction_above(figure.diffraction), 0.01);
+    EXPECT_GT(fraction_above(figure.interference), 0.4);
     EXPECT_EQ(*std::max_element(figure.diffraction.y.begin(), figure.diffraction.y.end()), 1.0);
     // The slit's envelope at order ±1: sinc²(½) = (2/π)².
     EXPECT_NEAR(figure.diffraction.y.front(), std::pow(2.0 / std::numbers::pi, 2.0), 1e-12);

@@ -36,10 +36,10 @@ TEST(PictureScene, ExactSurfacesLieWhereTheMeshesDo) {
     std::vector<const diffraction::ShadingPoint*> at(static_cast<std::size_t>(kWidth * kHeight), nullptr);
     for (std::size_t i = 0; i < frames.size(); ++i) at[seen.pixels[i]] = &frames[i];
     const glm::mat4 to_clip = camera.projection(16.0F / 9.0F) * camera.view();
-    const auto check = [&](const scene::Mesh& mesh, const glm::vec3& place, float least_view_cosine, bool flat) {
+    const auto check = [&](const scene::Mesh& mesh, const glm::vec3& offset, float least_view_cosine, bool flat) {
         int compared = 0;
         for (std::size_t v = 0; v < mesh.positions.size(); v += 37) {
-            const glm::vec3 world = mesh.positions[v] + place;
+            const glm::vec3 world = mesh.positions[v] + offset;
             if (glm::dot(glm::normalize(camera.eye - world), mesh.normals[v]) < least_view_cosine) continue;
             const glm::vec4 clip = to_clip * glm::vec4(world, 1.0F);
             const auto column = static_cast<int>((clip.x / clip.w + 1.0F) * 0.5F * kWidth);

@@ -65,13 +65,13 @@ std::string part(const std::string& text, const std::string& from, const std::st
 
 /// A logarithmic axis, as its tick labels tell it.
 struct Axis {
-    double place_1 = 0.0;  ///< of the first tick
-    double place_2 = 0.0;  ///< of the last
+    double position_1 = 0.0;  ///< of the first tick
+    double position_2 = 0.0;  ///< of the last
     double value_1 = 0.0;
     double value_2 = 0.0;
 
-    double value(double place) const {
-        return value_1 * std::pow(value_2 / value_1, (place - place_1) / (place_2 - place_1));
+    double value(double position) const {
+        return value_1 * std::pow(value_2 / value_1, (position - position_1) / (position_2 - position_1));
     }
 };
 

@@ -19,7 +19,7 @@ using testing::IsEmpty;
 class StoreTest : public testing::Test {
  protected:
     std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
-    /// Two writes within one tick of the file system's clock must differ too.
+    /// Two writes within one tick of the file system's clock must also differ.
     void write(const std::string& name, std::string_view text) {
         write_file_atomic(path(name), text);
         std::filesystem::last_write_time(path(name), std::filesystem::last_write_time(path(name)) -
@@ -56,7 +56,7 @@ TEST_F(StoreTest, OneNameIsLoadedOnceAndShared) {
     const auto first = load("a");
     const auto second = load("a");
     EXPECT_EQ(*first, "one");
-    EXPECT_EQ(first.share(), second.share());
+    EXPECT_EQ(first.value(), second.value());
     EXPECT_EQ(loads_, 1);
 }
 
@@ -76,7 +76,7 @@ TEST_F(StoreTest, AFirstLoadThatFailsThrows) {
 TEST_F(StoreTest, AChangedFileReplacesTheAssetAndRaisesItsVersion) {
     write("a", "one");
     const auto handle = load("a");
-    const auto old = handle.share();
+    const auto old = handle.value();
     EXPECT_FALSE(settle());
     EXPECT_EQ(handle.version(), 1U);
     write("a", "two");

@@ -23,7 +23,7 @@ class RecookerTest : public testing::Test {
     std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
     void write(const std::string& name, std::string_view text) {
         write_file_atomic(path(name), text);
-        // Two writes within one tick of the file system's clock must differ too.
+        // Two writes within one tick of the file system's clock must also differ.
         std::filesystem::last_write_time(path(name), std::filesystem::last_write_time(path(name)) -
                                                          std::chrono::hours(1) + std::chrono::seconds(++writes_));
     }

@@ -37,7 +37,7 @@ class MemoryVariable {
     MemoryVariable& operator=(const MemoryVariable&) = delete;
 };
 
-/// A Radiance picture of one radiance in the old encoding, which repeats a texel any number of times: 12 bytes a row.
+/// A Radiance picture of one radiance in the old encoding, which repeats a texel any number of times: 12 bytes per row.
 std::string old_runs(int width, int height) {
     const auto texel = [](int count) { return std::string{1, 1, 1, static_cast<char>(count)}; };
     std::string row = "\x80\x80\x80\x80";

@@ -85,7 +85,7 @@ TEST(Ambient, CosineLobeIsConvolvedWithTheCosine) {
 TEST(Ambient, MildestWindowThatKeepsItNonNegativeIsPicked) {
     const glm::dvec3 d = glm::normalize(glm::dvec3(1, 1, -2));
     // Radiance 1/4π all around is what a point light of irradiance 1 spreads over the sphere on average.
-    const auto picked = [&](double share) { return ambient_coefficients(point_light(d, share / (4 * pi))); };
+    const auto picked = [&](double irradiance) { return ambient_coefficients(point_light(d, irradiance / (4 * pi))); };
     const AmbientLight bright = picked(2);
     EXPECT_EQ(bright.window.window, math::SphericalWindow::None);
     EXPECT_EQ(bright.window.damping, 0);

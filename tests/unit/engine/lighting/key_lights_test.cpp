@@ -19,7 +19,7 @@ using std::numbers::pi;
 
 const glm::dvec3 kDirection = glm::normalize(glm::dvec3(0.3, 0.8, -0.5));
 
-/// Mean over a lobe of a function of the direction: shells of equal share of the lobe (its cumulative distribution in
+/// Mean over a lobe of a function of the direction: shells of equal power (the cumulative distribution in
 /// cos θ inverts in closed form), each a circle of even angles.
 template <typename Function>
 double lobe_mean(const KeyLight& key, const Function& function) {

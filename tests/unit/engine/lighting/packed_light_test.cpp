@@ -41,10 +41,10 @@ ShLight sh_of(const LightSamples& texels, int bands) {
     return sh;
 }
 
-void expect_near(const ShLight& a, const ShLight& b, double share) {
+void expect_near(const ShLight& a, const ShLight& b, double tolerance) {
     for (std::size_t k = 0; k < b.coefficients.size(); ++k)
         for (int c = 0; c < 3; ++c)
-            EXPECT_NEAR(a.coefficients[k][c], b.coefficients[k][c], share * b.coefficients[0][c]) << k << ' ' << c;
+            EXPECT_NEAR(a.coefficients[k][c], b.coefficients[k][c], tolerance * b.coefficients[0][c]) << k << ' ' << c;
 }
 
 TEST(PackedLight, ACompactLampKeepsItsPlaceAndFlux) {
@@ -65,7 +65,7 @@ TEST(PackedLight, KeepsTheLowBandsOfAProbe) {
     const LightSamples texels = light_samples(room());
     const LightSamples read = unpack(pack(texels, 64));
     EXPECT_LE(read.size(), std::size_t{6} * 64 * 64);
-    // Rounding to 1/2048 averages out. All of a texel's light lies in one place; what it had across a side h ≤ 2/64 is
+    // Rounding to 1/2048 averages out. All of a texel's light lies at one point; its spread over a side h ≤ 2/64 is
     // lost, l(l+1)/24 h² of band l: 8e-4 of band 4.
     expect_near(sh_of(read, 5), sh_of(texels, 5), 1e-3);
 }

@@ -39,7 +39,7 @@ glm::dvec3 probe_mean(const ProbeImage& probe) {
     return sum / (4 * pi);
 }
 
-/// The slow twin: GGX-weighted mean over every texel of level 0, with view = normal.
+/// The slow reference: GGX-weighted mean over every texel of level 0, with view = normal.
 glm::dvec3 brute_force(const EnvironmentMap& map, const glm::dvec3& normal, double alpha) {
     glm::dvec3 sum(0.0);
     double total = 0;

@@ -54,7 +54,7 @@ TEST(Studio, BoxKeepsItsSolidAngleWhereverItHangs) {
         recipe.boxes = {box_at(-130, elevation)};
         recipe.boxes[0].roll_deg = 33;
         const ProbeImage probe(render_studio(recipe, 512), Mapping::Equirectangular);
-        EXPECT_NEAR(lit_solid_angle(probe) / exact, 1, 0.005) << elevation;  // 4 × 4 samples a texel of .7°
+        EXPECT_NEAR(lit_solid_angle(probe) / exact, 1, 0.005) << elevation;  // 4 × 4 samples per texel of .7°
     }
 }
 

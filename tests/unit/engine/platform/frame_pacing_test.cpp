@@ -21,7 +21,7 @@ int steps_in(nanoseconds total, nanoseconds frame) {
 }
 
 TEST(FixedStep, StepsDependOnTheTimeAloneNotOnTheFrames) {
-    // 120 steps a second, so 10 s are 1200 steps exactly, also where neither frame nor step is a whole number of ns.
+    // 120 steps per second, so 10 s are 1200 steps exactly, also where neither frame nor step is a whole number of ns.
     for (const nanoseconds frame : {nanoseconds(1'000'000'000 / 60), nanoseconds(1'000'000'000 / 144),
                                     nanoseconds(1'000'000'000 / 23), nanoseconds(8'333'333), nanoseconds(100'000)}) {
         EXPECT_EQ(steps_in(10s, frame), 1200) << frame.count();

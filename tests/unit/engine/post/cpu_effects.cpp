@@ -71,17 +71,17 @@ glm::vec3 interpolated(const Grid& coarse, int fine_x, int fine_y) {
     const glm::vec2 position(coarse_position(fine_x, coarse.size.x), coarse_position(fine_y, coarse.size.y));
     const glm::ivec2 low(position);
     const glm::ivec2 high = glm::min(low + 1, coarse.size - 1);
-    const glm::vec2 share = position - glm::vec2(low);
-    const glm::vec3 lower = glm::mix(coarse.value(low.x, low.y), coarse.value(high.x, low.y), share.x);
-    const glm::vec3 upper = glm::mix(coarse.value(low.x, high.y), coarse.value(high.x, high.y), share.x);
-    return glm::mix(lower, upper, share.y);
+    const glm::vec2 weight = position - glm::vec2(low);
+    const glm::vec3 lower = glm::mix(coarse.value(low.x, low.y), coarse.value(high.x, low.y), weight.x);
+    const glm::vec3 upper = glm::mix(coarse.value(low.x, high.y), coarse.value(high.x, high.y), weight.x);
+    return glm::mix(lower, upper, weight.y);
 }
 
-/// Mixes `share` of the coarser level into a finer one.
-void mix_in(Grid& fine, const Grid& coarse, float share) {
+/// Mixes `fraction` of the coarser level into a finer one.
+void mix_in(Grid& fine, const Grid& coarse, float fraction) {
     for (int y = 0; y < fine.size.y; ++y) {
         for (int x = 0; x < fine.size.x; ++x) {
-            fine.at(x, y) = glm::vec4(glm::mix(fine.value(x, y), interpolated(coarse, x, y), share), 1.0F);
+            fine.at(x, y) = glm::vec4(glm::mix(fine.value(x, y), interpolated(coarse, x, y), fraction), 1.0F);
         }
     }
 }

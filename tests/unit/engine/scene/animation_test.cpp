@@ -56,10 +56,10 @@ TEST(Animation, RotationTurnsEvenlyByTheShortestArc) {
     // No turn, and a quarter turn about Y in both of its signs.
     for (const float sign : {1.0F, -1.0F}) {
         turned.values = {{0, 0, 0, 1}, {0, sign * kSqrtHalf, 0, sign * kSqrtHalf}};
-        for (const float share : {0.0F, 0.25F, 0.5F, 0.9F, 1.0F}) {
-            glm::vec4 q = sample(turned, share);
+        for (const float time_s : {0.0F, 0.25F, 0.5F, 0.9F, 1.0F}) {
+            glm::vec4 q = sample(turned, time_s);
             if (q.w < 0.0F) q = -q;
-            const float half_angle = share * std::numbers::pi_v<float> / 4.0F;
+            const float half_angle = time_s * std::numbers::pi_v<float> / 4.0F;
             EXPECT_NEAR(q.y, std::sin(half_angle), kRounding);
             EXPECT_NEAR(q.w, std::cos(half_angle), kRounding);
             EXPECT_NEAR(glm::length(q), 1.0F, kRounding);

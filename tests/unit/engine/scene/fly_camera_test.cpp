@@ -93,7 +93,7 @@ TEST(FlyCamera, WayOnACurveConvergesToSecondOrder) {
         const glm::vec3 exact = flown(input, 1.0, 10000).position();
         const float at_30 = glm::distance(flown(input, 1.0, 30).position(), exact);
         const float at_60 = glm::distance(flown(input, 1.0, 60).position(), exact);
-        EXPECT_LT(at_30, 0.001F);  // a millimetre of a metre: (2 rad/s / 30 s)^2 / 24 and the easing's share
+        EXPECT_LT(at_30, 0.001F);  // a millimetre of a metre: (2 rad/s / 30 s)^2 / 24 and the easing's error
         EXPECT_NEAR(at_30 / at_60, 4.0F, 0.4F);  // order 2; the tenth is the next order's
     }
 }

@@ -97,7 +97,7 @@ TEST(GlbWrite, SameMeshGivesSameBytes) {
     const std::vector<std::byte> second = write_glb(compact_disc());
     EXPECT_EQ(first, second);
     RecordProperty("disc_bytes", std::to_string(first.size()));
-    // 48 bytes a vertex and 12 a triangle without compression.
+    // 48 bytes per vertex and 12 per triangle without compression.
     EXPECT_LT(first.size(), 25000U * 48U / 2U);
 }
 

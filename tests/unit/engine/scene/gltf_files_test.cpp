@@ -178,8 +178,8 @@ TEST(GltfFiles, DracoVertexColoursEqualThePlainOnes) {
     const Mesh draco = load_gltf(draco_path).meshes.at(0);
     ASSERT_EQ(plain.colours.size(), 24U);
     ASSERT_EQ(draco.colours.size(), 24U);
-    // The stream is quantised to 8 bits or more over an extent of 1: half a step, for positions (a unit box, 11 bits)
-    // too. Its vertices are in another order.
+    // The stream is quantised to 8 bits or more over an extent of 1: half a step, also for positions (a unit
+    // box, 11 bits). Its vertices are in another order.
     constexpr float kHalfStep = 0.51F / 255.0F;
     std::size_t coloured = 0;
     for (std::size_t i = 0; i < 24; ++i) {

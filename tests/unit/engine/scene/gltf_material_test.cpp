@@ -120,12 +120,12 @@ TEST(GltfMaterial, BadPropertiesAreRefusedWhereTheyAre) {
     const auto transform = [&](const json& value) {
         return texture({{"index", 0}, {"extensions", {{"KHR_texture_transform", value}}}});
     };
-    const std::string place = "/materials/0/normalTexture/extensions/KHR_texture_transform";
-    EXPECT_THAT(transform(3), HasSubstr(place));
-    EXPECT_THAT(transform({{"offset", {1}}}), HasSubstr(place + "/offset"));
-    EXPECT_THAT(transform({{"scale", {1, 1e300}}}), HasSubstr(place + "/scale/1"));
-    EXPECT_THAT(transform({{"rotation", nullptr}}), HasSubstr(place + "/rotation"));
-    EXPECT_THAT(transform({{"texCoord", -3}}), HasSubstr(place + "/texCoord"));
+    const std::string pointer = "/materials/0/normalTexture/extensions/KHR_texture_transform";
+    EXPECT_THAT(transform(3), HasSubstr(pointer));
+    EXPECT_THAT(transform({{"offset", {1}}}), HasSubstr(pointer + "/offset"));
+    EXPECT_THAT(transform({{"scale", {1, 1e300}}}), HasSubstr(pointer + "/scale/1"));
+    EXPECT_THAT(transform({{"rotation", nullptr}}), HasSubstr(pointer + "/rotation"));
+    EXPECT_THAT(transform({{"texCoord", -3}}), HasSubstr(pointer + "/texCoord"));
     EXPECT_THAT(refusal({{"alphaMode", "CUTOUT"}}), HasSubstr("/materials/0/alphaMode"));
     EXPECT_THAT(refusal({{"alphaCutoff", -0.5}}), HasSubstr("/materials/0/alphaCutoff"));
     EXPECT_THAT(refusal({{"doubleSided", 1}}), HasSubstr("/materials/0/doubleSided"));

@@ -66,13 +66,13 @@ TEST(TextureRecipe, AngleRunsCounterClockwiseFromTheRight) {
     EXPECT_EQ(texel(recipe, painted, 50, 90, 1), 128);
 }
 
-TEST(TextureRecipe, RampsHoldBeforeAndBehindTheirShare) {
+TEST(TextureRecipe, RampsHoldBeforeAndBehindTheirRange) {
     const TextureRecipe recipe = texture_of(R"({"size": [100, 10], "layers": [{"pattern": "all",
         "r": {"by": "x", "from": 1, "to": 0, "over": [0.25, 0.75]}, "g": {"by": "y", "from": 0, "to": 1}}]})");
     const PaintedTexture painted = paint(recipe);
     EXPECT_EQ(texel(recipe, painted, 10, 0, 0), 255);
     EXPECT_EQ(texel(recipe, painted, 90, 0, 0), 0);
-    // The middles of columns 49 and 50 are a hundredth of the share apart around its half.
+    // The middles of columns 49 and 50 are a hundredth of the ramp apart around its middle.
     EXPECT_EQ(texel(recipe, painted, 49, 0, 0) + texel(recipe, painted, 50, 0, 0), 255);
     EXPECT_EQ(texel(recipe, painted, 0, 9, 1), 13);  // 0.05: rows are from the top, y from the bottom
     EXPECT_EQ(texel(recipe, painted, 0, 0, 1), 242);

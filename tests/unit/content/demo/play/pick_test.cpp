@@ -42,7 +42,7 @@ TEST(DemoPick, TheNearestOfTwoIsHitAtItsPlaceInTheWorld) {
     EXPECT_EQ(hit->target, 1U);
     EXPECT_NEAR(hit->triangle.distance, 2.0F, kRounding);
     EXPECT_NEAR(glm::distance(hit->point, glm::vec3(0.2F, 0.1F, -1.0F)), 0.0F, kRounding);
-    // (0.2, 0.1) / 3 lies in the triangle below the diagonal; its place is the mean of the corners by their weights.
+    // (0.2, 0.1) / 3 lies in the triangle below the diagonal; it is the weighted mean of the corners.
     EXPECT_EQ(hit->triangle.triangle, 0U);
     const auto& corners = targets[1].mesh->positions;
     const glm::vec2 weights = hit->triangle.weights;

@@ -238,9 +238,9 @@ TEST(DemoPlay, LightsAreAddedBeforeWhatIsUnderTheCursorUpToTheMost) {
     play.step(std::vector{test::mouse(kOnRight)});
     tap(play, Key::G);
     ASSERT_EQ(light_count(small.world), 2U);
-    const glm::vec3 place = object_to_world(small.world, play.lights().entities()[0])[3];
-    EXPECT_GT(place.z, 0.1F);
-    EXPECT_LT(glm::distance(place, glm::vec3(0.15F, 0.0F, 0.0F)), 0.5F);
+    const glm::vec3 position = object_to_world(small.world, play.lights().entities()[0])[3];
+    EXPECT_GT(position.z, 0.1F);
+    EXPECT_LT(glm::distance(position, glm::vec3(0.15F, 0.0F, 0.0F)), 0.5F);
     for (int i = 0; i < 70; ++i) tap(play, Key::G);
     EXPECT_EQ(light_count(small.world), kMostLights);
     EXPECT_EQ(play.lights().entities().size(), kMostLights - 1);

@@ -71,7 +71,7 @@ std::vector<PlayEvent> user(double begin, double end) {
 }
 
 struct Outcome {
-    std::vector<glm::mat4> places;
+    std::vector<glm::mat4> positions;
     std::vector<BodyState> states;
     glm::vec3 eye;
     std::uint64_t steps;
@@ -83,7 +83,7 @@ struct Outcome {
 Outcome outcome_of(SmallWorld& small, Play& play) {
     Outcome outcome{{}, {}, play.camera().eye, play.steps(), light_count(small.world)};
     small.world.view<scene::Transform>().each([&](ecs::Entity entity, const scene::Transform&) {
-        outcome.places.push_back(object_to_world(small.world, entity));
+        outcome.positions.push_back(object_to_world(small.world, entity));
     });
     for (const Body& body : play.bodies()) outcome.states.push_back(body.state);
     return outcome;
@@ -157,7 +157,7 @@ TEST(DemoReplay, APadAtRestIsNoEvent) {
 }
 
 TEST(DemoReplay, AReleaseInTheNextFrameStillThrows) {
-    // At five frames a second: ten movements in one frame, the release in the next.
+    // At five frames per second: ten movements in one frame, the release in the next.
     SmallWorld small;
     Play play = small.play();
     PlayClock clock;

@@ -9,7 +9,7 @@
 
 namespace rowland::test {
 
-/// A square of 0.2 m in the x-y plane around a place, as seen from +Z.
+/// A square of 0.2 m in the x-y plane around a point, as seen from +Z.
 std::shared_ptr<const scene::Mesh> square();
 
 /// Two squares before a camera at (0, 0, 1): "left" at x = -0.15 turns by itself about its normal and stands on a node

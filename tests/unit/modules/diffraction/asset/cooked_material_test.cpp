@@ -103,7 +103,7 @@ TEST(CookedMaterial, TablesOfAnotherRepresentationThanTheMaterialsAreRefused) {
                 ::testing::HasSubstr("transfer"));
 }
 
-/// Shaders are made for what the material's JSON says; its limits hold for tables, too.
+/// Shaders are made for what the material's JSON says; its limits also hold for tables.
 TEST(CookedMaterial, TablesOfOtherSettingsThanTheMaterialsAreRefused) {
     for (const char* quality : kQualities) {
         const nlohmann::json json = material_with(quality);

@@ -71,7 +71,7 @@ TEST(LayerWeights, NothingComesOutThatDidNotFallIn) {
     }
 }
 
-/// Of the peak form, which weighs orders by λ/550 nm, too: for a slit f² + (f − f²)·780/550 stays below 1.
+/// Also of the peak form, which weighs orders by λ/550 nm: for a slit f² + (f − f²)·780/550 stays below 1.
 TEST(LayerWeights, TheAguNormalisationAddsNoLightEither) {
     for (const double fill : {0.1, 0.5, 0.8, 0.95}) {
         Grating grating{.pitch_nm = 1600.0, .profile = SlitProfile{1600.0 * fill}};

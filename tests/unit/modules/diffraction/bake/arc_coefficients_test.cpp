@@ -35,7 +35,7 @@ TEST(ArcCoefficients, MatchTheOracle) {
     }
 }
 
-/// The slow twin: the defining integral by a midpoint rule of 1e5 nodes, 1e-9 of it.
+/// The slow reference: the defining integral by a midpoint rule of 1e5 nodes, 1e-9 of it.
 TEST(ArcCoefficients, AreTheDefiningIntegralForEveryLobe) {
     const int bands = 5;
     for (const GrooveLobe& lobe :

@@ -27,7 +27,7 @@ TEST(ArcMoments, AreExactForEveryNumberOfBands) {
     }
 }
 
-/// The slow twin: the arc profile by n² coefficients in the tangent frame.
+/// The slow reference: the arc profile by n² coefficients in the tangent frame.
 TEST(ArcMoments, GiveTheArcProfileOfLightInTheTangentFrame) {
     for (const int bands : {1, 4, 7}) {
         const lighting::ShLight light = some_light(bands);

@@ -17,7 +17,7 @@ const std::vector<ViewGrid> kGrids = {{ViewMapping::Spherical, 9, 5},
                                       {ViewMapping::Parabolic, 7, 8},
                                       {ViewMapping::OneDimensional, 11, 1}};
 
-/// A node above the horizon is found again, with the whole share (4 ulp of an angle are 1e-14 of a node).
+/// A node above the horizon is found again, with weight 1 (4 ulp of an angle are 1e-14 of a node).
 TEST(ViewMapping, NodesLieOnTheirTexels) {
     for (const ViewGrid& grid : kGrids)
         for (int row = 0; row < grid.rows; ++row)
@@ -32,12 +32,12 @@ TEST(ViewMapping, NodesLieOnTheirTexels) {
                 if (grid.mapping == ViewMapping::Spherical && row == 0) continue;  // n has no azimuth
                 const double v_n = std::sqrt(std::max(1.0 - glm::dot(v, v), 0.0));
                 const BilinearLookup found = look_up(grid, v.x, v.y, v_n);
-                double share = 0.0;
+                double weight = 0.0;
                 for (std::size_t i = 0; i < 4; ++i)
                     if (found.texel[i] == static_cast<std::size_t>(row * grid.columns + column))
-                        share += found.share[i];
+                        weight += found.share[i];
                 // A view at the horizon loses half its digits in v_n.
-                EXPECT_NEAR(share, 1.0, v_n < 1e-6 ? 1e-6 : 1e-12) << view_mapping_name(grid.mapping);
+                EXPECT_NEAR(weight, 1.0, v_n < 1e-6 ? 1e-6 : 1e-12) << view_mapping_name(grid.mapping);
             }
 }
 
@@ -53,7 +53,7 @@ TEST(ViewMapping, MirroredTexelsHoldMirroredViews) {
             }
 }
 
-TEST(ViewMapping, SharesSumToOneAndStayInsideAnywhere) {
+TEST(ViewMapping, WeightsSumToOneAndStayInsideAnywhere) {
     for (const ViewGrid& grid : kGrids)
         for (int i = 1; i < 500; ++i) {
             const glm::dvec3 v = glm::normalize(glm::dvec3(std::sin(1.0 * i), std::sin(2.3 * i), std::sin(3.7 * i)));

@@ -29,7 +29,7 @@ TEST(Efficiency, AguWeighsByWavelengthAndAgreesAt550nm) {
     agu.normalization = Normalization::Agu;
     EXPECT_DOUBLE_EQ(order_efficiency(agu, 1, 550.0), order_efficiency(energy, 1, 550.0));
     EXPECT_DOUBLE_EQ(order_efficiency(agu, -1, 440.0), 0.8 * order_efficiency(energy, -1, 440.0));
-    // The mirror's share is a share of power in either.
+    // Order 0 is the same fraction of power under either normalization.
     EXPECT_DOUBLE_EQ(zero_order_efficiency(agu, 440.0), zero_order_efficiency(energy, 440.0));
 }
 

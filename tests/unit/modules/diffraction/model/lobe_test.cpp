@@ -63,7 +63,7 @@ TEST(Lobe, WhollyCoherentPitsAreTheGaussian) {
     EXPECT_EQ(lobe_extent(pits).half_width, lobe_extent(GaussianLobe{kCoherentSigma}).half_width);
 }
 
-/// A share of ∫ over any stretch of length 2 (what a view at v_h leaves to s_h ∈ [−1, 1]); midpoint rule, 1e-6.
+/// A fraction ≤ 1: ∫ over any stretch of length 2 (what a view at v_h leaves to s_h ∈ [−1, 1]); midpoint rule, 1e-6.
 TEST(Lobe, NeverAddsPower) {
     for (const GrooveLobe& lobe :
          {GrooveLobe{FlatLobe{}}, GrooveLobe{GaussianLobe{0.02}}, GrooveLobe{GaussianLobe{0.4}},

@@ -138,7 +138,7 @@ TEST(Profile, GrooveSpectrumAtWholeOrdersIsTheEfficiency) {
                 << "profile " << profile.index() << " order " << order;
 }
 
-/// The slow twin: |∫ exp(iφ(y)) exp(−2πi x y) dy|² by the midpoint rule, 1e5 nodes (error ~1e-9 smooth, ~1e-5 at
+/// The slow reference: |∫ exp(iφ(y)) exp(−2πi x y) dy|² by the midpoint rule, 1e5 nodes (error ~1e-9 smooth, ~1e-5 at
 /// steps).
 TEST(Profile, GrooveSpectrumIsTheGroovesFourierTransform) {
     const double x = 1.37;

@@ -106,7 +106,7 @@ TEST(Energy, NothingComesOutThatDidNotFallInAtAnyAngle) {
     for (const GrooveLobe& lobe : {GrooveLobe{FlatLobe{}}, GrooveLobe{GaussianLobe{0.02}},
                                    GrooveLobe{GaussianLobe{0.5}}, GrooveLobe{PitsLobe{850.0, 0.3}}}) {
         double largest = 0.0;
-        // Pits take a thousand nodes an arc: the first frames will do.
+        // Pits take a thousand nodes per arc, so only the first points are checked.
         const auto some = std::span(frames).first(std::holds_alternative<PitsLobe>(lobe) ? 3 : frames.size());
         for (const Profile& profile : profiles())
             for (const glm::dvec3& xyz :

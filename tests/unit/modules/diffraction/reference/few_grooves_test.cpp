@@ -28,8 +28,8 @@ Grating compact_disc(double grooves) {
     return {.pitch_nm = 1600.0, .grooves = grooves, .profile = SlitProfile{800.0}, .orders = {-1, 1, 2}};
 }
 
-/// The slow twin: ∫∫ f_E L s_n dω dλ with the pointwise BRDF, over s_g and s_h (s_n dω = ds_g ds_h), by a midpoint rule
-/// in s_g whose step of 2 nm in x resolves the 19 nm of N = 20, and Gauss–Legendre along the arc.
+/// The slow reference: ∫∫ f_E L s_n dω dλ with the pointwise BRDF, over s_g and s_h (s_n dω = ds_g ds_h), by a midpoint
+/// rule in s_g whose step of 2 nm in x resolves the 19 nm of N = 20, and Gauss–Legendre along the arc.
 glm::dvec3 brute_force(const Grating& grating, const lighting::ShLight& light, const colour::LightSpectra& spectra,
                        const glm::dvec3& v) {
     const math::QuadratureRule arc = math::gauss_legendre(24, 0.0, std::numbers::pi);

@@ -239,8 +239,8 @@ TEST(Reference, TakesATableAtTheIncidenceOfEachArc) {
         for (int wavelength_nm = 380; wavelength_nm <= 780; ++wavelength_nm) {
             const double a = wavelength_nm / 1600.0 - v_g;
             if (std::abs(a) >= 1.0) continue;
-            const double share = std::clamp((std::asin(a) * 180.0 / std::numbers::pi + 60.0) / 120.0, 0.0, 1.0);
-            const double weight = (wavelength_nm == 380 || wavelength_nm == 780 ? 0.5 : 1.0) * (0.1 + 0.4 * share) *
+            const double position = std::clamp((std::asin(a) * 180.0 / std::numbers::pi + 60.0) / 120.0, 0.0, 1.0);
+            const double weight = (wavelength_nm == 380 || wavelength_nm == 780 ? 0.5 : 1.0) * (0.1 + 0.4 * position) *
                                   std::sqrt(1.0 - a * a);
             expected += weight * glm::dot(spectra(wavelength_nm), glm::dvec3(1.0)) * colour::cie_xyz(wavelength_nm);
         }

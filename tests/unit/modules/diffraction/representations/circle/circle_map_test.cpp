@@ -67,8 +67,8 @@ std::vector<glm::dvec3> sampled(const CircleMap& map, const std::vector<ShadingP
     return xyz;
 }
 
-/// The slow twin is a planar map for every normal. What is left is the cosine's series (terms above cos 4) and the
-/// map's steps.
+/// The slow reference is a planar map for every normal. The tolerance covers the cosine's series (terms above cos 4)
+/// and the map's steps.
 TEST(CircleMap, AgreesWithPlanarMapsOfAnyNormal) {
     const lighting::LightSamples texels = broad_light();
     for (const Grating& grating : {test::compact_disc(), blazed()}) {

@@ -185,7 +185,7 @@ TEST(Direct, SumsUpTo64LightsOverTheHorizonOnly) {
     EXPECT_EQ(direct_radiance(kernels.table, {1600.0}, all, below), glm::dvec3(0.0));
 }
 
-/// Order 0 under a lobe is the mirror image's share: ∫ over v_g of its part is ½ s_n Z F.
+/// Order 0 under a lobe has the power of the mirror image: ∫ over v_g of its part is ½ s_n Z F.
 TEST(Direct, ZeroOrderIntegratesToItsEfficiency) {
     Grating mirror = compact_disc();
     mirror.orders = {0};

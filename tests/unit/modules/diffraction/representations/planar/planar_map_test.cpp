@@ -129,7 +129,7 @@ TEST(PlanarMap, ZeroOrderIsTheProfileAtTheMirrorDirection) {
     }
 }
 
-/// The slow twin of the whole chain for one lamp: a spin of the disc only shifts the azimuth.
+/// The slow reference of the whole chain for one lamp: a spin of the disc only shifts the azimuth.
 TEST(PlanarMap, OneLampIsSeenAtItsAzimuth) {
     lighting::LightSamples lamp;
     const glm::dvec3 s = glm::normalize(glm::dvec3(0.5, 0.3, 0.7));

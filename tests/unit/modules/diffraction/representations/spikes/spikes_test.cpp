@@ -78,7 +78,7 @@ TEST(Spikes, ConvergeToTheBandlimitedOracle) {
     }
 }
 
-/// The intervals share out ∫ c q exactly: Σ_k c_k,i = ∫ c_i q dλ, whatever K.
+/// The intervals divide ∫ c q exactly: Σ_k c_k,i = ∫ c_i q dλ, whatever K.
 TEST(Spikes, KeepTheIntegralOfEveryCoefficient) {
     const Grating grating = compact_disc();
     const ViewSpectrum spectrum(grating, 5);

@@ -32,7 +32,7 @@ glm::dvec3 white_light(const glm::dvec3&, const glm::dvec3&, const glm::dvec3&) 
 }
 
 /// PHYSICS §6: a lobe of .05 on the disc under Venice sunset, as the reference has it. 5 % demanded; .5 % found with 8
-/// nodes an order and 3 taps, .9 % with 4 nodes, 1.3 % with 4 nodes and one tap of 4 along the lobe.
+/// nodes per order and 3 taps, .9 % with 4 nodes, 1.3 % with 4 nodes and one tap of 4 along the lobe.
 TEST(Streak, MatchesTheReferenceUnderARealProbe) {
     ROWLAND_TEST_DATA(frames_path, "oracle/frames_tilted_cd.csv");
     ROWLAND_TEST_DATA(probe_path, "probes/venice_sunset_256.hdr");
@@ -126,7 +126,7 @@ TEST(Streak, TapsShareTheLobe) {
     }
 }
 
-/// Stam's pits are the streak's share and a smooth rest; both at the pits' total power under even light.
+/// Stam's pits are a streak and a smooth rest; both at the pits' total power under even light.
 TEST(Streak, PitsAreAStreakAndASmoothRest) {
     Grating grating = narrow_disc(0.1);
     grating.lobe = PitsLobe{.length_nm = 850.0, .coherent = 0.3};
