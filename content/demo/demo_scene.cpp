@@ -46,7 +46,6 @@ scene::Transform fitting(const scene::Bounds& box, float size_m) {
     return {.translation = -scale * foot, .rotation = {1.0F, 0.0F, 0.0F, 0.0F}, .scale = glm::vec3(scale)};
 }
 
-/// The bounds of all targets in the world.
 scene::Bounds bounds_of(ecs::World& world, const std::vector<PickTarget>& targets) {
     std::vector<scene::Bounds> boxes;
     for (const PickTarget& target : targets)

@@ -14,7 +14,6 @@ namespace rowland::editor {
 /// were refused, else to 1 if a job failed otherwise. Both arguments must outlive the program.
 void add_farm_commands(CLI::App& program, const cook::Registry& registry, int& exit_code);
 
-/// Adds the option --threads.
 void add_threads_option(CLI::App& command, unsigned& threads);
 
 }  // namespace rowland::editor

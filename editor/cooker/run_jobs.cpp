@@ -1,5 +1,6 @@
 #include "editor/cooker/run_jobs.h"
 
+#include <array>
 #include <chrono>
 #include <map>
 #include <optional>
@@ -99,17 +100,8 @@ class Worker {
 }  // namespace
 
 const char* job_result_name(JobResult result) {
-    switch (result) {
-        case JobResult::Cooked:
-            return "cooked";
-        case JobResult::UpToDate:
-            return "up to date";
-        case JobResult::Refused:
-            return "refused";
-        case JobResult::Failed:
-            break;
-    }
-    return "failed";
+    constexpr std::array kNames = {"cooked", "up to date", "refused", "failed"};
+    return kNames.at(static_cast<std::size_t>(result));
 }
 
 void run_jobs(const cook::Registry& registry, std::span<const Job> jobs, const std::filesystem::path& state_folder,

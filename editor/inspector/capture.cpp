@@ -26,11 +26,8 @@ void settle(Session& session) {
 
 void require_picture(const Session& session) {
     if (session.ready()) return;
-    throw Error({.file = {},
-                 .location = {},
-                 .found = session.messages().empty() ? "no light" : session.messages().back().text,
-                 .expected = {},
-                 .remedy = "nothing was written"});
+    refuse_input({}, {}, session.messages().empty() ? "no light" : session.messages().back().text, {},
+                 "nothing was written");
 }
 
 void capture_preview(Session& session, const Options& options, glm::ivec2 size) {

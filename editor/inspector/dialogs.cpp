@@ -11,7 +11,6 @@ namespace rowland::inspector {
 
 namespace {
 
-/// A button that is found by its name.
 bool named_button(const char* name, ControlMap& controls) {
     const bool pressed = ImGui::Button(name);
     controls.mark(std::string("button ") + name);

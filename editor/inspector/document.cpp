@@ -139,21 +139,13 @@ void Document::reparse() {
 
 void Document::require_accepted() const {
     if (refusal_)
-        throw Error({.file = name_,
-                     .location = {},
-                     .found = refusal_->message,
-                     .expected = "a material that can be cooked",
-                     .remedy = "nothing was written; correct the field or undo"});
+        refuse_input(name_, {}, refusal_->message, "a material that can be cooked",
+                     "nothing was written; correct the field or undo");
 }
 
 void Document::save() {
     require_accepted();
-    if (path_.empty())
-        throw Error({.file = name_,
-                     .location = {},
-                     .found = "a new material",
-                     .expected = "a file to save it to",
-                     .remedy = "save it under a name"});
+    if (path_.empty()) refuse_input(name_, {}, "a new material", "a file to save it to", "save it under a name");
     write_file_atomic(path_, format_json(json()));
     saved_ = accepted_;
     editing_ = nullptr;

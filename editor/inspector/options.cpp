@@ -20,7 +20,6 @@ constexpr const char* kFooter =
     "Ctrl+S saves, Ctrl+O opens, Ctrl+= and Ctrl+- change the size of text, F1 to F5 choose the shape, F6 compares\n"
     "with the saved version. Drag the preview to orbit, turn the wheel to zoom, click to pick a point.";
 
-/// Reads "1280x800".
 void read_size(const std::string& text, Options& options) {
     int used = 0;
     const bool read = std::sscanf(text.c_str(), "%5dx%5d%n", &options.width, &options.height, &used) == 2;

@@ -85,7 +85,6 @@ class Preview {
         ecs::World world;
         ecs::Entity entity;
         ecs::Entity lamp;
-        // What is uploaded.
         std::shared_ptr<const PreviewObject> object;
         std::shared_ptr<const InspectedLight> light;
         std::shared_ptr<const diffraction::CookedMaterial> material;

@@ -26,7 +26,6 @@ struct SessionSettings {
     bool still = false;                      ///< for captures: maps are complete in the second frame
 };
 
-/// The pixel that the user picked.
 struct PickedPixel {
     glm::vec2 at{0.5F};                                        ///< from the picture's upper left corner, in [0, 1]
     std::shared_ptr<const diffraction::ShadingPoint> surface;  ///< there, in the probe's axes
@@ -81,7 +80,6 @@ class Session {
     bool prices_are_current() const {
         return all_prices_.is_of(price_inputs(true)) || pinned_price_.is_of(price_inputs(false));
     }
-    /// Pins a measured choice.
     void choose_priced(const PricedChoice& choice);
     /// Pins the cheapest measured choice within an error.
     void cook_to_budget(double max_error);

@@ -9,7 +9,7 @@ namespace {
 /// A file of the command line must open.
 void require_opened(const Session& session) {
     if (session.messages().empty() || !session.messages().back().failure) return;
-    throw Error({.file = {}, .location = {}, .found = session.messages().back().text, .expected = {}, .remedy = {}});
+    refuse_input({}, {}, session.messages().back().text, {});
 }
 
 }  // namespace

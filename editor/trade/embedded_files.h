@@ -6,7 +6,6 @@
 
 namespace rowland::trade {
 
-/// The light loop's shader.
 std::span<const EmbeddedFile> light_loop_files();
 
 /// One file: the report's page, without its data.

@@ -21,7 +21,6 @@ namespace rowland::trade {
 
 namespace {
 
-/// "reference", then the representations' names.
 std::vector<std::string> method_names() {
     std::vector<std::string> names{"reference"};
     for (const diffraction::RepresentationInfo* info : diffraction::representations()) names.emplace_back(info->name);
@@ -29,11 +28,7 @@ std::vector<std::string> method_names() {
 }
 
 [[noreturn]] void refuse_usage(std::string option, std::string found, std::string expected) {
-    throw Error({.file = std::move(option),
-                 .location = {},
-                 .found = std::move(found),
-                 .expected = std::move(expected),
-                 .remedy = "see rowland-trade evaluate --help"});
+    refuse_input(std::move(option), {}, std::move(found), std::move(expected), "see rowland-trade evaluate --help");
 }
 
 /// A flag that is another way to write a setting.

@@ -14,11 +14,7 @@ namespace rowland::trade {
 namespace {
 
 [[noreturn]] void fail(const NumberTable& table, std::size_t i, std::string found, std::string expected) {
-    throw Error({.file = table.file,
-                 .location = fmt::format("row {}", table.file_rows[i]),
-                 .found = std::move(found),
-                 .expected = std::move(expected),
-                 .remedy = {}});
+    refuse_input(table.file, fmt::format("row {}", table.file_rows[i]), std::move(found), std::move(expected));
 }
 
 }  // namespace

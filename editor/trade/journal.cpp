@@ -18,12 +18,7 @@ namespace {
 constexpr std::uint64_t kLargestJournal = std::uint64_t{1} << 31;
 
 [[noreturn]] void fail(const std::filesystem::path& path, const char* doing) {
-    throw Error({.file = path.string(),
-                 .location = {},
-                 .found = fmt::format("{}: {}", doing, std::strerror(errno)),
-                 .expected = {},
-                 .remedy = {},
-                 .fault = Fault::System});
+    fail_system(path.string(), fmt::format("{}: {}", doing, std::strerror(errno)));
 }
 
 FileLock open_alone(const std::filesystem::path& path) {

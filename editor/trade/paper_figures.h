@@ -8,7 +8,6 @@
 
 namespace rowland::trade {
 
-/// A curve of a figure.
 struct Curve {
     std::vector<double> x;
     std::vector<double> y;

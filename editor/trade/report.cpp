@@ -19,7 +19,6 @@ namespace {
 constexpr std::size_t kDiscVertices = 25000;
 constexpr const char* kDataMark = "/*DATA*/";
 
-/// The names of all representations, in their fixed order.
 nlohmann::ordered_json representation_names() {
     nlohmann::ordered_json names;
     for (const auto* info : diffraction::representations()) names.push_back(info->name);

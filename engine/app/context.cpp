@@ -21,12 +21,7 @@ void render_offscreen(const std::function<void(const std::string& renderer)>& bo
 
 void require_display(const std::string& program, const std::string& remedy) {
     if (platform::display_available()) return;
-    throw Error({.file = program,
-                 .location = {},
-                 .found = "no display",
-                 .expected = "X11 or Wayland",
-                 .remedy = remedy,
-                 .fault = Fault::System});
+    fail_system(program, "no display", remedy, "X11 or Wayland");
 }
 
 }  // namespace rowland::app

@@ -23,7 +23,6 @@ struct Frame {
     double seconds() const { return std::chrono::duration<double>(elapsed).count(); }
 };
 
-/// What follows a frame.
 enum class Next {
     Frame,  ///< the next one, as soon as the display takes it
     Rest,   ///< the next one, after a short sleep that leaves the processor to background work

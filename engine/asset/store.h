@@ -158,7 +158,6 @@ class Store {
     /// Once a frame: starts reloading what has changed, adopts what has been loaded. Returns whether an asset was
     /// replaced or a load failed.
     bool poll();
-    /// Reloads every asset.
     void reload_all();
     /// Waits for all loading to end; the next poll() adopts the results.
     void wait() const;

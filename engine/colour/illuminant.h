@@ -29,7 +29,6 @@ const Illuminant& d65();
 /// parse_spectrum_csv() does, for negative power, and if it is not visible.
 Illuminant parse_illuminant(std::string_view text, const std::string& file);
 
-/// Largest file of an illuminant.
 inline constexpr std::uint64_t kMaximumIlluminantBytes = 1 << 20;
 
 /// The same from a file of at most kMaximumIlluminantBytes.

@@ -8,7 +8,6 @@
 
 namespace rowland::colour {
 
-/// The files of data/.
 std::span<const EmbeddedFile> table_files();
 
 namespace {

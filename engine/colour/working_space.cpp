@@ -34,9 +34,4 @@ glm::dmat3 xyz_to_acescg() {
     return matrix;
 }
 
-glm::dmat3 rec709_to_acescg() {
-    static const glm::dmat3 matrix = xyz_to_acescg() * rec709_to_xyz();
-    return matrix;
-}
-
 }  // namespace rowland::colour

@@ -21,7 +21,4 @@ glm::dmat3 rec709_to_xyz();
 /// (SMPTE ST 2065-1, S-2014-004). Does not clip.
 glm::dmat3 xyz_to_acescg();
 
-/// Linear Rec.709 → ACEScg.
-glm::dmat3 rec709_to_acescg();
-
 }  // namespace rowland::colour

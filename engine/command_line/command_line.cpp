@@ -27,11 +27,7 @@ bool parse_command_line(CLI::App& app, int argc, const char* const* argv) {
         std::fputs(app.help().c_str(), stdout);
         return false;
     } catch (const CLI::ParseError& error) {
-        throw Error({.file = app.get_name(),
-                     .location = {},
-                     .found = error.what(),
-                     .expected = {},
-                     .remedy = "see " + app.get_name() + " --help"});
+        refuse_input(app.get_name(), {}, error.what(), {}, "see " + app.get_name() + " --help");
     }
 }
 

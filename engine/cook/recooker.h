@@ -26,7 +26,6 @@ class Recooker {
 
     /// Once a frame: cooks what has changed.
     void poll();
-    /// Waits for all running cooks.
     void wait() const;
     /// Messages of sources that could not be cooked, until they can.
     std::vector<std::string> failures() const;

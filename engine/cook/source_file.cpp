@@ -81,12 +81,7 @@ std::optional<Hash128> hash_file(const std::filesystem::path& path) {
 }
 
 void fail_changed(const std::filesystem::path& path) {
-    throw Error({.file = path.string(),
-                 .location = {},
-                 .found = "changed while it was being cooked",
-                 .expected = {},
-                 .remedy = "cook again",
-                 .fault = Fault::System});
+    fail_system(path.string(), "changed while it was being cooked", "cook again");
 }
 
 std::vector<std::byte> read_beginning(const std::filesystem::path& path, std::size_t size) {

@@ -15,12 +15,8 @@ namespace rowland {
 std::optional<FileLock> FileLock::try_take(const std::filesystem::path& file) {
     FileLock lock(::open(file.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
     if (lock.descriptor_ < 0)
-        throw Error({.file = file.string(),
-                     .location = {},
-                     .found = std::string("opening failed: ") + std::strerror(errno),
-                     .expected = {},
-                     .remedy = "check permissions and free space",
-                     .fault = Fault::System});
+        fail_system(file.string(), std::string("opening failed: ") + std::strerror(errno),
+                    "check permissions and free space");
     while (::flock(lock.descriptor_, LOCK_EX | LOCK_NB) != 0) {
         if (errno == EWOULDBLOCK) return std::nullopt;
         if (errno != EINTR) break;

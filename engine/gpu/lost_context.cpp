@@ -24,12 +24,7 @@ const char* reason_for(GLenum status) {
 void require_context() {
     const GLenum status = glGetGraphicsResetStatus();
     if (status == GL_NO_ERROR) return;
-    throw Error({.file = "OpenGL",
-                 .location = {},
-                 .found = reason_for(status),
-                 .expected = {},
-                 .remedy = "start the program again",
-                 .fault = Fault::System});
+    fail_system("OpenGL", reason_for(status), "start the program again");
 }
 
 }  // namespace rowland::gpu

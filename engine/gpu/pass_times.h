@@ -12,7 +12,6 @@
 
 namespace rowland::gpu {
 
-/// The times of one pass of a frame.
 struct PassTime {
     std::string name;
     double cpu_ms = 0.0;           ///< in this frame, or in the last one until this one has run it

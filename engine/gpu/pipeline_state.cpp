@@ -21,12 +21,10 @@ struct BlendFactors {
     GLenum source, target;
     GLenum source_alpha;
 };
-/// By Blend.
 constexpr std::array<BlendFactors, 4> kBlendFactors = {{{GL_ONE, GL_ZERO, GL_ONE},
                                                         {GL_ONE, GL_ONE, GL_ONE},
                                                         {GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE},
                                                         {GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE}}};
-/// By DepthTest.
 constexpr std::array<GLenum, 4> kDepthFunctions = {GL_ALWAYS, GL_LESS, GL_LEQUAL, GL_EQUAL};
 
 }  // namespace

@@ -34,7 +34,6 @@ struct PipelineState {
     friend bool operator==(const PipelineState&, const PipelineState&) = default;
 };
 
-/// Sets all of it.
 void apply(const PipelineState& state);
 
 }  // namespace rowland::gpu

@@ -25,7 +25,6 @@ struct ProgramDesc {
     std::vector<Define> defines = {};
 };
 
-/// A linked shader program.
 class Program {
  public:
     Program() = default;

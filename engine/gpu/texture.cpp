@@ -10,7 +10,6 @@ namespace rowland::gpu {
 
 namespace {
 
-/// By TextureKind.
 constexpr std::array<GLenum, 5> kTargets = {GL_TEXTURE_1D, GL_TEXTURE_2D, GL_TEXTURE_2D_ARRAY, GL_TEXTURE_3D,
                                             GL_TEXTURE_CUBE_MAP};
 

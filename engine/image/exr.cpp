@@ -171,12 +171,7 @@ void write_floats(const std::filesystem::path& path, int width, int height, cons
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& error) {
-        throw Error({.file = path.string(),
-                     .location = {},
-                     .found = fmt::format("encoding OpenEXR failed: {}", error.what()),
-                     .expected = {},
-                     .remedy = {},
-                     .fault = Fault::System});
+        fail_system(path.string(), fmt::format("encoding OpenEXR failed: {}", error.what()));
     }
     write_file_atomic(path, stream.str());
 }

@@ -20,7 +20,6 @@ struct Image {
     glm::vec3& at(int column, int row) { return texels[index(column, row)]; }
 };
 
-/// A black image.
 inline Image make_image(int width, int height) {
     return {
         width, height,

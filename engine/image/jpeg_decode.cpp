@@ -24,12 +24,7 @@ using Decoder = std::unique_ptr<void, Close>;
 Decoder make_decoder(const std::string& file) {
     Decoder decoder(tjInitDecompress());
     if (!decoder)
-        throw Error({.file = file,
-                     .location = {},
-                     .found = fmt::format("no JPEG decoder ({:.80})", tjGetErrorStr2(nullptr)),
-                     .expected = {},
-                     .remedy = "free some memory",
-                     .fault = Fault::System});
+        fail_system(file, fmt::format("no JPEG decoder ({:.80})", tjGetErrorStr2(nullptr)), "free some memory");
     return decoder;
 }
 

@@ -15,11 +15,8 @@ Image load_image(const std::filesystem::path& path) {
 Image decode_image(std::span<const std::byte> bytes, const std::string& file) {
     if (is_radiance_hdr(bytes)) return read_radiance_hdr(bytes, file);
     if (is_exr(bytes)) return read_exr(bytes, file);
-    throw Error({.file = file,
-                 .location = "byte 0",
-                 .found = bytes.empty() ? "an empty file" : "an unknown image format",
-                 .expected = "Radiance (.hdr) or OpenEXR (.exr)",
-                 .remedy = "convert the image to one of them"});
+    refuse_input(file, "byte 0", bytes.empty() ? "an empty file" : "an unknown image format",
+                 "Radiance (.hdr) or OpenEXR (.exr)", "convert the image to one of them");
 }
 
 }  // namespace rowland::image

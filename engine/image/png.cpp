@@ -30,12 +30,7 @@ std::vector<std::byte> encode_png(int width, int height, int channels, std::span
         static_cast<std::size_t>(channels) * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     std::vector<std::byte> bytes;
     if (stbi_write_png_to_func(append, &bytes, width, height, channels, pixels.data(), channels * width) == 0)
-        throw Error({.file = {},
-                     .location = {},
-                     .found = "encoding PNG failed",
-                     .expected = {},
-                     .remedy = "free some memory",
-                     .fault = Fault::System});
+        fail_system({}, "encoding PNG failed", "free some memory");
     return bytes;
 }
 

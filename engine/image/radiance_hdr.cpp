@@ -48,7 +48,6 @@ Rgbe read_texel(ByteReader& reader) {
     return texel;
 }
 
-/// The header's lines.
 struct Header {
     glm::dvec3 divisor{1.0};  ///< product of EXPOSURE and COLORCORR lines
     std::optional<colour::Primaries> primaries;

@@ -85,12 +85,4 @@ AmbientLight ambient_coefficients(const ShLight& light, std::span<const KeyLight
     return convolve(light, {math::SphericalWindow::None, 64});
 }
 
-glm::dvec3 evaluate_irradiance(const AmbientLight& ambient, const glm::dvec3& normal) {
-    std::array<double, 9> values{};
-    math::evaluate_sh(normal, kBands, values);
-    glm::dvec3 sum(0.0);
-    for (std::size_t i = 0; i < values.size(); ++i) sum += values[i] * ambient.coefficients[i];
-    return sum;
-}
-
 }  // namespace rowland::lighting

@@ -30,7 +30,4 @@ struct AmbientLight {
 /// residual may.
 AmbientLight ambient_coefficients(const ShLight& light, std::span<const KeyLight> keys = {});
 
-/// E(n)/π for the unit normal.
-glm::dvec3 evaluate_irradiance(const AmbientLight& ambient, const glm::dvec3& normal);
-
 }  // namespace rowland::lighting

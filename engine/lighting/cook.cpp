@@ -30,7 +30,6 @@ std::string read_text(cook::Context& context, const std::filesystem::path& path)
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// The recipe and the probe it makes.
 std::pair<ProbeRecipe, ProbeImage> make_probe(cook::Context& context) {
     const std::string file = context.source().string();
     ProbeRecipe recipe = parse_probe_recipe(context.read_json(context.source()), file);

@@ -14,7 +14,6 @@
 
 namespace rowland::lighting {
 
-/// A probe from an image file.
 struct ImageRecipe {
     std::string file;  ///< .hdr or .exr, relative to the recipe
     Mapping mapping = Mapping::Equirectangular;

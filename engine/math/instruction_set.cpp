@@ -1,18 +1,9 @@
 #include "engine/math/instruction_set.h"
 
-#include "engine/core/check.h"
-
 namespace rowland::math {
 
 const char* instruction_set_name(InstructionSet set) {
-    switch (set) {
-        case InstructionSet::Baseline:
-            return "baseline";
-        case InstructionSet::Avx2:
-            return "avx2";
-    }
-    ROWLAND_CHECK(false, "unknown instruction set");
-    return "";
+    return set == InstructionSet::Avx2 ? "avx2" : "baseline";
 }
 
 bool is_supported(InstructionSet set) {

@@ -1,6 +1,8 @@
 #include "engine/math/sh_window.h"
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 
 #include "engine/core/check.h"
@@ -8,16 +10,8 @@
 namespace rowland::math {
 
 const char* window_name(SphericalWindow window) {
-    switch (window) {
-        case SphericalWindow::None:
-            return "none";
-        case SphericalWindow::Lanczos:
-            return "lanczos";
-        case SphericalWindow::Hann:
-            return "hann";
-    }
-    ROWLAND_CHECK(false, "unknown window");
-    return "";
+    constexpr std::array kNames = {"none", "lanczos", "hann"};
+    return kNames.at(static_cast<std::size_t>(window));
 }
 
 SphericalWindow parse_window(std::string_view name) {

@@ -20,12 +20,7 @@ constexpr const char* needed =
     "a driver with EGL and OpenGL 4.5 core (any GPU of the last ten years, or Mesa's llvmpipe)";
 
 [[noreturn]] void fail(std::string found, std::string remedy = "") {
-    throw Error({.file = "OpenGL without a window",
-                 .location = {},
-                 .found = std::move(found),
-                 .expected = needed,
-                 .remedy = std::move(remedy),
-                 .fault = Fault::System});
+    fail_system("OpenGL without a window", std::move(found), std::move(remedy), needed);
 }
 
 bool has_word(const char* words, std::string_view word) {

@@ -10,7 +10,6 @@ namespace rowland::platform {
 
 /// The label of a key, as "W", "F5" or "Left Shift". Unique.
 std::string name_of(Key key);
-/// The key of that name; nullopt if there is none.
 std::optional<Key> key_named(std::string_view name);
 
 /// The key of a GLFW number; nullopt for one that Key does not have.

@@ -44,14 +44,11 @@ void require_readable_version(const std::string& text, const std::string& source
     const auto version = profile_version(text);
     const auto latest = latest_version();
     if (!version || *version <= latest) return;
-    throw Error({.file = source,
-                 .location = {},
-                 .found = fmt::format("a configuration of version {}.{}", version->first, version->second),
-                 .expected = fmt::format("at most version {}.{}, the latest OpenColorIO {} reads", latest.first,
-                                         latest.second, OCIO::GetVersion()),
-                 .remedy =
-                     "use a configuration made for it (of the ACES configurations, one named …_ocio-v2.1 or older), "
-                     "or a later OpenColorIO"});
+    refuse_input(source, {}, fmt::format("a configuration of version {}.{}", version->first, version->second),
+                 fmt::format("at most version {}.{}, the latest OpenColorIO {} reads", latest.first, latest.second,
+                             OCIO::GetVersion()),
+                 "use a configuration made for it (of the ACES configurations, one named …_ocio-v2.1 or older), "
+                 "or a later OpenColorIO");
 }
 
 [[noreturn]] void fail_to_load(const std::string& source, const OCIO::Exception& exception) {

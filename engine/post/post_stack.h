@@ -25,7 +25,6 @@ struct PostSettings {
     std::optional<DitherSettings> dither = {};  ///< clamps values to 0 to 1; turn off for comparisons
 };
 
-/// What changes from frame to frame.
 struct PostFrame {
     std::uint32_t index = 0;            ///< of the frame, for dither
     float seconds = 0.0F;               ///< since the last frame, for automatic exposure

@@ -17,7 +17,6 @@
 
 namespace rowland::render {
 
-/// A texture on a surface.
 struct SurfaceTexture {
     std::shared_ptr<const gpu::Texture> texture;  ///< null: the factor alone
     int uv_set = 0;

@@ -13,7 +13,6 @@
 
 namespace rowland::render {
 
-/// The entities of an imported scene.
 struct SceneInstance {
     std::vector<ecs::Entity> nodes;   ///< one per node, in the import's order: Transform, Parent and NodeLabel
     std::vector<ecs::Entity> drawn;   ///< one per instance of a primitive: MeshInstance and StandardMaterial

@@ -77,7 +77,6 @@ cook::AssetType scene_type() {
     return type;
 }
 
-/// A path's extension in lower case.
 std::string lower_extension(const std::filesystem::path& path) {
     std::string extension = path.extension().string();
     for (char& c : extension)

@@ -54,7 +54,6 @@ class Writing {
     }
 
  private:
-    /// The array `key` of the root.
     Json& array(const char* key) { return root_[key]; }
 
     /// The complete JSON. glTF has no empty arrays.

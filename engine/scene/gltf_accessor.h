@@ -13,7 +13,6 @@ namespace rowland::scene {
 /// views. Throws Error (input).
 void check_ranges(const GltfDocument& document);
 
-/// The bytes of a buffer view of a checked document.
 std::span<const std::byte> view_bytes(const GltfDocument& document, std::size_t view);
 
 /// The elements of an accessor as vectors of floats (glm::vec2, vec3 or vec4): zeros without a buffer view, with sparse

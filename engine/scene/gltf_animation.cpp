@@ -36,7 +36,6 @@ AnimationSampler read_animation_sampler(const GltfJson& json, JsonReader& sample
     return to;
 }
 
-/// One channel while it is imported.
 struct ChannelImport {
     const GltfDocument& document;
     const AnimationSampler& sampler;

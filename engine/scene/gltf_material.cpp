@@ -18,7 +18,6 @@ float factor_or_one(JsonReader& reader, const std::string& key) {
     return static_cast<float>(std::min(reader.number_or(key, 1.0, kFactor), 1.0));
 }
 
-/// One material of the file.
 struct MaterialReading {
     const GltfJson& json;
     std::span<const GltfTexture> textures;

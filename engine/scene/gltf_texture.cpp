@@ -24,7 +24,6 @@ TextureWrap read_wrap(JsonReader& sampler, const std::string& key) {
                  fmt::format("one of {}, {}, {}", kRepeat, kClampToEdge, kMirroredRepeat));
 }
 
-/// A sampler's settings; the image is not set.
 ImportedTexture read_sampler(JsonReader& sampler) {
     ImportedTexture settings;
     settings.wrap_s = read_wrap(sampler, "wrapS");

@@ -13,7 +13,6 @@ namespace rowland::scene {
 
 namespace {
 
-/// A point of the profile.
 struct Station {
     glm::dvec2 at;
     glm::dvec2 direction;  ///< unit, along the profile

@@ -10,7 +10,6 @@ namespace rowland::scene {
 /// A profile turned around the Y axis: stands, rims, rings, shells. In the (radius, height) plane the outside is to the
 /// right of the profile's direction, so an outer wall goes up and a top goes inward.
 struct LatheRecipe {
-    /// Where the tangent points.
     enum class Tangent {
         Around,  ///< along growing longitude (+X towards −Z); u = fraction of the turn, v = fraction of the profile
         Along,   ///< along the profile; u = fraction of its length, v = 1 − fraction of the turn

@@ -18,7 +18,6 @@ struct TextureTransform {
     glm::vec2 scale{1.0F};
 };
 
-/// A material's use of a texture.
 struct TextureUse {
     std::size_t texture = 0;  ///< into ImportedScene::textures
     int uv_set = 0;           ///< 0 or 1

@@ -12,7 +12,6 @@
 
 namespace rowland::scene {
 
-/// One primitive while it is imported.
 struct PrimitiveImport {
     const GltfDocument& document;
     const GltfPrimitive& primitive;

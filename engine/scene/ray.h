@@ -15,7 +15,6 @@ struct Ray {
     glm::vec3 direction{0.0F, 0.0F, -1.0F};  ///< unit in world space; any length in a mesh's space
 };
 
-/// Where a ray meets a triangle.
 struct TriangleHit {
     std::size_t triangle = 0;  ///< its corners are indices 3 triangle … 3 triangle + 2 of the mesh
     glm::vec2 weights{0.0F};   ///< barycentric, of its second and third corner

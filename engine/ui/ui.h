@@ -14,7 +14,6 @@ struct UiOptions {
 inline constexpr float kSmallestScale = 0.5F;
 inline constexpr float kLargestScale = 4.0F;
 
-/// Where a frame is drawn.
 struct UiFrame {
     glm::ivec2 size{0};              ///< screen coordinates, which the mouse has too (platform::Window::size())
     glm::ivec2 framebuffer_size{0};  ///< pixels

@@ -44,7 +44,6 @@ class Picture {
     /// Draws a frame, `seconds` after the last. Throws Error (system) if the context is lost.
     void draw(ecs::World& world, const scene::Camera& camera, float seconds);
 
-    /// Times of the passes of the last frames.
     const gpu::PassTimes& pass_times() const { return pass_times_; }
     post::PostSettings& post_settings() { return post_settings_; }
     /// Exposure of the last frame in stops, manual and automatic together.

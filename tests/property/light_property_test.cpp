@@ -6,6 +6,7 @@
 #include "engine/core/error.h"
 #include "engine/lighting/light_probe.h"
 #include "tests/property/generators.h"
+#include "tests/support/evaluate_irradiance.h"
 
 namespace rowland::property {
 namespace {
@@ -77,7 +78,7 @@ RC_GTEST_PROP(ProbeProperty, ProjectionIsBounded, ()) {
 RC_GTEST_PROP(ProbeProperty, AmbientIsNotNegative, ()) {
     const ProbeImage probe(any_image(), Mapping::Equirectangular);
     const AmbientLight ambient = ambient_coefficients(project(probe, 5));
-    const glm::dvec3 e = evaluate_irradiance(ambient, *direction());
+    const glm::dvec3 e = test::evaluate_irradiance(ambient, *direction());
     RC_ASSERT(is_finite(e));
     const double mean = largest(ambient.coefficients[0]);
     RC_ASSERT(std::min({e.x, e.y, e.z}) >= -1e-3 * mean);

@@ -41,7 +41,6 @@ class Comparison {
     LookSubject subject(ecs::Entity grating);
     /// The material that an object shows on a side; the last one while a new one is baked.
     GpuMaterialPointer shown(ecs::Entity grating, Side side);
-    /// The object's own material.
     GpuMaterialPointer own(ecs::Entity grating);
     /// A picture (as for GpuStill) that all gratings show right of the line in place of their looks; null: none.
     /// Gratings whose grooves vary keep their looks.

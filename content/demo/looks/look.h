@@ -27,7 +27,6 @@ std::string look_name(const Look& look);
 /// Its inverse; nullopt for another text. Recordings of earlier versions say "usual" for "medium".
 std::optional<Look> look_named(std::string name);
 
-/// What a look is baked from.
 struct LookSubject {
     diffraction::Material material;
     bool flat = false;                                                ///< the mesh lies in a plane

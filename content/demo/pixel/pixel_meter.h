@@ -55,7 +55,6 @@ class PixelMeter {
 
     /// The last result, perhaps of an earlier query; null before the first.
     const PixelReading* reading() const { return reading_.value(); }
-    /// Whether the last result is of the last query.
     bool current() const { return wanted_ && reading_.is_of(*wanted_); }
     /// Why the last query has no result; empty if it has, or may get one.
     const std::string& failure() const { return failure_; }

@@ -107,7 +107,6 @@ std::vector<Texel> texels_of_pass(const StillView& view, const Points& points, i
     return texels;
 }
 
-/// The computation of a still.
 class StillWork {
  public:
     StillWork(const StillView& view, const std::stop_token& stop, const Publish& publish)

@@ -13,7 +13,6 @@
 
 namespace rowland::demo {
 
-/// A mesh and its pose.
 struct PlacedMesh {
     std::shared_ptr<const scene::Mesh> mesh;
     glm::mat4 to_world{1.0F};

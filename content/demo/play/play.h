@@ -69,7 +69,6 @@ class Play {
     std::uint64_t steps() const { return steps_; }     ///< so far
     double environment_turn() const { return turn_; }  ///< radians about +Y, from above counter-clockwise
     const std::vector<Body>& bodies() const { return toys_.bodies; }
-    /// The body that is grabbed.
     std::optional<std::size_t> held_body() const;
     const PlayerLights& lights() const { return lights_; }
     /// A short hash of the pose of every object, light and the camera, to the bit, and of time and steps.

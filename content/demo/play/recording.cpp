@@ -253,13 +253,7 @@ void Recorder::add(std::uint64_t step, std::span<const PlayEvent> events) {
 
 void Recorder::flush() {
     file_.flush();
-    if (!file_)
-        throw Error({.file = path_.string(),
-                     .location = {},
-                     .found = "the recording could not be written",
-                     .expected = {},
-                     .remedy = "make room, or name another file",
-                     .fault = Fault::System});
+    if (!file_) fail_system(path_.string(), "the recording could not be written", "make room, or name another file");
 }
 
 void Recorder::finish(std::uint64_t steps) {

@@ -37,7 +37,6 @@ class Recorder {
     std::ofstream file_;
 };
 
-/// A recorded play.
 struct Recording {
     struct Step {
         std::uint64_t step = 0;

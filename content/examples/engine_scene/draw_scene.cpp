@@ -17,7 +17,6 @@ using namespace rowland;
 
 namespace {
 
-/// The scene's first camera.
 scene::Camera first_camera(const scene::ImportedScene& scene) {
     if (scene.cameras.empty()) throw std::runtime_error("the scene has no camera");
     const scene::ImportedCamera& camera = scene.cameras.front();

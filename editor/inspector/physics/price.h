@@ -13,7 +13,6 @@
 
 namespace rowland::inspector {
 
-/// A representation with its cost and its error.
 struct PricedChoice {
     nlohmann::json settings;  ///< members of "quality"
     diffraction::ShadingCost cost;

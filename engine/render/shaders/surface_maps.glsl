@@ -39,7 +39,6 @@ vec4 surface_colour() {
     return product;
 }
 
-// Metallic and perceptual roughness.
 vec2 surface_metallic_roughness() {
 #ifdef METALLIC_ROUGHNESS_MAP
     return metallic_roughness.xy * texture(metallic_roughness_map, map_coordinates(1, METALLIC_ROUGHNESS_MAP)).bg;

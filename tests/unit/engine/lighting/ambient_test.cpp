@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/math/sh_basis.h"
+#include "tests/support/evaluate_irradiance.h"
 #include "tests/unit/engine/lighting/made_probes.h"
 
 namespace rowland::lighting {
@@ -25,7 +26,7 @@ ShLight point_light(const glm::dvec3& d, double ambient_radiance) {
 double lowest(const AmbientLight& ambient) {
     double value = 1e30;
     for (int i = 0; i < 20000; ++i) {
-        const glm::dvec3 e = evaluate_irradiance(ambient, test::spread_direction(i, 20000));
+        const glm::dvec3 e = test::evaluate_irradiance(ambient, test::spread_direction(i, 20000));
         value = std::min({value, e.x, e.y, e.z});
     }
     return value;
@@ -38,7 +39,7 @@ TEST(Ambient, WhiteFurnaceIsOne) {
         EXPECT_EQ(ambient.window.damping, 0);
         for (int i = 0; i < 50; ++i)
             // The projection's own error at this size.
-            EXPECT_NEAR(evaluate_irradiance(ambient, test::spread_direction(i, 50)).y, 1, 1e-3);
+            EXPECT_NEAR(test::evaluate_irradiance(ambient, test::spread_direction(i, 50)).y, 1, 1e-3);
     }
 }
 
@@ -59,7 +60,7 @@ TEST(Ambient, AgreesWithBruteForceIrradianceForSmoothLight) {
                     sum += cosine * probe.solid_angle(column, row) / pi * glm::dvec3(probe.image().at(column, row));
             }
         // Midpoint sums over texels of 2.8°, with a kink at the horizon.
-        EXPECT_LT(glm::length(evaluate_irradiance(ambient, n) - sum), 0.005);
+        EXPECT_LT(glm::length(test::evaluate_irradiance(ambient, n) - sum), 0.005);
     }
 }
 
@@ -78,7 +79,7 @@ TEST(Ambient, CosineLobeIsConvolvedWithTheCosine) {
     for (const double beta : {0.0, 0.7, pi / 2, 2.2}) {
         const double exact = kAround + (std::sin(beta) + (pi - beta) * std::cos(beta)) * 2 / (3 * pi);
         const glm::dvec3 n = std::cos(beta) * g + std::sin(beta) * side;
-        EXPECT_NEAR(evaluate_irradiance(ambient, n).x, exact, 0.01) << beta;
+        EXPECT_NEAR(test::evaluate_irradiance(ambient, n).x, exact, 0.01) << beta;
     }
 }
 
@@ -98,7 +99,7 @@ TEST(Ambient, MildestWindowThatKeepsItNonNegativeIsPicked) {
     const AmbientLight night = picked(0);
     EXPECT_GT(night.window.damping, 0);
     EXPECT_GE(lowest(night), 0);
-    EXPECT_GT(evaluate_irradiance(night, d).x, evaluate_irradiance(night, -d).x);
+    EXPECT_GT(test::evaluate_irradiance(night, d).x, test::evaluate_irradiance(night, -d).x);
 }
 
 TEST(Ambient, WhatLobesLeaveMayBeNegativeWhereTheSumIsNot) {
@@ -116,18 +117,18 @@ TEST(Ambient, WhatLobesLeaveMayBeNegativeWhereTheSumIsNot) {
     // lobe: −0.29 of band 4 and 0.12 of band 6.
     for (int i = 0; i < 50; ++i) {
         const glm::dvec3 n = test::spread_direction(i, 50);
-        EXPECT_NEAR(evaluate_irradiance(ambient, n).x + irradiance(keys[0], n).x / pi, 2.0, 0.35) << i;
+        EXPECT_NEAR(test::evaluate_irradiance(ambient, n).x + irradiance(keys[0], n).x / pi, 2.0, 0.35) << i;
     }
 }
 
 TEST(Ambient, FewerThanThreeBandsCountAsZeros) {
     const ShLight light{1, {glm::dvec3(std::sqrt(4 * pi))}};
-    EXPECT_NEAR(evaluate_irradiance(ambient_coefficients(light), {0, 0, 1}).x, 1, 1e-14);
+    EXPECT_NEAR(test::evaluate_irradiance(ambient_coefficients(light), {0, 0, 1}).x, 1, 1e-14);
 }
 
 TEST(Ambient, DarknessStaysDark) {
     const ShLight light{3, std::vector<glm::dvec3>(9, glm::dvec3(0.0))};
-    EXPECT_EQ(evaluate_irradiance(ambient_coefficients(light), {0, 1, 0}), glm::dvec3(0.0));
+    EXPECT_EQ(test::evaluate_irradiance(ambient_coefficients(light), {0, 1, 0}), glm::dvec3(0.0));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "engine/core/json_reader.h"
 #include "engine/image/exr.h"
 #include "engine/lighting/light_probe.h"
+#include "tests/support/evaluate_irradiance.h"
 #include "tests/support/temporary_folder.h"
 
 namespace rowland::lighting {
@@ -47,7 +48,7 @@ TEST_F(ProbeCook, ImageRecipeCooksAndDependsOnItsImage) {
     const auto payload = probe().cook(context);
     const LightProbe light = deserialise(payload, "p.probe");
     EXPECT_EQ(light.sh.bands, 3);
-    EXPECT_NEAR(evaluate_irradiance(light.ambient, {0, 1, 0}).x, 2, 0.02);  // texels of 11°
+    EXPECT_NEAR(test::evaluate_irradiance(light.ambient, {0, 1, 0}).x, 2, 0.02);  // texels of 11°
     EXPECT_THAT(context.dependencies(), ::testing::Contains(folder_.path() / "white.exr"));
     EXPECT_THAT(probe().describe(payload, "p.probe"), ::testing::HasSubstr("bands: 3"));
     EXPECT_EQ(probe().extension, ".probe");
