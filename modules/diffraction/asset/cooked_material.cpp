@@ -66,7 +66,7 @@ ReadNamed read_among(NamedTexts texts, const std::string& file) {
 }
 
 constexpr std::size_t kMostKernelEntries = 1 << 16;
-/// Beyond the path differences of all orders that a material may list.
+/// Larger than the path differences of all orders that a material may list.
 constexpr double kFarthestKernel_nm = 1e9;
 
 void write_kernel(const KernelTable& kernel, ByteWriter& writer) {
@@ -181,7 +181,7 @@ void add_record(const BudgetRecord& record, Lines& lines) {
     for (const BudgetRecord::OfProbe& probe : record.probes)
         lines.add("measured_error",
                   fmt::format("{:.5f} under {} with {} key lights", probe.error, probe.probe, probe.key_lights));
-    lines.add("price", fmt::format("{:.4g} fetches a pixel", record.price));
+    lines.add("price", fmt::format("{:.4g} fetches per pixel", record.price));
 }
 
 }  // namespace

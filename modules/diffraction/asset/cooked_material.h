@@ -20,13 +20,13 @@ namespace rowland::diffraction {
 inline constexpr const char* kMaterialAssetType = "material";
 inline constexpr std::uint32_t kMaterialAssetVersion = 4;
 
-/// A material with what was baked for it.
+/// A material with its baked tables.
 struct CookedMaterial {
     Material material;
     BakedTables tables;
-    KernelTable kernel;                      ///< for lights of their own, and for maps that are filled at run time
+    KernelTable kernel;                      ///< for analytic lights, key lights, and maps filled at run time
     glm::dmat3 zero_order_xyz{0.0};          ///< ColourKernel::zero_order_xyz()
-    std::optional<BudgetRecord> measured{};  ///< where the representation was chosen for an error
+    std::optional<BudgetRecord> measured{};  ///< if the representation was chosen for max_error
 };
 
 /// Throws Error (input) naming `file` for fewer grooves than baked materials have.
@@ -38,23 +38,23 @@ CookedMaterial bake_kernel(const Material& material);
 /// Bakes the material's representation. Throws Error (input) if the grating does not suit it.
 CookedMaterial bake_material(const Material& material);
 
-/// Parses `json` and bakes what it pins, whatever its max_error (choose_representation() looks after that). Files that
-/// it names are read by `read`, or beside `file`. Throws Error (input) naming `file`.
+/// Parses `json` and bakes the pinned representation. Ignores max_error: see choose_representation(). Named files are
+/// read by `read`, or beside `file`. Throws Error (input) naming `file`.
 CookedMaterial cook_material(const nlohmann::json& json, const std::string& file, const ReadNamed& read);
 CookedMaterial cook_material(const nlohmann::json& json, const std::string& file);
 
-/// The payload of a cooked material: the source as compact JSON, with what was chosen for it pinned, the CSV files that
-/// it names, the kernel, the representation's number and its tables, and the record of the choice (else no text). It
-/// needs no other file.
+/// The payload of a cooked material: the source as compact JSON with the chosen representation pinned, the CSV files
+/// that it names, the kernel, the representation's number and tables, and the record of the choice (else empty text).
+/// It needs no other file.
 std::vector<std::byte> write_cooked_material(const nlohmann::json& json, const CookedMaterial& cooked);
 
-/// Inverse of write_cooked_material for bytes that may be hostile. Throws Error (input).
+/// Inverse of write_cooked_material for untrusted bytes. Throws Error (input).
 CookedMaterial read_cooked_material(std::span<const std::byte> payload, const std::string& file);
 
 /// Loads a cooked material file. Throws Error (input); a wrong version names the command that recooks.
 CookedMaterial load_cooked_material(const std::filesystem::path& path);
 
-/// What a cooked material holds, a "name: value" line each.
+/// The contents of a cooked material as "name: value" lines.
 std::string describe(const CookedMaterial& cooked);
 
 }  // namespace rowland::diffraction

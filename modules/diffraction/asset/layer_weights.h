@@ -7,10 +7,10 @@
 
 namespace rowland::diffraction {
 
-/// What a grating leaves to the engine's own shading, as XYZ of the illuminant's white (Y = 1) after it.
+/// Weights of the engine's own shading of a grating: XYZ of the illuminant's white (Y = 1) after the grating.
 struct LayerWeights {
     glm::dvec3 mirror{0.0};  ///< the zero order, unless `orders` lists 0 (then the diffraction term shades it)
-    glm::dvec3 base{1.0};    ///< 1 − Σ listed η − η₀, at least 0: what reaches the layer under the grating
+    glm::dvec3 base{1.0};    ///< 1 − Σ listed η − η₀, at least 0: the light that reaches the base layer
 };
 
 /// PHYSICS §2, "Zero order". Each weight is ∫ w(λ) cmf(λ) S(λ) dλ, S the illuminant, of luminance 1.

@@ -12,7 +12,7 @@
 
 namespace rowland::diffraction {
 
-/// What lies under the grating: a dielectric with this colour, lit by the light the orders leave over.
+/// The layer under the grating: a dielectric, lit by the light that the orders do not diffract.
 struct BaseLayer {
     glm::vec3 colour{0.0F};  ///< linear Rec.709 albedo, 0…1
     float roughness = 0.3F;  ///< perceptual, 0…1
@@ -30,10 +30,10 @@ struct Quality {
     std::vector<MeasuredProbe> probes;          ///< that max_error is for; none: the built-in clear sky
     SurfaceShape surface = SurfaceShape::Flat;  ///< that max_error is for
     std::optional<Representation> pinned;
-    bool key_lights = false;  ///< the probe's key lights are shaded on their own, at full sharpness
-    /// Key lights and directional lights are shaded at the vertices, which suits dense meshes, not at every pixel.
+    bool key_lights = false;  ///< the probe's key lights are shaded one by one, at full sharpness
+    /// Key lights and directional lights are shaded per vertex, for dense meshes, instead of per pixel.
     bool lights_at_vertices = false;
-    bool map_at_vertices = false;                   ///< so is the map of `planar` or `circle`
+    bool map_at_vertices = false;                   ///< the map of `planar` or `circle` is read per vertex
     colour::Illuminant illuminant = colour::d65();  ///< the spectrum of the light's white that tables are baked for
 };
 
@@ -44,7 +44,7 @@ struct Material {
     Quality quality;
 };
 
-/// What is baked for a material: what is pinned, else spikes. A cooker that is to meet max_error pins what it chose.
+/// The representation to bake: the pinned one, else spikes. A cooker pins the one that it chooses for max_error.
 Representation representation(const Material& material);
 
 }  // namespace rowland::diffraction

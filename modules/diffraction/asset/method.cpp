@@ -47,7 +47,7 @@ int default_key_lights(const RepresentationInfo& info) {
     return info.key_lights == KeyLightUse::Always ? lighting::LightProbeSettings().key_lights : 0;
 }
 
-/// Reads "key_lights" and "window"; what is left is the quality, which is checked here.
+/// Reads "key_lights" and "window"; checks the other members, which are the quality.
 Method read_method(const nlohmann::json& members, const std::string& file) {
     JsonReader reader(members, file);
     Method method{.quality = members};

@@ -8,12 +8,11 @@
 
 namespace rowland::diffraction {
 
-/// A way to shade a material, and how its light is divided: what programs call a method or a setting, written
-/// "arc/bands=5/rank=8/key_lights=16/window=hann".
+/// A way to shade a material and to divide its light, written "arc/bands=5/rank=8/key_lights=16/window=hann".
 struct Method {
     /// A material file's "quality" but for key_lights: "representation" and the settings that are given. Keys ascend.
     nlohmann::json quality;
-    int key_lights = 0;  ///< taken out of the probe and shaded one by one; 16 unless given where there must be some
+    int key_lights = 0;  ///< extracted from the probe and shaded one by one; default: 16 if required, else 0
     math::SphericalWindow window = math::SphericalWindow::None;
 
     friend bool operator==(const Method&, const Method&) = default;
@@ -36,7 +35,7 @@ const RepresentationInfo& info(const Method& method);
 /// file's where it pins the same representation, else the defaults.
 nlohmann::json with_method(nlohmann::json json, const Method& method);
 
-/// Why a grating cannot be shaded by the method; nothing if it can.
+/// Why the method cannot shade a grating; nullopt if it can.
 std::optional<Refusal> refusal(const Method& method, const Grating& grating);
 
 /// Throws Error (input) if cook() would, without baking.

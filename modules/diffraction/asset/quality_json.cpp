@@ -18,7 +18,7 @@ bool at_vertices(JsonReader& json, const char* key) {
     return json.choice_or(key, "pixels", {"pixels", "vertices"}) == "vertices";
 }
 
-/// A built-in illuminant, or one of a file, called as the material calls it.
+/// A built-in illuminant, or one from a file, named as in the material.
 colour::Illuminant parse_illuminant(JsonReader& json, const ReadNamed& read) {
     const std::string name = json.text("illuminant");
     const std::vector<std::string> names = colour::illuminant_names();
@@ -47,20 +47,20 @@ std::vector<MeasuredProbe> parse_probes(JsonReader& json) {
                   fmt::format("a list of 1 to {} probes", kMostProbes));
     std::vector<MeasuredProbe> probes;
     for (std::size_t i = 0; i < list.size(); ++i) {
-        const std::string place = fmt::format("probes/{}", i);
+        const std::string pointer = fmt::format("probes/{}", i);
         if (list[i].is_object()) {
-            probes.push_back(parse_probe_image(JsonReader(list[i], json.file(), json.pointer_to(place))));
+            probes.push_back(parse_probe_image(JsonReader(list[i], json.file(), json.pointer_to(pointer))));
         } else if (list[i].is_string() && !list[i].get<std::string>().empty()) {
             probes.push_back({.file = list[i].get<std::string>()});
         } else {
-            json.fail(place, list[i].is_string() ? "an empty name" : "another type",
+            json.fail(pointer, list[i].is_string() ? "an empty name" : "another type",
                       "a probe recipe's name, or { \"image\": \"room.hdr\", \"mapping\": \"equirect\" }");
         }
     }
     return probes;
 }
 
-/// What the error of max_error is measured on, where the cooker chooses the representation.
+/// The probes and the surface that max_error is measured on, if the cooker chooses the representation.
 void parse_measure(JsonReader& json, Quality& quality) {
     if (json.has("probes")) quality.probes = parse_probes(json);
     if (json.choice_or("surface", "flat", {"flat", "curved"}) == "curved") quality.surface = SurfaceShape::Curved;

@@ -8,9 +8,9 @@
 
 namespace rowland::diffraction {
 
-/// Parses a material's "quality": an error that is tolerated, or a representation with its settings. A representation
-/// takes the keys that it has; others, and what does not suit the grating (refusal()), are refused by name. An
-/// illuminant's file is read by `read`. Throws Error (input).
+/// Parses a material's "quality": a tolerated error, or a representation with its settings. Unknown keys, and settings
+/// that do not suit the grating (refusal()), are errors that name the key. `read` reads an illuminant's file. Throws
+/// Error (input).
 Quality parse_quality(JsonReader json, const Grating& grating, const ReadNamed& read);
 
 /// A representation and its settings, within their limits.

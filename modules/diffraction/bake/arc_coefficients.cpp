@@ -15,7 +15,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// Gauss–Legendre needs π nodes a wave, and a few more where cos t stretches waves.
+/// Gauss–Legendre needs π nodes per wave, and a few more where cos t stretches waves.
 constexpr int kNodesPerWave = 6;
 
 /// The flat lobe's integrand is a trigonometric polynomial of degree `bands` in t over half a period: 16 nodes give
@@ -52,7 +52,7 @@ struct ArcCoefficients::Stretch {
 };
 
 /// The arc's radius and the view along the grooves.
-struct ArcCoefficients::Place {
+struct ArcCoefficients::Circle {
     double r = 0.0;
     double v_h = 0.0;
 };
@@ -78,7 +78,7 @@ ArcCoefficients::Moments ArcCoefficients::moments(double r, double v_h, double w
     return result;
 }
 
-void ArcCoefficients::add_moments(const math::QuadratureRule& rule, const Stretch& stretch, const Place& place,
+void ArcCoefficients::add_moments(const math::QuadratureRule& rule, const Stretch& stretch, const Circle& arc,
                                   const LobeDensity& density, Moments& result) const {
     const double length = stretch.end - stretch.begin;
     if (length <= 0.0) return;
@@ -86,8 +86,8 @@ void ArcCoefficients::add_moments(const math::QuadratureRule& rule, const Stretc
         const double t = stretch.begin + length * rule.nodes[node];
         const double c = std::cos(t);
         const double s = std::sin(t);
-        const double weight = length * rule.weights[node] * place.r * s * density(place.r * c + place.v_h);
-        // cos and sin of mt by turning on by t.
+        const double weight = length * rule.weights[node] * arc.r * s * density(arc.r * c + arc.v_h);
+        // cos mt and sin mt by recurrence.
         double cosine = weight;
         double sine = 0.0;
         for (std::size_t m = 0; m < static_cast<std::size_t>(bands_); ++m) {

@@ -9,13 +9,13 @@
 
 namespace rowland::diffraction {
 
-/// The SH coefficients of "all light that one arc gathers" (PHYSICS §5):
+/// The SH coefficients of the light that one arc gathers (PHYSICS §5):
 /// C_i(a) = ½ ∫₀^π Y_i(a, r cos t, r sin t) · 2 D_h(r cos t + v_h) · r sin t dt, r = √(1−a²), in the frame (g, h, n).
-/// For light Σ l_i Y_i the arc profile is A(a) = Σ C_i(a) l_i. With the flat lobe 2 D_h = 1 and v_h does not matter.
+/// For light Σ l_i Y_i the arc profile is A(a) = Σ C_i(a) l_i. For the flat lobe 2 D_h = 1, whatever v_h.
 ///
-/// Worked out in the arc frame (h, n, g), whose polar axis is the arcs' own axis: there Y_lm is a function of a alone
-/// times cos mt or sin |m|t, so that an arc takes 2n−1 moments and one evaluation of the basis. Sums over arcs are made
-/// in the arc frame and turned once, by to_tangent_frame().
+/// The computation is in the arc frame (h, n, g), whose polar axis is the axis of the arcs. There Y_lm is a function of
+/// a times cos mt or sin |m|t, so that an arc takes 2n−1 moments and one evaluation of the basis. Sum over arcs in the
+/// arc frame, then rotate once by to_tangent_frame().
 class ArcCoefficients {
  public:
     /// 1 ≤ bands ≤ 32. Flat lobe: 1e-14 exact. Others: 1e-9.
@@ -32,9 +32,9 @@ class ArcCoefficients {
  private:
     struct Moments;
     struct Stretch;
-    struct Place;
+    struct Circle;
     Moments moments(double r, double v_h, double wavelength_nm) const;
-    void add_moments(const math::QuadratureRule& rule, const Stretch& stretch, const Place& place,
+    void add_moments(const math::QuadratureRule& rule, const Stretch& stretch, const Circle& arc,
                      const LobeDensity& density, Moments& result) const;
 
     int bands_;

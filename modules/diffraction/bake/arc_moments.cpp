@@ -15,42 +15,41 @@ namespace {
 
 using Eigen::MatrixXd;
 
-/// Places a = cos ϑ for a fit by sines; `shift` in (0, 1) tells sets apart.
-double place(int index, int count, double shift) {
+/// Samples a = cos ϑ for a fit by sines; `shift` in (0, 1) distinguishes sets of samples.
+double sample_position(int index, int count, double shift) {
     return std::cos(std::numbers::pi * (index + shift) / count);
 }
 
-/// Column i: C_i(a) in the arc frame (h, n, g); row: the places.
-MatrixXd arc_coefficients(const ArcCoefficients& arcs, int places, double shift) {
+/// Column i: C_i(a) in the arc frame (h, n, g); row: the samples.
+MatrixXd arc_coefficients(const ArcCoefficients& arcs, int samples, double shift) {
     const int count = math::sh_count(arcs.bands());
-    MatrixXd result(places, count);
+    MatrixXd result(samples, count);
     std::vector<double> arc(static_cast<std::size_t>(count));
-    for (int p = 0; p < places; ++p) {
+    for (int p = 0; p < samples; ++p) {
         std::fill(arc.begin(), arc.end(), 0.0);
-        arcs.accumulate(place(p, places, shift), 0.0, 0.0, 1.0, arc);
+        arcs.accumulate(sample_position(p, samples, shift), 0.0, 0.0, 1.0, arc);
         for (int i = 0; i < count; ++i) result(p, i) = arc[static_cast<std::size_t>(i)];
     }
     return result;
 }
 
-MatrixXd arc_basis(int bands, int places, double shift) {
+MatrixXd arc_basis(int bands, int samples, double shift) {
     const int moments = arc_moment_count(bands);
-    MatrixXd result(places, moments);
+    MatrixXd result(samples, moments);
     std::vector<double> basis(static_cast<std::size_t>(moments));
-    for (int p = 0; p < places; ++p) {
-        evaluate_arc_basis(place(p, places, shift), bands, basis);
+    for (int p = 0; p < samples; ++p) {
+        evaluate_arc_basis(sample_position(p, samples, shift), bands, basis);
         for (int k = 0; k < moments; ++k) result(p, k) = basis[static_cast<std::size_t>(k)];
     }
     return result;
 }
 
-/// In the arc frame Y_lm has the factor r^|m|; around the arc only even m ≥ 0 and m = −1 have an integral. So the
-/// former are r times a polynomial, the latter r² times one, and each fit is by one family of sines alone: well
-/// conditioned.
-MatrixXd fit(const ArcCoefficients& arcs, int places) {
+/// In the arc frame Y_lm has the factor r^|m|; only even m ≥ 0 and m = −1 have an integral around the arc. The former
+/// are r times a polynomial, the latter r² times one. Each fit uses one family of sines alone and is well conditioned.
+MatrixXd fit(const ArcCoefficients& arcs, int samples) {
     const int bands = arcs.bands();
-    const MatrixXd basis = arc_basis(bands, places, 0.5);
-    const MatrixXd values = arc_coefficients(arcs, places, 0.5);
+    const MatrixXd basis = arc_basis(bands, samples, 0.5);
+    const MatrixXd values = arc_coefficients(arcs, samples, 0.5);
     MatrixXd result = MatrixXd::Zero(arc_moment_count(bands), math::sh_count(bands));
     const auto even = basis.leftCols(bands).colPivHouseholderQr();
     for (int l = 0; l < bands; ++l)

@@ -13,27 +13,27 @@ namespace {
 
 constexpr double kNarrowest_nm = 4.0;
 
-/// Deviations after which a normal distribution is cut off: 6e-5 of it is lost.
+/// A normal distribution ends after this many deviations: 6e-5 of it is lost.
 constexpr double kBlurReach = 4.0;
 
-/// The widest lobe that is fitted to a probe, over √(its concentration), and something for the pixel.
+/// 1/√κ of the widest lobe that is fitted to a probe, with a margin for the pixel.
 constexpr double kWidestDeviation = 0.2;
-/// Columns for lights: one for every so many nm, within what textures and time allow.
+/// Columns for lights: one per so many nm, within the limits below.
 constexpr double kColumn_nm = 2.0;
 constexpr int kFewestColumns = 1024;
 constexpr int kMostColumns = 4096;
 
-/// Shares of a normal distribution in cells of `step` around its centre, summing to 1: of cells 0, ±1, ±2, …
+/// Weights of a normal distribution in cells of width `step`, normalised: of cells 0, ±1, ±2, … from its centre.
 std::vector<double> stencil(double deviation, double step) {
-    std::vector<double> shares;
+    std::vector<double> weights;
     double sum = 0.0;
     for (int i = 0; i * step <= kBlurReach * deviation; ++i) {
         const double scale = 1.0 / (std::sqrt(2.0) * deviation);
-        shares.push_back(0.5 * (std::erf((i + 0.5) * step * scale) - std::erf((i - 0.5) * step * scale)));
-        sum += (i == 0 ? 1.0 : 2.0) * shares.back();
+        weights.push_back(0.5 * (std::erf((i + 0.5) * step * scale) - std::erf((i - 0.5) * step * scale)));
+        sum += (i == 0 ? 1.0 : 2.0) * weights.back();
     }
-    for (double& share : shares) share /= sum;
-    return shares;
+    for (double& weight : weights) weight /= sum;
+    return weights;
 }
 
 }  // namespace
@@ -77,12 +77,12 @@ BlurredKernel blur(const KernelTable& kernel, double widest_nm, int columns) {
     }
     blurred.values.resize(size * static_cast<std::size_t>(blurred.levels));
     parallel_for(static_cast<std::size_t>(blurred.levels), [&](std::size_t level) {
-        const std::vector<double> shares = stencil(deviation_of(static_cast<int>(level)), step);
+        const std::vector<double> weights = stencil(deviation_of(static_cast<int>(level)), step);
         for (std::size_t i = 0; i < size; ++i) {
-            glm::dmat3 sum = shares[0] * means[i];
-            for (std::size_t j = 1; j < shares.size(); ++j) {
-                if (i >= j) sum += shares[j] * means[i - j];
-                if (i + j < size) sum += shares[j] * means[i + j];
+            glm::dmat3 sum = weights[0] * means[i];
+            for (std::size_t j = 1; j < weights.size(); ++j) {
+                if (i >= j) sum += weights[j] * means[i - j];
+                if (i + j < size) sum += weights[j] * means[i + j];
             }
             blurred.values[level * size + i] = glm::mat3(sum);
         }
@@ -102,7 +102,7 @@ KernelUniforms kernel_uniforms(const KernelTable& kernel, const BlurredKernel& b
     const double per_nm = (1.0 - step) / (blurred.end_nm - blurred.begin_nm);
     const double reach_nm = std::max(std::abs(kernel.begin_nm), std::abs(kernel.end_nm));
     return {.scale_bias = glm::dvec4(pitch_nm * per_nm, 0.5 * step - blurred.begin_nm * per_nm,
-                                   blurred.narrowest_nm / pitch_nm, pitch_nm),
+                                     blurred.narrowest_nm / pitch_nm, pitch_nm),
             .ends = glm::dvec2(colour::kVisibleMin, reach_nm) / pitch_nm};
 }
 

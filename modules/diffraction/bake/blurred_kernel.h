@@ -9,7 +9,7 @@
 
 namespace rowland::diffraction {
 
-/// k smoothed by normal distributions, over x and the deviation σ: what a light of that extent sees of a grating in one
+/// k smoothed by normal distributions, over x and the deviation σ: the response to a light of that extent in one
 /// look-up. A 2D texture, GL_LINEAR, GL_CLAMP_TO_EDGE, three texels (the matrix's columns) per entry.
 ///   s = ((x − begin)/(end − begin) (columns−1) + ½)/columns
 ///   t = (log₂(σ/narrowest)·kLevelsPerOctave + ½)/levels
@@ -27,13 +27,13 @@ struct BlurredKernel {
 
 inline constexpr int kLevelsPerOctave = 2;
 
-/// σ from 4 nm to `widest_nm` ≥ 4 at least, x as far as 4σ beyond the kernel.
+/// σ from 4 nm to at least `widest_nm` ≥ 4; x to 4σ beyond the kernel.
 BlurredKernel blur(const KernelTable& kernel, double widest_nm, int columns = 2048);
 
-/// The same, as wide as lights and pixels on a grating of this pitch ask for: deviations of u to .2.
+/// blur() for lights and pixels on a grating of this pitch: deviations of u up to .2.
 BlurredKernel blur_for_lights(const KernelTable& kernel, double pitch_nm);
 
-/// The uniforms of shaders/kernel.glsl, which looks up u = x/d in place of x.
+/// The uniforms of shaders/kernel.glsl, which looks up u = x/d instead of x.
 struct KernelUniforms {
     glm::vec4 scale_bias{0.0F};  ///< scale and offset from u to s; deviation of u in level 0; scale of the values: d
     glm::vec2 ends{0.0F};        ///< |u| below and above which k is 0

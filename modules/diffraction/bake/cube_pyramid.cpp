@@ -9,7 +9,7 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// The two axes of the ellipse that a parallelogram has the second moments of, longer first, as full widths.
+/// The axes of the ellipse with the second moments of a parallelogram, as full widths, the longer first.
 struct Ellipse {
     glm::dvec3 major{0.0};
     double major_length = 0.0;
@@ -17,7 +17,8 @@ struct Ellipse {
 };
 
 Ellipse ellipse_of(const glm::dvec3& a, const glm::dvec3& b) {
-    // Eigenvectors of a aᵀ + b bᵀ lie in the plane of a and b: turn the pair until it is orthogonal (one Jacobi turn).
+    // Eigenvectors of a aᵀ + b bᵀ lie in the plane of a and b: rotate the pair until it is orthogonal (one Jacobi
+    // rotation).
     const double angle = 0.5 * std::atan2(2.0 * glm::dot(a, b), glm::dot(a, a) - glm::dot(b, b));
     const glm::dvec3 first = std::cos(angle) * a + std::sin(angle) * b;
     const glm::dvec3 second = std::cos(angle) * b - std::sin(angle) * a;
@@ -77,16 +78,16 @@ glm::dvec3 CubePyramid::bilinear(int level, const glm::dvec3& direction) const {
 glm::dvec3 CubePyramid::at_level(const glm::dvec3& direction, double level) const {
     const double clamped = std::clamp(level, 0.0, static_cast<double>(layout_.levels - 1));
     const int below = static_cast<int>(clamped);
-    const double share = clamped - below;
+    const double weight = clamped - below;
     const glm::dvec3 finer = bilinear(below, direction);
-    return share == 0.0 ? finer : (1.0 - share) * finer + share * bilinear(below + 1, direction);
+    return weight == 0.0 ? finer : (1.0 - weight) * finer + weight * bilinear(below + 1, direction);
 }
 
 glm::dvec3 CubePyramid::filtered(const glm::dvec3& direction, const glm::dvec3& a, const glm::dvec3& b,
                                  int most_taps) const {
     const Ellipse ellipse = ellipse_of(a, b);
     const double texel_angle = kCubeFaceAngle / layout_.face_size;
-    // Texels of level 0 are the finest there is to tell apart.
+    // Level 0 limits the resolution.
     const double minor = std::max(ellipse.minor_length, texel_angle / kTexelsPerWidth);
     const int taps = std::clamp(static_cast<int>(std::ceil(ellipse.major_length / minor - 0.5)), 1, most_taps);
     const double width = std::max(minor, ellipse.major_length / taps);

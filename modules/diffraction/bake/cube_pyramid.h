@@ -9,15 +9,15 @@
 
 namespace rowland::diffraction {
 
-/// Two levels mixed of bilinear look-ups in box-filtered texels blur by a standard deviation of half a texel, an even
-/// piece of a length by 1/√12 of it: texels so wide blur as the piece.
+/// Texels per width of a box filter, for equal blur: trilinear look-ups in box-filtered texels blur by a standard
+/// deviation of half a texel, a box by 1/√12 of its width.
 inline constexpr double kTexelsPerWidth = 0.57735026918962576451;
 
 /// Mean side of a texel of a face with one texel, in radians: √(4π/6).
 inline constexpr double kCubeFaceAngle = 1.44720250911653531871;
 
-/// A light probe as a cube map with plain levels, each the mean of four texels of the one before, read as a shader
-/// reads it.
+/// A light probe as a cube map with box-filtered levels: each texel is the mean of four of the level before. Look-ups
+/// equal the shader's.
 class CubePyramid {
  public:
     /// From level 0 of `map`.
@@ -27,7 +27,7 @@ class CubePyramid {
     glm::dvec3 at_level(const glm::dvec3& direction, double level) const;
 
     /// Mean radiance over the parallelogram that `a` and `b` span about the unit vector `direction`, all in world axes:
-    /// at the level of the shorter side's texels, up to `most_taps` places along the longer.
+    /// at the level that matches the shorter side, with up to `most_taps` samples along the longer.
     glm::dvec3 filtered(const glm::dvec3& direction, const glm::dvec3& a, const glm::dvec3& b, int most_taps) const;
 
     const lighting::CubeLayout& layout() const { return layout_; }

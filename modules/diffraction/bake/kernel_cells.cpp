@@ -38,14 +38,14 @@ KernelCells::KernelCells(const KernelTable& kernel, double pitch_nm, int views, 
         first_ = std::min(first_, sum);
         end_ = sum + 1;
     }
-    // Order 0: δ(u), shared by the four cells around u = 0; fewer would show which texels happen to fall in them.
+    // Order 0, δ(u), is spread over the four cells around u = 0; with fewer the image shows single texels.
     if (zero_order_xyz == glm::dmat3(0.0)) return;
     for (int sum = sums / 2 - 2; sum < sums / 2 + 2; ++sum) {
-        const double share = sum == sums / 2 - 1 || sum == sums / 2 ? 0.375 : 0.125;
+        const double fraction = sum == sums / 2 - 1 || sum == sums / 2 ? 0.375 : 0.125;
         for (int c = 0; c < 3; ++c)
             for (int o = 0; o < 3; ++o)
                 weights_[static_cast<std::size_t>(sum) * kWeightFloats + static_cast<std::size_t>(4 * c + o)] +=
-                    static_cast<float>(share * density * zero_order_xyz[c][o]);
+                    static_cast<float>(fraction * density * zero_order_xyz[c][o]);
         first_ = std::min(first_, sum);
         end_ = std::max(end_, sum + 1);
     }

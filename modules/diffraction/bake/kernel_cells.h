@@ -9,29 +9,28 @@
 
 namespace rowland::diffraction {
 
-/// A linear interpolation of f at step h exceeds f by h² f''/12 in the mean: nodes hold f less this share of their
-/// second difference, which more than halves the interpolation's RMS error.
+/// Linear interpolation of f at step h exceeds f by h² f''/12 on average. Nodes therefore hold f less this fraction of
+/// their second difference, which more than halves the interpolation's RMS error.
 inline constexpr float kBestLinear = 1.0F / 12.0F;
 
-/// A colour kernel over even cells, for correlating arc profiles with it: 2(views − 1) cells of a ∈ [−1, 1] against
-/// views at v_g = 2j/(views−1) − 1, so that a cell sees one weight for each sum a + v_g. A cell's weight is the
-/// kernel's mean over it.
+/// A colour kernel over equal cells, for correlation with arc profiles: 2(views − 1) cells of a ∈ [−1, 1] and views at
+/// v_g = 2j/(views−1) − 1, so that a weight depends on the sum a + v_g alone. It is the kernel's mean over the cell.
 class KernelCells {
  public:
     KernelCells(const KernelTable& kernel, double pitch_nm, int views, const glm::dmat3& zero_order_xyz);
 
     int cells() const { return cells_; }
 
-    /// Light in cells of a, as ½ flux · s_n: `light` holds 3·kLanes floats a cell, colour by colour of kLanes
-    /// independent profiles; `xyz` gets 3·kLanes a view, likewise, for linear interpolation. kLanes is 8 or 12.
+    /// `light`: ½ flux · s_n in cells of a, 3·kLanes floats per cell: red of kLanes independent profiles, then green,
+    /// then blue. `xyz` gets 3·kLanes floats per view, likewise, for linear interpolation. kLanes is 8 or 12.
     template <int kLanes>
     void correlate(std::span<const float> light, std::span<float> xyz) const;
 
-    /// One profile: four floats (r, g, b, –) a cell, four (X, Y, Z, –) a view.
+    /// One profile: four floats (r, g, b, –) per cell, four (X, Y, Z, –) per view.
     void correlate_rgb(std::span<const float> light, std::span<float> xyz) const;
 
  private:
-    /// Lowers the inner views by kBestLinear of their second difference. `floats` a view.
+    /// Lowers the inner views by kBestLinear of their second difference. `floats` per view.
     void sharpen(std::span<float> xyz, std::size_t floats) const;
 
     /// Cells that the kernel's weights reach from a view.
@@ -45,7 +44,7 @@ class KernelCells {
     int cells_;
     int first_ = 0;               ///< weights before this and
     int end_ = 0;                 ///< from this on are 0
-    std::vector<float> weights_;  ///< 12 a sum: columns of the matrix, each padded to four
+    std::vector<float> weights_;  ///< 12 per sum: columns of the matrix, each padded to four
 };
 
 }  // namespace rowland::diffraction

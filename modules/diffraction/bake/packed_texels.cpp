@@ -18,7 +18,7 @@ namespace {
 /// By Storage.
 constexpr std::array<std::string_view, 4> kStorageNames{"unorm16", "fp16", "fp32", "unorm8"};
 
-/// Words that so many components take; unorm8 has two in a word, and texels have four.
+/// Words of so many components.
 std::size_t word_count(Storage storage, std::size_t components) {
     return components * component_bytes(storage) / sizeof(std::uint16_t);
 }
@@ -84,14 +84,14 @@ Range range_of(double minimum, double maximum, Storage storage) {
 std::vector<glm::vec4> read_vectors(ByteReader& reader, const char* what, std::size_t count) {
     auto values = reader.array<glm::vec4>();
     if (values.size() != count)
-        reader.fail(fmt::format("{} entries of {}", values.size(), what), fmt::format("{}, one a layer", count));
+        reader.fail(fmt::format("{} entries of {}", values.size(), what), fmt::format("{}, one per layer", count));
     for (const glm::vec4& value : values)
         for (glm::vec4::length_type c = 0; c < static_cast<int>(kTexelComponents); ++c)
             if (!std::isfinite(value[c])) reader.fail(fmt::format("a {} that is not finite", what), "finite numbers");
     return values;
 }
 
-/// Unorm cannot hold what is no number; floats and halves can.
+/// Floats and halves can be NaN or infinite, unorm cannot.
 void refuse_non_finite(const ByteReader& reader, const PackedTexels& packed, std::size_t components) {
     if (packed.storage != Storage::Float && packed.storage != Storage::Half) return;
     for (std::size_t i = 0; i < components; ++i)

@@ -14,7 +14,7 @@ namespace rowland::diffraction {
 
 inline constexpr std::size_t kTexelComponents = 4;  ///< RGBA
 
-/// How a stored component is read: as n/65535, a half float, a float, or n/255.
+/// Format of a stored component: n/65535, a half float, a float, or n/255.
 enum class Storage : std::uint8_t { Unorm16 = 0, Half = 1, Float = 2, Unorm8 = 3 };
 
 /// Bytes of a stored component: 2, 2, 4, 1.
@@ -26,19 +26,18 @@ const char* storage_name(Storage storage);
 Storage parse_storage(std::string_view name);
 
 /// Layers of RGBA texels as a texture holds them. A component's value is `stored·scale + bias` with scale and bias of
-/// its layer. Unorm spans [minimum, maximum] of a component's layer; half floats span the same as [−1, 1], where they
-/// are finest about 0; floats are the values themselves, scale 1 and bias 0.
+/// its layer. Unorm spans [minimum, maximum] of a component's layer; half floats map the same to [−1, 1], with
+/// the highest precision about 0; floats are the values themselves, scale 1 and bias 0.
 struct PackedTexels {
     Storage storage = Storage::Unorm16;
     std::vector<glm::vec4> scale;  ///< per layer
     std::vector<glm::vec4> bias;   ///< per layer
-    /// The components' bits as they lie in memory, RGBA, layer by layer: a word each, of fp32 two, of unorm8 half a
-    /// one.
+    /// The components' bits in memory order, RGBA, layer by layer: one word each, fp32 two, unorm8 half a word.
     std::vector<std::uint16_t> texels;
 
     /// A component of the texel `index` (over all layers), which lies in `layer`.
     double value(std::size_t layer, std::size_t index, std::size_t component) const;
-    /// What an upload takes, scale and bias included.
+    /// Size of an upload, scale and bias included.
     std::size_t bytes() const;
 };
 
@@ -46,7 +45,7 @@ struct PackedTexels {
 /// its storage. Values must be finite.
 void pack(std::span<const double> values, std::size_t layers, PackedTexels& packed);
 
-/// Scale, bias and texels; the storage is the caller's to write, beside its other choices.
+/// Writes scale, bias and texels; the caller writes the storage.
 void write_packed_texels(const PackedTexels& packed, ByteWriter& writer);
 
 /// Reads them into `packed`, whose storage is set. Throws Error (input) unless there are `layers` layers of

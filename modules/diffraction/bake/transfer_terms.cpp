@@ -1,7 +1,5 @@
 #include "modules/diffraction/bake/transfer_terms.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,7 +7,6 @@
 
 #include "engine/colour/observer.h"
 #include "engine/core/check.h"
-#include "engine/core/error.h"
 #include "engine/math/sh_basis.h"
 #include "modules/diffraction/bake/view_spectrum.h"
 #include "modules/diffraction/model/efficiency.h"
@@ -22,15 +19,6 @@ namespace {
 constexpr std::array<double, 2> kNodes = {0.21132486540518711775, 0.78867513459481288225};
 
 }  // namespace
-
-void require_many_grooves(const Grating& grating) {
-    if (grating.grooves >= kManyGrooves) return;
-    throw Error({.file = {},
-                 .location = "grooves",
-                 .found = fmt::format("{}", grating.grooves),
-                 .expected = fmt::format("at least {} for a baked representation", kManyGrooves),
-                 .remedy = "use the method \"reference\", or more grooves"});
-}
 
 TransferTerms::TransferTerms(const Grating& grating, const colour::LightSpectra& spectra, int bands)
     : pitch_nm_(grating.pitch_nm),
@@ -69,7 +57,7 @@ void TransferTerms::each_arc(double v_g, double pitch_nm, const Use& use) const 
             const double begin = std::clamp(slope * wavelength_nm - v_g, -1.0, 1.0);
             const double end = std::clamp(slope * (wavelength_nm + 1.0) - v_g, -1.0, 1.0);
             if (begin == end) continue;
-            // In the angle ϑ, a = cos ϑ, the coefficients have no root at the horizon.
+            // The coefficients have a square root at the horizon in a = cos ϑ, but not in ϑ.
             const double angle = std::acos(begin);
             const double length = std::acos(end) - angle;
             for (const double node : kNodes) {

@@ -11,20 +11,20 @@
 
 namespace rowland::diffraction {
 
-/// What every wavelength of every listed order of a grating adds to XYZ, in front of the light on its arc; and the sum
-/// of it over a view's arcs (PHYSICS §5): c_i,o,c(v) = Σ_m ∫ η_m(λ) cmf_o(λ) E_c(λ) C_i(mλ/d − v_g) dλ, which is
-/// d ∫ C_i(a) k_o,c(d(a+v_g)) da without the detour over x, and with the lobe's wavelength known.
+/// The diffraction term of one view as SH coefficients with the wavelengths summed (PHYSICS §5):
+/// c_i,o,c(v) = Σ_m ∫ η_m(λ) cmf_o(λ) E_c(λ) C_i(mλ/d − v_g) dλ. This equals d ∫ C_i(a) k_o,c(d(a+v_g)) da, but knows
+/// the wavelength that the lobe depends on.
 class TransferTerms {
  public:
-    /// N → ∞: throws Error (input) for fewer than kManyGrooves grooves, which only the reference can do.
+    /// Throws as require_many_grooves().
     TransferTerms(const Grating& grating, const colour::LightSpectra& spectra, int bands);
 
     /// c_i for a view, [i] RGB in, XYZ out; bands² matrices in the frame (g, h, n). The weight is linear between whole
-    /// nanometres, as in ColourKernel, and each nanometre's part above the horizon takes two Gauss–Legendre nodes in
-    /// the arc's angle: 1e-8 exact for the flat lobe.
+    /// nanometres, as in ColourKernel. Each nanometre above the horizon takes two Gauss–Legendre nodes in the arc's
+    /// angle: 1e-8 exact for the flat lobe.
     std::vector<glm::dmat3> coefficients(double v_g, double v_h) const;
 
-    /// The same in front of the 2·bands − 1 arc moments (arc_moments.h): T_k(v_g), [k]. The lobe must be flat.
+    /// The coefficients T_k(v_g) of the 2·bands − 1 arc moments (arc_moments.h), [k]. The lobe must be flat.
     /// `pitch_factor` scales the pitch, not the efficiencies.
     std::vector<glm::dmat3> moments(double v_g, double pitch_factor = 1.0) const;
 
@@ -37,12 +37,9 @@ class TransferTerms {
     double pitch_nm_;
     bool flat_;
     std::vector<int> orders_;
-    std::vector<glm::dmat3> weights_;  ///< order by order, one a nanometre
+    std::vector<glm::dmat3> weights_;  ///< order by order, one per nanometre
     ArcCoefficients arcs_;
     ArcMoments moments_;
 };
-
-/// Throws Error (input) for fewer than kManyGrooves grooves: what is baked holds for N → ∞.
-void require_many_grooves(const Grating& grating);
 
 }  // namespace rowland::diffraction

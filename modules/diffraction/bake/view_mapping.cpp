@@ -24,7 +24,7 @@ constexpr std::array<std::string_view, 3> kViewMappingNames{"spherical", "parabo
 /// Far above any use, and small enough that no product of sizes overflows.
 constexpr int kMaximumNodes = 1 << 14;
 
-/// −1 … 1 at even steps.
+/// −1 … 1 at equal steps.
 double signed_node(int index, int count) {
     return 2.0 * index / (count - 1) - 1.0;
 }
@@ -75,7 +75,7 @@ std::size_t mirrored_texel(const ViewGrid& grid, int column, int row) {
 
 AxisLookup look_up_axis(double position, std::size_t count) {
     const double last = static_cast<double>(count - 1);
-    // Written so that what is no number becomes the first node.
+    // A NaN becomes the first node.
     const double node = position > 0.0 ? std::min(position * last, last) : 0.0;
     const auto first = static_cast<std::size_t>(node);
     return {first, std::min(first + 1, count - 1), node - static_cast<double>(first)};
@@ -85,8 +85,8 @@ BilinearLookup combine(const AxisLookup& columns, const AxisLookup& rows, std::s
     BilinearLookup result;
     result.texel = {rows.first * row_length + columns.first, rows.first * row_length + columns.second,
                     rows.second * row_length + columns.first, rows.second * row_length + columns.second};
-    result.share = {(1.0 - rows.share) * (1.0 - columns.share), (1.0 - rows.share) * columns.share,
-                    rows.share * (1.0 - columns.share), rows.share * columns.share};
+    result.weight = {(1.0 - rows.weight) * (1.0 - columns.weight), (1.0 - rows.weight) * columns.weight,
+                     rows.weight * (1.0 - columns.weight), rows.weight * columns.weight};
     return result;
 }
 
@@ -122,7 +122,7 @@ void check_view_grid(const ViewGrid& grid, const GrooveLobe& lobe) {
     throw Error({.file = {},
                  .location = "view_mapping",
                  .found = "one-dimensional for a groove lobe that is not flat",
-                 .expected = "spherical or parabolic: such a lobe sees the view along the grooves too",
+                 .expected = "spherical or parabolic: such a lobe also depends on the view along the grooves",
                  .remedy = "change view_mapping, or the groove lobe to flat"});
 }
 
@@ -158,8 +158,8 @@ double filtered(const PackedTexels& packed, std::size_t layer, std::size_t texel
                 const BilinearLookup& place) {
     double sum = 0.0;
     for (std::size_t i = 0; i < place.texel.size(); ++i)
-        if (place.share[i] != 0.0)
-            sum += place.share[i] * packed.value(layer, layer * texels_per_layer + place.texel[i], component);
+        if (place.weight[i] != 0.0)
+            sum += place.weight[i] * packed.value(layer, layer * texels_per_layer + place.texel[i], component);
     return sum;
 }
 

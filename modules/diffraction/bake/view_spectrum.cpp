@@ -11,15 +11,19 @@
 
 namespace rowland::diffraction {
 
+void require_many_grooves(const Grating& grating) {
+    if (grating.grooves >= kManyGrooves) return;
+    throw Error({.file = {},
+                 .location = "grooves",
+                 .found = fmt::format("{}", grating.grooves),
+                 .expected = fmt::format("at least {} for a baked representation", kManyGrooves),
+                 .remedy = "use the method \"reference\", or more grooves"});
+}
+
 ViewSpectrum::ViewSpectrum(const Grating& grating, int bands)
     : pitch_nm_(grating.pitch_nm), orders_(grating.orders), arcs_(bands, grating.lobe) {
     ROWLAND_CHECK_OP(grating.pitch_nm, >, 0.0);
-    if (grating.grooves < kManyGrooves)
-        throw Error({.file = {},
-                     .location = "grooves",
-                     .found = fmt::format("{}", grating.grooves),
-                     .expected = fmt::format("at least {} for a baked representation", kManyGrooves),
-                     .remedy = "use the method \"reference\", or more grooves"});
+    require_many_grooves(grating);
     std::vector<double> totals(kWavelengths, 0.0);
     for (const int order : orders_) {
         for (std::size_t j = 0; j < kWavelengths; ++j) {

@@ -8,11 +8,14 @@
 
 namespace rowland::diffraction {
 
+/// Throws Error (input) for fewer than kManyGrooves grooves: baked tables hold for N → ∞.
+void require_many_grooves(const Grating& grating);
+
 /// The diffraction term of one view as SH coefficients per wavelength: c_i(v, λ) = Σ_m η_m(λ) C_i(mλ/d − v_g), PHYSICS
-/// §5, tabulated at every nanometre of the visible range. Holds what does not depend on the view.
+/// §5, tabulated at every nanometre of the visible range. Holds everything that does not depend on the view.
 class ViewSpectrum {
  public:
-    /// N → ∞: throws Error (input) for fewer than kManyGrooves grooves, which only the reference can do.
+    /// Throws as require_many_grooves().
     ViewSpectrum(const Grating& grating, int bands);
 
     /// c_i at wavelength 380 + j nm is [j·bands² + i]; 401·bands² values.

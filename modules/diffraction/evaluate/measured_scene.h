@@ -20,8 +20,8 @@ using Surface = std::vector<ShadingPoint>;
 /// Whether all normals are equal.
 bool is_flat(const Surface& surface);
 
-/// XYZ of all points, surface by surface, as the cooked material's shaders give them. A curved surface gets what
-/// stands in for a planar map.
+/// XYZ of all points, surface by surface, as the cooked material's shaders give them. The
+/// stand-in of a planar map shades curved surfaces.
 std::vector<glm::dvec3> shade_surfaces(const CookedMaterial& cooked, const EvaluationLight& light,
                                        std::span<const Surface> surfaces);
 
@@ -31,7 +31,7 @@ struct MeasuredScene {
     std::string name;  ///< labels the progress
     std::shared_ptr<ProbeLights> lights;
     std::vector<Surface> surfaces;
-    std::size_t part;  ///< points that the reference is asked for at once
+    std::size_t part;  ///< points per call of by_reference
     std::function<std::vector<glm::dvec3>(std::span<const ShadingPoint>)> by_reference;
     std::vector<glm::dvec3> reference{};  ///< of all points once it is prepared
 

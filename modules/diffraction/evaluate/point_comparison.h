@@ -20,11 +20,11 @@ struct PointComparison {
     double error = 0.0;         ///< relative_rms() of the two
 };
 
-/// Compares points with the reference one after the other, under one probe. What depends on the probe and the material
-/// alone is computed once. For one thread at a time.
+/// Compares points with the reference one after the other, under one probe. Data of the probe and the material are
+/// computed once. For one thread at a time.
 class PointComparer {
  public:
-    /// `key_lights`: taken out of the probe at most, for materials that shade key lights one by one.
+    /// `key_lights`: the most that are extracted from the probe, for materials that shade key lights one by one.
     PointComparer(lighting::ProbeImage probe, int key_lights);
 
     /// `window`: on the light of tables over harmonics. The frame must be valid. Throws Error (input) where the

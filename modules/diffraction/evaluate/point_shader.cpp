@@ -17,13 +17,13 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// Key lights, and what shades them one by one.
+/// Key lights and the material of their direct term.
 struct DirectPart {
     DirectMaterial material;
     std::vector<lighting::KeyLight> keys;
 };
 
-/// Streaks show the whole probe: key lights are for the rest of the lobe alone.
+/// Streaks show the whole probe: key lights light only the incoherent rest of the lobe.
 DirectPart direct_part(const CookedMaterial& cooked, const EvaluationLight& light) {
     const Grating& grating = cooked.material.grating;
     DirectPart part{
@@ -33,7 +33,7 @@ DirectPart direct_part(const CookedMaterial& cooked, const EvaluationLight& ligh
     if (tables == nullptr) return part;
     if (!tables->rest) part.keys.clear();
     if (const auto rest = incoherent_rest(grating)) part.material.lobe = rest->lobe;
-    for (lighting::KeyLight& key : part.keys) key.flux *= 1.0 - tables->streak.share;
+    for (lighting::KeyLight& key : part.keys) key.flux *= 1.0 - tables->streak.power;
     return part;
 }
 
@@ -63,7 +63,7 @@ std::vector<glm::dvec3> evaluate_baked(const CookedMaterial& cooked, const Evalu
     const PointShader shader = baked_shader(cooked, light);
     const std::string title = info(cooked.tables).name;
     if (!info(cooked.tables).needs_flat_surface) return evaluate_points(title, shader, cooked, light, frames);
-    // A plane's map is filled by all cores, so that the frames come one after the other.
+    // All cores fill a plane's map, so the points are shaded one after the other.
     std::vector<glm::dvec3> maps(frames.size());
     Progress progress(title, frames.size());
     for (std::size_t i = 0; i < frames.size(); ++i) {

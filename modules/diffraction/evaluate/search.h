@@ -20,7 +20,7 @@ namespace rowland::diffraction {
 struct BudgetProbe {
     std::string name;  ///< for messages and the record
     lighting::ProbeImage image;
-    int key_lights = 16;  ///< taken out of it at most, for representations that shade key lights one by one
+    int key_lights = 16;  ///< the most that are extracted, for representations that shade key lights one by one
 };
 
 /// The cost of shading a pixel in texture fetches: a fixed count, never a timing. Eight multiply-adds count as a fetch,
@@ -28,7 +28,7 @@ struct BudgetProbe {
 /// pixels. Each pixel shades each key light.
 double shading_price(const ShadingCost& cost, int key_lights);
 
-/// A setting of a material, with what it costs and how far it is from the reference.
+/// A setting of a material, with its cost and its errors.
 struct MeasuredChoice {
     nlohmann::json settings;  ///< members of the material's "quality"
     Quality quality;
@@ -53,9 +53,9 @@ struct SearchQuery {
     std::span<const ShadingPoint> frames;
     std::vector<nlohmann::json> settings;   ///< those that do not suit the grating are left out
     std::optional<nlohmann::json> first{};  ///< the "quality" that the material pins, measured before the others
-    /// Ends the search at the first setting whose errors are all at most this; a setting is not measured under the
-    /// probes that follow one where its error is larger. Where no setting is good enough, they are measured under
-    /// further probes until the one with the least error() is certain.
+    /// The search ends at the first setting whose errors are all at most this. A larger error under one probe skips the
+    /// setting's remaining probes. If no setting is good enough, further probes are measured until the setting with the
+    /// least error() is known.
     std::optional<double> good_enough{};
 };
 

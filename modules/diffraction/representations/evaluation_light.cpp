@@ -9,7 +9,7 @@ namespace rowland::diffraction {
 
 namespace {
 
-// Band-limited light as texels: at 32 bands, the most there are, a period is 32 texels.
+// Resolution of band-limited light as texels: 32 texels per period at 32 bands, the maximum.
 constexpr int kGridWidth = 1024;
 
 lighting::LightSamples texels_of(const lighting::ShLight& light) {

@@ -14,32 +14,31 @@
 
 namespace rowland::diffraction {
 
-/// The light of an evaluation in the forms that the representations take: key lights, and what they leave.
+/// The light of an evaluation in the forms that the representations take: key lights, and the rest of the probe.
 class EvaluationLight {
  public:
-    /// A probe with up to so many key lights taken out of it. `projected`: the probe's SH, where somebody has them.
+    /// A probe from which up to `key_lights` are extracted. `projected`: the probe's SH, if known.
     EvaluationLight(lighting::ProbeImage probe, int key_lights, math::SphericalWindow window,
                     lighting::ShLight projected = {});
-    /// Band-limited light, which has no bright parts to take out.
+    /// Band-limited light, without key lights.
     EvaluationLight(lighting::ShLight light, math::SphericalWindow window);
 
     std::span<const lighting::KeyLight> key_lights() const { return key_lights_; }
-    /// What the key lights leave, in at most so many bands, under the window.
+    /// The light without key lights, in at most so many bands, windowed.
     lighting::ShLight harmonics(int bands) const;
-    /// What the key lights leave, at full resolution.
+    /// The light without key lights, at full resolution.
     lighting::LightSamples texels() const;
-    /// The probe with its key lights; none for band-limited light.
+    /// The probe with its key lights; nullopt for band-limited light.
     const std::optional<lighting::ProbeImage>& probe() const { return probe_; }
 
  private:
     std::optional<lighting::ProbeImage> probe_;
-    lighting::ShLight sh_;  ///< without a probe the light itself
+    lighting::ShLight sh_;  ///< of the probe or, without a probe, the light itself
     std::vector<lighting::KeyLight> key_lights_;
     math::SphericalWindow window_;
 };
 
-/// A probe's light, split into key lights and the rest in every way that was asked for. Each split is computed once.
-/// For one thread at a time.
+/// Splits of a probe's light into key lights and the rest, each computed once. For one thread at a time.
 class ProbeLights {
  public:
     /// `image` must outlive it. `bands` are projected once for all splits; 0: each split projects the bands it needs.

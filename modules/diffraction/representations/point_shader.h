@@ -1,5 +1,6 @@
 #pragma once
 
+#include <concepts>
 #include <functional>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -12,10 +13,10 @@
 
 namespace rowland::diffraction {
 
-/// XYZ of one frame. May be called from many threads, but for planar maps'.
+/// XYZ of one point. May be called from many threads, except for planar maps.
 using PointShader = std::function<glm::dvec3(const ShadingPoint&)>;
 
-/// The part of a baked material that maps are filled from.
+/// The parts of a baked material that maps are filled from.
 struct MaterialKernel {
     const KernelTable& kernel;
     double pitch_nm = 0.0;
@@ -25,7 +26,21 @@ struct MaterialKernel {
 /// Shades a tangent-frame view under light in the same frame.
 using TangentShader = std::function<glm::dvec3(const lighting::ShLight&, const glm::dvec3& view)>;
 
-/// Turns the light into every frame and shades there. Views below the horizon are black.
+/// Rotates the light into the tangent frame of each point and shades there. Views below the horizon are black.
 PointShader in_tangent_frame(lighting::ShLight light, TangentShader shade);
+
+/// Tables that are evaluated under the light's SH in the tangent frame.
+template <typename Table>
+concept HarmonicTable = requires(const Table& table, const lighting::ShLight& light, const glm::dvec3& view) {
+    { table.bands } -> std::convertible_to<int>;
+    { evaluate(table, light, view) } -> std::same_as<glm::dvec3>;
+};
+
+template <HarmonicTable Table>
+PointShader point_shader(const Table& table, const MaterialKernel&, const EvaluationLight& light) {
+    return in_tangent_frame(
+        light.harmonics(table.bands),
+        [table](const lighting::ShLight& rotated, const glm::dvec3& view) { return evaluate(table, rotated, view); });
+}
 
 }  // namespace rowland::diffraction

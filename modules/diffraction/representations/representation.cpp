@@ -11,9 +11,8 @@ namespace rowland::diffraction {
 
 namespace {
 
-constexpr int kFetchesPerLight = 2;  ///< of the lobe's table, at either side of a pixel that is narrower than the lobe
-/// Counted in key_lobes.glsl and light_spot.glsl for the flat lobe: 25 for the position, 45 for the height, 15 for the
-/// sum.
+constexpr int kFetchesPerLight = 2;  ///< of the lobe's table, for a pixel narrower than the lobe
+/// Counted in key_lobes.glsl and light_spot.glsl for the flat lobe: position 25, height 45, sum 15.
 constexpr int kMultiplyAddsPerLight = 85;
 
 /// Calls use<Settings>(index) for every representation.
@@ -30,7 +29,7 @@ bool mirrors(const GrooveLobe& lobe) {
     return !is_flat(lobe) && (pits == nullptr || pits->coherent > 0.0);
 }
 
-/// "spikes", "bins" or … of the representations for other lobes.
+/// Quoted names of the representations for `lobes`, separated by commas.
 std::string names_for(Lobes lobes) {
     std::string names;
     for (const RepresentationInfo* info : representations())
@@ -88,7 +87,8 @@ std::optional<Refusal> refusal(const RepresentationInfo& info, const SettingValu
     if (auto refused = lobe_refusal(info, grating.lobe)) return refused;
     std::optional<Refusal> refused;
     for_each_representation([&]<typename Settings>(std::size_t) {
-        if (&Settings::info() == &info) refused = Settings::refusal(values, grating);
+        if constexpr (requires { Settings::refusal(values, grating); })
+            if (&Settings::info() == &info) refused = Settings::refusal(values, grating);
     });
     return refused;
 }
@@ -104,7 +104,14 @@ Representation make_representation(const RepresentationInfo& info, const Setting
 }
 
 void set_illuminant(Representation& representation, const colour::Illuminant& illuminant) {
-    std::visit([&](auto& settings) { settings.set_illuminant(illuminant); }, representation);
+    std::visit(
+        [&](auto& settings) {
+            if constexpr (requires { settings.illuminant; })
+                settings.illuminant = illuminant;
+            else if constexpr (requires { settings.set_illuminant(illuminant); })
+                settings.set_illuminant(illuminant);
+        },
+        representation);
 }
 
 BakedTables bake_tables(const Grating& grating, const Representation& representation) {

@@ -23,7 +23,7 @@ struct DiffractionSurface {
 };
 
 struct DiffractionSettings {
-    /// Against the ringing of band-limited light; nullopt: the weakest sufficient window.
+    /// On band-limited light, against ringing; nullopt: the weakest sufficient window.
     std::optional<math::SphericalWindow> window = std::nullopt;
     /// The most azimuths of a planar map that one frame fills, and slices of a circle map that it uploads. At the
     /// map's size or above, frames wait for whole maps.
@@ -44,7 +44,7 @@ class DiffractionSurfaceType final : public render::MaterialType {
     std::string gltf_extension() const override;
     /// Bakes the grating now. Equal gratings share their tables.
     void attach(ecs::World& world, ecs::Entity entity, const nlohmann::json& extension,
-                render::SurfaceTextures& textures, const std::string& file, const std::string& place) override;
+                render::SurfaceTextures& textures, const std::string& file, const std::string& pointer) override;
 
     void add_shaders(gpu::ShaderLibrary& library) const override;
     bool owns(ecs::World& world, ecs::Entity entity) const override;

@@ -7,10 +7,10 @@
 
 namespace rowland::diffraction {
 
-/// Largest angle between a flat mesh's normals and their mean, radians: what light does not show within a map's cells.
+/// Largest angle in radians between a flat mesh's normals and their mean: not visible at a map's resolution.
 inline constexpr double kFlatness = 0.005;
 
-/// The mesh's one normal in its own axes, if all its normals agree.
+/// The mesh's normal in object axes, if all its normals agree.
 std::optional<glm::dvec3> flat_normal(const scene::Mesh& mesh);
 
 }  // namespace rowland::diffraction

@@ -27,7 +27,7 @@ const BlurredKernel& GpuKernel::blurred() const {
 
 GpuKernel::Smoothed GpuKernel::smooth(std::span<const glm::vec3> light_colours) const {
     const BlurredKernel& kernel = blurred();
-    // Halves would add their 5e-4 to what a texture unit's 8-bit weights cost.
+    // fp16 would add an error of 5e-4 to that of the texture unit's 8-bit weights.
     Smoothed smoothed{.texture = gpu::Texture({.kind = gpu::TextureKind::PlaneArray,
                                                .format = gpu::Format::RGBA32F,
                                                .width = kernel.columns,
@@ -55,9 +55,9 @@ void GpuKernel::add_defines(gpu::ProgramDesc& desc) const {
 }
 
 void GpuKernel::set_lobe(const gpu::Program& program) const {
-    const auto set_gaussian = [&](double sigma, double share) {
+    const auto set_gaussian = [&](double sigma, double power) {
         program.set("lobe_gaussian",
-                    glm::vec2(glm::dvec2(sigma, share * lobe_density(GaussianLobe{sigma}, 0.0, 550.0))));
+                    glm::vec2(glm::dvec2(sigma, power * lobe_density(GaussianLobe{sigma}, 0.0, 550.0))));
     };
     if (const auto* gaussian = std::get_if<GaussianLobe>(&lobe_)) set_gaussian(gaussian->sigma, 1.0);
     if (const auto* pits = std::get_if<PitsLobe>(&lobe_)) {
@@ -69,7 +69,7 @@ void GpuKernel::set_lobe(const gpu::Program& program) const {
 
 void GpuKernel::bind(const gpu::Program& program, std::span<const lighting::KeyLight> key_lights,
                      std::span<const glm::vec3> light_colours) const {
-    if (program.has_uniform("lobe_place")) {
+    if (program.has_uniform("lobe_scale_bias")) {
         lobes_.set(blurred(), pitch_nm_, key_lights);
         lobes_.bind(program, pitch_nm_);
     }

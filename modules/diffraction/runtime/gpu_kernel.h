@@ -14,14 +14,14 @@
 
 namespace rowland::diffraction {
 
-/// What shades lights of their own: shaders/direct.glsl.
+/// The kernel for analytic lights and key lights: shaders/direct.glsl.
 class GpuKernel {
  public:
     /// `xyz_to_working`: of the engine's lights, which come in the working space.
     GpuKernel(const CookedMaterial& cooked, const glm::dmat3& xyz_to_working);
 
     void add_defines(gpu::ProgramDesc& desc) const;
-    /// Puts the kernel on the GPU when first a program reads it, and the key lights seen through it when they change.
+    /// Uploads the kernel when a program first reads it, and the key lights' tables when the lights change.
     /// `light_colours`: see SurfaceLight.
     void bind(const gpu::Program& program, std::span<const lighting::KeyLight> key_lights,
               std::span<const glm::vec3> light_colours) const;

@@ -32,7 +32,7 @@ void GpuLobes::set(const BlurredKernel& kernel, double pitch_nm, std::span<const
     std::vector<LobeTable> tables(lights_.size());
     parallel_for(lights_.size(),
                  [&](std::size_t i) { tables[i] = make_lobe_table(kernel, pitch_nm, lights_[i], columns); });
-    // Halves: every layer is over its own light's flux, and all over the largest that is left.
+    // Stored as fp16: each layer is divided by its light's flux, and all by the largest component.
     std::vector<float> inverse_flux;
     float largest = 1e-30F;
     for (std::size_t i = 0; i < tables.size(); ++i) {
@@ -55,10 +55,10 @@ void GpuLobes::set(const BlurredKernel& kernel, double pitch_nm, std::span<const
 }
 
 void GpuLobes::bind(const gpu::Program& program, double pitch_nm) const {
-    if (lights_.empty() || !program.has_uniform("lobe_place")) return;
+    if (lights_.empty() || !program.has_uniform("lobe_scale_bias")) return;
     texture_.bind(kLobeUnit);
     const double extent_nm = end_nm_ - begin_nm_;
-    program.set("lobe_place", glm::vec3(glm::dvec3(pitch_nm / extent_nm, -begin_nm_ / extent_nm, double{scale_})));
+    program.set("lobe_scale_bias", glm::vec3(glm::dvec3(pitch_nm / extent_nm, -begin_nm_ / extent_nm, double{scale_})));
 }
 
 }  // namespace rowland::diffraction

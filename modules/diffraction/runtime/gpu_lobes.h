@@ -10,11 +10,11 @@
 
 namespace rowland::diffraction {
 
-/// What each key light adds to one grating, a layer of a texture each (representations/direct/lobe_table.h):
-/// shaders/key_lobes.glsl. Directions are no part of it, so that turning the light keeps it.
+/// The tables of the key lights for one grating (representations/direct/lobe_table.h), one texture layer each:
+/// shaders/key_lobes.glsl. They do not depend on the lights' directions.
 class GpuLobes {
  public:
-    /// Makes the layers anew if the lights' fluxes or concentrations are others than before.
+    /// Rebuilds the layers if the lights' fluxes or concentrations changed.
     void set(const BlurredKernel& kernel, double pitch_nm, std::span<const lighting::KeyLight> lights);
     void bind(const gpu::Program& program, double pitch_nm) const;
 

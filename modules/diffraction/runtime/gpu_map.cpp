@@ -8,15 +8,18 @@
 
 namespace rowland::diffraction {
 
-GpuMap::GpuMap(std::span<const glm::vec3> xyz, gpu::TextureDesc desc, const gpu::Sampling& sampling) {
-    desc.format = gpu::Format::RGBA16F;
-    texture_ = gpu::Texture(desc, sampling);
-    scale_ = 1e-30F;
+float largest_component(std::span<const glm::vec3> xyz) {
+    float largest = 1e-30F;
     for (const glm::vec3& value : xyz)
-        scale_ = std::max({scale_, std::abs(value.x), std::abs(value.y), std::abs(value.z)});
-    std::vector<glm::vec3> shares(xyz.size());
-    std::transform(xyz.begin(), xyz.end(), shares.begin(), [&](const glm::vec3& value) { return value / scale_; });
-    texture_.upload(std::span<const glm::vec3>(shares), {.layers = desc.depth});
+        largest = std::max({largest, std::abs(value.x), std::abs(value.y), std::abs(value.z)});
+    return largest;
+}
+
+GpuMap::GpuMap(std::span<const glm::vec3> xyz, const gpu::TextureDesc& desc, const gpu::Sampling& sampling)
+    : GpuMap(desc, sampling, largest_component(xyz)) {
+    std::vector<glm::vec3> stored(xyz.size());
+    std::transform(xyz.begin(), xyz.end(), stored.begin(), [&](const glm::vec3& value) { return value / scale_; });
+    texture_.upload(std::span<const glm::vec3>(stored), {.layers = desc.depth});
 }
 
 GpuMap::GpuMap(gpu::TextureDesc desc, const gpu::Sampling& sampling, float scale) : scale_(scale) {

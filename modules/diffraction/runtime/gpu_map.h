@@ -9,14 +9,18 @@
 
 namespace rowland::diffraction {
 
-/// A map of radiance (XYZ) on the GPU, as halves over its largest component: fp16 ends at 65504.
+/// Largest magnitude of a component, above 0.
+float largest_component(std::span<const glm::vec3> xyz);
+
+/// A map of radiance (XYZ) on the GPU: fp16, divided by its largest component, as fp16 ends at 65504.
 class GpuMap {
  public:
     GpuMap() = default;
-    /// `xyz` as the texture's rows and slices lie; sampled linearly.
-    GpuMap(std::span<const glm::vec3> xyz, gpu::TextureDesc desc, const gpu::Sampling& sampling);
+    /// `xyz` in the order of the texture's rows and slices.
+    GpuMap(std::span<const glm::vec3> xyz, const gpu::TextureDesc& desc, const gpu::Sampling& sampling);
 
-    /// One without values yet, `scale` the largest there will be; upload() takes halves over it, three a texel.
+    /// A map without values. `scale`: the largest component to come. upload() takes halves divided by it, three per
+    /// texel.
     GpuMap(gpu::TextureDesc desc, const gpu::Sampling& sampling, float scale);
     void upload(std::span<const std::uint16_t> halves, gpu::TextureSlice slice) { texture_.upload(halves, slice); }
 

@@ -19,12 +19,12 @@ namespace rowland::diffraction {
 
 class GpuMaterial;
 
-/// What a representation keeps for one object besides its vertices' light.
+/// A representation's data of one object besides the light at its vertices.
 struct ObjectData {
     virtual ~ObjectData() = default;
 };
 
-/// Component: what is kept for one object with a grating, and what it was made for.
+/// Component: the data of one object with a grating, and their cache key.
 struct SurfaceState {
     std::shared_ptr<const GpuMaterial> material;
     std::shared_ptr<const scene::Mesh> mesh;
@@ -33,21 +33,21 @@ struct SurfaceState {
     std::shared_ptr<const GrooveMap> grooves;
     std::uint64_t light_version = 0;
 
-    gpu::Buffer vertex_light;          ///< per vertex; of representations that have some
-    std::unique_ptr<ObjectData> data;  ///< of representations that have some
+    gpu::Buffer vertex_light;          ///< per vertex; may be empty
+    std::unique_ptr<ObjectData> data;  ///< may be null
 };
 
-/// An object with a grating as it is in this frame.
+/// An object with a grating in this frame.
 struct SurfaceObject {
     const scene::Mesh& mesh;  ///< as posed
     glm::mat4 object_to_world{1.0F};
     double groove_rotation = 0.0;  ///< radians, from the tangent toward the bitangent
     bool skinned = false;
     bool changed = true;       ///< since the last frame: light, orientation, mesh, rotation or material
-    int slices_per_frame = 0;  ///< most of a map that one frame may fill or upload
+    int slices_per_frame = 0;  ///< the most of a map that one frame fills or uploads
 };
 
-/// A cooked material on the GPU, shaded as its representation is: what one class per representation implements.
+/// A cooked material on the GPU. One class per representation implements it.
 class GpuMaterial {
  public:
     virtual ~GpuMaterial() = default;
@@ -56,24 +56,23 @@ class GpuMaterial {
 
     /// The engine's surface under the grating.
     const render::StandardMaterial& base() const { return base_; }
-    /// What it was made of.
     const std::shared_ptr<const CookedMaterial>& cooked() const { return cooked_; }
     /// Name of the illuminant that the tables are baked for.
     const std::string& illuminant() const { return cooked_->material.quality.illuminant.name; }
 
-    /// Once a frame for each object, before it is drawn.
+    /// Call once per frame for each object, before it is drawn.
     virtual void update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const = 0;
-    /// Whether the object, as last updated, is shaded by something else until its map is filled.
+    /// Whether the object, as last updated, is shaded by a stand-in until its map is filled.
     virtual bool filling(const SurfaceState&) const { return false; }
 
     gpu::ProgramDesc program(const SurfaceState& state) const;
-    /// The program is in use.
+    /// The program must be in use.
     void bind(const gpu::Program& program, const SurfaceLight& light, const SurfaceState& state) const;
 
-    /// The light that is not shaded light by light.
-    LightShare light_share() const {
-        if (key_lights_) return LightShare::Rest;
-        return separate_lights_ ? LightShare::Probe : LightShare::Whole;
+    /// The part of the light that is not shaded light by light.
+    LightPart light_part() const {
+        if (key_lights_) return LightPart::Rest;
+        return separate_lights_ ? LightPart::Probe : LightPart::Whole;
     }
 
  protected:
@@ -99,7 +98,7 @@ std::shared_ptr<const GpuMaterial> make_gpu_material(const CookedMaterial& cooke
 
 /// Sets shader files by their paths below modules/diffraction/.
 void set_shaders(gpu::ProgramDesc& desc, const char* vertex, const char* fragment);
-/// The same of a program whose vertices are shaded.
+/// The same for a program that shades vertices.
 void set_vertex_shader(gpu::ProgramDesc& desc, const char* vertex);
 
 }  // namespace rowland::diffraction

@@ -9,7 +9,7 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// A still is, like a map without key lights, of the whole probe and of nothing else.
+/// Like a map without key lights, a still shows the whole probe and no other light.
 CookedMaterial as_a_map(const CookedMaterial& cooked) {
     CookedMaterial map = cooked;
     map.material.quality.key_lights = false;
@@ -29,7 +29,7 @@ void GpuStill::describe(const SurfaceState&, gpu::ProgramDesc& desc) const {
 
 void GpuStill::bind_tables(const gpu::Program& program, const SurfaceState&) const {
     still_->bind(kMapUnit);
-    // Draws that a scissor confines still have the whole picture's viewport.
+    // The viewport is that of the whole image, whatever the scissor.
     std::array<GLint, 4> viewport{};
     glGetIntegerv(GL_VIEWPORT, viewport.data());
     program.set("still_scale", 1.0F / glm::vec2(viewport[2], viewport[3]));

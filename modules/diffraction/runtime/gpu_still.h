@@ -7,12 +7,12 @@
 
 namespace rowland::diffraction {
 
-/// A picture in place of a representation: what someone computed of the listed orders under the probe, all of it, as
-/// seen from where the eye is. The scene's other lights are shaded as ever. shaders/still.frag.glsl.
+/// An image in place of a representation: the radiance of the listed orders under the whole probe, computed elsewhere
+/// for the current view. The scene's other lights are shaded as with any material. shaders/still.frag.glsl.
 class GpuStill final : public GpuMaterial {
  public:
-    /// `still` covers the whole picture, row 0 at its bottom: XYZ, and alpha 1 where it is known, else all 0. `cooked`:
-    /// the material it is of.
+    /// `still` covers the viewport, row 0 at the bottom: XYZ and alpha 1 where it is known, else 0. `cooked`: its
+    /// material.
     GpuStill(const CookedMaterial& cooked, std::shared_ptr<const gpu::Texture> still, const glm::dmat3& xyz_to_working);
 
     void update(const SurfaceObject&, SurfaceLight&, SurfaceState&) const override {}

@@ -15,21 +15,21 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// Ranks of a table over pitches that nobody asked for: 1 % or less where one pitch takes 8 for 2 %.
+/// Default rank of a table over pitches, for an error of 1 % or less; with one pitch, 8 give 2 %.
 constexpr int kPitchRank = 12;
-/// From one pitch of a table to the next, at most.
+/// Largest ratio of a table's neighbouring pitches.
 constexpr double kPitchStep = 1.045;
-/// Pitches that differ by less look the same.
+/// Smaller relative differences of the pitch are ignored.
 constexpr double kSamePitch = 0.01;
 
 scene::TextureUse texture_use(const GrooveTexture& use, const scene::ImportedScene& scene, const std::string& file,
-                              const std::string& place) {
+                              const std::string& pointer) {
     if (static_cast<std::size_t>(use.index) >= scene.textures.size())
-        refuse_input(file, place + "/index", fmt::format("{}", use.index),
+        refuse_input(file, pointer + "/index", fmt::format("{}", use.index),
                      fmt::format("one of the file's {} textures, counted from 0", scene.textures.size()));
     if (use.tex_coord > 1)
-        refuse_input(file, place + "/texCoord", fmt::format("{}", use.tex_coord),
-                     "0 or 1: no more sets of texture coordinates are read");
+        refuse_input(file, pointer + "/texCoord", fmt::format("{}", use.tex_coord),
+                     "0 or 1: only two sets of texture coordinates are supported");
     return {.texture = static_cast<std::size_t>(use.index),
             .uv_set = use.tex_coord,
             .transform = {.offset = glm::vec2(use.offset),
@@ -37,11 +37,11 @@ scene::TextureUse texture_use(const GrooveTexture& use, const scene::ImportedSce
                           .scale = glm::vec2(use.scale)}};
 }
 
-/// A column or row of a picture from one that may lie beside it.
-int wrapped(int place, int size, scene::TextureWrap wrap) {
-    if (wrap == scene::TextureWrap::Clamp) return std::clamp(place, 0, size - 1);
+/// The column or row of an image after wrapping.
+int wrapped(int index, int size, scene::TextureWrap wrap) {
+    if (wrap == scene::TextureWrap::Clamp) return std::clamp(index, 0, size - 1);
     const int period = wrap == scene::TextureWrap::Mirror ? 2 * size : size;
-    const int within = (place % period + period) % period;
+    const int within = (index % period + period) % period;
     return within < size ? within : period - 1 - within;
 }
 
@@ -52,9 +52,9 @@ bool varies_pitch(const GrooveMap& grooves) {
 }  // namespace
 
 GrooveMap::GrooveMap(const GrooveTexture& use, render::SurfaceTextures& textures, const std::string& file,
-                     const std::string& place) {
+                     const std::string& pointer) {
     const scene::ImportedScene& scene = textures.scene();
-    texture_ = textures.get(texture_use(use, scene, file, place), render::TexelMeaning::Linear);
+    texture_ = textures.get(texture_use(use, scene, file, pointer), render::TexelMeaning::Linear);
     sampling_ = scene.textures[static_cast<std::size_t>(use.index)];
     image_ = scene.images[sampling_.image];
     int smallest = 256;
@@ -79,14 +79,14 @@ double GrooveMap::red(int column, int row) const {
 
 double GrooveMap::rotation(const glm::vec2& uv) const {
     const render::UvTransform transform = render::uv_transform(texture_.transform);
-    const glm::vec2 place = glm::vec2(transform.linear) * uv.x +
-                            glm::vec2(transform.linear.z, transform.linear.w) * uv.y + transform.offset;
-    // Coordinates beyond a million repeats say nothing; they must not overflow.
+    const glm::vec2 texture_uv = glm::vec2(transform.linear) * uv.x +
+                                 glm::vec2(transform.linear.z, transform.linear.w) * uv.y + transform.offset;
+    // Against overflow; coordinates beyond a million repeats are meaningless.
     const auto texels = [](float coordinate, int size) {
         return std::clamp(static_cast<double>(coordinate), -1e6, 1e6) * size;
     };
-    const double x = texels(place.x, image_->width);
-    const double y = texels(place.y, image_->height);
+    const double x = texels(texture_uv.x, image_->width);
+    const double y = texels(texture_uv.y, image_->height);
     if (sampling_.nearest)
         return std::numbers::pi * red(static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)));
     const int column = static_cast<int>(std::floor(x - 0.5));

@@ -14,15 +14,16 @@
 
 namespace rowland::diffraction {
 
-/// A texture that varies the grating over a surface. R: rotation / π, on top of the surface's own; G: the pitch as a
-/// factor of the material's, halved; 0: no grating there.
+/// A texture that varies the grating over a surface. R: rotation / π, added to the surface's; G: half the pitch over
+/// the material's; 0: no grating.
 class GrooveMap {
  public:
-    /// The texture that the glTF extension at `place` of `file` names. Throws Error (input) if there is none.
+    /// The texture that the glTF extension at the JSON pointer `pointer` of `file` names. Throws Error (input) if there
+    /// is none.
     GrooveMap(const GrooveTexture& use, render::SurfaceTextures& textures, const std::string& file,
-              const std::string& place);
+              const std::string& pointer);
 
-    /// The factors that occur, those of 0 left out: 1 if there are none.
+    /// The range of the factors above 0; 1 if there are none.
     double smallest_pitch() const { return smallest_pitch_; }
     double largest_pitch() const { return largest_pitch_; }
 
@@ -43,14 +44,14 @@ class GrooveMap {
     double largest_pitch_ = 1.0;
 };
 
-/// Why a material cannot be drawn under a map: representations that have one direction or one pitch only. Nothing if it
-/// can. The key is a JSON pointer below the glTF extension, without its first slash.
+/// Why a material cannot be drawn under a map: its representation supports one direction or one pitch only. nullopt if
+/// it can. The key is a JSON pointer relative to the glTF extension, without its first slash.
 std::optional<Refusal> groove_refusal(const Material& material, const GrooveMap& grooves);
 
-/// The material with the pitches of a map that groove_refusal() has nothing against; arc, where nothing is pinned.
+/// The material with the pitches of a map for which groove_refusal() is nullopt; arc, if nothing is pinned.
 Material suited_to_grooves(Material material, const GrooveMap& grooves);
 
-/// The mesh with its tangents turned as the map says at the vertices.
+/// The mesh with its tangents rotated by the map at the vertices.
 scene::Mesh turned_by(const GrooveMap& grooves, const scene::Mesh& mesh);
 
 }  // namespace rowland::diffraction

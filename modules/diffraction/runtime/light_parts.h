@@ -13,8 +13,8 @@
 
 namespace rowland::diffraction {
 
-/// The distant light of a frame in the forms that gratings need, linear Rec.709, world axes: whole as `sh`, or as
-/// `residual`, `key_lights` and the scene's directional lights, which sum to the same.
+/// The distant light of a frame in the forms that gratings need, linear Rec.709, world axes: as `sh`, or as the sum of
+/// `residual`, `key_lights` and the scene's directional lights.
 struct LightParts {
     lighting::ShLight sh;                                        ///< raw radiance: the probe and the directional lights
     lighting::ShLight probe_sh;                                  ///< the probe alone

@@ -52,7 +52,7 @@ std::vector<std::vector<double>> arc_rows(int bands) {
     return rows;
 }
 
-/// The negative fraction of what the arcs of one frame gather of the light rotated into it.
+/// The negative fraction of the light that the arcs of one frame gather; the light is rotated into the frame.
 double negative_fraction(const std::vector<std::vector<double>>& rows, const std::vector<glm::dvec3>& rotated) {
     double negative = 0.0;
     double all = 0.0;

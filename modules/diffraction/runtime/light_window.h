@@ -5,12 +5,12 @@
 
 namespace rowland::diffraction {
 
-/// How much a grating under this band-limited light would ring: the negative fraction of the light that half circles
-/// around the grating vector gather (flat lobe), averaged over a fixed set of tangent frames. In [0, 1].
+/// Ringing of a grating under this band-limited light: the negative fraction of the light that half circles around the
+/// grating vector gather (flat lobe), averaged over a fixed set of tangent frames. In [0, 1].
 double ringing(const lighting::ShLight& light);
 
-/// Ringing up to this does not show as dark patches on a disc, judged on pictures under captured and synthetic probes:
-/// captures of indoor and outdoor light have 0 … 0.03, a single lamp in a dark room 0.27, with Lanczos 0.02.
+/// Ringing up to this does not show as dark patches on a disc, judged on images under captured and synthetic probes.
+/// Captures of indoor and outdoor light have 0 … 0.03, a single lamp in a dark room 0.27, with Lanczos 0.02.
 inline constexpr double kTolerableRinging = 0.03;
 
 /// The weakest of none, Lanczos and Hann under which the light in `bands` bands rings tolerably; Hann if none does.

@@ -61,14 +61,14 @@ void SurfaceLight::set(const LightParts& light) {
     key_lights_ = {};
 }
 
-const lighting::ShLight& SurfaceLight::harmonics(int bands, LightShare share) {
-    const auto found = windowed_.find({bands, share});
+const lighting::ShLight& SurfaceLight::harmonics(int bands, LightPart part) {
+    const auto found = windowed_.find({bands, part});
     if (found != windowed_.end()) return found->second;
-    const lighting::ShLight& light = share == LightShare::Whole   ? light_.sh
-                                     : share == LightShare::Probe ? light_.probe_sh
-                                                                  : light_.residual;
+    const lighting::ShLight& light = part == LightPart::Whole   ? light_.sh
+                                     : part == LightPart::Probe ? light_.probe_sh
+                                                                : light_.residual;
     const math::SphericalWindow window = window_ ? *window_ : weakest_window(light, bands);
-    return windowed_.emplace(std::pair(bands, share), lighting::limit_bands(light, bands, window)).first->second;
+    return windowed_.emplace(std::pair(bands, part), lighting::limit_bands(light, bands, window)).first->second;
 }
 
 std::shared_ptr<const RadianceCube> SurfaceLight::radiance() {

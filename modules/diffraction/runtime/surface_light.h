@@ -17,7 +17,7 @@
 namespace rowland::diffraction {
 
 /// Which part of a frame's light.
-enum class LightShare {
+enum class LightPart {
     Whole,  ///< the probe and the directional lights
     Probe,  ///< the probe alone
     Rest,   ///< the probe without its key lights
@@ -33,10 +33,10 @@ class SurfaceLight {
     std::uint64_t version() const { return light_.version; }
 
     /// The light in this number of bands, windowed.
-    const lighting::ShLight& harmonics(int bands, LightShare share);
-    /// The probe, or LightShare::Rest of it, at full resolution; null if the probe has no texels.
-    const std::shared_ptr<const lighting::LightSamples>& texels(LightShare share) const {
-        return share == LightShare::Rest ? light_.texels : light_.probe_texels;
+    const lighting::ShLight& harmonics(int bands, LightPart part);
+    /// The probe, or LightPart::Rest of it, at full resolution; null if the probe has no texels.
+    const std::shared_ptr<const lighting::LightSamples>& texels(LightPart part) const {
+        return part == LightPart::Rest ? light_.texels : light_.probe_texels;
     }
 
     /// The whole probe on the GPU, uploaded on demand and once per probe. Black if the light has none.
@@ -47,9 +47,9 @@ class SurfaceLight {
 
     /// The first ROWLAND_MAXIMUM_KEY_LOBES.
     std::span<const lighting::KeyLight> key_lights() const;
-    /// Colours of the engine's lights[], linear Rec.709, the largest component 1, each once.
+    /// Distinct colours of the engine's lights[], linear Rec.709, the largest component 1.
     std::span<const glm::vec3> light_colours() const { return light_colours_; }
-    /// Their uniform block (light_colour_block.h) and the key lights' (key_lobe_block.h).
+    /// The colours' uniform block (light_colour_block.h) and the key lights' (key_lobe_block.h).
     void bind_light_colours() const;
     void bind_key_lights() const;
 
@@ -62,7 +62,7 @@ class SurfaceLight {
     std::vector<glm::vec3> light_colours_;
     LightColourBlock colour_block_ = {};
     mutable gpu::Buffer colour_buffer_;  ///< empty until bound, and after a change
-    std::map<std::pair<int, LightShare>, lighting::ShLight> windowed_;
+    std::map<std::pair<int, LightPart>, lighting::ShLight> windowed_;
     mutable gpu::Buffer key_lights_;  ///< empty until bound
     std::shared_ptr<const lighting::PackedEnvironmentMap> cube_of_;
     std::shared_ptr<const RadianceCube> cube_;

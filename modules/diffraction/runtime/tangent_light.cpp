@@ -36,10 +36,10 @@ struct SplitFrames {
     }
 };
 
-/// Turns tangents about normals. None of no angle: those stay as they are.
+/// Rotates tangents about normals; leaves them unchanged for an angle of 0.
 class GrooveTurn {
  public:
-    /// `mirroring`: the sign of the determinant that the frames have been through.
+    /// `mirroring`: sign of the determinant of the frames' transform.
     GrooveTurn(double radians, double mirroring)
         : cosine_(static_cast<float>(std::cos(radians))),
           sine_(static_cast<float>(std::sin(radians) * (mirroring < 0.0 ? -1.0 : 1.0))),
@@ -58,7 +58,8 @@ class GrooveTurn {
     bool turns_;
 };
 
-/// The object's turn, if its matrix is a turn times one scale; nothing for a stretched, sheared or mirrored object.
+/// The object's rotation, if its matrix is a rotation times a scale; nullopt for a stretched, sheared or mirrored
+/// object.
 std::optional<glm::dmat3> rigid_turn(const glm::dmat3& linear) {
     const double scale = std::cbrt(glm::determinant(linear));
     if (!(scale > 0.0)) return std::nullopt;
@@ -66,7 +67,7 @@ std::optional<glm::dmat3> rigid_turn(const glm::dmat3& linear) {
     const glm::dmat3 product = glm::transpose(turn) * turn;
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
-            // A matrix that was multiplied together from turns in float is one to a few roundings.
+            // A product of float rotations is a rotation to a few roundings.
             if (std::abs(product[i][j] - (i == j ? 1.0 : 0.0)) > 1e-6) return std::nullopt;
     const glm::dvec3 x = glm::normalize(turn[0]);
     const glm::dvec3 z = glm::normalize(glm::cross(x, turn[1]));
@@ -79,7 +80,7 @@ std::vector<glm::dvec3> in_object_frame(const lighting::ShLight& light, const gl
     return turned;
 }
 
-/// The mesh's frames as they are, in the object's axes.
+/// The mesh's frames in the object's axes.
 SplitFrames object_frames(const scene::Mesh& mesh, double groove_rotation) {
     SplitFrames frames(mesh.normals.size());
     const GrooveTurn turn(groove_rotation, 1.0);
@@ -88,7 +89,7 @@ SplitFrames object_frames(const scene::Mesh& mesh, double groove_rotation) {
     return frames;
 }
 
-/// The matrix over its largest entry: vectors through it stay well inside the range of floats.
+/// The matrix over its largest entry, so that transformed vectors stay in the range of floats.
 glm::dmat3 of_moderate_size(const glm::dmat3& matrix) {
     double largest = 0.0;
     for (int column = 0; column < 3; ++column)
@@ -96,8 +97,7 @@ glm::dmat3 of_moderate_size(const glm::dmat3& matrix) {
     return matrix / largest;
 }
 
-/// The mesh's frames in world axes, where a stretched object has its own; of any length and skewed, as FrameArrays
-/// allow.
+/// The mesh's frames in world axes. They may have any length and be skewed, as FrameArrays allow.
 SplitFrames world_frames(const scene::Mesh& mesh, const glm::dmat3& linear, double groove_rotation) {
     SplitFrames frames(mesh.normals.size());
     const GrooveTurn turn(groove_rotation, glm::determinant(linear));
@@ -110,8 +110,7 @@ SplitFrames world_frames(const scene::Mesh& mesh, const glm::dmat3& linear, doub
     return frames;
 }
 
-/// Calls use(coefficients, frames) with the light and the vertices' frames in the same axes, the object's or the
-/// world's.
+/// Calls use(coefficients, frames) with the light and the vertices' frames in the same axes, object or world.
 template <typename Use>
 void in_vertex_frames(const lighting::ShLight& light, const scene::Mesh& mesh, const glm::mat4& object_to_world,
                       double groove_rotation, const Use& use) {

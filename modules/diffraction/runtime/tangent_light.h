@@ -10,7 +10,7 @@
 namespace rowland::diffraction {
 
 /// The tangent frame (g, h, n) of a vertex in world space, as rows. `groove_rotation` (radians) turns g from the mesh's
-/// tangent toward its bitangent, as w of the tangent tells it.
+/// tangent toward its bitangent, whose sign is the tangent's w.
 glm::dmat3 tangent_frame(const glm::vec3& normal, const glm::vec3& tangent, const glm::mat4& object_to_world);
 glm::dmat3 tangent_frame(const glm::vec3& normal, const glm::vec4& tangent, const glm::mat4& object_to_world,
                          double groove_rotation);
@@ -20,7 +20,8 @@ glm::dmat3 tangent_frame(const glm::vec3& normal, const glm::vec4& tangent, cons
 std::vector<float> rotate_to_vertices(const lighting::ShLight& light, const scene::Mesh& mesh,
                                       const glm::mat4& object_to_world, double groove_rotation = 0.0);
 
-/// The same under a constant matrix: vertices × projection.rows() × 3 floats. The light has the projection's bands.
+/// The same, multiplied by a constant matrix: vertices × projection.rows() × 3 floats. The light has the projection's
+/// bands.
 std::vector<float> project_to_vertices(const lighting::ShLight& light, const math::FrameProjection& projection,
                                        const scene::Mesh& mesh, const glm::mat4& object_to_world,
                                        double groove_rotation = 0.0);

@@ -16,7 +16,7 @@ VertexShaded::VertexShaded(const CookedMaterial& cooked, const glm::dmat3& xyz_t
 
 void VertexShaded::update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const {
     if (!object.changed) return;
-    const std::vector<float> rotated = rotate_to_vertices(light.harmonics(bands_, light_share()), object.mesh,
+    const std::vector<float> rotated = rotate_to_vertices(light.harmonics(bands_, light_part()), object.mesh,
                                                           object.object_to_world, object.groove_rotation);
     state.vertex_light = gpu::Buffer::of(std::span<const float>(rotated));
 }

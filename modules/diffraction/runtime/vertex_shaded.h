@@ -5,7 +5,7 @@
 
 namespace rowland::diffraction {
 
-/// Representations whose vertices hold the light's SH in their tangent frames and are shaded from a view table.
+/// Representations that shade vertices from a view table and the light's SH in each vertex's tangent frame.
 class VertexShaded : public GpuMaterial {
  public:
     void update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const override;

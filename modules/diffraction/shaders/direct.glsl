@@ -17,7 +17,7 @@ float punctual_attenuation(Light light, float distance2, vec3 l);  // the engine
 float shadow_visibility(vec3 l);  // the engine's
 #endif
 
-// What the vertices have shaded and not yet added.
+// The lights that the vertices shade.
 vec3 lights_from_vertices_xyz() {
     vec3 xyz = vec3(0.0);
 #ifdef LIGHTS_BESIDE

@@ -1,5 +1,5 @@
-// 2 D_h(s_h + v_h) for X, Y and Z, widened by the light's own extent along the grooves: bake/direct.h, groove_factor().
-// LOBE_GAUSSIAN or LOBE_PITS are defined by the program; neither: the flat lobe.
+// 2 D_h(s_h + v_h) for X, Y and Z, widened by the light's extent along the grooves: representations/direct/direct.h,
+// groove_factor(). The program defines LOBE_GAUSSIAN, LOBE_PITS or, for the flat lobe, neither.
 
 #if defined(LOBE_GAUSSIAN)
 uniform vec2 lobe_gaussian;  // deviation; peak of D_h
@@ -9,10 +9,10 @@ vec3 groove_factor(float sum_h, float deviation_h) {
     return vec3(2.0 * lobe_gaussian.y * lobe_gaussian.x / wide * exp(-0.5 * z * z));
 }
 #elif defined(LOBE_PITS)
-uniform vec2 lobe_gaussian;   // of the coherent share
+uniform vec2 lobe_gaussian;   // of the coherent part
 uniform vec3 pit_wavelengths;  // pits' length over the wavelength, for X, Y and Z
-uniform float incoherent;     // share
-// `peak`: of the coherent share.
+uniform float incoherent;     // fraction of the power
+// `peak`: of the coherent part.
 float pits_density(float sum_h, float length_wavelengths, float peak) {
     float z = sum_h / lobe_gaussian.x;
     float x = 3.14159265358979 * length_wavelengths * sum_h;
@@ -34,7 +34,7 @@ vec3 groove_factor(float sum_h, float deviation_h) { return pits_factor(sum_h, d
 vec3 groove_factor(float sum_h, float deviation_h) { return vec3(1.0); }
 #endif
 
-// The same of the probe's key lights. A streak shows the whole probe, so that they are for the rest of the lobe.
+// The same for the probe's key lights. With a streak, which shows the whole probe, they light the incoherent part alone.
 #if defined(STREAK) && defined(LOBE_PITS)
 vec3 key_groove_factor(float sum_h, float deviation_h) { return pits_factor(sum_h, deviation_h, 0.0); }
 #else

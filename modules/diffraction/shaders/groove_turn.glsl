@@ -1,8 +1,8 @@
-// Turns (g, h) of the mesh's tangent frame by the surface's groove rotation, toward the mesh's bitangent.
+// Rotates (g, h) of the mesh's tangent frame by the surface's groove rotation, toward the mesh's bitangent.
 
 uniform vec2 groove_turn;  // cosine and sine
 #ifdef GROOVE_MAP
-out float groove_hand;  // sign of a turn toward the bitangent, for the fragment stage's further one
+out float groove_hand;  // sign of a rotation toward the bitangent, for the fragment stage
 #endif
 
 #ifdef SKINNED
@@ -12,7 +12,7 @@ float posed_mirroring() { return 1.0; }
 #endif
 
 void turn_grooves(inout vec3 g, inout vec3 h) {
-    // A mirroring transform turns the cross product round.
+    // A mirroring transform inverts the cross product.
     float hand = vertex_tangent.w * map_strength.z * posed_mirroring();
 #ifdef GROOVE_MAP
     groove_hand = hand;

@@ -1,4 +1,4 @@
-// The tangent frame of a pixel and the view in it, where something needs it.
+// The tangent frame of a pixel and the view in it.
 #include "modules/diffraction/shaders/has_direct.glsl"
 #if !defined(VERTEX_SHADED) || defined(LIGHTS_AT_PIXELS)
 
@@ -18,8 +18,8 @@ struct GrooveView {
     float pitch;      // over the material's; 0: no grating here
 };
 
-// The grating vector of the vertices, interpolated, made orthonormal to the normal again. Where the vertices' cancel, as
-// at a disc's hub, any will do.
+// The interpolated grating vector, made orthonormal to the normal. Where the vertices' vectors cancel, as at a disc's
+// hub, any vector is used.
 mat3 groove_axes() {
     vec3 n = normalize(world_normal);
     vec3 g = world_grating - n * dot(n, world_grating);
@@ -28,16 +28,16 @@ mat3 groove_axes() {
     return mat3(g, cross(n, g), n);
 }
 
-// Takes differences between pixels: call it where all pixels pass.
+// Uses derivatives: call it in uniform control flow.
 GrooveView groove_view() {
     mat3 axes = groove_axes();
     vec3 direction = normalize(eye.xyz - world_position) * axes;
 #ifdef GROOVE_MAP
-    vec2 place = groove_uv_linear.xy * GROOVE_MAP.x + groove_uv_linear.zw * GROOVE_MAP.y + groove_uv_offset;
-    vec2 texel = texture(groove_map, place).rg;
+    vec2 map_uv = groove_uv_linear.xy * GROOVE_MAP.x + groove_uv_linear.zw * GROOVE_MAP.y + groove_uv_offset;
+    vec2 texel = texture(groove_map, map_uv).rg;
     float angle = 3.14159265358979 * texel.r;
     vec2 turn = vec2(cos(angle), groove_hand * sin(angle));
-    // The view changes from pixel to pixel by what it does in one frame, however the map jumps.
+    // Derivatives of the view before the map's rotation, which may be discontinuous.
     float extent = abs(dot(turn, dFdx(direction.xy))) + abs(dot(turn, dFdy(direction.xy)));
     mat2 turned = mat2(turn.x, turn.y, -turn.y, turn.x);
     axes = mat3(mat2x3(axes[0], axes[1]) * turned[0], mat2x3(axes[0], axes[1]) * turned[1], axes[2]);

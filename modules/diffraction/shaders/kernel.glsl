@@ -12,7 +12,7 @@ bool kernel_reached(float u, float reach) {
     return abs(u) + reach > kernel_ends.x && abs(u) - reach < kernel_ends.y;
 }
 
-// A deviation as the table has it.
+// A deviation's row of the table.
 struct KernelRow {
     float wide;
     float t;
@@ -40,7 +40,7 @@ vec3 zero_order_xyz(float u, float wide, vec3 rgb) {
 vec3 kernel_xyz(float u, float deviation, vec3 rgb) {
     KernelRow row = kernel_row(deviation);
     vec3 xyz = vec3(0.0);
-    // Most lights miss the orders, so it pays to see that without a look-up.
+    // Most lights miss the orders: no look-up is needed for them.
     if (kernel_reached(u, 5.0 * row.wide)) {
         for (int c = 0; c < 3; ++c) xyz += rgb[c] * kernel_texel(u, row, float(c));
         xyz *= kernel_scale_bias.w;
@@ -48,7 +48,7 @@ vec3 kernel_xyz(float u, float deviation, vec3 rgb) {
     return xyz + zero_order_xyz(u, row.wide, rgb);
 }
 
-// The same of light of one of the scene's colours, of which `rgb` is that much.
+// The same for a light of one of the scene's colours: `rgb` is `amount` times that colour.
 vec3 coloured_kernel_xyz(float u, KernelRow row, float colour, float amount, vec3 rgb) {
     vec3 xyz = vec3(0.0);
     if (kernel_reached(u, 5.0 * row.wide)) xyz = amount * kernel_scale_bias.w * kernel_texel(u, row, 3.0 + colour);

@@ -1,4 +1,5 @@
-// The key lights of a frame, with what of their lobes does not depend on the surface. Included by C++ and GLSL; std140.
+// The key lights of a frame, with the numbers of their lobes that do not depend on the surface. Included by C++ and
+// GLSL; std140.
 #ifdef __cplusplus
 #pragma once
 #include <glm/vec4.hpp>

@@ -1,4 +1,4 @@
-// The probe's key lights on a grating part by part, where no table has them ready.
+// The probe's key lights on a grating part by part, without tables.
 #include "modules/diffraction/shaders/light_spot.glsl"
 #include "modules/diffraction/shaders/small_light.glsl"
 #if defined(KEY_LOBES) && !defined(KEY_LOBE_TABLE)
@@ -6,7 +6,7 @@
 vec3 key_lobe_xyz(KeyLobe lobe, GrooveView view) {
     float footprint_deviation = 0.57735026918963 * view.footprint;
     vec3 axis = lobe.direction.xyz * view.axes;
-    // 5e-8 of a lobe's cosine is left five deviations below the horizon.
+    // Five deviations below the horizon, 5e-8 of the lobe's cosine remains.
     if (axis.z * lobe.moments.x < -5.0 * sqrt(lobe.moments.z + lobe.moments.y)) return vec3(0.0);
 #ifndef ZERO_ORDER
     // The parts lie within 2.3 deviations of the lobe's direction, and each reaches 5 times 0.84 of one.

@@ -1,18 +1,18 @@
-// A light in a surface's tangent frame: bake/direct.h, light_spot().
+// A light in a surface's tangent frame: representations/direct/direct.h, light_spot().
 #include "modules/diffraction/shaders/has_direct.glsl"
 #ifdef KEY_LOBES
 #include "modules/diffraction/shaders/key_lobe_block.h"
 #include "modules/diffraction/shaders/normal_distribution.glsl"
 
-// A share of a light as a normal distribution in s_g.
+// A part of a light as a normal distribution in s_g.
 struct LightPart {
     float cosine;  // mean of s_n above the horizon
     float centre;
     float deviation;
 };
 
-// Mean of max(0, sin t) for t around t0 by a von Mises distribution: direct.cpp, mean_above(). The variance is written so
-// that nothing cancels for narrow lobes.
+// Mean of max(0, sin t) for t from a von Mises distribution about t0: direct.h, mean_above_wide(). The form of the variance
+// avoids cancellation for narrow lobes.
 float mean_above(float sine, float concentration) {
     float root = sqrt(concentration * concentration + 2.25);
     float ratio = concentration / (0.5 + root);
@@ -22,8 +22,8 @@ float mean_above(float sine, float concentration) {
     return clamped_mean(ratio * sine, sqrt(max(variance, 0.0)));
 }
 
-// Part 0: the middle of the lobe; 1 and 2: its sides. `axis`: its direction in (g, h, n). Not yet divided by the sum of
-// the weights, which goes to `weight`.
+// Part 0: the middle of the lobe; 1 and 2: its sides. `axis`: its direction in (g, h, n). The caller divides by the sum of
+// the `weight`s.
 LightPart lobe_part(KeyLobe lobe, vec3 axis, float across, int part, out float weight) {
     const float SKEW = 1.0 + 0.7 / 0.6;
     float side = part == 0 ? 0.0 : part == 1 ? lobe.nodes.y : -lobe.nodes.y;
@@ -53,10 +53,10 @@ vec2 spread_along_grooves(KeyLobe lobe, vec3 axis) {
     float first = clamped_mean(mean, deviation);
     float centre = lobe.moments.x * axis.y;
     if (first <= 1e-6 * deviation || variance_n <= 0.0) return vec2(centre, sqrt(max(variance_h, 0.0)));
-    float share = normal_share_below(mean / deviation);
+    float below = normal_cdf(mean / deviation);
     float density = deviation * normal_density(mean / deviation);
-    float weighted = ((mean * mean + variance_n) * share + mean * density) / first;
-    float third = mean * (mean * mean + 3.0 * variance_n) * share + (mean * mean + 2.0 * variance_n) * density;
+    float weighted = ((mean * mean + variance_n) * below + mean * density) / first;
+    float third = mean * (mean * mean + 3.0 * variance_n) * below + (mean * mean + 2.0 * variance_n) * density;
     float slope = elongation * axis.y * axis.z / variance_n;
     float rest = max(variance_h - slope * slope * variance_n, 0.0);
     float weighted_variance = max(third / first - weighted * weighted, 0.0);

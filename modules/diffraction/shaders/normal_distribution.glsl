@@ -1,5 +1,5 @@
-// Share of the normal distribution below x [Press et al., Numerical Recipes, erfcc: 1.2e-7 relative].
-float normal_share_below(float x) {
+// Cumulative normal distribution [Press et al., Numerical Recipes, erfcc: 1.2e-7 relative].
+float normal_cdf(float x) {
     float z = abs(x) * 0.70710678118655;
     float t = 1.0 / (1.0 + 0.5 * z);
     float p = -1.13520398 + t * (1.48851587 + t * (-0.82215223 + t * 0.17087277));
@@ -16,5 +16,5 @@ float clamped_mean(float mean, float deviation) {
     if (mean < -12.0 * deviation) return 0.0;
     if (deviation <= 0.0) return mean;
     float z = mean / deviation;
-    return max(mean * normal_share_below(z) + deviation * normal_density(z), 0.0);
+    return max(mean * normal_cdf(z) + deviation * normal_density(z), 0.0);
 }

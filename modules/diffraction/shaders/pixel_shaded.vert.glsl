@@ -1,5 +1,5 @@
 #version 450 core
-// The vertex stage of representations that shade pixels and need nothing of the vertices but their frame.
+// The vertex stage of representations that shade pixels and need only the frame from the vertices.
 #include "engine/render/shaders/forward_vertex_interface.glsl"
 #include "modules/diffraction/shaders/groove_turn.glsl"
 #include "modules/diffraction/shaders/vertex_lights.glsl"

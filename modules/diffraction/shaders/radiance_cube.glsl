@@ -1,5 +1,5 @@
-// The whole probe as a cube map of plain levels, and its mean over a footprint: bake/cube_pyramid.h. FILTER_TAPS, the most
-// places that are read, is defined by the program.
+// The whole probe as a cube map of box-filtered levels, and its mean over a footprint: bake/cube_pyramid.h. The program
+// defines FILTER_TAPS, the most samples.
 layout(binding = 12) uniform samplerCube radiance_cube;
 uniform float radiance_scale;  // of the stored values
 

@@ -1,8 +1,8 @@
 #version 450 core
-// A picture of the diffraction term, taken from where the eye is.
+// An image of the diffraction term from the current view.
 #include "modules/diffraction/shaders/surface.glsl"
 
-layout(binding = 11) uniform sampler2D still;  // XYZ of what is known, alpha how much of it is
+layout(binding = 11) uniform sampler2D still;  // XYZ times alpha; alpha: the known fraction
 uniform vec2 still_scale;                      // pixels to texture coordinates
 
 vec3 diffracted_xyz(GrooveView view) {

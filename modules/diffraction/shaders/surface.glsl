@@ -1,5 +1,5 @@
-// What the fragment stages of all gratings share. Programs whose vertices are shaded define VERTEX_SHADED. A file is
-// pasted once, where it is first included: what is conditional is so inside the files.
+// Common to the fragment stages of all gratings. Programs that shade vertices define VERTEX_SHADED. A file is included
+// once, at its first #include, so that conditions are inside the files.
 #define MATERIAL_HAS_MIRROR
 #include "engine/render/shaders/forward_fragment_interface.glsl"
 #include "modules/diffraction/shaders/has_direct.glsl"
@@ -7,6 +7,6 @@
 #include "modules/diffraction/shaders/groove_view.glsl"
 #include "modules/diffraction/shaders/direct.glsl"
 
-// What the grating leaves to the engine, working space.
+// Weights of the engine's shading, working space.
 uniform vec3 mirror_weight;
 uniform vec3 base_weight;

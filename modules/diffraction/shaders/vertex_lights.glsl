@@ -1,5 +1,5 @@
-// Key lights and directional lights shaded at the vertices, where the material asks for it; the first directional light
-// apart where it throws shadows.
+// Key lights and directional lights at the vertices, under LIGHTS_AT_VERTICES; the first directional light separately if
+// it casts shadows.
 #include "modules/diffraction/shaders/small_light.glsl"
 #include "modules/diffraction/shaders/key_lobes.glsl"
 #ifdef LIGHTS_AT_VERTICES
@@ -12,7 +12,7 @@ out vec3 lights_at_vertex;
 out vec3 shadowed_at_vertex;
 #endif
 
-// All that shadows leave alone. `axes`: columns g, h, n in the world.
+// The sum of the lights without shadows. `axes`: columns g, h, n in the world.
 vec3 shade_lights(vec3 position, mat3 axes) {
     vec3 direction = normalize(eye.xyz - position) * axes;
     float above = direction.z > 0.0 ? 1.0 : 0.0;

@@ -1,5 +1,5 @@
 #version 450 core
-// What vertices have shaded, and lights of their own.
+// The term from the vertices, and analytic lights.
 #include "modules/diffraction/shaders/surface.glsl"
 
 in vec3 diffracted;

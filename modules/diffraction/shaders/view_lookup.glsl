@@ -4,8 +4,8 @@
 #define PARABOLIC 1
 #define ONE_DIMENSIONAL 2
 
-// Behind the horizon the view stays at the rim: such vertices are seen only as the far end of a triangle that crosses the
-// silhouette. `nodes`: the texture's size.
+// Views below the horizon are clamped to it: such vertices are visible only in triangles that cross the silhouette.
+// `nodes`: the texture's size.
 vec2 view_coordinates(vec3 view, vec2 nodes) {
     const float HALF_PI = 1.57079632679490;
 #if VIEW_MAPPING == SPHERICAL

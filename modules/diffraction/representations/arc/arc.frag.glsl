@@ -1,5 +1,5 @@
 #version 450 core
-// A short sum over the ranks that the vertices bring: bake/arc_table.h.
+// A sum over the ranks of the products from the vertices: arc_table.h.
 #include "modules/diffraction/shaders/surface.glsl"
 #include "modules/diffraction/representations/arc/arc_sum.glsl"
 

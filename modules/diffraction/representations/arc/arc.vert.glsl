@@ -1,10 +1,10 @@
 #version 450 core
-// The vertex's part of bake/arc_table.h. LAYERS is defined by the program.
+// The vertex's part of arc_table.h. The program defines LAYERS.
 #include "engine/render/shaders/forward_vertex_interface.glsl"
 #include "modules/diffraction/shaders/groove_turn.glsl"
 #include "modules/diffraction/shaders/vertex_lights.glsl"
 
-// X, Y and Z of the products of ranks 4j ... 4j+3, for j < LAYERS; vertex by vertex. Made on the CPU.
+// X, Y and Z of the products of ranks 4j ... 4j+3, for j < LAYERS; vertex by vertex, from the CPU.
 layout(std430, binding = 4) readonly buffer ArcProducts { vec4 vertex_products[]; };
 
 out vec3 world_grating;

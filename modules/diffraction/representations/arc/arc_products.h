@@ -17,17 +17,17 @@ class ArcProducts {
     explicit ArcProducts(const ArcTable& table);
 
     int bands() const { return projection_.bands(); }
-    /// Ranks in fours.
+    /// ⌈rank/4⌉.
     int layers() const { return layers_; }
 
-    /// Vertex by vertex 3·layers() vectors: X, Y and Z of p_4j … p_4j+3, j by j. `light` has bands(). Multithreaded.
+    /// For each vertex 3·layers() vectors: X, Y and Z of p_4j … p_4j+3, by j. `light` has bands(). Multithreaded.
     std::vector<glm::vec4> operator()(const lighting::ShLight& light, const scene::Mesh& mesh,
                                       const glm::mat4& object_to_world, double groove_rotation) const;
 
  private:
     int layers_;
     math::FrameProjection projection_;  ///< from SH to the table's light terms
-    std::vector<glm::vec4> factors_;    ///< for each term and colour, what it adds to a vertex's vectors
+    std::vector<glm::vec4> factors_;    ///< for each term and colour, the vectors to add
 };
 
 }  // namespace rowland::diffraction

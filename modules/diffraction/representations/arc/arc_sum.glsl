@@ -1,11 +1,11 @@
-// The pixel's part of bake/arc_table.h. LAYERS and VIEW_MAPPING are defined by the program; so are PITCH_AXIS for a table
-// over pitches, and TURNS, the light's bands, where products come as a series over the azimuth of g.
+// The pixel's part of arc_table.h. The program defines LAYERS and VIEW_MAPPING; PITCH_AXIS for a table over pitches; and
+// TURNS, the light's bands, where the products are a series over the azimuth of g.
 #include "modules/diffraction/shaders/packed_table.glsl"
 
 const int PRODUCTS = 3 * LAYERS;
 
 #ifdef TURNS
-// The constant, then cos and sin of each multiple of the azimuth: runtime/arc_turns.h.
+// The constant, then cos and sin of each multiple of the azimuth: arc_turns.h.
 layout(std430, binding = 4) readonly buffer ArcTurns { vec4 turn_terms[]; };
 uniform vec3 arc_e1;  // the azimuth's axes in the world
 uniform vec3 arc_e2;
@@ -29,13 +29,13 @@ vec4[PRODUCTS] products_at(vec3 g) { return arc_products; }
 #endif
 
 #ifdef PITCH_AXIS
-uniform vec2 pitch_place;  // scale and offset from the logarithm of the pitch's factor to the table's second coordinate
+uniform vec2 pitch_scale_bias;  // from the logarithm of the pitch factor to the table's second coordinate
 #endif
 
 vec3 arc_xyz(GrooveView view) {
     vec2 coordinates = table_coordinates(view.direction);
 #ifdef PITCH_AXIS
-    coordinates.y = log(view.pitch) * pitch_place.x + pitch_place.y;
+    coordinates.y = log(view.pitch) * pitch_scale_bias.x + pitch_scale_bias.y;
 #endif
     vec4 products[PRODUCTS] = products_at(view.axes[0]);
     vec3 xyz = vec3(0.0);

@@ -22,15 +22,15 @@ using Eigen::MatrixXd;
 constexpr Eigen::Index kTermColumns = 9;  ///< columns a light term takes: light's channel · 3 + tristimulus
 constexpr int kMaximumPitchNodes = 1 << 12;
 
-/// What light is like: its power falls with the band about as 1/(l+1)², its channels are mostly one grey (eight probes:
-/// l = 2 has .04 … .6 of the power of l = 0, channels correlate by .6 … 1). Other guesses cost or gain a quarter at
-/// most.
+/// A model of light: its power falls with the band about as 1/(l+1)², and its channels are mostly grey (eight probes:
+/// l = 2 has .04 … .6 of the power of l = 0, channels correlate by .6 … 1). Other values change the error by a quarter
+/// at most.
 constexpr double kChannelCorrelation = 0.9;
 double band_power(int l) {
     return 1.0 / ((l + 1.0) * (l + 1.0));
 }
 
-/// A square root L of the covariance L Lᵀ of the light's numbers: (2n−1)² for moments q = M l, else diagonal.
+/// A square root L of the covariance L Lᵀ of the light's numbers: (2n−1)² entries for moments q = M l, else diagonal.
 MatrixXd light_deviation(LightTerms terms, int bands) {
     const int count = math::sh_count(bands);
     Eigen::VectorXd deviation(count);
@@ -53,7 +53,7 @@ Eigen::Matrix3d channel_deviation() {
     return covariance.llt().matrixL();
 }
 
-/// The table times the light's deviations: what the light makes of its columns.
+/// The table's columns weighted by the light's deviations.
 MatrixXd weighed(const MatrixXd& table, LightTerms terms, int bands) {
     const MatrixXd light = light_deviation(terms, bands);
     const Eigen::Matrix3d channel = channel_deviation();
@@ -92,7 +92,7 @@ void put(const std::vector<glm::dmat3>& terms, std::span<const double> signs, Ei
                     (signs.empty() ? 1.0 : signs[k]) * terms[k][c][o];
 }
 
-/// One row a texel of the weights' texture, nine columns a light term.
+/// One row per texel of the weights' texture, nine columns per light term.
 MatrixXd tabulate(const Grating& grating, const ArcTable& table, const colour::Illuminant& illuminant) {
     const TransferTerms terms(grating, colour::LightSpectra(illuminant), table.bands);
     const auto columns = static_cast<std::size_t>(table.grid.columns);
@@ -151,7 +151,7 @@ ArcTable bake(const Grating& grating, const ArcSettings& settings) {
     const MatrixXd values = tabulate(grating, table, settings.illuminant);
     table.rank = static_cast<int>(std::min({static_cast<Eigen::Index>(settings.rank), values.rows(), values.cols()}));
     MatrixXd weights = leading_weights(weighed(values, table.terms, table.bands), table.rank);
-    // The weights' columns are orthonormal, so this is the best product for them, whatever the light was thought to be.
+    // The weights' columns are orthonormal, so these are the best factors for them, whatever the light.
     MatrixXd factors = weights.transpose() * values;
     for (Eigen::Index r = 0; r < table.rank; ++r) {
         Eigen::Index largest = 0;
@@ -281,7 +281,7 @@ ArcTable read(ByteReader& reader, const ArcSettings& settings) {
 
 namespace {
 
-/// Bands, ranks and key lights together, for what the sweep misses where it varies one at a time.
+/// Combinations of bands, ranks and key lights: elsewhere the sweep varies one at a time.
 std::vector<std::string> bands_by_rank_by_key_lights() {
     std::vector<std::string> settings;
     for (const int bands : {3, 8, 16})
@@ -344,12 +344,6 @@ ShadingCost cost(const ArcTable& table) {
 Facts facts(const ArcTable& table) {
     return with_view_table({{"bands", fmt::to_string(table.bands)}, {"rank", fmt::to_string(table.rank)}}, table.grid,
                            table);
-}
-
-PointShader point_shader(const ArcTable& table, const MaterialKernel&, const EvaluationLight& light) {
-    return in_tangent_frame(
-        light.harmonics(table.bands),
-        [table](const lighting::ShLight& rotated, const glm::dvec3& view) { return evaluate(table, rotated, view); });
 }
 
 }  // namespace rowland::diffraction

@@ -16,13 +16,13 @@
 
 namespace rowland::diffraction {
 
-/// The numbers of the light that a vertex brings, per RGB channel.
+/// The numbers that describe the light at a vertex, per RGB channel.
 enum class LightTerms : std::uint8_t {
     ArcMoments = 0,  ///< 2n−1 moments of the arc profile (arc_moments.h); flat lobe
     Harmonics = 1,   ///< n² SH coefficients; any lobe
 };
 
-/// Pitches that vary over the surface: factors of the material's pitch at even steps of their logarithm.
+/// Pitches that vary over the surface: factors of the material's pitch, at equal steps of their logarithm.
 struct PitchAxis {
     double smallest = 0.5;  ///< > 0
     double largest = 2.0;   ///< > smallest
@@ -31,12 +31,12 @@ struct PitchAxis {
     friend bool operator==(const PitchAxis&, const PitchAxis&) = default;
 };
 
-/// The transfer table as a product (the principal components that the paper hopes for, PHYSICS §5):
-/// c_k,o,c(v) ≈ Σ_r w_r(v) U_r,k,c,o. A vertex computes p_r = Σ_k U_r,k q_k, an XYZ each, of the light's numbers q; a
-/// pixel Σ_r w_r(v) p_r.
+/// The transfer table as a product (the principal components that the paper suggests, PHYSICS §5):
+/// c_k,o,c(v) ≈ Σ_r w_r(v) U_r,k,c,o. A vertex computes the XYZ values p_r = Σ_k U_r,k q_k from the light's numbers q;
+/// a pixel computes Σ_r w_r(v) p_r.
 ///
 /// w: a 2D texture array of ⌈R/4⌉ layers over views; layer j holds w_4j … w_4j+3. With a pitch axis the texture's rows
-/// are pitches in place of views' second coordinate: t = (log(f/smallest)/log(largest/smallest)·(H−1) + ½)/H for the
+/// are pitches instead of the views' second coordinate: t = (log(f/smallest)/log(largest/smallest)·(H−1) + ½)/H for the
 /// factor f.
 struct ArcTable : PackedTexels {
     int bands = 0;
@@ -59,8 +59,8 @@ constexpr std::size_t weight_layers(int rank) {
 
 struct ArcSettings {
     int bands = 5;                   ///< n, 1 … 32
-    int rank = 8;                    ///< R ≥ 1; more than there are is as many as there are: exact
-    std::optional<ViewGrid> grid{};  ///< none: that of default_view_grid()
+    int rank = 8;                    ///< R ≥ 1; the full rank, which is exact, where R is larger
+    std::optional<ViewGrid> grid{};  ///< none: default_view_grid()
     std::optional<PitchAxis> pitch{};
     Storage storage = Storage::Half;
     colour::Illuminant illuminant = colour::d65();
@@ -68,34 +68,32 @@ struct ArcSettings {
     static const RepresentationInfo& info();
     static std::optional<Refusal> refusal(const SettingValues& values, const Grating& grating);
     static ArcSettings from(const SettingValues& values, const Grating& grating);
-    void set_illuminant(const colour::Illuminant& white) { illuminant = white; }
 };
 
 /// Throws Error (input) for fewer than kManyGrooves grooves, a one-dimensional grid or a pitch axis for a lobe that is
 /// not flat. The bytes do not depend on the number of threads.
 ArcTable bake(const Grating& grating, const ArcSettings& settings);
 
-/// The vertex's part: p_r, an XYZ each, of the K numbers of the light in the tangent frame: its arc moments or its SH
-/// coefficients.
+/// The vertex's part: the XYZ values p_r. `light_terms`: the K arc moments or SH coefficients of the light in the
+/// tangent frame.
 std::vector<glm::dvec3> light_products(const ArcTable& table, std::span<const glm::dvec3> light_terms);
 
-/// The pixel's part: XYZ = Σ_r w_r p_r; 0 for v_n ≤ 0. The pitch factor matters to a table with a pitch axis only, and
-/// is clamped to its ends.
+/// The pixel's part: XYZ = Σ_r w_r p_r; 0 for v_n ≤ 0. The pitch factor is for tables with a pitch axis, and clamped to
+/// its ends.
 glm::dvec3 shade(const ArcTable& table, std::span<const glm::dvec3> products, const glm::dvec3& view,
                  double pitch_factor = 1.0);
 
-/// Both. For many views of one light keep an ArcMoments and take the parts one by one.
+/// light_products() and shade(). For many views of one light, call them with one ArcMoments.
 glm::dvec3 evaluate(const ArcTable& table, const lighting::ShLight& tangent_light, const glm::dvec3& view,
                     double pitch_factor = 1.0);
 
 void write(const ArcTable& table, ByteWriter& writer);
-/// Throws Error (input) if the bytes are not such a table.
+/// Throws Error (input) for invalid bytes.
 ArcTable read_arc_table(ByteReader& reader);
 
-/// What representation.h asks of every representation's tables.
+/// Required by representation.h.
 ArcTable read(ByteReader& reader, const ArcSettings& settings);
 ShadingCost cost(const ArcTable& table);
 Facts facts(const ArcTable& table);
-PointShader point_shader(const ArcTable& table, const MaterialKernel& material, const EvaluationLight& light);
 
 }  // namespace rowland::diffraction

@@ -13,7 +13,7 @@ ArcTurns arc_turns(const ArcProducts& products, const lighting::ShLight& light, 
     const glm::dvec3 aside = std::abs(normal.x) < 0.7 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
     turns.e1 = glm::normalize(glm::cross(aside, normal));
     turns.e2 = glm::cross(normal, turns.e1);
-    // As many azimuths as there are terms determine the series.
+    // The series is determined by as many azimuths as it has terms.
     const std::size_t count = 2 * static_cast<std::size_t>(products.bands()) - 1;
     const auto azimuth = [&](std::size_t j) {
         return 2.0 * std::numbers::pi * static_cast<double>(j) / static_cast<double>(count);
@@ -32,9 +32,9 @@ ArcTurns arc_turns(const ArcProducts& products, const lighting::ShLight& light, 
         for (std::size_t j = 0; j < count; ++j) {
             const double angle = static_cast<double>(multiple) * azimuth(j);
             const double wave = term % 2 == 1 ? std::cos(angle) : term == 0 ? 0.5 : std::sin(angle);
-            const auto share = static_cast<float>(2.0 / static_cast<double>(count) * wave);
+            const auto weight = static_cast<float>(2.0 / static_cast<double>(count) * wave);
             for (std::size_t i = 0; i < vectors; ++i)
-                turns.terms[term * vectors + i] += share * around[j * vectors + i];
+                turns.terms[term * vectors + i] += weight * around[j * vectors + i];
         }
     }
     return turns;

@@ -8,12 +8,12 @@
 
 namespace rowland::diffraction {
 
-/// The products of an arc table for every grating vector of one plane: n-band light turned about the normal is a
-/// Fourier series of n−1 terms in the azimuth of g, and so are they.
+/// The products of an arc table for every grating vector of one plane. n-band light rotated about the normal is a
+/// Fourier series up to n−1 in the azimuth of g, and so are the products.
 struct ArcTurns {
     glm::dvec3 e1{1.0, 0.0, 0.0};  ///< azimuth 0 and 90° of g, world axes
     glm::dvec3 e2{0.0, 1.0, 0.0};
-    /// The constant, then cos and sin of each multiple, 2n−1 in all; of each ArcProducts' 3·layers() vectors.
+    /// The constant, then cos and sin of each multiple, 2n−1 in all; each has the 3·layers() vectors of ArcProducts.
     std::vector<glm::vec4> terms;
 };
 

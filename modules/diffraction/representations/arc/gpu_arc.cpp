@@ -33,7 +33,7 @@ ViewGrid weight_grid(const ArcTable& table) {
     return grid;
 }
 
-std::optional<glm::vec2> pitch_place(const std::optional<PitchAxis>& axis) {
+std::optional<glm::vec2> pitch_scale_bias(const std::optional<PitchAxis>& axis) {
     if (!axis) return std::nullopt;
     const double nodes = axis->nodes;
     const double scale = (nodes - 1.0) / nodes / std::log(axis->largest / axis->smallest);
@@ -46,12 +46,12 @@ GpuArc::GpuArc(const CookedMaterial& cooked, const ArcTable& table, const glm::d
     : GpuMaterial(cooked, xyz_to_working),
       products_(table),
       weights_(table, weight_grid(table)),
-      pitch_place_(pitch_place(table.pitch)) {}
+      pitch_scale_bias_(pitch_scale_bias(table.pitch)) {}
 
 std::vector<glm::vec4> GpuArc::grooved_products(const SurfaceObject& object, const lighting::ShLight& light,
                                                 SurfaceState& state) const {
     if (plane_of(state) != nullptr) state.data.reset();
-    // Where this stands in for another representation, the state's data are that one's.
+    // If this is the stand-in of another representation, the state holds that one's data.
     const auto flat = object.skinned || state.data ? std::nullopt : flat_normal(object.mesh);
     if (!flat)
         return products_(light, turned_by(*state.grooves, object.mesh), object.object_to_world, object.groove_rotation);
@@ -66,7 +66,7 @@ std::vector<glm::vec4> GpuArc::grooved_products(const SurfaceObject& object, con
 
 void GpuArc::update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const {
     if (!object.changed) return;
-    const lighting::ShLight& harmonics = light.harmonics(products_.bands(), light_share());
+    const lighting::ShLight& harmonics = light.harmonics(products_.bands(), light_part());
     const std::vector<glm::vec4> products =
         state.grooves ? grooved_products(object, harmonics, state)
                       : products_(harmonics, object.mesh, object.object_to_world, object.groove_rotation);
@@ -78,7 +78,7 @@ void GpuArc::describe(const SurfaceState& state, gpu::ProgramDesc& desc) const {
     set_shaders(desc, turns ? "shaders/pixel_shaded.vert.glsl" : "representations/arc/arc.vert.glsl",
                 "representations/arc/arc.frag.glsl");
     if (turns) desc.defines.push_back({"TURNS", std::to_string(products_.bands())});
-    if (pitch_place_ && state.grooves) desc.defines.push_back({"PITCH_AXIS", "1"});
+    if (pitch_scale_bias_ && state.grooves) desc.defines.push_back({"PITCH_AXIS", "1"});
     desc.defines.push_back({"LAYERS", std::to_string(products_.layers())});
     weights_.add_defines(desc);
 }
@@ -86,7 +86,7 @@ void GpuArc::describe(const SurfaceState& state, gpu::ProgramDesc& desc) const {
 void GpuArc::bind_tables(const gpu::Program& program, const SurfaceState& state) const {
     weights_.bind();
     state.vertex_light.bind_storage(kVertexLightBinding);
-    if (pitch_place_) program.set("pitch_place", *pitch_place_);
+    if (pitch_scale_bias_) program.set("pitch_scale_bias", *pitch_scale_bias_);
     if (const ArcPlane* plane = plane_of(state)) {
         program.set("arc_e1", plane->e1);
         program.set("arc_e2", plane->e2);

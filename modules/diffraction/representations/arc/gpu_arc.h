@@ -10,9 +10,9 @@
 
 namespace rowland::diffraction {
 
-/// Arc moments or SH at the vertices, a short sum over ranks in the pixels: shaders/arc.*. Under a GrooveMap a flat
-/// object has them as a series over the azimuth of g, so that pixels choose their own; on others the vertices take the
-/// map's rotation where they lie.
+/// Products of arc moments or SH at the vertices, a sum over ranks at the pixels: arc.*.glsl. Under a GrooveMap a flat
+/// object has the products as a series over the azimuth of g, evaluated per pixel. On other objects the vertices are
+/// rotated as the map says.
 class GpuArc final : public GpuMaterial {
  public:
     GpuArc(const CookedMaterial& cooked, const ArcTable& table, const glm::dmat3& xyz_to_working);
@@ -27,7 +27,7 @@ class GpuArc final : public GpuMaterial {
 
     ArcProducts products_;
     GpuTable weights_;
-    std::optional<glm::vec2> pitch_place_;  ///< scale and offset from log f to the weights' second coordinate
+    std::optional<glm::vec2> pitch_scale_bias_;  ///< scale and offset from log f to the weights' second coordinate
 };
 
 }  // namespace rowland::diffraction

@@ -19,10 +19,10 @@ namespace {
 
 constexpr int kMaximumBins = static_cast<int>(kWavelengths) - 1;
 
-/// One bin: what to multiply the coefficients at its wavelengths with for their mean, and its colour.
+/// One bin: the weights of its wavelengths for the mean of the coefficients, and its colour.
 struct Bin {
     std::size_t begin = 0;
-    std::vector<double> shares;  ///< from node `begin` on
+    std::vector<double> weights;  ///< from node `begin` on
     glm::dmat3 colour{0.0};
 };
 
@@ -33,23 +33,23 @@ std::vector<Bin> make_bins(const colour::LightSpectra& spectra, int count) {
         const double wavelength_nm = colour::kVisibleMin + static_cast<double>(j);
         const glm::dvec3 cmf = colour::cie_xyz(wavelength_nm);
         observed.push_back(glm::outerProduct(cmf, spectra(wavelength_nm)));
-        // A trace of evenness, so that a bin between a lamp's lines has a mean too.
         sensitivity.push_back((cmf.x + cmf.y + cmf.z) * spectra.illuminant().power(wavelength_nm));
     }
     const double largest = *std::max_element(sensitivity.begin(), sensitivity.end());
+    // A bin between a lamp's lines also needs a mean.
     for (double& q : sensitivity) q += 1e-9 * largest;
 
     std::vector<Bin> bins;
     const std::vector<std::size_t> cuts = equal_weight_cuts(sensitivity, count);
     for (std::size_t b = 0; b + 1 < cuts.size(); ++b) {
-        Bin bin{.begin = cuts[b], .shares = {}};
+        Bin bin{.begin = cuts[b], .weights = {}};
         double total = 0.0;
-        each_node(cuts[b], cuts[b + 1], [&](std::size_t j, double share) {
-            bin.shares.push_back(share * sensitivity[j]);
-            bin.colour += share * observed[j];
-            total += bin.shares.back();
+        each_node(cuts[b], cuts[b + 1], [&](std::size_t j, double step) {
+            bin.weights.push_back(step * sensitivity[j]);
+            bin.colour += step * observed[j];
+            total += bin.weights.back();
         });
-        for (double& share : bin.shares) share /= total;
+        for (double& weight : bin.weights) weight /= total;
         bins.push_back(std::move(bin));
     }
     return bins;
@@ -77,8 +77,8 @@ BinTable bake(const Grating& grating, const BinSettings& settings) {
         for (std::size_t b = 0; b < bins.size(); ++b)
             for (std::size_t i = 0; i < signs.size(); ++i) {
                 double mean = 0.0;
-                for (std::size_t j = 0; j < bins[b].shares.size(); ++j)
-                    mean += bins[b].shares[j] * coefficients[(bins[b].begin + j) * signs.size() + i];
+                for (std::size_t j = 0; j < bins[b].weights.size(); ++j)
+                    mean += bins[b].weights[j] * coefficients[(bins[b].begin + j) * signs.size() + i];
                 const auto at = [&](std::size_t t) -> double& {
                     return values[((b * blocks + i / kTexelComponents) * texels + t) * kTexelComponents +
                                   i % kTexelComponents];
@@ -182,12 +182,6 @@ ShadingCost cost(const BinTable& table) {
 Facts facts(const BinTable& table) {
     return with_view_table({{"bands", fmt::to_string(table.bands)}, {"bins", fmt::to_string(table.bins())}}, table.grid,
                            table);
-}
-
-PointShader point_shader(const BinTable& table, const MaterialKernel&, const EvaluationLight& light) {
-    return in_tangent_frame(
-        light.harmonics(table.bands),
-        [table](const lighting::ShLight& rotated, const glm::dvec3& view) { return evaluate(table, rotated, view); });
 }
 
 }  // namespace rowland::diffraction

@@ -14,15 +14,15 @@
 
 namespace rowland::diffraction {
 
-/// SH coefficients of the diffraction term in fixed wavelength bins: spikes that do not follow the view, so that their
-/// colours need no look-up. A 2D texture array over views (view_mapping.h).
+/// SH coefficients of the diffraction term in wavelength bins that are the same for every view, so that their colours
+/// need no look-up. A 2D texture array over views (view_mapping.h).
 ///
 /// Layer b·L + j, L = ⌈n²/4⌉, holds entries 4j … 4j+3 of bin b's coefficients (0 beyond n²): the mean of c_i(v, λ) over
 /// the bin, weighted by q = k_S S (x̄+ȳ+z̄). XYZ = Σ_b colours_b Σ_i c_b,i l_i.
 struct BinTable : PackedTexels {
     int bands = 0;
     ViewGrid grid;
-    std::vector<glm::mat3> colours;  ///< one a bin: ∫ cmf Eᵀ dλ over it; RGB in, XYZ out
+    std::vector<glm::mat3> colours;  ///< one per bin: ∫ cmf Eᵀ dλ over it; RGB in, XYZ out
 
     int bins() const { return static_cast<int>(colours.size()); }
 };
@@ -37,24 +37,22 @@ struct BinSettings {
     static const RepresentationInfo& info();
     static std::optional<Refusal> refusal(const SettingValues& values, const Grating& grating);
     static BinSettings from(const SettingValues& values, const Grating& grating);
-    void set_illuminant(const colour::Illuminant& white) { illuminant = white; }
 };
 
 /// Throws Error (input) for fewer than kManyGrooves grooves, or a one-dimensional grid for a lobe that is not flat. The
 /// bytes do not depend on the number of threads.
 BinTable bake(const Grating& grating, const BinSettings& settings);
 
-/// XYZ of the tangent-frame view, as evaluate(TransferTable) does.
+/// XYZ of the tangent-frame view, as evaluate(TransferTable).
 glm::dvec3 evaluate(const BinTable& table, const lighting::ShLight& tangent_light, const glm::dvec3& view);
 
 void write(const BinTable& table, ByteWriter& writer);
-/// Throws Error (input) if the bytes are not such a table.
+/// Throws Error (input) for invalid bytes.
 BinTable read_bin_table(ByteReader& reader);
 
-/// What representation.h asks of every representation's tables.
+/// Required by representation.h.
 BinTable read(ByteReader& reader, const BinSettings& settings);
 ShadingCost cost(const BinTable& table);
 Facts facts(const BinTable& table);
-PointShader point_shader(const BinTable& table, const MaterialKernel& material, const EvaluationLight& light);
 
 }  // namespace rowland::diffraction

@@ -1,5 +1,5 @@
 #version 450 core
-// Fixed wavelength bins: bake/bin_table.h. BANDS, BINS and VIEW_MAPPING are defined by the program.
+// Fixed wavelength bins: bin_table.h. BANDS, BINS and VIEW_MAPPING are defined by the program.
 #include "engine/render/shaders/forward_vertex_interface.glsl"
 #include "modules/diffraction/shaders/tangent_light.glsl"
 #include "modules/diffraction/shaders/packed_table.glsl"

@@ -8,7 +8,7 @@
 
 namespace rowland::diffraction {
 
-/// Fixed wavelength bins: shaders/bins.vert.glsl.
+/// Fixed wavelength bins: bins.vert.glsl.
 class GpuBins final : public VertexShaded {
  public:
     GpuBins(const CookedMaterial& cooked, const BinTable& table, const glm::dmat3& xyz_to_working);

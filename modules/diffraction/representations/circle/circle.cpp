@@ -23,10 +23,6 @@ const RepresentationInfo& CircleSettings::info() {
     return info;
 }
 
-std::optional<Refusal> CircleSettings::refusal(const SettingValues&, const Grating&) {
-    return std::nullopt;
-}
-
 CircleSettings CircleSettings::from(const SettingValues& values, const Grating&) {
     const int side = values.number("map_resolution");
     return {.size = {.side = side, .views = 2 * side}};

@@ -6,14 +6,12 @@
 
 namespace rowland::diffraction {
 
-/// The map over (g, v_g) that the probe fills at run time.
+/// A map over (g, v_g) that is filled from the probe at run time.
 struct CircleSettings {
     CircleMapSize size;
 
     static const RepresentationInfo& info();
-    static std::optional<Refusal> refusal(const SettingValues& values, const Grating& grating);
     static CircleSettings from(const SettingValues& values, const Grating& grating);
-    void set_illuminant(const colour::Illuminant&) {}
 };
 
 struct CircleTables {

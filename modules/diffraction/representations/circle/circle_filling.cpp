@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <glm/gtc/packing.hpp>
 #include <utility>
 
@@ -11,13 +10,6 @@
 namespace rowland::diffraction {
 
 namespace {
-
-float largest_component(const CircleMap& map) {
-    float largest = 1e-30F;
-    for (const glm::vec3& value : map.xyz)
-        largest = std::max({largest, std::abs(value.x), std::abs(value.y), std::abs(value.z)});
-    return largest;
-}
 
 /// Charts side by side and terms below each other, for one volume texture.
 std::vector<std::uint16_t> side_by_side(const CircleMap& map, float scale) {
@@ -41,7 +33,7 @@ CircleFilling::Filled CircleFilling::fill(const std::stop_token& stop, const lig
                                           const glm::dmat3& zero_order_xyz) {
     const CircleMap map = fill_circle_map(texels, kernel, pitch_nm, size, zero_order_xyz, stop);
     if (stop.stop_requested()) return {};
-    const float scale = largest_component(map);
+    const float scale = largest_component(map.xyz);
     return {.charts = map.charts,
             .desc = {.kind = gpu::TextureKind::Volume,
                      .width = map.side * map.charts,

@@ -14,8 +14,8 @@
 
 namespace rowland::diffraction {
 
-/// A circle map on its way to the GPU: a thread of its own fills it, then frames upload it, some slices each. Ends its
-/// thread within milliseconds when it is destroyed.
+/// Fills a circle map on its own thread; frames then upload some slices each. The destructor ends the thread within
+/// milliseconds.
 class CircleFilling {
  public:
     CircleFilling(std::shared_ptr<const lighting::LightSamples> texels, const KernelTable& kernel, double pitch_nm,
@@ -23,15 +23,15 @@ class CircleFilling {
 
     /// Blocks until the map is filled.
     void wait() const { filled_later_.wait(); }
-    /// Uploads up to so many slices of a filled map; true once that was all. Throws what the thread has thrown.
+    /// Uploads up to so many slices of a filled map; true when all are uploaded. Rethrows the thread's exceptions.
     bool upload(int slices);
 
-    /// Of a map that is uploaded.
+    /// The map must be uploaded.
     GpuMap take();
     int charts() const;
 
  private:
-    /// A map as its texture holds it.
+    /// A map in its texture's layout.
     struct Filled {
         int charts = 0;
         gpu::TextureDesc desc;
@@ -45,7 +45,7 @@ class CircleFilling {
     std::optional<Filled> filled_;
     std::optional<GpuMap> map_;
     int uploaded_ = 0;
-    std::jthread thread_;  ///< last: it stops before what it works on goes
+    std::jthread thread_;  ///< last member: it stops before the others are destroyed
 };
 
 }  // namespace rowland::diffraction

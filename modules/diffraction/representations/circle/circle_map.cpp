@@ -16,7 +16,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// Cube faces that the texels are gathered in before every g sums over them: cells of 0.025 rad.
+/// Side of the cube faces that the texels are gathered in: cells of 0.025 rad.
 constexpr int kFaceSize = 64;
 
 /// Fourier series of max(0, cos t) on 1, cos t, cos 2t, cos 4t, cos 6t.
@@ -33,7 +33,7 @@ glm::dvec3 mirrored(const glm::dvec3& v, int chart) {
     return chart == 0 ? v : glm::dvec3(v.x, -v.y, v.z);
 }
 
-/// The frame of the upper half's chart, mirrored for the lower half's: what turns least from +Y.
+/// The frame of the smallest rotation from +Y, mirrored for the chart of the lower half.
 CircleFrame frame_at(const glm::dvec3& g, int chart) {
     const glm::dvec3 up = mirrored(g, chart);
     const glm::dvec3 turn = up + glm::dvec3(0.0, 1.0, 0.0);
@@ -53,7 +53,7 @@ glm::dvec2 chart_point(const glm::dvec3& g, int chart) {
     return glm::dvec2(up.x, up.z) / (1.0 + up.y);
 }
 
-/// Moments of light around one g in cells of a: kLanes terms of red, then of green, then of blue a cell.
+/// Adds the moments of light around one g in cells of a. Per cell: kLanes terms of red, then green, then blue.
 template <int kLanes>
 void add_moments(const lighting::LightSamples& lights, const CircleFrame& frame, int cells,
                  std::vector<float>& moments) {
@@ -87,9 +87,9 @@ void add_moments(const lighting::LightSamples& lights, const CircleFrame& frame,
             term[7] = c(4) * (cos4 * cos2 - sin4 * sin2) * inverse;
             term[8] = c(4) * (cos4 * sin2 + sin4 * cos2) * inverse;
         }
-        const float place = std::clamp((x * g.x + y * g.y + z * g.z + 1.0F) * scale - 0.5F, 0.0F, last);
-        const int low = std::min(static_cast<int>(place), cells - 2);
-        const float weight = place - static_cast<float>(low);
+        const float position = std::clamp((x * g.x + y * g.y + z * g.z + 1.0F) * scale - 0.5F, 0.0F, last);
+        const int low = std::min(static_cast<int>(position), cells - 2);
+        const float weight = position - static_cast<float>(low);
         float* to = moments.data() + static_cast<std::ptrdiff_t>(low) * 3 * kLanes;
         const std::array<float, 3> flux{lights.red[i], lights.green[i], lights.blue[i]};
         for (int half = 0; half < 2; ++half)
@@ -105,7 +105,7 @@ void fill_column(const lighting::LightSamples& lights, const KernelCells& kernel
                  CircleMap& map) {
     const glm::dvec2 at(column + 0.5, row + 0.5);
     glm::dvec2 p = (at / static_cast<double>(map.side) - 0.5) / map.scale();
-    // Corners that no look-up reaches.
+    // No look-up reaches the corners.
     const double rim = 1.0 + 3.0 / (map.side * map.scale());
     if (glm::length(p) > rim) return;
     std::vector<float> moments(static_cast<std::size_t>(kernel.cells()) * 3 * kLanes, 0.0F);
@@ -120,7 +120,7 @@ void fill_column(const lighting::LightSamples& lights, const KernelCells& kernel
     }
 }
 
-/// Turns a slice's values at the nodes into those whose linear interpolation is best.
+/// Optimises a slice's values for linear interpolation.
 void sharpen_slice(CircleMap& map, int chart, int term, int view) {
     const auto side = static_cast<std::size_t>(map.side);
     glm::vec3* slice = map.xyz.data() + map.index(chart, term, view, 0, 0);
@@ -138,9 +138,9 @@ bool is_even(const KernelTable& kernel) {
     double largest = 0.0;
     double difference = 0.0;
     const double reach = std::max(std::abs(kernel.begin_nm), std::abs(kernel.end_nm));
-    const auto places = static_cast<int>(kernel.antiderivative.size());
-    for (int i = 1; i <= places; ++i) {
-        const double x_nm = reach * i / places;
+    const auto samples = static_cast<int>(kernel.antiderivative.size());
+    for (int i = 1; i <= samples; ++i) {
+        const double x_nm = reach * i / samples;
         const glm::dmat3 right = kernel.at(x_nm) - kernel.at(0.0);
         const glm::dmat3 left = kernel.at(0.0) - kernel.at(-x_nm);
         for (int c = 0; c < 3; ++c)
@@ -152,13 +152,13 @@ bool is_even(const KernelTable& kernel) {
     return difference <= 1e-5 * largest;
 }
 
-glm::dvec3 term_at(const CircleMap& map, int chart, int term, const glm::dvec3& place) {
+glm::dvec3 term_at(const CircleMap& map, int chart, int term, const glm::dvec3& position) {
     glm::dvec3 sum(0.0);
     const auto low = [](double at, int count) { return std::clamp(static_cast<int>(std::floor(at)), 0, count - 2); };
-    const int column = low(place.x, map.side);
-    const int row = low(place.y, map.side);
-    const int view = low(place.z, map.views);
-    const glm::dvec3 t = glm::clamp(place - glm::dvec3(column, row, view), 0.0, 1.0);
+    const int column = low(position.x, map.side);
+    const int row = low(position.y, map.side);
+    const int view = low(position.z, map.views);
+    const glm::dvec3 t = glm::clamp(position - glm::dvec3(column, row, view), 0.0, 1.0);
     for (int corner = 0; corner < 8; ++corner) {
         const int i = corner & 1;
         const int j = (corner >> 1) & 1;
@@ -216,7 +216,7 @@ glm::dvec3 sample(const CircleMap& map, const ShadingPoint& frame) {
     const int chart = lower && map.charts == 2 ? 1 : 0;
     const CircleFrame at = frame_at(sign * to_world[0], chart);
     const glm::dvec2 p = chart_point(at.g, chart) * map.scale() + 0.5;
-    const glm::dvec3 place(p * static_cast<double>(map.side) - 0.5, 0.5 * (sign * v.x + 1.0) * (map.views - 1));
+    const glm::dvec3 position(p * static_cast<double>(map.side) - 0.5, 0.5 * (sign * v.x + 1.0) * (map.views - 1));
     const double c1 = glm::dot(to_world[2], at.e1);
     const double s1 = glm::dot(to_world[2], at.e2);
     const double c2 = c1 * c1 - s1 * s1;
@@ -226,7 +226,7 @@ glm::dvec3 sample(const CircleMap& map, const ShadingPoint& frame) {
     const std::array<double, 9> f{1.0, c1, s1, c2, s2, c4, s4, c4 * c2 - s4 * s2, c4 * s2 + s4 * c2};
     glm::dvec3 sum(0.0);
     for (int term = 0; term < map.terms; ++term)
-        sum += f[static_cast<std::size_t>(term)] * term_at(map, chart, term, place);
+        sum += f[static_cast<std::size_t>(term)] * term_at(map, chart, term, position);
     return sum;
 }
 

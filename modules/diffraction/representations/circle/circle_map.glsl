@@ -1,6 +1,6 @@
-// A map over g in the world and v_g, Fourier terms of the normal's angle around g: bake/circle_map.h. CHARTS and TERMS are
-// defined by the program. Charts lie side by side, terms below each other: filtering never reaches a neighbour, as the
-// equator lies 1.5 texels inside.
+// A map over g in the world and v_g, Fourier terms of the normal's angle around g: circle_map.h. The program defines
+// CHARTS and TERMS. Charts lie side by side, terms below each other. Filtering never reaches a neighbour, as the equator
+// lies 1.5 texels inside.
 layout(binding = 11) uniform sampler3D circle_map;
 uniform float map_scale;  // of the stored values
 

@@ -14,17 +14,17 @@
 namespace rowland::diffraction {
 
 /// The radiance of any grating surface of flat lobe under a probe (PHYSICS §6 "circle"): XYZ over the grating vector g
-/// in world space and v_g, as a Fourier series in the normal's angle t around g. Nothing here knows the object.
+/// in world space and v_g, as a Fourier series in the normal's angle t around g. It does not depend on the object.
 ///
-/// Chart 0 holds g of the upper half (g_y ≥ 0), chart 1 of the lower, each with a rim beyond the equator. A kernel that
-/// does not change with the sign of x needs chart 0 alone: there (g, v_g) and (−g, −v_g) are one.
+/// Chart 0 holds g of the upper half (g_y ≥ 0), chart 1 of the lower, each with a rim beyond the equator. An even
+/// kernel, k(−x) = k(x), needs chart 0 alone: (g, v_g) and (−g, −v_g) are then equal.
 ///   chart coordinates: G = g, mirrored into the upper half for chart 1 as (g_x, −g_y, g_z);
-///     p = (G_x, G_z)/(1 + G_y) (stereographic: |p| ≤ 1 on the half, finest where g is level, as on discs that lie flat
-///     and on bodies of revolution that stand);  s, t = ½ + p · scale
+///     p = (G_x, G_z)/(1 + G_y) (stereographic: |p| ≤ 1 on the half, finest where g is horizontal, as on horizontal
+///     discs and on upright bodies of revolution);  s, t = ½ + p · scale
 ///   angle: e1 = (1,0,0) − G_x/(1+G_y) · (G_x, G_y+1, G_z), e2 = (0,0,1) − G_z/(1+G_y) · (G_x, G_y+1, G_z), both with y
-///     turned back for chart 1; cos t = n·e1, sin t = n·e2
+///     mirrored back for chart 1; cos t = n·e1, sin t = n·e2
 ///   v_g: slice j holds v_g = 2j/(views−1) − 1, both ends included; coordinate (½(v_g+1)(views−1) + ½)/views
-///   values are those whose linear interpolation is best (see kBestLinear), not the radiance at the nodes
+///   values are optimised for linear interpolation (kBestLinear), not the radiance at the nodes
 ///   XYZ = Σ_i term_i · f_i, f = 1, cos t, sin t, cos 2t, sin 2t, cos 4t, sin 4t (, cos 6t, sin 6t)
 struct CircleMap {
     int charts = 0;  ///< 1 or 2
@@ -44,13 +44,13 @@ struct CircleMapSize {
     int terms = 7;    ///< 7: up to cos 4t; 9: up to cos 6t
 };
 
-/// Fills the map from texels (key lights taken out, which `direct` adds). Uses all cores; the result does not depend on
-/// them. `zero_order_xyz`: as of ColourKernel. Once it is stopped it returns soon, with a map that is not to be used.
+/// Fills the map from texels (without key lights, which `direct` adds). Uses all cores; the result does not depend on
+/// their number. `zero_order_xyz`: as of ColourKernel. After a stop request it returns early with an unusable map.
 CircleMap fill_circle_map(const lighting::LightSamples& texels, const KernelTable& kernel, double pitch_nm,
                           const CircleMapSize& size = {}, const glm::dmat3& zero_order_xyz = glm::dmat3(0.0),
                           const std::stop_token& stop = {});
 
-/// XYZ of a frame as texture units interpolate (GL_LINEAR in all three); black for a view below the horizon.
+/// XYZ of a point as texture units interpolate (GL_LINEAR on all three axes); black for a view below the horizon.
 glm::dvec3 sample(const CircleMap& map, const ShadingPoint& frame);
 
 }  // namespace rowland::diffraction

@@ -7,23 +7,19 @@
 namespace rowland::diffraction {
 
 GpuCircle::GpuCircle(const CookedMaterial& cooked, const CircleTables& tables, const glm::dmat3& xyz_to_working)
-    : GpuMaterial(cooked, xyz_to_working),
-      map_at_vertices_(cooked.material.quality.map_at_vertices),
-      size_(tables.size),
-      kernel_(cooked.kernel),
-      pitch_nm_(cooked.material.grating.pitch_nm),
-      zero_order_xyz_(cooked.zero_order_xyz) {}
+    : GpuMaterial(cooked, xyz_to_working), size_(tables.size) {}
 
 void GpuCircle::begin(const std::shared_ptr<const lighting::LightSamples>& texels) const {
     texels_ = texels;
     if (!texels) log_warning("a grating of representation circle is under a probe without texels: it stays dark");
     filling_ = std::make_unique<CircleFilling>(texels ? texels : std::make_shared<const lighting::LightSamples>(),
-                                               kernel_, pitch_nm_, size_, zero_order_xyz_);
+                                               cooked()->kernel, cooked()->material.grating.pitch_nm, size_,
+                                               cooked()->zero_order_xyz);
     ++fills_begun_;
 }
 
 void GpuCircle::update(const SurfaceObject& object, SurfaceLight& light, SurfaceState&) const {
-    if (!texels_ || *texels_ != light.texels(light_share())) begin(light.texels(light_share()));
+    if (!texels_ || *texels_ != light.texels(light_part())) begin(light.texels(light_part()));
     if (!filling_) return;
     if (object.slices_per_frame >= size_.views) filling_->wait();
     if (!filling_->upload(object.slices_per_frame)) return;
@@ -35,7 +31,7 @@ void GpuCircle::update(const SurfaceObject& object, SurfaceLight& light, Surface
 
 void GpuCircle::describe(const SurfaceState&, gpu::ProgramDesc& desc) const {
     if (!map_) return set_shaders(desc, "shaders/pixel_shaded.vert.glsl", "representations/direct/direct.frag.glsl");
-    if (map_at_vertices_)
+    if (cooked()->material.quality.map_at_vertices)
         set_vertex_shader(desc, "representations/circle/circle.vert.glsl");
     else
         set_shaders(desc, "shaders/pixel_shaded.vert.glsl", "representations/circle/circle.frag.glsl");

@@ -10,9 +10,9 @@
 
 namespace rowland::diffraction {
 
-/// One map for all objects of a material: shaders/circle_map.glsl. It is filled when the probe is another one, never
-/// for what objects do, beside the frames that are drawn: until it is there the map of the last probe is shown, and for
-/// the first one lights of their own alone. Where a frame may fill whole maps, it waits.
+/// One map for all objects of a material: circle_map.glsl. A change of the probe fills it again, in the background;
+/// objects do not matter. Meanwhile the last probe's map is shown, or before the first map analytic lights alone. If a
+/// frame may fill whole maps, it waits for the map.
 class GpuCircle final : public GpuMaterial {
  public:
     GpuCircle(const CookedMaterial& cooked, const CircleTables& tables, const glm::dmat3& xyz_to_working);
@@ -20,7 +20,7 @@ class GpuCircle final : public GpuMaterial {
     void update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const override;
     bool filling(const SurfaceState&) const override { return filling_ != nullptr; }
 
-    /// How many maps were begun, and how many of them were shown.
+    /// Number of maps begun, and of maps uploaded.
     int fills_begun() const { return fills_begun_; }
     int fills() const { return fills_; }
 
@@ -29,14 +29,10 @@ class GpuCircle final : public GpuMaterial {
     void bind_tables(const gpu::Program& program, const SurfaceState& state) const override;
     void begin(const std::shared_ptr<const lighting::LightSamples>& texels) const;
 
-    bool map_at_vertices_;
     CircleMapSize size_;
-    KernelTable kernel_;
-    double pitch_nm_;
-    glm::dmat3 zero_order_xyz_;
 
-    // The light's side of the material, which its first object in a frame brings up to date.
-    mutable std::optional<std::shared_ptr<const lighting::LightSamples>> texels_;  ///< that the newest map is of
+    // Updated by the first object in a frame.
+    mutable std::optional<std::shared_ptr<const lighting::LightSamples>> texels_;  ///< of the newest map
     mutable std::unique_ptr<CircleFilling> filling_;
     mutable std::optional<GpuMap> map_;
     mutable int charts_ = 1;

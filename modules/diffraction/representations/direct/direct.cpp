@@ -12,7 +12,7 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// Half-width of u under which a kernel counts as looked up at a point, so that differences of 𝒦 do not cancel.
+/// Least half-width of u, so that differences of 𝒦 do not cancel.
 constexpr double kNarrowest = 1e-4;
 
 /// A distribution of directions in the tangent frame as its normal approximation, not yet clamped at the horizon.
@@ -25,7 +25,7 @@ struct Spread {
     double covariance(int i, int j) const { return (along - across) * axis[i] * axis[j] + (i == j ? across : 0.0); }
 };
 
-/// What is left of a spread above the horizon, each direction weighted by its cosine. s_g and s_h follow s_n by linear
+/// The part of a spread above the horizon, each direction weighted by its cosine. s_g and s_h follow s_n by linear
 /// regression.
 LightSpot clamp_at_horizon(const Spread& spread) {
     LightSpot spot;
@@ -49,12 +49,12 @@ LightSpot clamp_at_horizon(const Spread& spread) {
     return spot;
 }
 
-/// A normal distribution in slices: no wider than this in x, so that the kernel's own width hides the steps, and cut
-/// off at this many deviations (3e-4 lost, which the shares' sum gives back).
+/// A normal distribution is split into slices. They are no wider than this in x, so that the kernel's width hides the
+/// steps. The distribution ends at this many deviations; the weights are normalised for the 3e-4 lost.
 constexpr double kSlice_nm = 25.0;
 constexpr double kNormalReach = 3.6;
 
-/// D_h as normal distributions and a constant, which widening by a light leaves normal.
+/// D_h convolved with a light's normal distribution along the grooves.
 double widened_density(const GrooveLobe& lobe, double sum_h, double deviation_h, double wavelength_nm) {
     if (const auto* gaussian = std::get_if<GaussianLobe>(&lobe)) {
         const double wide = std::hypot(gaussian->sigma, deviation_h);
@@ -69,7 +69,7 @@ double widened_density(const GrooveLobe& lobe, double sum_h, double deviation_h,
     return 2.0 / 3.0 * density(sum_h) + 1.0 / 6.0 * (density(sum_h - step) + density(sum_h + step));
 }
 
-/// Mean of d k(d u) over u ± half, and order 0's part.
+/// Mean of d k(d u) over u ± half, with order 0.
 template <typename Kernel>
 glm::dmat3 mean_over(const Kernel& kernel, const DirectMaterial& material, double u, double half) {
     const double d = material.pitch_nm;
@@ -83,7 +83,7 @@ glm::dmat3 mean_over_normal(const Kernel& kernel, const DirectMaterial& material
     const auto slices =
         std::max(12, static_cast<int>(std::ceil(2.0 * kNormalReach * deviation * material.pitch_nm / kSlice_nm)));
     const double width = 2.0 * kNormalReach / slices;
-    // Slices spread what they hold evenly, which adds width²/12 to the variance (Sheppard).
+    // Uniform slices add width²/12 to the variance (Sheppard's correction).
     const double scale = deviation / std::sqrt(1.0 + width * width / 12.0);
     const auto below = [](double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); };
     const double whole = below(kNormalReach) - below(-kNormalReach);
@@ -107,7 +107,7 @@ glm::dmat3 mean_over_part(const Kernel& kernel, const DirectMaterial& material, 
     return mean_over(kernel, material, u, std::max(std::sqrt(3.0) * deviation, kNarrowest));
 }
 
-/// The smoothed kernel has the mean ready.
+/// The smoothed kernel holds the mean.
 glm::dmat3 mean_over_part(const BlurredKernel& kernel, const DirectMaterial& material, const LightSpot&,
                           const LightSpot::Part& part, const DirectView& view) {
     const double d = material.pitch_nm;
@@ -125,18 +125,9 @@ glm::dvec3 seen_through(const Kernel& kernel, const DirectMaterial& material, co
     return groove_factor(material.lobe, spot, view.v_h) * sum;
 }
 
-/// Mean of max(0, sin t) for t around t₀ by a von Mises distribution of concentration z < kFewTurns, sin t as if it
-/// were normal. I₁/I₀ by Amos' bound (1974), right at both ends and within 2 %.
-double mean_above_wide(double sine, double concentration) {
-    const double bound = 0.5 + std::sqrt(concentration * concentration + 2.25);
-    const double mean = concentration / bound * sine;
-    const double second = 1.0 - 2.0 / bound;  // I₂/I₀
-    const double square = 0.5 * (1.0 - second * (1.0 - 2.0 * sine * sine));
-    return lighting::clamp_normal(mean, std::sqrt(std::max(0.0, square - mean * mean))).mean;
-}
-
-/// The same for z ≥ kFewTurns and right in the tails too: with τ = t − t₀, sin t = sin τ cos t₀ + cos τ sin t₀; the
-/// first has a closed integral, the second is normal in y = 2√z sin(τ/2), to 1/z².
+/// mean_above_wide() for z ≥ kFewTurns, which is exact in the tails also. With τ = t − t₀,
+/// sin t = sin τ cos t₀ + cos τ sin t₀: the first term has a closed integral, the second is normal in y = 2√z sin(τ/2),
+/// to 1/z².
 double mean_above_narrow(double sine, double cosine, double z) {
     const double root = std::sqrt(z);
     const auto gauss = [](double y) { return std::exp(-0.5 * y * y); };
@@ -146,10 +137,10 @@ double mean_above_narrow(double sine, double cosine, double z) {
     const double begin = -half_sine * root;
     const double end = half_cosine * root;
     const auto below = [](double y) { return 0.5 * std::erfc(-y / std::numbers::sqrt2); };
-    const double share = begin > 0.0 ? below(-begin) - below(-end) : below(end) - below(begin);
+    const double above = begin > 0.0 ? below(-begin) - below(-end) : below(end) - below(begin);
     const double root_2pi = std::sqrt(2.0 * std::numbers::pi);
     const double second = 3.0 / (8.0 * z);
-    const double even = (root_2pi * share * (1.0 - second) + second * (end * gauss(end) - begin * gauss(begin))) / root;
+    const double even = (root_2pi * above * (1.0 - second) + second * (end * gauss(end) - begin * gauss(begin))) / root;
     const double odd = (gauss(begin) - gauss(end)) / z;
     const double norm = root_2pi / root * (1.0 + 1.0 / (8.0 * z) + 9.0 / (128.0 * z * z));
     return std::max(0.0, (cosine * odd + sine * even) / norm);
@@ -158,21 +149,21 @@ double mean_above_narrow(double sine, double cosine, double z) {
 constexpr double kFewTurns = 3.0;
 
 double mean_above(double sine, double cosine, double concentration) {
-    // sin t is the same at π − t: t₀ is taken in (−π/2, π/2), away from where τ turns over.
+    // sin t = sin(π − t), so t₀ can be taken in (−π/2, π/2).
     return concentration < kFewTurns ? mean_above_wide(sine, concentration)
                                      : mean_above_narrow(sine, std::abs(cosine), concentration);
 }
 
-/// A lobe along `axis` (tangent frame) in parts. Around g its density is √cos ψ exp(κ cos(ψ − ψ₀)) in ψ, where
-/// s_g = sin ψ, and a von Mises distribution of κ cos ψ cos ψ₀ around g (both by I₀(z) ≈ e^z/√(2πz)). The normal
-/// distribution of ψ is kept as three, whose nodes carry `kBetween` of its variance (Gauss–Hermite); the factor
-/// √cos ψ · s_n ~ cos^1.5 ψ weights the nodes and shifts what lies around each.
+/// A lobe along `axis` (tangent frame) in parts. With s_g = sin ψ its density is √cos ψ exp(κ cos(ψ − ψ₀)) in ψ, times
+/// a von Mises distribution of concentration κ cos ψ cos ψ₀ around g (both by I₀(z) ≈ e^z/√(2πz)). The normal
+/// distribution of ψ is split into three, whose nodes hold `kBetween` of its variance (Gauss–Hermite). The factor √cos
+/// ψ · s_n ~ cos^1.5 ψ weights the nodes and shifts the distribution around each.
 std::array<LightSpot::Part, 3> lobe_parts(const glm::dvec3& axis, double concentration) {
     constexpr double kBetween = 0.3;
     constexpr double kWithin = 1.0 - kBetween;
     constexpr std::array<double, 3> kWeights{2.0 / 3.0, 1.0 / 6.0, 1.0 / 6.0};
-    // The parts' widths change with ψ more than cos ψ does, so that together they have the skewness that each, being
-    // normal, lacks: −3 tan ψ σ⁴ in all.
+    // The parts are normal and have no skewness. Their widths change faster with ψ than cos ψ, so that together they
+    // have the lobe's skewness, −3 tan ψ σ⁴.
     constexpr double kSkew = 1.0 + kWithin / (2.0 * kBetween);
     const double step = std::sqrt(3.0 * kBetween / concentration);
     const double variance = kWithin / concentration;
@@ -183,7 +174,7 @@ std::array<LightSpot::Part, 3> lobe_parts(const glm::dvec3& axis, double concent
     };
     std::array<LightSpot::Part, 3> parts{};
     double total = 0.0;
-    // How what is above the horizon grows with ψ: it shifts the parts too.
+    // Logarithmic derivative over ψ of the part above the horizon: it also shifts the parts.
     const double plus = above(std::cos(psi0 + step));
     const double minus = above(std::cos(psi0 - step));
     const double growth = plus > 0.0 && minus > 0.0 ? std::log(plus / minus) / (2.0 * step) : 0.0;
@@ -193,7 +184,7 @@ std::array<LightSpot::Part, 3> lobe_parts(const glm::dvec3& axis, double concent
         if (cosine <= 0.0) continue;
         const double weight = kWeights[i] * std::sqrt(cosine);
         total += weight;
-        // At the poles ψ is no coordinate: the shift is held to the lobe's width.
+        // ψ is singular at the poles: the shift is clamped to the lobe's width.
         const double shift =
             std::clamp(variance * (growth - 1.5 * std::tan(psi)), -std::sqrt(variance), std::sqrt(variance));
         parts[i] = {weight * cosine * above(cosine), std::sin(psi + shift) * std::exp(-0.5 * variance),
@@ -217,11 +208,19 @@ glm::dvec3 sum_of_lights(const KernelTable& kernel, const DirectMaterial& materi
 
 }  // namespace
 
+double mean_above_wide(double sine, double concentration) {
+    const double bound = 0.5 + std::sqrt(concentration * concentration + 2.25);
+    const double mean = concentration / bound * sine;
+    const double second = 1.0 - 2.0 / bound;  // I₂/I₀
+    const double square = 0.5 * (1.0 - second * (1.0 - 2.0 * sine * sine));
+    return lighting::clamp_normal(mean, std::sqrt(std::max(0.0, square - mean * mean))).mean;
+}
+
 LightSpot light_spot(const DirectLight& light, const glm::dmat3& world_to_tangent) {
     const double half = std::sin(0.5 * light.angular_radius);
     const double mean = 1.0 - half * half;  // (1 + cos α)/2
-    // Over a cap of height h = 1 − cos α the cosine to its axis is even: variance h²/12; what is left of |s|² = 1 is
-    // shared by the two directions across.
+    // Over a cap of height h = 1 − cos α the cosine to its axis is uniform: variance h²/12. The rest of |s|² = 1 is
+    // divided between the two directions across.
     const double height = 2.0 * half * half;
     const double along = height * height / 12.0;
     const double across = 0.5 * (1.0 - mean * mean - along);

@@ -1,5 +1,5 @@
 #version 450 core
-// Nothing but lights of their own.
+// Analytic lights and key lights alone.
 #include "modules/diffraction/shaders/surface.glsl"
 
 vec3 diffracted_xyz(GrooveView view) { return vec3(0.0); }

@@ -24,12 +24,12 @@ struct DirectLight {
 struct LightSpot {
     enum class Shape { Box, Normal };
     struct Part {
-        double cosine = 0.0;       ///< this part of the mean of s_n⁺ over the light
+        double cosine = 0.0;       ///< the part's contribution to the mean of s_n⁺ over the light
         double centre_g = 0.0;     ///< mean s_g
         double deviation_g = 0.0;  ///< standard deviation of s_g
     };
     glm::dvec3 flux{0.0};
-    std::array<Part, 3> parts{};  ///< of no cosine: not there
+    std::array<Part, 3> parts{};  ///< cosine 0: unused
     Shape shape = Shape::Box;     ///< of the parts
     double centre_h = 0.0;        ///< mean s_h, directions weighted by s_n⁺
     double deviation_h = 0.0;     ///< standard deviation of s_h, likewise
@@ -38,48 +38,52 @@ struct LightSpot {
     double cosine() const { return parts[0].cosine + parts[1].cosine + parts[2].cosine; }
 };
 
-/// A disc, as one box of its own variance in s_g.
+/// Mean of max(0, sin t) for t from a von Mises distribution about t₀, with sin t₀ = `sine`. Treats sin t as normal:
+/// for small concentrations. I₁/I₀ by Amos' bound (1974), exact at both ends and within 2 %.
+double mean_above_wide(double sine, double concentration);
+
+/// A disc, as one box of its variance in s_g.
 LightSpot light_spot(const DirectLight& light, const glm::dmat3& world_to_tangent);
 
-/// A von Mises–Fisher lobe. It is normal in the angle ψ = asin s_g, and in s_g skewed: three normal distributions in
-/// s_g around nodes of ψ, each weighted by what of the lobe's circle there is above the horizon.
+/// A von Mises–Fisher lobe. It is normal in the angle ψ = asin s_g and skewed in s_g: it is split into three normal
+/// distributions in s_g around nodes of ψ, each weighted by the part of the lobe's circle above the horizon.
 LightSpot light_spot(const lighting::KeyLight& light, const glm::dmat3& world_to_tangent);
 
-/// What stands between the lights and the eye.
+/// The view of a point and the pixel's extent.
 struct DirectView {
     double v_g = 0.0;
     double v_h = 0.0;
     double footprint = 0.0;  ///< half the extent of the pixel in u = s_g + v_g
 };
 
-/// Material of the direct term: the kernel, and what it does not know.
+/// The material's data beside the kernel.
 struct DirectMaterial {
     double pitch_nm = 0.0;
-    glm::dmat3 zero_order_xyz{
-        0.0};  ///< ColourKernel::zero_order_xyz(): the mirror's part of u ≈ 0, if order 0 is listed
+    glm::dmat3 zero_order_xyz{0.0};  ///< ColourKernel::zero_order_xyz(): at u ≈ 0, if order 0 is listed
     GrooveLobe lobe = FlatLobe{};
 };
 
-/// Wavelengths at which the pits' lobe is taken for X, Y and Z: 𝒦 sums all orders, so no look-up knows its own.
+/// Wavelengths at which the pits' lobe is evaluated for X, Y and Z. 𝒦 sums over all orders and wavelengths, so the
+/// wavelength of a look-up is not known.
 inline constexpr glm::dvec3 kPitsWavelengths_nm{591.0, 557.0, 449.0};
 
 /// 2 D_h(s_h + v_h) for X, Y and Z, the lobe widened by the light's own extent along the grooves.
 glm::dvec3 groove_factor(const GrooveLobe& lobe, const LightSpot& spot, double v_h);
 
-/// XYZ = Σ_parts ½ s_n⁺ d k̄(d u) F · 2 D_h with u = s_g + v_g, PHYSICS §4: k̄ is k's mean over the light and the pixel,
-/// from differences of 𝒦. A box is one difference, its half-width and the footprint added in squares; a normal
-/// distribution is slices narrower than the kernel's features.
+/// XYZ = Σ_parts ½ s_n⁺ d k̄(d u) F · 2 D_h with u = s_g + v_g, PHYSICS §4. k̄ is the mean of k over the light and the
+/// pixel, from differences of 𝒦. A box is one difference: the squares of its half-width and of the footprint add. A
+/// normal distribution is a sum of slices narrower than the kernel's features.
 glm::dvec3 direct_radiance(const KernelTable& kernel, const DirectMaterial& material, const LightSpot& spot,
                            const DirectView& view);
 glm::dvec3 direct_radiance(const ColourKernel& kernel, const DirectMaterial& material, const LightSpot& spot,
                            const DirectView& view);
 
-/// The same from a kernel that is already smoothed: one look-up a part, whatever its extent; every shape counts as a
-/// normal distribution of its variance. Knows no order 0.
+/// The same from a smoothed kernel: one look-up per part, whatever its extent. Every shape counts as a normal
+/// distribution of its variance. Without order 0.
 glm::dvec3 direct_radiance(const BlurredKernel& kernel, const DirectMaterial& material, const LightSpot& spot,
                            const DirectView& view);
 
-/// The sum over lights for a frame; black for a view below the horizon.
+/// The sum over lights at a point; black for a view below the horizon.
 glm::dvec3 direct_radiance(const KernelTable& kernel, const DirectMaterial& material,
                            std::span<const DirectLight> lights, const ShadingPoint& frame, double footprint = 0.0);
 glm::dvec3 direct_radiance(const KernelTable& kernel, const DirectMaterial& material,

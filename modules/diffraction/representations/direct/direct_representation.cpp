@@ -12,10 +12,6 @@ const RepresentationInfo& DirectSettings::info() {
     return info;
 }
 
-std::optional<Refusal> DirectSettings::refusal(const SettingValues&, const Grating&) {
-    return std::nullopt;
-}
-
 DirectSettings DirectSettings::from(const SettingValues&, const Grating&) {
     return {};
 }

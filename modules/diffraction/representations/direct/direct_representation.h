@@ -5,15 +5,13 @@
 
 namespace rowland::diffraction {
 
-/// The probe's key lights and the scene's analytic lights are shaded, and nothing else.
+/// Shades the probe's key lights and the scene's analytic lights alone.
 struct DirectSettings {
     static const RepresentationInfo& info();
-    static std::optional<Refusal> refusal(const SettingValues& values, const Grating& grating);
     static DirectSettings from(const SettingValues& values, const Grating& grating);
-    void set_illuminant(const colour::Illuminant&) {}
 };
 
-/// Nothing besides the kernel, which every material has.
+/// Empty: the kernel is part of every material.
 struct DirectTables {};
 
 DirectTables bake(const Grating& grating, const DirectSettings& settings);

@@ -4,7 +4,7 @@
 
 namespace rowland::diffraction {
 
-/// Lights of their own and nothing else: shaders/direct.frag.glsl.
+/// Analytic lights and key lights alone: direct.frag.glsl.
 class GpuDirect final : public GpuMaterial {
  public:
     GpuDirect(const CookedMaterial& cooked, const DirectTables&, const glm::dmat3& xyz_to_working)

@@ -9,7 +9,7 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// 5.6° each: a lobe's parts change with the cosine of ψ.
+/// Rows of 5.6°.
 constexpr int kRows = 32;
 
 double cell_centre(int cell, int cells) {
@@ -19,9 +19,9 @@ double cell_centre(int cell, int cells) {
 }  // namespace
 
 glm::dvec3 LobeTable::at(double psi, double x_nm) const {
-    const auto place = [](double share, int cells) { return std::clamp(share * cells - 0.5, 0.0, cells - 1.0); };
-    const double s = place((x_nm - begin_nm) / (end_nm - begin_nm), columns);
-    const double t = place(psi / std::numbers::pi + 0.5, rows);
+    const auto cell_at = [](double t, int cells) { return std::clamp(t * cells - 0.5, 0.0, cells - 1.0); };
+    const double s = cell_at((x_nm - begin_nm) / (end_nm - begin_nm), columns);
+    const double t = cell_at(psi / std::numbers::pi + 0.5, rows);
     const int column = std::min(static_cast<int>(s), columns - 2);
     const int row = std::min(static_cast<int>(t), rows - 2);
     const auto value = [&](int r, int c) {
@@ -36,14 +36,7 @@ glm::dvec3 LobeTable::at(double psi, double x_nm) const {
 
 double lobe_height(double concentration, double s_g, double s_n) {
     const double across = std::sqrt(std::max(1.0 - s_g * s_g, 1e-9));
-    // A von Mises distribution around g of concentration z, the sine as if it were normal; I₁/I₀ by Amos' bound (1974).
-    const double sine = std::clamp(s_n / across, -1.0, 1.0);
-    const double z = concentration * across * across;
-    const double bound = 0.5 + std::sqrt(z * z + 2.25);
-    const double mean = z / bound * sine;
-    const double second = 1.0 - 2.0 / bound;
-    const double square = 0.5 * (1.0 - second * (1.0 - 2.0 * sine * sine));
-    return lighting::clamp_normal(mean, std::sqrt(std::max(0.0, square - mean * mean))).mean;
+    return mean_above_wide(std::clamp(s_n / across, -1.0, 1.0), concentration * across * across);
 }
 
 LobeTable make_lobe_table(const BlurredKernel& kernel, double pitch_nm, const lighting::KeyLight& light, int columns) {
@@ -73,7 +66,7 @@ glm::dvec3 lobe_radiance(const LobeTable& table, const DirectMaterial& material,
     const double s_g = std::clamp(axis.x, -1.0, 1.0);
     const double x = material.pitch_nm * (s_g + view.v_g);
     const double psi = std::asin(s_g);
-    // Places over the footprint that have its variance, as close as the lobe is wide.
+    // Samples over the footprint with its variance, no farther apart than the width of the lobe.
     const double across2 = std::max(1.0 - s_g * s_g, 1e-9);
     const double deviation = std::sqrt(lighting::lobe_moments(light.concentration).variance_across * across2);
     const int taps =

@@ -10,10 +10,10 @@
 
 namespace rowland::diffraction {
 
-/// What a key light adds to a grating of the flat lobe in one look-up, over its angle ψ from the plane across g
-/// (s_g = sin ψ) and the path difference x = d (s_g + v_g): XYZ = value · lobe_height(). A 2D texture, GL_LINEAR,
-/// GL_CLAMP_TO_EDGE:
-///   s = (x − begin)/(end − begin),  t = ψ/π + ½        (columns and rows are of cells, sampled at their centres)
+/// The radiance of a key light on a grating of the flat lobe in one look-up, over its angle ψ from the plane normal to
+/// g (s_g = sin ψ) and the path difference x = d (s_g + v_g): XYZ = value · lobe_height(). A 2D texture, GL_LINEAR,
+/// GL_CLAMP_TO_EDGE, with nodes at texel centres:
+///   s = (x − begin)/(end − begin),  t = ψ/π + ½
 struct LobeTable {
     double begin_nm = 0.0;
     double end_nm = 0.0;
@@ -25,16 +25,15 @@ struct LobeTable {
     glm::dvec3 at(double psi, double x_nm) const;
 };
 
-/// How much of a lobe of concentration κ lies above the horizon and how high, s_g and s_n being its direction's:
-/// mean of s_n⁺ over √(1 − s_g²).
+/// Mean of s_n⁺ over √(1 − s_g²) for a lobe of concentration κ; s_g and s_n are those of its direction.
 double lobe_height(double concentration, double s_g, double s_n);
 
-/// The table of a key light: direct_radiance() of the lobe over the horizon, whose parts then are parted from how high
-/// it stands. Against direct_radiance() it is off only where the horizon cuts the lobe.
+/// The table of a key light, from direct_radiance() of the raised lobe over lobe_height(). It deviates from
+/// direct_radiance() only where the horizon cuts the lobe.
 LobeTable make_lobe_table(const BlurredKernel& kernel, double pitch_nm, const lighting::KeyLight& light, int columns);
 
-/// XYZ of a key light by its table: what the shader computes. `world_to_tangent`: rows g, h, n. The view's footprint is
-/// sampled at 2 to 16 places, which serves up to 16 times the lobe's width.
+/// CPU reference of key_lobes.glsl: XYZ of a key light from its table. `world_to_tangent`: rows g, h, n. The view's
+/// footprint takes 2 to 16 samples, enough for 16 times the lobe's width.
 glm::dvec3 lobe_radiance(const LobeTable& table, const DirectMaterial& material, const lighting::KeyLight& light,
                          const glm::dmat3& world_to_tangent, const DirectView& view);
 

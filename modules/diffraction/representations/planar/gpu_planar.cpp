@@ -11,7 +11,7 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// A tilt by less changes nothing that the map's cells show.
+/// Smaller changes of the normal do not show at the map's resolution.
 constexpr double kSameNormal = 1e-5;
 
 PlanarData& data_of(SurfaceState& state) {
@@ -35,13 +35,7 @@ bool same(const std::optional<glm::dvec3>& a, const std::optional<glm::dvec3>& b
 }  // namespace
 
 GpuPlanar::GpuPlanar(const CookedMaterial& cooked, const PlanarTables& tables, const glm::dmat3& xyz_to_working)
-    : GpuMaterial(cooked, xyz_to_working),
-      stand_in_(cooked, tables.stand_in, xyz_to_working),
-      map_at_vertices_(cooked.material.quality.map_at_vertices),
-      size_(tables.size),
-      kernel_(cooked.kernel),
-      pitch_nm_(cooked.material.grating.pitch_nm),
-      zero_order_xyz_(cooked.zero_order_xyz) {}
+    : GpuMaterial(cooked, xyz_to_working), stand_in_(cooked, tables.stand_in, xyz_to_working), size_(tables.size) {}
 
 void GpuPlanar::find_flatness(const SurfaceObject& object, const SurfaceState& state, PlanarData& data) const {
     if (data.mesh == state.mesh && state.mesh) return;
@@ -52,20 +46,21 @@ void GpuPlanar::find_flatness(const SurfaceObject& object, const SurfaceState& s
 }
 
 void GpuPlanar::want(const std::optional<glm::dvec3>& normal, const SurfaceLight& light, PlanarData& data) const {
-    if (same(data.normal, normal) && data.texels == light.texels(light_share())) {
+    if (same(data.normal, normal) && data.texels == light.texels(light_part())) {
         data.at_rest = true;
         return;
     }
     data.at_rest = !data.normal;  // the first map need not wait
     data.normal = normal;
-    data.texels = light.texels(light_share());
+    data.texels = light.texels(light_part());
     data.fill.reset();
     data.on_gpu.reset();
 }
 
 void GpuPlanar::fill(int slices, PlanarData& data) const {
     if (!data.fill) {
-        data.fill.emplace(*data.texels, kernel_, pitch_nm_, *data.normal, size_, zero_order_xyz_);
+        data.fill.emplace(*data.texels, cooked()->kernel, cooked()->material.grating.pitch_nm, *data.normal, size_,
+                          cooked()->zero_order_xyz);
         data.map = data.fill->empty();
         data.filled = 0;
         ++data.fills_begun;
@@ -88,9 +83,9 @@ void GpuPlanar::update(const SurfaceObject& object, SurfaceLight& light, Surface
     data.stand_in_is_old = data.stand_in_is_old || object.changed;
     if (data.normal && data.texels && data.at_rest && !data.on_gpu) fill(object.slices_per_frame, data);
     if (data.on_gpu || !data.stand_in_is_old) return;
-    SurfaceObject anew = object;
-    anew.changed = true;
-    stand_in_.update(anew, light, state);
+    SurfaceObject changed = object;
+    changed.changed = true;
+    stand_in_.update(changed, light, state);
     data.stand_in_is_old = false;
 }
 
@@ -102,7 +97,7 @@ bool GpuPlanar::filling(const SurfaceState& state) const {
 void GpuPlanar::describe(const SurfaceState& state, gpu::ProgramDesc& desc) const {
     if (!data_of(state).on_gpu)
         stand_in_.describe(state, desc);
-    else if (map_at_vertices_)
+    else if (cooked()->material.quality.map_at_vertices)
         set_vertex_shader(desc, "representations/planar/planar.vert.glsl");
     else
         set_shaders(desc, "shaders/pixel_shaded.vert.glsl", "representations/planar/planar.frag.glsl");

@@ -11,28 +11,27 @@
 
 namespace rowland::diffraction {
 
-/// What GpuPlanar keeps for an object: its map, or the one that is being filled.
+/// GpuPlanar's data of an object: its map, or the map that is being filled.
 struct PlanarData final : ObjectData {
-    std::shared_ptr<const scene::Mesh> mesh;  ///< that `flat` was found for
+    std::shared_ptr<const scene::Mesh> mesh;  ///< of `flat`
     std::optional<glm::dvec3> flat;           ///< the mesh's normal, in its own axes
-    /// What the map is wanted for, and whether that was so a frame ago, too.
-    std::optional<glm::dvec3> normal;
+    std::optional<glm::dvec3> normal;         ///< in the world; with `texels`, the map's key
     std::shared_ptr<const lighting::LightSamples> texels;
-    bool at_rest = false;
+    bool at_rest = false;  ///< the key was the same in the last frame
 
     std::optional<PlanarFill> fill;  ///< while azimuths are missing
     PlanarMap map;
     int filled = 0;                ///< azimuths
     std::optional<GpuMap> on_gpu;  ///< the whole map
-    bool stand_in_is_old = true;
+    bool stand_in_is_old = true;   ///< the stand-in's vertex data are out of date
 
     int fills_begun = 0;      ///< since the object was first drawn
     int azimuths_filled = 0;  ///< likewise
 };
 
-/// One map for a flat object: shaders/planar_map.glsl. It is filled again, a few azimuths a frame, when the object's
-/// normal or the probe has turned and then rested for a frame; a turn about the normal needs nothing. Until it is full,
-/// and for what is not flat, the arc table shades.
+/// One map for each flat object: planar_map.glsl. When the object's normal or the probe changes and then stays the same
+/// for a frame, the map is filled again, a few azimuths per frame. A rotation about the normal leaves it valid. The arc
+/// table shades until the map is full, and objects that are not flat.
 class GpuPlanar final : public GpuMaterial {
  public:
     GpuPlanar(const CookedMaterial& cooked, const PlanarTables& tables, const glm::dmat3& xyz_to_working);
@@ -49,11 +48,7 @@ class GpuPlanar final : public GpuMaterial {
     void fill(int slices, PlanarData& data) const;
 
     GpuArc stand_in_;
-    bool map_at_vertices_;
     PlanarMapSize size_;
-    KernelTable kernel_;
-    double pitch_nm_;
-    glm::dmat3 zero_order_xyz_;
 };
 
 }  // namespace rowland::diffraction

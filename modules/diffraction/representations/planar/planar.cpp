@@ -28,10 +28,6 @@ const RepresentationInfo& PlanarSettings::info() {
     return info;
 }
 
-std::optional<Refusal> PlanarSettings::refusal(const SettingValues&, const Grating&) {
-    return std::nullopt;
-}
-
 PlanarSettings PlanarSettings::from(const SettingValues& values, const Grating& grating) {
     const int views = values.number("map_resolution");
     return {

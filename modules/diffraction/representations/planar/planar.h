@@ -5,14 +5,13 @@
 
 namespace rowland::diffraction {
 
-/// The map over (azimuth, v_g) that a flat object's light fills at run time, and what shades it while it fills and on
-/// objects that are not flat.
+/// A map over (azimuth, v_g) that is filled at run time for a flat object. The stand-in shades the object meanwhile,
+/// and objects that are not flat.
 struct PlanarSettings {
     PlanarMapSize size;
     ArcSettings stand_in;
 
     static const RepresentationInfo& info();
-    static std::optional<Refusal> refusal(const SettingValues& values, const Grating& grating);
     static PlanarSettings from(const SettingValues& values, const Grating& grating);
     void set_illuminant(const colour::Illuminant& white) { stand_in.illuminant = white; }
 };
@@ -24,12 +23,11 @@ struct PlanarTables {
 
 PlanarTables bake(const Grating& grating, const PlanarSettings& settings);
 void write(const PlanarTables& tables, ByteWriter& writer);
-/// The map's size comes from the material, where it has been checked.
+/// The map's size is the settings'.
 PlanarTables read(ByteReader& reader, const PlanarSettings& settings);
 ShadingCost cost(const PlanarTables& tables);
 Facts facts(const PlanarTables& tables);
-/// Keeps the map of the last plane alone, so that it is for one thread at a time and for frames of one plane after
-/// another.
+/// Keeps the map of the last plane only: for one thread at a time, and for points sorted by plane.
 PointShader point_shader(const PlanarTables& tables, const MaterialKernel& material, const EvaluationLight& light);
 
 }  // namespace rowland::diffraction

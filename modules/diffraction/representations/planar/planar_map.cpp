@@ -10,6 +10,7 @@
 #include "engine/core/check.h"
 #include "engine/core/parallel.h"
 #include "modules/diffraction/bake/kernel_cells.h"
+#include "modules/diffraction/bake/view_mapping.h"
 
 namespace rowland::diffraction {
 
@@ -17,7 +18,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// Parts the texels are summed in, whatever the number of threads.
+/// The texels are summed in this many parts, whatever the number of threads.
 constexpr std::size_t kParts = 4;
 
 using Disc = std::vector<float>;
@@ -26,7 +27,7 @@ void add_scaled(float* to, const float* light, float weight) {
     for (int c = 0; c < 4; ++c) to[c] += weight * light[c];
 }
 
-/// A light at a place of the disc, shared among the four cells around it so that its place is kept.
+/// Distributes a light over the four cells around its position, so that their centre of weight is that position.
 void splat(Disc& disc, int cells, float x, float y, const std::array<float, 4>& light) {
     const float last = static_cast<float>(cells - 1);
     const float px = std::clamp(x, 0.0F, last);
@@ -44,7 +45,7 @@ void splat(Disc& disc, int cells, float x, float y, const std::array<float, 4>& 
     add_scaled(below + 4, light.data(), fx * fy);
 }
 
-/// The upper hemisphere of some texels, projected along n: the light's measure on the disc is L ds_1 ds_2 = L s_n dω.
+/// Projects texels of the upper hemisphere along n: the measure on the disc is L ds_1 ds_2 = L s_n dω.
 void add_texels(const lighting::LightSamples& texels, std::size_t begin, std::size_t end, const glm::vec3& e1,
                 const glm::vec3& e2, const glm::vec3& n, int cells, Disc& disc) {
     const float scale = 0.5F * static_cast<float>(cells);
@@ -86,28 +87,16 @@ Disc transpose(const Disc& disc, int cells) {
     return result;
 }
 
-/// Places of a linear interpolation: the lower entry and the upper one's weight.
-struct Place {
-    int low = 0;
-    int high = 0;
-    double weight = 0.0;
-};
-
-Place repeating(double position, int count) {
+/// `position` ≥ 0, in columns.
+AxisLookup look_up_repeating(double position, std::size_t count) {
     const double floor = std::floor(position);
-    const int low = static_cast<int>(floor) % count;
+    const std::size_t low = static_cast<std::size_t>(floor) % count;
     return {low, (low + 1) % count, position - floor};
-}
-
-Place clamped(double position, int count) {
-    const double inside = std::clamp(position, 0.0, static_cast<double>(count - 1));
-    const int low = std::min(static_cast<int>(inside), count - 2);
-    return {low, low + 1, inside - low};
 }
 
 }  // namespace
 
-/// A(a) in cells of a, as flux: four floats a cell.
+/// A(a) in cells of a, as flux: four floats per cell.
 struct PlanarFill::Profile {
     std::vector<float> cells;
 };
@@ -119,7 +108,7 @@ PlanarFill::PlanarFill(const lighting::LightSamples& texels, const KernelTable& 
     ROWLAND_CHECK_OP(size.azimuths % 2, ==, 0);
     ROWLAND_CHECK_OP(size.views, >=, 8);
     n_ = glm::normalize(normal);
-    // The frame that turns least from the nearer of +Y and −Y.
+    // The frame of the smallest rotation from the nearer of +Y and −Y.
     const glm::dvec3 pole(0.0, n_.y < 0.0 ? -1.0 : 1.0, 0.0);
     e1_ = glm::normalize(glm::dvec3(1.0, 0.0, 0.0) - n_.x / (1.0 + glm::dot(pole, n_)) * (pole + n_));
     e2_ = glm::cross(n_, e1_);
@@ -139,7 +128,7 @@ PlanarFill::Profile PlanarFill::project(int azimuth) const {
     const double phi = 2.0 * pi * azimuth / size_.azimuths;
     const double cosine = std::cos(phi);
     const double sine = std::sin(phi);
-    // Walk so that the place in A changes fast: then sums do not wait for each other.
+    // The inner loop runs along the axis where the cell of A changes fastest: consecutive sums are then independent.
     const bool along_rows = std::abs(cosine) >= std::abs(sine);
     const Disc& disc = along_rows ? rows_ : columns_;
     const double inner = along_rows ? cosine : sine;
@@ -155,9 +144,9 @@ PlanarFill::Profile PlanarFill::project(int azimuth) const {
         const float step = static_cast<float>(inner);
         const float* light = disc.data() + (static_cast<std::size_t>(row) * side) * 4;
         for (int column = begin; column < end; ++column) {
-            const float place = std::clamp(start + step * static_cast<float>(column), 0.0F, last);
-            const int low = static_cast<int>(place);
-            const float weight = place - static_cast<float>(low);
+            const float position = std::clamp(start + step * static_cast<float>(column), 0.0F, last);
+            const int low = static_cast<int>(position);
+            const float weight = position - static_cast<float>(low);
             float* to = profile.cells.data() + static_cast<std::ptrdiff_t>(low) * 4;
             const float* from = light + static_cast<std::ptrdiff_t>(column) * 4;
             add_scaled(to, from, 1.0F - weight);
@@ -193,7 +182,7 @@ void PlanarFill::fill(int begin, int end, PlanarMap& map) const {
     map.n = n_;
     const int half_turn = size_.azimuths / 2;
     const auto wrap = [](int i, int count) { return (i % count + count) % count; };
-    // A turn by π mirrors A: only half of the projections are different.
+    // A rotation by π mirrors A: half of the projections suffice.
     std::vector<char> needed(static_cast<std::size_t>(half_turn), 0);
     for (int azimuth = begin - 1; azimuth <= end; ++azimuth)
         if (begin < end) needed[static_cast<std::size_t>(wrap(azimuth, half_turn))] = 1;
@@ -226,14 +215,12 @@ PlanarMap fill_planar_map(const lighting::LightSamples& texels, const KernelTabl
 
 glm::dvec3 sample(const PlanarMap& map, double azimuth, double v_g) {
     const double turns = azimuth / (2.0 * pi);
-    const Place s = repeating((turns - std::floor(turns)) * map.azimuths, map.azimuths);
-    const Place t = clamped(0.5 * (v_g + 1.0) * (map.views - 1), map.views);
-    const auto at = [&](int column, int row) {
-        return glm::dvec3(map.xyz[static_cast<std::size_t>(row) * static_cast<std::size_t>(map.azimuths) +
-                                  static_cast<std::size_t>(column)]);
-    };
-    return glm::mix(glm::mix(at(s.low, t.low), at(s.high, t.low), s.weight),
-                    glm::mix(at(s.low, t.high), at(s.high, t.high), s.weight), t.weight);
+    const auto azimuths = static_cast<std::size_t>(map.azimuths);
+    const AxisLookup s = look_up_repeating((turns - std::floor(turns)) * map.azimuths, azimuths);
+    const AxisLookup t = look_up_axis(0.5 * (v_g + 1.0), static_cast<std::size_t>(map.views));
+    const auto at = [&](std::size_t column, std::size_t row) { return glm::dvec3(map.xyz[row * azimuths + column]); };
+    return glm::mix(glm::mix(at(s.first, t.first), at(s.second, t.first), s.weight),
+                    glm::mix(at(s.first, t.second), at(s.second, t.second), s.weight), t.weight);
 }
 
 glm::dvec3 sample(const PlanarMap& map, const ShadingPoint& frame) {

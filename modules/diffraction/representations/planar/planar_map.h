@@ -29,7 +29,7 @@ struct PlanarMapSize {
     int views = 128;     ///< ≥ 8
 };
 
-/// Fills a map, all at once or by and by: holds the light as the plane sees it and the kernel's weights, not the
+/// Fills a map at once or incrementally. Holds the light projected on the plane and the kernel's weights, not the
 /// texels.
 class PlanarFill {
  public:
@@ -41,9 +41,9 @@ class PlanarFill {
     /// The map with its frame, all black.
     PlanarMap empty() const;
 
-    /// Azimuths [begin, end) of a map from empty() or of an older one of the same size, whose frame becomes this
-    /// fill's. Any order of any parts gives the same map. Values are those whose linear interpolation is best, not the
-    /// radiance at the nodes (see kBestLinear).
+    /// Fills azimuths [begin, end) of a map from empty(), or of an older map of the same size, whose frame becomes this
+    /// fill's. Any order gives the same map. Values are optimised for linear interpolation (kBestLinear): they are not
+    /// the radiance at the nodes.
     void fill(int begin, int end, PlanarMap& map) const;
 
  private:
@@ -62,15 +62,15 @@ class PlanarFill {
     std::vector<float> columns_;  ///< the same, transposed
 };
 
-/// The whole map.
+/// A map, filled at once.
 PlanarMap fill_planar_map(const lighting::LightSamples& texels, const KernelTable& kernel, double pitch_nm,
                           const glm::dvec3& normal, const PlanarMapSize& size = {},
                           const glm::dmat3& zero_order_xyz = glm::dmat3(0.0));
 
-/// XYZ at an azimuth (radians, any turn) and a v_g, as the texture unit interpolates.
+/// XYZ at an azimuth (radians, unbounded) and a v_g, as the texture unit interpolates.
 glm::dvec3 sample(const PlanarMap& map, double azimuth, double v_g);
 
-/// XYZ of a frame whose normal is the map's; black for a view below the horizon.
+/// XYZ of a point whose normal is the map's; black for a view below the horizon.
 glm::dvec3 sample(const PlanarMap& map, const ShadingPoint& frame);
 
 }  // namespace rowland::diffraction

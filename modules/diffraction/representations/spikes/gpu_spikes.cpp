@@ -12,7 +12,7 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// Row c, one texel a nanometre: XYZ of a spike there under light of colour c.
+/// Row c, one texel per nanometre: XYZ of a spike there under light of colour c.
 gpu::Texture make_wavelengths() {
     constexpr int kCount = colour::kVisibleMax - colour::kVisibleMin + 1;
     std::vector<glm::vec4> texels;

@@ -5,7 +5,7 @@
 
 namespace rowland::diffraction {
 
-/// The paper's representation: shaders/spikes.vert.glsl.
+/// The paper's representation: spikes.vert.glsl.
 class GpuSpikes final : public VertexShaded {
  public:
     GpuSpikes(const CookedMaterial& cooked, const SpikeTable& table, const glm::dmat3& xyz_to_working);

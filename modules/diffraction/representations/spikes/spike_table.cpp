@@ -10,11 +10,11 @@ namespace {
 
 constexpr double kWavelengthRange_nm = colour::kVisibleMax - colour::kVisibleMin;
 
-// Bounds on what a file may claim; far above any use, and small enough that no product of them overflows.
+// Limits for files: far above any use, and small enough that no product of them overflows.
 constexpr int kMaximumAngleNodes = 1 << 14;
 constexpr int kMaximumSpikes = 512;
 
-/// Storage and mapping share a byte.
+/// Storage and mapping are in one byte.
 constexpr unsigned kMappingShift = 4;
 
 double normalized(double wavelength_nm) {
@@ -179,13 +179,6 @@ ShadingCost cost(const SpikeTable& table) {
 Facts facts(const SpikeTable& table) {
     return with_view_table({{"bands", fmt::to_string(table.bands)}, {"spikes", fmt::to_string(table.spikes)}},
                            table.grid(), table);
-}
-
-PointShader point_shader(const SpikeTable& table, const MaterialKernel&, const EvaluationLight& light) {
-    return in_tangent_frame(light.harmonics(table.bands),
-                            [table](const lighting::ShLight& rotated, const glm::dvec3& view) {
-                                return evaluate_spikes(sample(table, view.x, view.y, view.z), rotated);
-                            });
 }
 
 }  // namespace rowland::diffraction

@@ -13,7 +13,7 @@ namespace rowland::diffraction {
 /// Spikes tabulated over the views of the upper hemisphere, laid out as a 2D texture array (the paper's step 4 and 5).
 ///
 /// Layer k·L + j (L = layers_per_spike) holds entries 4j..4j+3 of spike k's list [c_0 … c_{n²−1}, (λ_k − 380)/400, 0
-/// …]. Where views lie is ViewGrid's: columns are phi_nodes, rows theta_nodes, whatever the mapping.
+/// …]. The grid is that of ViewGrid: phi_nodes columns and theta_nodes rows, for every mapping.
 struct SpikeTable : PackedTexels {
     int bands = 0;
     int spikes = 0;
@@ -29,7 +29,7 @@ struct SpikeTable : PackedTexels {
 struct SpikeTableSettings {
     SpikeSettings spikes;
     int theta_nodes = 32;  ///< rows ≥ 2; one-dimensional: 1
-    int phi_nodes = 64;    ///< columns ≥ 1; but for the spherical mapping ≥ 2
+    int phi_nodes = 64;    ///< columns; spherical: ≥ 1, else ≥ 2
     Storage storage = Storage::Unorm16;
     ViewMapping mapping = ViewMapping::Spherical;  ///< one-dimensional: flat lobe only
 
@@ -48,21 +48,23 @@ constexpr int spike_layers(int bands) {
 /// bytes do not depend on the number of threads.
 SpikeTable bake(const Grating& grating, const SpikeTableSettings& settings);
 
-/// The spikes of the tangent-frame view (v_g, v_h, v_n), as GL_LINEAR filtering gives them at view_mapping.h's
-/// coordinates.
-/// A view below the horizon (v_n ≤ 0) gives zero coefficients.
+/// The spikes of the tangent-frame view (v_g, v_h, v_n), as GL_LINEAR filters at the coordinates of view_mapping.h.
+/// Coefficients are 0 for a view below the horizon (v_n ≤ 0).
 SpikeSet sample(const SpikeTable& table, double v_g, double v_h, double v_n);
+
+/// XYZ of the tangent-frame view: evaluate_spikes() of sample().
+inline glm::dvec3 evaluate(const SpikeTable& table, const lighting::ShLight& tangent_light, const glm::dvec3& view) {
+    return evaluate_spikes(sample(table, view.x, view.y, view.z), tangent_light);
+}
 
 void write(const SpikeTable& table, ByteWriter& writer);
 
-/// Reads what write() wrote. Throws Error (input) naming the offset if the bytes are not such a table;
-/// every size is checked before it is used.
+/// Inverse of write(). Throws Error (input) naming the offset for invalid bytes.
 SpikeTable read_spike_table(ByteReader& reader);
 
-/// What representation.h asks of every representation's tables.
+/// Required by representation.h.
 SpikeTable read(ByteReader& reader, const SpikeTableSettings& settings);
 ShadingCost cost(const SpikeTable& table);
 Facts facts(const SpikeTable& table);
-PointShader point_shader(const SpikeTable& table, const MaterialKernel& material, const EvaluationLight& light);
 
 }  // namespace rowland::diffraction

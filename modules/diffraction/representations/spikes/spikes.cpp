@@ -13,12 +13,12 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// A trace of q in the weight w, relative to the material's response: it keeps the wavelengths of spikes defined and
-/// continuous where nothing is visible, and moves the others by no more than this share of an interval.
+/// Fraction of q in the weight w, relative to the material's response. It keeps the spikes' wavelengths defined and
+/// continuous where nothing is visible, and moves the others by no more than this fraction of an interval.
 constexpr double kWeightFloor = 1e-6;
 
-/// A wavelength darker than this share of the brightest is no colour of the lamp's.
-constexpr double kDarkestShare = 1e-6;
+/// The lamp counts as dark at wavelengths below this fraction of its brightest.
+constexpr double kDarkFraction = 1e-6;
 
 double sum_of(const glm::dvec3& v) {
     return v.x + v.y + v.z;
@@ -102,9 +102,9 @@ SpikeBaker::SpikeBaker(const Grating& grating, const SpikeSettings& settings)
 
 double SpikeBaker::visible_wavelength(double mean_position, double begin, double end) const {
     const auto cell = std::min(static_cast<std::size_t>(mean_position), kWavelengths - 2);
-    const double dark = kDarkestShare * *std::max_element(sensitivity_.begin(), sensitivity_.end());
+    const double dark = kDarkFraction * *std::max_element(sensitivity_.begin(), sensitivity_.end());
     if (std::max(sensitivity_[cell], sensitivity_[cell + 1]) > dark) return mean_position;
-    // Between the lines of a lamp there is no light to give a colour: the spike moves to the interval's line.
+    // Between the lines of a lamp there is no light: the spike moves to the interval's brightest line.
     const auto first = sensitivity_.begin() + static_cast<std::ptrdiff_t>(begin);
     const auto last = sensitivity_.begin() + std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(std::ceil(end)) + 1,
                                                                       static_cast<std::ptrdiff_t>(kWavelengths));

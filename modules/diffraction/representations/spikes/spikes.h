@@ -15,30 +15,30 @@ namespace rowland::diffraction {
 struct SpikeSettings {
     int bands = 5;   ///< n: n² coefficients per spike, 1 ≤ n ≤ 32
     int spikes = 4;  ///< K ≥ 1
-    /// The spectrum of the light's white. Baked in: spikes show light of another spectrum as if it had this one.
+    /// The spectrum of the light's white, baked in: light of another spectrum is shown as if it had this one.
     colour::Illuminant illuminant = colour::d65();
 };
 
 /// One view's diffraction term as K delta functions in wavelength (the composite model's spiky part). A coefficient
-/// holds the spike's whole tristimulus sum, illuminant included, and not, as the paper's, the BRDF at λ_k: the lamp's
-/// power at λ_k then cancels, which between the lines of a lamp is nothing to divide by.
+/// holds the spike's tristimulus sum, illuminant included; the paper's holds the BRDF at λ_k. So nothing is divided by
+/// the lamp's power at λ_k, which is 0 between the lines of a lamp.
 struct SpikeSet {
     int bands = 0;
     std::vector<double> wavelengths_nm;  ///< K, ascending, in [380, 780]
     std::vector<double> coefficients;    ///< K·n², spike by spike: c_k,i, X+Y+Z per unit of white light
 };
 
-/// Bakes the spikes of any number of views of one grating; holds what does not depend on the view.
+/// Bakes the spikes of any number of views of one grating.
 class SpikeBaker {
  public:
     /// Throws Error (input) for fewer than kManyGrooves grooves.
     SpikeBaker(const Grating& grating, const SpikeSettings& settings);
 
-    /// As bake_spikes(). May be called from many threads.
+    /// bake_spikes(). May be called from many threads.
     SpikeSet bake(double v_g, double v_h) const;
 
  private:
-    /// The mean position, in nm above 380, or where light is.
+    /// The mean position in nm above 380 or, where the lamp is dark, its brightest wavelength in the interval.
     double visible_wavelength(double mean_position, double begin, double end) const;
 
     ViewSpectrum spectrum_;

@@ -1,13 +1,13 @@
 #version 450 core
 // The rendering steps of Lindsay & Agu 2006, fig. 5, numbered as there. BANDS, SPIKES and VIEW_MAPPING are defined by the
-// program. Steps 1 and 2, the light's rotation to the vertices, are the CPU's.
+// program. The CPU does steps 1 and 2, the light's rotation to the vertices.
 #include "engine/render/shaders/forward_vertex_interface.glsl"
 #include "modules/diffraction/shaders/tangent_light.glsl"
 #include "modules/diffraction/shaders/packed_table.glsl"
 
 const int LAYERS = (COEFFICIENTS + 1 + 3) / 4;
 
-// Row c: XYZ of a spike of coefficient 1 under light of colour c, one texel a nanometre from 380 to 780.
+// Row c: XYZ of a spike of coefficient 1 under light of colour c, one texel per nanometre from 380 to 780.
 layout(binding = 9) uniform sampler2D wavelength_table;
 
 vec3 wavelength_to_xyz(float normalised, vec3 rgb) {

@@ -13,8 +13,8 @@ namespace {
 
 /// StreakNode of shaders/streak.frag.glsl, std430.
 struct ShaderNode {
-    glm::vec4 path_width;      ///< x: path over the pitch; y: width over the pitch
-    glm::vec4 weight[3];  ///< columns: XYZ of red, green and blue
+    glm::vec4 path_width;  ///< x: path over the pitch; y: width over the pitch
+    glm::vec4 weight[3];   ///< columns: XYZ of red, green and blue
 };
 static_assert(sizeof(ShaderNode) == 64);
 
@@ -26,14 +26,14 @@ gpu::Buffer node_buffer(const Streak& streak) {
         for (int c = 0; c < 3; ++c) made.weight[c] = glm::vec4(node.weight[c], 0.0F);
         nodes.push_back(made);
     }
-    if (nodes.empty()) nodes.push_back({.path_width = {4.0F, 0.0F, 0.0F, 0.0F}, .weight = {}});  // never seen
+    if (nodes.empty()) nodes.push_back({.path_width = {4.0F, 0.0F, 0.0F, 0.0F}, .weight = {}});  // never visible
     return gpu::Buffer::of(std::span<const ShaderNode>(nodes));
 }
 
 std::vector<glm::vec3> shader_taps(const StreakTables& tables) {
     std::vector<glm::vec3> taps;
     for (const LobeTap& tap : lobe_taps(tables.taps))
-        taps.emplace_back(glm::dvec3(tables.streak.sigma * tap.offset, tables.streak.sigma * tap.width, tap.share));
+        taps.emplace_back(glm::dvec3(tables.streak.sigma * tap.offset, tables.streak.sigma * tap.width, tap.weight));
     return taps;
 }
 
@@ -43,8 +43,8 @@ GpuStreak::GpuStreak(const CookedMaterial& cooked, const StreakTables& tables, c
     : GpuMaterial(cooked, xyz_to_working),
       nodes_(node_buffer(tables.streak)),
       taps_(shader_taps(tables)),
-      power_(static_cast<float>(tables.streak.share / std::erf(1.0 / (tables.streak.sigma * std::numbers::sqrt2)))),
-      rest_share_(static_cast<float>(1.0 - tables.streak.share)) {
+      power_(static_cast<float>(tables.streak.power / std::erf(1.0 / (tables.streak.sigma * std::numbers::sqrt2)))),
+      rest_weight_(static_cast<float>(1.0 - tables.streak.power)) {
     if (tables.rest) rest_.emplace(cooked, *tables.rest, xyz_to_working);
 }
 
@@ -71,7 +71,7 @@ void GpuStreak::bind_tables(const gpu::Program& program, const SurfaceState& sta
     radiance_->bind(program);
     program.set("streak_taps", std::span<const glm::vec3>(taps_));
     program.set("streak_power", power_);
-    program.set("rest_share", rest_share_);
+    program.set("rest_weight", rest_weight_);
 }
 
 }  // namespace rowland::diffraction

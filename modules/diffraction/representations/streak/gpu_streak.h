@@ -11,8 +11,8 @@
 
 namespace rowland::diffraction {
 
-/// The mirror-like part of a narrow lobe from the whole probe, and an arc table for what it leaves of Stam's pits:
-/// shaders/streak.frag.glsl.
+/// The streak of a narrow lobe from the whole probe, and an arc table for the incoherent rest of Stam's pits:
+/// streak.frag.glsl.
 class GpuStreak final : public GpuMaterial {
  public:
     GpuStreak(const CookedMaterial& cooked, const StreakTables& tables, const glm::dmat3& xyz_to_working);
@@ -24,12 +24,12 @@ class GpuStreak final : public GpuMaterial {
     void bind_tables(const gpu::Program& program, const SurfaceState& state) const override;
 
     gpu::Buffer nodes_;
-    std::vector<glm::vec3> taps_;  ///< offset and width in s_h, share
-    float power_;                  ///< what the streak's sum is multiplied with
-    float rest_share_;
+    std::vector<glm::vec3> taps_;  ///< offset and width in s_h; weight
+    float power_;                  ///< scale of the streak's sum
+    float rest_weight_;
     std::optional<GpuArc> rest_;
 
-    mutable std::shared_ptr<const RadianceCube> radiance_;  ///< the light's, as of the last update
+    mutable std::shared_ptr<const RadianceCube> radiance_;  ///< of the last update's light
 };
 
 }  // namespace rowland::diffraction

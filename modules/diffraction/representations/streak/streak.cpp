@@ -12,7 +12,6 @@
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "modules/diffraction/bake/packed_texels.h"
-#include "modules/diffraction/bake/transfer_terms.h"
 #include "modules/diffraction/bake/view_spectrum.h"
 #include "modules/diffraction/bake/wavelength_cuts.h"
 #include "modules/diffraction/model/efficiency.h"
@@ -21,14 +20,14 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// The taps cover so many σ on either side; what is beyond, 4 % of the power, goes to the outer ones.
+/// The taps cover so many σ on either side. The 4 % of the power beyond goes to the outer taps.
 constexpr double kTapReach = 2.05;
 
-/// What one order does to light at every nanometre.
+/// One order at every nanometre.
 struct OrderSpectrum {
     int order = 0;
     std::vector<glm::dmat3> observed;  ///< η_m cmf Eᵀ
-    std::vector<double> weight;        ///< how much of it there is
+    std::vector<double> weight;        ///< sum of the entries of `observed`, about
 };
 
 OrderSpectrum spectrum_of(const Grating& grating, int order, const colour::LightSpectra& spectra) {
@@ -49,10 +48,10 @@ StreakNode make_node(const OrderSpectrum& spectrum, std::size_t begin, std::size
     double total = 0.0;
     double moment = 0.0;
     double square = 0.0;
-    each_node(begin, end, [&](std::size_t j, double share) {
+    each_node(begin, end, [&](std::size_t j, double step) {
         const double at = static_cast<double>(j - begin);
-        const double weight = share * spectrum.weight[j];
-        sum += share * spectrum.observed[j];
+        const double weight = step * spectrum.weight[j];
+        sum += step * spectrum.observed[j];
         total += weight;
         moment += weight * at;
         square += weight * at * at;
@@ -69,7 +68,7 @@ StreakNode make_node(const OrderSpectrum& spectrum, std::size_t begin, std::size
 
 struct NarrowLobe {
     double sigma = 0.0;
-    double share = 1.0;
+    double power = 1.0;
 };
 
 NarrowLobe narrow_lobe(const GrooveLobe& lobe) {
@@ -78,16 +77,16 @@ NarrowLobe narrow_lobe(const GrooveLobe& lobe) {
         if (pits->coherent > 0.0) return {kCoherentSigma, pits->coherent};
     throw Error({.file = {},
                  .location = "groove_lobe",
-                 .found = is_flat(lobe) ? "flat" : "pits without a coherent share",
-                 .expected = "a narrow lobe: sigma, or pits with a coherent share, for the representation \"streak\"",
+                 .found = is_flat(lobe) ? "flat" : "pits without a coherent part",
+                 .expected = "a narrow lobe: sigma, or pits with a coherent part, for the representation \"streak\"",
                  .remedy = "use \"arc\", \"transfer\" or \"spikes\""});
 }
 
-/// An interval of a direction cosine: its middle, its length, and how much of what it was cut from it is.
+/// An interval of a direction cosine after clipping.
 struct Piece {
     double middle = 0.0;
     double length = 0.0;
-    double share = 0.0;
+    double fraction = 0.0;  ///< of the length before clipping
 };
 
 Piece cut(double middle, double length, double limit) {
@@ -111,7 +110,7 @@ std::vector<LobeTap> lobe_taps(int count) {
         const double begin = -kTapReach + width * i;
         const double below = i == 0 ? 0.0 : normal_below(begin);
         const double above = i + 1 == count ? 1.0 : normal_below(begin + width);
-        taps.push_back({.offset = begin + 0.5 * width, .width = width, .share = above - below});
+        taps.push_back({.offset = begin + 0.5 * width, .width = width, .weight = above - below});
     }
     return taps;
 }
@@ -120,7 +119,7 @@ Streak make_streak(const Grating& grating, const StreakSettings& settings) {
     ROWLAND_CHECK_OP(settings.nodes_per_order, >=, 1);
     require_many_grooves(grating);
     const NarrowLobe lobe = narrow_lobe(grating.lobe);
-    Streak streak{.pitch_nm = grating.pitch_nm, .sigma = lobe.sigma, .share = lobe.share, .nodes = {}};
+    Streak streak{.pitch_nm = grating.pitch_nm, .sigma = lobe.sigma, .power = lobe.power, .nodes = {}};
     const colour::LightSpectra spectra(settings.illuminant);
     for (const int order : grating.orders) {
         const OrderSpectrum spectrum = spectrum_of(grating, order, spectra);
@@ -147,27 +146,27 @@ glm::dvec3 evaluate(const Streak& streak, const FilteredRadiance& radiance, cons
     for (const StreakNode& node : streak.nodes) {
         const Piece across = cut(static_cast<double>(node.path_nm) / streak.pitch_nm - view.x,
                                  static_cast<double>(node.width_nm) / streak.pitch_nm, 1.0);
-        if (across.share == 0.0) continue;
+        if (across.fraction == 0.0) continue;
         const double r = std::sqrt(std::max((1.0 - across.middle) * (1.0 + across.middle), 0.0));
         glm::dvec3 sum(0.0);
         for (const LobeTap& tap : lobe) {
             const Piece along = cut(streak.sigma * tap.offset - view.y, streak.sigma * tap.width, r);
-            if (along.share == 0.0) continue;
+            if (along.fraction == 0.0) continue;
             const double height = std::sqrt(std::max(r * r - along.middle * along.middle, 0.0));
             const double slope = 1.0 / std::max(height, kLowestStreakHeight);
-            sum += tap.share * along.share *
+            sum += tap.weight * along.fraction *
                    radiance({across.middle, along.middle, height},
                             across.length * glm::dvec3(1.0, 0.0, -across.middle * slope),
                             along.length * glm::dvec3(0.0, 1.0, -along.middle * slope));
         }
-        xyz += across.share * (glm::dmat3(node.weight) * sum);
+        xyz += across.fraction * (glm::dmat3(node.weight) * sum);
     }
-    return streak.share / std::erf(1.0 / (streak.sigma * std::numbers::sqrt2)) * xyz;
+    return streak.power / std::erf(1.0 / (streak.sigma * std::numbers::sqrt2)) * xyz;
 }
 
 int most_seen_nodes(const Streak& streak) {
     std::size_t most = 0;
-    // A node is seen from its x/d − 1 on: the most are where one comes into sight.
+    // A node is visible where x/d − 1 ≤ v_g ≤ x/d + 1. The count has its maximum where a node becomes visible.
     for (const StreakNode& first : streak.nodes) {
         const double from = static_cast<double>(first.path_nm) / streak.pitch_nm;
         most = std::max(most, static_cast<std::size_t>(
@@ -181,7 +180,7 @@ int most_seen_nodes(const Streak& streak) {
 
 namespace {
 
-/// A node as a file holds it.
+/// A node in a file.
 struct StoredNode {
     float path_nm, width_nm, wavelength_nm;
     float weight[9];
@@ -193,7 +192,7 @@ static_assert(sizeof(StoredNode) == 48 && std::is_trivially_copyable_v<StoredNod
 void write(const Streak& streak, ByteWriter& writer) {
     writer.value(streak.pitch_nm);
     writer.value(streak.sigma);
-    writer.value(streak.share);
+    writer.value(streak.power);
     std::vector<StoredNode> nodes;
     for (const StreakNode& node : streak.nodes) {
         StoredNode stored{node.path_nm, node.width_nm, node.wavelength_nm, {}};
@@ -207,11 +206,11 @@ Streak read_streak(ByteReader& reader) {
     Streak streak;
     streak.pitch_nm = reader.value<double>();
     streak.sigma = reader.value<double>();
-    streak.share = reader.value<double>();
+    streak.power = reader.value<double>();
     const auto positive = [](double x) { return std::isfinite(x) && x > 0.0; };
-    if (!positive(streak.pitch_nm) || !positive(streak.sigma) || !(streak.share >= 0.0 && streak.share <= 1.0))
-        reader.fail(fmt::format("pitch {}, sigma {}, share {}", streak.pitch_nm, streak.sigma, streak.share),
-                    "a pitch and a sigma above 0, a share of 0 to 1");
+    if (!positive(streak.pitch_nm) || !positive(streak.sigma) || !(streak.power >= 0.0 && streak.power <= 1.0))
+        reader.fail(fmt::format("pitch {}, sigma {}, power {}", streak.pitch_nm, streak.sigma, streak.power),
+                    "a pitch and a sigma above 0, a power of 0 to 1");
     const auto nodes = reader.array<StoredNode>();
     if (nodes.size() > kMostStreakNodes)
         reader.fail(fmt::format("{} nodes", nodes.size()), fmt::format("at most {}", kMostStreakNodes));

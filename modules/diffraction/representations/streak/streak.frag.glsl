@@ -1,6 +1,6 @@
 #version 450 core
-// A narrow lobe mirrors the probe along the grooves and disperses it across them: bake/streak.h, evaluate(). TAPS is
-// defined by the program; so is REST where an arc table shades what the streak leaves of Stam's pits.
+// A narrow lobe mirrors the probe along the grooves and disperses it across them: streak.h, evaluate(). The program
+// defines TAPS, and REST where an arc table shades the incoherent rest of Stam's pits.
 #include "modules/diffraction/shaders/surface.glsl"
 #include "modules/diffraction/shaders/radiance_cube.glsl"
 #ifdef REST
@@ -12,13 +12,13 @@ struct StreakNode {
     vec4 weight[3];  // columns: XYZ of red, green and blue
 };
 layout(std430, binding = 6) readonly buffer StreakNodes { StreakNode streak_nodes[]; };
-uniform vec3 streak_taps[TAPS];  // offset and width in s_h; share
+uniform vec3 streak_taps[TAPS];  // offset and width in s_h; weight
 uniform float streak_power;
-uniform float rest_share;
+uniform float rest_weight;
 
 const float LOWEST_HEIGHT = 0.02;
 
-// An interval of a direction cosine, cut at +-limit: its middle, its length, and how much of it is left.
+// An interval of a direction cosine, clipped to +-limit: its middle, its length, and the fraction that remains.
 vec3 cut(float middle, float extent, float limit) {
     if (extent <= 0.0) return vec3(middle, 0.0, abs(middle) < limit ? 1.0 : 0.0);
     float begin = max(middle - 0.5 * extent, -limit);
@@ -26,7 +26,7 @@ vec3 cut(float middle, float extent, float limit) {
     return vec3(0.5 * (begin + end), end - begin, max(end - begin, 0.0) / extent);
 }
 
-// Mean over the lobe of the light about the arc's piece `across`.
+// Mean over the lobe of the light about the arc's interval `across`.
 vec3 lobe_radiance(vec3 across, GrooveView view) {
     float r2 = max((1.0 - across.x) * (1.0 + across.x), 0.0);
     vec3 rgb = vec3(0.0);
@@ -54,7 +54,7 @@ vec3 diffracted_xyz(GrooveView view) {
     }
     xyz *= streak_power;
 #ifdef REST
-    xyz += rest_share * arc_xyz(view);
+    xyz += rest_weight * arc_xyz(view);
 #endif
     return xyz;
 }

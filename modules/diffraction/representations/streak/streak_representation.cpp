@@ -120,7 +120,7 @@ PointShader point_shader(const StreakTables& tables, const MaterialKernel& mater
             return pyramid->filtered(to_world * direction, to_world * a, to_world * b, kStreakFilterTaps);
         };
         const glm::dvec3 view = tangent * glm::normalize(frame.view);
-        return evaluate(tables.streak, radiance, view, tables.taps) + (1.0 - tables.streak.share) * rest(frame);
+        return evaluate(tables.streak, radiance, view, tables.taps) + (1.0 - tables.streak.power) * rest(frame);
     };
 }
 

@@ -7,11 +7,11 @@
 
 namespace rowland::diffraction {
 
-/// Narrow lobes mirror the whole probe along the grooves; an arc table shades the incoherent rest of Stam's pits.
+/// Shades a narrow lobe from the whole probe, and the incoherent rest of Stam's pits with an arc table.
 struct StreakSurfaceSettings {
     StreakSettings streak;
     int taps = 3;                       ///< samples across the lobe, 1 to kMostStreakTaps
-    std::optional<ArcSettings> rest{};  ///< where incoherent_rest() is something
+    std::optional<ArcSettings> rest{};  ///< of incoherent_rest(), if any
 
     static const RepresentationInfo& info();
     static std::optional<Refusal> refusal(const SettingValues& values, const Grating& grating);
@@ -22,11 +22,11 @@ struct StreakSurfaceSettings {
 struct StreakTables {
     Streak streak;
     int taps = 3;
-    std::optional<ArcTable> rest{};  ///< to be weighted with 1 − streak.share
+    std::optional<ArcTable> rest{};  ///< of weight 1 − streak.power
 };
 
 inline constexpr int kMostStreakTaps = 9;
-/// The most texels along a tap's longer side that are read.
+/// The most texels that are read along a tap's longer side.
 inline constexpr int kStreakFilterTaps = 2;
 
 StreakTables bake(const Grating& grating, const StreakSurfaceSettings& settings);

@@ -4,7 +4,7 @@
 
 namespace rowland::diffraction {
 
-/// SH coefficients with the wavelengths summed: shaders/transfer.vert.glsl.
+/// SH coefficients with the wavelengths summed: transfer.vert.glsl.
 class GpuTransfer final : public VertexShaded {
  public:
     GpuTransfer(const CookedMaterial& cooked, const TransferTable& table, const glm::dmat3& xyz_to_working)

@@ -1,5 +1,5 @@
 #version 450 core
-// SH coefficients with the wavelengths summed: bake/transfer_table.h. BANDS and VIEW_MAPPING are defined by the program.
+// SH coefficients with the wavelengths summed: transfer_table.h. BANDS and VIEW_MAPPING are defined by the program.
 #include "engine/render/shaders/forward_vertex_interface.glsl"
 #include "modules/diffraction/shaders/tangent_light.glsl"
 #include "modules/diffraction/shaders/packed_table.glsl"

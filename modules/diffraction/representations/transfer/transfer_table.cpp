@@ -128,10 +128,4 @@ Facts facts(const TransferTable& table) {
     return with_view_table({{"bands", fmt::to_string(table.bands)}}, table.grid, table);
 }
 
-PointShader point_shader(const TransferTable& table, const MaterialKernel&, const EvaluationLight& light) {
-    return in_tangent_frame(
-        light.harmonics(table.bands),
-        [table](const lighting::ShLight& rotated, const glm::dvec3& view) { return evaluate(table, rotated, view); });
-}
-
 }  // namespace rowland::diffraction

@@ -35,7 +35,7 @@ TEST(ViewMapping, NodesLieOnTheirTexels) {
                 double weight = 0.0;
                 for (std::size_t i = 0; i < 4; ++i)
                     if (found.texel[i] == static_cast<std::size_t>(row * grid.columns + column))
-                        weight += found.share[i];
+                        weight += found.weight[i];
                 // A view at the horizon loses half its digits in v_n.
                 EXPECT_NEAR(weight, 1.0, v_n < 1e-6 ? 1e-6 : 1e-12) << view_mapping_name(grid.mapping);
             }
@@ -58,9 +58,9 @@ TEST(ViewMapping, WeightsSumToOneAndStayInsideAnywhere) {
         for (int i = 1; i < 500; ++i) {
             const glm::dvec3 v = glm::normalize(glm::dvec3(std::sin(1.0 * i), std::sin(2.3 * i), std::sin(3.7 * i)));
             const BilinearLookup found = look_up(grid, v.x, v.y, v.z);
-            EXPECT_NEAR(std::accumulate(found.share.begin(), found.share.end(), 0.0), 1.0, 1e-14);
+            EXPECT_NEAR(std::accumulate(found.weight.begin(), found.weight.end(), 0.0), 1.0, 1e-14);
             for (std::size_t k = 0; k < 4; ++k) {
-                EXPECT_GE(found.share[k], 0.0);
+                EXPECT_GE(found.weight[k], 0.0);
                 EXPECT_LT(found.texel[k], grid.texels());
             }
         }
@@ -77,8 +77,8 @@ TEST(ViewMapping, ParabolicLookUpsAreLinearInTheParaboloid) {
         double row = 0.0;
         for (std::size_t k = 0; k < 4; ++k) {
             const std::size_t rows_before = found.texel[k] / 6;
-            column += found.share[k] * static_cast<double>(found.texel[k] % 6);
-            row += found.share[k] * static_cast<double>(rows_before);
+            column += found.weight[k] * static_cast<double>(found.texel[k] % 6);
+            row += found.weight[k] * static_cast<double>(rows_before);
         }
         EXPECT_NEAR(column, (v.x / (1.0 + v.z) + 1.0) / 2.0 * 5.0, 1e-12);
         EXPECT_NEAR(row, (v.y / (1.0 + v.z) + 1.0) / 2.0 * 4.0, 1e-12);

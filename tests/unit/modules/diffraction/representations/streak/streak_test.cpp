@@ -118,8 +118,8 @@ TEST(Streak, TapsShareTheLobe) {
         double sum = 0.0;
         double mean = 0.0;
         for (const LobeTap& tap : lobe_taps(count)) {
-            sum += tap.share;
-            mean += tap.share * tap.offset;
+            sum += tap.weight;
+            mean += tap.weight * tap.offset;
         }
         EXPECT_NEAR(sum, 1.0, 1e-14);
         EXPECT_NEAR(mean, 0.0, 1e-14);
@@ -131,7 +131,7 @@ TEST(Streak, PitsAreAStreakAndASmoothRest) {
     Grating grating = narrow_disc(0.1);
     grating.lobe = PitsLobe{.length_nm = 850.0, .coherent = 0.3};
     const Streak streak = make_streak(grating, {.nodes_per_order = 12});
-    EXPECT_EQ(streak.share, 0.3);
+    EXPECT_EQ(streak.power, 0.3);
     EXPECT_EQ(streak.sigma, kCoherentSigma);
     const auto rest = incoherent_rest(grating);
     ASSERT_TRUE(rest.has_value());
