@@ -55,6 +55,15 @@ TEST(ByteStream, EveryTruncationIsRefused) {
     }
 }
 
+TEST(ByteStream, TakesAllBytesThereAreAndNotOneMore) {
+    const std::vector<std::byte> data(3);
+    ByteReader reader(data, "a.probe");
+    EXPECT_EQ(reader.take(3).size(), 3U);
+    EXPECT_EQ(reader.remaining(), 0U);
+    EXPECT_THROW(reader.take(1), Error);
+    EXPECT_THROW(ByteReader(data, "a.probe").take(4), Error);
+}
+
 TEST(ByteStream, TruncationNamesFileOffsetAndWhatIsMissing) {
     const auto data = sample();
     ByteReader reader(std::span<const std::byte>(data).first(5), "a.probe");

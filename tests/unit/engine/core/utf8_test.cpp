@@ -1,6 +1,9 @@
 #include "engine/core/utf8.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "tests/support/message_of.h"
 
 namespace rowland {
 namespace {
@@ -10,6 +13,11 @@ TEST(Utf8, WhatIsValidStaysAndTheRestIsReplaced) {
     EXPECT_EQ(valid_utf8("b\xff.json"), "b\xef\xbf\xbd.json");
     EXPECT_EQ(valid_utf8("cut \xf0\x9f"), "cut \xef\xbf\xbd");
     EXPECT_EQ(valid_utf8(std::string_view("a\0b", 3)), std::string("a\0b", 3));
+}
+
+TEST(Utf8, APathThatIsNoTextIsRefusedWithTheRemedy) {
+    EXPECT_EQ(require_utf8("Größe.json", "rename it"), "Größe.json");
+    EXPECT_THAT(test::message_of([] { require_utf8("b\xff.json", "rename it"); }), testing::HasSubstr("rename it"));
 }
 
 }  // namespace
