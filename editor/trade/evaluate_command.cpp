@@ -99,7 +99,7 @@ CLI::App* EvaluateCommand::declare(CLI::App& program) {
         "row\n"
         "X,Y,Z for each: the listed orders only, no base layer, no mirror.\n"
         "--bands 5 is another way to write the setting bands=5, and so on; a method ignores flags that it has no\n"
-        "setting for.\n"
+        "setting for. Settings that are not given are the material's where it pins the same method, else the defaults.\n"
         "Example:\n"
         "  rowland-trade evaluate --material cd.json --probe sunset.hdr --method reference --frames frames.csv");
     command->add_option("--material", material, "Material, JSON")->type_name("FILE");
