@@ -87,12 +87,17 @@ TEST_F(PlayWindow, AThrownDiscTurnsOnByItself) {
     std::this_thread::sleep_for(1s);
     const image::ByteImage first = full_shot(user);
     const image::ByteImage second = user.shot();
-    user.key("space");
-    std::this_thread::sleep_for(2s);
-    user.key("space");
-    std::this_thread::sleep_for(1s);
     EXPECT_EQ(difference(first, second, kDisc), 0.0);
-    EXPECT_GT(difference(second, full_shot(user), kDisc), 10.0);
+    // Played on in short pieces until the turn shows: a slow machine draws few frames in each.
+    double turned = 0.0;
+    for (int piece = 0; piece < 10 && turned <= 10.0; ++piece) {
+        user.key("space");
+        std::this_thread::sleep_for(2s);
+        user.key("space");
+        std::this_thread::sleep_for(1s);
+        turned = difference(second, full_shot(user), kDisc);
+    }
+    EXPECT_GT(turned, 10.0);
 }
 
 TEST_F(PlayWindow, LightsAreAddedUpToTheMostAndRemoved) {
