@@ -99,7 +99,8 @@ CLI::App* EvaluateCommand::declare(CLI::App& program) {
         "row\n"
         "X,Y,Z for each: the listed orders only, no base layer, no mirror.\n"
         "--bands 5 is another way to write the setting bands=5, and so on; a method ignores flags that it has no\n"
-        "setting for. Settings that are not given are the material's where it pins the same method, else the defaults.\n"
+        "setting for. Settings that are not given are the material's where it pins the same method, else the "
+        "defaults.\n"
         "Example:\n"
         "  rowland-trade evaluate --material cd.json --probe sunset.hdr --method reference --frames frames.csv");
     command->add_option("--material", material, "Material, JSON")->type_name("FILE");
@@ -150,7 +151,7 @@ diffraction::Method EvaluateCommand::asked_method() const {
     for (const SettingFlag& flag : setting_flags()) {
         const char* key = key_of(flag, *info);
         std::string value = settings.at(flag.flag);
-        if (value.empty() && flag.flag == std::string_view("--storage") && text.find("/storage=") == std::string::npos)
+        if (value.empty() && flag.flag == std::string_view("--storage") && method == name)
             value = storage_name(diffraction::Storage::Unorm16);
         if (key != nullptr && !value.empty()) text += fmt::format("/{}={}", key, value);
     }
@@ -196,7 +197,9 @@ std::vector<glm::dvec3> EvaluateCommand::by_representation(const colour::Illumin
     shaded.quality.illuminant = white;
     const diffraction::EvaluationLight lit = light(asked.key_lights, asked.window);
     const auto* spikes = std::get_if<diffraction::SpikeTableSettings>(&*shaded.quality.pinned);
-    if (spikes == nullptr || asked.quality.contains("view_resolution") || asked.quality.contains("view_mapping"))
+    const bool has_own_settings = method != info(asked).name;  // means then what it means everywhere
+    if (spikes == nullptr || has_own_settings || asked.quality.contains("view_resolution") ||
+        asked.quality.contains("view_mapping"))
         return evaluate_baked(bake_material(shaded), lit, points);
     diffraction::CookedMaterial kernel = diffraction::bake_kernel(shaded);
     diffraction::SpikeSettings exact = spikes->spikes;
