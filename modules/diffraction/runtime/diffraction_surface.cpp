@@ -46,15 +46,15 @@ std::string DiffractionSurfaceType::gltf_extension() const {
 void DiffractionSurfaceType::attach(ecs::World& world, ecs::Entity entity, const nlohmann::json& extension,
                                     render::SurfaceTextures& textures, const std::string& file,
                                     const std::string& pointer) {
-    const GltfGrating grating =
-        parse_gltf_extension(extension, file, std::filesystem::path(file).parent_path(), pointer);
+    const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+    const GltfGrating grating = parse_gltf_extension(extension, file, folder, pointer);
     const auto require = [&](const std::optional<Refusal>& refused, const std::string& parent) {
         if (refused) refuse_input(file, parent + refused->key, refused->found, refused->expected, refused->remedy);
     };
     require(baked_refusal(grating.material.grating), pointer);
     DiffractionSurface surface{.groove_rotation = static_cast<float>(grating.groove_rotation)};
     Material material = grating.material;
-    std::string key = extension.dump();
+    std::string key = folder.string() + extension.dump();
     if (grating.groove_texture) {
         surface.grooves =
             std::make_shared<const GrooveMap>(*grating.groove_texture, textures, file, pointer + "/grooveTexture");

@@ -60,7 +60,7 @@ class DiffractionSurfaceType final : public render::MaterialType {
 
     glm::dmat3 xyz_to_working_;
     int slices_per_frame_;
-    std::map<std::string, std::weak_ptr<const GpuMaterial>> baked_;  ///< by the extension's text
+    std::map<std::string, std::weak_ptr<const GpuMaterial>> baked_;  ///< by the file's folder and the extension's text
     std::set<std::pair<std::string, std::string>> warned_of_;        ///< illuminants baked for, lit by
     LightDivision division_;
     SurfaceLight light_;

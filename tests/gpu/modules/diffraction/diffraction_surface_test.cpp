@@ -2,9 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "engine/core/file.h"
 #include "engine/core/json_reader.h"
 #include "tests/gpu/modules/diffraction/grating_picture.h"
 #include "tests/support/message_of.h"
+#include "tests/support/temporary_folder.h"
 
 namespace rowland::diffraction {
 namespace {
@@ -129,6 +131,28 @@ TEST_F(Surface, ABrokenQualityIsRefusedByName) {
                 parse_json(std::string("{\"grating\": ") + kSlitCd + R"(, "grooveRotation": 0.25})", "m"), textures,
                 "scene.gltf", "/materials/0");
     EXPECT_EQ(world_.get<DiffractionSurface>(entity_).groove_rotation, 0.25F);
+}
+
+TEST_F(Surface, TablesOfOneNameInTwoFoldersAreTwoMaterials) {
+    DiffractionSurfaceType type(glm::dmat3(1.0));
+    const scene::ImportedScene no_pictures;
+    render::SurfaceTextures textures(no_pictures);
+    const nlohmann::json extension = parse_json(
+        R"({"grating": {"pitch_nm": 1600, "profile": {"type": "table", "file": "t.csv"}, "orders": [-1, 1]},
+            "quality": {"representation": "direct"}})",
+        "m");
+    const auto attached = [&](const rowland::test::TemporaryFolder& folder) {
+        type.attach(world_, entity_, extension, textures, (folder.path() / "scene.gltf").string(), "/materials/0");
+        return world_.get<DiffractionSurface>(entity_).material;
+    };
+    const rowland::test::TemporaryFolder dim;
+    const rowland::test::TemporaryFolder bright;
+    write_file_atomic(dim.path() / "t.csv", "wavelength_nm,R-1,R+1\n380,0.1,0.1\n780,0.1,0.1\n");
+    write_file_atomic(bright.path() / "t.csv", "wavelength_nm,R-1,R+1\n380,0.4,0.4\n780,0.4,0.4\n");
+    show(cook(kSlitCd, R"({"representation": "direct"})"));
+    const std::shared_ptr<const GpuMaterial> first = attached(dim);
+    EXPECT_NE(attached(bright), first);
+    EXPECT_EQ(attached(dim), first);
 }
 
 }  // namespace
