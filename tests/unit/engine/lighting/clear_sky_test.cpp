@@ -67,6 +67,9 @@ TEST(ClearSky, IsPlausibleDaylight) {
     const double chi = (4.0 / 9 - 3.0 / 120) * (std::numbers::pi / 2);
     const double zenith = (4.0453 * 3 - 4.9710) * std::tan(chi) - 0.2155 * 3 + 2.4192;
     EXPECT_NEAR(luminance(sky_radiance(recipe, {0, 1, 0})), zenith, 0.01 * zenith);
+    // F of Perez for Y, T = 3, at θ = 80° and 90° of azimuth from the sun, over F at the zenith: 1.1869 / 1.0250.
+    const glm::dvec3 low_sky(std::sin(glm::radians(80.0)), std::cos(glm::radians(80.0)), 0);
+    EXPECT_NEAR(luminance(sky_radiance(recipe, low_sky)), 1.1579 * zenith, 0.01 * zenith);
     // Blue away from the sun, and brighter toward it.
     const glm::dvec3 away = sky_radiance(recipe, glm::normalize(glm::dvec3(0, 1, 0.7)));
     EXPECT_GT(away.z, 1.5 * away.x);

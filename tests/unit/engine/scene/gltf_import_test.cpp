@@ -195,6 +195,17 @@ TEST(GltfImport, RangesAreCheckedWithoutOverflow) {
     EXPECT_THAT(with("scenes", "nodes", json::array({1})), HasSubstr("/scenes/0/nodes"));
 }
 
+TEST(GltfImport, ColumnsOfSmallMatricesBeginOnFourBytes) {
+    const auto with = [](std::size_t size) {
+        json file = document(5);
+        const std::vector<std::byte> bytes(size);
+        test::add_accessor(file, "MAT3", 5121, 2, bytes);
+        return error_of(file);
+    };
+    EXPECT_EQ(with(24), "no error");
+    EXPECT_THAT(with(20), HasSubstr("/accessors/1"));  // 18 would do without padding
+}
+
 TEST(GltfImport, SparseIndicesAndRangesAreChecked) {
     const auto with = [](std::uint16_t target, std::size_t count) {
         json file = document(5);
