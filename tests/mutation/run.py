@@ -4,7 +4,7 @@
 usage: tests/mutation/run.py [--check] [--first-only] [--work FOLDER] [WORD...]
 
   WORD          only faults whose description or file contains one of the words
-  --check       only look whether each fault's text occurs in the tree
+  --check       only look whether each fault's text and test programs occur in the tree
   --first-only  run the programs that a fault names, and not all quick tests if those pass
   --work FOLDER where the scratch copy is built (build/mutation); a later run continues there
 
@@ -60,9 +60,16 @@ def read_faults(words):
             if not words or any(word in fault.description or word in fault.file for word in words)]
 
 
+def test_programs(tree):
+    lists = tree.glob("tests/**/CMakeLists.txt")
+    return {name for file in lists for name in re.findall(r"rowland_test\((\w+)", file.read_text())}
+
+
 def misfits(faults, tree):
     found = []
+    programs = test_programs(tree)
     for fault in faults:
+        found += [f"{fault.file}: no test program {name}" for name in fault.programs if name not in programs]
         try:
             fault.broken(fault.find_file(tree).read_text())
         except ValueError as error:
