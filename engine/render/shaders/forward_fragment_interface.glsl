@@ -6,6 +6,7 @@
 // angle of this cosine. `f0`: the base's reflectance at normal incidence. Without it: light * schlick_reflectance().
 #include "engine/render/shaders/frame_block.h"
 #include "engine/render/shaders/object_block.h"
+#include "engine/render/shaders/ambient_light.glsl"
 
 in vec3 world_position;
 in vec3 world_normal;
@@ -21,6 +22,9 @@ in vec2 uv1;
 #endif
 #ifdef HAS_COLOURS
 in vec4 colour;
+#endif
+#ifdef AMBIENT_AT_VERTICES
+in vec3 ambient_at_vertex;
 #endif
 
 // What a material adds to, and leaves of, the engine's metallic-roughness surface. Working space.

@@ -6,27 +6,11 @@ layout(location = 0) out vec4 radiance;
 const float PI = 3.14159265358979;
 
 #include "engine/render/shaders/surface_maps.glsl"
-#ifdef KEY_LIGHTS
-#include "engine/render/shaders/key_light.glsl"
-#endif
 #if defined(DIRECTIONAL_LIGHTS) || defined(PUNCTUAL_LIGHTS)
 #include "engine/render/shaders/direct_light.glsl"
 #else
 vec3 direct_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness) { return vec3(0.0); }
 #endif
-
-// Irradiance / pi from the probe: nine SH terms [Ramamoorthi & Hanrahan 2001], and the key lights if they are apart.
-vec3 ambient_light(vec3 n) {
-    vec3 sum = 0.282095 * ambient[0].xyz;
-    sum += 0.488603 * (n.y * ambient[1].xyz + n.z * ambient[2].xyz + n.x * ambient[3].xyz);
-    sum += 1.092548 * (n.x * n.y * ambient[4].xyz + n.y * n.z * ambient[5].xyz + n.x * n.z * ambient[7].xyz);
-    sum += 0.315392 * (3.0 * n.z * n.z - 1.0) * ambient[6].xyz;
-    sum += 0.546274 * (n.x * n.x - n.y * n.y) * ambient[8].xyz;
-#ifdef KEY_LIGHTS
-    sum += key_irradiance(n) / PI;
-#endif
-    return max(sum, 0.0);
-}
 
 vec3 environment_light(vec3 direction, float roughness) {
     return textureLod(environment_map, direction, roughness * environment.x).rgb * environment.y;
@@ -55,7 +39,12 @@ vec3 base_radiance(vec3 base, vec3 n, vec3 v) {
     vec2 split = texture(brdf_table, vec2(n_v, roughness)).rg;
     vec3 from_mirror = environment_light(reflect(-v, n), roughness);
     vec3 reflected = environment_reflection(from_mirror, f0, n_v, split);
-    vec3 from_probe = (diffuse * ambient_light(n) + reflected) * surface_occlusion();
+#ifdef AMBIENT_AT_VERTICES
+    vec3 from_all_sides = ambient_at_vertex;
+#else
+    vec3 from_all_sides = ambient_light(n);
+#endif
+    vec3 from_probe = (diffuse * from_all_sides + reflected) * surface_occlusion();
     return from_probe + direct_light(n, v, diffuse, f0, roughness);
 }
 

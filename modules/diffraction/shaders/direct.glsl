@@ -1,5 +1,5 @@
-// Analytic lights, shaded by the colour kernel (PHYSICS §4): XYZ = sum of 1/2 s_n d k(d u) F * 2 D_h, the
-// kernel smoothed over the light and the pixel.
+// Analytic lights, shaded by the colour kernel (PHYSICS §4): the sum of 1/2 s_n d k(d u) F * 2 D_h, the kernel smoothed
+// over the light and the pixel.
 #include "modules/diffraction/shaders/small_light.glsl"
 #include "modules/diffraction/shaders/key_lobes.glsl"
 #include "modules/diffraction/shaders/key_lobe_parts.glsl"
@@ -17,29 +17,29 @@ float punctual_attenuation(Light light, float distance2, vec3 l);  // the engine
 float shadow_visibility(vec3 l);  // the engine's
 #endif
 
-// The lights that the vertices shade.
-vec3 lights_from_vertices_xyz() {
-    vec3 xyz = vec3(0.0);
+// The lights that the vertices shade. Working space, as all below.
+vec3 lights_from_vertices() {
+    vec3 sum = vec3(0.0);
 #ifdef LIGHTS_BESIDE
-    xyz += lights_at_vertex;
+    sum += lights_at_vertex;
 #endif
 #ifdef SHADOWED_AT_PIXELS
-    xyz += shadow_visibility(lights[0].position.xyz) * shadowed_at_vertex;
+    sum += shadow_visibility(lights[0].position.xyz) * shadowed_at_vertex;
 #endif
-    return xyz;
+    return sum;
 }
 
 #ifdef LIGHTS_AT_PIXELS
-vec3 direct_xyz(GrooveView view) {
-    vec3 xyz = vec3(0.0);
+vec3 direct_radiance(GrooveView view) {
+    vec3 sum = vec3(0.0);
 #ifdef SMALL_LIGHTS
     KernelRow row = kernel_row(view.pitch * 0.57735026918963 * view.footprint);
 #endif
 #ifndef LIGHTS_AT_VERTICES
 #if defined(KEY_LOBE_TABLE)
-    xyz += key_lights_xyz(view.axes, view.direction, view.footprint);
+    sum += key_lights_radiance(view.axes, view.direction, view.footprint);
 #elif defined(KEY_LOBES)
-    xyz += key_lights_xyz(view);
+    sum += key_lights_radiance(view);
 #endif
 #if defined(SEPARATE_LIGHTS) && defined(DIRECTIONAL_LIGHTS)
 #ifdef SEVERAL_DIRECTIONAL_LIGHTS
@@ -52,7 +52,7 @@ vec3 direct_xyz(GrooveView view) {
 #ifdef SHADOWS
         if (i == 0) visibility = shadow_visibility(lights[i].position.xyz);
 #endif
-        xyz += small_light_xyz(i, visibility, lights[i].position.xyz, view.axes, view.direction, row, view.pitch);
+        sum += small_light_radiance(i, visibility, lights[i].position.xyz, view.axes, view.direction, row, view.pitch);
     }
 #endif
 #endif
@@ -61,12 +61,12 @@ vec3 direct_xyz(GrooveView view) {
         vec3 to_light = lights[i].position.xyz - world_position;
         float distance2 = dot(to_light, to_light);
         vec3 l = to_light * inversesqrt(max(distance2, 1e-12));
-        xyz += small_light_xyz(i, punctual_attenuation(lights[i], distance2, l), l, view.axes, view.direction, row,
+        sum += small_light_radiance(i, punctual_attenuation(lights[i], distance2, l), l, view.axes, view.direction, row,
                                view.pitch);
     }
 #endif
-    return xyz;
+    return kernel_to_working(sum);
 }
 #elif !defined(VERTEX_SHADED)
-vec3 direct_xyz(GrooveView view) { return vec3(0.0); }
+vec3 direct_radiance(GrooveView view) { return vec3(0.0); }
 #endif
