@@ -9,7 +9,7 @@ const float PI = 3.14159265358979;
 #if defined(DIRECTIONAL_LIGHTS) || defined(PUNCTUAL_LIGHTS)
 #include "engine/render/shaders/direct_light.glsl"
 #else
-vec3 direct_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness) { return vec3(0.0); }
+vec3 direct_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness, inout vec3 added) { return vec3(0.0); }
 #endif
 
 vec3 environment_light(vec3 direction, float roughness) {
@@ -29,8 +29,9 @@ vec3 environment_reflection(vec3 light, vec3 f0, float n_v, vec2 split) {
 #endif
 }
 
-// The metallic-roughness surface: split sum [Karis 2013] over the prefiltered probe, and the lights.
-vec3 base_radiance(vec3 base, vec3 n, vec3 v) {
+// The metallic-roughness surface: split sum [Karis 2013] over the prefiltered probe, and the lights, whose part of the
+// material's own radiance goes to `added`.
+vec3 base_radiance(vec3 base, vec3 n, vec3 v, inout vec3 added) {
     vec2 factors = surface_metallic_roughness();
     float roughness = factors.y;
     vec3 f0 = mix(vec3(0.04), base, factors.x);
@@ -45,7 +46,7 @@ vec3 base_radiance(vec3 base, vec3 n, vec3 v) {
     vec3 from_all_sides = ambient_light(n);
 #endif
     vec3 from_probe = (diffuse * from_all_sides + reflected) * surface_occlusion();
-    return from_probe + direct_light(n, v, diffuse, f0, roughness);
+    return from_probe + direct_light(n, v, diffuse, f0, roughness, added);
 }
 
 void main() {
@@ -60,7 +61,8 @@ void main() {
     vec3 v = normalize(eye.xyz - world_position);
     vec3 n = surface_normal();
     MaterialTerms terms = material_terms();
-    sum += terms.added + terms.base_weight * base_radiance(base.rgb, n, v);
+    sum += terms.base_weight * base_radiance(base.rgb, n, v, terms.added);
+    sum += terms.added;
 #ifdef MATERIAL_HAS_MIRROR
     sum += terms.mirror_weight * environment_light(reflect(-v, n), 0.0);
 #endif

@@ -45,10 +45,3 @@ vec3 kernel_value(float u, float deviation, vec3 rgb) {
     }
     return value + zero_order_value(u, row.wide, rgb);
 }
-
-// The same for a light of one of the scene's colours, whose layer is given: `rgb` is `amount` times that colour.
-vec3 coloured_kernel_value(float u, KernelRow row, float layer, float amount, vec3 rgb) {
-    vec3 value = vec3(0.0);
-    if (kernel_reached(u, 5.0 * row.wide)) value = amount * kernel_scale_bias.w * kernel_texel(u, row, layer);
-    return value + zero_order_value(u, row.wide, rgb);
-}

@@ -24,10 +24,11 @@ vec3 key_lobe_radiance(int light, mat3 axes, vec3 direction, float footprint) {
     int taps = widths2 > 0.00390625 ? clamp(int(ceil(sqrt(widths2))), 2, 16) : 1;
     float aside = taps > 1 ? footprint * lobe_scale_bias.x * inversesqrt(1.0 - 1.0 / float(taps * taps)) : 0.0;
     vec3 value = vec3(0.0);
-    for (int i = 0; i < taps; ++i) {
+    int i = 0;
+    do {  // a loop with its condition first takes a sample more on processors
         float s = uv.x + aside * (float(2 * i + 1) / float(taps) - 1.0);
         value += textureLod(lobe_table, vec3(s, uv.y, light), 0.0).xyz;
-    }
+    } while (++i < taps);
     vec2 along = spread_along_grooves(toward.xyz * axes, moments);
     return lobe_scale_bias.z * key_lobes[light].flux.w / float(taps) * height *
            key_groove_factor(along.x + direction.y, along.y) * value;

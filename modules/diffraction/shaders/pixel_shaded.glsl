@@ -4,6 +4,7 @@
 MaterialTerms material_terms() {
     GrooveView view = groove_view();
     vec3 sum = lights_from_vertices();
-    if (view.direction.z > 0.0 && view.pitch > 0.0) sum += diffracted_radiance(view) + direct_radiance(view);
+    if (view.direction.z > 0.0 && view.pitch > 0.0) sum += diffracted_radiance(view) + key_lights_at_pixel(view);
+    prepare_lights(view);
     return MaterialTerms(base_weight, mirror_weight, sum);
 }

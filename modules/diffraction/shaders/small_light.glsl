@@ -13,14 +13,18 @@ vec3 pitch_kernel_value(float u, float deviation, vec3 rgb, float pitch) {
 #ifdef SMALL_LIGHTS
 uniform mat3 working_to_rec709;
 
-// Of lights[i]. `attenuation`: irradiance on a surface that faces the light, over its strength; `axes`: columns g, h, n
+// Adds lights[i]. `attenuation`: irradiance on a surface that faces the light, over its strength; `axes`: columns g, h, n
 // in the world; `direction`: toward the eye, in (g, h, n); `row`: of the pixel's footprint.
-vec3 small_light_radiance(int i, float attenuation, vec3 l, mat3 axes, vec3 direction, KernelRow row, float pitch) {
-    float weight = 0.5 * pitch * attenuation * max(dot(l, axes[2]), 0.0);
+void add_small_light(int i, float attenuation, vec3 l, mat3 axes, vec3 direction, KernelRow row, float pitch,
+                     inout vec3 sum) {
     float u = pitch * (dot(l, axes[0]) + direction.x);
-    return weight * groove_factor(dot(l, axes[1]) + direction.y, 0.0) *
-           coloured_kernel_value(u, row, light_colours[i].x, light_colours[i].y,
-                                 working_to_rec709 * lights[i].strength.rgb);
+    vec3 weight = 0.5 * pitch * attenuation * max(dot(l, axes[2]), 0.0) *
+                  groove_factor(dot(l, axes[1]) + direction.y, 0.0);
+#ifdef ZERO_ORDER
+    if (direction.z > 0.0) sum += weight * zero_order_value(u, row.wide, working_to_rec709 * lights[i].strength.rgb);
+#endif
+    if (direction.z > 0.0 && kernel_reached(u, 5.0 * row.wide))
+        sum += weight * (light_colours[i].y * kernel_scale_bias.w) * kernel_texel(u, row, light_colours[i].x);
 }
 #endif
 #endif

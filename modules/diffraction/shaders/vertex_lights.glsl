@@ -15,14 +15,14 @@ out vec3 shadowed_at_vertex;
 // The sum of the lights without shadows, working space. `axes`: columns g, h, n in the world.
 vec3 shade_lights(vec3 position, mat3 axes) {
     vec3 direction = normalize(eye.xyz - position) * axes;
-    float above = direction.z > 0.0 ? 1.0 : 0.0;
     vec3 sum = vec3(0.0);
 #ifdef KEY_LOBES
-    sum += above * key_lights_radiance(axes, direction, 0.0);
+    if (direction.z > 0.0) sum = key_lights_radiance(axes, direction, 0.0);
 #endif
 #ifdef DIRECTIONAL_LIGHTS
     KernelRow row = kernel_row(0.0);
-    vec3 first = above * small_light_radiance(0, 1.0, lights[0].position.xyz, axes, direction, row, 1.0);
+    vec3 first = vec3(0.0);
+    add_small_light(0, 1.0, lights[0].position.xyz, axes, direction, row, 1.0, first);
 #ifdef SHADOWED_AT_PIXELS
     shadowed_at_vertex = kernel_to_working(first);
 #else
@@ -30,7 +30,7 @@ vec3 shade_lights(vec3 position, mat3 axes) {
 #endif
 #ifdef SEVERAL_DIRECTIONAL_LIGHTS
     for (int i = 1; i < int(light_counts.x); ++i)
-        sum += above * small_light_radiance(i, 1.0, lights[i].position.xyz, axes, direction, row, 1.0);
+        add_small_light(i, 1.0, lights[i].position.xyz, axes, direction, row, 1.0, sum);
 #endif
 #endif
 #ifdef LIGHTS_BESIDE
