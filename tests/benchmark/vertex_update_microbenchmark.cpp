@@ -53,7 +53,7 @@ void rotate_light(State& state) {
 void arc_products(State& state) {
     const diffraction::CookedMaterial cooked = diffraction::cook_material(
         rowland::benchmark::cd_material({{"representation", "arc"}, {"bands", kUpdateBands}, {"rank", 8}}), "the CD");
-    const diffraction::ArcProducts products(std::get<diffraction::ArcTable>(cooked.tables));
+    const diffraction::ArcProducts products(std::get<diffraction::ArcTable>(cooked.tables), glm::dmat3(1.0));
     turn(state, [&](const lighting::ShLight& light, const scene::Mesh& mesh, const glm::mat4& matrix) {
         return products(light, mesh, matrix, 0.0);
     });

@@ -21,7 +21,7 @@ vec3 lamp_radiance(vec3 v, vec3 g, vec3 n, float footprint) {
     float s_g = dot(lamp_direction, g);
     float width = 0.5 * lamp_radius * sqrt(1.0 - s_g * s_g);  // the lamp's deviation in s_g, and below the pixel's
     float deviation = length(vec2(width, 0.57735 * footprint));
-    return 0.5 * max(dot(lamp_direction, n), 0.0) * kernel_xyz(s_g + dot(v, g), deviation, lamp_flux);
+    return 0.5 * max(dot(lamp_direction, n), 0.0) * kernel_value(s_g + dot(v, g), deviation, lamp_flux);
 }
 
 void main() {
@@ -32,7 +32,7 @@ void main() {
 
     vec3 probe = vec3(0.0), lamp = vec3(0.0);
     if (dot(v, n) > 0.0) {
-        probe = map_xyz(dot(v, g), g, n);
+        probe = map_radiance(dot(v, g), g, n);
         lamp = lamp_radiance(v, g, n, footprint);
     }
 

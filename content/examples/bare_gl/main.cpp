@@ -53,7 +53,8 @@ void bind_kernel(GLuint program, const diffraction::CookedMaterial& material) {
     const auto uniforms = diffraction::kernel_uniforms(material.kernel, kernel, pitch_nm);
     glProgramUniform4fv(program, glGetUniformLocation(program, "kernel_scale_bias"), 1,
                         glm::value_ptr(uniforms.scale_bias));
-    glProgramUniform2fv(program, glGetUniformLocation(program, "kernel_ends"), 1, glm::value_ptr(uniforms.ends));
+    glProgramUniform2fv(program, glGetUniformLocation(program, "kernel_rows"), 1, glm::value_ptr(uniforms.rows));
+    glProgramUniform2fv(program, glGetUniformLocation(program, "kernel_reach"), 1, glm::value_ptr(uniforms.reach));
 }
 
 // Bakes what the probe needs, and binds it: again whenever the probe, or the plane's normal, changes.
@@ -156,10 +157,11 @@ int main(int argc, char** argv) try {
     make_headless_context();
     const std::string from = "#version 450 core\n";
     const std::string rowland = std::string(ROWLAND_SHADERS) + "/modules/diffraction/";
-    const GLuint program = make_program(
-        {from, read_text(EXAMPLE_SHADERS "/disc.vert.glsl")},
-        {from, "#define LEVELS_PER_OCTAVE 2.0\n", read_text(rowland + "representations/planar/planar_map.glsl"),
-         read_text(rowland + "shaders/kernel.glsl"), read_text(EXAMPLE_SHADERS "/disc.frag.glsl")});
+    const GLuint program =
+        make_program({from, read_text(EXAMPLE_SHADERS "/disc.vert.glsl")},
+                     {from, "#define AZIMUTHS 256\n#define VIEWS 256\n",
+                      read_text(rowland + "representations/planar/planar_map.glsl"),
+                      read_text(rowland + "shaders/kernel.glsl"), read_text(EXAMPLE_SHADERS "/disc.frag.glsl")});
 
     const diffraction::CookedMaterial material = diffraction::load_cooked_material(argv[1]);
     bind_kernel(program, material);

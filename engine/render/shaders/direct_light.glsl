@@ -2,24 +2,37 @@
 // (of the first directional light).
 #include "engine/render/shaders/light_block.h"
 
-// Radiance that a light of this irradiance (on a surface that faces it) leaves toward v: GGX with height-correlated
-// Smith visibility [Heitz 2014].
-vec3 reflected_radiance(vec3 irradiance, vec3 l, vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness) {
-    vec3 h = normalize(l + v);
-    float n_l = max(dot(n, l), 0.0);
-    float n_v = max(dot(n, v), 1e-4);
-    float n_h = clamp(dot(n, h), 0.0, 1.0);
-    float v_h = clamp(dot(v, h), 0.0, 1.0);
-    float alpha2 = max(roughness * roughness * roughness * roughness, 1e-6);
-    float d = n_h * n_h * (alpha2 - 1.0) + 1.0;
-    float distribution = alpha2 / (PI * d * d);
-    float shadowing = n_l * sqrt(n_v * n_v * (1.0 - alpha2) + alpha2) + n_v * sqrt(n_l * n_l * (1.0 - alpha2) + alpha2);
+// The engine's surface at a pixel, and what it reflects of all lights.
+struct LitSurface {
+    vec3 n;
+    vec3 v;
+    vec3 diffuse;
+    vec3 f0;
+    float alpha2;
+    float n_v;        // signed
+    float masking;    // Smith's term of the view
+    vec3 radiance;
+};
+
+// Adds what the surface reflects of a light of this irradiance (on what faces it): GGX with height-correlated Smith
+// visibility [Heitz 2014]. l and v are unit vectors, so |l + v|² = 2 + 2 l·v.
+void add_light(vec3 irradiance, vec3 l, inout LitSurface surface) {
+    float v_l = dot(surface.v, l);
+    float inverse_length = inversesqrt(max(2.0 + 2.0 * v_l, 1e-12));
+    float n_l = dot(surface.n, l);
+    float n_h = clamp((n_l + surface.n_v) * inverse_length, 0.0, 1.0);
+    float v_h = clamp((1.0 + v_l) * inverse_length, 0.0, 1.0);
+    n_l = max(n_l, 0.0);
+    float d = n_h * n_h * (surface.alpha2 - 1.0) + 1.0;
+    float shadowing = n_l * surface.masking +
+                      max(surface.n_v, 1e-4) * sqrt(n_l * n_l * (1.0 - surface.alpha2) + surface.alpha2);
+    float microfacets = 0.5 * surface.alpha2 / (PI * d * d * max(shadowing, 1e-6));
 #ifdef MATERIAL_SPECULAR
-    vec3 specular = reflect_specular(irradiance, f0, v_h) * distribution * 0.5 / max(shadowing, 1e-6);
-    return (diffuse / PI * irradiance + specular) * n_l;
+    vec3 specular = reflect_specular(irradiance, surface.f0, v_h) * microfacets;
+    surface.radiance += (surface.diffuse / PI * irradiance + specular) * n_l;
 #else
-    vec3 fresnel = schlick_reflectance(f0, v_h);
-    return (diffuse / PI + fresnel * distribution * 0.5 / max(shadowing, 1e-6)) * n_l * irradiance;
+    vec3 fresnel = schlick_reflectance(surface.f0, v_h);
+    surface.radiance += (surface.diffuse / PI + fresnel * microfacets) * n_l * irradiance;
 #endif
 }
 
@@ -54,8 +67,13 @@ float punctual_attenuation(Light light, float distance2, vec3 l) {
     return window * cone * cone / max(distance2, 1e-8);
 }
 
-vec3 direct_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness) {
-    vec3 sum = vec3(0.0);
+// What the surface reflects. `added`: radiance of the material's own, to which it adds its part of the lights.
+vec3 direct_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness, inout vec3 added) {
+    float alpha2 = max(roughness * roughness * roughness * roughness, 1e-6);
+    float n_v = dot(n, v);
+    float facing = max(n_v, 1e-4);
+    float masking = sqrt(facing * facing * (1.0 - alpha2) + alpha2);
+    LitSurface surface = LitSurface(n, v, diffuse, f0, alpha2, n_v, masking, vec3(0.0));
 #ifdef DIRECTIONAL_LIGHTS
 #ifdef SEVERAL_DIRECTIONAL_LIGHTS
     int directional = int(light_counts.x);
@@ -63,11 +81,14 @@ vec3 direct_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness) {
     const int directional = 1;  // most scenes have one sun: a loop of unknown length costs a quarter of the frame
 #endif
     for (int i = 0; i < directional; ++i) {
-        vec3 irradiance = lights[i].strength.rgb;
+        float visibility = 1.0;
 #ifdef SHADOWS
-        if (i == 0) irradiance *= shadow_visibility(lights[i].position.xyz);
+        if (i == 0) visibility = shadow_visibility(lights[i].position.xyz);
 #endif
-        sum += reflected_radiance(irradiance, lights[i].position.xyz, n, v, diffuse, f0, roughness);
+        add_light(visibility * lights[i].strength.rgb, lights[i].position.xyz, surface);
+#ifdef MATERIAL_DIRECTIONAL_LIGHTS
+        material_light(i, visibility, lights[i].position.xyz, added);
+#endif
     }
 #endif
 #ifdef PUNCTUAL_LIGHTS
@@ -75,9 +96,12 @@ vec3 direct_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness) {
         vec3 to_light = lights[i].position.xyz - world_position;
         float distance2 = dot(to_light, to_light);
         vec3 l = to_light * inversesqrt(max(distance2, 1e-12));
-        vec3 irradiance = punctual_attenuation(lights[i], distance2, l) * lights[i].strength.rgb;
-        sum += reflected_radiance(irradiance, l, n, v, diffuse, f0, roughness);
+        float attenuation = punctual_attenuation(lights[i], distance2, l);
+        add_light(attenuation * lights[i].strength.rgb, l, surface);
+#ifdef MATERIAL_PUNCTUAL_LIGHTS
+        material_light(i, attenuation, l, added);
+#endif
     }
 #endif
-    return sum;
+    return surface.radiance;
 }

@@ -4,8 +4,13 @@
 //   vec3 reflect_specular(vec3 light, vec3 f0, float cosine);
 // the light that the base's microfacets reflect of `light` (radiance or irradiance, working space) that meets them at the
 // angle of this cosine. `f0`: the base's reflectance at normal incidence. Without it: light * schlick_reflectance().
+// If it defines MATERIAL_DIRECTIONAL_LIGHTS, MATERIAL_PUNCTUAL_LIGHTS or both, it also defines
+//   void material_light(int i, float attenuation, vec3 l, inout vec3 added);
+// which adds to its own radiance that of lights[i], of that kind. `attenuation`: irradiance on a surface that faces the
+// light, over its strength; `l`: toward it. Called after material_terms().
 #include "engine/render/shaders/frame_block.h"
 #include "engine/render/shaders/object_block.h"
+#include "engine/render/shaders/ambient_light.glsl"
 
 in vec3 world_position;
 in vec3 world_normal;
@@ -22,6 +27,9 @@ in vec2 uv1;
 #ifdef HAS_COLOURS
 in vec4 colour;
 #endif
+#ifdef AMBIENT_AT_VERTICES
+in vec3 ambient_at_vertex;
+#endif
 
 // What a material adds to, and leaves of, the engine's metallic-roughness surface. Working space.
 struct MaterialTerms {
@@ -32,4 +40,8 @@ struct MaterialTerms {
 };
 
 // Fresnel reflectance [Schlick 1994].
-vec3 schlick_reflectance(vec3 f0, float cosine) { return f0 + (1.0 - f0) * pow(1.0 - cosine, 5.0); }
+vec3 schlick_reflectance(vec3 f0, float cosine) {
+    float rise = 1.0 - cosine;
+    float rise2 = rise * rise;
+    return f0 + (1.0 - f0) * (rise2 * rise2 * rise);
+}

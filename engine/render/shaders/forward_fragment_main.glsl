@@ -6,27 +6,11 @@ layout(location = 0) out vec4 radiance;
 const float PI = 3.14159265358979;
 
 #include "engine/render/shaders/surface_maps.glsl"
-#ifdef KEY_LIGHTS
-#include "engine/render/shaders/key_light.glsl"
-#endif
 #if defined(DIRECTIONAL_LIGHTS) || defined(PUNCTUAL_LIGHTS)
 #include "engine/render/shaders/direct_light.glsl"
 #else
-vec3 direct_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness) { return vec3(0.0); }
+vec3 direct_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness, inout vec3 added) { return vec3(0.0); }
 #endif
-
-// Irradiance / pi from the probe: nine SH terms [Ramamoorthi & Hanrahan 2001], and the key lights if they are apart.
-vec3 ambient_light(vec3 n) {
-    vec3 sum = 0.282095 * ambient[0].xyz;
-    sum += 0.488603 * (n.y * ambient[1].xyz + n.z * ambient[2].xyz + n.x * ambient[3].xyz);
-    sum += 1.092548 * (n.x * n.y * ambient[4].xyz + n.y * n.z * ambient[5].xyz + n.x * n.z * ambient[7].xyz);
-    sum += 0.315392 * (3.0 * n.z * n.z - 1.0) * ambient[6].xyz;
-    sum += 0.546274 * (n.x * n.x - n.y * n.y) * ambient[8].xyz;
-#ifdef KEY_LIGHTS
-    sum += key_irradiance(n) / PI;
-#endif
-    return max(sum, 0.0);
-}
 
 vec3 environment_light(vec3 direction, float roughness) {
     return textureLod(environment_map, direction, roughness * environment.x).rgb * environment.y;
@@ -45,8 +29,9 @@ vec3 environment_reflection(vec3 light, vec3 f0, float n_v, vec2 split) {
 #endif
 }
 
-// The metallic-roughness surface: split sum [Karis 2013] over the prefiltered probe, and the lights.
-vec3 base_radiance(vec3 base, vec3 n, vec3 v) {
+// The metallic-roughness surface: split sum [Karis 2013] over the prefiltered probe, and the lights, whose part of the
+// material's own radiance goes to `added`.
+vec3 base_radiance(vec3 base, vec3 n, vec3 v, inout vec3 added) {
     vec2 factors = surface_metallic_roughness();
     float roughness = factors.y;
     vec3 f0 = mix(vec3(0.04), base, factors.x);
@@ -55,8 +40,13 @@ vec3 base_radiance(vec3 base, vec3 n, vec3 v) {
     vec2 split = texture(brdf_table, vec2(n_v, roughness)).rg;
     vec3 from_mirror = environment_light(reflect(-v, n), roughness);
     vec3 reflected = environment_reflection(from_mirror, f0, n_v, split);
-    vec3 from_probe = (diffuse * ambient_light(n) + reflected) * surface_occlusion();
-    return from_probe + direct_light(n, v, diffuse, f0, roughness);
+#ifdef AMBIENT_AT_VERTICES
+    vec3 from_all_sides = ambient_at_vertex;
+#else
+    vec3 from_all_sides = ambient_light(n);
+#endif
+    vec3 from_probe = (diffuse * from_all_sides + reflected) * surface_occlusion();
+    return from_probe + direct_light(n, v, diffuse, f0, roughness, added);
 }
 
 void main() {
@@ -71,7 +61,8 @@ void main() {
     vec3 v = normalize(eye.xyz - world_position);
     vec3 n = surface_normal();
     MaterialTerms terms = material_terms();
-    sum += terms.added + terms.base_weight * base_radiance(base.rgb, n, v);
+    sum += terms.base_weight * base_radiance(base.rgb, n, v, terms.added);
+    sum += terms.added;
 #ifdef MATERIAL_HAS_MIRROR
     sum += terms.mirror_weight * environment_light(reflect(-v, n), 0.0);
 #endif

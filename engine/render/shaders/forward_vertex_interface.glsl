@@ -4,6 +4,7 @@
 // coordinates defines HAS_UV or HAS_UV1 with its program.
 #include "engine/render/shaders/frame_block.h"
 #include "engine/render/shaders/object_block.h"
+#include "engine/render/shaders/ambient_light.glsl"
 
 layout(location = 0) in vec3 vertex_position;
 layout(location = 1) in vec3 vertex_normal;
@@ -26,6 +27,9 @@ out vec2 uv1;
 #ifdef HAS_COLOURS
 layout(location = 5) in vec4 vertex_colour;
 out vec4 colour;
+#endif
+#ifdef AMBIENT_AT_VERTICES
+out vec3 ambient_at_vertex;
 #endif
 #ifdef SKINNED
 layout(location = 6) in uvec4 vertex_joints;

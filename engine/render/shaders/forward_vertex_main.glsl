@@ -23,6 +23,9 @@ void main() {
     // A mirroring transform flips the cross product.
     world_tangent = vec4(g, vertex_tangent.w * mirroring);
 #endif
+#ifdef AMBIENT_AT_VERTICES
+    ambient_at_vertex = ambient_light(n);
+#endif
     pass_attributes();
     material_vertex(world.xyz, g, cross(n, g), n);
     gl_Position = view_projection * world;

@@ -100,10 +100,13 @@ BlurredKernel blur_for_lights(const KernelTable& kernel, double pitch_nm) {
 KernelUniforms kernel_uniforms(const KernelTable& kernel, const BlurredKernel& blurred, double pitch_nm) {
     const double step = 1.0 / blurred.columns;
     const double per_nm = (1.0 - step) / (blurred.end_nm - blurred.begin_nm);
-    const double reach_nm = std::max(std::abs(kernel.begin_nm), std::abs(kernel.end_nm));
-    return {.scale_bias = glm::dvec4(pitch_nm * per_nm, 0.5 * step - blurred.begin_nm * per_nm,
-                                     blurred.narrowest_nm / pitch_nm, pitch_nm),
-            .ends = glm::dvec2(colour::kVisibleMin, reach_nm) / pitch_nm};
+    const double narrowest = blurred.narrowest_nm / pitch_nm;
+    const double rows = static_cast<double>(kLevelsPerOctave) / blurred.levels;
+    const double nearest = colour::kVisibleMin / pitch_nm;
+    const double farthest = std::max(std::abs(kernel.begin_nm), std::abs(kernel.end_nm)) / pitch_nm;
+    return {.scale_bias = glm::dvec4(pitch_nm * per_nm, 0.5 * step - blurred.begin_nm * per_nm, narrowest, pitch_nm),
+            .rows = glm::dvec2(rows, 0.5 / blurred.levels - rows * std::log2(narrowest)),
+            .reach = 0.5 * glm::dvec2(farthest + nearest, farthest - nearest)};
 }
 
 }  // namespace rowland::diffraction

@@ -36,7 +36,8 @@ BlurredKernel blur_for_lights(const KernelTable& kernel, double pitch_nm);
 /// The uniforms of shaders/kernel.glsl, which looks up u = x/d instead of x.
 struct KernelUniforms {
     glm::vec4 scale_bias{0.0F};  ///< scale and offset from u to s; deviation of u in level 0; scale of the values: d
-    glm::vec2 ends{0.0F};        ///< |u| below and above which k is 0
+    glm::vec2 rows{0.0F};        ///< scale and offset from log2(deviation of u) to t
+    glm::vec2 reach{0.0F};       ///< k is 0 where |u| differs from x by more than y
 };
 KernelUniforms kernel_uniforms(const KernelTable& kernel, const BlurredKernel& blurred, double pitch_nm);
 

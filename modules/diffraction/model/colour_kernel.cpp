@@ -184,4 +184,9 @@ KernelTable tabulate(const ColourKernel& kernel, std::size_t entries) {
     return table;
 }
 
+KernelTable in_space(KernelTable kernel, const glm::dmat3& xyz_to_space) {
+    for (glm::mat3& value : kernel.antiderivative) value = glm::mat3(xyz_to_space * glm::dmat3(value));
+    return kernel;
+}
+
 }  // namespace rowland::diffraction

@@ -88,4 +88,7 @@ struct KernelTable {
 /// entries ≥ 2.
 KernelTable tabulate(const ColourKernel& kernel, std::size_t entries = 2048);
 
+/// The kernel that gives colours of another space instead of XYZ.
+KernelTable in_space(KernelTable kernel, const glm::dmat3& xyz_to_space);
+
 }  // namespace rowland::diffraction

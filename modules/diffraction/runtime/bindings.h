@@ -11,6 +11,7 @@ inline constexpr unsigned kStreakNodeBinding = 6;   ///< storage: numbered separ
 inline constexpr unsigned kTableUnit = 8;
 inline constexpr unsigned kWavelengthTableUnit = 9;
 inline constexpr unsigned kKernelUnit = 10;
+inline constexpr int kFirstColourLayer = 3;  ///< of the kernel's texture
 inline constexpr unsigned kMapUnit = 11;
 inline constexpr unsigned kRadianceUnit = 12;
 inline constexpr unsigned kGrooveMapUnit = 13;

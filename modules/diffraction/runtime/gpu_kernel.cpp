@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <glm/matrix.hpp>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "engine/colour/working_space.h"
@@ -13,11 +12,20 @@
 
 namespace rowland::diffraction {
 
+namespace {
+
+/// From XYZ to the colour space of the kernel's values: groove_lobe.glsl.
+glm::dmat3 kernel_space(const CookedMaterial& cooked, const glm::dmat3& xyz_to_working) {
+    return std::holds_alternative<PitsLobe>(cooked.material.grating.lobe) ? glm::dmat3(1.0) : xyz_to_working;
+}
+
+}  // namespace
+
 GpuKernel::GpuKernel(const CookedMaterial& cooked, const glm::dmat3& xyz_to_working)
-    : kernel_(cooked.kernel),
+    : kernel_(in_space(cooked.kernel, kernel_space(cooked, xyz_to_working))),
       pitch_nm_(cooked.material.grating.pitch_nm),
       lobe_(cooked.material.grating.lobe),
-      zero_order_(cooked.zero_order_xyz),
+      zero_order_(kernel_space(cooked, xyz_to_working) * cooked.zero_order_xyz),
       working_to_rec709_(glm::inverse(xyz_to_working * colour::rec709_to_xyz())) {}
 
 const BlurredKernel& GpuKernel::blurred() const {
@@ -32,7 +40,7 @@ GpuKernel::Smoothed GpuKernel::smooth(std::span<const glm::vec3> light_colours) 
                                                .format = gpu::Format::RGBA32F,
                                                .width = kernel.columns,
                                                .height = kernel.levels,
-                                               .depth = 3 + static_cast<int>(light_colours.size())},
+                                               .depth = kFirstColourLayer + static_cast<int>(light_colours.size())},
                                               {.filter = gpu::Filter::Linear}),
                       .colours{light_colours.begin(), light_colours.end()},
                       .uniforms = kernel_uniforms(kernel_, kernel, pitch_nm_)};
@@ -43,12 +51,12 @@ GpuKernel::Smoothed GpuKernel::smooth(std::span<const glm::vec3> light_colours) 
         smoothed.texture.upload(std::span<const glm::vec4>(texels), {.layer = layer});
     };
     for (int c = 0; c < 3; ++c) upload(glm::mat3(1.0F)[c], c);
-    for (std::size_t i = 0; i < light_colours.size(); ++i) upload(light_colours[i], 3 + static_cast<int>(i));
+    for (std::size_t i = 0; i < light_colours.size(); ++i)
+        upload(light_colours[i], kFirstColourLayer + static_cast<int>(i));
     return smoothed;
 }
 
 void GpuKernel::add_defines(gpu::ProgramDesc& desc) const {
-    desc.defines.push_back({"LEVELS_PER_OCTAVE", std::to_string(kLevelsPerOctave) + ".0"});
     if (zero_order_ != glm::mat3(0.0F)) desc.defines.push_back({"ZERO_ORDER", "1"});
     if (std::holds_alternative<GaussianLobe>(lobe_)) desc.defines.push_back({"LOBE_GAUSSIAN", "1"});
     if (std::holds_alternative<PitsLobe>(lobe_)) desc.defines.push_back({"LOBE_PITS", "1"});
@@ -71,14 +79,15 @@ void GpuKernel::bind(const gpu::Program& program, std::span<const lighting::KeyL
                      std::span<const glm::vec3> light_colours) const {
     if (program.has_uniform("lobe_scale_bias")) {
         lobes_.set(blurred(), pitch_nm_, key_lights);
-        lobes_.bind(program, pitch_nm_);
+        lobes_.bind(program, kernel_uniforms(kernel_, blurred(), pitch_nm_), pitch_nm_);
     }
     set_lobe(program);
     if (!program.has_uniform("kernel_scale_bias")) return;
     if (!smoothed_ || !std::ranges::equal(smoothed_->colours, light_colours)) smoothed_ = smooth(light_colours);
     smoothed_->texture.bind(kKernelUnit);
     program.set("kernel_scale_bias", smoothed_->uniforms.scale_bias);
-    program.set("kernel_ends", smoothed_->uniforms.ends);
+    program.set("kernel_rows", smoothed_->uniforms.rows);
+    program.set("kernel_reach", smoothed_->uniforms.reach);
     program.set("zero_order", zero_order_);
     program.set("working_to_rec709", working_to_rec709_);
 }

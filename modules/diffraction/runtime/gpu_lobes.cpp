@@ -54,10 +54,12 @@ void GpuLobes::set(const BlurredKernel& kernel, double pitch_nm, std::span<const
     scale_ = largest;
 }
 
-void GpuLobes::bind(const gpu::Program& program, double pitch_nm) const {
+void GpuLobes::bind(const gpu::Program& program, const KernelUniforms& kernel, double pitch_nm) const {
     if (lights_.empty() || !program.has_uniform("lobe_scale_bias")) return;
     texture_.bind(kLobeUnit);
     const double extent_nm = end_nm_ - begin_nm_;
+    // Five deviations of the kernel's own smoothing.
+    program.set("lobe_reach", kernel.reach + glm::vec2(0.0F, 5.0F * kernel.scale_bias.z));
     program.set("lobe_scale_bias", glm::vec3(glm::dvec3(pitch_nm / extent_nm, -begin_nm_ / extent_nm, double{scale_})));
 }
 

@@ -16,7 +16,7 @@ class GpuLobes {
  public:
     /// Rebuilds the layers if the lights' fluxes or concentrations changed.
     void set(const BlurredKernel& kernel, double pitch_nm, std::span<const lighting::KeyLight> lights);
-    void bind(const gpu::Program& program, double pitch_nm) const;
+    void bind(const gpu::Program& program, const KernelUniforms& kernel, double pitch_nm) const;
 
  private:
     gpu::Texture texture_;

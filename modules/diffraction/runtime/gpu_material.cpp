@@ -30,6 +30,8 @@ static_assert(std::tuple_size_v<GpuClasses> == kRepresentationCount);
 GpuMaterial::GpuMaterial(const CookedMaterial& cooked, const glm::dmat3& xyz_to_working)
     : cooked_(std::make_shared<const CookedMaterial>(cooked)),
       base_{.base_colour = cooked.material.base.colour, .metallic = 0.0F, .roughness = cooked.material.base.roughness},
+      working_kernel_(in_space(cooked.kernel, xyz_to_working)),
+      working_zero_order_(xyz_to_working * cooked.zero_order_xyz),
       key_lights_(cooked.material.quality.key_lights),
       separate_lights_(key_lights_ || info(cooked.tables).is_map),
       lights_at_vertices_(cooked.material.quality.lights_at_vertices && cooked.zero_order_xyz == glm::dmat3(0.0)),
@@ -43,6 +45,8 @@ gpu::ProgramDesc GpuMaterial::program(const SurfaceState& state) const {
     gpu::ProgramDesc desc;
     describe(state, desc);
     if (separate_lights_) desc.defines.push_back({"SEPARATE_LIGHTS", "1"});
+    // It is nearly linear between vertices, and at the pixels a fifth of the plain surface.
+    desc.defines.push_back({"AMBIENT_AT_VERTICES", "1"});
     if (!key_lights_) desc.defines.push_back({"NO_KEY_LIGHTS", "1"});
     kernel_.add_defines(desc);
     if (state.grooves) state.grooves->add_defines(desc);

@@ -78,6 +78,10 @@ class GpuMaterial {
  protected:
     GpuMaterial(const CookedMaterial& cooked, const glm::dmat3& xyz_to_working);
 
+    /// The kernel and order 0 of cooked() in the working space.
+    const KernelTable& working_kernel() const { return working_kernel_; }
+    const glm::dmat3& working_zero_order() const { return working_zero_order_; }
+
     /// The representation's shader files and defines.
     virtual void describe(const SurfaceState& state, gpu::ProgramDesc& desc) const = 0;
     virtual void bind_tables(const gpu::Program& program, const SurfaceState& state) const = 0;
@@ -87,6 +91,8 @@ class GpuMaterial {
     render::StandardMaterial base_;
     glm::vec3 mirror_weight_{0.0F};
     glm::vec3 base_weight_{1.0F};
+    KernelTable working_kernel_;
+    glm::dmat3 working_zero_order_;
     bool key_lights_;
     bool separate_lights_;  ///< directional lights are shaded light by light
     bool lights_at_vertices_;

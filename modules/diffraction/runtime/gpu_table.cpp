@@ -69,11 +69,15 @@ std::vector<glm::vec4> ranges(const PackedTexels& packed) {
 
 GpuTable::GpuTable(const PackedTexels& packed, const ViewGrid& grid)
     : mapping_(grid.mapping),
+      columns_(grid.columns),
+      rows_(grid.rows),
       texture_(make_texture(packed, grid)),
       ranges_(gpu::Buffer::of(std::span<const glm::vec4>(ranges(packed)))) {}
 
 void GpuTable::add_defines(gpu::ProgramDesc& desc) const {
     desc.defines.push_back({"VIEW_MAPPING", std::to_string(static_cast<int>(mapping_))});
+    desc.defines.push_back({"TABLE_COLUMNS", std::to_string(columns_)});
+    desc.defines.push_back({"TABLE_ROWS", std::to_string(rows_)});
 }
 
 void GpuTable::bind() const {

@@ -19,6 +19,8 @@ class GpuTable {
 
  private:
     ViewMapping mapping_;
+    int columns_;
+    int rows_;
     gpu::Texture texture_;
     gpu::Buffer ranges_;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/gtx/component_wise.hpp>
 #include <glm/vector_relational.hpp>
 #include <vector>
 
@@ -25,8 +26,9 @@ KeyLobe key_lobe(const lighting::KeyLight& light) {
     const double step = std::sqrt(3.0 * kBetween / light.concentration);
     const double variance = (1.0 - kBetween) / light.concentration;
     return {.direction = glm::vec4(glm::dvec4(light.direction, light.concentration)),
-            .flux = glm::vec4(glm::dvec4(light.flux, 0.0)),
-            .moments = glm::vec4(glm::dvec4(moments.mean, moments.variance_along, moments.variance_across, 0.0)),
+            .flux = glm::vec4(glm::dvec4(light.flux, glm::compMax(light.flux))),
+            .moments = glm::vec4(glm::dvec4(moments.mean, moments.variance_along - moments.variance_across,
+                                            moments.variance_across, 5.2 * std::sqrt(moments.variance_across))),
             .nodes = glm::vec4(glm::dvec4(std::cos(step), std::sin(step), variance, std::exp(-0.5 * variance)))};
 }
 
@@ -46,7 +48,7 @@ void SurfaceLight::set_light_colours(std::span<const glm::vec3> strengths) {
             return glm::all(glm::lessThan(glm::abs(other - colour), glm::vec3(kSameColour)));
         });
         colour_block_.light_colours[i] =
-            glm::vec4(static_cast<float>(same - light_colours_.begin()), largest, 0.0F, 0.0F);
+            glm::vec4(static_cast<float>(kFirstColourLayer + (same - light_colours_.begin())), largest, 0.0F, 0.0F);
         if (same == light_colours_.end()) light_colours_.push_back(colour);
     }
 }

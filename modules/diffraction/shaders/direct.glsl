@@ -1,5 +1,5 @@
-// Analytic lights, shaded by the colour kernel (PHYSICS §4): XYZ = sum of 1/2 s_n d k(d u) F * 2 D_h, the
-// kernel smoothed over the light and the pixel.
+// Analytic lights, shaded by the colour kernel (PHYSICS §4): the sum of 1/2 s_n d k(d u) F * 2 D_h, the kernel smoothed
+// over the light and the pixel.
 #include "modules/diffraction/shaders/small_light.glsl"
 #include "modules/diffraction/shaders/key_lobes.glsl"
 #include "modules/diffraction/shaders/key_lobe_parts.glsl"
@@ -10,63 +10,59 @@ in vec3 lights_at_vertex;
 #ifdef SHADOWED_AT_PIXELS
 in vec3 shadowed_at_vertex;
 #endif
-#ifdef PUNCTUAL_LIGHTS
-float punctual_attenuation(Light light, float distance2, vec3 l);  // the engine's
-#endif
-#ifdef SHADOWS
+#ifdef SHADOWED_AT_PIXELS
 float shadow_visibility(vec3 l);  // the engine's
 #endif
 
-// The lights that the vertices shade.
-vec3 lights_from_vertices_xyz() {
-    vec3 xyz = vec3(0.0);
+// The lights that the vertices shade. Working space, as all below.
+vec3 lights_from_vertices() {
+    vec3 sum = vec3(0.0);
 #ifdef LIGHTS_BESIDE
-    xyz += lights_at_vertex;
+    sum += lights_at_vertex;
 #endif
 #ifdef SHADOWED_AT_PIXELS
-    xyz += shadow_visibility(lights[0].position.xyz) * shadowed_at_vertex;
+    sum += shadow_visibility(lights[0].position.xyz) * shadowed_at_vertex;
 #endif
-    return xyz;
+    return sum;
 }
 
-#ifdef LIGHTS_AT_PIXELS
-vec3 direct_xyz(GrooveView view) {
-    vec3 xyz = vec3(0.0);
-#ifdef SMALL_LIGHTS
-    KernelRow row = kernel_row(view.pitch * 0.57735026918963 * view.footprint);
-#endif
-#ifndef LIGHTS_AT_VERTICES
-#if defined(KEY_LOBE_TABLE)
-    xyz += key_lights_xyz(view.axes, view.direction, view.footprint);
-#elif defined(KEY_LOBES)
-    xyz += key_lights_xyz(view);
-#endif
-#if defined(SEPARATE_LIGHTS) && defined(DIRECTIONAL_LIGHTS)
-#ifdef SEVERAL_DIRECTIONAL_LIGHTS
-    int directional = int(light_counts.x);
+#if defined(KEY_LOBES) && !defined(LIGHTS_AT_VERTICES)
+vec3 key_lights_at_pixel(GrooveView view) {
+#ifdef KEY_LOBE_TABLE
+    return kernel_to_working(key_lights_radiance(view.axes, view.direction, view.footprint));
 #else
-    const int directional = 1;
+    return kernel_to_working(key_lights_radiance(view));
 #endif
-    for (int i = 0; i < directional; ++i) {
-        float visibility = 1.0;
-#ifdef SHADOWS
-        if (i == 0) visibility = shadow_visibility(lights[i].position.xyz);
-#endif
-        xyz += small_light_xyz(i, visibility, lights[i].position.xyz, view.axes, view.direction, row, view.pitch);
-    }
-#endif
-#endif
-#ifdef PUNCTUAL_LIGHTS
-    for (int i = int(light_counts.x); i < int(light_counts.y); ++i) {
-        vec3 to_light = lights[i].position.xyz - world_position;
-        float distance2 = dot(to_light, to_light);
-        vec3 l = to_light * inversesqrt(max(distance2, 1e-12));
-        xyz += small_light_xyz(i, punctual_attenuation(lights[i], distance2, l), l, view.axes, view.direction, row,
-                               view.pitch);
-    }
-#endif
-    return xyz;
 }
-#elif !defined(VERTEX_SHADED)
-vec3 direct_xyz(GrooveView view) { return vec3(0.0); }
+#elif !defined(VERTEX_SHADED) || defined(LIGHTS_AT_PIXELS)
+vec3 key_lights_at_pixel(GrooveView view) { return vec3(0.0); }
+#endif
+
+// The scene's lights, which the engine's loop over them calls for.
+#ifdef PUNCTUAL_LIGHTS
+#define MATERIAL_PUNCTUAL_LIGHTS
+#endif
+#if defined(DIRECTIONAL_LIGHTS) && defined(SEPARATE_LIGHTS) && !defined(LIGHTS_AT_VERTICES)
+#define MATERIAL_DIRECTIONAL_LIGHTS
+#endif
+#if defined(MATERIAL_PUNCTUAL_LIGHTS) || defined(MATERIAL_DIRECTIONAL_LIGHTS)
+GrooveView lit_view;
+KernelRow lit_row;
+
+void prepare_lights(GrooveView view) {
+    lit_view = view;
+    lit_row = kernel_row(view.pitch * 0.57735026918963 * view.footprint);
+}
+
+void material_light(int i, float attenuation, vec3 l, inout vec3 added) {
+#ifdef LOBE_PITS
+    vec3 xyz = vec3(0.0);
+    add_small_light(i, attenuation, l, lit_view.axes, lit_view.direction, lit_row, lit_view.pitch, xyz);
+    added += kernel_to_working(xyz);
+#else
+    add_small_light(i, attenuation, l, lit_view.axes, lit_view.direction, lit_row, lit_view.pitch, added);
+#endif
+}
+#elif !defined(VERTEX_SHADED) || defined(LIGHTS_AT_PIXELS)
+void prepare_lights(GrooveView view) {}
 #endif

@@ -40,3 +40,12 @@ vec3 key_groove_factor(float sum_h, float deviation_h) { return pits_factor(sum_
 #else
 vec3 key_groove_factor(float sum_h, float deviation_h) { return groove_factor(sum_h, deviation_h); }
 #endif
+
+// The kernel's values are in the working space; with pits, which have a factor each for X, Y and Z, in XYZ.
+vec3 kernel_to_working(vec3 value) {
+#ifdef LOBE_PITS
+    return mat3(xyz_to_working) * value;
+#else
+    return value;
+#endif
+}

@@ -18,13 +18,12 @@ struct GrooveView {
     float pitch;      // over the material's; 0: no grating here
 };
 
-// The interpolated grating vector, made orthonormal to the normal. Where the vertices' vectors cancel, as at a disc's
-// hub, any vector is used.
+// The interpolated grating vector, made orthonormal to the normal; shorter where the vertices' vectors cancel, as at a
+// disc's hub.
 mat3 groove_axes() {
     vec3 n = normalize(world_normal);
     vec3 g = world_grating - n * dot(n, world_grating);
-    if (dot(g, g) < 1e-12) g = cross(n, abs(n.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
-    g = normalize(g);
+    g *= inversesqrt(max(dot(g, g), 1e-12));
     return mat3(g, cross(n, g), n);
 }
 

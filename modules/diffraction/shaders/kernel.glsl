@@ -1,16 +1,15 @@
 // d k(d u), the colour kernel smoothed by a normal distribution of u: bake/blurred_kernel.h. Layers for red, green and
-// blue light, then one for each colour of the scene's lights.
+// blue light, then one for each colour of the scene's lights. Values are in the colour space of the stored ones.
 layout(binding = 10) uniform sampler2DArray kernel_table;
 uniform vec4 kernel_scale_bias;  // scale and offset from u to s; deviation of u in row 0; scale of the values
-uniform vec2 kernel_ends;   // |u| below and above which k is 0
+uniform vec2 kernel_rows;        // scale and offset from log2(deviation of u) to t
+uniform vec2 kernel_reach;       // k is 0 where |u| differs from x by more than y
 #ifdef ZERO_ORDER
-uniform mat3 zero_order;  // RGB in, XYZ out
+uniform mat3 zero_order;  // RGB in
 #endif
 
 // Whether k is other than 0 somewhere within `reach` of u.
-bool kernel_reached(float u, float reach) {
-    return abs(u) + reach > kernel_ends.x && abs(u) - reach < kernel_ends.y;
-}
+bool kernel_reached(float u, float reach) { return abs(abs(u) - kernel_reach.x) < kernel_reach.y + reach; }
 
 // A deviation's row of the table.
 struct KernelRow {
@@ -20,15 +19,14 @@ struct KernelRow {
 
 KernelRow kernel_row(float deviation) {
     float wide = max(deviation, kernel_scale_bias.z);
-    float levels = float(textureSize(kernel_table, 0).y);
-    return KernelRow(wide, (log2(wide / kernel_scale_bias.z) * LEVELS_PER_OCTAVE + 0.5) / levels);
+    return KernelRow(wide, log2(wide) * kernel_rows.x + kernel_rows.y);
 }
 
 vec3 kernel_texel(float u, KernelRow row, float layer) {
     return textureLod(kernel_table, vec3(u * kernel_scale_bias.x + kernel_scale_bias.y, row.t, layer), 0.0).xyz;
 }
 
-vec3 zero_order_xyz(float u, float wide, vec3 rgb) {
+vec3 zero_order_value(float u, float wide, vec3 rgb) {
 #ifdef ZERO_ORDER
     float z = u / wide;
     return zero_order * rgb * (0.39894228040143 * exp(-0.5 * z * z) / wide);
@@ -37,20 +35,13 @@ vec3 zero_order_xyz(float u, float wide, vec3 rgb) {
 #endif
 }
 
-vec3 kernel_xyz(float u, float deviation, vec3 rgb) {
+vec3 kernel_value(float u, float deviation, vec3 rgb) {
     KernelRow row = kernel_row(deviation);
-    vec3 xyz = vec3(0.0);
+    vec3 value = vec3(0.0);
     // Most lights miss the orders: no look-up is needed for them.
     if (kernel_reached(u, 5.0 * row.wide)) {
-        for (int c = 0; c < 3; ++c) xyz += rgb[c] * kernel_texel(u, row, float(c));
-        xyz *= kernel_scale_bias.w;
+        for (int c = 0; c < 3; ++c) value += rgb[c] * kernel_texel(u, row, float(c));
+        value *= kernel_scale_bias.w;
     }
-    return xyz + zero_order_xyz(u, row.wide, rgb);
-}
-
-// The same for a light of one of the scene's colours: `rgb` is `amount` times that colour.
-vec3 coloured_kernel_xyz(float u, KernelRow row, float colour, float amount, vec3 rgb) {
-    vec3 xyz = vec3(0.0);
-    if (kernel_reached(u, 5.0 * row.wide)) xyz = amount * kernel_scale_bias.w * kernel_texel(u, row, 3.0 + colour);
-    return xyz + zero_order_xyz(u, row.wide, rgb);
+    return value + zero_order_value(u, row.wide, rgb);
 }

@@ -9,8 +9,9 @@ using glm::vec4;
 #define ROWLAND_MAXIMUM_KEY_LOBES 64
 struct KeyLobe {
     vec4 direction;  // xyz: unit, toward the light; w: concentration
-    vec4 flux;       // xyz: linear Rec.709 radiance * sr
-    vec4 moments;    // mean of the cosine; variance along the direction; variance across it
+    vec4 flux;       // xyz: linear Rec.709 radiance * sr; w: their largest
+    vec4 moments;    // mean of the cosine; variance along the direction, less that across it; variance across it; 5.2
+                     // deviations across it
     vec4 nodes;      // cosine and sine of the outer nodes' angle; variance about a node; exp(-variance / 2)
 };
 #ifdef __cplusplus

@@ -3,11 +3,11 @@
 #include "modules/diffraction/shaders/small_light.glsl"
 #if defined(KEY_LOBES) && !defined(KEY_LOBE_TABLE)
 
-vec3 key_lobe_xyz(KeyLobe lobe, GrooveView view) {
+vec3 key_lobe_radiance(KeyLobe lobe, GrooveView view) {
     float footprint_deviation = 0.57735026918963 * view.footprint;
     vec3 axis = lobe.direction.xyz * view.axes;
     // Five deviations below the horizon, 5e-8 of the lobe's cosine remains.
-    if (axis.z * lobe.moments.x < -5.0 * sqrt(lobe.moments.z + lobe.moments.y)) return vec3(0.0);
+    if (axis.z * lobe.moments.x < -lobe.moments.w) return vec3(0.0);
 #ifndef ZERO_ORDER
     // The parts lie within 2.3 deviations of the lobe's direction, and each reaches 5 times 0.84 of one.
     float reach = view.pitch * (6.5 * sqrt(lobe.moments.z) + 5.0 * footprint_deviation) + 5.0 * kernel_scale_bias.z;
@@ -15,7 +15,7 @@ vec3 key_lobe_xyz(KeyLobe lobe, GrooveView view) {
 #endif
     axis.x = clamp(axis.x, -1.0, 1.0);
     float across = max(length(axis.yz), 1e-6);
-    vec3 xyz = vec3(0.0);
+    vec3 sum = vec3(0.0);
     float whole = 0.0;
     for (int i = 0; i < 3; ++i) {
         float weight;
@@ -23,16 +23,16 @@ vec3 key_lobe_xyz(KeyLobe lobe, GrooveView view) {
         whole += weight;
         if (part.cosine <= 0.0) continue;
         float deviation = length(vec2(part.deviation, footprint_deviation));
-        xyz += part.cosine * pitch_kernel_xyz(part.centre + view.direction.x, deviation, lobe.flux.rgb, view.pitch);
+        sum += part.cosine * pitch_kernel_value(part.centre + view.direction.x, deviation, lobe.flux.rgb, view.pitch);
     }
-    vec2 along = spread_along_grooves(lobe, axis);
-    return 0.5 / max(whole, 1e-6) * key_groove_factor(along.x + view.direction.y, along.y) * xyz;
+    vec2 along = spread_along_grooves(axis, lobe.moments);
+    return 0.5 / max(whole, 1e-6) * key_groove_factor(along.x + view.direction.y, along.y) * sum;
 }
 
-vec3 key_lights_xyz(GrooveView view) {
-    vec3 xyz = vec3(0.0);
-    for (int i = 0; i < int(key_lobe_count.x); ++i) xyz += key_lobe_xyz(key_lobes[i], view);
-    return xyz;
+vec3 key_lights_radiance(GrooveView view) {
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < int(key_lobe_count.x); ++i) sum += key_lobe_radiance(key_lobes[i], view);
+    return sum;
 }
 
 #endif

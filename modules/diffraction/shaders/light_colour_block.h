@@ -1,5 +1,4 @@
-// The colour of each of the engine's lights[], which chooses its layer of the kernel table. Included by C++ and GLSL;
-// std140.
+// The colour of each of the engine's lights[]. Included by C++ and GLSL; std140.
 #include "engine/render/shaders/light_block.h"
 #ifdef __cplusplus
 #pragma once
@@ -10,7 +9,8 @@ struct LightColourBlock {
 #else
 layout(std140, binding = 7) uniform LightColourBlock {
 #endif
-    vec4 light_colours[ROWLAND_MAXIMUM_LIGHTS];  // x: which colour; y: the light's strength over that colour
+    vec4 light_colours[ROWLAND_MAXIMUM_LIGHTS];  // x: its colour's layer of the kernel table; y: the light's strength
+                                                 // over that colour
 #ifdef __cplusplus
 };
 static_assert(sizeof(LightColourBlock) == 16 * ROWLAND_MAXIMUM_LIGHTS, "must equal the std140 layout");

@@ -43,18 +43,19 @@ LightPart lobe_part(KeyLobe lobe, vec3 axis, float across, int part, out float w
 }
 
 #if defined(LOBE_GAUSSIAN) || defined(LOBE_PITS)
-// Mean and deviation of s_h, directions weighted by s_n above the horizon: direct.cpp, clamp_at_horizon().
-vec2 spread_along_grooves(KeyLobe lobe, vec3 axis) {
-    float elongation = lobe.moments.y - lobe.moments.z;
-    float variance_n = max(elongation * axis.z * axis.z + lobe.moments.z, 0.0);
-    float variance_h = elongation * axis.y * axis.y + lobe.moments.z;
-    float mean = lobe.moments.x * axis.z;
+// Mean and deviation of s_h, directions weighted by s_n above the horizon: direct.cpp, clamp_at_horizon(). `axis`: the
+// lobe's direction in (g, h, n).
+vec2 spread_along_grooves(vec3 axis, vec4 moments) {
+    float elongation = moments.y;
+    float variance_n = max(elongation * axis.z * axis.z + moments.z, 0.0);
+    float variance_h = elongation * axis.y * axis.y + moments.z;
+    float mean = moments.x * axis.z;
     float deviation = sqrt(variance_n);
-    float first = clamped_mean(mean, deviation);
-    float centre = lobe.moments.x * axis.y;
-    if (first <= 1e-6 * deviation || variance_n <= 0.0) return vec2(centre, sqrt(max(variance_h, 0.0)));
+    float centre = moments.x * axis.y;
     float below = normal_cdf(mean / deviation);
     float density = deviation * normal_density(mean / deviation);
+    float first = mean * below + density;
+    if (!(first > 1e-6 * deviation)) return vec2(centre, sqrt(max(variance_h, 0.0)));
     float weighted = ((mean * mean + variance_n) * below + mean * density) / first;
     float third = mean * (mean * mean + 3.0 * variance_n) * below + (mean * mean + 2.0 * variance_n) * density;
     float slope = elongation * axis.y * axis.z / variance_n;
@@ -63,6 +64,6 @@ vec2 spread_along_grooves(KeyLobe lobe, vec3 axis) {
     return vec2(centre + slope * (weighted - mean), sqrt(rest + slope * slope * weighted_variance));
 }
 #else
-vec2 spread_along_grooves(KeyLobe lobe, vec3 axis) { return vec2(0.0); }
+vec2 spread_along_grooves(vec3 axis, vec4 moments) { return vec2(0.0); }
 #endif
 #endif

@@ -6,20 +6,25 @@
 #include "modules/diffraction/shaders/light_colour_block.h"
 
 // d k(d u) for the pixel's own d = `pitch` times the material's.
-vec3 pitch_kernel_xyz(float u, float deviation, vec3 rgb, float pitch) {
-    return pitch * kernel_xyz(pitch * u, pitch * deviation, rgb);
+vec3 pitch_kernel_value(float u, float deviation, vec3 rgb, float pitch) {
+    return pitch * kernel_value(pitch * u, pitch * deviation, rgb);
 }
 
 #ifdef SMALL_LIGHTS
 uniform mat3 working_to_rec709;
 
-// Of lights[i]. `attenuation`: irradiance on a surface that faces the light, over its strength; `axes`: columns g, h, n
+// Adds lights[i]. `attenuation`: irradiance on a surface that faces the light, over its strength; `axes`: columns g, h, n
 // in the world; `direction`: toward the eye, in (g, h, n); `row`: of the pixel's footprint.
-vec3 small_light_xyz(int i, float attenuation, vec3 l, mat3 axes, vec3 direction, KernelRow row, float pitch) {
-    vec3 s = l * axes;
-    vec3 weight = 0.5 * max(s.z, 0.0) * attenuation * groove_factor(s.y + direction.y, 0.0) * pitch;
-    return weight * coloured_kernel_xyz(pitch * (s.x + direction.x), row, light_colours[i].x, light_colours[i].y,
-                                        working_to_rec709 * lights[i].strength.rgb);
+void add_small_light(int i, float attenuation, vec3 l, mat3 axes, vec3 direction, KernelRow row, float pitch,
+                     inout vec3 sum) {
+    float u = pitch * (dot(l, axes[0]) + direction.x);
+    vec3 weight = 0.5 * pitch * attenuation * max(dot(l, axes[2]), 0.0) *
+                  groove_factor(dot(l, axes[1]) + direction.y, 0.0);
+#ifdef ZERO_ORDER
+    if (direction.z > 0.0) sum += weight * zero_order_value(u, row.wide, working_to_rec709 * lights[i].strength.rgb);
+#endif
+    if (direction.z > 0.0 && kernel_reached(u, 5.0 * row.wide))
+        sum += weight * (light_colours[i].y * kernel_scale_bias.w) * kernel_texel(u, row, light_colours[i].x);
 }
 #endif
 #endif

@@ -5,9 +5,9 @@
 layout(binding = 11) uniform sampler2D still;  // XYZ times alpha; alpha: the known fraction
 uniform vec2 still_scale;                      // pixels to texture coordinates
 
-vec3 diffracted_xyz(GrooveView view) {
+vec3 diffracted_radiance(GrooveView view) {
     vec4 texel = texture(still, gl_FragCoord.xy * still_scale);
-    return texel.a > 0.0 ? texel.rgb / texel.a : vec3(0.0);
+    return texel.a > 0.0 ? mat3(xyz_to_working) * texel.rgb / texel.a : vec3(0.0);
 }
 
 #include "modules/diffraction/shaders/pixel_shaded.glsl"

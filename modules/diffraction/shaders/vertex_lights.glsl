@@ -12,31 +12,31 @@ out vec3 lights_at_vertex;
 out vec3 shadowed_at_vertex;
 #endif
 
-// The sum of the lights without shadows. `axes`: columns g, h, n in the world.
+// The sum of the lights without shadows, working space. `axes`: columns g, h, n in the world.
 vec3 shade_lights(vec3 position, mat3 axes) {
     vec3 direction = normalize(eye.xyz - position) * axes;
-    float above = direction.z > 0.0 ? 1.0 : 0.0;
-    vec3 xyz = vec3(0.0);
+    vec3 sum = vec3(0.0);
 #ifdef KEY_LOBES
-    xyz += above * key_lights_xyz(axes, direction, 0.0);
+    if (direction.z > 0.0) sum = key_lights_radiance(axes, direction, 0.0);
 #endif
 #ifdef DIRECTIONAL_LIGHTS
     KernelRow row = kernel_row(0.0);
-    vec3 first = above * small_light_xyz(0, 1.0, lights[0].position.xyz, axes, direction, row, 1.0);
+    vec3 first = vec3(0.0);
+    add_small_light(0, 1.0, lights[0].position.xyz, axes, direction, row, 1.0, first);
 #ifdef SHADOWED_AT_PIXELS
-    shadowed_at_vertex = first;
+    shadowed_at_vertex = kernel_to_working(first);
 #else
-    xyz += first;
+    sum += first;
 #endif
 #ifdef SEVERAL_DIRECTIONAL_LIGHTS
     for (int i = 1; i < int(light_counts.x); ++i)
-        xyz += above * small_light_xyz(i, 1.0, lights[i].position.xyz, axes, direction, row, 1.0);
+        add_small_light(i, 1.0, lights[i].position.xyz, axes, direction, row, 1.0, sum);
 #endif
 #endif
 #ifdef LIGHTS_BESIDE
-    lights_at_vertex = xyz;
+    lights_at_vertex = kernel_to_working(sum);
 #endif
-    return xyz;
+    return kernel_to_working(sum);
 }
 #else
 vec3 shade_lights(vec3 position, mat3 axes) { return vec3(0.0); }

@@ -5,12 +5,13 @@
 in vec3 diffracted;
 
 MaterialTerms material_terms() {
-    vec3 xyz = lights_from_vertices_xyz();
+    vec3 sum = diffracted + lights_from_vertices();
 #ifdef LIGHTS_AT_PIXELS
     GrooveView view = groove_view();
-    if (view.direction.z > 0.0 && view.pitch > 0.0) xyz += direct_xyz(view);
+    if (view.direction.z > 0.0 && view.pitch > 0.0) sum += key_lights_at_pixel(view);
+    prepare_lights(view);
 #endif
-    return MaterialTerms(base_weight, mirror_weight, diffracted + mat3(xyz_to_working) * xyz);
+    return MaterialTerms(base_weight, mirror_weight, sum);
 }
 
 #include "engine/render/shaders/forward_fragment_main.glsl"

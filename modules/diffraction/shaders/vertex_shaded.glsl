@@ -1,6 +1,6 @@
 // The vertex stage of representations that shade vertices. Before it, the program defines
-//   vec3 diffracted_xyz(vec3 view, vec3 g, vec3 n);
-// of a view in the tangent frame (g, h, n), whose axes are given in the world.
+//   vec3 diffracted_radiance(vec3 view, vec3 g, vec3 n);
+// in the working space, of a view in the tangent frame (g, h, n), whose axes are given in the world.
 #include "modules/diffraction/shaders/groove_turn.glsl"
 #include "modules/diffraction/shaders/has_direct.glsl"
 #include "modules/diffraction/shaders/vertex_lights.glsl"
@@ -14,7 +14,7 @@ void material_vertex(vec3 position, vec3 g, vec3 h, vec3 n) {
     turn_grooves(g, h);
     vec3 v = normalize(eye.xyz - position);
     vec3 view = vec3(dot(v, g), dot(v, h), dot(v, n));
-    diffracted = mat3(xyz_to_working) * (diffracted_xyz(view, g, n) + shade_lights(position, mat3(g, h, n)));
+    diffracted = diffracted_radiance(view, g, n) + shade_lights(position, mat3(g, h, n));
 #ifdef LIGHTS_AT_PIXELS
     world_grating = g;
 #endif

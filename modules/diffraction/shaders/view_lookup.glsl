@@ -11,11 +11,11 @@ vec2 view_coordinates(vec3 view, vec2 nodes) {
 #if VIEW_MAPPING == SPHERICAL
     float theta = min(atan(length(view.xy), view.z), HALF_PI);
     float phi = view.x == 0.0 && view.y == 0.0 ? 0.0 : atan(view.y, view.x);
-    return vec2(phi / (4.0 * HALF_PI) + 0.5 / nodes.x, (theta / HALF_PI * (nodes.y - 1.0) + 0.5) / nodes.y);
+    return vec2(phi / (4.0 * HALF_PI), theta / HALF_PI * (1.0 - 1.0 / nodes.y)) + 0.5 / nodes;
 #elif VIEW_MAPPING == PARABOLIC
     vec2 p = view.xy / (1.0 + max(view.z, 0.0));
-    return ((0.5 * p + 0.5) * (nodes - 1.0) + 0.5) / nodes;
+    return 0.5 + p * (0.5 - 0.5 / nodes);
 #else
-    return vec2(((0.5 * view.x + 0.5) * (nodes.x - 1.0) + 0.5) / nodes.x, 0.5);
+    return vec2(0.5 + view.x * (0.5 - 0.5 / nodes.x), 0.5);
 #endif
 }

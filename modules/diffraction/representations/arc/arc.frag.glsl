@@ -3,7 +3,7 @@
 #include "modules/diffraction/shaders/surface.glsl"
 #include "modules/diffraction/representations/arc/arc_sum.glsl"
 
-vec3 diffracted_xyz(GrooveView view) { return arc_xyz(view); }
+vec3 diffracted_radiance(GrooveView view) { return arc_radiance(view); }
 
 #include "modules/diffraction/shaders/pixel_shaded.glsl"
 #include "engine/render/shaders/forward_fragment_main.glsl"

@@ -4,7 +4,8 @@
 #include "modules/diffraction/shaders/groove_turn.glsl"
 #include "modules/diffraction/shaders/vertex_lights.glsl"
 
-// X, Y and Z of the products of ranks 4j ... 4j+3, for j < LAYERS; vertex by vertex, from the CPU.
+// Red, green and blue (working space) of the products of ranks 4j ... 4j+3, for j < LAYERS; vertex by vertex, from the
+// CPU.
 layout(std430, binding = 4) readonly buffer ArcProducts { vec4 vertex_products[]; };
 
 out vec3 world_grating;

@@ -22,25 +22,27 @@ math::FrameProjection projection_of(const ArcTable& table) {
     return math::FrameProjection(identity, table.bands);
 }
 
-std::vector<glm::vec4> factors_of(const ArcTable& table) {
+std::vector<glm::vec4> factors_of(const ArcTable& table, const glm::dmat3& xyz_to_space) {
     const auto terms = static_cast<std::size_t>(light_term_count(table.terms, table.bands));
     const std::size_t vectors = 3 * weight_layers(table.rank);
     std::vector<glm::vec4> factors(terms * 3 * vectors, glm::vec4(0.0F));
     for (std::size_t r = 0; r < static_cast<std::size_t>(table.rank); ++r)
-        for (std::size_t k = 0; k < terms; ++k)
+        for (std::size_t k = 0; k < terms; ++k) {
+            const glm::mat3 factor(xyz_to_space * glm::dmat3(table.factors[r * terms + k]));
             for (int c = 0; c < 3; ++c)
                 for (int o = 0; o < 3; ++o)
                     factors[(k * 3 + static_cast<std::size_t>(c)) * vectors + r / 4 * 3 + static_cast<std::size_t>(o)]
-                           [static_cast<int>(r % 4)] = table.factors[r * terms + k][c][o];
+                           [static_cast<int>(r % 4)] = factor[c][o];
+        }
     return factors;
 }
 
 }  // namespace
 
-ArcProducts::ArcProducts(const ArcTable& table)
+ArcProducts::ArcProducts(const ArcTable& table, const glm::dmat3& xyz_to_space)
     : layers_(static_cast<int>(weight_layers(table.rank))),
       projection_(projection_of(table)),
-      factors_(factors_of(table)) {}
+      factors_(factors_of(table, xyz_to_space)) {}
 
 std::vector<glm::vec4> ArcProducts::operator()(const lighting::ShLight& light, const scene::Mesh& mesh,
                                                const glm::mat4& object_to_world, double groove_rotation) const {

@@ -32,17 +32,17 @@ vec4[PRODUCTS] products_at(vec3 g) { return arc_products; }
 uniform vec2 pitch_scale_bias;  // from the logarithm of the pitch factor to the table's second coordinate
 #endif
 
-vec3 arc_xyz(GrooveView view) {
+vec3 arc_radiance(GrooveView view) {
     vec2 coordinates = table_coordinates(view.direction);
 #ifdef PITCH_AXIS
     coordinates.y = log(view.pitch) * pitch_scale_bias.x + pitch_scale_bias.y;
 #endif
     vec4 products[PRODUCTS] = products_at(view.axes[0]);
-    vec3 xyz = vec3(0.0);
+    vec3 sum = vec3(0.0);
     for (int j = 0; j < LAYERS; ++j) {
         vec4 weights = table_entries(coordinates, j);
-        xyz += vec3(dot(weights, products[3 * j]), dot(weights, products[3 * j + 1]),
+        sum += vec3(dot(weights, products[3 * j]), dot(weights, products[3 * j + 1]),
                     dot(weights, products[3 * j + 2]));
     }
-    return xyz;
+    return sum;
 }

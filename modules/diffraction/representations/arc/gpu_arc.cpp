@@ -44,7 +44,7 @@ std::optional<glm::vec2> pitch_scale_bias(const std::optional<PitchAxis>& axis) 
 
 GpuArc::GpuArc(const CookedMaterial& cooked, const ArcTable& table, const glm::dmat3& xyz_to_working)
     : GpuMaterial(cooked, xyz_to_working),
-      products_(table),
+      products_(table, xyz_to_working),
       weights_(table, weight_grid(table)),
       pitch_scale_bias_(pitch_scale_bias(table.pitch)) {}
 

@@ -8,7 +8,7 @@ const int LAYERS = (COEFFICIENTS + 3) / 4;
 
 uniform vec3 bin_colours[3 * BINS];  // XYZ of red, green and blue light, bin by bin
 
-vec3 diffracted_xyz(vec3 view, vec3 g, vec3 n) {
+vec3 diffracted_radiance(vec3 view, vec3 g, vec3 n) {
     vec2 coordinates = table_coordinates(view);
     vec3 light[COEFFICIENTS];
     for (int i = 0; i < COEFFICIENTS; ++i) light[i] = light_coefficient(i);
@@ -21,7 +21,7 @@ vec3 diffracted_xyz(vec3 view, vec3 g, vec3 n) {
         }
         xyz += rgb.r * bin_colours[3 * b] + rgb.g * bin_colours[3 * b + 1] + rgb.b * bin_colours[3 * b + 2];
     }
-    return xyz;
+    return mat3(xyz_to_working) * xyz;
 }
 
 #include "modules/diffraction/shaders/vertex_shaded.glsl"

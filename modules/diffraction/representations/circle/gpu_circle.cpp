@@ -13,8 +13,8 @@ void GpuCircle::begin(const std::shared_ptr<const lighting::LightSamples>& texel
     texels_ = texels;
     if (!texels) log_warning("a grating of representation circle is under a probe without texels: it stays dark");
     filling_ = std::make_unique<CircleFilling>(texels ? texels : std::make_shared<const lighting::LightSamples>(),
-                                               cooked()->kernel, cooked()->material.grating.pitch_nm, size_,
-                                               cooked()->zero_order_xyz);
+                                               working_kernel(), cooked()->material.grating.pitch_nm, size_,
+                                               working_zero_order());
     ++fills_begun_;
 }
 
@@ -37,6 +37,8 @@ void GpuCircle::describe(const SurfaceState&, gpu::ProgramDesc& desc) const {
         set_shaders(desc, "shaders/pixel_shaded.vert.glsl", "representations/circle/circle.frag.glsl");
     desc.defines.push_back({"CHARTS", std::to_string(charts_)});
     desc.defines.push_back({"TERMS", std::to_string(size_.terms)});
+    desc.defines.push_back({"SIDE", std::to_string(size_.side)});
+    desc.defines.push_back({"VIEWS", std::to_string(size_.views)});
 }
 
 void GpuCircle::bind_tables(const gpu::Program& program, const SurfaceState&) const {

@@ -10,10 +10,10 @@
 
 namespace rowland::diffraction {
 
-/// The radiance of a key light on a grating of the flat lobe in one look-up, over its angle ψ from the plane normal to
-/// g (s_g = sin ψ) and the path difference x = d (s_g + v_g): XYZ = value · lobe_height(). A 2D texture, GL_LINEAR,
-/// GL_CLAMP_TO_EDGE, with nodes at texel centres:
-///   s = (x − begin)/(end − begin),  t = ψ/π + ½
+/// The radiance of a key light on a grating of the flat lobe in one look-up, over its direction cosine s_g and the path
+/// difference x = d (s_g + v_g): XYZ = value · lobe_height(). A 2D texture, GL_LINEAR, GL_CLAMP_TO_EDGE, with nodes at
+/// texel centres:
+///   s = (x − begin)/(end − begin),  t = ½ + ½ s_g/(|s_g| + √(1 − s_g²))
 struct LobeTable {
     double begin_nm = 0.0;
     double end_nm = 0.0;
@@ -22,18 +22,18 @@ struct LobeTable {
     std::vector<glm::vec3> values;  ///< XYZ, row by row
 
     /// Interpolated as the texture unit does.
-    glm::dvec3 at(double psi, double x_nm) const;
+    glm::dvec3 at(double s_g, double x_nm) const;
 };
 
-/// Mean of s_n⁺ over √(1 − s_g²) for a lobe of concentration κ; s_g and s_n are those of its direction.
-double lobe_height(double concentration, double s_g, double s_n);
+/// Mean of s_n⁺ over a lobe of concentration κ, whose s_n counts as normal; s_n is that of its direction.
+double lobe_height(double concentration, double s_n);
 
 /// The table of a key light, from direct_radiance() of the raised lobe over lobe_height(). It deviates from
 /// direct_radiance() only where the horizon cuts the lobe.
 LobeTable make_lobe_table(const BlurredKernel& kernel, double pitch_nm, const lighting::KeyLight& light, int columns);
 
 /// CPU reference of key_lobes.glsl: XYZ of a key light from its table. `world_to_tangent`: rows g, h, n. The view's
-/// footprint takes 2 to 16 samples, enough for 16 times the lobe's width.
+/// footprint takes 1 to 16 samples, enough for 16 times the lobe's width. One suffices below a sixteenth of it: 7e-4.
 glm::dvec3 lobe_radiance(const LobeTable& table, const DirectMaterial& material, const lighting::KeyLight& light,
                          const glm::dmat3& world_to_tangent, const DirectView& view);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_inverse.hpp>
+#include <string>
 
 #include "engine/core/log.h"
 #include "modules/diffraction/runtime/flatness.h"
@@ -59,8 +60,8 @@ void GpuPlanar::want(const std::optional<glm::dvec3>& normal, const SurfaceLight
 
 void GpuPlanar::fill(int slices, PlanarData& data) const {
     if (!data.fill) {
-        data.fill.emplace(*data.texels, cooked()->kernel, cooked()->material.grating.pitch_nm, *data.normal, size_,
-                          cooked()->zero_order_xyz);
+        data.fill.emplace(*data.texels, working_kernel(), cooked()->material.grating.pitch_nm, *data.normal, size_,
+                          working_zero_order());
         data.map = data.fill->empty();
         data.filled = 0;
         ++data.fills_begun;
@@ -95,12 +96,13 @@ bool GpuPlanar::filling(const SurfaceState& state) const {
 }
 
 void GpuPlanar::describe(const SurfaceState& state, gpu::ProgramDesc& desc) const {
-    if (!data_of(state).on_gpu)
-        stand_in_.describe(state, desc);
-    else if (cooked()->material.quality.map_at_vertices)
+    if (!data_of(state).on_gpu) return stand_in_.describe(state, desc);
+    if (cooked()->material.quality.map_at_vertices)
         set_vertex_shader(desc, "representations/planar/planar.vert.glsl");
     else
         set_shaders(desc, "shaders/pixel_shaded.vert.glsl", "representations/planar/planar.frag.glsl");
+    desc.defines.push_back({"AZIMUTHS", std::to_string(size_.azimuths)});
+    desc.defines.push_back({"VIEWS", std::to_string(size_.views)});
 }
 
 void GpuPlanar::bind_tables(const gpu::Program& program, const SurfaceState& state) const {

@@ -32,13 +32,13 @@ vec3 spike_xyz(int spike, vec2 coordinates, vec3 light[COEFFICIENTS]) {
     return wavelength_to_xyz(normalised_wavelength, rgb);  // step 7
 }
 
-vec3 diffracted_xyz(vec3 view, vec3 g, vec3 n) {
+vec3 diffracted_radiance(vec3 view, vec3 g, vec3 n) {
     vec2 coordinates = table_coordinates(view);  // step 3
     vec3 light[COEFFICIENTS];
     for (int i = 0; i < COEFFICIENTS; ++i) light[i] = light_coefficient(i);
     vec3 xyz = vec3(0.0);
     for (int k = 0; k < SPIKES; ++k) xyz += spike_xyz(k, coordinates, light);
-    return xyz;
+    return mat3(xyz_to_working) * xyz;
 }
 
 #include "modules/diffraction/shaders/vertex_shaded.glsl"

@@ -14,16 +14,17 @@ namespace {
 /// StreakNode of shaders/streak.frag.glsl, std430.
 struct ShaderNode {
     glm::vec4 path_width;  ///< x: path over the pitch; y: width over the pitch
-    glm::vec4 weight[3];   ///< columns: XYZ of red, green and blue
+    glm::vec4 weight[3];   ///< columns: of red, green and blue light, working space
 };
 static_assert(sizeof(ShaderNode) == 64);
 
-gpu::Buffer node_buffer(const Streak& streak) {
+gpu::Buffer node_buffer(const Streak& streak, const glm::dmat3& xyz_to_working) {
     std::vector<ShaderNode> nodes;
     for (const StreakNode& node : streak.nodes) {
         const auto pitch = static_cast<float>(streak.pitch_nm);
         ShaderNode made{.path_width = {node.path_nm / pitch, node.width_nm / pitch, 0.0F, 0.0F}, .weight = {}};
-        for (int c = 0; c < 3; ++c) made.weight[c] = glm::vec4(node.weight[c], 0.0F);
+        for (int c = 0; c < 3; ++c)
+            made.weight[c] = glm::vec4(glm::vec3(xyz_to_working * glm::dvec3(node.weight[c])), 0.0F);
         nodes.push_back(made);
     }
     if (nodes.empty()) nodes.push_back({.path_width = {4.0F, 0.0F, 0.0F, 0.0F}, .weight = {}});  // never visible
@@ -41,7 +42,7 @@ std::vector<glm::vec3> shader_taps(const StreakTables& tables) {
 
 GpuStreak::GpuStreak(const CookedMaterial& cooked, const StreakTables& tables, const glm::dmat3& xyz_to_working)
     : GpuMaterial(cooked, xyz_to_working),
-      nodes_(node_buffer(tables.streak)),
+      nodes_(node_buffer(tables.streak, xyz_to_working)),
       taps_(shader_taps(tables)),
       power_(static_cast<float>(tables.streak.power / std::erf(1.0 / (tables.streak.sigma * std::numbers::sqrt2)))),
       rest_weight_(static_cast<float>(1.0 - tables.streak.power)) {

@@ -9,7 +9,7 @@
 
 struct StreakNode {
     vec4 path_width; // x: path over the pitch; y: width over the pitch
-    vec4 weight[3];  // columns: XYZ of red, green and blue
+    vec4 weight[3];  // columns: of red, green and blue light, working space
 };
 layout(std430, binding = 6) readonly buffer StreakNodes { StreakNode streak_nodes[]; };
 uniform vec3 streak_taps[TAPS];  // offset and width in s_h; weight
@@ -43,20 +43,20 @@ vec3 lobe_radiance(vec3 across, GrooveView view) {
     return rgb;
 }
 
-vec3 diffracted_xyz(GrooveView view) {
-    vec3 xyz = vec3(0.0);
+vec3 diffracted_radiance(GrooveView view) {
+    vec3 sum = vec3(0.0);
     for (int k = 0; k < streak_nodes.length(); ++k) {
         vec2 path_width = streak_nodes[k].path_width.xy;
         vec3 across = cut(path_width.x / view.pitch - view.direction.x, path_width.y / view.pitch, 1.0);
         if (across.z == 0.0) continue;
         vec3 rgb = across.z * lobe_radiance(across, view);
-        for (int c = 0; c < 3; ++c) xyz += streak_nodes[k].weight[c].xyz * rgb[c];
+        for (int c = 0; c < 3; ++c) sum += streak_nodes[k].weight[c].xyz * rgb[c];
     }
-    xyz *= streak_power;
+    sum *= streak_power;
 #ifdef REST
-    xyz += rest_weight * arc_xyz(view);
+    sum += rest_weight * arc_radiance(view);
 #endif
-    return xyz;
+    return sum;
 }
 
 #include "modules/diffraction/shaders/pixel_shaded.glsl"

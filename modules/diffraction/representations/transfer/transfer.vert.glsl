@@ -6,7 +6,7 @@
 
 const int LAYERS = (COEFFICIENTS + 3) / 4;
 
-vec3 diffracted_xyz(vec3 view, vec3 g, vec3 n) {
+vec3 diffracted_radiance(vec3 view, vec3 g, vec3 n) {
     vec2 coordinates = table_coordinates(view);
     vec3 xyz = vec3(0.0);
     for (int j = 0; j < LAYERS; ++j) {
@@ -17,7 +17,7 @@ vec3 diffracted_xyz(vec3 view, vec3 g, vec3 n) {
             for (int o = 0; o < 3; ++o)
                 xyz[o] += dot(table_entries(coordinates, (c * 3 + o) * LAYERS + j), by_colour[c]);
     }
-    return xyz;
+    return mat3(xyz_to_working) * xyz;
 }
 
 #include "modules/diffraction/shaders/vertex_shaded.glsl"

@@ -75,8 +75,8 @@ TEST_F(UnusedModule, AGratingUploadsAndCompilesWhatItNeeds) {
     EXPECT_GE(grating.bytes, without.bytes + table);
     std::size_t arcs = 0;
     for (const std::string& source : grating.shaders) {
-        if (source.find("arc_xyz") != std::string::npos) ++arcs;
-        for (const char* other : {"spike_xyz", "map_xyz", "radiance_cube"})
+        if (source.find("arc_radiance") != std::string::npos) ++arcs;
+        for (const char* other : {"spike_xyz", "map_radiance", "radiance_cube"})
             EXPECT_EQ(source.find(other), std::string::npos) << other;
     }
     EXPECT_GE(arcs, 1U);

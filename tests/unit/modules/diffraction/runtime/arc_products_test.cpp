@@ -41,7 +41,7 @@ scene::Mesh random_mesh(std::size_t vertices) {
 
 /// Against light_products() in each vertex's frame. Of the largest product 1e-5: the frames' changes are float.
 void expect_products(const ArcTable& table, const glm::mat4& matrix, double groove_rotation) {
-    const ArcProducts products(table);
+    const ArcProducts products(table, glm::dmat3(1.0));
     const lighting::ShLight light = random_light(table.bands);
     const scene::Mesh mesh = random_mesh(300);  // more than one block
     const std::vector<glm::vec4> all = products(light, mesh, matrix, groove_rotation);

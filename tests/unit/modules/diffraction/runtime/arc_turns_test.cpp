@@ -30,7 +30,7 @@ TEST(ArcTurns, HoldTheProductsOfEveryGratingVectorOfThePlane) {
             if (!flat) grating.lobe = GaussianLobe{0.3};
             ArcSettings settings{.bands = bands, .rank = 6};
             if (!flat) settings.grid = ViewGrid{.mapping = ViewMapping::Parabolic, .columns = 12, .rows = 12};
-            const ArcProducts products(bake(grating, settings));
+            const ArcProducts products(bake(grating, settings), glm::dmat3(1.0));
             const lighting::ShLight light = some_light(bands);
             const glm::dvec3 normal = glm::normalize(glm::dvec3(0.3, 0.8, -0.5));
             const ArcTurns turns = arc_turns(products, light, normal);
