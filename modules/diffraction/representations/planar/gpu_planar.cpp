@@ -95,9 +95,22 @@ bool GpuPlanar::filling(const SurfaceState& state) const {
 }
 
 void GpuPlanar::describe(const SurfaceState& state, gpu::ProgramDesc& desc) const {
-    if (!data_of(state).on_gpu)
+    if (data_of(state).on_gpu)
+        describe_map(desc);
+    else
         stand_in_.describe(state, desc);
-    else if (cooked()->material.quality.map_at_vertices)
+}
+
+bool GpuPlanar::describe_other(const SurfaceState& state, gpu::ProgramDesc& desc) const {
+    if (data_of(state).on_gpu)
+        stand_in_.describe(state, desc);
+    else
+        describe_map(desc);
+    return true;
+}
+
+void GpuPlanar::describe_map(gpu::ProgramDesc& desc) const {
+    if (cooked()->material.quality.map_at_vertices)
         set_vertex_shader(desc, "representations/planar/planar.vert.glsl");
     else
         set_shaders(desc, "shaders/pixel_shaded.vert.glsl", "representations/planar/planar.frag.glsl");
