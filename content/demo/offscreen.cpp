@@ -97,12 +97,15 @@ void play_back(Session& session, const Options& options, const Recording& record
 void run_offscreen(const Options& options, const post::OcioConfig& config) {
     const bool writes_to_folder = !options.captures() && !options.benchmark;
     if (writes_to_folder) rowland::check_outputs({}, {{{"--output-folder", options.output_folder / "flight.png"}}});
-    app::render_offscreen([&](const std::string& renderer) {
+    app::render_offscreen(options.gl_debug, [&](const std::string& renderer) {
         const std::optional<Recording> recording = recording_for(options);
         const glm::ivec2 size(options.width, options.height);
         Session session(options, config, size, recording ? recording->head.window : size,
                         options.benchmark || recording ? Pace::Fluent : Pace::Still);
+        // A picture in a file depends on nothing but what it shows.
+        session.picture().post_settings().wait_for_exposure = !options.benchmark;
         if (options.benchmark) {
+            session.picture().time_passes(true);
             const auto times = fly_around(session, options.frames.value_or(kBenchmarkFrames), renderer);
             write_file_atomic(*options.benchmark, times.dump(2) + "\n");
             log_info("wrote {}", options.benchmark->string());

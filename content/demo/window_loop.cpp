@@ -32,7 +32,8 @@ class Program {
     Program(const Options& options, const post::OcioConfig& config)
         : options_(options),
           recording_(recording_for(options)),
-          loop_("Rowland", recording_ ? recording_->head.window : glm::ivec2(options.width, options.height)),
+          loop_("Rowland", recording_ ? recording_->head.window : glm::ivec2(options.width, options.height),
+                options.gl_debug),
           window_size_(loop_.window().size()),
           session_(options, config, loop_.window().framebuffer_size(),
                    recording_ ? recording_->head.window : window_size_, Pace::Fluent),

@@ -58,7 +58,7 @@ void capture_window(Session& session, const Options& options, const post::OcioCo
 }  // namespace
 
 void capture(const Options& options, const post::OcioConfig& config) {
-    app::render_offscreen([&](const std::string&) {
+    app::render_offscreen(options.gl_debug, [&](const std::string&) {
         const Layout layout = chosen_layout(options);
         Session session(
             config, {.content_folder = options.content_folder, .probe_mapping = options.probe_mapping, .still = true});

@@ -16,7 +16,7 @@ class Program {
     Program(const Options& options, const post::OcioConfig& config)
         : layout_file_(options.layout ? options.layout : default_layout_file()),
           layout_(chosen_layout(options)),
-          loop_("Rowland: material inspector", {layout_.width, layout_.height}),
+          loop_("Rowland: material inspector", {layout_.width, layout_.height}, options.gl_debug),
           session_(config, {.content_folder = options.content_folder, .probe_mapping = options.probe_mapping}),
           window_frame_(options, config, session_, layout_) {
         start_session(session_, options, layout_);

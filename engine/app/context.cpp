@@ -10,9 +10,9 @@
 
 namespace rowland::app {
 
-void render_offscreen(const std::function<void(const std::string& renderer)>& body) {
-    const platform::HeadlessContext context;
-    gpu::enable_debug_output(false);
+void render_offscreen(bool debug, const std::function<void(const std::string& renderer)>& body) {
+    const platform::HeadlessContext context({.debug = debug});
+    if (debug) gpu::enable_debug_output(false);
     log_info("rendering on {}", context.renderer());
     const auto started = std::chrono::steady_clock::now();
     body(context.renderer());

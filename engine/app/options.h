@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/platform/debug_build.h"
+
 namespace rowland::app {
 
 /// The options of every program that draws.
@@ -15,6 +17,7 @@ struct CommonOptions {
     std::optional<std::filesystem::path> ocio_config;
     std::optional<std::filesystem::path> capture;  ///< PNG
     std::filesystem::path content_folder;          ///< sources: materials, probes, meshes, scenes
+    bool gl_debug = platform::debug_build();       ///< the driver's messages are logged
 };
 
 /// Declares them. `capture_help` says what the picture shows. `options` must outlive `app`.

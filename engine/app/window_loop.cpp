@@ -7,8 +7,9 @@
 
 namespace rowland::app {
 
-WindowLoop::WindowLoop(const std::string& title, glm::ivec2 size) : window_({.title = title, .size = size}) {
-    gpu::enable_debug_output(false);
+WindowLoop::WindowLoop(const std::string& title, glm::ivec2 size, bool debug)
+    : window_({.title = title, .size = size, .debug = debug}) {
+    if (debug) gpu::enable_debug_output(false);
     window_.set_drop_handler([this](const std::vector<std::filesystem::path>& files) {
         dropped_.insert(dropped_.end(), files.begin(), files.end());
     });

@@ -29,11 +29,11 @@ enum class Next {
     End,
 };
 
-/// A window with a current OpenGL context whose driver messages are logged, and the loop that draws in it.
+/// A window with a current OpenGL context, and the loop that draws in it.
 class WindowLoop {
  public:
-    /// Throws Error (system) without a display or OpenGL 4.5 core.
-    WindowLoop(const std::string& title, glm::ivec2 size);
+    /// `debug`: the driver's messages are logged. Throws Error (system) without a display or OpenGL 4.5 core.
+    WindowLoop(const std::string& title, glm::ivec2 size, bool debug);
 
     platform::Window& window() { return window_; }
     const platform::Window& window() const { return window_; }

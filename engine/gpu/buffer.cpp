@@ -1,13 +1,19 @@
 #include "engine/gpu/buffer.h"
 
+#include <fmt/format.h>
+
 #include <vector>
 
 #include "engine/core/check.h"
+#include "engine/core/error.h"
+#include "engine/gpu/bound_state.h"
 
 namespace rowland::gpu {
 
 void Buffer::Release::operator()(GLuint name) const {
     glDeleteBuffers(1, &name);
+    bound_state().forget(BoundState::Slot::UniformBuffer, name);
+    bound_state().forget(BoundState::Slot::StorageBuffer, name);
 }
 
 Buffer::Buffer(std::span<const std::byte> data, BufferUse use) : size_(data.size()), use_(use) {
@@ -28,29 +34,45 @@ void Buffer::update(std::span<const std::byte> data, std::size_t offset) {
     glNamedBufferSubData(id(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(data.size()), data.data());
 }
 
-void Buffer::bind_uniform(unsigned binding) const {
-    glBindBufferBase(GL_UNIFORM_BUFFER, binding, id());
+Buffer Buffer::mapped(std::size_t bytes, GLbitfield access) {
+    ROWLAND_CHECK_OP(bytes, >, std::size_t{0});
+    const GLbitfield flags = access | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+    GLuint name = 0;
+    glCreateBuffers(1, &name);
+    Buffer buffer;
+    buffer.handle_ = Handle<Release>(name);
+    buffer.size_ = bytes;
+    glNamedBufferStorage(name, static_cast<GLsizeiptr>(bytes), nullptr, flags);
+    buffer.mapping_ = static_cast<std::byte*>(glMapNamedBufferRange(name, 0, static_cast<GLsizeiptr>(bytes), flags));
+    if (buffer.mapping_ == nullptr)
+        fail_system("OpenGL", fmt::format("no memory for a buffer of {} bytes", bytes), "draw smaller or fewer meshes");
+    return buffer;
 }
 
-void Buffer::replace(std::span<const std::byte> data) {
-    glInvalidateBufferData(id());
-    update(data);
+std::span<std::byte> Buffer::mapping() const {
+    ROWLAND_CHECK(mapping_ != nullptr, "a buffer that is mapped");
+    return {mapping_, size_};
+}
+
+void Buffer::check_range(std::size_t offset, std::size_t bytes) const {
+    ROWLAND_CHECK_OP(offset, <=, size_);
+    ROWLAND_CHECK_OP(bytes, <=, size_ - offset);
 }
 
 void Buffer::bind_uniform(unsigned binding, std::size_t offset, std::size_t bytes) const {
-    ROWLAND_CHECK_OP(offset, <=, size_);
-    ROWLAND_CHECK_OP(bytes, <=, size_ - offset);
-    glBindBufferRange(GL_UNIFORM_BUFFER, binding, id(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes));
+    check_range(offset, bytes);
+    const auto start = static_cast<GLintptr>(offset);
+    const auto length = static_cast<GLsizeiptr>(bytes);
+    if (bound_state().changes(BoundState::Slot::UniformBuffer, binding, {id(), start, length}))
+        glBindBufferRange(GL_UNIFORM_BUFFER, binding, id(), start, length);
 }
 
-void Buffer::bind_storage(unsigned binding) const {
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, id());
-}
-
-std::size_t uniform_alignment() {
-    GLint alignment = 256;
-    glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &alignment);
-    return static_cast<std::size_t>(alignment);
+void Buffer::bind_storage(unsigned binding, std::size_t offset, std::size_t bytes) const {
+    check_range(offset, bytes);
+    const auto start = static_cast<GLintptr>(offset);
+    const auto length = static_cast<GLsizeiptr>(bytes);
+    if (bound_state().changes(BoundState::Slot::StorageBuffer, binding, {id(), start, length}))
+        glBindBufferRange(GL_SHADER_STORAGE_BUFFER, binding, id(), start, length);
 }
 
 }  // namespace rowland::gpu

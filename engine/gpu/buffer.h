@@ -10,6 +10,10 @@ namespace rowland::gpu {
 /// Whether a buffer's content may change after it is made.
 enum class BufferUse { Static, Dynamic };
 
+/// Offsets of uniform blocks and shader storage in a buffer must be multiples of this: the largest that OpenGL lets a
+/// driver ask for.
+inline constexpr std::size_t kBufferAlignment = 256;
+
 /// GPU memory of fixed size: vertices, indices, uniform blocks, shader storage.
 class Buffer {
  public:
@@ -17,6 +21,12 @@ class Buffer {
     explicit Buffer(std::span<const std::byte> data, BufferUse use = BufferUse::Static);
     /// A buffer of `bytes` zeros.
     explicit Buffer(std::size_t bytes, BufferUse use = BufferUse::Dynamic);
+
+    /// A buffer that stays mapped, and coherent: GL_MAP_WRITE_BIT or GL_MAP_READ_BIT says what the CPU does. Throws
+    /// Error (system) if there is no memory.
+    static Buffer mapped(std::size_t bytes, GLbitfield access);
+    /// The memory of such a buffer.
+    std::span<std::byte> mapping() const;
 
     /// A buffer that holds `values` as they lie in memory.
     template <typename T>
@@ -32,14 +42,11 @@ class Buffer {
         update(std::as_bytes(std::span<const T>(&value, 1)));
     }
 
-    /// Overwrites the start of a dynamic buffer; the rest becomes undefined. Does not wait for draws that still read
-    /// the old content.
-    void replace(std::span<const std::byte> data);
-
-    void bind_uniform(unsigned binding) const;
-    /// Binds only `bytes` from `offset` on, a multiple of uniform_alignment().
+    void bind_uniform(unsigned binding) const { bind_uniform(binding, 0, size_); }
+    void bind_storage(unsigned binding) const { bind_storage(binding, 0, size_); }
+    /// Binds only `bytes` from `offset` on, a multiple of kBufferAlignment.
     void bind_uniform(unsigned binding, std::size_t offset, std::size_t bytes) const;
-    void bind_storage(unsigned binding) const;
+    void bind_storage(unsigned binding, std::size_t offset, std::size_t bytes) const;
 
     std::size_t size() const { return size_; }
     GLuint id() const { return handle_.get(); }
@@ -48,12 +55,12 @@ class Buffer {
     struct Release {
         void operator()(GLuint name) const;
     };
+    void check_range(std::size_t offset, std::size_t bytes) const;
+
     Handle<Release> handle_;
+    std::byte* mapping_ = nullptr;
     std::size_t size_ = 0;
     BufferUse use_ = BufferUse::Static;
 };
-
-/// Offsets of uniform blocks in a buffer must be multiples of this.
-std::size_t uniform_alignment();
 
 }  // namespace rowland::gpu

@@ -6,10 +6,17 @@
 
 #include "engine/core/check.h"
 #include "engine/core/error.h"
+#include "engine/gpu/bound_state.h"
+#include "engine/gpu/pipeline_state.h"
 
 namespace rowland::gpu {
 
 namespace {
+
+/// For draws, and for reads until a picture is read.
+void bind_framebuffer(GLuint name) {
+    if (bound_state().changes(BoundState::Slot::Framebuffer, 0, {name})) glBindFramebuffer(GL_FRAMEBUFFER, name);
+}
 
 GLuint create_framebuffer() {
     GLuint name = 0;
@@ -32,6 +39,7 @@ void flip_rows(std::vector<T>& values, int height) {
 
 void Framebuffer::Release::operator()(GLuint name) const {
     glDeleteFramebuffers(1, &name);
+    bound_state().forget(BoundState::Slot::Framebuffer, name);
 }
 
 void Framebuffer::ReleaseRenderbuffer::operator()(GLuint name) const {
@@ -94,28 +102,34 @@ void Framebuffer::require_complete() const {
 void Framebuffer::resolve_to(const Framebuffer& target) const {
     ROWLAND_CHECK(size_ == target.size_, "a resolve between framebuffers of different size");
     ROWLAND_CHECK_OP(colour_count_, ==, target.colour_count_);
-    for (std::size_t i = 0; i < colour_count_; ++i) {
-        const GLenum attachment = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(i);
-        glNamedFramebufferReadBuffer(id(), attachment);
-        glNamedFramebufferDrawBuffer(target.id(), attachment);
+    const auto resolve = [&] {
         glBlitNamedFramebuffer(id(), target.id(), 0, 0, size_.x, size_.y, 0, 0, size_.x, size_.y, GL_COLOR_BUFFER_BIT,
                                GL_NEAREST);
+    };
+    if (colour_count_ == 1) return resolve();
+    std::vector<GLenum> draw_buffers;
+    for (std::size_t i = 0; i < colour_count_; ++i) {
+        draw_buffers.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(i));
+        glNamedFramebufferReadBuffer(id(), draw_buffers.back());
+        glNamedFramebufferDrawBuffer(target.id(), draw_buffers.back());
+        resolve();
     }
     // Draws into the target go to all its colours again.
-    std::vector<GLenum> draw_buffers;
-    for (std::size_t i = 0; i < colour_count_; ++i)
-        draw_buffers.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(i));
     glNamedFramebufferDrawBuffers(target.id(), static_cast<GLsizei>(draw_buffers.size()), draw_buffers.data());
+    glNamedFramebufferReadBuffer(id(), GL_COLOR_ATTACHMENT0);
 }
 
 void Framebuffer::show_in_window() const {
-    glNamedFramebufferReadBuffer(id(), GL_COLOR_ATTACHMENT0);
     glBlitNamedFramebuffer(id(), 0, 0, 0, size_.x, size_.y, 0, 0, size_.x, size_.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 void Framebuffer::bind() const {
-    glBindFramebuffer(GL_FRAMEBUFFER, id());
-    glViewport(0, 0, size_.x, size_.y);
+    bind_framebuffer(id());
+    if (bound_state().changes(BoundState::Slot::Viewport, 0, {size_.x, size_.y})) glViewport(0, 0, size_.x, size_.y);
+}
+
+void Framebuffer::bind_window() {
+    bind_framebuffer(0);
 }
 
 void Framebuffer::clear(const glm::vec4& colour, unsigned attachment) const {
@@ -124,7 +138,7 @@ void Framebuffer::clear(const glm::vec4& colour, unsigned attachment) const {
 }
 
 void Framebuffer::clear_depth(float depth) const {
-    glDepthMask(GL_TRUE);  // a clear obeys the mask the last draw left behind
+    set_depth_write(true);
     glClearNamedFramebufferfv(id(), GL_DEPTH, 0, &depth);
 }
 
@@ -144,6 +158,7 @@ void Framebuffer::read(unsigned attachment, GLenum type, void* pixels) const {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, id());
     // By default reading from a fixed-point buffer clamps, reading floats does not.
     glReadPixels(0, 0, size_.x, size_.y, GL_RGBA, type, pixels);
+    glNamedFramebufferReadBuffer(id(), GL_COLOR_ATTACHMENT0);
 }
 
 std::vector<glm::vec4> Framebuffer::read_rgba_float(unsigned attachment) const {

@@ -37,6 +37,8 @@ class Framebuffer {
 
     /// Draws go here from now on, over the whole area.
     void bind() const;
+    /// Draws go to the window's own framebuffer from now on. The viewport stays as it is.
+    static void bind_window();
     void clear(const glm::vec4& colour, unsigned attachment = 0) const;
     void clear_depth(float depth = 1.0F) const;
 

@@ -1,7 +1,8 @@
 #include "engine/gpu/pass_times.h"
 
 #include <algorithm>
-#include <glm/vec4.hpp>
+
+#include "engine/gpu/software_renderer.h"
 
 namespace rowland::gpu {
 
@@ -40,7 +41,8 @@ void PassTimes::Release::operator()(GLuint name) const {
     glDeleteQueries(1, &name);
 }
 
-PassTimes::PassTimes() : slot_(0), boundary_(FramebufferDesc{.colours = {Format::RGBA8}}) {}
+PassTimes::PassTimes()
+    : slot_(0), software_(is_software_renderer(reinterpret_cast<const char*>(glGetString(GL_RENDERER)))) {}
 
 void PassTimes::write_time(std::size_t query) {
     std::vector<Handle<Release>>& queries = ring_[*slot_].queries;
@@ -58,9 +60,8 @@ PassTimes::Scope::Scope(PassTimes* times, std::string_view name) : times_(times)
     times_->runs_.push_back({std::string(name), 0.0});
     if (times_->slot_) {
         times_->write_time(2 * run_);
-        // llvmpipe writes the time when it has rasterised the draws queued so far; a clear of another
-        // framebuffer starts a new queue.
-        times_->boundary_.clear(glm::vec4(0.0F));
+        // llvmpipe writes the time when it has rasterised the draws queued so far.
+        if (times_->software_) glFlush();
     }
     start_ = Clock::now();
 }

@@ -7,7 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/gpu/framebuffer.h"
 #include "engine/gpu/handle.h"
 
 namespace rowland::gpu {
@@ -19,7 +18,7 @@ struct PassTime {
 };
 
 /// Times the passes of every frame on CPU and GPU without waiting for the GPU. A pass that runs several times in a
-/// frame counts as their sum. Each boundary flushes a tiling GPU, which costs a little.
+/// frame counts as their sum.
 class PassTimes {
  public:
     PassTimes();
@@ -69,7 +68,7 @@ class PassTimes {
     std::array<QueuedFrame, 4> ring_;
     std::size_t oldest_ = 0;
     std::optional<std::size_t> slot_;  ///< this frame's; null while the ring is full because the GPU lags
-    Framebuffer boundary_;
+    bool software_;                    ///< llvmpipe and its like
 };
 
 }  // namespace rowland::gpu

@@ -36,4 +36,7 @@ struct PipelineState {
 
 void apply(const PipelineState& state);
 
+/// That part of it alone, which clears obey as well.
+void set_depth_write(bool on);
+
 }  // namespace rowland::gpu

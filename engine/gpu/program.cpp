@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
 
 #include "engine/core/error.h"
+#include "engine/gpu/bound_state.h"
 #include "engine/gpu/compile_log.h"
 
 namespace rowland::gpu {
@@ -56,10 +58,16 @@ Shader compile(GLenum stage, const ShaderText& source) {
     return shader;
 }
 
+template <typename T>
+std::span<const std::byte> bytes_of(const T& value) {
+    return std::as_bytes(std::span(&value, 1));
+}
+
 }  // namespace
 
 void Program::Release::operator()(GLuint name) const {
     glDeleteProgram(name);
+    bound_state().forget(BoundState::Slot::Program, name);
 }
 
 Program::Program(const ShaderLibrary& library, const ProgramDesc& desc) {
@@ -119,13 +127,17 @@ void Program::find_uniforms() {
         const GLint location = glGetUniformLocation(id(), name.c_str());
         if (location < 0) continue;  // a member of a block
         if (name.ends_with("[0]")) name.resize(name.size() - 3);
-        uniforms_[name] = location;
+        uniforms_[name].location = location;
     }
 }
 
-GLint Program::location(std::string_view name) const {
+std::optional<GLint> Program::changed(std::string_view name, std::span<const std::byte> value) const {
     const auto found = uniforms_.find(name);
-    return found == uniforms_.end() ? -1 : found->second;  // OpenGL ignores -1
+    if (found == uniforms_.end()) return std::nullopt;
+    std::vector<std::byte>& known = found->second.value;
+    if (std::ranges::equal(known, value)) return std::nullopt;
+    known.assign(value.begin(), value.end());
+    return found->second.location;
 }
 
 bool Program::has_uniform(std::string_view name) const {
@@ -133,7 +145,7 @@ bool Program::has_uniform(std::string_view name) const {
 }
 
 void Program::use() const {
-    glUseProgram(id());
+    if (bound_state().changes(BoundState::Slot::Program, 0, {id()})) glUseProgram(id());
 }
 
 void Program::dispatch(unsigned groups_x, unsigned groups_y, unsigned groups_z) const {
@@ -143,53 +155,57 @@ void Program::dispatch(unsigned groups_x, unsigned groups_y, unsigned groups_z) 
 }
 
 void Program::set(std::string_view name, int value) const {
-    glProgramUniform1i(id(), location(name), value);
+    if (const auto at = changed(name, bytes_of(value))) glProgramUniform1i(id(), *at, value);
 }
 
 void Program::set(std::string_view name, float value) const {
-    glProgramUniform1f(id(), location(name), value);
+    if (const auto at = changed(name, bytes_of(value))) glProgramUniform1f(id(), *at, value);
 }
 
 void Program::set(std::string_view name, const glm::ivec2& value) const {
-    glProgramUniform2iv(id(), location(name), 1, glm::value_ptr(value));
+    if (const auto at = changed(name, bytes_of(value))) glProgramUniform2iv(id(), *at, 1, glm::value_ptr(value));
 }
 
 void Program::set(std::string_view name, const glm::vec2& value) const {
-    glProgramUniform2fv(id(), location(name), 1, glm::value_ptr(value));
+    if (const auto at = changed(name, bytes_of(value))) glProgramUniform2fv(id(), *at, 1, glm::value_ptr(value));
 }
 
 void Program::set(std::string_view name, const glm::vec3& value) const {
-    glProgramUniform3fv(id(), location(name), 1, glm::value_ptr(value));
+    set(name, std::span(&value, 1));
 }
 
 void Program::set(std::string_view name, const glm::vec4& value) const {
-    glProgramUniform4fv(id(), location(name), 1, glm::value_ptr(value));
+    set(name, std::span(&value, 1));
 }
 
 void Program::set(std::string_view name, const glm::mat3& value) const {
-    glProgramUniformMatrix3fv(id(), location(name), 1, GL_FALSE, glm::value_ptr(value));
+    if (const auto at = changed(name, bytes_of(value)))
+        glProgramUniformMatrix3fv(id(), *at, 1, GL_FALSE, glm::value_ptr(value));
 }
 
 void Program::set(std::string_view name, const glm::mat4& value) const {
-    glProgramUniformMatrix4fv(id(), location(name), 1, GL_FALSE, glm::value_ptr(value));
+    if (const auto at = changed(name, bytes_of(value)))
+        glProgramUniformMatrix4fv(id(), *at, 1, GL_FALSE, glm::value_ptr(value));
 }
 
 void Program::set(std::string_view name, std::span<const int> values) const {
-    glProgramUniform1iv(id(), location(name), static_cast<GLsizei>(values.size()), values.data());
+    if (const auto at = changed(name, std::as_bytes(values)))
+        glProgramUniform1iv(id(), *at, static_cast<GLsizei>(values.size()), values.data());
 }
 
 void Program::set(std::string_view name, std::span<const float> values) const {
-    glProgramUniform1fv(id(), location(name), static_cast<GLsizei>(values.size()), values.data());
+    if (const auto at = changed(name, std::as_bytes(values)))
+        glProgramUniform1fv(id(), *at, static_cast<GLsizei>(values.size()), values.data());
 }
 
 void Program::set(std::string_view name, std::span<const glm::vec3> values) const {
-    if (values.empty()) return;
-    glProgramUniform3fv(id(), location(name), static_cast<GLsizei>(values.size()), glm::value_ptr(values.front()));
+    if (const auto at = changed(name, std::as_bytes(values)))
+        glProgramUniform3fv(id(), *at, static_cast<GLsizei>(values.size()), glm::value_ptr(values.front()));
 }
 
 void Program::set(std::string_view name, std::span<const glm::vec4> values) const {
-    if (values.empty()) return;
-    glProgramUniform4fv(id(), location(name), static_cast<GLsizei>(values.size()), glm::value_ptr(values.front()));
+    if (const auto at = changed(name, std::as_bytes(values)))
+        glProgramUniform4fv(id(), *at, static_cast<GLsizei>(values.size()), glm::value_ptr(values.front()));
 }
 
 void Program::set_block_binding(std::string_view block, unsigned binding) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
@@ -7,6 +8,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -38,7 +40,8 @@ class Program {
     /// use(), then runs a compute program on so many groups, and waits for its writes before later reads.
     void dispatch(unsigned groups_x, unsigned groups_y = 1, unsigned groups_z = 1) const;
 
-    /// Sets a uniform. One the compiler removed because nothing reads it is ignored: which those are differs by driver.
+    /// Sets a uniform, unless it has the value. One the compiler removed because nothing reads it is ignored: which
+    /// those are differs by driver.
     void set(std::string_view name, int value) const;
     void set(std::string_view name, float value) const;
     void set(std::string_view name, const glm::ivec2& value) const;
@@ -66,10 +69,15 @@ class Program {
     };
     void link(std::span<const GLuint> shaders, const std::string& names);
     void find_uniforms();
-    GLint location(std::string_view name) const;
+    /// Where to set the uniform, unless there is none of that name or it has the value.
+    std::optional<GLint> changed(std::string_view name, std::span<const std::byte> value) const;
 
+    struct Uniform {
+        GLint location = -1;
+        std::vector<std::byte> value = {};  ///< last set; empty before
+    };
     Handle<Release> handle_;
-    std::map<std::string, GLint, std::less<>> uniforms_;
+    mutable std::map<std::string, Uniform, std::less<>> uniforms_;
 };
 
 }  // namespace rowland::gpu

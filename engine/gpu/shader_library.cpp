@@ -26,7 +26,7 @@ constexpr std::uint64_t max_shader_bytes = 1 << 20;
                  .fault = Fault::System});
 }
 
-/// Matches `#include "name"`. Includes in angle brackets are C++'s, in headers that both languages read.
+/// Matches `#include "name"`.
 const std::regex& include_pattern() {
     static const std::regex pattern(R"re([ \t]*#[ \t]*include[ \t]*"([^"]*)")re");
     return pattern;
@@ -36,6 +36,35 @@ bool is_version(const std::string& line) {
     static const std::regex pattern(R"([ \t]*#[ \t]*version)");
     return std::regex_search(line, pattern, std::regex_constants::match_continuous);
 }
+
+/// Finds the lines that are C++'s in headers that both languages read: from `#ifdef __cplusplus` to its #else or
+/// #endif, these directives included.
+class CppLines {
+ public:
+    bool take(const std::string& line) {
+        if (group_ == Group::None) {
+            if (line.starts_with("#ifdef __cplusplus")) group_ = Group::Cpp;
+            return group_ == Group::Cpp;
+        }
+        const bool was_cpp = group_ == Group::Cpp;
+        if (line.starts_with("#if")) {
+            ++nested_;
+        } else if (line.starts_with("#endif") && nested_ > 0) {
+            --nested_;
+        } else if (line.starts_with("#else") && nested_ == 0) {
+            group_ = Group::Glsl;
+            return true;
+        } else if (line.starts_with("#endif")) {
+            group_ = Group::None;
+            return true;
+        }
+        return was_cpp;
+    }
+
+ private:
+    enum class Group { None, Cpp, Glsl } group_ = Group::None;
+    int nested_ = 0;  ///< conditionals within the group
+};
 
 std::string defines_text(std::span<const Define> defines) {
     std::string text;
@@ -99,11 +128,16 @@ void ShaderLibrary::paste(const std::string& name, std::span<const Define> defin
     if (!is_root) result.text += line_directive(index, 1);
 
     bool versioned = false;
+    CppLines cpp;
     std::size_t line_number = 0;
     std::istringstream text(read(name));
     for (std::string line; std::getline(text, line);) {
         ++line_number;
         if (line.ends_with('\r')) line.pop_back();
+        if (cpp.take(line)) {
+            result.text += '\n';
+            continue;
+        }
         if (is_version(line)) {
             if (!is_root) fail(name, line_number, line, "no #version in an included file");
             versioned = true;

@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "engine/core/check.h"
+#include "engine/gpu/bound_state.h"
 
 namespace rowland::gpu {
 
@@ -69,6 +70,7 @@ float max_anisotropy() {
 
 void Texture::Release::operator()(GLuint name) const {
     glDeleteTextures(1, &name);
+    bound_state().forget(BoundState::Slot::Texture, name);
 }
 
 Texture::Texture(const TextureDesc& desc, const Sampling& sampling) : desc_(complete(desc)) {
@@ -167,7 +169,7 @@ void Texture::set_sampling(const Sampling& sampling) {
 }
 
 void Texture::bind(unsigned unit) const {
-    glBindTextureUnit(unit, id());
+    if (bound_state().changes(BoundState::Slot::Texture, unit, {id()})) glBindTextureUnit(unit, id());
 }
 
 std::vector<glm::vec4> Texture::read(TextureSlice slice) const {

@@ -1,11 +1,13 @@
 #include "engine/gpu/vertex_array.h"
 
 #include "engine/core/check.h"
+#include "engine/gpu/bound_state.h"
 
 namespace rowland::gpu {
 
 void VertexArray::Release::operator()(GLuint name) const {
     glDeleteVertexArrays(1, &name);
+    bound_state().forget(BoundState::Slot::VertexArray, name);
 }
 
 VertexArray::VertexArray() {
@@ -35,15 +37,19 @@ void VertexArray::attach_indices(const Buffer& buffer) {
     indices_ = buffer.size() / sizeof(std::uint32_t);
 }
 
+void VertexArray::bind() const {
+    if (bound_state().changes(BoundState::Slot::VertexArray, 0, {id()})) glBindVertexArray(id());
+}
+
 void VertexArray::draw(int count, int instances) const {
-    glBindVertexArray(id());
+    bind();
     glDrawArraysInstanced(GL_TRIANGLES, 0, count, instances);
 }
 
 void VertexArray::draw_indexed(int count) const {
     ROWLAND_CHECK_OP(count, >=, 0);
     ROWLAND_CHECK_OP(static_cast<std::size_t>(count), <=, indices_);
-    glBindVertexArray(id());
+    bind();
     glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, nullptr);
 }
 

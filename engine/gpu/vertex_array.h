@@ -43,6 +43,8 @@ class VertexArray {
     struct Release {
         void operator()(GLuint name) const;
     };
+    void bind() const;
+
     Handle<Release> handle_;
     unsigned bindings_ = 0;
     std::size_t indices_ = 0;

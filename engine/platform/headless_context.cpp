@@ -4,13 +4,14 @@
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <optional>
 #include <string_view>
 #include <vector>
 
 #include "engine/core/error.h"
+#include "engine/gpu/bound_state.h"
+#include "engine/gpu/software_renderer.h"
 
 namespace rowland::platform {
 
@@ -111,12 +112,6 @@ std::string gl_string(GLenum name) {
     return text == nullptr ? "" : reinterpret_cast<const char*>(text);
 }
 
-bool is_software_renderer(const std::string& renderer) {
-    constexpr std::array names{"llvmpipe", "softpipe", "swrast", "SWR", "Software Rasterizer"};
-    return std::any_of(names.begin(), names.end(),
-                       [&](const char* name) { return renderer.find(name) != std::string::npos; });
-}
-
 }  // namespace
 
 struct HeadlessContext::State {
@@ -162,6 +157,7 @@ void HeadlessContext::make_current() {
         eglMakeCurrent(state_->display, EGL_NO_SURFACE, EGL_NO_SURFACE, state_->context) != EGL_TRUE) {
         fail("a context that cannot be made current on this thread", "it may still be current on another thread");
     }
+    gpu::forget_bound_state();
 }
 
 const std::string& HeadlessContext::renderer() const {
@@ -173,7 +169,7 @@ const std::string& HeadlessContext::version() const {
 }
 
 bool HeadlessContext::is_software() const {
-    return is_software_renderer(state_->renderer);
+    return gpu::is_software_renderer(state_->renderer);
 }
 
 }  // namespace rowland::platform

@@ -3,10 +3,12 @@
 #include <memory>
 #include <string>
 
+#include "engine/platform/debug_build.h"
+
 namespace rowland::platform {
 
 struct HeadlessOptions {
-    bool debug = true;  ///< a debug context: the driver reports errors through KHR_debug (see gpu/debug.h)
+    bool debug = debug_build();  ///< a debug context: the driver reports errors through KHR_debug (see gpu/debug.h)
 };
 
 /// An OpenGL 4.5 core context without a window: EGL, no surface, so everything is drawn into framebuffer objects. Takes

@@ -8,6 +8,7 @@
 
 #include "engine/core/check.h"
 #include "engine/core/error.h"
+#include "engine/gpu/bound_state.h"
 #include "engine/platform/glfw_events.h"
 #include "engine/platform/glfw_library.h"
 
@@ -124,6 +125,7 @@ Window::~Window() = default;
 
 void Window::make_current() {
     glfwMakeContextCurrent(state_->handle);
+    gpu::forget_bound_state();
 }
 
 void Window::swap() {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/platform/debug_build.h"
 #include "engine/platform/input.h"
 #include "engine/platform/screen_layout.h"
 
@@ -22,7 +23,7 @@ struct WindowOptions {
     std::string title = "Rowland";
     glm::ivec2 size{1280, 720};  ///< screen coordinates, each >= 1
     bool vsync = true;
-    bool debug = true;  ///< a debug context: the driver reports errors through KHR_debug (see gpu/debug.h)
+    bool debug = debug_build();  ///< a debug context: the driver reports errors through KHR_debug (see gpu/debug.h)
 };
 
 /// A window with an OpenGL 4.5 core context, which is current on the thread that made it. All members are for the main

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "engine/core/check.h"
 
@@ -9,7 +10,9 @@ namespace rowland::post {
 
 namespace {
 
-constexpr int block = 8;  // as in the shader
+// As in the shader.
+constexpr int block = 8;
+constexpr unsigned kTotalBinding = 0;
 
 gpu::Program program(const gpu::ShaderLibrary& library, bool is_picture) {
     return {library,
@@ -21,7 +24,9 @@ gpu::Program program(const gpu::ShaderLibrary& library, bool is_picture) {
 }  // namespace
 
 AutoExposurePass::AutoExposurePass(const gpu::ShaderLibrary& library)
-    : sum_picture_(program(library, true)), sum_sums_(program(library, false)) {}
+    : sum_picture_(program(library, true)),
+      sum_sums_(program(library, false)),
+      totals_(gpu::Buffer::mapped(kMeasurements * gpu::kBufferAlignment, GL_MAP_READ_BIT)) {}
 
 void AutoExposurePass::make_sums(glm::ivec2 size) {
     if (size == size_) return;
@@ -33,19 +38,50 @@ void AutoExposurePass::make_sums(glm::ivec2 size) {
     } while (size != glm::ivec2(1));
 }
 
-std::optional<double> AutoExposurePass::measure(const gpu::Texture& picture, const glm::vec3& weights, float darkest) {
+void AutoExposurePass::sum(const gpu::Program& program, const gpu::Texture& source, std::size_t pass) {
+    program.set("is_total", pass + 1 == sums_.size() ? 1 : 0);
+    source.bind(0);
+    triangle_.draw(program, sums_[pass]);
+}
+
+void AutoExposurePass::start(const gpu::Texture& picture, const glm::vec3& weights, float darkest) {
+    last_ = (last_ + 1) % kMeasurements;
+    if (finished_[last_] && !finished_[last_]->passed()) finished_[last_]->wait();
     make_sums(picture.size());
+    totals_.bind_storage(kTotalBinding, last_ * gpu::kBufferAlignment, sizeof(glm::vec2));
     sum_picture_.set("weights", weights);
     sum_picture_.set("darkest", darkest);
-    picture.bind(0);
-    triangle_.draw(sum_picture_, sums_.front());
-    for (std::size_t i = 1; i < sums_.size(); ++i) {
-        sums_[i - 1].colour().bind(0);
-        triangle_.draw(sum_sums_, sums_[i]);
+    sum(sum_picture_, picture, 0);
+    for (std::size_t pass = 1; pass < sums_.size(); ++pass) sum(sum_sums_, sums_[pass - 1].colour(), pass);
+    glMemoryBarrier(GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT);
+    finished_[last_].emplace();
+}
+
+std::size_t AutoExposurePass::started_before_last(std::size_t count) const {
+    return (last_ + kMeasurements - count) % kMeasurements;
+}
+
+MeanLuminance AutoExposurePass::read(std::size_t age) {
+    glm::vec2 total(0.0F);
+    std::memcpy(&total, &totals_.mapping()[started_before_last(age) * gpu::kBufferAlignment], sizeof(total));
+    // Older ones are out of date.
+    for (; age < kMeasurements; ++age) finished_[started_before_last(age)].reset();
+    if (total.g == 0.0F) return std::nullopt;
+    return double{total.r} / double{total.g};
+}
+
+std::optional<MeanLuminance> AutoExposurePass::take() {
+    for (std::size_t age = 0; age < kMeasurements; ++age) {
+        const std::optional<gpu::Fence>& finished = finished_[started_before_last(age)];
+        if (finished && finished->passed()) return read(age);
     }
-    const glm::dvec4 total(sums_.back().colour().read().front());
-    if (total.g == 0.0) return std::nullopt;
-    return total.r / total.g;
+    return std::nullopt;
+}
+
+MeanLuminance AutoExposurePass::wait() {
+    ROWLAND_CHECK(finished_[last_].has_value(), "a measurement that was started and not taken");
+    finished_[last_]->wait();
+    return read(0);
 }
 
 float target_stops(double mean_log2, const AutoExposureSettings& settings) {

@@ -1,10 +1,14 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <vector>
 
+#include "engine/gpu/buffer.h"
+#include "engine/gpu/fence.h"
 #include "engine/gpu/framebuffer.h"
 #include "engine/gpu/full_screen_pass.h"
 #include "engine/gpu/program.h"
@@ -25,28 +29,45 @@ struct AutoExposureSettings {
     float speed_down = 4.0F;
 };
 
-/// Measures a picture on the GPU: each pass sums blocks of 8×8 texels, down to one.
+/// A picture's mean of log2(max(luminance, darkest)), luminance = weights · pixel, over the pixels where that is
+/// finite, to 1e-3; null if there are none.
+using MeanLuminance = std::optional<double>;
+
+/// Measures pictures on the GPU: each pass sums blocks of 8×8 texels, down to one. The results are read when the GPU
+/// has finished, a frame or two later.
 class AutoExposurePass {
  public:
     /// `library` must hold post::shader_files().
     explicit AutoExposurePass(const gpu::ShaderLibrary& library);
 
-    /// The mean of log2(max(luminance, darkest)), luminance = weights · pixel, over the pixels where that is finite;
-    /// null if there are none. To 1e-3. `weights` is the Y row of the working space's matrix to XYZ. Waits for the GPU:
-    /// the result is of this very picture.
-    std::optional<double> measure(const gpu::Texture& picture, const glm::vec3& weights, float darkest);
+    /// Starts a measurement. `weights` is the Y row of the working space's matrix to XYZ. Waits only if the GPU is more
+    /// than two measurements late.
+    void start(const gpu::Texture& picture, const glm::vec3& weights, float darkest);
+    /// The newest result that has not been taken and that the GPU has finished; null if there is none. Does not wait.
+    std::optional<MeanLuminance> take();
+    /// The result of the last measurement started. Waits for the GPU.
+    MeanLuminance wait();
 
     /// Passes of the last measurement: 4 for 1920×1080.
     int passes() const { return static_cast<int>(sums_.size()); }
 
  private:
+    static constexpr std::size_t kMeasurements = 3;  ///< that may be under way
+
     void make_sums(glm::ivec2 size);
+    void sum(const gpu::Program& program, const gpu::Texture& source, std::size_t pass);
+    std::size_t started_before_last(std::size_t count) const;
+    /// That of the measurement started so many before the last. The GPU must have finished it.
+    MeanLuminance read(std::size_t age);
 
     gpu::Program sum_picture_;
     gpu::Program sum_sums_;
     gpu::FullScreenTriangle triangle_;
     std::vector<gpu::Framebuffer> sums_;  ///< sum of logarithms in red, count in green; the last is one texel
     glm::ivec2 size_{0};
+    gpu::Buffer totals_;  ///< of each measurement, as in the last of sums_; at multiples of kBufferAlignment
+    std::array<std::optional<gpu::Fence>, kMeasurements> finished_;  ///< null: not under way
+    std::size_t last_ = 0;                                           ///< measurement started
 };
 
 /// log2(key) - mean_log2, clamped to [min_stops, max_stops].

@@ -43,7 +43,7 @@ const gpu::Texture& PostStack::with_bloom(const gpu::Texture& picture, const Pos
 
 float PostStack::automatic_stops(const gpu::Texture& picture, const PostSettings& settings, const PostFrame& frame) {
     if (!settings.auto_exposure) {
-        automatic_stops_.reset();
+        forget_exposure();
         return 0.0F;
     }
     const AutoExposureSettings& automatic = *settings.auto_exposure;
@@ -51,12 +51,19 @@ float PostStack::automatic_stops(const gpu::Texture& picture, const PostSettings
     ROWLAND_CHECK(frame.luminance_weights != glm::vec3(0.0F), "automatic exposure needs the frame's luminance_weights");
     const gpu::PassTimes::Scope scope(times_, "auto exposure");
     AutoExposurePass& pass = made(auto_exposure_, *library_);
-    const std::optional<double> mean = pass.measure(picture, frame.luminance_weights, automatic.darkest);
+    const bool waits = settings.wait_for_exposure || !automatic_stops_;
+    // Of earlier frames: never this one's, however fast the GPU is.
+    std::optional<MeanLuminance> measured = pass.take();
+    pass.start(picture, frame.luminance_weights, automatic.darkest);
     passes_ += pass.passes();
-    if (mean) {
-        const float target = target_stops(*mean, automatic);
-        automatic_stops_ = adapted_stops(automatic_stops_.value_or(target), target, frame.seconds, automatic);
+    if (waits) measured = pass.wait();
+    if (measured) {
+        target_stops_.reset();
+        if (*measured) target_stops_ = target_stops(**measured, automatic);
     }
+    if (target_stops_)
+        automatic_stops_ =
+            adapted_stops(automatic_stops_.value_or(*target_stops_), *target_stops_, frame.seconds, automatic);
     return automatic_stops_.value_or(0.0F);
 }
 

@@ -20,6 +20,9 @@ namespace rowland::post {
 struct PostSettings {
     std::optional<BloomSettings> bloom = {};
     std::optional<AutoExposureSettings> auto_exposure = {};
+    /// Automatic exposure is for this very picture, and each frame waits for the GPU. Otherwise it is for the picture
+    /// one or two frames before, and only the first frame waits.
+    bool wait_for_exposure = false;
     float exposure_stops = 0.0F;  ///< added to the automatic exposure, if that is on
     std::optional<VignetteSettings> vignette = {};
     std::optional<DitherSettings> dither = {};  ///< clamps values to 0 to 1; turn off for comparisons
@@ -40,7 +43,8 @@ class PostStack {
 
     /// Draws the scene-linear `hdr` (RGBA16F or RGBA32F, finite or not) as `display` shows it; alpha is kept. The
     /// target must not be larger than `hdr`. It is a logic error if settings are out of range, or if automatic exposure
-    /// is on and the frame has no luminance weights. Automatic exposure waits for the GPU; the rest does not.
+    /// is on and the frame has no luminance weights. Nothing waits for the GPU but automatic exposure, in the first
+    /// frame that it is on, after forget_exposure(), and where the settings say so.
     void draw(const gpu::Texture& hdr, const DisplayPass& display, const PostSettings& settings, const PostFrame& frame,
               const gpu::Framebuffer& target);
 
@@ -49,7 +53,7 @@ class PostStack {
     /// The stops the last draw exposed by, manual and automatic together.
     float exposure_stops() const { return exposure_stops_; }
     /// Makes the next frame start at its own automatic exposure, as the first does: for cuts.
-    void forget_exposure() { automatic_stops_.reset(); }
+    void forget_exposure() { automatic_stops_ = target_stops_ = std::nullopt; }
     /// Rebuilds the programs in use from `library`, which replaces the present one. If one does not compile, all stay
     /// as they were and its Error (system) is thrown.
     void reload(const gpu::ShaderLibrary& library);
@@ -73,6 +77,7 @@ class PostStack {
     std::optional<gpu::Framebuffer> bloomed_;
     std::optional<gpu::Framebuffer> vignetted_;
     std::optional<gpu::Framebuffer> displayed_;
+    std::optional<float> target_stops_;  ///< null: the picture has no luminance
     std::optional<float> automatic_stops_;
     float exposure_stops_ = 0.0F;
     int passes_ = 0;

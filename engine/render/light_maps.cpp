@@ -23,15 +23,18 @@ gpu::Texture cube_map(const lighting::CubeLayout& layout, gpu::Filter filter) {
                         {.filter = filter});
 }
 
-/// The packed map's texels in the working space, still in units of its scale.
+/// The packed map's texels in the working space, still in units of its scale, with an alpha that is not read: drivers
+/// copy texels that have the texture's own format, and convert others.
 std::vector<std::uint16_t> to_working_space(const lighting::PackedEnvironmentMap& packed, const glm::mat3& to_working) {
-    std::vector<std::uint16_t> halves(packed.halves.size());
-    for (std::size_t i = 0; i + 2 < halves.size(); i += 3) {
+    std::vector<std::uint16_t> halves;
+    halves.reserve(packed.halves.size() / 3 * 4);
+    for (std::size_t i = 0; i + 2 < packed.halves.size(); i += 3) {
         const glm::vec3 rgb(glm::unpackHalf1x16(packed.halves[i]), glm::unpackHalf1x16(packed.halves[i + 1]),
                             glm::unpackHalf1x16(packed.halves[i + 2]));
         // Rec.709 lies inside ACEScg and its rows sum to 1: no component exceeds the largest of the three.
         const glm::vec3 working = to_working * rgb;
-        for (int c = 0; c < 3; ++c) halves[i + static_cast<std::size_t>(c)] = glm::packHalf1x16(working[c]);
+        for (int c = 0; c < 3; ++c) halves.push_back(glm::packHalf1x16(working[c]));
+        halves.push_back(0);
     }
     return halves;
 }
@@ -62,8 +65,8 @@ LightMap environment_map(const lighting::LightProbe& probe, const glm::dmat3& re
     LightMap light{.map = cube_map(layout, gpu::Filter::Trilinear), .scale = probe.environment.scale};
     const std::vector<std::uint16_t> halves = to_working_space(probe.environment, glm::mat3(rec709_to_working));
     for (int level = 0; level < layout.levels; ++level) {
-        const std::size_t begin = 3 * layout.offset(level);
-        const std::size_t end = 3 * layout.offset(level + 1);
+        const std::size_t begin = 4 * layout.offset(level);
+        const std::size_t end = 4 * layout.offset(level + 1);
         light.map.upload(std::span(halves).subspan(begin, end - begin), {.level = level, .layers = 6});
     }
     return light;

@@ -10,11 +10,11 @@
 #include "engine/colour/working_space.h"
 #include "engine/core/check.h"
 #include "engine/core/log.h"
+#include "engine/gpu/pipeline_state.h"
 #include "engine/lighting/key_lights.h"
 #include "engine/render/bindings.h"
 #include "engine/render/brdf_table.h"
 #include "engine/render/shader_files.h"
-#include "engine/render/shaders/frame_block.h"
 #include "engine/render/world_bounds.h"
 
 namespace rowland::render {
@@ -41,13 +41,14 @@ gpu::ProgramDesc shader_pair(const std::string& name) {
     return desc;
 }
 
-/// Replaces a buffer's content; grows it if needed.
-void upload(gpu::Buffer& buffer, std::span<const std::byte> data) {
-    if (buffer.size() < data.size()) {
-        buffer = gpu::Buffer(data, gpu::BufferUse::Dynamic);
-    } else {
-        buffer.replace(data);
-    }
+/// Appends values where a buffer can be bound, and returns where that is.
+template <typename T>
+std::size_t append(std::vector<std::byte>& bytes, const T* values, std::size_t count = 1) {
+    const std::size_t offset =
+        (bytes.size() + gpu::kBufferAlignment - 1) / gpu::kBufferAlignment * gpu::kBufferAlignment;
+    bytes.resize(offset + count * sizeof(T));
+    std::memcpy(&bytes[offset], values, count * sizeof(T));
+    return offset;
 }
 
 /// The pixels that a draw may change; null: all.
@@ -78,19 +79,15 @@ struct Renderer::Frame {
     std::vector<const Draw*> blended;
     std::vector<const Draw*> casters;
     ShadowView shadow;
-    float farthest = 0.0F;  ///< extent of the drawn entities along the camera's axis
+    std::size_t light_offset = 0;   ///< of the LightBlock in frame_data_, bytes
+    std::size_t joints_offset = 0;  ///< of the joint matrices
+    float farthest = 0.0F;          ///< extent of the drawn entities along the camera's axis
 };
 
 Renderer::Renderer(const glm::dmat3& xyz_to_working)
     : xyz_to_working_(xyz_to_working),
       rec709_to_working_(xyz_to_working * colour::rec709_to_xyz()),
-      frame_buffer_(sizeof(FrameBlock)),
-      light_buffer_(sizeof(LightBlock)),
-      object_buffer_(sizeof(ObjectBlock)),
-      joint_buffer_(sizeof(glm::mat4)),
       brdf_table_(make_brdf_texture()) {
-    const std::size_t alignment = gpu::uniform_alignment();
-    object_stride_ = (sizeof(ObjectBlock) + alignment - 1) / alignment * alignment;
     programs_.library().add_embedded(shader_files());
     // Filtering across cube faces is off by default in OpenGL and shows as seams.
     glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
@@ -145,10 +142,8 @@ void Renderer::render(ecs::World& world, const scene::Camera& camera, const gpu:
         for (const auto& type : types_) type->update(world, light_);
     select_draws(world, frame);
     select_casters(frame);
-    upload_frame(frame);
-    upload_objects(frame);
-
-    state_.reset();  // others may have changed it since the last frame
+    upload(frame);
+    bind_frame(frame);
     draw_shadow_map(frame);
     {
         const gpu::PassTimes::Scope scope(times_, "opaque");
@@ -203,6 +198,8 @@ void Renderer::select_draws(ecs::World& world, Frame& frame) {
             draw.type = nullptr;
             draw.features = without_light(draw.features);
         }
+        // Also for what is not seen yet, so that no later frame waits for a compiler.
+        const gpu::Program& program = program_of(world, draw);
         if (!frustum.may_see(draw.bounds)) {
             ++report_.culled;
             continue;
@@ -210,7 +207,7 @@ void Renderer::select_draws(ecs::World& world, Frame& frame) {
         ++report_.drawn;
         const glm::vec3 from_eye = centre_of(draw.bounds) - frame.camera->eye;
         draw.distance2 = glm::dot(from_eye, from_eye);
-        draw.program = &program_of(world, draw);
+        draw.program = &program;
         const glm::vec3 half = 0.5F * (draw.bounds.maximum - draw.bounds.minimum);
         frame.farthest = std::max(frame.farthest, glm::dot(from_eye, forward) + glm::dot(half, glm::abs(forward)));
         frame.used.push_back(&draw);
@@ -230,13 +227,15 @@ void Renderer::select_casters(Frame& frame) {
     const Sphere seen = around_view(*frame.camera, frame.aspect, frame.farthest);
     frame.shadow = fit_shadow(*lights_.shadow_light, boxes, seen, shadow_map_size_);
     for (Draw& draw : frame.list.draws) {
-        if ((draw.features & feature::kAlphaBlend) != 0 || !frame.shadow.may_see(draw.bounds)) continue;
+        if ((draw.features & feature::kAlphaBlend) != 0) continue;
+        (void)surface_program(kShadowShader, of_shadow(draw.features));
+        if (!frame.shadow.may_see(draw.bounds)) continue;
         frame.casters.push_back(&draw);
         if (draw.program == nullptr) frame.used.push_back(&draw);
     }
 }
 
-void Renderer::upload_frame(const Frame& frame) {
+FrameBlock Renderer::frame_block(const Frame& frame) const {
     const scene::Camera& camera = *frame.camera;
     FrameBlock block = {};
     block.view_projection = frame.view_projection;
@@ -250,28 +249,32 @@ void Renderer::upload_frame(const Frame& frame) {
     block.environment = glm::vec4(static_cast<float>(environment_->map.levels() - 1), environment_->scale,
                                   key_irradiance_ ? key_irradiance_->scale : 0.0F, 0.0F);
     block.shadow = glm::vec4(frame.shadow.texel_m, 1.0F / static_cast<float>(shadow_map_size_), 0.0F, 0.0F);
-    frame_buffer_.update_value(block);
-    frame_buffer_.bind_uniform(kFrameBinding);
-    light_buffer_.update_value(lights_.block);
-    light_buffer_.bind_uniform(kLightBinding);
+    return block;
+}
+
+void Renderer::upload(Frame& frame) {
+    const FrameBlock frame_data = frame_block(frame);
+    const glm::mat3 to_working(rec709_to_working_);
+    staging_.clear();
+    append(staging_, &frame_data);
+    frame.light_offset = append(staging_, &lights_.block);
+    for (Draw* draw : frame.used) {
+        const ObjectBlock block = object_block(*draw, to_working);
+        draw->block_offset = append(staging_, &block);
+    }
+    if (!frame.list.joints.empty())
+        frame.joints_offset = append(staging_, frame.list.joints.data(), frame.list.joints.size());
+    frame_data_.write(staging_);
+}
+
+void Renderer::bind_frame(const Frame& frame) const {
+    frame_data_.bind_uniform(kFrameBinding, 0, sizeof(FrameBlock));
+    frame_data_.bind_uniform(kLightBinding, frame.light_offset, sizeof(LightBlock));
+    if (!frame.list.joints.empty())
+        frame_data_.bind_storage(kJointBinding, frame.joints_offset, frame.list.joints.size() * sizeof(glm::mat4));
     if (key_irradiance_) key_irradiance_->map.bind(kKeyIrradianceUnit);
     environment_->map.bind(kEnvironmentUnit);
     brdf_table_.bind(kBrdfUnit);
-}
-
-void Renderer::upload_objects(Frame& frame) {
-    if (frame.used.empty()) return;
-    const glm::mat3 to_working(rec709_to_working_);
-    std::vector<std::byte> blocks(frame.used.size() * object_stride_);
-    for (std::size_t i = 0; i < frame.used.size(); ++i) {
-        frame.used[i]->block_offset = i * object_stride_;
-        const ObjectBlock block = object_block(*frame.used[i], to_working);
-        std::memcpy(&blocks[i * object_stride_], &block, sizeof(block));
-    }
-    upload(object_buffer_, blocks);
-    if (frame.list.joints.empty()) return;
-    upload(joint_buffer_, std::as_bytes(std::span<const glm::mat4>(frame.list.joints)));
-    joint_buffer_.bind_storage(kJointBinding);
 }
 
 void Renderer::draw_shadow_map(Frame& frame) {
@@ -285,9 +288,9 @@ void Renderer::draw_shadow_map(Frame& frame) {
                                                  .depth_sampling = {.compare_depth = true}});
     shadow_map_->bind();
     shadow_map_->clear_depth();
-    set_state({.cull = gpu::Cull::None, .slope_bias = kShadowSlopeBias});
+    gpu::apply({.cull = gpu::Cull::None, .slope_bias = kShadowSlopeBias});
     for (const Draw* draw : frame.casters) {
-        object_buffer_.bind_uniform(kObjectBinding, draw->block_offset, sizeof(ObjectBlock));
+        frame_data_.bind_uniform(kObjectBinding, draw->block_offset, sizeof(ObjectBlock));
         const SurfaceFeatures features = of_shadow(draw->features);
         surface_program(kShadowShader, features).use();
         if ((features & feature::kBaseColourMap) != 0) draw->material->base_colour_texture.texture->bind(kFirstMapUnit);
@@ -303,26 +306,18 @@ void Renderer::bind_surface(const Draw& draw) const {
             (draw.material->*kSurfaceMaps[i].texture).texture->bind(kFirstMapUnit + static_cast<unsigned>(i));
 }
 
-void Renderer::set_state(const gpu::PipelineState& state) {
-    if (state_ == state) return;
-    gpu::apply(state);
-    state_ = state;
-}
-
 void Renderer::draw_pass(ecs::World& world, const std::vector<const Draw*>& draws, glm::ivec2 size) {
-    const gpu::Program* in_use = nullptr;
     for (const Draw* draw : draws) {
         const bool blends = (draw->features & feature::kAlphaBlend) != 0;
         const std::optional<gpu::Scissor> scissor = scissor_of(*draw, size);
         if (scissor && scissor->width == 0) continue;
-        set_state({.depth_write = !blends,
-                   .cull = draw->material->double_sided ? gpu::Cull::None : gpu::Cull::Back,
-                   .blend = blends ? gpu::Blend::Over : gpu::Blend::Off,
-                   .front = draw->mirrored ? gpu::FrontFace::Clockwise : gpu::FrontFace::CounterClockwise,
-                   .scissor = scissor});
-        object_buffer_.bind_uniform(kObjectBinding, draw->block_offset, sizeof(ObjectBlock));
-        if (draw->program != in_use) draw->program->use();
-        in_use = draw->program;
+        gpu::apply({.depth_write = !blends,
+                    .cull = draw->material->double_sided ? gpu::Cull::None : gpu::Cull::Back,
+                    .blend = blends ? gpu::Blend::Over : gpu::Blend::Off,
+                    .front = draw->mirrored ? gpu::FrontFace::Clockwise : gpu::FrontFace::CounterClockwise,
+                    .scissor = scissor});
+        frame_data_.bind_uniform(kObjectBinding, draw->block_offset, sizeof(ObjectBlock));
+        draw->program->use();
         bind_surface(*draw);
         if (draw->type != nullptr) draw->type->bind(world, draw->entity, *draw->program);
         draw->mesh->draw();
@@ -331,16 +326,19 @@ void Renderer::draw_pass(ecs::World& world, const std::vector<const Draw*>& draw
 
 void Renderer::draw_sky() {
     const gpu::PassTimes::Scope scope(times_, "sky");
-    set_state({.depth_test = gpu::DepthTest::LessEqual, .depth_write = false, .cull = gpu::Cull::None});
+    gpu::apply({.depth_test = gpu::DepthTest::LessEqual, .depth_write = false, .cull = gpu::Cull::None});
     programs_.get(shader_pair("sky")).use();
     no_vertices_.draw(3);
 }
 
 const gpu::Program& Renderer::program_of(ecs::World& world, const Draw& draw) {
     if (draw.type == nullptr) return surface_program(kPlainShader, draw.features);
-    gpu::ProgramDesc desc = draw.type->program(world, draw.entity);
-    add_defines(draw.features, desc);
-    return programs_.get(desc);
+    const auto compiled = [&](gpu::ProgramDesc desc) -> const gpu::Program& {
+        add_defines(draw.features, desc);
+        return programs_.get(desc);
+    };
+    if (auto other = draw.type->other_program(world, draw.entity)) (void)compiled(*std::move(other));
+    return compiled(draw.type->program(world, draw.entity));
 }
 
 const gpu::Program& Renderer::surface_program(const char* shader, SurfaceFeatures features) {

@@ -11,10 +11,9 @@
 #include <vector>
 
 #include "engine/ecs/world.h"
-#include "engine/gpu/buffer.h"
 #include "engine/gpu/framebuffer.h"
 #include "engine/gpu/pass_times.h"
-#include "engine/gpu/pipeline_state.h"
+#include "engine/gpu/stream_buffer.h"
 #include "engine/gpu/texture.h"
 #include "engine/gpu/vertex_array.h"
 #include "engine/lighting/ambient.h"
@@ -24,6 +23,7 @@
 #include "engine/render/material.h"
 #include "engine/render/program_cache.h"
 #include "engine/render/scene_lights.h"
+#include "engine/render/shaders/frame_block.h"
 #include "engine/render/shadow_fit.h"
 #include "engine/scene/camera.h"
 
@@ -72,7 +72,9 @@ class Renderer {
     /// they were and its Error (system) with file and line is thrown.
     void reload_shaders(const std::filesystem::path& source_tree);
 
-    /// Draws a frame. A probe must have been set. Programs are compiled when something is first drawn with them.
+    /// Draws a frame. A probe must have been set. The programs of a surface are compiled in the first frame that it is
+    /// in, seen or not. Whoever sets OpenGL's state by other means than rowland::gpu calls gpu::forget_bound_state()
+    /// before.
     void render(ecs::World& world, const scene::Camera& camera, const gpu::Framebuffer& target,
                 Shading shading = Shading::Full);
     const FrameReport& report() const { return report_; }
@@ -87,13 +89,13 @@ class Renderer {
     void update_ambient();
     void select_draws(ecs::World& world, Frame& frame);
     void select_casters(Frame& frame);
-    void upload_frame(const Frame& frame);
-    void upload_objects(Frame& frame);
+    FrameBlock frame_block(const Frame& frame) const;
+    void upload(Frame& frame);
+    void bind_frame(const Frame& frame) const;
     void draw_shadow_map(Frame& frame);
     void draw_pass(ecs::World& world, const std::vector<const Draw*>& draws, glm::ivec2 size);
     void draw_sky();
     void bind_surface(const Draw& draw) const;
-    void set_state(const gpu::PipelineState& state);
     const gpu::Program& program_of(ecs::World& world, const Draw& draw);
     const gpu::Program& surface_program(const char* shader, SurfaceFeatures features);
 
@@ -103,11 +105,8 @@ class Renderer {
     ProgramCache programs_;
     std::map<std::pair<std::string, SurfaceFeatures>, const gpu::Program*> surface_programs_;  ///< shortcut into it
     gpu::VertexArray no_vertices_;
-    gpu::Buffer frame_buffer_;
-    gpu::Buffer light_buffer_;
-    gpu::Buffer object_buffer_;  ///< ObjectBlocks, each at a multiple of object_stride_
-    gpu::Buffer joint_buffer_;
-    std::size_t object_stride_;
+    std::vector<std::byte> staging_;  ///< of frame_data_
+    gpu::StreamBuffer frame_data_;    ///< FrameBlock, LightBlock, ObjectBlocks and joint matrices
     gpu::Texture brdf_table_;
     std::optional<LightMap> environment_;
     std::optional<LightMap> key_irradiance_;  ///< none without key lights
@@ -119,7 +118,6 @@ class Renderer {
     lighting::AmbientLight ambient_;  ///< of the probe without its analytic key lights
     SceneLights lights_;
     bool warned_dropped_lights_ = false;
-    std::optional<gpu::PipelineState> state_;
     gpu::PassTimes* times_ = nullptr;
     FrameReport report_;
 };

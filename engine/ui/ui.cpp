@@ -106,7 +106,8 @@ void Ui::render() {
     ImGui::SetCurrentContext(state_->context);
     state_->in_frame = false;
     ImGui::Render();
-    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    // The backend leaves all state as it was, at the price of 50 calls: not for nothing.
+    if (ImDrawData* drawn = ImGui::GetDrawData(); drawn->TotalVtxCount > 0) ImGui_ImplOpenGL3_RenderDrawData(drawn);
 }
 
 void Ui::draw(const gpu::Framebuffer& target) {
@@ -115,7 +116,7 @@ void Ui::draw(const gpu::Framebuffer& target) {
 }
 
 void Ui::draw_in_window() {
-    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    gpu::Framebuffer::bind_window();
     render();
 }
 

@@ -33,14 +33,18 @@ Picture::Picture(const post::OcioConfig& config, const std::string& view, glm::i
       display_(*post_shaders_, transform_),
       post_stack_(*post_shaders_) {
     renderer_.use_key_lights(true);
-    renderer_.set_pass_times(&pass_times_);
-    post_stack_.set_pass_times(&pass_times_);
     resize(size);
 }
 
 void Picture::set_probe(const lighting::LightProbe& probe) {
     renderer_.set_probe(probe);
     post_stack_.forget_exposure();
+}
+
+void Picture::time_passes(bool on) {
+    timed_ = on;
+    renderer_.set_pass_times(on ? &pass_times_ : nullptr);
+    post_stack_.set_pass_times(on ? &pass_times_ : nullptr);
 }
 
 void Picture::set_view(const post::OcioConfig& config, const std::string& view) {
@@ -74,10 +78,10 @@ void Picture::resize(glm::ivec2 size) {
 
 void Picture::draw(ecs::World& world, const scene::Camera& camera, float seconds) {
     gpu::require_context();
-    pass_times_.begin_frame();
+    if (timed_) pass_times_.begin_frame();
     renderer_.render(world, camera, targets_->multisampled);
     {
-        const gpu::PassTimes::Scope scope(&pass_times_, "resolve");
+        const gpu::PassTimes::Scope scope(timed_ ? &pass_times_ : nullptr, "resolve");
         targets_->multisampled.resolve_to(targets_->linear);
     }
     if (post_settings_.vignette) post_settings_.vignette->vertical_fov = camera.vertical_field_of_view;

@@ -44,6 +44,8 @@ class Picture {
     /// Draws a frame, `seconds` after the last. Throws Error (system) if the context is lost.
     void draw(ecs::World& world, const scene::Camera& camera, float seconds);
 
+    /// Whether pass_times() are taken; off by default.
+    void time_passes(bool on);
     const gpu::PassTimes& pass_times() const { return pass_times_; }
     post::PostSettings& post_settings() { return post_settings_; }
     /// Exposure of the last frame in stops, manual and automatic together.
@@ -64,6 +66,7 @@ class Picture {
     glm::vec3 luminance_weights_;
     render::Renderer renderer_;
     gpu::PassTimes pass_times_;
+    bool timed_ = false;
     std::unique_ptr<gpu::ShaderLibrary> post_shaders_;
     post::DisplayTransform transform_;
     post::DisplayPass display_;

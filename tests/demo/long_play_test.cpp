@@ -79,7 +79,7 @@ bool all_finite(const gpu::Framebuffer& picture) {
 }
 
 TEST(DemoLongPlay, HoldsItsMemoryAndDrawsFinitePixelsWithoutAnOpenGlError) {
-    const platform::HeadlessContext context;
+    const platform::HeadlessContext context({.debug = true});
     gpu::enable_debug_output(true);  // an error ends the program
     demo::Options options;
     options.watch = false;

@@ -25,7 +25,7 @@ class GlTest : public ::testing::Test {
                             {fragment, {"test.frag.glsl"}});
     }
 
-    platform::HeadlessContext context_;
+    platform::HeadlessContext context_{{.debug = true}};
 };
 
 }  // namespace rowland::test

@@ -248,6 +248,7 @@ void Hud::build() {
             write_pixel();
         hint_line();
     }
+    session_.picture().time_passes(times_);
     if (times_) frame_window(frame_times_, session_.picture().pass_times().latest(), times_);
     if (help_) help_window(help_);
 }

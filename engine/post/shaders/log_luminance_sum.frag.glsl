@@ -2,6 +2,10 @@
 
 layout(location = 0) out vec2 sum_and_count;
 
+// Where the CPU reads the last pass's one texel.
+layout(std430, binding = 0) writeonly buffer Total { vec2 total; };
+uniform bool is_total;
+
 layout(binding = 0) uniform sampler2D source;
 #if SOURCE_IS_PICTURE
 uniform vec3 weights;
@@ -28,4 +32,5 @@ void main() {
     for (int y = first.y; y < end.y; ++y) {
         for (int x = first.x; x < end.x; ++x) sum_and_count += logarithm_and_count(ivec2(x, y));
     }
+    if (is_total) total = sum_and_count;
 }

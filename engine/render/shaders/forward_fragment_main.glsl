@@ -51,9 +51,6 @@ vec3 base_radiance(vec3 base, vec3 n, vec3 v, inout vec3 added) {
 
 void main() {
     vec4 base = surface_colour();
-#ifdef ALPHA_MASK
-    if (base.a < metallic_roughness.z) discard;
-#endif
     vec3 sum = surface_emission();
 #ifdef UNLIT
     sum += base.rgb;
@@ -71,5 +68,9 @@ void main() {
     radiance = vec4(sum, base.a);
 #else
     radiance = vec4(sum, 1.0);
+#endif
+#ifdef ALPHA_MASK
+    // Last, as the derivatives that choose mipmap levels are undefined after it.
+    if (base.a < metallic_roughness.z) discard;
 #endif
 }

@@ -87,6 +87,10 @@ gpu::ProgramDesc DiffractionSurfaceType::program(ecs::World& world, ecs::Entity 
     return world.get<DiffractionSurface>(entity).material->program(world.get<SurfaceState>(entity));
 }
 
+std::optional<gpu::ProgramDesc> DiffractionSurfaceType::other_program(ecs::World& world, ecs::Entity entity) const {
+    return world.get<DiffractionSurface>(entity).material->other_program(world.get<SurfaceState>(entity));
+}
+
 void DiffractionSurfaceType::warn_of_other_white(const std::string& baked_for, const std::string& lit_by) {
     if (baked_for == lit_by || !warned_of_.emplace(baked_for, lit_by).second) return;
     log_warning("a grating baked for the illuminant {} is lit by {}: it shows the colours of {}", baked_for, lit_by,

@@ -49,6 +49,7 @@ class DiffractionSurfaceType final : public render::MaterialType {
     void add_shaders(gpu::ShaderLibrary& library) const override;
     bool owns(ecs::World& world, ecs::Entity entity) const override;
     gpu::ProgramDesc program(ecs::World& world, ecs::Entity entity) const override;
+    std::optional<gpu::ProgramDesc> other_program(ecs::World& world, ecs::Entity entity) const override;
     void update(ecs::World& world, const render::FrameLight& light) override;
     /// The same under light that does not come from the renderer.
     void update(ecs::World& world, const LightParts& light);

@@ -19,8 +19,8 @@ class GpuMap {
     /// `xyz` in the order of the texture's rows and slices.
     GpuMap(std::span<const glm::vec3> xyz, const gpu::TextureDesc& desc, const gpu::Sampling& sampling);
 
-    /// A map without values. `scale`: the largest component to come. upload() takes halves divided by it, three per
-    /// texel.
+    /// A map without values. `scale`: the largest component to come. upload() takes halves divided by it, four per
+    /// texel; the fourth is not read.
     GpuMap(gpu::TextureDesc desc, const gpu::Sampling& sampling, float scale);
     void upload(std::span<const std::uint16_t> halves, gpu::TextureSlice slice) { texture_.upload(halves, slice); }
 

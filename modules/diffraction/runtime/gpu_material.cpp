@@ -44,6 +44,18 @@ GpuMaterial::GpuMaterial(const CookedMaterial& cooked, const glm::dmat3& xyz_to_
 gpu::ProgramDesc GpuMaterial::program(const SurfaceState& state) const {
     gpu::ProgramDesc desc;
     describe(state, desc);
+    add_defines(state, desc);
+    return desc;
+}
+
+std::optional<gpu::ProgramDesc> GpuMaterial::other_program(const SurfaceState& state) const {
+    gpu::ProgramDesc desc;
+    if (!describe_other(state, desc)) return std::nullopt;
+    add_defines(state, desc);
+    return desc;
+}
+
+void GpuMaterial::add_defines(const SurfaceState& state, gpu::ProgramDesc& desc) const {
     if (separate_lights_) desc.defines.push_back({"SEPARATE_LIGHTS", "1"});
     // It is nearly linear between vertices, and at the pixels a fifth of the plain surface.
     desc.defines.push_back({"AMBIENT_AT_VERTICES", "1"});
@@ -51,7 +63,6 @@ gpu::ProgramDesc GpuMaterial::program(const SurfaceState& state) const {
     kernel_.add_defines(desc);
     if (state.grooves) state.grooves->add_defines(desc);
     if (lights_at_vertices_ && !state.grooves) desc.defines.push_back({"LIGHTS_AT_VERTICES", "1"});
-    return desc;
 }
 
 void GpuMaterial::bind(const gpu::Program& program, const SurfaceLight& light, const SurfaceState& state) const {

@@ -4,10 +4,11 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 
-#include "engine/gpu/buffer.h"
 #include "engine/gpu/program.h"
+#include "engine/gpu/stream_buffer.h"
 #include "engine/render/material.h"
 #include "engine/scene/mesh.h"
 #include "modules/diffraction/asset/cooked_material.h"
@@ -33,7 +34,7 @@ struct SurfaceState {
     std::shared_ptr<const GrooveMap> grooves;
     std::uint64_t light_version = 0;
 
-    gpu::Buffer vertex_light;          ///< per vertex; may be empty
+    gpu::StreamBuffer vertex_light;    ///< per vertex; may be empty
     std::unique_ptr<ObjectData> data;  ///< may be null
 };
 
@@ -66,6 +67,8 @@ class GpuMaterial {
     virtual bool filling(const SurfaceState&) const { return false; }
 
     gpu::ProgramDesc program(const SurfaceState& state) const;
+    /// The program that replaces it when the object's map is filled, or no longer valid.
+    std::optional<gpu::ProgramDesc> other_program(const SurfaceState& state) const;
     /// The program must be in use.
     void bind(const gpu::Program& program, const SurfaceLight& light, const SurfaceState& state) const;
 
@@ -84,9 +87,13 @@ class GpuMaterial {
 
     /// The representation's shader files and defines.
     virtual void describe(const SurfaceState& state, gpu::ProgramDesc& desc) const = 0;
+    /// The same for the other program; false if there is none.
+    virtual bool describe_other(const SurfaceState&, gpu::ProgramDesc&) const { return false; }
     virtual void bind_tables(const gpu::Program& program, const SurfaceState& state) const = 0;
 
  private:
+    void add_defines(const SurfaceState& state, gpu::ProgramDesc& desc) const;
+
     std::shared_ptr<const CookedMaterial> cooked_;
     render::StandardMaterial base_;
     glm::vec3 mirror_weight_{0.0F};

@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/gtx/component_wise.hpp>
 #include <glm/vector_relational.hpp>
+#include <utility>
 #include <vector>
 
 #include "engine/core/log.h"
@@ -40,7 +41,7 @@ void SurfaceLight::set_light_colours(std::span<const glm::vec3> strengths) {
     constexpr float kSameColour = 1e-4F;
     light_colours_.clear();
     colour_block_ = {};
-    colour_buffer_ = {};
+    colours_changed_ = true;
     for (std::size_t i = 0; i < strengths.size(); ++i) {
         const float largest = std::max({strengths[i].r, strengths[i].g, strengths[i].b});
         const glm::vec3 colour = largest > 0.0F ? strengths[i] / largest : glm::vec3(1.0F);
@@ -60,7 +61,7 @@ void SurfaceLight::set(const LightParts& light) {
     light_ = light;
     lit_ = true;
     windowed_.clear();
-    key_lights_ = {};
+    key_lights_changed_ = true;
 }
 
 const lighting::ShLight& SurfaceLight::harmonics(int bands, LightPart part) {
@@ -90,18 +91,18 @@ std::span<const lighting::KeyLight> SurfaceLight::key_lights() const {
 }
 
 void SurfaceLight::bind_light_colours() const {
-    if (colour_buffer_.size() == 0)
-        colour_buffer_ = gpu::Buffer::of(std::span<const LightColourBlock>(&colour_block_, 1));
+    if (std::exchange(colours_changed_, false))
+        colour_buffer_.write_values(std::span<const LightColourBlock>(&colour_block_, 1));
     colour_buffer_.bind_uniform(kLightColourBinding);
 }
 
 void SurfaceLight::bind_key_lights() const {
-    if (key_lights_.size() == 0) {
+    if (std::exchange(key_lights_changed_, false)) {
         KeyLobeBlock block = {};
         const std::span<const lighting::KeyLight> lights = key_lights();
         block.key_lobe_count.x = static_cast<float>(lights.size());
         std::transform(lights.begin(), lights.end(), block.key_lobes, key_lobe);
-        key_lights_ = gpu::Buffer::of(std::span<const KeyLobeBlock>(&block, 1));
+        key_lights_.write_values(std::span<const KeyLobeBlock>(&block, 1));
     }
     key_lights_.bind_uniform(kKeyLobeBinding);
 }

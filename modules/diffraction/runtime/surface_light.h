@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "engine/gpu/buffer.h"
+#include "engine/gpu/stream_buffer.h"
 #include "engine/lighting/sh_light.h"
 #include "engine/math/sh_window.h"
 #include "modules/diffraction/runtime/light_parts.h"
@@ -61,9 +61,11 @@ class SurfaceLight {
     bool lit_ = false;  ///< light_ was set
     std::vector<glm::vec3> light_colours_;
     LightColourBlock colour_block_ = {};
-    mutable gpu::Buffer colour_buffer_;  ///< empty until bound, and after a change
+    mutable gpu::StreamBuffer colour_buffer_;
+    mutable bool colours_changed_ = true;  ///< since they were bound
     std::map<std::pair<int, LightPart>, lighting::ShLight> windowed_;
-    mutable gpu::Buffer key_lights_;  ///< empty until bound
+    mutable gpu::StreamBuffer key_lights_;
+    mutable bool key_lights_changed_ = true;  ///< since they were bound
     std::shared_ptr<const lighting::PackedEnvironmentMap> cube_of_;
     std::shared_ptr<const RadianceCube> cube_;
     int radiance_uploads_ = 0;

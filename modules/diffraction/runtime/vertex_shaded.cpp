@@ -18,7 +18,7 @@ void VertexShaded::update(const SurfaceObject& object, SurfaceLight& light, Surf
     if (!object.changed) return;
     const std::vector<float> rotated = rotate_to_vertices(light.harmonics(bands_, light_part()), object.mesh,
                                                           object.object_to_world, object.groove_rotation);
-    state.vertex_light = gpu::Buffer::of(std::span<const float>(rotated));
+    state.vertex_light.write_values(std::span<const float>(rotated));
 }
 
 void VertexShaded::describe(const SurfaceState&, gpu::ProgramDesc& desc) const {

@@ -70,7 +70,7 @@ void GpuArc::update(const SurfaceObject& object, SurfaceLight& light, SurfaceSta
     const std::vector<glm::vec4> products =
         state.grooves ? grooved_products(object, harmonics, state)
                       : products_(harmonics, object.mesh, object.object_to_world, object.groove_rotation);
-    state.vertex_light = gpu::Buffer::of(std::span<const glm::vec4>(products));
+    state.vertex_light.write_values(std::span<const glm::vec4>(products));
 }
 
 void GpuArc::describe(const SurfaceState& state, gpu::ProgramDesc& desc) const {

@@ -14,14 +14,16 @@ namespace {
 /// Charts side by side and terms below each other, for one volume texture.
 std::vector<std::uint16_t> side_by_side(const CircleMap& map, float scale) {
     std::vector<std::uint16_t> halves;
-    halves.reserve(3 * map.xyz.size());
+    halves.reserve(4 * map.xyz.size());
     for (int view = 0; view < map.views; ++view)
         for (int term = 0; term < map.terms; ++term)
             for (int row = 0; row < map.side; ++row)
                 for (int chart = 0; chart < map.charts; ++chart) {
                     const glm::vec3* texels = map.xyz.data() + map.index(chart, term, view, row, 0);
-                    for (int column = 0; column < map.side; ++column)
+                    for (int column = 0; column < map.side; ++column) {
                         for (int o = 0; o < 3; ++o) halves.push_back(glm::packHalf1x16(texels[column][o] / scale));
+                        halves.push_back(0);
+                    }
                 }
     return halves;
 }
@@ -34,8 +36,7 @@ CircleFilling::Filled CircleFilling::fill(const std::stop_token& stop, const lig
     const CircleMap map = fill_circle_map(texels, kernel, pitch_nm, size, zero_order_xyz, stop);
     if (stop.stop_requested()) return {};
     const float scale = largest_component(map.xyz);
-    return {.charts = map.charts,
-            .desc = {.kind = gpu::TextureKind::Volume,
+    return {.desc = {.kind = gpu::TextureKind::Volume,
                      .width = map.side * map.charts,
                      .height = map.side * map.terms,
                      .depth = map.views},
@@ -62,7 +63,7 @@ bool CircleFilling::upload(int slices) {
     const gpu::TextureDesc& desc = filled_->desc;
     const int end = uploaded_ + std::min(std::max(1, slices), desc.depth - uploaded_);
     const std::size_t slice =
-        std::size_t{3} * static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(desc.height);
+        std::size_t{4} * static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(desc.height);
     map_->upload(
         std::span<const std::uint16_t>(filled_->halves)
             .subspan(static_cast<std::size_t>(uploaded_) * slice, static_cast<std::size_t>(end - uploaded_) * slice),
@@ -74,10 +75,6 @@ bool CircleFilling::upload(int slices) {
 GpuMap CircleFilling::take() {
     ROWLAND_CHECK(map_.has_value() && uploaded_ == filled_->desc.depth, "a map that is uploaded");
     return std::move(*map_);
-}
-
-int CircleFilling::charts() const {
-    return filled_->charts;
 }
 
 }  // namespace rowland::diffraction

@@ -28,12 +28,10 @@ class CircleFilling {
 
     /// The map must be uploaded.
     GpuMap take();
-    int charts() const;
 
  private:
     /// A map in its texture's layout.
     struct Filled {
-        int charts = 0;
         gpu::TextureDesc desc;
         float scale = 1.0F;
         std::vector<std::uint16_t> halves;

@@ -176,13 +176,17 @@ std::size_t CircleMap::index(int chart, int term, int view, int row, int column)
     return (((u(chart) * u(terms) + u(term)) * u(views) + u(view)) * u(side) + u(row)) * u(side) + u(column);
 }
 
+int chart_count(const KernelTable& kernel) {
+    return is_even(kernel) ? 1 : 2;
+}
+
 CircleMap fill_circle_map(const lighting::LightSamples& texels, const KernelTable& kernel, double pitch_nm,
                           const CircleMapSize& size, const glm::dmat3& zero_order_xyz, const std::stop_token& stop) {
     ROWLAND_CHECK_OP(size.side, >=, 8);
     ROWLAND_CHECK_OP(size.views, >=, 8);
     ROWLAND_CHECK(size.terms == 7 || size.terms == 9, "a circle map has 7 or 9 terms");
     CircleMap map{
-        .charts = is_even(kernel) ? 1 : 2, .terms = size.terms, .views = size.views, .side = size.side, .xyz = {}};
+        .charts = chart_count(kernel), .terms = size.terms, .views = size.views, .side = size.side, .xyz = {}};
     map.xyz.resize(map.index(map.charts, 0, 0, 0, 0), glm::vec3(0.0F));
     const lighting::LightSamples lights = lighting::gather_texels(texels, kFaceSize);
     const KernelCells cells(kernel, pitch_nm, size.views, zero_order_xyz);

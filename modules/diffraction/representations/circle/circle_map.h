@@ -44,6 +44,9 @@ struct CircleMapSize {
     int terms = 7;    ///< 7: up to cos 4t; 9: up to cos 6t
 };
 
+/// The number of charts of a map under this kernel.
+int chart_count(const KernelTable& kernel);
+
 /// Fills the map from texels (without key lights, which `direct` adds). Uses all cores; the result does not depend on
 /// their number. `zero_order_xyz`: as of ColourKernel. After a stop request it returns early with an unusable map.
 CircleMap fill_circle_map(const lighting::LightSamples& texels, const KernelTable& kernel, double pitch_nm,

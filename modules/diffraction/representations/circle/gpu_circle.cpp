@@ -7,7 +7,7 @@
 namespace rowland::diffraction {
 
 GpuCircle::GpuCircle(const CookedMaterial& cooked, const CircleTables& tables, const glm::dmat3& xyz_to_working)
-    : GpuMaterial(cooked, xyz_to_working), size_(tables.size) {}
+    : GpuMaterial(cooked, xyz_to_working), size_(tables.size), charts_(chart_count(cooked.kernel)) {}
 
 void GpuCircle::begin(const std::shared_ptr<const lighting::LightSamples>& texels) const {
     texels_ = texels;
@@ -23,14 +23,24 @@ void GpuCircle::update(const SurfaceObject& object, SurfaceLight& light, Surface
     if (!filling_) return;
     if (object.slices_per_frame >= size_.views) filling_->wait();
     if (!filling_->upload(object.slices_per_frame)) return;
-    charts_ = filling_->charts();
     map_ = filling_->take();
     filling_.reset();
     ++fills_;
 }
 
 void GpuCircle::describe(const SurfaceState&, gpu::ProgramDesc& desc) const {
-    if (!map_) return set_shaders(desc, "shaders/pixel_shaded.vert.glsl", "representations/direct/direct.frag.glsl");
+    if (map_)
+        describe_map(desc);
+    else
+        set_shaders(desc, "shaders/pixel_shaded.vert.glsl", "representations/direct/direct.frag.glsl");
+}
+
+bool GpuCircle::describe_other(const SurfaceState&, gpu::ProgramDesc& desc) const {
+    if (!map_) describe_map(desc);
+    return !map_;
+}
+
+void GpuCircle::describe_map(gpu::ProgramDesc& desc) const {
     if (cooked()->material.quality.map_at_vertices)
         set_vertex_shader(desc, "representations/circle/circle.vert.glsl");
     else

@@ -26,16 +26,18 @@ class GpuCircle final : public GpuMaterial {
 
  private:
     void describe(const SurfaceState& state, gpu::ProgramDesc& desc) const override;
+    bool describe_other(const SurfaceState& state, gpu::ProgramDesc& desc) const override;
+    void describe_map(gpu::ProgramDesc& desc) const;
     void bind_tables(const gpu::Program& program, const SurfaceState& state) const override;
     void begin(const std::shared_ptr<const lighting::LightSamples>& texels) const;
 
     CircleMapSize size_;
+    int charts_;
 
     // Updated by the first object in a frame.
     mutable std::optional<std::shared_ptr<const lighting::LightSamples>> texels_;  ///< of the newest map
     mutable std::unique_ptr<CircleFilling> filling_;
     mutable std::optional<GpuMap> map_;
-    mutable int charts_ = 1;
     mutable int fills_begun_ = 0;
     mutable int fills_ = 0;
 };

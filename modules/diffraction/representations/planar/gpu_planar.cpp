@@ -96,7 +96,21 @@ bool GpuPlanar::filling(const SurfaceState& state) const {
 }
 
 void GpuPlanar::describe(const SurfaceState& state, gpu::ProgramDesc& desc) const {
-    if (!data_of(state).on_gpu) return stand_in_.describe(state, desc);
+    if (data_of(state).on_gpu)
+        describe_map(desc);
+    else
+        stand_in_.describe(state, desc);
+}
+
+bool GpuPlanar::describe_other(const SurfaceState& state, gpu::ProgramDesc& desc) const {
+    if (data_of(state).on_gpu)
+        stand_in_.describe(state, desc);
+    else
+        describe_map(desc);
+    return true;
+}
+
+void GpuPlanar::describe_map(gpu::ProgramDesc& desc) const {
     if (cooked()->material.quality.map_at_vertices)
         set_vertex_shader(desc, "representations/planar/planar.vert.glsl");
     else

@@ -41,6 +41,8 @@ class GpuPlanar final : public GpuMaterial {
 
  private:
     void describe(const SurfaceState& state, gpu::ProgramDesc& desc) const override;
+    bool describe_other(const SurfaceState& state, gpu::ProgramDesc& desc) const override;
+    void describe_map(gpu::ProgramDesc& desc) const;
     void bind_tables(const gpu::Program& program, const SurfaceState& state) const override;
 
     void find_flatness(const SurfaceObject& object, const SurfaceState& state, PlanarData& data) const;

@@ -27,7 +27,11 @@ constexpr std::array files{
     EmbeddedFile{"a/bare.glsl", "void main() {}\n"},
     EmbeddedFile{"a/twice.glsl", "#version 450 core\n#include \"bare_version.glsl\"\n"},
     EmbeddedFile{"a/bare_version.glsl", "#version 450 core\n"},
-    EmbeddedFile{"a/cpp.glsl", "#version 450 core\r\n#ifdef __cplusplus\r\n#include <cstdint>\r\n#endif\r\n"},
+    EmbeddedFile{"a/cpp.glsl", "#version 450 core\r\n#ifdef __cplusplus\r\n#include <cstdint>\r\n#endif\r\nlast\r\n"},
+    EmbeddedFile{"a/both.glsl",
+                 "#version 450 core\n#ifdef __cplusplus\n#pragma once\n#include \"none.h\"\n#ifdef X\nnested\n#else\n"
+                 "nested\n#endif\nstruct Block {\n#else\n#ifdef Y\nuniform Block {\n#else\nbuffer Block {\n#endif\n"
+                 "#endif\n"},
 };
 
 ShaderLibrary library() {
@@ -62,9 +66,11 @@ TEST(ShaderLibrary, DefinesFollowTheVersion) {
                 HasSubstr("#version 450 core\n#define BANDS 5\n#define FLAT \n#line 3\n"));
 }
 
-TEST(ShaderLibrary, LeavesIncludesInAngleBracketsAlone) {
-    EXPECT_EQ(library().assemble("a/cpp.glsl").text,
-              "#version 450 core\n#line 2\n#ifdef __cplusplus\n#include <cstdint>\n#endif\n");
+TEST(ShaderLibrary, LinesOfCppAreBlankAndKeepTheirNumbers) {
+    EXPECT_EQ(library().assemble("a/cpp.glsl").text, "#version 450 core\n#line 2\n\n\n\nlast\n");
+    EXPECT_EQ(library().assemble("a/both.glsl").text,
+              "#version 450 core\n#line 2\n\n\n\n\n\n\n\n\n\n\n#ifdef Y\nuniform Block {\n#else\nbuffer Block {\n"
+              "#endif\n\n");
 }
 
 TEST(ShaderLibrary, MissingIncludeNamesFileAndLine) {

@@ -146,9 +146,10 @@ TEST_F(PostStackTest, AutomaticExposureShowsAnEvenPictureAsMidGrey) {
     }
 }
 
-TEST_F(PostStackTest, AutomaticExposureAdaptsFromFrameToFrame) {
+TEST_F(PostStackTest, AutomaticExposureThatWaitsAdaptsToThePictureItself) {
     const gpu::Framebuffer drawn = target({16, 16}, gpu::Format::RGBA8);
-    const PostSettings settings{.auto_exposure = post::AutoExposureSettings{.speed_down = 2.0F}};
+    const PostSettings settings{.auto_exposure = post::AutoExposureSettings{.speed_down = 2.0F},
+                                .wait_for_exposure = true};
     post::PostStack stack(library_);
     stack.draw(plain_picture(0.125F), display_, settings, frame(1.0F), drawn);
     const float dark = stack.exposure_stops();
@@ -170,6 +171,29 @@ TEST_F(PostStackTest, AutomaticExposureAdaptsFromFrameToFrame) {
     EXPECT_EQ(stack.exposure_stops(), 0.0F);
     stack.draw(plain_picture(0.125F), display_, settings, frame(0.25F), drawn);
     EXPECT_NEAR(stack.exposure_stops(), dark, 1e-3F);
+}
+
+TEST_F(PostStackTest, AutomaticExposureAdaptsOneFrameLateAndInItsOwnTime) {
+    const gpu::Framebuffer drawn = target({16, 16}, gpu::Format::RGBA8);
+    const PostSettings settings{.auto_exposure = post::AutoExposureSettings{.speed_down = 2.0F}};
+    const gpu::Texture dark = plain_picture(0.125F);
+    const gpu::Texture bright = plain_picture(1.0F);
+    /// The stops after half a second in so many frames, from when the bright picture's luminance is known.
+    const auto adapted_in = [&](int frames) {
+        post::PostStack stack(library_);
+        const auto draw = [&](const gpu::Texture& picture, float seconds) {
+            stack.draw(picture, display_, settings, frame(seconds), drawn);
+            glFinish();
+            return stack.exposure_stops();
+        };
+        const float first = draw(dark, 1.0F);
+        EXPECT_NEAR(first, std::log2(0.18F / 0.125F), 1e-3F);
+        // The GPU has not measured this one yet.
+        EXPECT_EQ(draw(bright, 0.25F), first);
+        for (int i = 0; i + 1 < frames; ++i) draw(bright, 0.5F / static_cast<float>(frames));
+        return draw(bright, 0.5F / static_cast<float>(frames)) - first;
+    };
+    for (const int frames : {1, 2, 7}) EXPECT_NEAR(adapted_in(frames), -3.0F * (1.0F - std::exp(-1.0F)), 1e-3F);
 }
 
 TEST_F(PostStackTest, AVignetteDoesNotChangeTheAutomaticExposure) {

@@ -98,15 +98,15 @@ TEST_F(Surface, VertexLightIsMadeOnlyWhenSomethingChanges) {
     show(cook(kSlitCd, R"({"representation": "arc"})"));
     const auto made = [&] {
         draw();
-        return world_.get<SurfaceState>(entity_).vertex_light.id();
+        return world_.get<SurfaceState>(entity_).vertex_light.writes();
     };
-    const GLuint first = made();
+    const int first = made();
     EXPECT_EQ(made(), first);
     camera_.eye.x += 0.5F;
     transform_.translation.x += 0.1F;  // a distant light does not see it
     EXPECT_EQ(made(), first);
     transform_.rotation = glm::angleAxis(0.1F, glm::vec3(1.0F, 0.0F, 0.0F));
-    const GLuint turned = made();
+    const int turned = made();
     EXPECT_NE(turned, first);
     ++light_.version;
     EXPECT_NE(made(), turned);

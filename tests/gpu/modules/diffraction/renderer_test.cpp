@@ -41,7 +41,7 @@ lighting::LightProbe uniform_probe(const glm::vec3& radiance) {
 /// A sphere that fills most of the frame, drawn with XYZ → working = identity.
 std::vector<glm::vec4> draw_sphere(const lighting::LightProbe& probe, const StandardMaterial& standard,
                                    const std::optional<diffraction::CookedMaterial>& grating) {
-    const platform::HeadlessContext context;
+    const platform::HeadlessContext context({.debug = true});
     gpu::enable_debug_output(true);
     Renderer renderer(glm::dmat3(1.0));
     diffraction::register_module(renderer);
@@ -164,7 +164,7 @@ TEST(Renderer, AGratingNeverReturnsMoreThanTheFurnaceSends) {
 }
 
 TEST(Renderer, ReloadedShadersAreUsedAndABrokenOneKeepsTheOld) {
-    const platform::HeadlessContext context;
+    const platform::HeadlessContext context({.debug = true});
     gpu::enable_debug_output(true);
     Renderer renderer(glm::dmat3(1.0));
     renderer.set_probe(uniform_probe(glm::vec3(1.0F)));

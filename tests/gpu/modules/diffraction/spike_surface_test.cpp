@@ -96,7 +96,7 @@ struct LitFrame {
     /// Draws XYZ into the framebuffer and gives the largest difference between a pixel and the CPU, over the largest
     /// component of that pixel. `compared` counts the pixels.
     double largest_difference(int& compared) const {
-        const platform::HeadlessContext context;
+        const platform::HeadlessContext context({.debug = true});
         gpu::enable_debug_output(true);
         render::Renderer renderer(glm::dmat3(1.0));
         register_module(renderer, {.window = math::SphericalWindow::None});

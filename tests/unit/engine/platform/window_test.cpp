@@ -48,7 +48,7 @@ TEST(Window, DisplayIsAvailable) {
 }
 
 TEST(Window, HasADebugContextOfOpenGl45Core) {
-    Window window({.title = "test", .size = {64, 64}});
+    Window window({.title = "test", .size = {64, 64}, .debug = true});
     EXPECT_GE(epoxy_gl_version(), 45);
     GLint profile = 0;
     GLint flags = 0;

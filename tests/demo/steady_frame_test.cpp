@@ -1,0 +1,115 @@
+// What a frame asks of the driver once everything is loaded.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "content/demo/play/play_clock.h"
+#include "content/demo/session.h"
+#include "engine/gpu/debug.h"
+#include "engine/platform/headless_context.h"
+#include "modules/diffraction/runtime/diffraction_surface.h"
+#include "tests/gpu/call_counts.h"
+
+namespace rowland {
+namespace {
+
+using demo::PlayEvent;
+
+constexpr glm::ivec2 kSize{96, 54};
+constexpr int kFramesPerSecond = 30;
+
+PlayEvent mouse(double x, double y) {
+    return platform::InputEvent(platform::MouseMoveEvent{{x, y}});
+}
+PlayEvent button(bool down) {
+    return platform::InputEvent(platform::MouseButtonEvent{platform::MouseButton::Left, down});
+}
+
+class SteadyFrame : public testing::Test {
+ protected:
+    SteadyFrame() {
+        gpu::enable_debug_output(true);
+        options_.watch = false;
+        options_.sun = true;
+        options_.auto_exposure = true;
+        options_.bloom = 0.05F;
+        options_.dither = true;
+        options_.content_folder = std::filesystem::path(ROWLAND_SOURCE_TREE) / "content";
+        options_.cooked_folder = std::filesystem::path(ROWLAND_DEMO).parent_path().parent_path() / "cooked";
+    }
+
+    void open() {
+        session_.emplace(options_, post::OcioConfig::choose(std::nullopt), kSize, kSize, demo::Pace::Fluent);
+    }
+    void frame(std::vector<PlayEvent> events = {}) {
+        clock_.live(session_->play(), std::chrono::milliseconds(1000 / kFramesPerSecond), std::move(events), nullptr);
+        session_->carry_out();
+        session_->draw(1.0F / kFramesPerSecond);
+    }
+    /// Until all maps are filled, which take over from what is drawn meanwhile. Programs are linked in the first frame.
+    void load() {
+        frame();
+        test::CallCounts calls;
+        for (int i = 0; i < 2 || diffraction::maps_are_filling(session_->play().world()); ++i) frame();
+        EXPECT_EQ(calls.take().compiled, 0);
+    }
+
+    static void expect_steady(const test::CallCounts::Counts& counts) {
+        EXPECT_GT(counts.draws, 10);
+        EXPECT_EQ(counts.waits, 0);
+        EXPECT_EQ(counts.made, 0);
+        EXPECT_EQ(counts.compiled, 0);
+        EXPECT_EQ(counts.copied, 0);
+        EXPECT_LE(counts.redundant, 0.05 * counts.set) << counts.redundant << " of " << counts.set;
+        if (!HasNonfatalFailure()) return;
+        for (const auto& [name, count] : counts.which) ADD_FAILURE() << count << " " << name;
+    }
+
+    platform::HeadlessContext context_{{.debug = true}};
+    demo::Options options_;
+    std::optional<demo::Session> session_;
+    demo::PlayClock clock_;
+};
+
+TEST_F(SteadyFrame, OfTheCabinetNeitherWaitsNorMakesAnything) {
+    options_.scene = options_.cooked_folder / "cabinet.glb";
+    open();
+    load();
+    test::CallCounts calls;
+    for (int i = 0; i < 6; ++i) {
+        frame();
+        expect_steady(calls.take());
+    }
+}
+
+TEST_F(SteadyFrame, OfTheThrownDiscNeitherWaitsNorMakesAnything) {
+    options_.disc = true;
+    open();
+    load();
+    frame({mouse(48, 27), button(true)});
+    for (int i = 1; i < 5; ++i) frame({mouse(48 + 5 * i, 27)});
+    frame({button(false)});
+    frame();
+    const auto turned = [&] {
+        std::map<std::uint32_t, glm::mat4> matrices;
+        session_->play().world().view<diffraction::DiffractionSurface, scene::WorldMatrix>().each(
+            [&](ecs::Entity entity, const diffraction::DiffractionSurface&, const scene::WorldMatrix& matrix) {
+                matrices[entity.index] = matrix.matrix;
+            });
+        return matrices;
+    };
+    test::CallCounts calls;
+    for (int i = 0; i < 6; ++i) {
+        const auto before = turned();
+        frame();
+        EXPECT_NE(turned(), before) << "it flies";
+        expect_steady(calls.take());
+    }
+}
+
+}  // namespace
+}  // namespace rowland
