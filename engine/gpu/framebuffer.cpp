@@ -6,6 +6,7 @@
 
 #include "engine/core/check.h"
 #include "engine/core/error.h"
+#include "engine/gpu/limits.h"
 
 namespace rowland::gpu {
 
@@ -59,6 +60,7 @@ void Framebuffer::attach(GLenum attachment, Format format, const FramebufferDesc
         glNamedFramebufferTexture(id(), attachment, textures.back().id(), 0);
         return;
     }
+    require_texture({.format = format, .width = desc.width, .height = desc.height}, read_limits());
     GLuint name = 0;
     glCreateRenderbuffers(1, &name);
     multisampled_.emplace_back(name);

@@ -270,6 +270,10 @@ void Renderer::upload_objects(Frame& frame) {
     }
     upload(object_buffer_, blocks);
     if (frame.list.joints.empty()) return;
+    gpu::require_vertex_storage({.what = "skinned meshes",
+                                 .bytes = frame.list.joints.size() * sizeof(glm::mat4),
+                                 .remedy = "draw fewer of them, or none"},
+                                limits_);
     upload(joint_buffer_, std::as_bytes(std::span<const glm::mat4>(frame.list.joints)));
     joint_buffer_.bind_storage(kJointBinding);
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "engine/gpu/buffer.h"
+#include "engine/gpu/limits.h"
 #include "engine/gpu/program.h"
 #include "engine/render/material.h"
 #include "engine/scene/mesh.h"
@@ -81,9 +82,13 @@ class GpuMaterial {
     /// The representation's shader files and defines.
     virtual void describe(const SurfaceState& state, gpu::ProgramDesc& desc) const = 0;
     virtual void bind_tables(const gpu::Program& program, const SurfaceState& state) const = 0;
+    /// Throws Error (system) if the GPU cannot read so many bytes of light per vertex and `tables` other storage
+    /// buffers in the vertex stage.
+    void require_vertex_light(const SurfaceObject& object, std::size_t bytes_per_vertex, int tables = 0) const;
 
  private:
     std::shared_ptr<const CookedMaterial> cooked_;
+    gpu::Limits limits_ = gpu::read_limits();
     render::StandardMaterial base_;
     glm::vec3 mirror_weight_{0.0F};
     glm::vec3 base_weight_{1.0F};
