@@ -7,6 +7,7 @@
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "engine/gpu/bound_state.h"
+#include "engine/gpu/limits.h"
 #include "engine/gpu/pipeline_state.h"
 
 namespace rowland::gpu {
@@ -67,6 +68,7 @@ void Framebuffer::attach(GLenum attachment, Format format, const FramebufferDesc
         glNamedFramebufferTexture(id(), attachment, textures.back().id(), 0);
         return;
     }
+    require_texture({.format = format, .width = desc.width, .height = desc.height}, read_limits());
     GLuint name = 0;
     glCreateRenderbuffers(1, &name);
     multisampled_.emplace_back(name);

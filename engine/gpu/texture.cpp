@@ -6,6 +6,7 @@
 
 #include "engine/core/check.h"
 #include "engine/gpu/bound_state.h"
+#include "engine/gpu/limits.h"
 
 namespace rowland::gpu {
 
@@ -74,6 +75,7 @@ void Texture::Release::operator()(GLuint name) const {
 }
 
 Texture::Texture(const TextureDesc& desc, const Sampling& sampling) : desc_(complete(desc)) {
+    require_texture(desc_, read_limits());
     GLuint name = 0;
     glCreateTextures(kTargets.at(static_cast<std::size_t>(desc_.kind)), 1, &name);
     handle_ = Handle<Release>(name);

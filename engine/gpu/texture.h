@@ -51,7 +51,8 @@ struct TextureSlice {
 class Texture {
  public:
     Texture() = default;
-    /// It is a logic error if a size is below 1 or does not suit the kind.
+    /// It is a logic error if a size is below 1 or does not suit the kind. Throws Error (system) for one that is more
+    /// than the GPU's limit (limits.h).
     explicit Texture(const TextureDesc& desc, const Sampling& sampling = {});
 
     /// Writes whole slices. The data's length gives the components per texel (1 to 4, independent of the format;

@@ -3,9 +3,12 @@
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
-#include <optional>
+#include <cctype>
+#include <cstdlib>
+#include <functional>
 #include <string_view>
 #include <vector>
 
@@ -38,30 +41,43 @@ const char* client_extensions() {
     return eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
 }
 
-/// Displays on hardware devices, in the driver's order. Mesa also lists its software rasteriser as a device; it is
-/// reached through the surfaceless platform, which every version of it has.
-std::vector<EGLDisplay> hardware_displays() {
+/// A way to a GPU.
+struct Candidate {
+    EGLDisplay display = EGL_NO_DISPLAY;
+    const char* platform = "";
+};
+
+constexpr const char* kSoftwareDevice = "EGL software device";
+
+/// In the driver's order.
+std::vector<Candidate> devices() {
     const bool enumerable = has_word(client_extensions(), "EGL_EXT_device_enumeration") ||
                             has_word(client_extensions(), "EGL_EXT_device_base");
     if (!enumerable || !has_word(client_extensions(), "EGL_EXT_platform_device")) return {};
-    std::array<EGLDeviceEXT, 16> devices{};
+    std::array<EGLDeviceEXT, 16> found{};
     EGLint count = 0;
-    if (eglQueryDevicesEXT(static_cast<EGLint>(devices.size()), devices.data(), &count) != EGL_TRUE) return {};
-    std::vector<EGLDisplay> displays;
+    if (eglQueryDevicesEXT(static_cast<EGLint>(found.size()), found.data(), &count) != EGL_TRUE) return {};
+    std::vector<Candidate> candidates;
     for (EGLint i = 0; i < count; ++i) {
-        const EGLDeviceEXT device = devices[static_cast<std::size_t>(i)];
-        if (has_word(eglQueryDeviceStringEXT(device, EGL_EXTENSIONS), "EGL_MESA_device_software")) continue;
-        displays.push_back(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, nullptr));
+        const EGLDeviceEXT device = found[static_cast<std::size_t>(i)];
+        const bool software = has_word(eglQueryDeviceStringEXT(device, EGL_EXTENSIONS), "EGL_MESA_device_software");
+        candidates.push_back({eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, nullptr),
+                              software ? kSoftwareDevice : "EGL device"});
     }
-    return displays;
+    return candidates;
 }
 
-std::vector<EGLDisplay> candidate_displays() {
-    std::vector<EGLDisplay> displays = hardware_displays();
+/// Hardware first. Mesa's software renderer is reached through the surfaceless platform, which every version of it has,
+/// rather than as a device.
+std::vector<Candidate> candidates() {
+    std::vector<Candidate> all = devices();
+    const auto software = std::stable_partition(
+        all.begin(), all.end(), [](const Candidate& candidate) { return candidate.platform != kSoftwareDevice; });
     if (has_word(client_extensions(), "EGL_MESA_platform_surfaceless")) {
-        displays.push_back(eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
+        all.insert(software, {eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr),
+                              "surfaceless"});
     }
-    return displays;
+    return all;
 }
 
 /// A context on the display, or the reason why there is none.
@@ -107,6 +123,19 @@ EGLContext create_context(EGLDisplay display, bool debug, std::string& reason) {
     return context;
 }
 
+/// Whether `wanted` is the number or a part of the name, in capitals or not.
+bool is_wanted(std::string_view wanted, std::size_t number, std::string_view name) {
+    if (wanted == std::to_string(number)) return true;
+    const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
+    return wanted.find_first_not_of("0123456789") != std::string_view::npos &&
+           !std::ranges::search(name, wanted, {}, lower, lower).empty();
+}
+
+std::string wanted_gpu(const HeadlessOptions& options) {
+    const char* variable = std::getenv(gpu_variable);
+    return options.gpu.empty() && variable != nullptr ? variable : options.gpu;
+}
+
 std::string gl_string(GLenum name) {
     const GLubyte* text = glGetString(name);
     return text == nullptr ? "" : reinterpret_cast<const char*>(text);
@@ -133,21 +162,29 @@ struct HeadlessContext::State {
     }
 };
 
-HeadlessContext::HeadlessContext(HeadlessOptions options) : state_(std::make_unique<State>()) {
+HeadlessContext::HeadlessContext(const HeadlessOptions& options) {
     if (!has_word(client_extensions(), "EGL_EXT_platform_base")) {
         fail("an EGL library without EGL_EXT_platform_base, or none", "install a current libEGL and its driver");
     }
+    const std::string wanted = wanted_gpu(options);
     std::string reason = "neither a hardware device nor the surfaceless platform of Mesa";
-    for (const EGLDisplay display : candidate_displays()) {
-        state_->context = create_context(display, options.debug, reason);
+    std::vector<std::string> others;
+    for (const Candidate& candidate : candidates()) {
+        state_ = std::make_unique<State>();
+        state_->display = candidate.display;
+        state_->context = create_context(candidate.display, options.debug, reason);
         if (state_->context == EGL_NO_CONTEXT) continue;
-        state_->display = display;
         make_current();
         state_->renderer = gl_string(GL_RENDERER);
         state_->version = gl_string(GL_VERSION);
-        return;
+        const std::string name = fmt::format("{}, {}", state_->renderer, candidate.platform);
+        if (wanted.empty() || is_wanted(wanted, others.size(), name)) return;
+        others.push_back(fmt::format("{} = {}", others.size(), name));
     }
-    fail(reason, "install the GPU's driver, or Mesa's software renderer (Debian: libgl1-mesa-dri, libegl1)");
+    if (others.empty())
+        fail(reason, "install the GPU's driver, or Mesa's software renderer (Debian: libgl1-mesa-dri, libegl1)");
+    refuse_input(gpu_variable, "", fmt::format("no GPU \"{}\"", wanted),
+                 fmt::format("the number or a part of the name of one of: {}", fmt::join(others, "; ")));
 }
 
 HeadlessContext::~HeadlessContext() = default;

@@ -9,15 +9,22 @@ namespace rowland::platform {
 
 struct HeadlessOptions {
     bool debug = debug_build();  ///< a debug context: the driver reports errors through KHR_debug (see gpu/debug.h)
+    /// The number of a GPU or a part of its name, in the order and by the names that the error for a wrong one lists.
+    /// Empty: what the environment variable ROWLAND_GPU says, or the first.
+    std::string gpu{};
 };
 
+inline constexpr const char* gpu_variable = "ROWLAND_GPU";
+
 /// An OpenGL 4.5 core context without a window: EGL, no surface, so everything is drawn into framebuffer objects. Takes
-/// the first hardware device there is, else the software renderer; needs neither X nor Wayland. Current on the thread
-/// that made it, until another context is made current there; several may live in one process.
+/// the GPU that is asked for, or the first hardware device there is, or the software renderer; needs neither X nor
+/// Wayland. Current on the thread that made it, until another context is made current there; several may live in one
+/// process.
 class HeadlessContext {
  public:
-    /// Throws Error (system) that names what is missing if no device gives OpenGL 4.5 core.
-    explicit HeadlessContext(HeadlessOptions options = {});
+    /// Throws Error (system) that names what is missing if no device gives OpenGL 4.5 core, and Error (input) that
+    /// lists the GPUs if none is the one that is asked for.
+    explicit HeadlessContext(const HeadlessOptions& options = {});
     ~HeadlessContext();
     HeadlessContext(const HeadlessContext&) = delete;
     HeadlessContext& operator=(const HeadlessContext&) = delete;

@@ -262,8 +262,13 @@ void Renderer::upload(Frame& frame) {
         const ObjectBlock block = object_block(*draw, to_working);
         draw->block_offset = append(staging_, &block);
     }
-    if (!frame.list.joints.empty())
+    if (!frame.list.joints.empty()) {
+        gpu::require_vertex_storage({.what = "skinned meshes",
+                                     .bytes = frame.list.joints.size() * sizeof(glm::mat4),
+                                     .remedy = "draw fewer of them, or none"},
+                                    limits_);
         frame.joints_offset = append(staging_, frame.list.joints.data(), frame.list.joints.size());
+    }
     frame_data_.write(staging_);
 }
 

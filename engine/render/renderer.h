@@ -12,6 +12,7 @@
 
 #include "engine/ecs/world.h"
 #include "engine/gpu/framebuffer.h"
+#include "engine/gpu/limits.h"
 #include "engine/gpu/pass_times.h"
 #include "engine/gpu/stream_buffer.h"
 #include "engine/gpu/texture.h"
@@ -101,6 +102,7 @@ class Renderer {
 
     glm::dmat3 xyz_to_working_;
     glm::dmat3 rec709_to_working_;
+    gpu::Limits limits_ = gpu::read_limits();
     std::vector<std::unique_ptr<MaterialType>> types_;
     ProgramCache programs_;
     std::map<std::pair<std::string, SurfaceFeatures>, const gpu::Program*> surface_programs_;  ///< shortcut into it

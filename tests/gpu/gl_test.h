@@ -7,13 +7,17 @@
 #include "engine/gpu/program.h"
 #include "engine/gpu/shader_library.h"
 #include "engine/platform/headless_context.h"
+#include "tests/support/eight_bit_filtering.h"
 
 namespace rowland::test {
 
 /// A test with an OpenGL context of its own, in which every error of the driver is fatal.
 class GlTest : public ::testing::Test {
  protected:
-    GlTest() { gpu::enable_debug_output(true); }
+    GlTest() {
+        gpu::enable_debug_output(true);
+        filter_as_asked();
+    }
 
     /// Builds a program from texts, as files "test.vert.glsl" and "test.frag.glsl".
     static gpu::Program build(const std::string& vertex, const std::string& fragment) {

@@ -8,13 +8,13 @@
 
 namespace rowland::test {
 
-/// The message of the Error (input) that `action` throws; fails the test if it throws none.
+/// The message of the Error that `action` throws; fails the test if it throws none, or one of another fault.
 template <typename Action>
-std::string message_of(const Action& action) {
+std::string message_of(const Action& action, Fault fault = Fault::Input) {
     try {
         action();
     } catch (const Error& error) {
-        EXPECT_EQ(error.info().fault, Fault::Input);
+        EXPECT_EQ(error.info().fault, fault);
         return error.what();
     }
     ADD_FAILURE() << "nothing was thrown";

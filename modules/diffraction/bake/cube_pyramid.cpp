@@ -83,18 +83,22 @@ glm::dvec3 CubePyramid::at_level(const glm::dvec3& direction, double level) cons
     return weight == 0.0 ? finer : (1.0 - weight) * finer + weight * bilinear(below + 1, direction);
 }
 
-glm::dvec3 CubePyramid::filtered(const glm::dvec3& direction, const glm::dvec3& a, const glm::dvec3& b,
-                                 int most_taps) const {
+CubePyramid::Samples CubePyramid::samples(const glm::dvec3& a, const glm::dvec3& b, int most_taps) const {
     const Ellipse ellipse = ellipse_of(a, b);
     const double texel_angle = kCubeFaceAngle / layout_.face_size;
     // Level 0 limits the resolution.
     const double minor = std::max(ellipse.minor_length, texel_angle / kTexelsPerWidth);
-    const int taps = std::clamp(static_cast<int>(std::ceil(ellipse.major_length / minor - 0.5)), 1, most_taps);
-    const double width = std::max(minor, ellipse.major_length / taps);
-    const double level = std::log2(width * kTexelsPerWidth / texel_angle);
+    const int count = std::clamp(static_cast<int>(std::ceil(ellipse.major_length / minor - 0.5)), 1, most_taps);
+    const double width = std::max(minor, ellipse.major_length / count);
+    return {.along = ellipse.major, .count = count, .level = std::log2(width * kTexelsPerWidth / texel_angle)};
+}
+
+glm::dvec3 CubePyramid::filtered(const glm::dvec3& direction, const glm::dvec3& a, const glm::dvec3& b,
+                                 int most_taps) const {
+    const Samples all = samples(a, b, most_taps);
     glm::dvec3 sum(0.0);
-    for (int i = 0; i < taps; ++i) sum += at_level(direction + ((i + 0.5) / taps - 0.5) * ellipse.major, level);
-    return sum / static_cast<double>(taps);
+    for (int i = 0; i < all.count; ++i) sum += at_level(direction + all.offset(i), all.level);
+    return sum / static_cast<double>(all.count);
 }
 
 }  // namespace rowland::diffraction

@@ -26,8 +26,18 @@ class CubePyramid {
     /// Trilinear and seamless, at a level in [0, levels − 1].
     glm::dvec3 at_level(const glm::dvec3& direction, double level) const;
 
-    /// Mean radiance over the parallelogram that `a` and `b` span about the unit vector `direction`, all in world axes:
-    /// at the level that matches the shorter side, with up to `most_taps` samples along the longer.
+    /// The samples that filter a footprint: so many, evenly along a vector about its middle, all at one level.
+    struct Samples {
+        glm::dvec3 along{0.0};
+        int count = 1;
+        double level = 0.0;
+
+        glm::dvec3 offset(int i) const { return ((i + 0.5) / count - 0.5) * along; }
+    };
+    /// Of the parallelogram that `a` and `b` span: at the level that matches its shorter side, along the longer.
+    Samples samples(const glm::dvec3& a, const glm::dvec3& b, int most_taps) const;
+
+    /// Mean radiance over that parallelogram about the unit vector `direction`, all in world axes.
     glm::dvec3 filtered(const glm::dvec3& direction, const glm::dvec3& a, const glm::dvec3& b, int most_taps) const;
 
     const lighting::CubeLayout& layout() const { return layout_; }

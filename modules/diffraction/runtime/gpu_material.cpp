@@ -1,5 +1,7 @@
 #include "modules/diffraction/runtime/gpu_material.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <string>
 #include <tuple>
@@ -74,6 +76,16 @@ void GpuMaterial::bind(const gpu::Program& program, const SurfaceLight& light, c
     program.set("mirror_weight", mirror_weight_);
     program.set("base_weight", base_weight_);
     program.set("groove_turn", glm::vec2(std::cos(state.groove_rotation), std::sin(state.groove_rotation)));
+}
+
+void GpuMaterial::require_vertex_light(const SurfaceObject& object, std::size_t bytes_per_vertex, int tables) const {
+    const std::size_t vertices = object.mesh.positions.size();
+    gpu::require_vertex_storage(
+        {.what = fmt::format("a grating of representation {} on {} vertices", info(cooked_->tables).name, vertices),
+         .blocks = 1 + tables + (object.skinned ? 1 : 0),
+         .bytes = vertices * bytes_per_vertex,
+         .remedy = "take fewer bands, a mesh of fewer vertices, or the representation circle or direct"},
+        limits_);
 }
 
 std::shared_ptr<const GpuMaterial> make_gpu_material(const CookedMaterial& cooked, const glm::dmat3& xyz_to_working) {

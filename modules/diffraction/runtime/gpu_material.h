@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "engine/gpu/limits.h"
 #include "engine/gpu/program.h"
 #include "engine/gpu/stream_buffer.h"
 #include "engine/render/material.h"
@@ -90,11 +91,15 @@ class GpuMaterial {
     /// The same for the other program; false if there is none.
     virtual bool describe_other(const SurfaceState&, gpu::ProgramDesc&) const { return false; }
     virtual void bind_tables(const gpu::Program& program, const SurfaceState& state) const = 0;
+    /// Throws Error (system) if the GPU cannot read so many bytes of light per vertex and `tables` other storage
+    /// buffers in the vertex stage.
+    void require_vertex_light(const SurfaceObject& object, std::size_t bytes_per_vertex, int tables = 0) const;
 
  private:
     void add_defines(const SurfaceState& state, gpu::ProgramDesc& desc) const;
 
     std::shared_ptr<const CookedMaterial> cooked_;
+    gpu::Limits limits_ = gpu::read_limits();
     render::StandardMaterial base_;
     glm::vec3 mirror_weight_{0.0F};
     glm::vec3 base_weight_{1.0F};

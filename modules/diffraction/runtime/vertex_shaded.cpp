@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "modules/diffraction/representations/descriptor.h"
 #include "modules/diffraction/runtime/bindings.h"
 #include "modules/diffraction/runtime/tangent_light.h"
 
@@ -16,6 +17,7 @@ VertexShaded::VertexShaded(const CookedMaterial& cooked, const glm::dmat3& xyz_t
 
 void VertexShaded::update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const {
     if (!object.changed) return;
+    require_vertex_light(object, harmonics_bytes(bands_), 1);
     const std::vector<float> rotated = rotate_to_vertices(light.harmonics(bands_, light_part()), object.mesh,
                                                           object.object_to_world, object.groove_rotation);
     state.vertex_light.write_values(std::span<const float>(rotated));

@@ -1,14 +1,22 @@
-#include <epoxy/gl.h>
+#include "engine/platform/headless_context.h"
 
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <cstdlib>
 #include <optional>
 
 #include "engine/gpu/pipeline_state.h"
 #include "tests/gpu/gl_test.h"
+#include "tests/support/message_of.h"
 
 namespace rowland {
 
 namespace {
 
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 using ContextTest = test::GlTest;
 
 constexpr const char* triangle_vertex = R"(#version 450 core
@@ -78,6 +86,36 @@ TEST_F(ContextTest, DrawsATriangle) {
     // Rows run from the top: the lower left corner is in the last row, the upper right one in the first.
     EXPECT_EQ(pixels[7 * 8 + 0], glm::vec4(0.25F, 0.5F, 2.0F, 1.0F));
     EXPECT_EQ(pixels[0 * 8 + 7], glm::vec4(0.0F));
+}
+
+/// The other way to a GPU: that of machines whose GPU has no display. Mesa's software renderer is such a device.
+TEST_F(ContextTest, AContextOnAnEglDeviceDraws) {
+    std::optional<platform::HeadlessContext> context;
+    try {
+        context.emplace(platform::HeadlessOptions{.gpu = "egl software device"});
+    } catch (const Error& error) {
+        GTEST_SKIP() << error.what();
+    }
+    gpu::enable_debug_output(true);
+    EXPECT_TRUE(context->is_software());
+    EXPECT_EQ(draw_triangle(build(triangle_vertex, triangle_fragment))[56].b, 2.0F);
+}
+
+TEST_F(ContextTest, AGpuIsChosenByNumberOrPartOfItsName) {
+    EXPECT_EQ(platform::HeadlessContext({.gpu = "0"}).renderer(), context_.renderer());
+    EXPECT_EQ(platform::HeadlessContext({.gpu = context_.renderer()}).renderer(), context_.renderer());
+}
+
+TEST_F(ContextTest, AWrongChoiceListsTheGpus) {
+    const std::string expected = fmt::format("0 = {}, ", context_.renderer());
+    for (const char* wanted : {"no such", "99"}) {
+        EXPECT_THAT(test::message_of([&] { const platform::HeadlessContext context({.gpu = wanted}); }),
+                    AllOf(HasSubstr(fmt::format("no GPU \"{}\"", wanted)), HasSubstr(expected)));
+        setenv(platform::gpu_variable, wanted, 1);
+        EXPECT_THAT(test::message_of([] { const platform::HeadlessContext context; }),
+                    HasSubstr("ROWLAND_GPU: no GPU"));
+        unsetenv(platform::gpu_variable);
+    }
 }
 
 TEST_F(ContextTest, ALaterContextWorksAfterAnEarlierOneIsGone) {

@@ -45,7 +45,8 @@ TEST_F(Direct, KeyLightsEqualTheCpuWithTheSmoothedKernel) {
         if (!renderer_) show(cooked, 0.5);
         use(cooked);
         const auto expected = [&](const Point& point) { return key_light_xyz(cooked, light_.key_lights, point); };
-        EXPECT_LT(largest_difference(draw(), expected), kPictureTolerance) << grating;
+        const auto error = [&](const Point& point) { return key_light_error(cooked, light_.key_lights, point); };
+        EXPECT_LT(largest_difference(draw(), expected, error), kPictureTolerance) << grating;
         EXPECT_GT(brightest_, 0.01);
     }
 }

@@ -69,28 +69,36 @@ std::vector<glm::vec4> GratingPicture::draw() {
     return target_.read_rgba_float();
 }
 
-void GratingPicture::expect_map_at_vertices(const CookedMaterial& cooked,
-                                            const std::function<glm::dvec3(const Point&)>& map_xyz) {
+void GratingPicture::expect_map_at_vertices(const CookedMaterial& cooked, const AtPoint& map_xyz,
+                                            const AtPoint& map_error) {
     const auto lights_xyz = [&](const Point& point) { return key_light_xyz(cooked, light_.key_lights, point); };
+    const auto lights_error = [&](const Point& point) { return key_light_error(cooked, light_.key_lights, point); };
     std::vector<glm::dvec3> maps;
     std::vector<glm::dvec3> lights;
+    std::vector<glm::dvec3> map_errors;
+    std::vector<glm::dvec3> light_errors;
     for (std::size_t vertex = 0; vertex < 3; ++vertex) {
         Point point;
         point.to_tangent = vertex_frame(vertex);
         point.view = vertex_view(vertex);
         maps.push_back(map_xyz(point));
         lights.push_back(lights_xyz(point));
+        map_errors.push_back(map_error(point));
+        light_errors.push_back(lights_error(point));
     }
     const bool at_vertices = cooked.material.quality.lights_at_vertices;
     const auto expected = [&](const Point& point) {
         return mix(point, maps) + (at_vertices ? mix(point, lights) : lights_xyz(point));
     };
-    EXPECT_LT(largest_difference(draw(), expected), kPictureTolerance) << at_vertices;
+    const auto error = [&](const Point& point) {
+        return mix(point, map_errors) + (at_vertices ? mix(point, light_errors) : lights_error(point));
+    };
+    EXPECT_LT(largest_difference(draw(), expected, error), kPictureTolerance) << at_vertices;
     EXPECT_GT(largest_difference(draw(), map_xyz), 0.1);
 }
 
-double GratingPicture::largest_difference(const std::vector<glm::vec4>& pixels,
-                                          const std::function<glm::dvec3(const Point& point)>& expected) {
+double GratingPicture::largest_difference(const std::vector<glm::vec4>& pixels, const AtPoint& expected,
+                                          const AtPoint& filter_error) {
     double difference = 0.0;
     brightest_ = 0.0;
     compared_ = 0;
@@ -99,10 +107,12 @@ double GratingPicture::largest_difference(const std::vector<glm::vec4>& pixels,
             const Point point = point_at(column, row);
             if (std::min({point.weights.x, point.weights.y, point.weights.z}) < 0.02) continue;
             const glm::dvec3 wanted = expected(point);
+            const glm::dvec3 allowed = filter_error ? filter_error(point) : glm::dvec3(0.0);
             const glm::dvec3 drawn = glm::vec3(pixels[static_cast<std::size_t>(row * kSize + column)]);
             for (int o = 0; o < 3; ++o) {
                 // A NaN is no agreement.
-                difference = std::isfinite(drawn[o]) ? std::max(difference, std::abs(drawn[o] - wanted[o])) : 1e30;
+                difference =
+                    std::isfinite(drawn[o]) ? std::max(difference, std::abs(drawn[o] - wanted[o]) - allowed[o]) : 1e30;
                 brightest_ = std::max(brightest_, std::abs(wanted[o]));
             }
             ++compared_;

@@ -4,19 +4,36 @@
 #include <tuple>
 
 #include "modules/diffraction/representations/direct/lobe_table.h"
+#include "tests/gpu/modules/diffraction/filter_error.h"
 
 namespace rowland::diffraction {
 
 namespace {
 
+/// Of the table that is drawn with, which has steps as large at most: blur_for_lights().
+constexpr int kFewestColumns = 1024;
+
+struct LobeReference {
+    LobeTable table;
+    LobeTable error;
+};
+
 /// Kept by pitch and light, as it is slow to compute.
-const LobeTable& lobe_table(const CookedMaterial& cooked, const lighting::KeyLight& key) {
-    static std::map<std::tuple<double, double, double, double, double>, LobeTable> tables;
+const LobeReference& lobe_reference(const CookedMaterial& cooked, const lighting::KeyLight& key) {
+    static std::map<std::tuple<double, double, double, double, double>, LobeReference> tables;
     const double pitch = cooked.material.grating.pitch_nm;
     const std::tuple name(pitch, key.concentration, key.flux.x, key.flux.y, key.flux.z);
     const auto found = tables.find(name);
     if (found != tables.end()) return found->second;
-    return tables.emplace(name, make_lobe_table(smoothed(cooked), pitch, key, 4096)).first->second;
+    const BlurredKernel& kernel = smoothed(cooked);
+    return tables
+        .emplace(name, LobeReference{.table = make_lobe_table(kernel, pitch, key, 4096),
+                                     .error = filter_error(make_lobe_table(kernel, pitch, key, kFewestColumns))})
+        .first->second;
+}
+
+bool has_tables(const CookedMaterial& cooked) {
+    return cooked.zero_order_xyz == glm::dmat3(0.0);
 }
 
 }  // namespace
@@ -38,14 +55,23 @@ const BlurredKernel& smoothed(const CookedMaterial& cooked) {
 glm::dvec3 key_light_xyz(const CookedMaterial& cooked, const std::vector<lighting::KeyLight>& keys,
                          const Point& point) {
     const DirectMaterial material = direct_material(cooked);
-    const BlurredKernel& kernel = smoothed(cooked);
     glm::dvec3 xyz(0.0);
     if (point.view.z <= 0.0) return xyz;
     const DirectView view{point.view.x, point.view.y, point.footprint};
-    const bool tabled = cooked.zero_order_xyz == glm::dmat3(0.0);
     for (const lighting::KeyLight& key : keys)
-        xyz += tabled ? lobe_radiance(lobe_table(cooked, key), material, key, point.to_tangent, view)
-                      : direct_radiance(kernel, material, light_spot(key, point.to_tangent), view);
+        xyz += has_tables(cooked)
+                   ? lobe_radiance(lobe_reference(cooked, key).table, material, key, point.to_tangent, view)
+                   : direct_radiance(smoothed(cooked), material, light_spot(key, point.to_tangent), view);
+    return xyz;
+}
+
+glm::dvec3 key_light_error(const CookedMaterial& cooked, const std::vector<lighting::KeyLight>& keys,
+                           const Point& point) {
+    glm::dvec3 xyz(0.0);
+    if (point.view.z <= 0.0 || !has_tables(cooked)) return xyz;
+    const DirectView view{point.view.x, point.view.y, point.footprint};
+    for (const lighting::KeyLight& key : keys)
+        xyz += lobe_radiance(lobe_reference(cooked, key).error, direct_material(cooked), key, point.to_tangent, view);
     return xyz;
 }
 

@@ -11,6 +11,9 @@ namespace rowland::diffraction {
 
 /// XYZ of key lights at a point, with the kernel smoothed as on the GPU.
 glm::dvec3 key_light_xyz(const CookedMaterial& cooked, const std::vector<lighting::KeyLight>& keys, const Point& point);
+/// What texture units may add to it (filter_error.h): of the lights' tables.
+glm::dvec3 key_light_error(const CookedMaterial& cooked, const std::vector<lighting::KeyLight>& keys,
+                           const Point& point);
 
 DirectMaterial direct_material(const CookedMaterial& cooked);
 

@@ -25,6 +25,7 @@
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/module.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
+#include "tests/support/eight_bit_filtering.h"
 #include "tests/support/temporary_folder.h"
 
 namespace rowland::render {
@@ -43,6 +44,7 @@ std::vector<glm::vec4> draw_sphere(const lighting::LightProbe& probe, const Stan
                                    const std::optional<diffraction::CookedMaterial>& grating) {
     const platform::HeadlessContext context({.debug = true});
     gpu::enable_debug_output(true);
+    test::filter_as_asked();
     Renderer renderer(glm::dmat3(1.0));
     diffraction::register_module(renderer);
     renderer.set_probe(probe);
@@ -166,6 +168,7 @@ TEST(Renderer, AGratingNeverReturnsMoreThanTheFurnaceSends) {
 TEST(Renderer, ReloadedShadersAreUsedAndABrokenOneKeepsTheOld) {
     const platform::HeadlessContext context({.debug = true});
     gpu::enable_debug_output(true);
+    test::filter_as_asked();
     Renderer renderer(glm::dmat3(1.0));
     renderer.set_probe(uniform_probe(glm::vec3(1.0F)));
     ecs::World world;

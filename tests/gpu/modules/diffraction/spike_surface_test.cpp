@@ -20,6 +20,7 @@
 #include "modules/diffraction/runtime/diffraction_surface.h"
 #include "modules/diffraction/runtime/tangent_light.h"
 #include "tests/gpu/modules/diffraction/cook_grating.h"
+#include "tests/support/eight_bit_filtering.h"
 
 namespace rowland::diffraction {
 namespace {
@@ -98,6 +99,7 @@ struct LitFrame {
     double largest_difference(int& compared) const {
         const platform::HeadlessContext context({.debug = true});
         gpu::enable_debug_output(true);
+        rowland::test::filter_as_asked();
         render::Renderer renderer(glm::dmat3(1.0));
         register_module(renderer, {.window = math::SphericalWindow::None});
         renderer.set_probe(probe);

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "engine/gpu/texture.h"
+
+namespace rowland::gpu {
+
+/// What drivers limit. The values here are those that OpenGL 4.5 guarantees.
+struct Limits {
+    std::int64_t storage_block_bytes = 1 << 24;  ///< that a shader sees of a storage buffer
+    int vertex_storage_blocks = 0;               ///< storage buffers of a vertex stage
+    int texture_side = 16384;                    ///< texels; of a line, a plane, a layer
+    int cube_side = 16384;
+    int volume_side = 2048;
+    int texture_layers = 2048;
+};
+
+/// Those of the current context. Asks the driver: call it while loading.
+Limits read_limits();
+
+/// Throws Error (system) that names a side or a number of layers that is too large.
+void require_texture(const TextureDesc& desc, const Limits& limits);
+
+/// Storage buffers that an object's vertex stage reads.
+struct VertexStorage {
+    std::string what;  ///< that needs them
+    int blocks = 1;
+    std::size_t bytes = 0;  ///< of the largest
+    std::string remedy;
+};
+/// Throws Error (system) with this remedy.
+void require_vertex_storage(const VertexStorage& storage, const Limits& limits);
+
+}  // namespace rowland::gpu

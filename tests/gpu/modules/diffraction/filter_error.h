@@ -1,0 +1,26 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "modules/diffraction/bake/cube_pyramid.h"
+#include "modules/diffraction/representations/circle/circle_map.h"
+#include "modules/diffraction/representations/direct/lobe_table.h"
+#include "modules/diffraction/representations/planar/planar_map.h"
+
+namespace rowland::diffraction {
+
+/// Texture units take 8 bits of a position between texels, rounded or cut off: so far is it off on an axis, in texels.
+inline constexpr double kPositionError = 1.0 / 256.0;
+
+/// Tables that give the most by which such positions change look-ups of these ones. A texel holds the larger
+/// difference to its neighbours on each axis, times kPositionError, summed over the axes.
+PlanarMap filter_error(const PlanarMap& map);
+LobeTable filter_error(const LobeTable& table);
+/// In the first term, whose factor is 1: the others' factors are within [−1, 1].
+CircleMap filter_error(const CircleMap& map);
+
+/// The same of CubePyramid::filtered(), whose axes are those of a face and the levels.
+glm::dvec3 filter_error(const CubePyramid& pyramid, const glm::dvec3& direction, const glm::dvec3& a,
+                        const glm::dvec3& b, int most_taps);
+
+}  // namespace rowland::diffraction
