@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "engine/core/error.h"
 
@@ -24,7 +25,7 @@ std::string stage_text(const StageCost& cost) {
                        s.fetches, s.vector_registers, s.waves);
 }
 
-nlohmann::ordered_json stage_json(const StageCost& cost) {
+nlohmann::ordered_json to_json(const StageCost& cost) {
     const StageStatistics& s = cost.statistics;
     return {{"times_plain", std::round(1000.0 * cost.times_plain) / 1000.0},
             {"inverse_throughput", s.inverse_throughput},
@@ -34,12 +35,28 @@ nlohmann::ordered_json stage_json(const StageCost& cost) {
             {"waves", s.waves}};
 }
 
-/// Compares a stage's ratio with the one that is held.
-void compare(const std::string& what, const StageCost& cost, const nlohmann::json& held,
-             std::vector<std::string>& lines) {
+/// Adds a line if a stage's ratio has grown.
+void compare(const std::string& what, const StageCost& cost, const nlohmann::json& held, Comparison& result) {
     const double before = held.at("times_plain");
     if (!(cost.times_plain <= (1.0 + kMostGrowth) * before))
-        lines.push_back(fmt::format("{}: {:.3f} × plain, was {:.3f}", what, cost.times_plain, before));
+        result.grown.push_back(fmt::format("{}: {:.3f} × plain, was {:.3f}", what, cost.times_plain, before));
+}
+
+void compare(const GenerationCost& cost, const nlohmann::json& held, Comparison& result) {
+    if (cost.driver != held.at("driver")) {
+        result.same_driver = false;
+        return;
+    }
+    for (const auto& [name, stages] : held.at("frames").items()) {
+        const std::string what = cost.name + ", " + name;
+        const FrameCost* frame = find(cost.frames, name);
+        if (frame == nullptr) {
+            result.grown.push_back(what + ": not measured");
+            continue;
+        }
+        compare(what + ", fragment stage", frame->fragment, stages.at("fragment"), result);
+        compare(what + ", vertex stage", frame->vertex, stages.at("vertex"), result);
+    }
 }
 
 }  // namespace
@@ -68,43 +85,33 @@ std::string to_text(const GenerationCost& cost) {
     return text;
 }
 
-nlohmann::ordered_json to_json(const std::vector<GenerationCost>& costs) {
-    nlohmann::ordered_json generations_json = nlohmann::ordered_json::array();
+std::string to_json(const std::vector<GenerationCost>& costs) {
+    std::string text = "[";
     for (const GenerationCost& cost : costs) {
-        nlohmann::ordered_json frames = nlohmann::ordered_json::object();
-        for (const FrameCost& frame : cost.frames)
-            frames[frame.name] = {{"fragment", stage_json(frame.fragment)}, {"vertex", stage_json(frame.vertex)}};
-        generations_json.push_back(
-            {{"name", cost.name}, {"device", cost.device}, {"driver", cost.driver}, {"frames", frames}});
+        text += fmt::format("{}\n{{\"name\": {}, \"device\": {}, \"driver\": {}, \"frames\": {{",
+                            text.size() > 1 ? "," : "", nlohmann::json(cost.name).dump(),
+                            nlohmann::json(cost.device).dump(), nlohmann::json(cost.driver).dump());
+        for (const FrameCost& frame : cost.frames) {
+            const nlohmann::ordered_json stages = {{"fragment", to_json(frame.fragment)},
+                                                   {"vertex", to_json(frame.vertex)}};
+            text += fmt::format("{}\n{}: {}", &frame == cost.frames.data() ? "" : ",",
+                                nlohmann::json(frame.name).dump(), stages.dump());
+        }
+        text += "}}";
     }
-    return {{"generations", generations_json}};
+    return text + "]\n";
 }
 
-std::vector<std::string> grown(const std::vector<GenerationCost>& costs, const nlohmann::json& held,
-                               const std::string& file, bool& comparable) {
-    std::vector<std::string> lines;
-    comparable = true;
+Comparison compare_with(const std::string& held, const std::string& file, const std::vector<GenerationCost>& costs) {
+    Comparison result;
     try {
-        for (const nlohmann::json& generation : held.at("generations"))
-            for (const GenerationCost& cost : costs) {
-                if (cost.name != generation.at("name")) continue;
-                if (cost.driver != generation.at("driver")) comparable = false;
-                for (const auto& [name, stages] : generation.at("frames").items()) {
-                    const FrameCost* frame = find(cost.frames, name);
-                    if (frame == nullptr) {
-                        lines.push_back(fmt::format("{}: {}: no longer drawn", cost.name, name));
-                        continue;
-                    }
-                    const std::string what = cost.name + ": " + name;
-                    compare(what + ", fragment stage", frame->fragment, stages.at("fragment"), lines);
-                    compare(what + ", vertex stage", frame->vertex, stages.at("vertex"), lines);
-                }
-            }
+        for (const nlohmann::json& generation : nlohmann::json::parse(held))
+            for (const GenerationCost& cost : costs)
+                if (cost.name == generation.at("name")) compare(cost, generation, result);
     } catch (const nlohmann::json::exception& error) {
         refuse_input(file, "", error.what(), "a file that --json wrote");
     }
-    if (!comparable) lines.clear();
-    return lines;
+    return result;
 }
 
 }  // namespace rowland::gpu_cost

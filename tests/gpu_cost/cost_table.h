@@ -1,6 +1,5 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -32,12 +31,15 @@ struct GenerationCost {
 void divide_by_plain(GenerationCost& cost);
 
 std::string to_text(const GenerationCost& cost);
-nlohmann::ordered_json to_json(const std::vector<GenerationCost>& costs);
+/// A line for each frame, so that changes of a committed file can be read.
+std::string to_json(const std::vector<GenerationCost>& costs);
 
-/// What grew by more than 5 % over a file that to_json() wrote, or is missing in `costs`: a line for each. Of a file by
-/// another version of the driver nothing is compared, and `comparable` becomes false. Throws Error (input) for another
-/// kind of file, which `file` names.
-std::vector<std::string> grown(const std::vector<GenerationCost>& costs, const nlohmann::json& held,
-                               const std::string& file, bool& comparable);
+/// The costs of an earlier run against today's.
+struct Comparison {
+    std::vector<std::string> grown;  ///< a line for each ratio that is 5 % larger, or no longer measured
+    bool same_driver = true;         ///< else nothing is compared: another version of the compiler has other ratios
+};
+/// `held`: what to_json() wrote, from the file `file`. Throws Error (input) for another kind of file.
+Comparison compare_with(const std::string& held, const std::string& file, const std::vector<GenerationCost>& costs);
 
 }  // namespace rowland::gpu_cost

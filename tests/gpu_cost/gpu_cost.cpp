@@ -50,11 +50,13 @@ std::optional<Options> parse_options(int argc, char** argv, int& status) {
         std::string(kAssumptions) +
         "\nexample: rowland-gpu-cost --only 'planar,arc*' --json cost.json\n"
         "needs Mesa's Vulkan driver of AMD's GPUs and glslangValidator (Debian: mesa-vulkan-drivers glslang-tools)");
-    app.add_option("--only", options.only, "Names or patterns of rowland-benchmark's frames, with commas between them")
-        ->delimiter(',');
+    CLI::Option* only = app.add_option("--only", options.only,
+                                       "Names or patterns of rowland-benchmark's frames, with commas between them")
+                            ->delimiter(',');
     app.add_option("--json", options.json, "Also write the results to a file");
     app.add_option("--check", options.check,
-                   "Compare with such a file: exit code 1 if a ratio has grown by more than 5 %");
+                   "Compare with such a file: exit code 1 if a ratio has grown by more than 5 %")
+        ->excludes(only);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -113,12 +115,10 @@ GenerationCost cost_of(const Generation& generation, const AmdCompiler& compiler
 }
 
 int check(const std::vector<GenerationCost>& costs, const std::filesystem::path& file) {
-    const auto held = nlohmann::json::parse(read_text_file(file, 1 << 24), nullptr, false);
-    bool comparable = true;
-    const std::vector<std::string> lines = grown(costs, held, file.string(), comparable);
-    for (const std::string& line : lines) std::printf("grown: %s\n", line.c_str());
-    if (!comparable) std::printf("not compared: %s is of another version of Mesa\n", file.c_str());
-    return lines.empty() ? 0 : 1;
+    const Comparison comparison = compare_with(read_text_file(file, 1 << 24), file.string(), costs);
+    for (const std::string& line : comparison.grown) std::printf("grown: %s\n", line.c_str());
+    if (!comparison.same_driver) std::printf("not compared: %s is by another version of Mesa\n", file.c_str());
+    return comparison.grown.empty() ? 0 : 1;
 }
 
 int run(int argc, char** argv) {
@@ -135,7 +135,7 @@ int run(int argc, char** argv) {
         std::printf("%s\n", to_text(costs.back()).c_str());
     }
     std::fputs(kAssumptions, stdout);
-    if (options->json) write_file_atomic(*options->json, to_json(costs).dump(1) + "\n");
+    if (options->json) write_file_atomic(*options->json, to_json(costs));
     return options->check ? check(costs, *options->check) : 0;
 }
 
