@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/error.h"
+#include "engine/command_line/command_line.h"
 #include "engine/core/file.h"
 #include "engine/core/program.h"
 #include "engine/core/progress.h"
@@ -24,14 +24,11 @@ using namespace gpu_cost;
 
 constexpr const char* kAssumptions =
     "× plain: cycles over those of the frame 'plain'. cycles: the compiler's \"inverse throughput\" of 64 pixels or\n"
-    "vertices, the greater of the busiest unit's work and of the latency that other waves cannot hide. instr: "
-    "instructions\n"
-    "that run. fetch: those of them that read textures, buffers or attributes. waves: as many as a SIMD unit holds.\n"
-    "Assumed: caches hit. Loops over lights, streak nodes, coefficients and constants run as often as in the frame, "
-    "those\n"
-    "over a footprint's samples twice, other loops whose length the pixel computes 8 times. A branch is entered by "
-    "three\n"
-    "waves of four, one that all pixels decide alike by half of them.\n";
+    "vertices: the busiest unit's work or, if greater, the latency that other waves cannot hide. instr: instructions\n"
+    "that run. fetch: those of them that read textures, buffers or attributes. waves: what a SIMD unit holds.\n"
+    "Assumed: caches hit. Loops over lights, streak nodes and constants run as often as in the frame, those over a\n"
+    "footprint's samples once, others whose length the pixel computes 8 times. Three waves of four enter a branch;\n"
+    "half of them one that all pixels decide alike.\n";
 
 struct Options {
     std::vector<std::string> only;
@@ -39,8 +36,8 @@ struct Options {
     std::optional<std::filesystem::path> check;
 };
 
-/// nullopt if the program is to end with the status.
-std::optional<Options> parse_options(int argc, char** argv, int& status) {
+/// nullopt if only help was asked for.
+std::optional<Options> parse_options(int argc, char** argv) {
     Options options;
     CLI::App app{
         "What AMD's shader compiler makes of the benchmark's frames: instructions, fetches, registers, waves and\n"
@@ -57,12 +54,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& status) {
     app.add_option("--check", options.check,
                    "Compare with such a file: exit code 1 if a ratio has grown by more than 5 %")
         ->excludes(only);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        status = app.exit(error) == 0 ? 0 : 2;
-        return std::nullopt;
-    }
+    if (!parse_command_line(app, argc, argv)) return std::nullopt;
     return options;
 }
 
@@ -122,9 +114,8 @@ int check(const std::vector<GenerationCost>& costs, const std::filesystem::path&
 }
 
 int run(int argc, char** argv) {
-    int status = 0;
-    const std::optional<Options> options = parse_options(argc, argv, status);
-    if (!options) return status;
+    const std::optional<Options> options = parse_options(argc, argv);
+    if (!options) return 0;
     // First, as it may fail, and frames take a minute.
     std::vector<std::unique_ptr<AmdCompiler>> compilers;
     for (const Generation& generation : generations()) compilers.push_back(std::make_unique<AmdCompiler>(generation));

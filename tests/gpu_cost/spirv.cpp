@@ -89,7 +89,7 @@ ProgramText with_loops_unrolled(const ProgramText& text, const std::map<std::str
             const std::string number = std::to_string(length);
             *stage = replace_all(*stage, expression, expression.ends_with("()") ? number : "float(" + number + ")");
         }
-    unrolled.fragment = replace_all(unrolled.fragment, "< taps;", "< 2;");
+    unrolled.fragment = replace_all(unrolled.fragment, "< taps;", "< 1;");
     return {unroll(unrolled.vertex), unroll(unrolled.fragment)};
 }
 
