@@ -17,6 +17,7 @@
 #include "tests/benchmark/frame_report.h"
 #include "tests/benchmark/frame_stage.h"
 #include "tests/benchmark/frame_variant.h"
+#include "tests/benchmark/program_folder.h"
 
 namespace rowland {
 namespace {
@@ -36,6 +37,7 @@ struct Options {
     std::optional<std::filesystem::path> json;
     std::optional<std::filesystem::path> output_folder;
     std::optional<std::filesystem::path> pictures;
+    std::optional<std::filesystem::path> programs;
 };
 
 /// nullopt if the program is to end with the status.
@@ -61,6 +63,8 @@ std::optional<Options> parse_options(int argc, char** argv, int& status) {
                    "Also write results and table to frames-RENDERER.json and .md in a folder");
     app.add_flag("--require-gpu", options.require_gpu, "Fail where the processor draws");
     app.add_option("--pictures", options.pictures, "Write what each variant draws as PNG files to a folder");
+    app.add_option("--programs", options.programs,
+                   "Write the GLSL of all programs, and which one draws each frame's disc, to a folder; times nothing");
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -170,6 +174,10 @@ int run(int argc, char** argv) {
                      .expected = "a GPU with OpenGL 4.5 and EGL",
                      .remedy = "run it without the option, or on another machine",
                      .fault = Fault::System});
+    if (options->programs) {
+        write_programs(*options->programs, choose_variants(options->only), options->size, report.software);
+        return 0;
+    }
     FrameStage stage(options->size);
     report.size = options->size;
     report.rounds = options->rounds;

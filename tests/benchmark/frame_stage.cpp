@@ -23,6 +23,7 @@
 #include "modules/diffraction/module.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
 #include "tests/benchmark/cd_materials.h"
+#include "tests/benchmark/even_grooves.h"
 #include "tests/benchmark/lamps.h"
 
 namespace rowland::benchmark {
@@ -121,6 +122,11 @@ std::shared_ptr<const diffraction::GpuMaterial> FrameStage::material(const Frame
     return material;
 }
 
+std::shared_ptr<const diffraction::GrooveMap> FrameStage::groove_map() {
+    if (!groove_map_) groove_map_ = even_grooves();
+    return groove_map_;
+}
+
 void FrameStage::draw(const FrameVariant& variant, ecs::World& world, render::Shading shading) {
     renderer(variant).render(world, camera(), linear_, shading);
     if (variant.post) develop(all_effects());
@@ -151,7 +157,9 @@ FrameScene::FrameScene(FrameVariant variant, FrameStage& stage, bool software)
                                .lamps = variant_.lamps};
     world_.add(disc_, stage.material(variant_.shader == Shader::Grating ? variant_ : grating)->base());
     if (variant_.shader == Shader::Grating)
-        world_.add(disc_, diffraction::DiffractionSurface{stage.material(variant_)});
+        world_.add(disc_,
+                   diffraction::DiffractionSurface{.material = stage.material(variant_),
+                                                   .grooves = variant_.groove_map ? stage.groove_map() : nullptr});
     if (variant_.lighting == Lighting::LampsInScene) {
         std::vector<render::DistantLight> distant;
         for (const scene::DirectionalLight& lamp : lamps(variant_.lamps)) {
@@ -161,7 +169,8 @@ FrameScene::FrameScene(FrameVariant variant, FrameStage& stage, bool software)
         if (variant_.shader == Shader::LightLoop) shade_in_a_loop(distant);
     } else {
         world_.add(world_.create(), scene::DirectionalLight{.direction = glm::normalize(glm::vec3(0.3F, 1.0F, 0.4F)),
-                                                            .irradiance = glm::vec3(0.5F)});
+                                                            .irradiance = glm::vec3(0.5F),
+                                                            .casts_shadow = variant_.shadow});
     }
     move();
 }

@@ -16,6 +16,7 @@
 #include "engine/render/renderer.h"
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/runtime/gpu_material.h"
+#include "modules/diffraction/runtime/groove_map.h"
 #include "tests/benchmark/frame_variant.h"
 #include "tests/benchmark/gpu_timer.h"
 
@@ -31,6 +32,7 @@ class FrameStage {
     render::Renderer& renderer(const FrameVariant& variant);
     /// A variant's material on the GPU; its light fills the maps.
     std::shared_ptr<const diffraction::GpuMaterial> material(const FrameVariant& variant);
+    std::shared_ptr<const diffraction::GrooveMap> groove_map();
 
     void draw(const FrameVariant& variant, ecs::World& world, render::Shading shading);
     const gpu::Framebuffer& linear() const { return linear_; }
@@ -54,6 +56,7 @@ class FrameStage {
     std::map<std::string, diffraction::CookedMaterial> cooked_;
     std::map<std::pair<std::string, const render::Renderer*>, std::shared_ptr<const diffraction::GpuMaterial>>
         materials_;
+    std::shared_ptr<const diffraction::GrooveMap> groove_map_;
 };
 
 /// The times of a frame.

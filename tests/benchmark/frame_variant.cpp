@@ -46,6 +46,18 @@ FrameVariant with_post(FrameVariant variant) {
     return variant;
 }
 
+FrameVariant with_shadow(FrameVariant variant) {
+    variant.name += "/shadow";
+    variant.shadow = true;
+    return variant;
+}
+
+FrameVariant with_groove_map(FrameVariant variant) {
+    variant.name += "/groove-map";
+    variant.groove_map = true;
+    return variant;
+}
+
 FrameVariant with_lamps(FrameVariant variant, int lamps) {
     variant.name += std::to_string(lamps);
     variant.baseline += "1";
@@ -69,6 +81,7 @@ void add_plain(std::vector<FrameVariant>& variants) {
     variants.push_back(with_vertices(engine_surface("plain/vertices:2500", Shader::Plain), kFewVertices));
     variants.back().baseline = variants.back().name;
     variants.push_back(with_post(engine_surface("plain/post", Shader::Plain)));
+    variants.push_back(with_shadow(engine_surface("plain", Shader::Plain)));
 }
 
 void add_representation(const TimedRepresentation& drawn, std::vector<FrameVariant>& variants) {
@@ -129,6 +142,10 @@ std::vector<FrameVariant> all_variants() {
             add_few_vertices(drawn, variants);
             variants.push_back(with_post(grating(drawn, "/post", "plain/post")));
         }
+        if (drawn.name == "arc" || drawn.name == "direct")
+            variants.push_back(with_groove_map(grating(drawn, "", "plain")));
+        if (drawn.name == "arc" || drawn.name == "planar" || drawn.name == "direct")
+            variants.push_back(with_shadow(grating(drawn, "", "plain")));
         if (drawn.name == "planar") variants.push_back(moving(grating(drawn, "/spinning", "plain"), Motion::Spinning));
         if (drawn.name != "direct")
             add_lamps_in_probe(drawn, variants);

@@ -38,7 +38,9 @@ struct FrameVariant {
     Motion motion = Motion::Rest;
     Lighting lighting = Lighting::Studio;
     int lamps = 0;
-    bool post = false;  ///< bloom, vignette and display transform after it
+    bool shadow = false;      ///< the sun casts one
+    bool groove_map = false;  ///< a texture varies the grooves' direction and pitch
+    bool post = false;        ///< bloom, vignette and display transform after it
 };
 
 /// All frames that are timed, each baseline before the variants that are compared with it.

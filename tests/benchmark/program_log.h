@@ -1,0 +1,53 @@
+#pragma once
+
+#include <epoxy/gl.h>
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tests/benchmark/loop_lengths.h"
+
+namespace rowland::benchmark {
+
+/// The texts of a linked program as the driver got them, by stage: "vert", "frag" or "comp".
+using ProgramTexts = std::map<std::string, std::string>;
+
+/// Records the programs that are linked during its life, and the one that draws meshes. One at a time; its context is
+/// current.
+class ProgramLog {
+ public:
+    ProgramLog();
+    ~ProgramLog();
+    ProgramLog(const ProgramLog&) = delete;
+    ProgramLog& operator=(const ProgramLog&) = delete;
+
+    /// Each program once, however often it was linked.
+    const std::vector<ProgramTexts>& programs() const { return programs_; }
+
+    struct MeshDraw {
+        std::size_t program;  ///< in programs()
+        LoopLengths lengths;
+    };
+    /// The last draw of an indexed mesh.
+    const std::optional<MeshDraw>& last_mesh() const { return last_mesh_; }
+
+ private:
+    static void shader_source(GLuint shader, GLsizei count, const GLchar* const* strings, const GLint* lengths);
+    static void attach_shader(GLuint program, GLuint shader);
+    static void link_program(GLuint program);
+    static void draw_elements(GLenum mode, GLsizei count, GLenum type, const void* indices);
+
+    void record(GLuint program);
+
+    std::map<GLuint, std::string> shader_texts_;
+    std::map<GLuint, ProgramTexts> attached_;
+    std::map<GLuint, std::size_t> linked_;
+    std::map<ProgramTexts, std::size_t> known_;
+    std::vector<ProgramTexts> programs_;
+    std::optional<MeshDraw> last_mesh_;
+};
+
+}  // namespace rowland::benchmark

@@ -1,0 +1,57 @@
+// `./rowland gpu` as a user runs it, at tiny sizes where the processor draws.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "engine/core/file.h"
+#include "tests/support/program.h"
+
+namespace rowland::gpu_report {
+namespace {
+
+const std::filesystem::path& script() {
+    static const std::filesystem::path path = ROWLAND_SCRIPT;
+    return path;
+}
+
+class GpuCommand : public testing::Test {
+ protected:
+    void SetUp() override {
+        const std::filesystem::path build = ROWLAND_BUILD_FOLDER;
+        if (build.parent_path() != script().parent_path() / "build")
+            GTEST_SKIP() << "the script knows build folders in build/ alone";
+        surroundings_.environment = {{"ROWLAND_PRESET", build.filename().string()},
+                                     {"ROWLAND_SKIP_INSTALL", "1"},
+                                     {"GTEST_FILTER", "Buffer*:Arc.*"}};
+    }
+
+    test::Surroundings surroundings_{.limit = std::chrono::minutes(20)};
+};
+
+TEST_F(GpuCommand, WritesAReport) {
+    const test::Ended ended = test::run({script(), "gpu", "--software"}, surroundings_);
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    const std::string text = read_text_file(script().parent_path() / "build/gpu-software/report.md", 1 << 20);
+    for (const char* part : {"# Rowland on ", "| test_gpu |", "| test_gpu_diffraction |", "| opaque |", "| arc |"})
+        EXPECT_THAT(text, testing::HasSubstr(part));
+    EXPECT_THAT(text, testing::Not(testing::HasSubstr("ended without results")));
+}
+
+TEST_F(GpuCommand, RefusesASoftwareRenderer) {
+    surroundings_.environment["LIBGL_ALWAYS_SOFTWARE"] = "1";
+    surroundings_.environment["EGL_PLATFORM"] = "surfaceless";
+    const test::Ended ended = test::run({script(), "gpu"}, surroundings_);
+    if (ended.code == 0) GTEST_SKIP() << "this machine has a GPU that cannot be hidden";
+    EXPECT_EQ(ended.code, 1);
+    EXPECT_THAT(ended.err, testing::HasSubstr("--software"));
+}
+
+TEST_F(GpuCommand, RefusesAnotherOption) {
+    const test::Ended ended = test::run({script(), "gpu", "--fast"}, surroundings_);
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_THAT(ended.err, testing::HasSubstr("--fast"));
+}
+
+}  // namespace
+}  // namespace rowland::gpu_report
