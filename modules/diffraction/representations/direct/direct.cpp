@@ -62,7 +62,6 @@ double widened_density(const GrooveLobe& lobe, double sum_h, double deviation_h,
         const double z = sum_h / wide;
         return peak * std::exp(-0.5 * z * z);
     }
-    if (is_flat(lobe)) return 0.5;
     // Pits: three-node Gauss–Hermite over the light's extent.
     const LobeDensity density(lobe, wavelength_nm);
     const double step = std::sqrt(3.0) * deviation_h;
