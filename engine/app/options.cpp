@@ -14,7 +14,7 @@ void add_common_options(CLI::App& app, CommonOptions& options, const std::string
     app.add_option("--content-folder", options.content_folder,
                    "Sources of the shipped assets: materials, probes, meshes and scenes")
         ->capture_default_str();
-    app.add_flag("--gl-debug", options.gl_debug, "Log what the OpenGL driver has to say, each message once; slower");
+    app.add_flag("--gl-debug", options.gl_debug, "Log the messages of the OpenGL driver, each once; slower");
 }
 
 std::vector<std::filesystem::path> given(

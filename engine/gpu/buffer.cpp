@@ -54,25 +54,22 @@ std::span<std::byte> Buffer::mapping() const {
     return {mapping_, size_};
 }
 
-void Buffer::check_range(std::size_t offset, std::size_t bytes) const {
+void Buffer::bind(GLenum target, unsigned binding, std::size_t offset, std::size_t bytes) const {
     ROWLAND_CHECK_OP(offset, <=, size_);
     ROWLAND_CHECK_OP(bytes, <=, size_ - offset);
+    const auto slot = target == GL_UNIFORM_BUFFER ? BoundState::Slot::UniformBuffer : BoundState::Slot::StorageBuffer;
+    const auto start = static_cast<GLintptr>(offset);
+    const auto length = static_cast<GLsizeiptr>(bytes);
+    if (bound_state().changes(slot, binding, {id(), start, length}))
+        glBindBufferRange(target, binding, id(), start, length);
 }
 
 void Buffer::bind_uniform(unsigned binding, std::size_t offset, std::size_t bytes) const {
-    check_range(offset, bytes);
-    const auto start = static_cast<GLintptr>(offset);
-    const auto length = static_cast<GLsizeiptr>(bytes);
-    if (bound_state().changes(BoundState::Slot::UniformBuffer, binding, {id(), start, length}))
-        glBindBufferRange(GL_UNIFORM_BUFFER, binding, id(), start, length);
+    bind(GL_UNIFORM_BUFFER, binding, offset, bytes);
 }
 
 void Buffer::bind_storage(unsigned binding, std::size_t offset, std::size_t bytes) const {
-    check_range(offset, bytes);
-    const auto start = static_cast<GLintptr>(offset);
-    const auto length = static_cast<GLsizeiptr>(bytes);
-    if (bound_state().changes(BoundState::Slot::StorageBuffer, binding, {id(), start, length}))
-        glBindBufferRange(GL_SHADER_STORAGE_BUFFER, binding, id(), start, length);
+    bind(GL_SHADER_STORAGE_BUFFER, binding, offset, bytes);
 }
 
 }  // namespace rowland::gpu

@@ -55,7 +55,7 @@ class Buffer {
     struct Release {
         void operator()(GLuint name) const;
     };
-    void check_range(std::size_t offset, std::size_t bytes) const;
+    void bind(GLenum target, unsigned binding, std::size_t offset, std::size_t bytes) const;
 
     Handle<Release> handle_;
     std::byte* mapping_ = nullptr;

@@ -12,7 +12,7 @@ namespace rowland::gpu {
 
 /// GPU memory whose content is replaced up to once a frame, as a whole. Draws read what was last written before them.
 /// The first content is kept once. From the second write on there are three copies, written in turn, so that the GPU
-/// may be two writes late; they are made anew only if the content does not fit.
+/// may be two writes late. They are replaced only if the content does not fit.
 class StreamBuffer {
  public:
     /// Waits only if the GPU is more than two writes late. Throws Error (system) if there is no memory.

@@ -135,7 +135,12 @@ void Texture::upload(std::span<const std::uint8_t> data, TextureSlice slice) {
 }
 
 void Texture::upload(std::span<const std::uint16_t> data, TextureSlice slice) {
-    upload_typed(data.data(), data.size(), is_half_float(desc_.format) ? GL_HALF_FLOAT : GL_UNSIGNED_SHORT, slice);
+    const bool is_half = is_half_float(desc_.format);
+    // Drivers copy them; texels that lack a component they convert one by one.
+    if (is_half)
+        ROWLAND_CHECK_OP(data.size_bytes(), ==,
+                         texels(slice) * static_cast<std::size_t>(bytes_per_texel(desc_.format)));
+    upload_typed(data.data(), data.size(), is_half ? GL_HALF_FLOAT : GL_UNSIGNED_SHORT, slice);
 }
 
 void Texture::upload(std::span<const glm::vec3> data, TextureSlice slice) {

@@ -56,8 +56,8 @@ class Texture {
     explicit Texture(const TextureDesc& desc, const Sampling& sampling = {});
 
     /// Writes whole slices. The data's length gives the components per texel (1 to 4, independent of the format;
-    /// missing ones become 0, alpha 1). 8- and 16-bit data is normalised, but for half-float formats 16-bit data is
-    /// the bits of the halves. It is a logic error if the length is not 1 to 4 times the texels of the slice.
+    /// missing ones become 0, alpha 1). 8- and 16-bit data is normalised, but for half-float formats 16-bit data is the
+    /// bits of whole texels' halves. It is a logic error if the length is not 1 to 4 times the texels of the slice.
     void upload(std::span<const float> data, TextureSlice slice = {});
     void upload(std::span<const std::uint8_t> data, TextureSlice slice = {});
     void upload(std::span<const std::uint16_t> data, TextureSlice slice = {});

@@ -118,6 +118,13 @@ TEST_F(TextureTest, HalfFloatsKeepTheirBits) {
     }
 }
 
+TEST_F(TextureTest, HalfFloatsAreWholeTexels) {
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    gpu::Texture texture({.format = Format::RGBA16F, .width = 2, .height = 1});
+    const std::vector<std::uint16_t> without_alpha(6);
+    EXPECT_DEATH(texture.upload(std::span<const std::uint16_t>(without_alpha)), "contract violated.*12 and 16");
+}
+
 TEST_F(TextureTest, FloatsComeBackAsTheyWereInRowOrder) {
     const std::vector<glm::vec3> texels{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {-1, 0.1F, 1e30F}};
     gpu::Texture texture({.format = Format::RGBA32F, .width = 2, .height = 2});

@@ -77,7 +77,7 @@ TEST_F(ContextTest, IsADebugContextWhereAskedForAndInDebugBuilds) {
     EXPECT_TRUE(is_debug());
     const platform::HeadlessContext plain({.debug = false});
     EXPECT_FALSE(is_debug());
-    const platform::HeadlessContext usual;
+    const platform::HeadlessContext by_default;
     EXPECT_EQ(is_debug(), platform::debug_build());
 }
 
