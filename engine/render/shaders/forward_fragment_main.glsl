@@ -5,6 +5,7 @@ layout(location = 0) out vec4 radiance;
 
 const float PI = 3.14159265358979;
 
+#include "engine/gpu/shaders/half_float.glsl"
 #include "engine/render/shaders/surface_maps.glsl"
 #ifdef KEY_LIGHTS
 #include "engine/render/shaders/key_light.glsl"
@@ -81,4 +82,5 @@ void main() {
 #else
     radiance = vec4(sum, 1.0);
 #endif
+    if (shadow.z > 0.0) radiance = rounded_to_half(radiance);
 }
