@@ -48,7 +48,10 @@ void Framebuffer::ReleaseRenderbuffer::operator()(GLuint name) const {
 }
 
 Framebuffer::Framebuffer(const FramebufferDesc& desc)
-    : handle_(create_framebuffer()), size_(desc.width, desc.height), colour_count_(desc.colours.size()) {
+    : handle_(create_framebuffer()),
+      size_(desc.width, desc.height),
+      holds_halves_(!desc.colours.empty() && is_half_float(desc.colours.front())),
+      colour_count_(desc.colours.size()) {
     ROWLAND_CHECK_OP(desc.samples, >=, 1);
     std::vector<GLenum> draw_buffers;
     for (const Format format : desc.colours) {
@@ -80,6 +83,7 @@ Framebuffer Framebuffer::onto(const Texture& texture, int level, int layer) {
     Framebuffer result;
     result.handle_ = Handle<Release>(create_framebuffer());
     result.size_ = texture.size(level);
+    result.holds_halves_ = is_half_float(texture.desc().format);
     const TextureKind kind = texture.desc().kind;
     if (kind == TextureKind::Line || kind == TextureKind::Plane) {
         glNamedFramebufferTexture(result.id(), GL_COLOR_ATTACHMENT0, texture.id(), level);

@@ -51,6 +51,9 @@ class Framebuffer {
     /// The same as 8-bit RGBA bytes, clamped to [0, 1] first.
     std::vector<std::uint8_t> read_rgba8(unsigned attachment = 0) const;
 
+    /// Whether the first colour holds half floats, which a shader rounds to (half_float.glsl).
+    bool holds_halves() const { return holds_halves_; }
+
     glm::ivec2 size() const { return size_; }
     GLuint id() const { return handle_.get(); }
 
@@ -67,6 +70,7 @@ class Framebuffer {
 
     Handle<Release> handle_;
     glm::ivec2 size_{0};
+    bool holds_halves_ = false;
     std::vector<Texture> colours_;
     std::vector<Texture> depth_;  ///< one or none
     std::vector<Handle<ReleaseRenderbuffer>> multisampled_;

@@ -30,7 +30,7 @@ inline constexpr std::size_t lines_per_file = 100000;
 /// `#line` so that the line below it counts as line `line` of files[file].
 std::string line_directive(std::size_t file, std::size_t line);
 
-/// The shader files of this part: full_screen_triangle.vert.glsl. Every ShaderLibrary holds them.
+/// The shader files of this part: full_screen_triangle.vert.glsl and half_float.glsl. Every ShaderLibrary holds them.
 std::span<const EmbeddedFile> shader_files();
 
 /// Finds shader files by their path from the top of the source tree, among those built into the program or, for hot

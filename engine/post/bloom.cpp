@@ -49,6 +49,7 @@ void BloomPass::mix_in(const gpu::Program& program, const gpu::Texture& fine, co
     fine.bind(0);
     coarse.bind(1);
     program.set("coarse_weight", weight);
+    program.set("into_halves", target.holds_halves() ? 1 : 0);
     triangle_.draw(program, target);
     ++passes_;
 }

@@ -30,7 +30,7 @@ struct BloomSettings {
 /// post processing in Call of Duty: Advanced Warfare", SIGGRAPH 2014, but without his gain.
 ///
 /// Non-finite components count as 0, others are clamped to the half floats' ±65504; both also in the picture that is
-/// mixed in. Values are rounded to nearest between the levels whatever the driver does, so the sum is kept to 1e-3.
+/// mixed in. Values are rounded to nearest halves whatever the driver does, so the sum is kept to 1e-3.
 class BloomPass {
  public:
     /// `library` must hold post::shader_files().

@@ -19,6 +19,7 @@ void VignettePass::draw(const gpu::Texture& source, const VignetteSettings& sett
     program_.set("strength", settings.strength);
     program_.set("radius", settings.radius);
     program_.set("softness", settings.softness);
+    program_.set("into_halves", target.holds_halves() ? 1 : 0);
     source.bind(0);
     triangle_.draw(program_, target);
 }

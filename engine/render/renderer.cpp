@@ -71,6 +71,7 @@ glm::vec3 centre_of(const scene::Bounds& box) {
 struct Renderer::Frame {
     const scene::Camera* camera = nullptr;
     float aspect = 1.0F;
+    bool into_halves = false;  ///< the target holds half floats
     Shading shading = Shading::Full;
     glm::mat4 view_projection{1.0F};
     DrawList list;
@@ -133,6 +134,7 @@ void Renderer::render(ecs::World& world, const scene::Camera& camera, const gpu:
     Frame frame;
     frame.camera = &camera;
     frame.aspect = static_cast<float>(size.x) / static_cast<float>(size.y);
+    frame.into_halves = target.holds_halves();
     frame.shading = shading;
     frame.view_projection = camera.projection(frame.aspect) * camera.view();
     report_ = {};
@@ -248,7 +250,8 @@ FrameBlock Renderer::frame_block(const Frame& frame) const {
         block.ambient[i] = glm::vec4(glm::vec3(rec709_to_working_ * ambient_.coefficients[i]), 0.0F);
     block.environment = glm::vec4(static_cast<float>(environment_->map.levels() - 1), environment_->scale,
                                   key_irradiance_ ? key_irradiance_->scale : 0.0F, 0.0F);
-    block.shadow = glm::vec4(frame.shadow.texel_m, 1.0F / static_cast<float>(shadow_map_size_), 0.0F, 0.0F);
+    block.shadow = glm::vec4(frame.shadow.texel_m, 1.0F / static_cast<float>(shadow_map_size_),
+                             frame.into_halves ? 1.0F : 0.0F, 0.0F);
     return block;
 }
 

@@ -1,5 +1,7 @@
 // The grids of bloom.h: texels hold light in rgb and area in alpha, relative to those of a texel inside the picture.
 
+#include "engine/gpu/shaders/half_float.glsl"
+
 layout(binding = 0) uniform sampler2D fine;
 
 // What is not finite counts as 0, the rest is held within the half floats. By bits, because compilers may take isnan
@@ -7,13 +9,6 @@ layout(binding = 0) uniform sampler2D fine;
 vec3 usable(vec3 colour) {
     bvec3 is_finite = lessThan(floatBitsToUint(colour) & 0x7fffffffu, uvec3(0x7f800000u));
     return clamp(mix(vec3(0.0), colour, is_finite), -65504.0, 65504.0);
-}
-
-// To the nearest of the half floats' normal numbers, ties to even: drivers may truncate, which loses light level by
-// level.
-vec4 rounded_to_half(vec4 value) {
-    uvec4 bits = floatBitsToUint(value);
-    return uintBitsToFloat((bits + 0xfffu + ((bits >> 13) & 1u)) & 0xffffe000u);
 }
 
 vec4 fine_texel(ivec2 position) {

@@ -6,6 +6,7 @@ layout(location = 0) out vec4 mixed;
 
 layout(binding = 1) uniform sampler2D coarse;
 uniform float coarse_weight;
+uniform bool into_halves;
 
 vec3 coarse_value(int x, int y) {
     vec4 texel = texelFetch(coarse, ivec2(x, y), 0);
@@ -29,6 +30,7 @@ void main() {
     vec3 value = mix(here.rgb / here.a, interpolated(position), coarse_weight);
 #if FINE_IS_PICTURE
     mixed = vec4(value, texelFetch(fine, position, 0).a);
+    if (into_halves) mixed = rounded_to_half(mixed);
 #else
     mixed = rounded_to_half(vec4(value, 1.0));
 #endif

@@ -1,5 +1,7 @@
 #version 450 core
 
+#include "engine/gpu/shaders/half_float.glsl"
+
 layout(location = 0) out vec4 dimmed;
 
 layout(binding = 0) uniform sampler2D scene_linear;
@@ -7,6 +9,7 @@ uniform float tan_half_fov;  // 0: no fall-off by cos⁴
 uniform float strength;
 uniform float radius;
 uniform float softness;
+uniform bool into_halves;
 
 // As in vignette.h.
 float vignette_factor() {
@@ -21,4 +24,5 @@ float vignette_factor() {
 void main() {
     vec4 colour = texelFetch(scene_linear, ivec2(gl_FragCoord.xy), 0);
     dimmed = vec4(vignette_factor() * colour.rgb, colour.a);
+    if (into_halves) dimmed = rounded_to_half(dimmed);
 }

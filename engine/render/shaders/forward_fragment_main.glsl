@@ -5,6 +5,7 @@ layout(location = 0) out vec4 radiance;
 
 const float PI = 3.14159265358979;
 
+#include "engine/gpu/shaders/half_float.glsl"
 #include "engine/render/shaders/surface_maps.glsl"
 #if defined(DIRECTIONAL_LIGHTS) || defined(PUNCTUAL_LIGHTS)
 #include "engine/render/shaders/direct_light.glsl"
@@ -69,6 +70,7 @@ void main() {
 #else
     radiance = vec4(sum, 1.0);
 #endif
+    if (shadow.z > 0.0) radiance = rounded_to_half(radiance);
 #ifdef ALPHA_MASK
     // Last, as the derivatives that choose mipmap levels are undefined after it.
     if (base.a < metallic_roughness.z) discard;

@@ -19,7 +19,8 @@ layout(std140, binding = 0) uniform FrameBlock {
     vec4 ambient[9];         // xyz: SH of irradiance / pi, working space; without the key lights
     vec4 environment;        // x: mip levels - 1; y: radiance per stored unit; z: irradiance per unit of
                              // key_irradiance_map
-    vec4 shadow;             // x: width of a shadow texel, metres; y: of the map, 1 / texels
+    vec4 shadow;             // x: width of a shadow texel, metres; y: of the map, 1 / texels; z: 1 if the target holds
+                             // half floats
 #ifdef __cplusplus
 };
 static_assert(sizeof(FrameBlock) == 5 * 64 + 12 * 16, "must equal the std140 layout");
