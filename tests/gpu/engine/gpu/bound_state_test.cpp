@@ -60,28 +60,33 @@ TEST_F(BoundStateTest, WhatIsSetIsNotSetAgain) {
     EXPECT_GT(calls.take().set, 10);
 }
 
-TEST_F(BoundStateTest, TheNameOfADeletedTextureMayBeThatOfANewOne) {
-    program_.set("factor", 1.0F);
-    for (int i = 1; i < 5; ++i) {
-        const gpu::Texture texture = texel(static_cast<float>(i));
-        texture.bind(0);
-        EXPECT_EQ(shown(), static_cast<float>(i));
-    }
-}
-
-TEST_F(BoundStateTest, TheNameOfADeletedFramebufferOrBufferMayBeThatOfANewOne) {
-    const gpu::Program program = build_full_screen(R"(#version 450 core
-layout(std140, binding = 3) uniform Values { vec4 value; };
-layout(location = 0) out vec4 colour;
-void main() { colour = value; })");
-    for (int i = 1; i < 5; ++i) {
-        const gpu::Framebuffer target({.width = i, .height = 1});
-        gpu::Buffer buffer(sizeof(glm::vec4));
-        buffer.update_value(glm::vec4(static_cast<float>(i)));
-        buffer.bind_uniform(3);
-        triangle_.draw(program, target);
-        EXPECT_EQ(target.read_rgba_float().back().r, static_cast<float>(i));
-    }
+// Mesa gives names of deleted objects to no others for long; other drivers do at once.
+TEST_F(BoundStateTest, ADeletedObjectIsForgotten) {
+    using Slot = gpu::BoundState::Slot;
+    std::optional<gpu::Texture> texture = texel(1.0F);
+    std::optional<gpu::Buffer> buffer(std::in_place, std::size_t{256});
+    std::optional<gpu::Framebuffer> target(std::in_place, gpu::FramebufferDesc{});
+    std::optional<gpu::Program> program = build_full_screen(kShowsTheTexture);
+    std::optional<gpu::FullScreenTriangle> triangle(std::in_place);
+    texture->bind(0);
+    buffer->bind_uniform(3);
+    buffer->bind_storage(4);
+    triangle->draw(*program, *target);
+    const auto value_is_bound = [](Slot slot, unsigned index, const gpu::BoundState::Value& value) {
+        return !gpu::bound_state().changes(slot, index, value);
+    };
+    const auto all_bound = [&, t = texture->id(), b = buffer->id(), f = target->id(), p = program->id()] {
+        return std::array{value_is_bound(Slot::Texture, 0, {t}), value_is_bound(Slot::UniformBuffer, 3, {b, 0, 256}),
+                          value_is_bound(Slot::StorageBuffer, 4, {b, 0, 256}),
+                          value_is_bound(Slot::Framebuffer, 0, {f}), value_is_bound(Slot::Program, 0, {p})};
+    };
+    EXPECT_EQ(all_bound(), (std::array{true, true, true, true, true}));
+    texture.reset();
+    buffer.reset();
+    target.reset();
+    program.reset();
+    EXPECT_EQ(all_bound(), (std::array{false, false, false, false, false}));
+    gpu::forget_bound_state();
 }
 
 TEST_F(BoundStateTest, AnotherContextKnowsNothingOfIt) {

@@ -15,7 +15,7 @@ class StreamBufferTest : public test::GlTest {
 
     /// A pixel of the buffer's value at `offset`.
     void draw_pixel(const gpu::StreamBuffer& buffer, int pixel, std::size_t offset = 0) {
-        buffer.bind_uniform(3, offset, sizeof(glm::vec4));
+        buffer.bind_storage(3, offset, sizeof(glm::vec4));
         target_.bind();
         gpu::apply({.depth_test = gpu::DepthTest::Off,
                     .depth_write = false,
@@ -33,7 +33,7 @@ class StreamBufferTest : public test::GlTest {
     }
 
     gpu::Program program_ = build_full_screen(R"(#version 450 core
-layout(std140, binding = 3) uniform Values { vec4 value; };
+layout(std430, binding = 3) readonly buffer Values { vec4 value; };
 layout(location = 0) out vec4 colour;
 void main() {
     float x = value.x;
