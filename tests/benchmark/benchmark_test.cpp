@@ -143,6 +143,22 @@ TEST(FrameBenchmark, ResultFilesBearTheRenderersName) {
                                                      testing::StartsWith("frames-" + first_word)));
 }
 
+TEST(FrameBenchmark, WritesTheProgramOfEachDiscAndHowOftenItsLoopsRun) {
+    const test::TemporaryFolder folder;
+    const std::string arguments = " --width 64 --height 36 --only plain,planar,direct/lights:4 --programs ";
+    ASSERT_EQ(run(ROWLAND_BENCHMARK, arguments + folder.path().string()).status, 0);
+    const json programs = json::parse(read_text_file(folder.path() / "programs.json", 1 << 20));
+    std::map<std::string, std::string> fragments;
+    for (const json& frame : programs.at("frames")) {
+        const std::string name = frame.at("name");
+        fragments[name] = read_text_file(folder.path() / (frame.at("program").get<std::string>() + ".frag"), 1 << 20);
+        EXPECT_EQ(frame.at("lengths").at("light_counts.x"), name == "direct/lights:4" ? 4 : 1) << name;
+    }
+    EXPECT_EQ(fragments.size(), 4U);  // those named, and the baseline direct/lights:1
+    EXPECT_THAT(fragments.at("plain"), testing::Not(testing::HasSubstr("planar_map")));
+    EXPECT_THAT(fragments.at("planar"), testing::HasSubstr("planar_map"));
+}
+
 TEST(FrameBenchmark, RefusesANameThatIsNone) {
     EXPECT_EQ(run(ROWLAND_BENCHMARK, "--only arcs").status, 2);
     EXPECT_EQ(run(ROWLAND_BENCHMARK, "--rounds 0").status, 2);
