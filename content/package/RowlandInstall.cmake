@@ -51,7 +51,7 @@ list(FILTER representations EXCLUDE REGEX "\\.[a-z]+$")
 rowland_install_headers(library ${representations})
 install(DIRECTORY modules/diffraction/representations DESTINATION ${shaders_folder}/modules/diffraction
         COMPONENT library FILES_MATCHING PATTERN "*.glsl")
-foreach(folder IN ITEMS engine/render modules/diffraction)
+foreach(folder IN ITEMS engine/gpu engine/render modules/diffraction)
   install(DIRECTORY ${folder}/shaders DESTINATION ${shaders_folder}/${folder} COMPONENT library
           FILES_MATCHING PATTERN "*.glsl" PATTERN "*_block.h")
 endforeach()

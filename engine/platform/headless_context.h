@@ -9,8 +9,8 @@ namespace rowland::platform {
 
 struct HeadlessOptions {
     bool debug = debug_build();  ///< a debug context: the driver reports errors through KHR_debug (see gpu/debug.h)
-    /// The number of a GPU or a part of its name, in the order and by the names that the error for a wrong one lists.
-    /// Empty: what the environment variable ROWLAND_GPU says, or the first.
+    /// The number of a GPU or a part of its name, as the error for a wrong one lists them ("?" is always wrong). Empty:
+    /// what the environment variable ROWLAND_GPU says, or the first.
     std::string gpu{};
 };
 
