@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "engine/gpu/pipeline_state.h"
 #include "tests/gpu/call_counts.h"
 #include "tests/gpu/gl_test.h"
 
