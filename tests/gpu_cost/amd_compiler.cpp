@@ -162,16 +162,17 @@ AmdCompiler::AmdCompiler(const Generation& generation) {
     const std::string file = driver_file().string();
     ::setenv("VK_DRIVER_FILES", file.c_str(), 1);
     ::setenv("VK_ICD_FILENAMES", file.c_str(), 1);  // of loaders before 1.3.234
+    std::string reason;
     for (const std::string& family : generation.families) {
         ::setenv("RADV_FORCE_FAMILY", family.c_str(), 1);
         try {
             state_ = std::make_unique<State>();
             return;
-        } catch (const std::exception&) {
-            // Another version of Mesa names it otherwise.
+        } catch (const std::exception& error) {
+            reason = error.what();  // another version of Mesa may know the next name
         }
     }
-    fail_system("RADV", fmt::format("no device {} without a GPU", fmt::join(generation.families, " or ")),
+    fail_system("RADV", fmt::format("no device {} without a GPU ({})", fmt::join(generation.families, " or "), reason),
                 "use Mesa 22.3 or later (Debian: mesa-vulkan-drivers)");
 }
 
