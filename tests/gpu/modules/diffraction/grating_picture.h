@@ -27,7 +27,7 @@ inline constexpr const char* kFoil = R"({"pitch_nm": 1000, "profile": {"type": "
 /// halves are 5e-4 exact.
 inline constexpr double kPictureTolerance = 2e-3;
 
-/// One triangle with a grating, drawn as XYZ.
+/// One triangle with a grating, drawn as XYZ unless a test sets another working space.
 class GratingPicture : public rowland::test::GlTest, protected DrawnTriangle {
  protected:
     /// Builds the scene, from the mesh and the light as they are.
@@ -45,6 +45,7 @@ class GratingPicture : public rowland::test::GlTest, protected DrawnTriangle {
     double largest_difference(const std::vector<glm::vec4>& pixels,
                               const std::function<glm::dvec3(const Point& point)>& expected);
 
+    glm::dmat3 xyz_to_working_{1.0};
     std::optional<render::Renderer> renderer_;
     ecs::World world_;
     ecs::Entity entity_;
