@@ -6,11 +6,12 @@
 struct LitSurface {
     vec3 n;
     vec3 v;
-    vec3 diffuse;
+    vec3 diffuse;    // over pi
     vec3 f0;
     float alpha2;
-    float n_v;        // signed
-    float masking;    // Smith's term of the view
+    float n_v;       // signed
+    float facing;    // n_v above 0
+    float masking;   // Smith's term of the view
     vec3 radiance;
 };
 
@@ -25,14 +26,14 @@ void add_light(vec3 irradiance, vec3 l, inout LitSurface surface) {
     n_l = max(n_l, 0.0);
     float d = n_h * n_h * (surface.alpha2 - 1.0) + 1.0;
     float shadowing = n_l * surface.masking +
-                      max(surface.n_v, 1e-4) * sqrt(n_l * n_l * (1.0 - surface.alpha2) + surface.alpha2);
-    float microfacets = 0.5 * surface.alpha2 / (PI * d * d * max(shadowing, 1e-6));
+                      surface.facing * sqrt(n_l * n_l * (1.0 - surface.alpha2) + surface.alpha2);
+    float microfacets = 0.5 / PI * surface.alpha2 / (d * d * max(shadowing, 1e-6));
 #ifdef MATERIAL_SPECULAR
     vec3 specular = reflect_specular(irradiance, surface.f0, v_h) * microfacets;
-    surface.radiance += (surface.diffuse / PI * irradiance + specular) * n_l;
+    surface.radiance += (surface.diffuse * irradiance + specular) * n_l;
 #else
     vec3 fresnel = schlick_reflectance(surface.f0, v_h);
-    surface.radiance += (surface.diffuse / PI + fresnel * microfacets) * n_l * irradiance;
+    surface.radiance += (surface.diffuse + fresnel * microfacets) * n_l * irradiance;
 #endif
 }
 
@@ -73,7 +74,7 @@ vec3 direct_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness, inout 
     float n_v = dot(n, v);
     float facing = max(n_v, 1e-4);
     float masking = sqrt(facing * facing * (1.0 - alpha2) + alpha2);
-    LitSurface surface = LitSurface(n, v, diffuse, f0, alpha2, n_v, masking, vec3(0.0));
+    LitSurface surface = LitSurface(n, v, diffuse / PI, f0, alpha2, n_v, facing, masking, vec3(0.0));
 #ifdef DIRECTIONAL_LIGHTS
 #ifdef SEVERAL_DIRECTIONAL_LIGHTS
     int directional = int(light_counts.x);

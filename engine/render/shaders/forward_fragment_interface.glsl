@@ -43,5 +43,6 @@ struct MaterialTerms {
 vec3 schlick_reflectance(vec3 f0, float cosine) {
     float rise = 1.0 - cosine;
     float rise2 = rise * rise;
-    return f0 + (1.0 - f0) * (rise2 * rise2 * rise);
+    float rise5 = rise2 * rise2 * rise;
+    return f0 * (1.0 - rise5) + rise5;
 }

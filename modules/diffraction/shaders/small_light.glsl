@@ -18,13 +18,13 @@ uniform mat3 working_to_rec709;
 void add_small_light(int i, float attenuation, vec3 l, mat3 axes, vec3 direction, KernelRow row, float pitch,
                      inout vec3 sum) {
     float u = pitch * (dot(l, axes[0]) + direction.x);
-    vec3 weight = 0.5 * pitch * attenuation * max(dot(l, axes[2]), 0.0) *
-                  groove_factor(dot(l, axes[1]) + direction.y, 0.0);
+    float above = direction.z > 0.0 ? max(dot(l, axes[2]), 0.0) : 0.0;
+    vec3 weight = 0.5 * pitch * attenuation * above * groove_factor(dot(l, axes[1]) + direction.y, 0.0);
+    // One look-up costs less than a branch around it.
+    sum += weight * (light_colours[i].y * kernel_scale_bias.w) * kernel_texel(u, row, light_colours[i].x);
 #ifdef ZERO_ORDER
-    if (direction.z > 0.0) sum += weight * zero_order_value(u, row.wide, working_to_rec709 * lights[i].strength.rgb);
+    sum += weight * zero_order_value(u, row.wide, working_to_rec709 * lights[i].strength.rgb);
 #endif
-    if (direction.z > 0.0 && kernel_reached(u, 5.0 * row.wide))
-        sum += weight * (light_colours[i].y * kernel_scale_bias.w) * kernel_texel(u, row, light_colours[i].x);
 }
 #endif
 #endif

@@ -15,8 +15,8 @@ namespace {
 /// A DiffractionSurfaceType under light that the test sets, whatever the renderer's is.
 class UnderLight final : public render::MaterialType {
  public:
-    UnderLight(const DiffractionSettings& settings, const LightParts& light)
-        : inner_(glm::dmat3(1.0), settings), light_(&light) {}
+    UnderLight(const glm::dmat3& xyz_to_working, const DiffractionSettings& settings, const LightParts& light)
+        : inner_(xyz_to_working, settings), light_(&light) {}
 
     std::string name() const override { return "diffraction"; }
     void add_shaders(gpu::ShaderLibrary& library) const override { inner_.add_shaders(library); }
@@ -41,9 +41,9 @@ class UnderLight final : public render::MaterialType {
 }  // namespace
 
 void GratingPicture::show(const CookedMaterial& cooked, double groove_rotation, int slices_per_frame) {
-    renderer_.emplace(glm::dmat3(1.0));
+    renderer_.emplace(xyz_to_working_);
     const DiffractionSettings settings{.window = math::SphericalWindow::None, .slices_per_frame = slices_per_frame};
-    renderer_->add_material_type(std::make_unique<UnderLight>(settings, light_));
+    renderer_->add_material_type(std::make_unique<UnderLight>(xyz_to_working_, settings, light_));
     lighting::LightProbe dark;
     dark.sh = {.bands = 3, .coefficients = std::vector<glm::dvec3>(9, glm::dvec3(0.0))};
     dark.environment.layout = {.face_size = 4, .levels = 1};
@@ -57,7 +57,7 @@ void GratingPicture::show(const CookedMaterial& cooked, double groove_rotation, 
 }
 
 void GratingPicture::use(const CookedMaterial& cooked) {
-    material_ = make_gpu_material(cooked, glm::dmat3(1.0));
+    material_ = make_gpu_material(cooked, xyz_to_working_);
     world_.add(entity_, render::StandardMaterial(material_->base()));
     world_.add(entity_, DiffractionSurface{material_, static_cast<float>(rotation_)});
 }

@@ -29,7 +29,7 @@ inline constexpr double kPictureTolerance = 2e-3;
 /// The same of a map in halves alone.
 inline constexpr double kMapTolerance = 5e-4;
 
-/// One triangle with a grating, drawn as XYZ.
+/// One triangle with a grating, drawn as XYZ unless a test sets another working space.
 class GratingPicture : public rowland::test::GlTest, protected DrawnTriangle {
  protected:
     /// Builds the scene, from the mesh and the light as they are.
@@ -51,6 +51,7 @@ class GratingPicture : public rowland::test::GlTest, protected DrawnTriangle {
     double largest_difference(const std::vector<glm::vec4>& pixels, const AtPoint& expected,
                               const AtPoint& filter_error = nullptr);
 
+    glm::dmat3 xyz_to_working_{1.0};
     std::optional<render::Renderer> renderer_;
     ecs::World world_;
     ecs::Entity entity_;
