@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # strict_shaders.sh FOLDER [TEST_PROGRAM [ARGUMENT...]]
-# Runs the GPU tests of build/release, captures every program that they link into FOLDER (emptied first), and checks each
-# stage, and the stages together, by the reference compiler of GLSL, which is stricter than most drivers. Fails if it has
-# a message. With one test program, that one alone, with these arguments.
+# Runs the GPU tests of build/release that draw with the project's shaders, captures every program that they link into
+# FOLDER/programs (emptied first), and checks each stage, and the stages together, by the reference compiler of GLSL, which
+# is stricter than most drivers. Fails if it has a message. With one test program, that one alone, with these arguments.
 # Needs Mesa and glslangValidator (Debian: glslang-tools); five minutes on two cores.
 # example: tests/systems/strict_shaders.sh /tmp/shaders test_gpu_scene --gtest_filter='Shadow*'
 set -euo pipefail
@@ -11,7 +11,7 @@ command -v glslangValidator >/dev/null || { echo "error: no glslangValidator: in
 mkdir -p "$1"
 folder=$(cd "$1" && pwd)/programs
 build=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../build/release" && pwd)
-programs=(test_gpu test_gpu_post test_gpu_scene test_gpu_ui test_gpu_render test_gpu_diffraction)
+programs=(test_gpu_post test_gpu_scene test_gpu_ui test_gpu_render test_gpu_diffraction)
 [ $# -lt 2 ] || programs=("$2")
 shift $(($# < 2 ? $# : 2))
 
