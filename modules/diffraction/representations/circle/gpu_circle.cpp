@@ -7,7 +7,7 @@
 namespace rowland::diffraction {
 
 GpuCircle::GpuCircle(const CookedMaterial& cooked, const CircleTables& tables, const glm::dmat3& xyz_to_working)
-    : GpuMaterial(cooked, xyz_to_working), size_(tables.size), charts_(chart_count(cooked.kernel)) {}
+    : GpuMaterial(cooked, xyz_to_working), size_(tables.size), charts_(chart_count(working_kernel())) {}
 
 void GpuCircle::begin(const std::shared_ptr<const lighting::LightSamples>& texels) const {
     texels_ = texels;

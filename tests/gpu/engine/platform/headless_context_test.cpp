@@ -92,7 +92,7 @@ TEST_F(ContextTest, DrawsATriangle) {
 TEST_F(ContextTest, AContextOnAnEglDeviceDraws) {
     std::optional<platform::HeadlessContext> context;
     try {
-        context.emplace(platform::HeadlessOptions{.gpu = "egl software device"});
+        context.emplace(platform::HeadlessOptions{.debug = true, .gpu = "egl software device"});
     } catch (const Error& error) {
         GTEST_SKIP() << error.what();
     }
