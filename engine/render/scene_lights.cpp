@@ -27,10 +27,11 @@ Light block_light(const scene::PunctualLight& light, const glm::mat4& matrix) {
     Light result = {};
     const float range2 = light.range_m * light.range_m;
     result.position = glm::vec4(glm::vec3(matrix[3]), range2 > 0.0F ? 1.0F / (range2 * range2) : 0.0F);
+    result.axis.w = 1.0F;
     if (!light.spot) return result;
-    result.axis = glm::vec4(glm::normalize(glm::mat3(matrix) * glm::vec3(0.0F, 0.0F, -1.0F)), 1.0F);
     const float scale = 1.0F / std::max(1e-3F, std::cos(light.inner_cone) - std::cos(light.outer_cone));
-    result.cone = glm::vec4(scale, -std::cos(light.outer_cone) * scale, 0.0F, 0.0F);
+    const glm::vec3 axis = glm::normalize(glm::mat3(matrix) * glm::vec3(0.0F, 0.0F, -1.0F));
+    result.axis = glm::vec4(axis * scale, -std::cos(light.outer_cone) * scale);
     return result;
 }
 

@@ -60,12 +60,11 @@ float shadow_visibility(vec3 l) {
 }
 #endif
 
-// glTF's KHR_lights_punctual: inverse square, a window at the range, a spot's cone.
-float punctual_attenuation(Light light, float distance2, vec3 l) {
+// glTF's KHR_lights_punctual: inverse square, a window at the range, a spot's cone. `inverse`: 1 / distance.
+float punctual_attenuation(Light light, float distance2, float inverse, vec3 l) {
     float window = clamp(1.0 - distance2 * distance2 * light.position.w, 0.0, 1.0);
-    float cone = 1.0;
-    if (light.axis.w > 0.0) cone = clamp(dot(light.axis.xyz, -l) * light.cone.x + light.cone.y, 0.0, 1.0);
-    return window * cone * cone / max(distance2, 1e-8);
+    float cone = clamp(light.axis.w - dot(light.axis.xyz, l), 0.0, 1.0) * inverse;
+    return window * cone * cone;
 }
 
 // What the surface reflects. `added`: radiance of the material's own, to which it adds its part of the lights.
@@ -96,8 +95,9 @@ vec3 direct_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness, inout 
     for (int i = int(light_counts.x); i < int(light_counts.y); ++i) {
         vec3 to_light = lights[i].position.xyz - world_position;
         float distance2 = dot(to_light, to_light);
-        vec3 l = to_light * inversesqrt(max(distance2, 1e-12));
-        float attenuation = punctual_attenuation(lights[i], distance2, l);
+        float inverse = inversesqrt(max(distance2, 1e-8));
+        vec3 l = to_light * inverse;
+        float attenuation = punctual_attenuation(lights[i], distance2, inverse, l);
         add_light(attenuation * lights[i].strength.rgb, l, surface);
 #ifdef MATERIAL_PUNCTUAL_LIGHTS
         material_light(i, attenuation, l, added);

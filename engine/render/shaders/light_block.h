@@ -9,8 +9,9 @@ using glm::vec4;
 struct Light {
     vec4 position;  // xyz: unit direction toward a directional light, else metres; w: 1 / range^4, or 0 without a range
     vec4 strength;  // xyz: irradiance, for points and spots at 1 m; working space
-    vec4 axis;      // xyz: unit, where a spot shines; w: 1 for a spot
-    vec4 cone;  // x, y: scale and offset that take the cosine from the axis to 0 outside the cone, 1 in the inner one
+    // Of a spot: xyz: where it shines, times a scale, and w: an offset, which take the cosine from the axis to 0 outside
+    // the cone and to 1 in the inner one. Of a point: 0, 0, 0, 1.
+    vec4 axis;
 };
 #ifdef __cplusplus
 struct LightBlock {
@@ -21,7 +22,7 @@ layout(std140, binding = 2) uniform LightBlock {
     Light lights[ROWLAND_MAXIMUM_LIGHTS];
 #ifdef __cplusplus
 };
-static_assert(sizeof(LightBlock) == 16 + 64 * ROWLAND_MAXIMUM_LIGHTS, "must equal the std140 layout");
+static_assert(sizeof(LightBlock) == 16 + 48 * ROWLAND_MAXIMUM_LIGHTS, "must equal the std140 layout");
 }  // namespace rowland::render
 #else
 };
