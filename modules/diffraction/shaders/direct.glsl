@@ -9,8 +9,6 @@ in vec3 lights_at_vertex;
 #endif
 #ifdef SHADOWED_AT_PIXELS
 in vec3 shadowed_at_vertex;
-#endif
-#ifdef SHADOWED_AT_PIXELS
 float shadow_visibility(vec3 l);  // the engine's
 #endif
 
