@@ -251,6 +251,7 @@ FrameBlock Renderer::frame_block(const Frame& frame) const {
                                   key_irradiance_ ? key_irradiance_->scale : 0.0F, 0.0F);
     block.shadow = glm::vec4(frame.shadow.texel_m, 1.0F / static_cast<float>(shadow_map_size_),
                              frame.into_halves ? 1.0F : 0.0F, 0.0F);
+    if (const auto& dome = light_.probe->dome) block.dome = glm::vec4(dome->height_m, dome->radius_m, 0.0F, 0.0F);
     return block;
 }
 
@@ -299,7 +300,8 @@ void Renderer::draw_shadow_map(Frame& frame) {
     for (const Draw* draw : frame.casters) {
         frame_data_.bind_uniform(kObjectBinding, draw->block_offset, sizeof(ObjectBlock));
         draw->shadow_program->use();
-        if ((of_shadow(draw->features) & feature::kBaseColourMap) != 0) draw->material->base_colour_texture.texture->bind(kFirstMapUnit);
+        if ((of_shadow(draw->features) & feature::kBaseColourMap) != 0)
+            draw->material->base_colour_texture.texture->bind(kFirstMapUnit);
         draw->mesh->draw();
     }
     report_.shadow_drawn = static_cast<int>(frame.casters.size());
