@@ -8,7 +8,8 @@ MaterialTerms material_terms() {
     vec3 sum = diffracted + lights_from_vertices();
 #ifdef LIGHTS_AT_PIXELS
     GrooveView view = groove_view();
-    if (view.direction.z > 0.0 && view.pitch > 0.0) sum += key_lights_at_pixel(view);
+    vec3 key_lights = key_lights_at_pixel(view);
+    if (view.direction.z > 0.0 && view.pitch > 0.0) sum += key_lights;
     prepare_lights(view);
 #endif
     return MaterialTerms(base_weight, mirror_weight, sum);
