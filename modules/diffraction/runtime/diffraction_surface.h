@@ -67,7 +67,7 @@ class DiffractionSurfaceType final : public render::MaterialType {
     int slices_per_frame_;
     std::map<std::string, std::weak_ptr<const GpuMaterial>> baked_;  ///< by the file's folder and the extension's text
     std::map<std::pair<const image::ByteImage*, std::string>, std::weak_ptr<const GrooveMap>> groove_maps_;
-    std::set<std::pair<std::string, std::string>> warned_of_;        ///< illuminants baked for, lit by
+    std::set<std::pair<std::string, std::string>> warned_of_;  ///< illuminants baked for, lit by
     LightDivision division_;
     SurfaceLight light_;
 };

@@ -106,13 +106,13 @@ const gpu::Texture& GrooveMap::moments(bool even) const {
     if (made) return *made;
     const bool levels = sampling_.mipmaps && !sampling_.nearest && !sparkle_;
     gpu::Sampling sampling = render::sampling_of(sampling_);
+    // Software renderers average far more than a pixel when they filter anisotropically.
     sampling.anisotropy = 1.0F;
     if (sparkle_) sampling.filter = gpu::Filter::Nearest;
-    made.emplace(gpu::TextureDesc{.format = gpu::Format::RGBA16,
-                                  .width = image_->width,
-                                  .height = image_->height,
-                                  .levels = levels ? 0 : 1},
-                 sampling);
+    made.emplace(
+        gpu::TextureDesc{
+            .format = gpu::Format::RGBA16, .width = image_->width, .height = image_->height, .levels = levels ? 0 : 1},
+        sampling);
     made->upload(std::span<const std::uint16_t>(
         groove_moments(*image_, {.even = even, .gaps = gaps_, .smallest_pitch = smallest_pitch_})));
     if (levels) made->generate_levels();

@@ -17,8 +17,8 @@
 namespace rowland::diffraction {
 
 /// A texture that varies the grating over a surface. R: rotation / π, added to the surface's; G: half the pitch over
-/// the material's; 0: no grating. Pixels see the mean grooves of what they cover, and how these vary (PHYSICS §11); with
-/// GrooveTexture::sparkle those of one texel.
+/// the material's; 0: no grating. Pixels see the mean grooves of what they cover, and how these vary (PHYSICS §11);
+/// with GrooveTexture::sparkle those of one texel.
 class GrooveMap {
  public:
     /// The texture that the glTF extension at the JSON pointer `pointer` of `file` names. Throws Error (input) if there

@@ -15,8 +15,8 @@ struct GrooveMomentUse {
 };
 
 /// The texels of a groove texture (groove_map.h) as numbers whose means describe the grooves of an area, whatever their
-/// distribution (PHYSICS (40)): four per texel, of 65535. With c = 1 where there is a grating and 0 elsewhere, the angle
-/// θ, j = 2 for even kernels and 1 for others, and q = smallest pitch / pitch:
+/// distribution (PHYSICS (40)): four per texel, of 65535. With c = 1 where there is a grating and 0 elsewhere, the
+/// angle θ, j = 2 for even kernels and 1 for others, and q = smallest pitch / pitch:
 ///   ½ + ½ c cos jθ,  ½ + ½ c sin jθ,  c q,  c q², or c for textures with gaps, whose pitches count as equal.
 std::vector<std::uint16_t> groove_moments(const image::ByteImage& image, const GrooveMomentUse& use);
 

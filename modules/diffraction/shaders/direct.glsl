@@ -29,7 +29,7 @@ vec3 lights_from_vertices() {
 #if defined(KEY_LOBES) && !defined(LIGHTS_AT_VERTICES)
 vec3 key_lights_at_pixel(GrooveView view) {
 #ifdef KEY_LOBE_TABLE
-    return kernel_to_working(key_lights_radiance(view.axes, view.direction));
+    return kernel_to_working(key_lights_radiance(view.axes, view.direction, view.g_change, view.v_g_change));
 #else
     return kernel_to_working(key_lights_radiance(view));
 #endif
@@ -52,7 +52,7 @@ void prepare_lights(GrooveView view) { lit_view = view; }
 
 // XYZ with pits, else working space.
 void add_light_of(GrooveView view, int i, float attenuation, vec3 l, inout vec3 sum) {
-    PixelU u = pixel_u(view, l);
+    PixelU u = pixel_u_of(view, l);
     KernelRow row = kernel_row(view.pitch * u.deviation);
     add_small_light(i, attenuation, l, view.axes, view.direction, u.mean, row, view.pitch, sum);
 }
@@ -62,8 +62,7 @@ void material_light(int i, float attenuation, vec3 l, inout vec3 added) {
 #ifdef GROOVE_MAP
     int parts = groove_parts(lit_view);
     for (int part = 0; part < parts; ++part) {
-        GrooveView one = lit_view;
-        if (parts > 1) one = groove_part(part);
+        GrooveView one = groove_part(lit_view, parts, part);
         if (one.pitch > 0.0) add_light_of(one, i, one.coverage * attenuation, l, sum);
     }
     sum /= float(parts);

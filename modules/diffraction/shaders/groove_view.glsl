@@ -4,11 +4,27 @@
 
 in vec3 world_grating;
 
+#ifdef GROOVE_MAP
+// The pixel before the map's rotation, and differences to the pixels beside and below.
+struct MeshView {
+    mat3 axes;
+    vec3 direction;
+    mat2x3 h_change;
+    vec2 v_h_change;
+    vec2 map_uv;
+    mat2 map_uv_change;
+};
+#endif
+
 struct GrooveView {
     mat3 axes;       // columns g, h, n in the world
     vec3 direction;  // toward the eye, in (g, h, n)
     float pitch;     // over the material's; 0: no grating here
+    // Differences of g and v_g to the pixels beside and below, before a map's rotation.
+    mat2x3 g_change;
+    vec2 v_g_change;
 #ifdef GROOVE_MAP
+    MeshView mesh;
     vec2 turn;       // cosine and sine of the map's mean rotation
     float fade;      // mean cosine of the grooves' angles to it
     vec2 spread;     // factors of u_h^2 and u_g^2 in the variance of u
@@ -22,33 +38,34 @@ struct PixelU {
     float deviation;
 };
 
-#ifdef GROOVE_MAP
-// The pixel before the map's rotation, and its differences to the pixels beside and below.
-struct MeshView {
-    mat3 axes;
-    vec3 direction;
-    mat2x3 g_change;
-    mat2x3 h_change;
-    mat2 direction_change;
-};
-MeshView mesh_view;
+const float BOX_DEVIATION = 0.28867513459481;  // of a box, over its width
 
 // `s`: toward the light, in the world.
+#ifdef GROOVE_MAP
 PixelU pixel_u(GrooveView view, vec3 s) {
     vec2 u = vec2(dot(s, view.axes[0]), dot(s, view.axes[1])) + view.direction.xy;
     // The mesh's own change, as the map may be discontinuous: its moments tell how it varies.
-    vec2 across = view.turn.x * (s * mesh_view.g_change + vec2(mesh_view.direction_change[0].x, mesh_view.direction_change[1].x)) +
-                  view.turn.y * (s * mesh_view.h_change + vec2(mesh_view.direction_change[0].y, mesh_view.direction_change[1].y));
-    float variance = dot(across, across) / 12.0 + dot(view.spread, vec2(u.y * u.y, u.x * u.x));
+    vec2 across = view.turn.x * (s * view.g_change + view.v_g_change) +
+                  view.turn.y * (s * view.mesh.h_change + view.mesh.v_h_change);
+    float variance = BOX_DEVIATION * BOX_DEVIATION * dot(across, across) +
+                     dot(view.spread, vec2(u.y * u.y, u.x * u.x));
     return PixelU(view.fade * u.x, sqrt(variance));
 }
 #else
-// `s`: toward the light, in the world. Uses derivatives: call it in uniform control flow.
 PixelU pixel_u(GrooveView view, vec3 s) {
-    float u = dot(s, view.axes[0]) + view.direction.x;
-    return PixelU(u, 0.28867513459481 * length(vec2(dFdx(u), dFdy(u))));
+    return PixelU(dot(s, view.axes[0]) + view.direction.x, BOX_DEVIATION * length(s * view.g_change + view.v_g_change));
 }
 #endif
+
+// The same for any `s` that varies from pixel to pixel. Uses derivatives: call it in uniform control flow.
+PixelU pixel_u_of(GrooveView view, vec3 s) {
+#ifdef GROOVE_MAP
+    return pixel_u(view, s);
+#else
+    float u = dot(s, view.axes[0]) + view.direction.x;
+    return PixelU(u, BOX_DEVIATION * length(vec2(dFdx(u), dFdy(u))));
+#endif
+}
 
 // The interpolated grating vector, made orthonormal to the normal; shorter where the vertices' vectors cancel, as at a
 // disc's hub.
@@ -77,7 +94,8 @@ vec2 half_angle(vec2 whole) {
     return whole.x > 0.0 ? vec2(shorter < 0.0 ? -longer : longer, abs(shorter)) : vec2(shorter, longer);
 }
 
-GrooveView grooves_of(vec4 moments) {
+// The grooves that the moments describe.
+GrooveView grooves_of(MeshView mesh, mat2x3 g_change, vec2 v_g_change, vec4 moments) {
     float coverage = 1.0;
     float inverse_variance = max(moments.w / max(moments.z * moments.z, 1e-12) - 1.0 - MOMENT_ROUNDING, 0.0);
 #ifdef GROOVE_GAPS
@@ -96,39 +114,47 @@ GrooveView grooves_of(vec4 moments) {
     float square = fade * fade;
     float lost = 1.0 - square;
     vec2 spread = vec2(0.5 - 0.5 * square * square, 0.5 * lost * lost + square * inverse_variance);
-    mat3 axes = mesh_view.axes;
-    vec3 v = mesh_view.direction;
-    mat3 turned = mat3(turn.x * axes[0] + turn.y * axes[1], turn.x * axes[1] - turn.y * axes[0], axes[2]);
+    vec3 g = mesh.axes[0];
+    vec3 h = mesh.axes[1];
+    vec3 v = mesh.direction;
+    mat3 turned = mat3(turn.x * g + turn.y * h, turn.x * h - turn.y * g, mesh.axes[2]);
     vec3 direction = vec3(dot(turn, v.xy), turn.x * v.y - turn.y * v.x, v.z);
     float pitch = moments.z > 0.0 ? groove_pitch * coverage / moments.z : 0.0;
-    return GrooveView(turned, direction, pitch, turn, fade, spread, coverage);
+    return GrooveView(turned, direction, pitch, g_change, v_g_change, mesh, turn, fade, spread, coverage);
 }
 
-vec2 groove_uv() { return groove_uv_linear.xy * GROOVE_MAP.x + groove_uv_linear.zw * GROOVE_MAP.y + groove_uv_offset; }
+// A pixel whose grooves vary is divided in parts: two distinct directions in it are no normal distribution.
+const int PARTS_PER_SIDE = 2;
+const float VARYING = 1e-3;
 
-#define PART_SIDE 2
-// Pixels whose grooves vary are divided in parts, whose grooves vary less.
-mat2 groove_uv_change;
-int groove_parts(GrooveView view) { return view.spread.x + view.spread.y > 1e-3 ? PART_SIDE * PART_SIDE : 1; }
+int groove_parts(GrooveView view) {
+    return view.spread.x + view.spread.y > VARYING ? PARTS_PER_SIDE * PARTS_PER_SIDE : 1;
+}
 
-GrooveView groove_part(int part) {
-    vec2 at = (vec2(part % PART_SIDE, part / PART_SIDE) + 0.5) / float(PART_SIDE) - 0.5;
-    mat2 change = groove_uv_change / float(PART_SIDE);
-    return grooves_of(textureGrad(groove_map, groove_uv() + groove_uv_change * at, change[0], change[1]));
+// One of `parts`; `view`: the whole pixel.
+GrooveView groove_part(GrooveView view, int parts, int part) {
+    if (parts == 1) return view;
+    vec2 at = (vec2(part % PARTS_PER_SIDE, part / PARTS_PER_SIDE) + 0.5) / float(PARTS_PER_SIDE) - 0.5;
+    mat2 change = view.mesh.map_uv_change;
+    mat2 smaller = change / float(PARTS_PER_SIDE);
+    vec4 moments = textureGrad(groove_map, view.mesh.map_uv + change * at, smaller[0], smaller[1]);
+    return grooves_of(view.mesh, view.g_change, view.v_g_change, moments);
 }
 #endif
 
+// Uses derivatives: call it in uniform control flow.
 GrooveView groove_view() {
     mat3 axes = groove_axes();
     vec3 direction = normalize(eye.xyz - world_position) * axes;
+    mat2x3 g_change = mat2x3(dFdx(axes[0]), dFdy(axes[0]));
+    vec2 v_g_change = vec2(dFdx(direction.x), dFdy(direction.x));
 #ifdef GROOVE_MAP
-    mesh_view = MeshView(axes, direction, mat2x3(dFdx(axes[0]), dFdy(axes[0])), mat2x3(dFdx(axes[1]), dFdy(axes[1])),
-                         mat2(dFdx(direction.xy), dFdy(direction.xy)));
-    vec2 uv = groove_uv();
-    groove_uv_change = mat2(dFdx(uv), dFdy(uv));
-    return grooves_of(texture(groove_map, uv));
+    vec2 uv = groove_uv_linear.xy * GROOVE_MAP.x + groove_uv_linear.zw * GROOVE_MAP.y + groove_uv_offset;
+    MeshView mesh = MeshView(axes, direction, mat2x3(dFdx(axes[1]), dFdy(axes[1])),
+                             vec2(dFdx(direction.y), dFdy(direction.y)), uv, mat2(dFdx(uv), dFdy(uv)));
+    return grooves_of(mesh, g_change, v_g_change, texture(groove_map, uv));
 #else
-    return GrooveView(axes, direction, 1.0);
+    return GrooveView(axes, direction, 1.0, g_change, v_g_change);
 #endif
 }
 

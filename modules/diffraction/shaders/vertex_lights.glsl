@@ -18,7 +18,7 @@ vec3 shade_lights(vec3 position, mat3 axes) {
     vec3 direction = normalize(eye.xyz - position) * axes;
     vec3 sum = vec3(0.0);
 #ifdef KEY_LOBES
-    if (direction.z > 0.0) sum = key_lights_radiance(axes, direction);
+    if (direction.z > 0.0) sum = key_lights_radiance(axes, direction, mat2x3(0.0), vec2(0.0));
 #endif
 #ifdef DIRECTIONAL_LIGHTS
     KernelRow row = kernel_row(0.0);

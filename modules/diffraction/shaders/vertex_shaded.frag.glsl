@@ -8,8 +8,7 @@ MaterialTerms material_terms() {
     vec3 sum = diffracted + lights_from_vertices();
 #ifdef LIGHTS_AT_PIXELS
     GrooveView view = groove_view();
-    vec3 key_lights = key_lights_at_pixel(view);
-    if (view.direction.z > 0.0 && view.pitch > 0.0) sum += key_lights;
+    if (view.direction.z > 0.0 && view.pitch > 0.0) sum += key_lights_at_pixel(view);
     prepare_lights(view);
 #endif
     return MaterialTerms(base_weight, mirror_weight, sum);
