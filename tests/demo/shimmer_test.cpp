@@ -53,7 +53,8 @@ std::string with_json(std::string glb, const std::string& old_text, const std::s
 }
 
 /// Prints what the goals are about: four views under all shipped probes. Most jumps that are left are the contents',
-/// which move: pictures of 16 samples per pixel jump by 6.9 % on the foil and 2.7 % on the beetle (opening view, studio).
+/// which move: pictures of 16 samples per pixel jump by 6.9 % on the foil and 2.7 % on the beetle (opening view,
+/// studio).
 TEST(Shimmer, FewPixelsOfTheCabinetsGratingsJump) {
     const platform::HeadlessContext context;
     const demo::Options options = cabinet();
