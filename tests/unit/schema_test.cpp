@@ -172,7 +172,7 @@ TEST(Schema, OfTheGltfExtensionAgreesWithTheParser) {
         json::parse(R"({"grating": {"pitch_nm": 1600, "profile": {"type": "slit", "width_nm": 600}},
                         "grooveRotation": 1.5, "grooveTexture": {"index": 2, "texCoord": 1}, "metal": "Cu"})"),
         json::parse(R"({"grating": {"pitch_nm": 740, "profile": {"type": "table", "file": "t.csv"}},
-                        "grooveTexture": {"index": 0, "extras": {}}, "extras": [1], "extensions": {"X": 1}})")};
+                        "grooveTexture": {"index": 0, "sparkle": true, "extras": {}}, "extras": [1], "extensions": {"X": 1}})")};
     expect_agreement(
         schema, documents,
         [&](const json& document) { diffraction::parse_gltf_extension(document, "test", folder.path()); },

@@ -133,25 +133,6 @@ void sharpen_slice(CircleMap& map, int chart, int term, int view) {
         }
 }
 
-/// Whether k(−x) = k(x), to the table's rounding.
-bool is_even(const KernelTable& kernel) {
-    double largest = 0.0;
-    double difference = 0.0;
-    const double reach = std::max(std::abs(kernel.begin_nm), std::abs(kernel.end_nm));
-    const auto samples = static_cast<int>(kernel.antiderivative.size());
-    for (int i = 1; i <= samples; ++i) {
-        const double x_nm = reach * i / samples;
-        const glm::dmat3 right = kernel.at(x_nm) - kernel.at(0.0);
-        const glm::dmat3 left = kernel.at(0.0) - kernel.at(-x_nm);
-        for (int c = 0; c < 3; ++c)
-            for (int o = 0; o < 3; ++o) {
-                largest = std::max(largest, std::abs(right[c][o]));
-                difference = std::max(difference, std::abs(right[c][o] - left[c][o]));
-            }
-    }
-    return difference <= 1e-5 * largest;
-}
-
 glm::dvec3 term_at(const CircleMap& map, int chart, int term, const glm::dvec3& position) {
     glm::dvec3 sum(0.0);
     const auto low = [](double at, int count) { return std::clamp(static_cast<int>(std::floor(at)), 0, count - 2); };
