@@ -12,9 +12,12 @@
 namespace rowland::diffraction {
 
 struct LobeMapSize {
-    int azimuths = 256;  ///< of a whole turn: a multiple of 4, ≥ 8
+    int azimuths = 352;  ///< of a whole turn: a multiple of 4, ≥ 8
     LobeMapViews views;
 };
+
+/// What is shown while a larger map is filled: within 40 ms of a tilt on two cores.
+inline constexpr LobeMapSize kCoarseLobeMap{.azimuths = 64, .views = {.g = 64, .h = 32}};
 
 /// A pattern that is even needs the half turn alone, both ends included.
 constexpr int slices(const LobeMapSize& size, bool half_turn) {

@@ -28,7 +28,7 @@ class LobeSpectrum {
 
     const LobeMapViews& views() const { return views_; }
     /// Of the LightDisc that the light must be taken from.
-    int disc_cells() const { return 2 * std::max(views_.g, views_.h); }
+    int disc_cells() const { return (getenv("DISC") ? atoi(getenv("DISC")) : 2) * std::max(views_.g, views_.h); }
     /// P(−u) = P(u).
     bool even() const { return even_; }
     std::size_t size_g() const { return size_g_; }

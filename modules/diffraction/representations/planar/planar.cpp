@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <memory>
 #include <utility>
@@ -10,8 +11,14 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// A map of so many nodes has 135 MB, or twice as many where orders m and −m differ.
+/// A map of so many views takes 135 MB, or twice as many where orders m and −m differ.
 constexpr int kMostLobeViews = 256;
+
+/// Where lamps are as small as texels, azimuths count more than views: 128 views and 352 azimuths take 23 MB.
+int lobe_azimuths(int views) {
+    constexpr int kMost = 512;
+    return std::min(kMost, (11 * views / 4 + 3) / 4 * 4);
+}
 
 SettingInfo views_h_setting() {
     return {.key = "views_h",
@@ -64,7 +71,7 @@ PlanarSettings PlanarSettings::from(const SettingValues& values, const Grating& 
         .stand_in = {
             .bands = values.number("bands"), .rank = values.number("rank"), .grid = default_view_grid(grating.lobe)}};
     if (!is_flat(grating.lobe))
-        settings.lobe_size = {.azimuths = 2 * (views + views % 2),
+        settings.lobe_size = {.azimuths = lobe_azimuths(views),
                               .views = {.g = views, .h = values.number_or("views_h", views)}};
     return settings;
 }

@@ -80,9 +80,7 @@ PlanarFill::Profile PlanarFill::project(int azimuth) const {
     const float last = static_cast<float>(cells_ - 1);
     for (int row = 0; row < cells_; ++row) {
         const double y = row - middle;
-        const double half = std::sqrt(std::max(0.0, 0.25 * cells_ * cells_ - y * y)) + 1.0;
-        const int begin = std::max(0, static_cast<int>(middle - half));
-        const int end = std::min(cells_, static_cast<int>(middle + half) + 2);
+        const auto [begin, end] = lit_columns(cells_, row);
         const float start = static_cast<float>(outer * y + middle - inner * middle);
         const float step = static_cast<float>(inner);
         const float* light = disc.data() + (static_cast<std::size_t>(row) * side) * 4;
