@@ -25,7 +25,7 @@ struct DiffractionPattern {
 /// Distance in u between the nodes of an order: at most this, and at most that of 1 nm.
 inline constexpr double kPatternStep = 0.004;
 
-/// Efficiencies are those at normal incidence. Only |u| ≤ 2, which all directions reach.
+/// Orders are sharp, efficiencies those at normal incidence. Only |u| ≤ 2, beyond which no pair of directions lies.
 DiffractionPattern diffraction_pattern(const Grating& grating, const colour::LightSpectra& spectra);
 
 /// The pattern in another colour space than XYZ.

