@@ -74,7 +74,7 @@ const RepresentationInfo& PlanarSettings::info() {
 std::optional<Refusal> PlanarSettings::refusal(const SettingValues& values, const Grating& grating) {
     if (is_flat(grating.lobe)) {
         if (!values.has("views_h")) return std::nullopt;
-        return Refusal{"views_h", fmt::format("{} with the flat groove_lobe", values.number("views_h")),
+        return Refusal{"views_h", fmt::format("{} with the flat groove_lobe", values.number_or("views_h", 0)),
                        "no views_h: the map of a flat lobe does not depend on v_h"};
     }
     if (values.number("map_resolution") <= kMostLobeViews) return std::nullopt;
