@@ -250,10 +250,9 @@ TEST_F(Grooves, PlanarMapsOfAnyLobeServeAllDirections) {
     const auto map = map_of(kTurned, 2);
     for (const char* grating : {kFlatFoil, kFoil})
         for (const char* map_at : {"pixels", "vertices"}) {
-            const std::string quality = R"({"representation": "planar", "map_resolution": 32, "map_at": ")";
-            const Material made = material(grating, quality + map_at + "\"}");
-            ASSERT_FALSE(groove_refusal(made, *map));
-            const CookedMaterial cooked = cook_with(grating, quality + map_at + "\"}", *map);
+            const std::string settings = R"("map_resolution": 32, "map_at": ")";
+            const CookedMaterial cooked = cook_planar(grating, settings + map_at + "\"");
+            ASSERT_FALSE(groove_refusal(cooked.material, *map));
             if (!renderer_) show_with(cooked, map, 0.4);
             use(cooked);
             world_.add(entity_, DiffractionSurface{material_, 0.4F, map});
