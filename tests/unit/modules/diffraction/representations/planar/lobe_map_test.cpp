@@ -65,8 +65,8 @@ Grating with_lobe(const GrooveLobe& lobe) {
     return grating;
 }
 
-/// The slow sum is the reference's quadrature. Light without detail: the rest is the map's steps of .03 at the horizon's
-/// edge, .8 % for the lobe that is narrower than they are (measured), .5 % and less for the others.
+/// The slow sum is the reference's quadrature. Light without detail: the rest is the map's steps of .03 at the
+/// horizon's edge, .8 % for the lobe that is narrower than they are (measured), .5 % and less for the others.
 TEST(LobeMap, EqualsTheReferenceUnderSmoothLight) {
     Grating blazed = with_lobe(GaussianLobe{0.1});
     blazed.profile = BlazedProfile{.depth_nm = 280.0};
