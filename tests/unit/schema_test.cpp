@@ -96,7 +96,8 @@ bool crosses_quality(const json& document) {
     const std::string default_mapping = name == "arc" ? "one-dimensional" : "";
     const bool along_one_axis = quality.value("view_mapping", default_mapping) == "one-dimensional";
     const bool view = flat ? name == "arc" && !along_one_axis : quality.contains("view_mapping") && along_one_axis;
-    const bool map = !flat && (name == "planar" || name == "circle");
+    const bool map = flat ? quality.contains("views_h")
+                          : name == "circle" || (name == "planar" && quality.value("map_resolution", 128) > 256);
     const bool narrow = !flat && document["grating"]["groove_lobe"].value("/pits/coherent"_json_pointer, 1.0) > 0.0;
     const json& orders = document["grating"].value("orders", json::array({-2, -1, 1, 2}));
     const bool streak = name == "streak" && (!narrow || orders.size() * quality.value("nodes", 8U) > 1024);

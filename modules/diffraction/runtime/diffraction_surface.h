@@ -25,8 +25,8 @@ struct DiffractionSurface {
 struct DiffractionSettings {
     /// On band-limited light, against ringing; nullopt: the weakest sufficient window.
     std::optional<math::SphericalWindow> window = std::nullopt;
-    /// The most azimuths of a planar map that one frame fills, and slices of a circle map that it uploads. At the
-    /// map's size or above, frames wait for whole maps.
+    /// The most azimuths of a planar map of flat lobe that one frame fills, and slices of other maps that it uploads.
+    /// At the map's size or above, frames wait for whole maps.
     int slices_per_frame = 8;
 };
 

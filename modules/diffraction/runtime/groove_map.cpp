@@ -139,9 +139,14 @@ std::optional<Refusal> groove_refusal(const Material& material, const GrooveMap&
     if (pinned && !std::holds_alternative<ArcSettings>(*pinned)) {
         const auto* streak = std::get_if<StreakSurfaceSettings>(&*pinned);
         const bool narrow = streak != nullptr && !streak->rest;
-        if (narrow || std::holds_alternative<DirectSettings>(*pinned)) return std::nullopt;
-        return Refusal{"quality/representation", fmt::format("\"{}\" with a grooveTexture", info(*pinned).name),
-                       "\"arc\", \"direct\" or, with a sigma for groove_lobe, \"streak\"", "or leave quality out"};
+        const bool map = std::holds_alternative<PlanarSettings>(*pinned);
+        if (narrow || std::holds_alternative<DirectSettings>(*pinned) || (map && !varies_pitch(grooves)))
+            return std::nullopt;
+        return Refusal{
+            "quality/representation",
+            fmt::format("\"{}\" with a grooveTexture{}", info(*pinned).name, map ? " that varies the pitch" : ""),
+            "\"arc\", \"direct\", with a sigma for groove_lobe \"streak\" or, with one pitch, \"planar\"",
+            "or leave quality out"};
     }
     if (!varies_pitch(grooves) || is_flat(material.grating.lobe)) return std::nullopt;
     return Refusal{"grooveTexture",

@@ -8,6 +8,7 @@
 #include "modules/diffraction/bake/kernel_cells.h"
 #include "modules/diffraction/model/colour_kernel.h"
 #include "modules/diffraction/model/shading_point.h"
+#include "modules/diffraction/representations/planar/light_disc.h"
 
 namespace rowland::diffraction {
 
@@ -53,9 +54,7 @@ class PlanarFill {
     void correlate(const Profile& profile, int azimuth, PlanarMap& map) const;
 
     PlanarMapSize size_;
-    glm::dvec3 e1_{0.0};
-    glm::dvec3 e2_{0.0};
-    glm::dvec3 n_{0.0};
+    PlaneAxes axes_;
     int cells_;  ///< of A, and of the disc's side
     KernelCells kernel_;
     std::vector<float> rows_;     ///< light over the plane's disc, cells_² of (r, g, b, 0): flux · s_n / 2

@@ -10,6 +10,7 @@
 #include "engine/core/json_reader.h"
 #include "modules/diffraction/asset/material_json.h"
 #include "modules/diffraction/bake/cube_pyramid.h"
+#include "tests/gpu/modules/diffraction/filter_error.h"
 #include "tests/gpu/modules/diffraction/grating_picture.h"
 #include "tests/support/message_of.h"
 
@@ -316,6 +317,48 @@ TEST_F(Grooves, ALevelOfMomentsIsTheirMean) {
         const glm::vec4 last = moments.read({.level = moments.levels() - 1}).at(0);
         for (int i = 0; i < 4; ++i) EXPECT_NEAR(last[i], mean[i], 1e-4) << even;  // rounded at each of five levels
     }
+}
+
+/// Patches of one pitch: a map over the azimuth serves all directions. The map in the vertices' place knows no texture.
+TEST_F(Grooves, PlanarMapsOfAnyLobeServeAllDirections) {
+    constexpr Texel kTurned[] = {{0, 128}, {60, 128}, {130, 128}, {200, 128}};
+    const auto map = map_of(kTurned, 2);
+    for (const char* grating : {kFlatFoil, kFoil})
+        for (const char* map_at : {"pixels", "vertices"}) {
+            const std::string settings = R"("map_resolution": 32, "map_at": ")";
+            const CookedMaterial cooked = cook_planar(grating, settings + map_at + "\"");
+            ASSERT_FALSE(groove_refusal(cooked.material, *map));
+            if (!renderer_) show_with(cooked, map, 0.4);
+            use(cooked);
+            world_.add(entity_, DiffractionSurface{material_, 0.4F, map});
+            const auto& tables = std::get<PlanarTables>(cooked.tables);
+            const glm::dvec3 normal = glm::transpose(vertex_frame(0))[2];
+            const auto difference_from = [&](const auto& light_map) {
+                const auto error = filter_error(light_map);
+                const auto at = [](const auto& looked_up, const Point& point) {
+                    const glm::dmat3 axes = glm::transpose(point.to_tangent);
+                    return sample(looked_up, {.view = axes * point.view, .normal = axes[2], .grating = axes[0]});
+                };
+                const auto on_patch = [&](const auto& looked_up) {
+                    return [&](const Point& point) {
+                        const auto turned = on_patches(point);
+                        return turned ? at(looked_up, turned->point)
+                                      : glm::dvec3(std::numeric_limits<double>::quiet_NaN());
+                    };
+                };
+                return largest_difference(draw(), on_patch(light_map), on_patch(error));
+            };
+            // The texture's angles have 8 bits, and the shader's turn of g is that of a float.
+            const double difference =
+                tables.lobe
+                    ? difference_from(fill_lobe_map(*light_.texels,
+                                                    LobeSpectrum(tables.lobe->pattern, tables.lobe->size.views), normal,
+                                                    tables.lobe->size.azimuths))
+                    : difference_from(fill_planar_map(*light_.texels, cooked.kernel, cooked.material.grating.pitch_nm,
+                                                      normal, tables.size, cooked.zero_order_xyz));
+            EXPECT_LT(difference, kPictureTolerance) << grating << map_at;
+            EXPECT_GT(brightest_, 0.01);
+        }
 }
 
 TEST_F(Grooves, WhatKnowsOneDirectionOrOnePitchIsRefusedByPlace) {

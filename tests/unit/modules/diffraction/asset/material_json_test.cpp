@@ -170,11 +170,14 @@ TEST(MaterialJson, SettingsThatARepresentationDoesNotHaveAreRefusedByName) {
 
 TEST(MaterialJson, LobesThatARepresentationCannotShadeAreRefused) {
     const std::string sigma = R"({"sigma": 0.2})";
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "planar"})", sigma)), HasSubstr("/quality/representation"));
     EXPECT_THAT(refusal(with_quality(R"({"representation": "circle"})", sigma)), HasSubstr("/quality/representation"));
     EXPECT_THAT(refusal(with_quality(R"({"representation": "bins", "view_mapping": "one-dimensional"})", sigma)),
                 HasSubstr("/quality/view_mapping"));
     EXPECT_NO_THROW(parse(with_quality(R"({"representation": "arc"})", sigma)));
+    EXPECT_NO_THROW(parse(with_quality(R"({"representation": "planar", "views_h": 64})", sigma)));
+    EXPECT_THAT(refusal(with_quality(R"({"representation": "planar", "views_h": 64})")), HasSubstr("/quality/views_h"));
+    EXPECT_THAT(refusal(with_quality(R"({"representation": "planar", "map_resolution": 257})", sigma)),
+                HasSubstr("/quality/map_resolution"));
     EXPECT_THAT(refusal(with_quality(R"({"representation": "streak"})")), HasSubstr("/quality/representation"));
     EXPECT_THAT(
         refusal(with_quality(R"({"representation": "streak"})", R"({"pits": {"length_nm": 850, "coherent": 0}})")),
