@@ -32,8 +32,8 @@ std::vector<std::uint16_t> side_by_side(const CircleMap& map, float scale) {
 
 CircleFilling::Filled CircleFilling::fill(const std::stop_token& stop, const lighting::LightSamples& texels,
                                           const KernelTable& kernel, double pitch_nm, const CircleMapSize& size,
-                                          const glm::dmat3& zero_order_xyz) {
-    const CircleMap map = fill_circle_map(texels, kernel, pitch_nm, size, zero_order_xyz, stop);
+                                          const glm::dmat3& zero_order_xyz, const std::optional<Cover>& cover) {
+    const CircleMap map = fill_circle_map(texels, kernel, pitch_nm, size, zero_order_xyz, cover, stop);
     if (stop.stop_requested()) return {};
     const float scale = largest_component(map.xyz);
     return {.desc = {.kind = gpu::TextureKind::Volume,
@@ -45,10 +45,11 @@ CircleFilling::Filled CircleFilling::fill(const std::stop_token& stop, const lig
 }
 
 CircleFilling::CircleFilling(std::shared_ptr<const lighting::LightSamples> texels, const KernelTable& kernel,
-                             double pitch_nm, const CircleMapSize& size, const glm::dmat3& zero_order_xyz) {
+                             double pitch_nm, const CircleMapSize& size, const glm::dmat3& zero_order_xyz,
+                             const std::optional<Cover>& cover) {
     std::packaged_task<Filled(std::stop_token)> task(
-        [texels = std::move(texels), kernel, pitch_nm, size, zero_order_xyz](const std::stop_token& stop) {
-            return fill(stop, *texels, kernel, pitch_nm, size, zero_order_xyz);
+        [texels = std::move(texels), kernel, pitch_nm, size, zero_order_xyz, cover](const std::stop_token& stop) {
+            return fill(stop, *texels, kernel, pitch_nm, size, zero_order_xyz, cover);
         });
     filled_later_ = task.get_future();
     thread_ = std::jthread(std::move(task));

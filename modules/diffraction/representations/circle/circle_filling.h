@@ -19,7 +19,7 @@ namespace rowland::diffraction {
 class CircleFilling {
  public:
     CircleFilling(std::shared_ptr<const lighting::LightSamples> texels, const KernelTable& kernel, double pitch_nm,
-                  const CircleMapSize& size, const glm::dmat3& zero_order_xyz);
+                  const CircleMapSize& size, const glm::dmat3& zero_order_xyz, const std::optional<Cover>& cover);
 
     /// Blocks until the map is filled.
     void wait() const { filled_later_.wait(); }
@@ -37,7 +37,8 @@ class CircleFilling {
         std::vector<std::uint16_t> halves;
     };
     static Filled fill(const std::stop_token& stop, const lighting::LightSamples& texels, const KernelTable& kernel,
-                       double pitch_nm, const CircleMapSize& size, const glm::dmat3& zero_order_xyz);
+                       double pitch_nm, const CircleMapSize& size, const glm::dmat3& zero_order_xyz,
+                       const std::optional<Cover>& cover);
 
     std::future<Filled> filled_later_;
     std::optional<Filled> filled_;

@@ -14,7 +14,7 @@ void GpuCircle::begin(const std::shared_ptr<const lighting::LightSamples>& texel
     if (!texels) log_warning("a grating of representation circle is under a probe without texels: it stays dark");
     filling_ = std::make_unique<CircleFilling>(texels ? texels : std::make_shared<const lighting::LightSamples>(),
                                                working_kernel(), cooked()->material.grating.pitch_nm, size_,
-                                               working_zero_order());
+                                               working_zero_order(), cooked()->material.grating.cover);
     ++fills_begun_;
 }
 

@@ -33,6 +33,7 @@ LightSpot clamp_at_horizon(const Spread& spread) {
     const double variance_n = std::max(0.0, spread.covariance(2, 2));
     const lighting::ClampedNormal clamped = lighting::clamp_normal(spread.mean.z, std::sqrt(variance_n));
     part.cosine = clamped.mean;
+    spot.centre_n = clamped.mean > 0.0 ? clamped.weighted_mean : 0.0;
     const double shift = clamped.mean > 0.0 ? clamped.weighted_mean - spread.mean.z : 0.0;
     const auto regress = [&](int axis, double& centre, double& variance) {
         const double slope = variance_n > 0.0 ? spread.covariance(axis, 2) / variance_n : 0.0;
@@ -121,7 +122,7 @@ glm::dvec3 seen_through(const Kernel& kernel, const DirectMaterial& material, co
     for (const LightSpot::Part& part : spot.parts)
         if (part.cosine > 0.0)
             sum += 0.5 * part.cosine * (mean_over_part(kernel, material, spot, part, view) * spot.flux);
-    return groove_factor(material.lobe, spot, view.v_h) * sum;
+    return transmittance(material.cover, spot.centre_n) * groove_factor(material.lobe, spot, view.v_h) * sum;
 }
 
 /// mean_above_wide() for z ≥ kFewTurns, which is exact in the tails also. With τ = t − t₀,

@@ -72,7 +72,7 @@ PointShader point_shader(const PlanarTables& tables, const MaterialKernel& mater
         const glm::dvec3 normal = glm::normalize(frame.normal);
         if (normal != last->normal)
             *last = {normal, fill_planar_map(texels, material.kernel, material.pitch_nm, normal, size,
-                                             material.zero_order_xyz)};
+                                             material.zero_order_xyz, material.cover)};
         return sample(last->map, frame);
     };
 }

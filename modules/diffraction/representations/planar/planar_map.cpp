@@ -47,7 +47,7 @@ void splat(Disc& disc, int cells, float x, float y, const std::array<float, 4>& 
 
 /// Projects texels of the upper hemisphere along n: the measure on the disc is L ds_1 ds_2 = L s_n dω.
 void add_texels(const lighting::LightSamples& texels, std::size_t begin, std::size_t end, const glm::vec3& e1,
-                const glm::vec3& e2, const glm::vec3& n, int cells, Disc& disc) {
+                const glm::vec3& e2, const glm::vec3& n, const std::optional<Cover>& cover, int cells, Disc& disc) {
     const float scale = 0.5F * static_cast<float>(cells);
     for (std::size_t i = begin; i < end; ++i) {
         const float x = texels.x[i];
@@ -55,7 +55,7 @@ void add_texels(const lighting::LightSamples& texels, std::size_t begin, std::si
         const float z = texels.z[i];
         const float s_n = x * n.x + y * n.y + z * n.z;
         if (!(s_n > 0.0F)) continue;
-        const float weight = 0.5F * s_n;
+        const float weight = 0.5F * s_n * static_cast<float>(transmittance(cover, double{s_n}));
         const float s_1 = x * e1.x + y * e1.y + z * e1.z;
         const float s_2 = x * e2.x + y * e2.y + z * e2.z;
         splat(disc, cells, (s_1 + 1.0F) * scale - 0.5F, (s_2 + 1.0F) * scale - 0.5F,
@@ -64,12 +64,12 @@ void add_texels(const lighting::LightSamples& texels, std::size_t begin, std::si
 }
 
 Disc light_on_disc(const lighting::LightSamples& texels, const glm::vec3& e1, const glm::vec3& e2, const glm::vec3& n,
-                   int cells) {
+                   const std::optional<Cover>& cover, int cells) {
     const auto floats = static_cast<std::size_t>(cells) * static_cast<std::size_t>(cells) * 4;
     std::vector<Disc> parts(kParts);
     parallel_for(kParts, [&](std::size_t part) {
         parts[part].assign(floats, 0.0F);
-        add_texels(texels, texels.size() * part / kParts, texels.size() * (part + 1) / kParts, e1, e2, n, cells,
+        add_texels(texels, texels.size() * part / kParts, texels.size() * (part + 1) / kParts, e1, e2, n, cover, cells,
                    parts[part]);
     });
     for (std::size_t part = 1; part < kParts; ++part)
@@ -102,7 +102,8 @@ struct PlanarFill::Profile {
 };
 
 PlanarFill::PlanarFill(const lighting::LightSamples& texels, const KernelTable& kernel, double pitch_nm,
-                       const glm::dvec3& normal, const PlanarMapSize& size, const glm::dmat3& zero_order_xyz)
+                       const glm::dvec3& normal, const PlanarMapSize& size, const glm::dmat3& zero_order_xyz,
+                       const std::optional<Cover>& cover)
     : size_(size), cells_(2 * (size.views - 1)), kernel_(kernel, pitch_nm, size.views, zero_order_xyz) {
     ROWLAND_CHECK_OP(size.azimuths, >=, 4);
     ROWLAND_CHECK_OP(size.azimuths % 2, ==, 0);
@@ -112,7 +113,7 @@ PlanarFill::PlanarFill(const lighting::LightSamples& texels, const KernelTable& 
     const glm::dvec3 pole(0.0, n_.y < 0.0 ? -1.0 : 1.0, 0.0);
     e1_ = glm::normalize(glm::dvec3(1.0, 0.0, 0.0) - n_.x / (1.0 + glm::dot(pole, n_)) * (pole + n_));
     e2_ = glm::cross(n_, e1_);
-    rows_ = light_on_disc(texels, glm::vec3(e1_), glm::vec3(e2_), glm::vec3(n_), cells_);
+    rows_ = light_on_disc(texels, glm::vec3(e1_), glm::vec3(e2_), glm::vec3(n_), cover, cells_);
     columns_ = transpose(rows_, cells_);
 }
 
@@ -206,8 +207,9 @@ void PlanarFill::fill(int begin, int end, PlanarMap& map) const {
 }
 
 PlanarMap fill_planar_map(const lighting::LightSamples& texels, const KernelTable& kernel, double pitch_nm,
-                          const glm::dvec3& normal, const PlanarMapSize& size, const glm::dmat3& zero_order_xyz) {
-    const PlanarFill fill(texels, kernel, pitch_nm, normal, size, zero_order_xyz);
+                          const glm::dvec3& normal, const PlanarMapSize& size, const glm::dmat3& zero_order_xyz,
+                          const std::optional<Cover>& cover) {
+    const PlanarFill fill(texels, kernel, pitch_nm, normal, size, zero_order_xyz, cover);
     PlanarMap map = fill.empty();
     fill.fill(0, size.azimuths, map);
     return map;
