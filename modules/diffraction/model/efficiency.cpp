@@ -9,14 +9,6 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// Of the metal against the medium over it, and of the dye in a cover. A table of efficiencies was measured with both.
-double reflectance(const Grating& grating, double wavelength_nm) {
-    if (std::holds_alternative<EfficiencyTable>(grating.profile)) return 1.0;
-    const double metal =
-        grating.metal ? colour::metal_reflectance(*grating.metal, wavelength_nm, groove_medium(grating.cover)) : 1.0;
-    return metal * dye_transmittance(grating.cover, wavelength_nm);
-}
-
 /// The wavelength in the medium that the grooves lie in, which sets the phase of a groove's depth. A table's is in air.
 double groove_wavelength(const Grating& grating, double wavelength_nm) {
     if (std::holds_alternative<EfficiencyTable>(grating.profile)) return wavelength_nm;
@@ -31,6 +23,13 @@ double normalization_factor(const Grating& grating, double wavelength_nm) {
 }
 
 }  // namespace
+
+double reflectance(const Grating& grating, double wavelength_nm) {
+    if (std::holds_alternative<EfficiencyTable>(grating.profile)) return 1.0;
+    const double metal =
+        grating.metal ? colour::metal_reflectance(*grating.metal, wavelength_nm, groove_medium(grating.cover)) : 1.0;
+    return metal * dye_transmittance(grating.cover, wavelength_nm);
+}
 
 double order_efficiency(const Grating& grating, int order, double wavelength_nm, double s_g) {
     return reflectance(grating, wavelength_nm) * normalization_factor(grating, wavelength_nm) *

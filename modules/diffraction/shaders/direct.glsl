@@ -48,19 +48,22 @@ vec3 key_lights_at_pixel(GrooveView view) { return vec3(0.0); }
 #if defined(MATERIAL_PUNCTUAL_LIGHTS) || defined(MATERIAL_DIRECTIONAL_LIGHTS)
 GrooveView lit_view;
 KernelRow lit_row;
+float lit_transmittance;  // of a cover, for the view
 
 void prepare_lights(GrooveView view) {
     lit_view = view;
+    lit_transmittance = cover_transmittance(view.direction.z);
     lit_row = kernel_row(view.pitch * 0.57735026918963 * view.footprint);
 }
 
 void material_light(int i, float attenuation, vec3 l, inout vec3 added) {
 #ifdef LOBE_PITS
     vec3 xyz = vec3(0.0);
-    add_small_light(i, attenuation, l, lit_view.axes, lit_view.direction, lit_row, lit_view.pitch, xyz);
+    add_small_light(i, attenuation * lit_transmittance, l, lit_view.axes, lit_view.direction, lit_row, lit_view.pitch, xyz);
     added += kernel_to_working(xyz);
 #else
-    add_small_light(i, attenuation, l, lit_view.axes, lit_view.direction, lit_row, lit_view.pitch, added);
+    add_small_light(i, attenuation * lit_transmittance, l, lit_view.axes, lit_view.direction, lit_row, lit_view.pitch,
+                    added);
 #endif
 }
 #elif !defined(VERTEX_SHADED) || defined(LIGHTS_AT_PIXELS)

@@ -6,5 +6,5 @@ MaterialTerms material_terms() {
     vec3 sum = lights_from_vertices();
     if (view.direction.z > 0.0 && view.pitch > 0.0) sum += diffracted_radiance(view) + key_lights_at_pixel(view);
     prepare_lights(view);
-    return MaterialTerms(base_weight, mirror_weight, sum);
+    return surface_terms(sum);
 }

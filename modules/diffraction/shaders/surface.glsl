@@ -2,6 +2,7 @@
 // once, at its first #include, so that conditions are inside the files.
 #define MATERIAL_HAS_MIRROR
 #include "engine/render/shaders/forward_fragment_interface.glsl"
+#include "modules/diffraction/shaders/cover.glsl"
 #include "modules/diffraction/shaders/has_direct.glsl"
 #include "engine/render/shaders/light_block.h"
 #include "modules/diffraction/shaders/groove_view.glsl"
@@ -10,3 +11,14 @@
 // Weights of the engine's shading, working space.
 uniform vec3 mirror_weight;
 uniform vec3 base_weight;
+
+// A surface that diffracts `radiance`. A cover dims all that lies under it, and reflects the rest like a mirror, on the
+// side that is seen. It is passed twice by light that order 0 mirrors.
+MaterialTerms surface_terms(vec3 radiance) {
+#ifdef COVER
+    float passed = cover_transmittance(abs(dot(normalize(world_normal), normalize(eye.xyz - world_position))));
+    return MaterialTerms(passed * base_weight, vec3(1.0 - passed) + passed * passed * mirror_weight, passed * radiance);
+#else
+    return MaterialTerms(base_weight, mirror_weight, radiance);
+#endif
+}

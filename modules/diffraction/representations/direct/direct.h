@@ -34,7 +34,8 @@ struct LightSpot {
     std::array<Part, 3> parts{};  ///< cosine 0: unused
     Shape shape = Shape::Box;     ///< of the parts
     double centre_h = 0.0;        ///< mean s_h, directions weighted by s_n⁺
-    double centre_n = 0.0;        ///< mean s_n⁺, likewise: where T of a cover is taken
+    double centre_n = 0.0;        ///< mean s_n⁺, likewise
+    double deviation_n = 0.0;     ///< standard deviation of s_n⁺, likewise
     double deviation_h = 0.0;     ///< standard deviation of s_h, likewise
 
     /// Mean of s_n⁺ over the light.
@@ -73,6 +74,9 @@ inline constexpr glm::dvec3 kPitsWavelengths_nm{591.0, 557.0, 449.0};
 
 /// 2 D_h(s_h + v_h) for X, Y and Z, the lobe widened by the light's own extent along the grooves.
 glm::dvec3 groove_factor(const GrooveLobe& lobe, const LightSpot& spot, double v_h);
+
+/// Mean of T over a light, to second order in its extent; 1 without a cover.
+double transmittance(const std::optional<Cover>& cover, const LightSpot& spot);
 
 /// XYZ = Σ_parts ½ s_n⁺ d k̄(d u) F · 2 D_h T(s_n) with u = s_g + v_g, PHYSICS §4 and §10, without T(v_n). k̄ is the mean
 /// of k over the light and the pixel, from differences of 𝒦. A box is one difference: the squares of its half-width and

@@ -119,5 +119,34 @@ TEST(Energy, NothingComesOutThatDidNotFallInAtAnyAngle) {
     }
 }
 
+/// T(v_n) ∫ T(s_n) … is at most T(v_n), and the gloss is 1 − T(v_n): together at most 1, at any angle.
+TEST(Energy, UnderACoverGlossAndOrdersAreNoMoreThanWhatFallsIn) {
+    std::vector<ShadingPoint> frames;
+    for (const double theta_deg : {0.0, 35.0, 70.0, 85.0, 89.0})
+        for (const double phi_deg : {0.0, 40.0, 90.0}) {
+            const double theta = theta_deg * std::numbers::pi / 180.0;
+            const double phi = phi_deg * std::numbers::pi / 180.0;
+            frames.push_back(
+                {.view = {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)},
+                 .normal = {0, 0, 1},
+                 .grating = {1, 0, 0}});
+        }
+    for (const GrooveLobe& lobe : {GrooveLobe{FlatLobe{}}, GrooveLobe{GaussianLobe{0.02}}}) {
+        double largest = 0.0;
+        for (const Profile& profile : profiles()) {
+            Grating grating = complete(profile, lobe);
+            grating.cover = Cover{};
+            const auto xyz = reference_radiance(grating, white_light(), colour::LightSpectra(), frames);
+            for (std::size_t i = 0; i < frames.size(); ++i) {
+                const double gloss = 1.0 - transmittance(grating.cover->ior, frames[i].view.z);
+                EXPECT_LT(xyz[i].y + gloss, 1.0 + 1e-6) << lobe.index() << " " << profile.index();
+                largest = std::max(largest, xyz[i].y + gloss);
+            }
+        }
+        RecordProperty(fmt::format("lobe{}", lobe.index()), fmt::format("{:.6g}", largest));
+        EXPECT_GT(largest, 0.75) << lobe.index();
+    }
+}
+
 }  // namespace
 }  // namespace rowland::diffraction
