@@ -8,6 +8,7 @@
 #include "modules/diffraction/bake/cube_pyramid.h"
 #include "tests/gpu/modules/diffraction/filter_error.h"
 #include "tests/gpu/modules/diffraction/grating_picture.h"
+#include "tests/gpu/render_test.h"
 
 namespace rowland::diffraction {
 namespace {
@@ -144,7 +145,7 @@ TEST_F(Covered, AStreakEqualsTheCpu) {
 CookedMaterial complete_mirror(bool covered) {
     nlohmann::json json = parse_json(
         R"({"grating": {"pitch_nm": 1640, "profile": {"type": "table", "file": "t.csv"}, "orders": [-1, 1]},
-            "quality": {"representation": "arc", "key_lights": false}})",
+            "quality": {"representation": "arc"}})",
         "test");
     if (covered) json["cover"]["ior"] = kIor;
     return cook_material(json, "test", [](const std::string&) {
@@ -154,8 +155,13 @@ CookedMaterial complete_mirror(bool covered) {
 
 class CoverGloss : public GratingPicture {
  protected:
-    void show_in_white(const CookedMaterial& cooked) {
+    /// The grating has no light but the scene's own.
+    CoverGloss() {
         light_.sh.coefficients.assign(light_.sh.coefficients.size(), glm::dvec3(0.0));
+        light_.residual = light_.sh;
+    }
+
+    void show_in_white(const CookedMaterial& cooked) {
         show(cooked, 0.5);
         image::Image image{.width = 64, .height = 32, .texels = std::vector(std::size_t{64} * 32, glm::vec3(1.0F))};
         renderer_->set_probe(
@@ -179,6 +185,56 @@ TEST_F(CoverGloss, ReflectsTheEnvironmentOverOrderZero) {
     EXPECT_GT(compared_, 500);
     use(complete_mirror(false));
     EXPECT_LT(largest_difference(draw(), [&](const Point&) { return mirror * white; }), 2e-3);
+}
+
+/// A directional light, and one at a point: T(s_n) T(v_n) through the kernel, and a GGX highlight of the cover's own F,
+/// whose width of .01 amplifies the rounding of cosines near 1: 1e-3.
+TEST_F(CoverGloss, LightsShineThroughItAndHaveHighlightsInIt) {
+    const CookedMaterial covered = complete_mirror(true);
+    show(covered, 0.5);
+    const glm::dvec3 toward = glm::normalize(glm::vec3(0.5F, 0.4F, 1.0F));
+    const glm::dvec3 from(0.9, 0.5, 1.6);
+    world_.add(world_.create(), scene::DirectionalLight{.direction = glm::vec3(toward), .irradiance = glm::vec3(2.0F)});
+    const ecs::Entity point_light = world_.create();
+    world_.add(point_light, scene::PunctualLight{.intensity = glm::vec3(3.0F)});
+    world_.add(point_light, scene::Transform{.translation = glm::vec3(from)});
+    const glm::dvec3 white = colour::rec709_to_xyz() * glm::dvec3(1.0);
+    const auto of_light = [&](const Point& point, const glm::dvec3& l, double irradiance) {
+        const glm::dvec3 n = glm::transpose(point.to_tangent)[2];
+        const glm::dvec3 v = glm::transpose(point.to_tangent) * point.view;
+        const double reflectance = 1.0 - transmittance(kIor, glm::dot(v, glm::normalize(l + v)));
+        // A black dielectric's is 0.04 at normal incidence: its highlight over its Schlick term.
+        const double schlick = 0.04 + 0.96 * std::pow(1.0 - glm::dot(v, glm::normalize(l + v)), 5.0);
+        const glm::dvec3 highlight =
+            rowland::test::reflected(l, n, v, glm::dvec3(0.0), 0.0, 0.1) / schlick * reflectance;
+        const DirectLight light{.direction = l, .flux = glm::dvec3(irradiance)};
+        return irradiance * highlight * white +
+               transmittance(kIor, point.view.z) *
+                   direct_radiance(smoothed(covered), direct_material(covered), light_spot(light, point.to_tangent),
+                                   DirectView{point.view.x, point.view.y, point.footprint});
+    };
+    const auto expected = [&](const Point& point) {
+        const glm::dvec3 to_light = from - point.position;
+        return of_light(point, toward, 2.0) +
+               of_light(point, glm::normalize(to_light), 3.0 / glm::dot(to_light, to_light));
+    };
+    EXPECT_LT(largest_difference(draw(), expected), 2.0 * kPictureTolerance);
+    EXPECT_GT(brightest_, 0.1);
+}
+
+/// Key lights and directional lights at the vertices: T(s_n) there, T(v_n) at the pixels.
+TEST_F(Covered, LightsAtTheVerticesEqualTheCpu) {
+    light_ = light_of(smooth_probe(), three_keys());
+    const CookedMaterial cooked =
+        cook_covered(kPressedLobe, R"({"representation": "direct", "lights_at": "vertices"})");
+    std::vector<glm::dvec3> shaded;
+    for (std::size_t vertex = 0; vertex < 3; ++vertex) {
+        Point point;
+        point.to_tangent = vertex_frame(vertex);
+        point.view = vertex_view(vertex);
+        shaded.push_back(key_light_xyz(cooked, light_.key_lights, point));
+    }
+    expect_equal(cooked, [&](const Point& point) { return mix(point, shaded); });
 }
 
 }  // namespace

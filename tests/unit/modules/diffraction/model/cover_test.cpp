@@ -50,7 +50,7 @@ TEST(Cover, TurnsTheFirstOrderOfAPressedDiscRed) {
         EXPECT_NEAR(order_efficiency(grating, 1, nm[i]), in_air[i], 6e-4);
         grating.cover = Cover{};
         EXPECT_NEAR(order_efficiency(grating, 1, nm[i]), covered[i], 6e-4);
-        // Between the orders too: few grooves.
+        // As between the orders of few grooves.
         EXPECT_NEAR(fractional_order_efficiency(grating, 1.0, nm[i]), order_efficiency(grating, 1, nm[i]), 1e-14);
     }
 }
