@@ -82,7 +82,9 @@ class CoverUnderProbe : public ::testing::TestWithParam<ProbeCase> {
         std::replace_if(
             key.begin(), key.end(), [](char c) { return c == '/' || c == '='; }, '_');
         RecordProperty(key, fmt::format("{:.4f} {:.4f}", bare, covered));
-        if (held) EXPECT_LE(covered, bare + 0.003) << name;
+        if (held) {
+            EXPECT_LE(covered, bare + 0.003) << name;
+        }
     }
 
  private:
