@@ -20,19 +20,24 @@ using std::numbers::pi;
 /// Side of the cube faces that the texels are gathered in: cells of 0.025 rad.
 constexpr int kFaceSize = 64;
 
+/// Terms of one sort that circles have in air and under a cover: on 1, cos t, cos 2t, cos 4t.
+constexpr std::size_t kInAir = 4;
+
 /// Fourier series of max(0, cos t) on 1, cos t, cos 2t, cos 4t, cos 6t.
 constexpr std::array<double, 5> kClampedCosine{1.0 / pi, 0.5, 2.0 / (3.0 * pi), -2.0 / (15.0 * pi), 2.0 / (35.0 * pi)};
 
-/// For each cell of a, what replaces the clamped cosine's coefficients under a cover, as a factor.
-using CoverFactors = std::vector<std::array<float, 5>>;
+/// For each cell of a, what a cover's coefficients are over those that add_moments() has: in air, and 1 for cos 3t and
+/// 5t; the last is of the lane without a term.
+using CoverFactors = std::vector<std::array<float, 7>>;
 
 CoverFactors cover_factors(const std::optional<Cover>& cover, int cells) {
     CoverFactors factors;
     for (int cell = 0; cover && cell < cells; ++cell) {
         const double a = 2.0 * (cell + 0.5) / cells - 1.0;
-        const std::array<double, 5> series = covered_cosine(cover->ior, std::sqrt((1.0 - a) * (1.0 + a)));
-        std::array<float, 5>& factor = factors.emplace_back();
-        for (std::size_t k = 0; k < series.size(); ++k) factor[k] = static_cast<float>(series[k] / kClampedCosine[k]);
+        const std::array<double, 6> series = covered_cosine(cover->ior, std::sqrt((1.0 - a) * (1.0 + a)));
+        std::array<float, 7>& factor = factors.emplace_back();
+        for (std::size_t k = 0; k < series.size(); ++k)
+            factor[k] = static_cast<float>(k < kInAir ? series[k] / kClampedCosine[k] : series[k]);
     }
     return factors;
 }
@@ -105,10 +110,14 @@ void add_moments(const lighting::LightSamples& lights, const CircleFrame& frame,
         term[5] = c(3) * cos4;
         term[6] = c(3) * sin4;
         if constexpr (kLanes > 8) {
+            // cos 6t in air; cos 3t and cos 5t under a cover.
             const float cos_rest = covered ? cosine : cos4;
             const float sin_rest = covered ? sine : sin4;
-            term[7] = c(4) * (cos_rest * cos2 - sin_rest * sin2) * inverse;
-            term[8] = c(4) * (cos_rest * sin2 + sin_rest * cos2) * inverse;
+            const float odd = covered ? 0.5F : c(4);
+            term[7] = odd * (cos_rest * cos2 - sin_rest * sin2) * inverse;
+            term[8] = odd * (cos_rest * sin2 + sin_rest * cos2) * inverse;
+            term[9] = odd * (cosine * cos4 - sine * sin4) * inverse;
+            term[10] = odd * (cosine * sin4 + sine * cos4) * inverse;
         }
         const float position = std::clamp((x * g.x + y * g.y + z * g.z + 1.0F) * scale - 0.5F, 0.0F, last);
         const int low = std::min(static_cast<int>(position), cells - 2);
@@ -201,14 +210,14 @@ std::size_t CircleMap::index(int chart, int term, int view, int row, int column)
 }
 
 int circle_terms(const std::optional<Cover>& cover) {
-    return cover ? 9 : 7;
+    return cover ? 11 : 7;
 }
 
-std::array<double, 5> covered_cosine(double ior, double r) {
+std::array<double, 6> covered_cosine(double ior, double r) {
     constexpr int kNodes = 32;
-    constexpr std::array<int, 5> kMultiples{0, 1, 2, 4, 3};
+    constexpr std::array<int, 6> kMultiples{0, 1, 2, 4, 3, 5};
     static const math::QuadratureRule rule = math::gauss_legendre(kNodes, 0.0, 0.5 * pi);
-    std::array<double, 5> series{};
+    std::array<double, 6> series{};
     for (std::size_t node = 0; node < rule.nodes.size(); ++node) {
         const double t = rule.nodes[node];
         const double value = rule.weights[node] * transmittance(ior, r * std::cos(t)) * std::cos(t);
@@ -227,7 +236,8 @@ CircleMap fill_circle_map(const lighting::LightSamples& texels, const KernelTabl
                           const std::optional<Cover>& cover, const std::stop_token& stop) {
     ROWLAND_CHECK_OP(size.side, >=, 8);
     ROWLAND_CHECK_OP(size.views, >=, 8);
-    ROWLAND_CHECK(size.terms == 7 || size.terms == 9, "a circle map has 7 or 9 terms");
+    ROWLAND_CHECK(size.terms == 7 || size.terms == 9 || (cover && size.terms == 11),
+                  "a circle map has 7 or 9 terms, under a cover 7, 9 or 11");
     CircleMap map{.charts = chart_count(kernel),
                   .terms = size.terms,
                   .covered = cover.has_value(),
@@ -277,7 +287,8 @@ glm::dvec3 sample(const CircleMap& map, const ShadingPoint& frame) {
     const double s4 = 2.0 * c2 * s2;
     const double c = map.covered ? c1 : c4;
     const double s = map.covered ? s1 : s4;
-    const std::array<double, 9> f{1.0, c1, s1, c2, s2, c4, s4, c * c2 - s * s2, c * s2 + s * c2};
+    const std::array<double, 11> f{
+        1.0, c1, s1, c2, s2, c4, s4, c * c2 - s * s2, c * s2 + s * c2, c1 * c4 - s1 * s4, c1 * s4 + s1 * c4};
     glm::dvec3 sum(0.0);
     for (int term = 0; term < map.terms; ++term)
         sum += f[static_cast<std::size_t>(term)] * term_at(map, chart, term, position);

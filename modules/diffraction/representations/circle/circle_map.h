@@ -29,10 +29,10 @@ namespace rowland::diffraction {
 ///   v_g: slice j holds v_g = 2j/(views−1) − 1, both ends included; coordinate (½(v_g+1)(views−1) + ½)/views
 ///   values are optimised for linear interpolation (kBestLinear), not the radiance at the nodes
 ///   XYZ = Σ_i term_i · f_i, f = 1, cos t, sin t, cos 2t, sin 2t, cos 4t, sin 4t (, cos 6t, sin 6t)
-/// Under a cover the last pair is cos 3t, sin 3t (PHYSICS §10), and T(v_n) is left out.
+/// Under a cover f ends with cos 3t, sin 3t, cos 5t, sin 5t (PHYSICS §10), and T(v_n) is left out.
 struct CircleMap {
     int charts = 0;  ///< 1 or 2
-    int terms = 0;   ///< 7 or 9
+    int terms = 0;   ///< 7, 9 or 11
     bool covered = false;
     int views = 0;
     int side = 0;                ///< texels of a chart's side
@@ -46,14 +46,14 @@ struct CircleMap {
 struct CircleMapSize {
     int side = 64;    ///< ≥ 8
     int views = 128;  ///< ≥ 8
-    int terms = 7;    ///< 7: up to cos 4t; 9: up to cos 6t, under a cover with cos 3t instead
+    int terms = 7;    ///< 7: up to cos 4t; 9: up to cos 6t. Under a cover 9: with cos 3t; 11: with cos 5t as well
 };
 
-/// The terms that a grating's map needs for an error of a few per cent: under a cover the multiple 3 as well.
+/// The terms that a grating's map has by default: under a cover the multiples 3 and 5 as well.
 int circle_terms(const std::optional<Cover>& cover);
 
-/// The Fourier coefficients of T(r cos t) max(0, cos t) on 1, cos t, cos 2t, cos 4t, cos 3t, PHYSICS (28).
-std::array<double, 5> covered_cosine(double ior, double r);
+/// The Fourier coefficients of T(r cos t) max(0, cos t) on 1, cos t, cos 2t, cos 4t, cos 3t, cos 5t, PHYSICS (28).
+std::array<double, 6> covered_cosine(double ior, double r);
 
 /// The number of charts of a map under this kernel.
 int chart_count(const KernelTable& kernel);
