@@ -39,7 +39,7 @@ nlohmann::json material(bool covered, bool narrow) {
 std::vector<std::string> whole_light_methods(SurfaceShape surface, bool narrow) {
     if (narrow) return {"streak/nodes=8/taps=3"};
     if (surface == SurfaceShape::Flat) return {"planar/map_resolution=128", "planar/map_resolution=128/key_lights=16"};
-    return {"circle/map_resolution=64", "circle/map_resolution=64/key_lights=16"};
+    return {"circle/map_resolution=48/key_lights=16"};
 }
 
 /// Methods whose error is the detail that the light loses: under a harsh probe that says nothing of the cover, which

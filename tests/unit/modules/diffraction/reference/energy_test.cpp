@@ -89,12 +89,11 @@ TEST(Energy, NarrowLobeUnderUniformLightIsTheSumOfOrders) {
     }
 }
 
-/// Every order's arc carries η_m ∫ D_h ds_h over its half circle, at most η_m, and Σ η_m ≤ 1: at any angle, flat lobe
-/// or not. Views from the normal to grazing, across and along the grooves.
-TEST(Energy, NothingComesOutThatDidNotFallInAtAnyAngle) {
+/// Views by polar angle and azimuth from g, in degrees.
+std::vector<ShadingPoint> tilted(const std::vector<double>& polar_deg, const std::vector<double>& azimuths_deg) {
     std::vector<ShadingPoint> frames;
-    for (const double theta_deg : {55.0, 0.0, 15.0, 35.0, 75.0, 89.0}) {
-        for (const double phi_deg : {0.0, 40.0, 90.0, 180.0}) {
+    for (const double theta_deg : polar_deg)
+        for (const double phi_deg : azimuths_deg) {
             const double theta = theta_deg * std::numbers::pi / 180.0;
             const double phi = phi_deg * std::numbers::pi / 180.0;
             frames.push_back(
@@ -102,7 +101,13 @@ TEST(Energy, NothingComesOutThatDidNotFallInAtAnyAngle) {
                  .normal = {0, 0, 1},
                  .grating = {1, 0, 0}});
         }
-    }
+    return frames;
+}
+
+/// Every order's arc carries η_m ∫ D_h ds_h over its half circle, at most η_m, and Σ η_m ≤ 1: at any angle, flat lobe
+/// or not. Views from the normal to grazing, across and along the grooves.
+TEST(Energy, NothingComesOutThatDidNotFallInAtAnyAngle) {
+    const std::vector<ShadingPoint> frames = tilted({55.0, 0.0, 15.0, 35.0, 75.0, 89.0}, {0.0, 40.0, 90.0, 180.0});
     for (const GrooveLobe& lobe : {GrooveLobe{FlatLobe{}}, GrooveLobe{GaussianLobe{0.02}},
                                    GrooveLobe{GaussianLobe{0.5}}, GrooveLobe{PitsLobe{850.0, 0.3}}}) {
         double largest = 0.0;
@@ -121,16 +126,7 @@ TEST(Energy, NothingComesOutThatDidNotFallInAtAnyAngle) {
 
 /// T(v_n) ∫ T(s_n) … is at most T(v_n), and the gloss is 1 − T(v_n): together at most 1, at any angle.
 TEST(Energy, UnderACoverGlossAndOrdersAreNoMoreThanWhatFallsIn) {
-    std::vector<ShadingPoint> frames;
-    for (const double theta_deg : {0.0, 35.0, 70.0, 85.0, 89.0})
-        for (const double phi_deg : {0.0, 40.0, 90.0}) {
-            const double theta = theta_deg * std::numbers::pi / 180.0;
-            const double phi = phi_deg * std::numbers::pi / 180.0;
-            frames.push_back(
-                {.view = {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)},
-                 .normal = {0, 0, 1},
-                 .grating = {1, 0, 0}});
-        }
+    const std::vector<ShadingPoint> frames = tilted({0.0, 35.0, 70.0, 85.0, 89.0}, {0.0, 40.0, 90.0});
     for (const GrooveLobe& lobe : {GrooveLobe{FlatLobe{}}, GrooveLobe{GaussianLobe{0.02}}}) {
         double largest = 0.0;
         for (const Profile& profile : profiles()) {
