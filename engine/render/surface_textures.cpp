@@ -80,7 +80,9 @@ StandardMaterial make_material(const scene::MaterialDescription* description, Su
             .alpha_mode = from.alpha_mode,
             .alpha_cutoff = from.alpha_cutoff,
             .double_sided = from.double_sided,
-            .unlit = from.unlit};
+            .unlit = from.unlit,
+            .clear_coat = from.clear_coat,
+            .clear_coat_roughness = from.clear_coat_roughness};
 }
 
 }  // namespace rowland::render

@@ -50,7 +50,7 @@ void add_order(const Grating& grating, const colour::LightSpectra& spectra, int 
 
 DiffractionPattern diffraction_pattern(const Grating& grating, const colour::LightSpectra& spectra) {
     ROWLAND_CHECK_OP(grating.pitch_nm, >, 0.0);
-    DiffractionPattern pattern{.nodes = {}, .lobe = grating.lobe, .even = is_even(grating)};
+    DiffractionPattern pattern{.nodes = {}, .lobe = grating.lobe, .even = is_even(grating), .cover = grating.cover};
     for (const int order : grating.orders) add_order(grating, spectra, order, pattern.nodes);
     return pattern;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/mat3x3.hpp>
+#include <optional>
 #include <vector>
 
 #include "engine/colour/light_spectra.h"
@@ -19,7 +20,8 @@ struct DiffractionPattern {
     };
     std::vector<Node> nodes;
     GrooveLobe lobe;
-    bool even = false;  ///< P(−u) = P(u)
+    bool even = false;           ///< P(−u) = P(u)
+    std::optional<Cover> cover;  ///< whose T(s_n) is not in P
 };
 
 /// Distance in u between the nodes of an order: at most this, and at most that of 1 nm.

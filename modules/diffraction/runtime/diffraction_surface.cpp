@@ -62,6 +62,11 @@ void DiffractionSurfaceType::attach(ecs::World& world, ecs::Entity entity, const
         material = suited_to_grooves(std::move(material), *surface.grooves);
         key += fmt::format("{} {}", surface.grooves->smallest_pitch(), surface.grooves->largest_pitch());
     }
+    auto& under_it = world.get<render::StandardMaterial>(entity);
+    if (under_it.clear_coat > 0.0F)
+        log_warning("{}: {}: KHR_materials_clearcoat beside a grating is not drawn: a grating's gloss is its cover's",
+                    file, pointer);
+    under_it.clear_coat = 0.0F;
     surface.material = baked(material, key);
     const render::StandardMaterial base = surface.material->base();
     world.add(entity, std::move(surface));

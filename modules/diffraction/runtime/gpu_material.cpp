@@ -63,6 +63,7 @@ void GpuMaterial::add_defines(const SurfaceState& state, gpu::ProgramDesc& desc)
     // It is nearly linear between vertices, and at the pixels a fifth of the plain surface.
     desc.defines.push_back({"AMBIENT_AT_VERTICES", "1"});
     if (!key_lights_) desc.defines.push_back({"NO_KEY_LIGHTS", "1"});
+    if (cooked_->material.grating.cover) desc.defines.push_back({"COVER", "1"});
     kernel_.add_defines(desc);
     if (state.grooves) state.grooves->add_defines(even_kernel_, desc);
     if (lights_at_vertices_ && !state.grooves) desc.defines.push_back({"LIGHTS_AT_VERTICES", "1"});
@@ -76,6 +77,8 @@ void GpuMaterial::bind(const gpu::Program& program, const SurfaceLight& light, c
     if (state.grooves) state.grooves->bind(even_kernel_, program);
     program.set("mirror_weight", mirror_weight_);
     program.set("base_weight", base_weight_);
+    if (const auto& cover = cooked_->material.grating.cover)
+        program.set("cover_square", static_cast<float>(cover->ior * cover->ior));
     program.set("groove_turn", glm::vec2(std::cos(state.groove_rotation), std::sin(state.groove_rotation)));
 }
 

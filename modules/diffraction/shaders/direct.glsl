@@ -46,7 +46,12 @@ vec3 key_lights_at_pixel(GrooveView view) { return vec3(0.0); }
 #if defined(MATERIAL_PUNCTUAL_LIGHTS) || defined(MATERIAL_DIRECTIONAL_LIGHTS)
 GrooveView lit_view;
 
-void prepare_lights(GrooveView view) { lit_view = view; }
+float lit_transmittance;  // of a cover, for the view
+
+void prepare_lights(GrooveView view) {
+    lit_view = view;
+    lit_transmittance = cover_transmittance(view.direction.z);
+}
 
 // XYZ with pits, else working space.
 void add_light_of(GrooveView view, int i, float attenuation, vec3 l, inout vec3 sum) {
@@ -57,6 +62,7 @@ void add_light_of(GrooveView view, int i, float attenuation, vec3 l, inout vec3 
 
 void material_light(int i, float attenuation, vec3 l, inout vec3 added) {
     vec3 sum = vec3(0.0);
+    attenuation *= lit_transmittance;
 #ifdef GROOVE_MAP
     int parts = groove_parts(lit_view);
     for (int part = 0; part < parts; ++part) {

@@ -26,7 +26,8 @@ vec3 key_lobe_radiance(KeyLobe lobe, GrooveView view) {
         sum += part.cosine * pitch_kernel_value(u.mean + part.centre - axis.x, deviation, lobe.flux.rgb, view.pitch);
     }
     vec2 along = spread_along_grooves(axis, lobe.moments);
-    return 0.5 / max(whole, 1e-6) * key_groove_factor(along.x + view.direction.y, along.y) * sum;
+    return 0.5 / max(whole, 1e-6) * lobe_transmittance(axis.z, lobe.moments) *
+           key_groove_factor(along.x + view.direction.y, along.y) * sum;
 }
 
 vec3 key_lights_radiance(GrooveView view) {

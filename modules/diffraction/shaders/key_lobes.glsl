@@ -36,7 +36,7 @@ void add_key_lobe(int light, mat3 axes, vec3 direction, mat2x3 g_change, vec2 v_
         } while (at < 1.0);
         vec2 along = spread_along_grooves(toward * axes, moments);
         sum += key_groove_factor(along.x + direction.y, along.y) *
-               (lobe_scale_bias.z * key_lobes[light].flux.w * part * height) * value;
+               (lobe_scale_bias.z * key_lobes[light].flux.w * part * height * lobe_transmittance(s_n, moments)) * value;
     }
 }
 

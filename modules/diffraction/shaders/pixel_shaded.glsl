@@ -18,5 +18,5 @@ MaterialTerms material_terms() {
 #endif
     }
     prepare_lights(view);
-    return MaterialTerms(base_weight, mirror_weight, sum);
+    return surface_terms(sum);
 }

@@ -49,9 +49,9 @@ void GpuCircle::begin(const Texels& texels) const {
     filling_.want(
         texels,
         [light, kernel = working_kernel(), pitch_nm = cooked()->material.grating.pitch_nm, size = size_,
-         zero_order = working_zero_order()](const std::stop_token& stop,
-                                            const Filling::Publish&) -> std::optional<std::shared_ptr<MapTexels>> {
-            const CircleMap map = fill_circle_map(*light, kernel, pitch_nm, size, zero_order, stop);
+         zero_order = working_zero_order(), cover = cooked()->material.grating.cover](
+            const std::stop_token& stop, const Filling::Publish&) -> std::optional<std::shared_ptr<MapTexels>> {
+            const CircleMap map = fill_circle_map(*light, kernel, pitch_nm, size, zero_order, cover, stop);
             if (stop.stop_requested()) return std::nullopt;
             return std::make_shared<MapTexels>(in_layout(map));
         });

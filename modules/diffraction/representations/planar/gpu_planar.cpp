@@ -64,7 +64,7 @@ void GpuPlanar::want(const std::optional<glm::dvec3>& normal, const SurfaceLight
 void GpuPlanar::fill(int slices, PlanarData& data) const {
     if (!data.fill) {
         data.fill.emplace(*data.texels, working_kernel(), cooked()->material.grating.pitch_nm, *data.normal, size_,
-                          working_zero_order());
+                          working_zero_order(), cooked()->material.grating.cover);
         data.map = data.fill->empty();
         data.filled = 0;
         ++data.fills_begun;

@@ -39,7 +39,7 @@ void splat(LightDisc& disc, float x, float y, const std::array<float, 4>& light)
 
 /// Projects texels of the upper hemisphere along n: the measure on the disc is L ds_1 ds_2 = L s_n dω.
 void add_texels(const lighting::LightSamples& texels, std::size_t begin, std::size_t end, const PlaneAxes& axes,
-                LightDisc& disc) {
+                const std::optional<Cover>& cover, LightDisc& disc) {
     const glm::vec3 e1(axes.e1);
     const glm::vec3 e2(axes.e2);
     const glm::vec3 n(axes.n);
@@ -50,7 +50,7 @@ void add_texels(const lighting::LightSamples& texels, std::size_t begin, std::si
         const float z = texels.z[i];
         const float s_n = x * n.x + y * n.y + z * n.z;
         if (!(s_n > 0.0F)) continue;
-        const float weight = 0.5F * s_n;
+        const float weight = 0.5F * s_n * static_cast<float>(transmittance(cover, double{s_n}));
         const float s_1 = x * e1.x + y * e1.y + z * e1.z;
         const float s_2 = x * e2.x + y * e2.y + z * e2.z;
         splat(disc, (s_1 + 1.0F) * scale - 0.5F, (s_2 + 1.0F) * scale - 0.5F,
@@ -75,12 +75,14 @@ std::pair<int, int> lit_columns(int cells, int row) {
     return {std::max(0, static_cast<int>(middle - half)), std::min(cells, static_cast<int>(middle + half) + 2)};
 }
 
-LightDisc light_on_disc(const lighting::LightSamples& texels, const PlaneAxes& axes, int cells) {
+LightDisc light_on_disc(const lighting::LightSamples& texels, const PlaneAxes& axes, const std::optional<Cover>& cover,
+                        int cells) {
     const auto floats = static_cast<std::size_t>(cells) * static_cast<std::size_t>(cells) * 4;
     std::vector<LightDisc> parts(kParts);
     parallel_for(kParts, [&](std::size_t part) {
         parts[part] = {cells, std::vector<float>(floats, 0.0F)};
-        add_texels(texels, texels.size() * part / kParts, texels.size() * (part + 1) / kParts, axes, parts[part]);
+        add_texels(texels, texels.size() * part / kParts, texels.size() * (part + 1) / kParts, axes, cover,
+                   parts[part]);
     });
     for (std::size_t part = 1; part < kParts; ++part)
         for (std::size_t i = 0; i < floats; ++i) parts[0].fluxes[i] += parts[part].fluxes[i];

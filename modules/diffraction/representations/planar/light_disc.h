@@ -1,10 +1,12 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "engine/lighting/light_samples.h"
+#include "modules/diffraction/model/cover.h"
 
 namespace rowland::diffraction {
 
@@ -17,8 +19,8 @@ struct PlaneAxes {
 };
 PlaneAxes plane_axes(const glm::dvec3& normal);
 
-/// The light of the upper hemisphere seen along n (orthographic): flux · s_n / 2 over (s·e1, s·e2) ∈ [−1, 1]² in equal
-/// cells. Each sample is divided among the four cells around it, so that their centre of weight is its position.
+/// The light of the upper hemisphere seen along n (orthographic): flux · s_n T(s_n) / 2 over (s·e1, s·e2) ∈ [−1, 1]² in
+/// equal cells. Each sample is divided among the four cells around it, so that their centre of weight is its position.
 struct LightDisc {
     int cells = 0;              ///< of a side; cell i is centred on (2i + 1)/cells − 1
     std::vector<float> fluxes;  ///< four floats (r, g, b, 0) per cell, row by row; rows along e2
@@ -27,6 +29,7 @@ struct LightDisc {
 std::pair<int, int> lit_columns(int cells, int row);
 
 /// Uses all cores; the result does not depend on their number.
-LightDisc light_on_disc(const lighting::LightSamples& texels, const PlaneAxes& axes, int cells);
+LightDisc light_on_disc(const lighting::LightSamples& texels, const PlaneAxes& axes, const std::optional<Cover>& cover,
+                        int cells);
 
 }  // namespace rowland::diffraction

@@ -231,7 +231,7 @@ LobeMap fill_lobe_map(const lighting::LightSamples& texels, const LobeSpectrum& 
                 .axes = plane_axes(normal),
                 .values = {}};
     map.values.resize(static_cast<std::size_t>(slices(map.size, map.half_turn)) * slice_texels(map));
-    const LightDisc disc = light_on_disc(texels, map.axes, spectrum.disc_cells());
+    const LightDisc disc = light_on_disc(texels, map.axes, spectrum.cover(), spectrum.disc_cells());
     const int filled = map.half_turn ? azimuths / 2 : azimuths;
     parallel_for(static_cast<std::size_t>(filled / 2), [&](std::size_t pair) {
         if (!stop.stop_requested()) fill_pair(disc, spectrum, 2 * static_cast<int>(pair), map);

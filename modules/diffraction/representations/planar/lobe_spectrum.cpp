@@ -122,6 +122,7 @@ TransformedOrders transformed_orders(const DiffractionPattern& pattern, const st
 LobeSpectrum::LobeSpectrum(const DiffractionPattern& pattern, const LobeMapViews& views)
     : views_(views),
       even_(pattern.even),
+      cover_(pattern.cover),
       size_g_(std::bit_ceil(2 * static_cast<std::size_t>(views.g))),
       size_h_(std::bit_ceil(2 * static_cast<std::size_t>(views.h))) {
     ROWLAND_CHECK_OP(views.g, >=, 8);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -28,9 +29,11 @@ class LobeSpectrum {
 
     const LobeMapViews& views() const { return views_; }
     /// Of the LightDisc that the light must be taken from.
-    int disc_cells() const { return (getenv("DISC") ? atoi(getenv("DISC")) : 2) * std::max(views_.g, views_.h); }
+    int disc_cells() const { return 2 * std::max(views_.g, views_.h); }
     /// P(−u) = P(u).
     bool even() const { return even_; }
+    /// Of the pattern: the light is to be dimmed by its T(s_n).
+    const std::optional<Cover>& cover() const { return cover_; }
     std::size_t size_g() const { return size_g_; }
     std::size_t size_h() const { return size_h_; }
 
@@ -42,6 +45,7 @@ class LobeSpectrum {
  private:
     LobeMapViews views_;
     bool even_;
+    std::optional<Cover> cover_;
     std::size_t size_g_;
     std::size_t size_h_;
     std::vector<float> matrices_;  ///< size_h/2 + 1 times size_g

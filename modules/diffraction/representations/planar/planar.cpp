@@ -137,7 +137,8 @@ PointShader point_shader(const PlanarTables& tables, const MaterialKernel& mater
              spectrum = std::make_shared<const LobeSpectrum>(tables.lobe->pattern, tables.lobe->size.views)](
                 const glm::dvec3& normal) { return fill_lobe_map(texels, *spectrum, normal, azimuths); });
     return by_plane<PlanarMap>([material, size = tables.size, texels = light.texels()](const glm::dvec3& normal) {
-        return fill_planar_map(texels, material.kernel, material.pitch_nm, normal, size, material.zero_order_xyz);
+        return fill_planar_map(texels, material.kernel, material.pitch_nm, normal, size, material.zero_order_xyz,
+                               material.cover);
     });
 }
 

@@ -48,13 +48,14 @@ struct PlanarFill::Profile {
 };
 
 PlanarFill::PlanarFill(const lighting::LightSamples& texels, const KernelTable& kernel, double pitch_nm,
-                       const glm::dvec3& normal, const PlanarMapSize& size, const glm::dmat3& zero_order_xyz)
+                       const glm::dvec3& normal, const PlanarMapSize& size, const glm::dmat3& zero_order_xyz,
+                       const std::optional<Cover>& cover)
     : size_(size), cells_(2 * (size.views - 1)), kernel_(kernel, pitch_nm, size.views, zero_order_xyz) {
     ROWLAND_CHECK_OP(size.azimuths, >=, 4);
     ROWLAND_CHECK_OP(size.azimuths % 2, ==, 0);
     ROWLAND_CHECK_OP(size.views, >=, 8);
     axes_ = plane_axes(normal);
-    rows_ = light_on_disc(texels, axes_, cells_).fluxes;
+    rows_ = light_on_disc(texels, axes_, cover, cells_).fluxes;
     columns_ = transpose(rows_, cells_);
 }
 
@@ -147,8 +148,9 @@ void PlanarFill::fill(int begin, int end, PlanarMap& map) const {
 }
 
 PlanarMap fill_planar_map(const lighting::LightSamples& texels, const KernelTable& kernel, double pitch_nm,
-                          const glm::dvec3& normal, const PlanarMapSize& size, const glm::dmat3& zero_order_xyz) {
-    const PlanarFill fill(texels, kernel, pitch_nm, normal, size, zero_order_xyz);
+                          const glm::dvec3& normal, const PlanarMapSize& size, const glm::dmat3& zero_order_xyz,
+                          const std::optional<Cover>& cover) {
+    const PlanarFill fill(texels, kernel, pitch_nm, normal, size, zero_order_xyz, cover);
     PlanarMap map = fill.empty();
     fill.fill(0, size.azimuths, map);
     return map;

@@ -139,7 +139,8 @@ std::optional<Grating> incoherent_rest(const Grating& grating) {
     return rest;
 }
 
-glm::dvec3 evaluate(const Streak& streak, const FilteredRadiance& radiance, const glm::dvec3& view, int taps) {
+glm::dvec3 evaluate(const Streak& streak, const FilteredRadiance& radiance, const glm::dvec3& view, int taps,
+                    const std::optional<Cover>& cover) {
     glm::dvec3 xyz(0.0);
     if (!(view.z > 0.0)) return xyz;
     const std::vector<LobeTap> lobe = lobe_taps(taps);
@@ -154,7 +155,7 @@ glm::dvec3 evaluate(const Streak& streak, const FilteredRadiance& radiance, cons
             if (along.fraction == 0.0) continue;
             const double height = std::sqrt(std::max(r * r - along.middle * along.middle, 0.0));
             const double slope = 1.0 / std::max(height, kLowestStreakHeight);
-            sum += tap.weight * along.fraction *
+            sum += tap.weight * along.fraction * transmittance(cover, height) *
                    radiance({across.middle, along.middle, height},
                             across.length * glm::dvec3(1.0, 0.0, -across.middle * slope),
                             along.length * glm::dvec3(0.0, 1.0, -along.middle * slope));

@@ -36,7 +36,7 @@ vec3 lobe_radiance(vec3 across, GrooveView view) {
         if (along.z == 0.0) continue;
         float height = sqrt(max(r2 - along.x * along.x, 0.0));
         float slope = 1.0 / max(height, LOWEST_HEIGHT);
-        rgb += tap.z * along.z *
+        rgb += tap.z * along.z * cover_transmittance(height) *
                mean_radiance(vec3(across.x, along.x, height), across.y * vec3(1.0, 0.0, -across.x * slope),
                              along.y * vec3(0.0, 1.0, -along.x * slope), view.axes);
     }

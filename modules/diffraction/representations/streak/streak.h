@@ -64,8 +64,9 @@ using FilteredRadiance =
     std::function<glm::dvec3(const glm::dvec3& direction, const glm::dvec3& along_g, const glm::dvec3& along_h)>;
 
 /// XYZ of the streak for the tangent-frame view: every node reads `taps` samples across the lobe, about s_h = −v_h.
-/// Light below the horizon is black. 0 for v_n ≤ 0.
-glm::dvec3 evaluate(const Streak& streak, const FilteredRadiance& radiance, const glm::dvec3& view, int taps = 5);
+/// Light below the horizon is black. 0 for v_n ≤ 0. A cover multiplies each sample by T(s_n); T(v_n) is left out.
+glm::dvec3 evaluate(const Streak& streak, const FilteredRadiance& radiance, const glm::dvec3& view, int taps = 5,
+                    const std::optional<Cover>& cover = std::nullopt);
 
 /// The most nodes that one view sees, and so that one pixel reads.
 int most_seen_nodes(const Streak& streak);

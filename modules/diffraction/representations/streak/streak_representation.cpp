@@ -112,15 +112,15 @@ PointShader point_shader(const StreakTables& tables, const MaterialKernel& mater
                      .remedy = "give --probe"});
     PointShader rest = [](const ShadingPoint&) { return glm::dvec3(0.0); };
     if (tables.rest) rest = point_shader(*tables.rest, material, light);
-    return [pyramid = std::make_shared<const CubePyramid>(lighting::prefilter(*light.probe())), &tables,
-            rest](const ShadingPoint& frame) {
+    return [pyramid = std::make_shared<const CubePyramid>(lighting::prefilter(*light.probe())), &tables, rest,
+            cover = material.cover](const ShadingPoint& frame) {
         const glm::dmat3 tangent = world_to_tangent(frame);
         const glm::dmat3 to_world = glm::transpose(tangent);
         const auto radiance = [&](const glm::dvec3& direction, const glm::dvec3& a, const glm::dvec3& b) {
             return pyramid->filtered(to_world * direction, to_world * a, to_world * b, kStreakFilterTaps);
         };
         const glm::dvec3 view = tangent * glm::normalize(frame.view);
-        return evaluate(tables.streak, radiance, view, tables.taps) + (1.0 - tables.streak.power) * rest(frame);
+        return evaluate(tables.streak, radiance, view, tables.taps, cover) + (1.0 - tables.streak.power) * rest(frame);
     };
 }
 

@@ -41,7 +41,8 @@ bool has_tables(const CookedMaterial& cooked) {
 DirectMaterial direct_material(const CookedMaterial& cooked) {
     return {.pitch_nm = cooked.material.grating.pitch_nm,
             .zero_order_xyz = cooked.zero_order_xyz,
-            .lobe = cooked.material.grating.lobe};
+            .lobe = cooked.material.grating.lobe,
+            .cover = cooked.material.grating.cover};
 }
 
 const BlurredKernel& smoothed(const CookedMaterial& cooked) {

@@ -15,7 +15,7 @@ TEST(LightDisc, LitColumnsHoldAllOfTheLight) {
         for (const double height : {0.001, 0.02, 0.1})
             lamps.push_back(glm::normalize(glm::dvec3(std::cos(0.1 * i), height, std::sin(0.1 * i))), glm::dvec3(1.0));
     for (const int cells : {16, 63, 256}) {
-        const LightDisc disc = light_on_disc(lamps, plane_axes({0, 1, 0}), cells);
+        const LightDisc disc = light_on_disc(lamps, plane_axes({0, 1, 0}), std::nullopt, cells);
         double sum = 0.0;
         for (int row = 0; row < cells; ++row) {
             const auto [begin, end] = lit_columns(cells, row);
