@@ -32,7 +32,7 @@ struct LightProbeSettings {
     int light_face = 256;  ///< cells a side of the packed light; about the texels of a probe of 1024 × 512
     PrefilterSettings prefilter;
     colour::Illuminant illuminant = colour::d65();  ///< the spectrum of the probe's white
-    std::optional<CaptureDome> dome;
+    std::optional<CaptureDome> dome = {};
 };
 
 /// The cooked probe: the engine's ambient light and reflections and every module's lighting come from it.

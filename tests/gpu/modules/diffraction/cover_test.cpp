@@ -90,7 +90,7 @@ TEST_F(Covered, KeyLightsEqualTheCpu) {
             const LightSpot spot = light_spot(key, point.to_tangent);
             for (const LightSpot::Part& part : spot.parts) {
                 if (part.cosine <= 0.0) continue;
-                const double deviation = std::hypot(part.deviation_g, point.footprint / std::sqrt(3.0));
+                const double deviation = std::hypot(part.deviation_g, footprint(point, key.direction) / std::sqrt(3.0));
                 const double z = (part.centre_g + point.view.x) / deviation;
                 const double density = std::exp(-0.5 * z * z) / (deviation * std::sqrt(6.28318530717959));
                 xyz += transmittance(parts.material.grating.cover, spot) * 0.5 * part.cosine * density *
@@ -211,7 +211,7 @@ TEST_F(CoverGloss, LightsShineThroughItAndHaveHighlightsInIt) {
         return irradiance * highlight * white +
                transmittance(kIor, point.view.z) *
                    direct_radiance(smoothed(covered), direct_material(covered), light_spot(light, point.to_tangent),
-                                   DirectView{point.view.x, point.view.y, point.footprint});
+                                   DirectView{point.view.x, point.view.y, footprint(point, l)});
     };
     const auto expected = [&](const Point& point) {
         const glm::dvec3 to_light = from - point.position;
