@@ -1,5 +1,7 @@
 #include "content/demo/assets.h"
 
+#include <fmt/format.h>
+
 #include <array>
 
 #include "modules/asset_types.h"
@@ -29,8 +31,14 @@ LiveAssets open_assets(const Options& options) {
 
 std::vector<std::filesystem::path> probe_paths(const Options& options) {
     if (options.probe) return {*options.probe};
-    return {options.cooked_folder / "studio.probe", options.cooked_folder / "clear_sky.probe",
-            options.cooked_folder / "night.probe"};
+    std::vector<std::filesystem::path> paths;
+    for (const char* name : {"interior", "sunset", "city", "night", "courtyard", "forest", "studio", "sunrise"})
+        if (const auto path = options.cooked_folder / fmt::format("captured_{}.probe", name);
+            std::filesystem::exists(path))
+            paths.push_back(path);
+    for (const char* name : {"studio", "clear_sky", "night"})
+        paths.push_back(options.cooked_folder / fmt::format("{}.probe", name));
+    return paths;
 }
 
 std::filesystem::path default_cooked_folder() {

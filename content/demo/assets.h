@@ -17,7 +17,7 @@ LiveAssets open_assets(const Options& options);
 /// What content/CMakeLists.txt cooks for the demo: sources and cooked files.
 std::vector<cook::Recooker::Job> shipped_jobs(const Options& options);
 
-/// The probe of the command line, or all shipped ones.
+/// The probe of the command line, or all cooked ones: captures where there are any, then procedural ones.
 std::vector<std::filesystem::path> probe_paths(const Options& options);
 
 /// The folder of cooked assets if the command line names none: ../cooked beside the program.

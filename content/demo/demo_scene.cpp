@@ -20,6 +20,7 @@
 #include "engine/render/world_bounds.h"
 #include "engine/scene/directional_light.h"
 #include "engine/scene/gltf_import.h"
+#include "engine/scene/node_label.h"
 #include "engine/scene/transform.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
 
@@ -166,6 +167,24 @@ void DemoScene::show_grating_material(const diffraction::CookedMaterial& cooked)
     auto material = diffraction::make_gpu_material(cooked, xyz_to_working_);
     world_.add(grating_, material->base());
     world_.add(grating_, diffraction::DiffractionSurface{std::move(material)});
+}
+
+void DemoScene::show_floor(bool shown) {
+    if (!instance_) return;
+    if (shown) {
+        for (auto& [entity, mesh] : hidden_floor_)
+            if (world_.alive(entity)) world_.add(entity, std::move(mesh));
+        hidden_floor_.clear();
+        return;
+    }
+    for (const ecs::Entity entity : instance_->drawn) {
+        const auto* parent = world_.find<scene::Parent>(entity);
+        const auto* label = parent != nullptr ? world_.find<scene::NodeLabel>(parent->entity) : nullptr;
+        const auto* mesh = world_.find<render::MeshInstance>(entity);
+        if (label == nullptr || mesh == nullptr || !scene::is_marked(label->extras, "floor")) continue;
+        hidden_floor_.emplace_back(entity, *mesh);
+        world_.remove<render::MeshInstance>(entity);
+    }
 }
 
 void DemoScene::set_sun(bool on) {

@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "content/demo/assets.h"
@@ -41,6 +42,8 @@ class DemoScene {
     void pose(const Play& play);
     /// Where the player may walk.
     scene::Bounds room();
+    /// Shows or hides the nodes that the scene's extras call a floor: `"floor": true`.
+    void show_floor(bool shown);
     /// Turns the lamp that casts shadows on or off.
     void set_sun(bool on);
     bool sun() const { return world_.alive(sun_); }
@@ -79,6 +82,7 @@ class DemoScene {
     ecs::Entity grating_;  ///< on the stand
     ecs::Entity sun_;
     std::optional<render::SceneInstance> instance_;
+    std::vector<std::pair<ecs::Entity, render::MeshInstance>> hidden_floor_;
     bool disc_ = true;
     bool own_view_ = false;  ///< the scene has a camera
     bool meshes_changed_ = false;

@@ -26,6 +26,7 @@ namespace {
 constexpr int kBenchmarkFrames = 300;
 constexpr int kTourFrames = 12;
 constexpr int kTourFramesPerSecond = 2;
+constexpr std::size_t kTourProbes = 4;
 
 void pass_time(Play& play, int frames_per_second) {
     for (int i = 0; i < kStepsPerSecond / frames_per_second; ++i) play.step({});
@@ -52,7 +53,8 @@ void write_captures(Session& session, const Options& options) {
 
 /// A flight through the scene's views as numbered PNG files. Each probe lights an equal part of it.
 void write_tour(Session& session, const Options& options) {
-    const std::vector<std::filesystem::path> probes = probe_paths(options);
+    std::vector<std::filesystem::path> probes = probe_paths(options);
+    probes.resize(std::min(probes.size(), kTourProbes));
     const std::vector<scene::Camera> views = session.scene().views();
     const int frames = options.frames.value_or(kTourFrames);
     Progress progress("pictures", static_cast<std::size_t>(frames));

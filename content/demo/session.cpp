@@ -194,6 +194,7 @@ void Session::use_probe(const std::filesystem::path& path) {
 
 void Session::show_probe() {
     picture_->set_probe(*probe_);
+    scene_.show_floor(!probe_->dome);
     probe_version_ = probe_.version();
     ++probe_changes_;
 }
@@ -223,7 +224,9 @@ void Session::follow_files() {
 
 void Session::refresh_scene() {
     play_.rest();
-    if (scene_.refresh())
+    const bool meshes_changed = scene_.refresh();
+    scene_.show_floor(!probe_->dome);
+    if (meshes_changed)
         play_.set_toys(scene_.toys());
     else
         play_.update_nodes();

@@ -35,10 +35,6 @@ std::optional<glm::vec3> spin_axis(const nlohmann::json& extras) {
     return glm::vec3(axis / length);
 }
 
-bool may_be_grabbed(const nlohmann::json& extras) {
-    return extras.is_object() && extras.contains("grab") && extras["grab"] == true;
-}
-
 bool is_below(ecs::World& world, ecs::Entity entity, ecs::Entity node) {
     while (world.alive(entity) && entity != node) entity = parent_of(world, entity);
     return entity == node;
@@ -84,7 +80,7 @@ std::vector<Body> bodies_of(ecs::World& world, const render::SceneInstance& inst
     for (const ecs::Entity node : instance.nodes) {
         const auto& label = world.get<scene::NodeLabel>(node);
         const auto axis = spin_axis(label.extras);
-        const bool grab = may_be_grabbed(label.extras);
+        const bool grab = scene::is_marked(label.extras, "grab");
         if (!axis && !grab) continue;
         Body body = body_of(world, node);
         body.name = label.name;

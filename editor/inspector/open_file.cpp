@@ -31,7 +31,7 @@ OpenedModel open_gltf(const std::filesystem::path& path) {
         const auto found = description.extensions.find(diffraction::kGltfExtension);
         if (found == description.extensions.end()) continue;
         Json material = Json::object();
-        for (const char* part : {"grating", "metal", "base", "quality"})
+        for (const char* part : {"grating", "metal", "cover", "base", "quality"})
             if (found->second.contains(part)) material[part] = Json(found->second[part]);
         model.document = Document::make_new(std::move(material), path.filename().string(),
                                             std::filesystem::absolute(path).parent_path());

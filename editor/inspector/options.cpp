@@ -48,7 +48,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
     options.content_folder = std::filesystem::path(ROWLAND_SOURCE_DIR) / "content";
     std::string shape;
     app.add_option("FILE", options.file, "A material (.json), or a glTF file whose mesh and grating to start from");
-    app.add_option("--preset", options.preset, "Start from a shipped material: cd, dvd, blu_ray, ruled_600, …");
+    app.add_option("--preset", options.preset, "Start from a shipped material: cd, cd_r, dvd, blu_ray, ruled_600, …");
     app::add_common_options(app, options, "Write the window as PNG once all is computed, without opening a window");
     app.add_option("--shape", shape, "Shape of the preview: disc, sphere, card, sheet")
         ->check(CLI::IsMember({"disc", "sphere", "card", "sheet"}));

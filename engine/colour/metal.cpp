@@ -34,13 +34,13 @@ std::string metal_name(Metal metal) {
     return std::string(kNames[static_cast<std::size_t>(metal)]);
 }
 
-double metal_reflectance(Metal metal, double wavelength_nm) {
+double metal_reflectance(Metal metal, double wavelength_nm, double medium) {
     static const std::array<RefractiveIndex, 4> indices = {load_index(Metal::Al), load_index(Metal::Ag),
                                                            load_index(Metal::Au), load_index(Metal::Cu)};
     const RefractiveIndex& index = indices[static_cast<std::size_t>(metal)];
     const double n = index.n(wavelength_nm);
     const double k = index.k(wavelength_nm);
-    return ((n - 1.0) * (n - 1.0) + k * k) / ((n + 1.0) * (n + 1.0) + k * k);
+    return ((n - medium) * (n - medium) + k * k) / ((n + medium) * (n + medium) + k * k);
 }
 
 }  // namespace rowland::colour

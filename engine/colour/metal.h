@@ -11,8 +11,8 @@ enum class Metal { Al, Ag, Au, Cu };
 std::optional<Metal> parse_metal(const std::string& name);
 std::string metal_name(Metal metal);
 
-/// R(λ) = ((n−1)² + k²) / ((n+1)² + k²): power reflectance of a polished face at normal incidence. n and k
-/// are linear between the table's samples and clamped outside 299–886 nm.
-double metal_reflectance(Metal metal, double wavelength_nm);
+/// R(λ) = ((n−n₀)² + k²) / ((n+n₀)² + k²): power reflectance of a polished face in a medium of index n₀ = `medium` at
+/// normal incidence. n and k are linear between the table's samples and clamped outside 299–886 nm.
+double metal_reflectance(Metal metal, double wavelength_nm, double medium = 1.0);
 
 }  // namespace rowland::colour

@@ -13,7 +13,7 @@
 namespace rowland {
 
 /// A value that another thread computes from named inputs. `Key` holds the inputs; the value is current while its key
-/// equals the wanted one. Used from one thread, which waits only in the destructor.
+/// equals the wanted one. Used from one thread, which waits only in wait() and in the destructor.
 template <typename Key, typename Value>
 class Computed {
  public:
@@ -70,6 +70,18 @@ class Computed {
         }
         begin();
         return change;
+    }
+
+    /// Blocks until no work is left, then takes over its value.
+    Change wait() {
+        Change all;
+        while (busy()) {
+            if (running_.valid()) running_.wait();
+            const Change change = poll();
+            all.value = all.value || change.value;
+            if (!change.failure.empty()) all.failure = change.failure;
+        }
+        return all;
     }
 
     /// The last value, current or not; null before the first.

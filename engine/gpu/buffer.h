@@ -13,6 +13,10 @@ enum class BufferUse { Static, Dynamic };
 /// Offsets of uniform blocks and shader storage in a buffer must be multiples of this: the largest that OpenGL lets a
 /// driver ask for.
 inline constexpr std::size_t kBufferAlignment = 256;
+/// The next such offset, `offset` itself if it is one.
+constexpr std::size_t aligned(std::size_t offset) {
+    return (offset + kBufferAlignment - 1) / kBufferAlignment * kBufferAlignment;
+}
 
 /// GPU memory of fixed size: vertices, indices, uniform blocks, shader storage.
 class Buffer {

@@ -8,7 +8,7 @@
 namespace rowland::gpu {
 
 void StreamBuffer::allocate(std::size_t copy_bytes, std::size_t copies) {
-    stride_ = (copy_bytes + kBufferAlignment - 1) / kBufferAlignment * kBufferAlignment;
+    stride_ = aligned(copy_bytes);
     read_ = {};
     copy_ = 0;
     buffer_ = Buffer::mapped(copies * stride_, GL_MAP_WRITE_BIT);

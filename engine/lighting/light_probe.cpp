@@ -166,6 +166,23 @@ colour::Illuminant read_illuminant(ByteReader& reader) {
     return illuminant;
 }
 
+void write_dome(const std::optional<CaptureDome>& dome, ByteWriter& writer) {
+    writer.value(dome ? dome->height_m : 0.0);
+    writer.value(dome ? dome->radius_m : 0.0);
+}
+
+/// A radius of 0 is none.
+std::optional<CaptureDome> read_dome(ByteReader& reader) {
+    const auto height_m = reader.value<double>();
+    const auto radius_m = reader.value<double>();
+    if (height_m == 0.0 && radius_m == 0.0) return std::nullopt;
+    // Negated so that NaN fails as well.
+    if (!(height_m > 0.0 && height_m < radius_m && radius_m <= kLargestDome_m))
+        reader.fail(fmt::format("a dome {} m high and {} m wide", height_m, radius_m),
+                    fmt::format("0 < height < radius <= {}", kLargestDome_m));
+    return CaptureDome{height_m, radius_m};
+}
+
 std::string describe_key_lights(const LightProbe& probe) {
     if (probe.key_lights.empty()) return "key lights: none\n";
     double flux = 0.0;
@@ -193,6 +210,7 @@ LightProbe build_light_probe(const ProbeImage& probe, const LightProbeSettings& 
     light.key_lights = fit_key_lights(probe, settings.key_lights, settings.key_light_fit);
     light.light = pack(gather_cells(probe, settings.light_face), settings.light_face);
     light.environment = pack(prefilter(probe, settings.prefilter));
+    light.dome = settings.dome;
     light.report = probe.report();
     return light;
 }
@@ -207,6 +225,7 @@ std::vector<std::byte> serialise(const LightProbe& probe) {
     writer.value(static_cast<std::uint32_t>(probe.environment.layout.levels));
     writer.value(probe.environment.scale);
     writer.array(std::span<const std::uint16_t>(probe.environment.halves));
+    write_dome(probe.dome, writer);
     writer.value(probe.report.nan);
     writer.value(probe.report.infinite);
     writer.value(probe.report.negative);
@@ -221,6 +240,7 @@ LightProbe deserialise(std::span<const std::byte> bytes, const std::string& file
     probe.key_lights = read_key_lights(reader);
     probe.light = read_light(reader);
     probe.environment = read_environment(reader);
+    probe.dome = read_dome(reader);
     probe.report.nan = reader.value<std::uint64_t>();
     probe.report.infinite = reader.value<std::uint64_t>();
     probe.report.negative = reader.value<std::uint64_t>();
@@ -243,6 +263,9 @@ std::string describe(const LightProbe& probe) {
     text += fmt::format("light texels: {0} x {0} x 6, {1} bytes\n", probe.light.face_size, probe.light.bytes());
     text += fmt::format("environment: {} x {} x 6, {} levels, half floats times {:g}\n", layout.face_size,
                         layout.face_size, layout.levels, probe.environment.scale);
+    if (probe.dome)
+        text += fmt::format("dome: camera {:g} m above the floor, radius {:g} m\n", probe.dome->height_m,
+                            probe.dome->radius_m);
     text += fmt::format("texels taken as black: {} (NaN {}, infinite {}, negative {})\n", probe.report.total(),
                         probe.report.nan, probe.report.infinite, probe.report.negative);
     return text;

@@ -71,6 +71,17 @@ ImageRecipe parse_image(JsonReader& reader) {
     return recipe;
 }
 
+std::optional<CaptureDome> parse_dome(JsonReader& reader) {
+    if (!reader.has("dome")) return std::nullopt;
+    JsonReader object = reader.object("dome");
+    CaptureDome dome;
+    dome.height_m = object.number("height_m", {.minimum = 0, .maximum = kLargestDome_m, .minimum_open = true});
+    dome.radius_m =
+        object.number("radius_m", {.minimum = dome.height_m, .maximum = kLargestDome_m, .minimum_open = true});
+    object.finish();
+    return dome;
+}
+
 int parse_width(JsonReader& reader, int fallback) {
     const auto width = static_cast<int>(reader.integer_or("width", fallback, 64, 8192));
     if (width % 4 != 0) reader.fail("width", std::to_string(width), "a multiple of 4");
@@ -126,6 +137,7 @@ ProbeRecipe parse_probe_recipe(const nlohmann::json& json, const std::string& fi
     if (type != "image") recipe.width = parse_width(reader, recipe.width);
     recipe.intensity = reader.number_or("intensity", 1, {.minimum = 1e-6, .maximum = 1e6});
     recipe.settings = parse_settings(reader);
+    if (type == "image") recipe.settings.dome = parse_dome(reader);
     parse_illuminant(reader, recipe);
     reader.finish();
     return recipe;

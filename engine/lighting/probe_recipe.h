@@ -28,7 +28,8 @@ struct ImageRecipe {
 /// "clear_sky": "sun_azimuth_deg", "sun_elevation_deg" (1 to 90), "sun_angular_diameter_deg" (0.533), "turbidity"
 ///   (3; 2 to 6), "ground_albedo" (0.2, 0.2, 0.2).
 /// "studio" and "clear_sky": "width" (1024; a multiple of 4).
-/// "image": "file" (.hdr or .exr, relative to the recipe), "mapping" ("equirect"; or "angular").
+/// "image": "file" (.hdr or .exr, relative to the recipe), "mapping" ("equirect"; or "angular"), "dome" (none; or an
+///   object with "height_m", of the camera above the floor, and "radius_m": the room that the image is shown as).
 struct ProbeRecipe {
     std::variant<StudioRecipe, ClearSkyRecipe, ImageRecipe> source;
     int width = 1024;      ///< of the equirectangular image rendered from a procedural recipe; its height is half

@@ -66,8 +66,10 @@ ObjectBlock object_block(const Draw& draw, const glm::mat3& rec709_to_working) {
     block.normal_to_world = glm::mat4(glm::inverseTranspose(glm::mat3(draw.matrix)));
     block.base_colour =
         glm::vec4(varied ? material.base_colour : rec709_to_working * material.base_colour, material.alpha);
-    block.metallic_roughness = glm::vec4(material.metallic, material.roughness, material.alpha_cutoff, 0.0F);
-    block.emissive = glm::vec4(emission_varied ? material.emissive : rec709_to_working * material.emissive, 0.0F);
+    block.metallic_roughness =
+        glm::vec4(material.metallic, material.roughness, material.alpha_cutoff, material.clear_coat);
+    block.emissive = glm::vec4(emission_varied ? material.emissive : rec709_to_working * material.emissive,
+                               material.clear_coat_roughness);
     block.map_strength = glm::vec4(material.normal_scale, material.occlusion_strength, draw.mirrored ? -1.0F : 1.0F,
                                    static_cast<float>(draw.first_joint));
     if ((draw.features & feature::kTextureTransform) == 0) return block;

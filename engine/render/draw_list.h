@@ -32,10 +32,11 @@ struct Draw {
     bool skinned = false;
     std::size_t first_joint = 0;
     SurfaceFeatures features = 0;
-    const gpu::Program* program = nullptr;    ///< null if it is not drawn in the main pass
-    std::size_t block_offset = 0;             ///< of its ObjectBlock, bytes
-    float distance2 = 0.0F;                   ///< from the eye to the bounds' centre, squared
-    const PictureColumns* columns = nullptr;  ///< null: all
+    const gpu::Program* program = nullptr;         ///< null if it is not drawn in the main pass
+    const gpu::Program* shadow_program = nullptr;  ///< null if no light casts its shadow
+    std::size_t block_offset = 0;                  ///< of its ObjectBlock, bytes
+    float distance2 = 0.0F;                        ///< from the eye to the bounds' centre, squared
+    const PictureColumns* columns = nullptr;       ///< null: all
 };
 
 struct DrawList {

@@ -43,7 +43,9 @@ struct StandardMaterial {
     scene::AlphaMode alpha_mode = scene::AlphaMode::Opaque;
     float alpha_cutoff = 0.5F;
     bool double_sided = false;
-    bool unlit = false;  ///< shows base colour and emission, independent of light
+    bool unlit = false;       ///< shows base colour and emission, independent of light
+    float clear_coat = 0.0F;  ///< strength of a dielectric layer on top, 0 to 1; not of a material type's surface
+    float clear_coat_roughness = 0.0F;  ///< perceptual
 };
 
 /// A DirectionalLight of the scene in world axes.

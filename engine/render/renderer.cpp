@@ -44,8 +44,7 @@ gpu::ProgramDesc shader_pair(const std::string& name) {
 /// Appends values where a buffer can be bound, and returns where that is.
 template <typename T>
 std::size_t append(std::vector<std::byte>& bytes, const T* values, std::size_t count = 1) {
-    const std::size_t offset =
-        (bytes.size() + gpu::kBufferAlignment - 1) / gpu::kBufferAlignment * gpu::kBufferAlignment;
+    const std::size_t offset = gpu::aligned(bytes.size());
     bytes.resize(offset + count * sizeof(T));
     std::memcpy(&bytes[offset], values, count * sizeof(T));
     return offset;
@@ -230,7 +229,7 @@ void Renderer::select_casters(Frame& frame) {
     frame.shadow = fit_shadow(*lights_.shadow_light, boxes, seen, shadow_map_size_);
     for (Draw& draw : frame.list.draws) {
         if ((draw.features & feature::kAlphaBlend) != 0) continue;
-        (void)surface_program(kShadowShader, of_shadow(draw.features));
+        draw.shadow_program = &surface_program(kShadowShader, of_shadow(draw.features));
         if (!frame.shadow.may_see(draw.bounds)) continue;
         frame.casters.push_back(&draw);
         if (draw.program == nullptr) frame.used.push_back(&draw);
@@ -252,6 +251,7 @@ FrameBlock Renderer::frame_block(const Frame& frame) const {
                                   key_irradiance_ ? key_irradiance_->scale : 0.0F, 0.0F);
     block.shadow = glm::vec4(frame.shadow.texel_m, 1.0F / static_cast<float>(shadow_map_size_),
                              frame.into_halves ? 1.0F : 0.0F, 0.0F);
+    if (const auto& dome = light_.probe->dome) block.dome = glm::vec4(dome->height_m, dome->radius_m, 0.0F, 0.0F);
     return block;
 }
 
@@ -299,9 +299,9 @@ void Renderer::draw_shadow_map(Frame& frame) {
     gpu::apply({.cull = gpu::Cull::None, .slope_bias = kShadowSlopeBias});
     for (const Draw* draw : frame.casters) {
         frame_data_.bind_uniform(kObjectBinding, draw->block_offset, sizeof(ObjectBlock));
-        const SurfaceFeatures features = of_shadow(draw->features);
-        surface_program(kShadowShader, features).use();
-        if ((features & feature::kBaseColourMap) != 0) draw->material->base_colour_texture.texture->bind(kFirstMapUnit);
+        draw->shadow_program->use();
+        if ((of_shadow(draw->features) & feature::kBaseColourMap) != 0)
+            draw->material->base_colour_texture.texture->bind(kFirstMapUnit);
         draw->mesh->draw();
     }
     report_.shadow_drawn = static_cast<int>(frame.casters.size());

@@ -8,7 +8,7 @@ namespace rowland::render {
 
 namespace {
 
-constexpr std::array<std::pair<SurfaceFeatures, const char*>, 12> kSwitches = {
+constexpr std::array<std::pair<SurfaceFeatures, const char*>, 13> kSwitches = {
     {{feature::kColours, "HAS_COLOURS"},
      {feature::kSkinned, "SKINNED"},
      {feature::kTextureTransform, "TEXTURE_TRANSFORM"},
@@ -16,6 +16,7 @@ constexpr std::array<std::pair<SurfaceFeatures, const char*>, 12> kSwitches = {
      {feature::kAlphaMask, "ALPHA_MASK"},
      {feature::kAlphaBlend, "ALPHA_BLEND"},
      {feature::kUnlit, "UNLIT"},
+     {feature::kClearCoat, "CLEAR_COAT"},
      {feature::kDirectionalLights, "DIRECTIONAL_LIGHTS"},
      {feature::kSeveralDirectionalLights, "SEVERAL_DIRECTIONAL_LIGHTS"},
      {feature::kPunctualLights, "PUNCTUAL_LIGHTS"},
@@ -58,20 +59,21 @@ SurfaceFeatures features_of(const StandardMaterial& material, const GpuMesh& mes
     if (mesh.has_colours()) features |= feature::kColours;
     if (skinned) features |= feature::kSkinned;
     if (material.double_sided) features |= feature::kDoubleSided;
+    if (material.clear_coat > 0.0F) features |= feature::kClearCoat;
     if (material.alpha_mode == scene::AlphaMode::Mask) features |= feature::kAlphaMask;
     if (material.alpha_mode == scene::AlphaMode::Blend) features |= feature::kAlphaBlend;
     return material.unlit ? without_light(features) : features;
 }
 
 SurfaceFeatures without_light(SurfaceFeatures features) {
-    features &= ~(feature::kLights | feature::kDoubleSided);
+    features &= ~(feature::kLights | feature::kDoubleSided | feature::kClearCoat);
     return keep_maps(features, feature::kBaseColourMap | feature::kEmissiveMap) | feature::kUnlit;
 }
 
 SurfaceFeatures of_shadow(SurfaceFeatures features) {
     if ((features & feature::kAlphaMask) == 0) return features & feature::kSkinned;
     return keep_maps(features, feature::kBaseColourMap) &
-           ~(feature::kLights | feature::kDoubleSided | feature::kUnlit | feature::kAlphaBlend);
+           ~(feature::kLights | feature::kDoubleSided | feature::kUnlit | feature::kAlphaBlend | feature::kClearCoat);
 }
 
 std::vector<gpu::Define> defines_of(SurfaceFeatures features) {

@@ -32,6 +32,7 @@ inline constexpr SurfaceFeatures kPunctualLights = 1U << 22U;
 inline constexpr SurfaceFeatures kShadows = 1U << 23U;
 inline constexpr SurfaceFeatures kSeveralDirectionalLights = 1U << 24U;
 inline constexpr SurfaceFeatures kKeyLights = 1U << 25U;
+inline constexpr SurfaceFeatures kClearCoat = 1U << 26U;
 inline constexpr SurfaceFeatures kLights =
     kDirectionalLights | kSeveralDirectionalLights | kPunctualLights | kShadows | kKeyLights;
 }  // namespace feature

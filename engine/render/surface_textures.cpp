@@ -23,17 +23,6 @@ gpu::Wrap to_gpu(scene::TextureWrap wrap) {
     check_failed(__FILE__, __LINE__, "unknown texture wrap");
 }
 
-gpu::Sampling sampling_of(const scene::ImportedTexture& texture) {
-    gpu::Sampling sampling{.wrap_s = to_gpu(texture.wrap_s), .wrap_t = to_gpu(texture.wrap_t)};
-    if (texture.nearest) {
-        sampling.filter = gpu::Filter::Nearest;
-    } else if (texture.mipmaps) {
-        sampling.filter = gpu::Filter::Trilinear;
-        sampling.anisotropy = std::min(kAnisotropy, gpu::max_anisotropy());
-    }
-    return sampling;
-}
-
 gpu::Texture upload(const image::ByteImage& image, const scene::ImportedTexture& texture, TexelMeaning meaning) {
     const bool levels = texture.mipmaps && !texture.nearest;
     gpu::Texture result({.format = meaning == TexelMeaning::Srgb ? gpu::Format::SRGB8_A8 : gpu::Format::RGBA8,
@@ -48,6 +37,17 @@ gpu::Texture upload(const image::ByteImage& image, const scene::ImportedTexture&
 }
 
 }  // namespace
+
+gpu::Sampling sampling_of(const scene::ImportedTexture& texture) {
+    gpu::Sampling sampling{.wrap_s = to_gpu(texture.wrap_s), .wrap_t = to_gpu(texture.wrap_t)};
+    if (texture.nearest) {
+        sampling.filter = gpu::Filter::Nearest;
+    } else if (texture.mipmaps) {
+        sampling.filter = gpu::Filter::Trilinear;
+        sampling.anisotropy = std::min(kAnisotropy, gpu::max_anisotropy());
+    }
+    return sampling;
+}
 
 SurfaceTexture SurfaceTextures::get(const scene::TextureUse& use, TexelMeaning meaning) {
     ROWLAND_CHECK_OP(use.texture, <, scene_->textures.size());
@@ -80,7 +80,9 @@ StandardMaterial make_material(const scene::MaterialDescription* description, Su
             .alpha_mode = from.alpha_mode,
             .alpha_cutoff = from.alpha_cutoff,
             .double_sided = from.double_sided,
-            .unlit = from.unlit};
+            .unlit = from.unlit,
+            .clear_coat = from.clear_coat,
+            .clear_coat_roughness = from.clear_coat_roughness};
 }
 
 }  // namespace rowland::render

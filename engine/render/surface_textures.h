@@ -17,6 +17,9 @@ enum class TexelMeaning {
     Srgb,    ///< encoded colours; alpha is linear
 };
 
+/// How an imported texture is sampled: as its file says, anisotropic where it has levels.
+gpu::Sampling sampling_of(const scene::ImportedTexture& texture);
+
 /// An imported scene's textures on the GPU, uploaded on demand: one for each image, meaning and sampling.
 class SurfaceTextures {
  public:

@@ -12,6 +12,7 @@
 #include "engine/scene/gltf_parts.h"
 #include "engine/scene/gltf_source.h"
 #include "engine/scene/memory_budget.h"
+#include "engine/scene/node_label.h"
 #include "engine/scene/node_tree.h"
 #include "engine/scene/primitive.h"
 
@@ -49,14 +50,10 @@ std::vector<std::vector<ImportedPrimitive>> import_meshes(const GltfDocument& do
 /// Memory of a JSON value per character of its text, at most: a map node for {"a":0}.
 constexpr std::size_t kJsonBytesPerCharacter = 20;
 
-bool casts_shadow(const nlohmann::json& extras) {
-    const auto found = extras.is_object() ? extras.find("casts_shadow") : extras.end();
-    return found != extras.end() && found->is_boolean() && found->get<bool>();
-}
-
 ImportedLight import_light(const GltfDocument& document, const GltfNode& node, std::size_t at) {
     ImportedLight light{at, document.lights[*node.light]};
-    if (auto* distant = std::get_if<DirectionalLight>(&light.light)) distant->casts_shadow = casts_shadow(node.extras);
+    if (auto* distant = std::get_if<DirectionalLight>(&light.light))
+        distant->casts_shadow = is_marked(node.extras, "casts_shadow");
     return light;
 }
 

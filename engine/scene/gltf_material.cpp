@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <glm/common.hpp>
 #include <limits>
@@ -14,8 +16,12 @@ constexpr NumberRange kFactor{.minimum = 0.0, .maximum = 1.001};
 constexpr NumberRange kEmission{.minimum = 0.0, .maximum = 1e6};
 constexpr NumberRange kNotNegative{.minimum = 0.0, .maximum = std::numeric_limits<float>::max()};
 
+float factor_or(JsonReader& reader, const std::string& key, double fallback) {
+    return static_cast<float>(std::min(reader.number_or(key, fallback, kFactor), 1.0));
+}
+
 float factor_or_one(JsonReader& reader, const std::string& key) {
-    return static_cast<float>(std::min(reader.number_or(key, 1.0, kFactor), 1.0));
+    return factor_or(reader, key, 1.0);
 }
 
 struct MaterialReading {
@@ -57,6 +63,13 @@ struct MaterialReading {
         to.double_sided = material.boolean_or("doubleSided", false);
     }
 
+    void read_clear_coat(JsonReader coat) {
+        to.clear_coat = factor_or(coat, "clearcoatFactor", 0.0);
+        to.clear_coat_roughness = factor_or(coat, "clearcoatRoughnessFactor", 0.0);
+        for (const char* map : {"clearcoatTexture", "clearcoatRoughnessTexture", "clearcoatNormalTexture"})
+            if (coat.has(map)) json.warn(fmt::format("a material's {} is not read: its clear coat is even", map));
+    }
+
     void read_extensions() {
         if (!material.has("extensions")) return;
         JsonReader extensions = material.object("extensions");
@@ -67,6 +80,8 @@ struct MaterialReading {
             } else if (name == "KHR_materials_emissive_strength") {
                 to.emissive *=
                     static_cast<float>(extensions.object(name).number_or("emissiveStrength", 1.0, kEmission));
+            } else if (name == "KHR_materials_clearcoat") {
+                read_clear_coat(extensions.object(name));
             } else {
                 to.extensions[name] = value;
             }

@@ -17,8 +17,8 @@ namespace rowland::scene {
 namespace {
 
 // Quantised attributes are ordinary accessors to us, so that extension needs nothing more.
-constexpr std::array<std::string_view, 6> kSupportedExtensions = {
-    kDracoExtension,       kLightExtension,         "KHR_materials_emissive_strength",
+constexpr std::array<std::string_view, 7> kSupportedExtensions = {
+    kDracoExtension,       kLightExtension,         "KHR_materials_clearcoat", "KHR_materials_emissive_strength",
     "KHR_materials_unlit", "KHR_mesh_quantization", "KHR_texture_transform"};
 constexpr std::int64_t kMaximumBytes = MemoryBudget::kDefaultLimit;
 constexpr std::int64_t kMaximumCount = std::numeric_limits<std::int32_t>::max();

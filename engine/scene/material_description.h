@@ -48,7 +48,9 @@ struct MaterialDescription {
     AlphaMode alpha_mode = AlphaMode::Opaque;
     float alpha_cutoff = 0.5F;
     bool double_sided = false;
-    bool unlit = false;  ///< KHR_materials_unlit
+    bool unlit = false;                 ///< KHR_materials_unlit
+    float clear_coat = 0.0F;            ///< KHR_materials_clearcoat: its factor, without textures
+    float clear_coat_roughness = 0.0F;  ///< perceptual, likewise
     std::map<std::string, nlohmann::json> extensions;
 };
 

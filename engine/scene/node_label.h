@@ -11,4 +11,9 @@ struct NodeLabel {
     nlohmann::json extras;  ///< as written; null: none
 };
 
+/// Whether extras say `"key": true`.
+inline bool is_marked(const nlohmann::json& extras, const char* key) {
+    return extras.is_object() && extras.contains(key) && extras[key] == true;
+}
+
 }  // namespace rowland::scene

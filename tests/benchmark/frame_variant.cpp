@@ -86,7 +86,8 @@ void add_plain(std::vector<FrameVariant>& variants) {
 
 void add_representation(const TimedRepresentation& drawn, std::vector<FrameVariant>& variants) {
     variants.push_back(grating(drawn, "", "plain"));
-    if (drawn.name == "streak") return;  // it reads key lights in the probe, and has no state per object
+    if (drawn.name == "streak") return;             // it reads key lights in the probe, and has no state per object
+    if (drawn.name.starts_with("planar/")) return;  // otherwise as planar, but for a tilt, after which each frame waits
     variants.push_back(grating(drawn, "/key-lights:16", "plain", Lighting::StudioKeyLights));
     variants.push_back(moving(grating(drawn, "/tilting", "plain"), Motion::Tilting));
     TimedRepresentation at_vertices = drawn;

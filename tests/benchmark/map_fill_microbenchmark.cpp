@@ -5,6 +5,7 @@
 #include "engine/lighting/studio.h"
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/representations/circle/circle_map.h"
+#include "modules/diffraction/representations/planar/lobe_map.h"
 #include "modules/diffraction/representations/planar/planar_map.h"
 #include "tests/benchmark/cd_materials.h"
 #include "tests/benchmark/microbenchmarks.h"
@@ -69,6 +70,18 @@ void fill_planar_in_part(State& state) {
     }
 }
 
+/// A map of Stam's pits: what a thread fills after a tilt, first the coarse one.
+void fill_lobe(State& state, const diffraction::LobeMapSize& size) {
+    const glm::dvec3 normal = glm::normalize(glm::dvec3(0.2, 0.9, 0.3));
+    const lighting::LightSamples& texels = studio_texels();
+    diffraction::Grating grating = cd().material.grating;
+    grating.lobe = diffraction::PitsLobe{};
+    const diffraction::LobeSpectrum spectrum(diffraction::diffraction_pattern(grating, colour::LightSpectra()),
+                                             size.views);
+    for (auto _ : state)
+        ::benchmark::DoNotOptimize(diffraction::fill_lobe_map(texels, spectrum, normal, size.azimuths).values.data());
+}
+
 void fill_circle(State& state, int side) {
     const lighting::LightSamples& texels = studio_texels();
     const diffraction::CookedMaterial& material = cd();
@@ -91,6 +104,8 @@ void add(const std::string& name, F function, Arguments... arguments) {
 void register_map_fills() {
     for (const int side : {64, 128, 256}) add("planar_fill/side:" + std::to_string(side), fill_planar, side);
     add("planar_fill/side:128/azimuths:8", fill_planar_in_part);
+    add("planar_lobe_fill/64x64x32", fill_lobe, diffraction::kCoarseLobeMap);
+    add("planar_lobe_fill/352x128x128", fill_lobe, diffraction::LobeMapSize{});
     for (const int side : {32, 64}) add("circle_fill/side:" + std::to_string(side), fill_circle, side);
 }
 

@@ -1,38 +1,11 @@
 #include "tests/benchmark/program_log.h"
 
-#include <epoxy/egl.h>
-
 #include "engine/core/check.h"
+#include "tests/support/replaced_function.h"
 
 namespace rowland::benchmark {
 
 namespace {
-
-/// OpenGL's functions are called through pointers that libepoxy fills at the first call; these are the driver's own.
-struct DriverFunctions {
-    decltype(epoxy_glShaderSource) shader_source;
-    decltype(epoxy_glAttachShader) attach_shader;
-    decltype(epoxy_glLinkProgram) link_program;
-    decltype(epoxy_glDrawElements) draw_elements;
-};
-
-template <typename Function>
-void load(Function& function, const char* name) {
-    function = reinterpret_cast<Function>(eglGetProcAddress(name));
-    ROWLAND_CHECK(function != nullptr, "a driver without functions of OpenGL 4.5");
-}
-
-const DriverFunctions& driver() {
-    static const DriverFunctions functions = [] {
-        DriverFunctions loaded;
-        load(loaded.shader_source, "glShaderSource");
-        load(loaded.attach_shader, "glAttachShader");
-        load(loaded.link_program, "glLinkProgram");
-        load(loaded.draw_elements, "glDrawElements");
-        return loaded;
-    }();
-    return functions;
-}
 
 ProgramLog* active_log = nullptr;
 
@@ -44,45 +17,40 @@ std::string stage_of(GLuint shader) {
 
 }  // namespace
 
+struct ProgramLog::Replaced {
+    test::ReplacedFunction<&epoxy_glShaderSource> of_shader_source{"glShaderSource", shader_source};
+    test::ReplacedFunction<&epoxy_glAttachShader> of_attach_shader{"glAttachShader", attach_shader};
+    test::ReplacedFunction<&epoxy_glLinkProgram> of_link_program{"glLinkProgram", link_program};
+    test::ReplacedFunction<&epoxy_glDrawElements> of_draw_elements{"glDrawElements", draw_elements};
+};
+
 ProgramLog::ProgramLog() {
     ROWLAND_CHECK(active_log == nullptr, "a second log of programs");
-    driver();
     active_log = this;
-    epoxy_glShaderSource = shader_source;
-    epoxy_glAttachShader = attach_shader;
-    epoxy_glLinkProgram = link_program;
-    epoxy_glDrawElements = draw_elements;
+    replaced_ = std::make_unique<Replaced>();
 }
 
 ProgramLog::~ProgramLog() {
-    epoxy_glShaderSource = driver().shader_source;
-    epoxy_glAttachShader = driver().attach_shader;
-    epoxy_glLinkProgram = driver().link_program;
-    epoxy_glDrawElements = driver().draw_elements;
     active_log = nullptr;
 }
 
 void ProgramLog::shader_source(GLuint shader, GLsizei count, const GLchar* const* strings, const GLint* lengths) {
-    std::string text;
-    for (GLsizei i = 0; i < count; ++i)
-        text += lengths == nullptr ? std::string(strings[i])
-                                   : std::string(strings[i], static_cast<std::size_t>(lengths[i]));
-    active_log->shader_texts_[shader] = std::move(text);
-    driver().shader_source(shader, count, strings, lengths);
+    active_log->shader_texts_[shader] = test::whole_source(count, strings, lengths);
+    active_log->replaced_->of_shader_source.driver(shader, count, strings, lengths);
 }
 
 void ProgramLog::attach_shader(GLuint program, GLuint shader) {
     active_log->attached_[program][stage_of(shader)] = active_log->shader_texts_[shader];
-    driver().attach_shader(program, shader);
+    active_log->replaced_->of_attach_shader.driver(program, shader);
 }
 
 void ProgramLog::link_program(GLuint program) {
     active_log->record(program);
-    driver().link_program(program);
+    active_log->replaced_->of_link_program.driver(program);
 }
 
 void ProgramLog::draw_elements(GLenum mode, GLsizei count, GLenum type, const void* indices) {
-    driver().draw_elements(mode, count, type, indices);
+    active_log->replaced_->of_draw_elements.driver(mode, count, type, indices);
     GLint current = 0;
     glGetIntegerv(GL_CURRENT_PROGRAM, &current);
     const auto program = static_cast<GLuint>(current);

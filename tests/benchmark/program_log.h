@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,6 +36,8 @@ class ProgramLog {
     const std::optional<MeshDraw>& last_mesh() const { return last_mesh_; }
 
  private:
+    struct Replaced;
+
     static void shader_source(GLuint shader, GLsizei count, const GLchar* const* strings, const GLint* lengths);
     static void attach_shader(GLuint program, GLuint shader);
     static void link_program(GLuint program);
@@ -48,6 +51,7 @@ class ProgramLog {
     std::map<ProgramTexts, std::size_t> known_;
     std::vector<ProgramTexts> programs_;
     std::optional<MeshDraw> last_mesh_;
+    std::unique_ptr<Replaced> replaced_;
 };
 
 }  // namespace rowland::benchmark

@@ -123,9 +123,14 @@ std::filesystem::path without_gratings(const std::filesystem::path& glb) {
 }
 
 TEST(DemoCabinet, EveryGratingIsSeen) {
-    const std::filesystem::path cabinet = std::filesystem::path(ROWLAND_DEMO).parent_path() / "../cooked/cabinet.glb";
-    const image::Image picture = test::render("cabinet", "--scene " + cabinet.string(), 320, 180);
-    const image::Image plain = test::render("cabinet_plain", "--scene " + without_gratings(cabinet).string(), 320, 180);
+    const std::filesystem::path cooked = std::filesystem::path(ROWLAND_DEMO).parent_path() / "../cooked";
+    const std::filesystem::path cabinet = cooked / "cabinet.glb";
+    const auto in_the_studio = [&](const std::string& name, const std::filesystem::path& scene) {
+        const std::string probe = " --probe " + (cooked / "studio.probe").string();
+        return test::render(name, "--scene " + scene.string() + probe, 320, 180);
+    };
+    const image::Image picture = in_the_studio("cabinet", cabinet);
+    const image::Image plain = in_the_studio("cabinet_plain", without_gratings(cabinet));
     ASSERT_EQ(picture.texels.size(), 320U * 180U);
     for (const glm::vec3& texel : picture.texels) {
         ASSERT_TRUE(std::isfinite(texel.r) && std::isfinite(texel.g) && std::isfinite(texel.b));

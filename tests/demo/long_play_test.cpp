@@ -1,4 +1,4 @@
-// Half a minute of play without a window: nothing piles up.
+// Twenty seconds of play without a window: nothing piles up.
 #include <gtest/gtest.h>
 #include <malloc.h>
 #include <unistd.h>
@@ -25,8 +25,8 @@ namespace {
 using demo::Action;
 using demo::PlayEvent;
 
-constexpr int kFramesPerSecond = 10;  ///< 30 s are 300 frames, which a software renderer draws in about as long
-constexpr int kRounds = 6;            ///< ROWLAND_PLAY_ROUNDS asks for more: 120 are ten minutes
+constexpr int kFramesPerSecond = 10;
+constexpr int kRounds = 4;  ///< ROWLAND_PLAY_ROUNDS asks for more: 120 are ten minutes
 constexpr int kFramesPerRound = 50;
 constexpr glm::ivec2 kSize{160, 90};
 
@@ -79,6 +79,8 @@ bool all_finite(const gpu::Framebuffer& picture) {
 }
 
 TEST(DemoLongPlay, HoldsItsMemoryAndDrawsFinitePixelsWithoutAnOpenGlError) {
+    // With threads of its own, llvmpipe keeps the deleted textures of as many frames as it once fell behind by.
+    setenv("LP_NUM_THREADS", "0", 1);
     const platform::HeadlessContext context({.debug = true});
     gpu::enable_debug_output(true);  // an error ends the program
     demo::Options options;
@@ -88,6 +90,7 @@ TEST(DemoLongPlay, HoldsItsMemoryAndDrawsFinitePixelsWithoutAnOpenGlError) {
     const post::OcioConfig config = post::OcioConfig::choose(std::nullopt);
     demo::Session session(options, config, kSize, kSize, demo::Pace::Fluent);
     demo::PlayClock clock;
+    const std::filesystem::path first_probe = session.probe_path();
     std::vector<double> resident;
     const int count = rounds();
     for (int round = 0; round < count; ++round) {
@@ -97,6 +100,7 @@ TEST(DemoLongPlay, HoldsItsMemoryAndDrawsFinitePixelsWithoutAnOpenGlError) {
             session.draw(1.0F / kFramesPerSecond);
             ASSERT_TRUE(frame % 10 != 0 || all_finite(session.picture().linear())) << round << ", " << frame;
         }
+        session.use_probe(first_probe);  // probes differ in size
         // However long the round took, its maps are full when it is measured.
         for (int frame = 0; frame < 2000 && diffraction::maps_are_filling(session.play().world()); ++frame)
             session.draw(1.0F / kFramesPerSecond);
@@ -106,11 +110,9 @@ TEST(DemoLongPlay, HoldsItsMemoryAndDrawsFinitePixelsWithoutAnOpenGlError) {
     }
     EXPECT_EQ(session.play().steps(), static_cast<unsigned>(120 * count * kFramesPerRound / kFramesPerSecond));
     EXPECT_GT(session.play().environment_turn(), 0.5);
-    // Measured, in MiB: 379.4, 379.6, 379.6, 383.7, 383.6 and 379.5.
-    const std::ptrdiff_t warm = count / 4;
-    const double before = *std::min_element(resident.begin() + warm, resident.begin() + warm + 2);
-    const double after = *std::min_element(resident.end() - 3, resident.end());
-    EXPECT_LT(after - before, 4.0) << "from " << before << " to " << after;
+    // Measured, in MiB: 400.4, 402.0, 402.0 and 402.0.
+    const double before = resident[static_cast<std::size_t>(count) / 4];
+    EXPECT_LT(resident.back() - before, 1.0) << "from " << before << " to " << resident.back();
 }
 
 }  // namespace

@@ -1,12 +1,14 @@
 #include "tests/gpu/call_counts.h"
 
-#include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
 #include <cstddef>
+#include <memory>
 #include <utility>
+#include <vector>
 
 #include "engine/core/check.h"
+#include "tests/support/replaced_function.h"
 
 namespace rowland::test {
 
@@ -18,6 +20,7 @@ using Counts = CallCounts::Counts;
 struct Told {
     Counts counts;
     std::map<std::string, std::string> values;  ///< of each thing that is set
+    std::vector<std::shared_ptr<void>> noted;
 };
 Told* told = nullptr;
 
@@ -81,93 +84,87 @@ struct Uniform {
     }
 };
 
-/// Stands in place of one of epoxy's pointers.
+/// Notes each call of a function, then calls the driver's.
 template <auto Pointer, typename Note>
-class Hook;
+class Noted;
 template <typename R, typename... Args, R (**Pointer)(Args...), typename Note>
-class Hook<Pointer, Note> {
+class Noted<Pointer, Note> {
  public:
-    static void exchange(const char* name) {
-        name_ = name;
-        driver_ = reinterpret_cast<R (*)(Args...)>(eglGetProcAddress(name));
-        ROWLAND_CHECK(driver_ != nullptr, "a driver of OpenGL 4.5");
-        std::swap(*Pointer, kept_);
-    }
+    explicit Noted(const char* name) : replaced_(name, call) { name_ = name; }
 
  private:
     static R call(Args... args) {
         Note::note(name_, args...);
-        return driver_(args...);
+        return ReplacedFunction<Pointer>::driver(args...);
     }
     static inline const char* name_ = nullptr;
-    static inline R (*driver_)(Args...) = nullptr;
-    static inline R (*kept_)(Args...) = call;
+    ReplacedFunction<Pointer> replaced_;
 };
 
-/// Exchanges epoxy's pointers for those kept here: again, and all is as before.
-void exchange_pointers() {
-#define ROWLAND_HOOK(function, ...) Hook<&epoxy_##function, __VA_ARGS__>::exchange(#function)
-    ROWLAND_HOOK(glDrawElements, Count<&Counts::draws>);
-    ROWLAND_HOOK(glDrawArraysInstanced, Count<&Counts::draws>);
-    ROWLAND_HOOK(glFinish, Count<&Counts::waits>);
-    ROWLAND_HOOK(glClientWaitSync, Count<&Counts::waits>);
-    ROWLAND_HOOK(glReadPixels, Count<&Counts::waits>);
-    ROWLAND_HOOK(glGetTextureSubImage, Count<&Counts::waits>);
-    ROWLAND_HOOK(glGetNamedBufferSubData, Count<&Counts::waits>);
-    ROWLAND_HOOK(glGetQueryObjectui64v, Count<&Counts::waits>);
-    ROWLAND_HOOK(glCreateBuffers, Count<&Counts::made>);
-    ROWLAND_HOOK(glCreateTextures, Count<&Counts::made>);
-    ROWLAND_HOOK(glCreateFramebuffers, Count<&Counts::made>);
-    ROWLAND_HOOK(glCreateRenderbuffers, Count<&Counts::made>);
-    ROWLAND_HOOK(glCreateVertexArrays, Count<&Counts::made>);
-    ROWLAND_HOOK(glCompileShader, Count<&Counts::compiled>);
-    ROWLAND_HOOK(glLinkProgram, Count<&Counts::compiled>);
-    ROWLAND_HOOK(glNamedBufferSubData, Count<&Counts::copied>);
-    ROWLAND_HOOK(glTextureSubImage2D, Count<&Counts::copied>);
-    ROWLAND_HOOK(glTextureSubImage3D, Count<&Counts::copied>);
-    ROWLAND_HOOK(glUseProgram, Set<0>);
-    ROWLAND_HOOK(glBindVertexArray, Set<0>);
-    ROWLAND_HOOK(glViewport, Set<0>);
-    ROWLAND_HOOK(glScissor, Set<0>);
-    ROWLAND_HOOK(glDepthMask, Set<0>);
-    ROWLAND_HOOK(glDepthFunc, Set<0>);
-    ROWLAND_HOOK(glCullFace, Set<0>);
-    ROWLAND_HOOK(glFrontFace, Set<0>);
-    ROWLAND_HOOK(glBlendFuncSeparate, Set<0>);
-    ROWLAND_HOOK(glPolygonOffset, Set<0>);
-    ROWLAND_HOOK(glColorMask, Set<0>);
-    ROWLAND_HOOK(glPixelStorei, Set<1>);
-    ROWLAND_HOOK(glBindTextureUnit, Set<1>);
-    ROWLAND_HOOK(glBindFramebuffer, Set<1>);
-    ROWLAND_HOOK(glNamedFramebufferReadBuffer, Set<1>);
-    ROWLAND_HOOK(glNamedFramebufferDrawBuffer, Set<1>);
-    ROWLAND_HOOK(glBindBufferBase, Set<2>);
-    ROWLAND_HOOK(glBindBufferRange, Set<2>);
-    ROWLAND_HOOK(glEnable, Enable);
-    ROWLAND_HOOK(glDisable, Enable);
-    ROWLAND_HOOK(glProgramUniform1i, Set<2>);
-    ROWLAND_HOOK(glProgramUniform1f, Set<2>);
-    ROWLAND_HOOK(glProgramUniform1iv, Uniform<1>);
-    ROWLAND_HOOK(glProgramUniform1fv, Uniform<1>);
-    ROWLAND_HOOK(glProgramUniform2iv, Uniform<2>);
-    ROWLAND_HOOK(glProgramUniform2fv, Uniform<2>);
-    ROWLAND_HOOK(glProgramUniform3fv, Uniform<3>);
-    ROWLAND_HOOK(glProgramUniform4fv, Uniform<4>);
-    ROWLAND_HOOK(glProgramUniformMatrix3fv, Uniform<9>);
-    ROWLAND_HOOK(glProgramUniformMatrix4fv, Uniform<16>);
-#undef ROWLAND_HOOK
+/// The functions that are noted while the result lives.
+std::vector<std::shared_ptr<void>> note_calls() {
+    std::vector<std::shared_ptr<void>> noted;
+#define ROWLAND_NOTE(function, ...) noted.push_back(std::make_shared<Noted<&epoxy_##function, __VA_ARGS__>>(#function))
+    ROWLAND_NOTE(glDrawElements, Count<&Counts::draws>);
+    ROWLAND_NOTE(glDrawArraysInstanced, Count<&Counts::draws>);
+    ROWLAND_NOTE(glFinish, Count<&Counts::waits>);
+    ROWLAND_NOTE(glClientWaitSync, Count<&Counts::waits>);
+    ROWLAND_NOTE(glReadPixels, Count<&Counts::waits>);
+    ROWLAND_NOTE(glGetTextureSubImage, Count<&Counts::waits>);
+    ROWLAND_NOTE(glGetNamedBufferSubData, Count<&Counts::waits>);
+    ROWLAND_NOTE(glGetQueryObjectui64v, Count<&Counts::waits>);
+    ROWLAND_NOTE(glCreateBuffers, Count<&Counts::made>);
+    ROWLAND_NOTE(glCreateTextures, Count<&Counts::made>);
+    ROWLAND_NOTE(glCreateFramebuffers, Count<&Counts::made>);
+    ROWLAND_NOTE(glCreateRenderbuffers, Count<&Counts::made>);
+    ROWLAND_NOTE(glCreateVertexArrays, Count<&Counts::made>);
+    ROWLAND_NOTE(glCompileShader, Count<&Counts::compiled>);
+    ROWLAND_NOTE(glLinkProgram, Count<&Counts::compiled>);
+    ROWLAND_NOTE(glNamedBufferSubData, Count<&Counts::copied>);
+    ROWLAND_NOTE(glTextureSubImage2D, Count<&Counts::copied>);
+    ROWLAND_NOTE(glTextureSubImage3D, Count<&Counts::copied>);
+    ROWLAND_NOTE(glUseProgram, Set<0>);
+    ROWLAND_NOTE(glBindVertexArray, Set<0>);
+    ROWLAND_NOTE(glViewport, Set<0>);
+    ROWLAND_NOTE(glScissor, Set<0>);
+    ROWLAND_NOTE(glDepthMask, Set<0>);
+    ROWLAND_NOTE(glDepthFunc, Set<0>);
+    ROWLAND_NOTE(glCullFace, Set<0>);
+    ROWLAND_NOTE(glFrontFace, Set<0>);
+    ROWLAND_NOTE(glBlendFuncSeparate, Set<0>);
+    ROWLAND_NOTE(glPolygonOffset, Set<0>);
+    ROWLAND_NOTE(glColorMask, Set<0>);
+    ROWLAND_NOTE(glPixelStorei, Set<1>);
+    ROWLAND_NOTE(glBindTextureUnit, Set<1>);
+    ROWLAND_NOTE(glBindFramebuffer, Set<1>);
+    ROWLAND_NOTE(glNamedFramebufferReadBuffer, Set<1>);
+    ROWLAND_NOTE(glNamedFramebufferDrawBuffer, Set<1>);
+    ROWLAND_NOTE(glBindBufferBase, Set<2>);
+    ROWLAND_NOTE(glBindBufferRange, Set<2>);
+    ROWLAND_NOTE(glEnable, Enable);
+    ROWLAND_NOTE(glDisable, Enable);
+    ROWLAND_NOTE(glProgramUniform1i, Set<2>);
+    ROWLAND_NOTE(glProgramUniform1f, Set<2>);
+    ROWLAND_NOTE(glProgramUniform1iv, Uniform<1>);
+    ROWLAND_NOTE(glProgramUniform1fv, Uniform<1>);
+    ROWLAND_NOTE(glProgramUniform2iv, Uniform<2>);
+    ROWLAND_NOTE(glProgramUniform2fv, Uniform<2>);
+    ROWLAND_NOTE(glProgramUniform3fv, Uniform<3>);
+    ROWLAND_NOTE(glProgramUniform4fv, Uniform<4>);
+    ROWLAND_NOTE(glProgramUniformMatrix3fv, Uniform<9>);
+    ROWLAND_NOTE(glProgramUniformMatrix4fv, Uniform<16>);
+#undef ROWLAND_NOTE
+    return noted;
 }
 
 }  // namespace
 
 CallCounts::CallCounts() {
     ROWLAND_CHECK(told == nullptr, "one at a time");
-    told = new Told;
-    exchange_pointers();
+    told = new Told{.counts = {}, .values = {}, .noted = note_calls()};
 }
 
 CallCounts::~CallCounts() {
-    exchange_pointers();
     delete told;
     told = nullptr;
 }

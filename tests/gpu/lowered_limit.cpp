@@ -1,13 +1,15 @@
 #include "tests/gpu/lowered_limit.h"
 
-#include <epoxy/egl.h>
+#include <optional>
 
-#include <utility>
+#include "tests/support/replaced_function.h"
 
 namespace rowland::test {
 
 namespace {
 
+std::optional<ReplacedFunction<&epoxy_glGetIntegerv>> integer;
+std::optional<ReplacedFunction<&epoxy_glGetInteger64v>> long_integer;
 GLenum lowered_name = GL_NONE;
 std::int64_t lowered_value = 0;
 
@@ -15,22 +17,14 @@ void APIENTRY get_integer(GLenum name, GLint* values) {
     if (name == lowered_name)
         *values = static_cast<GLint>(lowered_value);
     else
-        reinterpret_cast<PFNGLGETINTEGERVPROC>(eglGetProcAddress("glGetIntegerv"))(name, values);
+        integer->driver(name, values);
 }
 
 void APIENTRY get_long_integer(GLenum name, GLint64* values) {
     if (name == lowered_name)
         *values = lowered_value;
     else
-        reinterpret_cast<PFNGLGETINTEGER64VPROC>(eglGetProcAddress("glGetInteger64v"))(name, values);
-}
-
-/// Exchanges epoxy's pointers for the ones kept here: again, and all is as before.
-void exchange_queries() {
-    static PFNGLGETINTEGERVPROC kept = get_integer;
-    static PFNGLGETINTEGER64VPROC kept_long = get_long_integer;
-    std::swap(epoxy_glGetIntegerv, kept);
-    std::swap(epoxy_glGetInteger64v, kept_long);
+        long_integer->driver(name, values);
 }
 
 }  // namespace
@@ -38,11 +32,13 @@ void exchange_queries() {
 LoweredLimit::LoweredLimit(GLenum name, std::int64_t value) {
     lowered_name = name;
     lowered_value = value;
-    exchange_queries();
+    integer.emplace("glGetIntegerv", get_integer);
+    long_integer.emplace("glGetInteger64v", get_long_integer);
 }
 
 LoweredLimit::~LoweredLimit() {
-    exchange_queries();
+    long_integer.reset();
+    integer.reset();
 }
 
 }  // namespace rowland::test

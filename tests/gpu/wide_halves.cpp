@@ -1,34 +1,30 @@
 #include "tests/gpu/wide_halves.h"
 
-#include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
 #include <glm/gtc/packing.hpp>
-#include <utility>
+#include <optional>
+
+#include "tests/support/replaced_function.h"
 
 namespace rowland::test {
 
 namespace {
 
-void APIENTRY wide_storage(GLuint texture, GLsizei levels, GLenum format, GLsizei width, GLsizei height) {
-    const auto driver = reinterpret_cast<PFNGLTEXTURESTORAGE2DPROC>(eglGetProcAddress("glTextureStorage2D"));
-    driver(texture, levels, format == GL_RGBA16F ? GL_RGBA32F : format, width, height);
-}
+std::optional<ReplacedFunction<&epoxy_glTextureStorage2D>> storage;
 
-/// Exchanges epoxy's pointer for the one kept here: again, and all is as before.
-void exchange_storage() {
-    static PFNGLTEXTURESTORAGE2DPROC kept_storage = wide_storage;
-    std::swap(epoxy_glTextureStorage2D, kept_storage);
+void APIENTRY wide_storage(GLuint texture, GLsizei levels, GLenum format, GLsizei width, GLsizei height) {
+    storage->driver(texture, levels, format == GL_RGBA16F ? GL_RGBA32F : format, width, height);
 }
 
 }  // namespace
 
 WideHalves::WideHalves() {
-    exchange_storage();
+    storage.emplace("glTextureStorage2D", wide_storage);
 }
 
 WideHalves::~WideHalves() {
-    exchange_storage();
+    storage.reset();
 }
 
 int not_halves(const std::vector<glm::vec4>& pixels) {

@@ -172,6 +172,9 @@ inline rc::Gen<diffraction::Grating> grating(double least_grooves = 1.0) {
         if (*whole(0, 3) == 0)
             result.metal =
                 *rc::gen::element(colour::Metal::Al, colour::Metal::Ag, colour::Metal::Au, colour::Metal::Cu);
+        if (*whole(0, 3) == 0)
+            result.cover = diffraction::Cover{.ior = *uniform(1.0, 3.0),
+                                              .tint = {*uniform(0.0, 1.0), *uniform(0.0, 1.0), *uniform(0.0, 1.0)}};
         if (std::holds_alternative<diffraction::SlitProfile>(result.profile) && *whole(0, 2) == 0)
             result.normalization = diffraction::Normalization::Agu;
         return result;

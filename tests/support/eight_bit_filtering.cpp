@@ -1,12 +1,10 @@
 #include "tests/support/eight_bit_filtering.h"
 
-#include <epoxy/egl.h>
-#include <epoxy/gl.h>
-
 #include <cstdlib>
+#include <optional>
 
-#include "engine/core/check.h"
 #include "engine/core/error.h"
+#include "tests/support/replaced_function.h"
 
 namespace rowland::test {
 
@@ -71,16 +69,15 @@ vec4 filtered(samplerCube t, vec3 p) { return filtered_lod(t, p, 0.0); }
 
 Fraction asked_fraction = Fraction::Rounded;
 
-/// Stands in for epoxy's pointer to glShaderSource.
+std::optional<ReplacedFunction<&epoxy_glShaderSource>> filtered;
+
 void APIENTRY shader_source(GLuint shader, GLsizei count, const GLchar* const* texts, const GLint* lengths) {
-    // The driver's own function: epoxy's pointer is what is replaced.
-    static const auto driver = reinterpret_cast<PFNGLSHADERSOURCEPROC>(eglGetProcAddress("glShaderSource"));
-    ROWLAND_CHECK(count == 1 && lengths == nullptr, "a shader in one text");
     GLint stage = 0;
     glGetShaderiv(shader, GL_SHADER_TYPE, &stage);
-    const std::string text = with_eight_bit_filtering(texts[0], stage == GL_FRAGMENT_SHADER, asked_fraction);
+    const std::string text =
+        with_eight_bit_filtering(whole_source(count, texts, lengths), stage == GL_FRAGMENT_SHADER, asked_fraction);
     const GLchar* begin = text.c_str();
-    driver(shader, 1, &begin, nullptr);
+    filtered->driver(shader, 1, &begin, nullptr);
 }
 
 }  // namespace
@@ -101,12 +98,12 @@ std::string with_eight_bit_filtering(std::string_view shader, bool is_fragment, 
 void filter_as_asked() {
     constexpr const char* kVariable = "ROWLAND_TEST_FILTERING";
     const char* asked = std::getenv(kVariable);
-    if (asked == nullptr || epoxy_glShaderSource == shader_source) return;
+    if (asked == nullptr || filtered) return;
     const std::string_view name(asked);
     if (name != "rounded" && name != "truncated")
         refuse_input(kVariable, "", "\"" + std::string(name) + "\"", "\"rounded\" or \"truncated\"");
     asked_fraction = name == "rounded" ? Fraction::Rounded : Fraction::Truncated;
-    epoxy_glShaderSource = shader_source;
+    filtered.emplace("glShaderSource", shader_source);
 }
 
 }  // namespace rowland::test

@@ -45,6 +45,7 @@ class Checker {
         if (type == "object") return value.is_object();
         if (type == "array") return value.is_array();
         if (type == "string") return value.is_string();
+        if (type == "boolean") return value.is_boolean();
         if (type == "number") return value.is_number();
         if (type == "integer") return value.is_number_integer();
         throw std::runtime_error("the schema uses an unknown type: " + type);

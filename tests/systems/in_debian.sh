@@ -13,18 +13,7 @@ source=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 data=${3:+$(cd "$3" && pwd)}
 [ -d "$root" ] || mmdebstrap --variant=minbase --include=ca-certificates,git "$suite" "$root"
 
-mounted=()
-leave() { for folder in "${mounted[@]}"; do umount "$root/$folder"; done; }
-trap leave EXIT
-bind() {
-    mkdir -p "$root/$2"
-    mount --bind "$1" "$root/$2"
-    mounted=("$2" "${mounted[@]}")
-}
-mkdir -p "$root/proc"
-mount -t proc proc "$root/proc"
-mounted=(proc)
-bind /dev dev
+source "$source/tests/systems/chroot_mounts.sh"
 mkdir -p "$root/dev/shm"
 [ -z "$data" ] || bind "$data" shared
 cp /etc/resolv.conf "$root/etc/resolv.conf"

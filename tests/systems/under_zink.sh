@@ -17,16 +17,7 @@ shift $(($# < 2 ? $# : 2))
 [ -d "$root" ] || mmdebstrap --variant=minbase \
     --include=fonts-dejavu-core,libegl1,libgl1,libgl1-mesa-dri,libepoxy0,mesa-vulkan-drivers,vulkan-validationlayers trixie "$root"
 
-mounted=()
-leave() { for place in "${mounted[@]}"; do umount "$root$place"; done; }
-trap leave EXIT
-bind() {
-    mkdir -p "$root$1"
-    mount --bind "$1" "$root$1"
-    mounted=("$1" "${mounted[@]}")
-}
-bind /proc
-bind /dev
+source "$source/tests/systems/chroot_mounts.sh"
 bind "$source"
 bind "$folder"
 

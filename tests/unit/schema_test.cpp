@@ -96,7 +96,8 @@ bool crosses_quality(const json& document) {
     const std::string default_mapping = name == "arc" ? "one-dimensional" : "";
     const bool along_one_axis = quality.value("view_mapping", default_mapping) == "one-dimensional";
     const bool view = flat ? name == "arc" && !along_one_axis : quality.contains("view_mapping") && along_one_axis;
-    const bool map = !flat && (name == "planar" || name == "circle");
+    const bool map = flat ? quality.contains("views_h")
+                          : name == "circle" || (name == "planar" && quality.value("map_resolution", 128) > 256);
     const bool narrow = !flat && document["grating"]["groove_lobe"].value("/pits/coherent"_json_pointer, 1.0) > 0.0;
     const bool streak = name == "streak" && !narrow;
     const int bands = quality.value("bands", 5);
@@ -111,7 +112,8 @@ bool crosses_members(const json& document) {
     const json lobe = grating.value("groove_lobe", json("flat"));
     const bool wide = profile["type"] == "slit" && profile["width_nm"] > grating["pitch_nm"];
     const bool agu = grating.value("normalization", "energy") == "agu" && profile["type"] != "slit";
-    const bool plated_table = profile["type"] == "table" && document.contains("metal");
+    const bool plated_table =
+        profile["type"] == "table" && (document.contains("metal") || document.contains("/cover/tint"_json_pointer));
     const bool few = grating.value("grooves", 1500.0) < 50.0 && (profile["type"] == "table" || lobe.contains("pits"));
     const bool endless = grating.value("orders", json()) == "all" && grating["pitch_nm"] > 190000.0;
     const std::string lamp = document.value("quality", json::object()).value("illuminant", "D65");
@@ -143,6 +145,7 @@ TEST(Schema, OfMaterialsAgreesWithTheParser) {
         pinned(
             R"({"max_error": 0.1, "surface": "curved", "probes": ["a.json", {"image": "b.hdr", "mapping": "angular"}]})"),
         material(R"({"type": "slit", "width_nm": 0.5}, "normalization": "agu", "orders": "all"}})", ""),
+        material(R"({"type": "blazed", "depth_nm": 100}})", R"(, "cover": {"ior": 1.5, "tint": [0.25, 1, 0]}})"),
         material(R"({"type": "table", "file": "t.csv"}})", R"(, "base": {"roughness": 0.1}})"),
         material(R"({"type": "sinusoidal", "depth_nm": 90})",
                  R"(, "groove_lobe": {"pits": {"length_nm": 850, "coherent": 0.3}}}})"),
@@ -169,9 +172,10 @@ TEST(Schema, OfTheGltfExtensionAgreesWithTheParser) {
     schema["$defs"] = read("modules/diffraction/asset/material.schema.json")["$defs"];
     const std::vector<json> documents = {
         json::parse(R"({"grating": {"pitch_nm": 1600, "profile": {"type": "slit", "width_nm": 600}},
-                        "grooveRotation": 1.5, "grooveTexture": {"index": 2, "texCoord": 1}, "metal": "Cu"})"),
+                        "grooveRotation": 1.5, "grooveTexture": {"index": 2, "texCoord": 1}, "metal": "Cu",
+                        "cover": {"ior": 1.49}})"),
         json::parse(R"({"grating": {"pitch_nm": 740, "profile": {"type": "table", "file": "t.csv"}},
-                        "grooveTexture": {"index": 0, "extras": {}}, "extras": [1], "extensions": {"X": 1}})")};
+                        "grooveTexture": {"index": 0, "sparkle": true, "extras": {}}, "extras": [1], "extensions": {"X": 1}})")};
     expect_agreement(
         schema, documents,
         [&](const json& document) { diffraction::parse_gltf_extension(document, "test", folder.path()); },

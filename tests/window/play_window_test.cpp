@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "engine/core/file.h"
 #include "tests/support/source_tree.h"
@@ -144,8 +145,12 @@ TEST_F(PlayWindow, TheEnvironmentTurnsThereAndBack) {
     const image::ByteImage first = full_shot(user);
     const auto turned = [&](const char* key) {
         for (int i = 0; i < 3; ++i) user.key(key);
-        std::this_thread::sleep_for(1s);
-        return full_shot(user);
+        // A turn takes some frames.
+        image::ByteImage before = full_shot(user);
+        image::ByteImage after = full_shot(user);
+        const auto is_done = [&] { return difference(before, after, kWhole) == 0.0; };
+        for (int i = 0; i < 60 && !is_done(); ++i) before = std::exchange(after, full_shot(user));
+        return after;
     };
     const double there = difference(first, turned("comma"), kWhole);
     EXPECT_GT(there, 1.0);

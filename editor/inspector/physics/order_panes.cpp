@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/colour/metal.h"
 #include "engine/colour/sampled_spectrum.h"
 #include "modules/diffraction/model/brdf.h"
 #include "modules/diffraction/model/efficiency.h"
@@ -39,7 +38,7 @@ double absorbed_fraction(const diffraction::Grating& grating, double wavelength_
             reflected += diffraction::profile_efficiency(grating.profile, grating.pitch_nm, order, wavelength_nm, s_g);
         return std::max(0.0, 1.0 - reflected);
     }
-    return grating.metal ? 1.0 - colour::metal_reflectance(*grating.metal, wavelength_nm) : 0.0;
+    return 1.0 - diffraction::reflectance(grating, wavelength_nm);
 }
 
 }  // namespace

@@ -37,15 +37,16 @@ struct EfficiencyCurve {
     std::vector<glm::dvec2> points;  ///< (wavelength in nm, efficiency), 380 to 780 nm
 };
 
-/// The shown orders' efficiencies at normal incidence, ascending; of many orders the `most` strongest.
+/// The shown orders' efficiencies at normal incidence, ascending; of many orders the `most` strongest. Under a cover:
+/// of what enters it.
 std::vector<EfficiencyCurve> efficiency_curves(const diffraction::Grating& grating, std::size_t most = 9);
 
-/// Where the power of one wavelength goes, as fractions that sum to 1.
+/// Where the power of one wavelength goes, as fractions that sum to 1. Under a cover: of what enters it.
 struct EnergyBalance {
     double orders = 0.0;      ///< listed orders that leave the surface
     double zero = 0.0;        ///< the mirror's order
     double evanescent = 0.0;  ///< listed orders that do not leave the surface: lost to the scalar model
-    double absorbed = 0.0;    ///< by the metal; for a table, what its orders leave of 1
+    double absorbed = 0.0;    ///< by the metal and a cover's dye; for a table, what its orders leave of 1
     double rest = 0.0;        ///< orders that are not listed, and losses of the profile: lights the base
 };
 

@@ -43,14 +43,15 @@ std::vector<double> spectrum_at(const diffraction::Material& material, const lig
     const glm::dvec3 view = to_tangent * glm::normalize(frame.view);
     std::vector<double> spectrum(colour::kVisibleMax - colour::kVisibleMin + 1, 0.0);
     if (view.z <= 0.0) return spectrum;
+    const double passed = diffraction::transmittance(grating.cover, view.z);
     for (std::size_t i = 0; i < spectrum.size(); ++i) {
         const double nm = colour::kVisibleMin + static_cast<double>(i);
         for (const int order : grating.orders) {
             const double a = order * nm / grating.pitch_nm - view.x;
             if (order == 0 || std::abs(a) >= 1.0) continue;
-            const glm::dvec3 arc =
-                arc_profile(light, to_tangent, grating.lobe, {.a = a, .v_h = view.y, .wavelength_nm = nm});
-            spectrum[i] += diffraction::order_efficiency(grating, order, nm, a) * glm::dot(spectra(nm), arc);
+            const glm::dvec3 arc = arc_profile(light, to_tangent, grating.lobe,
+                                               {.a = a, .v_h = view.y, .wavelength_nm = nm}, grating.cover);
+            spectrum[i] += passed * diffraction::order_efficiency(grating, order, nm, a) * glm::dot(spectra(nm), arc);
         }
     }
     return spectrum;

@@ -13,10 +13,22 @@ struct LitSurface {
     float facing;    // n_v above 0
     float masking;   // Smith's term of the view
     vec3 radiance;
+#ifdef MATERIAL_GLOSS
+    float gloss_alpha2;   // of the layer on top
+    float gloss_masking;
+    vec3 gloss;           // what it reflects
+#endif
 };
 
-// Adds what the surface reflects of a light of this irradiance (on what faces it): GGX with height-correlated Smith
-// visibility [Heitz 2014]. l and v are unit vectors, so |l + v|² = 2 + 2 l·v.
+// GGX with height-correlated Smith visibility [Heitz 2014]. `facing`: the view's cosine; `masking`: its Smith's term.
+float microfacets(float n_h, float n_l, float alpha2, float facing, float masking) {
+    float d = n_h * n_h * (alpha2 - 1.0) + 1.0;
+    float shadowing = n_l * masking + facing * sqrt(n_l * n_l * (1.0 - alpha2) + alpha2);
+    return 0.5 / PI * alpha2 / (d * d * max(shadowing, 1e-6));
+}
+
+// Adds what the surface reflects of a light of this irradiance (on what faces it). l and v are unit vectors, so
+// |l + v|² = 2 + 2 l·v.
 void add_light(vec3 irradiance, vec3 l, inout LitSurface surface) {
     float v_l = dot(surface.v, l);
     float inverse_length = inversesqrt(max(2.0 + 2.0 * v_l, 1e-12));
@@ -24,16 +36,17 @@ void add_light(vec3 irradiance, vec3 l, inout LitSurface surface) {
     float n_h = clamp((n_l + surface.n_v) * inverse_length, 0.0, 1.0);
     float v_h = clamp((1.0 + v_l) * inverse_length, 0.0, 1.0);
     n_l = max(n_l, 0.0);
-    float d = n_h * n_h * (surface.alpha2 - 1.0) + 1.0;
-    float shadowing = n_l * surface.masking +
-                      surface.facing * sqrt(n_l * n_l * (1.0 - surface.alpha2) + surface.alpha2);
-    float microfacets = 0.5 / PI * surface.alpha2 / (d * d * max(shadowing, 1e-6));
+    float density = microfacets(n_h, n_l, surface.alpha2, surface.facing, surface.masking);
+#ifdef MATERIAL_GLOSS
+    surface.gloss += microfacets(n_h, n_l, surface.gloss_alpha2, surface.facing, surface.gloss_masking) *
+                     gloss_reflectance(v_h) * n_l * irradiance;
+#endif
 #ifdef MATERIAL_SPECULAR
-    vec3 specular = reflect_specular(irradiance, surface.f0, v_h) * microfacets;
+    vec3 specular = reflect_specular(irradiance, surface.f0, v_h) * density;
     surface.radiance += (surface.diffuse * irradiance + specular) * n_l;
 #else
     vec3 fresnel = schlick_reflectance(surface.f0, v_h);
-    surface.radiance += (surface.diffuse + fresnel * microfacets) * n_l * irradiance;
+    surface.radiance += (surface.diffuse + fresnel * density) * n_l * irradiance;
 #endif
 }
 
@@ -67,13 +80,21 @@ float punctual_attenuation(Light light, float distance2, float inverse, vec3 l) 
     return window * cone * cone;
 }
 
-// What the surface reflects. `added`: radiance of the material's own, to which it adds its part of the lights.
+// What the surface reflects. `added`: radiance of the material's own, to which it and a layer on top add their parts of
+// the lights.
 vec3 direct_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness, inout vec3 added) {
     float alpha2 = max(roughness * roughness * roughness * roughness, 1e-6);
     float n_v = dot(n, v);
     float facing = max(n_v, 1e-4);
     float masking = sqrt(facing * facing * (1.0 - alpha2) + alpha2);
+#ifdef MATERIAL_GLOSS
+    float gloss_alpha2 = pow(max(gloss_roughness(), 0.04), 4.0);
+    LitSurface surface =
+        LitSurface(n, v, diffuse / PI, f0, alpha2, n_v, facing, masking, vec3(0.0), gloss_alpha2,
+                   sqrt(facing * facing * (1.0 - gloss_alpha2) + gloss_alpha2), vec3(0.0));
+#else
     LitSurface surface = LitSurface(n, v, diffuse / PI, f0, alpha2, n_v, facing, masking, vec3(0.0));
+#endif
 #ifdef DIRECTIONAL_LIGHTS
 #ifdef SEVERAL_DIRECTIONAL_LIGHTS
     int directional = int(light_counts.x);
@@ -103,6 +124,9 @@ vec3 direct_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness, inout 
         material_light(i, attenuation, l, added);
 #endif
     }
+#endif
+#ifdef MATERIAL_GLOSS
+    added += surface.gloss;
 #endif
     return surface.radiance;
 }

@@ -8,6 +8,11 @@
 //   void material_light(int i, float attenuation, vec3 l, inout vec3 added);
 // which adds to its own radiance that of lights[i], of that kind. `attenuation`: irradiance on a surface that faces the
 // light, over its strength; `l`: toward it. Called after material_terms().
+// If it defines MATERIAL_GLOSS, it also defines
+//   float gloss_reflectance(float cosine);
+//   float gloss_roughness();
+// of a layer on top, in which the scene's lights have highlights: reflectance at the angle of this cosine, perceptual
+// roughness.
 #include "engine/render/shaders/frame_block.h"
 #include "engine/render/shaders/object_block.h"
 #include "engine/render/shaders/ambient_light.glsl"

@@ -17,7 +17,10 @@ vec3 environment_light(vec3 direction, float roughness) {
     return textureLod(environment_map, direction, roughness * environment.x).rgb * environment.y;
 }
 
-// `split`: the lobe's albedo for reflectance 1 - (1 - cosine)^5 and for (1 - cosine)^5.
+// A GGX lobe's albedo for reflectance 1 - (1 - cosine)^5 and for (1 - cosine)^5.
+vec2 lobe_albedo(float n_v, float roughness) { return texture(brdf_table, vec2(n_v, roughness)).rg; }
+
+// `split`: lobe_albedo().
 vec3 environment_reflection(vec3 light, vec3 f0, float n_v, vec2 split) {
 #ifdef MATERIAL_SPECULAR
     // The angle at which (1 - cosine)^5 equals its mean over the lobe; a smooth surface has n_v itself, which the
@@ -38,7 +41,7 @@ vec3 base_radiance(vec3 base, vec3 n, vec3 v, inout vec3 added) {
     vec3 f0 = mix(vec3(0.04), base, factors.x);
     vec3 diffuse = base * (1.0 - factors.x);
     float n_v = max(dot(n, v), 0.0);
-    vec2 split = texture(brdf_table, vec2(n_v, roughness)).rg;
+    vec2 split = lobe_albedo(n_v, roughness);
     vec3 from_mirror = environment_light(reflect(-v, n), roughness);
     vec3 reflected = environment_reflection(from_mirror, f0, n_v, split);
 #ifdef AMBIENT_AT_VERTICES

@@ -21,9 +21,10 @@ layout(std140, binding = 0) uniform FrameBlock {
                              // key_irradiance_map
     vec4 shadow;             // x: width of a shadow texel, metres; y: of the map, 1 / texels; z: 1 if the target holds
                              // half floats
+    vec4 dome;               // x: height of the probe's camera above the floor y = 0, metres; y: radius; 0: none
 #ifdef __cplusplus
 };
-static_assert(sizeof(FrameBlock) == 5 * 64 + 12 * 16, "must equal the std140 layout");
+static_assert(sizeof(FrameBlock) == 5 * 64 + 13 * 16, "must equal the std140 layout");
 }  // namespace rowland::render
 #else
 };

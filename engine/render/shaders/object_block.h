@@ -13,8 +13,9 @@ layout(std140, binding = 1) uniform ObjectBlock {
     mat4 object_to_world;
     mat4 normal_to_world;     // inverse transpose of the upper 3x3
     vec4 base_colour;         // xyz: working space, or Rec.709 where a texture or vertex colours multiply it; w: alpha
-    vec4 metallic_roughness;  // x: metallic; y: perceptual roughness; z: alpha cutoff
-    vec4 emissive;            // xyz: radiance, working space, or Rec.709 where a texture multiplies it
+    vec4 metallic_roughness;  // x: metallic; y: perceptual roughness; z: alpha cutoff; w: strength of the clear coat
+    vec4 emissive;            // xyz: radiance, working space, or Rec.709 where a texture multiplies it; w: perceptual
+                              // roughness of the clear coat
     vec4 map_strength;        // x: normal scale; y: occlusion strength; z: sign of object_to_world's determinant;
                               // w: the object's first joint matrix
     vec4 uv_linear[5];        // of each map (base colour, metallic-roughness, normal, occlusion, emissive): the 2x2

@@ -7,7 +7,17 @@ layout(binding = 0) uniform samplerCube environment_map;
 in vec3 direction;
 layout(location = 0) out vec4 radiance;
 
+// Where the probe's camera saw what the eye sees: on a sphere about that camera or on the floor below it.
+vec3 from_capture(vec3 seen) {
+    vec3 from = eye.xyz - vec3(0.0, dome.x, 0.0);
+    float along = dot(from, seen);
+    float distance = sqrt(max(along * along - dot(from, from) + dome.y * dome.y, 0.0)) - along;
+    if (seen.y < 0.0) distance = min(distance, max(-eye.y / seen.y, 0.0));
+    return from + distance * seen;
+}
+
 void main() {
-    radiance = vec4(textureLod(environment_map, direction, 0.0).rgb * environment.y, 1.0);
+    vec3 s = dome.y > 0.0 ? from_capture(normalize(direction)) : direction;
+    radiance = vec4(textureLod(environment_map, s, 0.0).rgb * environment.y, 1.0);
     if (shadow.z > 0.0) radiance = rounded_to_half(radiance);
 }

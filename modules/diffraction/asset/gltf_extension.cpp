@@ -31,6 +31,7 @@ void parse_transform(JsonReader json, GrooveTexture& texture) {
 GrooveTexture parse_groove_texture(JsonReader json) {
     GrooveTexture texture{.index = static_cast<int>(json.integer("index", 0, kLargestIndex)),
                           .tex_coord = static_cast<int>(json.integer_or("texCoord", 0, 0, kLargestIndex))};
+    texture.sparkle = json.boolean_or("sparkle", false);
     if (auto extensions = json.object_if_there("extensions"))
         if (auto transform = extensions->object_if_there("KHR_texture_transform")) parse_transform(*transform, texture);
     allow_foreign_members(json);

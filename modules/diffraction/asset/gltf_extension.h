@@ -14,7 +14,7 @@ namespace rowland::diffraction {
 inline constexpr const char* kGltfExtension = "ROWLAND_materials_diffraction";
 
 /// A texture that varies the grating over the surface, as a glTF textureInfo names it. Linear; R: rotation / π,
-/// G: pitch / pitch_nm / 2.
+/// G: pitch / pitch_nm / 2, 0 where there is no grating.
 struct GrooveTexture {
     int index = 0;      ///< into the glTF's textures, ≥ 0
     int tex_coord = 0;  ///< set of texture coordinates, ≥ 0; KHR_texture_transform's, if it has one
@@ -22,6 +22,7 @@ struct GrooveTexture {
     glm::dvec2 offset{0.0};
     double rotation = 0.0;
     glm::dvec2 scale{1.0};
+    bool sparkle = false;  ///< "sparkle": a pixel shows the grooves of one texel, not the mean of those that it covers
 };
 
 /// A material's ROWLAND_materials_diffraction object.

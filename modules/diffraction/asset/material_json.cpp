@@ -140,6 +140,22 @@ Grating parse_grating(JsonReader json, const ReadNamed& read) {
     return grating;
 }
 
+/// Every transparent solid in visible light; diamond has 2.42.
+constexpr NumberRange kIor{.minimum = 1.0, .maximum = 3.0};
+
+Cover parse_cover(JsonReader json, const Profile& profile) {
+    Cover cover{.ior = json.number("ior", kIor)};
+    if (json.has("tint")) {
+        if (std::holds_alternative<EfficiencyTable>(profile))
+            json.fail("tint", "a tint beside a table of efficiencies", "no tint",
+                      "the table's efficiencies are those under its cover's dye already");
+        const std::vector<double> rgb = json.numbers("tint", 3, kUnit);
+        cover.tint = glm::dvec3(rgb[0], rgb[1], rgb[2]);
+    }
+    json.finish();
+    return cover;
+}
+
 BaseLayer parse_base(JsonReader json) {
     BaseLayer base;
     if (json.has("color")) {
@@ -168,6 +184,7 @@ Material parse_material_parts(JsonReader& reader, const ReadNamed& read) {
                         "the table's efficiencies are those of its metal already");
         material.grating.metal = colour::parse_metal(reader.choice("metal", {"Al", "Ag", "Au", "Cu"}));
     }
+    if (reader.has("cover")) material.grating.cover = parse_cover(reader.object("cover"), material.grating.profile);
     if (reader.has("base")) material.base = parse_base(reader.object("base"));
     if (reader.has("quality")) material.quality = parse_quality(reader.object("quality"), material.grating, read);
     return material;

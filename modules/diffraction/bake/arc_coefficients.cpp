@@ -18,6 +18,9 @@ using std::numbers::pi;
 /// Gauss–Legendre needs π nodes per wave, and a few more where cos t stretches waves.
 constexpr int kNodesPerWave = 6;
 
+/// T(r sin t) of a cover bends toward the ends of the arc.
+constexpr int kCoverNodes = 16;
+
 /// The flat lobe's integrand is a trigonometric polynomial of degree `bands` in t over half a period: 16 nodes give
 /// 1e-15 at 5 bands. A lobe's core is a bump that takes up to 1/17 of the interval: 40 nodes more.
 int core_node_count(int bands, const GrooveLobe& lobe) {
@@ -57,11 +60,12 @@ struct ArcCoefficients::Circle {
     double v_h = 0.0;
 };
 
-ArcCoefficients::ArcCoefficients(int bands, const GrooveLobe& lobe)
+ArcCoefficients::ArcCoefficients(int bands, const GrooveLobe& lobe, const std::optional<Cover>& cover)
     : bands_(bands),
       lobe_(lobe),
-      core_rule_(math::gauss_legendre(core_node_count(bands, lobe), 0.0, 1.0)),
-      tail_rule_(math::gauss_legendre(tail_node_count(bands, lobe), 0.0, 1.0)),
+      cover_(cover),
+      core_rule_(math::gauss_legendre(core_node_count(bands, lobe) + (cover ? kCoverNodes : 0), 0.0, 1.0)),
+      tail_rule_(math::gauss_legendre(tail_node_count(bands, lobe) + (cover ? kCoverNodes : 0), 0.0, 1.0)),
       to_tangent_frame_(arc_to_tangent_axes(), bands) {}
 
 ArcCoefficients::Moments ArcCoefficients::moments(double r, double v_h, double wavelength_nm) const {
@@ -86,7 +90,8 @@ void ArcCoefficients::add_moments(const math::QuadratureRule& rule, const Stretc
         const double t = stretch.begin + length * rule.nodes[node];
         const double c = std::cos(t);
         const double s = std::sin(t);
-        const double weight = length * rule.weights[node] * arc.r * s * density(arc.r * c + arc.v_h);
+        const double weight =
+            length * rule.weights[node] * arc.r * s * density(arc.r * c + arc.v_h) * transmittance(cover_, arc.r * s);
         // cos mt and sin mt by recurrence.
         double cosine = weight;
         double sine = 0.0;

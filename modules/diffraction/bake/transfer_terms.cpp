@@ -22,9 +22,9 @@ constexpr std::array<double, 2> kNodes = {0.21132486540518711775, 0.788675134594
 
 TransferTerms::TransferTerms(const Grating& grating, const colour::LightSpectra& spectra, int bands)
     : pitch_nm_(grating.pitch_nm),
-      flat_(is_flat(grating.lobe)),
+      by_moments_(has_arc_moments(grating)),
       orders_(grating.orders),
-      arcs_(bands, grating.lobe),
+      arcs_(bands, grating.lobe, grating.cover),
       moments_(bands) {
     ROWLAND_CHECK_OP(grating.pitch_nm, >, 0.0);
     require_many_grooves(grating);
@@ -71,10 +71,10 @@ void TransferTerms::each_arc(double v_g, double pitch_nm, const Use& use) const 
     }
 }
 
-std::vector<glm::dmat3> TransferTerms::coefficients(double v_g, double v_h) const {
-    if (!flat_) return lobe_coefficients(v_g, v_h);
+std::vector<glm::dmat3> TransferTerms::coefficients(double v_g, double v_h, double pitch_factor) const {
+    if (!by_moments_) return summed_arcs(v_g, v_h, pitch_factor);
     // Fewer functions of a, and no quadrature along the arc.
-    const std::vector<glm::dmat3> terms = moments(v_g);
+    const std::vector<glm::dmat3> terms = moments(v_g, pitch_factor);
     const auto count = static_cast<std::size_t>(math::sh_count(arcs_.bands()));
     std::vector<glm::dmat3> result(count, glm::dmat3(0.0));
     for (std::size_t k = 0; k < terms.size(); ++k)
@@ -82,11 +82,11 @@ std::vector<glm::dmat3> TransferTerms::coefficients(double v_g, double v_h) cons
     return result;
 }
 
-std::vector<glm::dmat3> TransferTerms::lobe_coefficients(double v_g, double v_h) const {
+std::vector<glm::dmat3> TransferTerms::summed_arcs(double v_g, double v_h, double pitch_factor) const {
     const auto count = static_cast<std::size_t>(math::sh_count(arcs_.bands()));
     std::vector<glm::dmat3> arc_frame(count, glm::dmat3(0.0));
     std::vector<double> arc(count);
-    each_arc(v_g, pitch_nm_, [&](double a, double wavelength_nm, const glm::dmat3& weight) {
+    each_arc(v_g, pitch_nm_ * pitch_factor, [&](double a, double wavelength_nm, const glm::dmat3& weight) {
         std::fill(arc.begin(), arc.end(), 0.0);
         arcs_.accumulate(a, v_h, wavelength_nm, 1.0, arc);
         for (std::size_t i = 0; i < count; ++i)
@@ -104,7 +104,7 @@ std::vector<glm::dmat3> TransferTerms::lobe_coefficients(double v_g, double v_h)
 }
 
 std::vector<glm::dmat3> TransferTerms::moments(double v_g, double pitch_factor) const {
-    ROWLAND_CHECK(flat_, "arc moments are those of the flat lobe");
+    ROWLAND_CHECK(by_moments_, "arc moments are those of the flat lobe in air");
     std::vector<glm::dmat3> result(static_cast<std::size_t>(arc_moment_count(moments_.bands())), glm::dmat3(0.0));
     std::vector<double> basis(result.size());
     each_arc(v_g, pitch_nm_ * pitch_factor, [&](double a, double, const glm::dmat3& weight) {

@@ -21,7 +21,7 @@ void require_many_grooves(const Grating& grating) {
 }
 
 ViewSpectrum::ViewSpectrum(const Grating& grating, int bands)
-    : pitch_nm_(grating.pitch_nm), orders_(grating.orders), arcs_(bands, grating.lobe) {
+    : pitch_nm_(grating.pitch_nm), orders_(grating.orders), arcs_(bands, grating.lobe, grating.cover) {
     ROWLAND_CHECK_OP(grating.pitch_nm, >, 0.0);
     require_many_grooves(grating);
     std::vector<double> totals(kWavelengths, 0.0);

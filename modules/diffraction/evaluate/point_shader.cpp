@@ -24,15 +24,22 @@ struct DirectPart {
 /// Streaks show the whole probe: key lights light only the incoherent rest of the lobe.
 DirectPart direct_part(const CookedMaterial& cooked, const EvaluationLight& light) {
     const Grating& grating = cooked.material.grating;
-    DirectPart part{
-        .material = {.pitch_nm = grating.pitch_nm, .zero_order_xyz = cooked.zero_order_xyz, .lobe = grating.lobe},
-        .keys = {light.key_lights().begin(), light.key_lights().end()}};
+    DirectPart part{.material = {.pitch_nm = grating.pitch_nm,
+                                 .zero_order_xyz = cooked.zero_order_xyz,
+                                 .lobe = grating.lobe,
+                                 .cover = grating.cover},
+                    .keys = {light.key_lights().begin(), light.key_lights().end()}};
     const auto* tables = std::get_if<StreakTables>(&cooked.tables);
     if (tables == nullptr) return part;
     if (!tables->rest) part.keys.clear();
     if (const auto rest = incoherent_rest(grating)) part.material.lobe = rest->lobe;
     for (lighting::KeyLight& key : part.keys) key.flux *= 1.0 - tables->streak.power;
     return part;
+}
+
+/// T(v_n) of a point.
+double seen_through(const std::optional<Cover>& cover, const ShadingPoint& frame) {
+    return cover ? transmittance(cover, glm::dot(glm::normalize(frame.view), glm::normalize(frame.normal))) : 1.0;
 }
 
 }  // namespace
@@ -45,14 +52,17 @@ std::vector<glm::dvec3> evaluate_points(const std::string& title, const PointSha
     Progress progress(title, frames.size());
     parallel_for(frames.size(), [&](std::size_t i) {
         result[i] = shader(frames[i]) + direct_radiance(cooked.kernel, direct.material, direct.keys, frames[i]);
+        result[i] *= seen_through(direct.material.cover, frames[i]);
         progress.advance();
     });
     return result;
 }
 
 PointShader baked_shader(const CookedMaterial& cooked, const EvaluationLight& light) {
-    const MaterialKernel kernel{
-        .kernel = cooked.kernel, .pitch_nm = cooked.material.grating.pitch_nm, .zero_order_xyz = cooked.zero_order_xyz};
+    const MaterialKernel kernel{.kernel = cooked.kernel,
+                                .pitch_nm = cooked.material.grating.pitch_nm,
+                                .zero_order_xyz = cooked.zero_order_xyz,
+                                .cover = cooked.material.grating.cover};
     return std::visit([&](const auto& tables) { return point_shader(tables, kernel, light); }, cooked.tables);
 }
 
@@ -69,8 +79,10 @@ std::vector<glm::dvec3> evaluate_baked(const CookedMaterial& cooked, const Evalu
         progress.advance();
     }
     const DirectPart direct = direct_part(cooked, light);
-    for (std::size_t i = 0; i < frames.size(); ++i)
+    for (std::size_t i = 0; i < frames.size(); ++i) {
         maps[i] += direct_radiance(cooked.kernel, direct.material, direct.keys, frames[i]);
+        maps[i] *= seen_through(direct.material.cover, frames[i]);
+    }
     return maps;
 }
 

@@ -34,7 +34,8 @@ double path_density(const Grating& grating, double path_nm, double wavelength_nm
 double brdf_energy(const Grating& grating, const glm::dvec3& s, const glm::dvec3& v, double wavelength_nm) {
     if (s.z <= 0.0 || v.z <= 0.0) return 0.0;
     return grating.pitch_nm * path_density(grating, grating.pitch_nm * (s.x + v.x), wavelength_nm, s.x) *
-           lobe_density(grating.lobe, s.y + v.y, wavelength_nm);
+           lobe_density(grating.lobe, s.y + v.y, wavelength_nm) * transmittance(grating.cover, s.z) *
+           transmittance(grating.cover, v.z);
 }
 
 }  // namespace rowland::diffraction

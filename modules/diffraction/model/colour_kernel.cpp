@@ -184,6 +184,24 @@ KernelTable tabulate(const ColourKernel& kernel, std::size_t entries) {
     return table;
 }
 
+bool is_even(const KernelTable& kernel) {
+    double largest = 0.0;
+    double difference = 0.0;
+    const double reach = std::max(std::abs(kernel.begin_nm), std::abs(kernel.end_nm));
+    const auto samples = static_cast<int>(kernel.antiderivative.size());
+    for (int i = 1; i <= samples; ++i) {
+        const double x_nm = reach * i / samples;
+        const glm::dmat3 right = kernel.at(x_nm) - kernel.at(0.0);
+        const glm::dmat3 left = kernel.at(0.0) - kernel.at(-x_nm);
+        for (int c = 0; c < 3; ++c)
+            for (int o = 0; o < 3; ++o) {
+                largest = std::max(largest, std::abs(right[c][o]));
+                difference = std::max(difference, std::abs(right[c][o] - left[c][o]));
+            }
+    }
+    return difference <= 1e-5 * largest;
+}
+
 KernelTable in_space(KernelTable kernel, const glm::dmat3& xyz_to_space) {
     for (glm::mat3& value : kernel.antiderivative) value = glm::mat3(xyz_to_space * glm::dmat3(value));
     return kernel;

@@ -88,6 +88,9 @@ struct KernelTable {
 /// entries ≥ 2.
 KernelTable tabulate(const ColourKernel& kernel, std::size_t entries = 2048);
 
+/// Whether k(−x) = k(x), to the table's rounding: grooves turned by π are then the same grooves.
+bool is_even(const KernelTable& kernel);
+
 /// The kernel that gives colours of another space instead of XYZ.
 KernelTable in_space(KernelTable kernel, const glm::dmat3& xyz_to_space);
 

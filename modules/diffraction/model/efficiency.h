@@ -7,8 +7,13 @@
 
 namespace rowland::diffraction {
 
+/// R(λ): the metal's reflectance in the medium over it, times what a cover's dye passes twice. 1 for a table of
+/// efficiencies, which was measured with both.
+double reflectance(const Grating& grating, double wavelength_nm);
+
 /// The weight of order m at wavelength λ in the diffraction term: R(λ) η_m(λ), for the "agu" normalisation times
-/// λ/550 nm (PHYSICS §3). A table of several incidences is evaluated for light from s_g. Baked representations use the
+/// λ/550 nm (PHYSICS §3). Under a cover η_m and R are those in its medium, and its dye is included; T is not
+/// (PHYSICS §10). A table of several incidences is evaluated for light from s_g. Baked representations use the
 /// default, normal incidence: light and material separate only if η_m does not depend on s_g.
 double order_efficiency(const Grating& grating, int order, double wavelength_nm, double s_g = 0.0);
 

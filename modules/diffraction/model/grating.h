@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/colour/metal.h"
+#include "modules/diffraction/model/cover.h"
 #include "modules/diffraction/model/lobe.h"
 #include "modules/diffraction/model/profile.h"
 
@@ -30,6 +31,7 @@ struct Grating {
     Normalization normalization = Normalization::Energy;
     GrooveLobe lobe = FlatLobe{};
     std::optional<colour::Metal> metal = std::nullopt;  ///< none: R = 1. A table includes its metal
+    std::optional<Cover> cover = std::nullopt;          ///< none: the grooves lie in air
 };
 
 /// Whether the grating shades the order.

@@ -46,7 +46,7 @@ const math::QuadratureRule& panel_rule(int nodes) {
 }  // namespace
 
 glm::dvec3 arc_profile(const IncidentLight& light, const glm::dmat3& world_to_tangent, const GrooveLobe& lobe,
-                       const Arc& arc) {
+                       const Arc& arc, const std::optional<Cover>& cover) {
     if (std::abs(arc.a) >= 1.0) return glm::dvec3(0.0);
     const double r = std::sqrt((1.0 - arc.a) * (1.0 + arc.a));
     const ArcSpan span = lobe_span(lobe, arc.v_h, r);
@@ -65,7 +65,7 @@ glm::dvec3 arc_profile(const IncidentLight& light, const glm::dmat3& world_to_ta
             const double t = span.begin + (panel + rule.nodes[node] + shift) * panel_length;
             const double s_h = r * std::cos(t);
             const double s_n = r * std::sin(t);
-            const double spread = 2.0 * density(s_h + arc.v_h);
+            const double spread = 2.0 * density(s_h + arc.v_h) * transmittance(cover, s_n);
             const glm::dvec3 direction = arc.a * axes[0] + s_h * axes[1] + s_n * axes[2];
             sum += (rule.weights[node] * s_n * spread) * light.radiance(direction);
         }

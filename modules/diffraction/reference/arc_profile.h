@@ -2,7 +2,9 @@
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 
+#include "modules/diffraction/model/cover.h"
 #include "modules/diffraction/model/lobe.h"
 #include "modules/diffraction/reference/incident_light.h"
 
@@ -19,8 +21,8 @@ struct Arc {
 
 /// The arc profile A_c(a), PHYSICS (2): ½ ∫₀^π L_c(a, r cos t, r sin t) · 2 D_h(r cos t + v_h) · r sin t dt with
 /// r = √(1−a²), directions in the tangent frame whose world axes are the rows of `world_to_tangent`. 0 for |a| ≥ 1.
-/// With the flat lobe 2 D_h = 1.
+/// With the flat lobe 2 D_h = 1. A cover multiplies the integrand by T(r sin t), PHYSICS (27).
 glm::dvec3 arc_profile(const IncidentLight& light, const glm::dmat3& world_to_tangent, const GrooveLobe& lobe,
-                       const Arc& arc);
+                       const Arc& arc, const std::optional<Cover>& cover = std::nullopt);
 
 }  // namespace rowland::diffraction

@@ -45,11 +45,12 @@ glm::dvec3 frame_radiance(const IncidentLight& light, const Grating& grating, co
                                    .v_h = v.y,
                                    .wavelength_nm = weights[i].wavelength_nm,
                                    .node_offset = node_offset(i),
-                                   .refinement = refinement});
+                                   .refinement = refinement},
+                                  grating.cover);
         last_arc = a;
         xyz += weight_on_arc(grating, weights[i], a) * profile;
     }
-    return xyz;
+    return transmittance(grating.cover, v.z) * xyz;
 }
 
 std::vector<glm::dvec3> radiance(const Grating& grating, const IncidentLight& light,

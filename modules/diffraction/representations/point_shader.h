@@ -4,16 +4,19 @@
 #include <functional>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 
 #include "engine/lighting/sh_light.h"
 #include "modules/diffraction/model/colour_kernel.h"
+#include "modules/diffraction/model/cover.h"
 #include "modules/diffraction/model/shading_point.h"
 #include "modules/diffraction/representations/evaluation_light.h"
 #include "modules/diffraction/representations/shading_cost.h"
 
 namespace rowland::diffraction {
 
-/// XYZ of one point. May be called from many threads, except for planar maps.
+/// XYZ of one point, under a cover without T(v_n) (PHYSICS §10). May be called from many threads, except for planar
+/// maps.
 using PointShader = std::function<glm::dvec3(const ShadingPoint&)>;
 
 /// The parts of a baked material that maps are filled from.
@@ -21,6 +24,7 @@ struct MaterialKernel {
     const KernelTable& kernel;
     double pitch_nm = 0.0;
     glm::dmat3 zero_order_xyz{0.0};  ///< ColourKernel::zero_order_xyz()
+    std::optional<Cover> cover = std::nullopt;
 };
 
 /// Shades a tangent-frame view under light in the same frame.

@@ -56,16 +56,32 @@ void DiffractionSurfaceType::attach(ecs::World& world, ecs::Entity entity, const
     Material material = grating.material;
     std::string key = folder.string() + extension.dump();
     if (grating.groove_texture) {
-        surface.grooves =
-            std::make_shared<const GrooveMap>(*grating.groove_texture, textures, file, pointer + "/grooveTexture");
+        surface.grooves = groove_map(extension["grooveTexture"].dump(), *grating.groove_texture, textures, file,
+                                     pointer + "/grooveTexture");
         require(groove_refusal(material, *surface.grooves), pointer + "/");
         material = suited_to_grooves(std::move(material), *surface.grooves);
         key += fmt::format("{} {}", surface.grooves->smallest_pitch(), surface.grooves->largest_pitch());
     }
+    auto& under_it = world.get<render::StandardMaterial>(entity);
+    if (under_it.clear_coat > 0.0F)
+        log_warning("{}: {}: KHR_materials_clearcoat beside a grating is not drawn: a grating's gloss is its cover's",
+                    file, pointer);
+    under_it.clear_coat = 0.0F;
     surface.material = baked(material, key);
     const render::StandardMaterial base = surface.material->base();
     world.add(entity, std::move(surface));
     if (grating.has_base) world.add(entity, render::StandardMaterial(base));
+}
+
+std::shared_ptr<const GrooveMap> DiffractionSurfaceType::groove_map(const std::string& key, const GrooveTexture& use,
+                                                                    render::SurfaceTextures& textures,
+                                                                    const std::string& file,
+                                                                    const std::string& pointer) {
+    auto made = std::make_shared<const GrooveMap>(use, textures, file, pointer);
+    std::weak_ptr<const GrooveMap>& kept = groove_maps_[{made->image(), key}];
+    if (auto present = kept.lock()) return present;
+    kept = made;
+    return made;
 }
 
 std::shared_ptr<const GpuMaterial> DiffractionSurfaceType::baked(const Material& material, const std::string& key) {

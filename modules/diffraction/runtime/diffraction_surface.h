@@ -25,8 +25,8 @@ struct DiffractionSurface {
 struct DiffractionSettings {
     /// On band-limited light, against ringing; nullopt: the weakest sufficient window.
     std::optional<math::SphericalWindow> window = std::nullopt;
-    /// The most azimuths of a planar map that one frame fills, and slices of a circle map that it uploads. At the
-    /// map's size or above, frames wait for whole maps.
+    /// The most azimuths of a planar map of flat lobe that one frame fills, and slices of other maps that it uploads.
+    /// At the map's size or above, frames wait for whole maps.
     int slices_per_frame = 8;
 };
 
@@ -57,12 +57,17 @@ class DiffractionSurfaceType final : public render::MaterialType {
 
  private:
     void warn_of_other_white(const std::string& baked_for, const std::string& lit_by);
+    /// Objects with the same one share it. `key`: its JSON.
+    std::shared_ptr<const GrooveMap> groove_map(const std::string& key, const GrooveTexture& use,
+                                                render::SurfaceTextures& textures, const std::string& file,
+                                                const std::string& pointer);
     std::shared_ptr<const GpuMaterial> baked(const Material& material, const std::string& key);
 
     glm::dmat3 xyz_to_working_;
     int slices_per_frame_;
     std::map<std::string, std::weak_ptr<const GpuMaterial>> baked_;  ///< by the file's folder and the extension's text
-    std::set<std::pair<std::string, std::string>> warned_of_;        ///< illuminants baked for, lit by
+    std::map<std::pair<const image::ByteImage*, std::string>, std::weak_ptr<const GrooveMap>> groove_maps_;
+    std::set<std::pair<std::string, std::string>> warned_of_;  ///< illuminants baked for, lit by
     LightDivision division_;
     SurfaceLight light_;
 };

@@ -28,13 +28,16 @@ GpuKernel::GpuKernel(const CookedMaterial& cooked, const glm::dmat3& xyz_to_work
       zero_order_(kernel_space(cooked, xyz_to_working) * cooked.zero_order_xyz),
       working_to_rec709_(glm::inverse(xyz_to_working * colour::rec709_to_xyz())) {}
 
-const BlurredKernel& GpuKernel::blurred() const {
-    if (!blurred_) blurred_ = blur_for_lights(kernel_, pitch_nm_);
+const GpuKernel::Blurred& GpuKernel::blurred() const {
+    if (!blurred_) {
+        blurred_.emplace(Blurred{.kernel = blur_for_lights(kernel_, pitch_nm_), .uniforms = {}});
+        blurred_->uniforms = kernel_uniforms(kernel_, blurred_->kernel, pitch_nm_);
+    }
     return *blurred_;
 }
 
 GpuKernel::Smoothed GpuKernel::smooth(std::span<const glm::vec3> light_colours) const {
-    const BlurredKernel& kernel = blurred();
+    const BlurredKernel& kernel = blurred().kernel;
     // fp16 would add an error of 5e-4 to that of the texture unit's 8-bit weights.
     Smoothed smoothed{.texture = gpu::Texture({.kind = gpu::TextureKind::PlaneArray,
                                                .format = gpu::Format::RGBA32F,
@@ -42,8 +45,7 @@ GpuKernel::Smoothed GpuKernel::smooth(std::span<const glm::vec3> light_colours) 
                                                .height = kernel.levels,
                                                .depth = kFirstColourLayer + static_cast<int>(light_colours.size())},
                                               {.filter = gpu::Filter::Linear}),
-                      .colours{light_colours.begin(), light_colours.end()},
-                      .uniforms = kernel_uniforms(kernel_, kernel, pitch_nm_)};
+                      .colours{light_colours.begin(), light_colours.end()}};
     const auto upload = [&](const glm::vec3& colour, int layer) {
         std::vector<glm::vec4> texels;
         texels.reserve(kernel.values.size());
@@ -78,16 +80,17 @@ void GpuKernel::set_lobe(const gpu::Program& program) const {
 void GpuKernel::bind(const gpu::Program& program, std::span<const lighting::KeyLight> key_lights,
                      std::span<const glm::vec3> light_colours) const {
     if (program.has_uniform("lobe_scale_bias")) {
-        lobes_.set(blurred(), pitch_nm_, key_lights);
-        lobes_.bind(program, kernel_uniforms(kernel_, blurred(), pitch_nm_), pitch_nm_);
+        lobes_.set(blurred().kernel, pitch_nm_, key_lights);
+        lobes_.bind(program, blurred().uniforms, pitch_nm_);
     }
     set_lobe(program);
     if (!program.has_uniform("kernel_scale_bias")) return;
     if (!smoothed_ || !std::ranges::equal(smoothed_->colours, light_colours)) smoothed_ = smooth(light_colours);
     smoothed_->texture.bind(kKernelUnit);
-    program.set("kernel_scale_bias", smoothed_->uniforms.scale_bias);
-    program.set("kernel_rows", smoothed_->uniforms.rows);
-    program.set("kernel_reach", smoothed_->uniforms.reach);
+    const KernelUniforms& uniforms = blurred().uniforms;
+    program.set("kernel_scale_bias", uniforms.scale_bias);
+    program.set("kernel_rows", uniforms.rows);
+    program.set("kernel_reach", uniforms.reach);
     program.set("zero_order", zero_order_);
     program.set("working_to_rec709", working_to_rec709_);
 }

@@ -27,12 +27,15 @@ class GpuKernel {
               std::span<const glm::vec3> light_colours) const;
 
  private:
+    struct Blurred {
+        BlurredKernel kernel;
+        KernelUniforms uniforms;
+    };
     struct Smoothed {
         gpu::Texture texture;
         std::vector<glm::vec3> colours;  ///< of its layers from the fourth on
-        KernelUniforms uniforms;
     };
-    const BlurredKernel& blurred() const;
+    const Blurred& blurred() const;
     Smoothed smooth(std::span<const glm::vec3> light_colours) const;
     void set_lobe(const gpu::Program& program) const;
 
@@ -41,7 +44,7 @@ class GpuKernel {
     GrooveLobe lobe_;
     glm::mat3 zero_order_;
     glm::mat3 working_to_rec709_;
-    mutable std::optional<BlurredKernel> blurred_;
+    mutable std::optional<Blurred> blurred_;
     mutable std::optional<Smoothed> smoothed_;
     mutable GpuLobes lobes_;
 };

@@ -34,6 +34,7 @@ GpuMaterial::GpuMaterial(const CookedMaterial& cooked, const glm::dmat3& xyz_to_
       base_{.base_colour = cooked.material.base.colour, .metallic = 0.0F, .roughness = cooked.material.base.roughness},
       working_kernel_(in_space(cooked.kernel, xyz_to_working)),
       working_zero_order_(xyz_to_working * cooked.zero_order_xyz),
+      even_kernel_(is_even(cooked.kernel)),
       key_lights_(cooked.material.quality.key_lights),
       separate_lights_(key_lights_ || info(cooked.tables).is_map),
       lights_at_vertices_(cooked.material.quality.lights_at_vertices && cooked.zero_order_xyz == glm::dmat3(0.0)),
@@ -62,8 +63,9 @@ void GpuMaterial::add_defines(const SurfaceState& state, gpu::ProgramDesc& desc)
     // It is nearly linear between vertices, and at the pixels a fifth of the plain surface.
     desc.defines.push_back({"AMBIENT_AT_VERTICES", "1"});
     if (!key_lights_) desc.defines.push_back({"NO_KEY_LIGHTS", "1"});
+    if (cooked_->material.grating.cover) desc.defines.push_back({"COVER", "1"});
     kernel_.add_defines(desc);
-    if (state.grooves) state.grooves->add_defines(desc);
+    if (state.grooves) state.grooves->add_defines(even_kernel_, desc);
     if (lights_at_vertices_ && !state.grooves) desc.defines.push_back({"LIGHTS_AT_VERTICES", "1"});
 }
 
@@ -72,9 +74,11 @@ void GpuMaterial::bind(const gpu::Program& program, const SurfaceLight& light, c
     kernel_.bind(program, light.key_lights(), light.light_colours());
     light.bind_light_colours();
     if (key_lights_) light.bind_key_lights();
-    if (state.grooves) state.grooves->bind(program);
+    if (state.grooves) state.grooves->bind(even_kernel_, program);
     program.set("mirror_weight", mirror_weight_);
     program.set("base_weight", base_weight_);
+    if (const auto& cover = cooked_->material.grating.cover)
+        program.set("cover_square", static_cast<float>(cover->ior * cover->ior));
     program.set("groove_turn", glm::vec2(std::cos(state.groove_rotation), std::sin(state.groove_rotation)));
 }
 

@@ -105,6 +105,7 @@ class GpuMaterial {
     glm::vec3 base_weight_{1.0F};
     KernelTable working_kernel_;
     glm::dmat3 working_zero_order_;
+    bool even_kernel_;  ///< k(−x) = k(x)
     bool key_lights_;
     bool separate_lights_;  ///< directional lights are shaded light by light
     bool lights_at_vertices_;

@@ -6,10 +6,12 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <span>
 
 #include "engine/core/error.h"
 #include "engine/render/draw_list.h"
 #include "modules/diffraction/runtime/bindings.h"
+#include "modules/diffraction/runtime/groove_moments.h"
 
 namespace rowland::diffraction {
 
@@ -54,12 +56,14 @@ bool varies_pitch(const GrooveMap& grooves) {
 GrooveMap::GrooveMap(const GrooveTexture& use, render::SurfaceTextures& textures, const std::string& file,
                      const std::string& pointer) {
     const scene::ImportedScene& scene = textures.scene();
-    texture_ = textures.get(texture_use(use, scene, file, pointer), render::TexelMeaning::Linear);
+    use_ = texture_use(use, scene, file, pointer);
+    sparkle_ = use.sparkle;
     sampling_ = scene.textures[static_cast<std::size_t>(use.index)];
     image_ = scene.images[sampling_.image];
     int smallest = 256;
     int largest = 0;
     for (std::size_t i = 1; i < image_->rgba.size(); i += 4) {
+        gaps_ = gaps_ || image_->rgba[i] == 0;
         if (image_->rgba[i] == 0) continue;
         smallest = std::min<int>(smallest, image_->rgba[i]);
         largest = std::max<int>(largest, image_->rgba[i]);
@@ -78,7 +82,7 @@ double GrooveMap::red(int column, int row) const {
 }
 
 double GrooveMap::rotation(const glm::vec2& uv) const {
-    const render::UvTransform transform = render::uv_transform(texture_.transform);
+    const render::UvTransform transform = render::uv_transform(use_.transform);
     const glm::vec2 texture_uv = glm::vec2(transform.linear) * uv.x +
                                  glm::vec2(transform.linear.z, transform.linear.w) * uv.y + transform.offset;
     // Against overflow; coordinates beyond a million repeats are meaningless.
@@ -97,16 +101,37 @@ double GrooveMap::rotation(const glm::vec2& uv) const {
                                t * ((1.0 - s) * red(column, row + 1) + s * red(column + 1, row + 1)));
 }
 
-void GrooveMap::add_defines(gpu::ProgramDesc& desc) const {
-    desc.defines.push_back({"GROOVE_MAP", texture_.uv_set == 1 ? "uv1" : "uv"});
-    desc.defines.push_back({texture_.uv_set == 1 ? "HAS_UV1" : "HAS_UV", ""});
+const gpu::Texture& GrooveMap::moments(bool even) const {
+    std::optional<gpu::Texture>& made = moments_[even ? 1 : 0];
+    if (made) return *made;
+    const bool levels = sampling_.mipmaps && !sampling_.nearest && !sparkle_;
+    gpu::Sampling sampling = render::sampling_of(sampling_);
+    // Software renderers average far more than a pixel when they filter anisotropically.
+    sampling.anisotropy = 1.0F;
+    if (sparkle_) sampling.filter = gpu::Filter::Nearest;
+    made.emplace(
+        gpu::TextureDesc{
+            .format = gpu::Format::RGBA16, .width = image_->width, .height = image_->height, .levels = levels ? 0 : 1},
+        sampling);
+    made->upload(std::span<const std::uint16_t>(
+        groove_moments(*image_, {.even = even, .gaps = gaps_, .smallest_pitch = smallest_pitch_})));
+    if (levels) made->generate_levels();
+    return *made;
 }
 
-void GrooveMap::bind(const gpu::Program& program) const {
-    texture_.texture->bind(kGrooveMapUnit);
-    const render::UvTransform transform = render::uv_transform(texture_.transform);
+void GrooveMap::add_defines(bool even, gpu::ProgramDesc& desc) const {
+    desc.defines.push_back({"GROOVE_MAP", use_.uv_set == 1 ? "uv1" : "uv"});
+    desc.defines.push_back({use_.uv_set == 1 ? "HAS_UV1" : "HAS_UV", ""});
+    if (even) desc.defines.push_back({"GROOVES_EVEN", "1"});
+    if (gaps_) desc.defines.push_back({"GROOVE_GAPS", "1"});
+}
+
+void GrooveMap::bind(bool even, const gpu::Program& program) const {
+    moments(even).bind(kGrooveMapUnit);
+    const render::UvTransform transform = render::uv_transform(use_.transform);
     program.set("groove_uv_linear", transform.linear);
     program.set("groove_uv_offset", transform.offset);
+    program.set("groove_pitch", static_cast<float>(smallest_pitch_));
 }
 
 std::optional<Refusal> groove_refusal(const Material& material, const GrooveMap& grooves) {
@@ -114,9 +139,14 @@ std::optional<Refusal> groove_refusal(const Material& material, const GrooveMap&
     if (pinned && !std::holds_alternative<ArcSettings>(*pinned)) {
         const auto* streak = std::get_if<StreakSurfaceSettings>(&*pinned);
         const bool narrow = streak != nullptr && !streak->rest;
-        if (narrow || std::holds_alternative<DirectSettings>(*pinned)) return std::nullopt;
-        return Refusal{"quality/representation", fmt::format("\"{}\" with a grooveTexture", info(*pinned).name),
-                       "\"arc\", \"direct\" or, with a sigma for groove_lobe, \"streak\"", "or leave quality out"};
+        const bool map = std::holds_alternative<PlanarSettings>(*pinned);
+        if (narrow || std::holds_alternative<DirectSettings>(*pinned) || (map && !varies_pitch(grooves)))
+            return std::nullopt;
+        return Refusal{
+            "quality/representation",
+            fmt::format("\"{}\" with a grooveTexture{}", info(*pinned).name, map ? " that varies the pitch" : ""),
+            "\"arc\", \"direct\", with a sigma for groove_lobe \"streak\" or, with one pitch, \"planar\"",
+            "or leave quality out"};
     }
     if (!varies_pitch(grooves) || is_flat(material.grating.lobe)) return std::nullopt;
     return Refusal{"grooveTexture",

@@ -1,12 +1,14 @@
 #pragma once
 
+#include <array>
 #include <glm/vec2.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "engine/gpu/program.h"
+#include "engine/gpu/texture.h"
 #include "engine/image/byte_image.h"
-#include "engine/render/material.h"
 #include "engine/render/surface_textures.h"
 #include "engine/scene/imported_scene.h"
 #include "modules/diffraction/asset/gltf_extension.h"
@@ -15,7 +17,8 @@
 namespace rowland::diffraction {
 
 /// A texture that varies the grating over a surface. R: rotation / π, added to the surface's; G: half the pitch over
-/// the material's; 0: no grating.
+/// the material's; 0: no grating. Pixels see the mean grooves of what they cover, and how these vary (PHYSICS §11);
+/// with GrooveTexture::sparkle those of one texel.
 class GrooveMap {
  public:
     /// The texture that the glTF extension at the JSON pointer `pointer` of `file` names. Throws Error (input) if there
@@ -29,15 +32,23 @@ class GrooveMap {
 
     /// Radians at a vertex's texture coordinates, bilinear where the texture is.
     double rotation(const glm::vec2& uv) const;
-    int uv_set() const { return texture_.uv_set; }
+    int uv_set() const { return use_.uv_set; }
+    const image::ByteImage* image() const { return image_.get(); }
 
-    void add_defines(gpu::ProgramDesc& desc) const;
-    void bind(const gpu::Program& program) const;
+    /// `even`: whether the material's kernel is, k(−x) = k(x).
+    void add_defines(bool even, gpu::ProgramDesc& desc) const;
+    void bind(bool even, const gpu::Program& program) const;
+
+    /// The moments of groove_moments.h. Created at the first call.
+    const gpu::Texture& moments(bool even) const;
 
  private:
     double red(int column, int row) const;
 
-    render::SurfaceTexture texture_;
+    scene::TextureUse use_;
+    bool sparkle_ = false;
+    bool gaps_ = false;
+    mutable std::array<std::optional<gpu::Texture>, 2> moments_;  ///< for other and for even kernels
     std::shared_ptr<const image::ByteImage> image_;
     scene::ImportedTexture sampling_;
     double smallest_pitch_ = 1.0;

@@ -9,8 +9,6 @@ in vec3 lights_at_vertex;
 #endif
 #ifdef SHADOWED_AT_PIXELS
 in vec3 shadowed_at_vertex;
-#endif
-#ifdef SHADOWED_AT_PIXELS
 float shadow_visibility(vec3 l);  // the engine's
 #endif
 
@@ -29,7 +27,7 @@ vec3 lights_from_vertices() {
 #if defined(KEY_LOBES) && !defined(LIGHTS_AT_VERTICES)
 vec3 key_lights_at_pixel(GrooveView view) {
 #ifdef KEY_LOBE_TABLE
-    return kernel_to_working(key_lights_radiance(view.axes, view.direction, view.footprint));
+    return kernel_to_working(key_lights_radiance(view.axes, view.direction, view.g_change, view.v_g_change));
 #else
     return kernel_to_working(key_lights_radiance(view));
 #endif
@@ -47,21 +45,35 @@ vec3 key_lights_at_pixel(GrooveView view) { return vec3(0.0); }
 #endif
 #if defined(MATERIAL_PUNCTUAL_LIGHTS) || defined(MATERIAL_DIRECTIONAL_LIGHTS)
 GrooveView lit_view;
-KernelRow lit_row;
+
+float lit_transmittance;  // of a cover, for the view
 
 void prepare_lights(GrooveView view) {
     lit_view = view;
-    lit_row = kernel_row(view.pitch * 0.57735026918963 * view.footprint);
+    lit_transmittance = cover_transmittance(view.direction.z);
+}
+
+// XYZ with pits, else working space.
+void add_light_of(GrooveView view, int i, float attenuation, vec3 l, inout vec3 sum) {
+    PixelU u = pixel_u_of(view, l);
+    KernelRow row = kernel_row(view.pitch * u.deviation);
+    add_small_light(i, attenuation, l, view.axes, view.direction, u.mean, row, view.pitch, sum);
 }
 
 void material_light(int i, float attenuation, vec3 l, inout vec3 added) {
-#ifdef LOBE_PITS
-    vec3 xyz = vec3(0.0);
-    add_small_light(i, attenuation, l, lit_view.axes, lit_view.direction, lit_row, lit_view.pitch, xyz);
-    added += kernel_to_working(xyz);
+    vec3 sum = vec3(0.0);
+    attenuation *= lit_transmittance;
+#ifdef GROOVE_MAP
+    int parts = groove_parts(lit_view);
+    for (int part = 0; part < parts; ++part) {
+        GrooveView one = groove_part(lit_view, parts, part);
+        if (one.pitch > 0.0) add_light_of(one, i, one.coverage * attenuation, l, sum);
+    }
+    sum /= float(parts);
 #else
-    add_small_light(i, attenuation, l, lit_view.axes, lit_view.direction, lit_row, lit_view.pitch, added);
+    add_light_of(lit_view, i, attenuation, l, sum);
 #endif
+    added += kernel_to_working(sum);
 }
 #elif !defined(VERTEX_SHADED) || defined(LIGHTS_AT_PIXELS)
 void prepare_lights(GrooveView view) {}

@@ -1,22 +1,71 @@
-// The tangent frame of a pixel and the view in it.
+// The tangent frame of a pixel, the view in it, and what the pixel covers (PHYSICS §11).
 #include "modules/diffraction/shaders/has_direct.glsl"
 #if !defined(VERTEX_SHADED) || defined(LIGHTS_AT_PIXELS)
 
 in vec3 world_grating;
 
 #ifdef GROOVE_MAP
-layout(binding = 13) uniform sampler2D groove_map;  // r: rotation / pi; g: half the pitch over the material's
-uniform vec4 groove_uv_linear;
-uniform vec2 groove_uv_offset;
-in float groove_hand;
+// The pixel before the map's rotation, and differences to the pixels beside and below.
+struct MeshView {
+    mat3 axes;
+    vec3 direction;
+    mat2x3 h_change;
+    vec2 v_h_change;
+    vec2 map_uv;
+    mat2 map_uv_change;
+};
 #endif
 
 struct GrooveView {
-    mat3 axes;        // columns g, h, n in the world
-    vec3 direction;   // toward the eye, in (g, h, n)
-    float footprint;  // half the extent of the pixel in v_g
-    float pitch;      // over the material's; 0: no grating here
+    mat3 axes;       // columns g, h, n in the world
+    vec3 direction;  // toward the eye, in (g, h, n)
+    float pitch;     // over the material's; 0: no grating here
+    // Differences of g and v_g to the pixels beside and below, before a map's rotation.
+    mat2x3 g_change;
+    vec2 v_g_change;
+#ifdef GROOVE_MAP
+    MeshView mesh;
+    vec2 turn;       // cosine and sine of the map's mean rotation
+    float fade;      // mean cosine of the grooves' angles to it
+    vec2 spread;     // factors of u_h^2 and u_g^2 in the variance of u
+    float coverage;  // fraction of the area that has a grating
+#endif
 };
+
+// The mean of u = s_g + v_g over the pixel, and its deviation: PHYSICS (38).
+struct PixelU {
+    float mean;
+    float deviation;
+};
+
+const float BOX_DEVIATION = 0.28867513459481;  // of a box, over its width
+
+// `s`: toward the light, in the world.
+#ifdef GROOVE_MAP
+PixelU pixel_u(GrooveView view, vec3 s) {
+    vec2 u = vec2(dot(s, view.axes[0]), dot(s, view.axes[1])) + view.direction.xy;
+    // The mesh's own change, as the map may be discontinuous: its moments tell how it varies.
+    vec2 across = view.turn.x * (s * view.g_change + view.v_g_change) +
+                  view.turn.y * (s * view.mesh.h_change + view.mesh.v_h_change);
+    float variance = BOX_DEVIATION * BOX_DEVIATION * dot(across, across) +
+                     dot(view.spread, vec2(u.y * u.y, u.x * u.x));
+    return PixelU(view.fade * u.x, sqrt(variance));
+}
+#else
+PixelU pixel_u(GrooveView view, vec3 s) {
+    return PixelU(dot(s, view.axes[0]) + view.direction.x, BOX_DEVIATION * length(s * view.g_change + view.v_g_change));
+}
+#endif
+
+// The same for any `s` that varies from pixel to pixel. Uses derivatives: call it in uniform control flow.
+PixelU pixel_u_of(GrooveView view, vec3 s) {
+#ifdef GROOVE_MAP
+    return pixel_u(view, s);
+#else
+    float u = dot(s, view.axes[0]) + view.direction.x;
+    return PixelU(u, BOX_DEVIATION * length(vec2(dFdx(u), dFdy(u))));
+#endif
+}
 
 // The interpolated grating vector, made orthonormal to the normal; shorter where the vertices' vectors cancel, as at a
 // disc's hub.
@@ -27,23 +76,85 @@ mat3 groove_axes() {
     return mat3(g, cross(n, g), n);
 }
 
+#ifdef GROOVE_MAP
+// Means over the grooves: runtime/groove_moments.h.
+layout(binding = 13) uniform sampler2D groove_map;
+uniform vec4 groove_uv_linear;
+uniform vec2 groove_uv_offset;
+uniform float groove_pitch;  // the smallest, over the material's
+in float groove_hand;
+
+// What is left of 1 after the moments' rounding counts as 1.
+const float MOMENT_ROUNDING = 1e-4;
+
+// The cosine and the sine, which is not negative, of half the angle of a vector.
+vec2 half_angle(vec2 whole) {
+    float longer = sqrt(0.5 + 0.5 * abs(whole.x));
+    float shorter = 0.5 * whole.y / longer;
+    return whole.x > 0.0 ? vec2(shorter < 0.0 ? -longer : longer, abs(shorter)) : vec2(shorter, longer);
+}
+
+// The grooves that the moments describe.
+GrooveView grooves_of(MeshView mesh, mat2x3 g_change, vec2 v_g_change, vec4 moments) {
+    float coverage = 1.0;
+    float inverse_variance = max(moments.w / max(moments.z * moments.z, 1e-12) - 1.0 - MOMENT_ROUNDING, 0.0);
+#ifdef GROOVE_GAPS
+    coverage = moments.w;
+    inverse_variance = 0.0;
+#endif
+    vec2 mean = 2.0 * moments.xy - 1.0;
+    float order = max(length(mean), 1e-6);
+    vec2 turn = mean / order;
+    float fade = min(order * (1.0 + MOMENT_ROUNDING) / max(coverage, 1e-6), 1.0);
+#ifdef GROOVES_EVEN
+    turn = half_angle(turn);
+    fade = sqrt(sqrt(fade));
+#endif
+    turn.y *= groove_hand;
+    float square = fade * fade;
+    float lost = 1.0 - square;
+    vec2 spread = vec2(0.5 - 0.5 * square * square, 0.5 * lost * lost + square * inverse_variance);
+    vec3 g = mesh.axes[0];
+    vec3 h = mesh.axes[1];
+    vec3 v = mesh.direction;
+    mat3 turned = mat3(turn.x * g + turn.y * h, turn.x * h - turn.y * g, mesh.axes[2]);
+    vec3 direction = vec3(dot(turn, v.xy), turn.x * v.y - turn.y * v.x, v.z);
+    float pitch = moments.z > 0.0 ? groove_pitch * coverage / moments.z : 0.0;
+    return GrooveView(turned, direction, pitch, g_change, v_g_change, mesh, turn, fade, spread, coverage);
+}
+
+// A pixel whose grooves vary is divided in parts: two distinct directions in it are no normal distribution.
+const int PARTS_PER_SIDE = 2;
+const float VARYING = 1e-3;
+
+int groove_parts(GrooveView view) {
+    return view.spread.x + view.spread.y > VARYING ? PARTS_PER_SIDE * PARTS_PER_SIDE : 1;
+}
+
+// One of `parts`; `view`: the whole pixel.
+GrooveView groove_part(GrooveView view, int parts, int part) {
+    if (parts == 1) return view;
+    vec2 at = (vec2(part % PARTS_PER_SIDE, part / PARTS_PER_SIDE) + 0.5) / float(PARTS_PER_SIDE) - 0.5;
+    mat2 change = view.mesh.map_uv_change;
+    mat2 smaller = change / float(PARTS_PER_SIDE);
+    vec4 moments = textureGrad(groove_map, view.mesh.map_uv + change * at, smaller[0], smaller[1]);
+    return grooves_of(view.mesh, view.g_change, view.v_g_change, moments);
+}
+#endif
+
 // Uses derivatives: call it in uniform control flow.
 GrooveView groove_view() {
     mat3 axes = groove_axes();
     vec3 direction = normalize(eye.xyz - world_position) * axes;
+    mat2x3 g_change = mat2x3(dFdx(axes[0]), dFdy(axes[0]));
+    vec2 v_g_change = vec2(dFdx(direction.x), dFdy(direction.x));
 #ifdef GROOVE_MAP
-    vec2 map_uv = groove_uv_linear.xy * GROOVE_MAP.x + groove_uv_linear.zw * GROOVE_MAP.y + groove_uv_offset;
-    vec2 texel = texture(groove_map, map_uv).rg;
-    float angle = 3.14159265358979 * texel.r;
-    vec2 turn = vec2(cos(angle), groove_hand * sin(angle));
-    // Derivatives of the view before the map's rotation, which may be discontinuous.
-    float extent = abs(dot(turn, dFdx(direction.xy))) + abs(dot(turn, dFdy(direction.xy)));
-    mat2 turned = mat2(turn.x, turn.y, -turn.y, turn.x);
-    axes = mat3(mat2x3(axes[0], axes[1]) * turned[0], mat2x3(axes[0], axes[1]) * turned[1], axes[2]);
-    direction.xy = direction.xy * turned;
-    return GrooveView(axes, direction, 0.5 * extent, 2.0 * texel.g);
+    vec2 uv = groove_uv_linear.xy * GROOVE_MAP.x + groove_uv_linear.zw * GROOVE_MAP.y + groove_uv_offset;
+    MeshView mesh = MeshView(axes, direction, mat2x3(dFdx(axes[1]), dFdy(axes[1])),
+                             vec2(dFdx(direction.y), dFdy(direction.y)), uv, mat2(dFdx(uv), dFdy(uv)));
+    return grooves_of(mesh, g_change, v_g_change, texture(groove_map, uv));
 #else
-    return GrooveView(axes, direction, 0.5 * fwidth(direction.x), 1.0);
+    return GrooveView(axes, direction, 1.0, g_change, v_g_change);
 #endif
 }
 

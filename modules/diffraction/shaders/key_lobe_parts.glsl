@@ -4,14 +4,14 @@
 #if defined(KEY_LOBES) && !defined(KEY_LOBE_TABLE)
 
 vec3 key_lobe_radiance(KeyLobe lobe, GrooveView view) {
-    float footprint_deviation = 0.57735026918963 * view.footprint;
+    PixelU u = pixel_u(view, lobe.direction.xyz);
     vec3 axis = lobe.direction.xyz * view.axes;
     // Five deviations below the horizon, 5e-8 of the lobe's cosine remains.
     if (axis.z * lobe.moments.x < -lobe.moments.w) return vec3(0.0);
 #ifndef ZERO_ORDER
     // The parts lie within 2.3 deviations of the lobe's direction, and each reaches 5 times 0.84 of one.
-    float reach = view.pitch * (6.5 * sqrt(lobe.moments.z) + 5.0 * footprint_deviation) + 5.0 * kernel_scale_bias.z;
-    if (!kernel_reached(view.pitch * (axis.x + view.direction.x), reach)) return vec3(0.0);
+    float reach = view.pitch * (6.5 * sqrt(lobe.moments.z) + 5.0 * u.deviation) + 5.0 * kernel_scale_bias.z;
+    if (!kernel_reached(view.pitch * u.mean, reach)) return vec3(0.0);
 #endif
     axis.x = clamp(axis.x, -1.0, 1.0);
     float across = max(length(axis.yz), 1e-6);
@@ -22,11 +22,12 @@ vec3 key_lobe_radiance(KeyLobe lobe, GrooveView view) {
         LightPart part = lobe_part(lobe, axis, across, i, weight);
         whole += weight;
         if (part.cosine <= 0.0) continue;
-        float deviation = length(vec2(part.deviation, footprint_deviation));
-        sum += part.cosine * pitch_kernel_value(part.centre + view.direction.x, deviation, lobe.flux.rgb, view.pitch);
+        float deviation = length(vec2(part.deviation, u.deviation));
+        sum += part.cosine * pitch_kernel_value(u.mean + part.centre - axis.x, deviation, lobe.flux.rgb, view.pitch);
     }
     vec2 along = spread_along_grooves(axis, lobe.moments);
-    return 0.5 / max(whole, 1e-6) * key_groove_factor(along.x + view.direction.y, along.y) * sum;
+    return 0.5 / max(whole, 1e-6) * lobe_transmittance(axis.z, lobe.moments) *
+           key_groove_factor(along.x + view.direction.y, along.y) * sum;
 }
 
 vec3 key_lights_radiance(GrooveView view) {

@@ -7,15 +7,18 @@ layout(binding = 14) uniform sampler2DArray lobe_table;  // a layer for each lig
 uniform vec3 lobe_scale_bias;  // scale and offset from u to s; scale of the values, per unit of the largest flux
 uniform vec2 lobe_reach;       // the kernel is 0 where |u| differs from x by more than y
 
-// Adds a light. `axes`: columns g, h, n in the world; `direction`: toward the eye, in (g, h, n); `footprint`: half an
-// extent in v_g.
-void add_key_lobe(int light, mat3 axes, vec3 direction, float footprint, inout vec3 sum) {
+// Adds a light. `axes`: columns g, h, n in the world; `direction`: toward the eye, in (g, h, n); `g_change`, `v_g_change`:
+// differences to the next pixels; `widest`: the largest footprint of a light.
+void add_key_lobe(int light, mat3 axes, vec3 direction, mat2x3 g_change, vec2 v_g_change, float widest,
+                  inout vec3 sum) {
     vec3 toward = key_lobes[light].direction.xyz;
     vec4 moments = key_lobes[light].moments;
     float s_g = dot(toward, axes[0]);
     float u = s_g + direction.x;
     // Most lights miss the orders. A table's values reach 5.2 deviations: light_spot.glsl, lobe_part().
-    if (abs(abs(u) - lobe_reach.x) < lobe_reach.y + moments.w + 1.2 * footprint) {
+    if (abs(abs(u) - lobe_reach.x) < lobe_reach.y + moments.w + 1.2 * widest) {
+        // Half the width of an interval of u that has its variance over the pixel: PHYSICS (38).
+        float footprint = 0.5 * length(toward * g_change + v_g_change);
         float s_n = dot(toward, axes[2]);
         float height = clamped_mean(moments.x * s_n, sqrt(max(moments.y * s_n * s_n + moments.z, 0.0)));
         float across = sqrt(max(1.0 - s_g * s_g, 1e-9));
@@ -33,13 +36,17 @@ void add_key_lobe(int light, mat3 axes, vec3 direction, float footprint, inout v
         } while (at < 1.0);
         vec2 along = spread_along_grooves(toward * axes, moments);
         sum += key_groove_factor(along.x + direction.y, along.y) *
-               (lobe_scale_bias.z * key_lobes[light].flux.w * part * height) * value;
+               (lobe_scale_bias.z * key_lobes[light].flux.w * part * height * lobe_transmittance(s_n, moments)) * value;
     }
 }
 
-vec3 key_lights_radiance(mat3 axes, vec3 direction, float footprint) {
+vec3 key_lights_radiance(mat3 axes, vec3 direction, mat2x3 g_change, vec2 v_g_change) {
+    vec3 turned = abs(g_change[0]) + abs(g_change[1]);
+    vec2 moved = abs(v_g_change);
+    float widest = 0.5 * (turned.x + turned.y + turned.z + moved.x + moved.y);
     vec3 sum = vec3(0.0);
-    for (int i = 0; i < int(key_lobe_count.x); ++i) add_key_lobe(i, axes, direction, footprint, sum);
+    for (int i = 0; i < int(key_lobe_count.x); ++i)
+        add_key_lobe(i, axes, direction, g_change, v_g_change, widest, sum);
     return sum;
 }
 

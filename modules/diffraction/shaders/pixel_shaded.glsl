@@ -4,7 +4,19 @@
 MaterialTerms material_terms() {
     GrooveView view = groove_view();
     vec3 sum = lights_from_vertices();
-    if (view.direction.z > 0.0 && view.pitch > 0.0) sum += diffracted_radiance(view) + key_lights_at_pixel(view);
+    if (view.direction.z > 0.0 && view.pitch > 0.0) {
+#ifdef GROOVE_MAP
+        int parts = groove_parts(view);
+        vec3 diffracted = vec3(0.0);
+        for (int part = 0; part < parts; ++part) {
+            GrooveView one = groove_part(view, parts, part);
+            if (one.pitch > 0.0) diffracted += one.coverage * (diffracted_radiance(one) + key_lights_at_pixel(one));
+        }
+        sum += diffracted / float(parts);
+#else
+        sum += diffracted_radiance(view) + key_lights_at_pixel(view);
+#endif
+    }
     prepare_lights(view);
-    return MaterialTerms(base_weight, mirror_weight, sum);
+    return surface_terms(sum);
 }

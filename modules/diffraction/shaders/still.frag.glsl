@@ -1,5 +1,5 @@
 #version 450 core
-// An image of the diffraction term from the current view.
+// An image of the diffraction term from the current view, which includes a cover's transmittance of the view.
 #include "modules/diffraction/shaders/surface.glsl"
 
 layout(binding = 11) uniform sampler2D still;  // XYZ times alpha; alpha: the known fraction
@@ -7,7 +7,8 @@ uniform vec2 still_scale;                      // pixels to texture coordinates
 
 vec3 diffracted_radiance(GrooveView view) {
     vec4 texel = texture(still, gl_FragCoord.xy * still_scale);
-    return texel.a > 0.0 ? mat3(xyz_to_working) * texel.rgb / texel.a : vec3(0.0);
+    float passed = max(cover_transmittance(view.direction.z), 1e-4);
+    return texel.a > 0.0 ? mat3(xyz_to_working) * texel.rgb / (texel.a * passed) : vec3(0.0);
 }
 
 #include "modules/diffraction/shaders/pixel_shaded.glsl"

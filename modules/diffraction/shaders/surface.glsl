@@ -1,7 +1,11 @@
 // Common to the fragment stages of all gratings. Programs that shade vertices define VERTEX_SHADED. A file is included
 // once, at its first #include, so that conditions are inside the files.
 #define MATERIAL_HAS_MIRROR
+#ifdef COVER
+#define MATERIAL_GLOSS
+#endif
 #include "engine/render/shaders/forward_fragment_interface.glsl"
+#include "modules/diffraction/shaders/cover.glsl"
 #include "modules/diffraction/shaders/has_direct.glsl"
 #include "engine/render/shaders/light_block.h"
 #include "modules/diffraction/shaders/groove_view.glsl"
@@ -10,3 +14,19 @@
 // Weights of the engine's shading, working space.
 uniform vec3 mirror_weight;
 uniform vec3 base_weight;
+
+#ifdef COVER
+float gloss_reflectance(float cosine) { return 1.0 - cover_transmittance(cosine); }
+float gloss_roughness() { return 0.1; }
+#endif
+
+// A surface that diffracts `radiance`. A cover dims all that lies under it, and reflects the rest like a mirror, on the
+// side that is seen. It is passed twice by light that order 0 mirrors.
+MaterialTerms surface_terms(vec3 radiance) {
+#ifdef COVER
+    float passed = cover_transmittance(abs(dot(normalize(world_normal), normalize(eye.xyz - world_position))));
+    return MaterialTerms(passed * base_weight, vec3(1.0 - passed) + passed * passed * mirror_weight, passed * radiance);
+#else
+    return MaterialTerms(base_weight, mirror_weight, radiance);
+#endif
+}

@@ -1,8 +1,9 @@
 // Key lights and directional lights at the vertices, under LIGHTS_AT_VERTICES; the first directional light separately if
 // it casts shadows.
+#include "modules/diffraction/shaders/has_direct.glsl"
+#ifdef LIGHTS_AT_VERTICES
 #include "modules/diffraction/shaders/small_light.glsl"
 #include "modules/diffraction/shaders/key_lobes.glsl"
-#ifdef LIGHTS_AT_VERTICES
 #include "engine/render/shaders/light_block.h"
 
 #ifdef LIGHTS_BESIDE
@@ -17,20 +18,23 @@ vec3 shade_lights(vec3 position, mat3 axes) {
     vec3 direction = normalize(eye.xyz - position) * axes;
     vec3 sum = vec3(0.0);
 #ifdef KEY_LOBES
-    if (direction.z > 0.0) sum = key_lights_radiance(axes, direction, 0.0);
+    if (direction.z > 0.0) sum = key_lights_radiance(axes, direction, mat2x3(0.0), vec2(0.0));
 #endif
 #ifdef DIRECTIONAL_LIGHTS
     KernelRow row = kernel_row(0.0);
     vec3 first = vec3(0.0);
-    add_small_light(0, 1.0, lights[0].position.xyz, axes, direction, row, 1.0, first);
+    float u = dot(lights[0].position.xyz, axes[0]) + direction.x;
+    add_small_light(0, 1.0, lights[0].position.xyz, axes, direction, u, row, 1.0, first);
 #ifdef SHADOWED_AT_PIXELS
     shadowed_at_vertex = kernel_to_working(first);
 #else
     sum += first;
 #endif
 #ifdef SEVERAL_DIRECTIONAL_LIGHTS
-    for (int i = 1; i < int(light_counts.x); ++i)
-        add_small_light(i, 1.0, lights[i].position.xyz, axes, direction, row, 1.0, sum);
+    for (int i = 1; i < int(light_counts.x); ++i) {
+        u = dot(lights[i].position.xyz, axes[0]) + direction.x;
+        add_small_light(i, 1.0, lights[i].position.xyz, axes, direction, u, row, 1.0, sum);
+    }
 #endif
 #endif
 #ifdef LIGHTS_BESIDE

@@ -11,7 +11,7 @@ MaterialTerms material_terms() {
     if (view.direction.z > 0.0 && view.pitch > 0.0) sum += key_lights_at_pixel(view);
     prepare_lights(view);
 #endif
-    return MaterialTerms(base_weight, mirror_weight, sum);
+    return surface_terms(sum);
 }
 
 #include "engine/render/shaders/forward_fragment_main.glsl"

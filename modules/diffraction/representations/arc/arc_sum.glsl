@@ -10,8 +10,9 @@ layout(std430, binding = 4) readonly buffer ArcTurns { vec4 turn_terms[]; };
 uniform vec3 arc_e1;  // the azimuth's axes in the world
 uniform vec3 arc_e2;
 
-vec4[PRODUCTS] products_at(vec3 g) {
-    vec2 once = vec2(dot(g, arc_e1), dot(g, arc_e2));
+// Grooves that vary within the pixel lessen each term: PHYSICS (41).
+vec4[PRODUCTS] products_at(vec3 g, float fade) {
+    vec2 once = fade * vec2(dot(g, arc_e1), dot(g, arc_e2));
     vec2 turn = vec2(1.0, 0.0);
     vec4 products[PRODUCTS];
     for (int i = 0; i < PRODUCTS; ++i) products[i] = turn_terms[i];
@@ -20,12 +21,13 @@ vec4[PRODUCTS] products_at(vec3 g) {
         int at = (2 * m - 1) * PRODUCTS;
         for (int i = 0; i < PRODUCTS; ++i)
             products[i] += turn.x * turn_terms[at + i] + turn.y * turn_terms[at + PRODUCTS + i];
+        once *= fade * fade;
     }
     return products;
 }
 #else
 in vec4 arc_products[PRODUCTS];
-vec4[PRODUCTS] products_at(vec3 g) { return arc_products; }
+vec4[PRODUCTS] products_at(vec3 g, float fade) { return arc_products; }
 #endif
 
 #ifdef PITCH_AXIS
@@ -33,11 +35,16 @@ uniform vec2 pitch_scale_bias;  // from the logarithm of the pitch factor to the
 #endif
 
 vec3 arc_radiance(GrooveView view) {
-    vec2 coordinates = table_coordinates(view.direction);
+#ifdef GROOVE_MAP
+    float fade = view.fade;
+#else
+    const float fade = 1.0;
+#endif
+    vec2 coordinates = table_coordinates(vec3(fade * view.direction.x, view.direction.yz));
 #ifdef PITCH_AXIS
     coordinates.y = log(view.pitch) * pitch_scale_bias.x + pitch_scale_bias.y;
 #endif
-    vec4 products[PRODUCTS] = products_at(view.axes[0]);
+    vec4 products[PRODUCTS] = products_at(view.axes[0], fade);
     vec3 sum = vec3(0.0);
     for (int j = 0; j < LAYERS; ++j) {
         vec4 weights = table_entries(coordinates, j);

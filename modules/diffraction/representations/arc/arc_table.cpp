@@ -99,11 +99,13 @@ MatrixXd tabulate(const Grating& grating, const ArcTable& table, const colour::I
     const std::size_t rows = static_cast<std::size_t>(table.rows());
     MatrixXd result(static_cast<Eigen::Index>(columns * rows),
                     light_term_count(table.terms, table.bands) * kTermColumns);
-    if (table.terms == LightTerms::ArcMoments) {
+    if (is_flat(grating.lobe)) {
         parallel_for(columns * rows, [&](std::size_t texel) {
             const double factor = table.pitch ? pitch_factor_at(*table.pitch, static_cast<int>(texel / columns)) : 1.0;
             const double v_g = node_view(table.grid, static_cast<int>(texel % columns), 0).x;
-            put(terms.moments(v_g, factor), {}, static_cast<Eigen::Index>(texel), result);
+            put(table.terms == LightTerms::ArcMoments ? terms.moments(v_g, factor)
+                                                      : terms.coefficients(v_g, 0.0, factor),
+                {}, static_cast<Eigen::Index>(texel), result);
         });
         return result;
     }
@@ -140,12 +142,12 @@ ArcTable bake(const Grating& grating, const ArcSettings& settings) {
     check_settings(grating, settings);
     ArcTable table;
     table.bands = settings.bands;
-    table.terms = is_flat(grating.lobe) ? LightTerms::ArcMoments : LightTerms::Harmonics;
+    table.terms = has_arc_moments(grating) ? LightTerms::ArcMoments : LightTerms::Harmonics;
     table.grid = settings.grid.value_or(default_view_grid(grating.lobe));
     table.pitch = settings.pitch;
     table.storage = settings.storage;
     check_view_grid(table.grid, grating.lobe);
-    ROWLAND_CHECK(table.terms == LightTerms::Harmonics || table.grid.mapping == ViewMapping::OneDimensional,
+    ROWLAND_CHECK(!is_flat(grating.lobe) || table.grid.mapping == ViewMapping::OneDimensional,
                   "the flat lobe's weights are one-dimensional");
 
     const MatrixXd values = tabulate(grating, table, settings.illuminant);
@@ -260,9 +262,9 @@ ArcTable read_arc_table(ByteReader& reader) {
     table.grid = read_view_grid(reader);
     table.pitch = read_pitch_axis(reader);
     const bool flat = table.grid.mapping == ViewMapping::OneDimensional;
-    if (flat != (table.terms == LightTerms::ArcMoments) || (table.pitch && !flat))
+    if (!flat && (table.terms == LightTerms::ArcMoments || table.pitch))
         reader.fail(fmt::format("a {} grid", view_mapping_name(table.grid.mapping)),
-                    "one-dimensional for arc moments and beside a pitch axis, else two-dimensional");
+                    "one-dimensional for arc moments and beside a pitch axis");
     table.storage = to_storage(reader, reader.value<std::uint8_t>());
     const std::size_t count =
         static_cast<std::size_t>(table.rank) * static_cast<std::size_t>(light_term_count(table.terms, table.bands));

@@ -18,8 +18,8 @@ namespace rowland::diffraction {
 
 /// The numbers that describe the light at a vertex, per RGB channel.
 enum class LightTerms : std::uint8_t {
-    ArcMoments = 0,  ///< 2n−1 moments of the arc profile (arc_moments.h); flat lobe
-    Harmonics = 1,   ///< n² SH coefficients; any lobe
+    ArcMoments = 0,  ///< 2n−1 moments of the arc profile (arc_moments.h); flat lobe in air
+    Harmonics = 1,   ///< n² SH coefficients; any grating
 };
 
 /// Pitches that vary over the surface: factors of the material's pitch, at equal steps of their logarithm.

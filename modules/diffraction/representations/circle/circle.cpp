@@ -23,9 +23,9 @@ const RepresentationInfo& CircleSettings::info() {
     return info;
 }
 
-CircleSettings CircleSettings::from(const SettingValues& values, const Grating&) {
+CircleSettings CircleSettings::from(const SettingValues& values, const Grating& grating) {
     const int side = values.number("map_resolution");
-    return {.size = {.side = side, .views = 2 * side}};
+    return {.size = {.side = side, .views = 2 * side, .terms = circle_terms(grating.cover)}};
 }
 
 CircleTables bake(const Grating&, const CircleSettings& settings) {
@@ -52,8 +52,9 @@ Facts facts(const CircleTables& tables) {
 }
 
 PointShader point_shader(const CircleTables& tables, const MaterialKernel& material, const EvaluationLight& light) {
-    return [map = fill_circle_map(light.texels(), material.kernel, material.pitch_nm, tables.size,
-                                  material.zero_order_xyz)](const ShadingPoint& frame) { return sample(map, frame); };
+    return
+        [map = fill_circle_map(light.texels(), material.kernel, material.pitch_nm, tables.size, material.zero_order_xyz,
+                               material.cover)](const ShadingPoint& frame) { return sample(map, frame); };
 }
 
 }  // namespace rowland::diffraction

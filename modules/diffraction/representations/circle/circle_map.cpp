@@ -8,6 +8,7 @@
 
 #include "engine/core/check.h"
 #include "engine/core/parallel.h"
+#include "engine/math/quadrature.h"
 #include "modules/diffraction/bake/kernel_cells.h"
 
 namespace rowland::diffraction {
@@ -19,8 +20,33 @@ using std::numbers::pi;
 /// Side of the cube faces that the texels are gathered in: cells of 0.025 rad.
 constexpr int kFaceSize = 64;
 
+/// Terms of one sort that circles have in air and under a cover: on 1, cos t, cos 2t, cos 4t.
+constexpr std::size_t kInAir = 4;
+
 /// Fourier series of max(0, cos t) on 1, cos t, cos 2t, cos 4t, cos 6t.
 constexpr std::array<double, 5> kClampedCosine{1.0 / pi, 0.5, 2.0 / (3.0 * pi), -2.0 / (15.0 * pi), 2.0 / (35.0 * pi)};
+
+/// For each cell of a, what a cover's coefficients are over those that add_moments() has: in air, and 1 for cos 3t and
+/// 5t; the last is of the lane without a term.
+using CoverFactors = std::vector<std::array<float, 7>>;
+
+CoverFactors cover_factors(const std::optional<Cover>& cover, int cells) {
+    CoverFactors factors;
+    for (int cell = 0; cover && cell < cells; ++cell) {
+        const double a = 2.0 * (cell + 0.5) / cells - 1.0;
+        const std::array<double, 6> series = covered_cosine(cover->ior, std::sqrt((1.0 - a) * (1.0 + a)));
+        std::array<float, 7>& factor = factors.emplace_back();
+        for (std::size_t k = 0; k < series.size(); ++k)
+            factor[k] = static_cast<float>(k < kInAir ? series[k] / kClampedCosine[k] : series[k]);
+    }
+    return factors;
+}
+
+/// Multiplies moments in cells of a by the factors of their terms.
+void apply(const CoverFactors& factors, std::size_t lanes, std::vector<float>& moments) {
+    for (std::size_t i = 0; i < moments.size() && !factors.empty(); ++i)
+        moments[i] *= factors[i / (3 * lanes)][(i % lanes + 1) / 2];
+}
 
 /// A grating vector and the directions from which angles around it are counted.
 struct CircleFrame {
@@ -55,7 +81,7 @@ glm::dvec2 chart_point(const glm::dvec3& g, int chart) {
 
 /// Adds the moments of light around one g in cells of a. Per cell: kLanes terms of red, then green, then blue.
 template <int kLanes>
-void add_moments(const lighting::LightSamples& lights, const CircleFrame& frame, int cells,
+void add_moments(const lighting::LightSamples& lights, const CircleFrame& frame, int cells, bool covered,
                  std::vector<float>& moments) {
     const glm::vec3 g(frame.g);
     const glm::vec3 e1(frame.e1);
@@ -84,8 +110,14 @@ void add_moments(const lighting::LightSamples& lights, const CircleFrame& frame,
         term[5] = c(3) * cos4;
         term[6] = c(3) * sin4;
         if constexpr (kLanes > 8) {
-            term[7] = c(4) * (cos4 * cos2 - sin4 * sin2) * inverse;
-            term[8] = c(4) * (cos4 * sin2 + sin4 * cos2) * inverse;
+            // cos 6t in air; cos 3t and cos 5t under a cover.
+            const float cos_rest = covered ? cosine : cos4;
+            const float sin_rest = covered ? sine : sin4;
+            const float odd = covered ? 0.5F : c(4);
+            term[7] = odd * (cos_rest * cos2 - sin_rest * sin2) * inverse;
+            term[8] = odd * (cos_rest * sin2 + sin_rest * cos2) * inverse;
+            term[9] = odd * (cosine * cos4 - sine * sin4) * inverse;
+            term[10] = odd * (cosine * sin4 + sine * cos4) * inverse;
         }
         const float position = std::clamp((x * g.x + y * g.y + z * g.z + 1.0F) * scale - 0.5F, 0.0F, last);
         const int low = std::min(static_cast<int>(position), cells - 2);
@@ -101,8 +133,8 @@ void add_moments(const lighting::LightSamples& lights, const CircleFrame& frame,
 }
 
 template <int kLanes>
-void fill_column(const lighting::LightSamples& lights, const KernelCells& kernel, int chart, int row, int column,
-                 CircleMap& map) {
+void fill_column(const lighting::LightSamples& lights, const KernelCells& kernel, const CoverFactors& cover, int chart,
+                 int row, int column, CircleMap& map) {
     const glm::dvec2 at(column + 0.5, row + 0.5);
     glm::dvec2 p = (at / static_cast<double>(map.side) - 0.5) / map.scale();
     // No look-up reaches the corners.
@@ -110,7 +142,8 @@ void fill_column(const lighting::LightSamples& lights, const KernelCells& kernel
     if (glm::length(p) > rim) return;
     std::vector<float> moments(static_cast<std::size_t>(kernel.cells()) * 3 * kLanes, 0.0F);
     std::vector<float> xyz(static_cast<std::size_t>(map.views) * 3 * kLanes);
-    add_moments<kLanes>(lights, frame_at(grating_vector(p, chart), chart), kernel.cells(), moments);
+    add_moments<kLanes>(lights, frame_at(grating_vector(p, chart), chart), kernel.cells(), map.covered, moments);
+    apply(cover, kLanes, moments);
     kernel.correlate<kLanes>(moments, xyz);
     for (int view = 0; view < map.views; ++view) {
         const float* from = xyz.data() + static_cast<std::ptrdiff_t>(view) * 3 * kLanes;
@@ -131,25 +164,6 @@ void sharpen_slice(CircleMap& map, int chart, int term, int view) {
             slice[i] -=
                 kBestLinear * (values[i - 1] + values[i + 1] + values[i - side] + values[i + side] - 4.0F * values[i]);
         }
-}
-
-/// Whether k(−x) = k(x), to the table's rounding.
-bool is_even(const KernelTable& kernel) {
-    double largest = 0.0;
-    double difference = 0.0;
-    const double reach = std::max(std::abs(kernel.begin_nm), std::abs(kernel.end_nm));
-    const auto samples = static_cast<int>(kernel.antiderivative.size());
-    for (int i = 1; i <= samples; ++i) {
-        const double x_nm = reach * i / samples;
-        const glm::dmat3 right = kernel.at(x_nm) - kernel.at(0.0);
-        const glm::dmat3 left = kernel.at(0.0) - kernel.at(-x_nm);
-        for (int c = 0; c < 3; ++c)
-            for (int o = 0; o < 3; ++o) {
-                largest = std::max(largest, std::abs(right[c][o]));
-                difference = std::max(difference, std::abs(right[c][o] - left[c][o]));
-            }
-    }
-    return difference <= 1e-5 * largest;
 }
 
 glm::dvec3 term_at(const CircleMap& map, int chart, int term, const glm::dvec3& position) {
@@ -176,20 +190,45 @@ std::size_t CircleMap::index(int chart, int term, int view, int row, int column)
     return (((u(chart) * u(terms) + u(term)) * u(views) + u(view)) * u(side) + u(row)) * u(side) + u(column);
 }
 
+int circle_terms(const std::optional<Cover>& cover) {
+    return cover ? 11 : 7;
+}
+
+std::array<double, 6> covered_cosine(double ior, double r) {
+    constexpr int kNodes = 32;
+    constexpr std::array<int, 6> kMultiples{0, 1, 2, 4, 3, 5};
+    static const math::QuadratureRule rule = math::gauss_legendre(kNodes, 0.0, 0.5 * pi);
+    std::array<double, 6> series{};
+    for (std::size_t node = 0; node < rule.nodes.size(); ++node) {
+        const double t = rule.nodes[node];
+        const double value = rule.weights[node] * transmittance(ior, r * std::cos(t)) * std::cos(t);
+        for (std::size_t k = 0; k < series.size(); ++k)
+            series[k] += (k == 0 ? 1.0 : 2.0) / pi * value * std::cos(kMultiples[k] * t);
+    }
+    return series;
+}
+
 int chart_count(const KernelTable& kernel) {
     return is_even(kernel) ? 1 : 2;
 }
 
 CircleMap fill_circle_map(const lighting::LightSamples& texels, const KernelTable& kernel, double pitch_nm,
-                          const CircleMapSize& size, const glm::dmat3& zero_order_xyz, const std::stop_token& stop) {
+                          const CircleMapSize& size, const glm::dmat3& zero_order_xyz,
+                          const std::optional<Cover>& cover, const std::stop_token& stop) {
     ROWLAND_CHECK_OP(size.side, >=, 8);
     ROWLAND_CHECK_OP(size.views, >=, 8);
-    ROWLAND_CHECK(size.terms == 7 || size.terms == 9, "a circle map has 7 or 9 terms");
-    CircleMap map{
-        .charts = chart_count(kernel), .terms = size.terms, .views = size.views, .side = size.side, .xyz = {}};
+    ROWLAND_CHECK(size.terms == 7 || size.terms == 9 || (cover && size.terms == 11),
+                  "a circle map has 7 or 9 terms, under a cover 7, 9 or 11");
+    CircleMap map{.charts = chart_count(kernel),
+                  .terms = size.terms,
+                  .covered = cover.has_value(),
+                  .views = size.views,
+                  .side = size.side,
+                  .xyz = {}};
     map.xyz.resize(map.index(map.charts, 0, 0, 0, 0), glm::vec3(0.0F));
     const lighting::LightSamples lights = lighting::gather_texels(texels, kFaceSize);
     const KernelCells cells(kernel, pitch_nm, size.views, zero_order_xyz);
+    const CoverFactors factors = cover_factors(cover, cells.cells());
     const auto side = static_cast<std::size_t>(size.side);
     parallel_for(static_cast<std::size_t>(map.charts) * side * side, [&](std::size_t i) {
         if (stop.stop_requested()) return;
@@ -197,9 +236,9 @@ CircleMap fill_circle_map(const lighting::LightSamples& texels, const KernelTabl
         const int row = static_cast<int>(i / side % side);
         const int column = static_cast<int>(i % side);
         if (size.terms == 7)
-            fill_column<8>(lights, cells, chart, row, column, map);
+            fill_column<8>(lights, cells, factors, chart, row, column, map);
         else
-            fill_column<12>(lights, cells, chart, row, column, map);
+            fill_column<12>(lights, cells, factors, chart, row, column, map);
     });
     if (stop.stop_requested()) return map;
     const auto slices = static_cast<std::size_t>(map.terms) * static_cast<std::size_t>(map.views);
@@ -227,7 +266,10 @@ glm::dvec3 sample(const CircleMap& map, const ShadingPoint& frame) {
     const double s2 = 2.0 * c1 * s1;
     const double c4 = c2 * c2 - s2 * s2;
     const double s4 = 2.0 * c2 * s2;
-    const std::array<double, 9> f{1.0, c1, s1, c2, s2, c4, s4, c4 * c2 - s4 * s2, c4 * s2 + s4 * c2};
+    const double c = map.covered ? c1 : c4;
+    const double s = map.covered ? s1 : s4;
+    const std::array<double, 11> f{
+        1.0, c1, s1, c2, s2, c4, s4, c * c2 - s * s2, c * s2 + s * c2, c1 * c4 - s1 * s4, c1 * s4 + s1 * c4};
     glm::dvec3 sum(0.0);
     for (int term = 0; term < map.terms; ++term)
         sum += f[static_cast<std::size_t>(term)] * term_at(map, chart, term, position);

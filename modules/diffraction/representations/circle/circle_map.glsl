@@ -23,8 +23,14 @@ vec3 map_radiance(float v_g, vec3 g, vec3 n) {
     vec2 t1 = n.xz - up * n.y * p;  // n·e1 and n·e2, as n·g = 0
     vec2 t2 = vec2(t1.x * t1.x - t1.y * t1.y, 2.0 * t1.x * t1.y);
     vec2 t4 = vec2(t2.x * t2.x - t2.y * t2.y, 2.0 * t2.x * t2.y);
+#ifdef COVER
+    vec2 t3 = vec2(t1.x * t2.x - t1.y * t2.y, t1.x * t2.y + t1.y * t2.x);
+    vec2 t5 = vec2(t1.x * t4.x - t1.y * t4.y, t1.x * t4.y + t1.y * t4.x);
+    float factors[11] = float[11](1.0, t1.x, t1.y, t2.x, t2.y, t4.x, t4.y, t3.x, t3.y, t5.x, t5.y);
+#else
     vec2 t6 = vec2(t4.x * t2.x - t4.y * t2.y, t4.x * t2.y + t4.y * t2.x);
     float factors[9] = float[9](1.0, t1.x, t1.y, t2.x, t2.y, t4.x, t4.y, t6.x, t6.y);
+#endif
     float r = 0.5 + v_g * (0.5 - 0.5 / float(VIEWS));
     vec3 sum = vec3(0.0);
     for (int term = 0; term < TERMS; ++term) {

@@ -1,14 +1,17 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <stop_token>
 #include <vector>
 
 #include "engine/lighting/light_samples.h"
 #include "modules/diffraction/model/colour_kernel.h"
+#include "modules/diffraction/model/cover.h"
 #include "modules/diffraction/model/shading_point.h"
 
 namespace rowland::diffraction {
@@ -26,9 +29,11 @@ namespace rowland::diffraction {
 ///   v_g: slice j holds v_g = 2j/(views−1) − 1, both ends included; coordinate (½(v_g+1)(views−1) + ½)/views
 ///   values are optimised for linear interpolation (kBestLinear), not the radiance at the nodes
 ///   XYZ = Σ_i term_i · f_i, f = 1, cos t, sin t, cos 2t, sin 2t, cos 4t, sin 4t (, cos 6t, sin 6t)
+/// Under a cover f ends with cos 3t, sin 3t, cos 5t, sin 5t (PHYSICS §10), and T(v_n) is left out.
 struct CircleMap {
     int charts = 0;  ///< 1 or 2
-    int terms = 0;   ///< 7 or 9
+    int terms = 0;   ///< 7, 9 or 11
+    bool covered = false;
     int views = 0;
     int side = 0;                ///< texels of a chart's side
     std::vector<glm::vec3> xyz;  ///< see index()
@@ -41,8 +46,14 @@ struct CircleMap {
 struct CircleMapSize {
     int side = 64;    ///< ≥ 8
     int views = 128;  ///< ≥ 8
-    int terms = 7;    ///< 7: up to cos 4t; 9: up to cos 6t
+    int terms = 7;    ///< 7: up to cos 4t; 9: up to cos 6t. Under a cover 9: with cos 3t; 11: with cos 5t as well
 };
+
+/// The terms that a grating's map has by default: under a cover the multiples 3 and 5 as well.
+int circle_terms(const std::optional<Cover>& cover);
+
+/// The Fourier coefficients of T(r cos t) max(0, cos t) on 1, cos t, cos 2t, cos 4t, cos 3t, cos 5t, PHYSICS (28).
+std::array<double, 6> covered_cosine(double ior, double r);
 
 /// The number of charts of a map under this kernel.
 int chart_count(const KernelTable& kernel);
@@ -51,7 +62,7 @@ int chart_count(const KernelTable& kernel);
 /// their number. `zero_order_xyz`: as of ColourKernel. After a stop request it returns early with an unusable map.
 CircleMap fill_circle_map(const lighting::LightSamples& texels, const KernelTable& kernel, double pitch_nm,
                           const CircleMapSize& size = {}, const glm::dmat3& zero_order_xyz = glm::dmat3(0.0),
-                          const std::stop_token& stop = {});
+                          const std::optional<Cover>& cover = std::nullopt, const std::stop_token& stop = {});
 
 /// XYZ of a point as texture units interpolate (GL_LINEAR on all three axes); black for a view below the horizon.
 glm::dvec3 sample(const CircleMap& map, const ShadingPoint& frame);

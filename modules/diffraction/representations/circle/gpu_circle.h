@@ -3,10 +3,11 @@
 #include <memory>
 #include <optional>
 
-#include "modules/diffraction/representations/circle/circle_filling.h"
+#include "engine/core/computed.h"
 #include "modules/diffraction/representations/circle/circle_map.h"
 #include "modules/diffraction/runtime/gpu_map.h"
 #include "modules/diffraction/runtime/gpu_material.h"
+#include "modules/diffraction/runtime/map_upload.h"
 
 namespace rowland::diffraction {
 
@@ -18,7 +19,7 @@ class GpuCircle final : public GpuMaterial {
     GpuCircle(const CookedMaterial& cooked, const CircleTables& tables, const glm::dmat3& xyz_to_working);
 
     void update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const override;
-    bool filling(const SurfaceState&) const override { return filling_ != nullptr; }
+    bool filling(const SurfaceState&) const override { return filling_.busy() || upload_; }
 
     /// Number of maps begun, and of maps uploaded.
     int fills_begun() const { return fills_begun_; }
@@ -29,14 +30,19 @@ class GpuCircle final : public GpuMaterial {
     bool describe_other(const SurfaceState& state, gpu::ProgramDesc& desc) const override;
     void describe_map(gpu::ProgramDesc& desc) const;
     void bind_tables(const gpu::Program& program, const SurfaceState& state) const override;
-    void begin(const std::shared_ptr<const lighting::LightSamples>& texels) const;
+
+    using Texels = std::shared_ptr<const lighting::LightSamples>;
+    using Filling = Computed<Texels, std::shared_ptr<MapTexels>>;
+    void begin(const Texels& texels) const;
+    void take_over(const Filling::Change& change) const;
 
     CircleMapSize size_;
     int charts_;
 
     // Updated by the first object in a frame.
-    mutable std::optional<std::shared_ptr<const lighting::LightSamples>> texels_;  ///< of the newest map
-    mutable std::unique_ptr<CircleFilling> filling_;
+    mutable std::optional<Texels> texels_;  ///< of the newest map
+    mutable Filling filling_;
+    mutable std::optional<MapUpload> upload_;
     mutable std::optional<GpuMap> map_;
     mutable int fills_begun_ = 0;
     mutable int fills_ = 0;

@@ -33,6 +33,8 @@ LightSpot clamp_at_horizon(const Spread& spread) {
     const double variance_n = std::max(0.0, spread.covariance(2, 2));
     const lighting::ClampedNormal clamped = lighting::clamp_normal(spread.mean.z, std::sqrt(variance_n));
     part.cosine = clamped.mean;
+    spot.centre_n = clamped.mean > 0.0 ? clamped.weighted_mean : 0.0;
+    spot.deviation_n = clamped.mean > 0.0 ? std::sqrt(std::max(0.0, clamped.weighted_variance)) : 0.0;
     const double shift = clamped.mean > 0.0 ? clamped.weighted_mean - spread.mean.z : 0.0;
     const auto regress = [&](int axis, double& centre, double& variance) {
         const double slope = variance_n > 0.0 ? spread.covariance(axis, 2) / variance_n : 0.0;
@@ -121,7 +123,7 @@ glm::dvec3 seen_through(const Kernel& kernel, const DirectMaterial& material, co
     for (const LightSpot::Part& part : spot.parts)
         if (part.cosine > 0.0)
             sum += 0.5 * part.cosine * (mean_over_part(kernel, material, spot, part, view) * spot.flux);
-    return groove_factor(material.lobe, spot, view.v_h) * sum;
+    return transmittance(material.cover, spot) * groove_factor(material.lobe, spot, view.v_h) * sum;
 }
 
 /// mean_above_wide() for z ≥ kFewTurns, which is exact in the tails also. With τ = t − t₀,
@@ -245,6 +247,12 @@ glm::dvec3 groove_factor(const GrooveLobe& lobe, const LightSpot& spot, double v
     for (int o = 0; o < 3; ++o)
         factor[o] = 2.0 * widened_density(lobe, spot.centre_h + v_h, spot.deviation_h, kPitsWavelengths_nm[o]);
     return factor;
+}
+
+double transmittance(const std::optional<Cover>& cover, const LightSpot& spot) {
+    if (!cover) return 1.0;
+    return 0.5 * (transmittance(cover->ior, spot.centre_n - spot.deviation_n) +
+                  transmittance(cover->ior, std::min(1.0, spot.centre_n + spot.deviation_n)));
 }
 
 glm::dvec3 direct_radiance(const KernelTable& kernel, const DirectMaterial& material, const LightSpot& spot,

@@ -3,11 +3,13 @@
 #include <array>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 
 #include "engine/lighting/key_lights.h"
 #include "modules/diffraction/bake/blurred_kernel.h"
 #include "modules/diffraction/model/colour_kernel.h"
+#include "modules/diffraction/model/cover.h"
 #include "modules/diffraction/model/lobe.h"
 #include "modules/diffraction/model/shading_point.h"
 
@@ -32,6 +34,8 @@ struct LightSpot {
     std::array<Part, 3> parts{};  ///< cosine 0: unused
     Shape shape = Shape::Box;     ///< of the parts
     double centre_h = 0.0;        ///< mean s_h, directions weighted by s_n⁺
+    double centre_n = 0.0;        ///< mean s_n⁺, likewise
+    double deviation_n = 0.0;     ///< standard deviation of s_n⁺, likewise
     double deviation_h = 0.0;     ///< standard deviation of s_h, likewise
 
     /// Mean of s_n⁺ over the light.
@@ -61,6 +65,7 @@ struct DirectMaterial {
     double pitch_nm = 0.0;
     glm::dmat3 zero_order_xyz{0.0};  ///< ColourKernel::zero_order_xyz(): at u ≈ 0, if order 0 is listed
     GrooveLobe lobe = FlatLobe{};
+    std::optional<Cover> cover = std::nullopt;
 };
 
 /// Wavelengths at which the pits' lobe is evaluated for X, Y and Z. 𝒦 sums over all orders and wavelengths, so the
@@ -70,9 +75,12 @@ inline constexpr glm::dvec3 kPitsWavelengths_nm{591.0, 557.0, 449.0};
 /// 2 D_h(s_h + v_h) for X, Y and Z, the lobe widened by the light's own extent along the grooves.
 glm::dvec3 groove_factor(const GrooveLobe& lobe, const LightSpot& spot, double v_h);
 
-/// XYZ = Σ_parts ½ s_n⁺ d k̄(d u) F · 2 D_h with u = s_g + v_g, PHYSICS §4. k̄ is the mean of k over the light and the
-/// pixel, from differences of 𝒦. A box is one difference: the squares of its half-width and of the footprint add. A
-/// normal distribution is a sum of slices narrower than the kernel's features.
+/// Mean of T over a light, to second order in its extent; 1 without a cover.
+double transmittance(const std::optional<Cover>& cover, const LightSpot& spot);
+
+/// XYZ = Σ_parts ½ s_n⁺ d k̄(d u) F · 2 D_h T(s_n) with u = s_g + v_g, PHYSICS §4 and §10, without T(v_n). k̄ is the mean
+/// of k over the light and the pixel, from differences of 𝒦. A box is one difference: the squares of its half-width and
+/// of the footprint add. A normal distribution is a sum of slices narrower than the kernel's features.
 glm::dvec3 direct_radiance(const KernelTable& kernel, const DirectMaterial& material, const LightSpot& spot,
                            const DirectView& view);
 glm::dvec3 direct_radiance(const ColourKernel& kernel, const DirectMaterial& material, const LightSpot& spot,

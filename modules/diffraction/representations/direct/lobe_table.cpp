@@ -84,7 +84,8 @@ glm::dvec3 lobe_radiance(const LobeTable& table, const DirectMaterial& material,
     const double aside = taps > 1 ? material.pitch_nm * view.footprint / std::sqrt(1.0 - 1.0 / (taps * taps)) : 0.0;
     glm::dvec3 value(0.0);
     for (int i = 0; i < taps; ++i) value += table.at(s_g, x + aside * ((2.0 * i + 1.0) / taps - 1.0)) / double(taps);
-    return lobe_height(light.concentration, axis.z) * groove_factor(material.lobe, spot, view.v_h) * value;
+    return transmittance(material.cover, spot) * lobe_height(light.concentration, axis.z) *
+           groove_factor(material.lobe, spot, view.v_h) * value;
 }
 
 }  // namespace rowland::diffraction

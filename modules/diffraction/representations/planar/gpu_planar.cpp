@@ -36,7 +36,10 @@ bool same(const std::optional<glm::dvec3>& a, const std::optional<glm::dvec3>& b
 }  // namespace
 
 GpuPlanar::GpuPlanar(const CookedMaterial& cooked, const PlanarTables& tables, const glm::dmat3& xyz_to_working)
-    : GpuMaterial(cooked, xyz_to_working), stand_in_(cooked, tables.stand_in, xyz_to_working), size_(tables.size) {}
+    : GpuMaterial(cooked, xyz_to_working),
+      stand_in_(cooked, tables.stand_in, xyz_to_working),
+      size_(tables.size),
+      mapper_(tables.lobe ? std::make_shared<const LobeMapper>(*tables.lobe, xyz_to_working) : nullptr) {}
 
 void GpuPlanar::find_flatness(const SurfaceObject& object, const SurfaceState& state, PlanarData& data) const {
     if (data.mesh == state.mesh && state.mesh) return;
@@ -61,7 +64,7 @@ void GpuPlanar::want(const std::optional<glm::dvec3>& normal, const SurfaceLight
 void GpuPlanar::fill(int slices, PlanarData& data) const {
     if (!data.fill) {
         data.fill.emplace(*data.texels, working_kernel(), cooked()->material.grating.pitch_nm, *data.normal, size_,
-                          working_zero_order());
+                          working_zero_order(), cooked()->material.grating.cover);
         data.map = data.fill->empty();
         data.filled = 0;
         ++data.fills_begun;
@@ -77,13 +80,25 @@ void GpuPlanar::fill(int slices, PlanarData& data) const {
     data.map.xyz.clear();
 }
 
+void GpuPlanar::update_map(const SurfaceObject& object, SurfaceLight& light, PlanarData& data) const {
+    const std::optional<glm::dvec3> normal = in_world(data.flat, object.object_to_world);
+    if (!mapper_) {
+        want(normal, light, data);
+        if (data.normal && data.texels && data.at_rest && !data.on_gpu) fill(object.slices_per_frame, data);
+        return;
+    }
+    if (!same(data.normal, normal)) data.normal = normal;
+    data.texels = light.texels(light_part());
+    if (data.normal && data.texels)
+        data.lobe.update({.texels = data.texels, .normal = *data.normal}, mapper_, object.slices_per_frame);
+}
+
 void GpuPlanar::update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const {
     PlanarData& data = data_of(state);
     find_flatness(object, state, data);
-    want(in_world(data.flat, object.object_to_world), light, data);
+    update_map(object, light, data);
     data.stand_in_is_old = data.stand_in_is_old || object.changed;
-    if (data.normal && data.texels && data.at_rest && !data.on_gpu) fill(object.slices_per_frame, data);
-    if (data.on_gpu || !data.stand_in_is_old) return;
+    if (has_map(data) || !data.stand_in_is_old) return;
     SurfaceObject changed = object;
     changed.changed = true;
     stand_in_.update(changed, light, state);
@@ -92,36 +107,43 @@ void GpuPlanar::update(const SurfaceObject& object, SurfaceLight& light, Surface
 
 bool GpuPlanar::filling(const SurfaceState& state) const {
     const PlanarData& data = data_of(state);
-    return data.normal && data.texels && !data.on_gpu;
+    return data.normal && data.texels && !(mapper_ ? data.lobe.is_complete() : data.on_gpu.has_value());
 }
 
 void GpuPlanar::describe(const SurfaceState& state, gpu::ProgramDesc& desc) const {
-    if (data_of(state).on_gpu)
-        describe_map(desc);
+    if (has_map(data_of(state)))
+        describe_map(state, desc);
     else
         stand_in_.describe(state, desc);
 }
 
 bool GpuPlanar::describe_other(const SurfaceState& state, gpu::ProgramDesc& desc) const {
-    if (data_of(state).on_gpu)
+    if (has_map(data_of(state)))
         stand_in_.describe(state, desc);
     else
-        describe_map(desc);
+        describe_map(state, desc);
     return true;
 }
 
-void GpuPlanar::describe_map(gpu::ProgramDesc& desc) const {
-    if (cooked()->material.quality.map_at_vertices)
+void GpuPlanar::describe_map(const SurfaceState& state, gpu::ProgramDesc& desc) const {
+    // The vertices do not read a groove texture.
+    if (cooked()->material.quality.map_at_vertices && !state.grooves)
         set_vertex_shader(desc, "representations/planar/planar.vert.glsl");
     else
         set_shaders(desc, "shaders/pixel_shaded.vert.glsl", "representations/planar/planar.frag.glsl");
+    if (mapper_) {
+        desc.defines.push_back({"LOBE_MAP", "1"});
+        if (mapper_->full().spectrum.even()) desc.defines.push_back({"HALF_TURN", "1"});
+        return;
+    }
     desc.defines.push_back({"AZIMUTHS", std::to_string(size_.azimuths)});
     desc.defines.push_back({"VIEWS", std::to_string(size_.views)});
 }
 
 void GpuPlanar::bind_tables(const gpu::Program& program, const SurfaceState& state) const {
     const PlanarData& data = data_of(state);
-    if (!data.on_gpu) return stand_in_.bind_tables(program, state);
+    if (!has_map(data)) return stand_in_.bind_tables(program, state);
+    if (mapper_) return data.lobe.bind(program);
     data.on_gpu->bind(program);
     program.set("planar_e1", glm::vec3(data.map.e1));
     program.set("planar_e2", glm::vec3(data.map.e2));

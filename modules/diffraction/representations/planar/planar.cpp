@@ -2,42 +2,102 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <memory>
+#include <utility>
 
 namespace rowland::diffraction {
+
+namespace {
+
+/// A map of so many views takes 135 MB, or twice as many where orders m and −m differ.
+constexpr int kMostLobeViews = 256;
+
+/// Where lamps are as small as texels, azimuths count more than views: 128 views and 352 azimuths take 23 MB.
+int lobe_azimuths(int views) {
+    constexpr int kMost = 512;
+    return std::min(kMost, (11 * views / 4 + 3) / 4 * 4);
+}
+
+SettingInfo views_h_setting() {
+    return {.key = "views_h",
+            .label = "Nodes along v_h",
+            .help = "Nodes of the map along the grooves, of a lobe that is not flat; map_resolution unless given.",
+            .minimum = 8,
+            .maximum = kMostLobeViews};
+}
+
+std::optional<PlanarLobe> lobe_of(const PlanarSettings& settings) {
+    if (!settings.lobe_size) return std::nullopt;
+    return PlanarLobe{*settings.lobe_size,
+                      diffraction_pattern(settings.grating, colour::LightSpectra(settings.stand_in.illuminant))};
+}
+
+/// `fill(normal)` gives a plane's map; the last one is kept.
+template <typename Map, typename Fill>
+PointShader by_plane(Fill fill) {
+    struct Plane {
+        glm::dvec3 normal{0.0};
+        Map map;
+    };
+    return [fill = std::move(fill), last = std::make_shared<Plane>()](const ShadingPoint& frame) {
+        const glm::dvec3 normal = glm::normalize(frame.normal);
+        if (normal != last->normal) *last = {normal, fill(normal)};
+        return sample(last->map, frame);
+    };
+}
+
+}  // namespace
 
 const RepresentationInfo& PlanarSettings::info() {
     static const RepresentationInfo info{
         .name = "planar",
         .summary = "one map for a flat object, of the whole probe",
-        .lobes = Lobes::Flat,
         .is_map = true,
         .needs_flat_surface = true,
-        .settings = {map_resolution_setting(128, 1024, {16, 32, 64, 256, 512}, {32, 128, 256}), bands_setting(),
-                     rank_setting()},
+        .settings = {map_resolution_setting(128, 1024, {16, 32, 64, 256, 512}, {32, 128, 256}), views_h_setting(),
+                     bands_setting(), rank_setting()},
         .editor_start = {"map_resolution"},
         .sweep_tier = "map_resolution=128/key_lights=16",
         .sweep_key_lights = {0, 4, 32},
         .sweep_more = {"map_resolution=64", "map_resolution=256", "map_resolution=512"},
         .budget = [](bool flat_lobe, SurfaceShape surface) -> std::vector<std::string> {
-            if (!flat_lobe || surface != SurfaceShape::Flat) return {};
+            if (surface != SurfaceShape::Flat) return {};
+            if (!flat_lobe) return {"map_resolution=32", "map_resolution=64", "map_resolution=128"};
             return {"map_resolution=32", "map_resolution=64", "map_resolution=128", "map_resolution=256",
                     "map_resolution=512"};
         }};
     return info;
 }
 
+std::optional<Refusal> PlanarSettings::refusal(const SettingValues& values, const Grating& grating) {
+    if (is_flat(grating.lobe)) {
+        if (!values.has("views_h")) return std::nullopt;
+        return Refusal{"views_h", fmt::format("{} with the flat groove_lobe", values.number_or("views_h", 0)),
+                       "no views_h: the map of a flat lobe does not depend on v_h"};
+    }
+    if (values.number("map_resolution") <= kMostLobeViews) return std::nullopt;
+    return Refusal{"map_resolution",
+                   fmt::format("{} with a groove_lobe that is not flat", values.number("map_resolution")),
+                   fmt::format("at most {}, as the map is a volume", kMostLobeViews)};
+}
+
 PlanarSettings PlanarSettings::from(const SettingValues& values, const Grating& grating) {
     const int views = values.number("map_resolution");
-    return {
+    PlanarSettings settings{
         .size = {.azimuths = views + views % 2, .views = views},
+        .grating = grating,
         .stand_in = {
             .bands = values.number("bands"), .rank = values.number("rank"), .grid = default_view_grid(grating.lobe)}};
+    if (!is_flat(grating.lobe))
+        settings.lobe_size = {.azimuths = lobe_azimuths(views),
+                              .views = {.g = views, .h = values.number_or("views_h", views)}};
+    return settings;
 }
 
 PlanarTables bake(const Grating& grating, const PlanarSettings& settings) {
-    return {settings.size, bake(grating, settings.stand_in)};
+    return {.size = settings.size, .lobe = lobe_of(settings), .stand_in = bake(grating, settings.stand_in)};
 }
 
 void write(const PlanarTables& tables, ByteWriter& writer) {
@@ -45,36 +105,41 @@ void write(const PlanarTables& tables, ByteWriter& writer) {
 }
 
 PlanarTables read(ByteReader& reader, const PlanarSettings& settings) {
-    return {settings.size, read(reader, settings.stand_in)};
+    return {.size = settings.size, .lobe = lobe_of(settings), .stand_in = read(reader, settings.stand_in)};
 }
 
 ShadingCost cost(const PlanarTables& tables) {
     constexpr std::size_t kHalfTexel = 8;
-    const auto texels = static_cast<std::size_t>(tables.size.azimuths) * static_cast<std::size_t>(tables.size.views);
+    const auto of = [](int count) { return static_cast<std::size_t>(count); };
+    const std::size_t texels = tables.lobe ? of(slices(tables.lobe->size, tables.lobe->pattern.even)) *
+                                                 of(tables.lobe->size.views.g) * of(tables.lobe->size.views.h)
+                                           : of(tables.size.azimuths) * of(tables.size.views);
     return {.fetches_per_pixel = 1,
             .multiply_adds_per_pixel = 12,
             .table_bytes = texels * kHalfTexel + cost(tables.stand_in).table_bytes};
 }
 
 Facts facts(const PlanarTables& tables) {
-    Facts result{{"map", fmt::format("{} x {}", tables.size.azimuths, tables.size.views)}};
+    Facts result;
+    if (tables.lobe)
+        result.push_back({"map", fmt::format("{} x {} x {}", tables.lobe->size.azimuths, tables.lobe->size.views.g,
+                                             tables.lobe->size.views.h)});
+    else
+        result.push_back({"map", fmt::format("{} x {}", tables.size.azimuths, tables.size.views)});
     for (auto& fact : facts(tables.stand_in)) result.push_back(std::move(fact));
     return result;
 }
 
 PointShader point_shader(const PlanarTables& tables, const MaterialKernel& material, const EvaluationLight& light) {
-    struct Plane {
-        glm::dvec3 normal{0.0};
-        PlanarMap map;
-    };
-    return [material, size = tables.size, texels = light.texels(),
-            last = std::make_shared<Plane>()](const ShadingPoint& frame) {
-        const glm::dvec3 normal = glm::normalize(frame.normal);
-        if (normal != last->normal)
-            *last = {normal, fill_planar_map(texels, material.kernel, material.pitch_nm, normal, size,
-                                             material.zero_order_xyz)};
-        return sample(last->map, frame);
-    };
+    if (tables.lobe)
+        return by_plane<LobeMap>(
+            [texels = light.texels(), azimuths = tables.lobe->size.azimuths,
+             spectrum = std::make_shared<const LobeSpectrum>(tables.lobe->pattern, tables.lobe->size.views)](
+                const glm::dvec3& normal) { return fill_lobe_map(texels, *spectrum, normal, azimuths); });
+    return by_plane<PlanarMap>([material, size = tables.size, texels = light.texels()](const glm::dvec3& normal) {
+        return fill_planar_map(texels, material.kernel, material.pitch_nm, normal, size, material.zero_order_xyz,
+                               material.cover);
+    });
 }
 
 }  // namespace rowland::diffraction

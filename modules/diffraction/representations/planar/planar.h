@@ -1,29 +1,43 @@
 #pragma once
 
+#include <optional>
+
+#include "modules/diffraction/bake/diffraction_pattern.h"
 #include "modules/diffraction/representations/arc/arc_table.h"
+#include "modules/diffraction/representations/planar/lobe_map.h"
 #include "modules/diffraction/representations/planar/planar_map.h"
 
 namespace rowland::diffraction {
 
-/// A map over (azimuth, v_g) that is filled at run time for a flat object. The stand-in shades the object meanwhile,
-/// and objects that are not flat.
+/// A map over (azimuth, v_g), or with a lobe that is not flat (azimuth, v_g, v_h), that is filled at run time for a
+/// flat object. The stand-in shades the object meanwhile, and objects that are not flat.
 struct PlanarSettings {
-    PlanarMapSize size;
+    PlanarMapSize size;                      ///< flat lobe
+    std::optional<LobeMapSize> lobe_size{};  ///< other lobes
+    Grating grating{};
     ArcSettings stand_in;
 
     static const RepresentationInfo& info();
+    static std::optional<Refusal> refusal(const SettingValues& values, const Grating& grating);
     static PlanarSettings from(const SettingValues& values, const Grating& grating);
     void set_illuminant(const colour::Illuminant& white) { stand_in.illuminant = white; }
 };
 
+/// What a map of a lobe that is not flat is filled from, besides the light.
+struct PlanarLobe {
+    LobeMapSize size;
+    DiffractionPattern pattern;
+};
+
 struct PlanarTables {
     PlanarMapSize size;
+    std::optional<PlanarLobe> lobe{};  ///< of a lobe that is not flat
     ArcTable stand_in;
 };
 
 PlanarTables bake(const Grating& grating, const PlanarSettings& settings);
 void write(const PlanarTables& tables, ByteWriter& writer);
-/// The map's size is the settings'.
+/// The map's size and the lobe's pattern are the settings'.
 PlanarTables read(ByteReader& reader, const PlanarSettings& settings);
 ShadingCost cost(const PlanarTables& tables);
 Facts facts(const PlanarTables& tables);

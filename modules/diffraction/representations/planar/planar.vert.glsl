@@ -4,7 +4,12 @@
 #include "modules/diffraction/representations/planar/planar_map.glsl"
 
 vec3 diffracted_radiance(vec3 view, vec3 g, vec3 n) {
-    return view.z > 0.0 ? map_radiance(view.x, g, n) : vec3(0.0);
+    if (view.z <= 0.0) return vec3(0.0);
+#ifdef LOBE_MAP
+    return map_radiance(view.xy, g);
+#else
+    return map_radiance(view.x, g, n);
+#endif
 }
 
 #include "modules/diffraction/shaders/vertex_shaded.glsl"

@@ -1,7 +1,6 @@
 #include "modules/diffraction/representations/planar/planar_map.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
@@ -18,63 +17,10 @@ namespace {
 
 using std::numbers::pi;
 
-/// The texels are summed in this many parts, whatever the number of threads.
-constexpr std::size_t kParts = 4;
-
 using Disc = std::vector<float>;
 
 void add_scaled(float* to, const float* light, float weight) {
     for (int c = 0; c < 4; ++c) to[c] += weight * light[c];
-}
-
-/// Distributes a light over the four cells around its position, so that their centre of weight is that position.
-void splat(Disc& disc, int cells, float x, float y, const std::array<float, 4>& light) {
-    const float last = static_cast<float>(cells - 1);
-    const float px = std::clamp(x, 0.0F, last);
-    const float py = std::clamp(y, 0.0F, last);
-    const int ix = std::min(static_cast<int>(px), cells - 2);
-    const int iy = std::min(static_cast<int>(py), cells - 2);
-    const float fx = px - static_cast<float>(ix);
-    const float fy = py - static_cast<float>(iy);
-    float* cell = disc.data() +
-                  (static_cast<std::size_t>(iy) * static_cast<std::size_t>(cells) + static_cast<std::size_t>(ix)) * 4;
-    float* below = cell + static_cast<std::ptrdiff_t>(cells) * 4;
-    add_scaled(cell, light.data(), (1 - fx) * (1 - fy));
-    add_scaled(cell + 4, light.data(), fx * (1 - fy));
-    add_scaled(below, light.data(), (1 - fx) * fy);
-    add_scaled(below + 4, light.data(), fx * fy);
-}
-
-/// Projects texels of the upper hemisphere along n: the measure on the disc is L ds_1 ds_2 = L s_n dω.
-void add_texels(const lighting::LightSamples& texels, std::size_t begin, std::size_t end, const glm::vec3& e1,
-                const glm::vec3& e2, const glm::vec3& n, int cells, Disc& disc) {
-    const float scale = 0.5F * static_cast<float>(cells);
-    for (std::size_t i = begin; i < end; ++i) {
-        const float x = texels.x[i];
-        const float y = texels.y[i];
-        const float z = texels.z[i];
-        const float s_n = x * n.x + y * n.y + z * n.z;
-        if (!(s_n > 0.0F)) continue;
-        const float weight = 0.5F * s_n;
-        const float s_1 = x * e1.x + y * e1.y + z * e1.z;
-        const float s_2 = x * e2.x + y * e2.y + z * e2.z;
-        splat(disc, cells, (s_1 + 1.0F) * scale - 0.5F, (s_2 + 1.0F) * scale - 0.5F,
-              {weight * texels.red[i], weight * texels.green[i], weight * texels.blue[i], 0.0F});
-    }
-}
-
-Disc light_on_disc(const lighting::LightSamples& texels, const glm::vec3& e1, const glm::vec3& e2, const glm::vec3& n,
-                   int cells) {
-    const auto floats = static_cast<std::size_t>(cells) * static_cast<std::size_t>(cells) * 4;
-    std::vector<Disc> parts(kParts);
-    parallel_for(kParts, [&](std::size_t part) {
-        parts[part].assign(floats, 0.0F);
-        add_texels(texels, texels.size() * part / kParts, texels.size() * (part + 1) / kParts, e1, e2, n, cells,
-                   parts[part]);
-    });
-    for (std::size_t part = 1; part < kParts; ++part)
-        for (std::size_t i = 0; i < floats; ++i) parts[0][i] += parts[part][i];
-    return std::move(parts[0]);
 }
 
 Disc transpose(const Disc& disc, int cells) {
@@ -102,22 +48,20 @@ struct PlanarFill::Profile {
 };
 
 PlanarFill::PlanarFill(const lighting::LightSamples& texels, const KernelTable& kernel, double pitch_nm,
-                       const glm::dvec3& normal, const PlanarMapSize& size, const glm::dmat3& zero_order_xyz)
+                       const glm::dvec3& normal, const PlanarMapSize& size, const glm::dmat3& zero_order_xyz,
+                       const std::optional<Cover>& cover)
     : size_(size), cells_(2 * (size.views - 1)), kernel_(kernel, pitch_nm, size.views, zero_order_xyz) {
     ROWLAND_CHECK_OP(size.azimuths, >=, 4);
     ROWLAND_CHECK_OP(size.azimuths % 2, ==, 0);
     ROWLAND_CHECK_OP(size.views, >=, 8);
-    n_ = glm::normalize(normal);
-    // The frame of the smallest rotation from the nearer of +Y and −Y.
-    const glm::dvec3 pole(0.0, n_.y < 0.0 ? -1.0 : 1.0, 0.0);
-    e1_ = glm::normalize(glm::dvec3(1.0, 0.0, 0.0) - n_.x / (1.0 + glm::dot(pole, n_)) * (pole + n_));
-    e2_ = glm::cross(n_, e1_);
-    rows_ = light_on_disc(texels, glm::vec3(e1_), glm::vec3(e2_), glm::vec3(n_), cells_);
+    axes_ = plane_axes(normal);
+    rows_ = light_on_disc(texels, axes_, cover, cells_).fluxes;
     columns_ = transpose(rows_, cells_);
 }
 
 PlanarMap PlanarFill::empty() const {
-    PlanarMap map{.azimuths = size_.azimuths, .views = size_.views, .e1 = e1_, .e2 = e2_, .n = n_, .xyz = {}};
+    PlanarMap map{
+        .azimuths = size_.azimuths, .views = size_.views, .e1 = axes_.e1, .e2 = axes_.e2, .n = axes_.n, .xyz = {}};
     map.xyz.resize(static_cast<std::size_t>(size_.azimuths) * static_cast<std::size_t>(size_.views), glm::vec3(0.0F));
     return map;
 }
@@ -137,9 +81,7 @@ PlanarFill::Profile PlanarFill::project(int azimuth) const {
     const float last = static_cast<float>(cells_ - 1);
     for (int row = 0; row < cells_; ++row) {
         const double y = row - middle;
-        const double half = std::sqrt(std::max(0.0, 0.25 * cells_ * cells_ - y * y)) + 1.0;
-        const int begin = std::max(0, static_cast<int>(middle - half));
-        const int end = std::min(cells_, static_cast<int>(middle + half) + 2);
+        const auto [begin, end] = lit_columns(cells_, row);
         const float start = static_cast<float>(outer * y + middle - inner * middle);
         const float step = static_cast<float>(inner);
         const float* light = disc.data() + (static_cast<std::size_t>(row) * side) * 4;
@@ -177,9 +119,9 @@ void PlanarFill::correlate(const Profile& profile, int azimuth, PlanarMap& map) 
 void PlanarFill::fill(int begin, int end, PlanarMap& map) const {
     ROWLAND_CHECK(map.azimuths == size_.azimuths && map.views == size_.views, "a map of another size");
     ROWLAND_CHECK(begin >= 0 && begin <= end && end <= size_.azimuths, "azimuths outside the map");
-    map.e1 = e1_;
-    map.e2 = e2_;
-    map.n = n_;
+    map.e1 = axes_.e1;
+    map.e2 = axes_.e2;
+    map.n = axes_.n;
     const int half_turn = size_.azimuths / 2;
     const auto wrap = [](int i, int count) { return (i % count + count) % count; };
     // A rotation by π mirrors A: half of the projections suffice.
@@ -206,8 +148,9 @@ void PlanarFill::fill(int begin, int end, PlanarMap& map) const {
 }
 
 PlanarMap fill_planar_map(const lighting::LightSamples& texels, const KernelTable& kernel, double pitch_nm,
-                          const glm::dvec3& normal, const PlanarMapSize& size, const glm::dmat3& zero_order_xyz) {
-    const PlanarFill fill(texels, kernel, pitch_nm, normal, size, zero_order_xyz);
+                          const glm::dvec3& normal, const PlanarMapSize& size, const glm::dmat3& zero_order_xyz,
+                          const std::optional<Cover>& cover) {
+    const PlanarFill fill(texels, kernel, pitch_nm, normal, size, zero_order_xyz, cover);
     PlanarMap map = fill.empty();
     fill.fill(0, size.azimuths, map);
     return map;

@@ -2,12 +2,15 @@
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <vector>
 
 #include "engine/lighting/light_samples.h"
 #include "modules/diffraction/bake/kernel_cells.h"
 #include "modules/diffraction/model/colour_kernel.h"
+#include "modules/diffraction/model/cover.h"
 #include "modules/diffraction/model/shading_point.h"
+#include "modules/diffraction/representations/planar/light_disc.h"
 
 namespace rowland::diffraction {
 
@@ -33,10 +36,11 @@ struct PlanarMapSize {
 /// texels.
 class PlanarFill {
  public:
-    /// `normal`: unit. `zero_order_xyz`: as of ColourKernel. Uses all cores; the result does not depend on them.
+    /// `normal`: unit. `zero_order_xyz`: as of ColourKernel. `cover`: T(s_n) is in the map, T(v_n) is not. Uses all
+    /// cores; the result does not depend on them.
     PlanarFill(const lighting::LightSamples& texels, const KernelTable& kernel, double pitch_nm,
                const glm::dvec3& normal, const PlanarMapSize& size = {},
-               const glm::dmat3& zero_order_xyz = glm::dmat3(0.0));
+               const glm::dmat3& zero_order_xyz = glm::dmat3(0.0), const std::optional<Cover>& cover = std::nullopt);
 
     /// The map with its frame, all black.
     PlanarMap empty() const;
@@ -53,19 +57,18 @@ class PlanarFill {
     void correlate(const Profile& profile, int azimuth, PlanarMap& map) const;
 
     PlanarMapSize size_;
-    glm::dvec3 e1_{0.0};
-    glm::dvec3 e2_{0.0};
-    glm::dvec3 n_{0.0};
+    PlaneAxes axes_;
     int cells_;  ///< of A, and of the disc's side
     KernelCells kernel_;
-    std::vector<float> rows_;     ///< light over the plane's disc, cells_² of (r, g, b, 0): flux · s_n / 2
+    std::vector<float> rows_;     ///< light over the plane's disc, cells_² of (r, g, b, 0): flux · s_n T(s_n) / 2
     std::vector<float> columns_;  ///< the same, transposed
 };
 
 /// A map, filled at once.
 PlanarMap fill_planar_map(const lighting::LightSamples& texels, const KernelTable& kernel, double pitch_nm,
                           const glm::dvec3& normal, const PlanarMapSize& size = {},
-                          const glm::dmat3& zero_order_xyz = glm::dmat3(0.0));
+                          const glm::dmat3& zero_order_xyz = glm::dmat3(0.0),
+                          const std::optional<Cover>& cover = std::nullopt);
 
 /// XYZ at an azimuth (radians, unbounded) and a v_g, as the texture unit interpolates.
 glm::dvec3 sample(const PlanarMap& map, double azimuth, double v_g);

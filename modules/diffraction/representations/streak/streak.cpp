@@ -136,12 +136,15 @@ void fit_weights(const std::vector<KernelRaster>& rasters, double width_nm, std:
                 .weights[static_cast<std::size_t>(i % kSegmentNodes)][e / 3][e % 3] = static_cast<float>(weights(i, e));
 }
 
+constexpr double kLeastSquare = 1e-4;  ///< of s_n²
+
 /// The same for all points of a view.
 struct StreakView {
     const Streak& streak;
     const glm::dmat3& axes;
     glm::dvec3 view{0.0};
     double length_scale = 1.0;  ///< the lobe's deviation over the map's
+    std::optional<Cover> cover = std::nullopt;
 
     double side() const { return std::abs(view.y); }
     /// Radii √(1 − s_g²) from which on some and all of the lobe is above the horizon.
@@ -158,7 +161,7 @@ double lobe_middle(const StreakView& at, double s_g) {
 /// Where the light at (s_g, s_h) is in the map. `chart`: −1 chooses it.
 StreakPosition position_at(const StreakView& at, double s_g, double s_h, int& chart) {
     const double square = std::max(1.0 - s_g * s_g, 1e-6);
-    const double s_n = std::sqrt(std::max(square - s_h * s_h, 1e-4));
+    const double s_n = std::sqrt(std::max(square - s_h * s_h, kLeastSquare));
     const glm::dvec3 direction = at.axes * glm::dvec3(s_g, s_h, s_n);
     if (chart < 0) chart = direction.y < 0.0 ? 1 : 0;
     StreakPosition position = streak_position(direction, at.axes * glm::dvec3(0.0, s_n, -s_h), chart);
@@ -195,7 +198,8 @@ glm::dvec3 segment_xyz(const StreakSegment& segment, const StreakMap& map, const
         StreakPosition position = mean + t * slope;
         position.level = centre.level;
         position.texture += (t * t - 1.0) * bend;
-        xyz += fraction * (glm::dmat3(segment.weights[static_cast<std::size_t>(j)]) * sample(map, position));
+        const double passed = transmittance(at.cover, std::sqrt(std::max(1.0 - s_g * s_g - s_h * s_h, kLeastSquare)));
+        xyz += fraction * passed * (glm::dmat3(segment.weights[static_cast<std::size_t>(j)]) * sample(map, position));
     }
     return xyz;
 }
@@ -236,10 +240,12 @@ std::optional<Grating> incoherent_rest(const Grating& grating) {
     return rest;
 }
 
-glm::dvec3 evaluate(const Streak& streak, const StreakMap& map, const glm::dmat3& axes, const glm::dvec3& view) {
+glm::dvec3 evaluate(const Streak& streak, const StreakMap& map, const glm::dmat3& axes, const glm::dvec3& view,
+                    const std::optional<Cover>& cover) {
     glm::dvec3 xyz(0.0);
     if (!(view.z > 0.0)) return xyz;
-    const StreakView at{.streak = streak, .axes = axes, .view = view, .length_scale = streak.sigma / map.size.length};
+    const StreakView at{
+        .streak = streak, .axes = axes, .view = view, .length_scale = streak.sigma / map.size.length, .cover = cover};
     for (const StreakSegment& segment : streak.segments) xyz += segment_xyz(segment, map, at);
     return streak.power / std::erf(1.0 / (streak.sigma * std::numbers::sqrt2)) * xyz;
 }

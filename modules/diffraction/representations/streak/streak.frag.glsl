@@ -89,7 +89,8 @@ vec3 segment_radiance(int i, StreakView at, GrooveView view) {
                           -at.above.y * extent * extent);
         for (int j = 0; j < NODES; ++j) {
             float t = first_t + float(j) * step_t;
-            float fraction = clamp(above.x + t * (above.y + t * above.z), 0.0, 1.0);
+            float fraction = clamp(above.x + t * (above.y + t * above.z), 0.0, 1.0) *
+                             cover_transmittance(sqrt(square_n(middle + t * extent, s_h)));
             vec2 chart_at = mean.xy + t * (slope.xy + t * bend);
             vec3 rgb = fraction * textureLod(streak_map, vec3(chart_at, mean.z + t * slope.z), level).rgb;
             for (int c = 0; c < 3; ++c) sum += streak_segments[i].weights[3 * j + c].xyz * rgb[c];

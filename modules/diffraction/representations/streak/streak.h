@@ -8,6 +8,7 @@
 
 #include "engine/colour/light_spectra.h"
 #include "engine/core/byte_stream.h"
+#include "modules/diffraction/model/cover.h"
 #include "modules/diffraction/model/grating.h"
 #include "modules/diffraction/representations/streak/streak_map.h"
 
@@ -59,8 +60,9 @@ std::optional<Grating> incoherent_rest(const Grating& grating);
 /// XYZ of the streak for the tangent-frame view; the columns of `axes` are g, h, n in the world. Every segment looks up
 /// the map at its nodes, whose position in the map is a parabola through three points of the segment, whose
 /// direction is linear between its ends, and whose length is that of its middle. Light below the
-/// horizon is black. 0 for v_n ≤ 0.
-glm::dvec3 evaluate(const Streak& streak, const StreakMap& map, const glm::dmat3& axes, const glm::dvec3& view);
+/// horizon is black. 0 for v_n ≤ 0. A cover multiplies each node by T(s_n); T(v_n) is left out.
+glm::dvec3 evaluate(const Streak& streak, const StreakMap& map, const glm::dmat3& axes, const glm::dvec3& view,
+                    const std::optional<Cover>& cover = std::nullopt);
 
 /// The most nodes that one view sees, and so that one pixel reads.
 int most_seen_nodes(const Streak& streak);

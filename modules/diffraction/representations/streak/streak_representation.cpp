@@ -90,13 +90,14 @@ PointShader point_shader(const StreakTables& tables, const MaterialKernel& mater
                      .remedy = "give --probe"});
     PointShader rest = [](const ShadingPoint&) { return glm::dvec3(0.0); };
     if (tables.rest) rest = point_shader(*tables.rest, material, light);
-    return [map =
-                std::make_shared<const StreakMap>(fill_streak_map(lighting::light_samples(*light.probe()), tables.map)),
-            &tables, rest](const ShadingPoint& frame) {
-        const glm::dmat3 tangent = world_to_tangent(frame);
-        const glm::dvec3 view = tangent * glm::normalize(frame.view);
-        return evaluate(tables.streak, *map, glm::transpose(tangent), view) + (1.0 - tables.streak.power) * rest(frame);
-    };
+    return
+        [map = std::make_shared<const StreakMap>(fill_streak_map(lighting::light_samples(*light.probe()), tables.map)),
+         &tables, rest, cover = material.cover](const ShadingPoint& frame) {
+            const glm::dmat3 tangent = world_to_tangent(frame);
+            const glm::dvec3 view = tangent * glm::normalize(frame.view);
+            return evaluate(tables.streak, *map, glm::transpose(tangent), view, cover) +
+                   (1.0 - tables.streak.power) * rest(frame);
+        };
 }
 
 }  // namespace rowland::diffraction

@@ -1,37 +1,17 @@
 // Arc tables on the GPU against the CPU's evaluation of the same table.
 #include <gtest/gtest.h>
 
-#include "modules/diffraction/bake/arc_moments.h"
 #include "tests/gpu/modules/diffraction/grating_picture.h"
 
 namespace rowland::diffraction {
 namespace {
 
-class Arc : public GratingPicture {
- protected:
-    /// The rest of the light, without analytic lights.
-    std::function<glm::dvec3(const Point&)> evaluation(const CookedMaterial& cooked, const lighting::ShLight& light) {
-        const auto& table = std::get<ArcTable>(cooked.tables);
-        std::vector<std::vector<glm::dvec3>> products;
-        for (std::size_t vertex = 0; vertex < 3; ++vertex) {
-            const lighting::ShLight rotated = vertex_light(vertex, light, table.bands);
-            products.push_back(table.terms == LightTerms::ArcMoments
-                                   ? light_products(table, ArcMoments(table.bands)(rotated))
-                                   : light_products(table, rotated.coefficients));
-        }
-        return [products, &table](const Point& point) {
-            std::vector<glm::dvec3> mixed;
-            for (std::size_t r = 0; r < products[0].size(); ++r)
-                mixed.push_back(mix(point, {products[0][r], products[1][r], products[2][r]}));
-            return shade(table, mixed, point.view);
-        };
-    }
-};
+class Arc : public GratingPicture {};
 
 TEST_F(Arc, PixelsEqualTheCpuEvaluation) {
     const CookedMaterial cooked = cook(kSlitCd, R"({"representation": "arc", "key_lights": false})");
     show(cooked);
-    EXPECT_LT(largest_difference(draw(), evaluation(cooked, light_.sh)), kPictureTolerance);
+    EXPECT_LT(largest_difference(draw(), arc_xyz(cooked, light_.sh)), kPictureTolerance);
     EXPECT_GT(compared_, 500);
     EXPECT_GT(brightest_, 0.05);
 }
@@ -43,14 +23,14 @@ TEST_F(Arc, PixelsEqualTheCpuForOtherRanksBandsStoragesAndTurnedGrooves) {
     const CookedMaterial cooked =
         cook(kBlazed, R"({"representation": "arc", "key_lights": false, "bands": 8, "rank": 14, "storage": "fp32"})");
     show(cooked, 0.7);
-    EXPECT_LT(largest_difference(draw(), evaluation(cooked, light_.sh)), kPictureTolerance);
+    EXPECT_LT(largest_difference(draw(), arc_xyz(cooked, light_.sh)), kPictureTolerance);
     EXPECT_GT(brightest_, 0.01);
 }
 
 TEST_F(Arc, PixelsEqualTheCpuForALobeThatSeesTheViewAlongTheGrooves) {
     const CookedMaterial cooked = cook(kFoil, R"({"representation": "arc", "key_lights": false, "rank": 16})");
     show(cooked, -0.4);
-    EXPECT_LT(largest_difference(draw(), evaluation(cooked, light_.sh)), kPictureTolerance);
+    EXPECT_LT(largest_difference(draw(), arc_xyz(cooked, light_.sh)), kPictureTolerance);
     EXPECT_GT(brightest_, 0.01);
 }
 
@@ -58,7 +38,7 @@ TEST_F(Arc, KeyLightsComeOnTopOfTheRest) {
     light_ = light_of(smooth_probe(), three_keys());
     const CookedMaterial cooked = cook(kBlazed, R"({"representation": "arc"})");
     show(cooked, 0.3);
-    const auto rest = evaluation(cooked, light_.residual);
+    const auto rest = arc_xyz(cooked, light_.residual);
     EXPECT_LT(
         largest_difference(
             draw(), [&](const Point& point) { return rest(point) + key_light_xyz(cooked, light_.key_lights, point); }),
@@ -96,7 +76,7 @@ TEST_F(Arc, GrazingViewsEqualTheCpu) {
     camera_.eye = {0.5F, -2.5F, 0.02F};
     const CookedMaterial cooked = cook(kSlitCd, R"({"representation": "arc", "rank": 16})");
     show(cooked, 0.2);
-    const auto rest = evaluation(cooked, light_.residual);
+    const auto rest = arc_xyz(cooked, light_.residual);
     EXPECT_LT(
         largest_difference(
             draw(), [&](const Point& point) { return rest(point) + key_light_xyz(cooked, light_.key_lights, point); }),

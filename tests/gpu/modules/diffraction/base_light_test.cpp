@@ -13,7 +13,7 @@ constexpr glm::vec3 kColour(0.8F, 0.6F, 0.4F);
 
 class BaseLight : public GratingPicture {
  protected:
-    /// A grating without light of its own, over a layer under ambient light alone.
+    /// A grating that no light reaches, on a base layer under ambient light alone.
     void show_under_ambient_light(bool double_sided) {
         light_.sh.coefficients.assign(light_.sh.coefficients.size(), glm::dvec3(0.0));
         cooked_ = cook(kSlitCd, R"({"representation": "arc", "key_lights": false})");

@@ -133,6 +133,26 @@ TEST_F(Surface, ABrokenQualityIsRefusedByName) {
     EXPECT_EQ(world_.get<DiffractionSurface>(entity_).groove_rotation, 0.25F);
 }
 
+/// A grating's gloss is its cover's, whatever the glTF's coat is.
+TEST_F(Surface, AClearCoatBesideAGratingIsNotDrawnAndSaysSo) {
+    show(cook(kSlitCd, R"({"representation": "direct"})"));
+    DiffractionSurfaceType type(glm::dmat3(1.0));
+    const scene::ImportedScene scene;
+    render::SurfaceTextures textures(scene);
+    for (const char* cover : {"", R"(, "cover": {"ior": 1.5})"}) {
+        world_.add(entity_, render::StandardMaterial{.clear_coat = 0.5F});
+        testing::internal::CaptureStderr();
+        type.attach(
+            world_, entity_,
+            parse_json(
+                std::string("{\"grating\": ") + kSlitCd + cover + R"(, "quality": {"representation": "direct"}})", "m"),
+            textures, "m.gltf", "/materials/0");
+        EXPECT_THAT(testing::internal::GetCapturedStderr(),
+                    testing::AllOf(HasSubstr("m.gltf: /materials/0"), HasSubstr("clearcoat"), HasSubstr("cover")));
+        EXPECT_EQ(world_.get<render::StandardMaterial>(entity_).clear_coat, 0.0F);
+    }
+}
+
 TEST_F(Surface, TablesOfOneNameInTwoFoldersAreTwoMaterials) {
     DiffractionSurfaceType type(glm::dmat3(1.0));
     const scene::ImportedScene no_pictures;

@@ -22,12 +22,12 @@ class Direct : public GratingPicture {
                rowland::test::reflected(l, n, v, glm::dvec3(0.0), 0.0, roughness) *
                (colour::rec709_to_xyz() * irradiance);
     }
-    /// A light without extent, by the smoothed kernel.
+    /// A light without extent, by the smoothed kernel; `half_pixel`: footprint().
     static glm::dvec3 small_light_xyz(const CookedMaterial& cooked, const Point& point, const glm::dvec3& l,
-                                      const glm::dvec3& irradiance) {
+                                      const glm::dvec3& irradiance, double half_pixel) {
         const DirectLight light{.direction = l, .flux = irradiance};
         return direct_radiance(smoothed(cooked), direct_material(cooked), light_spot(light, point.to_tangent),
-                               DirectView{point.view.x, point.view.y, point.footprint});
+                               DirectView{point.view.x, point.view.y, half_pixel});
     }
     void add_light(const scene::PunctualLight& light, const glm::vec3& position) {
         const ecs::Entity entity = world_.create();
@@ -65,7 +65,7 @@ TEST_F(Direct, LightsAtTheVerticesAreInterpolated) {
         point.to_tangent = vertex_frame(vertex);
         point.view = vertex_view(vertex);
         shaded.push_back(key_light_xyz(cooked, light_.key_lights, point) +
-                         small_light_xyz(cooked, point, toward, irradiance));
+                         small_light_xyz(cooked, point, toward, irradiance, 0.0));
     }
     EXPECT_LT(largest_difference(draw(),
                                  [&](const Point& point) {
@@ -101,7 +101,7 @@ TEST_F(Direct, OrderZeroShowsTheLobesThemselves) {
         for (const lighting::KeyLight& key : light_.key_lights)
             for (const LightSpot::Part& part : light_spot(key, point.to_tangent).parts) {
                 if (part.cosine <= 0.0) continue;
-                const double deviation = std::hypot(part.deviation_g, point.footprint / std::sqrt(3.0));
+                const double deviation = std::hypot(part.deviation_g, footprint(point, key.direction) / std::sqrt(3.0));
                 const double z = (part.centre_g + point.view.x) / deviation;
                 const double density = std::exp(-0.5 * z * z) / (deviation * std::sqrt(6.28318530717959));
                 xyz += 0.5 * part.cosine * density * (cooked.zero_order_xyz * key.flux);
@@ -123,7 +123,8 @@ TEST_F(Direct, DirectionalLightsEqualTheCpu) {
     world_.add(world_.create(),
                scene::DirectionalLight{.direction = glm::vec3(l), .irradiance = glm::vec3(irradiance)});
     const auto expected = [&](const Point& point) {
-        return small_light_xyz(cooked, point, l, irradiance) + base_xyz(cooked, point, l, irradiance, camera_.eye);
+        return small_light_xyz(cooked, point, l, irradiance, footprint(point, l)) +
+               base_xyz(cooked, point, l, irradiance, camera_.eye);
     };
     EXPECT_LT(largest_difference(draw(), expected), kPictureTolerance);
     EXPECT_GT(brightest_, 0.05);
@@ -146,7 +147,7 @@ TEST_F(Direct, LightsOfOtherColoursEqualTheCpu) {
         const auto expected = [&](const Point& point) {
             glm::dvec3 xyz(0.0);
             for (int i = 0; i < 2; ++i)
-                xyz += small_light_xyz(cooked, point, directions[i], irradiances[i]) +
+                xyz += small_light_xyz(cooked, point, directions[i], irradiances[i], footprint(point, directions[i])) +
                        base_xyz(cooked, point, directions[i], irradiances[i], camera_.eye);
             return xyz;
         };
@@ -177,7 +178,8 @@ TEST_F(Direct, PointLightsShineOnEveryRepresentation) {
             const glm::dvec3 to_light = glm::dvec3(position) - point.position;
             const glm::dvec3 l = glm::normalize(to_light);
             const glm::dvec3 irradiance = intensity / glm::dot(to_light, to_light);
-            return small_light_xyz(cooked, point, l, irradiance) + base_xyz(cooked, point, l, irradiance, camera_.eye);
+            return small_light_xyz(cooked, point, l, irradiance, footprint_of_lamp(point, position)) +
+                   base_xyz(cooked, point, l, irradiance, camera_.eye);
         };
         EXPECT_LT(largest_difference(draw(), expected), kPictureTolerance) << quality;
         EXPECT_GT(brightest_, 0.05);

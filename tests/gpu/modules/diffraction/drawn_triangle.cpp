@@ -39,6 +39,21 @@ scene::Mesh flat_triangle() {
     return mesh;
 }
 
+double footprint(const Point& point, const glm::dvec3& toward) {
+    const auto change = [&](const Point::Change& more) { return glm::dot(toward, more.g) + more.view.x; };
+    return 0.5 * std::hypot(change(point.beside), change(point.below));
+}
+
+double footprint_of_lamp(const Point& point, const glm::dvec3& lamp) {
+    const glm::dvec3 g = glm::transpose(point.to_tangent)[0];
+    const auto change = [&](const Point::Change& more) {
+        const glm::dvec3 here = glm::normalize(lamp - point.position);
+        const glm::dvec3 there = glm::normalize(lamp - point.position - more.position);
+        return glm::dot(there, g + more.g) - glm::dot(here, g) + more.view.x;
+    };
+    return 0.5 * std::hypot(change(point.beside), change(point.below));
+}
+
 DrawnTriangle::DrawnTriangle() {
     transform_.rotation = glm::angleAxis(0.4F, glm::normalize(glm::vec3(1.0F, 2.0F, 0.5F)));
     camera_.eye = {0.4F, 0.5F, 3.0F};
@@ -68,9 +83,15 @@ glm::dvec3 DrawnTriangle::mix(const Point& point, const std::vector<glm::dvec3>&
 Point DrawnTriangle::point_at(int column, int row) const {
     Point point = single_point_at(column, row);
     // Shaders take differences within two by two pixels.
-    point.beside = glm::dvec2(single_point_at(column ^ 1, row).view) - glm::dvec2(point.view);
-    point.below = glm::dvec2(single_point_at(column, row ^ 1).view) - glm::dvec2(point.view);
-    point.footprint = 0.5 * (std::abs(point.beside.x) + std::abs(point.below.x));
+    const auto change = [&](const Point& next) {
+        const glm::dmat3 more = glm::transpose(next.to_tangent) - glm::transpose(point.to_tangent);
+        return Point::Change{.g = more[0],
+                             .h = more[1],
+                             .view = glm::dvec2(next.view) - glm::dvec2(point.view),
+                             .position = next.position - point.position};
+    };
+    point.beside = change(single_point_at(column ^ 1, row));
+    point.below = change(single_point_at(column, row ^ 1));
     return point;
 }
 

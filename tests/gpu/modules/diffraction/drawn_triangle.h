@@ -24,10 +24,22 @@ struct Point {
     glm::dvec3 position{0.0};
     glm::dmat3 to_tangent{1.0};  ///< rows g, h, n: the vertices', interpolated and made orthonormal
     glm::dvec3 view{0.0};        ///< toward the eye, in (g, h, n)
-    double footprint = 0.0;      ///< half the pixel's extent in v_g
-    glm::dvec2 beside{0.0};      ///< (v_g, v_h) of the next column's pixel less this one's; sign as it comes
-    glm::dvec2 below{0.0};       ///< the same of the next row's
+    /// What the pixels of the next column and the next row have more of, up to a common sign.
+    struct Change {
+        glm::dvec3 g{0.0};
+        glm::dvec3 h{0.0};
+        glm::dvec2 view{0.0};  ///< (v_g, v_h)
+        glm::dvec3 position{0.0};
+    };
+    Change beside;
+    Change below;
 };
+
+/// Half the width of an interval of u = s_g + v_g with its variance over the pixel, for a light in the direction
+/// `toward` (world): PHYSICS (38).
+double footprint(const Point& point, const glm::dvec3& toward);
+/// The same for a light at a point.
+double footprint_of_lamp(const Point& point, const glm::dvec3& lamp);
 
 /// A triangle as the CPU sees it in a square picture.
 class DrawnTriangle {

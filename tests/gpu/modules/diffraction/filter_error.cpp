@@ -50,6 +50,18 @@ PlanarMap filter_error(const PlanarMap& map) {
     return error;
 }
 
+LobeMap filter_error(const LobeMap& map) {
+    LobeMap error = map;
+    const auto g = static_cast<std::size_t>(map.size.views.g);
+    const auto h = static_cast<std::size_t>(map.size.views.h);
+    error.values = error_of(map.values, {{.texels = g, .stride = 1},
+                                         {.texels = h, .stride = g},
+                                         {.texels = static_cast<std::size_t>(slices(map.size, map.half_turn)),
+                                          .stride = g * h,
+                                          .repeats = !map.half_turn}});
+    return error;
+}
+
 LobeTable filter_error(const LobeTable& table) {
     LobeTable error = table;
     const auto columns = static_cast<std::size_t>(table.columns);

@@ -4,6 +4,7 @@
 
 #include "modules/diffraction/representations/circle/circle_map.h"
 #include "modules/diffraction/representations/direct/lobe_table.h"
+#include "modules/diffraction/representations/planar/lobe_map.h"
 #include "modules/diffraction/representations/planar/planar_map.h"
 #include "modules/diffraction/representations/streak/streak.h"
 
@@ -15,6 +16,7 @@ inline constexpr double kPositionError = 1.0 / 256.0;
 /// Tables that give the most by which such positions change look-ups of these ones. A texel holds the larger
 /// difference to its neighbours on each axis, times kPositionError, summed over the axes.
 PlanarMap filter_error(const PlanarMap& map);
+LobeMap filter_error(const LobeMap& map);
 LobeTable filter_error(const LobeTable& table);
 /// In the first term, whose factor is 1: the others' factors are within [−1, 1].
 CircleMap filter_error(const CircleMap& map);

@@ -7,6 +7,7 @@
 
 #include "engine/lighting/light_probe.h"
 #include "engine/render/gpu_mesh.h"
+#include "modules/diffraction/bake/arc_moments.h"
 
 namespace rowland::diffraction {
 
@@ -67,6 +68,23 @@ std::vector<glm::vec4> GratingPicture::draw() {
     scene::update_world_matrices(world_);
     renderer_->render(world_, camera_, target_);
     return target_.read_rgba_float();
+}
+
+GratingPicture::AtPoint GratingPicture::arc_xyz(const CookedMaterial& cooked, const lighting::ShLight& light) {
+    const auto& table = std::get<ArcTable>(cooked.tables);
+    std::vector<std::vector<glm::dvec3>> products;
+    for (std::size_t vertex = 0; vertex < 3; ++vertex) {
+        const lighting::ShLight rotated = vertex_light(vertex, light, table.bands);
+        products.push_back(table.terms == LightTerms::ArcMoments
+                               ? light_products(table, ArcMoments(table.bands)(rotated))
+                               : light_products(table, rotated.coefficients));
+    }
+    return [products, &table](const Point& point) {
+        std::vector<glm::dvec3> mixed;
+        for (std::size_t r = 0; r < products[0].size(); ++r)
+            mixed.push_back(mix(point, {products[0][r], products[1][r], products[2][r]}));
+        return shade(table, mixed, point.view);
+    };
 }
 
 void GratingPicture::expect_map_at_vertices(const CookedMaterial& cooked, const AtPoint& map_xyz,

@@ -42,6 +42,18 @@ class GratingPicture : public rowland::test::GlTest, protected DrawnTriangle {
     /// XYZ of a point on the CPU, or the error that texture units may add to it (filter_error.h).
     using AtPoint = std::function<glm::dvec3(const Point&)>;
 
+    /// What an arc table gives, its products interpolated between the vertices.
+    AtPoint arc_xyz(const CookedMaterial& cooked, const lighting::ShLight& light);
+    /// What a table gives that is evaluated at the vertices.
+    template <typename Table>
+    AtPoint table_xyz(const CookedMaterial& cooked, const lighting::ShLight& light) {
+        const auto& table = std::get<Table>(cooked.tables);
+        std::vector<glm::dvec3> vertices;
+        for (std::size_t vertex = 0; vertex < 3; ++vertex)
+            vertices.push_back(evaluate(table, vertex_light(vertex, light, table.bands), vertex_view(vertex)));
+        return [vertices](const Point& point) { return mix(point, vertices); };
+    }
+
     /// Draws a material whose map is looked up at the vertices, which `map_xyz` does on the CPU, and its key lights at
     /// the vertices or at the pixels.
     void expect_map_at_vertices(const CookedMaterial& cooked, const AtPoint& map_xyz, const AtPoint& map_error);

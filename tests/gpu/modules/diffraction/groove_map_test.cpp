@@ -5,9 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <random>
 
 #include "engine/core/json_reader.h"
 #include "modules/diffraction/asset/material_json.h"
+#include "tests/gpu/modules/diffraction/filter_error.h"
 #include "tests/gpu/modules/diffraction/grating_picture.h"
 #include "tests/support/message_of.h"
 
@@ -32,15 +34,16 @@ class Grooves : public GratingPicture {
             mesh_.uvs[i] = {0.5F + 0.45F * mesh_.positions[i].x, 0.5F - 0.45F * mesh_.positions[i].y};
     }
 
-    /// A picture of so many texels across, not filtered.
-    std::shared_ptr<const GrooveMap> map_of(std::span<const Texel> texels, int width, const GrooveTexture& use = {}) {
+    /// A picture of so many texels across, filtered or not.
+    std::shared_ptr<const GrooveMap> map_of(std::span<const Texel> texels, int width, const GrooveTexture& use = {},
+                                            bool filtered = false) {
         auto picture = std::make_shared<image::ByteImage>();
         picture->width = width;
         picture->height = static_cast<int>(texels.size()) / width;
         for (const Texel& texel : texels)
             picture->rgba.insert(picture->rgba.end(), {texel.red, texel.green, std::uint8_t{0}, std::uint8_t{255}});
         scene_.images = {picture};
-        scene_.textures = {{.nearest = true, .mipmaps = false}};
+        scene_.textures = {{.nearest = !filtered, .mipmaps = filtered}};
         render::SurfaceTextures textures(scene_);
         return std::make_shared<const GrooveMap>(use, textures, "scene.gltf", "/grooveTexture");
     }
@@ -68,6 +71,9 @@ class Grooves : public GratingPicture {
             if (std::abs(place[axis] - std::round(place[axis])) < 1e-3) return std::nullopt;
         const auto wrapped = [](double at) { return (static_cast<int>(std::floor(at)) % 2 + 2) % 2; };
         const Texel& texel = kPatches[2 * wrapped(place.y) + wrapped(place.x)];
+        return turned_by(point, texel);
+    }
+    static Turned turned_by(const Point& point, const Texel& texel) {
         const double angle = 3.14159265358979323846 * texel.red / 255.0;
         const glm::dvec2 turn(std::cos(angle), std::sin(angle));
         Turned turned{.point = point, .pitch = 2.0 * texel.green / 255.0};
@@ -75,8 +81,20 @@ class Grooves : public GratingPicture {
         turned.point.to_tangent = glm::transpose(
             glm::dmat3(turn.x * axes[0] + turn.y * axes[1], turn.x * axes[1] - turn.y * axes[0], axes[2]));
         turned.point.view = turned.point.to_tangent * (axes * point.view);
-        turned.point.footprint = 0.5 * (std::abs(glm::dot(turn, point.beside)) + std::abs(glm::dot(turn, point.below)));
+        for (Point::Change* change : {&turned.point.beside, &turned.point.below}) {
+            change->g = turn.x * change->g + turn.y * change->h;
+            change->view.x = glm::dot(turn, change->view);
+        }
         return turned;
+    }
+    /// The mean over texels of what each would show, at some pixels; NaN elsewhere.
+    AtPoint mean_over(const std::vector<Texel>& texels, const std::function<glm::dvec3(const Turned&)>& radiance) {
+        return [this, &texels, radiance, pixel = 0](const Point& point) mutable {
+            if (++pixel % 41 != 0) return glm::dvec3(std::numeric_limits<double>::quiet_NaN());
+            glm::dvec3 sum(0.0);
+            for (const Texel& texel : texels) sum += radiance(turned_by(point, texel));
+            return sum / static_cast<double>(texels.size());
+        };
     }
     /// Key lights part by part: their tables know one pitch.
     glm::dvec3 key_lights(const CookedMaterial& cooked, const Turned& turned) const {
@@ -86,7 +104,7 @@ class Grooves : public GratingPicture {
         glm::dvec3 xyz(0.0);
         for (const lighting::KeyLight& key : light_.key_lights)
             xyz += direct_radiance(smoothed(cooked), material, light_spot(key, point.to_tangent),
-                                   DirectView{point.view.x, point.view.y, point.footprint});
+                                   DirectView{point.view.x, point.view.y, footprint(point, key.direction)});
         return xyz;
     }
     glm::dvec3 rest(const CookedMaterial& cooked, const Turned& turned) const {
@@ -236,6 +254,106 @@ TEST_F(Grooves, TextureTransformsAndTheSecondCoordinatesAreThoseOfTheEngine) {
     for (std::size_t i = 0; i < found.size(); ++i) differ += glm::distance(found[i], expected[i]) > 1e-5F ? 1 : 0;
     EXPECT_LT(differ, 20);
     EXPECT_GT(largest_difference_of(expected, std::vector<glm::vec4>(expected.size(), expected[0])), 0.1);
+}
+
+/// Directions and pitches that vary normally about a mean.
+std::vector<Texel> rough_texels(int side) {
+    std::mt19937 random(7);
+    std::normal_distribution<double> red(70.0, 9.0);
+    std::normal_distribution<double> green(128.0, 6.0);
+    const auto byte = [](double value) { return static_cast<std::uint8_t>(std::clamp(value, 1.0, 255.0)); };
+    std::vector<Texel> texels;
+    for (int i = 0; i < side * side; ++i) texels.push_back({byte(red(random)), byte(green(random))});
+    return texels;
+}
+
+constexpr int kRoughSide = 32;
+
+/// Every pixel covers the whole picture, several times.
+TEST_F(Grooves, APixelShowsTheMeanOfTheGroovesThatItCovers) {
+    light_ = light_of(smooth_probe(), three_keys());
+    for (glm::vec2& uv : mesh_.uvs) uv *= 300.0F;
+    const std::vector<Texel> texels = rough_texels(kRoughSide);
+    for (const char* grating : {kFlatFoil, kBlazed}) {
+        const auto map = map_of(texels, kRoughSide, {}, true);
+        const CookedMaterial cooked = cook_with(grating, R"({"representation": "direct"})", *map);
+        show_with(cooked, map, 0.4);
+        const auto wanted = mean_over(texels, [&](const Turned& turned) { return key_lights(cooked, turned); });
+        EXPECT_LT(largest_difference(draw(), wanted), 0.04) << grating;  // u is no normal distribution; .033 found
+        EXPECT_GT(brightest_, 0.02);
+        world_.add(entity_, DiffractionSurface{material_, 0.4F, map_of(texels, kRoughSide, {.sparkle = true}, true)});
+        EXPECT_GT(largest_difference(draw(), wanted), 0.3) << grating;
+        world_.destroy(entity_);
+    }
+}
+
+TEST_F(Grooves, AmbientLightIsThatOfTheMeanOfTheGroovesThatAPixelCovers) {
+    for (glm::vec2& uv : mesh_.uvs) uv *= 300.0F;
+    const std::vector<Texel> texels = rough_texels(kRoughSide);
+    const auto map = map_of(texels, kRoughSide, {}, true);
+    const CookedMaterial cooked = cook_with(kFlatFoil, R"({"representation": "arc", "key_lights": false})", *map);
+    show_with(cooked, map, 0.4);
+    const auto wanted = mean_over(texels, [&](const Turned& turned) { return rest(cooked, turned); });
+    EXPECT_LT(largest_difference(draw(), wanted), 0.03);
+}
+
+TEST_F(Grooves, ALevelOfMomentsIsTheirMean) {
+    const std::vector<Texel> texels = rough_texels(kRoughSide);
+    const auto map = map_of(texels, kRoughSide, {}, true);
+    for (const bool even : {true, false}) {
+        glm::dvec4 mean(0.0);
+        for (const Texel& texel : texels) {
+            const double angle = (even ? 2.0 : 1.0) * 3.14159265358979323846 * texel.red / 255.0;
+            const double inverse = map->smallest_pitch() / (2.0 * texel.green / 255.0);
+            mean += glm::dvec4(0.5 + 0.5 * std::cos(angle), 0.5 + 0.5 * std::sin(angle), inverse, inverse * inverse);
+        }
+        mean /= static_cast<double>(texels.size());
+        const gpu::Texture& moments = map->moments(even);
+        const glm::vec4 last = moments.read({.level = moments.levels() - 1}).at(0);
+        for (int i = 0; i < 4; ++i) EXPECT_NEAR(last[i], mean[i], 1e-4) << even;  // rounded at each of five levels
+    }
+}
+
+/// Patches of one pitch: a map over the azimuth serves all directions. The map in the vertices' place knows no texture.
+TEST_F(Grooves, PlanarMapsOfAnyLobeServeAllDirections) {
+    constexpr Texel kTurned[] = {{0, 128}, {60, 128}, {130, 128}, {200, 128}};
+    const auto map = map_of(kTurned, 2);
+    for (const char* grating : {kFlatFoil, kFoil})
+        for (const char* map_at : {"pixels", "vertices"}) {
+            const std::string settings = R"("map_resolution": 32, "map_at": ")";
+            const CookedMaterial cooked = cook_planar(grating, settings + map_at + "\"");
+            ASSERT_FALSE(groove_refusal(cooked.material, *map));
+            if (!renderer_) show_with(cooked, map, 0.4);
+            use(cooked);
+            world_.add(entity_, DiffractionSurface{material_, 0.4F, map});
+            const auto& tables = std::get<PlanarTables>(cooked.tables);
+            const glm::dvec3 normal = glm::transpose(vertex_frame(0))[2];
+            const auto difference_from = [&](const auto& light_map) {
+                const auto error = filter_error(light_map);
+                const auto at = [](const auto& looked_up, const Point& point) {
+                    const glm::dmat3 axes = glm::transpose(point.to_tangent);
+                    return sample(looked_up, {.view = axes * point.view, .normal = axes[2], .grating = axes[0]});
+                };
+                const auto on_patch = [&](const auto& looked_up) {
+                    return [&](const Point& point) {
+                        const auto turned = on_patches(point);
+                        return turned ? at(looked_up, turned->point)
+                                      : glm::dvec3(std::numeric_limits<double>::quiet_NaN());
+                    };
+                };
+                return largest_difference(draw(), on_patch(light_map), on_patch(error));
+            };
+            // The texture's angles have 8 bits, and the shader's turn of g is that of a float.
+            const double difference =
+                tables.lobe
+                    ? difference_from(fill_lobe_map(*light_.texels,
+                                                    LobeSpectrum(tables.lobe->pattern, tables.lobe->size.views), normal,
+                                                    tables.lobe->size.azimuths))
+                    : difference_from(fill_planar_map(*light_.texels, cooked.kernel, cooked.material.grating.pitch_nm,
+                                                      normal, tables.size, cooked.zero_order_xyz));
+            EXPECT_LT(difference, kPictureTolerance) << grating << map_at;
+            EXPECT_GT(brightest_, 0.01);
+        }
 }
 
 TEST_F(Grooves, WhatKnowsOneDirectionOrOnePitchIsRefusedByPlace) {

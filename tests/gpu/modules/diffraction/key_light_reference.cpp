@@ -41,7 +41,8 @@ bool has_tables(const CookedMaterial& cooked) {
 DirectMaterial direct_material(const CookedMaterial& cooked) {
     return {.pitch_nm = cooked.material.grating.pitch_nm,
             .zero_order_xyz = cooked.zero_order_xyz,
-            .lobe = cooked.material.grating.lobe};
+            .lobe = cooked.material.grating.lobe,
+            .cover = cooked.material.grating.cover};
 }
 
 const BlurredKernel& smoothed(const CookedMaterial& cooked) {
@@ -57,11 +58,12 @@ glm::dvec3 key_light_xyz(const CookedMaterial& cooked, const std::vector<lightin
     const DirectMaterial material = direct_material(cooked);
     glm::dvec3 xyz(0.0);
     if (point.view.z <= 0.0) return xyz;
-    const DirectView view{point.view.x, point.view.y, point.footprint};
-    for (const lighting::KeyLight& key : keys)
+    for (const lighting::KeyLight& key : keys) {
+        const DirectView view{point.view.x, point.view.y, footprint(point, key.direction)};
         xyz += has_tables(cooked)
                    ? lobe_radiance(lobe_reference(cooked, key).table, material, key, point.to_tangent, view)
                    : direct_radiance(smoothed(cooked), material, light_spot(key, point.to_tangent), view);
+    }
     return xyz;
 }
 
@@ -69,9 +71,9 @@ glm::dvec3 key_light_error(const CookedMaterial& cooked, const std::vector<light
                            const Point& point) {
     glm::dvec3 xyz(0.0);
     if (point.view.z <= 0.0 || !has_tables(cooked)) return xyz;
-    const DirectView view{point.view.x, point.view.y, point.footprint};
     for (const lighting::KeyLight& key : keys)
-        xyz += lobe_radiance(lobe_reference(cooked, key).error, direct_material(cooked), key, point.to_tangent, view);
+        xyz += lobe_radiance(lobe_reference(cooked, key).error, direct_material(cooked), key, point.to_tangent,
+                             {point.view.x, point.view.y, footprint(point, key.direction)});
     return xyz;
 }
 

@@ -174,5 +174,121 @@ TEST_F(Planar, AMeshThatIsNotFlatIsShadedAsArc) {
     EXPECT_EQ(draw(), planar);
 }
 
+/// Lobes that are not flat: volume maps that another thread fills.
+class PlanarLobes : public Planar {
+ protected:
+    const LobeFilling& filling() { return data().lobe; }
+    static LobeMap map(const CookedMaterial& cooked, const glm::dvec3& normal, const LobeMapSize& size,
+                       const lighting::LightSamples& texels) {
+        return fill_lobe_map(texels, LobeSpectrum(std::get<PlanarTables>(cooked.tables).lobe->pattern, size.views),
+                             normal, size.azimuths);
+    }
+    LobeMap full_map(const CookedMaterial& cooked) const {
+        return map(cooked, glm::transpose(vertex_frame(0))[2], std::get<PlanarTables>(cooked.tables).lobe->size,
+                   *light_.texels);
+    }
+    double difference_from(const LobeMap& expected, const std::vector<glm::vec4>& pixels) {
+        const LobeMap error = filter_error(expected);
+        const auto at = [](const LobeMap& looked_up, const Point& point) {
+            const glm::dmat3 axes = glm::transpose(point.to_tangent);
+            return sample(looked_up, ShadingPoint{.view = axes * point.view, .normal = axes[2], .grating = axes[0]});
+        };
+        return largest_difference(
+            pixels, [&](const Point& point) { return at(expected, point); },
+            [&](const Point& point) { return at(error, point); });
+    }
+};
+
+constexpr const char* kPitsDisc = R"({"pitch_nm": 1600, "profile": {"type": "slit", "width_nm": 800},
+                                    "groove_lobe": {"pits": {"length_nm": 850, "coherent": 0.3}}})";
+constexpr const char* kBlazedLobe = R"({"pitch_nm": 1210, "profile": {"type": "blazed", "depth_nm": 250},
+                                        "orders": [-1, 1, 2], "groove_lobe": {"sigma": 0.1}})";
+constexpr const char* kSmallLobeMap = R"("map_resolution": 32, "views_h": 24)";
+
+TEST_F(PlanarLobes, PixelsEqualTheCpusMap) {
+    for (const char* grating : {kFoil, kPitsDisc, kBlazedLobe}) {
+        const CookedMaterial cooked = cook_planar(grating, kSmallLobeMap);
+        if (!renderer_) show(cooked, 0.7);
+        use(cooked);
+        EXPECT_LT(difference_from(full_map(cooked), draw()), kMapTolerance) << grating;
+        EXPECT_TRUE(filling().is_complete());
+        EXPECT_GT(brightest_, 0.01);
+    }
+}
+
+TEST_F(PlanarLobes, AMapAtTheVerticesIsInterpolated) {
+    const CookedMaterial cooked = cook_planar(kFoil, R"("map_resolution": 32, "map_at": "vertices")");
+    show(cooked, 0.7);
+    const LobeMap expected = full_map(cooked);
+    const LobeMap error = filter_error(expected);
+    const auto at = [](const LobeMap& looked_up, const Point& point) {
+        const glm::dmat3 axes = glm::transpose(point.to_tangent);
+        return sample(looked_up, ShadingPoint{.view = axes * point.view, .normal = axes[2], .grating = axes[0]});
+    };
+    expect_map_at_vertices(
+        cooked, [&](const Point& point) { return at(expected, point); },
+        [&](const Point& point) { return at(error, point); });
+}
+
+/// A frame uploads a part of the full map only: first the stand-in is shown, then the coarse map, then the full one.
+TEST_F(PlanarLobes, ACoarseMapIsShownUntilTheFullOneIsThere) {
+    // The programs of all lobes' maps are the same: with them compiled, frames are short beside the fill.
+    show(cook_planar(kFoil, kSmallLobeMap), 0.3, 1);
+    draw();
+    while (!filling().is_complete()) draw();
+
+    const CookedMaterial cooked = cook_planar(kFoil, R"("map_resolution": 96)");
+    use(cooked);
+    const std::vector<glm::vec4> stand_in = draw();
+    EXPECT_FALSE(filling().has_map());
+    EXPECT_TRUE(maps_are_filling(world_));
+    std::vector<glm::vec4> pixels = stand_in;
+    while (!filling().has_map()) pixels = draw();
+    EXPECT_NE(pixels, stand_in);
+    // On a busy machine the full map may be there as soon.
+    if (!filling().is_complete()) {
+        const glm::dvec3 normal = glm::transpose(vertex_frame(0))[2];
+        EXPECT_LT(difference_from(map(cooked, normal, kCoarseLobeMap, *light_.texels), pixels), kMapTolerance);
+        EXPECT_TRUE(maps_are_filling(world_));
+    }
+    while (!filling().is_complete()) pixels = draw();
+    EXPECT_LT(difference_from(full_map(cooked), pixels), kMapTolerance);
+    EXPECT_FALSE(maps_are_filling(world_));
+    EXPECT_EQ(filling().fills_begun(), 1);
+
+    // A rotation about the normal and another version of the same light need no other map.
+    ++light_.version;
+    draw();
+    EXPECT_EQ(filling().fills_begun(), 1);
+}
+
+/// While an object turns, coarse maps follow it: the last one is shown, never the stand-in.
+TEST_F(PlanarLobes, CoarseMapsFollowATurningObject) {
+    const CookedMaterial cooked = cook_planar(kFoil, R"("map_resolution": 64)");
+    show(cooked, 0.3, 1);
+    draw();
+    while (!filling().has_map()) draw();
+    for (int step = 1; filling().fills_begun() < 4 && step < 100000; ++step) {
+        transform_.rotation = glm::angleAxis(0.001F * static_cast<float>(step), glm::vec3(1.0F, 0.0F, 0.0F));
+        draw();
+        EXPECT_TRUE(filling().has_map());
+    }
+    EXPECT_GE(filling().maps_shown(), 3);
+    while (!filling().is_complete()) draw();
+    EXPECT_LT(difference_from(full_map(cooked), draw()), kMapTolerance);
+}
+
+TEST_F(PlanarLobes, AMeshThatIsNotFlatIsShadedAsArc) {
+    mesh_ = crooked_triangle();
+    const CookedMaterial cooked = cook_planar(kFoil, kSmallLobeMap);
+    show(cooked);
+    const std::vector<glm::vec4> planar = draw();
+    EXPECT_EQ(filling().fills_begun(), 0);
+    CookedMaterial arc = cooked;
+    arc.tables = std::get<PlanarTables>(cooked.tables).stand_in;
+    use(arc);
+    EXPECT_EQ(draw(), planar);
+}
+
 }  // namespace
 }  // namespace rowland::diffraction

@@ -6,35 +6,12 @@
 namespace rowland::diffraction {
 namespace {
 
-class VertexShading : public GratingPicture {
- protected:
-    std::function<glm::dvec3(const Point&)> evaluation(
-        const std::function<glm::dvec3(const lighting::ShLight&, const glm::dvec3&)>& vertex_xyz, int bands,
-        const lighting::ShLight& light) {
-        std::vector<glm::dvec3> vertices;
-        for (std::size_t vertex = 0; vertex < 3; ++vertex)
-            vertices.push_back(vertex_xyz(vertex_light(vertex, light, bands), vertex_view(vertex)));
-        return [vertices](const Point& point) { return mix(point, vertices); };
-    }
-    template <typename Table>
-    std::function<glm::dvec3(const Point&)> evaluation(const CookedMaterial& cooked, const lighting::ShLight& light) {
-        const auto& table = std::get<Table>(cooked.tables);
-        return evaluation(
-            [&](const lighting::ShLight& at, const glm::dvec3& view) { return evaluate(table, at, view); }, table.bands,
-            light);
-    }
-    std::function<glm::dvec3(const Point&)> spikes(const CookedMaterial& cooked) {
-        const auto& table = std::get<SpikeTable>(cooked.tables);
-        return evaluation([&](const lighting::ShLight& at,
-                              const glm::dvec3& v) { return evaluate_spikes(sample(table, v.x, v.y, v.z), at); },
-                          table.bands, light_.sh);
-    }
-};
+class VertexShading : public GratingPicture {};
 
 TEST_F(VertexShading, TransferEqualsTheCpu) {
     const CookedMaterial cooked = cook(kBlazed, R"({"representation": "transfer"})");
     show(cooked, 0.5);
-    EXPECT_LT(largest_difference(draw(), evaluation<TransferTable>(cooked, light_.sh)), kPictureTolerance);
+    EXPECT_LT(largest_difference(draw(), table_xyz<TransferTable>(cooked, light_.sh)), kPictureTolerance);
     EXPECT_GT(compared_, 500);
     EXPECT_GT(brightest_, 0.01);
 }
@@ -48,7 +25,7 @@ TEST_F(VertexShading, TransferEqualsTheCpuForEveryMappingAndStorage) {
         const CookedMaterial cooked = cook(kFoil, std::string(R"({"representation": "transfer", )") + setting + "}");
         if (!renderer_) show(cooked, -0.8);
         use(cooked);
-        EXPECT_LT(largest_difference(draw(), evaluation<TransferTable>(cooked, light_.sh)), kPictureTolerance)
+        EXPECT_LT(largest_difference(draw(), table_xyz<TransferTable>(cooked, light_.sh)), kPictureTolerance)
             << setting;
         EXPECT_GT(brightest_, 0.01);
     }
@@ -58,7 +35,7 @@ TEST_F(VertexShading, TransferTakesKeyLightsWhereItIsTold) {
     light_ = light_of(smooth_probe(), three_keys());
     const CookedMaterial cooked = cook(kSlitCd, R"({"representation": "transfer", "key_lights": true})");
     show(cooked, 0.5);
-    const auto rest = evaluation<TransferTable>(cooked, light_.residual);
+    const auto rest = table_xyz<TransferTable>(cooked, light_.residual);
     EXPECT_LT(
         largest_difference(
             draw(), [&](const Point& point) { return rest(point) + key_light_xyz(cooked, light_.key_lights, point); }),
@@ -73,7 +50,7 @@ TEST_F(VertexShading, BinsEqualTheCpu) {
         const CookedMaterial cooked = cook(kBlazed, quality);
         if (!renderer_) show(cooked, 1.1);
         use(cooked);
-        EXPECT_LT(largest_difference(draw(), evaluation<BinTable>(cooked, light_.sh)), kPictureTolerance) << quality;
+        EXPECT_LT(largest_difference(draw(), table_xyz<BinTable>(cooked, light_.sh)), kPictureTolerance) << quality;
         EXPECT_GT(brightest_, 0.01);
     }
 }
@@ -87,7 +64,7 @@ TEST_F(VertexShading, SpikesEqualTheCpuForTurnedGroovesAndOtherMappings) {
         const CookedMaterial cooked = cook(kSlitCd, quality);
         if (!renderer_) show(cooked, -0.6);
         use(cooked);
-        EXPECT_LT(largest_difference(draw(), spikes(cooked)), kPictureTolerance) << quality;
+        EXPECT_LT(largest_difference(draw(), table_xyz<SpikeTable>(cooked, light_.sh)), kPictureTolerance) << quality;
         EXPECT_GT(brightest_, 0.01);
     }
 }

@@ -1,11 +1,11 @@
 #include "tests/gpu/modules/diffraction/upload_log.h"
 
-#include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
-#include <utility>
+#include <optional>
 
 #include "engine/core/check.h"
+#include "tests/support/replaced_function.h"
 
 namespace rowland::test {
 
@@ -16,14 +16,6 @@ struct Uploads {
     std::vector<std::string> shaders;
 };
 Uploads* log = nullptr;
-
-/// The driver's own function: epoxy's pointers are what is replaced.
-template <typename F>
-F driver(const char* name) {
-    const auto function = reinterpret_cast<F>(eglGetProcAddress(name));
-    ROWLAND_CHECK(function != nullptr, "a driver of OpenGL 4.5");
-    return function;
-}
 
 std::size_t components(GLenum format) {
     switch (format) {
@@ -61,69 +53,58 @@ void count_texels(GLsizei width, GLsizei height, GLsizei depth, GLenum format, G
 
 void APIENTRY buffer_storage(GLuint buffer, GLsizeiptr size, const void* data, GLbitfield flags) {
     log->bytes += static_cast<std::size_t>(size);
-    driver<PFNGLNAMEDBUFFERSTORAGEPROC>("glNamedBufferStorage")(buffer, size, data, flags);
+    ReplacedFunction<&epoxy_glNamedBufferStorage>::driver(buffer, size, data, flags);
 }
 
 void APIENTRY buffer_part(GLuint buffer, GLintptr offset, GLsizeiptr size, const void* data) {
     log->bytes += static_cast<std::size_t>(size);
-    driver<PFNGLNAMEDBUFFERSUBDATAPROC>("glNamedBufferSubData")(buffer, offset, size, data);
+    ReplacedFunction<&epoxy_glNamedBufferSubData>::driver(buffer, offset, size, data);
 }
 
 void APIENTRY line(GLuint texture, GLint level, GLint x, GLsizei width, GLenum format, GLenum type,
                    const void* texels) {
     count_texels(width, 1, 1, format, type);
-    driver<PFNGLTEXTURESUBIMAGE1DPROC>("glTextureSubImage1D")(texture, level, x, width, format, type, texels);
+    ReplacedFunction<&epoxy_glTextureSubImage1D>::driver(texture, level, x, width, format, type, texels);
 }
 
 void APIENTRY plane(GLuint texture, GLint level, GLint x, GLint y, GLsizei width, GLsizei height, GLenum format,
                     GLenum type, const void* texels) {
     count_texels(width, height, 1, format, type);
-    driver<PFNGLTEXTURESUBIMAGE2DPROC>("glTextureSubImage2D")(texture, level, x, y, width, height, format, type,
-                                                              texels);
+    ReplacedFunction<&epoxy_glTextureSubImage2D>::driver(texture, level, x, y, width, height, format, type, texels);
 }
 
 void APIENTRY volume(GLuint texture, GLint level, GLint x, GLint y, GLint z, GLsizei width, GLsizei height,
                      GLsizei depth, GLenum format, GLenum type, const void* texels) {
     count_texels(width, height, depth, format, type);
-    driver<PFNGLTEXTURESUBIMAGE3DPROC>("glTextureSubImage3D")(texture, level, x, y, z, width, height, depth, format,
-                                                              type, texels);
+    ReplacedFunction<&epoxy_glTextureSubImage3D>::driver(texture, level, x, y, z, width, height, depth, format, type,
+                                                         texels);
 }
 
 void APIENTRY shader_source(GLuint shader, GLsizei count, const GLchar* const* texts, const GLint* lengths) {
-    std::string whole;
-    for (GLsizei i = 0; i < count; ++i)
-        whole += lengths != nullptr && lengths[i] >= 0 ? std::string(texts[i], static_cast<std::size_t>(lengths[i]))
-                                                       : std::string(texts[i]);
-    log->shaders.push_back(whole);
-    driver<PFNGLSHADERSOURCEPROC>("glShaderSource")(shader, count, texts, lengths);
+    log->shaders.push_back(whole_source(count, texts, lengths));
+    ReplacedFunction<&epoxy_glShaderSource>::driver(shader, count, texts, lengths);
 }
 
-/// Exchanges each of epoxy's pointers for the one kept here: again, and all is as before.
-void exchange_functions() {
-    static PFNGLNAMEDBUFFERSTORAGEPROC kept_storage = buffer_storage;
-    static PFNGLNAMEDBUFFERSUBDATAPROC kept_part = buffer_part;
-    static PFNGLTEXTURESUBIMAGE1DPROC kept_line = line;
-    static PFNGLTEXTURESUBIMAGE2DPROC kept_plane = plane;
-    static PFNGLTEXTURESUBIMAGE3DPROC kept_volume = volume;
-    static PFNGLSHADERSOURCEPROC kept_source = shader_source;
-    std::swap(epoxy_glNamedBufferStorage, kept_storage);
-    std::swap(epoxy_glNamedBufferSubData, kept_part);
-    std::swap(epoxy_glTextureSubImage1D, kept_line);
-    std::swap(epoxy_glTextureSubImage2D, kept_plane);
-    std::swap(epoxy_glTextureSubImage3D, kept_volume);
-    std::swap(epoxy_glShaderSource, kept_source);
-}
+struct Replaced {
+    ReplacedFunction<&epoxy_glNamedBufferStorage> storage{"glNamedBufferStorage", buffer_storage};
+    ReplacedFunction<&epoxy_glNamedBufferSubData> part{"glNamedBufferSubData", buffer_part};
+    ReplacedFunction<&epoxy_glTextureSubImage1D> of_line{"glTextureSubImage1D", line};
+    ReplacedFunction<&epoxy_glTextureSubImage2D> of_plane{"glTextureSubImage2D", plane};
+    ReplacedFunction<&epoxy_glTextureSubImage3D> of_volume{"glTextureSubImage3D", volume};
+    ReplacedFunction<&epoxy_glShaderSource> source{"glShaderSource", shader_source};
+};
+std::optional<Replaced> replaced;
 
 }  // namespace
 
 UploadLog::UploadLog() {
     ROWLAND_CHECK(log == nullptr, "one log at a time");
     log = new Uploads;
-    exchange_functions();
+    replaced.emplace();
 }
 
 UploadLog::~UploadLog() {
-    exchange_functions();
+    replaced.reset();
     delete log;
     log = nullptr;
 }

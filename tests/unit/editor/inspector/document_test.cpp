@@ -166,7 +166,7 @@ TEST_F(DocumentTest, PresetsAreNeverWrittenOver) {
 
 TEST_F(DocumentTest, EveryPresetIsASaneMaterial) {
     for (const char* name :
-         {"cd", "dvd", "blu_ray", "ruled_600", "ruled_1200", "holographic_foil", "vinyl", "cd_paper"}) {
+         {"cd", "cd_r", "dvd", "blu_ray", "ruled_600", "ruled_1200", "holographic_foil", "vinyl", "cd_paper"}) {
         const Document document = Document::open_as_new(kMaterials / (std::string(name) + ".json"));
         EXPECT_GT(document.material().grating.pitch_nm, 0.0) << name;
     }

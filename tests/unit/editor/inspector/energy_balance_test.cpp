@@ -24,7 +24,9 @@ std::vector<Grating> gratings() {
     Grating table{.pitch_nm = 1600.0, .orders = {-1, 1}};
     table.profile =
         diffraction::EfficiencyTable{.orders = {-1, 0, 1}, .slices = {{0.0, {400.0, 700.0}, {.2, .3, .2, .1, .4, .3}}}};
-    return {slit, dense, blazed, agu, table};
+    Grating dyed = slit;
+    dyed.cover = diffraction::Cover{.ior = 1.58, .tint = {0.25, 0.45, 0.9}};
+    return {slit, dense, blazed, agu, table, dyed};
 }
 
 TEST(EnergyBalance, FractionsSumToOne) {

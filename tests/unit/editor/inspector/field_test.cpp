@@ -51,9 +51,10 @@ TEST(Fields, EveryMemberOfTheSchemaHasAField) {
     for (const auto& [name, part] : schema["$defs"]["grating"]["properties"].items())
         EXPECT_NE(field_of_refusal("/grating/" + name), nullptr) << name;
     for (const char* name : {"metal", "quality"}) EXPECT_NE(field_of_refusal(std::string("/") + name), nullptr) << name;
-    EXPECT_EQ(schema["properties"].size(), 4U);  // those, the grating and the base
-    for (const auto& [name, part] : schema["$defs"]["base"]["properties"].items())
-        EXPECT_NE(field_of_refusal("/base/" + name), nullptr) << name;
+    EXPECT_EQ(schema["properties"].size(), 5U);  // those, the grating, the cover and the base
+    for (const std::string of : {"base", "cover"})
+        for (const auto& [name, part] : schema["$defs"][of]["properties"].items())
+            EXPECT_EQ(field_of_refusal("/" + of + "/" + name)->pointer, "/" + of + "/" + name);
 }
 
 TEST(Fields, BothEndsOfEverySliderAreSaneMaterials) {
@@ -111,9 +112,13 @@ TEST(Fields, NewMembersStandWhereFilesHaveThem) {
     Json material = with_value(cd(), field_at("/quality"), {{"max_error", 0.1}});
     material = with_value(material, field_at("/base/roughness"), 0.5);
     material = with_value(material, field_at("/metal"), "Al");
+    material = with_choice(material, field_at("/cover"), "over the grooves");
+    material = with_value(material, field_at("/cover/tint"), {0.5, 1, 1});
     material = with_value(material, field_at("/grating/grooves"), 100);
-    EXPECT_EQ(material.dump(), R"({"grating":{"pitch_nm":1600,"grooves":100,"profile":{"type":"slit","width_nm":800}},)"
-                               R"("metal":"Al","base":{"roughness":0.5},"quality":{"max_error":0.1}})");
+    EXPECT_EQ(
+        material.dump(),
+        R"({"grating":{"pitch_nm":1600,"grooves":100,"profile":{"type":"slit","width_nm":800}},)"
+        R"("metal":"Al","cover":{"ior":1.58,"tint":[0.5,1,1]},"base":{"roughness":0.5},"quality":{"max_error":0.1}})");
 }
 
 TEST(Fields, RevertingLeavesOutWhatNeedNotBeThere) {

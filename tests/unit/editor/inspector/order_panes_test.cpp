@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "editor/inspector/document.h"
 #include "engine/colour/light_spectra.h"
 #include "engine/colour/observer.h"
 #include "modules/diffraction/model/efficiency.h"
@@ -56,6 +57,34 @@ TEST(EfficiencyCurves, AreTheModelsAndOfManyOrdersTheStrongest) {
     EXPECT_EQ(orders, (std::vector<int>{-2, -1, 0, 1, 2}));
     EXPECT_EQ(curves[3].points[10], glm::dvec2(420.0, diffraction::order_efficiency(many, 1, 420.0)));
     EXPECT_EQ(curves[2].points[10], glm::dvec2(420.0, diffraction::zero_order_efficiency(many, 420.0)));
+}
+
+/// The efficiency pane follows the fields of the cover: the first order loses its blue, and has it back after undo.
+TEST(EfficiencyCurves, FollowTheCoverAndItsUndo) {
+    Document document = Document::make_new(Json::parse(R"({"grating": {"pitch_nm": 1600, "orders": [1],
+                                    "profile": {"type": "lamellar", "duty": 0.35, "depth_nm": 130}}})"),
+                                           "m.json", ".");
+    const auto blue = [&] {
+        for (const EfficiencyCurve& curve : efficiency_curves(document.material().grating))
+            if (curve.order == 1)
+                for (const glm::dvec2& point : curve.points)
+                    if (point.x == 452.0) return point.y;
+        return -1.0;
+    };
+    EXPECT_NEAR(blue(), 0.303, 3e-3);
+    document.set_choice(field_at("/cover"), "over the grooves");
+    document.finish_edit();
+    const double under_polycarbonate = blue();
+    EXPECT_NEAR(under_polycarbonate, 0.025, 3e-3);
+    document.set_value(field_at("/cover/ior"), 1.3);
+    document.finish_edit();
+    EXPECT_GT(blue(), 5.0 * under_polycarbonate);
+    document.set_value(field_at("/cover/tint"), {1, 1, 0});
+    document.finish_edit();
+    EXPECT_LT(blue(), 1e-3);
+    for (int step = 0; step < 3; ++step) document.undo();
+    EXPECT_NEAR(blue(), 0.303, 3e-3);
+    EXPECT_FALSE(document.can_undo());
 }
 
 TEST(KernelStrip, ItsCellsSumToTheKernelsRise) {

@@ -115,6 +115,28 @@ TEST_F(SessionTest, MeasuredPricesStayWhileOnlyTheChoiceChanges) {
     EXPECT_FALSE(session_.prices_are_current());
 }
 
+/// A grating that sends next to nothing on: what a cover adds to the preview is its gloss.
+TEST_F(SessionTest, AGlossIsSeenInThePreviewAndTakenBack) {
+    session_.document().set_value(field_at("/grating/profile/width_nm"), 1);
+    session_.document().finish_edit();
+    const auto drawn = [&](bool covered) {
+        draw_until([&] {
+            return session_.ready() && session_.cooked()->material.grating.cover.has_value() == covered &&
+                   session_.cooked()->material.grating.profile.index() == 0;
+        });
+        draw(20);
+        return session_.preview().linear().read_rgba_float();
+    };
+    const auto bare = drawn(false);
+    session_.document().set_choice(field_at("/cover"), "over the grooves");
+    const auto covered = drawn(true);
+    int brighter = 0;
+    for (std::size_t i = 0; i < bare.size(); ++i) brighter += covered[i].y > 1.3F * bare[i].y ? 1 : 0;
+    EXPECT_GT(brighter, 40);  // of 768 pixels
+    session_.document().undo();
+    EXPECT_EQ(drawn(false), bare);
+}
+
 TEST_F(SessionTest, WhatIsSavedIsDrawnInAnIdleInspector) {
     draw_until([&] { return session_.ready() && session_.saved(); }, true);
     session_.document().set_value(field_at("/grating/pitch_nm"), 900);

@@ -52,6 +52,21 @@ TEST(Computed, IsCurrentWhileItsInputsAreTheWantedOnes) {
     EXPECT_EQ(*value.value(), 12);
 }
 
+TEST(Computed, WaitEndsWithTheWantedValue) {
+    Doubled value;
+    EXPECT_FALSE(value.wait().value);
+    value.want(5, wait_for_stop);
+    value.want(6, twice(6));
+    EXPECT_TRUE(value.wait().value);
+    EXPECT_FALSE(value.busy());
+    EXPECT_TRUE(value.current());
+    EXPECT_EQ(*value.value(), 12);
+    value.want(7, [](const std::stop_token&, const Doubled::Publish&) -> std::optional<int> {
+        throw std::runtime_error("no 7");
+    });
+    EXPECT_EQ(value.wait().failure, "no 7");
+}
+
 TEST(Computed, NothingIsComputedAgainForTheSameInputs) {
     Doubled value;
     std::atomic<int> runs{0};

@@ -22,8 +22,12 @@ LightProbe build_small_probe() {
     const ProbeImage probe = test::made_probe(Mapping::Equirectangular, 32, [](const glm::dvec3& d) {
         return glm::dvec3(std::exp(3 * d.x), 1 + d.y, d.z > 0.9 ? 500.0 : -1.0);
     });
-    return build_light_probe(
-        probe, {.bands = 6, .key_lights = 3, .light_face = 8, .prefilter = {.face_size = 16}, .illuminant = lamp()});
+    return build_light_probe(probe, {.bands = 6,
+                                     .key_lights = 3,
+                                     .light_face = 8,
+                                     .prefilter = {.face_size = 16},
+                                     .illuminant = lamp(),
+                                     .dome = CaptureDome{1.5, 6.0}});
 }
 
 /// Built once.
@@ -57,11 +61,24 @@ TEST(LightProbe, SurvivesSerialisation) {
     EXPECT_EQ(read.environment.layout, probe.environment.layout);
     EXPECT_EQ(read.environment.scale, probe.environment.scale);
     EXPECT_EQ(read.environment.halves, probe.environment.halves);
+    ASSERT_TRUE(read.dome);
+    EXPECT_EQ(read.dome->height_m, 1.5);
+    EXPECT_EQ(read.dome->radius_m, 6.0);
     EXPECT_GT(probe.report.negative, 0u);
     EXPECT_EQ(read.report.negative, probe.report.negative);
     EXPECT_EQ(read.ambient.coefficients, probe.ambient.coefficients);
     EXPECT_EQ(read.ambient.window.window, probe.ambient.window.window);
     EXPECT_EQ(read.ambient.window.damping, probe.ambient.window.damping);
+}
+
+TEST(LightProbe, ADomeBelowItsCameraIsRefused) {
+    LightProbe probe = small_probe();
+    probe.dome.reset();
+    EXPECT_FALSE(deserialise(serialise(probe), "a.probe").dome);
+    for (const CaptureDome wrong : {CaptureDome{2.0, 1.0}, {-1.0, 4.0}, {1.0, 1e9}, {1.0, std::nan("")}}) {
+        probe.dome = wrong;
+        EXPECT_THROW(deserialise(serialise(probe), "a.probe"), Error) << wrong.height_m << ", " << wrong.radius_m;
+    }
 }
 
 TEST(LightProbe, BytesDoNotDependOnTheNumberOfThreads) {

@@ -63,6 +63,12 @@ TEST(ProbeRecipe, ClearSkyAndImageAreParsed) {
             return image::Image{2, 2, std::vector<glm::vec3>(4, glm::vec3(3.0f))};
         },
         "p.json");
+    EXPECT_FALSE(capture.settings.dome);
+    const ProbeRecipe room =
+        parse(R"({"probe": {"type": "image", "file": "x.hdr", "dome": {"height_m": 1.6, "radius_m": 5}}})");
+    ASSERT_TRUE(room.settings.dome);
+    EXPECT_EQ(room.settings.dome->height_m, 1.6);
+    EXPECT_EQ(room.settings.dome->radius_m, 5.0);
     EXPECT_EQ(probe.mapping(), Mapping::Angular);
     EXPECT_EQ(probe.radiance({0, 0, -1}).x, 3);
 }
@@ -100,6 +106,8 @@ TEST(ProbeRecipe, MistakesAreNamed) {
                 HasSubstr("\"mapping\" meant"));
     EXPECT_THAT(refusal(R"({"probe": {"type": "image", "file": ""}})"), HasSubstr("/probe/file"));
     EXPECT_THAT(refusal(R"({"probe": {"type": "image", "file": "a.hdr", "width": 64}})"), HasSubstr("/probe/width"));
+    EXPECT_THAT(refusal(R"({"probe": {"type": "image", "file": "a.hdr", "dome": {"height_m": 2, "radius_m": 1}}})"),
+                HasSubstr("/probe/dome/radius_m"));
     EXPECT_THAT(refusal(R"({"probe": {"type": "image", "file": "a.hdr", "face_size": 100}})"),
                 HasSubstr("power of two"));
     EXPECT_THAT(refusal(R"({"probe": {"type": "image", "file": "a.hdr", "bands": 33}})"), HasSubstr("/probe/bands"));

@@ -100,6 +100,23 @@ TEST(GltfMaterial, KnownExtensionsAreAppliedAndOthersHandedOn) {
     EXPECT_EQ(material.extensions.at("VENDOR_x")["a"], 1);
 }
 
+TEST(GltfMaterial, AClearCoatIsReadWithoutItsMaps) {
+    json file = with_material(
+        {{"extensions",
+          {{"KHR_materials_clearcoat",
+            {{"clearcoatFactor", 0.75}, {"clearcoatRoughnessFactor", 0.25}, {"clearcoatTexture", {{"index", 0}}}}}}}});
+    file["extensionsUsed"] = {"KHR_materials_clearcoat"};
+    file["extensionsRequired"] = file["extensionsUsed"];
+    const ImportedScene scene = load(file);
+    EXPECT_EQ(scene.materials.at(0).clear_coat, 0.75F);
+    EXPECT_EQ(scene.materials.at(0).clear_coat_roughness, 0.25F);
+    EXPECT_TRUE(scene.materials.at(0).extensions.empty());
+    EXPECT_THAT(scene.warnings, testing::ElementsAre(HasSubstr("clearcoatTexture")));
+    EXPECT_EQ(read({{"extensions", {{"KHR_materials_clearcoat", json::object()}}}}).clear_coat, 0.0F);
+    EXPECT_THAT(error_of(with_material({{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatFactor", 1.5}}}}}})),
+                HasSubstr("/materials/0/extensions/KHR_materials_clearcoat/clearcoatFactor"));
+}
+
 TEST(GltfMaterial, ThirdUvSetIsIgnoredWithItsTexture) {
     const ImportedScene scene = load(with_material(
         {{"emissiveTexture", {{"index", 0}, {"texCoord", 2}}}, {"normalTexture", {{"index", 0}, {"texCoord", 7}}}}));

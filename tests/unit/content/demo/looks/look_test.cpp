@@ -36,11 +36,12 @@ TEST(Look, MapsAreOfferedToTheSurfacesTheySuit) {
     EXPECT_THAT(curved, Contains("circle, medium"));
 }
 
-TEST(Look, NarrowLobesAreStreaksAndNoMaps) {
+TEST(Look, NarrowLobesAreStreaksAndOnFlatSurfacesMaps) {
     const auto narrow = names(subject(R"({"sigma": 0.05})", true));
     EXPECT_THAT(narrow, Contains("streak, medium"));
-    EXPECT_THAT(narrow, Not(Contains("planar, medium")));
+    EXPECT_THAT(narrow, Contains("planar, medium"));
     EXPECT_THAT(narrow, Not(Contains("circle, medium")));
+    EXPECT_THAT(names(subject(R"({"sigma": 0.05})", false)), Not(Contains("planar, medium")));
     EXPECT_THAT(names(subject(R"("flat")", true)), Not(Contains("streak, medium")));
 }
 

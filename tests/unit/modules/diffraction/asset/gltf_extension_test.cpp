@@ -38,7 +38,7 @@ TEST(GltfExtension, OnlyTheGratingIsRequired) {
 TEST(GltfExtension, EveryMemberReachesTheResult) {
     const GltfGrating full =
         parse_extension(kSlitMembers + R"(, "metal": "Ag", "base": {"roughness": 0.6}, "grooveRotation": -0.5,
-        "grooveTexture": {"index": 4, "texCoord": 1, "extras": {"a": 1}, "extensions": {"KHR_texture_transform": {}}},
+        "grooveTexture": {"index": 4, "texCoord": 1, "sparkle": true, "extras": {"a": 1}, "extensions": {"KHR_texture_transform": {}}},
         "quality": {"max_error": 0.2}, "extras": 7, "extensions": {"VENDOR_x": {}})");
     EXPECT_EQ(full.material.grating.metal, colour::Metal::Ag);
     EXPECT_TRUE(full.has_base);
@@ -48,6 +48,7 @@ TEST(GltfExtension, EveryMemberReachesTheResult) {
     ASSERT_TRUE(full.groove_texture.has_value());
     EXPECT_EQ(full.groove_texture->index, 4);
     EXPECT_EQ(full.groove_texture->tex_coord, 1);
+    EXPECT_TRUE(full.groove_texture->sparkle);
 }
 
 TEST(GltfExtension, ATableIsFoundBesideTheGltf) {

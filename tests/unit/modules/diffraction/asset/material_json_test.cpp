@@ -170,11 +170,14 @@ TEST(MaterialJson, SettingsThatARepresentationDoesNotHaveAreRefusedByName) {
 
 TEST(MaterialJson, LobesThatARepresentationCannotShadeAreRefused) {
     const std::string sigma = R"({"sigma": 0.2})";
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "planar"})", sigma)), HasSubstr("/quality/representation"));
     EXPECT_THAT(refusal(with_quality(R"({"representation": "circle"})", sigma)), HasSubstr("/quality/representation"));
     EXPECT_THAT(refusal(with_quality(R"({"representation": "bins", "view_mapping": "one-dimensional"})", sigma)),
                 HasSubstr("/quality/view_mapping"));
     EXPECT_NO_THROW(parse(with_quality(R"({"representation": "arc"})", sigma)));
+    EXPECT_NO_THROW(parse(with_quality(R"({"representation": "planar", "views_h": 64})", sigma)));
+    EXPECT_THAT(refusal(with_quality(R"({"representation": "planar", "views_h": 64})")), HasSubstr("/quality/views_h"));
+    EXPECT_THAT(refusal(with_quality(R"({"representation": "planar", "map_resolution": 257})", sigma)),
+                HasSubstr("/quality/map_resolution"));
     EXPECT_THAT(refusal(with_quality(R"({"representation": "streak"})")), HasSubstr("/quality/representation"));
     EXPECT_THAT(
         refusal(with_quality(R"({"representation": "streak"})", R"({"pits": {"length_nm": 850, "coherent": 0}})")),
@@ -345,6 +348,35 @@ TEST(MaterialJson, AMetalBesideATableIsRefused) {
                          "wavelength_nm,R+1\n500,0.4\n");
     };
     EXPECT_THAT(rowland::test::message_of(read), AllOf(HasSubstr("m.json: /metal"), HasSubstr("already")));
+}
+
+TEST(MaterialJson, ACoverIsReadAndRefusedOutOfItsDomain) {
+    const auto beside = [](const std::string& cover) {
+        return R"({"grating": {"pitch_nm": 1600, "profile": )" + kSlit + R"(}, "cover": )" + cover + "}";
+    };
+    EXPECT_FALSE(parse(grating("")).grating.cover.has_value());
+    const Cover clear = parse(beside(R"({"ior": 1.58})")).grating.cover.value();
+    EXPECT_EQ(clear.ior, 1.58);
+    EXPECT_EQ(clear.tint, glm::dvec3(1.0));
+    EXPECT_EQ(parse(beside(R"({"ior": 1, "tint": [0, 0.5, 1]})")).grating.cover->tint, glm::dvec3(0.0, 0.5, 1.0));
+    EXPECT_THAT(refusal(beside("1.5")), HasSubstr("/cover"));
+    EXPECT_THAT(refusal(beside("{}")), HasSubstr("/cover/ior"));
+    EXPECT_THAT(refusal(beside(R"({"ior": 0.99})")), AllOf(HasSubstr("/cover/ior"), HasSubstr("[1, 3]")));
+    EXPECT_THAT(refusal(beside(R"({"ior": 3.1})")), HasSubstr("/cover/ior"));
+    EXPECT_THAT(refusal(beside(R"({"ior": 1.5, "tint": [1, 1]})")), HasSubstr("/cover/tint"));
+    EXPECT_THAT(refusal(beside(R"({"ior": 1.5, "tint": [1, 1, 1.2]})")), HasSubstr("/cover/tint/2"));
+    EXPECT_THAT(refusal(beside(R"({"ior": 1.5, "tnt": [1, 1, 1]})")), AllOf(HasSubstr("tnt"), HasSubstr("tint")));
+}
+
+TEST(MaterialJson, ATableTakesACoverButNoTint) {
+    const auto read = [&](const std::string& cover) {
+        return parse_with_table(
+            R"({"grating": {"pitch_nm": 1600, "profile": )" + kTable + R"(}, "cover": )" + cover + "}",
+            "wavelength_nm,R+1\n500,0.4\n");
+    };
+    EXPECT_EQ(read(R"({"ior": 1.5})").grating.cover->ior, 1.5);
+    const auto tinted = [&] { read(R"({"ior": 1.5, "tint": [1, 1, 0]})"); };
+    EXPECT_THAT(rowland::test::message_of(tinted), AllOf(HasSubstr("m.json: /cover/tint"), HasSubstr("already")));
 }
 
 TEST(MaterialJson, FewGroovesNeedAGrooveAndOneLobeForAllWavelengths) {

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <glm/vec3.hpp>
 #include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "engine/math/sh_basis.h"
 #include "tests/support/csv.h"
@@ -35,13 +38,22 @@ TEST(ArcCoefficients, MatchTheOracle) {
     }
 }
 
-/// The slow reference: the defining integral by a midpoint rule of 1e5 nodes, 1e-9 of it.
+/// The slow reference: the defining integral by a midpoint rule of 1e5 nodes, 1e-9 of it. With and without covers.
 TEST(ArcCoefficients, AreTheDefiningIntegralForEveryLobe) {
     const int bands = 5;
-    for (const GrooveLobe& lobe :
-         {GrooveLobe{FlatLobe{}}, GrooveLobe{GaussianLobe{0.02}}, GrooveLobe{GaussianLobe{0.2}},
-          GrooveLobe{GaussianLobe{2.0}}, GrooveLobe{PitsLobe{850.0, 0.3}}, GrooveLobe{PitsLobe{4000.0, 0.0}}}) {
-        const ArcCoefficients arcs(bands, lobe);
+    const Cover polycarbonate;
+    const std::vector<std::pair<GrooveLobe, std::optional<Cover>>> cases{{FlatLobe{}, {}},
+                                                                         {GaussianLobe{0.02}, {}},
+                                                                         {GaussianLobe{0.2}, {}},
+                                                                         {GaussianLobe{2.0}, {}},
+                                                                         {PitsLobe{850.0, 0.3}, {}},
+                                                                         {PitsLobe{4000.0, 0.0}, {}},
+                                                                         {FlatLobe{}, polycarbonate},
+                                                                         {FlatLobe{}, Cover{.ior = 1.05}},
+                                                                         {GaussianLobe{0.02}, polycarbonate},
+                                                                         {PitsLobe{850.0, 0.3}, polycarbonate}};
+    for (const auto& [lobe, cover] : cases) {
+        const ArcCoefficients arcs(bands, lobe, cover);
         for (const double a : {-0.95, 0.0, 0.4}) {
             for (const double v_h : {-0.9, 0.0, 0.25}) {
                 const double r = std::sqrt(1.0 - a * a);
@@ -50,8 +62,9 @@ TEST(ArcCoefficients, AreTheDefiningIntegralForEveryLobe) {
                 const int nodes = 100000;
                 for (int i = 0; i < nodes; ++i) {
                     const double t = std::numbers::pi * (i + 0.5) / nodes;
-                    const double weight =
-                        std::numbers::pi / nodes * r * std::sin(t) * lobe_density(lobe, r * std::cos(t) + v_h, 550.0);
+                    const double weight = std::numbers::pi / nodes * r * std::sin(t) *
+                                          lobe_density(lobe, r * std::cos(t) + v_h, 550.0) *
+                                          transmittance(cover, r * std::sin(t));
                     math::evaluate_sh({a, r * std::cos(t), r * std::sin(t)}, bands, basis);
                     for (std::size_t k = 0; k < 25; ++k) expected[k] += weight * basis[k];
                 }

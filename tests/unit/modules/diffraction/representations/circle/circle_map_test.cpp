@@ -50,7 +50,8 @@ Planes planes(const lighting::LightSamples& texels, const Grating& grating) {
     Planes result;
     const KernelTable kernel = tabulate(ColourKernel(grating, colour::LightSpectra()));
     for (const glm::dvec3 n : {glm::dvec3(0, 0, 1), {0.3, 0.9, 0.1}, {-0.6, 0.4, -0.5}, {0.1, -0.3, 0.9}}) {
-        const PlanarMap map = fill_planar_map(texels, kernel, grating.pitch_nm, n, {128, 128});
+        const PlanarMap map =
+            fill_planar_map(texels, kernel, grating.pitch_nm, n, {128, 128}, glm::dmat3(0.0), grating.cover);
         for (int i = 0; i < 12; ++i) {
             const double angle = 0.53 * i;
             const glm::dvec3 g = std::cos(angle) * map.e1 + std::sin(angle) * map.e2;
@@ -82,6 +83,41 @@ TEST(CircleMap, AgreesWithPlanarMapsOfAnyNormal) {
         const CircleMap nine = fill_circle_map(texels, kernel, grating.pitch_nm, {32, 64, 9});
         EXPECT_LT(relative_rms(sampled(nine, expected.frames), expected.xyz), 0.02);
     }
+}
+
+/// The series at any r, and the map with it: cos 3t and cos 5t are needed.
+TEST(CircleMap, UnderACoverItHasTheMultiplesThreeAndFive) {
+    for (const double r : {0.05, 0.4, 1.0}) {
+        const std::array<double, 6> series = covered_cosine(1.58, r);
+        double error = 0.0;
+        double size = 0.0;
+        for (int i = 0; i < 2000; ++i) {
+            const double t = std::numbers::pi * (i + 0.5) / 2000;
+            const double exact = transmittance(1.58, r * std::cos(t)) * std::max(0.0, std::cos(t));
+            const double sum = series[0] + series[1] * std::cos(t) + series[2] * std::cos(2.0 * t) +
+                               series[3] * std::cos(4.0 * t) + series[4] * std::cos(3.0 * t) +
+                               series[5] * std::cos(5.0 * t);
+            error += (sum - exact) * (sum - exact);
+            size += exact * exact;
+        }
+        EXPECT_LT(std::sqrt(error / size), 0.035) << r;  // the terms above cos 5t; in air .032
+    }
+    const lighting::LightSamples texels = broad_light();
+    Grating grating = blazed();
+    grating.cover = Cover{};
+    const Planes expected = planes(texels, grating);
+    const KernelTable kernel = tabulate(ColourKernel(grating, colour::LightSpectra()));
+    const auto error = [&](int terms) {
+        const CircleMap map =
+            fill_circle_map(texels, kernel, grating.pitch_nm, {32, 64, terms}, glm::dmat3(0.0), grating.cover);
+        return relative_rms(sampled(map, expected.frames), expected.xyz);
+    };
+    EXPECT_EQ(circle_terms(grating.cover), 11);
+    const double eleven = error(11);
+    const double seven = error(7);
+    RecordProperty("errors", fmt::format("{:.3g} {:.3g}", eleven, seven));
+    EXPECT_LT(eleven, 0.02);  // as without a cover
+    EXPECT_GT(seven, 1.5 * eleven);
 }
 
 /// Frames with g at the equator, on either side of it, and reversed.

@@ -1,0 +1,275 @@
+#include "modules/diffraction/representations/planar/lobe_map.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <utility>
+
+#include "engine/core/check.h"
+#include "engine/core/parallel.h"
+#include "engine/math/fourier_transform.h"
+#include "modules/diffraction/bake/kernel_cells.h"
+
+namespace rowland::diffraction {
+
+namespace {
+
+using math::FourierTransform;
+constexpr std::size_t kLightLanes = FourierTransform::kLanes;
+
+/// Nodes that a cubic spline reaches beyond the grid at each end.
+constexpr int kMargin = 1;
+
+/// Weights of the four nodes around a position: the cubic spline, whose centre of weight is the position.
+std::array<float, 4> spline_weights(float t) {
+    const float u = 1.0F - t;
+    const float first = u * u * u / 6.0F;
+    const float last = t * t * t / 6.0F;
+    const float second = 2.0F / 3.0F - 0.5F * t * t * (2.0F - t);
+    return {first, second, 1.0F - first - second - last, last};
+}
+
+/// What one pair of azimuths is computed in: complex numbers, whose real parts belong to the first azimuth and whose
+/// imaginary parts to the second, as the pattern is real. Rows along h, one for each node along g.
+class AzimuthPair {
+ public:
+    explicit AzimuthPair(const LobeSpectrum& spectrum);
+
+    /// Adds the light of the disc, turned so that g is the first axis. `part` 0: the pair's first azimuth.
+    void add_light(const LightDisc& disc, double azimuth, int part);
+    void correlate();
+    /// Component by component at a view.
+    glm::vec3 value(int part, int view_g, int view_h) const;
+
+ private:
+    using Parts = FourierTransform::Parts;
+    Parts row(int view_g);
+    void transform_columns();
+
+    const LobeSpectrum& spectrum_;
+    FourierTransform along_g_;
+    FourierTransform along_h_;
+    std::size_t pitch_;  ///< floats of a row; not a power of two, so that a column's floats are not in one cache set
+    std::array<std::vector<float>, 2> parts_;   ///< real and imaginary: views.g + 2 kMargin rows
+    std::array<std::vector<float>, 2> column_;  ///< a column, and room for a transform's work
+    std::array<std::vector<float>, 2> work_;
+};
+
+AzimuthPair::AzimuthPair(const LobeSpectrum& spectrum)
+    : spectrum_(spectrum),
+      along_g_(spectrum.size_g()),
+      along_h_(spectrum.size_h()),
+      pitch_(kLightLanes * (spectrum.size_h() + 4)) {
+    const std::size_t longest = kLightLanes * std::max(spectrum.size_g(), spectrum.size_h());
+    for (auto& part : parts_) part.assign(static_cast<std::size_t>(spectrum.views().g + 2 * kMargin) * pitch_, 0.0F);
+    for (auto& part : column_) part.assign(kLightLanes * spectrum.size_g(), 0.0F);
+    for (auto& part : work_) part.assign(longest, 0.0F);
+}
+
+void AzimuthPair::add_light(const LightDisc& disc, double azimuth, int part) {
+    const LobeMapViews& views = spectrum_.views();
+    const int size_h = static_cast<int>(spectrum_.size_h());
+    // Positions in steps of the grid: linear in the disc's column and row.
+    const auto in_steps = [](double value, int nodes) { return static_cast<float>(0.5 * value * (nodes - 1)); };
+    const double cell = 2.0 / disc.cells;
+    const float column_g = in_steps(cell * std::cos(azimuth), views.g);
+    const float row_g = in_steps(cell * std::sin(azimuth), views.g);
+    const float column_h = in_steps(-cell * std::sin(azimuth), views.h);
+    const float row_h = in_steps(cell * std::cos(azimuth), views.h);
+    const float middle = 0.5F * static_cast<float>(disc.cells - 1);
+    const float middle_g = 0.5F * static_cast<float>(views.g - 1);
+    const float middle_h = 0.5F * static_cast<float>(views.h - 1);
+    const float last_g = 2.0F * middle_g - 1e-3F;
+    const float last_h = 2.0F * middle_h - 1e-3F;
+    float* const grid = parts_[static_cast<std::size_t>(part)].data();
+    for (int row = 0; row < disc.cells; ++row) {
+        const float y = static_cast<float>(row) - middle;
+        const auto [begin, end] = lit_columns(disc.cells, row);
+        const float* light =
+            disc.fluxes.data() + (static_cast<std::ptrdiff_t>(row) * disc.cells + begin) * std::ptrdiff_t{kLightLanes};
+        for (int column = begin; column < end; ++column, light += kLightLanes) {
+            const float x = static_cast<float>(column) - middle;
+            const float at_g = std::clamp(middle_g + column_g * x + row_g * y, 0.0F, last_g);
+            const float at_h = std::clamp(middle_h + column_h * x + row_h * y, 0.0F, last_h);
+            const int low_g = static_cast<int>(at_g);
+            const int low_h = static_cast<int>(at_h);
+            const std::array<float, 4> weights_g = spline_weights(at_g - static_cast<float>(low_g));
+            const std::array<float, 4> weights_h = spline_weights(at_h - static_cast<float>(low_h));
+            // Node 0 of u is v = −s: the light's last node along h comes first.
+            const int first_h = low_h - kMargin - (views.h - 1) + size_h;
+            for (int i = 0; i < 4; ++i) {
+                float* to = grid + static_cast<std::size_t>(low_g + i) * pitch_;
+                for (int j = 0; j < 4; ++j) {
+                    const float weight =
+                        weights_g[static_cast<std::size_t>(i)] * weights_h[static_cast<std::size_t>(j)];
+                    const int node = first_h + j < size_h ? first_h + j : first_h + j - size_h;
+                    float* lanes = to + static_cast<std::size_t>(node) * kLightLanes;
+                    for (std::size_t c = 0; c < kLightLanes; ++c) lanes[c] += weight * light[c];
+                }
+            }
+        }
+    }
+}
+
+AzimuthPair::Parts AzimuthPair::row(int view_g) {
+    const std::size_t begin = static_cast<std::size_t>(view_g) * pitch_;
+    const std::size_t count = kLightLanes * along_h_.size();
+    return {std::span(parts_[0]).subspan(begin, count), std::span(parts_[1]).subspan(begin, count)};
+}
+
+/// Multiplies a frequency's light (r, g, b) by the pattern's matrix.
+void multiply(const float* matrix, float* real, float* imaginary) {
+    std::array<float, kLightLanes> product_r{};
+    std::array<float, kLightLanes> product_i{};
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t o = 0; o < kLightLanes; ++o) {
+            const float r = matrix[kLightLanes * c + o];
+            const float i = matrix[kLightLanes * (3 + c) + o];
+            product_r[o] += r * real[c] - i * imaginary[c];
+            product_i[o] += r * imaginary[c] + i * real[c];
+        }
+    std::copy(product_r.begin(), product_r.end(), real);
+    std::copy(product_i.begin(), product_i.end(), imaginary);
+}
+
+void AzimuthPair::transform_columns() {
+    const int views = spectrum_.views().g;
+    const int rows = views + 2 * kMargin;
+    const int size = static_cast<int>(along_g_.size());
+    const auto work = [&] {
+        const std::size_t count = kLightLanes * along_g_.size();
+        return Parts{std::span(work_[0]).first(count), std::span(work_[1]).first(count)};
+    };
+    for (std::size_t h = 0; h < along_h_.size(); ++h) {
+        for (std::size_t part = 0; part < 2; ++part) {
+            float* to = column_[part].data();
+            std::fill_n(to, column_[part].size(), 0.0F);
+            const float* from = parts_[part].data() + kLightLanes * h;
+            for (int i = 0; i < rows; ++i) {
+                const int node = (i - kMargin - (views - 1) + size) % size;
+                std::copy_n(from + static_cast<std::size_t>(i) * pitch_, kLightLanes,
+                            to + kLightLanes * static_cast<std::size_t>(node));
+            }
+        }
+        along_g_({column_[0], column_[1]}, work());
+        const float* matrix = spectrum_.at(h).data();
+        for (std::size_t g = 0; g < along_g_.size(); ++g, matrix += LobeSpectrum::kFloats)
+            multiply(matrix, column_[0].data() + kLightLanes * g, column_[1].data() + kLightLanes * g);
+        along_g_({column_[0], column_[1]}, work());
+        for (std::size_t part = 0; part < 2; ++part)
+            for (int i = 0; i < views; ++i)
+                std::copy_n(column_[part].data() + kLightLanes * static_cast<std::size_t>(i), kLightLanes,
+                            parts_[part].data() + static_cast<std::size_t>(i) * pitch_ + kLightLanes * h);
+    }
+}
+
+void AzimuthPair::correlate() {
+    const auto transform_row = [&](int i) {
+        const std::size_t count = kLightLanes * along_h_.size();
+        along_h_(row(i), {std::span(work_[0]).first(count), std::span(work_[1]).first(count)});
+    };
+    for (int i = 0; i < spectrum_.views().g + 2 * kMargin; ++i) transform_row(i);
+    transform_columns();
+    for (int i = 0; i < spectrum_.views().g; ++i) transform_row(i);
+}
+
+glm::vec3 AzimuthPair::value(int part, int view_g, int view_h) const {
+    const float* at = parts_[static_cast<std::size_t>(part)].data() + static_cast<std::size_t>(view_g) * pitch_ +
+                      kLightLanes * static_cast<std::size_t>(view_h);
+    return {at[0], at[1], at[2]};
+}
+
+std::size_t slice_texels(const LobeMap& map) {
+    return static_cast<std::size_t>(map.size.views.g) * static_cast<std::size_t>(map.size.views.h);
+}
+
+void fill_pair(const LightDisc& disc, const LobeSpectrum& spectrum, int first, LobeMap& map) {
+    AzimuthPair pair(spectrum);
+    for (int part = 0; part < 2; ++part)
+        pair.add_light(disc, 2.0 * std::numbers::pi * (first + part) / map.size.azimuths, part);
+    pair.correlate();
+    for (int part = 0; part < 2; ++part) {
+        glm::vec3* to = map.values.data() + static_cast<std::size_t>(first + part) * slice_texels(map);
+        for (int h = 0; h < map.size.views.h; ++h)
+            for (int g = 0; g < map.size.views.g; ++g) *to++ = pair.value(part, g, h);
+    }
+}
+
+/// Lowers values by kBestLinear of their second difference along the azimuth, and adds the half turn's last slice.
+void finish_azimuths(LobeMap& map) {
+    const std::size_t texels = slice_texels(map);
+    const int count = map.half_turn ? map.size.azimuths / 2 : map.size.azimuths;
+    // A half turn further, both axes of the view are reversed.
+    const auto value = [&](int slice, std::size_t texel) {
+        const bool reversed = map.half_turn && (slice < 0 || slice >= count);
+        const auto wrapped = static_cast<std::size_t>((slice + count) % count);
+        return map.values[wrapped * texels + (reversed ? texels - 1 - texel : texel)];
+    };
+    std::vector<glm::vec3> lowered(map.values.size());
+    parallel_for(static_cast<std::size_t>(slices(map.size, map.half_turn)), [&](std::size_t i) {
+        const int slice = static_cast<int>(i);
+        for (std::size_t texel = 0; texel < texels; ++texel) {
+            const glm::vec3 here = value(slice, texel);
+            lowered[i * texels + texel] =
+                here - kBestLinear * (value(slice - 1, texel) - 2.0F * here + value(slice + 1, texel));
+        }
+    });
+    map.values = std::move(lowered);
+}
+
+}  // namespace
+
+LobeMap fill_lobe_map(const lighting::LightSamples& texels, const LobeSpectrum& spectrum, const glm::dvec3& normal,
+                      int azimuths, const std::stop_token& stop) {
+    ROWLAND_CHECK_OP(azimuths, >=, 8);
+    ROWLAND_CHECK_OP(azimuths % 4, ==, 0);
+    LobeMap map{.size = {.azimuths = azimuths, .views = spectrum.views()},
+                .half_turn = spectrum.even(),
+                .axes = plane_axes(normal),
+                .values = {}};
+    map.values.resize(static_cast<std::size_t>(slices(map.size, map.half_turn)) * slice_texels(map));
+    const LightDisc disc = light_on_disc(texels, map.axes, spectrum.cover(), spectrum.disc_cells());
+    const int filled = map.half_turn ? azimuths / 2 : azimuths;
+    parallel_for(static_cast<std::size_t>(filled / 2), [&](std::size_t pair) {
+        if (!stop.stop_requested()) fill_pair(disc, spectrum, 2 * static_cast<int>(pair), map);
+    });
+    if (!stop.stop_requested()) finish_azimuths(map);
+    return map;
+}
+
+glm::dvec3 sample(const LobeMap& map, const ShadingPoint& frame) {
+    const glm::dmat3 to_tangent = world_to_tangent(frame);
+    const glm::dvec3 v = to_tangent * glm::normalize(frame.view);
+    if (v.z <= 0.0) return glm::dvec3(0.0);
+    const glm::dvec3 g(to_tangent[0][0], to_tangent[1][0], to_tangent[2][0]);
+    double turns = std::atan2(glm::dot(g, map.axes.e2), glm::dot(g, map.axes.e1)) / (2.0 * std::numbers::pi);
+    const double sign = map.half_turn && turns < 0.0 ? -1.0 : 1.0;
+    if (turns < 0.0) turns += map.half_turn ? 0.5 : 1.0;
+    const glm::dvec3 position(0.5 * (sign * v.x + 1.0) * (map.size.views.g - 1),
+                              0.5 * (sign * v.y + 1.0) * (map.size.views.h - 1), turns * map.size.azimuths);
+    const glm::ivec3 counts(map.size.views.g, map.size.views.h, slices(map.size, map.half_turn));
+    const glm::dvec3 low = glm::floor(position);
+    glm::dvec3 sum(0.0);
+    for (int corner = 0; corner < 8; ++corner) {
+        double weight = 1.0;
+        glm::ivec3 at;
+        for (int axis = 0; axis < 3; ++axis) {
+            const int upper = corner >> axis & 1;
+            const double t = position[axis] - low[axis];
+            weight *= upper == 1 ? t : 1.0 - t;
+            const int node = static_cast<int>(low[axis]) + upper;
+            at[axis] = axis == 2 && !map.half_turn ? node % counts.z : std::clamp(node, 0, counts[axis] - 1);
+        }
+        const auto index =
+            (static_cast<std::size_t>(at.z) * static_cast<std::size_t>(counts.y) + static_cast<std::size_t>(at.y)) *
+                static_cast<std::size_t>(counts.x) +
+            static_cast<std::size_t>(at.x);
+        sum += weight * glm::dvec3(map.values[index]);
+    }
+    return sum;
+}
+
+}  // namespace rowland::diffraction

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <stop_token>
+#include <vector>
+
+#include "engine/lighting/light_samples.h"
+#include "modules/diffraction/model/shading_point.h"
+#include "modules/diffraction/representations/planar/light_disc.h"
+#include "modules/diffraction/representations/planar/lobe_spectrum.h"
+
+namespace rowland::diffraction {
+
+struct LobeMapSize {
+    int azimuths = 352;  ///< of a whole turn: a multiple of 4, ≥ 8
+    LobeMapViews views;
+};
+
+/// What is shown while a larger map is filled: within 40 ms of a tilt on two cores.
+inline constexpr LobeMapSize kCoarseLobeMap{.azimuths = 64, .views = {.g = 64, .h = 32}};
+
+/// A pattern that is even needs the half turn alone, both ends included.
+constexpr int slices(const LobeMapSize& size, bool half_turn) {
+    return half_turn ? size.azimuths / 2 + 1 : size.azimuths;
+}
+
+/// The radiance of a flat grating of any lobe under a probe (PHYSICS §6 "planar"): over the azimuth of g in the plane,
+/// v_g and v_h. A volume texture, GL_LINEAR:
+///   v_g: texel j holds v_g = 2j/(views.g − 1) − 1, both ends included;   s = (½(v_g+1)(views.g−1) + ½)/views.g
+///   v_h: the same in t
+///   azimuth φ: g = cos φ e1 + sin φ e2, slice i holds φ = 2π i/azimuths. A pattern with P(−u) = P(u) needs the half
+///     turn alone, as (φ + π, −v_g, −v_h) is then equal to (φ, v_g, v_h): azimuths/2 + 1 slices, GL_CLAMP_TO_EDGE in r.
+///     Others have `azimuths` slices, GL_REPEAT in r.
+///   values are optimised for linear interpolation (kBestLinear), not the radiance at the nodes
+struct LobeMap {
+    LobeMapSize size;
+    bool half_turn = false;
+    PlaneAxes axes;
+    std::vector<glm::vec3> values;  ///< XYZ, or the pattern's space: [(slice · views.h + j_h) · views.g + j_g]
+};
+
+/// Fills a map: correlates the light seen from straight above, turned to each azimuth, with the pattern, PHYSICS (31),
+/// by Fourier transforms. Uses all cores; the result does not depend on their number. After a stop request it returns
+/// early with an unusable map.
+LobeMap fill_lobe_map(const lighting::LightSamples& texels, const LobeSpectrum& spectrum, const glm::dvec3& normal,
+                      int azimuths, const std::stop_token& stop = {});
+
+/// The value of a point whose normal is the map's, as the texture unit interpolates; black for a view below the
+/// horizon.
+glm::dvec3 sample(const LobeMap& map, const ShadingPoint& frame);
+
+}  // namespace rowland::diffraction

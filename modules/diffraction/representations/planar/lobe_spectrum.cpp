@@ -1,0 +1,166 @@
+#include "modules/diffraction/representations/planar/lobe_spectrum.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "engine/core/check.h"
+#include "engine/core/parallel.h"
+#include "engine/math/fourier_transform.h"
+#include "modules/diffraction/bake/kernel_cells.h"
+
+namespace rowland::diffraction {
+
+namespace {
+
+using math::FourierTransform;
+constexpr std::size_t kLanes = FourierTransform::kLanes;
+
+/// The most by which a frequency is amplified. More would show single lamps with rings around them.
+constexpr double kMostRestored = 3.0;
+/// Pits' lobes are tabulated at this many wavelengths, and linear between.
+constexpr std::size_t kPitWavelengths = 16;
+/// Points of a lobe per step of the grid.
+constexpr int kLobePoints = 16;
+
+double sinc_of(double x) {
+    return x == 0.0 ? 1.0 : std::sin(std::numbers::pi * x) / (std::numbers::pi * x);
+}
+
+/// What the light's cubic splines, the pattern's distribution among two nodes and the disc's among four leave of a
+/// frequency (periods per step) is restored. `disc_step`: a disc's cell in steps of the grid.
+double restored(double frequency, double disc_step) {
+    const double angle = 2.0 * std::numbers::pi * frequency;
+    const double left = std::pow(sinc_of(frequency), 6) * std::exp(-disc_step * disc_step * angle * angle / 12.0);
+    return std::min(1.0 / left, kMostRestored) * (1.0 + 2.0 * double{kBestLinear} * (1.0 - std::cos(angle)));
+}
+
+std::vector<double> wavelengths_of(const GrooveLobe& lobe) {
+    if (!std::holds_alternative<PitsLobe>(lobe)) return {0.5 * (colour::kVisibleMin + colour::kVisibleMax)};
+    std::vector<double> wavelengths_nm;
+    for (std::size_t i = 0; i < kPitWavelengths; ++i)
+        wavelengths_nm.push_back(colour::kVisibleMin + (colour::kVisibleMax - colour::kVisibleMin) *
+                                                           static_cast<double>(i) / (kPitWavelengths - 1));
+    return wavelengths_nm;
+}
+
+/// D_h at one wavelength, each part of it divided between two nodes of the grid, as its transform: real, as it is even.
+std::vector<double> transformed_lobe(const GrooveLobe& lobe, double wavelength_nm, double step, std::size_t size) {
+    const LobeDensity density(lobe, wavelength_nm);
+    std::vector<double> nodes(size, 0.0);
+    const double point = step / kLobePoints;
+    const int last = static_cast<int>(2.0 / point);
+    for (int i = -last; i <= last; ++i) {
+        const double position = static_cast<double>(i) / kLobePoints;
+        const double low = std::floor(position);
+        const double weight = position - low;
+        const auto node = [&](int offset) -> double& {
+            const auto wrapped = static_cast<std::ptrdiff_t>(low) + offset + static_cast<std::ptrdiff_t>(size);
+            return nodes[static_cast<std::size_t>(wrapped) % size];
+        };
+        node(0) += (1.0 - weight) * point * density(i * point);
+        node(1) += weight * point * density(i * point);
+    }
+    std::vector<double> transform(size / 2 + 1);
+    for (std::size_t f = 0; f < transform.size(); ++f)
+        for (std::size_t p = 0; p < size; ++p)
+            transform[f] += nodes[p] * std::cos(2.0 * std::numbers::pi * static_cast<double>(f * p % size) /
+                                                static_cast<double>(size));
+    return transform;
+}
+
+/// The pattern's nodes near one of the lobe's wavelengths along g: as their transform, X, Y, Z of three columns a
+/// frequency.
+struct TransformedOrders {
+    std::array<std::vector<float>, 3> real;  ///< by column, kLanes floats a frequency
+    std::array<std::vector<float>, 3> imaginary;
+};
+
+/// The fraction of a wavelength that belongs to entry `r` of an ascending list.
+double hat(const std::vector<double>& wavelengths_nm, std::size_t r, double wavelength_nm) {
+    if (wavelengths_nm.size() == 1) return 1.0;
+    const double spacing = wavelengths_nm[1] - wavelengths_nm[0];
+    return std::max(0.0, 1.0 - std::abs(wavelength_nm - wavelengths_nm[r]) / spacing);
+}
+
+TransformedOrders transformed_orders(const DiffractionPattern& pattern, const std::vector<double>& wavelengths_nm,
+                                     std::size_t r, double step, std::size_t size) {
+    TransformedOrders orders;
+    for (std::size_t c = 0; c < 3; ++c) {
+        orders.real[c].assign(kLanes * size, 0.0F);
+        orders.imaginary[c].assign(kLanes * size, 0.0F);
+    }
+    for (const DiffractionPattern::Node& node : pattern.nodes) {
+        const double fraction = hat(wavelengths_nm, r, static_cast<double>(node.wavelength_nm));
+        if (fraction == 0.0) continue;
+        const double position = static_cast<double>(node.u) / step;
+        const double low = std::floor(position);
+        for (int offset = 0; offset < 2; ++offset) {
+            const auto wrapped = static_cast<std::ptrdiff_t>(low) + offset + static_cast<std::ptrdiff_t>(size);
+            const std::size_t at = kLanes * (static_cast<std::size_t>(wrapped) % size);
+            const double weight = fraction * (offset == 1 ? position - low : 1.0 - (position - low));
+            for (std::size_t c = 0; c < 3; ++c)
+                for (std::size_t o = 0; o < 3; ++o)
+                    orders.real[c][at + o] +=
+                        static_cast<float>(weight) * node.weight[static_cast<int>(c)][static_cast<int>(o)];
+        }
+    }
+    const FourierTransform transform(size);
+    std::vector<float> work_real(kLanes * size);
+    std::vector<float> work_imaginary(kLanes * size);
+    for (std::size_t c = 0; c < 3; ++c) {
+        transform({orders.real[c], orders.imaginary[c]}, {work_real, work_imaginary});
+        for (float& value : orders.imaginary[c]) value = -value;  // of real nodes: the other sign of the exponent
+    }
+    return orders;
+}
+
+}  // namespace
+
+LobeSpectrum::LobeSpectrum(const DiffractionPattern& pattern, const LobeMapViews& views)
+    : views_(views),
+      even_(pattern.even),
+      cover_(pattern.cover),
+      size_g_(std::bit_ceil(2 * static_cast<std::size_t>(views.g))),
+      size_h_(std::bit_ceil(2 * static_cast<std::size_t>(views.h))) {
+    ROWLAND_CHECK_OP(views.g, >=, 8);
+    ROWLAND_CHECK_OP(views.h, >=, 8);
+    const std::vector<double> wavelengths_nm = wavelengths_of(pattern.lobe);
+    std::vector<std::vector<double>> lobes(wavelengths_nm.size());
+    std::vector<TransformedOrders> orders(wavelengths_nm.size());
+    parallel_for(wavelengths_nm.size(), [&](std::size_t r) {
+        lobes[r] = transformed_lobe(pattern.lobe, wavelengths_nm[r], views.step_h(), size_h_);
+        orders[r] = transformed_orders(pattern, wavelengths_nm, r, views.step_g(), size_g_);
+    });
+    // A LightDisc holds half the flux.
+    const double scale = 2.0 / (views.step_g() * views.step_h() * static_cast<double>(size_g_ * size_h_));
+    const auto restored_at = [&](std::size_t f, std::size_t size, double step) {
+        const auto frequency = static_cast<double>(std::min(f, size - f)) / static_cast<double>(size);
+        return restored(frequency, 2.0 / (disc_cells() * step));
+    };
+    matrices_.assign((size_h_ / 2 + 1) * size_g_ * kFloats, 0.0F);
+    parallel_for(size_h_ / 2 + 1, [&](std::size_t h) {
+        const double factor_h = scale * restored_at(h, size_h_, views.step_h());
+        for (std::size_t g = 0; g < size_g_; ++g) {
+            float* to = matrices_.data() + (h * size_g_ + g) * kFloats;
+            const double factor = factor_h * restored_at(g, size_g_, views.step_g());
+            for (std::size_t r = 0; r < lobes.size(); ++r) {
+                const auto weight = static_cast<float>(factor * lobes[r][h]);
+                for (std::size_t c = 0; c < 3; ++c)
+                    for (std::size_t o = 0; o < 3; ++o) {
+                        to[kLanes * c + o] += weight * orders[r].real[c][kLanes * g + o];
+                        to[kLanes * (3 + c) + o] += weight * orders[r].imaginary[c][kLanes * g + o];
+                    }
+            }
+        }
+    });
+}
+
+std::span<const float> LobeSpectrum::at(std::size_t frequency_h) const {
+    const std::size_t row = std::min(frequency_h, size_h_ - frequency_h);
+    return std::span(matrices_).subspan(row * size_g_ * kFloats, size_g_ * kFloats);
+}
+
+}  // namespace rowland::diffraction

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "modules/diffraction/bake/diffraction_pattern.h"
+
+namespace rowland::diffraction {
+
+/// The grid of a lobe map over views, both ends ±1 included. The light has the same grid.
+struct LobeMapViews {
+    int g = 128;  ///< ≥ 8
+    int h = 128;  ///< ≥ 8
+
+    double step_g() const { return 2.0 / (g - 1); }
+    double step_h() const { return 2.0 / (h - 1); }
+};
+
+/// The Fourier transform of a diffraction pattern over a grid of u, as correlation with light on LobeMapViews needs it:
+/// periods of at least 4, the extent of u. It also undoes the blur by the light's distribution among nodes, PHYSICS
+/// (33), as far as that amplifies nothing more than kMostRestored times, and lowers values for linear interpolation
+/// (kBestLinear) along both axes.
+class LobeSpectrum {
+ public:
+    LobeSpectrum(const DiffractionPattern& pattern, const LobeMapViews& views);
+
+    const LobeMapViews& views() const { return views_; }
+    /// Of the LightDisc that the light must be taken from.
+    int disc_cells() const { return 2 * std::max(views_.g, views_.h); }
+    /// P(−u) = P(u).
+    bool even() const { return even_; }
+    /// Of the pattern: the light is to be dimmed by its T(s_n).
+    const std::optional<Cover>& cover() const { return cover_; }
+    std::size_t size_g() const { return size_g_; }
+    std::size_t size_h() const { return size_h_; }
+
+    /// Three columns of a complex 3 × 3 matrix: the real parts, four floats a column, then the imaginary ones.
+    static constexpr std::size_t kFloats = 24;
+    /// The matrices of all frequencies along g at one along h, which is taken as its magnitude: lobes are even.
+    std::span<const float> at(std::size_t frequency_h) const;
+
+ private:
+    LobeMapViews views_;
+    bool even_;
+    std::optional<Cover> cover_;
+    std::size_t size_g_;
+    std::size_t size_h_;
+    std::vector<float> matrices_;  ///< size_h/2 + 1 times size_g
+};
+
+}  // namespace rowland::diffraction

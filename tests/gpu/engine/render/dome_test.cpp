@@ -1,0 +1,70 @@
+// A capture on a dome is seen where a ray leaves the room, found by small steps.
+#include <glm/gtc/packing.hpp>
+
+#include "tests/gpu/render_test.h"
+
+namespace rowland::render {
+namespace {
+
+constexpr lighting::CaptureDome kDome{.height_m = 1.5, .radius_m = 4.0};
+
+class DomeTest : public test::RenderTest {
+ protected:
+    /// Each face of the cube has its own radiance, the face's number plus 1.
+    static lighting::LightProbe numbered_faces() {
+        lighting::LightProbe probe = even_light(1.0F);
+        auto& halves = probe.environment.halves;
+        for (std::size_t i = 0; i < halves.size(); ++i)
+            halves[i] = glm::packHalf1x16(1.0F + static_cast<float>(i / (halves.size() / 6)));
+        return probe;
+    }
+    static glm::dvec3 from_capture(const glm::dvec3& eye, const glm::dvec3& seen) {
+        const glm::dvec3 capture(0.0, kDome.height_m, 0.0);
+        constexpr double kStep_m = 1e-4;
+        glm::dvec3 at = eye;
+        while (at.y >= 0.0 && glm::length(at - capture) < kDome.radius_m) at += kStep_m * seen;
+        return at - capture;
+    }
+    glm::dvec3 seen_by(std::size_t pixel) const {
+        const glm::dvec2 at(static_cast<double>(pixel % kSize), static_cast<double>(pixel / kSize));
+        const glm::dvec2 offset = (2.0 * (at + 0.5) / double{kSize} - 1.0) * double{kHalfView / kEye};
+        const glm::dvec3 forward = glm::normalize(glm::dvec3(camera_.target - camera_.eye));
+        const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(0.0, 1.0, 0.0)));
+        return glm::normalize(forward + offset.x * right - offset.y * glm::cross(right, forward));
+    }
+};
+
+TEST_F(DomeTest, ShowsTheCaptureWhereARayLeavesTheRoom) {
+    lighting::LightProbe probe = numbered_faces();
+    probe.dome = kDome;
+    renderer_.set_probe(probe);
+    int compared = 0;
+    int on_the_floor = 0;
+    for (const glm::vec3& target : {glm::vec3(0.0F), glm::vec3(-2.0F, 0.0F, 1.0F), glm::vec3(1.5F, 3.0F, 0.0F)}) {
+        camera_.eye = {1.0F, 0.9F, 2.0F};
+        camera_.target = target;
+        const std::vector<glm::vec4> pixels = draw();
+        for (std::size_t i = 0; i < pixels.size(); i += 7) {
+            const lighting::CubePoint point = lighting::cube_point(from_capture(camera_.eye, seen_by(i)));
+            // Filtering mixes faces near their edges.
+            if (std::max(std::abs(point.s), std::abs(point.t)) > 0.7) continue;
+            ++compared;
+            if (point.face == 3) ++on_the_floor;
+            EXPECT_EQ(pixels[i].r, static_cast<float>(point.face + 1)) << "pixel " << i;
+        }
+    }
+    EXPECT_GT(compared, 100);
+    EXPECT_GT(on_the_floor, 20);
+}
+
+TEST_F(DomeTest, WithoutADomeTheCaptureIsInfinitelyFarAway) {
+    renderer_.set_probe(numbered_faces());
+    camera_.target = {0.0F, 0.0F, 0.0F};
+    const std::vector<glm::vec4> near = draw();
+    camera_.eye += glm::vec3(0.0F, 2.0F, 0.0F);
+    camera_.target = {0.0F, 2.0F, 0.0F};
+    EXPECT_EQ(draw(), near);
+}
+
+}  // namespace
+}  // namespace rowland::render

@@ -1,0 +1,116 @@
+// Every representation under a cover (PHYSICS §10) against the reference: no worse than without the cover. The slit's
+// efficiencies do not depend on the cover, so all that differs is T(s_n) inside the representation and T(v_n) outside.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/image/load.h"
+#include "modules/diffraction/asset/method.h"
+#include "modules/diffraction/evaluate/frame_sets.h"
+#include "modules/diffraction/evaluate/point_shader.h"
+#include "modules/diffraction/evaluate/radiance_error.h"
+#include "modules/diffraction/reference/reference.h"
+#include "tests/support/test_data.h"
+
+namespace rowland::diffraction {
+namespace {
+
+struct ProbeCase {
+    std::string name;
+    std::string file;
+    lighting::Mapping mapping = lighting::Mapping::Equirectangular;
+    std::size_t step = 1;  ///< every so many of the named frames
+    bool soft = false;
+};
+
+nlohmann::json material(bool covered, bool narrow) {
+    nlohmann::json json =
+        nlohmann::json::parse(R"({"grating": {"pitch_nm": 1600, "profile": {"type": "slit", "width_nm": 800}}})");
+    if (narrow) json["grating"]["groove_lobe"]["sigma"] = 0.05;
+    if (covered) json["cover"]["ior"] = 1.58;
+    return json;
+}
+
+/// Methods that hold the whole light.
+std::vector<std::string> whole_light_methods(SurfaceShape surface, bool narrow) {
+    if (narrow) return {"streak/nodes=8/taps=3"};
+    if (surface == SurfaceShape::Flat) return {"planar/map_resolution=128", "planar/map_resolution=128/key_lights=16"};
+    return {"circle/map_resolution=48/key_lights=16"};
+}
+
+/// Methods whose error is the detail that the light loses: under a harsh probe that says nothing of the cover, which
+/// changes how much of the lost detail is seen.
+std::vector<std::string> other_methods(bool narrow) {
+    if (narrow) return {"arc/bands=5/rank=8/view_resolution=16"};
+    return {"spikes/bands=5/spikes=4", "bins/bands=5/bins=8",  "transfer/bands=5",
+            "arc/bands=5/rank=8",      "arc/bands=12/rank=16", "arc/bands=8/rank=12/key_lights=16",
+            "direct/key_lights=16"};
+}
+
+class CoverUnderProbe : public ::testing::TestWithParam<ProbeCase> {
+ protected:
+    /// The error of a method, bare or covered.
+    double error(const std::string& name, bool covered, bool narrow) {
+        const Method method = parse_method(name);
+        const CookedMaterial cooked = cook(material(covered, narrow), "cover.json", method);
+        const EvaluationLight light(*probe_, method.key_lights, method.window);
+        return relative_rms(evaluate_baked(cooked, light, frames_), reference_[covered ? 1 : 0]);
+    }
+
+    void expect_no_worse(SurfaceShape surface, bool narrow) {
+        ROWLAND_TEST_DATA(path, "probes/" + GetParam().file);
+        probe_.emplace(image::load_image(path), GetParam().mapping, path.string());
+        frames_.clear();
+        const std::vector<ShadingPoint> all = measured_frames(surface);
+        for (std::size_t i = 0; i < all.size(); i += GetParam().step) frames_.push_back(all[i]);
+        for (const bool covered : {false, true})
+            reference_[covered ? 1 : 0] =
+                reference_radiance(parse_material(material(covered, narrow), "cover.json").grating, *probe_,
+                                   colour::LightSpectra(), frames_);
+        for (const std::string& name : whole_light_methods(surface, narrow)) expect_no_worse(name, narrow, true);
+        for (const std::string& name : other_methods(narrow)) expect_no_worse(name, narrow, GetParam().soft);
+    }
+
+    void expect_no_worse(const std::string& name, bool narrow, bool held) {
+        const double bare = error(name, false, narrow);
+        const double covered = error(name, true, narrow);
+        std::string key = name;
+        std::replace_if(
+            key.begin(), key.end(), [](char c) { return c == '/' || c == '='; }, '_');
+        RecordProperty(key, fmt::format("{:.4f} {:.4f}", bare, covered));
+        if (held) {
+            EXPECT_LE(covered, bare + 0.003) << name;
+        }
+    }
+
+ private:
+    std::optional<lighting::ProbeImage> probe_;
+    std::vector<ShadingPoint> frames_;
+    std::vector<glm::dvec3> reference_[2];
+};
+
+TEST_P(CoverUnderProbe, OnTheDiscErrorsAreThoseWithoutIt) {
+    expect_no_worse(SurfaceShape::Flat, false);
+}
+TEST_P(CoverUnderProbe, OnTheSphereErrorsAreThoseWithoutIt) {
+    expect_no_worse(SurfaceShape::Curved, false);
+}
+TEST_P(CoverUnderProbe, OfANarrowLobeErrorsAreThoseWithoutIt) {
+    expect_no_worse(SurfaceShape::Flat, true);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Named, CoverUnderProbe,
+    ::testing::Values(ProbeCase{"venice_sunset", "venice_sunset_256.hdr", lighting::Mapping::Equirectangular, 8, true},
+                      ProbeCase{"grace", "grace_probe.hdr", lighting::Mapping::Angular},
+                      ProbeCase{"ennis", "ennis_probulator.hdr"},
+                      ProbeCase{"blender_sunset", "blender_sunset.exr", lighting::Mapping::Equirectangular, 1, true},
+                      ProbeCase{"royal_esplanade", "royal_esplanade_1k.hdr"}),
+    [](const auto& one) { return one.param.name; });
+
+}  // namespace
+}  // namespace rowland::diffraction
