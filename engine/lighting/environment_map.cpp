@@ -97,11 +97,4 @@ EnvironmentMap unpack(const PackedEnvironmentMap& packed) {
     return map;
 }
 
-PackedEnvironmentMap finest_level(const PackedEnvironmentMap& map) {
-    const auto end = map.halves.begin() + static_cast<std::ptrdiff_t>(3 * map.layout.offset(1));
-    return {.layout = {.face_size = map.layout.face_size, .levels = 1},
-            .scale = map.scale,
-            .halves = {map.halves.begin(), end}};
-}
-
 }  // namespace rowland::lighting

@@ -57,7 +57,4 @@ struct PackedEnvironmentMap {
 PackedEnvironmentMap pack(const EnvironmentMap& map);
 EnvironmentMap unpack(const PackedEnvironmentMap& map);
 
-/// Only level 0.
-PackedEnvironmentMap finest_level(const PackedEnvironmentMap& map);
-
 }  // namespace rowland::lighting

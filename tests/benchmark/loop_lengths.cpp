@@ -64,8 +64,8 @@ LoopLengths loop_lengths(GLuint program) {
     LoopLengths lengths;
     for (const Component& component : kCounts)
         if (const std::optional<int> value = value_of(program, component)) lengths[component.expression] = *value;
-    if (const std::optional<int> nodes = array_length(program, "StreakNodes", "streak_nodes[0].path_width"))
-        lengths["streak_nodes.length()"] = *nodes;
+    if (const std::optional<int> segments = array_length(program, "StreakSegments", "streak_segments[0].first_step"))
+        lengths["streak_segments.length()"] = *segments;
     return lengths;
 }
 

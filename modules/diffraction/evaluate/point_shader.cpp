@@ -7,9 +7,7 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
 #include "engine/core/progress.h"
-#include "engine/lighting/prefilter.h"
 #include "engine/math/sh_rotation.h"
-#include "modules/diffraction/bake/cube_pyramid.h"
 #include "modules/diffraction/representations/direct/direct.h"
 #include "modules/diffraction/representations/streak/streak.h"
 

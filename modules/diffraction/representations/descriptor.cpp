@@ -24,6 +24,10 @@ const SettingInfo* RepresentationInfo::find(std::string_view key) const {
 }
 
 SettingValues::SettingValues(const RepresentationInfo& info, JsonReader& json) : info_(&info) {
+    for (const ReplacedSetting& old : info.replaced)
+        if (json.has(old.key))
+            json.fail(old.key, fmt::format("a setting that \"{}\" no longer has", info.name),
+                      fmt::format("\"{}\", which replaced it", old.by));
     for (const SettingInfo& setting : info.settings) {
         if (!json.has(setting.key)) continue;
         if (setting.words.empty())

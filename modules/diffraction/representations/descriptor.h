@@ -40,6 +40,12 @@ struct SettingInfo {
     std::vector<int> details{};
 };
 
+/// A setting that no longer exists, and the one that replaced it.
+struct ReplacedSetting {
+    const char* key = "";
+    const char* by = "";
+};
+
 /// The description of a representation for parsers, schemas, editors, sweeps, budgets and tables.
 struct RepresentationInfo {
     const char* name;     ///< in material files and methods
@@ -51,6 +57,7 @@ struct RepresentationInfo {
     bool in_demo = true;              ///< shown in the demo's comparison
     KeyLightUse key_lights = KeyLightUse::ByDefault;
     std::vector<SettingInfo> settings{};
+    std::vector<ReplacedSetting> replaced{};
     std::vector<const char*> editor_start{};  ///< settings that an editor writes on choosing the representation
     const char* sweep_tier = "";              ///< settings of the sweep's starting point; key_lights may be among them
     std::vector<int> sweep_key_lights{};      ///< numbers of key lights that the sweep takes

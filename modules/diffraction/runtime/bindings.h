@@ -7,13 +7,12 @@ inline constexpr unsigned kVertexLightBinding = 4;  ///< storage
 inline constexpr unsigned kTableRangeBinding = 5;   ///< storage
 inline constexpr unsigned kKeyLobeBinding = 6;      ///< uniform
 inline constexpr unsigned kLightColourBinding = 7;  ///< uniform
-inline constexpr unsigned kStreakNodeBinding = 6;   ///< storage: numbered separately from uniform
+inline constexpr unsigned kStreakSegmentBinding = 6;  ///< storage: numbered separately from uniform
 inline constexpr unsigned kTableUnit = 8;
 inline constexpr unsigned kWavelengthTableUnit = 9;
 inline constexpr unsigned kKernelUnit = 10;
 inline constexpr int kFirstColourLayer = 3;  ///< of the kernel's texture
 inline constexpr unsigned kMapUnit = 11;
-inline constexpr unsigned kRadianceUnit = 12;
 inline constexpr unsigned kGrooveMapUnit = 13;
 inline constexpr unsigned kLobeUnit = 14;
 

@@ -12,8 +12,6 @@ const LightParts& LightDivision::of(const render::FrameLight& light) {
     if (other_probe) {
         parts_.probe_sh = probe.sh;
         parts_.probe_texels = std::make_shared<const lighting::LightSamples>(lighting::unpack(probe.light));
-        parts_.radiance =
-            std::make_shared<const lighting::PackedEnvironmentMap>(lighting::finest_level(probe.environment));
         parts_.illuminant = probe.illuminant.name;
     }
     if (other_probe || key_lights_apart_ != light.key_lights_apart) {

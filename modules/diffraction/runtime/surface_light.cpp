@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "engine/core/log.h"
 #include "modules/diffraction/runtime/bindings.h"
 #include "modules/diffraction/runtime/light_window.h"
 #include "modules/diffraction/shaders/key_lobe_block.h"
@@ -72,17 +71,6 @@ const lighting::ShLight& SurfaceLight::harmonics(int bands, LightPart part) {
                                                                 : light_.residual;
     const math::SphericalWindow window = window_ ? *window_ : weakest_window(light, bands);
     return windowed_.emplace(std::pair(bands, part), lighting::limit_bands(light, bands, window)).first->second;
-}
-
-std::shared_ptr<const RadianceCube> SurfaceLight::radiance() {
-    if (cube_ && cube_of_ == light_.radiance) return cube_;
-    cube_of_ = light_.radiance;
-    if (!cube_of_) log_warning("a grating of representation streak is under light without a probe: it stays dark");
-    const lighting::PackedEnvironmentMap black{
-        .layout = {.face_size = 1, .levels = 1}, .scale = 1.0F, .halves = std::vector<std::uint16_t>(18, 0)};
-    cube_ = std::make_shared<const RadianceCube>(cube_of_ ? *cube_of_ : black);
-    ++radiance_uploads_;
-    return cube_;
 }
 
 std::span<const lighting::KeyLight> SurfaceLight::key_lights() const {

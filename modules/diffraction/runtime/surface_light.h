@@ -11,7 +11,6 @@
 #include "engine/lighting/sh_light.h"
 #include "engine/math/sh_window.h"
 #include "modules/diffraction/runtime/light_parts.h"
-#include "modules/diffraction/runtime/radiance_cube.h"
 #include "modules/diffraction/shaders/light_colour_block.h"
 
 namespace rowland::diffraction {
@@ -39,12 +38,6 @@ class SurfaceLight {
         return part == LightPart::Rest ? light_.texels : light_.probe_texels;
     }
 
-    /// The whole probe on the GPU, uploaded on demand and once per probe. Black if the light has none.
-    std::shared_ptr<const RadianceCube> radiance();
-
-    /// How many probes were uploaded.
-    int radiance_uploads() const { return radiance_uploads_; }
-
     /// The first ROWLAND_MAXIMUM_KEY_LOBES.
     std::span<const lighting::KeyLight> key_lights() const;
     /// Distinct colours of the engine's lights[], linear Rec.709, the largest component 1.
@@ -66,9 +59,6 @@ class SurfaceLight {
     std::map<std::pair<int, LightPart>, lighting::ShLight> windowed_;
     mutable gpu::StreamBuffer key_lights_;
     mutable bool key_lights_changed_ = true;  ///< since they were bound
-    std::shared_ptr<const lighting::PackedEnvironmentMap> cube_of_;
-    std::shared_ptr<const RadianceCube> cube_;
-    int radiance_uploads_ = 0;
 };
 
 }  // namespace rowland::diffraction

@@ -1,57 +1,73 @@
 #include "modules/diffraction/representations/streak/gpu_streak.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <span>
 #include <string>
 
+#include "engine/core/log.h"
 #include "modules/diffraction/runtime/bindings.h"
 
 namespace rowland::diffraction {
 
 namespace {
 
-/// StreakNode of shaders/streak.frag.glsl, std430.
-struct ShaderNode {
-    glm::vec4 path_width;  ///< x: path over the pitch; y: width over the pitch
-    glm::vec4 weight[3];   ///< columns: of red, green and blue light, working space
+/// StreakSegment of streak.frag.glsl, std430.
+struct ShaderSegment {
+    glm::vec4 first_step;  ///< x: first path over the pitch; y: step over the pitch
+    /// For each node the columns: of red, green and blue light, working space.
+    std::array<glm::vec4, std::size_t{3} * kSegmentNodes> weights;
 };
-static_assert(sizeof(ShaderNode) == 64);
+static_assert(sizeof(ShaderSegment) == 16 * (1 + 3 * kSegmentNodes));
 
-gpu::Buffer node_buffer(const Streak& streak, const glm::dmat3& xyz_to_working) {
-    std::vector<ShaderNode> nodes;
-    for (const StreakNode& node : streak.nodes) {
+gpu::Buffer segment_buffer(const Streak& streak, const glm::dmat3& xyz_to_working) {
+    std::vector<ShaderSegment> segments;
+    for (const StreakSegment& segment : streak.segments) {
         const auto pitch = static_cast<float>(streak.pitch_nm);
-        ShaderNode made{.path_width = {node.path_nm / pitch, node.width_nm / pitch, 0.0F, 0.0F}, .weight = {}};
-        for (int c = 0; c < 3; ++c)
-            made.weight[c] = glm::vec4(glm::vec3(xyz_to_working * glm::dvec3(node.weight[c])), 0.0F);
-        nodes.push_back(made);
+        ShaderSegment made{.first_step = {segment.first_nm / pitch, segment.step_nm / pitch, 0.0F, 0.0F},
+                           .weights = {}};
+        for (std::size_t i = 0; i < made.weights.size(); ++i)
+            made.weights[i] = glm::vec4(
+                glm::vec3(xyz_to_working * glm::dvec3(segment.weights[i / 3][static_cast<glm::length_t>(i % 3)])),
+                0.0F);
+        segments.push_back(made);
     }
-    if (nodes.empty()) nodes.push_back({.path_width = {4.0F, 0.0F, 0.0F, 0.0F}, .weight = {}});  // never visible
-    return gpu::Buffer::of(std::span<const ShaderNode>(nodes));
-}
-
-std::vector<glm::vec3> shader_taps(const StreakTables& tables) {
-    std::vector<glm::vec3> taps;
-    for (const LobeTap& tap : lobe_taps(tables.taps))
-        taps.emplace_back(glm::dvec3(tables.streak.sigma * tap.offset, tables.streak.sigma * tap.width, tap.weight));
-    return taps;
+    if (segments.empty()) segments.push_back({.first_step = {4.0F, 0.0F, 0.0F, 0.0F}, .weights = {}});  // never visible
+    return gpu::Buffer::of(std::span<const ShaderSegment>(segments));
 }
 
 }  // namespace
 
 GpuStreak::GpuStreak(const CookedMaterial& cooked, const StreakTables& tables, const glm::dmat3& xyz_to_working)
     : GpuMaterial(cooked, xyz_to_working),
-      nodes_(node_buffer(tables.streak, xyz_to_working)),
-      taps_(shader_taps(tables)),
+      segments_(segment_buffer(tables.streak, xyz_to_working)),
+      size_(tables.map),
+      reach_(static_cast<float>(tables.streak.reach())),
+      level_(static_cast<float>(std::log2(tables.streak.sigma / tables.map.length))),
       power_(static_cast<float>(tables.streak.power / std::erf(1.0 / (tables.streak.sigma * std::numbers::sqrt2)))),
-      rest_weight_(static_cast<float>(1.0 - tables.streak.power)) {
+      rest_weight_(static_cast<float>(1.0 - tables.streak.power)),
+      map_(black_streak_map()) {
     if (tables.rest) rest_.emplace(cooked, *tables.rest, xyz_to_working);
 }
 
+void GpuStreak::begin(const std::shared_ptr<const lighting::LightSamples>& texels) const {
+    texels_ = texels;
+    if (!texels) log_warning("a grating of representation streak is under light without a probe: it stays dark");
+    filling_ =
+        std::make_unique<StreakFilling>(texels ? texels : std::make_shared<const lighting::LightSamples>(), size_);
+    ++fills_begun_;
+}
+
 void GpuStreak::update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const {
-    radiance_ = light.radiance();
     if (rest_) rest_->update(object, light, state);
+    if (!texels_ || *texels_ != light.texels(LightPart::Probe)) begin(light.texels(LightPart::Probe));
+    if (!filling_) return;
+    if (object.slices_per_frame >= 2 * size_.turns) filling_->wait();
+    if (!filling_->upload(object.slices_per_frame)) return;
+    map_ = filling_->take();
+    filling_.reset();
+    ++fills_;
 }
 
 void GpuStreak::describe(const SurfaceState& state, gpu::ProgramDesc& desc) const {
@@ -62,15 +78,15 @@ void GpuStreak::describe(const SurfaceState& state, gpu::ProgramDesc& desc) cons
         desc.defines.push_back({"REST", "1"});
     }
     desc.defines.push_back({"STREAK", "1"});
-    desc.defines.push_back({"TAPS", std::to_string(taps_.size())});
-    desc.defines.push_back({"FILTER_TAPS", std::to_string(kStreakFilterTaps) + ".0"});
+    desc.defines.push_back({"NODES", std::to_string(kSegmentNodes)});
 }
 
 void GpuStreak::bind_tables(const gpu::Program& program, const SurfaceState& state) const {
     if (rest_) rest_->bind_tables(program, state);
-    nodes_.bind_storage(kStreakNodeBinding);
-    radiance_->bind(program);
-    program.set("streak_taps", std::span<const glm::vec3>(taps_));
+    segments_.bind_storage(kStreakSegmentBinding);
+    map_.bind(program);
+    program.set("streak_reach", reach_);
+    program.set("streak_level", level_);
     program.set("streak_power", power_);
     program.set("rest_weight", rest_weight_);
 }

@@ -2,69 +2,31 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <glm/matrix.hpp>
 #include <numbers>
 #include <type_traits>
 
-#include "engine/colour/observer.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
-#include "modules/diffraction/bake/packed_texels.h"
 #include "modules/diffraction/bake/view_spectrum.h"
-#include "modules/diffraction/bake/wavelength_cuts.h"
-#include "modules/diffraction/model/efficiency.h"
+#include "modules/diffraction/model/colour_kernel.h"
 
 namespace rowland::diffraction {
 
 namespace {
 
-/// The taps cover so many σ on either side. The 4 % of the power beyond goes to the outer taps.
-constexpr double kTapReach = 2.05;
-
-/// One order at every nanometre.
-struct OrderSpectrum {
-    int order = 0;
-    std::vector<glm::dmat3> observed;  ///< η_m cmf Eᵀ
-    std::vector<double> weight;        ///< sum of the entries of `observed`, about
-};
-
-OrderSpectrum spectrum_of(const Grating& grating, int order, const colour::LightSpectra& spectra) {
-    OrderSpectrum result{.order = order, .observed = {}, .weight = {}};
-    for (std::size_t j = 0; j < kWavelengths; ++j) {
-        const double wavelength_nm = colour::kVisibleMin + static_cast<double>(j);
-        const glm::dvec3 cmf = colour::cie_xyz(wavelength_nm);
-        const glm::dvec3 light = spectra(wavelength_nm);
-        const double efficiency = order_efficiency(grating, order, wavelength_nm);
-        result.observed.push_back(efficiency * glm::outerProduct(cmf, light));
-        result.weight.push_back(efficiency * (cmf.x + cmf.y + cmf.z) * (light.x + light.y + light.z));
-    }
-    return result;
-}
-
-StreakNode make_node(const OrderSpectrum& spectrum, std::size_t begin, std::size_t end) {
-    glm::dmat3 sum(0.0);
-    double total = 0.0;
-    double moment = 0.0;
-    double square = 0.0;
-    each_node(begin, end, [&](std::size_t j, double step) {
-        const double at = static_cast<double>(j - begin);
-        const double weight = step * spectrum.weight[j];
-        sum += step * spectrum.observed[j];
-        total += weight;
-        moment += weight * at;
-        square += weight * at * at;
-    });
-    const double middle = 0.5 * static_cast<double>(end - begin);
-    const double mean = total > 0.0 ? moment / total : middle;
-    const double variance = total > 0.0 ? std::max(square / total - mean * mean, 0.0) : 0.0;
-    const double wavelength_nm = colour::kVisibleMin + static_cast<double>(begin) + mean;
-    return {.path_nm = static_cast<float>(spectrum.order * wavelength_nm),
-            .width_nm = static_cast<float>(std::abs(spectrum.order) * std::sqrt(12.0 * variance)),
-            .wavelength_nm = static_cast<float>(wavelength_nm),
-            .weight = glm::mat3(sum)};
-}
+/// Distance of nodes over their width. At 2 the sum of the nodes' curves has ripples of 1.5 %.
+constexpr double kNodeDistance = 5.0 / 3.0;
+/// Of the kernel's sum on each side of x = 0: so much lies beyond the first and the last node.
+constexpr double kBeyondNodes = 0.015;
+/// Added to the diagonal of the fit, in proportion.
+constexpr double kRidge = 1e-3;
+/// A lobe of more than this deviation has twice as many directions in its map.
+constexpr double kWideLobe = 0.08;
 
 struct NarrowLobe {
     double sigma = 0.0;
@@ -82,53 +44,192 @@ NarrowLobe narrow_lobe(const GrooveLobe& lobe) {
                  .remedy = "use \"arc\", \"transfer\" or \"spikes\""});
 }
 
-/// An interval of a direction cosine after clipping.
-struct Piece {
-    double middle = 0.0;
-    double length = 0.0;
-    double fraction = 0.0;  ///< of the length before clipping
+/// The kernel's sums over a raster of x.
+struct KernelRaster {
+    double first_nm = 0.0;  ///< middle of the first interval
+    double step_nm = 1.0;
+    std::vector<glm::dmat3> sums;  ///< ∫ k dx over each interval
+
+    double middle_nm(std::size_t i) const { return first_nm + static_cast<double>(i) * step_nm; }
 };
 
-Piece cut(double middle, double length, double limit) {
-    const double begin = std::max(middle - 0.5 * length, -limit);
-    const double end = std::min(middle + 0.5 * length, limit);
-    if (length <= 0.0) return {middle, 0.0, std::abs(middle) < limit ? 1.0 : 0.0};
-    return {0.5 * (begin + end), end - begin, std::max(end - begin, 0.0) / length};
+double total(const glm::dmat3& matrix) {
+    double sum = 0.0;
+    for (int c = 0; c < 3; ++c) sum += matrix[c][0] + matrix[c][1] + matrix[c][2];
+    return sum;
 }
 
-double normal_below(double sigmas) {
-    return 0.5 * std::erfc(-sigmas / std::numbers::sqrt2);
+/// On one side of x = 0, as far as a direction can see.
+KernelRaster raster_of(const ColourKernel& kernel, double pitch_nm, bool positive) {
+    const double begin = positive ? std::max(kernel.begin_nm(), 0.0) : std::max(kernel.begin_nm(), -2.0 * pitch_nm);
+    const double end = positive ? std::min(kernel.end_nm(), 2.0 * pitch_nm) : std::min(kernel.end_nm(), 0.0);
+    KernelRaster raster;
+    if (begin >= end) return raster;
+    const auto count = static_cast<std::size_t>(std::ceil(end - begin));
+    raster.step_nm = (end - begin) / static_cast<double>(count);
+    raster.first_nm = begin + 0.5 * raster.step_nm;
+    glm::dmat3 before = kernel.antiderivative(begin);
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::dmat3 after = kernel.antiderivative(begin + static_cast<double>(i + 1) * raster.step_nm);
+        raster.sums.push_back(after - before);
+        before = after;
+    }
+    return raster;
+}
+
+/// Segments without weights over the interval where the kernel is.
+void add_segments(const KernelRaster& raster, double distance_nm, std::vector<StreakSegment>& segments) {
+    double whole = 0.0;
+    for (const glm::dmat3& sum : raster.sums) whole += total(sum);
+    if (!(whole > 0.0)) return;
+    double below = 0.0;
+    std::size_t first = raster.sums.size();
+    std::size_t last = 0;
+    for (std::size_t i = 0; i < raster.sums.size(); ++i) {
+        below += total(raster.sums[i]);
+        if (below >= kBeyondNodes * whole) first = std::min(first, i);
+        if (below <= (1.0 - kBeyondNodes) * whole) last = i;
+    }
+    const double begin = raster.middle_nm(first);
+    const double extent = raster.middle_nm(std::max(first, last)) - begin;
+    const int count = std::max(1, static_cast<int>(std::lround((extent / distance_nm + 1.0) / kSegmentNodes)));
+    const double step = extent / (count * kSegmentNodes - 1);
+    for (int i = 0; i < count; ++i)
+        segments.push_back({.first_nm = static_cast<float>(begin + i * kSegmentNodes * step),
+                            .step_nm = static_cast<float>(step),
+                            .weights = {}});
+}
+
+/// The weights of least squares: the sum of the nodes' normal distributions is next to the kernel.
+void fit_weights(const std::vector<KernelRaster>& rasters, double width_nm, std::vector<StreakSegment>& segments) {
+    std::vector<double> nodes;
+    for (const StreakSegment& segment : segments)
+        for (int j = 0; j < kSegmentNodes; ++j) nodes.push_back(segment.path_nm(j));
+    const auto count = static_cast<Eigen::Index>(nodes.size());
+    const auto node = [&](Eigen::Index i) { return nodes[static_cast<std::size_t>(i)]; };
+    Eigen::MatrixXd products(count, count);
+    for (Eigen::Index i = 0; i < count; ++i)
+        for (Eigen::Index j = 0; j < count; ++j) {
+            const double z = (node(i) - node(j)) / width_nm;
+            products(i, j) = std::exp(-0.25 * z * z) * (i == j ? 1.0 + kRidge : 1.0);
+        }
+    Eigen::MatrixXd kernel = Eigen::MatrixXd::Zero(count, 9);
+    for (Eigen::Index i = 0; i < count; ++i)
+        for (const KernelRaster& raster : rasters)
+            for (std::size_t k = 0; k < raster.sums.size(); ++k) {
+                const double z = (raster.middle_nm(k) - node(i)) / width_nm;
+                if (std::abs(z) > 6.0) continue;
+                const double weight = std::numbers::sqrt2 * std::exp(-0.5 * z * z);
+                for (int e = 0; e < 9; ++e) kernel(i, e) += weight * raster.sums[k][e / 3][e % 3];
+            }
+    Eigen::MatrixXd weights = products.ldlt().solve(kernel);
+    for (int e = 0; e < 9; ++e) {
+        double whole = 0.0;
+        for (const KernelRaster& raster : rasters)
+            for (const glm::dmat3& sum : raster.sums) whole += sum[e / 3][e % 3];
+        const double sum = weights.col(e).sum();
+        if (whole > 0.0 && sum > 0.0) weights.col(e) *= whole / sum;  // even light is exact
+    }
+    for (Eigen::Index i = 0; i < count; ++i)
+        for (int e = 0; e < 9; ++e)
+            segments[static_cast<std::size_t>(i / kSegmentNodes)]
+                .weights[static_cast<std::size_t>(i % kSegmentNodes)][e / 3][e % 3] = static_cast<float>(weights(i, e));
+}
+
+constexpr double kLeastSquare = 1e-4;  ///< of s_n²
+
+/// The same for all points of a view.
+struct StreakView {
+    const Streak& streak;
+    const glm::dmat3& axes;
+    glm::dvec3 view{0.0};
+    double length_scale = 1.0;  ///< the lobe's deviation over the map's
+    std::optional<Cover> cover = std::nullopt;
+
+    double side() const { return std::abs(view.y); }
+    /// Radii √(1 − s_g²) from which on some and all of the lobe is above the horizon.
+    double some() const { return std::max(side() - streak.reach(), 0.0); }
+    double all() const { return side() + streak.reach(); }
+};
+
+/// s_h of a segment whose middle is at s_g: the middle of the lobe's part above the horizon.
+double lobe_middle(const StreakView& at, double s_g) {
+    const double r = std::sqrt(std::max(1.0 - s_g * s_g, 0.0));
+    return (at.view.y > 0.0 ? -1.0 : 1.0) * (at.side() + 0.5 * std::min(r - at.all(), 0.0));
+}
+
+/// Where the light at (s_g, s_h) is in the map. `chart`: −1 chooses it.
+StreakPosition position_at(const StreakView& at, double s_g, double s_h, int& chart) {
+    const double square = std::max(1.0 - s_g * s_g, 1e-6);
+    const double s_n = std::sqrt(std::max(square - s_h * s_h, kLeastSquare));
+    const glm::dvec3 direction = at.axes * glm::dvec3(s_g, s_h, s_n);
+    if (chart < 0) chart = direction.y < 0.0 ? 1 : 0;
+    StreakPosition position = streak_position(direction, at.axes * glm::dvec3(0.0, s_n, -s_h), chart);
+    position.level = std::log2(at.length_scale * std::sqrt(square) / s_n);
+    return position;
+}
+
+glm::dvec3 segment_xyz(const StreakSegment& segment, const StreakMap& map, const StreakView& at) {
+    const double first = static_cast<double>(segment.first_nm) / at.streak.pitch_nm - at.view.x;
+    const double step = static_cast<double>(segment.step_nm) / at.streak.pitch_nm;
+    const double limit = std::sqrt(std::max(1.0 - at.some() * at.some(), 0.0));
+    const double low = std::max(first, -limit);
+    const double high = std::min(first + (kSegmentNodes - 1) * step, limit);
+    if (low > high) return glm::dvec3(0.0);
+    const double middle = 0.5 * (low + high);
+    const double s_h = lobe_middle(at, middle);
+    int chart = -1;
+    const StreakPosition centre = position_at(at, middle, s_h, chart);
+    const StreakPosition before = position_at(at, low, s_h, chart);
+    StreakPosition after = position_at(at, high, s_h, chart);
+    after.texture.z -= std::round(after.texture.z - before.texture.z);
+    const StreakPosition slope = 0.5 * (after + -1.0 * before);
+    const StreakPosition mean = 0.5 * (after + before);
+    const glm::dvec3 bend(glm::dvec2(mean.texture - centre.texture), 0.0);
+    const double scale = 2.0 / std::max(high - low, 1e-6);
+    glm::dvec3 xyz(0.0);
+    for (int j = 0; j < kSegmentNodes; ++j) {
+        const double s_g = first + j * step;
+        // Fraction of the lobe above the horizon, linear in r².
+        const double fraction = std::clamp(
+            (1.0 - s_g * s_g - at.some() * at.some()) / (at.all() * at.all() - at.some() * at.some()), 0.0, 1.0);
+        if (fraction == 0.0) continue;
+        const double t = scale * (s_g - middle);
+        StreakPosition position = mean + t * slope;
+        position.level = centre.level;
+        position.texture += (t * t - 1.0) * bend;
+        const double passed = transmittance(at.cover, std::sqrt(std::max(1.0 - s_g * s_g - s_h * s_h, kLeastSquare)));
+        xyz += fraction * passed * (glm::dmat3(segment.weights[static_cast<std::size_t>(j)]) * sample(map, position));
+    }
+    return xyz;
 }
 
 }  // namespace
 
-std::vector<LobeTap> lobe_taps(int count) {
-    ROWLAND_CHECK_OP(count, >=, 1);
-    std::vector<LobeTap> taps;
-    const double width = 2.0 * kTapReach / count;
-    for (int i = 0; i < count; ++i) {
-        const double begin = -kTapReach + width * i;
-        const double below = i == 0 ? 0.0 : normal_below(begin);
-        const double above = i + 1 == count ? 1.0 : normal_below(begin + width);
-        taps.push_back({.offset = begin + 0.5 * width, .width = width, .weight = above - below});
-    }
-    return taps;
-}
-
 Streak make_streak(const Grating& grating, const StreakSettings& settings) {
-    ROWLAND_CHECK_OP(settings.nodes_per_order, >=, 1);
     require_many_grooves(grating);
     const NarrowLobe lobe = narrow_lobe(grating.lobe);
-    Streak streak{.pitch_nm = grating.pitch_nm, .sigma = lobe.sigma, .power = lobe.power, .nodes = {}};
-    const colour::LightSpectra spectra(settings.illuminant);
-    for (const int order : grating.orders) {
-        const OrderSpectrum spectrum = spectrum_of(grating, order, spectra);
-        if (std::all_of(spectrum.weight.begin(), spectrum.weight.end(), [](double w) { return w == 0.0; })) continue;
-        const auto cuts = equal_weight_cuts(spectrum.weight, order == 0 ? 1 : settings.nodes_per_order);
-        for (std::size_t k = 0; k + 1 < cuts.size(); ++k)
-            streak.nodes.push_back(make_node(spectrum, cuts[k], cuts[k + 1]));
+    Streak streak{.pitch_nm = grating.pitch_nm, .sigma = lobe.sigma, .power = lobe.power, .segments = {}};
+    const ColourKernel kernel(grating, colour::LightSpectra(settings.illuminant));
+    // Across the lobe a node's s_g is about .97 of the angle.
+    const double width_nm = 0.97 * map_size(streak, settings.map_resolution).width() * grating.pitch_nm;
+    std::vector<KernelRaster> rasters;
+    for (const bool positive : {false, true}) {
+        rasters.push_back(raster_of(kernel, grating.pitch_nm, positive));
+        add_segments(rasters.back(), kNodeDistance * width_nm, streak.segments);
+    }
+    fit_weights(rasters, width_nm, streak.segments);
+    if (kernel.zero_order_xyz() != glm::dmat3(0.0)) {
+        streak.segments.emplace_back();
+        streak.segments.back().weights[0] = glm::mat3(kernel.zero_order_xyz());
     }
     return streak;
+}
+
+StreakMapSize map_size(const Streak& streak, int map_resolution) {
+    StreakMapSize size{.side = map_resolution / 4 * 4, .turns = streak.sigma > kWideLobe ? 32 : 16};
+    size.length = std::max(streak.sigma, size.width());
+    return size;
 }
 
 std::optional<Grating> incoherent_rest(const Grating& grating) {
@@ -139,54 +240,37 @@ std::optional<Grating> incoherent_rest(const Grating& grating) {
     return rest;
 }
 
-glm::dvec3 evaluate(const Streak& streak, const FilteredRadiance& radiance, const glm::dvec3& view, int taps,
+glm::dvec3 evaluate(const Streak& streak, const StreakMap& map, const glm::dmat3& axes, const glm::dvec3& view,
                     const std::optional<Cover>& cover) {
     glm::dvec3 xyz(0.0);
     if (!(view.z > 0.0)) return xyz;
-    const std::vector<LobeTap> lobe = lobe_taps(taps);
-    for (const StreakNode& node : streak.nodes) {
-        const Piece across = cut(static_cast<double>(node.path_nm) / streak.pitch_nm - view.x,
-                                 static_cast<double>(node.width_nm) / streak.pitch_nm, 1.0);
-        if (across.fraction == 0.0) continue;
-        const double r = std::sqrt(std::max((1.0 - across.middle) * (1.0 + across.middle), 0.0));
-        glm::dvec3 sum(0.0);
-        for (const LobeTap& tap : lobe) {
-            const Piece along = cut(streak.sigma * tap.offset - view.y, streak.sigma * tap.width, r);
-            if (along.fraction == 0.0) continue;
-            const double height = std::sqrt(std::max(r * r - along.middle * along.middle, 0.0));
-            const double slope = 1.0 / std::max(height, kLowestStreakHeight);
-            sum += tap.weight * along.fraction * transmittance(cover, height) *
-                   radiance({across.middle, along.middle, height},
-                            across.length * glm::dvec3(1.0, 0.0, -across.middle * slope),
-                            along.length * glm::dvec3(0.0, 1.0, -along.middle * slope));
-        }
-        xyz += across.fraction * (glm::dmat3(node.weight) * sum);
-    }
+    const StreakView at{
+        .streak = streak, .axes = axes, .view = view, .length_scale = streak.sigma / map.size.length, .cover = cover};
+    for (const StreakSegment& segment : streak.segments) xyz += segment_xyz(segment, map, at);
     return streak.power / std::erf(1.0 / (streak.sigma * std::numbers::sqrt2)) * xyz;
 }
 
 int most_seen_nodes(const Streak& streak) {
-    std::size_t most = 0;
+    std::vector<double> nodes;
+    for (const StreakSegment& segment : streak.segments)
+        for (int j = 0; j < kSegmentNodes; ++j)
+            nodes.push_back(static_cast<double>(segment.path_nm(j)) / streak.pitch_nm);
+    std::sort(nodes.begin(), nodes.end());
+    std::ptrdiff_t most = 0;
     // A node is visible where x/d − 1 ≤ v_g ≤ x/d + 1. The count has its maximum where a node becomes visible.
-    for (const StreakNode& first : streak.nodes) {
-        const double from = static_cast<double>(first.path_nm) / streak.pitch_nm;
-        most = std::max(most, static_cast<std::size_t>(
-                                  std::count_if(streak.nodes.begin(), streak.nodes.end(), [&](const StreakNode& node) {
-                                      const double x = static_cast<double>(node.path_nm) / streak.pitch_nm;
-                                      return x >= from && x <= from + 2.0;
-                                  })));
-    }
+    for (auto from = nodes.begin(); from != nodes.end(); ++from)
+        most = std::max(most, std::upper_bound(from, nodes.end(), *from + 2.0) - from);
     return static_cast<int>(most);
 }
 
 namespace {
 
-/// A node in a file.
-struct StoredNode {
-    float path_nm, width_nm, wavelength_nm;
-    float weight[9];
+/// A segment in a file.
+struct StoredSegment {
+    float first_nm, step_nm;
+    float weights[9 * kSegmentNodes];
 };
-static_assert(sizeof(StoredNode) == 48 && std::is_trivially_copyable_v<StoredNode>);
+static_assert(sizeof(StoredSegment) == 4 * (2 + 9 * kSegmentNodes) && std::is_trivially_copyable_v<StoredSegment>);
 
 }  // namespace
 
@@ -194,13 +278,14 @@ void write(const Streak& streak, ByteWriter& writer) {
     writer.value(streak.pitch_nm);
     writer.value(streak.sigma);
     writer.value(streak.power);
-    std::vector<StoredNode> nodes;
-    for (const StreakNode& node : streak.nodes) {
-        StoredNode stored{node.path_nm, node.width_nm, node.wavelength_nm, {}};
-        for (int i = 0; i < 9; ++i) stored.weight[i] = node.weight[i / 3][i % 3];
-        nodes.push_back(stored);
+    std::vector<StoredSegment> segments;
+    for (const StreakSegment& segment : streak.segments) {
+        StoredSegment stored{segment.first_nm, segment.step_nm, {}};
+        for (int i = 0; i < 9 * kSegmentNodes; ++i)
+            stored.weights[i] = segment.weights[static_cast<std::size_t>(i / 9)][i % 9 / 3][i % 3];
+        segments.push_back(stored);
     }
-    writer.array(std::span<const StoredNode>(nodes));
+    writer.array(std::span<const StoredSegment>(segments));
 }
 
 Streak read_streak(ByteReader& reader) {
@@ -212,19 +297,18 @@ Streak read_streak(ByteReader& reader) {
     if (!positive(streak.pitch_nm) || !positive(streak.sigma) || !(streak.power >= 0.0 && streak.power <= 1.0))
         reader.fail(fmt::format("pitch {}, sigma {}, power {}", streak.pitch_nm, streak.sigma, streak.power),
                     "a pitch and a sigma above 0, a power of 0 to 1");
-    const auto nodes = reader.array<StoredNode>();
-    if (nodes.size() > kMostStreakNodes)
-        reader.fail(fmt::format("{} nodes", nodes.size()), fmt::format("at most {}", kMostStreakNodes));
-    for (const StoredNode& stored : nodes) {
-        StreakNode node{stored.path_nm, stored.width_nm, stored.wavelength_nm, {}};
-        bool finite = std::isfinite(node.path_nm) && std::isfinite(node.wavelength_nm) &&
-                      std::isfinite(node.width_nm) && node.width_nm >= 0.0F;
-        for (int i = 0; i < 9; ++i) {
-            node.weight[i / 3][i % 3] = stored.weight[i];
-            finite = finite && std::isfinite(stored.weight[i]);
+    const auto segments = reader.array<StoredSegment>();
+    if (segments.size() > kMostStreakSegments)
+        reader.fail(fmt::format("{} segments", segments.size()), fmt::format("at most {}", kMostStreakSegments));
+    for (const StoredSegment& stored : segments) {
+        StreakSegment segment{stored.first_nm, stored.step_nm, {}};
+        bool sound = std::isfinite(segment.first_nm) && std::isfinite(segment.step_nm) && segment.step_nm >= 0.0F;
+        for (int i = 0; i < 9 * kSegmentNodes; ++i) {
+            segment.weights[static_cast<std::size_t>(i / 9)][i % 9 / 3][i % 3] = stored.weights[i];
+            sound = sound && std::isfinite(stored.weights[i]);
         }
-        if (!finite) reader.fail("a node with a number that is not finite or a width below 0", "finite numbers");
-        streak.nodes.push_back(node);
+        if (!sound) reader.fail("a segment with a number that is not finite or a step below 0", "finite numbers");
+        streak.segments.push_back(segment);
     }
     return streak;
 }

@@ -1,58 +1,109 @@
 #version 450 core
 // A narrow lobe mirrors the probe along the grooves and disperses it across them: streak.h, evaluate(). The program
-// defines TAPS, and REST where an arc table shades the incoherent rest of Stam's pits.
+// defines NODES, those of a segment, and REST where an arc table shades the incoherent rest of Stam's pits.
 #include "modules/diffraction/shaders/surface.glsl"
-#include "modules/diffraction/shaders/radiance_cube.glsl"
 #ifdef REST
 #include "modules/diffraction/representations/arc/arc_sum.glsl"
 #endif
 
-struct StreakNode {
-    vec4 path_width; // x: path over the pitch; y: width over the pitch
-    vec4 weight[3];  // columns: of red, green and blue light, working space
+struct StreakSegment {
+    vec4 first_step;          // x: first path over the pitch; y: step over the pitch
+    vec4 weights[3 * NODES];  // for each node the columns: of red, green and blue light, working space
 };
-layout(std430, binding = 6) readonly buffer StreakNodes { StreakNode streak_nodes[]; };
-uniform vec3 streak_taps[TAPS];  // offset and width in s_h; weight
+layout(std430, binding = 6) readonly buffer StreakSegments { StreakSegment streak_segments[]; };
+layout(binding = 11) uniform sampler3D streak_map;  // streak_map.h
+uniform float map_scale;                            // of the stored values
+uniform float streak_reach;                         // streak.h
+uniform float streak_level;                         // log2 of the lobe's deviation over the map's
 uniform float streak_power;
 uniform float rest_weight;
 
-const float LOWEST_HEIGHT = 0.02;
+const float CHART_SCALE = 0.5 / 1.1;
+const float RIM = 0.905;
 
-// An interval of a direction cosine, clipped to +-limit: its middle, its length, and the fraction that remains.
-vec3 cut(float middle, float extent, float limit) {
-    if (extent <= 0.0) return vec3(middle, 0.0, abs(middle) < limit ? 1.0 : 0.0);
-    float begin = max(middle - 0.5 * extent, -limit);
-    float end = min(middle + 0.5 * extent, limit);
-    return vec3(0.5 * (begin + end), end - begin, max(end - begin, 0.0) / extent);
+// The same for all nodes of a view. Radii sqrt(1 - s_g^2) from which on some and all of the lobe is above the horizon.
+struct StreakView {
+    float all;     // radius from which on all of the lobe is above the horizon
+    float half_sign;  // half the sign of s_h
+    float limit;  // of |s_g|
+    vec2 above;   // the fraction above the horizon: x - y s_g^2
+};
+
+StreakView streak_view(GrooveView view) {
+    float side = abs(view.direction.y);
+    float some = max(side - streak_reach, 0.0);
+    float all = side + streak_reach;
+    float scale = 1.0 / (all * all - some * some);
+    float square = 1.0 - some * some;
+    return StreakView(all, view.direction.y > 0.0 ? -0.5 : 0.5, sqrt(max(square, 0.0)), scale * vec2(square, 1.0));
 }
 
-// Mean over the lobe of the light about the arc's interval `across`.
-vec3 lobe_radiance(vec3 across, GrooveView view) {
-    float r2 = max((1.0 - across.x) * (1.0 + across.x), 0.0);
-    vec3 rgb = vec3(0.0);
-    for (int i = 0; i < TAPS; ++i) {
-        vec3 tap = streak_taps[i];
-        vec3 along = cut(tap.x - view.direction.y, tap.y, sqrt(r2));
-        if (along.z == 0.0) continue;
-        float height = sqrt(max(r2 - along.x * along.x, 0.0));
-        float slope = 1.0 / max(height, LOWEST_HEIGHT);
-        rgb += tap.z * along.z * cover_transmittance(height) *
-               mean_radiance(vec3(across.x, along.x, height), across.y * vec3(1.0, 0.0, -across.x * slope),
-                             along.y * vec3(0.0, 1.0, -along.x * slope), view.axes);
+// s_n^2 of the direction (s_g, s_h).
+float square_n(float s_g, float s_h) { return max(1.0 - s_g * s_g - s_h * s_h, 1e-4); }
+
+// Half a sphere of directions.
+vec2 chart_position(vec3 s, float up) { return s.xz / max(1.0 + up * s.y, RIM); }
+
+// Position in the chart; direction of the lobe there as a texture coordinate.
+vec3 streak_position(float s_g, float s_h, float up, mat3 axes) {
+    float s_n = sqrt(square_n(s_g, s_h));
+    vec2 p = chart_position(axes * vec3(s_g, s_h, s_n), up);
+    vec3 along = axes[1] * s_n - axes[2] * s_h;
+    vec2 image = along.xz - up * along.y * p;
+    float turn = 0.5 * image.x / (abs(image.x) + abs(image.y));
+    return vec3(p, 0.5 + (image.y < 0.0 ? turn : -turn));
+}
+
+vec3 segment_radiance(int i, StreakView at, GrooveView view) {
+    float first = streak_segments[i].first_step.x / view.pitch - view.direction.x;
+    float step_g = streak_segments[i].first_step.y / view.pitch;
+    float low = max(first, -at.limit);
+    float high = min(first + float(NODES - 1) * step_g, at.limit);
+    vec3 sum = vec3(0.0);
+    if (low <= high) {
+        float middle = 0.5 * (low + high);
+        float square_r = max(1.0 - middle * middle, 1e-6);
+        // The middle of the lobe's part above the horizon.
+        float s_h = at.half_sign * min(sqrt(square_r) - at.all, 0.0) - view.direction.y;
+        float square = square_n(middle, s_h);
+        vec3 centre = view.axes * vec3(middle, s_h, sqrt(square));
+        float level = 0.5 * log2(square_r / square) + streak_level;
+        float up = centre.y < 0.0 ? -1.0 : 1.0;
+        vec3 before = streak_position(low, s_h, up, view.axes);
+        vec3 after = streak_position(high, s_h, up, view.axes);
+        after.z -= round(after.z - before.z);
+        // A parabola in the chart; the lobe's direction is linear.
+        vec3 mean = 0.5 * (after + before);
+        vec3 slope = 0.5 * (after - before);
+        vec2 bend = mean.xy - chart_position(centre, up);
+        mean.xy -= bend;
+        vec2 chart = vec2(0.5 * CHART_SCALE, CHART_SCALE);
+        mean.xy = vec2(0.5 - 0.25 * up, 0.5) + chart * mean.xy;
+        slope.xy *= chart;
+        bend *= chart;
+        float extent = max(0.5 * (high - low), 5e-7);
+        float first_t = (first - middle) / extent;
+        float step_t = step_g / extent;
+        // The fraction above the horizon as a polynomial of t.
+        vec3 above = vec3(at.above.x - at.above.y * middle * middle, -2.0 * at.above.y * middle * extent,
+                          -at.above.y * extent * extent);
+        for (int j = 0; j < NODES; ++j) {
+            float t = first_t + float(j) * step_t;
+            float fraction = clamp(above.x + t * (above.y + t * above.z), 0.0, 1.0) *
+                             cover_transmittance(sqrt(square_n(middle + t * extent, s_h)));
+            vec2 chart_at = mean.xy + t * (slope.xy + t * bend);
+            vec3 rgb = fraction * textureLod(streak_map, vec3(chart_at, mean.z + t * slope.z), level).rgb;
+            for (int c = 0; c < 3; ++c) sum += streak_segments[i].weights[3 * j + c].xyz * rgb[c];
+        }
     }
-    return rgb;
+    return sum;
 }
 
 vec3 diffracted_radiance(GrooveView view) {
+    StreakView at = streak_view(view);
     vec3 sum = vec3(0.0);
-    for (int k = 0; k < streak_nodes.length(); ++k) {
-        vec2 path_width = streak_nodes[k].path_width.xy;
-        vec3 across = cut(path_width.x / view.pitch - view.direction.x, path_width.y / view.pitch, 1.0);
-        if (across.z == 0.0) continue;
-        vec3 rgb = across.z * lobe_radiance(across, view);
-        for (int c = 0; c < 3; ++c) sum += streak_nodes[k].weight[c].xyz * rgb[c];
-    }
-    sum *= streak_power;
+    for (int i = 0; i < streak_segments.length(); ++i) sum += segment_radiance(i, at, view);
+    sum *= streak_power * map_scale;
 #ifdef REST
     sum += rest_weight * arc_radiance(view);
 #endif

@@ -6,8 +6,7 @@
 #include <memory>
 
 #include "engine/core/error.h"
-#include "engine/lighting/prefilter.h"
-#include "modules/diffraction/bake/cube_pyramid.h"
+#include "engine/lighting/light_samples.h"
 
 namespace rowland::diffraction {
 
@@ -17,45 +16,19 @@ const RepresentationInfo& StreakSurfaceSettings::info() {
         .summary = "narrow lobes: the whole probe, mirrored along the grooves",
         .lobes = Lobes::Mirroring,
         .key_lights = KeyLightUse::Always,
-        .settings = {{.key = "nodes",
-                      .label = "Nodes",
-                      .help = "Wavelength nodes for each order.",
-                      .minimum = 1,
-                      .maximum = 32,
-                      .default_value = StreakSettings().nodes_per_order,
-                      .details = {4, 8, 16}},
-                     {.key = "taps",
-                      .label = "Taps",
-                      .help = "Look-ups across the lobe.",
-                      .minimum = 1,
-                      .maximum = kMostStreakTaps,
-                      .default_value = StreakSurfaceSettings().taps,
-                      .sweep = {1, 2, 5, 9},
-                      .details = {1, 3, 5}},
-                     bands_setting(),
-                     rank_setting(),
-                     view_resolution_setting()},
-        .editor_start = {"nodes", "taps"},
-        .budget = [](bool flat_lobe, SurfaceShape) {
-            std::vector<std::string> settings;
-            for (const int nodes : {4, 8, 16})
-                for (const int taps : {1, 3, 5})
-                    if (!flat_lobe) settings.push_back(fmt::format("nodes={}/taps={}", nodes, taps));
-            return settings;
+        .settings = {map_resolution_setting(StreakSettings().map_resolution, 512, {128, 192, 256}, {128, 192, 320}),
+                     bands_setting(), rank_setting(), view_resolution_setting()},
+        .replaced = {{"nodes", "map_resolution"}, {"taps", "map_resolution"}},
+        .editor_start = {"map_resolution"},
+        .budget = [](bool flat_lobe, SurfaceShape) -> std::vector<std::string> {
+            if (flat_lobe) return {};
+            return {"map_resolution=128", "map_resolution=192", "map_resolution=320"};
         }};
     return info;
 }
 
-std::optional<Refusal> StreakSurfaceSettings::refusal(const SettingValues& values, const Grating& grating) {
-    const std::size_t nodes = grating.orders.size() * static_cast<std::size_t>(values.number("nodes"));
-    if (nodes <= kMostStreakNodes) return std::nullopt;
-    return Refusal{"nodes", fmt::format("{} nodes for all orders", nodes), fmt::format("at most {}", kMostStreakNodes),
-                   "take fewer nodes or list fewer orders"};
-}
-
 StreakSurfaceSettings StreakSurfaceSettings::from(const SettingValues& values, const Grating& grating) {
-    StreakSurfaceSettings settings{.streak = {.nodes_per_order = values.number("nodes")},
-                                   .taps = values.number("taps")};
+    StreakSurfaceSettings settings{.streak = {.map_resolution = values.number("map_resolution")}};
     if (incoherent_rest(grating))
         settings.rest = ArcSettings{.bands = values.number("bands"),
                                     .rank = values.number("rank"),
@@ -69,7 +42,8 @@ void StreakSurfaceSettings::set_illuminant(const colour::Illuminant& white) {
 }
 
 StreakTables bake(const Grating& grating, const StreakSurfaceSettings& settings) {
-    StreakTables tables{.streak = make_streak(grating, settings.streak), .taps = settings.taps};
+    StreakTables tables{.streak = make_streak(grating, settings.streak), .map = {}};
+    tables.map = map_size(tables.streak, settings.streak.map_resolution);
     if (settings.rest) tables.rest = bake(incoherent_rest(grating).value(), *settings.rest);
     return tables;
 }
@@ -80,24 +54,28 @@ void write(const StreakTables& tables, ByteWriter& writer) {
 }
 
 StreakTables read(ByteReader& reader, const StreakSurfaceSettings& settings) {
-    StreakTables tables{.streak = read_streak(reader), .taps = settings.taps};
+    StreakTables tables{.streak = read_streak(reader), .map = {}};
+    tables.map = map_size(tables.streak, settings.streak.map_resolution);
     if (settings.rest) tables.rest = read(reader, *settings.rest);
     return tables;
 }
 
 ShadingCost cost(const StreakTables& tables) {
-    constexpr std::size_t kNodeBytes = 64;
-    const int taps = most_seen_nodes(tables.streak) * tables.taps;
+    constexpr std::size_t kHalfTexel = 8;
+    constexpr int kLevelsPerLookUp = 2;
+    const int nodes = most_seen_nodes(tables.streak);
     ShadingCost result = tables.rest ? cost(*tables.rest) : ShadingCost{};
-    result.fetches_per_pixel += kStreakFilterTaps * taps;
-    result.multiply_adds_per_pixel +=
-        taps * (40 + 6 * kStreakFilterTaps) + 12 * static_cast<int>(tables.streak.nodes.size());
-    result.table_bytes += tables.streak.nodes.size() * kNodeBytes;
+    result.fetches_per_pixel += kLevelsPerLookUp * nodes;
+    result.multiply_adds_per_pixel += 22 * nodes + 150 * static_cast<int>(tables.streak.segments.size());
+    const auto side = static_cast<std::size_t>(tables.map.side);
+    const std::size_t finest = 2 * side * side * static_cast<std::size_t>(tables.map.turns) * kHalfTexel;
+    result.table_bytes += finest + finest / 8 + finest / 64 + tables.streak.segments.size() * sizeof(StreakSegment);
     return result;
 }
 
 Facts facts(const StreakTables& tables) {
-    Facts result{{"streak", fmt::format("{} nodes, {} taps", tables.streak.nodes.size(), tables.taps)}};
+    Facts result{{"streak", fmt::format("{} nodes, map {} x {} x {}", kSegmentNodes * tables.streak.segments.size(),
+                                        2 * tables.map.side, tables.map.side, tables.map.turns)}};
     if (tables.rest)
         for (auto& fact : facts(*tables.rest)) result.push_back(std::move(fact));
     return result;
@@ -112,16 +90,14 @@ PointShader point_shader(const StreakTables& tables, const MaterialKernel& mater
                      .remedy = "give --probe"});
     PointShader rest = [](const ShadingPoint&) { return glm::dvec3(0.0); };
     if (tables.rest) rest = point_shader(*tables.rest, material, light);
-    return [pyramid = std::make_shared<const CubePyramid>(lighting::prefilter(*light.probe())), &tables, rest,
-            cover = material.cover](const ShadingPoint& frame) {
-        const glm::dmat3 tangent = world_to_tangent(frame);
-        const glm::dmat3 to_world = glm::transpose(tangent);
-        const auto radiance = [&](const glm::dvec3& direction, const glm::dvec3& a, const glm::dvec3& b) {
-            return pyramid->filtered(to_world * direction, to_world * a, to_world * b, kStreakFilterTaps);
+    return
+        [map = std::make_shared<const StreakMap>(fill_streak_map(lighting::light_samples(*light.probe()), tables.map)),
+         &tables, rest, cover = material.cover](const ShadingPoint& frame) {
+            const glm::dmat3 tangent = world_to_tangent(frame);
+            const glm::dvec3 view = tangent * glm::normalize(frame.view);
+            return evaluate(tables.streak, *map, glm::transpose(tangent), view, cover) +
+                   (1.0 - tables.streak.power) * rest(frame);
         };
-        const glm::dvec3 view = tangent * glm::normalize(frame.view);
-        return evaluate(tables.streak, radiance, view, tables.taps, cover) + (1.0 - tables.streak.power) * rest(frame);
-    };
 }
 
 }  // namespace rowland::diffraction

@@ -7,27 +7,21 @@
 
 namespace rowland::diffraction {
 
-/// Shades a narrow lobe from the whole probe, and the incoherent rest of Stam's pits with an arc table.
+/// Shades a narrow lobe from a map of the whole probe, and the incoherent rest of Stam's pits with an arc table.
 struct StreakSurfaceSettings {
     StreakSettings streak;
-    int taps = 3;                       ///< samples across the lobe, 1 to kMostStreakTaps
     std::optional<ArcSettings> rest{};  ///< of incoherent_rest(), if any
 
     static const RepresentationInfo& info();
-    static std::optional<Refusal> refusal(const SettingValues& values, const Grating& grating);
     static StreakSurfaceSettings from(const SettingValues& values, const Grating& grating);
     void set_illuminant(const colour::Illuminant& white);
 };
 
 struct StreakTables {
     Streak streak;
-    int taps = 3;
+    StreakMapSize map;
     std::optional<ArcTable> rest{};  ///< of weight 1 − streak.power
 };
-
-inline constexpr int kMostStreakTaps = 9;
-/// The most texels that are read along a tap's longer side.
-inline constexpr int kStreakFilterTaps = 2;
 
 StreakTables bake(const Grating& grating, const StreakSurfaceSettings& settings);
 void write(const StreakTables& tables, ByteWriter& writer);

@@ -7,8 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "engine/lighting/environment_map.h"
-
 namespace rowland::diffraction {
 
 namespace {
@@ -40,28 +38,6 @@ std::vector<glm::vec3> error_of(std::span<const glm::vec3> values, std::initiali
     std::vector<glm::vec3> error(values.size(), glm::vec3(0.0F));
     for (const TableAxis& axis : axes) add_axis(values, axis, error);
     return error;
-}
-
-/// Of a level's texels, by look-ups as far to each side.
-glm::dvec3 level_error(const CubePyramid& pyramid, const glm::dvec3& direction, int level) {
-    const glm::dvec3 here = pyramid.at_level(direction, level);
-    const lighting::CubePoint point = lighting::cube_point(direction);
-    const double step = 2.0 * kPositionError / pyramid.layout().size(level);
-    const auto change = [&](double s, double t) {
-        return glm::abs(pyramid.at_level(lighting::cube_direction(point.face, point.s + s, point.t + t), level) - here);
-    };
-    return glm::max(change(step, 0.0), change(-step, 0.0)) + glm::max(change(0.0, step), change(0.0, -step));
-}
-
-glm::dvec3 sample_error(const CubePyramid& pyramid, const glm::dvec3& direction, double level) {
-    const glm::dvec3 here = pyramid.at_level(direction, level);
-    const auto change = [&](double to) { return glm::abs(pyramid.at_level(direction, to) - here); };
-    const int last = pyramid.layout().levels - 1;
-    const int fine = std::clamp(static_cast<int>(level), 0, last);
-    const double between = std::clamp(level - fine, 0.0, 1.0);
-    return glm::max(change(level - kPositionError), change(level + kPositionError)) +
-           (1.0 - between) * level_error(pyramid, direction, fine) +
-           between * level_error(pyramid, direction, std::min(fine + 1, last));
 }
 
 }  // namespace
@@ -108,12 +84,29 @@ CircleMap filter_error(const CircleMap& map) {
     return error;
 }
 
-glm::dvec3 filter_error(const CubePyramid& pyramid, const glm::dvec3& direction, const glm::dvec3& a,
-                        const glm::dvec3& b, int most_taps) {
-    const CubePyramid::Samples samples = pyramid.samples(a, b, most_taps);
-    glm::dvec3 sum(0.0);
-    for (int i = 0; i < samples.count; ++i) sum += sample_error(pyramid, direction + samples.offset(i), samples.level);
-    return sum / static_cast<double>(samples.count);
+StreakMap filter_error(const StreakMap& map) {
+    StreakMap error = map;
+    for (int i = 0; i < kStreakLevels; ++i) {
+        const auto level = static_cast<std::size_t>(i);
+        const auto columns = static_cast<std::size_t>(map.columns(i));
+        const auto rows = static_cast<std::size_t>(map.rows(i));
+        error.levels[level] =
+            error_of(map.levels[level],
+                     {{.texels = columns, .stride = 1},
+                      {.texels = rows, .stride = columns},
+                      {.texels = static_cast<std::size_t>(map.slices(i)), .stride = columns * rows, .repeats = true}});
+        for (std::size_t texel = 0; texel < map.levels[level].size(); ++texel)
+            error.levels[level][texel] += static_cast<float>(kPositionError) * glm::abs(map.levels[level][texel]);
+    }
+    return error;
+}
+
+Streak filter_error(const Streak& streak) {
+    Streak error = streak;
+    for (StreakSegment& segment : error.segments)
+        for (glm::mat3& weight : segment.weights)
+            for (int c = 0; c < 3; ++c) weight[c] = glm::abs(weight[c]);
+    return error;
 }
 
 }  // namespace rowland::diffraction

@@ -2,11 +2,11 @@
 
 #include <glm/vec3.hpp>
 
-#include "modules/diffraction/bake/cube_pyramid.h"
 #include "modules/diffraction/representations/circle/circle_map.h"
 #include "modules/diffraction/representations/direct/lobe_table.h"
 #include "modules/diffraction/representations/planar/lobe_map.h"
 #include "modules/diffraction/representations/planar/planar_map.h"
+#include "modules/diffraction/representations/streak/streak.h"
 
 namespace rowland::diffraction {
 
@@ -21,8 +21,9 @@ LobeTable filter_error(const LobeTable& table);
 /// In the first term, whose factor is 1: the others' factors are within [−1, 1].
 CircleMap filter_error(const CircleMap& map);
 
-/// The same of CubePyramid::filtered(), whose axes are those of a face and the levels.
-glm::dvec3 filter_error(const CubePyramid& pyramid, const glm::dvec3& direction, const glm::dvec3& a,
-                        const glm::dvec3& b, int most_taps);
+/// Between two levels the larger value counts.
+StreakMap filter_error(const StreakMap& map);
+/// The streak that sums the errors of its look-ups.
+Streak filter_error(const Streak& streak);
 
 }  // namespace rowland::diffraction

@@ -44,8 +44,6 @@ LightParts light_of(const lighting::ProbeImage& probe, std::vector<lighting::Key
         light.sh.coefficients[i] += lobes.coefficients[i];
     light.key_lights = std::move(keys);
     light.texels = std::make_shared<const lighting::LightSamples>(lighting::light_samples(probe, {}, 0.1));
-    light.radiance = std::make_shared<const lighting::PackedEnvironmentMap>(
-        lighting::finest_level(lighting::pack(lighting::prefilter(probe))));
     light.probe_sh = light.residual;
     light.probe_texels = light.texels;
     light.version = version;

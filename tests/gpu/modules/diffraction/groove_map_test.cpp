@@ -9,7 +9,6 @@
 
 #include "engine/core/json_reader.h"
 #include "modules/diffraction/asset/material_json.h"
-#include "modules/diffraction/bake/cube_pyramid.h"
 #include "tests/gpu/modules/diffraction/filter_error.h"
 #include "tests/gpu/modules/diffraction/grating_picture.h"
 #include "tests/support/message_of.h"
@@ -161,19 +160,15 @@ TEST_F(Grooves, StreaksFollowThePatches) {
     const auto map = map_of(kPatches, 2);
     const CookedMaterial cooked = cook_with(R"({"pitch_nm": 1100, "profile": {"type": "sinusoidal", "depth_nm": 150},
                                                 "groove_lobe": {"sigma": 0.06}})",
-                                            R"({"representation": "streak"})", *map);
+                                            R"({"representation": "streak", "map_resolution": 64})", *map);
     show_with(cooked, map, 0.2);
-    const CubePyramid pyramid(lighting::unpack(*light_.radiance));
+    const StreakTables& tables = std::get<StreakTables>(cooked.tables);
+    const StreakMap lobes = fill_streak_map(*light_.probe_texels, tables.map);
     EXPECT_LT(difference(draw(),
                          [&](const Turned& turned) {
-                             const StreakTables& tables = std::get<StreakTables>(cooked.tables);
                              Streak streak = tables.streak;
                              streak.pitch_nm *= turned.pitch;
-                             const glm::dmat3 to_world = glm::transpose(turned.point.to_tangent);
-                             const auto radiance = [&](const glm::dvec3& s, const glm::dvec3& a, const glm::dvec3& b) {
-                                 return pyramid.filtered(to_world * s, to_world * a, to_world * b, kStreakFilterTaps);
-                             };
-                             return evaluate(streak, radiance, turned.point.view, tables.taps);
+                             return evaluate(streak, lobes, glm::transpose(turned.point.to_tangent), turned.point.view);
                          }),
               kPictureTolerance);
     EXPECT_GT(brightest_, 0.02);

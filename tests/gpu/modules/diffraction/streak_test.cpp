@@ -1,8 +1,7 @@
-// Streaks on the GPU against the CPU's evaluation, and who pays for the probe's cube.
+// Streaks on the GPU against the CPU's evaluation, and when their map is filled.
 #include <gtest/gtest.h>
 
-#include "modules/diffraction/bake/cube_pyramid.h"
-#include "modules/diffraction/runtime/surface_light.h"
+#include "modules/diffraction/representations/streak/gpu_streak.h"
 #include "tests/gpu/modules/diffraction/filter_error.h"
 #include "tests/gpu/modules/diffraction/grating_picture.h"
 
@@ -13,7 +12,7 @@ constexpr const char* kNarrowCd = R"({"pitch_nm": 1600, "profile": {"type": "sli
                                       "groove_lobe": {"sigma": 0.05}})";
 constexpr const char* kPitsCd = R"({"pitch_nm": 1500, "profile": {"type": "slit", "width_nm": 700},
                                     "groove_lobe": {"pits": {"length_nm": 850, "coherent": 0.4}}})";
-constexpr const char* kStreak = R"({"representation": "streak"})";
+constexpr const char* kStreak = R"({"representation": "streak", "map_resolution": 64})";
 
 /// A dim room with small bright lamps of several colours.
 lighting::ProbeImage lamps() {
@@ -36,27 +35,20 @@ class StreakSurface : public GratingPicture {
  protected:
     static const StreakTables& tables(const CookedMaterial& cooked) { return std::get<StreakTables>(cooked.tables); }
 
-    /// By the light's mean over a footprint, in world axes.
-    template <typename Mean>
-    AtPoint streak_of(const CookedMaterial& cooked, const Mean& mean) const {
-        const auto pyramid = std::make_shared<const CubePyramid>(lighting::unpack(*light_.radiance));
-        return [&cooked, pyramid, mean](const Point& point) {
-            const glm::dmat3 to_world = glm::transpose(point.to_tangent);
-            const auto radiance = [&](const glm::dvec3& s, const glm::dvec3& a, const glm::dvec3& b) {
-                return mean(*pyramid, to_world * s, to_world * a, to_world * b);
-            };
-            return evaluate(tables(cooked).streak, radiance, point.view, tables(cooked).taps);
+    int fills() const { return static_cast<const GpuStreak&>(*material_).fills(); }
+    int fills_begun() const { return static_cast<const GpuStreak&>(*material_).fills_begun(); }
+
+    StreakMap map(const CookedMaterial& cooked) const {
+        return fill_streak_map(*light_.probe_texels, tables(cooked).map);
+    }
+    static AtPoint streak_of(const Streak& streak, const StreakMap& map) {
+        return [streak, shared = std::make_shared<const StreakMap>(map)](const Point& point) {
+            return evaluate(streak, *shared, glm::transpose(point.to_tangent), point.view);
         };
     }
-    AtPoint narrow(const CookedMaterial& cooked) const {
-        return streak_of(cooked, [](const CubePyramid& pyramid, const auto&... footprint) {
-            return pyramid.filtered(footprint..., kStreakFilterTaps);
-        });
-    }
+    AtPoint narrow(const CookedMaterial& cooked) const { return streak_of(tables(cooked).streak, map(cooked)); }
     AtPoint narrow_error(const CookedMaterial& cooked) const {
-        return streak_of(cooked, [](const CubePyramid& pyramid, const auto&... footprint) {
-            return filter_error(pyramid, footprint..., kStreakFilterTaps);
-        });
+        return streak_of(filter_error(tables(cooked).streak), filter_error(map(cooked)));
     }
     /// What the streak leaves of pits, and key lights by the lobe of that.
     std::function<glm::dvec3(const Point&)> rest(const CookedMaterial& cooked) {
@@ -88,8 +80,8 @@ TEST_F(StreakSurface, ANarrowLobeEqualsTheCpu) {
 
 TEST_F(StreakSurface, PitsEqualTheCpu) {
     light_ = light_of(lamps(), three_keys());
-    const CookedMaterial cooked =
-        cook(kPitsCd, R"({"representation": "streak", "bands": 3, "rank": 6, "view_resolution": 12})");
+    const CookedMaterial cooked = cook(
+        kPitsCd, R"({"representation": "streak", "map_resolution": 64, "bands": 3, "rank": 6, "view_resolution": 12})");
     show(cooked, -0.4);
     const auto streak = narrow(cooked);
     const auto smooth = rest(cooked);
@@ -103,11 +95,11 @@ TEST_F(StreakSurface, PitsEqualTheCpu) {
     EXPECT_GT(glm::length(smooth(middle)), 0.005 * brightest_);
 }
 
-TEST_F(StreakSurface, OtherNodesAndTapsEqualTheCpu) {
+TEST_F(StreakSurface, OrdersOnEitherSideAndOrderZeroEqualTheCpu) {
     light_ = light_of(lamps(), {});
     const CookedMaterial cooked = cook(R"({"pitch_nm": 900, "profile": {"type": "blazed", "depth_nm": 250},
                                            "orders": [-1, 0, 1, 2], "groove_lobe": {"sigma": 0.15}})",
-                                       R"({"representation": "streak", "nodes": 5, "taps": 6})");
+                                       R"({"representation": "streak", "map_resolution": 96})");
     show(cooked, 1.1);
     EXPECT_LT(largest_difference(draw(), narrow(cooked), narrow_error(cooked)), kPictureTolerance);
     EXPECT_GT(brightest_, 0.05);
@@ -131,22 +123,36 @@ TEST_F(StreakSurface, GrazingViewsEqualTheCpu) {
     EXPECT_GT(compared_, 5);
 }
 
-TEST_F(StreakSurface, OnlyStreaksPayForTheProbesCubeAndOncePerProbe) {
-    SurfaceLight light(std::nullopt);
-    const auto cubes = [&] { return light.radiance_uploads(); };
-    light.set(light_);
-    EXPECT_EQ(cubes(), 0);
-    const auto first = light.radiance();
-    EXPECT_EQ(light.radiance(), first);
-    EXPECT_EQ(cubes(), 1);
+TEST_F(StreakSurface, AMapIsFilledOncePerProbe) {
+    const CookedMaterial cooked = cook(kNarrowCd, kStreak);
+    show(cooked);
+    draw();
+    EXPECT_EQ(fills(), 1);
+    transform_.rotation = glm::angleAxis(0.4F, glm::vec3(0.0F, 1.0F, 0.0F));
     ++light_.version;  // another sun
-    light.set(light_);
-    EXPECT_EQ(light.radiance(), first);
+    EXPECT_LT(largest_difference(draw(), narrow(cooked), narrow_error(cooked)), kPictureTolerance);
+    EXPECT_EQ(fills(), 1);
     light_ = light_of(lamps(), {}, light_.version + 1);
-    light.set(light_);
-    EXPECT_EQ(cubes(), 1);
-    EXPECT_NE(light.radiance(), first);
-    EXPECT_EQ(cubes(), 2);
+    EXPECT_LT(largest_difference(draw(), narrow(cooked), narrow_error(cooked)), kPictureTolerance);
+    EXPECT_EQ(fills(), 2);
+}
+
+/// A frame uploads some slices at most, so that the first frames cannot have the map, however fast it is filled.
+TEST_F(StreakSurface, FramesDoNotWaitForTheMap) {
+    light_ = light_of(lamps(), {});
+    const CookedMaterial cooked = cook(kNarrowCd, kStreak);
+    show(cooked, 0.3, 2);
+    for (const glm::vec4& pixel : draw()) EXPECT_EQ(glm::vec3(pixel), glm::vec3(0.0F));
+    for (int frame = 0; fills() < 1 && frame < 100000; ++frame) draw();
+    EXPECT_EQ(fills_begun(), 1);
+    const std::vector<glm::vec4> first = draw();
+    EXPECT_LT(largest_difference(first, narrow(cooked), narrow_error(cooked)), kPictureTolerance);
+    // The old map stays until the new one is there.
+    light_ = light_of(smooth_probe(), {}, light_.version + 1);
+    EXPECT_EQ(draw(), first);
+    EXPECT_EQ(fills_begun(), 2);
+    for (int frame = 0; fills() < 2 && frame < 100000; ++frame) draw();
+    EXPECT_LT(largest_difference(draw(), narrow(cooked), narrow_error(cooked)), kPictureTolerance);
 }
 
 }  // namespace

@@ -76,7 +76,7 @@ TEST_F(UnusedModule, AGratingUploadsAndCompilesWhatItNeeds) {
     std::size_t arcs = 0;
     for (const std::string& source : grating.shaders) {
         if (source.find("arc_radiance") != std::string::npos) ++arcs;
-        for (const char* other : {"spike_xyz", "map_radiance", "radiance_cube"})
+        for (const char* other : {"spike_xyz", "map_radiance", "streak_map"})
             EXPECT_EQ(source.find(other), std::string::npos) << other;
     }
     EXPECT_GE(arcs, 1U);

@@ -64,15 +64,6 @@ TEST(CubeMap, PackedHalvesSpanWhatProbesHold) {
     }
 }
 
-TEST(CubeMap, TheFinestLevelIsLevelZero) {
-    EnvironmentMap map{{4, 2}, {}};
-    for (std::size_t i = 0; i < map.layout.offset(2); ++i) map.texels.emplace_back(static_cast<float>(i));
-    const EnvironmentMap finest = unpack(finest_level(pack(map)));
-    EXPECT_EQ(finest.layout, (CubeLayout{4, 1}));
-    map.texels.resize(map.layout.offset(1));
-    EXPECT_EQ(finest.texels, map.texels);
-}
-
 TEST(CubeMap, DarknessPacks) {
     const EnvironmentMap map{{1, 1}, std::vector<glm::vec3>(6, glm::vec3(0.0f))};
     EXPECT_EQ(unpack(pack(map)).texels, map.texels);

@@ -59,7 +59,7 @@ constexpr const char* kQualities[] = {
     R"({"representation": "direct"})",
     R"({"representation": "planar", "bands": 2, "rank": 3, "map_resolution": 16})",
     R"({"representation": "circle", "map_resolution": 16})",
-    R"({"representation": "streak", "nodes": 3, "taps": 2, "bands": 2, "rank": 3, "view_resolution": 6})",
+    R"({"representation": "streak", "map_resolution": 64, "bands": 2, "rank": 3, "view_resolution": 6})",
 };
 
 TEST(CookedMaterial, EveryRepresentationIsReadAsItWasWritten) {
@@ -120,32 +120,32 @@ TEST(CookedMaterial, TablesOfOtherSettingsThanTheMaterialsAreRefused) {
     }
 }
 
-TEST(CookedMaterial, AStreakOfTooManyNodesOrNoRestIsRefused) {
+TEST(CookedMaterial, AStreakOfTooManySegmentsOrNoRestIsRefused) {
     const nlohmann::json json = material_with(kQualities[6]);
     const CookedMaterial cooked = cook_material(json, "m.json");
     CookedMaterial crowded = cooked;
-    auto& nodes = std::get<StreakTables>(crowded.tables).streak.nodes;
-    nodes.resize(kMostStreakNodes, nodes[0]);
+    auto& segments = std::get<StreakTables>(crowded.tables).streak.segments;
+    segments.resize(kMostStreakSegments, segments[0]);
     EXPECT_NO_THROW(read_cooked_material(write_cooked_material(json, crowded), "m.material"));
-    nodes.push_back(nodes[0]);
+    segments.push_back(segments[0]);
     EXPECT_THROW(read_cooked_material(write_cooked_material(json, crowded), "m.material"), Error);
     CookedMaterial bare = cooked;
     std::get<StreakTables>(bare.tables).rest.reset();
     EXPECT_THROW(read_cooked_material(write_cooked_material(json, bare), "m.material"), Error);
     CookedMaterial broken = cooked;
-    std::get<StreakTables>(broken.tables).streak.nodes[0].weight[1][1] = std::numeric_limits<float>::quiet_NaN();
+    std::get<StreakTables>(broken.tables).streak.segments[0].weights[0][1][1] = std::numeric_limits<float>::quiet_NaN();
     EXPECT_THROW(read_cooked_material(write_cooked_material(json, broken), "m.material"), Error);
 }
 
-/// Pitches differ by two fetches a tap at most; the view that sees most nodes pays for them.
+/// A look-up between two levels counts as two fetches; the view that sees most nodes pays for them.
 TEST(CookedMaterial, TheDescriptionCountsAStreaksFetches) {
-    nlohmann::json json = material_with(R"({"representation": "streak", "nodes": 4, "taps": 3})");
+    nlohmann::json json = material_with(R"({"representation": "streak", "map_resolution": 128})");
     json["grating"]["orders"] = {-1, 1};
     json["grating"]["groove_lobe"] = {{"sigma", 0.05}};
     const std::string text = describe(cook_material(json, "m"));
-    EXPECT_THAT(text, ::testing::HasSubstr("streak: 8 nodes, 3 taps\n"));
+    EXPECT_THAT(text, ::testing::HasSubstr("streak: 14 nodes, map 256 x 128 x 16\n"));
     // d = 1600 nm: a view straight from above sees both orders whole.
-    EXPECT_THAT(text, ::testing::HasSubstr("fetches_per_pixel: " + std::to_string(8 * 3 * 2) + "\n"));
+    EXPECT_THAT(text, ::testing::HasSubstr("fetches_per_pixel: " + std::to_string(14 * 2) + "\n"));
 }
 
 TEST(CookedMaterial, KernelsOfNoIntervalAreRefused) {

@@ -189,25 +189,22 @@ TEST(MaterialJson, StreaksTakeTheirSettings) {
         return std::get<StreakSurfaceSettings>(representation(parse(with_quality(quality, lobe))));
     };
     const auto narrow = settings(R"({"representation": "streak"})", R"({"sigma": 0.05})");
-    EXPECT_EQ(narrow.streak.nodes_per_order, 8);
-    EXPECT_EQ(narrow.taps, 3);
+    EXPECT_EQ(narrow.streak.map_resolution, 320);
     EXPECT_FALSE(narrow.rest.has_value());
     const auto pits =
-        settings(R"({"representation": "streak", "nodes": 12, "taps": 5, "bands": 7, "rank": 11, "illuminant": "A"})",
+        settings(R"({"representation": "streak", "map_resolution": 128, "bands": 7, "rank": 11, "illuminant": "A"})",
                  R"({"pits": {"length_nm": 850, "coherent": 0.3}})");
-    EXPECT_EQ(pits.streak.nodes_per_order, 12);
+    EXPECT_EQ(pits.streak.map_resolution, 128);
     EXPECT_EQ(pits.streak.illuminant.name, "A");
-    EXPECT_EQ(pits.taps, 5);
     ASSERT_TRUE(pits.rest.has_value());
     EXPECT_EQ(pits.rest->bands, 7);
     EXPECT_EQ(pits.rest->rank, 11);
     EXPECT_EQ(pits.rest->illuminant.name, "A");
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "streak", "nodes": 33})", R"({"sigma": 0.05})")),
-                HasSubstr("/quality/nodes"));
-    EXPECT_THAT(refusal(R"({"grating": {"pitch_nm": 50000, "profile": {"type": "slit", "width_nm": 800},
-                            "orders": "all", "groove_lobe": {"sigma": 0.05}},
-                            "quality": {"representation": "streak"}})"),
-                AllOf(HasSubstr("/quality/nodes"), HasSubstr("1024")));
+    EXPECT_THAT(refusal(with_quality(R"({"representation": "streak", "map_resolution": 513})", R"({"sigma": 0.05})")),
+                HasSubstr("/quality/map_resolution"));
+    for (const std::string old : {"nodes", "taps"})
+        EXPECT_THAT(refusal(with_quality(R"({"representation": "streak", ")" + old + "\": 5}", R"({"sigma": 0.05})")),
+                    AllOf(HasSubstr("/quality/" + old), HasSubstr("\"map_resolution\"")));
 }
 
 TEST(MaterialJson, AllOrdersAreThoseThatPropagateSomewhere) {

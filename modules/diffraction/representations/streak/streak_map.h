@@ -1,0 +1,76 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <stop_token>
+#include <vector>
+
+#include "engine/lighting/light_samples.h"
+
+namespace rowland::diffraction {
+
+/// Levels of a streak map. Each doubles the lobe's length and halves the texels of every axis.
+inline constexpr int kStreakLevels = 3;
+
+struct StreakMapSize {
+    int side = 320;        ///< texels of a chart's side, a multiple of 4
+    int turns = 16;        ///< texels over the directions of the lobe, a multiple of 4
+    double length = 0.05;  ///< deviation along the lobe at level 0, in radians
+
+    /// Deviation across the lobe at level 0, interpolation included: of a node in s_g.
+    double width() const { return 3.84 / side; }
+};
+
+/// A probe blurred to a narrow lobe: linear RGB over the direction s and over the tangent t along which it is blurred
+/// (PHYSICS (36)). It depends on the lobe's length alone; objects and gratings do not matter. A volume texture with
+/// levels, GL_LINEAR_MIPMAP_LINEAR:
+///   chart 0 holds the upper half (s_y ≥ 0), chart 1 the lower, mirrored; both side by side, with a rim beyond the
+///   equator; stereographic: p = (s_x, s_z)/(1 + |s_y|)
+///   texture s = ½ (chart + ½ + p_x · kStreakChartScale), t = ½ + p_y · kStreakChartScale
+///   r: the chart keeps angles; for (a, b) = the image of t with b ≥ 0, r = ½ − ½ a/(|a| + b), GL_REPEAT
+///   level: log2 of the lobe's length over that of level 0
+struct StreakMap {
+    StreakMapSize size;
+    std::array<std::vector<glm::vec3>, kStreakLevels> levels;  ///< see index()
+
+    int rows(int level) const { return size.side >> level; }
+    int columns(int level) const { return 2 * rows(level); }
+    int slices(int level) const { return size.turns >> level; }
+    std::size_t index(int level, int slice, int row, int column) const {
+        const auto u = [](int i) { return static_cast<std::size_t>(i); };
+        return (u(slice) * u(rows(level)) + u(row)) * u(columns(level)) + u(column);
+    }
+};
+
+/// Texture coordinates per chart coordinate.
+inline constexpr double kStreakChartScale = 0.5 / 1.1;
+/// Least 1 + |s_y| of a chart's rim.
+inline constexpr double kStreakRim = 0.905;
+
+/// Where a map is looked up.
+struct StreakPosition {
+    glm::dvec3 texture{0.0};
+    double level = 0.0;
+
+    friend StreakPosition operator+(const StreakPosition& a, const StreakPosition& b) {
+        return {a.texture + b.texture, a.level + b.level};
+    }
+    friend StreakPosition operator*(double factor, const StreakPosition& a) {
+        return {factor * a.texture, factor * a.level};
+    }
+};
+
+/// `direction`: of unit length; `along`: a tangent there, of any length. `chart`: 0 or 1. World axes.
+StreakPosition streak_position(const glm::dvec3& direction, const glm::dvec3& along, int chart);
+
+/// Fills the map from a probe's texels. Uses all cores; the result does not depend on their number. After a stop
+/// request it returns early with an unusable map.
+StreakMap fill_streak_map(const lighting::LightSamples& texels, const StreakMapSize& size,
+                          const std::stop_token& stop = {});
+
+/// Linear RGB, as texture units interpolate.
+glm::dvec3 sample(const StreakMap& map, const StreakPosition& position);
+
+}  // namespace rowland::diffraction
