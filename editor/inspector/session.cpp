@@ -11,7 +11,7 @@ namespace {
 constexpr int kSweepBands = 5;
 constexpr int kSweepViews = 61;
 
-const std::array kPresets = {"cd", "cd_r", "dvd", "blu_ray", "ruled_600", "ruled_1200", "holographic_foil", "vinyl"};
+const std::array kPresets = {"cd", "cd_pressed", "cd_r", "dvd", "blu_ray", "ruled_600", "ruled_1200", "holographic_foil", "vinyl"};
 
 Session::Cooked cook(const MaterialSource& source) {
     diffraction::require_baked_grooves(source.material.grating, source.name);

@@ -5,7 +5,6 @@
 #include "engine/scene/punctual_light.h"
 #include "modules/diffraction/asset/layer_weights.h"
 #include "modules/diffraction/asset/material_json.h"
-#include "modules/diffraction/bake/cube_pyramid.h"
 #include "tests/gpu/modules/diffraction/filter_error.h"
 #include "tests/gpu/modules/diffraction/grating_picture.h"
 #include "tests/gpu/render_test.h"
@@ -129,15 +128,12 @@ TEST_F(Covered, MapsEqualTheCpu) {
 }
 
 TEST_F(Covered, AStreakEqualsTheCpu) {
-    const CookedMaterial cooked = cook_covered(kPressedNarrow, R"({"representation": "streak"})");
-    const CubePyramid pyramid(lighting::unpack(*light_.radiance));
+    const CookedMaterial cooked = cook_covered(kPressedNarrow, R"({"representation": "streak", "map_resolution": 64})");
     const auto& tables = std::get<StreakTables>(cooked.tables);
+    const StreakMap map = fill_streak_map(*light_.probe_texels, tables.map);
     expect_equal(cooked, [&](const Point& point) {
-        const glm::dmat3 to_world = glm::transpose(point.to_tangent);
-        const auto mean = [&](const glm::dvec3& s, const glm::dvec3& a, const glm::dvec3& b) {
-            return pyramid.filtered(to_world * s, to_world * a, to_world * b, kStreakFilterTaps);
-        };
-        return evaluate(tables.streak, mean, point.view, tables.taps, cooked.material.grating.cover);
+        return evaluate(tables.streak, map, glm::transpose(point.to_tangent), point.view,
+                        cooked.material.grating.cover);
     });
 }
 

@@ -1,4 +1,4 @@
-// The promise about cooked files (content/README.md): version_4.material was written when version 4 was new.
+// The promise about cooked files (content/README.md): version_5.material was written when version 5 was new.
 #include <gtest/gtest.h>
 
 #include <algorithm>

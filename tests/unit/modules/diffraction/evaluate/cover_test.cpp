@@ -37,7 +37,7 @@ nlohmann::json material(bool covered, bool narrow) {
 
 /// Methods that hold the whole light.
 std::vector<std::string> whole_light_methods(SurfaceShape surface, bool narrow) {
-    if (narrow) return {"streak/nodes=8/taps=3"};
+    if (narrow) return {"streak"};
     if (surface == SurfaceShape::Flat) return {"planar/map_resolution=128", "planar/map_resolution=128/key_lights=16"};
     return {"circle/map_resolution=48/key_lights=16"};
 }
