@@ -15,10 +15,6 @@ namespace {
 /// The texels are summed in this many parts, whatever the number of threads.
 constexpr std::size_t kParts = 4;
 
-void add_scaled_light(float* to, const float* light, float weight) {
-    for (int c = 0; c < 4; ++c) to[c] += weight * light[c];
-}
-
 void splat(LightDisc& disc, float x, float y, const std::array<float, 4>& light) {
     const float last = static_cast<float>(disc.cells - 1);
     const float px = std::clamp(x, 0.0F, last);
@@ -31,10 +27,10 @@ void splat(LightDisc& disc, float x, float y, const std::array<float, 4>& light)
         disc.fluxes.data() +
         (static_cast<std::size_t>(iy) * static_cast<std::size_t>(disc.cells) + static_cast<std::size_t>(ix)) * 4;
     float* below = cell + static_cast<std::ptrdiff_t>(disc.cells) * 4;
-    add_scaled_light(cell, light.data(), (1 - fx) * (1 - fy));
-    add_scaled_light(cell + 4, light.data(), fx * (1 - fy));
-    add_scaled_light(below, light.data(), (1 - fx) * fy);
-    add_scaled_light(below + 4, light.data(), fx * fy);
+    add_scaled(cell, light.data(), (1 - fx) * (1 - fy));
+    add_scaled(cell + 4, light.data(), fx * (1 - fy));
+    add_scaled(below, light.data(), (1 - fx) * fy);
+    add_scaled(below + 4, light.data(), fx * fy);
 }
 
 /// Projects texels of the upper hemisphere along n: the measure on the disc is L ds_1 ds_2 = L s_n dω.

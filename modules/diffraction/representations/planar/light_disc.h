@@ -25,6 +25,10 @@ struct LightDisc {
     int cells = 0;              ///< of a side; cell i is centred on (2i + 1)/cells − 1
     std::vector<float> fluxes;  ///< four floats (r, g, b, 0) per cell, row by row; rows along e2
 };
+/// Adds light to a cell, or to another four floats.
+inline void add_scaled(float* to, const float* light, float weight) {
+    for (int c = 0; c < 4; ++c) to[c] += weight * light[c];
+}
 /// The columns [begin, end) of a row outside which it is black. A cell holds light from up to a cell away.
 std::pair<int, int> lit_columns(int cells, int row);
 

@@ -19,10 +19,6 @@ using std::numbers::pi;
 
 using Disc = std::vector<float>;
 
-void add_scaled(float* to, const float* light, float weight) {
-    for (int c = 0; c < 4; ++c) to[c] += weight * light[c];
-}
-
 Disc transpose(const Disc& disc, int cells) {
     Disc result(disc.size());
     const auto side = static_cast<std::size_t>(cells);
