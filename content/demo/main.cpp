@@ -14,7 +14,7 @@ namespace {
 int run(int argc, char** argv) {
     std::optional<Options> options = parse_options(argc, argv);
     if (!options) return 0;
-    const post::OcioConfig config = post::OcioConfig::choose(options->ocio_config);
+    const post::OcioConfig config = app::open_ocio_config(*options);
     if (options->list_views) {
         for (const std::string& view : config.views(config.default_display())) std::puts(view.c_str());
         return 0;

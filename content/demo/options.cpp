@@ -42,7 +42,6 @@ void add_options(CLI::App& app, Options& options) {
                    "Window against ringing of the grating's light; auto: the weakest sufficient one")
         ->check(CLI::IsMember({"auto", "none", "lanczos", "hann"}))
         ->capture_default_str();
-    app.add_option("--view", options.view, "View of the display (see --list-views)");
     app.add_option("--exposure", options.exposure_stops, "Exposure in stops")
         ->check(finite(-32.0, 32.0))
         ->capture_default_str();

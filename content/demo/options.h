@@ -19,7 +19,6 @@ struct Options : app::CommonOptions {
     int height = 720;
     std::optional<int> frames;  ///< none: 1 for captures, 12 for a flight, 300 for a benchmark, all of a recording
     std::string light_window = "auto";
-    std::string view;
     float exposure_stops = 0.0F;
     float bloom = 0.0F;     ///< fraction of the light that is scattered
     float vignette = 0.0F;  ///< fraction of the light lost in the corners, on top of the lens' own falloff

@@ -56,7 +56,7 @@ diffraction::DiffractionSettings diffraction_settings(const Options& options, Pa
 /// A picture that shows diffraction, with the effects that the options ask for.
 std::unique_ptr<view::Picture> open_picture(const Options& options, const post::OcioConfig& config, glm::ivec2 size,
                                             Pace pace) {
-    auto picture = std::make_unique<view::Picture>(config, options.view, size);
+    auto picture = std::make_unique<view::Picture>(config, std::string(), size);
     picture->post_settings() = post_settings(options);
     modules::register_material_types(picture->renderer(), {.diffraction = diffraction_settings(options, pace)});
     return picture;
@@ -76,7 +76,7 @@ Session::Session(const Options& options, const post::OcioConfig& config, glm::iv
       shaders_(picture_->shader_sources(options.shader_folder)),
       probe_paths_(probe_paths(options)),
       views_(config.views(config.default_display())),
-      view_(options.view.empty() ? config.default_view(config.default_display()) : options.view) {
+      view_(config.default_view(config.default_display())) {
     play_.set_pose([this](const Play& play) { scene_.pose(play); });
     use_probe(probe_paths_[0]);
 }

@@ -15,7 +15,7 @@ namespace {
 int run(int argc, char** argv) {
     const std::optional<Options> options = parse_options(argc, argv);
     if (!options) return 0;
-    const post::OcioConfig config = post::OcioConfig::choose(options->ocio_config);
+    const post::OcioConfig config = app::open_ocio_config(*options);
     if (options->capture) {
         capture(*options, config);
         return 0;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/platform/debug_build.h"
+#include "engine/post/ocio_config.h"
 
 namespace rowland::app {
 
@@ -15,6 +16,8 @@ struct CommonOptions {
     std::optional<std::filesystem::path> probe;
     std::string probe_mapping = "equirect";
     std::optional<std::filesystem::path> ocio_config;
+    std::string display;                           ///< of the OpenColorIO config; empty: its default
+    std::string view;                              ///< of the display; empty: its default
     std::optional<std::filesystem::path> capture;  ///< PNG
     std::filesystem::path content_folder;          ///< sources: materials, probes, meshes, scenes
     bool gl_debug = platform::debug_build();       ///< the driver's messages are logged
@@ -22,6 +25,9 @@ struct CommonOptions {
 
 /// Declares them. `capture_help` says what the picture shows. `options` must outlive `app`.
 void add_common_options(CLI::App& app, CommonOptions& options, const std::string& capture_help);
+
+/// The OpenColorIO config that the options name, with their display and view as its defaults. Throws Error (input).
+post::OcioConfig open_ocio_config(const CommonOptions& options);
 
 /// The values that are there, for check_outputs().
 std::vector<std::filesystem::path> given(

@@ -1,13 +1,11 @@
 #include "engine/post/display_transform.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "engine/core/error.h"
-#include "engine/core/json_reader.h"
 
 namespace OCIO = OCIO_NAMESPACE;
 
@@ -20,13 +18,9 @@ constexpr float largest_half = 65504.0F;
 /// Fills in the defaults and checks the names.
 DisplaySelection resolve(const OcioConfig& config, DisplaySelection selection) {
     if (selection.display.empty()) selection.display = config.default_display();
-    const std::vector<std::string> views = config.views(selection.display);
     if (selection.view.empty()) selection.view = config.default_view(selection.display);
-    if (std::find(views.begin(), views.end(), selection.view) != views.end()) return selection;
-    const std::optional<std::string> nearest = nearest_word(selection.view, views);
-    refuse_input(config.source(), fmt::format("display \"{}\"", selection.display),
-                 fmt::format("no view \"{}\"", selection.view), fmt::format("one of {}", views),
-                 nearest ? fmt::format("did you mean \"{}\"?", *nearest) : "");
+    config.require_view(selection.display, selection.view);
+    return selection;
 }
 
 /// What a view transform makes of NaN and infinities differs between OpenColorIO's CPU and GPU code (an infinite

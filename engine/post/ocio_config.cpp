@@ -11,6 +11,7 @@
 #include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/core/json_reader.h"
+#include "engine/post/computed_views.h"
 #include "engine/post/shipped_config.h"
 
 namespace OCIO = OCIO_NAMESPACE;
@@ -82,7 +83,9 @@ OcioConfig::OcioConfig(OCIO::ConstConfigRcPtr config, std::string source)
 OcioConfig OcioConfig::shipped() {
     std::istringstream text{std::string(shipped_config_file().front().text)};
     try {
-        return {OCIO::Config::CreateFromStream(text), "rowland.ocio (built in)"};
+        const OCIO::ConfigRcPtr config = OCIO::Config::CreateFromStream(text)->createEditableCopy();
+        add_computed_views(*config);
+        return {config, "rowland.ocio (built in)"};
     } catch (const OCIO::Exception& exception) {
         fail_to_load("rowland.ocio (built in)", exception);
     }
@@ -117,6 +120,22 @@ OcioConfig OcioConfig::choose(const std::optional<std::filesystem::path>& path) 
     return shipped();
 }
 
+void OcioConfig::prefer(const std::string& display, const std::string& view) {
+    const std::string shown = display.empty() ? default_display() : display;
+    require_view(shown, view.empty() ? default_view(shown) : view);
+    if (!display.empty() && display != default_display()) preferred_view_.clear();
+    preferred_display_ = shown;
+    if (!view.empty()) preferred_view_ = view;
+}
+
+void OcioConfig::require_view(const std::string& display, const std::string& view) const {
+    const std::vector<std::string> names = views(display);
+    if (std::find(names.begin(), names.end(), view) != names.end()) return;
+    const std::optional<std::string> nearest = nearest_word(view, names);
+    refuse_input(source_, fmt::format("display \"{}\"", display), fmt::format("no view \"{}\"", view),
+                 fmt::format("one of {}", names), nearest ? fmt::format("did you mean \"{}\"?", *nearest) : "");
+}
+
 std::vector<std::string> OcioConfig::displays() const {
     std::vector<std::string> names;
     for (int i = 0; i < config_->getNumDisplays(); ++i) names.emplace_back(config_->getDisplay(i));
@@ -124,7 +143,7 @@ std::vector<std::string> OcioConfig::displays() const {
 }
 
 std::string OcioConfig::default_display() const {
-    return config_->getDefaultDisplay();
+    return preferred_display_.empty() ? config_->getDefaultDisplay() : preferred_display_;
 }
 
 std::vector<std::string> OcioConfig::views(const std::string& display) const {
@@ -138,7 +157,8 @@ std::vector<std::string> OcioConfig::views(const std::string& display) const {
 }
 
 std::string OcioConfig::default_view(const std::string& display) const {
-    return config_->getDefaultView(display.c_str());
+    const bool preferred = !preferred_view_.empty() && display == default_display();
+    return preferred ? preferred_view_ : config_->getDefaultView(display.c_str());
 }
 
 }  // namespace rowland::post

@@ -12,7 +12,7 @@ namespace rowland::post {
 /// A colour configuration: which displays and views there are, and how scene-linear light becomes what they show.
 class OcioConfig {
  public:
-    /// content/ocio/rowland.ocio, as built into the program.
+    /// content/ocio/rowland.ocio, as built into the program, with the computed views (computed_views.h).
     static OcioConfig shipped();
 
     /// Throws Error (input) if the file is missing, is no valid configuration, or is of a later version than the
@@ -25,10 +25,16 @@ class OcioConfig {
     /// What messages call it: a path, or the name of the shipped one.
     const std::string& source() const { return source_; }
 
+    /// Makes a display and one of its views the defaults; an empty name changes nothing. Throws Error (input) that
+    /// lists the displays or views and names the nearest if there is none of that name.
+    void prefer(const std::string& display, const std::string& view);
+
     std::vector<std::string> displays() const;
     std::string default_display() const;
     /// Throws Error (input) that lists the displays and names the nearest if there is none of that name.
     std::vector<std::string> views(const std::string& display) const;
+    /// Throws Error (input) that lists the display's views and names the nearest if there is none of that name.
+    void require_view(const std::string& display, const std::string& view) const;
     std::string default_view(const std::string& display) const;
 
     const OCIO_NAMESPACE::ConstConfigRcPtr& ocio() const { return config_; }
@@ -39,6 +45,8 @@ class OcioConfig {
 
     OCIO_NAMESPACE::ConstConfigRcPtr config_;
     std::string source_;
+    std::string preferred_display_;
+    std::string preferred_view_;
 };
 
 }  // namespace rowland::post

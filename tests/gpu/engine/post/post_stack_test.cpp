@@ -51,7 +51,7 @@ class PostStackTest : public test::GlTest {
     PostFrame frame(float seconds = 0.0F) const { return {.seconds = seconds, .luminance_weights = weights_}; }
 
     gpu::ShaderLibrary library_;
-    post::DisplayTransform transform_{post::OcioConfig::shipped()};
+    post::DisplayTransform transform_{post::OcioConfig::shipped(), {"", "ACES 1.0 - SDR Video"}};
     post::DisplayPass display_ = [this] {
         gpu::ShaderLibrary library;
         library.add_embedded(post::shader_files());

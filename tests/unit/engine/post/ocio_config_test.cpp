@@ -51,10 +51,12 @@ std::string failure(const Load& load) {
 
 TEST(OcioConfig, ShippedOneHasItsDisplayViewsAndRoles) {
     const OcioConfig config = OcioConfig::shipped();
-    EXPECT_THAT(config.displays(), ElementsAre("sRGB - Display"));
-    EXPECT_THAT(config.views("sRGB - Display"), ElementsAre("ACES 1.0 - SDR Video", "Un-tone-mapped", "Raw"));
+    EXPECT_THAT(config.displays(), ElementsAre("sRGB - Display", "Rec.2100-PQ - Display", "Rec.2100-HLG - Display"));
+    EXPECT_THAT(config.views("sRGB - Display"),
+                ElementsAre("Constant Hue", "ACES 1.0 - SDR Video", "AgX", "False Colour", "Un-tone-mapped", "Raw"));
+    EXPECT_THAT(config.views("Rec.2100-PQ - Display"), ElementsAre("ACES 1.1 - HDR Video", "Raw"));
     EXPECT_EQ(config.default_display(), "sRGB - Display");
-    EXPECT_EQ(config.default_view("sRGB - Display"), "ACES 1.0 - SDR Video");
+    EXPECT_EQ(config.default_view("sRGB - Display"), "Constant Hue");
     EXPECT_STREQ(config.ocio()->getColorSpace("scene_linear")->getName(), "ACEScg");
     EXPECT_STREQ(config.ocio()->getColorSpace("aces_interchange")->getName(), "ACES2065-1");
     EXPECT_TRUE(config.ocio()->getColorSpace("data")->isData());
@@ -73,6 +75,26 @@ TEST(OcioConfig, PathComesBeforeTheVariableBeforeTheShippedOne) {
     }
     const OcioVariable empty("");
     EXPECT_STREQ(OcioConfig::choose().ocio()->getName(), "rowland");
+}
+
+TEST(OcioConfig, PreferredDisplayAndViewAreTheDefaults) {
+    OcioConfig config = OcioConfig::shipped();
+    config.prefer("", "AgX");
+    EXPECT_EQ(config.default_display(), "sRGB - Display");
+    EXPECT_EQ(config.default_view("sRGB - Display"), "AgX");
+    EXPECT_EQ(config.default_view("Rec.2100-PQ - Display"), "ACES 1.1 - HDR Video");
+    config.prefer("Rec.2100-PQ - Display", "");
+    EXPECT_EQ(config.default_display(), "Rec.2100-PQ - Display");
+    EXPECT_EQ(config.default_view("Rec.2100-PQ - Display"), "ACES 1.1 - HDR Video");
+    EXPECT_THAT(failure([&] { config.prefer("", "AgX"); }), HasSubstr("no view \"AgX\""));
+    EXPECT_THAT(failure([&] { config.prefer("rec2100", ""); }), HasSubstr("no display \"rec2100\""));
+}
+
+TEST(OcioConfig, AFileIsLeftAsItIs) {
+    const test::TemporaryFolder folder;
+    const OcioConfig config = OcioConfig::from_file(test::write_variant(folder.path(), {}));
+    EXPECT_EQ(config.default_view("sRGB - Display"), "ACES 1.0 - SDR Video");
+    EXPECT_THAT(config.views("sRGB - Display"), ElementsAre("ACES 1.0 - SDR Video", "Un-tone-mapped", "Raw"));
 }
 
 TEST(OcioConfig, MissingFileIsNamedWithWhereItsNameCameFrom) {
