@@ -123,8 +123,14 @@ std::vector<OCIO::TransformRcPtr> constant_hue_view() {
 }
 
 std::vector<OCIO::TransformRcPtr> agx_view() {
-    return {matrix_transform(agx_inset()), logarithm(agx_least_stop, agx_most_stop, 0.0),
-            curve_table([](double x) { return glm::dvec3(agx_curve(x)); }), matrix_transform(glm::inverse(agx_inset())),
+    const OCIO::RangeTransformRcPtr not_negative = OCIO::RangeTransform::Create();
+    not_negative->setMinInValue(0.0);
+    not_negative->setMinOutValue(0.0);
+    return {not_negative,
+            matrix_transform(agx_inset()),
+            logarithm(agx_least_stop, agx_most_stop, 0.0),
+            curve_table([](double x) { return glm::dvec3(agx_curve(x)); }),
+            matrix_transform(glm::inverse(agx_inset())),
             power(agx_gamma)};
 }
 
