@@ -13,11 +13,11 @@ namespace rowland::post {
 
 namespace {
 
-constexpr double kContrast = 1.551;         ///< g of the tone curve
-constexpr double kHalfLight = 0.6018;       ///< k of the tone curve: light^g that is shown as one half
-constexpr double kChromaOfContrast = 0.35;  ///< power
-constexpr double kUncompressed = 0.5;       ///< fraction of the gamut's chroma up to which chroma stays
-constexpr double kCompressionPower = 1.3;
+constexpr double kContrast = 1.551;        ///< g of the tone curve
+constexpr double kHalfLight = 0.6018;      ///< k of the tone curve: light^g that is shown as one half
+constexpr double kChromaOfContrast = 0.5;  ///< power
+constexpr double kUncompressed = 0.65;     ///< fraction of the gamut's chroma up to which chroma stays
+constexpr double kCompressionPower = 1.6;
 constexpr double kMostChroma = 0.33;  ///< a little more than any colour of Rec.709 has
 
 glm::dvec3 to_rec709(const glm::dvec3& oklab) {

@@ -11,7 +11,7 @@ namespace rowland::post {
 ///   lightness; for darker ones it approaches the largest Rec.709 component, so that saturated colours stay dark
 ///   enough for the display to show them saturated. The two are equal for neutrals.
 /// - Chroma follows the local contrast of the curve, as film's does: more in the shadows, less in the highlights.
-/// - Gamut: chroma up to half of what the display has at that lightness and hue stays; beyond, it is compressed to
+/// - Gamut: chroma up to 65 % of what the display has at that lightness and hue stays; beyond, it is compressed to
 ///   below all of it. White has none, so very bright lights of any colour become white smoothly.
 glm::dvec3 constant_hue(const glm::dvec3& lms);
 
