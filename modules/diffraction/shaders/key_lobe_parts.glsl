@@ -25,8 +25,8 @@ vec3 key_lobe_radiance(KeyLobe lobe, GrooveView view) {
         float deviation = length(vec2(part.deviation, u.deviation));
         sum += part.cosine * pitch_kernel_value(u.mean + part.centre - axis.x, deviation, lobe.flux.rgb, view.pitch);
     }
-    vec2 along = spread_along_grooves(axis, lobe.moments);
-    return 0.5 / max(whole, 1e-6) * lobe_transmittance(axis.z, lobe.moments) *
+    vec2 along = spread_along_grooves(lobe.mean.xyz * view.axes, lobe.moments);
+    return 0.5 / max(whole, 1e-6) * lobe_transmittance(dot(lobe.mean.xyz, view.axes[2]), lobe.moments) *
            key_groove_factor(along.x + view.direction.y, along.y) * sum;
 }
 
