@@ -50,8 +50,19 @@ struct MeshU {
 
 vec2 mesh_sum(MeshView mesh, vec3 s) { return vec2(dot(s, mesh.axes[0]), dot(s, mesh.axes[1])) + mesh.direction.xy; }
 
+// From the mesh's g and h to those of the pixel's grooves.
+vec2 turned(GrooveView view, vec2 along) {
+    return vec2(dot(view.turn, along), view.turn.x * along.y - view.turn.y * along.x);
+}
+
+// In (g, h, n).
+vec3 to_tangent(GrooveView view, vec3 s) {
+    vec3 in_mesh = s * view.mesh.axes;
+    return vec3(turned(view, in_mesh.xy), in_mesh.z);
+}
+
 PixelU turned_pixel_u(GrooveView view, MeshU mesh) {
-    vec2 u = vec2(dot(view.turn, mesh.u), view.turn.x * mesh.u.y - view.turn.y * mesh.u.x);
+    vec2 u = turned(view, mesh.u);
     // The mesh's own change, as the map may be discontinuous: its moments tell how it varies.
     vec2 across = view.turn * mesh.change;
     float variance = BOX_DEVIATION * BOX_DEVIATION * dot(across, across) +
@@ -71,6 +82,8 @@ MeshU mesh_u_of(GrooveView view, vec3 s) {
     return MeshU(u, mat2(dFdx(u), dFdy(u)));
 }
 #else
+vec3 to_tangent(GrooveView view, vec3 s) { return s * view.axes; }
+
 PixelU pixel_u(GrooveView view, vec3 s) {
     return PixelU(dot(s, view.axes[0]) + view.direction.x, BOX_DEVIATION * length(s * view.g_change + view.v_g_change));
 }
