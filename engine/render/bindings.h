@@ -8,6 +8,7 @@ inline constexpr unsigned kBrdfUnit = 1;
 inline constexpr unsigned kShadowUnit = 2;
 inline constexpr unsigned kFirstMapUnit = 3;  ///< of the five kSurfaceMaps
 inline constexpr unsigned kKeyIrradianceUnit = 15;
+inline constexpr unsigned kVisibilityUnit = 16;
 
 inline constexpr unsigned kFrameBinding = 0;
 inline constexpr unsigned kObjectBinding = 1;

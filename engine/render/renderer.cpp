@@ -60,6 +60,15 @@ std::optional<gpu::Scissor> scissor_of(const Draw& draw, glm::ivec2 size) {
     return gpu::Scissor{.x = begin, .y = 0, .width = std::max(edge(draw.columns->end) - begin, 0), .height = size.y};
 }
 
+gpu::PipelineState state_of(const Draw& draw, std::optional<gpu::Scissor> scissor) {
+    const bool blends = (draw.features & feature::kAlphaBlend) != 0;
+    return {.depth_write = !blends,
+            .cull = draw.material->double_sided ? gpu::Cull::None : gpu::Cull::Back,
+            .blend = blends ? gpu::Blend::Over : gpu::Blend::Off,
+            .front = draw.mirrored ? gpu::FrontFace::Clockwise : gpu::FrontFace::CounterClockwise,
+            .scissor = scissor};
+}
+
 glm::vec3 centre_of(const scene::Bounds& box) {
     return 0.5F * (box.minimum + box.maximum);
 }
@@ -69,9 +78,11 @@ glm::vec3 centre_of(const scene::Bounds& box) {
 /// The state of one call of render().
 struct Renderer::Frame {
     const scene::Camera* camera = nullptr;
+    glm::ivec2 size{1};
     float aspect = 1.0F;
     bool into_halves = false;  ///< the target holds half floats
     Shading shading = Shading::Full;
+    bool occlusion = false;
     glm::mat4 view_projection{1.0F};
     DrawList list;
     std::vector<Draw*> used;  ///< those that need an ObjectBlock
@@ -135,6 +146,9 @@ void Renderer::render(ecs::World& world, const scene::Camera& camera, const gpu:
     frame.aspect = static_cast<float>(size.x) / static_cast<float>(size.y);
     frame.into_halves = target.holds_halves();
     frame.shading = shading;
+    frame.occlusion = effects_.ambient_occlusion && shading == Shading::Full;
+    if (!frame.occlusion) occlusion_.reset();
+    frame.size = size;
     frame.view_projection = camera.projection(frame.aspect) * camera.view();
     report_ = {};
 
@@ -146,6 +160,7 @@ void Renderer::render(ecs::World& world, const scene::Camera& camera, const gpu:
     upload(frame);
     bind_frame(frame);
     draw_shadow_map(frame);
+    draw_occlusion(frame);
     {
         const gpu::PassTimes::Scope scope(times_, "opaque");
         target.bind();
@@ -191,7 +206,8 @@ void Renderer::update_ambient() {
 
 void Renderer::select_draws(ecs::World& world, Frame& frame) {
     const SurfaceFeatures key_lights = light_.key_lights().empty() ? 0 : feature::kKeyLights;
-    frame.list = gather_draws(world, types_, lights_.features() | key_lights);
+    const SurfaceFeatures occlusion = frame.occlusion ? feature::kAmbientOcclusion : 0;
+    frame.list = gather_draws(world, types_, lights_.features() | key_lights | occlusion);
     const Frustum frustum(frame.view_projection);
     const glm::vec3 forward = glm::normalize(frame.camera->target - frame.camera->eye);
     for (Draw& draw : frame.list.draws) {
@@ -201,6 +217,8 @@ void Renderer::select_draws(ecs::World& world, Frame& frame) {
         }
         // Also for what is not seen yet, so that no later frame waits for a compiler.
         const gpu::Program& program = program_of(world, draw);
+        if (frame.occlusion && (draw.features & feature::kAlphaBlend) == 0)
+            draw.depth_program = &surface_program(kShadowShader, of_shadow(draw.features) | feature::kFromEye);
         if (!frustum.may_see(draw.bounds)) {
             ++report_.culled;
             continue;
@@ -251,7 +269,9 @@ FrameBlock Renderer::frame_block(const Frame& frame) const {
                                   key_irradiance_ ? key_irradiance_->scale : 0.0F, 0.0F);
     block.shadow = glm::vec4(frame.shadow.texel_m, 1.0F / static_cast<float>(shadow_map_size_),
                              frame.into_halves ? 1.0F : 0.0F, 0.0F);
-    if (const auto& dome = light_.probe->dome) block.dome = glm::vec4(dome->height_m, dome->radius_m, 0.0F, 0.0F);
+    const glm::vec2 pixel = 1.0F / glm::vec2(frame.size);
+    block.dome = glm::vec4(0.0F, 0.0F, pixel);
+    if (const auto& dome = light_.probe->dome) block.dome = glm::vec4(dome->height_m, dome->radius_m, pixel);
     return block;
 }
 
@@ -297,15 +317,32 @@ void Renderer::draw_shadow_map(Frame& frame) {
     shadow_map_->bind();
     shadow_map_->clear_depth();
     gpu::apply({.cull = gpu::Cull::None, .slope_bias = kShadowSlopeBias});
-    for (const Draw* draw : frame.casters) {
-        frame_data_.bind_uniform(kObjectBinding, draw->block_offset, sizeof(ObjectBlock));
-        draw->shadow_program->use();
-        if ((of_shadow(draw->features) & feature::kBaseColourMap) != 0)
-            draw->material->base_colour_texture.texture->bind(kFirstMapUnit);
-        draw->mesh->draw();
-    }
+    for (const Draw* draw : frame.casters) draw_outline(*draw, *draw->shadow_program);
     report_.shadow_drawn = static_cast<int>(frame.casters.size());
     shadow_map_->depth().bind(kShadowUnit);
+}
+
+void Renderer::draw_outline(const Draw& draw, const gpu::Program& program) const {
+    frame_data_.bind_uniform(kObjectBinding, draw.block_offset, sizeof(ObjectBlock));
+    program.use();
+    if ((of_shadow(draw.features) & feature::kBaseColourMap) != 0)
+        draw.material->base_colour_texture.texture->bind(kFirstMapUnit);
+    draw.mesh->draw();
+}
+
+void Renderer::draw_occlusion(const Frame& frame) {
+    if (!frame.occlusion) return;
+    const gpu::PassTimes::Scope scope(times_, "occlusion");
+    if (!occlusion_) occlusion_.emplace();
+    const glm::ivec2 depth_size = occlusion_->begin(frame.size).size();
+    for (const Draw* draw : frame.opaque) {
+        gpu::apply(state_of(*draw, scissor_of(*draw, depth_size)));
+        draw_outline(*draw, *draw->depth_program);
+    }
+    occlusion_->draw(programs_, *frame.camera, frame.aspect, lights_.shadow_light, *effects_.ambient_occlusion);
+    // The pass reads its textures where the surfaces read the environment.
+    environment_->map.bind(kEnvironmentUnit);
+    occlusion_->visibility().bind(kVisibilityUnit);
 }
 
 void Renderer::bind_surface(const Draw& draw) const {
@@ -316,14 +353,9 @@ void Renderer::bind_surface(const Draw& draw) const {
 
 void Renderer::draw_pass(ecs::World& world, const std::vector<const Draw*>& draws, glm::ivec2 size) {
     for (const Draw* draw : draws) {
-        const bool blends = (draw->features & feature::kAlphaBlend) != 0;
         const std::optional<gpu::Scissor> scissor = scissor_of(*draw, size);
         if (scissor && scissor->width == 0) continue;
-        gpu::apply({.depth_write = !blends,
-                    .cull = draw->material->double_sided ? gpu::Cull::None : gpu::Cull::Back,
-                    .blend = blends ? gpu::Blend::Over : gpu::Blend::Off,
-                    .front = draw->mirrored ? gpu::FrontFace::Clockwise : gpu::FrontFace::CounterClockwise,
-                    .scissor = scissor});
+        gpu::apply(state_of(*draw, scissor));
         frame_data_.bind_uniform(kObjectBinding, draw->block_offset, sizeof(ObjectBlock));
         draw->program->use();
         bind_surface(*draw);

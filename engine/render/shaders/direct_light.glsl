@@ -66,10 +66,11 @@ float shadow_visibility(vec3 l) {
     vec3 at = (world_to_shadow * vec4(lifted, 1.0)).xyz * 0.5 + 0.5;
     at.z = min(at.z, 1.0);  // behind everything that casts a shadow
     vec2 half_texel = vec2(0.5, -0.5) * shadow.y;
-    return 0.25 * (texture(shadow_map, vec3(at.xy + half_texel.xx, at.z)) +
-                   texture(shadow_map, vec3(at.xy + half_texel.xy, at.z)) +
-                   texture(shadow_map, vec3(at.xy + half_texel.yx, at.z)) +
-                   texture(shadow_map, vec3(at.xy + half_texel.yy, at.z)));
+    float lit = 0.25 * (texture(shadow_map, vec3(at.xy + half_texel.xx, at.z)) +
+                        texture(shadow_map, vec3(at.xy + half_texel.xy, at.z)) +
+                        texture(shadow_map, vec3(at.xy + half_texel.yx, at.z)) +
+                        texture(shadow_map, vec3(at.xy + half_texel.yy, at.z)));
+    return contact_visibility() * lit;
 }
 #endif
 

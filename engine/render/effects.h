@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+
+namespace rowland::render {
+
+/// Occlusion by what the picture shows, from its depth: of ambient light, and of the light that casts shadows close to
+/// where things touch.
+struct AmbientOcclusionSettings {
+    float radius_m = 0.1F;    ///< farthest occluder of ambient light; above 0
+    float contact_m = 0.01F;  ///< length of a contact shadow's ray; 0: none
+
+    friend bool operator==(const AmbientOcclusionSettings&, const AmbientOcclusionSettings&) = default;
+};
+
+/// Effects on a surface's light that the renderer adds. Each that is off costs nothing.
+struct Effects {
+    std::optional<AmbientOcclusionSettings> ambient_occlusion;
+
+    friend bool operator==(const Effects&, const Effects&) = default;
+};
+
+}  // namespace rowland::render
