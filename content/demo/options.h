@@ -26,7 +26,8 @@ struct Options : app::CommonOptions {
     bool auto_exposure = false;
     bool dither = false;
     bool ambient_occlusion = true;  ///< and contact shadows
-    bool sun = false;               ///< a lamp that casts shadows
+    bool soft_shadows = true;
+    bool sun = false;  ///< a lamp that casts shadows
     bool list_views = false;
     std::optional<std::filesystem::path> capture_linear;
     std::optional<std::filesystem::path> benchmark;

@@ -49,6 +49,7 @@ post::PostSettings post_settings(const Options& options) {
 render::Effects effects(const Options& options) {
     render::Effects effects;
     if (options.ambient_occlusion) effects.ambient_occlusion = render::AmbientOcclusionSettings{};
+    if (options.soft_shadows) effects.soft_shadows = render::SoftShadowSettings{};
     return effects;
 }
 

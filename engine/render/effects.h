@@ -13,9 +13,17 @@ struct AmbientOcclusionSettings {
     friend bool operator==(const AmbientOcclusionSettings&, const AmbientOcclusionSettings&) = default;
 };
 
+/// The light that casts shadows is a disc, whose shadows' edges widen with the distance from what casts them.
+struct SoftShadowSettings {
+    float angular_radius = 0.03F;  ///< of the light, radians
+
+    friend bool operator==(const SoftShadowSettings&, const SoftShadowSettings&) = default;
+};
+
 /// Effects on a surface's light that the renderer adds. Each that is off costs nothing.
 struct Effects {
-    std::optional<AmbientOcclusionSettings> ambient_occlusion;
+    std::optional<AmbientOcclusionSettings> ambient_occlusion = std::nullopt;
+    std::optional<SoftShadowSettings> soft_shadows = std::nullopt;
 
     friend bool operator==(const Effects&, const Effects&) = default;
 };

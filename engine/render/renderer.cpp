@@ -14,7 +14,9 @@
 #include "engine/lighting/key_lights.h"
 #include "engine/render/bindings.h"
 #include "engine/render/brdf_table.h"
+#include "engine/render/draw_state.h"
 #include "engine/render/shader_files.h"
+#include "engine/render/soft_shadow.h"
 #include "engine/render/world_bounds.h"
 
 namespace rowland::render {
@@ -48,25 +50,6 @@ std::size_t append(std::vector<std::byte>& bytes, const T* values, std::size_t c
     bytes.resize(offset + count * sizeof(T));
     std::memcpy(&bytes[offset], values, count * sizeof(T));
     return offset;
-}
-
-/// The pixels that a draw may change; null: all.
-std::optional<gpu::Scissor> scissor_of(const Draw& draw, glm::ivec2 size) {
-    if (draw.columns == nullptr) return std::nullopt;
-    const auto edge = [&](float fraction) {
-        return static_cast<int>(std::lround(std::clamp(fraction, 0.0F, 1.0F) * static_cast<float>(size.x)));
-    };
-    const int begin = edge(draw.columns->begin);
-    return gpu::Scissor{.x = begin, .y = 0, .width = std::max(edge(draw.columns->end) - begin, 0), .height = size.y};
-}
-
-gpu::PipelineState state_of(const Draw& draw, std::optional<gpu::Scissor> scissor) {
-    const bool blends = (draw.features & feature::kAlphaBlend) != 0;
-    return {.depth_write = !blends,
-            .cull = draw.material->double_sided ? gpu::Cull::None : gpu::Cull::Back,
-            .blend = blends ? gpu::Blend::Over : gpu::Blend::Off,
-            .front = draw.mirrored ? gpu::FrontFace::Clockwise : gpu::FrontFace::CounterClockwise,
-            .scissor = scissor};
 }
 
 glm::vec3 centre_of(const scene::Bounds& box) {
@@ -131,6 +114,12 @@ void Renderer::set_shadow_map_size(int size) {
     ROWLAND_CHECK_OP(size, >=, 32);
     if (size != shadow_map_size_) shadow_map_.reset();
     shadow_map_size_ = size;
+}
+
+void Renderer::set_effects(const Effects& effects) {
+    // Soft shadows read the map's depth, others compare with it.
+    if (effects.soft_shadows.has_value() != effects_.soft_shadows.has_value()) shadow_map_.reset();
+    effects_ = effects;
 }
 
 void Renderer::reload_shaders(const std::filesystem::path& source_tree) {
@@ -204,10 +193,16 @@ void Renderer::update_ambient() {
     probe_changed_ = false;
 }
 
+SurfaceFeatures Renderer::light_features(const Frame& frame) const {
+    SurfaceFeatures features = lights_.features();
+    if (!light_.key_lights().empty()) features |= feature::kKeyLights;
+    if (frame.occlusion) features |= feature::kAmbientOcclusion;
+    if (lights_.shadow_light && effects_.soft_shadows) features |= feature::kSoftShadows;
+    return features;
+}
+
 void Renderer::select_draws(ecs::World& world, Frame& frame) {
-    const SurfaceFeatures key_lights = light_.key_lights().empty() ? 0 : feature::kKeyLights;
-    const SurfaceFeatures occlusion = frame.occlusion ? feature::kAmbientOcclusion : 0;
-    frame.list = gather_draws(world, types_, lights_.features() | key_lights | occlusion);
+    frame.list = gather_draws(world, types_, light_features(frame));
     const Frustum frustum(frame.view_projection);
     const glm::vec3 forward = glm::normalize(frame.camera->target - frame.camera->eye);
     for (Draw& draw : frame.list.draws) {
@@ -269,6 +264,8 @@ FrameBlock Renderer::frame_block(const Frame& frame) const {
                                   key_irradiance_ ? key_irradiance_->scale : 0.0F, 0.0F);
     block.shadow = glm::vec4(frame.shadow.texel_m, 1.0F / static_cast<float>(shadow_map_size_),
                              frame.into_halves ? 1.0F : 0.0F, 0.0F);
+    if (effects_.soft_shadows)
+        block.shadow.w = penumbra_over_depth(frame.shadow, shadow_map_size_, effects_.soft_shadows->angular_radius);
     const glm::vec2 pixel = 1.0F / glm::vec2(frame.size);
     block.dome = glm::vec4(0.0F, 0.0F, pixel);
     if (const auto& dome = light_.probe->dome) block.dome = glm::vec4(dome->height_m, dome->radius_m, pixel);
@@ -313,7 +310,7 @@ void Renderer::draw_shadow_map(Frame& frame) {
                                                  .height = shadow_map_size_,
                                                  .colours = {},
                                                  .depth = true,
-                                                 .depth_sampling = {.compare_depth = true}});
+                                                 .depth_sampling = {.compare_depth = !effects_.soft_shadows}});
     shadow_map_->bind();
     shadow_map_->clear_depth();
     gpu::apply({.cull = gpu::Cull::None, .slope_bias = kShadowSlopeBias});
@@ -336,7 +333,9 @@ void Renderer::draw_occlusion(const Frame& frame) {
     if (!occlusion_) occlusion_.emplace();
     const glm::ivec2 depth_size = occlusion_->begin(frame.size).size();
     for (const Draw* draw : frame.opaque) {
-        gpu::apply(state_of(*draw, scissor_of(*draw, depth_size)));
+        const auto state = state_of(*draw, depth_size);
+        if (!state) continue;
+        gpu::apply(*state);
         draw_outline(*draw, *draw->depth_program);
     }
     occlusion_->draw(programs_, *frame.camera, frame.aspect, lights_.shadow_light, *effects_.ambient_occlusion);
@@ -353,9 +352,9 @@ void Renderer::bind_surface(const Draw& draw) const {
 
 void Renderer::draw_pass(ecs::World& world, const std::vector<const Draw*>& draws, glm::ivec2 size) {
     for (const Draw* draw : draws) {
-        const std::optional<gpu::Scissor> scissor = scissor_of(*draw, size);
-        if (scissor && scissor->width == 0) continue;
-        gpu::apply(state_of(*draw, scissor));
+        const auto state = state_of(*draw, size);
+        if (!state) continue;
+        gpu::apply(*state);
         frame_data_.bind_uniform(kObjectBinding, draw->block_offset, sizeof(ObjectBlock));
         draw->program->use();
         bind_surface(*draw);

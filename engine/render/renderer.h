@@ -69,7 +69,7 @@ class Renderer {
     /// Texels along a side of the shadow map, at least 32; 2048 by default.
     void set_shadow_map_size(int size);
     /// The effects of the next frames; none by default.
-    void set_effects(const Effects& effects) { effects_ = effects; }
+    void set_effects(const Effects& effects);
     const Effects& effects() const { return effects_; }
     /// Where the times of the passes "shadow", "occlusion", "opaque", "sky" and "blend" are written; null, the default:
     /// nowhere. The owner calls begin_frame(). Must outlive the draws.
@@ -91,6 +91,7 @@ class Renderer {
  private:
     struct Frame;
 
+    SurfaceFeatures light_features(const Frame& frame) const;
     void update_light(ecs::World& world);
     void update_ambient();
     void select_draws(ecs::World& world, Frame& frame);

@@ -1,5 +1,5 @@
 // The scene's lights on a GGX surface. Defines: DIRECTIONAL_LIGHTS, SEVERAL_DIRECTIONAL_LIGHTS, PUNCTUAL_LIGHTS, SHADOWS
-// (of the first directional light).
+// (of the first directional light), SOFT_SHADOWS.
 #include "engine/render/shaders/light_block.h"
 
 // The engine's surface at a pixel, and what it reflects of all lights.
@@ -51,7 +51,11 @@ void add_light(vec3 irradiance, vec3 l, inout LitSurface surface) {
 }
 
 #ifdef SHADOWS
+#ifdef SOFT_SHADOWS
+#include "engine/render/shaders/soft_shadow.glsl"
+#else
 layout(binding = 2) uniform sampler2DShadow shadow_map;
+#endif
 
 // Four filtered comparisons half a texel apart reach 1.5 texels along each axis. Within that reach, a plane lies at most
 // 1.5 sqrt(2) texels * tan(angle to the light) nearer to the light than at the point; a point lifted by as many texels
@@ -65,11 +69,15 @@ float shadow_visibility(vec3 l) {
     vec3 lifted = world_position + n * (SHADOW_LIFT * shadow.x * length(cross(n, l)));
     vec3 at = (world_to_shadow * vec4(lifted, 1.0)).xyz * 0.5 + 0.5;
     at.z = min(at.z, 1.0);  // behind everything that casts a shadow
+#ifdef SOFT_SHADOWS
+    float lit = disc_visibility(at, n);
+#else
     vec2 half_texel = vec2(0.5, -0.5) * shadow.y;
     float lit = 0.25 * (texture(shadow_map, vec3(at.xy + half_texel.xx, at.z)) +
                         texture(shadow_map, vec3(at.xy + half_texel.xy, at.z)) +
                         texture(shadow_map, vec3(at.xy + half_texel.yx, at.z)) +
                         texture(shadow_map, vec3(at.xy + half_texel.yy, at.z)));
+#endif
     return contact_visibility() * lit;
 }
 #endif

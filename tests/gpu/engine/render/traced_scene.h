@@ -24,7 +24,7 @@ class TracedSceneTest : public RenderTest {
 
     static constexpr int kWidth = 160;
     static constexpr int kHeight = 120;
-    static constexpr float kFloor = 2.0F;  ///< half its side
+    static constexpr float kFloor = 0.6F;  ///< half its side
 
     TracedSceneTest() {
         camera_ = {.eye = {0.25F, 0.3F, 0.6F}, .target = {0.0F, 0.03F, 0.0F}, .vertical_field_of_view = 0.5F};
