@@ -27,7 +27,8 @@ struct Options : app::CommonOptions {
     bool dither = false;
     bool ambient_occlusion = true;  ///< and contact shadows
     bool soft_shadows = true;
-    bool sun = false;  ///< a lamp that casts shadows
+    bool local_reflections = true;  ///< of the table
+    bool sun = false;               ///< a lamp that casts shadows
     bool list_views = false;
     std::optional<std::filesystem::path> capture_linear;
     std::optional<std::filesystem::path> benchmark;

@@ -50,6 +50,7 @@ render::Effects effects(const Options& options) {
     render::Effects effects;
     if (options.ambient_occlusion) effects.ambient_occlusion = render::AmbientOcclusionSettings{};
     if (options.soft_shadows) effects.soft_shadows = render::SoftShadowSettings{};
+    effects.local_reflections = options.local_reflections;
     return effects;
 }
 

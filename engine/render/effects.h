@@ -24,6 +24,7 @@ struct SoftShadowSettings {
 struct Effects {
     std::optional<AmbientOcclusionSettings> ambient_occlusion = std::nullopt;
     std::optional<SoftShadowSettings> soft_shadows = std::nullopt;
+    bool local_reflections = false;  ///< mirrors show what has a ReflectedTop
 
     friend bool operator==(const Effects&, const Effects&) = default;
 };

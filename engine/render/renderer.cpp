@@ -23,18 +23,10 @@ namespace rowland::render {
 
 namespace {
 
-constexpr int kBrdfTableSize = 64;
 constexpr const char* kPlainShader = "plain";
 constexpr const char* kShadowShader = "shadow";
 // For surfaces whose slope changes within a texel: there the lift in direct_light.glsl is not enough.
 constexpr float kShadowSlopeBias = 1.0F;
-
-gpu::Texture make_brdf_texture() {
-    gpu::Texture texture({.format = gpu::Format::RG16F, .width = kBrdfTableSize, .height = kBrdfTableSize});
-    const std::vector<glm::vec2> table = bake_brdf_table(kBrdfTableSize);
-    texture.upload(std::span<const float>(&table[0].x, 2 * table.size()));
-    return texture;
-}
 
 gpu::ProgramDesc shader_pair(const std::string& name) {
     gpu::ProgramDesc desc;
@@ -81,7 +73,7 @@ struct Renderer::Frame {
 Renderer::Renderer(const glm::dmat3& xyz_to_working)
     : xyz_to_working_(xyz_to_working),
       rec709_to_working_(xyz_to_working * colour::rec709_to_xyz()),
-      brdf_table_(make_brdf_texture()) {
+      brdf_table_(brdf_texture()) {
     programs_.library().add_embedded(shader_files());
     // Filtering across cube faces is off by default in OpenGL and shows as seams.
     glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
@@ -144,6 +136,7 @@ void Renderer::render(ecs::World& world, const scene::Camera& camera, const gpu:
     update_light(world);
     if (shading == Shading::Full)
         for (const auto& type : types_) type->update(world, light_);
+    update_reflection(world, frame);
     select_draws(world, frame);
     select_casters(frame);
     upload(frame);
@@ -193,11 +186,22 @@ void Renderer::update_ambient() {
     probe_changed_ = false;
 }
 
+void Renderer::update_reflection(ecs::World& world, const Frame& frame) {
+    if (effects_.local_reflections && frame.shading == Shading::Full) {
+        if (!reflection_) reflection_.emplace();
+        const float height = static_cast<float>(frame.size.y);
+        const PlaneLight light{ambient_, light_.key_lights(), lights_, glm::mat3(rec709_to_working_)};
+        if (reflection_->update(world, light, frame.camera->vertical_field_of_view / height)) return;
+    }
+    reflection_.reset();
+}
+
 SurfaceFeatures Renderer::light_features(const Frame& frame) const {
     SurfaceFeatures features = lights_.features();
     if (!light_.key_lights().empty()) features |= feature::kKeyLights;
     if (frame.occlusion) features |= feature::kAmbientOcclusion;
     if (lights_.shadow_light && effects_.soft_shadows) features |= feature::kSoftShadows;
+    if (reflection_) features |= feature::kLocalReflections;
     return features;
 }
 
@@ -298,6 +302,7 @@ void Renderer::bind_frame(const Frame& frame) const {
     if (!frame.list.joints.empty())
         frame_data_.bind_storage(kJointBinding, frame.joints_offset, frame.list.joints.size() * sizeof(glm::mat4));
     if (key_irradiance_) key_irradiance_->map.bind(kKeyIrradianceUnit);
+    if (reflection_) reflection_->bind();
     environment_->map.bind(kEnvironmentUnit);
     brdf_table_.bind(kBrdfUnit);
 }

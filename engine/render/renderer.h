@@ -23,6 +23,7 @@
 #include "engine/render/draw_list.h"
 #include "engine/render/effects.h"
 #include "engine/render/light_maps.h"
+#include "engine/render/local_reflection.h"
 #include "engine/render/material.h"
 #include "engine/render/program_cache.h"
 #include "engine/render/scene_lights.h"
@@ -101,6 +102,7 @@ class Renderer {
     void bind_frame(const Frame& frame) const;
     void draw_shadow_map(Frame& frame);
     void draw_occlusion(const Frame& frame);
+    void update_reflection(ecs::World& world, const Frame& frame);
     void draw_outline(const Draw& draw, const gpu::Program& program) const;
     void draw_pass(ecs::World& world, const std::vector<const Draw*>& draws, glm::ivec2 size);
     void draw_sky();
@@ -124,6 +126,7 @@ class Renderer {
     int shadow_map_size_ = 2048;
     Effects effects_;
     std::optional<AmbientOcclusion> occlusion_;
+    std::optional<LocalReflection> reflection_;
 
     bool probe_changed_ = false;  ///< or whether its key lights are apart
     FrameLight light_;

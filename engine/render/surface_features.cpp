@@ -8,7 +8,7 @@ namespace rowland::render {
 
 namespace {
 
-constexpr std::array<std::pair<SurfaceFeatures, const char*>, 16> kSwitches = {
+constexpr std::array<std::pair<SurfaceFeatures, const char*>, 17> kSwitches = {
     {{feature::kColours, "HAS_COLOURS"},
      {feature::kSkinned, "SKINNED"},
      {feature::kTextureTransform, "TEXTURE_TRANSFORM"},
@@ -24,6 +24,7 @@ constexpr std::array<std::pair<SurfaceFeatures, const char*>, 16> kSwitches = {
      {feature::kKeyLights, "KEY_LIGHTS"},
      {feature::kAmbientOcclusion, "AMBIENT_OCCLUSION"},
      {feature::kSoftShadows, "SOFT_SHADOWS"},
+     {feature::kLocalReflections, "LOCAL_REFLECTIONS"},
      {feature::kFromEye, "FROM_EYE"}}};
 
 bool is_identity(const scene::TextureTransform& transform) {

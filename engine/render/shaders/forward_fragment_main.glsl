@@ -13,10 +13,17 @@ const float PI = 3.14159265358979;
 vec3 direct_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness, inout vec3 added) { return vec3(0.0); }
 #endif
 
+#ifdef LOCAL_REFLECTIONS
+#include "engine/render/shaders/local_reflection.glsl"
+#endif
+
 vec3 environment_light(vec3 direction, float roughness) {
     vec3 light = textureLod(environment_map, direction, roughness * environment.x).rgb * environment.y;
 #ifdef AMBIENT_OCCLUSION
     light *= reflection_visibility(abs(dot(direction, normalize(world_normal))), roughness);
+#endif
+#ifdef LOCAL_REFLECTIONS
+    light = with_local_reflection(light, direction, roughness);
 #endif
     return light;
 }

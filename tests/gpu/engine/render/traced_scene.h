@@ -39,9 +39,10 @@ class TracedSceneTest : public RenderTest {
         boxes_.push_back({glm::dvec3(foot) - glm::dvec3(half.x, 0.0, half.z),
                           glm::dvec3(foot) + glm::dvec3(half.x, 2.0 * half.y, half.z)});
     }
-    void add_sphere(const glm::vec3& centre, float radius) {
+    void add_sphere(const glm::vec3& centre, float radius) { add_sphere(centre, radius, kWhite); }
+    void add_sphere(const glm::vec3& centre, float radius, const render::StandardMaterial& material) {
         scene::Mesh mesh = scene::build_mesh(scene::SphereRecipe{.radius = radius, .rings = 96, .segments = 192});
-        add(std::move(mesh), kWhite, glm::translate(glm::mat4(1.0F), centre));
+        add(std::move(mesh), material, glm::translate(glm::mat4(1.0F), centre));
         spheres_.push_back({glm::dvec3(centre), radius});
     }
 
