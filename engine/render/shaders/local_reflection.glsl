@@ -18,9 +18,10 @@ float ambient_visibility_at(vec3 position) {
 vec3 plane_albedo(vec2 at, float footprint) {
     if (plane_size.w == 0.0) return plane_colour.rgb;
     vec2 uv = plane_uv_linear.xy * at.x + plane_uv_linear.zw * at.y + plane_uv_offset.xy;
-    vec2 texels = vec2(textureSize(plane_map, 0)) * (abs(plane_uv_linear.xy) + abs(plane_uv_linear.zw));
-    float level = log2(max(footprint * max(texels.x, texels.y), 1e-6));
-    return mat3(rec709_to_working) * (plane_colour.rgb * textureLod(plane_map, uv, level).rgb);
+    // Gradients: a driver's anisotropic filter may not expect a level.
+    vec2 width = footprint * (abs(plane_uv_linear.xy) + abs(plane_uv_linear.zw));
+    vec3 texel = textureGrad(plane_map, uv, vec2(width.x, 0.0), vec2(0.0, width.y)).rgb;
+    return mat3(rec709_to_working) * (plane_colour.rgb * texel);
 }
 
 // The light from a direction: that of the plane, if the ray meets it, in place of the environment's. A rough surface
