@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "content/demo/play/hierarchy.h"
@@ -57,7 +56,7 @@ render::Effects effects(const Options& options) {
 diffraction::DiffractionSettings diffraction_settings(const Options& options, Pace pace) {
     diffraction::DiffractionSettings settings;
     if (options.light_window != "auto") settings.window = math::parse_window(options.light_window);
-    if (pace == Pace::Still) settings.slices_per_frame = std::numeric_limits<int>::max();
+    settings.map_pace = pace == Pace::Still ? diffraction::MapPace::Whole : diffraction::MapPace::WholeUnderNewLight;
     return settings;
 }
 

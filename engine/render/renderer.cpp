@@ -377,12 +377,9 @@ void Renderer::draw_sky() {
 
 const gpu::Program& Renderer::program_of(ecs::World& world, const Draw& draw) {
     if (draw.type == nullptr) return surface_program(kPlainShader, draw.features);
-    const auto compiled = [&](gpu::ProgramDesc desc) -> const gpu::Program& {
-        add_defines(draw.features, desc);
-        return programs_.get(desc);
-    };
-    if (auto other = draw.type->other_program(world, draw.entity)) (void)compiled(*std::move(other));
-    return compiled(draw.type->program(world, draw.entity));
+    gpu::ProgramDesc desc = draw.type->program(world, draw.entity);
+    add_defines(draw.features, desc);
+    return programs_.get(desc);
 }
 
 const gpu::Program& Renderer::surface_program(const char* shader, SurfaceFeatures features) {

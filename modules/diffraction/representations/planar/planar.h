@@ -10,7 +10,7 @@
 namespace rowland::diffraction {
 
 /// A map over (azimuth, v_g), or with a lobe that is not flat (azimuth, v_g, v_h), that is filled at run time for a
-/// flat object. The stand-in shades the object meanwhile, and objects that are not flat.
+/// flat object. The stand-in shades objects that are not flat.
 struct PlanarSettings {
     PlanarMapSize size;                      ///< flat lobe
     std::optional<LobeMapSize> lobe_size{};  ///< other lobes
