@@ -69,6 +69,21 @@ TEST_F(LocalReflectionTest, AMirrorShowsThePlaneWhereItsRaysMeetIt) {
     EXPECT_LT(wrong, static_cast<int>(pixels.size()) / 12);
 }
 
+TEST_F(LocalReflectionTest, ThePlanesMapMayHaveLevelsAndAnAnisotropicFilter) {
+    auto map = std::make_shared<gpu::Texture>(
+        gpu::TextureDesc{.format = gpu::Format::RGBA32F, .width = 64, .height = 64, .levels = 0},
+        gpu::Sampling{.filter = gpu::Filter::Trilinear, .anisotropy = gpu::max_anisotropy()});
+    map->upload(std::span<const glm::vec4>(std::vector<glm::vec4>(64 * 64, glm::vec4(0.25F))));
+    map->generate_levels();
+    world_.get<StandardMaterial>(floor_).base_colour_texture.texture = map;
+    reflect(true);
+    const std::vector<float> shown = greens();
+    for (const Reflected& one : reflected())
+        if (one.floor && glm::length(one.floor->point) < 0.5) {
+            ASSERT_NEAR(shown[one.pixel], 0.25F, 0.005F);
+        }
+}
+
 TEST_F(LocalReflectionTest, ThePlaneIsLitByTheProbeAndTheLampAndHasItsShadow) {
     renderer_.set_probe(even_light(0.5F));
     const glm::vec3 toward = glm::normalize(glm::vec3(0.4F, 0.8F, -0.3F));
