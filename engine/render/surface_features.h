@@ -37,8 +37,9 @@ inline constexpr SurfaceFeatures kAmbientOcclusion = 1U << 27U;
 inline constexpr SurfaceFeatures kSoftShadows = 1U << 28U;
 inline constexpr SurfaceFeatures kLocalReflections = 1U << 29U;
 inline constexpr SurfaceFeatures kFromEye = 1U << 30U;  ///< of a surface's outline: as the camera sees it
-inline constexpr SurfaceFeatures kLights = kDirectionalLights | kSeveralDirectionalLights | kPunctualLights | kShadows |
-                                           kKeyLights | kAmbientOcclusion | kSoftShadows | kLocalReflections;
+inline constexpr SurfaceFeatures kEffects = kAmbientOcclusion | kSoftShadows | kLocalReflections;
+inline constexpr SurfaceFeatures kLights =
+    kDirectionalLights | kSeveralDirectionalLights | kPunctualLights | kShadows | kKeyLights | kEffects;
 }  // namespace feature
 
 /// A texture of a surface. Its index in kSurfaceMaps is that of its unit from kFirstMapUnit on and of its transform in
