@@ -15,9 +15,12 @@ float ambient_visibility_at(vec3 position) {
 #endif
 }
 
+// Not textureSize(plane_map, level), which llvmpipe takes from one pixel's level for its neighbours.
+ivec2 plane_map_size(int level) { return max(textureSize(plane_map, 0) >> level, ivec2(1)); }
+
 // The map repeats.
 vec3 plane_texel(ivec2 texel, int level) {
-    ivec2 size = textureSize(plane_map, level);
+    ivec2 size = plane_map_size(level);
     return texelFetch(plane_map, (texel % size + size) % size, level).rgb;
 }
 
@@ -28,7 +31,7 @@ vec3 plane_albedo(vec2 at, float footprint) {
     vec2 texels = vec2(textureSize(plane_map, 0)) * (abs(plane_uv_linear.xy) + abs(plane_uv_linear.zw));
     float width = footprint * max(texels.x, texels.y);
     int level = clamp(int(log2(max(width, 1.0)) + 0.5), 0, textureQueryLevels(plane_map) - 1);
-    vec2 position = uv * vec2(textureSize(plane_map, level)) - 0.5;
+    vec2 position = uv * vec2(plane_map_size(level)) - 0.5;
     ivec2 corner = ivec2(floor(position));
     vec2 part = position - vec2(corner);
     vec3 texel = mix(mix(plane_texel(corner, level), plane_texel(corner + ivec2(1, 0), level), part.x),
