@@ -32,7 +32,9 @@ glm::dvec3 in_world(const glm::dvec3& normal, const glm::mat4& object_to_world) 
 
 GpuPlanar::GpuPlanar(const CookedMaterial& cooked, const PlanarTables& tables, const glm::dmat3& xyz_to_working)
     : GpuMaterial(cooked, xyz_to_working),
-      stand_in_(cooked, tables.stand_in, xyz_to_working),
+      stand_in_([material = this->cooked(), table = tables.stand_in, xyz_to_working] {
+          return std::make_unique<const GpuArc>(*material, *table, xyz_to_working);
+      }),
       fill_(planar_filling(tables, working_kernel(), working_zero_order(), cooked.material.grating, xyz_to_working)),
       lobe_map_(tables.lobe.has_value()),
       half_turn_(tables.lobe && tables.lobe->pattern.even) {}
@@ -62,7 +64,7 @@ void GpuPlanar::update(const SurfaceObject& object, SurfaceLight& light, Surface
     if (data.has_map || !data.stand_in_is_old) return;
     SurfaceObject changed = object;
     changed.changed = true;
-    stand_in_.update(changed, light, state);
+    (*stand_in_)->update(changed, light, state);
     data.stand_in_is_old = false;
 }
 
@@ -72,7 +74,7 @@ bool GpuPlanar::filling(const SurfaceState& state) const {
 }
 
 void GpuPlanar::describe(const SurfaceState& state, gpu::ProgramDesc& desc) const {
-    if (!data_of(state).has_map) return stand_in_.describe(state, desc);
+    if (!data_of(state).has_map) return (*stand_in_)->describe(state, desc);
     // The vertices do not read a groove texture.
     if (cooked()->material.quality.map_at_vertices && !state.grooves)
         set_vertex_shader(desc, "representations/planar/planar.vert.glsl");
@@ -87,7 +89,7 @@ void GpuPlanar::bind_tables(const gpu::Program& program, const SurfaceState& sta
     if (data.has_map)
         data.map.bind(program);
     else
-        stand_in_.bind_tables(program, state);
+        (*stand_in_)->bind_tables(program, state);
 }
 
 }  // namespace rowland::diffraction

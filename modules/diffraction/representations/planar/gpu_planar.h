@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "engine/core/lazy.h"
 #include "modules/diffraction/representations/arc/gpu_arc.h"
 #include "modules/diffraction/representations/planar/planar.h"
 #include "modules/diffraction/runtime/gpu_material.h"
@@ -37,7 +38,7 @@ class GpuPlanar final : public GpuMaterial {
     void find_flatness(const SurfaceObject& object, const SurfaceState& state, PlanarData& data) const;
     void update_map(const SurfaceObject& object, const SurfaceLight& light, PlanarData& data) const;
 
-    GpuArc stand_in_;
+    Lazy<std::unique_ptr<const GpuArc>> stand_in_;
     std::shared_ptr<const FillMap> fill_;
     bool lobe_map_;   ///< of a lobe that is not flat
     bool half_turn_;  ///< such a map has half of the azimuths

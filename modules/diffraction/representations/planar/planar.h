@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "engine/core/lazy.h"
 #include "modules/diffraction/bake/diffraction_pattern.h"
 #include "modules/diffraction/representations/arc/arc_table.h"
 #include "modules/diffraction/representations/planar/lobe_map.h"
@@ -32,7 +33,7 @@ struct PlanarLobe {
 struct PlanarTables {
     PlanarMapSize size;
     std::optional<PlanarLobe> lobe{};  ///< of a lobe that is not flat
-    ArcTable stand_in;
+    Lazy<ArcTable> stand_in;           ///< takes longer to bake than a map to fill, and flat objects do not read it
 };
 
 PlanarTables bake(const Grating& grating, const PlanarSettings& settings);

@@ -214,6 +214,13 @@ TEST_F(PlanarLobes, ACoarseMapIsShownUntilTheFullOneIsThere) {
     EXPECT_EQ(data().map.fills_begun(), 1);
 }
 
+TEST_F(PlanarLobes, AFlatObjectNeedsNoStandIn) {
+    const CookedMaterial cooked = cook_planar(kFoil, kSmallLobeMap);
+    show(cooked);
+    draw();
+    EXPECT_FALSE(std::get<PlanarTables>(cooked.tables).stand_in.is_computed());
+}
+
 TEST_F(PlanarLobes, AMeshThatIsNotFlatIsShadedAsArc) {
     mesh_ = crooked_triangle();
     const CookedMaterial cooked = cook_planar(kFoil, kSmallLobeMap);
@@ -221,7 +228,7 @@ TEST_F(PlanarLobes, AMeshThatIsNotFlatIsShadedAsArc) {
     const std::vector<glm::vec4> planar = draw();
     EXPECT_EQ(data().map.fills_begun(), 0);
     CookedMaterial arc = cooked;
-    arc.tables = std::get<PlanarTables>(cooked.tables).stand_in;
+    arc.tables = *std::get<PlanarTables>(cooked.tables).stand_in;
     use(arc);
     EXPECT_EQ(draw(), planar);
 }
