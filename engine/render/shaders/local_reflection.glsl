@@ -15,12 +15,28 @@ float ambient_visibility_at(vec3 position) {
 #endif
 }
 
+// Not textureSize(plane_map, level), which llvmpipe takes from one pixel's level for its neighbours.
+ivec2 plane_map_size(int level) { return max(textureSize(plane_map, 0) >> level, ivec2(1)); }
+
+// The map repeats.
+vec3 plane_texel(ivec2 texel, int level) {
+    ivec2 size = plane_map_size(level);
+    return texelFetch(plane_map, (texel % size + size) % size, level).rgb;
+}
+
+// Filtered here: where neighbours meet no plane, an anisotropic filter has no gradients, and llvmpipe's then never ends.
 vec3 plane_albedo(vec2 at, float footprint) {
     if (plane_size.w == 0.0) return plane_colour.rgb;
     vec2 uv = plane_uv_linear.xy * at.x + plane_uv_linear.zw * at.y + plane_uv_offset.xy;
-    // Gradients: a driver's anisotropic filter may not expect a level.
-    vec2 width = footprint * (abs(plane_uv_linear.xy) + abs(plane_uv_linear.zw));
-    vec3 texel = textureGrad(plane_map, uv, vec2(width.x, 0.0), vec2(0.0, width.y)).rgb;
+    vec2 texels = vec2(textureSize(plane_map, 0)) * (abs(plane_uv_linear.xy) + abs(plane_uv_linear.zw));
+    float width = footprint * max(texels.x, texels.y);
+    int level = clamp(int(log2(max(width, 1.0)) + 0.5), 0, textureQueryLevels(plane_map) - 1);
+    vec2 position = uv * vec2(plane_map_size(level)) - 0.5;
+    ivec2 corner = ivec2(floor(position));
+    vec2 part = position - vec2(corner);
+    vec3 texel = mix(mix(plane_texel(corner, level), plane_texel(corner + ivec2(1, 0), level), part.x),
+                     mix(plane_texel(corner + ivec2(0, 1), level), plane_texel(corner + ivec2(1, 1), level), part.x),
+                     part.y);
     return mat3(rec709_to_working) * (plane_colour.rgb * texel);
 }
 

@@ -14,9 +14,17 @@ class LocalReflectionTest : public test::TracedSceneTest {
     LocalReflectionTest() {
         renderer_.set_probe(even_light(1.0F));
         world_.view<MeshInstance>().each([&](ecs::Entity entity, const MeshInstance&) { floor_ = entity; });
-        world_.get<StandardMaterial>(floor_).base_colour_texture = texture(2, kTexels);
+        world_.get<StandardMaterial>(floor_).base_colour_texture = texture(kMap, quarters());
         world_.add(floor_, top_of(*world_.get<MeshInstance>(floor_).mesh));
         add_sphere({0.0F, 0.05F, 0.0F}, 0.05F, kMirror);
+    }
+    /// kTexels as a map of more texels, between which little is filtered.
+    static std::vector<glm::vec4> quarters() {
+        std::vector<glm::vec4> texels;
+        for (int row = 0; row < kMap; ++row)
+            for (int column = 0; column < kMap; ++column)
+                texels.push_back(kTexels[static_cast<std::size_t>(2 * (2 * row / kMap) + 2 * column / kMap)]);
+        return texels;
     }
     void reflect(bool on) { renderer_.set_effects({.local_reflections = on}); }
     /// The floor's green albedo: texture coordinates grow with x and against z.
@@ -46,6 +54,7 @@ class LocalReflectionTest : public test::TracedSceneTest {
         return result;
     }
 
+    static constexpr int kMap = 128;
     static inline const std::vector<glm::vec4> kTexels = {
         {0.1F, 0.1F, 0.1F, 1.0F}, {0.3F, 0.3F, 0.3F, 1.0F}, {0.5F, 0.5F, 0.5F, 1.0F}, {0.7F, 0.7F, 0.7F, 1.0F}};
     const StandardMaterial kMirror{.base_colour = glm::vec3(1.0F), .metallic = 1.0F, .roughness = 0.0F};
