@@ -44,8 +44,6 @@ void write_captures(Session& session, const Options& options) {
     const int frames = options.frames.value_or(1);
     for (int frame = 0; frame < frames; ++frame) {
         if (frame > 0) pass_time(session.play(), kFramesPerSecond);
-        // Maps are filled for what stands still.
-        if (frames == 1) session.draw(0.0F);
         session.draw(1.0F / kFramesPerSecond);
         write_captures_of(session, options, frame, frames);
     }
@@ -63,8 +61,6 @@ void write_tour(Session& session, const Options& options) {
         if (probe != session.probe_path()) session.use_probe(probe);
         if (frame > 0) pass_time(session.play(), kTourFramesPerSecond);
         const scene::Camera camera = tour(views, frames > 1 ? static_cast<double>(frame) / (frames - 1) : 0.0);
-        // Maps are filled for what stands still.
-        session.draw_from(camera, 0.0F);
         session.draw_from(camera, 1.0F / kTourFramesPerSecond);
         const std::string name = fmt::format("flight_{:02}_{}.png", frame, probe.stem().string());
         view::write_display_capture(session.picture().encoded(), options.output_folder / name);

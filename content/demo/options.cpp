@@ -51,6 +51,9 @@ void add_options(CLI::App& app, Options& options) {
         ->check(finite(0.0, 1.0));
     app.add_flag("--auto-exposure", options.auto_exposure, "Expose for the picture's mean; --exposure is added");
     app.add_flag("--dither", options.dither, "Hide the steps of 8-bit gradients");
+    app.add_flag("--no-ambient-occlusion{false}", options.ambient_occlusion, "Do not darken corners and contacts");
+    app.add_flag("--no-soft-shadows{false}", options.soft_shadows, "Give shadows sharp edges");
+    app.add_flag("--no-local-reflections{false}", options.local_reflections, "Let mirrors show only the probe");
     app.add_flag("--sun", options.sun, "Add a lamp that casts shadows");
     app.add_flag("--list-views", options.list_views, "List the views of the display and stop");
     app.add_option("--capture-linear", options.capture_linear, "Write the scene-linear picture as OpenEXR");

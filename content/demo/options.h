@@ -25,7 +25,10 @@ struct Options : app::CommonOptions {
     float vignette = 0.0F;  ///< fraction of the light lost in the corners, on top of the lens' own falloff
     bool auto_exposure = false;
     bool dither = false;
-    bool sun = false;  ///< a lamp that casts shadows
+    bool ambient_occlusion = true;  ///< and contact shadows
+    bool soft_shadows = true;
+    bool local_reflections = true;  ///< of the table
+    bool sun = false;               ///< a lamp that casts shadows
     bool list_views = false;
     std::optional<std::filesystem::path> capture_linear;
     std::optional<std::filesystem::path> benchmark;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "content/demo/play/hierarchy.h"
@@ -46,10 +45,18 @@ post::PostSettings post_settings(const Options& options) {
     return settings;
 }
 
+render::Effects effects(const Options& options) {
+    render::Effects effects;
+    if (options.ambient_occlusion) effects.ambient_occlusion = render::AmbientOcclusionSettings{};
+    if (options.soft_shadows) effects.soft_shadows = render::SoftShadowSettings{};
+    effects.local_reflections = options.local_reflections;
+    return effects;
+}
+
 diffraction::DiffractionSettings diffraction_settings(const Options& options, Pace pace) {
     diffraction::DiffractionSettings settings;
     if (options.light_window != "auto") settings.window = math::parse_window(options.light_window);
-    if (pace == Pace::Still) settings.slices_per_frame = std::numeric_limits<int>::max();
+    settings.map_pace = pace == Pace::Still ? diffraction::MapPace::Whole : diffraction::MapPace::WholeUnderNewLight;
     return settings;
 }
 
@@ -58,6 +65,7 @@ std::unique_ptr<view::Picture> open_picture(const Options& options, const post::
                                             Pace pace) {
     auto picture = std::make_unique<view::Picture>(config, options.view, size);
     picture->post_settings() = post_settings(options);
+    picture->renderer().set_effects(effects(options));
     modules::register_material_types(picture->renderer(), {.diffraction = diffraction_settings(options, pace)});
     return picture;
 }

@@ -21,8 +21,8 @@ namespace rowland::demo {
 
 /// Whether maps may fill over several frames.
 enum class Pace {
-    Fluent,  ///< for a window: incrementally
-    Still,   ///< for pictures: a map is full in the second frame in which nothing moves
+    Fluent,  ///< for a window: while an object turns, coarse maps follow it
+    Still,   ///< for pictures: maps are full in every frame
 };
 
 /// The setting of a side's looks.

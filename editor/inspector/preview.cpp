@@ -2,7 +2,6 @@
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
-#include <limits>
 #include <utility>
 
 #include "editor/inspector/pick_point.h"
@@ -63,7 +62,7 @@ scene::Camera opening_camera() {
 
 Preview::Side::Side(const post::OcioConfig& config, bool still) : picture(config, {}, {1, 1}) {
     diffraction::DiffractionSettings settings;
-    if (still) settings.slices_per_frame = std::numeric_limits<int>::max();
+    if (still) settings.map_pace = diffraction::MapPace::Whole;
     modules::register_material_types(picture.renderer(), {.diffraction = settings});
     entity = world.create();
     world.add(entity, scene::Transform{});

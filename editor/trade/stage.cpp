@@ -3,7 +3,6 @@
 #include <epoxy/gl.h>
 
 #include <chrono>
-#include <limits>
 #include <utility>
 
 #include "editor/trade/picture_scene.h"
@@ -49,7 +48,7 @@ Stage::Stage(glm::ivec2 size, const scene::Camera& camera, bool directional_ligh
       display_(post_shaders_, post::DisplayTransform(config_)),
       post_stack_(post_shaders_),
       disc_(world_.create()) {
-    modules::register_material_types(renderer_, {.diffraction = {.slices_per_frame = std::numeric_limits<int>::max()}});
+    modules::register_material_types(renderer_, {.diffraction = {.map_pace = diffraction::MapPace::Whole}});
     renderer_.add_material_type(std::make_unique<LightLoopType>());
     world_.add(disc_, scene::Transform{});
     world_.add(disc_, render::make_mesh_instance(disc_mesh()));

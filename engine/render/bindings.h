@@ -8,10 +8,13 @@ inline constexpr unsigned kBrdfUnit = 1;
 inline constexpr unsigned kShadowUnit = 2;
 inline constexpr unsigned kFirstMapUnit = 3;  ///< of the five kSurfaceMaps
 inline constexpr unsigned kKeyIrradianceUnit = 15;
+inline constexpr unsigned kVisibilityUnit = 16;
+inline constexpr unsigned kPlaneMapUnit = 17;
 
 inline constexpr unsigned kFrameBinding = 0;
 inline constexpr unsigned kObjectBinding = 1;
 inline constexpr unsigned kLightBinding = 2;
+inline constexpr unsigned kReflectionBinding = 3;
 inline constexpr unsigned kJointBinding = 3;  ///< shader storage, whose numbers are separate from uniform blocks
 
 }  // namespace rowland::render

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <numbers>
+#include <span>
 
 #include "engine/core/parallel.h"
 
@@ -69,6 +70,14 @@ std::vector<glm::vec2> bake_brdf_table(int size) {
                 integrate((static_cast<float>(column) + 0.5F) / static_cast<float>(size), roughness);
     });
     return table;
+}
+
+gpu::Texture brdf_texture() {
+    constexpr int kSize = 64;
+    gpu::Texture texture({.format = gpu::Format::RG16F, .width = kSize, .height = kSize});
+    const std::vector<glm::vec2> table = bake_brdf_table(kSize);
+    texture.upload(std::span<const float>(&table[0].x, 2 * table.size()));
+    return texture;
 }
 
 }  // namespace rowland::render

@@ -31,10 +31,6 @@ void MaterialType::attach(ecs::World& /*world*/, ecs::Entity /*entity*/, const n
     ROWLAND_CHECK(false, "attach() on a material type without a glTF extension, for " + pointer);
 }
 
-std::optional<gpu::ProgramDesc> MaterialType::other_program(ecs::World& /*world*/, ecs::Entity /*entity*/) const {
-    return std::nullopt;
-}
-
 const MaterialType* owner_of(ecs::World& world, ecs::Entity entity,
                              std::span<const std::unique_ptr<MaterialType>> types, const std::string& file,
                              const std::string& pointer) {

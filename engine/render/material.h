@@ -101,8 +101,6 @@ class MaterialType {
     virtual bool owns(ecs::World& world, ecs::Entity entity) const = 0;
     /// The program that draws an owned entity; equal descriptions share one.
     virtual gpu::ProgramDesc program(ecs::World& world, ecs::Entity entity) const = 0;
-    /// The program that may replace it in a later frame though the scene stays as it is. It is compiled with it.
-    virtual std::optional<gpu::ProgramDesc> other_program(ecs::World& world, ecs::Entity entity) const;
     /// Once a frame, before anything is drawn: updates per-object data.
     virtual void update(ecs::World& world, const FrameLight& light) = 0;
     /// Binds what an owned entity's program reads. The program is in use.

@@ -14,25 +14,19 @@
 #include "engine/lighting/key_lights.h"
 #include "engine/render/bindings.h"
 #include "engine/render/brdf_table.h"
+#include "engine/render/draw_state.h"
 #include "engine/render/shader_files.h"
+#include "engine/render/soft_shadow.h"
 #include "engine/render/world_bounds.h"
 
 namespace rowland::render {
 
 namespace {
 
-constexpr int kBrdfTableSize = 64;
 constexpr const char* kPlainShader = "plain";
 constexpr const char* kShadowShader = "shadow";
 // For surfaces whose slope changes within a texel: there the lift in direct_light.glsl is not enough.
 constexpr float kShadowSlopeBias = 1.0F;
-
-gpu::Texture make_brdf_texture() {
-    gpu::Texture texture({.format = gpu::Format::RG16F, .width = kBrdfTableSize, .height = kBrdfTableSize});
-    const std::vector<glm::vec2> table = bake_brdf_table(kBrdfTableSize);
-    texture.upload(std::span<const float>(&table[0].x, 2 * table.size()));
-    return texture;
-}
 
 gpu::ProgramDesc shader_pair(const std::string& name) {
     gpu::ProgramDesc desc;
@@ -50,16 +44,6 @@ std::size_t append(std::vector<std::byte>& bytes, const T* values, std::size_t c
     return offset;
 }
 
-/// The pixels that a draw may change; null: all.
-std::optional<gpu::Scissor> scissor_of(const Draw& draw, glm::ivec2 size) {
-    if (draw.columns == nullptr) return std::nullopt;
-    const auto edge = [&](float fraction) {
-        return static_cast<int>(std::lround(std::clamp(fraction, 0.0F, 1.0F) * static_cast<float>(size.x)));
-    };
-    const int begin = edge(draw.columns->begin);
-    return gpu::Scissor{.x = begin, .y = 0, .width = std::max(edge(draw.columns->end) - begin, 0), .height = size.y};
-}
-
 glm::vec3 centre_of(const scene::Bounds& box) {
     return 0.5F * (box.minimum + box.maximum);
 }
@@ -69,9 +53,11 @@ glm::vec3 centre_of(const scene::Bounds& box) {
 /// The state of one call of render().
 struct Renderer::Frame {
     const scene::Camera* camera = nullptr;
+    glm::ivec2 size{1};
     float aspect = 1.0F;
     bool into_halves = false;  ///< the target holds half floats
     Shading shading = Shading::Full;
+    bool occlusion = false;
     glm::mat4 view_projection{1.0F};
     DrawList list;
     std::vector<Draw*> used;  ///< those that need an ObjectBlock
@@ -87,7 +73,7 @@ struct Renderer::Frame {
 Renderer::Renderer(const glm::dmat3& xyz_to_working)
     : xyz_to_working_(xyz_to_working),
       rec709_to_working_(xyz_to_working * colour::rec709_to_xyz()),
-      brdf_table_(make_brdf_texture()) {
+      brdf_table_(brdf_texture()) {
     programs_.library().add_embedded(shader_files());
     // Filtering across cube faces is off by default in OpenGL and shows as seams.
     glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
@@ -122,6 +108,12 @@ void Renderer::set_shadow_map_size(int size) {
     shadow_map_size_ = size;
 }
 
+void Renderer::set_effects(const Effects& effects) {
+    // Soft shadows read the map's depth, others compare with it.
+    if (effects.soft_shadows.has_value() != effects_.soft_shadows.has_value()) shadow_map_.reset();
+    effects_ = effects;
+}
+
 void Renderer::reload_shaders(const std::filesystem::path& source_tree) {
     programs_.reload(source_tree);
     surface_programs_.clear();
@@ -135,17 +127,22 @@ void Renderer::render(ecs::World& world, const scene::Camera& camera, const gpu:
     frame.aspect = static_cast<float>(size.x) / static_cast<float>(size.y);
     frame.into_halves = target.holds_halves();
     frame.shading = shading;
+    frame.occlusion = effects_.ambient_occlusion && shading == Shading::Full;
+    if (!frame.occlusion) occlusion_.reset();
+    frame.size = size;
     frame.view_projection = camera.projection(frame.aspect) * camera.view();
     report_ = {};
 
     update_light(world);
     if (shading == Shading::Full)
         for (const auto& type : types_) type->update(world, light_);
+    update_reflection(world, frame);
     select_draws(world, frame);
     select_casters(frame);
     upload(frame);
     bind_frame(frame);
     draw_shadow_map(frame);
+    draw_occlusion(frame);
     {
         const gpu::PassTimes::Scope scope(times_, "opaque");
         target.bind();
@@ -189,9 +186,27 @@ void Renderer::update_ambient() {
     probe_changed_ = false;
 }
 
+void Renderer::update_reflection(ecs::World& world, const Frame& frame) {
+    if (effects_.local_reflections && frame.shading == Shading::Full) {
+        if (!reflection_) reflection_.emplace();
+        const float height = static_cast<float>(frame.size.y);
+        const PlaneLight light{ambient_, light_.key_lights(), lights_, glm::mat3(rec709_to_working_)};
+        if (reflection_->update(world, light, frame.camera->vertical_field_of_view / height)) return;
+    }
+    reflection_.reset();
+}
+
+SurfaceFeatures Renderer::light_features(const Frame& frame) const {
+    SurfaceFeatures features = lights_.features();
+    if (!light_.key_lights().empty()) features |= feature::kKeyLights;
+    if (frame.occlusion) features |= feature::kAmbientOcclusion;
+    if (lights_.shadow_light && effects_.soft_shadows) features |= feature::kSoftShadows;
+    if (reflection_) features |= feature::kLocalReflections;
+    return features;
+}
+
 void Renderer::select_draws(ecs::World& world, Frame& frame) {
-    const SurfaceFeatures key_lights = light_.key_lights().empty() ? 0 : feature::kKeyLights;
-    frame.list = gather_draws(world, types_, lights_.features() | key_lights);
+    frame.list = gather_draws(world, types_, light_features(frame));
     const Frustum frustum(frame.view_projection);
     const glm::vec3 forward = glm::normalize(frame.camera->target - frame.camera->eye);
     for (Draw& draw : frame.list.draws) {
@@ -201,6 +216,8 @@ void Renderer::select_draws(ecs::World& world, Frame& frame) {
         }
         // Also for what is not seen yet, so that no later frame waits for a compiler.
         const gpu::Program& program = program_of(world, draw);
+        if (frame.occlusion && (draw.features & feature::kAlphaBlend) == 0)
+            draw.depth_program = &surface_program(kShadowShader, of_shadow(draw.features) | feature::kFromEye);
         if (!frustum.may_see(draw.bounds)) {
             ++report_.culled;
             continue;
@@ -252,7 +269,11 @@ FrameBlock Renderer::frame_block(const Frame& frame) const {
                                   0.5F * static_cast<float>(environment_->map.size().x));
     block.shadow = glm::vec4(frame.shadow.texel_m, 1.0F / static_cast<float>(shadow_map_size_),
                              frame.into_halves ? 1.0F : 0.0F, 0.0F);
-    if (const auto& dome = light_.probe->dome) block.dome = glm::vec4(dome->height_m, dome->radius_m, 0.0F, 0.0F);
+    if (effects_.soft_shadows)
+        block.shadow.w = penumbra_over_depth(frame.shadow, shadow_map_size_, effects_.soft_shadows->angular_radius);
+    const glm::vec2 pixel = 1.0F / glm::vec2(frame.size);
+    block.dome = glm::vec4(0.0F, 0.0F, pixel);
+    if (const auto& dome = light_.probe->dome) block.dome = glm::vec4(dome->height_m, dome->radius_m, pixel);
     return block;
 }
 
@@ -282,6 +303,7 @@ void Renderer::bind_frame(const Frame& frame) const {
     if (!frame.list.joints.empty())
         frame_data_.bind_storage(kJointBinding, frame.joints_offset, frame.list.joints.size() * sizeof(glm::mat4));
     if (key_irradiance_) key_irradiance_->map.bind(kKeyIrradianceUnit);
+    if (reflection_) reflection_->bind();
     environment_->map.bind(kEnvironmentUnit);
     brdf_table_.bind(kBrdfUnit);
 }
@@ -294,19 +316,38 @@ void Renderer::draw_shadow_map(Frame& frame) {
                                                  .height = shadow_map_size_,
                                                  .colours = {},
                                                  .depth = true,
-                                                 .depth_sampling = {.compare_depth = true}});
+                                                 .depth_sampling = {.compare_depth = !effects_.soft_shadows}});
     shadow_map_->bind();
     shadow_map_->clear_depth();
     gpu::apply({.cull = gpu::Cull::None, .slope_bias = kShadowSlopeBias});
-    for (const Draw* draw : frame.casters) {
-        frame_data_.bind_uniform(kObjectBinding, draw->block_offset, sizeof(ObjectBlock));
-        draw->shadow_program->use();
-        if ((of_shadow(draw->features) & feature::kBaseColourMap) != 0)
-            draw->material->base_colour_texture.texture->bind(kFirstMapUnit);
-        draw->mesh->draw();
-    }
+    for (const Draw* draw : frame.casters) draw_outline(*draw, *draw->shadow_program);
     report_.shadow_drawn = static_cast<int>(frame.casters.size());
     shadow_map_->depth().bind(kShadowUnit);
+}
+
+void Renderer::draw_outline(const Draw& draw, const gpu::Program& program) const {
+    frame_data_.bind_uniform(kObjectBinding, draw.block_offset, sizeof(ObjectBlock));
+    program.use();
+    if ((of_shadow(draw.features) & feature::kBaseColourMap) != 0)
+        draw.material->base_colour_texture.texture->bind(kFirstMapUnit);
+    draw.mesh->draw();
+}
+
+void Renderer::draw_occlusion(const Frame& frame) {
+    if (!frame.occlusion) return;
+    const gpu::PassTimes::Scope scope(times_, "occlusion");
+    if (!occlusion_) occlusion_.emplace();
+    const glm::ivec2 depth_size = occlusion_->begin(frame.size).size();
+    for (const Draw* draw : frame.opaque) {
+        const auto state = state_of(*draw, depth_size);
+        if (!state) continue;
+        gpu::apply(*state);
+        draw_outline(*draw, *draw->depth_program);
+    }
+    occlusion_->draw(programs_, *frame.camera, frame.aspect, lights_.shadow_light, *effects_.ambient_occlusion);
+    // The pass reads its textures where the surfaces read the environment.
+    environment_->map.bind(kEnvironmentUnit);
+    occlusion_->visibility().bind(kVisibilityUnit);
 }
 
 void Renderer::bind_surface(const Draw& draw) const {
@@ -317,14 +358,9 @@ void Renderer::bind_surface(const Draw& draw) const {
 
 void Renderer::draw_pass(ecs::World& world, const std::vector<const Draw*>& draws, glm::ivec2 size) {
     for (const Draw* draw : draws) {
-        const bool blends = (draw->features & feature::kAlphaBlend) != 0;
-        const std::optional<gpu::Scissor> scissor = scissor_of(*draw, size);
-        if (scissor && scissor->width == 0) continue;
-        gpu::apply({.depth_write = !blends,
-                    .cull = draw->material->double_sided ? gpu::Cull::None : gpu::Cull::Back,
-                    .blend = blends ? gpu::Blend::Over : gpu::Blend::Off,
-                    .front = draw->mirrored ? gpu::FrontFace::Clockwise : gpu::FrontFace::CounterClockwise,
-                    .scissor = scissor});
+        const auto state = state_of(*draw, size);
+        if (!state) continue;
+        gpu::apply(*state);
         frame_data_.bind_uniform(kObjectBinding, draw->block_offset, sizeof(ObjectBlock));
         draw->program->use();
         bind_surface(*draw);
@@ -342,12 +378,9 @@ void Renderer::draw_sky() {
 
 const gpu::Program& Renderer::program_of(ecs::World& world, const Draw& draw) {
     if (draw.type == nullptr) return surface_program(kPlainShader, draw.features);
-    const auto compiled = [&](gpu::ProgramDesc desc) -> const gpu::Program& {
-        add_defines(draw.features, desc);
-        return programs_.get(desc);
-    };
-    if (auto other = draw.type->other_program(world, draw.entity)) (void)compiled(*std::move(other));
-    return compiled(draw.type->program(world, draw.entity));
+    gpu::ProgramDesc desc = draw.type->program(world, draw.entity);
+    add_defines(draw.features, desc);
+    return programs_.get(desc);
 }
 
 const gpu::Program& Renderer::surface_program(const char* shader, SurfaceFeatures features) {

@@ -19,8 +19,11 @@
 #include "engine/gpu/vertex_array.h"
 #include "engine/lighting/ambient.h"
 #include "engine/lighting/light_probe.h"
+#include "engine/render/ambient_occlusion.h"
 #include "engine/render/draw_list.h"
+#include "engine/render/effects.h"
 #include "engine/render/light_maps.h"
+#include "engine/render/local_reflection.h"
 #include "engine/render/material.h"
 #include "engine/render/program_cache.h"
 #include "engine/render/scene_lights.h"
@@ -66,8 +69,11 @@ class Renderer {
     void use_key_lights(bool use);
     /// Texels along a side of the shadow map, at least 32; 2048 by default.
     void set_shadow_map_size(int size);
-    /// Where the times of the passes "shadow", "opaque", "sky" and "blend" are written; null, the default: nowhere. The
-    /// owner calls begin_frame(). Must outlive the draws.
+    /// The effects of the next frames; none by default.
+    void set_effects(const Effects& effects);
+    const Effects& effects() const { return effects_; }
+    /// Where the times of the passes "shadow", "occlusion", "opaque", "sky" and "blend" are written; null, the default:
+    /// nowhere. The owner calls begin_frame(). Must outlive the draws.
     void set_pass_times(gpu::PassTimes* times) { times_ = times; }
     /// Rebuilds all programs in use, from `source_tree` where it has their files. If one does not compile, all stay as
     /// they were and its Error (system) with file and line is thrown.
@@ -86,6 +92,7 @@ class Renderer {
  private:
     struct Frame;
 
+    SurfaceFeatures light_features(const Frame& frame) const;
     void update_light(ecs::World& world);
     void update_ambient();
     void select_draws(ecs::World& world, Frame& frame);
@@ -94,6 +101,9 @@ class Renderer {
     void upload(Frame& frame);
     void bind_frame(const Frame& frame) const;
     void draw_shadow_map(Frame& frame);
+    void draw_occlusion(const Frame& frame);
+    void update_reflection(ecs::World& world, const Frame& frame);
+    void draw_outline(const Draw& draw, const gpu::Program& program) const;
     void draw_pass(ecs::World& world, const std::vector<const Draw*>& draws, glm::ivec2 size);
     void draw_sky();
     void bind_surface(const Draw& draw) const;
@@ -114,6 +124,9 @@ class Renderer {
     std::optional<LightMap> key_irradiance_;  ///< none without key lights
     std::optional<gpu::Framebuffer> shadow_map_;
     int shadow_map_size_ = 2048;
+    Effects effects_;
+    std::optional<AmbientOcclusion> occlusion_;
+    std::optional<LocalReflection> reflection_;
 
     bool probe_changed_ = false;  ///< or whether its key lights are apart
     FrameLight light_;

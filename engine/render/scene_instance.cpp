@@ -8,6 +8,7 @@
 
 #include "engine/core/check.h"
 #include "engine/render/gpu_mesh.h"
+#include "engine/render/local_reflection.h"
 #include "engine/render/surface_textures.h"
 #include "engine/scene/node_label.h"
 #include "engine/scene/skin.h"
@@ -52,6 +53,8 @@ class Builder {
         const scene::MaterialDescription* material =
             imported.material ? &scene_.materials.at(*imported.material) : nullptr;
         world_.add(entity, make_material(material, textures_));
+        if (scene::is_marked(scene_.nodes.at(imported.node).extras, "reflected_top"))
+            world_.add(entity, top_of(scene_.meshes[imported.mesh]));
         if (material != nullptr) attach_extensions(entity, *material, *imported.material);
     }
 

@@ -8,7 +8,7 @@ namespace rowland::render {
 
 namespace {
 
-constexpr std::array<std::pair<SurfaceFeatures, const char*>, 13> kSwitches = {
+constexpr std::array<std::pair<SurfaceFeatures, const char*>, 17> kSwitches = {
     {{feature::kColours, "HAS_COLOURS"},
      {feature::kSkinned, "SKINNED"},
      {feature::kTextureTransform, "TEXTURE_TRANSFORM"},
@@ -21,7 +21,11 @@ constexpr std::array<std::pair<SurfaceFeatures, const char*>, 13> kSwitches = {
      {feature::kSeveralDirectionalLights, "SEVERAL_DIRECTIONAL_LIGHTS"},
      {feature::kPunctualLights, "PUNCTUAL_LIGHTS"},
      {feature::kShadows, "SHADOWS"},
-     {feature::kKeyLights, "KEY_LIGHTS"}}};
+     {feature::kKeyLights, "KEY_LIGHTS"},
+     {feature::kAmbientOcclusion, "AMBIENT_OCCLUSION"},
+     {feature::kSoftShadows, "SOFT_SHADOWS"},
+     {feature::kLocalReflections, "LOCAL_REFLECTIONS"},
+     {feature::kFromEye, "FROM_EYE"}}};
 
 bool is_identity(const scene::TextureTransform& transform) {
     return transform.offset == glm::vec2(0.0F) && transform.rotation == 0.0F && transform.scale == glm::vec2(1.0F);
@@ -61,7 +65,9 @@ SurfaceFeatures features_of(const StandardMaterial& material, const GpuMesh& mes
     if (material.double_sided) features |= feature::kDoubleSided;
     if (material.clear_coat > 0.0F) features |= feature::kClearCoat;
     if (material.alpha_mode == scene::AlphaMode::Mask) features |= feature::kAlphaMask;
-    if (material.alpha_mode == scene::AlphaMode::Blend) features |= feature::kAlphaBlend;
+    // What blends is not in the depth that occlusion is computed from.
+    if (material.alpha_mode == scene::AlphaMode::Blend)
+        features = (features | feature::kAlphaBlend) & ~feature::kAmbientOcclusion;
     return material.unlit ? without_light(features) : features;
 }
 

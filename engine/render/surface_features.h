@@ -33,8 +33,13 @@ inline constexpr SurfaceFeatures kShadows = 1U << 23U;
 inline constexpr SurfaceFeatures kSeveralDirectionalLights = 1U << 24U;
 inline constexpr SurfaceFeatures kKeyLights = 1U << 25U;
 inline constexpr SurfaceFeatures kClearCoat = 1U << 26U;
+inline constexpr SurfaceFeatures kAmbientOcclusion = 1U << 27U;
+inline constexpr SurfaceFeatures kSoftShadows = 1U << 28U;
+inline constexpr SurfaceFeatures kLocalReflections = 1U << 29U;
+inline constexpr SurfaceFeatures kFromEye = 1U << 30U;  ///< of a surface's outline: as the camera sees it
+inline constexpr SurfaceFeatures kEffects = kAmbientOcclusion | kSoftShadows | kLocalReflections;
 inline constexpr SurfaceFeatures kLights =
-    kDirectionalLights | kSeveralDirectionalLights | kPunctualLights | kShadows | kKeyLights;
+    kDirectionalLights | kSeveralDirectionalLights | kPunctualLights | kShadows | kKeyLights | kEffects;
 }  // namespace feature
 
 /// A texture of a surface. Its index in kSurfaceMaps is that of its unit from kFirstMapUnit on and of its transform in

@@ -7,7 +7,6 @@
 #include <ctime>
 #include <filesystem>
 #include <glm/gtc/quaternion.hpp>
-#include <limits>
 
 #include "editor/trade/light_loop.h"
 #include "engine/asset/container.h"
@@ -94,7 +93,7 @@ const render::MeshInstance& FrameStage::disc(int vertices) {
 std::unique_ptr<render::Renderer> FrameStage::make_renderer(const FrameVariant& variant) const {
     auto renderer = std::make_unique<render::Renderer>(xyz_to_working_);
     diffraction::DiffractionSettings settings;
-    settings.slices_per_frame = std::numeric_limits<int>::max();
+    settings.map_pace = diffraction::MapPace::Whole;
     diffraction::register_module(*renderer, settings);
     renderer->add_material_type(std::make_unique<trade::LightLoopType>());
     renderer->set_probe(probe_of(variant));

@@ -50,7 +50,7 @@ class SteadyFrame : public testing::Test {
         session_->carry_out();
         session_->draw(1.0F / kFramesPerSecond);
     }
-    /// Until all maps are filled, which take over from what is drawn meanwhile. Programs are linked in the first frame.
+    /// Until all maps are filled. Programs are linked in the first frame.
     void load() {
         frame();
         test::CallCounts calls;

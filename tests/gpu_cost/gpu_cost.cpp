@@ -27,7 +27,7 @@ constexpr const char* kAssumptions =
     "vertices: the busiest unit's work or, if greater, the latency that other waves cannot hide. instr: instructions\n"
     "that run. fetch: those of them that read textures, buffers or attributes. waves: what a SIMD unit holds.\n"
     "Assumed: caches hit. Loops over lights, streak segments and constants run as often as in the frame, those over a\n"
-    "footprint's samples once, others whose length the pixel computes 8 times. Three waves of four enter a branch;\n"
+    "pixel's parts once, others whose length the pixel computes 8 times. Three waves of four enter a branch;\n"
     "half of them one that all pixels decide alike.\n";
 
 struct Options {

@@ -89,9 +89,7 @@ ProgramText with_loops_unrolled(const ProgramText& text, const std::map<std::str
             const std::string number = std::to_string(length);
             *stage = replace_all(*stage, expression, expression.ends_with("()") ? number : "float(" + number + ")");
         }
-    static const std::regex footprint_loop(R"(\bdo (\{[^{}]*\}) while \([^;]*\);)");
-    unrolled.fragment = std::regex_replace(unrolled.fragment, footprint_loop, "$1");
-    for (const char* count : {"< taps;", "< parts;"}) unrolled.fragment = replace_all(unrolled.fragment, count, "< 1;");
+    unrolled.fragment = replace_all(unrolled.fragment, "< parts;", "< 1;");
     return {unroll(unrolled.vertex), unroll(unrolled.fragment)};
 }
 

@@ -28,9 +28,8 @@ struct ProgramText {
 ProgramText for_vulkan(const ProgramText& text);
 
 /// The same with its loops written out, as far as their length is known. `lengths`: by the GLSL expression of the
-/// length, which the number replaces. Loops over the samples of a pixel's footprint, "i < taps" or do … while, and over
-/// its parts, "part < parts", get one: in the benchmark's frames key lights are far wider than a pixel, and its grooves
-/// do not vary.
+/// length, which the number replaces. Loops over the parts of a pixel, "part < parts", get one: in the benchmark's
+/// frames its grooves do not vary.
 ProgramText with_loops_unrolled(const ProgramText& text, const std::map<std::string, int>& lengths);
 
 /// Compiles with glslangValidator, the reference front end. Throws Error (system) with its first message.

@@ -77,6 +77,7 @@ void bind_map(GLuint program, const diffraction::CookedMaterial& material, const
     };
     set("planar_e1", glm::vec3(map.e1));
     set("planar_e2", glm::vec3(map.e2));
+    glProgramUniform2f(program, glGetUniformLocation(program, "planar_map_half_texel"), 0.5F / 256, 0.5F / 256);
     glProgramUniform1f(program, glGetUniformLocation(program, "map_scale"), 1.0F);
 }
 
@@ -159,8 +160,7 @@ int main(int argc, char** argv) try {
     const std::string rowland = std::string(ROWLAND_SHADERS) + "/modules/diffraction/";
     const GLuint program =
         make_program({from, read_text(EXAMPLE_SHADERS "/disc.vert.glsl")},
-                     {from, "#define AZIMUTHS 256\n#define VIEWS 256\n",
-                      read_text(rowland + "representations/planar/planar_map.glsl"),
+                     {from, read_text(rowland + "representations/planar/planar_map.glsl"),
                       read_text(rowland + "shaders/kernel.glsl"), read_text(EXAMPLE_SHADERS "/disc.frag.glsl")});
 
     const diffraction::CookedMaterial material = diffraction::load_cooked_material(argv[1]);

@@ -6,6 +6,7 @@
 
 int main(int argc, char** argv) {
     return draw_scene(argc, argv, [](rowland::render::Renderer& renderer) {
-        rowland::diffraction::register_module(renderer, {.slices_per_frame = 1000});  // whole maps at once
+        using namespace rowland::diffraction;
+        register_module(renderer, {.map_pace = MapPace::Whole});
     });
 }

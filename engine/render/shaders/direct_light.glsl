@@ -1,5 +1,5 @@
 // The scene's lights on a GGX surface. Defines: DIRECTIONAL_LIGHTS, SEVERAL_DIRECTIONAL_LIGHTS, PUNCTUAL_LIGHTS, SHADOWS
-// (of the first directional light).
+// (of the first directional light), SOFT_SHADOWS.
 #include "engine/render/shaders/light_block.h"
 
 // The engine's surface at a pixel, and what it reflects of all lights.
@@ -51,25 +51,48 @@ void add_light(vec3 irradiance, vec3 l, inout LitSurface surface) {
 }
 
 #ifdef SHADOWS
+#ifdef SOFT_SHADOWS
+#include "engine/render/shaders/soft_shadow.glsl"
+#else
 layout(binding = 2) uniform sampler2DShadow shadow_map;
+#endif
 
 // Four filtered comparisons half a texel apart reach 1.5 texels along each axis. Within that reach, a plane lies at most
 // 1.5 sqrt(2) texels * tan(angle to the light) nearer to the light than at the point; a point lifted by as many texels
 // times the sine stays above it.
 const float SHADOW_LIFT = 2.2;
 
-// Fraction of the first directional light that reaches the point.
+// A point of a surface of normal n, toward the light, in the map.
+vec3 shadow_coordinates(vec3 position, vec3 n, vec3 l) {
+    vec3 lifted = position + n * (SHADOW_LIFT * shadow.x * length(cross(n, l)));
+    vec3 at = (world_to_shadow * vec4(lifted, 1.0)).xyz * 0.5 + 0.5;
+    at.z = min(at.z, 1.0);  // behind everything that casts a shadow
+    return at;
+}
+
+// One filtered comparison.
+float shadow_tap(vec3 at) {
+#ifdef SOFT_SHADOWS
+    return lit_fraction(at.xy, at.z);
+#else
+    return texture(shadow_map, at);
+#endif
+}
+
+// Fraction of the first directional light that reaches the pixel.
 float shadow_visibility(vec3 l) {
     vec3 n = normalize(world_normal);
     if (dot(n, l) < 0.0) n = -n;
-    vec3 lifted = world_position + n * (SHADOW_LIFT * shadow.x * length(cross(n, l)));
-    vec3 at = (world_to_shadow * vec4(lifted, 1.0)).xyz * 0.5 + 0.5;
-    at.z = min(at.z, 1.0);  // behind everything that casts a shadow
+    vec3 at = shadow_coordinates(world_position, n, l);
+#ifdef SOFT_SHADOWS
+    float lit = disc_visibility(at, n);
+#else
     vec2 half_texel = vec2(0.5, -0.5) * shadow.y;
-    return 0.25 * (texture(shadow_map, vec3(at.xy + half_texel.xx, at.z)) +
-                   texture(shadow_map, vec3(at.xy + half_texel.xy, at.z)) +
-                   texture(shadow_map, vec3(at.xy + half_texel.yx, at.z)) +
-                   texture(shadow_map, vec3(at.xy + half_texel.yy, at.z)));
+    float lit =
+        0.25 * (shadow_tap(vec3(at.xy + half_texel.xx, at.z)) + shadow_tap(vec3(at.xy + half_texel.xy, at.z)) +
+                shadow_tap(vec3(at.xy + half_texel.yx, at.z)) + shadow_tap(vec3(at.xy + half_texel.yy, at.z)));
+#endif
+    return contact_visibility() * lit;
 }
 #endif
 

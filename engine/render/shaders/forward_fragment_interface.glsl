@@ -17,6 +17,7 @@
 #include "engine/render/shaders/frame_block.h"
 #include "engine/render/shaders/object_block.h"
 #include "engine/render/shaders/ambient_light.glsl"
+#include "engine/render/shaders/screen_visibility.glsl"
 
 in vec3 world_position;
 in vec3 world_normal;

@@ -13,8 +13,19 @@ const float PI = 3.14159265358979;
 vec3 direct_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness, inout vec3 added) { return vec3(0.0); }
 #endif
 
+#ifdef LOCAL_REFLECTIONS
+#include "engine/render/shaders/local_reflection.glsl"
+#endif
+
 vec3 environment_light(vec3 direction, float roughness) {
-    return textureLod(environment_map, direction, roughness * environment.x).rgb * environment.y;
+    vec3 light = textureLod(environment_map, direction, roughness * environment.x).rgb * environment.y;
+#ifdef AMBIENT_OCCLUSION
+    light *= reflection_visibility(abs(dot(direction, normalize(world_normal))), roughness);
+#endif
+#ifdef LOCAL_REFLECTIONS
+    light = with_local_reflection(light, direction, roughness);
+#endif
+    return light;
 }
 
 #ifdef MATERIAL_HAS_MIRROR
@@ -72,7 +83,7 @@ vec3 base_radiance(vec3 base, vec3 n, vec3 v, inout vec3 added) {
 #else
     vec3 from_all_sides = ambient_light(n);
 #endif
-    vec3 from_probe = (diffuse * from_all_sides + reflected) * surface_occlusion();
+    vec3 from_probe = (diffuse * from_all_sides * ambient_visibility() + reflected) * surface_occlusion();
     return from_probe + direct_light(n, v, diffuse, f0, roughness, added);
 }
 
@@ -84,6 +95,7 @@ void main() {
 #else
     vec3 v = normalize(eye.xyz - world_position);
     vec3 n = surface_normal();
+    read_screen_visibility();
     MaterialTerms terms = material_terms();
     sum += terms.base_weight * base_radiance(base.rgb, n, v, terms.added);
     sum += terms.added;

@@ -1,7 +1,13 @@
 #version 450 core
 #include "engine/render/shaders/forward_vertex_interface.glsl"
 
+#ifdef FROM_EYE
+#define TO_CLIP view_projection
+#else
+#define TO_CLIP world_to_shadow
+#endif
+
 void main() {
     pass_attributes();
-    gl_Position = world_to_shadow * (object_to_world * (pose() * vec4(vertex_position, 1.0)));
+    gl_Position = TO_CLIP * (object_to_world * (pose() * vec4(vertex_position, 1.0)));
 }

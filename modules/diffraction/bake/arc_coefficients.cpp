@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "engine/core/check.h"
-#include "engine/math/sh_basis.h"
 
 namespace rowland::diffraction {
 
@@ -35,18 +34,30 @@ int tail_node_count(int bands, const GrooveLobe& lobe) {
     return std::max(16, 2 * bands + 6) + kNodesPerWave * waves;
 }
 
+/// The flat lobe's moments are functions of r alone. T's nearest pole, beyond the horizon at r = −1/√(n² + 1), lets 32
+/// Chebyshev nodes on [0, 1] give 1e-14 up to n = 3.
+constexpr int kRadiusNodes = 32;
+
+struct ChebyshevNode {
+    double position;
+    double weight;  ///< of the barycentric formula (Berrut & Trefethen 2004, eq. 5.3)
+};
+
+std::array<ChebyshevNode, kRadiusNodes> radius_nodes() {
+    std::array<ChebyshevNode, kRadiusNodes> nodes{};
+    for (int j = 0; j < kRadiusNodes; ++j) {
+        const double angle = pi * (j + 0.5) / kRadiusNodes;
+        nodes[static_cast<std::size_t>(j)] = {0.5 + 0.5 * std::cos(angle), (j % 2 == 0 ? 1.0 : -1.0) * std::sin(angle)};
+    }
+    return nodes;
+}
+
 /// The cyclic exchange of axes (h, n, g) → (g, h, n). Columns are the images of the first frame's axes.
 glm::dmat3 arc_to_tangent_axes() {
     return {0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0};
 }
 
 }  // namespace
-
-/// ∫ cos(mt) w dt and ∫ sin(mt) w dt over the arc, w = D_h(r cos t + v_h) r sin t.
-struct ArcCoefficients::Moments {
-    std::array<double, math::kMaximumBands> cosine{};
-    std::array<double, math::kMaximumBands> sine{};
-};
 
 /// A part of the arc, t from begin to end.
 struct ArcCoefficients::Stretch {
@@ -66,9 +77,35 @@ ArcCoefficients::ArcCoefficients(int bands, const GrooveLobe& lobe, const std::o
       cover_(cover),
       core_rule_(math::gauss_legendre(core_node_count(bands, lobe) + (cover ? kCoverNodes : 0), 0.0, 1.0)),
       tail_rule_(math::gauss_legendre(tail_node_count(bands, lobe) + (cover ? kCoverNodes : 0), 0.0, 1.0)),
-      to_tangent_frame_(arc_to_tangent_axes(), bands) {}
+      to_tangent_frame_(arc_to_tangent_axes(), bands) {
+    if (is_flat(lobe))
+        for (const ChebyshevNode& node : radius_nodes()) of_radius_.push_back(integrated(node.position, 0.0, 0.0));
+}
 
 ArcCoefficients::Moments ArcCoefficients::moments(double r, double v_h, double wavelength_nm) const {
+    return is_flat(lobe_) ? interpolated(r) : integrated(r, v_h, wavelength_nm);
+}
+
+ArcCoefficients::Moments ArcCoefficients::interpolated(double r) const {
+    static const std::array<ChebyshevNode, kRadiusNodes> nodes = radius_nodes();
+    Moments result;
+    double sum = 0.0;
+    for (std::size_t j = 0; j < nodes.size(); ++j) {
+        if (r == nodes[j].position) return of_radius_[j];
+        const double weight = nodes[j].weight / (r - nodes[j].position);
+        sum += weight;
+        // w is even about the arc's top: the other moments vanish.
+        for (std::size_t m = 0; m < static_cast<std::size_t>(bands_); m += 2)
+            result.cosine[m] += weight * of_radius_[j].cosine[m];
+        for (std::size_t m = 1; m < static_cast<std::size_t>(bands_); m += 2)
+            result.sine[m] += weight * of_radius_[j].sine[m];
+    }
+    for (double& moment : result.cosine) moment /= sum;
+    for (double& moment : result.sine) moment /= sum;
+    return result;
+}
+
+ArcCoefficients::Moments ArcCoefficients::integrated(double r, double v_h, double wavelength_nm) const {
     const double core = lobe_extent(lobe_).core_half_width;
     const double begin = is_flat(lobe_) ? 0.0 : std::acos(std::clamp((core - v_h) / r, -1.0, 1.0));
     const double end = is_flat(lobe_) ? pi : std::acos(std::clamp((-core - v_h) / r, -1.0, 1.0));

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "engine/math/quadrature.h"
+#include "engine/math/sh_basis.h"
 #include "engine/math/sh_rotation.h"
 #include "modules/diffraction/model/cover.h"
 #include "modules/diffraction/model/lobe.h"
@@ -33,10 +35,16 @@ class ArcCoefficients {
     int bands() const { return bands_; }
 
  private:
-    struct Moments;
+    /// ∫ cos(mt) w dt and ∫ sin(mt) w dt over the arc, w = D_h(r cos t + v_h) r sin t T(r sin t).
+    struct Moments {
+        std::array<double, math::kMaximumBands> cosine{};
+        std::array<double, math::kMaximumBands> sine{};
+    };
     struct Stretch;
     struct Circle;
     Moments moments(double r, double v_h, double wavelength_nm) const;
+    Moments integrated(double r, double v_h, double wavelength_nm) const;
+    Moments interpolated(double r) const;
     void add_moments(const math::QuadratureRule& rule, const Stretch& stretch, const Circle& arc,
                      const LobeDensity& density, Moments& result) const;
 
@@ -46,6 +54,7 @@ class ArcCoefficients {
     math::QuadratureRule core_rule_;  ///< on [0, 1], stretched over the part of the arc that the lobe's core reaches
     math::QuadratureRule tail_rule_;  ///< on [0, 1], for the rest of the arc, where the lobe has tails
     math::ShRotation to_tangent_frame_;
+    std::vector<Moments> of_radius_;  ///< flat lobe: at Chebyshev nodes of r
 };
 
 }  // namespace rowland::diffraction

@@ -24,7 +24,7 @@ std::vector<glm::dvec3> shade_surfaces(const CookedMaterial& cooked, const Evalu
         std::optional<CookedMaterial> stand_in;
         if (const auto* planar = std::get_if<PlanarTables>(&cooked.tables); planar != nullptr && !is_flat(surface)) {
             stand_in = cooked;
-            stand_in->tables = planar->stand_in;
+            stand_in->tables = *planar->stand_in;
         }
         const std::vector<glm::dvec3> part = evaluate_baked(stand_in ? *stand_in : cooked, light, surface);
         result.insert(result.end(), part.begin(), part.end());

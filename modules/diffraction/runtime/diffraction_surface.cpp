@@ -37,7 +37,7 @@ bool update_key(const DiffractionSurface& surface, const render::MeshInstance& i
 }  // namespace
 
 DiffractionSurfaceType::DiffractionSurfaceType(const glm::dmat3& xyz_to_working, const DiffractionSettings& settings)
-    : xyz_to_working_(xyz_to_working), slices_per_frame_(settings.slices_per_frame), light_(settings.window) {}
+    : xyz_to_working_(xyz_to_working), map_pace_(settings.map_pace), light_(settings.window) {}
 
 std::string DiffractionSurfaceType::gltf_extension() const {
     return kGltfExtension;
@@ -103,10 +103,6 @@ gpu::ProgramDesc DiffractionSurfaceType::program(ecs::World& world, ecs::Entity 
     return world.get<DiffractionSurface>(entity).material->program(world.get<SurfaceState>(entity));
 }
 
-std::optional<gpu::ProgramDesc> DiffractionSurfaceType::other_program(ecs::World& world, ecs::Entity entity) const {
-    return world.get<DiffractionSurface>(entity).material->other_program(world.get<SurfaceState>(entity));
-}
-
 void DiffractionSurfaceType::warn_of_other_white(const std::string& baked_for, const std::string& lit_by) {
     if (baked_for == lit_by || !warned_of_.emplace(baked_for, lit_by).second) return;
     log_warning("a grating baked for the illuminant {} is lit by {}: it shows the colours of {}", baked_for, lit_by,
@@ -132,7 +128,7 @@ void DiffractionSurfaceType::update(ecs::World& world, const LightParts& light) 
                                           .groove_rotation = static_cast<double>(surface.groove_rotation),
                                           .skinned = skinned,
                                           .changed = changed || skinned,
-                                          .slices_per_frame = slices_per_frame_},
+                                          .map_pace = map_pace_},
                                          light_, state);
             };
             if (const scene::Skin* skin = world.find<scene::Skin>(entity))

@@ -25,9 +25,7 @@ struct DiffractionSurface {
 struct DiffractionSettings {
     /// On band-limited light, against ringing; nullopt: the weakest sufficient window.
     std::optional<math::SphericalWindow> window = std::nullopt;
-    /// The most azimuths of a planar map of flat lobe that one frame fills, and slices of other maps that it uploads.
-    /// At the map's size or above, frames wait for whole maps.
-    int slices_per_frame = 8;
+    MapPace map_pace = MapPace::Incremental;
 };
 
 /// Whether maps are still being filled for the light and the objects that were last drawn.
@@ -49,7 +47,6 @@ class DiffractionSurfaceType final : public render::MaterialType {
     void add_shaders(gpu::ShaderLibrary& library) const override;
     bool owns(ecs::World& world, ecs::Entity entity) const override;
     gpu::ProgramDesc program(ecs::World& world, ecs::Entity entity) const override;
-    std::optional<gpu::ProgramDesc> other_program(ecs::World& world, ecs::Entity entity) const override;
     void update(ecs::World& world, const render::FrameLight& light) override;
     /// The same under light that does not come from the renderer.
     void update(ecs::World& world, const LightParts& light);
@@ -64,7 +61,7 @@ class DiffractionSurfaceType final : public render::MaterialType {
     std::shared_ptr<const GpuMaterial> baked(const Material& material, const std::string& key);
 
     glm::dmat3 xyz_to_working_;
-    int slices_per_frame_;
+    MapPace map_pace_;
     std::map<std::string, std::weak_ptr<const GpuMaterial>> baked_;  ///< by the file's folder and the extension's text
     std::map<std::pair<const image::ByteImage*, std::string>, std::weak_ptr<const GrooveMap>> groove_maps_;
     std::set<std::pair<std::string, std::string>> warned_of_;  ///< illuminants baked for, lit by

@@ -51,13 +51,6 @@ gpu::ProgramDesc GpuMaterial::program(const SurfaceState& state) const {
     return desc;
 }
 
-std::optional<gpu::ProgramDesc> GpuMaterial::other_program(const SurfaceState& state) const {
-    gpu::ProgramDesc desc;
-    if (!describe_other(state, desc)) return std::nullopt;
-    add_defines(state, desc);
-    return desc;
-}
-
 void GpuMaterial::add_defines(const SurfaceState& state, gpu::ProgramDesc& desc) const {
     if (separate_lights_) desc.defines.push_back({"SEPARATE_LIGHTS", "1"});
     // It is nearly linear between vertices, and at the pixels a fifth of the plain surface.

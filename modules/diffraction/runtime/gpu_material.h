@@ -15,6 +15,7 @@
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/runtime/gpu_kernel.h"
 #include "modules/diffraction/runtime/groove_map.h"
+#include "modules/diffraction/runtime/map_filling.h"
 #include "modules/diffraction/runtime/surface_light.h"
 
 namespace rowland::diffraction {
@@ -45,8 +46,8 @@ struct SurfaceObject {
     glm::mat4 object_to_world{1.0F};
     double groove_rotation = 0.0;  ///< radians, from the tangent toward the bitangent
     bool skinned = false;
-    bool changed = true;       ///< since the last frame: light, orientation, mesh, rotation or material
-    int slices_per_frame = 0;  ///< the most of a map that one frame fills or uploads
+    bool changed = true;  ///< since the last frame: light, orientation, mesh, rotation or material
+    MapPace map_pace = MapPace::Incremental;
 };
 
 /// A cooked material on the GPU. One class per representation implements it.
@@ -64,12 +65,10 @@ class GpuMaterial {
 
     /// Call once per frame for each object, before it is drawn.
     virtual void update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const = 0;
-    /// Whether the object, as last updated, is shaded by a stand-in until its map is filled.
+    /// Whether the object, as last updated, has a coarse or an old map until the full one is filled.
     virtual bool filling(const SurfaceState&) const { return false; }
 
     gpu::ProgramDesc program(const SurfaceState& state) const;
-    /// The program that replaces it when the object's map is filled, or no longer valid.
-    std::optional<gpu::ProgramDesc> other_program(const SurfaceState& state) const;
     /// The program must be in use.
     void bind(const gpu::Program& program, const SurfaceLight& light, const SurfaceState& state) const;
 
@@ -88,8 +87,6 @@ class GpuMaterial {
 
     /// The representation's shader files and defines.
     virtual void describe(const SurfaceState& state, gpu::ProgramDesc& desc) const = 0;
-    /// The same for the other program; false if there is none.
-    virtual bool describe_other(const SurfaceState&, gpu::ProgramDesc&) const { return false; }
     virtual void bind_tables(const gpu::Program& program, const SurfaceState& state) const = 0;
     /// Throws Error (system) if the GPU cannot read so many bytes of light per vertex and `tables` other storage
     /// buffers in the vertex stage.

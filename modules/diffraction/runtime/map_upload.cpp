@@ -2,33 +2,63 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <span>
+#include <glm/gtc/packing.hpp>
+#include <glm/vec4.hpp>
 #include <utility>
 
 #include "engine/core/check.h"
+#include "engine/core/parallel.h"
 
 namespace rowland::diffraction {
 
-MapUpload::MapUpload(std::shared_ptr<MapTexels> texels)
-    : texels_(std::move(texels)), map_(texels_->desc, texels_->sampling, texels_->scale) {}
+namespace {
+
+constexpr std::size_t kTexelsPerTask = 1 << 14;
+
+std::vector<std::uint16_t> as_halves(const std::vector<glm::vec3>& values, float scale) {
+    std::vector<std::uint16_t> halves(4 * values.size());
+    parallel_for((values.size() + kTexelsPerTask - 1) / kTexelsPerTask, [&](std::size_t task) {
+        const std::size_t end = std::min(values.size(), (task + 1) * kTexelsPerTask);
+        for (std::size_t i = task * kTexelsPerTask; i < end; ++i) {
+            const glm::u16vec4 texel = glm::packHalf(glm::vec4(values[i] / scale, 0.0F));
+            for (int o = 0; o < 4; ++o) halves[4 * i + static_cast<std::size_t>(o)] = texel[o];
+        }
+    });
+    return halves;
+}
+
+}  // namespace
+
+MapTexels pack(std::span<const std::vector<glm::vec3>> levels, gpu::TextureDesc desc, const gpu::Sampling& sampling) {
+    desc.levels = static_cast<int>(levels.size());
+    MapTexels texels{.desc = desc, .sampling = sampling, .scale = 0.0F, .levels = {}};
+    for (const auto& values : levels) texels.scale = std::max(texels.scale, largest_component(values));
+    for (const auto& values : levels) texels.levels.push_back(as_halves(values, texels.scale));
+    return texels;
+}
+
+MapUpload::MapUpload(MapTexels texels)
+    : texels_(std::move(texels)), map_(texels_.desc, texels_.sampling, texels_.scale) {}
 
 bool MapUpload::upload(int slices) {
-    const gpu::TextureDesc& desc = texels_->desc;
-    const int end = uploaded_ + std::min(std::max(1, slices), desc.depth - uploaded_);
-    const std::size_t slice =
-        std::size_t{4} * static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(desc.height);
-    map_.upload(
-        std::span<const std::uint16_t>(texels_->halves)
-            .subspan(static_cast<std::size_t>(uploaded_) * slice, static_cast<std::size_t>(end - uploaded_) * slice),
-        {.layer = uploaded_, .layers = end - uploaded_});
-    uploaded_ = end;
-    if (uploaded_ < desc.depth) return false;
-    texels_->halves = {};
-    return true;
+    for (int left = std::max(1, slices); left > 0 && level_ < texels_.levels.size();) {
+        const std::span<const std::uint16_t> halves = texels_.levels[level_];
+        const int depth = std::max(1, texels_.desc.depth >> level_);
+        const std::size_t slice = halves.size() / static_cast<std::size_t>(depth);
+        const int count = std::min(left, depth - slice_);
+        map_.upload(halves.subspan(static_cast<std::size_t>(slice_) * slice, static_cast<std::size_t>(count) * slice),
+                    {.level = static_cast<int>(level_), .layer = slice_, .layers = count});
+        left -= count;
+        slice_ += count;
+        if (slice_ < depth) break;
+        slice_ = 0;
+        ++level_;
+    }
+    return level_ == texels_.levels.size();
 }
 
 GpuMap MapUpload::take() {
-    ROWLAND_CHECK_OP(uploaded_, ==, texels_->desc.depth);
+    ROWLAND_CHECK_OP(level_, ==, texels_.levels.size());
     return std::move(map_);
 }
 

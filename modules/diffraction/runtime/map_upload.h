@@ -1,27 +1,31 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <glm/vec3.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "modules/diffraction/runtime/gpu_map.h"
 
 namespace rowland::diffraction {
 
-/// A volume map in its texture's layout, for MapUpload.
+/// A map in its texture's layout, for MapUpload.
 struct MapTexels {
     gpu::TextureDesc desc;
     gpu::Sampling sampling;
-    float scale = 1.0F;                 ///< of the halves
-    std::vector<std::uint16_t> halves;  ///< four per texel
+    float scale = 1.0F;  ///< the largest component, by which the halves are divided
+    /// Halves of each level, four per texel; the fourth is not read.
+    std::vector<std::vector<std::uint16_t>> levels;
 };
 
-/// Uploads a volume map, some slices at a time.
+/// `levels`: values in the order of each level's rows and slices. Uses all cores.
+MapTexels pack(std::span<const std::vector<glm::vec3>> levels, gpu::TextureDesc desc, const gpu::Sampling& sampling);
+
+/// Uploads a map, some slices at a time.
 class MapUpload {
  public:
-    /// Clears the halves when all are uploaded.
-    explicit MapUpload(std::shared_ptr<MapTexels> texels);
+    explicit MapUpload(MapTexels texels);
 
     /// Uploads up to so many slices, at least one; true when all are uploaded.
     bool upload(int slices);
@@ -30,9 +34,10 @@ class MapUpload {
     GpuMap take();
 
  private:
-    std::shared_ptr<MapTexels> texels_;
+    MapTexels texels_;
     GpuMap map_;
-    int uploaded_ = 0;
+    std::size_t level_ = 0;
+    int slice_ = 0;  ///< of the level, the next to upload
 };
 
 }  // namespace rowland::diffraction

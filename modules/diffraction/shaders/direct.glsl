@@ -54,8 +54,7 @@ void prepare_lights(GrooveView view) {
 }
 
 // XYZ with pits, else working space.
-void add_light_of(GrooveView view, int i, float attenuation, vec3 l, inout vec3 sum) {
-    PixelU u = pixel_u_of(view, l);
+void add_light_of(GrooveView view, PixelU u, int i, float attenuation, vec3 l, inout vec3 sum) {
     KernelRow row = kernel_row(view.pitch * u.deviation);
     add_small_light(i, attenuation, l, view.axes, view.direction, u.mean, row, view.pitch, sum);
 }
@@ -64,14 +63,16 @@ void material_light(int i, float attenuation, vec3 l, inout vec3 added) {
     vec3 sum = vec3(0.0);
     attenuation *= lit_transmittance;
 #ifdef GROOVE_MAP
+    MeshU mesh = mesh_u_of(lit_view, l);
     int parts = groove_parts(lit_view);
     for (int part = 0; part < parts; ++part) {
         GrooveView one = groove_part(lit_view, parts, part);
-        if (one.pitch > 0.0) add_light_of(one, i, one.coverage * attenuation, l, sum);
+        if (one.pitch > 0.0)
+            add_light_of(one, turned_pixel_u(one, mesh), i, one.coverage * attenuation, l, sum);
     }
     sum /= float(parts);
 #else
-    add_light_of(lit_view, i, attenuation, l, sum);
+    add_light_of(lit_view, pixel_u_of(lit_view, l), i, attenuation, l, sum);
 #endif
     added += kernel_to_working(sum);
 }

@@ -42,30 +42,58 @@ const float BOX_DEVIATION = 0.28867513459481;  // of a box, over its width
 
 // `s`: toward the light, in the world.
 #ifdef GROOVE_MAP
-PixelU pixel_u(GrooveView view, vec3 s) {
-    vec2 u = vec2(dot(s, view.axes[0]), dot(s, view.axes[1])) + view.direction.xy;
+// s + v along g and h of the mesh, and its differences to the pixels beside and below.
+struct MeshU {
+    vec2 u;
+    mat2 change;
+};
+
+vec2 mesh_sum(MeshView mesh, vec3 s) { return vec2(dot(s, mesh.axes[0]), dot(s, mesh.axes[1])) + mesh.direction.xy; }
+
+// From the mesh's g and h to those of the pixel's grooves.
+vec2 turned(GrooveView view, vec2 along) {
+    return vec2(dot(view.turn, along), view.turn.x * along.y - view.turn.y * along.x);
+}
+
+// In (g, h, n).
+vec3 to_tangent(GrooveView view, vec3 s) {
+    vec3 in_mesh = s * view.mesh.axes;
+    return vec3(turned(view, in_mesh.xy), in_mesh.z);
+}
+
+PixelU turned_pixel_u(GrooveView view, MeshU mesh) {
+    vec2 u = turned(view, mesh.u);
     // The mesh's own change, as the map may be discontinuous: its moments tell how it varies.
-    vec2 across = view.turn.x * (s * view.g_change + view.v_g_change) +
-                  view.turn.y * (s * view.mesh.h_change + view.mesh.v_h_change);
+    vec2 across = view.turn * mesh.change;
     float variance = BOX_DEVIATION * BOX_DEVIATION * dot(across, across) +
                      dot(view.spread, vec2(u.y * u.y, u.x * u.x));
     return PixelU(view.fade * u.x, sqrt(variance));
 }
+
+PixelU pixel_u(GrooveView view, vec3 s) {
+    vec2 change_g = s * view.g_change + view.v_g_change;
+    vec2 change_h = s * view.mesh.h_change + view.mesh.v_h_change;
+    return turned_pixel_u(view, MeshU(mesh_sum(view.mesh, s), transpose(mat2(change_g, change_h))));
+}
+
+// For any `s` that varies from pixel to pixel. Uses derivatives: call it in uniform control flow.
+MeshU mesh_u_of(GrooveView view, vec3 s) {
+    vec2 u = mesh_sum(view.mesh, s);
+    return MeshU(u, mat2(dFdx(u), dFdy(u)));
+}
 #else
+vec3 to_tangent(GrooveView view, vec3 s) { return s * view.axes; }
+
 PixelU pixel_u(GrooveView view, vec3 s) {
     return PixelU(dot(s, view.axes[0]) + view.direction.x, BOX_DEVIATION * length(s * view.g_change + view.v_g_change));
 }
-#endif
 
 // The same for any `s` that varies from pixel to pixel. Uses derivatives: call it in uniform control flow.
 PixelU pixel_u_of(GrooveView view, vec3 s) {
-#ifdef GROOVE_MAP
-    return pixel_u(view, s);
-#else
     float u = dot(s, view.axes[0]) + view.direction.x;
     return PixelU(u, BOX_DEVIATION * length(vec2(dFdx(u), dFdy(u))));
-#endif
 }
+#endif
 
 // The interpolated grating vector, made orthonormal to the normal; shorter where the vertices' vectors cancel, as at a
 // disc's hub.

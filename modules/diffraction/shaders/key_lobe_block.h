@@ -10,9 +10,13 @@ using glm::vec4;
 struct KeyLobe {
     vec4 direction;  // xyz: unit, toward the light; w: concentration
     vec4 flux;       // xyz: linear Rec.709 radiance * sr; w: their largest
-    vec4 moments;    // mean of the cosine; variance along the direction, less that across it; variance across it; 5.2
-                     // deviations across it
+    vec4 moments;    // mean of the cosine; variance along the direction less that across it, over that mean's square;
+                     // variance across it; 5.2 deviations across it
     vec4 nodes;      // cosine and sine of the outer nodes' angle; variance about a node; exp(-variance / 2)
+    vec4 mean;       // xyz: of the directions; w: 5.2 deviations across
+    vec4 variance;   // 12 times that of u = s_g + v_g: factor of the mean s_g, squared; constant
+    vec4 height;     // by how much the mean of s_n above 0 exceeds that of s_n, times the largest flux: log2 as a
+                     // polynomial in the latter's distance from 0
 };
 #ifdef __cplusplus
 struct KeyLobeBlock {
@@ -23,7 +27,7 @@ layout(std140, binding = 6) uniform KeyLobeBlock {
     KeyLobe key_lobes[ROWLAND_MAXIMUM_KEY_LOBES];
 #ifdef __cplusplus
 };
-static_assert(sizeof(KeyLobeBlock) == 16 + 64 * ROWLAND_MAXIMUM_KEY_LOBES, "must equal the std140 layout");
+static_assert(sizeof(KeyLobeBlock) == 16 + 112 * ROWLAND_MAXIMUM_KEY_LOBES, "must equal the std140 layout");
 }  // namespace rowland::diffraction
 #else
 };

@@ -5,9 +5,10 @@
 
 vec3 key_lobe_radiance(KeyLobe lobe, GrooveView view) {
     PixelU u = pixel_u(view, lobe.direction.xyz);
-    vec3 axis = lobe.direction.xyz * view.axes;
+    vec3 axis = to_tangent(view, lobe.direction.xyz);
+    vec3 mean = lobe.moments.x * axis;
     // Five deviations below the horizon, 5e-8 of the lobe's cosine remains.
-    if (axis.z * lobe.moments.x < -lobe.moments.w) return vec3(0.0);
+    if (mean.z < -lobe.moments.w) return vec3(0.0);
 #ifndef ZERO_ORDER
     // The parts lie within 2.3 deviations of the lobe's direction, and each reaches 5 times 0.84 of one.
     float reach = view.pitch * (6.5 * sqrt(lobe.moments.z) + 5.0 * u.deviation) + 5.0 * kernel_scale_bias.z;
@@ -25,8 +26,8 @@ vec3 key_lobe_radiance(KeyLobe lobe, GrooveView view) {
         float deviation = length(vec2(part.deviation, u.deviation));
         sum += part.cosine * pitch_kernel_value(u.mean + part.centre - axis.x, deviation, lobe.flux.rgb, view.pitch);
     }
-    vec2 along = spread_along_grooves(axis, lobe.moments);
-    return 0.5 / max(whole, 1e-6) * lobe_transmittance(axis.z, lobe.moments) *
+    vec2 along = spread_along_grooves(mean, lobe.moments);
+    return 0.5 / max(whole, 1e-6) * lobe_transmittance(mean.z, lobe.moments) *
            key_groove_factor(along.x + view.direction.y, along.y) * sum;
 }
 

@@ -60,10 +60,10 @@ ClampedMoments clamped_moments(float mean, float variance) {
     return ClampedMoments(weighted, max(third / first - weighted * weighted, 0.0));
 }
 
-// Mean of a cover's transmittance over a lobe: direct.h, transmittance(). `s_n`: of the lobe's direction.
-float lobe_transmittance(float s_n, vec4 moments) {
+// Mean of a cover's transmittance over a lobe: direct.h, transmittance(). `mean_n`: mean of s_n.
+float lobe_transmittance(float mean_n, vec4 moments) {
 #ifdef COVER
-    ClampedMoments above = clamped_moments(moments.x * s_n, max(moments.y * s_n * s_n + moments.z, 0.0));
+    ClampedMoments above = clamped_moments(mean_n, max(moments.y * mean_n * mean_n + moments.z, 0.0));
     float deviation = sqrt(above.weighted_variance);
     return 0.5 * (cover_transmittance(above.weighted_mean - deviation) +
                   cover_transmittance(min(above.weighted_mean + deviation, 1.0)));
@@ -73,22 +73,20 @@ float lobe_transmittance(float s_n, vec4 moments) {
 }
 
 #if defined(LOBE_GAUSSIAN) || defined(LOBE_PITS)
-// Mean and deviation of s_h, directions weighted by s_n above the horizon: direct.cpp, clamp_at_horizon(). `axis`: the
-// lobe's direction in (g, h, n).
-vec2 spread_along_grooves(vec3 axis, vec4 moments) {
+// Mean and deviation of s_h, directions weighted by s_n above the horizon: direct.cpp, clamp_at_horizon(). `mean`: of the
+// lobe's directions, in (g, h, n).
+vec2 spread_along_grooves(vec3 mean, vec4 moments) {
     float elongation = moments.y;
-    float variance_n = max(elongation * axis.z * axis.z + moments.z, 0.0);
-    float variance_h = elongation * axis.y * axis.y + moments.z;
-    float mean = moments.x * axis.z;
-    float centre = moments.x * axis.y;
-    ClampedMoments above = clamped_moments(mean, variance_n);
-    if (above.weighted_mean == 0.0) return vec2(centre, sqrt(max(variance_h, 0.0)));
-    float slope = elongation * axis.y * axis.z / variance_n;
+    float variance_n = max(elongation * mean.z * mean.z + moments.z, 0.0);
+    float variance_h = elongation * mean.y * mean.y + moments.z;
+    ClampedMoments above = clamped_moments(mean.z, variance_n);
+    if (above.weighted_mean == 0.0) return vec2(mean.y, sqrt(max(variance_h, 0.0)));
+    float slope = elongation * mean.y * mean.z / variance_n;
     float rest = max(variance_h - slope * slope * variance_n, 0.0);
-    return vec2(centre + slope * (above.weighted_mean - mean),
+    return vec2(mean.y + slope * (above.weighted_mean - mean.z),
                 sqrt(rest + slope * slope * above.weighted_variance));
 }
 #else
-vec2 spread_along_grooves(vec3 axis, vec4 moments) { return vec2(0.0); }
+vec2 spread_along_grooves(vec3 mean, vec4 moments) { return vec2(0.0); }
 #endif
 #endif

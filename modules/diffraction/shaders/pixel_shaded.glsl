@@ -3,7 +3,7 @@
 // in the working space, of a view above the horizon.
 MaterialTerms material_terms() {
     GrooveView view = groove_view();
-    vec3 sum = lights_from_vertices();
+    vec3 from_probe = vec3(0.0);
     if (view.direction.z > 0.0 && view.pitch > 0.0) {
 #ifdef GROOVE_MAP
         int parts = groove_parts(view);
@@ -12,11 +12,11 @@ MaterialTerms material_terms() {
             GrooveView one = groove_part(view, parts, part);
             if (one.pitch > 0.0) diffracted += one.coverage * (diffracted_radiance(one) + key_lights_at_pixel(one));
         }
-        sum += diffracted / float(parts);
+        from_probe = diffracted / float(parts);
 #else
-        sum += diffracted_radiance(view) + key_lights_at_pixel(view);
+        from_probe = diffracted_radiance(view) + key_lights_at_pixel(view);
 #endif
     }
     prepare_lights(view);
-    return surface_terms(sum);
+    return surface_terms(ambient_visibility() * from_probe + lights_from_vertices());
 }

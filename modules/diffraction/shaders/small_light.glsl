@@ -22,7 +22,7 @@ void add_small_light(int i, float attenuation, vec3 l, mat3 axes, vec3 direction
     u *= pitch;
     float above = direction.z > 0.0 ? max(dot(l, axes[2]), 0.0) : 0.0;
     vec3 weight = 0.5 * pitch * attenuation * above * cover_transmittance(above) *
-                  groove_factor(dot(l, axes[1]) + direction.y, 0.0);
+                  groove_factor(dot(l, axes[1]) + direction.y);
     // One look-up costs less than a branch around it.
     sum += weight * (light_colours[i].y * kernel_scale_bias.w) * kernel_texel(u, row, light_colours[i].x);
 #ifdef ZERO_ORDER

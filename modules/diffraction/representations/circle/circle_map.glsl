@@ -1,7 +1,8 @@
 // A map over g in the world and v_g, Fourier terms of the normal's angle around g: circle_map.h. The program defines
-// CHARTS, TERMS, and a chart's SIDE and VIEWS. Charts lie side by side, terms below each other. Filtering never reaches a
+// CHARTS, TERMS and VIEWS. Charts lie side by side, terms below each other. Filtering never reaches a
 // neighbour, as the equator lies 1.5 texels inside.
 layout(binding = 11) uniform sampler3D circle_map;
+uniform float circle_map_scale;  // chart coordinates to texture coordinates
 uniform float map_scale;  // of the stored values
 
 // In the colour space of the stored values.
@@ -19,7 +20,7 @@ vec3 map_radiance(float v_g, vec3 g, vec3 n) {
     float chart = lower ? 1.0 : 0.0;
 #endif
     vec2 p = g.xz / (1.0 + up * g.y);
-    vec2 st = 0.5 + p * (0.5 - 1.5 / float(SIDE));
+    vec2 st = 0.5 + p * circle_map_scale;
     vec2 t1 = n.xz - up * n.y * p;  // n·e1 and n·e2, as n·g = 0
     vec2 t2 = vec2(t1.x * t1.x - t1.y * t1.y, 2.0 * t1.x * t1.y);
     vec2 t4 = vec2(t2.x * t2.x - t2.y * t2.y, 2.0 * t2.x * t2.y);

@@ -49,6 +49,9 @@ struct CircleMapSize {
     int terms = 7;    ///< 7: up to cos 4t; 9: up to cos 6t. Under a cover 9: with cos 3t; 11: with cos 5t as well
 };
 
+/// Of the map that is shown while a larger one is filled: within a tenth of a second on two cores.
+inline constexpr int kCoarseCircleSide = 16;
+
 /// The terms that a grating's map has by default: under a cover the multiples 3 and 5 as well.
 int circle_terms(const std::optional<Cover>& cover);
 

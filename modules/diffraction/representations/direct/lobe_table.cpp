@@ -3,37 +3,53 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
 
 namespace rowland::diffraction {
 
 namespace {
 
-/// Of 3.6° to 7.2° of the angle whose sine is s_g.
-constexpr int kRows = 32;
-/// Footprints below this fraction of the lobe's width are left out.
-constexpr double kNoFootprint = 1.0 / 16.0;
+constexpr int kRowsPerOctave = 2;
+/// Variances up to 1/16, on either side of n.
+constexpr int kRows = 2 * kRowsPerOctave * 14;
+/// Farther along g, half of a lobe is below the horizon.
+constexpr double kSteepest = 0.9995;
 
 double cell_centre(int cell, int cells) {
     return (cell + 0.5) / cells;
 }
 
-double across_of(double s_g) {
-    return std::sqrt(std::max(1.0 - s_g * s_g, 1e-9));
+double row_coordinate(double s_g, double variance) {
+    return 0.5 + std::copysign(std::log2(1.0 + variance / kLeastLobeVariance) * kRowsPerOctave / kRows, s_g);
 }
 
-/// A direction in the plane of g and n whose s_g has the coordinate t.
-glm::dvec3 raised_direction(double t) {
-    const double diamond = 2.0 * t - 1.0;
-    return glm::normalize(glm::dvec3(diamond, 0.0, 1.0 - std::abs(diamond)));
+/// Variance of s_g.
+double variance_of(const lighting::LobeMoments& moments, double s_g) {
+    return moments.variance_across + (moments.variance_along - moments.variance_across) * s_g * s_g;
+}
+
+/// A light and a pixel that have a row's variance: the light farther along g or, if that does not suffice, a wider
+/// pixel.
+struct RowSetting {
+    double s_g = 0.0;
+    double footprint = 0.0;
+};
+
+RowSetting row_setting(const lighting::LobeMoments& moments, double t) {
+    const double variance = kLeastLobeVariance * (std::exp2(std::abs(t - 0.5) * kRows / kRowsPerOctave) - 1.0);
+    const double wider = variance - moments.variance_across;
+    if (wider >= 0.0) return {.s_g = 0.0, .footprint = std::sqrt(3.0 * wider)};
+    const double s_g = std::sqrt(wider / (moments.variance_along - moments.variance_across));
+    return {.s_g = std::copysign(std::min(s_g, kSteepest), t - 0.5), .footprint = 0.0};
 }
 
 }  // namespace
 
-glm::dvec3 LobeTable::at(double s_g, double x_nm) const {
+glm::dvec3 LobeTable::at(double s_g, double variance, double x_nm) const {
     const auto cell_at = [](double t, int cells) { return std::clamp(t * cells - 0.5, 0.0, cells - 1.0); };
     const double s = cell_at((x_nm - begin_nm) / (end_nm - begin_nm), columns);
-    const double t = cell_at(0.5 + 0.5 * s_g / (std::abs(s_g) + across_of(s_g)), rows);
+    const double t = cell_at(row_coordinate(s_g, variance), rows);
     const int column = std::min(static_cast<int>(s), columns - 2);
     const int row = std::min(static_cast<int>(t), rows - 2);
     const auto value = [&](int r, int c) {
@@ -48,8 +64,21 @@ glm::dvec3 LobeTable::at(double s_g, double x_nm) const {
 
 double lobe_height(double concentration, double s_n) {
     const lighting::LobeMoments moments = lighting::lobe_moments(concentration);
-    const double variance = (moments.variance_along - moments.variance_across) * s_n * s_n + moments.variance_across;
-    return lighting::clamp_normal(moments.mean * s_n, std::sqrt(std::max(variance, 0.0))).mean;
+    return lighting::clamp_normal(moments.mean * s_n, std::sqrt(std::max(variance_of(moments, s_n), 0.0))).mean;
+}
+
+glm::dvec4 lobe_height_fit(double concentration) {
+    const glm::dvec4 positions(0.0, 0.4, 1.1, 2.0);  // where it is exact, in deviations
+    const lighting::LobeMoments moments = lighting::lobe_moments(concentration);
+    const double unit = std::min(std::sqrt(moments.variance_across), moments.mean / positions.w);
+    glm::dmat4 powers(1.0);
+    glm::dvec4 logarithms(0.0);
+    for (int i = 0; i < 4; ++i) {
+        const double mean = unit * positions[i];
+        for (int power = 0; power < 4; ++power) powers[power][i] = std::pow(positions[i], power);
+        logarithms[i] = std::log2(lobe_height(concentration, mean / moments.mean) - mean);
+    }
+    return glm::inverse(powers) * logarithms / glm::dvec4(1.0, unit, unit * unit, unit * unit * unit);
 }
 
 LobeTable make_lobe_table(const BlurredKernel& kernel, double pitch_nm, const lighting::KeyLight& light, int columns) {
@@ -57,14 +86,17 @@ LobeTable make_lobe_table(const BlurredKernel& kernel, double pitch_nm, const li
         .begin_nm = kernel.begin_nm, .end_nm = kernel.end_nm, .columns = columns, .rows = kRows, .values = {}};
     table.values.reserve(static_cast<std::size_t>(kRows) * static_cast<std::size_t>(columns));
     const DirectMaterial material{.pitch_nm = pitch_nm, .zero_order_xyz = glm::dmat3(0.0), .lobe = FlatLobe{}};
+    const lighting::LobeMoments moments = lighting::lobe_moments(light.concentration);
     lighting::KeyLight raised = light;
     for (int row = 0; row < kRows; ++row) {
-        raised.direction = raised_direction(cell_centre(row, kRows));
+        const RowSetting setting = row_setting(moments, cell_centre(row, kRows));
+        raised.direction = {setting.s_g, 0.0, std::sqrt(1.0 - setting.s_g * setting.s_g)};
         const LightSpot spot = light_spot(raised, glm::dmat3(1.0));
         const double height = lobe_height(light.concentration, raised.direction.z);
         for (int column = 0; column < columns; ++column) {
             const double x = table.begin_nm + (table.end_nm - table.begin_nm) * cell_centre(column, columns);
-            const DirectView view{.v_g = x / pitch_nm - raised.direction.x, .v_h = 0.0, .footprint = 0.0};
+            const DirectView view{
+                .v_g = x / pitch_nm - moments.mean * setting.s_g, .v_h = 0.0, .footprint = setting.footprint};
             table.values.emplace_back(direct_radiance(kernel, material, spot, view) / height);
         }
     }
@@ -74,18 +106,12 @@ LobeTable make_lobe_table(const BlurredKernel& kernel, double pitch_nm, const li
 glm::dvec3 lobe_radiance(const LobeTable& table, const DirectMaterial& material, const lighting::KeyLight& light,
                          const glm::dmat3& world_to_tangent, const DirectView& view) {
     const LightSpot spot = light_spot(light, world_to_tangent);
+    const lighting::LobeMoments moments = lighting::lobe_moments(light.concentration);
     const glm::dvec3 axis = world_to_tangent * light.direction;
-    const double s_g = std::clamp(axis.x, -1.0, 1.0);
-    const double x = material.pitch_nm * (s_g + view.v_g);
-    // Samples over the footprint with its variance, no farther apart than the width of the lobe.
-    const double deviation = std::sqrt(lighting::lobe_moments(light.concentration).variance_across) * across_of(s_g);
-    const double widths = view.footprint / deviation;
-    const int taps = widths > kNoFootprint ? std::clamp(static_cast<int>(std::ceil(widths)), 2, 16) : 1;
-    const double aside = taps > 1 ? material.pitch_nm * view.footprint / std::sqrt(1.0 - 1.0 / (taps * taps)) : 0.0;
-    glm::dvec3 value(0.0);
-    for (int i = 0; i < taps; ++i) value += table.at(s_g, x + aside * ((2.0 * i + 1.0) / taps - 1.0)) / double(taps);
+    const double x = material.pitch_nm * (moments.mean * axis.x + view.v_g);
+    const double variance = variance_of(moments, axis.x) + view.footprint * view.footprint / 3.0;
     return transmittance(material.cover, spot) * lobe_height(light.concentration, axis.z) *
-           groove_factor(material.lobe, spot, view.v_h) * value;
+           groove_factor(material.lobe, spot, view.v_h) * table.at(axis.x, variance, x);
 }
 
 }  // namespace rowland::diffraction

@@ -2,6 +2,7 @@
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <vector>
 
 #include "engine/lighting/key_lights.h"
@@ -10,10 +11,11 @@
 
 namespace rowland::diffraction {
 
-/// The radiance of a key light on a grating of the flat lobe in one look-up, over its direction cosine s_g and the path
-/// difference x = d (s_g + v_g): XYZ = value · lobe_height(). A 2D texture, GL_LINEAR, GL_CLAMP_TO_EDGE, with nodes at
-/// texel centres:
-///   s = (x − begin)/(end − begin),  t = ½ + ½ s_g/(|s_g| + √(1 − s_g²))
+/// The radiance of a key light on a grating of the flat lobe in one look-up, PHYSICS §11: over the path difference
+/// x = d u, u being the mean of s_g + v_g over the lobe and the pixel, and the variance V of u, which tells the widths
+/// of both; the sign of s_g tells to which side the lobe is skewed. XYZ = value · lobe_height(). A 2D texture,
+/// GL_LINEAR, GL_CLAMP_TO_EDGE, with nodes at texel centres:
+///   s = (x − begin)/(end − begin),  t = ½ + sign(s_g) log₂(1 + V/kLeastLobeVariance) 2/rows
 struct LobeTable {
     double begin_nm = 0.0;
     double end_nm = 0.0;
@@ -22,18 +24,24 @@ struct LobeTable {
     std::vector<glm::vec3> values;  ///< XYZ, row by row
 
     /// Interpolated as the texture unit does.
-    glm::dvec3 at(double s_g, double x_nm) const;
+    glm::dvec3 at(double s_g, double variance, double x_nm) const;
 };
+
+/// The table does not resolve variances below it.
+inline constexpr double kLeastLobeVariance = 1.0 / (1 << 18);
 
 /// Mean of s_n⁺ over a lobe of concentration κ, whose s_n counts as normal; s_n is that of its direction.
 double lobe_height(double concentration, double s_n);
+
+/// lobe_height() − max(0, m) over |m|, m being the mean of s_n: log₂ as a polynomial, constant term first. Within 3e-4
+/// of the lobe's deviation for κ ≥ 40.
+glm::dvec4 lobe_height_fit(double concentration);
 
 /// The table of a key light, from direct_radiance() of the raised lobe over lobe_height(). It deviates from
 /// direct_radiance() only where the horizon cuts the lobe.
 LobeTable make_lobe_table(const BlurredKernel& kernel, double pitch_nm, const lighting::KeyLight& light, int columns);
 
-/// CPU reference of key_lobes.glsl: XYZ of a key light from its table. `world_to_tangent`: rows g, h, n. The view's
-/// footprint takes 1 to 16 samples, enough for 16 times the lobe's width. One suffices below a sixteenth of it: 7e-4.
+/// CPU reference of key_lobes.glsl: XYZ of a key light from its table. `world_to_tangent`: rows g, h, n.
 glm::dvec3 lobe_radiance(const LobeTable& table, const DirectMaterial& material, const lighting::KeyLight& light,
                          const glm::dmat3& world_to_tangent, const DirectView& view);
 

@@ -97,11 +97,13 @@ PlanarSettings PlanarSettings::from(const SettingValues& values, const Grating& 
 }
 
 PlanarTables bake(const Grating& grating, const PlanarSettings& settings) {
-    return {.size = settings.size, .lobe = lobe_of(settings), .stand_in = bake(grating, settings.stand_in)};
+    return {.size = settings.size,
+            .lobe = lobe_of(settings),
+            .stand_in = Lazy<ArcTable>([grating, stand_in = settings.stand_in] { return bake(grating, stand_in); })};
 }
 
 void write(const PlanarTables& tables, ByteWriter& writer) {
-    write(tables.stand_in, writer);
+    write(*tables.stand_in, writer);
 }
 
 PlanarTables read(ByteReader& reader, const PlanarSettings& settings) {
@@ -114,9 +116,7 @@ ShadingCost cost(const PlanarTables& tables) {
     const std::size_t texels = tables.lobe ? of(slices(tables.lobe->size, tables.lobe->pattern.even)) *
                                                  of(tables.lobe->size.views.g) * of(tables.lobe->size.views.h)
                                            : of(tables.size.azimuths) * of(tables.size.views);
-    return {.fetches_per_pixel = 1,
-            .multiply_adds_per_pixel = 12,
-            .table_bytes = texels * kHalfTexel + cost(tables.stand_in).table_bytes};
+    return {.fetches_per_pixel = 1, .multiply_adds_per_pixel = 12, .table_bytes = texels * kHalfTexel};
 }
 
 Facts facts(const PlanarTables& tables) {
@@ -126,7 +126,8 @@ Facts facts(const PlanarTables& tables) {
                                              tables.lobe->size.views.h)});
     else
         result.push_back({"map", fmt::format("{} x {}", tables.size.azimuths, tables.size.views)});
-    for (auto& fact : facts(tables.stand_in)) result.push_back(std::move(fact));
+    if (tables.stand_in.is_computed())
+        for (auto& fact : facts(*tables.stand_in)) result.push_back(std::move(fact));
     return result;
 }
 

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "engine/core/lazy.h"
 #include "modules/diffraction/bake/diffraction_pattern.h"
 #include "modules/diffraction/representations/arc/arc_table.h"
 #include "modules/diffraction/representations/planar/lobe_map.h"
@@ -10,7 +11,7 @@
 namespace rowland::diffraction {
 
 /// A map over (azimuth, v_g), or with a lobe that is not flat (azimuth, v_g, v_h), that is filled at run time for a
-/// flat object. The stand-in shades the object meanwhile, and objects that are not flat.
+/// flat object. The stand-in shades objects that are not flat.
 struct PlanarSettings {
     PlanarMapSize size;                      ///< flat lobe
     std::optional<LobeMapSize> lobe_size{};  ///< other lobes
@@ -32,7 +33,7 @@ struct PlanarLobe {
 struct PlanarTables {
     PlanarMapSize size;
     std::optional<PlanarLobe> lobe{};  ///< of a lobe that is not flat
-    ArcTable stand_in;
+    Lazy<ArcTable> stand_in;           ///< takes longer to bake than a map to fill, and flat objects do not read it
 };
 
 PlanarTables bake(const Grating& grating, const PlanarSettings& settings);

@@ -112,7 +112,7 @@ void PlanarFill::correlate(const Profile& profile, int azimuth, PlanarMap& map) 
     }
 }
 
-void PlanarFill::fill(int begin, int end, PlanarMap& map) const {
+void PlanarFill::fill(int begin, int end, PlanarMap& map, const std::stop_token& stop) const {
     ROWLAND_CHECK(map.azimuths == size_.azimuths && map.views == size_.views, "a map of another size");
     ROWLAND_CHECK(begin >= 0 && begin <= end && end <= size_.azimuths, "azimuths outside the map");
     map.e1 = axes_.e1;
@@ -126,13 +126,15 @@ void PlanarFill::fill(int begin, int end, PlanarMap& map) const {
         if (begin < end) needed[static_cast<std::size_t>(wrap(azimuth, half_turn))] = 1;
     std::vector<Profile> profiles(needed.size());
     parallel_for(needed.size(), [&](std::size_t i) {
-        if (needed[i] != 0) profiles[i] = project(static_cast<int>(i));
+        if (needed[i] != 0 && !stop.stop_requested()) profiles[i] = project(static_cast<int>(i));
     });
+    if (stop.stop_requested()) return;
     const auto profile_at = [&](int azimuth) {
         const Profile& profile = profiles[static_cast<std::size_t>(wrap(azimuth, half_turn))];
         return wrap(azimuth, size_.azimuths) < half_turn ? profile : mirrored(profile);
     };
     parallel_for(static_cast<std::size_t>(end - begin), [&](std::size_t i) {
+        if (stop.stop_requested()) return;
         const int azimuth = begin + static_cast<int>(i);
         Profile here = profile_at(azimuth);
         const Profile before = profile_at(azimuth - 1);
@@ -145,10 +147,10 @@ void PlanarFill::fill(int begin, int end, PlanarMap& map) const {
 
 PlanarMap fill_planar_map(const lighting::LightSamples& texels, const KernelTable& kernel, double pitch_nm,
                           const glm::dvec3& normal, const PlanarMapSize& size, const glm::dmat3& zero_order_xyz,
-                          const std::optional<Cover>& cover) {
+                          const std::optional<Cover>& cover, const std::stop_token& stop) {
     const PlanarFill fill(texels, kernel, pitch_nm, normal, size, zero_order_xyz, cover);
     PlanarMap map = fill.empty();
-    fill.fill(0, size.azimuths, map);
+    fill.fill(0, size.azimuths, map, stop);
     return map;
 }
 

@@ -1,10 +1,11 @@
-// A flat object's map over the azimuth of g in its plane and v_g: planar_map.h. The program defines its AZIMUTHS and
-// VIEWS. With LOBE_MAP it is over v_h as well: lobe_map.h; with HALF_TURN over half of the azimuths.
+// A flat object's map over the azimuth of g in its plane and v_g: planar_map.h. With LOBE_MAP it is
+// over v_h as well: lobe_map.h; with HALF_TURN over half of the azimuths.
 #ifdef LOBE_MAP
 layout(binding = 11) uniform sampler3D lobe_map;
 uniform vec4 lobe_map_axes;  // scales of v_g, v_h and the azimuth, offset of the azimuth
 #else
 layout(binding = 11) uniform sampler2D planar_map;
+uniform vec2 planar_map_half_texel;
 #endif
 uniform vec3 planar_e1;  // the azimuth's axes in the world
 uniform vec3 planar_e2;
@@ -36,7 +37,7 @@ vec3 map_radiance(vec2 v, vec3 g) {
 }
 #else
 vec3 map_radiance(float v_g, vec3 g, vec3 n) {
-    vec2 half_texel = 0.5 / vec2(AZIMUTHS, VIEWS);
+    vec2 half_texel = planar_map_half_texel;
     vec2 uv = vec2(turns(dot(g, planar_e2), dot(g, planar_e1)) + half_texel.x, 0.5 + v_g * (0.5 - half_texel.y));
     return map_scale * textureLod(planar_map, uv, 0.0).xyz;
 }

@@ -3,6 +3,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <stop_token>
 #include <vector>
 
 #include "engine/lighting/light_samples.h"
@@ -32,6 +33,9 @@ struct PlanarMapSize {
     int views = 128;     ///< ≥ 8
 };
 
+/// What is shown while a larger map is filled: within 10 ms of a tilt on two cores.
+inline constexpr PlanarMapSize kCoarsePlanarMap{.azimuths = 64, .views = 64};
+
 /// Fills a map at once or incrementally. Holds the light projected on the plane and the kernel's weights, not the
 /// texels.
 class PlanarFill {
@@ -47,8 +51,8 @@ class PlanarFill {
 
     /// Fills azimuths [begin, end) of a map from empty(), or of an older map of the same size, whose frame becomes this
     /// fill's. Any order gives the same map. Values are optimised for linear interpolation (kBestLinear): they are not
-    /// the radiance at the nodes.
-    void fill(int begin, int end, PlanarMap& map) const;
+    /// the radiance at the nodes. After a stop request it returns early with an unusable map.
+    void fill(int begin, int end, PlanarMap& map, const std::stop_token& stop = {}) const;
 
  private:
     struct Profile;
@@ -64,11 +68,11 @@ class PlanarFill {
     std::vector<float> columns_;  ///< the same, transposed
 };
 
-/// A map, filled at once.
+/// A map, filled at once. After a stop request it returns early with an unusable map.
 PlanarMap fill_planar_map(const lighting::LightSamples& texels, const KernelTable& kernel, double pitch_nm,
                           const glm::dvec3& normal, const PlanarMapSize& size = {},
                           const glm::dmat3& zero_order_xyz = glm::dmat3(0.0),
-                          const std::optional<Cover>& cover = std::nullopt);
+                          const std::optional<Cover>& cover = std::nullopt, const std::stop_token& stop = {});
 
 /// XYZ at an azimuth (radians, unbounded) and a v_g, as the texture unit interpolates.
 glm::dvec3 sample(const PlanarMap& map, double azimuth, double v_g);

@@ -1,12 +1,12 @@
 #include "modules/diffraction/representations/streak/gpu_streak.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <span>
 #include <string>
 
-#include "engine/core/log.h"
 #include "modules/diffraction/runtime/bindings.h"
 
 namespace rowland::diffraction {
@@ -37,37 +37,42 @@ gpu::Buffer segment_buffer(const Streak& streak, const glm::dmat3& xyz_to_workin
     return gpu::Buffer::of(std::span<const ShaderSegment>(segments));
 }
 
+/// A quarter of the side is filled in a sixteenth of the time; lights are wider then.
+StreakMapSize coarser(StreakMapSize size) {
+    size.side = std::max(4, size.side / 16 * 4);
+    return size;
+}
+
+FilledMap fill(const StreakMapSize& full, const MapInput& input, MapDetail detail, const std::stop_token& stop) {
+    const StreakMap map = fill_streak_map(*input.texels, detail == MapDetail::Full ? full : coarser(full), stop);
+    if (stop.stop_requested()) return {};
+    return {
+        .texels = pack(
+            map.levels,
+            {.kind = gpu::TextureKind::Volume, .width = map.columns(0), .height = map.rows(0), .depth = map.slices(0)},
+            {.filter = gpu::Filter::Trilinear, .wrap_r = gpu::Wrap::Repeat}),
+        .set_uniforms = nullptr};
+}
+
 }  // namespace
 
 GpuStreak::GpuStreak(const CookedMaterial& cooked, const StreakTables& tables, const glm::dmat3& xyz_to_working)
     : GpuMaterial(cooked, xyz_to_working),
       segments_(segment_buffer(tables.streak, xyz_to_working)),
-      size_(tables.map),
       reach_(static_cast<float>(tables.streak.reach())),
       level_(static_cast<float>(std::log2(tables.streak.sigma / tables.map.length))),
       power_(static_cast<float>(tables.streak.power / std::erf(1.0 / (tables.streak.sigma * std::numbers::sqrt2)))),
       rest_weight_(static_cast<float>(1.0 - tables.streak.power)),
-      map_(black_streak_map()) {
+      fill_(std::make_shared<const FillMap>(
+          [size = tables.map](const MapInput& input, MapDetail detail, const std::stop_token& stop) {
+              return fill(size, input, detail, stop);
+          })) {
     if (tables.rest) rest_.emplace(cooked, *tables.rest, xyz_to_working);
-}
-
-void GpuStreak::begin(const std::shared_ptr<const lighting::LightSamples>& texels) const {
-    texels_ = texels;
-    if (!texels) log_warning("a grating of representation streak is under light without a probe: it stays dark");
-    filling_ =
-        std::make_unique<StreakFilling>(texels ? texels : std::make_shared<const lighting::LightSamples>(), size_);
-    ++fills_begun_;
 }
 
 void GpuStreak::update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const {
     if (rest_) rest_->update(object, light, state);
-    if (!texels_ || *texels_ != light.texels(LightPart::Probe)) begin(light.texels(LightPart::Probe));
-    if (!filling_) return;
-    if (object.slices_per_frame >= 2 * size_.turns) filling_->wait();
-    if (!filling_->upload(object.slices_per_frame)) return;
-    map_ = filling_->take();
-    filling_.reset();
-    ++fills_;
+    map_.update({.texels = light.texels(LightPart::Probe)}, fill_, object.map_pace);
 }
 
 void GpuStreak::describe(const SurfaceState& state, gpu::ProgramDesc& desc) const {

@@ -50,8 +50,8 @@ vec3 streak_position(float s_g, float s_h, float up, mat3 axes) {
     vec2 p = chart_position(axes * vec3(s_g, s_h, s_n), up);
     vec3 along = axes[1] * s_n - axes[2] * s_h;
     vec2 image = along.xz - up * along.y * p;
-    float turn = 0.5 * image.x / (abs(image.x) + abs(image.y));
-    return vec3(p, 0.5 + (image.y < 0.0 ? turn : -turn));
+    float turn = image.x / (abs(image.x) + abs(image.y));
+    return vec3(p, 0.5 + 0.5 * (image.y < 0.0 ? turn : -turn));
 }
 
 vec3 segment_radiance(int i, StreakView at, GrooveView view) {
@@ -85,8 +85,8 @@ vec3 segment_radiance(int i, StreakView at, GrooveView view) {
         float first_t = (first - middle) / extent;
         float step_t = step_g / extent;
         // The fraction above the horizon as a polynomial of t.
-        vec3 above = vec3(at.above.x - at.above.y * middle * middle, -2.0 * at.above.y * middle * extent,
-                          -at.above.y * extent * extent);
+        float bent = at.above.y * extent;
+        vec3 above = vec3(at.above.x - at.above.y * middle * middle, -bent * (low + high), -bent * extent);
         for (int j = 0; j < NODES; ++j) {
             float t = first_t + float(j) * step_t;
             float fraction = clamp(above.x + t * (above.y + t * above.z), 0.0, 1.0) *

@@ -1,6 +1,8 @@
 // The map over world-space grating vectors: against the CPU's, and when it is filled.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "modules/diffraction/representations/circle/gpu_circle.h"
 #include "tests/gpu/modules/diffraction/filter_error.h"
 #include "tests/gpu/modules/diffraction/grating_picture.h"
@@ -10,11 +12,12 @@ namespace {
 
 class Circle : public GratingPicture {
  protected:
-    int fills() const { return static_cast<const GpuCircle&>(*material_).fills(); }
-    int fills_begun() const { return static_cast<const GpuCircle&>(*material_).fills_begun(); }
-    CircleMap map(const CookedMaterial& cooked) const {
-        return fill_circle_map(*light_.texels, cooked.kernel, cooked.material.grating.pitch_nm,
-                               std::get<CircleTables>(cooked.tables).size, cooked.zero_order_xyz);
+    const MapFilling& filling() const { return static_cast<const GpuCircle&>(*material_).map(); }
+    CircleMap map(const CookedMaterial& cooked, int largest_side = 1 << 20) const {
+        CircleMapSize size = std::get<CircleTables>(cooked.tables).size;
+        size.side = std::min(size.side, largest_side);
+        return fill_circle_map(*light_.texels, cooked.kernel, cooked.material.grating.pitch_nm, size,
+                               cooked.zero_order_xyz);
     }
     static glm::dvec3 at(const CircleMap& map, const Point& point) {
         const glm::dmat3 axes = glm::transpose(point.to_tangent);
@@ -97,54 +100,20 @@ TEST_F(Circle, MotionFillsNothingAndObjectsShareTheMap) {
     }
     ++light_.version;  // the same texels
     draw();
-    EXPECT_EQ(fills(), 1);
+    EXPECT_EQ(filling().maps_shown(), 1);
     light_.texels = std::make_shared<const lighting::LightSamples>(*light_.texels);
     ++light_.version;
     draw();
-    EXPECT_EQ(fills(), 2);
+    EXPECT_EQ(filling().maps_shown(), 2);
 }
 
-/// A frame uploads some slices at most, so that the first frames cannot have the map, however fast it is filled.
-TEST_F(Circle, FramesDoNotWaitForTheMap) {
-    light_ = light_of(smooth_probe(), three_keys());
+/// The first frame does not wait for the full map.
+TEST_F(Circle, ACoarseMapIsShownUntilTheFullOneIsThere) {
     const CookedMaterial cooked = cook(kSlitCd, kCircle);
-    show(cooked, 0.0, 8);
-    const std::vector<glm::vec4> first = draw();
-    EXPECT_EQ(fills(), 0);
-    const auto on_its_own = material_;
-    use(cook(kSlitCd, R"({"representation": "direct"})"));
-    EXPECT_EQ(draw(), first);
-    material_ = on_its_own;
-    world_.add(entity_, DiffractionSurface{material_, 0.0F});
-
-    const auto draw_until = [&](int wanted) {
-        std::vector<glm::vec4> pixels = draw();
-        for (int frame = 0; fills() < wanted && frame < 100000; ++frame) pixels = draw();
-        return pixels;
-    };
-    const auto expect_map = [&](const std::vector<glm::vec4>& pixels) {
-        EXPECT_LT(difference_from_lit(cooked, pixels), kPictureTolerance);
-    };
-    const std::vector<glm::vec4> whole = draw_until(1);
-    EXPECT_EQ(fills_begun(), 1);
-    expect_map(whole);
-
-    // Another probe, and yet another while the first one's map is not there: the old map stays until the newest is.
-    const auto brighten = [&] {
-        auto texels = *light_.texels;
-        for (auto* colour : {&texels.red, &texels.green, &texels.blue})
-            for (float& flux : *colour) flux *= 2.0F;
-        light_.texels = std::make_shared<const lighting::LightSamples>(std::move(texels));
-        ++light_.version;
-    };
-    brighten();
-    EXPECT_EQ(draw(), whole);
-    brighten();
-    EXPECT_EQ(draw(), whole);
-    EXPECT_EQ(fills_begun(), 3);
-    const std::vector<glm::vec4> newest = draw_until(2);
-    EXPECT_EQ(fills(), 2);
-    expect_map(newest);
+    show(cooked, 0.3, MapPace::Incremental);
+    EXPECT_LT(difference_from(map(cooked, kCoarseCircleSide), draw()), kMapTolerance);
+    while (!filling().is_complete()) draw();
+    EXPECT_LT(difference_from(map(cooked), draw()), kMapTolerance);
 }
 
 }  // namespace

@@ -41,9 +41,9 @@ class UnderLight final : public render::MaterialType {
 
 }  // namespace
 
-void GratingPicture::show(const CookedMaterial& cooked, double groove_rotation, int slices_per_frame) {
+void GratingPicture::show(const CookedMaterial& cooked, double groove_rotation, MapPace pace) {
     renderer_.emplace(xyz_to_working_);
-    const DiffractionSettings settings{.window = math::SphericalWindow::None, .slices_per_frame = slices_per_frame};
+    const DiffractionSettings settings{.window = math::SphericalWindow::None, .map_pace = pace};
     renderer_->add_material_type(std::make_unique<UnderLight>(xyz_to_working_, settings, light_));
     lighting::LightProbe dark;
     dark.sh = {.bands = 3, .coefficients = std::vector<glm::dvec3>(9, glm::dvec3(0.0))};

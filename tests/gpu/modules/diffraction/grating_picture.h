@@ -33,7 +33,7 @@ inline constexpr double kMapTolerance = 5e-4;
 class GratingPicture : public rowland::test::GlTest, protected DrawnTriangle {
  protected:
     /// Builds the scene, from the mesh and the light as they are.
-    void show(const CookedMaterial& cooked, double groove_rotation = 0.0, int slices_per_frame = 1 << 20);
+    void show(const CookedMaterial& cooked, double groove_rotation = 0.0, MapPace pace = MapPace::Whole);
     /// Gives the triangle another material.
     void use(const CookedMaterial& cooked);
     /// Rows from the top down.

@@ -13,10 +13,13 @@ class Planar : public GratingPicture {
     Planar() { mesh_ = flat_triangle(); }
 
     const PlanarData& data() { return static_cast<const PlanarData&>(*world_.get<SurfaceState>(entity_).data); }
-    PlanarMap map(const CookedMaterial& cooked) const {
+    PlanarMap map(const CookedMaterial& cooked, const PlanarMapSize& size) const {
         const glm::dvec3 normal = glm::transpose(vertex_frame(0))[2];
-        return fill_planar_map(*light_.texels, cooked.kernel, cooked.material.grating.pitch_nm, normal,
-                               std::get<PlanarTables>(cooked.tables).size, cooked.zero_order_xyz);
+        return fill_planar_map(*light_.texels, cooked.kernel, cooked.material.grating.pitch_nm, normal, size,
+                               cooked.zero_order_xyz);
+    }
+    PlanarMap map(const CookedMaterial& cooked) const {
+        return map(cooked, std::get<PlanarTables>(cooked.tables).size);
     }
     static glm::dvec3 at(const PlanarMap& map, const Point& point) {
         const glm::dmat3 axes = glm::transpose(point.to_tangent);
@@ -38,7 +41,7 @@ TEST_F(Planar, PixelsEqualTheCpusMap) {
         if (!renderer_) show(cooked, 0.7);
         use(cooked);
         EXPECT_LT(difference_from(map(cooked), draw()), kMapTolerance);
-        EXPECT_TRUE(data().on_gpu.has_value());
+        EXPECT_TRUE(data().map.is_complete());
         EXPECT_GT(brightest_, 0.01);
     }
 }
@@ -84,7 +87,7 @@ TEST_F(Planar, KeyLightsMayStayInTheMap) {
         cook(kSlitCd, R"({"representation": "planar", "map_resolution": 64, "key_lights": false})");
     show(cooked, -0.3);
     const std::vector<glm::vec4> drawn = draw();
-    EXPECT_TRUE(data().on_gpu.has_value());
+    EXPECT_TRUE(data().map.is_complete());
     light_.texels = light_.probe_texels;
     EXPECT_LT(difference_from(map(cooked), drawn), kMapTolerance);
     EXPECT_GT(brightest_, 0.01);
@@ -104,13 +107,10 @@ TEST_F(Planar, ATurnAboutTheNormalFillsNothing) {
     const CookedMaterial cooked = cook(kSlitCd, kPlanar);
     show(cooked);
     draw();
-    EXPECT_EQ(data().fills_begun, 1);
-    EXPECT_EQ(data().azimuths_filled, 64);
     for (int step = 1; step < 5; ++step) {
         transform_.rotation = glm::angleAxis(0.3F * static_cast<float>(step), glm::vec3(0.0F, 0.0F, 1.0F));
         const std::vector<glm::vec4> pixels = draw();
-        EXPECT_EQ(data().fills_begun, 1);
-        EXPECT_EQ(data().azimuths_filled, 64);
+        EXPECT_EQ(data().map.fills_begun(), 1);
         EXPECT_LT(difference_from(map(cooked), pixels), kMapTolerance);
     }
 }
@@ -120,56 +120,24 @@ TEST_F(Planar, AChangeOfSceneLightsFillsNothing) {
     draw();
     ++light_.version;  // the same texels
     draw();
-    EXPECT_EQ(data().fills_begun, 1);
+    EXPECT_EQ(data().map.fills_begun(), 1);
 }
 
-TEST_F(Planar, ATiltFillsByAndByWhileTheArcTableStandsIn) {
-    const CookedMaterial cooked = cook(kSlitCd, kPlanar);
-    show(cooked, 0.0, 24);
-    const auto arc = [&](const std::string& key_lights) {
-        const std::string quality = R"({"representation": "arc", "key_lights": )" + key_lights + "}";
-        const auto planar = material_;
-        use(cook(kSlitCd, quality));
-        std::vector<glm::vec4> pixels = draw();
-        material_ = planar;
-        world_.add(entity_, DiffractionSurface{material_, 0.0F});
-        return pixels;
-    };
-    const std::vector<glm::vec4> stand_in = arc("true");
-    EXPECT_EQ(draw(), stand_in);  // 24 azimuths
-    EXPECT_EQ(draw(), stand_in);  // 48
-    EXPECT_NE(draw(), stand_in);  // 64: the map
-    EXPECT_EQ(data().fills_begun, 1);
-    EXPECT_EQ(data().azimuths_filled, 64);
-
-    // While it moves nothing is filled.
-    for (int step = 1; step < 4; ++step) {
-        transform_.rotation = glm::angleAxis(0.1F * static_cast<float>(step), glm::vec3(1.0F, 0.0F, 0.0F));
-        draw();
-        EXPECT_FALSE(data().on_gpu.has_value());
-        EXPECT_EQ(data().azimuths_filled, 64);
-    }
-    for (const int filled : {24, 48, 64}) {
-        draw();
-        EXPECT_EQ(data().azimuths_filled, 64 + filled);
-    }
-    EXPECT_EQ(data().fills_begun, 2);
+/// The first frame does not wait for the full map.
+TEST_F(Planar, ACoarseMapIsShownUntilTheFullOneIsThere) {
+    const CookedMaterial cooked = cook(kSlitCd, R"({"representation": "planar", "map_resolution": 96})");
+    show(cooked, 0.0, MapPace::Incremental);
+    EXPECT_LT(difference_from(map(cooked, kCoarsePlanarMap), draw()), kMapTolerance);
+    EXPECT_EQ(data().map.maps_shown(), 1);
+    while (!data().map.is_complete()) draw();
     EXPECT_LT(difference_from(map(cooked), draw()), kMapTolerance);
-    EXPECT_EQ(data().azimuths_filled, 128);
-
-    // The probe turns.
-    light_.texels = std::make_shared<const lighting::LightSamples>(*light_.texels);
-    ++light_.version;
-    for (int frame = 0; frame < 5; ++frame) draw();
-    EXPECT_EQ(data().fills_begun, 3);
-    EXPECT_EQ(data().azimuths_filled, 192);
 }
 
 TEST_F(Planar, AMeshThatIsNotFlatIsShadedAsArc) {
     mesh_ = crooked_triangle();
     show(cook(kSlitCd, kPlanar));
     const std::vector<glm::vec4> planar = draw();
-    EXPECT_EQ(data().fills_begun, 0);
+    EXPECT_EQ(data().map.fills_begun(), 0);
     use(cook(kSlitCd, R"({"representation": "arc"})"));
     EXPECT_EQ(draw(), planar);
 }
@@ -177,7 +145,6 @@ TEST_F(Planar, AMeshThatIsNotFlatIsShadedAsArc) {
 /// Lobes that are not flat: volume maps that another thread fills.
 class PlanarLobes : public Planar {
  protected:
-    const LobeFilling& filling() { return data().lobe; }
     static LobeMap map(const CookedMaterial& cooked, const glm::dvec3& normal, const LobeMapSize& size,
                        const lighting::LightSamples& texels) {
         return fill_lobe_map(texels, LobeSpectrum(std::get<PlanarTables>(cooked.tables).lobe->pattern, size.views),
@@ -211,7 +178,7 @@ TEST_F(PlanarLobes, PixelsEqualTheCpusMap) {
         if (!renderer_) show(cooked, 0.7);
         use(cooked);
         EXPECT_LT(difference_from(full_map(cooked), draw()), kMapTolerance) << grating;
-        EXPECT_TRUE(filling().is_complete());
+        EXPECT_TRUE(data().map.is_complete());
         EXPECT_GT(brightest_, 0.01);
     }
 }
@@ -230,52 +197,28 @@ TEST_F(PlanarLobes, AMapAtTheVerticesIsInterpolated) {
         [&](const Point& point) { return at(error, point); });
 }
 
-/// A frame uploads a part of the full map only: first the stand-in is shown, then the coarse map, then the full one.
 TEST_F(PlanarLobes, ACoarseMapIsShownUntilTheFullOneIsThere) {
-    // The programs of all lobes' maps are the same: with them compiled, frames are short beside the fill.
-    show(cook_planar(kFoil, kSmallLobeMap), 0.3, 1);
-    draw();
-    while (!filling().is_complete()) draw();
-
     const CookedMaterial cooked = cook_planar(kFoil, R"("map_resolution": 96)");
-    use(cooked);
-    const std::vector<glm::vec4> stand_in = draw();
-    EXPECT_FALSE(filling().has_map());
+    show(cooked, 0.3, MapPace::Incremental);
+    const glm::dvec3 normal = glm::transpose(vertex_frame(0))[2];
+    EXPECT_LT(difference_from(map(cooked, normal, kCoarseLobeMap, *light_.texels), draw()), kMapTolerance);
     EXPECT_TRUE(maps_are_filling(world_));
-    std::vector<glm::vec4> pixels = stand_in;
-    while (!filling().has_map()) pixels = draw();
-    EXPECT_NE(pixels, stand_in);
-    // On a busy machine the full map may be there as soon.
-    if (!filling().is_complete()) {
-        const glm::dvec3 normal = glm::transpose(vertex_frame(0))[2];
-        EXPECT_LT(difference_from(map(cooked, normal, kCoarseLobeMap, *light_.texels), pixels), kMapTolerance);
-        EXPECT_TRUE(maps_are_filling(world_));
-    }
-    while (!filling().is_complete()) pixels = draw();
-    EXPECT_LT(difference_from(full_map(cooked), pixels), kMapTolerance);
+    while (!data().map.is_complete()) draw();
+    EXPECT_LT(difference_from(full_map(cooked), draw()), kMapTolerance);
     EXPECT_FALSE(maps_are_filling(world_));
-    EXPECT_EQ(filling().fills_begun(), 1);
+    EXPECT_EQ(data().map.fills_begun(), 1);
 
     // A rotation about the normal and another version of the same light need no other map.
     ++light_.version;
     draw();
-    EXPECT_EQ(filling().fills_begun(), 1);
+    EXPECT_EQ(data().map.fills_begun(), 1);
 }
 
-/// While an object turns, coarse maps follow it: the last one is shown, never the stand-in.
-TEST_F(PlanarLobes, CoarseMapsFollowATurningObject) {
-    const CookedMaterial cooked = cook_planar(kFoil, R"("map_resolution": 64)");
-    show(cooked, 0.3, 1);
+TEST_F(PlanarLobes, AFlatObjectNeedsNoStandIn) {
+    const CookedMaterial cooked = cook_planar(kFoil, kSmallLobeMap);
+    show(cooked);
     draw();
-    while (!filling().has_map()) draw();
-    for (int step = 1; filling().fills_begun() < 4 && step < 100000; ++step) {
-        transform_.rotation = glm::angleAxis(0.001F * static_cast<float>(step), glm::vec3(1.0F, 0.0F, 0.0F));
-        draw();
-        EXPECT_TRUE(filling().has_map());
-    }
-    EXPECT_GE(filling().maps_shown(), 3);
-    while (!filling().is_complete()) draw();
-    EXPECT_LT(difference_from(full_map(cooked), draw()), kMapTolerance);
+    EXPECT_FALSE(std::get<PlanarTables>(cooked.tables).stand_in.is_computed());
 }
 
 TEST_F(PlanarLobes, AMeshThatIsNotFlatIsShadedAsArc) {
@@ -283,9 +226,9 @@ TEST_F(PlanarLobes, AMeshThatIsNotFlatIsShadedAsArc) {
     const CookedMaterial cooked = cook_planar(kFoil, kSmallLobeMap);
     show(cooked);
     const std::vector<glm::vec4> planar = draw();
-    EXPECT_EQ(filling().fills_begun(), 0);
+    EXPECT_EQ(data().map.fills_begun(), 0);
     CookedMaterial arc = cooked;
-    arc.tables = std::get<PlanarTables>(cooked.tables).stand_in;
+    arc.tables = *std::get<PlanarTables>(cooked.tables).stand_in;
     use(arc);
     EXPECT_EQ(draw(), planar);
 }

@@ -31,7 +31,8 @@ TEST(SceneLights, TheLightThatCastsTheShadowComesFirst) {
     EXPECT_EQ(lights.block.lights[2].strength.x, 3.0F);
     EXPECT_EQ(lights.block.lights[3].strength.x, 4.0F);
     EXPECT_EQ(lights.shadow_light, glm::vec3(1.0F, 0.0F, 0.0F));
-    EXPECT_EQ(lights.features(), feature::kLights & ~feature::kKeyLights);  // those are the probe's
+    EXPECT_EQ(lights.features(),
+              feature::kLights & ~(feature::kKeyLights | feature::kEffects));  // those are the probe's
 }
 
 TEST(SceneLights, AFrameHasTheFeaturesOfItsLightsOnly) {

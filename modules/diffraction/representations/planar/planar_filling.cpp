@@ -1,0 +1,98 @@
+#include "modules/diffraction/representations/planar/planar_filling.h"
+
+#include <algorithm>
+#include <array>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+#include <optional>
+#include <utility>
+
+#include "modules/diffraction/representations/planar/lobe_map.h"
+#include "modules/diffraction/representations/planar/planar_map.h"
+
+namespace rowland::diffraction {
+
+namespace {
+
+PlanarMapSize coarser(const PlanarMapSize& size) {
+    return {.azimuths = std::min(kCoarsePlanarMap.azimuths, size.azimuths),
+            .views = std::min(kCoarsePlanarMap.views, size.views)};
+}
+
+LobeMapSize coarser(const LobeMapSize& size) {
+    return {.azimuths = std::min(kCoarseLobeMap.azimuths, size.azimuths),
+            .views = {.g = std::min(kCoarseLobeMap.views.g, size.views.g),
+                      .h = std::min(kCoarseLobeMap.views.h, size.views.h)}};
+}
+
+void set_axes(const gpu::Program& program, const glm::dvec3& e1, const glm::dvec3& e2) {
+    program.set("planar_e1", glm::vec3(e1));
+    program.set("planar_e2", glm::vec3(e2));
+}
+
+/// Maps of flat lobe.
+struct FlatFilling {
+    KernelTable kernel;
+    glm::dmat3 zero_order;
+    double pitch_nm;
+    std::optional<Cover> cover;
+    PlanarMapSize full;
+
+    FilledMap operator()(const MapInput& input, MapDetail detail, const std::stop_token& stop) const {
+        const PlanarMapSize size = detail == MapDetail::Full ? full : coarser(full);
+        PlanarMap map = fill_planar_map(*input.texels, kernel, pitch_nm, input.normal, size, zero_order, cover, stop);
+        const std::array levels{std::move(map.xyz)};
+        return {.texels = pack(levels, {.width = map.azimuths, .height = map.views},
+                               {.filter = gpu::Filter::Linear, .wrap_s = gpu::Wrap::Repeat}),
+                .set_uniforms = [e1 = map.e1, e2 = map.e2, size](const gpu::Program& program) {
+                    set_axes(program, e1, e2);
+                    program.set("planar_map_half_texel", glm::vec2(0.5 / glm::dvec2(size.azimuths, size.views)));
+                }};
+    }
+};
+
+/// Volume maps of other lobes.
+struct LobeFilling {
+    struct Level {
+        int azimuths;
+        LobeSpectrum spectrum;
+    };
+    Level coarse;
+    Level full;
+
+    FilledMap operator()(const MapInput& input, MapDetail detail, const std::stop_token& stop) const {
+        const Level& level = detail == MapDetail::Full ? full : coarse;
+        LobeMap map = fill_lobe_map(*input.texels, level.spectrum, input.normal, level.azimuths, stop);
+        if (stop.stop_requested()) return {};
+        const LobeMapSize& size = map.size;
+        const int depth = slices(size, map.half_turn);
+        const std::array levels{std::move(map.values)};
+        return {.texels = pack(
+                    levels,
+                    {.kind = gpu::TextureKind::Volume, .width = size.views.g, .height = size.views.h, .depth = depth},
+                    {.filter = gpu::Filter::Linear, .wrap_r = map.half_turn ? gpu::Wrap::Clamp : gpu::Wrap::Repeat}),
+                .set_uniforms = [axes = map.axes, size, depth](const gpu::Program& program) {
+                    set_axes(program, axes.e1, axes.e2);
+                    program.set("lobe_map_axes",
+                                glm::vec4(glm::dvec4(0.5 - 0.5 / size.views.g, 0.5 - 0.5 / size.views.h,
+                                                     static_cast<double>(size.azimuths) / depth, 0.5 / depth)));
+                }};
+    }
+};
+
+}  // namespace
+
+std::shared_ptr<const FillMap> planar_filling(const PlanarTables& tables, const KernelTable& kernel,
+                                              const glm::dmat3& zero_order, const Grating& grating,
+                                              const glm::dmat3& xyz_to_working) {
+    if (!tables.lobe)
+        return std::make_shared<const FillMap>(
+            FlatFilling{kernel, zero_order, grating.pitch_nm, grating.cover, tables.size});
+    const DiffractionPattern pattern = in_space(tables.lobe->pattern, xyz_to_working);
+    const auto level = [&](const LobeMapSize& size) {
+        return LobeFilling::Level{size.azimuths, LobeSpectrum(pattern, size.views)};
+    };
+    return std::make_shared<const FillMap>(LobeFilling{level(coarser(tables.lobe->size)), level(tables.lobe->size)});
+}
+
+}  // namespace rowland::diffraction

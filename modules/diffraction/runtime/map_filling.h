@@ -1,0 +1,84 @@
+#pragma once
+
+#include <functional>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <optional>
+#include <stop_token>
+
+#include "engine/core/computed.h"
+#include "engine/gpu/program.h"
+#include "engine/lighting/light_samples.h"
+#include "modules/diffraction/runtime/map_upload.h"
+
+namespace rowland::diffraction {
+
+/// How long frames wait for maps.
+enum class MapPace {
+    Incremental,         ///< for coarse maps, tens of milliseconds, if there is no map yet; never for full ones
+    WholeUnderNewLight,  ///< for full maps if the probe is new; else as Incremental. For programs that load meanwhile
+    Whole,               ///< for full maps, always. For stills
+};
+
+/// What a map is filled from, besides its material.
+struct MapInput {
+    std::shared_ptr<const lighting::LightSamples> texels;  ///< null: black
+    glm::dvec3 normal{0.0};  ///< of a flat object, in the world; 0: the map serves every object
+
+    friend bool operator==(const MapInput&, const MapInput&) = default;
+};
+
+enum class MapDetail { Coarse, Full };
+
+/// A map on its way to the GPU.
+struct FilledMap {
+    MapTexels texels;
+    std::function<void(const gpu::Program&)> set_uniforms;  ///< besides GpuMap's
+};
+
+/// Fills a map on any thread; the texels are not null. After a stop request it returns early with an unusable map.
+using FillMap = std::function<FilledMap(const MapInput&, MapDetail, const std::stop_token&)>;
+
+/// A map that follows its input: another thread fills a coarse map and then the full one, and frames upload them. The
+/// last map is shown until there is another, so that an object that turns in every frame gets coarse maps.
+class MapFilling {
+ public:
+    /// Call once per frame; then there is a map. Throws Error (system) if a map cannot be filled.
+    void update(const MapInput& input, const std::shared_ptr<const FillMap>& fill, MapPace pace);
+
+    /// Some map is shown.
+    bool has_map() const { return map_.has_value(); }
+    /// The full map of the last input is shown.
+    bool is_complete() const { return shown_ && shown_->detail == MapDetail::Full && shown_->input == wanted_; }
+    /// There must be a map.
+    void bind(const gpu::Program& program) const;
+
+    /// Inputs for which maps were begun, and maps shown of either detail.
+    int fills_begun() const { return fills_begun_; }
+    int maps_shown() const { return maps_shown_; }
+
+ private:
+    struct Filled {
+        std::shared_ptr<FilledMap> map;  ///< without its texels once they are uploaded
+        MapInput input;
+        MapDetail detail;
+    };
+    using Filling = Computed<MapInput, Filled>;
+
+    void fill_now(const MapInput& input, const FillMap& fill, MapDetail detail);
+    void warn_of_black(const MapInput& input) const;
+    void want(const MapInput& input, const std::shared_ptr<const FillMap>& fill);
+    void begin_upload(Filled filled);
+    void upload(int slices);
+
+    std::optional<MapInput> wanted_;
+    Filling filling_;
+    std::optional<MapUpload> upload_;  ///< of uploading_
+    std::optional<Filled> uploading_;
+    std::optional<GpuMap> map_;
+    std::optional<Filled> shown_;  ///< what map_ is
+    int fills_begun_ = 0;
+    int maps_shown_ = 0;
+};
+
+}  // namespace rowland::diffraction

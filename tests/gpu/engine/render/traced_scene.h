@@ -1,0 +1,114 @@
+#pragma once
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "engine/scene/mesh_recipe.h"
+#include "tests/gpu/render_test.h"
+
+namespace rowland::test {
+
+/// A white floor y = 0 with boxes and spheres on it, which the CPU can send rays into.
+class TracedSceneTest : public RenderTest {
+ protected:
+    struct Hit {
+        double distance = std::numeric_limits<double>::infinity();
+        glm::dvec3 point{0.0};
+        glm::dvec3 normal{0.0};
+    };
+
+    static constexpr int kWidth = 160;
+    static constexpr int kHeight = 120;
+    static constexpr float kFloor = 0.6F;  ///< half its side
+
+    TracedSceneTest() {
+        camera_ = {.eye = {0.25F, 0.3F, 0.6F}, .target = {0.0F, 0.03F, 0.0F}, .vertical_field_of_view = 0.5F};
+        add(scene::build_mesh(scene::PlaneRecipe{.width = 2.0 * kFloor, .depth = 2.0 * kFloor}), kWhite);
+    }
+
+    /// Standing on the floor.
+    void add_box(const glm::vec3& foot, const glm::vec3& size) {
+        scene::Mesh mesh = scene::build_mesh(scene::BoxRecipe{.width = size.x, .height = size.y, .depth = size.z});
+        add(std::move(mesh), kWhite, glm::translate(glm::mat4(1.0F), foot));
+        const glm::dvec3 half(0.5F * size);
+        boxes_.push_back({glm::dvec3(foot) - glm::dvec3(half.x, 0.0, half.z),
+                          glm::dvec3(foot) + glm::dvec3(half.x, 2.0 * half.y, half.z)});
+    }
+    void add_sphere(const glm::vec3& centre, float radius) { add_sphere(centre, radius, kWhite); }
+    void add_sphere(const glm::vec3& centre, float radius, const render::StandardMaterial& material) {
+        scene::Mesh mesh = scene::build_mesh(scene::SphereRecipe{.radius = radius, .rings = 96, .segments = 192});
+        add(std::move(mesh), material, glm::translate(glm::mat4(1.0F), centre));
+        spheres_.push_back({glm::dvec3(centre), radius});
+    }
+
+    /// The nearest intersection beyond 1e-6 m.
+    std::optional<Hit> trace(const glm::dvec3& origin, const glm::dvec3& direction) const {
+        Hit hit;
+        const auto meet = [&](double distance, const glm::dvec3& normal) {
+            if (distance < 1e-6 || distance >= hit.distance) return;
+            hit = {distance, origin + distance * direction, normal};
+        };
+        if (direction.y < 0.0) meet(-origin.y / direction.y, {0.0, 1.0, 0.0});
+        for (const auto& [low, high] : boxes_) {
+            const glm::dvec3 a = (low - origin) / direction;
+            const glm::dvec3 b = (high - origin) / direction;
+            const glm::dvec3 enter = glm::min(a, b);
+            const glm::dvec3 leave = glm::max(a, b);
+            const double first = std::max({enter.x, enter.y, enter.z});
+            if (first > std::min({leave.x, leave.y, leave.z})) continue;
+            const int axis = first == enter.x ? 0 : (first == enter.y ? 1 : 2);
+            glm::dvec3 normal(0.0);
+            normal[axis] = direction[axis] < 0.0 ? 1.0 : -1.0;
+            meet(first, normal);
+        }
+        for (const auto& [centre, radius] : spheres_) {
+            const glm::dvec3 from = origin - centre;
+            const double along = glm::dot(from, direction);
+            const double under = along * along - glm::dot(from, from) + radius * radius;
+            if (under < 0.0) continue;
+            const double distance = -along - std::sqrt(under);
+            meet(distance, (from + distance * direction) / radius);
+        }
+        if (std::isinf(hit.distance)) return std::nullopt;
+        return hit;
+    }
+
+    /// What the centre of a pixel shows; rows from the top.
+    std::optional<Hit> seen(int column, int row) const {
+        const glm::dvec3 forward = glm::normalize(glm::dvec3(camera_.target) - glm::dvec3(camera_.eye));
+        const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(camera_.up)));
+        const double scale = 2.0 * std::tan(0.5 * camera_.vertical_field_of_view) / kHeight;
+        const glm::dvec3 direction = forward + scale * ((column + 0.5 - 0.5 * kWidth) * right +
+                                                        (0.5 * kHeight - row - 0.5) * glm::cross(right, forward));
+        return trace(glm::dvec3(camera_.eye), glm::normalize(direction));
+    }
+
+    /// Green of all pixels, rows from the top.
+    std::vector<float> greens() {
+        renderer_.render(world_, camera_, picture_);
+        std::vector<float> result;
+        for (const glm::vec4& pixel : picture_.read_rgba_float()) result.push_back(pixel.g);
+        return result;
+    }
+    static std::size_t index(int column, int row) { return static_cast<std::size_t>(row * kWidth + column); }
+
+    /// Two unit vectors across a unit vector.
+    static std::pair<glm::dvec3, glm::dvec3> axes_across(const glm::dvec3& n) {
+        const glm::dvec3 a = std::abs(n.y) < 0.9 ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(1.0, 0.0, 0.0);
+        const glm::dvec3 x = glm::normalize(glm::cross(a, n));
+        return {x, glm::cross(n, x)};
+    }
+
+    const render::StandardMaterial kWhite{.base_colour = glm::vec3(1.0F), .roughness = 1.0F};
+    std::vector<std::pair<glm::dvec3, glm::dvec3>> boxes_;  ///< lowest and highest corner
+    std::vector<std::pair<glm::dvec3, double>> spheres_;
+    gpu::Framebuffer picture_{
+        gpu::FramebufferDesc{.width = kWidth, .height = kHeight, .colours = {gpu::Format::RGBA32F}, .depth = true}};
+};
+
+}  // namespace rowland::test
