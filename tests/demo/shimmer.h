@@ -16,7 +16,8 @@ struct PixelAverage {
     std::size_t pixels = 0;  ///< of the object, without those at its edges
     /// Fraction of them that change by more than a tenth when the camera moves by half a pixel around the object.
     double jumping = 0.0;
-    /// The same of pictures of 16 samples per pixel: what the content itself does. Measured where `jumping` is not
+    double change = 0.0;  ///< by that step: relative RMS, components cut off at 1
+    /// `jumping` of pictures of 16 samples per pixel: what the content itself does. Measured where `jumping` is not
     /// small.
     double content_jumping = 0.0;
     /// Relative RMS of the linear picture against one of 16 samples per pixel, each shaded for its own footprint: what
