@@ -265,7 +265,8 @@ FrameBlock Renderer::frame_block(const Frame& frame) const {
     for (std::size_t i = 0; i < 9; ++i)
         block.ambient[i] = glm::vec4(glm::vec3(rec709_to_working_ * ambient_.coefficients[i]), 0.0F);
     block.environment = glm::vec4(static_cast<float>(environment_->map.levels() - 1), environment_->scale,
-                                  key_irradiance_ ? key_irradiance_->scale : 0.0F, 0.0F);
+                                  key_irradiance_ ? key_irradiance_->scale : 0.0F,
+                                  0.5F * static_cast<float>(environment_->map.size().x));
     block.shadow = glm::vec4(frame.shadow.texel_m, 1.0F / static_cast<float>(shadow_map_size_),
                              frame.into_halves ? 1.0F : 0.0F, 0.0F);
     if (effects_.soft_shadows)

@@ -124,9 +124,16 @@ std::map<std::string, PixelAverage> Shimmer::measure(const scene::Camera& camera
     std::map<std::string, PixelAverage> result;
     for (const auto& [object, seen] : see(camera)) {
         const glm::vec3 middle = seen.sum / static_cast<float>(seen.pixels.size());
-        const Pixels next = draw(moved(camera, size_.y, middle));
+        const scene::Camera aside = moved(camera, size_.y, middle);
+        const Pixels next = draw(aside);
+        const double jumping = fraction_jumping(seen.pixels, picture, next);
+        double content_jumping = 0.0;
+        if (with_error && jumping > kCalm)
+            content_jumping = fraction_jumping(seen.pixels, reference, draw_supersampled(aside));
         result[object] = {.pixels = seen.pixels.size(),
-                          .jumping = fraction_jumping(seen.pixels, picture, next),
+                          .jumping = jumping,
+                          .change = relative_rms(seen.pixels, next, picture, kWhite),
+                          .content_jumping = content_jumping,
                           .error = relative_rms(seen.pixels, picture, reference, kNoWhite),
                           .displayed = relative_rms(seen.pixels, picture, reference, kWhite)};
     }

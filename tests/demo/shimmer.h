@@ -16,7 +16,14 @@ struct PixelAverage {
     std::size_t pixels = 0;  ///< of the object, without those at its edges
     /// Fraction of them that change by more than a tenth when the camera moves by half a pixel around the object.
     double jumping = 0.0;
-    double error = 0.0;      ///< relative RMS of the linear picture against one of 16 samples per pixel
+    double change = 0.0;  ///< by that step: relative RMS, components cut off at 1
+    /// `jumping` of pictures of 16 samples per pixel: what the content itself does. Measured where `jumping` is not
+    /// small.
+    double content_jumping = 0.0;
+    /// Relative RMS of the linear picture against one of 16 samples per pixel, each shaded for its own footprint: what
+    /// shading per pixel costs, and within an object its outline against itself. Not in it: the object's edges, the
+    /// four samples that resolve them, and what both pictures share (probe, maps, shadows, half floats).
+    double error = 0.0;
     double displayed = 0.0;  ///< the same with components cut off at 1, diffuse white
 };
 
@@ -25,7 +32,10 @@ class Shimmer {
  public:
     Shimmer(const demo::Options& options, glm::ivec2 size);
 
-    /// By the objects' names. `with_error`: draws the picture of 16 samples as well.
+    /// Fraction of pixels whose jumping is small.
+    static constexpr double kCalm = 0.04;
+
+    /// By the objects' names. `with_error`: draws pictures of 16 samples as well.
     std::map<std::string, PixelAverage> measure(const scene::Camera& camera, bool with_error);
 
     demo::Session& session() { return session_; }

@@ -1,4 +1,5 @@
-// Pixels average what they cover: pictures hold still while the camera moves by less than a pixel.
+// Pixels average what they cover: pictures equal supersampled ones, and hold still while the camera moves by less than
+// a pixel.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -53,44 +54,57 @@ std::string with_json(std::string glb, const std::string& old_text, const std::s
     return glb;
 }
 
-/// Prints what the goals are about: four views under the procedural probes. Most jumps that are left are the contents',
-/// which move: pictures of 16 samples per pixel jump by 6.9 % on the foil and 2.7 % on the beetle (opening view,
-/// studio).
-TEST(Shimmer, FewPixelsOfTheCabinetsGratingsJump) {
+/// Measures views under a probe, prints the table, and holds: jumps of at most 4 %, or little more than the content's
+/// own, and still pictures within 7 % of those of 16 samples. The worst is the foil, whose facets are as small as
+/// pixels.
+void hold_goals(test::Shimmer& shimmer, const demo::Options& options, const std::string& probe,
+                const std::vector<std::size_t>& views) {
+    shimmer.session().use_probe(options.cooked_folder / (probe + ".probe"));
+    const auto cameras = shimmer.session().scene().views();
+    for (const std::size_t view : views)
+        for (const auto& [object, found] : shimmer.measure(cameras[view], true)) {
+            const std::string where = fmt::format("{}, view {}, {}", probe, view, object);
+            fmt::print(
+                "{:36} {:6} pixels  jump {:4.1f} % (content {:4.1f} %)  error {:5.1f} %  up to white {:5.1f} %\n",
+                where, found.pixels, 100.0 * found.jumping, 100.0 * found.content_jumping, 100.0 * found.error,
+                100.0 * found.displayed);
+            EXPECT_LE(found.jumping, std::max(test::Shimmer::kCalm, found.content_jumping + 0.025)) << where;
+            EXPECT_LE(found.error, 0.07) << where;
+        }
+}
+
+TEST(Shimmer, PixelsOfTheCabinetsGratingsShowWhatTheyCover) {
     const platform::HeadlessContext context;
     const demo::Options options = cabinet();
     test::Shimmer shimmer(options, kSize);
-    const auto views = shimmer.session().scene().views();
-    for (const std::string probe : {"studio", "clear_sky", "night"}) {
-        shimmer.session().use_probe(options.cooked_folder / (probe + ".probe"));
-        for (const std::size_t view : {0, 1, 3, 4})
-            for (const auto& [object, found] : shimmer.measure(views[view], true)) {
-                const std::string where = fmt::format("{}, view {}, {}", probe, view, object);
-                fmt::print("{:36} {:6} pixels  jump {:4.1f} %  error {:5.1f} %  up to white {:5.1f} %\n", where,
-                           found.pixels, 100.0 * found.jumping, 100.0 * found.error, 100.0 * found.displayed);
-                EXPECT_LE(found.jumping, view == 0 ? 0.04 : 0.06) << where;
-                if (object == "record" || object == "CD") {
-                    EXPECT_LE(found.error, 0.03) << where;
-                }
-            }
-    }
+    for (const std::string probe : {"studio", "clear_sky", "night"}) hold_goals(shimmer, options, probe, {0, 1, 3, 4});
 }
 
-TEST(Shimmer, OfAFoilThatSparklesIsTwiceAsMuch) {
+/// The opening view under the captures under which the most pixels jump.
+TEST(Shimmer, PixelsShowWhatTheyCoverUnderCaptures) {
+    const platform::HeadlessContext context;
+    const demo::Options options = cabinet();
+    if (!std::filesystem::exists(options.cooked_folder / "captured_studio.probe"))
+        GTEST_SKIP() << "needs the captured probes (Debian: blender-data)";
+    test::Shimmer shimmer(options, kSize);
+    for (const std::string probe : {"captured_night", "captured_studio"}) hold_goals(shimmer, options, probe, {0});
+}
+
+TEST(Shimmer, OfAFoilThatSparklesIsMore) {
     const platform::HeadlessContext context;
     const rowland::test::TemporaryFolder folder;
     demo::Options options = cabinet();
     const std::vector<std::byte> glb = read_file(*options.scene, 1 << 26);
     const std::string text(reinterpret_cast<const char*>(glb.data()), glb.size());
-    const auto jumping = [&](const demo::Options& scene) {
+    const auto change = [&](const demo::Options& scene) {
         test::Shimmer shimmer(scene, kSize / 2);
-        return shimmer.measure(shimmer.session().scene().views()[0], false).at(kFoil).jumping;
+        return shimmer.measure(shimmer.session().scene().views()[0], false).at(kFoil).change;
     };
-    const double filtered = jumping(options);
+    const double filtered = change(options);
     options.scene = folder.path() / "sparkle.glb";
     write_file_atomic(*options.scene, with_json(text, R"("grooveTexture":{"index":0})",
                                                 R"("grooveTexture":{"index":0,"sparkle":true})"));
-    EXPECT_GT(jumping(options), 2.0 * filtered);
+    EXPECT_GT(change(options), filtered);
 }
 
 }  // namespace

@@ -28,6 +28,29 @@ vec3 environment_light(vec3 direction, float roughness) {
     return light;
 }
 
+#ifdef MATERIAL_HAS_MIRROR
+#ifdef MATERIAL_CURVED_MIRROR
+// Most looked-at texels along a side of a pixel's footprint. A mirror ball that needs more is 32 pixels wide or less.
+const float MOST_TAPS = 8.0;
+
+// What a mirror shows, averaged over the pixel: a curved one spreads the directions over many texels, and a lamp may be
+// one. Uses derivatives: call it in uniform control flow.
+vec3 mirrored_light(vec3 direction) {
+    mat2x3 change = mat2x3(dFdx(direction), dFdy(direction));
+    vec3 spread = max(abs(change[0]), abs(change[1]));
+    float taps = clamp(ceil(environment.w * (spread.x + spread.y + spread.z)), 1.0, MOST_TAPS);
+    float step = 1.0 / taps;
+    vec3 sum = vec3(0.0);
+    for (float row = 0.5; row < taps; ++row)
+        for (float column = 0.5; column < taps; ++column)
+            sum += textureLod(environment_map, direction + change * (vec2(column, row) * step - 0.5), 0.0).rgb;
+    return sum * (environment.y * step * step);
+}
+#else
+vec3 mirrored_light(vec3 direction) { return environment_light(direction, 0.0); }
+#endif
+#endif
+
 // A GGX lobe's albedo for reflectance 1 - (1 - cosine)^5 and for (1 - cosine)^5.
 vec2 lobe_albedo(float n_v, float roughness) { return texture(brdf_table, vec2(n_v, roughness)).rg; }
 
@@ -77,7 +100,7 @@ void main() {
     sum += terms.base_weight * base_radiance(base.rgb, n, v, terms.added);
     sum += terms.added;
 #ifdef MATERIAL_HAS_MIRROR
-    sum += terms.mirror_weight * environment_light(reflect(-v, n), 0.0);
+    sum += terms.mirror_weight * mirrored_light(reflect(-v, n));
 #endif
 #endif
 #ifdef ALPHA_BLEND

@@ -151,21 +151,26 @@ GrooveView grooves_of(MeshView mesh, mat2x3 g_change, vec2 v_g_change, vec4 mome
     return GrooveView(turned, direction, pitch, g_change, v_g_change, mesh, turn, fade, spread, coverage);
 }
 
-// A pixel whose grooves vary is divided in parts: two distinct directions in it are no normal distribution.
-const int PARTS_PER_SIDE = 2;
+// A pixel whose grooves vary is divided in parts: two distinct directions in it are no normal distribution. In fewer
+// parts where they vary little, as a texture that turns the grooves steadily does.
 const float VARYING = 1e-3;
+const float VARYING_MUCH = 1e-2;
 
 int groove_parts(GrooveView view) {
-    return view.spread.x + view.spread.y > VARYING ? PARTS_PER_SIDE * PARTS_PER_SIDE : 1;
+    float variation = view.spread.x + view.spread.y;
+    return variation > VARYING_MUCH ? 16 : variation > VARYING ? 4 : 1;
 }
 
 // One of `parts`; `view`: the whole pixel.
 GrooveView groove_part(GrooveView view, int parts, int part) {
     if (parts == 1) return view;
-    vec2 at = (vec2(part % PARTS_PER_SIDE, part / PARTS_PER_SIDE) + 0.5) / float(PARTS_PER_SIDE) - 0.5;
+    int bits = parts == 4 ? 1 : 2;  // of the part's column and of its row
+    float side = parts == 4 ? 0.5 : 0.25;
+    vec2 at = (vec2(part & ((1 << bits) - 1), part >> bits) + 0.5) * side - 0.5;
     mat2 change = view.mesh.map_uv_change;
-    mat2 smaller = change / float(PARTS_PER_SIDE);
-    vec4 moments = textureGrad(groove_map, view.mesh.map_uv + change * at, smaller[0], smaller[1]);
+    // Half the part's width: a trilinear look-up averages over about twice the width that it is asked for.
+    mat2 width = change * (0.5 * side);
+    vec4 moments = textureGrad(groove_map, view.mesh.map_uv + change * at, width[0], width[1]);
     return grooves_of(view.mesh, view.g_change, view.v_g_change, moments);
 }
 #endif
