@@ -10,6 +10,7 @@ inline constexpr unsigned kFirstMapUnit = 3;  ///< of the five kSurfaceMaps
 inline constexpr unsigned kKeyIrradianceUnit = 15;
 inline constexpr unsigned kVisibilityUnit = 16;
 inline constexpr unsigned kPlaneMapUnit = 17;
+inline constexpr unsigned kMirrorUnit = 18;
 
 inline constexpr unsigned kFrameBinding = 0;
 inline constexpr unsigned kObjectBinding = 1;

@@ -23,14 +23,14 @@ gpu::Texture cube_map(const lighting::CubeLayout& layout, gpu::Filter filter) {
                         {.filter = filter});
 }
 
-/// The packed map's texels in the working space, still in units of its scale, with an alpha that is not read: drivers
+/// A packed map's texels in the working space, still in units of its scale, with an alpha that is not read: drivers
 /// copy texels that have the texture's own format, and convert others.
-std::vector<std::uint16_t> to_working_space(const lighting::PackedEnvironmentMap& packed, const glm::mat3& to_working) {
+std::vector<std::uint16_t> to_working_space(std::span<const std::uint16_t> packed, const glm::mat3& to_working) {
     std::vector<std::uint16_t> halves;
-    halves.reserve(packed.halves.size() / 3 * 4);
-    for (std::size_t i = 0; i + 2 < packed.halves.size(); i += 3) {
-        const glm::vec3 rgb(glm::unpackHalf1x16(packed.halves[i]), glm::unpackHalf1x16(packed.halves[i + 1]),
-                            glm::unpackHalf1x16(packed.halves[i + 2]));
+    halves.reserve(packed.size() / 3 * 4);
+    for (std::size_t i = 0; i + 2 < packed.size(); i += 3) {
+        const glm::vec3 rgb(glm::unpackHalf1x16(packed[i]), glm::unpackHalf1x16(packed[i + 1]),
+                            glm::unpackHalf1x16(packed[i + 2]));
         // Rec.709 lies inside ACEScg and its rows sum to 1: no component exceeds the largest of the three.
         const glm::vec3 working = to_working * rgb;
         for (int c = 0; c < 3; ++c) halves.push_back(glm::packHalf1x16(working[c]));
@@ -63,13 +63,22 @@ std::vector<glm::vec3> irradiance_texels(std::span<const lighting::KeyLight> key
 LightMap environment_map(const lighting::LightProbe& probe, const glm::dmat3& rec709_to_working) {
     const lighting::CubeLayout& layout = probe.environment.layout;
     LightMap light{.map = cube_map(layout, gpu::Filter::Trilinear), .scale = probe.environment.scale};
-    const std::vector<std::uint16_t> halves = to_working_space(probe.environment, glm::mat3(rec709_to_working));
+    const std::vector<std::uint16_t> halves = to_working_space(probe.environment.halves, glm::mat3(rec709_to_working));
     for (int level = 0; level < layout.levels; ++level) {
         const std::size_t begin = 4 * layout.offset(level);
         const std::size_t end = 4 * layout.offset(level + 1);
         light.map.upload(std::span(halves).subspan(begin, end - begin), {.level = level, .layers = 6});
     }
     return light;
+}
+
+gpu::Texture mirror_map(const lighting::LightProbe& probe, const glm::dmat3& rec709_to_working) {
+    const lighting::CubeLayout& layout = probe.environment.layout;
+    gpu::Texture map = cube_map({.face_size = layout.face_size, .levels = 0}, gpu::Filter::Trilinear);
+    const auto texels = std::span(probe.environment.halves).first(3 * layout.offset(1));
+    map.upload(std::span<const std::uint16_t>(to_working_space(texels, glm::mat3(rec709_to_working))), {.layers = 6});
+    map.generate_levels();
+    return map;
 }
 
 LightMap key_irradiance_map(std::span<const lighting::KeyLight> keys, const glm::dmat3& rec709_to_working) {

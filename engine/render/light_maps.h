@@ -17,6 +17,10 @@ struct LightMap {
 /// A probe's prefiltered environment.
 LightMap environment_map(const lighting::LightProbe& probe, const glm::dmat3& rec709_to_working);
 
+/// The environment as a mirror shows it, in units of environment_map()'s scale. Each level averages four texels of the
+/// one before, whatever their roughness: for pixels that cover many.
+gpu::Texture mirror_map(const lighting::LightProbe& probe, const glm::dmat3& rec709_to_working);
+
 /// Irradiance from a probe's key lights over the surface's normal, so that all of them cost one look-up per pixel. With
 /// 64² texels per face the error is at most 6e-3 of a point light's irradiance (where its cosine is clamped at the
 /// horizon), and less for wider lobes.

@@ -93,6 +93,7 @@ std::vector<std::string> Renderer::gltf_extensions() const {
 
 void Renderer::set_probe(lighting::LightProbe probe) {
     environment_ = environment_map(probe, rec709_to_working_);
+    mirror_ = mirror_map(probe, rec709_to_working_);
     light_.probe = std::make_shared<const lighting::LightProbe>(std::move(probe));
     probe_changed_ = true;
 }
@@ -265,8 +266,7 @@ FrameBlock Renderer::frame_block(const Frame& frame) const {
     for (std::size_t i = 0; i < 9; ++i)
         block.ambient[i] = glm::vec4(glm::vec3(rec709_to_working_ * ambient_.coefficients[i]), 0.0F);
     block.environment = glm::vec4(static_cast<float>(environment_->map.levels() - 1), environment_->scale,
-                                  key_irradiance_ ? key_irradiance_->scale : 0.0F,
-                                  0.5F * static_cast<float>(environment_->map.size().x));
+                                  key_irradiance_ ? key_irradiance_->scale : 0.0F, 0.0F);
     block.shadow = glm::vec4(frame.shadow.texel_m, 1.0F / static_cast<float>(shadow_map_size_),
                              frame.into_halves ? 1.0F : 0.0F, 0.0F);
     if (effects_.soft_shadows)
@@ -305,6 +305,7 @@ void Renderer::bind_frame(const Frame& frame) const {
     if (key_irradiance_) key_irradiance_->map.bind(kKeyIrradianceUnit);
     if (reflection_) reflection_->bind();
     environment_->map.bind(kEnvironmentUnit);
+    mirror_.bind(kMirrorUnit);
     brdf_table_.bind(kBrdfUnit);
 }
 

@@ -17,8 +17,8 @@ vec3 direct_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness, inout 
 #include "engine/render/shaders/local_reflection.glsl"
 #endif
 
-vec3 environment_light(vec3 direction, float roughness) {
-    vec3 light = textureLod(environment_map, direction, roughness * environment.x).rgb * environment.y;
+// The environment's light as the scene near the surface hides and replaces it.
+vec3 with_surroundings(vec3 light, vec3 direction, float roughness) {
 #ifdef AMBIENT_OCCLUSION
     light *= reflection_visibility(abs(dot(direction, normalize(world_normal))), roughness);
 #endif
@@ -28,27 +28,21 @@ vec3 environment_light(vec3 direction, float roughness) {
     return light;
 }
 
+vec3 environment_light(vec3 direction, float roughness) {
+    vec3 light = textureLod(environment_map, direction, roughness * environment.x).rgb * environment.y;
+    return with_surroundings(light, direction, roughness);
+}
+
 #ifdef MATERIAL_HAS_MIRROR
-#ifdef MATERIAL_CURVED_MIRROR
-// Most looked-at texels along a side of a pixel's footprint. A mirror ball that needs more is 32 pixels wide or less.
-const float MOST_TAPS = 8.0;
+// A trilinear look-up averages over about twice the width that it is asked for.
+const float MIRROR_BIAS = -0.5;
+layout(binding = 18) uniform samplerCube mirror_map;  // the environment with box-filtered levels
 
 // What a mirror shows, averaged over the pixel: a curved one spreads the directions over many texels, and a lamp may be
 // one. Uses derivatives: call it in uniform control flow.
 vec3 mirrored_light(vec3 direction) {
-    mat2x3 change = mat2x3(dFdx(direction), dFdy(direction));
-    vec3 spread = max(abs(change[0]), abs(change[1]));
-    float taps = clamp(ceil(environment.w * (spread.x + spread.y + spread.z)), 1.0, MOST_TAPS);
-    float step = 1.0 / taps;
-    vec3 sum = vec3(0.0);
-    for (float row = 0.5; row < taps; ++row)
-        for (float column = 0.5; column < taps; ++column)
-            sum += textureLod(environment_map, direction + change * (vec2(column, row) * step - 0.5), 0.0).rgb;
-    return sum * (environment.y * step * step);
+    return with_surroundings(texture(mirror_map, direction, MIRROR_BIAS).rgb * environment.y, direction, 0.0);
 }
-#else
-vec3 mirrored_light(vec3 direction) { return environment_light(direction, 0.0); }
-#endif
 #endif
 
 // A GGX lobe's albedo for reflectance 1 - (1 - cosine)^5 and for (1 - cosine)^5.

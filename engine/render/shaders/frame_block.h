@@ -18,7 +18,7 @@ layout(std140, binding = 0) uniform FrameBlock {
     vec4 eye;                // xyz: world position, metres
     vec4 ambient[9];         // xyz: SH of irradiance / pi, working space; without the key lights
     vec4 environment;        // x: mip levels - 1; y: radiance per stored unit; z: irradiance per unit of
-                             // key_irradiance_map; w: texels of level 0 per radian in the middle of a face
+                             // key_irradiance_map
     vec4 shadow;             // x: width of a shadow texel, metres; y: of the map, 1 / texels; z: 1 if the target holds
                              // half floats; w: of soft shadows: engine/render/soft_shadow.h
     vec4 dome;               // x: height of the probe's camera above the floor y = 0, metres; y: radius; 0: none;
