@@ -121,7 +121,7 @@ class Renderer {
     gpu::StreamBuffer frame_data_;    ///< FrameBlock, LightBlock, ObjectBlocks and joint matrices
     gpu::Texture brdf_table_;
     std::optional<LightMap> environment_;
-    gpu::Texture mirror_;  ///< in units of environment_'s scale
+    gpu::Texture mirror_;                     ///< in units of environment_'s scale
     std::optional<LightMap> key_irradiance_;  ///< none without key lights
     std::optional<gpu::Framebuffer> shadow_map_;
     int shadow_map_size_ = 2048;

@@ -35,7 +35,7 @@ vec3 environment_light(vec3 direction, float roughness) {
 
 #ifdef MATERIAL_HAS_MIRROR
 // A trilinear look-up averages over about twice the width that it is asked for.
-const float MIRROR_BIAS = -0.5;
+const float MIRROR_BIAS = -1.0;
 layout(binding = 18) uniform samplerCube mirror_map;  // the environment with box-filtered levels
 
 // What a mirror shows, averaged over the pixel: a curved one spreads the directions over many texels, and a lamp may be
