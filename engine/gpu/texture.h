@@ -33,6 +33,7 @@ struct Sampling {
     Wrap wrap_t = Wrap::Clamp;
     Wrap wrap_r = Wrap::Clamp;
     float anisotropy = 1.0F;     ///< at most max_anisotropy()
+    float level_bias = 0.0F;     ///< added to the level that texture() chooses
     bool compare_depth = false;  ///< of a depth texture: sampler2DShadow, 1 where the reference ≤ the texel
 };
 

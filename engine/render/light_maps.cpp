@@ -14,13 +14,13 @@ namespace rowland::render {
 
 namespace {
 
-gpu::Texture cube_map(const lighting::CubeLayout& layout, gpu::Filter filter) {
+gpu::Texture cube_map(const lighting::CubeLayout& layout, const gpu::Sampling& sampling) {
     return gpu::Texture({.kind = gpu::TextureKind::CubeMap,
                          .format = gpu::Format::RGBA16F,
                          .width = layout.face_size,
                          .height = layout.face_size,
                          .levels = layout.levels},
-                        {.filter = filter});
+                        sampling);
 }
 
 /// A packed map's texels in the working space, still in units of its scale, with an alpha that is not read: drivers
@@ -62,7 +62,7 @@ std::vector<glm::vec3> irradiance_texels(std::span<const lighting::KeyLight> key
 
 LightMap environment_map(const lighting::LightProbe& probe, const glm::dmat3& rec709_to_working) {
     const lighting::CubeLayout& layout = probe.environment.layout;
-    LightMap light{.map = cube_map(layout, gpu::Filter::Trilinear), .scale = probe.environment.scale};
+    LightMap light{.map = cube_map(layout, {.filter = gpu::Filter::Trilinear}), .scale = probe.environment.scale};
     const std::vector<std::uint16_t> halves = to_working_space(probe.environment.halves, glm::mat3(rec709_to_working));
     for (int level = 0; level < layout.levels; ++level) {
         const std::size_t begin = 4 * layout.offset(level);
@@ -74,7 +74,9 @@ LightMap environment_map(const lighting::LightProbe& probe, const glm::dmat3& re
 
 gpu::Texture mirror_map(const lighting::LightProbe& probe, const glm::dmat3& rec709_to_working) {
     const lighting::CubeLayout& layout = probe.environment.layout;
-    gpu::Texture map = cube_map({.face_size = layout.face_size, .levels = 0}, gpu::Filter::Trilinear);
+    // A trilinear look-up averages over about twice the width that it is asked for.
+    gpu::Texture map =
+        cube_map({.face_size = layout.face_size, .levels = 0}, {.filter = gpu::Filter::Trilinear, .level_bias = -1.0F});
     const auto texels = std::span(probe.environment.halves).first(3 * layout.offset(1));
     map.upload(std::span<const std::uint16_t>(to_working_space(texels, glm::mat3(rec709_to_working))), {.layers = 6});
     map.generate_levels();
@@ -82,7 +84,7 @@ gpu::Texture mirror_map(const lighting::LightProbe& probe, const glm::dmat3& rec
 }
 
 LightMap key_irradiance_map(std::span<const lighting::KeyLight> keys, const glm::dmat3& rec709_to_working) {
-    LightMap light{.map = cube_map({.face_size = kIrradianceFace, .levels = 1}, gpu::Filter::Linear)};
+    LightMap light{.map = cube_map({.face_size = kIrradianceFace, .levels = 1}, {.filter = gpu::Filter::Linear})};
     std::vector<glm::vec3> texels = irradiance_texels(keys, rec709_to_working);
     float largest = 0.0F;
     for (const glm::vec3& texel : texels) largest = std::max({largest, texel.x, texel.y, texel.z});

@@ -34,14 +34,12 @@ vec3 environment_light(vec3 direction, float roughness) {
 }
 
 #ifdef MATERIAL_HAS_MIRROR
-// A trilinear look-up averages over about twice the width that it is asked for.
-const float MIRROR_BIAS = -1.0;
 layout(binding = 18) uniform samplerCube mirror_map;  // the environment with box-filtered levels
 
 // What a mirror shows, averaged over the pixel: a curved one spreads the directions over many texels, and a lamp may be
 // one. Uses derivatives: call it in uniform control flow.
 vec3 mirrored_light(vec3 direction) {
-    return with_surroundings(texture(mirror_map, direction, MIRROR_BIAS).rgb * environment.y, direction, 0.0);
+    return with_surroundings(texture(mirror_map, direction).rgb * environment.y, direction, 0.0);
 }
 #endif
 

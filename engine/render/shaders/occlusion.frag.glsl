@@ -108,9 +108,10 @@ void main() {
     if (-here.z >= FAR_AWAY) return;
     vec3 normal = normal_at(texel, here);
     if (dot(normal, here) > 0.0) normal = -normal;
-    // Every pair of a rotation and an offset of four once in 4x4 pixels.
+    // In 4x4 pixels each of 16 rotations once, and each of 16 offsets: few rotations would cast fans of stripes.
     ivec2 in_pattern = texel & 3;
-    vec2 pattern = (vec2((in_pattern.x + 2 * in_pattern.y) & 3, in_pattern.y) + 0.5) / 4.0;
+    int rotation = 4 * ((in_pattern.x + 2 * in_pattern.y) & 3) + in_pattern.y;
+    vec2 pattern = (vec2(rotation, (5 * rotation) & 15) + 0.5) / 16.0;
     visibility.x = ambient_visibility(texel, here, normal, pattern);
     visibility.y = contact_visibility(here, normal, pattern.y);
 }
