@@ -101,8 +101,11 @@ class DisplayPassTest : public test::GlTest {
         const DisplayTransform transform(config, selection);
         const double finite = gpu_against_cpu(transform, finite_pixels());
         const double non_finite = gpu_against_cpu(transform, non_finite_pixels());
-        EXPECT_LE(finite, gpu_tolerance) << selection.display << " / " << selection.view;
-        EXPECT_LE(non_finite, gpu_tolerance) << selection.display << " / " << selection.view;
+        // Colours of neighbouring stops differ by .9 from node to node of a table, and texture units may have positions
+        // of 8 bits between them, cut off.
+        const double tolerance = selection.view == "False Colour" ? 0.9 / 256.0 : gpu_tolerance;
+        EXPECT_LE(finite, tolerance) << selection.display << " / " << selection.view;
+        EXPECT_LE(non_finite, tolerance) << selection.display << " / " << selection.view;
         RecordProperty(selection.view, fmt::format("{} {}", finite, non_finite));
     }
 
