@@ -13,6 +13,7 @@
 //   float gloss_roughness();
 // of a layer on top, in which the scene's lights have highlights: reflectance at the angle of this cosine, perceptual
 // roughness.
+// If it defines MATERIAL_CURVED_MIRROR, what its mirror shows is averaged over the pixel.
 #include "engine/render/shaders/frame_block.h"
 #include "engine/render/shaders/object_block.h"
 #include "engine/render/shaders/ambient_light.glsl"

@@ -34,6 +34,7 @@ vec3 environment_light(vec3 direction, float roughness) {
 }
 
 #ifdef MATERIAL_HAS_MIRROR
+#ifdef MATERIAL_CURVED_MIRROR
 layout(binding = 18) uniform samplerCube mirror_map;  // the environment with box-filtered levels
 
 // What a mirror shows, averaged over the pixel: a curved one spreads the directions over many texels, and a lamp may be
@@ -41,6 +42,9 @@ layout(binding = 18) uniform samplerCube mirror_map;  // the environment with bo
 vec3 mirrored_light(vec3 direction) {
     return with_surroundings(texture(mirror_map, direction).rgb * environment.y, direction, 0.0);
 }
+#else
+vec3 mirrored_light(vec3 direction) { return environment_light(direction, 0.0); }
+#endif
 #endif
 
 // A GGX lobe's albedo for reflectance 1 - (1 - cosine)^5 and for (1 - cosine)^5.
