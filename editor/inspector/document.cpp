@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "engine/core/error.h"
 #include "engine/core/file.h"
-#include "engine/core/utf8.h"
-#include "modules/diffraction/asset/material_json.h"
 
 namespace rowland::inspector {
 
@@ -15,58 +14,28 @@ namespace {
 
 constexpr std::uint64_t kLargestMaterial = 1 << 20;
 constexpr std::size_t kMostSteps = 1000;
-
-std::shared_ptr<const MaterialSource> accept(const Json& material, const std::string& file,
-                                             const std::filesystem::path& folder) {
-    return std::make_shared<const MaterialSource>(MaterialSource{
-        material, diffraction::parse_material(nlohmann::json(material), file, diffraction::read_beside(folder)), file});
-}
-
-/// Rewrites a file name that is relative to one folder so that it is relative to another.
-void move_name(Json& name, const std::filesystem::path& from, const std::filesystem::path& to) {
-    if (!name.is_string()) return;
-    const std::filesystem::path file = name.get<std::string>();
-    if (file.empty() || file.is_absolute()) return;
-    name = require_utf8(std::filesystem::proximate(from / file, to), "rename it, or save elsewhere");
-}
-
-/// The material with its file names relative to another folder.
-Json moved(Json material, const std::filesystem::path& from, const std::filesystem::path& to) {
-    Json& profile = material["grating"]["profile"];
-    if (profile.contains("file")) move_name(profile["file"], from, to);
-    if (!material.contains("quality")) return material;
-    Json& quality = material["quality"];
-    if (quality.contains("illuminant") && quality["illuminant"].is_string() &&
-        quality["illuminant"].get<std::string>().ends_with(".csv"))
-        move_name(quality["illuminant"], from, to);
-    if (quality.contains("probes"))
-        for (Json& probe : quality["probes"]) move_name(probe.is_object() ? probe["image"] : probe, from, to);
-    return material;
-}
+constexpr const char* kTextureIndex = "/grooveTexture/index";
 
 std::filesystem::path folder_of(const std::filesystem::path& path) {
     return std::filesystem::absolute(path).parent_path();
 }
 
 /// The first name that does not exist yet: cd.unsaved.json, cd.unsaved-2.json, …
-std::filesystem::path unsaved_file(const std::filesystem::path& folder, const std::string& name) {
-    const std::string stem = std::filesystem::path(name).stem().string();
-    std::filesystem::path file = folder / (stem + ".unsaved.json");
-    for (int i = 2; std::filesystem::exists(file); ++i) file = folder / fmt::format("{}.unsaved-{}.json", stem, i);
+std::filesystem::path unsaved_file(const std::filesystem::path& folder, const std::filesystem::path& name,
+                                   const std::string& extension) {
+    const std::string stem = name.stem().string();
+    std::filesystem::path file = folder / (stem + ".unsaved" + extension);
+    for (int i = 2; std::filesystem::exists(file); ++i)
+        file = folder / fmt::format("{}.unsaved-{}{}", stem, i, extension);
     return file;
 }
 
 }  // namespace
 
-Document::Document(Json material, std::string name, std::filesystem::path folder)
-    : name_(std::move(name)), folder_(std::move(folder)), accepted_(accept(material, name_, folder_)) {
-    steps_.push_back(std::move(material));
-}
-
 Document Document::open(const std::filesystem::path& path) {
     Document document = open_as_new(path);
     document.path_ = path;
-    document.saved_ = document.accepted_;
+    document.note_saved();
     return document;
 }
 
@@ -76,7 +45,42 @@ Document Document::open_as_new(const std::filesystem::path& path) {
 }
 
 Document Document::make_new(Json material, std::string name, std::filesystem::path folder) {
-    return Document(std::move(material), std::move(name), std::move(folder));
+    Document document(std::move(name), std::move(folder));
+    auto accepted = accept_material(material, document.name_, document.folder_);
+    document.slots_.push_back({.json = std::move(material), .accepted = std::move(accepted)});
+    return document;
+}
+
+Document Document::open_scene(scene::EditableGltf file) {
+    const std::filesystem::path path = file.path();
+    Document document(path.filename().string(), folder_of(path));
+    document.path_ = path;
+    for (std::size_t i = 0; i < file.outline().materials.size(); ++i) {
+        Slot slot{.json = file.material_extension(i, diffraction::kGltfExtension)};
+        if (!slot.json.is_null())
+            slot.accepted = accept_extension(slot.json, path.string(), document.folder_,
+                                             fmt::format("/materials/{}/extensions/{}", i, diffraction::kGltfExtension));
+        document.slots_.push_back(std::move(slot));
+    }
+    if (document.slots_.empty()) document.slots_.emplace_back();
+    const auto first = std::ranges::find_if(document.slots_, [](const Slot& slot) { return !slot.json.is_null(); });
+    if (first != document.slots_.end())
+        document.chosen_ = static_cast<std::size_t>(first - document.slots_.begin());
+    document.file_ = std::move(file);
+    document.note_saved();
+    return document;
+}
+
+void Document::choose(std::size_t material) {
+    if (material >= slots_.size()) return;
+    chosen_ = material;
+    editing_ = nullptr;
+}
+
+const std::shared_ptr<const MaterialSource>& Document::accepted(std::size_t material) const {
+    static const std::shared_ptr<const MaterialSource> none;
+    const Slot& slot = slots_.at(material);
+    return slot.json.is_null() ? none : slot.accepted;
 }
 
 void Document::set_value(const Field& field, const Json& value) {
@@ -96,79 +100,148 @@ void Document::replace_quality(const Json& quality) {
     edit(with_value(json(), field_at("/quality"), quality), nullptr);
 }
 
+void Document::set_grating(const Json& grating, const std::string& name, const std::filesystem::path& folder) {
+    if (!is_scene() || file_->outline().materials.empty())
+        refuse_input(name_, "/materials", "no materials", "a scene with materials", "give its meshes a material");
+    Json there = moved(grating, folder, folder_);
+    if (!there.is_null()) accept_extension(there, name, folder_);
+    edit(std::move(there), nullptr);
+}
+
 void Document::edit(Json edited, const Field* field) {
     if (edited == json()) return;
-    steps_.resize(at_ + 1);
+    steps_.resize(at_);
     if (field != nullptr && field == editing_ && at_ > 0) {
-        steps_[at_] = std::move(edited);
+        steps_.back().after = edited;
     } else {
-        steps_.push_back(std::move(edited));
+        steps_.push_back({chosen_, json(), edited});
         if (steps_.size() > kMostSteps) steps_.erase(steps_.begin());
-        at_ = steps_.size() - 1;
+        at_ = steps_.size();
     }
+    set(chosen_, edited);
     editing_ = field;
-    reparse();
 }
 
 void Document::undo() {
-    if (can_undo()) move_to(at_ - 1);
+    if (!can_undo()) return;
+    const Step& step = steps_[--at_];
+    set(step.material, step.before);
 }
 
 void Document::redo() {
-    if (can_redo()) move_to(at_ + 1);
+    if (!can_redo()) return;
+    const Step& step = steps_[at_++];
+    set(step.material, step.after);
 }
 
-void Document::move_to(std::size_t step) {
-    at_ = step;
+void Document::set(std::size_t material, const Json& json) {
+    chosen_ = material;
     editing_ = nullptr;
-    reparse();
+    slots_[material].json = json;
+    reparse(slots_[material]);
 }
 
-void Document::reparse() {
-    refusal_.reset();
-    if (json() == accepted_->json) return;
+void Document::reparse(Slot& slot) const {
+    slot.refusal.reset();
+    if (slot.json.is_null() || (slot.accepted && slot.json == slot.accepted->json)) return;
     try {
-        accepted_ = accept(json(), name_, folder_);
+        slot.accepted = is_scene() ? accept_extension(slot.json, name_, folder_, {}, &new_textures_)
+                                   : accept_material(slot.json, name_, folder_);
     } catch (const Error& error) {
         const Field* field = field_of_refusal(error.info().location);
         // The parser names the table's file, not the material's, if a row of the table is wrong.
         if (field == nullptr && error.info().file != name_) field = &field_at("/grating/profile/file");
-        refusal_ = Refusal{field, error.what()};
+        slot.refusal = Refusal{field, error.what()};
     }
 }
 
-void Document::require_accepted() const {
-    if (refusal_)
-        refuse_input(name_, {}, refusal_->message, "a material that can be cooked",
-                     "nothing was written; correct the field or undo");
+bool Document::dirty() const {
+    return path_.empty() ||
+           std::ranges::any_of(slots_, [](const Slot& slot) { return slot.json != slot.in_file; });
 }
 
-void Document::save() {
-    require_accepted();
-    if (path_.empty()) refuse_input(name_, {}, "a new material", "a file to save it to", "save it under a name");
-    write_file_atomic(path_, format_json(json()));
-    saved_ = accepted_;
+void Document::require_accepted() const {
+    for (const Slot& slot : slots_)
+        if (slot.refusal)
+            refuse_input(name_, {}, slot.refusal->message, "a material that can be cooked",
+                         "nothing was written; correct the field or undo");
+}
+
+void Document::note_saved() {
+    for (Slot& slot : slots_) {
+        slot.in_file = slot.json;
+        slot.saved = slot.json.is_null() ? nullptr : slot.accepted;
+    }
     editing_ = nullptr;
+}
+
+scene::EditableGltf Document::edited_file(const std::filesystem::path& folder) const {
+    scene::EditableGltf file = *file_;
+    for (std::size_t i = 0; i < slots_.size(); ++i) {
+        Json extension = moved(slots_[i].json, folder_, folder);
+        if (extension == slots_[i].in_file) continue;
+        if (extension.contains(Json::json_pointer(kTextureIndex))) {
+            Json& texture = extension[Json::json_pointer(kTextureIndex)];
+            if (const auto added = texture.is_number_unsigned() ? new_textures_.find(texture.get<std::size_t>()) : nullptr)
+                texture = file.add_texture(added->bytes, added->name);
+        }
+        file.set_material_extension(i, diffraction::kGltfExtension, extension);
+    }
+    return file;
+}
+
+void Document::write(const std::filesystem::path& path, bool over_changes) {
+    using IfChanged = scene::EditableGltf::IfChanged;
+    require_accepted();
+    const std::filesystem::path folder = folder_of(path);
+    if (file_) {
+        scene::EditableGltf file = edited_file(folder);
+        file.save(path, over_changes ? IfChanged::Overwrite : IfChanged::Refuse);
+        file_ = std::move(file);
+    } else {
+        write_file_atomic(path, format_json(moved(json(), folder_, folder)));
+    }
+}
+
+void Document::save(bool over_changes) {
+    if (path_.empty()) {
+        require_accepted();
+        refuse_input(name_, {}, "a new material", "a file to save it to", "save it under a name");
+    }
+    write(path_, over_changes);
+    note_saved();
 }
 
 void Document::save_as(const std::filesystem::path& path) {
-    require_accepted();
-    const std::filesystem::path folder = folder_of(path);
-    Json there = moved(json(), folder_, folder);
-    write_file_atomic(path, format_json(there));
+    write(path, true);
+    const std::filesystem::path from = std::exchange(folder_, folder_of(path));
     path_ = path;
     name_ = path.filename().string();
-    folder_ = folder;
-    edit(std::move(there), nullptr);
-    saved_ = accepted_;
-    editing_ = nullptr;
+    for (std::size_t i = 0; i < slots_.size(); ++i) {
+        const Json there = moved(slots_[i].json, from, folder_);
+        if (there == slots_[i].json) continue;
+        steps_.resize(at_);
+        steps_.push_back({i, slots_[i].json, there});
+        at_ = steps_.size();
+        slots_[i].json = there;
+        reparse(slots_[i]);
+    }
+    note_saved();
+}
+
+void Document::write_copy(const std::filesystem::path& path, const std::filesystem::path& folder) const {
+    if (file_)
+        edited_file(folder).save(path, scene::EditableGltf::IfChanged::Overwrite);
+    else
+        write_file_atomic(path, format_json(moved(json(), folder_, folder)));
 }
 
 std::optional<std::filesystem::path> Document::rescue() const {
-    if (!dirty() || steps_.size() == 1) return std::nullopt;
+    if (!dirty() || steps_.empty()) return std::nullopt;
+    const std::string extension = file_ ? path_.extension().string() : ".json";
     const auto write_into = [&](const std::filesystem::path& folder) {
-        std::filesystem::path file = unsaved_file(folder, name_);
-        write_file_atomic(file, format_json(folder == folder_ ? json() : moved(json(), folder_, folder)));
+        std::filesystem::path file = unsaved_file(folder, name_, extension);
+        write_copy(file, folder);
         return file;
     };
     try {

@@ -17,7 +17,8 @@ namespace {
 /// Members in the order of files. Others go to the end of their object.
 constexpr std::array kFileOrder = {"grating",       "pitch_nm",    "grooves", "profile",   "orders",
                                    "normalization", "groove_lobe", "metal",   "cover",     "ior",
-                                   "tint",          "base",        "color",   "roughness", "quality"};
+                                   "tint",          "base",        "color",   "roughness", "quality",
+                                   "grooveRotation", "grooveTexture"};
 
 auto position_in_file(const std::string& key) {
     return std::find(kFileOrder.begin(), kFileOrder.end(), key) - kFileOrder.begin();
@@ -68,20 +69,21 @@ Json plain(const Json& value) {
 }  // namespace
 
 const Field& field_at(std::string_view pointer) {
-    const auto all = fields();
-    const auto found =
-        std::find_if(all.begin(), all.end(), [&](const Field& field) { return field.pointer == pointer; });
-    ROWLAND_CHECK(found != all.end(), fmt::format("no field at {}", pointer));
-    return *found;
+    for (const auto all : {fields(), groove_fields()}) {
+        const auto found = std::ranges::find(all, pointer, &Field::pointer);
+        if (found != all.end()) return *found;
+    }
+    check_failed(__FILE__, __LINE__, fmt::format("no field at {}", pointer));
 }
 
 const Field* field_of_refusal(std::string_view pointer) {
     const Field* best = nullptr;
-    for (const Field& field : fields()) {
-        const std::string& own = field.pointer;
-        const bool contains = pointer == own || (pointer.starts_with(own) && pointer[own.size()] == '/');
-        if (contains && (best == nullptr || own.size() > best->pointer.size())) best = &field;
-    }
+    for (const auto all : {fields(), groove_fields()})
+        for (const Field& field : all) {
+            const std::string& own = field.pointer;
+            const bool contains = pointer == own || (pointer.starts_with(own) && pointer[own.size()] == '/');
+            if (contains && (best == nullptr || own.size() > best->pointer.size())) best = &field;
+        }
     return best;
 }
 

@@ -17,6 +17,7 @@ enum class FieldKind {
     Orders,  ///< a list of whole numbers, or "all"
     Colour,  ///< three numbers in [0, 1], linear
     Name,    ///< of a file in the material's folder
+    Pair,    ///< two numbers
 };
 
 /// A value that a field is set to by name. An object holds the members that the choice starts with.
@@ -50,6 +51,9 @@ struct Field {
 
 /// All fields of a material file, in the order they are shown.
 std::span<const Field> fields();
+
+/// The fields that only a scene's material has: its grooves on the mesh.
+std::span<const Field> groove_fields();
 
 /// The field at a JSON pointer, which must exist.
 const Field& field_at(std::string_view pointer);

@@ -33,6 +33,11 @@ double number_of(const Json& value) {
     return value.is_number() ? value.get<double>() : 0.0;
 }
 
+/// To 0.001, so that files stay readable.
+double rounded(float value) {
+    return std::round(static_cast<double>(value) * 1e3) / 1e3;
+}
+
 void help_on_hover(const Field& field) {
     if (!ImGui::IsItemHovered()) return;
     ImGui::BeginTooltip();
@@ -58,6 +63,7 @@ void begin_control() {
 
 const char* section_of(const Field& field) {
     if (field.pointer.starts_with("/grating")) return "Grating";
+    if (field.pointer.starts_with("/groove")) return "Grooves on the mesh";
     return field.pointer.starts_with("/quality") ? "Quality" : "Surface";
 }
 
@@ -71,6 +77,15 @@ void draw_number(Document& document, const Field& field) {
         document.set_value(field, whole ? std::round(value) : value);
 }
 
+void draw_pair(Document& document, const Field& field) {
+    std::array<float, 2> pair{};
+    const Json value = value_of(field, document.json());
+    for (std::size_t i = 0; i < 2 && value.is_array() && i < value.size(); ++i)
+        pair[i] = static_cast<float>(number_of(value[i]));
+    if (ImGui::DragFloat2("##value", pair.data(), static_cast<float>(drag_step(field, 0.0)), 0.0F, 0.0F, "%.4g"))
+        document.set_value(field, {rounded(pair[0]), rounded(pair[1])});
+}
+
 void draw_colour(Document& document, const Field& field) {
     std::array<float, 3> rgb{};
     const Json value = value_of(field, document.json());
@@ -78,7 +93,7 @@ void draw_colour(Document& document, const Field& field) {
         rgb[i] = static_cast<float>(number_of(value[i]));
     if (!ImGui::ColorEdit3("##value", rgb.data(), ImGuiColorEditFlags_Float)) return;
     Json edited = Json::array();
-    for (const float part : rgb) edited.push_back(std::round(static_cast<double>(part) * 1e3) / 1e3);
+    for (const float part : rgb) edited.push_back(rounded(part));
     document.set_value(field, edited);
 }
 
@@ -115,14 +130,15 @@ void MaterialPanel::draw(Document& document, ControlMap& controls) {
     std::string section;
     bool open = false;
     if (document.refusal() && document.refusal()->field == nullptr) draw_refusal(*document.refusal());
-    for (const Field& field : fields()) {
-        if (!is_shown(field, document.json())) continue;
-        if (section != section_of(field)) {
-            section = section_of(field);
-            open = ImGui::CollapsingHeader(section.c_str(), ImGuiTreeNodeFlags_DefaultOpen);
+    for (const auto all : {document.is_scene() ? groove_fields() : std::span<const Field>(), fields()})
+        for (const Field& field : all) {
+            if (!is_shown(field, document.json())) continue;
+            if (section != section_of(field)) {
+                section = section_of(field);
+                open = ImGui::CollapsingHeader(section.c_str(), ImGuiTreeNodeFlags_DefaultOpen);
+            }
+            if (open) draw_field(document, field, controls);
         }
-        if (open) draw_field(document, field, controls);
-    }
 }
 
 void MaterialPanel::draw_field(Document& document, const Field& field, ControlMap& controls) {
@@ -166,6 +182,9 @@ void MaterialPanel::draw_control(Document& document, const Field& field, Control
             return draw_text(document, field);
         case FieldKind::Colour:
             draw_colour(document, field);
+            break;
+        case FieldKind::Pair:
+            draw_pair(document, field);
             break;
         case FieldKind::Number:
         case FieldKind::Count:

@@ -4,8 +4,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <utility>
 
-#include "editor/inspector/pick_point.h"
 #include "engine/core/check.h"
+#include "engine/render/surface_textures.h"
+#include "engine/render/world_bounds.h"
 #include "engine/scene/directional_light.h"
 #include "engine/scene/transform.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
@@ -31,9 +32,17 @@ glm::mat4 turn_of(const Stage& stage) {
     return glm::rotate(glm::mat4(1.0F), -glm::radians(stage.rotation_deg), kUp);
 }
 
-glm::mat4 object_to_world(const PreviewInputs& inputs) {
-    return glm::rotate(glm::translate(turn_of(inputs.stage), kPosition), glm::radians(lean_deg(inputs.object->shape)),
-                       {1.0F, 0.0F, 0.0F});
+/// Places the object's root.
+scene::Transform placement(const PreviewInputs& inputs) {
+    const glm::mat4 to_world =
+        glm::rotate(glm::translate(turn_of(inputs.stage), kPosition), glm::radians(lean_deg(inputs.object->shape)),
+                    {1.0F, 0.0F, 0.0F});
+    scene::Transform at{.translation = glm::vec3(to_world[3]), .rotation = glm::quat_cast(glm::mat3(to_world))};
+    if (!inputs.object->scene) return at;
+    const scene::Transform& fit = inputs.object->scene->fit;
+    at.translation += at.rotation * fit.translation;
+    at.scale = fit.scale;
+    return at;
 }
 
 scene::Camera turned_camera(const PreviewInputs& inputs) {
@@ -64,28 +73,83 @@ Preview::Side::Side(const post::OcioConfig& config, bool still) : picture(config
     diffraction::DiffractionSettings settings;
     if (still) settings.map_pace = diffraction::MapPace::Whole;
     modules::register_material_types(picture.renderer(), {.diffraction = settings});
-    entity = world.create();
-    world.add(entity, scene::Transform{});
+    root = world.create();
+    world.add(root, scene::Transform{});
 }
 
-void Preview::Side::show(const PreviewInputs& inputs,
-                         const std::shared_ptr<const diffraction::CookedMaterial>& cooked) {
-    if (std::exchange(object, inputs.object) != inputs.object) world.add(entity, object->mesh);
+void Preview::Side::show(const PreviewInputs& inputs, const Gratings& wanted) {
     if (std::exchange(light, inputs.light) != inputs.light) picture.set_probe(light->probe);
-    if (std::exchange(material, cooked) != cooked) {
-        auto uploaded = diffraction::make_gpu_material(*cooked, picture.xyz_to_working());
-        render::StandardMaterial base = uploaded->base();
-        base.double_sided = true;
-        world.add(entity, base);
-        world.add(entity, diffraction::DiffractionSurface{std::move(uploaded)});
+    if (std::exchange(object, inputs.object) != inputs.object) {
+        for (const ecs::Entity entity : all) world.destroy(entity);
+        all.clear();
+        drawn.clear();
+        gratings.clear();
+        if (object->scene)
+            add_scene();
+        else
+            add_shape();
+    }
+    gratings.resize(wanted.size());
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+        if (std::exchange(gratings[i], wanted[i]) != wanted[i]) show_grating(i);
+}
+
+ecs::Entity Preview::Side::add(ecs::Entity parent, const scene::Transform& local) {
+    const ecs::Entity entity = all.emplace_back(world.create());
+    world.add(entity, scene::Transform(local));
+    world.add(entity, scene::Parent{parent});
+    return entity;
+}
+
+void Preview::Side::add_shape() {
+    const ecs::Entity entity = add(root, {});
+    world.add(entity, render::MeshInstance(object->parts.meshes.front()));
+    drawn.push_back({entity, 0, 0, {}});
+}
+
+void Preview::Side::add_scene() {
+    const scene::ImportedScene& imported = object->scene->imported;
+    std::vector<ecs::Entity> nodes;
+    for (const scene::ImportedNode& node : imported.nodes)
+        nodes.push_back(add(node.parent ? nodes[*node.parent] : root, node.local));
+    for (const scene::ImportedInstance& instance : imported.instances) {
+        const ecs::Entity entity = add(nodes[instance.node], {});
+        world.add(entity, render::MeshInstance(object->parts.meshes[instance.mesh]));
+        drawn.push_back({entity, instance.mesh, instance.material, instance.name});
+        set_own_material(drawn.back());
+    }
+}
+
+void Preview::Side::set_own_material(const Drawn& part) {
+    static const scene::ImportedScene empty;
+    render::SurfaceTextures none(empty);
+    world.add(part.entity, part.material && object->scene ? render::StandardMaterial(object->parts.materials[*part.material])
+                                                          : render::make_material(nullptr, none));
+}
+
+void Preview::Side::show_grating(std::size_t material) {
+    const std::shared_ptr<const CookedGrating>& grating = gratings[material];
+    const auto uploaded =
+        grating ? diffraction::make_gpu_material(*grating->material, picture.xyz_to_working()) : nullptr;
+    for (const Drawn& part : drawn) {
+        if (part.material != material) continue;
+        set_own_material(part);
+        if (uploaded == nullptr) {
+            world.remove<diffraction::DiffractionSurface>(part.entity);
+            continue;
+        }
+        diffraction::add_surface(world, part.entity,
+                                 {.material = uploaded,
+                                  .groove_rotation = static_cast<float>(grating->groove_rotation),
+                                  .grooves = grating->grooves},
+                                 grating->has_base);
+        if (!object->scene) world.get<render::StandardMaterial>(part.entity).double_sided = true;
     }
 }
 
 void Preview::Side::draw(const PreviewInputs& inputs, float seconds) {
-    const glm::mat4 to_world = object_to_world(inputs);
     const Stage& stage = inputs.stage;
-    world.get<scene::Transform>(entity) = {.translation = glm::vec3(to_world[3]),
-                                           .rotation = glm::quat_cast(glm::mat3(to_world))};
+    world.get<scene::Transform>(root) = placement(inputs);
     if (stage.lamp) {
         if (!world.alive(lamp)) lamp = world.create();
         world.add(lamp, scene::DirectionalLight{
@@ -102,13 +166,13 @@ void Preview::Side::draw(const PreviewInputs& inputs, float seconds) {
 }
 
 void Preview::show(const PreviewInputs& inputs) {
-    ROWLAND_CHECK(inputs.object && inputs.light && inputs.material, "a preview needs an object, light and a material");
+    ROWLAND_CHECK(inputs.object && inputs.light, "a preview needs an object and light");
     if (inputs == inputs_) return;
     inputs_ = inputs;
     unchanged_ = 0;
     if (inputs.saved && !saved_) saved_.emplace(config_, still_);
-    now_.show(inputs, inputs.material);
-    if (inputs.saved) saved_->show(inputs, inputs.saved);
+    now_.show(inputs, inputs.gratings);
+    if (inputs.saved) saved_->show(inputs, *inputs.saved);
 }
 
 void Preview::draw(float seconds) {
@@ -119,11 +183,59 @@ void Preview::draw(float seconds) {
     if (inputs_.saved) saved_->draw(inputs_, seconds);
 }
 
-std::optional<diffraction::ShadingPoint> Preview::pick(const glm::vec2& at) const {
+float Preview::aspect() const {
+    return static_cast<float>(inputs_.size.x) / static_cast<float>(inputs_.size.y);
+}
+
+Ray Preview::ray(const glm::vec2& at) const {
+    return ray_through(turned_camera(inputs_), aspect(), at);
+}
+
+glm::vec2 Preview::project(const glm::vec3& position) const {
+    const scene::Camera camera = turned_camera(inputs_);
+    const glm::vec4 clip = camera.projection(aspect()) * camera.view() * glm::vec4(position, 1.0F);
+    if (clip.w <= 0.0F) return glm::vec2(-1.0F);
+    return {0.5F + 0.5F * clip.x / clip.w, 0.5F - 0.5F * clip.y / clip.w};
+}
+
+std::optional<PickedSurface> Preview::pick(const glm::vec2& at) {
     if (!drawn_) return std::nullopt;
-    const float aspect = static_cast<float>(inputs_.size.x) / static_cast<float>(inputs_.size.y);
-    return pick_point(*inputs_.object->mesh.mesh, object_to_world(inputs_),
-                      ray_through(turned_camera(inputs_), aspect, at));
+    const Ray through = ray(at);
+    std::optional<PickedSurface> nearest;
+    for (const Drawn& part : now_.drawn) {
+        const render::MeshInstance& instance = now_.world.get<render::MeshInstance>(part.entity);
+        const glm::mat4& to_world = now_.world.get<scene::WorldMatrix>(part.entity).matrix;
+        if (!scene::meets(through, render::transformed(instance.gpu->bounds(), to_world))) continue;
+        const auto point = pick_point(*instance.mesh, to_world, through);
+        if (!point || (nearest && point->distance >= nearest->point.distance)) continue;
+        nearest = PickedSurface{.point = *point, .frame = {}, .material = part.material, .mesh = part.name};
+    }
+    if (nearest) add_grooves(*nearest);
+    return nearest;
+}
+
+void Preview::add_grooves(PickedSurface& surface) const {
+    double rotation = 0.0;
+    if (surface.material && *surface.material < now_.gratings.size() && now_.gratings[*surface.material]) {
+        const CookedGrating& grating = *now_.gratings[*surface.material];
+        if (grating.grooves)
+            surface.map_rotation =
+                grating.grooves->rotation(grating.grooves->uv_set() == 1 ? surface.point.uv1 : surface.point.uv);
+        rotation = grating.groove_rotation + surface.map_rotation;
+    }
+    surface.frame = turned(surface.point, rotation);
+}
+
+std::vector<glm::vec2> Preview::middles_of(std::size_t material) {
+    constexpr std::size_t kMost = 8;
+    std::vector<glm::vec2> result;
+    for (const Drawn& part : now_.drawn) {
+        if (part.material != material || result.size() == kMost) continue;
+        const scene::Bounds& box = now_.world.get<render::MeshInstance>(part.entity).gpu->bounds();
+        const glm::mat4& to_world = now_.world.get<scene::WorldMatrix>(part.entity).matrix;
+        result.push_back(project(glm::vec3(to_world * glm::vec4(0.5F * (box.minimum + box.maximum), 1.0F))));
+    }
+    return result;
 }
 
 }  // namespace rowland::inspector

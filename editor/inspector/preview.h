@@ -4,8 +4,12 @@
 #include <glm/vec2.hpp>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
+#include "editor/inspector/cook_grating.h"
 #include "editor/inspector/inspected_light.h"
+#include "editor/inspector/pick_point.h"
 #include "editor/inspector/preview_shape.h"
 #include "engine/ecs/world.h"
 #include "engine/gpu/framebuffer.h"
@@ -30,10 +34,24 @@ struct Stage {
     friend bool operator==(const Stage&, const Stage&) = default;
 };
 
-/// What the material is shown on. Never changes, so the pointer to it is its identity.
+/// What is shown: a shape, which has the one material 0, or a scene with its own. Never changes, so the pointer to it is
+/// its identity.
 struct PreviewObject {
     PreviewShape shape = PreviewShape::Disc;
-    render::MeshInstance mesh;
+    SceneUpload parts;                         ///< a shape's: its mesh, no materials
+    std::shared_ptr<const SceneObject> scene;  ///< null: a shape
+};
+
+/// What each material of the object has; null where it has no grating, or none yet.
+using Gratings = std::vector<std::shared_ptr<const CookedGrating>>;
+
+/// A point of the object in the last frame.
+struct PickedSurface {
+    PickedPoint point;                    ///< in the axes of the preview's world, which turns with the object
+    diffraction::ShadingPoint frame;      ///< in the probe's axes, with the grating vector of the material's grooves
+    std::optional<std::size_t> material;  ///< nullopt: a mesh without one
+    double map_rotation = 0.0;            ///< radians by which the groove texture turns them here
+    std::string mesh;                     ///< of a scene
 };
 
 /// All that the picture depends on.
@@ -44,8 +62,8 @@ struct PreviewInputs {
     Stage stage;
     std::shared_ptr<const PreviewObject> object;
     std::shared_ptr<const InspectedLight> light;
-    std::shared_ptr<const diffraction::CookedMaterial> material;
-    std::shared_ptr<const diffraction::CookedMaterial> saved;  ///< drawn into a second picture; null: not drawn
+    Gratings gratings;               ///< by material
+    std::optional<Gratings> saved;  ///< drawn into a second picture; nullopt: not drawn
 
     friend bool operator==(const PreviewInputs&, const PreviewInputs&) = default;
 };
@@ -56,7 +74,7 @@ class Preview {
     /// `still`, for captures: maps are complete in the second frame; otherwise they fill over many frames.
     Preview(const post::OcioConfig& config, bool still) : config_(config), still_(still), now_(config, still) {}
 
-    /// States the inputs, once a frame; all but `saved` must be there. Uploads what changed. Throws Error if the GPU
+    /// States the inputs, once a frame; object and light must be there, and a shape's grating. Uploads what changed. Throws Error if the GPU
     /// refuses the light or a material; it is not tried again, and the last one stays in the picture.
     void show(const PreviewInputs& inputs);
     /// Draws a frame, `seconds` after the last, until the picture of the inputs no longer changes.
@@ -70,25 +88,47 @@ class Preview {
     const gpu::Framebuffer& linear() const { return now_.picture.linear(); }
     const glm::dmat3& xyz_to_working() const { return now_.picture.xyz_to_working(); }
 
-    /// The surface at a point of the last frame, given from its upper left corner in [0, 1], in the probe's axes;
-    /// nullopt where the object is not.
-    std::optional<diffraction::ShadingPoint> pick(const glm::vec2& at) const;
+    /// The surface at a point of the last frame, given from its upper left corner in [0, 1]; nullopt where the object is
+    /// not.
+    std::optional<PickedSurface> pick(const glm::vec2& at);
+    /// Points of the last frame, as pick() takes them, where a material may be seen: the middles of its meshes.
+    std::vector<glm::vec2> middles_of(std::size_t material);
+    /// From the preview's world to its picture, as pick() takes points.
+    glm::vec2 project(const glm::vec3& position) const;
+    /// The ray through a point of the last frame.
+    Ray ray(const glm::vec2& at) const;
 
  private:
+    struct Drawn {
+        ecs::Entity entity;
+        std::size_t mesh = 0;
+        std::optional<std::size_t> material;
+        std::string name;
+    };
     /// A world with one object in it, and what draws it.
     struct Side {
         Side(const post::OcioConfig& config, bool still);
-        void show(const PreviewInputs& inputs, const std::shared_ptr<const diffraction::CookedMaterial>& cooked);
+        void show(const PreviewInputs& inputs, const Gratings& wanted);
         void draw(const PreviewInputs& inputs, float seconds);
+        ecs::Entity add(ecs::Entity parent, const scene::Transform& local);
+        void add_shape();
+        void add_scene();
+        void set_own_material(const Drawn& part);
+        void show_grating(std::size_t material);
 
         view::Picture picture;
         ecs::World world;
-        ecs::Entity entity;
+        ecs::Entity root;              ///< above the object
+        std::vector<ecs::Entity> all;  ///< the object's
+        std::vector<Drawn> drawn;
         ecs::Entity lamp;
         std::shared_ptr<const PreviewObject> object;
         std::shared_ptr<const InspectedLight> light;
-        std::shared_ptr<const diffraction::CookedMaterial> material;
+        Gratings gratings;
     };
+
+    float aspect() const;
+    void add_grooves(PickedSurface& surface) const;
 
     const post::OcioConfig& config_;
     bool still_;

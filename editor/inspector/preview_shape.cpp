@@ -71,14 +71,10 @@ scene::Mesh preview_mesh(PreviewShape shape) {
     check_failed(__FILE__, __LINE__, "a model's mesh is the user's");
 }
 
-scene::Mesh fitted_model(scene::Mesh mesh) {
-    const scene::Bounds box = scene::bounds(mesh);
+float fitting_scale(const scene::Bounds& box) {
     const glm::vec3 extent = box.maximum - box.minimum;
     const float largest = std::max({extent.x, extent.y, extent.z});
-    const float scale = largest > 0.0F ? static_cast<float>(kSize) / largest : 1.0F;
-    const glm::vec3 centre = 0.5F * (box.minimum + box.maximum);
-    for (glm::vec3& position : mesh.positions) position = scale * (position - centre);
-    return mesh;
+    return largest > 0.0F ? static_cast<float>(kSize) / largest : 1.0F;
 }
 
 }  // namespace rowland::inspector

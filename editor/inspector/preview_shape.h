@@ -21,7 +21,7 @@ std::optional<PreviewShape> parse_preview_shape(std::string_view name);
 /// card stands in XY; the sheet is a card bent around the vertical by 120°, with the grating vector around the bend.
 scene::Mesh preview_mesh(PreviewShape shape);
 
-/// A user's model, moved to the origin and scaled to the size of the other shapes.
-scene::Mesh fitted_model(scene::Mesh mesh);
+/// The factor by which what fills a box gets the size of the other shapes.
+float fitting_scale(const scene::Bounds& box);
 
 }  // namespace rowland::inspector

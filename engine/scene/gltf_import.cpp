@@ -26,6 +26,15 @@ struct ImportedPrimitive {
     std::optional<std::size_t> material;
 };
 
+TangentSource tangent_source(const GltfPrimitive& primitive) {
+    const auto has = [&](const char* attribute) {
+        return primitive.attributes.contains(attribute) ||
+               (primitive.draco && primitive.draco->attributes.contains(attribute));
+    };
+    if (has("TANGENT")) return TangentSource::File;
+    return has("TEXCOORD_0") ? TangentSource::Uvs : TangentSource::Arbitrary;
+}
+
 /// Imports every triangle primitive; returns the primitives of each glTF mesh.
 std::vector<std::vector<ImportedPrimitive>> import_meshes(const GltfDocument& document, MemoryBudget& budget,
                                                           ImportedScene& scene) {
@@ -42,6 +51,7 @@ std::vector<std::vector<ImportedPrimitive>> import_meshes(const GltfDocument& do
             const std::string pointer = fmt::format("/meshes/{}/primitives/{}", i, k);
             imported[i].push_back({scene.meshes.size(), primitives[k].material});
             scene.meshes.push_back(import_primitive(document, primitives[k], pointer, decoder, budget, scene.warnings));
+            scene.tangents.push_back(tangent_source(primitives[k]));
         }
     }
     return imported;

@@ -21,6 +21,9 @@ ImportedScene load_gltf(const std::filesystem::path& path, std::span<const std::
 ImportedScene load_glb(std::span<const std::byte> bytes, const std::string& file,
                        std::span<const std::string> handled_extensions = {});
 
+/// Replaces every skin by the mesh that it poses at rest, at a node of its own at the origin.
+void pose_skins_at_rest(ImportedScene& scene);
+
 /// All triangles of a scene in world space as one mesh, for previews with one material: positions, normals, tangents
 /// and first UVs. Skins are in their rest pose, and mirrored instances keep their winding. Throws Error (input) if the
 /// result is unreasonably large.

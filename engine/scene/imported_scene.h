@@ -69,6 +69,13 @@ struct ImportedCamera {
     std::optional<float> far_plane;       ///< metres, > near_plane; none: at infinity
 };
 
+/// How the tangents of a mesh were made.
+enum class TangentSource {
+    File,      ///< they are the file's
+    Uvs,       ///< the direction in which u grows
+    Arbitrary  ///< there are no texture coordinates either: any direction in the surface
+};
+
 /// The contents of a glTF file that we draw.
 struct ImportedScene {
     std::vector<Mesh> meshes;  ///< one per triangle primitive
@@ -82,6 +89,7 @@ struct ImportedScene {
     std::vector<Animation> animations;
     std::vector<ImportedLight> lights;
     std::vector<ImportedCamera> cameras;  ///< one per node with a camera, in the order of the nodes
+    std::vector<TangentSource> tangents;  ///< one per mesh
 };
 
 }  // namespace rowland::scene

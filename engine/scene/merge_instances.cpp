@@ -52,6 +52,25 @@ std::vector<glm::mat4> rest_joints(const ImportedScene& scene, const ImportedSki
 
 }  // namespace
 
+void pose_skins_at_rest(ImportedScene& scene) {
+    for (ImportedInstance& instance : scene.instances) {
+        if (!instance.skin) continue;
+        scene.meshes.push_back(
+            posed(scene.meshes.at(instance.mesh), rest_joints(scene, scene.skins.at(*instance.skin))));
+        Mesh& mesh = scene.meshes.back();
+        mesh.joints.clear();
+        mesh.weights.clear();
+        scene.tangents.push_back(scene.tangents.at(instance.mesh));
+        scene.nodes.push_back(
+            {.name = instance.name, .parent = {}, .local = {}, .world = glm::mat4(1.0F), .extras = {}});
+        instance.mesh = scene.meshes.size() - 1;
+        instance.node = scene.nodes.size() - 1;
+        instance.transform = glm::mat4(1.0F);
+        instance.skin.reset();
+    }
+    scene.skins.clear();
+}
+
 Mesh merge_instances(const ImportedScene& scene) {
     MemoryBudget budget("");
     std::size_t vertex_count = 0;

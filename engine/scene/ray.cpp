@@ -1,6 +1,8 @@
 #include "engine/scene/ray.h"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
+#include <limits>
 
 namespace rowland::scene {
 
@@ -29,6 +31,25 @@ std::optional<TriangleHit> nearest_hit(const Ray& ray, const Mesh& mesh, float n
         nearest = hit;
     }
     return nearest;
+}
+
+bool meets(const Ray& ray, const Bounds& box) {
+    const glm::vec3 margin = 1e-4F * (box.maximum - box.minimum) + 1e-6F;
+    float enter = 0.0F;
+    float leave = std::numeric_limits<float>::infinity();
+    for (int axis = 0; axis < 3; ++axis) {
+        const float low = box.minimum[axis] - margin[axis] - ray.origin[axis];
+        const float high = box.maximum[axis] + margin[axis] - ray.origin[axis];
+        if (ray.direction[axis] == 0.0F) {
+            if (low > 0.0F || high < 0.0F) return false;
+            continue;
+        }
+        const float to_low = low / ray.direction[axis];
+        const float to_high = high / ray.direction[axis];
+        enter = std::max(enter, std::min(to_low, to_high));
+        leave = std::min(leave, std::max(to_low, to_high));
+    }
+    return enter <= leave;
 }
 
 }  // namespace rowland::scene

@@ -27,6 +27,9 @@ std::optional<TriangleHit> meet(const Ray& ray, const glm::vec3& a, const glm::v
 /// The nearest two-sided triangle at least `nearest_allowed` away; nullopt if the ray misses.
 std::optional<TriangleHit> nearest_hit(const Ray& ray, const Mesh& mesh, float nearest_allowed = 0.0F);
 
+/// Whether the ray meets the box (Kay & Kajiya 1986), enlarged a little so that rounding misses no flat one.
+bool meets(const Ray& ray, const Bounds& box);
+
 /// A vertex attribute at a hit.
 template <typename V>
 V interpolated(const std::vector<V>& values, const Mesh& mesh, const TriangleHit& hit) {

@@ -1,37 +1,12 @@
 #include "content/demo/play/pick.h"
 
 #include <cmath>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include "content/demo/play/hierarchy.h"
 
 namespace rowland::demo {
-
-namespace {
-
-/// Whether the ray meets the box (Kay & Kajiya 1986), enlarged a little so that rounding misses no flat one.
-bool meets(const Ray& ray, const scene::Bounds& box) {
-    const glm::vec3 margin = 1e-4F * (box.maximum - box.minimum) + 1e-6F;
-    float enter = 0.0F;
-    float leave = std::numeric_limits<float>::infinity();
-    for (int axis = 0; axis < 3; ++axis) {
-        const float low = box.minimum[axis] - margin[axis] - ray.origin[axis];
-        const float high = box.maximum[axis] + margin[axis] - ray.origin[axis];
-        if (ray.direction[axis] == 0.0F) {
-            if (low > 0.0F || high < 0.0F) return false;
-            continue;
-        }
-        const float to_low = low / ray.direction[axis];
-        const float to_high = high / ray.direction[axis];
-        enter = std::max(enter, std::min(to_low, to_high));
-        leave = std::min(leave, std::max(to_low, to_high));
-    }
-    return enter <= leave;
-}
-
-}  // namespace
 
 std::optional<Hit> pick(ecs::World& world, std::span<const PickTarget> targets, const Ray& ray) {
     std::optional<Hit> nearest;
@@ -42,7 +17,7 @@ std::optional<Hit> pick(ecs::World& world, std::span<const PickTarget> targets, 
         const glm::mat4 to_mesh = glm::inverse(to_world);
         // The direction keeps its length in the mesh's space, so that distances stay metres.
         const Ray local{glm::vec3(to_mesh * glm::vec4(ray.origin, 1.0F)), glm::mat3(to_mesh) * ray.direction};
-        if (!meets(local, targets[i].bounds)) continue;
+        if (!scene::meets(local, targets[i].bounds)) continue;
         const auto hit = nearest_hit(local, *targets[i].mesh);
         if (!hit || (nearest && hit->distance >= nearest->triangle.distance)) continue;
         nearest = {.target = i, .triangle = *hit, .point = ray.origin + hit->distance * ray.direction};

@@ -36,6 +36,24 @@ bool update_key(const DiffractionSurface& surface, const render::MeshInstance& i
 
 }  // namespace
 
+Material drawable_material(const GltfGrating& grating, const GrooveMap* grooves, const std::string& file,
+                           const std::string& pointer) {
+    const auto require = [&](const std::optional<Refusal>& refused, const std::string& parent) {
+        if (refused) refuse_input(file, parent + refused->key, refused->found, refused->expected, refused->remedy);
+    };
+    require(baked_refusal(grating.material.grating), pointer);
+    if (grooves == nullptr) return grating.material;
+    require(groove_refusal(grating.material, *grooves), pointer + "/");
+    return suited_to_grooves(grating.material, *grooves);
+}
+
+void add_surface(ecs::World& world, ecs::Entity entity, DiffractionSurface surface, bool has_base) {
+    const render::StandardMaterial base = surface.material->base();
+    world.add(entity, std::move(surface));
+    world.get<render::StandardMaterial>(entity).clear_coat = 0.0F;
+    if (has_base) world.add(entity, render::StandardMaterial(base));
+}
+
 DiffractionSurfaceType::DiffractionSurfaceType(const glm::dmat3& xyz_to_working, const DiffractionSettings& settings)
     : xyz_to_working_(xyz_to_working), map_pace_(settings.map_pace), light_(settings.window) {}
 
@@ -48,29 +66,19 @@ void DiffractionSurfaceType::attach(ecs::World& world, ecs::Entity entity, const
                                     const std::string& pointer) {
     const std::filesystem::path folder = std::filesystem::path(file).parent_path();
     const GltfGrating grating = parse_gltf_extension(extension, file, folder, pointer);
-    const auto require = [&](const std::optional<Refusal>& refused, const std::string& parent) {
-        if (refused) refuse_input(file, parent + refused->key, refused->found, refused->expected, refused->remedy);
-    };
-    require(baked_refusal(grating.material.grating), pointer);
     DiffractionSurface surface{.groove_rotation = static_cast<float>(grating.groove_rotation)};
-    Material material = grating.material;
-    std::string key = folder.string() + extension.dump();
-    if (grating.groove_texture) {
+    if (grating.groove_texture)
         surface.grooves = groove_map(extension["grooveTexture"].dump(), *grating.groove_texture, textures, file,
                                      pointer + "/grooveTexture");
-        require(groove_refusal(material, *surface.grooves), pointer + "/");
-        material = suited_to_grooves(std::move(material), *surface.grooves);
+    const Material material = drawable_material(grating, surface.grooves.get(), file, pointer);
+    std::string key = folder.string() + extension.dump();
+    if (surface.grooves)
         key += fmt::format("{} {}", surface.grooves->smallest_pitch(), surface.grooves->largest_pitch());
-    }
-    auto& under_it = world.get<render::StandardMaterial>(entity);
-    if (under_it.clear_coat > 0.0F)
+    if (world.get<render::StandardMaterial>(entity).clear_coat > 0.0F)
         log_warning("{}: {}: KHR_materials_clearcoat beside a grating is not drawn: a grating's gloss is its cover's",
                     file, pointer);
-    under_it.clear_coat = 0.0F;
     surface.material = baked(material, key);
-    const render::StandardMaterial base = surface.material->base();
-    world.add(entity, std::move(surface));
-    if (grating.has_base) world.add(entity, render::StandardMaterial(base));
+    add_surface(world, entity, std::move(surface), grating.has_base);
 }
 
 std::shared_ptr<const GrooveMap> DiffractionSurfaceType::groove_map(const std::string& key, const GrooveTexture& use,

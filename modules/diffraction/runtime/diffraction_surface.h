@@ -22,6 +22,14 @@ struct DiffractionSurface {
     std::shared_ptr<const GrooveMap> grooves = nullptr;  ///< varies direction and pitch over the surface
 };
 
+/// A grating of a glTF file under its map, ready to be baked; null: it has no map. Throws Error (input) if it cannot be
+/// drawn. `file` and `pointer` (JSON) are for messages.
+Material drawable_material(const GltfGrating& grating, const GrooveMap* grooves, const std::string& file,
+                           const std::string& pointer);
+
+/// Gives an entity, which already has its StandardMaterial, a grating. `has_base`: the material's base replaces it.
+void add_surface(ecs::World& world, ecs::Entity entity, DiffractionSurface surface, bool has_base);
+
 struct DiffractionSettings {
     /// On band-limited light, against ringing; nullopt: the weakest sufficient window.
     std::optional<math::SphericalWindow> window = std::nullopt;
