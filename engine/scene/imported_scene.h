@@ -69,9 +69,18 @@ struct ImportedCamera {
     std::optional<float> far_plane;       ///< metres, > near_plane; none: at infinity
 };
 
+/// A primitive's position in a glTF file.
+struct PrimitiveId {
+    std::size_t mesh = 0;
+    std::size_t primitive = 0;  ///< of that mesh
+
+    friend bool operator==(const PrimitiveId&, const PrimitiveId&) = default;
+};
+
 /// The contents of a glTF file that we draw.
 struct ImportedScene {
-    std::vector<Mesh> meshes;  ///< one per triangle primitive
+    std::vector<Mesh> meshes;             ///< one per triangle primitive
+    std::vector<PrimitiveId> primitives;  ///< of each mesh
     std::vector<MaterialDescription> materials;
     std::vector<ImportedInstance> instances;
     std::vector<std::string> warnings;  ///< what was ignored or repaired, without repetition
