@@ -100,10 +100,11 @@ class Replacement {
     Replacement& operator=(const Replacement&) = delete;
 
     void write(std::span<const std::byte> data) const {
-        if (!write_all(file_.get(), data) || ::fsync(file_.get()) != 0) fail_action(target_, "writing", errno);
+        if (!write_all(file_.get(), data)) fail_action(target_, "writing", errno);
     }
 
     void replace_target() {
+        if (::fsync(file_.get()) != 0) fail_action(target_, "writing", errno);
         if (temporary_.empty()) {
             const std::string nameless = fmt::format("/proc/self/fd/{}", file_.get());
             take_new_name([&](const char* name) {
@@ -169,12 +170,16 @@ void require_writable(const std::filesystem::path& path) {
     const Replacement attempt(folder / "file");
 }
 
-void write_file_atomic(const std::filesystem::path& path, std::span<const std::byte> data) {
+void write_file_atomic(const std::filesystem::path& path, std::span<const std::span<const std::byte>> parts) {
     require_no_device(path);
     if (path.has_parent_path()) create_folder(path.parent_path());
     Replacement replacement(path);
-    replacement.write(data);
+    for (const std::span<const std::byte> part : parts) replacement.write(part);
     replacement.replace_target();
+}
+
+void write_file_atomic(const std::filesystem::path& path, std::span<const std::byte> data) {
+    write_file_atomic(path, std::span(&data, 1));
 }
 
 void write_file_atomic(const std::filesystem::path& path, std::string_view text) {

@@ -23,6 +23,8 @@ void create_folder(const std::filesystem::path& path);
 /// a device or a pipe.
 void write_file_atomic(const std::filesystem::path& path, std::span<const std::byte> data);
 void write_file_atomic(const std::filesystem::path& path, std::string_view text);
+/// The same with content that lies in parts.
+void write_file_atomic(const std::filesystem::path& path, std::span<const std::span<const std::byte>> parts);
 
 /// Throws the Error that write_file_atomic(path, ...) would throw before it writes: tries a file in the nearest folder
 /// that exists, and leaves nothing of it.

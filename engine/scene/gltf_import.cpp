@@ -50,6 +50,7 @@ std::vector<std::vector<ImportedPrimitive>> import_meshes(const GltfDocument& do
             }
             const std::string pointer = fmt::format("/meshes/{}/primitives/{}", i, k);
             imported[i].push_back({scene.meshes.size(), primitives[k].material});
+            scene.primitives.push_back({i, k});
             scene.meshes.push_back(import_primitive(document, primitives[k], pointer, decoder, budget, scene.warnings));
             scene.tangents.push_back(tangent_source(primitives[k]));
         }

@@ -37,18 +37,6 @@ std::optional<Version> parse_version(std::string_view text) {
     return minor.ec == std::errc{} && minor.ptr == end ? std::optional(version) : std::nullopt;
 }
 
-/// Refuses a version that is not 2.x and a minVersion that is not 2.0 (glTF 2.0, 3.2).
-void check_asset(JsonReader asset) {
-    const auto check = [&](const std::string& key, unsigned most_minor, const std::string& expected) {
-        const std::string text = asset.text(key);
-        const std::optional<Version> version = parse_version(text);
-        if (!version || version->major != 2 || version->minor > most_minor)
-            asset.fail(key, fmt::format("\"{:.20}\"", text), expected, "export the file as glTF 2.0");
-    };
-    check("version", std::numeric_limits<unsigned>::max(), "glTF version 2");
-    if (asset.has("minVersion")) check("minVersion", 0, "2.0: no later version is read");
-}
-
 std::vector<std::string> read_names(JsonReader& root, const std::string& key) {
     std::vector<std::string> names;
     if (!root.has(key)) return names;
@@ -187,6 +175,17 @@ std::vector<std::size_t> find_roots(const GltfJson& json, JsonReader& root, cons
 }
 
 }  // namespace
+
+void check_asset(JsonReader asset) {
+    const auto check = [&](const std::string& key, unsigned most_minor, const std::string& expected) {
+        const std::string text = asset.text(key);
+        const std::optional<Version> version = parse_version(text);
+        if (!version || version->major != 2 || version->minor > most_minor)
+            asset.fail(key, fmt::format("\"{:.20}\"", text), expected, "export the file as glTF 2.0");
+    };
+    check("version", std::numeric_limits<unsigned>::max(), "glTF version 2");
+    if (asset.has("minVersion")) check("minVersion", 0, "2.0: no later version is read");
+}
 
 GltfDocument parse_gltf(const GltfJson& json, std::span<const std::string> handled_extensions) {
     JsonReader root(json.root, json.file);

@@ -76,9 +76,18 @@ enum class TangentSource {
     Arbitrary  ///< there are no texture coordinates either: any direction in the surface
 };
 
+/// A primitive's position in a glTF file.
+struct PrimitiveId {
+    std::size_t mesh = 0;
+    std::size_t primitive = 0;  ///< of that mesh
+
+    friend bool operator==(const PrimitiveId&, const PrimitiveId&) = default;
+};
+
 /// The contents of a glTF file that we draw.
 struct ImportedScene {
-    std::vector<Mesh> meshes;  ///< one per triangle primitive
+    std::vector<Mesh> meshes;             ///< one per triangle primitive
+    std::vector<PrimitiveId> primitives;  ///< of each mesh
     std::vector<MaterialDescription> materials;
     std::vector<ImportedInstance> instances;
     std::vector<std::string> warnings;  ///< what was ignored or repaired, without repetition
