@@ -28,10 +28,11 @@ std::shared_ptr<const CookedGrating> GratingCook::cook(const MaterialSource& sou
     }
     const auto grooves = groove_map(source);
     const diffraction::Material material = diffraction::drawable_material(source.gltf, grooves.get(), source.name, {});
-    return std::make_shared<const CookedGrating>(CookedGrating{.material = baked(material, bake_key(source.json, grooves.get())),
-                                                               .grooves = grooves,
-                                                               .groove_rotation = source.gltf.groove_rotation,
-                                                               .has_base = source.gltf.has_base});
+    return std::make_shared<const CookedGrating>(
+        CookedGrating{.material = baked(material, bake_key(source.json, grooves.get())),
+                      .grooves = grooves,
+                      .groove_rotation = source.gltf.groove_rotation,
+                      .has_base = source.gltf.has_base});
 }
 
 std::shared_ptr<const diffraction::GrooveMap> GratingCook::groove_map(const MaterialSource& source) const {

@@ -51,21 +51,22 @@ Document Document::make_new(Json material, std::string name, std::filesystem::pa
     return document;
 }
 
-Document Document::open_scene(scene::EditableGltf file) {
+Document Document::open_scene(scene::EditableGltf file, std::span<const scene::PrimitiveId> bare) {
     const std::filesystem::path path = file.path();
     Document document(path.filename().string(), folder_of(path));
     document.path_ = path;
     for (std::size_t i = 0; i < file.outline().materials.size(); ++i) {
         Slot slot{.json = file.material_extension(i, diffraction::kGltfExtension)};
         if (!slot.json.is_null())
-            slot.accepted = accept_extension(slot.json, path.string(), document.folder_,
-                                             fmt::format("/materials/{}/extensions/{}", i, diffraction::kGltfExtension));
+            slot.accepted =
+                accept_extension(slot.json, path.string(), document.folder_,
+                                 fmt::format("/materials/{}/extensions/{}", i, diffraction::kGltfExtension));
         document.slots_.push_back(std::move(slot));
     }
+    for (const scene::PrimitiveId& primitive : bare) document.slots_.push_back({.bare = primitive});
     if (document.slots_.empty()) document.slots_.emplace_back();
     const auto first = std::ranges::find_if(document.slots_, [](const Slot& slot) { return !slot.json.is_null(); });
-    if (first != document.slots_.end())
-        document.chosen_ = static_cast<std::size_t>(first - document.slots_.begin());
+    if (first != document.slots_.end()) document.chosen_ = static_cast<std::size_t>(first - document.slots_.begin());
     document.file_ = std::move(file);
     document.note_saved();
     return document;
@@ -101,8 +102,7 @@ void Document::replace_quality(const Json& quality) {
 }
 
 void Document::set_grating(const Json& grating, const std::string& name, const std::filesystem::path& folder) {
-    if (!is_scene() || file_->outline().materials.empty())
-        refuse_input(name_, "/materials", "no materials", "a scene with materials", "give its meshes a material");
+    if (!is_scene()) refuse_input(name_, {}, "a material file", "a scene", "open a .gltf or .glb file");
     Json there = moved(grating, folder, folder_);
     if (!there.is_null()) accept_extension(there, name, folder_);
     edit(std::move(there), nullptr);
@@ -156,8 +156,7 @@ void Document::reparse(Slot& slot) const {
 }
 
 bool Document::dirty() const {
-    return path_.empty() ||
-           std::ranges::any_of(slots_, [](const Slot& slot) { return slot.json != slot.in_file; });
+    return path_.empty() || std::ranges::any_of(slots_, [](const Slot& slot) { return slot.json != slot.in_file; });
 }
 
 void Document::require_accepted() const {
@@ -182,10 +181,12 @@ scene::EditableGltf Document::edited_file(const std::filesystem::path& folder) c
         if (extension == slots_[i].in_file) continue;
         if (extension.contains(Json::json_pointer(kTextureIndex))) {
             Json& texture = extension[Json::json_pointer(kTextureIndex)];
-            if (const auto added = texture.is_number_unsigned() ? new_textures_.find(texture.get<std::size_t>()) : nullptr)
+            if (const auto added =
+                    texture.is_number_unsigned() ? new_textures_.find(texture.get<std::size_t>()) : nullptr)
                 texture = file.add_texture(added->bytes, added->name);
         }
-        file.set_material_extension(i, diffraction::kGltfExtension, extension);
+        const std::size_t material = slots_[i].bare ? file.own_material(*slots_[i].bare) : i;
+        file.set_material_extension(material, diffraction::kGltfExtension, extension);
     }
     return file;
 }

@@ -4,13 +4,14 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "editor/inspector/field.h"
 #include "editor/inspector/material_source.h"
-#include "editor/inspector/ordered_json.h"
 #include "editor/inspector/new_textures.h"
+#include "editor/inspector/ordered_json.h"
 #include "engine/scene/editable_gltf.h"
 
 namespace rowland::inspector {
@@ -32,9 +33,10 @@ class Document {
     static Document open_as_new(const std::filesystem::path& path);
     /// A new material. Files that it names are relative to `folder`. Throws Error (input) naming `name`.
     static Document make_new(Json material, std::string name, std::filesystem::path folder);
-    /// The gratings of a scene; the first one is chosen, else the first material. Throws Error (input) if one of them
-    /// is refused.
-    static Document open_scene(scene::EditableGltf file);
+    /// The gratings of a scene: of its materials, then of primitives without one (`bare`), which get a material when
+    /// they are saved with a grating. The first grating is chosen, else the first material. Throws Error (input) if one
+    /// of them is refused.
+    static Document open_scene(scene::EditableGltf file, std::span<const scene::PrimitiveId> bare = {});
 
     bool is_scene() const { return file_.has_value(); }
     /// The materials of the scene, 1 if it has none; 1 for a material file.
@@ -105,6 +107,7 @@ class Document {
  private:
     /// A material and its state.
     struct Slot {
+        std::optional<scene::PrimitiveId> bare = {};  ///< of a primitive without a material
         Json json = {};
         Json in_file = {};  ///< null: no grating
         std::shared_ptr<const MaterialSource> accepted = {};

@@ -15,10 +15,9 @@ namespace rowland::inspector {
 namespace {
 
 /// Members in the order of files. Others go to the end of their object.
-constexpr std::array kFileOrder = {"grating",       "pitch_nm",    "grooves", "profile",   "orders",
-                                   "normalization", "groove_lobe", "metal",   "cover",     "ior",
-                                   "tint",          "base",        "color",   "roughness", "quality",
-                                   "grooveRotation", "grooveTexture"};
+constexpr std::array kFileOrder = {
+    "grating", "pitch_nm", "grooves", "profile",   "orders",  "normalization",  "groove_lobe",  "metal", "cover", "ior",
+    "tint",    "base",     "color",   "roughness", "quality", "grooveRotation", "grooveTexture"};
 
 auto position_in_file(const std::string& key) {
     return std::find(kFileOrder.begin(), kFileOrder.end(), key) - kFileOrder.begin();

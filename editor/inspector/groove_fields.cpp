@@ -46,7 +46,7 @@ std::vector<Field> transform_fields() {
                         .source = kTransform})};
 }
 
-std::vector<Field> make_fields() {
+std::vector<Field> make_groove_fields() {
     std::vector<Field> all = {
         {.pointer = "/grooveRotation",
          .label = "Groove rotation",
@@ -54,8 +54,9 @@ std::vector<Field> make_fields() {
          .minimum = -std::numbers::pi,
          .maximum = std::numbers::pi,
          .default_value = 0.0,
-         .help = "Turns the grooves in the surface, from the mesh's tangent toward its bitangent. Or drag the handle in "
-                 "the preview (G).",
+         .help =
+             "Turns the grooves in the surface, from the mesh's tangent toward its bitangent. Or drag the handle in "
+             "the preview (G).",
          .source = kExtension},
         {.pointer = "/grooveTexture",
          .label = "Groove texture",
@@ -93,7 +94,7 @@ std::vector<Field> make_fields() {
 }  // namespace
 
 std::span<const Field> groove_fields() {
-    static const std::vector<Field> all = make_fields();
+    static const std::vector<Field> all = make_groove_fields();
     return all;
 }
 

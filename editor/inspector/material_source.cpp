@@ -28,8 +28,8 @@ std::shared_ptr<const MaterialSource> accept_material(const Json& material, cons
 }
 
 std::shared_ptr<const MaterialSource> accept_extension(const Json& extension, const std::string& file,
-                                                       const std::filesystem::path& folder,
-                                                       const std::string& pointer, const NewTextures* textures) {
+                                                       const std::filesystem::path& folder, const std::string& pointer,
+                                                       const NewTextures* textures) {
     diffraction::GltfGrating parsed =
         diffraction::parse_gltf_extension(nlohmann::json(extension), file, folder, pointer);
     MaterialSource source{extension, parsed.material, file, std::move(parsed)};

@@ -15,13 +15,13 @@ namespace rowland::inspector {
 struct MaterialSource {
     Json json;
     diffraction::Material material;
-    std::string name;                                         ///< of the file, for messages
-    diffraction::GltfGrating gltf = {};                       ///< `material` and, of a scene's, its grooves on the mesh
+    std::string name;                                       ///< of the file, for messages
+    diffraction::GltfGrating gltf = {};                     ///< `material` and, of a scene's, its grooves on the mesh
     std::shared_ptr<const NewTexture> groove_picture = {};  ///< null: the file's texture, or none
 };
 
-/// Parses a material file's object, or a scene material's extension, whose texture may be one of `textures`. Named files
-/// are relative to `folder`. Throws Error (input) naming `file` and a location below `pointer`.
+/// Parses a material file's object, or a scene material's extension, whose texture may be one of `textures`. Named
+/// files are relative to `folder`. Throws Error (input) naming `file` and a location below `pointer`.
 std::shared_ptr<const MaterialSource> accept_material(const Json& material, const std::string& file,
                                                       const std::filesystem::path& folder);
 std::shared_ptr<const MaterialSource> accept_extension(const Json& extension, const std::string& file,

@@ -12,8 +12,8 @@ namespace rowland::inspector {
 
 /// A picture that a scene file does not hold yet.
 struct NewTexture {
-    std::string name;                                ///< of the file it becomes
-    std::vector<std::byte> bytes;                    ///< PNG or JPEG
+    std::string name;                                 ///< of the file it becomes
+    std::vector<std::byte> bytes;                     ///< PNG or JPEG
     std::shared_ptr<const image::ByteImage> picture;  ///< decoded
 };
 

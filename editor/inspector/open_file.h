@@ -1,30 +1,36 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
+#include <memory>
 #include <variant>
 
 #include "editor/inspector/document.h"
-#include "engine/scene/mesh.h"
+#include "editor/inspector/scene_object.h"
 #include "modules/diffraction/model/efficiency_table.h"
 
 namespace rowland::inspector {
 
-/// A glTF file: its meshes as one, fitted to the preview, and its first grating as the start of a new material.
-struct OpenedModel {
-    scene::Mesh mesh;
-    std::optional<Document> document;
+/// A scene and the gratings of its materials.
+struct OpenedScene {
+    std::shared_ptr<const SceneObject> object;
+    Document document;
 };
+
+/// Opens a .gltf or .glb; takes seconds. Runs on any thread. Throws Error (input).
+OpenedScene open_scene(const std::filesystem::path& path);
+bool is_scene_file(const std::filesystem::path& path);
+/// A PNG or JPEG, for groove textures.
+bool is_picture_file(const std::filesystem::path& path);
 
 /// The source of a light; loading it takes seconds, so that is left to load_light().
 struct LightSource {
     std::filesystem::path path;
 };
 
-using OpenedFile = std::variant<Document, OpenedModel, LightSource, diffraction::EfficiencyTable>;
+using OpenedFile = std::variant<Document, LightSource, diffraction::EfficiencyTable>;
 
-/// Opens a file that the user named or dropped: a material, a glTF file, a probe (image or recipe), or a table of
-/// efficiencies (.csv). Throws Error (input).
+/// Opens a file that the user named or dropped: a material, a probe (image or recipe), or a table of efficiencies
+/// (.csv). Throws Error (input).
 OpenedFile open_file(const std::filesystem::path& path);
 
 }  // namespace rowland::inspector

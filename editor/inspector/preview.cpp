@@ -34,9 +34,8 @@ glm::mat4 turn_of(const Stage& stage) {
 
 /// Places the object's root.
 scene::Transform placement(const PreviewInputs& inputs) {
-    const glm::mat4 to_world =
-        glm::rotate(glm::translate(turn_of(inputs.stage), kPosition), glm::radians(lean_deg(inputs.object->shape)),
-                    {1.0F, 0.0F, 0.0F});
+    const glm::mat4 to_world = glm::rotate(glm::translate(turn_of(inputs.stage), kPosition),
+                                           glm::radians(lean_deg(inputs.object->shape)), {1.0F, 0.0F, 0.0F});
     scene::Transform at{.translation = glm::vec3(to_world[3]), .rotation = glm::quat_cast(glm::mat3(to_world))};
     if (!inputs.object->scene) return at;
     const scene::Transform& fit = inputs.object->scene->fit;
@@ -123,8 +122,9 @@ void Preview::Side::add_scene() {
 void Preview::Side::set_own_material(const Drawn& part) {
     static const scene::ImportedScene empty;
     render::SurfaceTextures none(empty);
-    world.add(part.entity, part.material && object->scene ? render::StandardMaterial(object->parts.materials[*part.material])
-                                                          : render::make_material(nullptr, none));
+    world.add(part.entity, part.material && object->scene
+                               ? render::StandardMaterial(object->parts.materials[*part.material])
+                               : render::make_material(nullptr, none));
 }
 
 void Preview::Side::show_grating(std::size_t material) {
@@ -181,6 +181,7 @@ void Preview::draw(float seconds) {
     drawn_ = true;
     now_.draw(inputs_, seconds);
     if (inputs_.saved) saved_->draw(inputs_, seconds);
+    if (inputs_.grooves_of && unchanged_ == 1) draw_grooves();
 }
 
 float Preview::aspect() const {
@@ -198,6 +199,30 @@ glm::vec2 Preview::project(const glm::vec3& position) const {
     return {0.5F + 0.5F * clip.x / clip.w, 0.5F - 0.5F * clip.y / clip.w};
 }
 
+void Preview::draw_grooves() {
+    if (!overlay_) overlay_.emplace();
+    const scene::Camera camera = turned_camera(inputs_);
+    overlay_->begin(inputs_.size, camera.projection(aspect()) * camera.view());
+    const Gratings& gratings = now_.gratings;
+    for (const Drawn& part : now_.drawn) {
+        const bool chosen = part.material && part.material == inputs_.grooves_of && *part.material < gratings.size();
+        overlay_->draw(*now_.world.get<render::MeshInstance>(part.entity).gpu,
+                       now_.world.get<scene::WorldMatrix>(part.entity).matrix,
+                       chosen ? gratings[*part.material].get() : nullptr);
+    }
+}
+
+PickedSurface Preview::as_placed_now(const PickedSurface& surface) const {
+    PickedSurface now = surface;
+    const float angle = glm::radians(surface.stage_rotation_deg - inputs_.stage.rotation_deg);
+    const glm::mat3 turn(glm::rotate(glm::mat4(1.0F), angle, kUp));
+    now.point.position = turn * now.point.position;
+    for (glm::dvec3* vector : {&now.point.frame.normal, &now.point.frame.grating, &now.point.bitangent,
+                               &now.frame.normal, &now.frame.grating})
+        *vector = glm::dmat3(turn) * *vector;
+    return now;
+}
+
 std::optional<PickedSurface> Preview::pick(const glm::vec2& at) {
     if (!drawn_) return std::nullopt;
     const Ray through = ray(at);
@@ -208,7 +233,12 @@ std::optional<PickedSurface> Preview::pick(const glm::vec2& at) {
         if (!scene::meets(through, render::transformed(instance.gpu->bounds(), to_world))) continue;
         const auto point = pick_point(*instance.mesh, to_world, through);
         if (!point || (nearest && point->distance >= nearest->point.distance)) continue;
-        nearest = PickedSurface{.point = *point, .frame = {}, .material = part.material, .mesh = part.name};
+        nearest = PickedSurface{.point = *point,
+                                .frame = {},
+                                .material = part.material,
+                                .map_rotation = 0.0,
+                                .stage_rotation_deg = inputs_.stage.rotation_deg,
+                                .mesh = part.name};
     }
     if (nearest) add_grooves(*nearest);
     return nearest;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "editor/inspector/cook_grating.h"
+#include "editor/inspector/groove_overlay.h"
 #include "editor/inspector/inspected_light.h"
 #include "editor/inspector/pick_point.h"
 #include "editor/inspector/preview_shape.h"
@@ -34,8 +35,8 @@ struct Stage {
     friend bool operator==(const Stage&, const Stage&) = default;
 };
 
-/// What is shown: a shape, which has the one material 0, or a scene with its own. Never changes, so the pointer to it is
-/// its identity.
+/// What is shown: a shape, which has the one material 0, or a scene with its own. Never changes, so the pointer to it
+/// is its identity.
 struct PreviewObject {
     PreviewShape shape = PreviewShape::Disc;
     SceneUpload parts;                         ///< a shape's: its mesh, no materials
@@ -51,6 +52,7 @@ struct PickedSurface {
     diffraction::ShadingPoint frame;      ///< in the probe's axes, with the grating vector of the material's grooves
     std::optional<std::size_t> material;  ///< nullopt: a mesh without one
     double map_rotation = 0.0;            ///< radians by which the groove texture turns them here
+    float stage_rotation_deg = 0.0F;      ///< of the frame that it was picked in
     std::string mesh;                     ///< of a scene
 };
 
@@ -62,8 +64,9 @@ struct PreviewInputs {
     Stage stage;
     std::shared_ptr<const PreviewObject> object;
     std::shared_ptr<const InspectedLight> light;
-    Gratings gratings;               ///< by material
-    std::optional<Gratings> saved;  ///< drawn into a second picture; nullopt: not drawn
+    Gratings gratings;                      ///< by material
+    std::optional<Gratings> saved;          ///< drawn into a second picture; nullopt: not drawn
+    std::optional<std::size_t> grooves_of;  ///< the material whose grooves are drawn as strokes; nullopt: none
 
     friend bool operator==(const PreviewInputs&, const PreviewInputs&) = default;
 };
@@ -74,8 +77,9 @@ class Preview {
     /// `still`, for captures: maps are complete in the second frame; otherwise they fill over many frames.
     Preview(const post::OcioConfig& config, bool still) : config_(config), still_(still), now_(config, still) {}
 
-    /// States the inputs, once a frame; object and light must be there, and a shape's grating. Uploads what changed. Throws Error if the GPU
-    /// refuses the light or a material; it is not tried again, and the last one stays in the picture.
+    /// States the inputs, once a frame; object and light must be there, and a shape's grating. Uploads what changed.
+    /// Throws Error if the GPU refuses the light or a material; it is not tried again, and the last one stays in the
+    /// picture.
     void show(const PreviewInputs& inputs);
     /// Draws a frame, `seconds` after the last, until the picture of the inputs no longer changes.
     void draw(float seconds);
@@ -83,18 +87,22 @@ class Preview {
 
     /// Of the last frame. Display values.
     const gpu::Framebuffer& display() const { return now_.picture.encoded(); }
+    /// Strokes along the grooves of PreviewInputs::grooves_of, to lay over display(); null: none.
+    const gpu::Framebuffer* grooves() const { return inputs_.grooves_of && overlay_ ? &overlay_->picture() : nullptr; }
     const gpu::Framebuffer& saved_display() const { return saved_->picture.encoded(); }
     /// Scene-linear working RGB.
     const gpu::Framebuffer& linear() const { return now_.picture.linear(); }
     const glm::dmat3& xyz_to_working() const { return now_.picture.xyz_to_working(); }
 
-    /// The surface at a point of the last frame, given from its upper left corner in [0, 1]; nullopt where the object is
-    /// not.
+    /// The surface at a point of the last frame, given from its upper left corner in [0, 1]; nullopt where the object
+    /// is not.
     std::optional<PickedSurface> pick(const glm::vec2& at);
     /// Points of the last frame, as pick() takes them, where a material may be seen: the middles of its meshes.
     std::vector<glm::vec2> middles_of(std::size_t material);
     /// From the preview's world to its picture, as pick() takes points.
     glm::vec2 project(const glm::vec3& position) const;
+    /// The same surface where the stage's rotation has moved it since.
+    PickedSurface as_placed_now(const PickedSurface& surface) const;
     /// The ray through a point of the last frame.
     Ray ray(const glm::vec2& at) const;
 
@@ -129,11 +137,13 @@ class Preview {
 
     float aspect() const;
     void add_grooves(PickedSurface& surface) const;
+    void draw_grooves();
 
     const post::OcioConfig& config_;
     bool still_;
     Side now_;
     std::optional<Side> saved_;  ///< empty until a saved version is shown
+    std::optional<GrooveOverlay> overlay_;
     PreviewInputs inputs_;
     int unchanged_ = 0;  ///< frames drawn since the inputs changed
     bool drawn_ = false;

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string>
 
+#include "editor/inspector/groove_handle.h"
+
 namespace rowland::inspector {
 
 namespace {
@@ -121,6 +123,7 @@ void PreviewPanel::draw(Session& session, const platform::InputState& input, flo
     }
     session.draw(glm::ivec2(pixels_per_unit * glm::vec2(size.x, size.y)), camera_.camera(), comparing, seconds);
     draw_picture(session, corner, size);
+    GrooveHandle::draw(session, corner, size, controls);
 }
 
 void PreviewPanel::draw_picture(const Session& session, const ImVec2& corner, const ImVec2& size) const {
@@ -130,6 +133,8 @@ void PreviewPanel::draw_picture(const Session& session, const ImVec2& corner, co
     // The first row of a framebuffer is its lowest.
     draw.AddImage(texture_of(session.preview().display()), corner, end, {0.0F, 1.0F}, {1.0F, 0.0F});
     if (comparing && session.saved()) draw_saved(session, corner, end);
+    if (const gpu::Framebuffer* grooves = session.preview().grooves())
+        draw.AddImage(texture_of(*grooves), corner, end, {0.0F, 1.0F}, {1.0F, 0.0F});
     if (const auto& picked = session.picked()) {
         const ImVec2 at(corner.x + picked->at.x * size.x, corner.y + picked->at.y * size.y);
         draw.AddCircle(at, 0.45F * font, kBlack, 0, 3.5F);
@@ -163,16 +168,21 @@ void PreviewPanel::use_mouse(Session& session, const platform::InputState& input
     const ImGuiIO& io = ImGui::GetIO();
     const glm::vec2 at((io.MousePos.x - corner.x) / size.x, (io.MousePos.y - corner.y) / size.y);
     const bool near_line = comparing && session.saved() && std::abs(at.x - line_) < 6.0F / size.x;
-    if (ImGui::IsItemActivated()) drag_ = near_line ? Drag::Line : Drag::None;
+    if (ImGui::IsItemActivated())
+        drag_ = near_line                                                 ? Drag::Line
+                : GrooveHandle::grabs(session, corner, size, io.MousePos) ? Drag::Grooves
+                                                                          : Drag::None;
     scene::OrbitInput orbit;
     if (ImGui::IsItemActive()) {
         if (drag_ == Drag::None && ImGui::IsMouseDragging(ImGuiMouseButton_Left, 4.0F)) drag_ = Drag::Orbit;
         if (drag_ == Drag::Line) line_ = std::clamp(at.x, 0.0F, 1.0F);
+        if (drag_ == Drag::Grooves) GrooveHandle::drag(session, at);
         if (drag_ == Drag::Orbit) orbit.drag = {io.MouseDelta.x, io.MouseDelta.y};
     }
     if (ImGui::IsItemHovered()) orbit.scroll = static_cast<float>(input.scroll().y);
     camera_.update(orbit);
     if (ImGui::IsItemDeactivated() && drag_ == Drag::None) session.pick(at);
+    if (ImGui::IsItemDeactivated() && drag_ == Drag::Grooves) session.document().finish_edit();
     if (ImGui::IsItemHovered() && near_line) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
 }
 

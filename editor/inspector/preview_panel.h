@@ -28,7 +28,7 @@ class PreviewPanel {
     void draw_saved(const Session& session, const ImVec2& corner, const ImVec2& end) const;
     void use_mouse(Session& session, const platform::InputState& input, const ImVec2& corner, const ImVec2& size);
 
-    enum class Drag { None, Line, Orbit };
+    enum class Drag { None, Line, Grooves, Orbit };
 
     scene::OrbitCamera camera_;
     float line_ = 0.5F;  ///< its distance from the picture's left edge, as a fraction of the width

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <glm/common.hpp>
+#include <map>
 #include <utility>
 
 #include "editor/inspector/preview_shape.h"
@@ -30,6 +31,21 @@ scene::Transform fit_of(const scene::ImportedScene& imported) {
             .scale = glm::vec3(scale)};
 }
 
+/// Gives every shown primitive without a material glTF's default one, so that it can be given a grating.
+std::vector<scene::PrimitiveId> clothe(scene::ImportedScene& imported) {
+    std::vector<scene::PrimitiveId> bare;
+    std::map<std::size_t, std::size_t> material_of_mesh;
+    for (scene::ImportedInstance& instance : imported.instances) {
+        if (instance.material) continue;
+        const auto [found, added] = material_of_mesh.emplace(instance.mesh, imported.materials.size());
+        instance.material = found->second;
+        if (!added) continue;
+        bare.push_back(imported.primitives[instance.mesh]);
+        imported.materials.emplace_back().name = instance.name + " (no material)";
+    }
+    return bare;
+}
+
 std::vector<SceneMaterial> materials_of(const scene::ImportedScene& imported) {
     std::vector<SceneMaterial> materials;
     for (const scene::MaterialDescription& description : imported.materials)
@@ -53,7 +69,13 @@ std::vector<SceneMaterial> materials_of(const scene::ImportedScene& imported) {
 
 std::shared_ptr<const SceneObject> load_scene_object(const std::filesystem::path& file) {
     const std::array<std::string, 1> handled = {diffraction::kGltfExtension};
-    SceneObject object{.file = file, .imported = scene::load_gltf(file, handled), .meshes = {}, .materials = {}, .fit = {}};
+    SceneObject object{.file = file,
+                       .imported = scene::load_gltf(file, handled),
+                       .meshes = {},
+                       .materials = {},
+                       .bare = {},
+                       .fit = {}};
+    object.bare = clothe(object.imported);
     scene::pose_skins_at_rest(object.imported);
     object.fit = fit_of(object.imported);
     object.materials = materials_of(object.imported);

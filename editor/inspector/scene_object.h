@@ -16,17 +16,18 @@ namespace rowland::inspector {
 /// A material of a scene, as a list shows it.
 struct SceneMaterial {
     std::string name;
-    std::vector<std::string> meshes;  ///< that use it, each once
+    std::vector<std::string> meshes;                             ///< that use it, each once
     scene::TangentSource tangents = scene::TangentSource::File;  ///< the poorest of those meshes
 };
 
 /// A scene file without its gratings, lights and cameras, at rest. Meshes are those of a file's primitives.
 struct SceneObject {
     std::filesystem::path file;
-    scene::ImportedScene imported;                          ///< without meshes
+    scene::ImportedScene imported;  ///< without meshes
     std::vector<std::shared_ptr<const scene::Mesh>> meshes;
-    std::vector<SceneMaterial> materials;
-    scene::Transform fit;  ///< scales it to the size of the other shapes, and moves it to the origin
+    std::vector<SceneMaterial> materials;  ///< the file's, then one for each primitive in `bare`
+    std::vector<scene::PrimitiveId> bare;  ///< primitives without a material
+    scene::Transform fit;                  ///< scales it to the size of the other shapes, and moves it to the origin
 };
 
 /// Loads a .gltf or .glb. Runs on any thread. Throws Error (input).

@@ -11,12 +11,8 @@ namespace {
 constexpr int kSweepBands = 5;
 constexpr int kSweepViews = 61;
 
-const std::array kPresets = {"cd", "cd_pressed", "cd_r", "dvd", "blu_ray", "ruled_600", "ruled_1200", "holographic_foil", "vinyl"};
-
-Session::Cooked cook(const MaterialSource& source) {
-    diffraction::require_baked_grooves(source.material.grating, source.name);
-    return std::make_shared<const diffraction::CookedMaterial>(diffraction::bake_material(source.material));
-}
+const std::array kPresets = {"cd",         "cd_pressed",       "cd_r", "dvd", "blu_ray", "ruled_600",
+                             "ruled_1200", "holographic_foil", "vinyl"};
 
 /// The members of a quality that choose among representations; the others hold for every choice.
 Json choice_of_quality(Json quality) {
@@ -28,30 +24,27 @@ bool is_table(const diffraction::Grating& grating) {
     return std::holds_alternative<diffraction::EfficiencyTable>(grating.profile);
 }
 
-/// A point of the surface near the middle of the picture; a default frame if nothing is there.
-diffraction::ShadingPoint middle_frame(const Preview& preview) {
-    for (const glm::vec2 at : {glm::vec2(0.66F, 0.5F), glm::vec2(0.5F, 0.5F), glm::vec2(0.5F, 0.68F)})
-        if (auto frame = preview.pick(at)) return *frame;
-    return {};
-}
-
 }  // namespace
 
 Session::Session(const post::OcioConfig& config, SessionSettings settings)
     : settings_(std::move(settings)),
       preview_(config, settings_.still),
-      document_(Document::open_as_new(settings_.content_folder / "materials" / "cd.json")) {
+      document_(Document::open_as_new(settings_.content_folder / "materials" / "cd.json")),
+      cook_(std::make_shared<GratingCook>(nullptr)) {
     choose_shape(PreviewShape::Disc);
 }
 
 void Session::open(const std::filesystem::path& path) {
     const std::string file = path.filename().string();
     messages_.attempt([&] {
+        if (is_scene_file(path)) {
+            opening_of_ = std::make_shared<const std::filesystem::path>(path);
+            return;
+        }
+        if (is_picture_file(path)) return set_groove_picture(path);
         OpenedFile opened = open_file(path);
         if (auto* document = std::get_if<Document>(&opened)) {
-            adopt(std::move(*document));
-        } else if (auto* model = std::get_if<OpenedModel>(&opened)) {
-            adopt(std::move(*model), file);
+            use_material(std::move(*document), path);
         } else if (auto* table = std::get_if<diffraction::EfficiencyTable>(&opened)) {
             opened_table_ = std::move(*table);
             messages_.say(file + ": compared with the efficiencies of the profile");
@@ -62,27 +55,21 @@ void Session::open(const std::filesystem::path& path) {
 }
 
 void Session::open_preset(const std::string& name) {
-    messages_.attempt([&] { adopt(Document::open_as_new(settings_.content_folder / "materials" / (name + ".json"))); });
+    const std::filesystem::path path = preset_path(name);
+    messages_.attempt([&] { use_material(Document::open_as_new(path), path); });
 }
 
 void Session::adopt(Document document) {
     document_ = std::move(document);
     all_prices_.reset();
     pinned_price_.reset();
+    drop_scene();
+    if (document_.is_scene()) return;
     messages_.say(document_.name() + (document_.path().empty() ? ": the start of a new material" : ": opened"));
 }
 
-void Session::adopt(OpenedModel model, const std::string& file) {
-    model_ = std::move(model.mesh);
-    choose_shape(PreviewShape::Model);
-    if (model.document)
-        adopt(std::move(*model.document));
-    else
-        messages_.say(file + ": it has no grating; it is shown with the material that is open");
-}
-
-void Session::save() {
-    if (messages_.attempt([&] { document_.save(); })) messages_.say(document_.path().string() + ": saved");
+void Session::save(bool over_changes) {
+    if (messages_.attempt([&] { document_.save(over_changes); })) messages_.say(document_.path().string() + ": saved");
 }
 
 void Session::save_as(const std::filesystem::path& path) {
@@ -94,15 +81,15 @@ void Session::choose_light(const std::filesystem::path& path) {
 }
 
 void Session::choose_shape(PreviewShape shape) {
-    if (shape == PreviewShape::Model && !model_) return;
-    object_ = std::make_shared<const PreviewObject>(
-        PreviewObject{shape, render::make_mesh_instance(shape == PreviewShape::Model ? *model_ : preview_mesh(shape))});
+    if (shape == PreviewShape::Model) {
+        if (!scene_on_gpu_) return;
+        object_ = scene_on_gpu_;
+    } else {
+        object_ = std::make_shared<const PreviewObject>(PreviewObject{
+            shape, {.meshes = {render::make_mesh_instance(preview_mesh(shape))}, .materials = {}}, nullptr});
+    }
     picked_.reset();
-}
-
-void Session::pick(const glm::vec2& at) {
-    if (const auto frame = preview_.pick(at))
-        picked_ = PickedPixel{.at = at, .surface = std::make_shared<const diffraction::ShadingPoint>(*frame)};
+    surface_.reset();
 }
 
 template <typename Key, typename Value>
@@ -113,12 +100,19 @@ bool Session::poll(Computed<Key, Value>& computed) {
 }
 
 void Session::update() {
-    cooked_.want(document_.accepted(), [source = document_.accepted()](auto&&...) { return cook(*source); });
-    if (poll(cooked_) && !is_table(cooked()->material.grating)) last_scalar_ = cooked()->material.grating;
-
-    const auto& saved = document_.saved();
-    saved_.want(saved ? std::optional(saved) : std::nullopt, [saved](auto&&...) { return cook(*saved); });
+    want_opening();
+    take_opened(opening_.poll());
+    const auto cooking = [this](auto& computed, const std::shared_ptr<const MaterialSource>& source) {
+        computed.want(source ? std::optional(source) : std::nullopt,
+                      [cook = cook_, source](auto&&...) { return cook->cook(*source); });
+    };
+    cooking(cooked_, document_.accepted());
+    cooking(saved_, document_.saved());
+    if (poll(cooked_) && !is_table(cooked_.value()->get()->material->material.grating))
+        last_scalar_ = cooked_.value()->get()->material->material.grating;
     saved_.poll();  // its failure is that of cooked_
+    gratings_.update(document_, cook_, cooked_.current() ? *cooked_.value() : nullptr);
+    for (std::string& failure : gratings_.take_failures()) messages_.say(std::move(failure), true);
 
     light_.want(chosen_light_ ? std::optional(chosen_light_) : std::nullopt,
                 [source = chosen_light_, mapping = settings_.probe_mapping](const std::stop_token& stop, auto&&) {
@@ -139,7 +133,7 @@ void Session::want_point_numbers() {
     if (cooked_.current() && light() && preview_.drawn()) inputs = point_inputs();
     if (point_.wants(inputs)) return;  // before the surface is searched for the point
     if (!inputs) return point_.want(inputs, nullptr);
-    const diffraction::ShadingPoint frame = inputs->surface ? *inputs->surface : middle_frame(preview_);
+    const diffraction::ShadingPoint frame = inputs->surface ? *inputs->surface : middle_frame();
     point_.want(inputs,
                 [cooked = inputs->cooked, light = inputs->light, frame](const std::stop_token& stop,
                                                                         auto&&) -> std::optional<PointNumbers> {
@@ -154,23 +148,27 @@ void Session::want_point_numbers() {
 }
 
 bool Session::busy() const {
-    return !cooked_.wants(document_.accepted()) || cooked_.busy() || saved_.busy() || light_.busy() || point_.busy() ||
-           pricing();
+    const auto& source = document_.accepted();
+    return !cooked_.wants(source ? std::optional(source) : std::nullopt) || cooked_.busy() || opening_of_ ||
+           gratings_.busy() || saved_.busy() || light_.busy() || point_.busy() || pricing();
 }
 
 void Session::draw(glm::ivec2 size, const scene::Camera& camera, bool with_saved, float seconds) {
     if (!ready() || size.x < 1 || size.y < 1) return;
     messages_.attempt([&] {
-        preview_.show({.size = size,
-                       .eye = camera.eye,
-                       .target = camera.target,
-                       .stage = stage,
-                       .object = object_,
-                       .light = light(),
-                       .material = cooked(),
-                       .saved = with_saved ? saved() : nullptr});
+        preview_.show(
+            {.size = size,
+             .eye = camera.eye,
+             .target = camera.target,
+             .stage = stage,
+             .object = object_,
+             .light = light(),
+             .gratings = shown_with(cooked_),
+             .saved = with_saved && saved() ? std::optional(shown_with(saved_)) : std::nullopt,
+             .grooves_of = shows_grooves ? std::optional(object_->scene ? document_.chosen() : 0) : std::nullopt});
     });
     preview_.draw(seconds);
+    update_surface();
     if (picked_ && pixel_inputs_ != PixelInputs{point_inputs(), stage}) read_picked_pixel();
 }
 
@@ -186,6 +184,7 @@ void Session::read_picked_pixel() {
 }
 
 std::optional<diffraction::Grating> Session::compared() const {
+    if (!document_.has_grating()) return std::nullopt;
     diffraction::Grating other = document_.material().grating;
     if (is_table(other) && last_scalar_) return last_scalar_;
     if (!opened_table_) return std::nullopt;
@@ -196,7 +195,9 @@ std::optional<diffraction::Grating> Session::compared() const {
 }
 
 Session::PriceInputs Session::price_inputs(bool of_all) const {
-    PriceInputs inputs{document_.accepted()->json, light()};
+    PriceInputs inputs{document_.has_grating() ? document_.accepted()->json : Json(), light()};
+    for (const char* of_mesh : {"grooveRotation", "grooveTexture"})
+        if (inputs.material.contains(of_mesh)) inputs.material.erase(of_mesh);
     if (of_all && inputs.material.contains("quality")) {
         Json& quality = inputs.material["quality"];
         const Json choice = choice_of_quality(quality);
@@ -225,7 +226,7 @@ Session::PriceWork Session::price_work(bool present_only) const {
 }
 
 void Session::want_prices() {
-    if (!light()) return;
+    if (!light() || !document_.has_grating()) return;
     const bool asked = measure_all_of_ == price_inputs(true);
     all_prices_.want(asked ? measure_all_of_ : std::nullopt, price_work(false));
 
@@ -246,6 +247,7 @@ void Session::stop_pricing() {
 }
 
 PriceList Session::prices() const {
+    if (!document_.has_grating()) return {};
     const bool all_current = all_prices_.is_of(price_inputs(true));
     const bool pinned_current = pinned_price_.is_of(price_inputs(false));
     if (!all_current && (pinned_current || all_prices_.value() == nullptr))

@@ -33,6 +33,7 @@ void start_session(Session& session, const Options& options, const Layout& layou
     }
     if (options.file) {
         session.open(*options.file);
+        session.finish_opening();
         require_opened(session);
     }
     std::error_code ignored;

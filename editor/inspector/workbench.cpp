@@ -91,6 +91,12 @@ std::vector<Command> Workbench::commands() {
         {"File", "Open…", "Ctrl+O", Key::O, [this] { dialogs_.ask_open(); }},
         {"File", "Save", "Ctrl+S", Key::S, [this] { dialogs_.save(); }},
         {"File", "Save as…", "Ctrl+Shift+S", Key::S, [this] { dialogs_.ask_save_as(); }},
+        {"File",
+         "Close scene",
+         {},
+         {},
+         [this] { dialogs_.unless_lost([this] { session_.close_scene(); }); },
+         session_.document().is_scene()},
         {"File", ""},
         {"File", "Quit", "Ctrl+Q", Key::Q, [this] { ask_to_close(); }},
         {"Edit", "Undo", "Ctrl+Z", Key::Z, [&document] { document.undo(); }, document.can_undo()},
@@ -98,7 +104,8 @@ std::vector<Command> Workbench::commands() {
     };
     for (const char* preset : Session::presets())
         result.push_back({"Presets", preset, {}, {}, [this, preset] {
-                              dialogs_.unless_lost([this, preset] { session_.open_preset(preset); });
+                              const auto open = [this, preset] { session_.open_preset(preset); };
+                              session_.document().is_scene() ? open() : dialogs_.unless_lost(open);
                           }});
     for (std::size_t i = 0; i < kPreviewShapes.size(); ++i) {
         const PreviewShape shape = kPreviewShapes[i];
@@ -111,6 +118,8 @@ std::vector<Command> Workbench::commands() {
         {"View", ""},
         {"View", "Compare with saved", "F6", Key::F6, [this] { preview_.comparing = !preview_.comparing; },
          session_.saved() != nullptr, preview_.comparing},
+        {"View", "Show grooves", "G", Key::G, [this] { session_.shows_grooves = !session_.shows_grooves; }, true,
+         session_.shows_grooves},
         {"View", "Larger text", "Ctrl+=", Key::Equal, scale_by(0.1F)},
         {"View", "Smaller text", "Ctrl+-", Key::Minus, scale_by(-0.1F)},
         {"", "Redo", "Ctrl+Y", Key::Y, [&document] { document.redo(); }},
@@ -153,12 +162,19 @@ void Workbench::draw_tiles(const platform::InputState& input, const WorkbenchFra
     const float below = layout_.price_height * font;
     const float middle = frame.size.x - left - right - 2.0F * gap;
 
-    if (begin_tile("Material", {0.0F, top}, {left, height})) material_.draw(session_.document(), controls_);
+    if (begin_tile("Material", {0.0F, top}, {left, height})) {
+        scene_.draw(session_, controls_);
+        if (session_.document().has_grating()) material_.draw(session_.document(), controls_);
+    }
     ImGui::End();
-    if (begin_tile("Physics", {frame.size.x - right, top}, {right, height})) physics_.draw(session_, controls_);
+    const auto draw_if_grating = [this](const auto& draw) {
+        session_.document().has_grating() ? draw() : ImGui::TextDisabled("The chosen material has no grating.");
+    };
+    if (begin_tile("Physics", {frame.size.x - right, top}, {right, height}))
+        draw_if_grating([&] { physics_.draw(session_, controls_); });
     ImGui::End();
     if (begin_tile("Price", {left + gap, top + height - below}, {middle, below}))
-        price_.draw(session_, frame.frame_ms, controls_);
+        draw_if_grating([&] { price_.draw(session_, frame.frame_ms, controls_); });
     ImGui::End();
     if (begin_tile("Preview", {left + gap, top}, {middle, height - below - gap},
                    ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse))

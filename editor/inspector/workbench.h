@@ -13,6 +13,7 @@
 #include "editor/inspector/physics_panel.h"
 #include "editor/inspector/preview_panel.h"
 #include "editor/inspector/price_panel.h"
+#include "editor/inspector/scene_panel.h"
 #include "editor/inspector/session.h"
 #include "engine/platform/input.h"
 
@@ -62,6 +63,7 @@ class Workbench {
     Layout& layout_;
     ControlMap& controls_;
     MaterialPanel material_;
+    ScenePanel scene_;
     PhysicsPanel physics_;
     PricePanel price_;
     PreviewPanel preview_;

@@ -61,6 +61,7 @@ void pose_skins_at_rest(ImportedScene& scene) {
         mesh.joints.clear();
         mesh.weights.clear();
         scene.tangents.push_back(scene.tangents.at(instance.mesh));
+        scene.primitives.push_back(scene.primitives.at(instance.mesh));
         scene.nodes.push_back(
             {.name = instance.name, .parent = {}, .local = {}, .world = glm::mat4(1.0F), .extras = {}});
         instance.mesh = scene.meshes.size() - 1;

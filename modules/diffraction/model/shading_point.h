@@ -11,6 +11,8 @@ struct ShadingPoint {
     glm::dvec3 view{0.0, 0.0, 1.0};
     glm::dvec3 normal{0.0, 0.0, 1.0};
     glm::dvec3 grating{1.0, 0.0, 0.0};
+
+    friend bool operator==(const ShadingPoint&, const ShadingPoint&) = default;
 };
 
 /// True if all three vectors are finite and not 0, and the grating vector is not along the normal.

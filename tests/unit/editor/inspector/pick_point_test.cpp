@@ -13,14 +13,14 @@ namespace {
 const scene::Camera kAhead{.eye = {0.0F, 0.0F, 0.4F}, .target = {0.0F, 0.0F, 0.0F}};
 
 TEST(PickPoint, TheMiddleOfASphereFacesTheEye) {
-    const auto frame =
+    const auto point =
         pick_point(preview_mesh(PreviewShape::Sphere), glm::mat4(1.0F), ray_through(kAhead, 1.0F, {0.5F, 0.5F}));
-    ASSERT_TRUE(frame);
+    ASSERT_TRUE(point);
     // The sphere is of flat facets 2.8° wide, its normals are interpolated.
-    EXPECT_GT(glm::dot(frame->normal, glm::dvec3(0.0, 0.0, 1.0)), 0.9999);
-    EXPECT_GT(glm::dot(frame->view, glm::dvec3(0.0, 0.0, 1.0)), 0.9999);
-    EXPECT_LT(std::abs(glm::dot(frame->grating, frame->normal)), 1e-3);
-    EXPECT_GT(std::abs(frame->grating.x), 0.999);  // along the longitude
+    EXPECT_GT(glm::dot(point->frame.normal, glm::dvec3(0.0, 0.0, 1.0)), 0.9999);
+    EXPECT_GT(glm::dot(point->frame.view, glm::dvec3(0.0, 0.0, 1.0)), 0.9999);
+    EXPECT_LT(std::abs(glm::dot(point->frame.grating, point->frame.normal)), 1e-3);
+    EXPECT_GT(std::abs(point->frame.grating.x), 0.999);  // along the longitude
 }
 
 TEST(PickPoint, BesideTheSurfaceThereIsNothing) {
@@ -28,10 +28,10 @@ TEST(PickPoint, BesideTheSurfaceThereIsNothing) {
     const glm::mat4 upright = glm::rotate(glm::mat4(1.0F), glm::radians(90.0F), {1.0F, 0.0F, 0.0F});
     EXPECT_FALSE(pick_point(disc, upright, ray_through(kAhead, 1.0F, {0.5F, 0.5F})));  // the hole
     EXPECT_FALSE(pick_point(disc, upright, ray_through(kAhead, 1.0F, {0.01F, 0.01F})));
-    const auto frame = pick_point(disc, upright, ray_through(kAhead, 1.0F, {0.62F, 0.5F}));
-    ASSERT_TRUE(frame);
-    EXPECT_GT(frame->grating.x, 0.99);  // radial, to the right of the middle
-    EXPECT_NEAR(frame->normal.z, 1.0, 1e-5);
+    const auto point = pick_point(disc, upright, ray_through(kAhead, 1.0F, {0.62F, 0.5F}));
+    ASSERT_TRUE(point);
+    EXPECT_GT(point->frame.grating.x, 0.99);  // radial, to the right of the middle
+    EXPECT_NEAR(point->frame.normal.z, 1.0, 1e-5);
 }
 
 TEST(PickPoint, ARayLeavesThroughThePointOfThePicture) {
@@ -57,11 +57,9 @@ TEST(PreviewShapes, GratingVectorsLieInTheirSurface) {
 }
 
 TEST(PreviewShapes, AModelIsFitted) {
-    scene::Mesh mesh = preview_mesh(PreviewShape::Sphere);
-    for (glm::vec3& position : mesh.positions) position = 300.0F * position + glm::vec3(1000.0F, 0.0F, 0.0F);
-    const scene::Bounds box = scene::bounds(fitted_model(mesh));
-    EXPECT_NEAR(box.maximum.x, 0.058F, 1e-4F);
-    EXPECT_NEAR(box.minimum.x, -0.058F, 1e-4F);
+    const scene::Bounds box{.minimum = {970.0F, -15.0F, -15.0F}, .maximum = {1000.0F, 15.0F, 15.0F}};
+    EXPECT_NEAR(30.0F * fitting_scale(box), 0.116F, 1e-6F);
+    EXPECT_EQ(fitting_scale({}), 1.0F);
 }
 
 }  // namespace

@@ -164,11 +164,11 @@ TEST_F(SessionTest, AModelIsDrawnInPlaceOfAnotherInAnIdleInspector) {
     write_file_atomic(path("wide.gltf"), gltf("[1, 0.2, 1]"));
     write_file_atomic(path("tall.gltf"), gltf("[0.2, 1, 1]"));
     session_.open(path("wide.gltf"));
-    EXPECT_EQ(session_.shape(), PreviewShape::Model) << session_.messages().back().text;
-    draw_until_cooked(1600.0);
+    draw_until([&] { return session_.shape() == PreviewShape::Model && session_.ready(); });
     draw(100);
     const auto wide = session_.preview().display().read_rgba8();
     session_.open(path("tall.gltf"));
+    session_.finish_opening();
     draw(3);
     EXPECT_NE(session_.preview().display().read_rgba8(), wide);
 }

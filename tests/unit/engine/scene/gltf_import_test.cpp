@@ -372,5 +372,16 @@ TEST(GltfImport, SyntaxErrorsSayWhere) {
     }
 }
 
+TEST(GltfImport, SaysHowTheTangentsOfAMeshWereMade) {
+    nlohmann::json file = test::document(5);
+    EXPECT_EQ(load(file).tangents, (std::vector{TangentSource::Arbitrary}));
+    test::set_attribute(file, "TEXCOORD_0", test::add_floats(file, "VEC2", std::vector<float>(10, 0.5F)));
+    EXPECT_EQ(load(file).tangents, (std::vector{TangentSource::Uvs}));
+    std::vector<float> tangents;
+    for (int i = 0; i < 5; ++i) tangents.insert(tangents.end(), {1.0F, 0.0F, 0.0F, 1.0F});
+    test::set_attribute(file, "TANGENT", test::add_floats(file, "VEC4", tangents));
+    EXPECT_EQ(load(file).tangents, (std::vector{TangentSource::File}));
+}
+
 }  // namespace
 }  // namespace rowland::scene

@@ -53,6 +53,18 @@ TEST(GltfSkin, JointsAndBindMatricesAreRead) {
     EXPECT_TRUE(scene.warnings.empty());
 }
 
+TEST(GltfSkin, PosedAtRestItIsAMeshOfTheSamePlace) {
+    ImportedScene scene = load(skinned());
+    const Mesh merged = merge_instances(scene);
+    pose_skins_at_rest(scene);
+    EXPECT_TRUE(scene.skins.empty());
+    EXPECT_FALSE(scene.instances.at(0).skin);
+    EXPECT_EQ(scene.nodes.at(scene.instances.at(0).node).world, glm::mat4(1.0F));
+    EXPECT_EQ(merge_instances(scene).positions, merged.positions);
+    EXPECT_EQ(scene.tangents.size(), scene.meshes.size());
+    EXPECT_EQ(scene.primitives.size(), scene.meshes.size());
+}
+
 TEST(GltfSkin, MergedSkinIsPlacedByItsJointsNotItsNode) {
     const Mesh merged = merge_instances(load(skinned()));
     EXPECT_EQ(merged.positions.at(1), glm::vec3(1.0F, 0.0F, 0.0F));

@@ -1,0 +1,131 @@
+// An artist's scene in the inspector's window: chosen by a click, given a grating, its grooves turned, saved, and drawn
+// by the demo.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "engine/core/file.h"
+#include "engine/image/byte_image.h"
+#include "engine/scene/editable_gltf.h"
+#include "modules/diffraction/asset/gltf_extension.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/test_data.h"
+#include "tests/window/inspector_user.h"
+
+namespace rowland {
+namespace {
+
+using nlohmann::ordered_json;
+using test::Facts;
+using test::InspectorUser;
+
+class SceneWindow : public ::testing::Test {
+ protected:
+    void SetUp() override {
+        ROWLAND_NEEDS_VIRTUAL_DISPLAY();
+        write_file_atomic(
+            path("sky.json"),
+            R"({"probe": {"type": "clear_sky", "sun_azimuth_deg": 40, "sun_elevation_deg": 35, "width": 128}})");
+    }
+    std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
+
+    /// The demo's picture of a scene.
+    std::vector<std::uint8_t> drawn(const std::filesystem::path& scene) const {
+        const auto picture = path("picture.png");
+        const test::Ended demo = test::run({ROWLAND_DEMO, "--headless", "--scene", scene, "--probe", path("sky.json"),
+                                            "--width", kWidth, "--height", kWidth, "--capture", picture});
+        EXPECT_EQ(demo.code, 0) << demo.err;
+        return image::decode_byte_image(read_file(picture, 1 << 24), "picture").rgba;
+    }
+
+    /// Gives the material under a point of the preview a DVD's grating, turns its grooves, and saves. The saved file.
+    static void edit(InspectorUser& user, glm::dvec2 at, const std::string& expected) {
+        user.wait_for("busy", "no");
+        user.pick(at);
+        user.wait_for("chosen material", expected);
+        user.click("attach");
+        user.click("attach=dvd");
+        user.wait_for("material", "740");
+        user.wait_for("busy", "no");
+        user.click("show grooves");
+        user.drag("groove handle", {30, 18});
+        user.wait_for("material", "grooveRotation");
+        user.key("ctrl+s");
+        user.wait_for("message", "saved");
+    }
+
+    /// Both files hold the same but for that material's grating.
+    static void expect_only_grating(const std::filesystem::path& before, const std::filesystem::path& after,
+                                    std::size_t material) {
+        scene::EditableGltf saved = scene::EditableGltf::open(after);
+        const ordered_json grating = saved.material_extension(material, diffraction::kGltfExtension);
+        EXPECT_EQ(grating["grating"]["pitch_nm"], 740);
+        EXPECT_NE(grating["grooveRotation"], 0.0);
+        saved.set_material_extension(material, diffraction::kGltfExtension, nullptr);
+        EXPECT_EQ(saved, scene::EditableGltf::open(before));
+        saved.save();
+        EXPECT_EQ(read_file(after, 1 << 26), read_file(before, 1 << 26));
+    }
+
+    static constexpr const char* kWidth = "360";
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(SceneWindow, OneSphereOfManyGetsARainbow) {
+    ROWLAND_TEST_DATA(original, "gltf/valid/ClearCoatTest/ClearCoatTest.gltf");
+    std::filesystem::copy(original.parent_path(), path("scene"));
+    const std::filesystem::path scene = path("scene/ClearCoatTest.gltf");
+    const std::vector<std::uint8_t> before = drawn(scene);
+    {
+        InspectorUser user(folder_.path(), {scene, "--probe", path("sky.json")});
+        user.wait_for("document", "ClearCoatTest.gltf");
+        // That sphere is 0.265 half heights of the picture to the right of the middle.
+        std::istringstream picture(user.facts().at("picture"));
+        glm::dvec2 least;
+        glm::dvec2 most;
+        picture >> least.x >> least.y >> most.x >> most.y;
+        const double aspect = (most.x - least.x) / (most.y - least.y);
+        edit(user, {0.5 + 0.5 * 0.265 / aspect, 0.42}, "RoughVariations_Coated");
+        EXPECT_EQ(user.leave(), 0);
+    }
+    const std::vector<std::uint8_t> after = drawn(scene);
+    // Only pixels of that sphere differ, a fortieth of the picture; they have all hues.
+    std::size_t changed = 0;
+    glm::ivec3 most_of(0);
+    for (std::size_t i = 0; i < before.size(); i += 4) {
+        const glm::ivec3 rgb(after[i], after[i + 1], after[i + 2]);
+        if (rgb == glm::ivec3(before[i], before[i + 1], before[i + 2])) continue;
+        ++changed;
+        const int highest = std::max({rgb.r, rgb.g, rgb.b});
+        for (int c = 0; c < 3; ++c)
+            if (rgb[c] == highest && highest > 40 + std::min({rgb.r, rgb.g, rgb.b})) ++most_of[c];
+    }
+    EXPECT_GT(changed, before.size() / 4 / 200);
+    EXPECT_LT(changed, before.size() / 4 / 20);
+    for (int c = 0; c < 3; ++c) EXPECT_GT(most_of[c], 20) << c;
+    expect_only_grating(original, scene, 7);
+}
+
+TEST_F(SceneWindow, ADracoModelAndAGlbAreSavedLikewise) {
+    for (const char* name : {"gltf/draco/derived/Duck_draco_default.glb", "gltf/valid/Duck/glTF_Binary/Duck.glb"}) {
+        ROWLAND_TEST_DATA(original, name);
+        const std::filesystem::path scene = path(original.filename());
+        std::filesystem::copy_file(original, scene);
+        {
+            InspectorUser user(folder_.path(), {scene, "--probe", path("sky.json")});
+            edit(user, {0.5, 0.5}, "blinn3");
+            EXPECT_EQ(user.leave(), 0);
+        }
+        expect_only_grating(original, scene, 0);
+    }
+}
+
+}  // namespace
+}  // namespace rowland
