@@ -41,14 +41,14 @@ TEST(JsonText, AddsInTheLayoutOfTheSurroundings) {
 }
 
 TEST(JsonText, MakesTheObjectsAroundAValue) {
-    EXPECT_EQ(after("{}", {"a", "b"}, 1), R"({"a": {"b": 1}})");
+    EXPECT_EQ(after("{}", {"a", "b"}, 1), R"({"a": { "b": 1 }})");
     EXPECT_EQ(after("\xEF\xBB\xBF{\"x\":0}", {"a", "b"}, 1), "\xEF\xBB\xBF{\"x\":0,\"a\":{\"b\":1}}");
 }
 
 TEST(JsonText, OfAnObjectOnlyWhatDiffersIsWritten) {
     const std::string text = R"({"a":{"same":1.000, "other": 2,"gone":3, "list":[1.0]}})";
     EXPECT_EQ(after(text, {"a"}, {{"same", 1}, {"other", 5}, {"list", {1}}, {"new", "n"}}),
-              R"({"a":{"same":1.000, "other": 5, "list":[1.0],"new":"n"}})");
+              R"({"a":{"same":1.000, "other": 5,"list":[1.0],"new":"n"}})");
 }
 
 TEST(JsonText, RemovingWhatWasAddedGivesTheFirstText) {

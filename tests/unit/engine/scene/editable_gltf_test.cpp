@@ -152,15 +152,13 @@ TEST(EditableGltf, RemovingAfterSavingGivesTheFirstBytesInEveryValidFile) {
 }
 
 TEST(EditableGltf, ChunksAndBytesOfOtherKindsStay) {
-    const std::string json = R"({"asset":{"version":"2.0"},"materials":[{"name":"a","extras":{"x":1.0e0}}]}  )";
-    ASSERT_EQ(json.size() % 4, 0U);
+    const std::string json = R"({"asset":{"version":"2.0"},"materials":[{"name":"a","extras":{"x":1.0e0}}]} )";
     const auto before = glb_of({{"JSON", json}, {kBin, "12345678"}, {"MORE", "unknown!"}}, "behind");
     EditableGltf gltf(before, "a.glb");
     EXPECT_EQ(gltf.bytes(), before);
     gltf.set_material_extension(0, kName, {{"n", 1}});
     const std::string now = R"({"asset":{"version":"2.0"},"materials":[{"name":"a","extras":{"x":1.0e0},"extensions":)"
                             R"({"TEST_grating":{"n":1}}}],"extensionsUsed":["TEST_grating"]} )";
-    ASSERT_EQ(now.size() % 4, 0U);
     EXPECT_EQ(gltf.bytes(), glb_of({{"JSON", now}, {kBin, "12345678"}, {"MORE", "unknown!"}}, "behind"));
 }
 
