@@ -1,8 +1,10 @@
 """Writes and reads the grating with Blender's own glTF exporter and importer, which call these classes."""
 
+import importlib
 import json
 import os
 import tempfile
+import urllib.parse
 
 import bpy
 import numpy
@@ -45,6 +47,14 @@ def png_of(image):
     return data
 
 
+def exporter_module(name):
+    """A module of Blender's exporter; in Blender 3 their names began with gltf2_io_."""
+    try:
+        return importlib.import_module(f"io_scene_gltf2.io.exp.{name}")
+    except ModuleNotFoundError:
+        return importlib.import_module(f"io_scene_gltf2.io.exp.gltf2_io_{name}")
+
+
 class glTF2ExportUserExtension:
     def __init__(self):
         from io_scene_gltf2.io.com.gltf2_io_extensions import Extension
@@ -55,9 +65,9 @@ class glTF2ExportUserExtension:
     def texture(self, fields, export_settings):
         """The exporter's texture of the groove image; materials with the same image and sampler share one."""
         from io_scene_gltf2.io.com import gltf2_io
-        from io_scene_gltf2.io.exp.gltf2_io_binary_data import BinaryData
-        from io_scene_gltf2.io.exp.gltf2_io_image_data import ImageData
 
+        BinaryData = exporter_module("binary_data").BinaryData
+        ImageData = exporter_module("image_data").ImageData
         image = fields.groove_image
         key = (image.name, fields.sampler)
         if key not in self.textures:
@@ -98,13 +108,21 @@ class glTF2ExportUserExtension:
 
 def imported_image(gltf, index):
     """The Blender image of a glTF texture."""
-    try:
-        from io_scene_gltf2.blender.imp.gltf2_blender_image import BlenderImage
-    except ImportError:  # Blender 4
-        from io_scene_gltf2.blender.imp.image import BlenderImage
+    from io_scene_gltf2.io.imp.gltf2_io_binary import BinaryData
+
     source = gltf.data.textures[index].source
-    BlenderImage.create(gltf, source)
-    return bpy.data.images[gltf.data.images[source].blender_image_name]
+    image = gltf.data.images[source]
+    if image.blender_image_name is not None:  # another texture shows it
+        return bpy.data.images[image.blender_image_name]
+    if image.uri is not None and not image.uri.startswith("data:"):
+        path = os.path.join(os.path.dirname(os.path.abspath(gltf.filename)), urllib.parse.unquote(image.uri))
+        return bpy.data.images.load(path, check_existing=True)
+    data = bytes(BinaryData.get_image_data(gltf, source))
+    packed = bpy.data.images.new(image.name or f"Image_{source}", 8, 8)  # the size becomes that of the data
+    packed.pack(data=data, data_len=len(data))
+    packed.source = "FILE"
+    image.blender_image_name = packed.name
+    return packed
 
 
 def sampler_text(gltf, index):
