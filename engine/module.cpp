@@ -9,7 +9,7 @@ std::shared_ptr<const cook::Registry> make_registry(std::initializer_list<Regist
     auto registry = std::make_shared<cook::Registry>();
     for (const RegisterAssets register_module : modules) register_module(*registry);
     lighting::register_cook_types(*registry);
-    scene::register_cook_types(*registry, registry->gltf_extensions());
+    scene::register_cook_types(*registry);
     return registry;
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "editor/cooker/attach_command.h"
 #include "editor/cooker/farm_commands.h"
 #include "engine/cook/check_file.h"
 #include "engine/cook/cook_source.h"
@@ -93,6 +94,7 @@ int run_cooker(int argc, const char* const* argv, const cook::Registry& registry
         add_cook_command(program, registry);
         add_check_command(program, registry, exit_code);
         add_info_command(program, registry);
+        add_attach_commands(program, registry, exit_code);
         add_farm_commands(program, registry, exit_code);
         try {
             program.parse(argc, argv);

@@ -10,6 +10,13 @@
 # CMake (3.25) loses the characters # and $ when it passes dependency files on, so a source that names a file with one of
 # them is cooked at every build.
 #
+# rowland_attach(<target> SCENE <source> OUTPUT <output> GRATINGS <material> <grating> [<material> <grating>]...)
+#
+# Writes a scene, a .glb or a .gltf that names no files, to ${ROWLAND_COOKED_DIR}/<output>, with gratings on materials that
+# it names: whenever the scene is exported again, a grating or a file that this names has changed, or the cooker.
+#
+#   rowland_attach(truck SCENE truck.glb OUTPUT truck.glb GRATINGS Chrome materials/dvd.json  Badge materials/foil.json)
+#
 # The cooker is the target `rowland-cook`. An asset may be listed once in the whole build; who shares it depends on the
 # target that lists it.
 function(rowland_cook_assets target)
@@ -30,13 +37,17 @@ function(rowland_cook_assets target)
   add_custom_target(${target} ALL DEPENDS ${outputs})
 endfunction()
 
-function(_rowland_cook_asset target source output)
+# Refuses a second owner of an output.
+function(_rowland_own_output function target output)
   get_property(owner GLOBAL PROPERTY "ROWLAND_COOKED_BY_${output}")
   if(owner)
-    message(FATAL_ERROR "rowland_cook_assets(${target} ...): ${output} is cooked by ${owner}; depend on that instead")
+    message(FATAL_ERROR "${function}(${target} ...): ${output} is cooked by ${owner}; depend on that instead")
   endif()
   set_property(GLOBAL PROPERTY "ROWLAND_COOKED_BY_${output}" ${target})
+endfunction()
 
+function(_rowland_cook_asset target source output)
+  _rowland_own_output(rowland_cook_assets ${target} "${output}")
   cmake_path(ABSOLUTE_PATH source OUTPUT_VARIABLE source_path)
   set(output_path "${ROWLAND_COOKED_DIR}/${output}")
   # Beside the build's own files, not beside the assets: those are shipped.
@@ -48,4 +59,34 @@ function(_rowland_cook_asset target source output)
     DEPFILE "${depfile}"
     COMMENT "Cooking ${output}"
     VERBATIM)
+endfunction()
+
+function(rowland_attach target)
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "" "SCENE;OUTPUT" "GRATINGS")
+  list(LENGTH ARG_GRATINGS count)
+  math(EXPR odd "${count} % 2")
+  if(ARG_UNPARSED_ARGUMENTS OR NOT ARG_SCENE OR NOT ARG_OUTPUT OR count EQUAL 0 OR odd)
+    message(FATAL_ERROR
+      "rowland_attach(${target} ...): expected SCENE <source> OUTPUT <output> GRATINGS <material> <grating>...")
+  endif()
+  _rowland_own_output(rowland_attach ${target} "${ARG_OUTPUT}")
+  cmake_path(ABSOLUTE_PATH ARG_SCENE OUTPUT_VARIABLE scene)
+  set(output "${ROWLAND_COOKED_DIR}/${ARG_OUTPUT}")
+  set(depfile "${CMAKE_CURRENT_BINARY_DIR}/cook/${ARG_OUTPUT}.d")
+  set(materials)
+  set(gratings)
+  while(ARG_GRATINGS)
+    list(POP_FRONT ARG_GRATINGS material grating)
+    cmake_path(ABSOLUTE_PATH grating)
+    list(APPEND materials --material "${material}" "${grating}")
+    list(APPEND gratings "${grating}")
+  endwhile()
+  add_custom_command(
+    OUTPUT "${output}"
+    COMMAND rowland-cook attach "${scene}" ${materials} -o "${output}" --depfile "${depfile}"
+    DEPENDS rowland-cook "${scene}" ${gratings}
+    DEPFILE "${depfile}"
+    COMMENT "Attaching gratings to ${ARG_OUTPUT}"
+    VERBATIM)
+  add_custom_target(${target} ALL DEPENDS "${output}")
 endfunction()

@@ -55,6 +55,12 @@ void Registry::add(AssetType type) {
     types_.push_back(std::move(type));
 }
 
+std::vector<std::string> Registry::gltf_extension_names() const {
+    std::vector<std::string> names;
+    for (const GltfExtension& extension : gltf_extensions_) names.push_back(extension.name);
+    return names;
+}
+
 const AssetType* Registry::recognise(const std::filesystem::path& source) const {
     std::optional<nlohmann::json> json;
     if (is_json(source)) json = parse_json(read_text_file(source, kMaximumJsonBytes), source.string());

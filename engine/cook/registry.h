@@ -61,14 +61,34 @@ struct AssetType {
     std::function<std::string(std::span<const std::byte> payload, const std::string& file)> describe;
 };
 
+/// A glTF material extension that a module reads. All functions throw Error (input) for what the module refuses.
+struct GltfExtension {
+    std::string name;
+    /// A line about an object of the extension in a glTF `file`, at a JSON pointer. Reads it as the engine would.
+    std::function<std::string(const nlohmann::json& object, const std::string& file, const std::string& pointer)>
+        describe;
+
+    // For `rowland-cook attach`; empty if no source becomes such an object.
+    std::string source_type;  ///< the AssetType of those sources
+    /// The object for a source, in a glTF in `folder`: names of files are relative to that.
+    std::function<nlohmann::ordered_json(Context&, const std::filesystem::path& folder)> from_source;
+    /// Makes the names of files in an object relative to another folder.
+    std::function<void(nlohmann::ordered_json& object, const std::filesystem::path& from,
+                       const std::filesystem::path& to)>
+        move;
+    std::string rotation_member;  ///< an angle in radians
+    std::string texture_member;   ///< a textureInfo
+};
+
 class Registry {
  public:
     /// Adds a type; its name must be new, and it must recognise and check its sources.
     void add(AssetType type);
     const std::vector<AssetType>& types() const { return types_; }
     /// Adds a glTF material extension that a module reads. Files that require any other are refused.
-    void add_gltf_extension(std::string name) { gltf_extensions_.push_back(std::move(name)); }
-    const std::vector<std::string>& gltf_extensions() const { return gltf_extensions_; }
+    void add_gltf_extension(GltfExtension extension) { gltf_extensions_.push_back(std::move(extension)); }
+    const std::vector<GltfExtension>& gltf_extensions() const { return gltf_extensions_; }
+    std::vector<std::string> gltf_extension_names() const;
     /// The type of a source file, or null. Throws Error (input) if it is JSON that cannot be read, and if two types
     /// claim it.
     const AssetType* recognise(const std::filesystem::path& source) const;
@@ -81,7 +101,7 @@ class Registry {
     [[noreturn]] void fail_type(const std::filesystem::path& source, std::string found) const;
 
     std::vector<AssetType> types_;
-    std::vector<std::string> gltf_extensions_;
+    std::vector<GltfExtension> gltf_extensions_;
 };
 
 }  // namespace rowland::cook

@@ -45,7 +45,7 @@ asset::Handle<lighting::LightProbe> LiveAssets::probe(const std::filesystem::pat
 asset::Handle<scene::ImportedScene> LiveAssets::scene(const std::filesystem::path& path) {
     return store_.load<scene::ImportedScene>(path.string(), [registry = registry_, path](Files& files) {
         files.push_back(path);
-        scene::ImportedScene imported = scene::load_gltf(path, registry->gltf_extensions(), &files);
+        scene::ImportedScene imported = scene::load_gltf(path, registry->gltf_extension_names(), &files);
         for (const std::string& warning : imported.warnings) log_warning("{}: {}", path.string(), warning);
         return imported;
     });

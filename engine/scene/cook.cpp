@@ -84,15 +84,26 @@ std::string lower_extension(const std::filesystem::path& path) {
     return extension;
 }
 
-cook::AssetType gltf_type(const std::vector<std::string>& handled_extensions) {
+void check_extensions(const ImportedScene& scene, const std::string& file,
+                      const std::vector<cook::GltfExtension>& extensions) {
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+        for (const cook::GltfExtension& extension : extensions)
+            if (const auto found = scene.materials[i].extensions.find(extension.name);
+                found != scene.materials[i].extensions.end())
+                extension.describe(found->second, file, fmt::format("/materials/{}/extensions/{}", i, extension.name));
+}
+
+cook::AssetType gltf_type(const std::vector<cook::GltfExtension>& extensions, const std::vector<std::string>& names) {
     cook::AssetType type = glb_type("gltf", 1);
     type.recognises = [](const std::filesystem::path& source, const nlohmann::json*) {
         const std::string extension = lower_extension(source);
         return extension == ".gltf" || extension == ".glb";
     };
-    type.check = [handled_extensions](cook::Context& context) {
+    type.check = [extensions, names](cook::Context& context) {
         std::vector<std::filesystem::path> files;
-        merge_instances(load_gltf(context.source(), handled_extensions, &files));
+        const ImportedScene scene = load_gltf(context.source(), names, &files);
+        merge_instances(scene);
+        check_extensions(scene, context.source().string(), extensions);
         for (const std::filesystem::path& file : files) context.depend_on(file);
     };
     return type;
@@ -100,11 +111,12 @@ cook::AssetType gltf_type(const std::vector<std::string>& handled_extensions) {
 
 }  // namespace
 
-void register_cook_types(cook::Registry& registry, std::vector<std::string> handled_extensions) {
+void register_cook_types(cook::Registry& registry) {
+    const std::vector<std::string> names = registry.gltf_extension_names();
     registry.add(mesh_type());
-    for (cook::AssetType type : {scene_type(), gltf_type(handled_extensions)}) {
-        type.describe = [handled_extensions](std::span<const std::byte> payload, const std::string& file) {
-            return describe_scene(load_glb(payload, file, handled_extensions));
+    for (cook::AssetType type : {scene_type(), gltf_type(registry.gltf_extensions(), names)}) {
+        type.describe = [names](std::span<const std::byte> payload, const std::string& file) {
+            return describe_scene(load_glb(payload, file, names));
         };
         registry.add(std::move(type));
     }

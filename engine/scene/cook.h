@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "engine/cook/registry.h"
 
 namespace rowland::scene {

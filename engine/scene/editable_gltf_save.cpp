@@ -40,12 +40,13 @@ std::span<const std::byte> bytes_of(std::string_view text) {
     return std::as_bytes(std::span(text));
 }
 
-/// A chunk's length must be a multiple of 4. Spaces at the end are taken away if that is enough, so that removing what
-/// was added gives the first text again.
-std::string padded_json(std::string text) {
+/// A chunk's length must be a multiple of 4. A longer text gets spaces, a shorter one loses them, so that removing what
+/// was added before gives the first text again.
+std::string padded_json(std::string text, std::size_t opened_size) {
     const std::size_t over = text.size() % 4;
     const std::size_t spaces = text.size() - std::min(text.find_last_not_of(' ') + 1, text.size());
-    text.resize(over <= spaces ? text.size() - over : text.size() - over + 4, ' ');
+    const bool shorten = over == 0 || (text.size() < opened_size && over <= spaces);
+    text.resize(shorten ? text.size() - over : text.size() - over + 4, ' ');
     return text;
 }
 
@@ -71,13 +72,14 @@ std::span<const std::byte> EditableGltf::binary() const {
 
 EditableGltf::Parts EditableGltf::parts(std::vector<std::byte>& owned) const {
     if (!is_binary_) return {bytes_of(json_.text())};
-    const std::string json = padded_json(json_.text());
+    const std::size_t opened_size = read_glb_number(*opened_, kGlbFileHeader);
+    const std::string json = padded_json(json_.text(), opened_size);
     const std::span<const std::byte> appended = appended_ ? *appended_ : std::span<const std::byte>();
     const std::size_t padding = appended.empty() ? 0 : (4 - (binary_size_ + appended.size()) % 4) % 4;
     const std::size_t binary_size = binary_size_ + appended.size() + padding;
     const bool has_binary = binary_begin_ > 0 || binary_size > 0;
     // Behind the chunk that was the last one read there may be others, and bytes that the header does not count.
-    const std::size_t json_end = kGlbFileHeader + kGlbChunkHeader + read_glb_number(*opened_, kGlbFileHeader);
+    const std::size_t json_end = kGlbFileHeader + kGlbChunkHeader + opened_size;
     const auto rest = std::span(*opened_).subspan(binary_begin_ > 0 ? binary_begin_ + binary_size_ : json_end);
     const std::size_t uncounted = opened_->size() - read_glb_number(*opened_, kGlbLengthOffset);
     const std::size_t counted = rest.size() - std::min(rest.size(), uncounted);

@@ -88,8 +88,8 @@ std::optional<std::size_t> EditableGltf::find_image(std::span<const std::byte> i
 std::size_t EditableGltf::add_image(std::vector<std::byte> image, const std::string& name) {
     const OrderedJson buffers = array_of("buffers");
     // The chunk is the first buffer's, unless that names a file.
-    const bool to_binary =
-        is_binary_ && (buffers.empty() ? binary_begin_ == 0 : binary_begin_ > 0 && !buffers[0].contains("uri"));
+    const bool has_chunk = binary_begin_ > 0 || appended_;
+    const bool to_binary = is_binary_ && (buffers.empty() ? !has_chunk : has_chunk && !buffers[0].contains("uri"));
     OrderedJson entry{{"name", name}, {"mimeType", is_jpeg(image) ? "image/jpeg" : "image/png"}};
     if (to_binary)
         entry["bufferView"] = add_to_binary(std::move(image));

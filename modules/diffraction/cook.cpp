@@ -6,6 +6,7 @@
 #include "engine/lighting/probe_recipe.h"
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/asset/gltf_extension.h"
+#include "modules/diffraction/asset/gltf_object.h"
 #include "modules/diffraction/asset/material_json.h"
 #include "modules/diffraction/evaluate/budget.h"
 #include "modules/diffraction/evaluate/frame_sets.h"
@@ -86,10 +87,32 @@ void check_source(cook::Context& context) {
     if (!material.quality.pinned) read_probes(context, material.quality);
 }
 
+cook::GltfExtension gltf_extension() {
+    cook::GltfExtension extension;
+    extension.name = kGltfExtension;
+    extension.describe = [](const nlohmann::json& object, const std::string& file, const std::string& pointer) {
+        const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+        return describe(parse_gltf_extension(object, file, folder, pointer));
+    };
+    extension.source_type = kMaterialAssetType;
+    extension.from_source = [](cook::Context& context, const std::filesystem::path& folder) {
+        const nlohmann::json json = context.read_json(context.source());
+        parse_material(json, context.source().string(), read_through(context));
+        const std::vector<std::byte> text = context.read(context.source(), kMaximumNamedFileSize);
+        const auto* const begin = reinterpret_cast<const char*>(text.data());
+        return gltf_object(nlohmann::ordered_json::parse(begin, begin + text.size()), context.source().parent_path(),
+                           folder);
+    };
+    extension.move = move_named_files;
+    extension.rotation_member = "grooveRotation";
+    extension.texture_member = "grooveTexture";
+    return extension;
+}
+
 }  // namespace
 
 void register_module(cook::Registry& registry) {
-    registry.add_gltf_extension(kGltfExtension);
+    registry.add_gltf_extension(gltf_extension());
     cook::AssetType type;
     type.name = kMaterialAssetType;
     type.version = kMaterialAssetVersion;

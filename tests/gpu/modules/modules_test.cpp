@@ -16,7 +16,7 @@ TEST_F(Modules, TheCookerKnowsTheGltfExtensionsThatTheRendererReads) {
     render::Renderer renderer(glm::inverse(colour::rec709_to_xyz()));
     register_material_types(renderer);
     EXPECT_FALSE(renderer.gltf_extensions().empty());
-    EXPECT_THAT(asset_types()->gltf_extensions(), testing::UnorderedElementsAreArray(renderer.gltf_extensions()));
+    EXPECT_THAT(asset_types()->gltf_extension_names(), testing::UnorderedElementsAreArray(renderer.gltf_extensions()));
 }
 
 }  // namespace

@@ -128,5 +128,35 @@ TEST_F(BuildRuleTest, AssetListedTwiceOrWithoutOutputFailsToConfigure) {
     EXPECT_THAT(configure("rowland_cook_assets(a one.tiles)").err, HasSubstr("expected ASSETS"));
 }
 
+TEST_F(BuildRuleTest, AttachesAgainWhatChanged) {
+    write("scene.gltf", R"({"asset":{"version":"2.0"},"materials":[{"name":"a b"},{"name":"c"}]})");
+    const auto configured = configure(
+        "rowland_attach(scene SCENE scene.gltf OUTPUT sub/scene.gltf GRATINGS \"a b\" one.tiles \"#1\" two.tiles)");
+    ASSERT_EQ(configured.code, 0) << configured.err;
+    const auto attaching = HasSubstr("Attaching gratings to sub/scene.gltf");
+    EXPECT_THAT(build(), attaching);
+    const auto built = [&] { return read_text_file(path("build/cooked/sub/scene.gltf"), 10'000); };
+    EXPECT_THAT(built(), testing::AllOf(HasSubstr(R"(size 10\nx)"), HasSubstr(R"("text":"size 10\n")")));
+    EXPECT_THAT(build(), Not(attaching)) << "nothing changed";
+    write("shared part.txt", "y");
+    touch("shared part.txt");
+    EXPECT_THAT(build(), attaching) << "a file that a grating names";
+    EXPECT_THAT(built(), HasSubstr(R"(size 10\ny)"));
+    write("scene.gltf", R"({"asset":{"version":"2.0"},"materials":[{"name":"a b"},{"name":"new"}]})");
+    touch("scene.gltf");
+    EXPECT_THAT(build(), attaching) << "the scene was exported again";
+    EXPECT_THAT(built(), testing::AllOf(HasSubstr("new"), HasSubstr(R"(size 10\ny)")));
+}
+
+TEST_F(BuildRuleTest, AttachWithoutPairsFailsToConfigure) {
+    for (const std::string arguments : {"SCENE a.glb OUTPUT a.glb", "SCENE a.glb GRATINGS m g.json",
+                                        "SCENE a.glb OUTPUT a.glb GRATINGS m", "a.glb OUTPUT a.glb GRATINGS m g.json"})
+        EXPECT_THAT(configure("rowland_attach(a " + arguments + ")").err, HasSubstr("expected SCENE"));
+    EXPECT_THAT(configure("rowland_cook_assets(a ASSETS one.tiles x)\n"
+                          "rowland_attach(b SCENE a.glb OUTPUT x GRATINGS m g.json)")
+                    .err,
+                HasSubstr("x is cooked by a"));
+}
+
 }  // namespace
 }  // namespace rowland::cook

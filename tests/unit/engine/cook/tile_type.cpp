@@ -81,6 +81,16 @@ std::vector<std::byte> cook_tiles(cook::Context& context) {
 }  // namespace
 
 void register_tile_types(cook::Registry& registry) {
+    cook::GltfExtension in_gltf;
+    in_gltf.name = "TEST_tiles";
+    in_gltf.describe = [](const nlohmann::json& object, const std::string&, const std::string&) {
+        return object["text"].get<std::string>();
+    };
+    in_gltf.source_type = "tiles";
+    in_gltf.from_source = [](cook::Context& context, const std::filesystem::path&) {
+        return nlohmann::ordered_json{{"text", read_tiles(context).text}};
+    };
+    registry.add_gltf_extension(std::move(in_gltf));
     const auto has_extension = [](std::string extension) {
         return [extension = std::move(extension)](const std::filesystem::path& source, const nlohmann::json*) {
             return source.extension() == extension;

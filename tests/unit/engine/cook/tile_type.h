@@ -16,7 +16,7 @@ namespace rowland::test {
 ///   change FILE     somebody else writes to FILE, beside the source, while it is being cooked
 ///   hold FILE       the cook takes as long as there is FILE, beside the source; meanwhile there is FILE.reached
 /// and "notes" (.notes), which are only checked and always sane, and "plain" (.plain → .flat), which is cooked to its
-/// own bytes without a container.
+/// own bytes without a container. A glTF material holds tiles as the extension TEST_tiles, with all that was read.
 void register_tile_types(cook::Registry& registry);
 
 /// The message of the Error (input) that `action` throws.

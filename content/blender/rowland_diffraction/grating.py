@@ -1,0 +1,121 @@
+"""A grating as the JSON object of ROWLAND_materials_diffraction. Knows nothing of Blender."""
+
+import json
+import math
+import os
+from pathlib import Path
+
+from . import rowland_folder
+
+EXTENSION = "ROWLAND_materials_diffraction"
+
+SCHEMA = rowland_folder.load_schema()["$defs"]
+METALS = SCHEMA["metal"]["enum"]
+
+# Each profile's members and their schemas, by the profile's name.
+PROFILES = {
+    profile["properties"]["type"]["const"]: {
+        name: member for name, member in profile["properties"].items() if name != "type"
+    }
+    for profile in SCHEMA["grating"]["properties"]["profile"]["oneOf"]
+}
+
+# What a member is when its profile or lobe is chosen, and how such a lobe is drawn on any mesh.
+DEFAULTS = {"width_nm": 500, "duty": 0.5, "depth_nm": 120, "file": ""}
+LOBES = {
+    "flat": ("flat", {"representation": "arc", "bands": 8, "rank": 12}),
+    "sigma": ({"sigma": 0.1}, {"representation": "streak"}),
+    "pits": ({"pits": {"length_nm": 850, "coherent": 0.5}}, {"representation": "planar"}),
+}
+
+# Linear colours of the metals, for the viewport alone.
+METAL_COLOURS = {
+    "Al": (0.91, 0.92, 0.92), "Ag": (0.97, 0.96, 0.91), "Au": (1.0, 0.77, 0.34), "Cu": (0.95, 0.64, 0.54),
+}
+
+
+def from_preset(file):
+    """A material file's object as a glTF material holds it: as `rowland-cook attach` makes it, but with whole paths."""
+    file = Path(file)
+    grating = json.loads(file.read_text(encoding="utf-8"))
+    grating.pop("base", None)
+    quality = grating.get("quality", {})
+    if quality and "representation" not in quality:
+        for measured in ("max_error", "probes", "surface"):
+            quality.pop(measured, None)
+        if not quality:
+            del grating["quality"]
+    move_files(grating, lambda name: os.path.normpath(file.parent.absolute() / name))
+    return grating
+
+
+def move_files(grating, moved):
+    """Replaces the names of files in the object by moved(name)."""
+    profile = grating.get("grating", {}).get("profile", {})
+    if "file" in profile:
+        profile["file"] = moved(profile["file"])
+    quality = grating.get("quality", {})
+    if quality.get("illuminant", "").endswith(".csv"):
+        quality["illuminant"] = moved(quality["illuminant"])
+
+
+def relative_to(folder):
+    """For move_files(): whole paths become relative to the folder."""
+    return lambda name: os.path.relpath(name, folder).replace(os.sep, "/")
+
+
+def value_at(grating, path, otherwise=None):
+    for key in path:
+        if not isinstance(grating, dict) or key not in grating:
+            return otherwise
+        grating = grating[key]
+    return grating
+
+
+def set_value(grating, path, value):
+    """Sets the value, or removes it if it is None."""
+    for key in path[:-1]:
+        grating = grating.setdefault(key, {})
+    if value is None:
+        grating.pop(path[-1], None)
+    else:
+        grating[path[-1]] = value
+
+
+def lobe_kind(grating):
+    lobe = value_at(grating, ("grating", "groove_lobe"), "flat")
+    return lobe if isinstance(lobe, str) else next(iter(lobe))
+
+
+def set_lobe_kind(grating, kind):
+    lobe, quality = LOBES[kind]
+    set_value(grating, ("grating", "groove_lobe"), lobe)
+    grating["quality"] = dict(quality)
+
+
+def set_profile_kind(grating, kind):
+    old = value_at(grating, ("grating", "profile"), {})
+    members = {name: old.get(name, DEFAULTS[name]) for name in PROFILES[kind]}
+    set_value(grating, ("grating", "profile"), {"type": kind, **members})
+    if kind == "table":  # its efficiencies are those of its metal and dye
+        grating.pop("metal", None)
+        grating.get("cover", {}).pop("tint", None)
+    if kind != "slit":
+        grating["grating"].pop("normalization", None)
+
+
+def spectral_colour(wavelength_nm):
+    """A rough linear RGB of a wavelength, after the shape of the eye's sensitivities."""
+    def bell(centre, width):
+        return math.exp(-(((wavelength_nm - centre) / width) ** 2))
+    return bell(610, 60), bell(545, 50), bell(455, 35)
+
+
+def viewport_colour(grating):
+    """The metal, half of it in the colour that a visible order sends back at 30 degrees: 2 d sin 30 = m lambda."""
+    metal = METAL_COLOURS.get(grating.get("metal"), (0.95, 0.95, 0.95))
+    tint = value_at(grating, ("cover", "tint"), (1, 1, 1))
+    pitch = value_at(grating, ("grating", "pitch_nm"), 1600)
+    order = max(1, round(pitch / 550))
+    spectral = spectral_colour(pitch / order) if 380 <= pitch / order <= 780 else (1, 1, 1)
+    return tuple(m * t * (1 + s) / 2 for m, t, s in zip(metal, tint, spectral))

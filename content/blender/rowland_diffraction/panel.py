@@ -1,0 +1,106 @@
+"""The panel of the material tab, and what its buttons do."""
+
+import subprocess
+import tempfile
+from pathlib import Path
+
+import bpy
+
+from . import grating, properties, rowland_folder
+
+# The fields under each profile and lobe.
+LOBE_FIELDS = {"flat": (), "sigma": ("sigma",), "pits": ("length_nm", "coherent")}
+
+
+def has_grating(context):
+    return context.material is not None and context.material.rowland.text != ""
+
+
+class ROWLAND_OT_preset(bpy.types.Operator):
+    """Give the material this grating"""
+
+    bl_idname = "rowland.preset"
+    bl_label = "Grating"
+    bl_options = {"REGISTER", "UNDO"}
+
+    file: bpy.props.EnumProperty(name="Preset", items=properties.preset_items)
+
+    @classmethod
+    def poll(cls, context):
+        return context.material is not None
+
+    def execute(self, context):
+        context.material.rowland.replace(grating.from_preset(self.file))
+        return {"FINISHED"}
+
+
+class ROWLAND_OT_remove(bpy.types.Operator):
+    """Take the grating away"""
+
+    bl_idname = "rowland.remove"
+    bl_label = "Remove grating"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        return has_grating(context)
+
+    def execute(self, context):
+        context.material.rowland.text = ""
+        context.material.rowland.groove_image = None
+        return {"FINISHED"}
+
+
+class ROWLAND_OT_show(bpy.types.Operator):
+    """Export the scene to a temporary GLB and open it in Rowland"""
+
+    bl_idname = "rowland.show"
+    bl_label = "Show"
+
+    program: bpy.props.EnumProperty(items=[("demo", "Demo", ""), ("inspector", "Inspector", "")])
+
+    def execute(self, _context):
+        program = rowland_folder.find_program(f"rowland-{self.program}")
+        if program is None:
+            self.report({"ERROR"}, f"rowland-{self.program} is not built: run ./rowland in {rowland_folder.FOLDER}")
+            return {"CANCELLED"}
+        file = Path(tempfile.mkdtemp(prefix="rowland-")) / "scene.glb"
+        bpy.ops.export_scene.gltf(filepath=str(file), export_format="GLB", export_tangents=True)
+        subprocess.Popen([program, *(["--scene"] if self.program == "demo" else []), str(file)])
+        return {"FINISHED"}
+
+
+class ROWLAND_PT_grating(bpy.types.Panel):
+    bl_label = "Diffraction grating"
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+    bl_context = "material"
+
+    @classmethod
+    def poll(cls, context):
+        return context.material is not None
+
+    def draw(self, context):
+        layout = self.layout
+        layout.use_property_split = True
+        fields = context.material.rowland
+        row = layout.row()
+        row.operator_menu_enum(ROWLAND_OT_preset.bl_idname, "file", text="Preset")
+        row.operator(ROWLAND_OT_remove.bl_idname, text="", icon="X")
+        if not fields.text:
+            return
+        names = ["pitch_nm", "lines_per_mm", "profile", *grating.PROFILES[fields.profile]]
+        names += ["lobe", *LOBE_FIELDS[fields.lobe], "groove_rotation"]
+        table = fields.profile == "table"
+        names += [] if table else ["metal"]
+        names += ["covered"] + (["cover_ior"] if fields.covered else [])
+        names += ["cover_tint"] if fields.covered and not table else []
+        for name in names:
+            layout.prop(fields, name)
+        layout.template_ID(fields, "groove_image", new="image.new", open="image.open", text="Groove image")
+        row = layout.row()
+        for program in ("demo", "inspector"):
+            row.operator(ROWLAND_OT_show.bl_idname, text=f"Open in the {program}").program = program
+
+
+CLASSES = (ROWLAND_OT_preset, ROWLAND_OT_remove, ROWLAND_OT_show, ROWLAND_PT_grating)

@@ -1,0 +1,123 @@
+"""The grating of a Blender material: its JSON object as text, and a property for each field of the panel that reads and
+writes this text. What the panel does not show stays as it is."""
+
+import json
+
+import bpy
+
+from . import grating, rowland_folder
+
+_preset_items = []  # Blender keeps no reference to the strings of items
+
+
+def preset_items(_self, _context):
+    _preset_items[:] = [(str(file), file.stem.replace("_", " "), "") for file in rowland_folder.preset_files()]
+    return _preset_items
+
+
+def rounded(value):
+    """Blender's numbers are floats: 833.333 comes as 833.3330078125."""
+    return float(f"{value:.7g}")
+
+
+def limits(schema):
+    known = {}
+    if "minimum" in schema or "exclusiveMinimum" in schema:
+        known["min"] = schema.get("minimum", schema.get("exclusiveMinimum", 0) + 1e-6)
+    if "maximum" in schema or "exclusiveMaximum" in schema:
+        known["max"] = schema.get("maximum", schema.get("exclusiveMaximum", 0) - 1e-6)
+    return known
+
+
+def number(path, name, schema=None, otherwise=0.0, **more):
+    known = limits(schema or {})
+
+    def set_(self, value):  # Blender does not apply min and max to what scripts set
+        value = min(max(rounded(value), known.get("min", value)), known.get("max", value))
+        self.change(grating.set_value, path, value)
+
+    return bpy.props.FloatProperty(
+        name=name, get=lambda self: grating.value_at(self.object(), path, otherwise), set=set_, **known, **more)
+
+
+def choice(name, values, get, set_, labels=None):
+    return bpy.props.EnumProperty(
+        name=name,
+        items=[(value, (labels or {}).get(value, value), "") for value in values],
+        get=lambda self: values.index(get(self.object())),
+        set=lambda self, index: self.change(set_, values[index]),
+    )
+
+
+def update_image(self, _context):
+    """Shows the image as numbers. Blender would reload it, so one with unsaved pixels stays as it is."""
+    image = self.groove_image
+    if image and not image.is_dirty and image.colorspace_settings.name != "Non-Color":
+        image.colorspace_settings.name = "Non-Color"
+
+
+GRATING = grating.SCHEMA["grating"]["properties"]
+COVER = grating.SCHEMA["cover"]["properties"]
+LOBE = {list(lobe["properties"])[0]: lobe["properties"] for lobe in GRATING["groove_lobe"]["oneOf"] if "type" in lobe}
+PITS = LOBE["pits"]["pits"]["properties"]
+MEMBERS = {name: schema for members in grating.PROFILES.values() for name, schema in members.items()}
+
+
+class RowlandGrating(bpy.types.PropertyGroup):
+    text: bpy.props.StringProperty(name="Grating", description="The extension's object; empty: no grating")
+    sampler: bpy.props.StringProperty(name="Sampler", description="The glTF sampler of the groove image; empty: repeat")
+    groove_image: bpy.props.PointerProperty(
+        name="Groove image", type=bpy.types.Image, update=update_image,
+        description="Red: rotation of the grooves / 180 degrees; green: pitch / 2; 0: no grating")
+
+    pitch_nm: number(("grating", "pitch_nm"), "Pitch (nm)", GRATING["pitch_nm"], precision=3)
+    lines_per_mm: bpy.props.FloatProperty(
+        name="Lines per mm", min=0.1, max=1e6, precision=3,
+        get=lambda self: 1e6 / grating.value_at(self.object(), ("grating", "pitch_nm"), 1600),
+        set=lambda self, value: self.change(grating.set_value, ("grating", "pitch_nm"), rounded(1e6 / value)))
+    profile: choice(
+        "Profile", list(grating.PROFILES), lambda o: grating.value_at(o, ("grating", "profile", "type"), "slit"),
+        grating.set_profile_kind)
+    width_nm: number(("grating", "profile", "width_nm"), "Slit width (nm)", MEMBERS["width_nm"])
+    duty: number(("grating", "profile", "duty"), "Duty", MEMBERS["duty"], precision=3)
+    depth_nm: number(("grating", "profile", "depth_nm"), "Depth (nm)", MEMBERS["depth_nm"])
+    file: bpy.props.StringProperty(
+        name="Efficiencies", subtype="FILE_PATH",
+        get=lambda self: grating.value_at(self.object(), ("grating", "profile", "file"), ""),
+        set=lambda self, value: self.change(grating.set_value, ("grating", "profile", "file"), bpy.path.abspath(value)))
+    lobe: choice(
+        "Lobe", list(grating.LOBES), grating.lobe_kind, grating.set_lobe_kind,
+        {"flat": "flat", "sigma": "narrow (sigma)", "pits": "pits"})
+    sigma: number(("grating", "groove_lobe", "sigma"), "Sigma", LOBE["sigma"]["sigma"], precision=4)
+    length_nm: number(("grating", "groove_lobe", "pits", "length_nm"), "Pit length (nm)", PITS["length_nm"])
+    coherent: number(("grating", "groove_lobe", "pits", "coherent"), "Coherent", PITS["coherent"])
+    metal: choice(
+        "Metal", ["perfect", *grating.METALS], lambda o: o.get("metal", "perfect"),
+        lambda o, value: grating.set_value(o, ("metal",), None if value == "perfect" else value))
+    covered: bpy.props.BoolProperty(
+        name="Cover", description="A transparent layer over the grooves",
+        get=lambda self: "cover" in self.object(),
+        set=lambda self, value: self.change(grating.set_value, ("cover",), {"ior": 1.5} if value else None))
+    cover_ior: number(("cover", "ior"), "Index of refraction", COVER["ior"], 1.5, precision=3)
+    cover_tint: bpy.props.FloatVectorProperty(
+        name="Tint", subtype="COLOR", size=3, min=0, max=1,
+        get=lambda self: grating.value_at(self.object(), ("cover", "tint"), (1.0, 1.0, 1.0)),
+        set=lambda self, value: self.change(grating.set_value, ("cover", "tint"), [rounded(v) for v in value]))
+    groove_rotation: number(
+        ("grooveRotation",), "Rotation", subtype="ANGLE",
+        description="Of the grating vector, from the tangent toward the bitangent")
+
+    def object(self):
+        return json.loads(self.text) if self.text else {}
+
+    def change(self, function, *arguments):
+        """Applies function(object, *arguments) and keeps the result."""
+        changed = self.object()
+        function(changed, *arguments)
+        self.replace(changed)
+
+    def replace(self, new_object):
+        self.text = json.dumps(new_object)
+        self.id_data.diffuse_color = (*grating.viewport_colour(new_object), 1.0)
+        self.id_data.metallic = 1.0
+        self.id_data.roughness = 0.25

@@ -1,0 +1,60 @@
+#include "modules/diffraction/asset/gltf_object.h"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "engine/core/utf8.h"
+#include "modules/diffraction/model/profile.h"
+
+namespace rowland::diffraction {
+
+namespace {
+
+using OrderedJson = nlohmann::ordered_json;
+
+/// The member under `key`, if it names a file: an illuminant is one only with this extension.
+void move_name(OrderedJson& owner, const char* key, const std::string& extension, const std::filesystem::path& from,
+               const std::filesystem::path& to) {
+    if (!owner.is_object() || !owner.contains(key) || !owner[key].is_string()) return;
+    const std::string name = owner[key];
+    if (!name.ends_with(extension) || std::filesystem::path(name).is_absolute()) return;
+    const auto canonical = [](const std::filesystem::path& path) {
+        return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
+    };
+    const std::filesystem::path moved = canonical(from / name).lexically_relative(canonical(to));
+    owner[key] = require_utf8(moved.generic_string(), "rename the folders between the two");
+}
+
+}  // namespace
+
+OrderedJson gltf_object(OrderedJson material, const std::filesystem::path& from, const std::filesystem::path& folder) {
+    material.erase("base");
+    if (auto quality = material.find("quality"); quality != material.end() && !quality->contains("representation")) {
+        for (const char* measured : {"max_error", "probes", "surface"}) quality->erase(measured);
+        if (quality->empty()) material.erase("quality");
+    }
+    move_named_files(material, from, folder);
+    return material;
+}
+
+void move_named_files(OrderedJson& object, const std::filesystem::path& from, const std::filesystem::path& to) {
+    const auto member = [](OrderedJson& owner, const char* key) -> OrderedJson* {
+        return owner.is_object() && owner.contains(key) ? &owner[key] : nullptr;
+    };
+    OrderedJson* grating = member(object, "grating");
+    OrderedJson* profile = grating ? member(*grating, "profile") : nullptr;
+    if (profile) move_name(*profile, "file", "", from, to);
+    if (OrderedJson* quality = member(object, "quality")) move_name(*quality, "illuminant", ".csv", from, to);
+}
+
+std::string describe(const GltfGrating& grating) {
+    const Grating& grooves = grating.material.grating;
+    std::string text = fmt::format("{:g} nm {}", grooves.pitch_nm, profile_descriptors()[grooves.profile.index()].name);
+    if (grating.groove_rotation != 0.0)
+        text += fmt::format(", grooves turned by {:.4g} degrees", grating.groove_rotation * 180.0 / std::numbers::pi);
+    if (grating.groove_texture) text += fmt::format(", groove texture {}", grating.groove_texture->index);
+    return text;
+}
+
+}  // namespace rowland::diffraction

@@ -1,0 +1,120 @@
+"""Inside Blender: a model with gratings is exported, imported again and compared. Arguments after --: the folder to write.
+
+Leaves in that folder: plain.glb (no gratings), scene.glb, scene.gltf with its files, again.glb (exported after the import).
+Exits with 1 and a message if something differs.
+"""
+
+import json
+import sys
+from pathlib import Path
+
+import bpy
+
+folder = Path(sys.argv[sys.argv.index("--") + 1])
+
+
+def expect(found, expected, what):
+    if found != expected:
+        print(f"FAILED: {what}: {found!r}, expected {expected!r}")
+        sys.exit(1)
+
+
+def grooves(name, size=4):
+    image = bpy.data.images.new(name, size, size)
+    image.colorspace_settings.name = "Non-Color"
+    image.pixels[:] = [value for i in range(size * size) for value in (i / 255, 128 / 255, 0, 1)]
+    return image
+
+
+def pixels(image):
+    return [round(255 * value) for value in image.pixels]
+
+
+def add_disc(name):
+    bpy.ops.mesh.primitive_plane_add()
+    plane = bpy.context.object
+    plane.name = name
+    material = bpy.data.materials.new(name)
+    material.use_nodes = True
+    plane.data.materials.append(material)
+    return material
+
+
+def give_preset(material, name):
+    from rowland_diffraction import rowland_folder
+
+    with bpy.context.temp_override(material=material):
+        bpy.ops.rowland.preset(file=str(rowland_folder.MATERIALS / f"{name}.json"))
+
+
+def export(name, **settings):
+    bpy.ops.export_scene.gltf(filepath=str(folder / name), **settings)
+
+
+def gratings():
+    return {material.name: material.rowland.object() for material in bpy.data.materials if material.rowland.text}
+
+
+def edit_by_panel(fields):
+    """What the panel's fields do to the object."""
+    fields.lines_per_mm = 1000
+    expect(fields.object()["grating"]["pitch_nm"], 1000, "lines per mm")
+    fields.pitch_nm = 833.333
+    expect(fields.object()["grating"]["pitch_nm"], 833.333, "pitch, not rounded to a float")
+    fields.pitch_nm = -5
+    expect(fields.object()["grating"]["pitch_nm"], 1, "the schema's limit")
+    fields.pitch_nm = 1000
+    fields.profile = "sinusoidal"
+    fields.depth_nm = 150
+    expect(fields.object()["grating"]["profile"], {"type": "sinusoidal", "depth_nm": 150}, "profile")
+    fields.lobe = "sigma"
+    fields.sigma = 0.05
+    expect(fields.object()["grating"]["groove_lobe"], {"sigma": 0.05}, "lobe")
+    expect(fields.object()["quality"], {"representation": "streak"}, "a representation that draws this lobe")
+    fields.metal = "perfect"
+    expect("metal" in fields.object(), False, "no metal")
+    fields.metal = "Au"
+    fields.covered = False
+    fields.covered = True
+    fields.cover_ior = 1.49
+    fields.cover_tint = (1, 0.5, 0.25)
+    expect(fields.object()["cover"], {"ior": 1.49, "tint": [1, 0.5, 0.25]}, "cover")
+    fields.groove_rotation = 0.5
+    expect(fields.object()["grooveRotation"], 0.5, "rotation")
+    expect(tuple(round(v, 2) for v in fields.id_data.diffuse_color[:3]) != (0.8, 0.8, 0.8), True, "viewport colour")
+
+
+bpy.ops.wm.read_factory_settings(use_empty=True)
+bpy.ops.preferences.addon_enable(module="rowland_diffraction")
+
+for name in ("Plain", "DVD", "Vinyl", "Foil"):
+    add_disc(name)
+export("plain.glb")
+give_preset(bpy.data.materials["DVD"], "dvd")
+give_preset(bpy.data.materials["Vinyl"], "vinyl")
+give_preset(bpy.data.materials["Foil"], "holographic_foil")
+edit_by_panel(bpy.data.materials["Foil"].rowland)
+foil = bpy.data.materials["Foil"].rowland
+foil.groove_image = grooves("grooves")
+foil.sampler = json.dumps({"magFilter": 9728, "wrapS": 33071})
+value = foil.object()
+value["grooveTexture"] = {"sparkle": True, "extensions": {"KHR_texture_transform": {"scale": [2, 3]}}}
+foil.replace(value)
+before = gratings()
+expect(sorted(before), ["DVD", "Foil", "Vinyl"], "materials with gratings")
+export("scene.glb")
+export("scene.gltf", export_format="GLTF_SEPARATE")
+
+for name in ("scene.glb", "scene.gltf"):
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.preferences.addon_enable(module="rowland_diffraction")
+    bpy.ops.import_scene.gltf(filepath=str(folder / name))
+    expect(gratings(), before, f"the objects of {name}")
+    fields = bpy.data.materials["Foil"].rowland
+    expect(pixels(fields.groove_image), [v for i in range(16) for v in (i, 128, 0, 255)], f"the image of {name}")
+    expect(json.loads(fields.sampler), {"magFilter": 9728, "wrapS": 33071}, f"the sampler of {name}")
+    expect(bpy.data.materials["Plain"].rowland.text, "", "a material without a grating")
+    with bpy.context.temp_override(material=bpy.data.materials["Foil"]):
+        bpy.ops.rowland.remove()
+    expect("Foil" in gratings(), False, "a grating that was removed")
+export("again.glb")
