@@ -101,11 +101,10 @@ void Document::replace_quality(const Json& quality) {
     edit(with_value(json(), field_at("/quality"), quality), nullptr);
 }
 
-void Document::set_grating(const Json& grating, const std::string& name, const std::filesystem::path& folder) {
+void Document::set_grating(const Json& grating, const std::string& name) {
     if (!is_scene()) refuse_input(name_, {}, "a material file", "a scene", "open a .gltf or .glb file");
-    Json there = moved(grating, folder, folder_);
-    if (!there.is_null()) accept_extension(there, name, folder_);
-    edit(std::move(there), nullptr);
+    if (!grating.is_null()) accept_extension(grating, name, folder_);
+    edit(grating, nullptr);
 }
 
 void Document::edit(Json edited, const Field* field) {

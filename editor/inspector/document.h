@@ -61,11 +61,9 @@ class Document {
     void revert(const Field& field);
     /// Replaces all members of the quality in one step.
     void replace_quality(const Json& quality);
-    /// Gives the chosen material of a scene a grating in place of the one it has; null removes it. Files that it names
-    /// are relative to `folder`. Throws Error (input) naming `name` if it is refused.
-    void set_grating(const Json& grating, const std::string& name, const std::filesystem::path& folder);
-    /// The same, with names relative to the scene's folder.
-    void set_grating(const Json& grating, const std::string& name) { set_grating(grating, name, folder_); }
+    /// Gives the chosen material of a scene a grating, the extension's object, in place of the one it has; null removes
+    /// it. Throws Error (input) naming `name` if it is refused.
+    void set_grating(const Json& grating, const std::string& name);
     void finish_edit() { editing_ = nullptr; }
 
     bool can_undo() const { return at_ > 0; }

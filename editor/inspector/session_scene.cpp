@@ -9,6 +9,7 @@
 #include "editor/inspector/session.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
+#include "modules/diffraction/asset/gltf_object.h"
 
 namespace rowland::inspector {
 
@@ -86,9 +87,9 @@ void Session::close_scene() {
 
 void Session::use_material(Document document, const std::filesystem::path& path) {
     if (!document_.is_scene()) return adopt(std::move(document));
-    Json grating = document.json();
-    grating.erase("base");  // the scene's own surface stays under the grating
-    document_.set_grating(grating, document.name(), std::filesystem::absolute(path).parent_path());
+    document_.set_grating(diffraction::gltf_object(document.json(), std::filesystem::absolute(path).parent_path(),
+                                                   document_.folder()),
+                          document.name());
     messages_.say(document.name() + ": the grating of " + chosen_name());
 }
 
