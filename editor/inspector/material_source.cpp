@@ -1,21 +1,10 @@
 #include "editor/inspector/material_source.h"
 
 #include "engine/core/utf8.h"
+#include "modules/diffraction/asset/gltf_object.h"
 #include "modules/diffraction/asset/material_json.h"
 
 namespace rowland::inspector {
-
-namespace {
-
-/// Rewrites a file name that is relative to one folder so that it is relative to another.
-void move_name(Json& name, const std::filesystem::path& from, const std::filesystem::path& to) {
-    if (!name.is_string()) return;
-    const std::filesystem::path file = name.get<std::string>();
-    if (file.empty() || file.is_absolute()) return;
-    name = require_utf8(std::filesystem::proximate(from / file, to), "rename it, or save elsewhere");
-}
-
-}  // namespace
 
 std::shared_ptr<const MaterialSource> accept_material(const Json& material, const std::string& file,
                                                       const std::filesystem::path& folder) {
@@ -39,16 +28,16 @@ std::shared_ptr<const MaterialSource> accept_extension(const Json& extension, co
 }
 
 Json moved(Json material, const std::filesystem::path& from, const std::filesystem::path& to) {
-    if (from == to || !material.is_object() || !material.contains("grating")) return material;
-    Json& profile = material["grating"]["profile"];
-    if (profile.contains("file")) move_name(profile["file"], from, to);
-    if (!material.contains("quality")) return material;
-    Json& quality = material["quality"];
-    if (quality.contains("illuminant") && quality["illuminant"].is_string() &&
-        quality["illuminant"].get<std::string>().ends_with(".csv"))
-        move_name(quality["illuminant"], from, to);
-    if (quality.contains("probes"))
-        for (Json& probe : quality["probes"]) move_name(probe.is_object() ? probe["image"] : probe, from, to);
+    if (from == to) return material;
+    diffraction::move_named_files(material, from, to);
+    if (!material.is_object() || !material.contains("quality") || !material["quality"].contains("probes"))
+        return material;
+    for (Json& probe : material["quality"]["probes"]) {
+        Json& name = probe.is_object() ? probe["image"] : probe;
+        if (name.is_string())
+            name = require_utf8(std::filesystem::proximate(from / name.get<std::string>(), to),
+                                "rename it, or save elsewhere");
+    }
     return material;
 }
 

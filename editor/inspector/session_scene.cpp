@@ -87,9 +87,9 @@ void Session::close_scene() {
 
 void Session::use_material(Document document, const std::filesystem::path& path) {
     if (!document_.is_scene()) return adopt(std::move(document));
-    document_.set_grating(diffraction::gltf_object(document.json(), std::filesystem::absolute(path).parent_path(),
-                                                   document_.folder()),
-                          document.name());
+    document_.set_grating(
+        diffraction::gltf_object(document.json(), std::filesystem::absolute(path).parent_path(), document_.folder()),
+        document.name());
     messages_.say(document.name() + ": the grating of " + chosen_name());
 }
 

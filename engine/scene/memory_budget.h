@@ -15,6 +15,8 @@ class MemoryBudget {
 
     /// Takes `count` elements of `element_bytes`. Throws Error (input) at `pointer` if that is more than is left.
     void spend(std::uint64_t count, std::uint64_t element_bytes, const std::string& pointer);
+    /// The same check for what is freed again before anything else is spent: nothing is taken.
+    void require_left(std::uint64_t count, std::uint64_t element_bytes, const std::string& pointer) const;
 
  private:
     std::string file_;

@@ -147,9 +147,9 @@ Mesh import_primitive(const GltfDocument& document, const GltfPrimitive& primiti
     // A Draco stream holds a list of triangles, whatever the mode says.
     const PrimitiveMode mode = import.draco ? PrimitiveMode::Triangles : primitive.mode;
     mesh.indices = triangle_list(import, mode, read_corners(import, mesh.positions.size()));
-    // The steps below add at most normals, tangents and their sums, and uvs.
-    budget.spend(mesh.positions.size(), sizeof(glm::vec3) + sizeof(glm::vec4) + 6 * sizeof(double) + sizeof(glm::vec2),
-                 pointer);
+    // The steps below add at most normals, tangents and uvs, and hold the tangents' sums for a moment.
+    budget.spend(mesh.positions.size(), sizeof(glm::vec3) + sizeof(glm::vec4) + sizeof(glm::vec2), pointer);
+    budget.require_left(mesh.positions.size(), 6 * sizeof(double), pointer);
     finish_uvs(import, mesh);
     finish_normals(import, mesh);
     finish_tangents(import, mesh);
