@@ -51,7 +51,7 @@ Document Document::make_new(Json material, std::string name, std::filesystem::pa
     return document;
 }
 
-Document Document::open_scene(scene::EditableGltf file, std::span<const scene::PrimitiveId> bare) {
+Document Document::open_scene(scene::EditableGltf file, std::span<const scene::PrimitiveId> without_material) {
     const std::filesystem::path path = file.path();
     Document document(path.filename().string(), folder_of(path));
     document.path_ = path;
@@ -63,7 +63,7 @@ Document Document::open_scene(scene::EditableGltf file, std::span<const scene::P
                                  fmt::format("/materials/{}/extensions/{}", i, diffraction::kGltfExtension));
         document.slots_.push_back(std::move(slot));
     }
-    for (const scene::PrimitiveId& primitive : bare) document.slots_.push_back({.bare = primitive});
+    for (const scene::PrimitiveId& primitive : without_material) document.slots_.push_back({.primitive = primitive});
     if (document.slots_.empty()) document.slots_.emplace_back();
     const auto first = std::ranges::find_if(document.slots_, [](const Slot& slot) { return !slot.json.is_null(); });
     if (first != document.slots_.end()) document.chosen_ = static_cast<std::size_t>(first - document.slots_.begin());
@@ -184,7 +184,7 @@ scene::EditableGltf Document::edited_file(const std::filesystem::path& folder) c
                     texture.is_number_unsigned() ? new_textures_.find(texture.get<std::size_t>()) : nullptr)
                 texture = file.add_texture(added->bytes, added->name);
         }
-        const std::size_t material = slots_[i].bare ? file.own_material(*slots_[i].bare) : i;
+        const std::size_t material = slots_[i].primitive ? file.own_material(*slots_[i].primitive) : i;
         file.set_material_extension(material, diffraction::kGltfExtension, extension);
     }
     return file;

@@ -33,10 +33,10 @@ class Document {
     static Document open_as_new(const std::filesystem::path& path);
     /// A new material. Files that it names are relative to `folder`. Throws Error (input) naming `name`.
     static Document make_new(Json material, std::string name, std::filesystem::path folder);
-    /// The gratings of a scene: of its materials, then of primitives without one (`bare`), which get a material when
-    /// they are saved with a grating. The first grating is chosen, else the first material. Throws Error (input) if one
-    /// of them is refused.
-    static Document open_scene(scene::EditableGltf file, std::span<const scene::PrimitiveId> bare = {});
+    /// The gratings of a scene: of its materials, then of primitives without one (`without_material`), which get a
+    /// material when they are saved with a grating. The first grating is chosen, else the first material. Throws Error
+    /// (input) if one of them is refused.
+    static Document open_scene(scene::EditableGltf file, std::span<const scene::PrimitiveId> without_material = {});
 
     bool is_scene() const { return file_.has_value(); }
     /// The materials of the scene, 1 if it has none; 1 for a material file.
@@ -105,7 +105,7 @@ class Document {
  private:
     /// A material and its state.
     struct Slot {
-        std::optional<scene::PrimitiveId> bare = {};  ///< of a primitive without a material
+        std::optional<scene::PrimitiveId> primitive = {};  ///< one without a material
         Json json = {};
         Json in_file = {};  ///< null: no grating
         std::shared_ptr<const MaterialSource> accepted = {};

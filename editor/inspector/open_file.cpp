@@ -32,7 +32,7 @@ bool is_picture_file(const std::filesystem::path& path) {
 
 OpenedScene open_scene(const std::filesystem::path& path) {
     auto object = load_scene_object(path);
-    Document document = Document::open_scene(scene::EditableGltf::open(path), object->bare);
+    Document document = Document::open_scene(scene::EditableGltf::open(path), object->without_material);
     return {std::move(object), std::move(document)};
 }
 

@@ -32,18 +32,18 @@ scene::Transform fit_of(const scene::ImportedScene& imported) {
 }
 
 /// Gives every shown primitive without a material glTF's default one, so that it can be given a grating.
-std::vector<scene::PrimitiveId> clothe(scene::ImportedScene& imported) {
-    std::vector<scene::PrimitiveId> bare;
+std::vector<scene::PrimitiveId> add_default_materials(scene::ImportedScene& imported) {
+    std::vector<scene::PrimitiveId> without_material;
     std::map<std::size_t, std::size_t> material_of_mesh;
     for (scene::ImportedInstance& instance : imported.instances) {
         if (instance.material) continue;
         const auto [found, added] = material_of_mesh.emplace(instance.mesh, imported.materials.size());
         instance.material = found->second;
         if (!added) continue;
-        bare.push_back(imported.primitives[instance.mesh]);
+        without_material.push_back(imported.primitives[instance.mesh]);
         imported.materials.emplace_back().name = instance.name + " (no material)";
     }
-    return bare;
+    return without_material;
 }
 
 std::vector<SceneMaterial> materials_of(const scene::ImportedScene& imported) {
@@ -73,9 +73,9 @@ std::shared_ptr<const SceneObject> load_scene_object(const std::filesystem::path
                        .imported = scene::load_gltf(file, handled),
                        .meshes = {},
                        .materials = {},
-                       .bare = {},
+                       .without_material = {},
                        .fit = {}};
-    object.bare = clothe(object.imported);
+    object.without_material = add_default_materials(object.imported);
     scene::pose_skins_at_rest(object.imported);
     object.fit = fit_of(object.imported);
     object.materials = materials_of(object.imported);

@@ -25,9 +25,9 @@ struct SceneObject {
     std::filesystem::path file;
     scene::ImportedScene imported;  ///< without meshes
     std::vector<std::shared_ptr<const scene::Mesh>> meshes;
-    std::vector<SceneMaterial> materials;  ///< the file's, then one for each primitive in `bare`
-    std::vector<scene::PrimitiveId> bare;  ///< primitives without a material
-    scene::Transform fit;                  ///< scales it to the size of the other shapes, and moves it to the origin
+    std::vector<SceneMaterial> materials;  ///< the file's, then one for each primitive in `without_material`
+    std::vector<scene::PrimitiveId> without_material;  ///< primitives without a material
+    scene::Transform fit;  ///< scales it to the size of the other shapes, and moves it to the origin
 };
 
 /// Loads a .gltf or .glb. Runs on any thread. Throws Error (input).

@@ -69,6 +69,8 @@ void Session::adopt(Document document) {
 }
 
 void Session::save(bool over_changes) {
+    asks_to_overwrite = !over_changes && document_.changed_outside();
+    if (asks_to_overwrite) return messages_.say(document_.name() + ": changed by another program since it was opened");
     if (messages_.attempt([&] { document_.save(over_changes); })) messages_.say(document_.path().string() + ": saved");
 }
 

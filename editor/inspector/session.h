@@ -68,8 +68,9 @@ class Session {
     bool replaces_document(const std::filesystem::path& path) const;
     /// Leaves the scene for the start of a new material.
     void close_scene();
-    /// `over_changes`: of another program, to a scene file.
+    /// `over_changes`: of another program, to a scene file; without it they only set asks_to_overwrite.
     void save(bool over_changes = false);
+    bool asks_to_overwrite = false;
     void save_as(const std::filesystem::path& path);
     void choose_light(const std::filesystem::path& path);
     void choose_shape(PreviewShape shape);

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <span>
 
+#include "editor/inspector/overwrite_question.h"
+
 namespace rowland::inspector {
 
 namespace {
@@ -66,6 +68,7 @@ void Workbench::draw(const platform::InputState& input, bool keys_are_ours, cons
     draw_menu_bar(present, controls_);
     draw_tiles(input, frame);
     dialogs_.draw(controls_);
+    draw_overwrite_question(session_, controls_);
     note_facts();
     controls_.end_frame();
 }

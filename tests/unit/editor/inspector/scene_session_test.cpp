@@ -223,5 +223,21 @@ TEST_F(SceneSession, LeavingASceneShowsAMaterialOnAShapeAgain) {
     EXPECT_EQ(session_.document().name(), "cd.json");
 }
 
+TEST_F(SceneSession, AsksBeforeItSavesOverAFileThatAnotherProgramChanged) {
+    draw_until_open();
+    session_.open(path("m.json"));
+    const std::vector<std::byte> exported = read_file(path("spheres.glb"), 1 << 24);
+    std::vector<std::byte> again = exported;
+    again.resize(again.size() + 4);
+    write_file_atomic(path("spheres.glb"), again);
+    session_.save();
+    EXPECT_TRUE(session_.asks_to_overwrite);
+    EXPECT_EQ(read_file(path("spheres.glb"), 1 << 24), again);
+    session_.save(true);
+    EXPECT_FALSE(session_.asks_to_overwrite);
+    EXPECT_FALSE(session_.document().dirty());
+    EXPECT_NE(read_file(path("spheres.glb"), 1 << 24), again);
+}
+
 }  // namespace
 }  // namespace rowland::inspector
