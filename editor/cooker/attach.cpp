@@ -118,13 +118,13 @@ class Attachment {
             refuse_input(source.string(), {}, fmt::format("a {} source", type),
                          "one that a glTF material can hold, such as a grating", "see content/materials");
         cook::Context context(source);
-        OrderedJson object = cook::as_refusal_of(source, [&] { return extension->from_source(context, folder_); });
+        OrderedJson object = cook::as_refusal_of(source, [&] { return extension->from_source(context); });
         dependencies_.insert(dependencies_.end(), context.dependencies().begin(), context.dependencies().end());
         if (options_.rotation_deg)
             object[extension->rotation_member] = *options_.rotation_deg * std::numbers::pi / 180.0;
         if (options_.texture) object[extension->texture_member] = {{"index", add_texture()}};
-        const std::string pointer = fmt::format("/materials/{}/extensions/{}", material, extension->name);
-        extension->describe(nlohmann::json::parse(object.dump()), output_.string(), pointer);
+        extension->describe(nlohmann::json::parse(object.dump()), source.string(), "");
+        if (extension->move) extension->move(object, source.parent_path(), folder_);
         gltf_->set_material_extension(material, extension->name, object);
     }
 

@@ -70,8 +70,8 @@ struct GltfExtension {
 
     // For `rowland-cook attach`; empty if no source becomes such an object.
     std::string source_type;  ///< the AssetType of those sources
-    /// The object for a source, in a glTF in `folder`: names of files are relative to that.
-    std::function<nlohmann::ordered_json(Context&, const std::filesystem::path& folder)> from_source;
+    /// The object for a source; names of files are relative to the source's folder.
+    std::function<nlohmann::ordered_json(Context&)> from_source;
     /// Makes the names of files in an object relative to another folder.
     std::function<void(nlohmann::ordered_json& object, const std::filesystem::path& from,
                        const std::filesystem::path& to)>

@@ -5,7 +5,7 @@
 namespace rowland::scene {
 
 /// Adds the asset types "mesh" and "scene" (recipes, a .json with that key; each becomes a .glb) and "gltf" (.gltf and
-/// .glb files, only checked). `handled_extensions` are the material extensions with a registered handler.
-void register_cook_types(cook::Registry& registry, std::vector<std::string> handled_extensions = {});
+/// .glb files, only checked, with the material extensions that are registered by now).
+void register_cook_types(cook::Registry& registry);
 
 }  // namespace rowland::scene

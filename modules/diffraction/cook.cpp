@@ -95,13 +95,13 @@ cook::GltfExtension gltf_extension() {
         return describe(parse_gltf_extension(object, file, folder, pointer));
     };
     extension.source_type = kMaterialAssetType;
-    extension.from_source = [](cook::Context& context, const std::filesystem::path& folder) {
+    extension.from_source = [](cook::Context& context) {
         const nlohmann::json json = context.read_json(context.source());
         parse_material(json, context.source().string(), read_through(context));
         const std::vector<std::byte> text = context.read(context.source(), kMaximumNamedFileSize);
         const auto* const begin = reinterpret_cast<const char*>(text.data());
-        return gltf_object(nlohmann::ordered_json::parse(begin, begin + text.size()), context.source().parent_path(),
-                           folder);
+        const std::filesystem::path folder = context.source().parent_path();
+        return gltf_object(nlohmann::ordered_json::parse(begin, begin + text.size()), folder, folder);
     };
     extension.move = move_named_files;
     extension.rotation_member = "grooveRotation";

@@ -30,7 +30,7 @@ nlohmann::ordered_json object_of(const fs::path& file, const std::string& name) 
 }
 
 TEST(BlenderAddOn, GratingsSurviveExportAndImportAndAreWhatAttachMakes) {
-    if (test::run({"env", "blender", "--version"}).code == kNoSuchProgram) {
+    if (test::run({"/usr/bin/env", "blender", "--version"}).code == kNoSuchProgram) {
         if (test::data_is_required()) FAIL() << "Blender is missing";
         GTEST_SKIP() << "Blender is missing";
     }
@@ -40,7 +40,7 @@ TEST(BlenderAddOn, GratingsSurviveExportAndImportAndAreWhatAttachMakes) {
     fs::create_directory_symlink(test::content_path("blender/rowland_diffraction"),
                                  path("scripts/addons/rowland_diffraction"));
     const test::Ended blender =
-        test::run({"env", "blender", "-b", "--factory-startup", "--python-exit-code", "3", "--python",
+        test::run({"/usr/bin/env", "blender", "-b", "--factory-startup", "--python-exit-code", "3", "--python",
                    test::source_path("tests/blender/round_trip.py"), "--", folder.path()},
                   {.environment = {{"BLENDER_USER_SCRIPTS", path("scripts").string()},
                                    {"HOME", folder.path().string()},
@@ -50,8 +50,8 @@ TEST(BlenderAddOn, GratingsSurviveExportAndImportAndAreWhatAttachMakes) {
     const test::Ended checked =
         test::run({ROWLAND_COOK, "check", path("scene.glb"), path("scene.gltf"), path("again.glb")});
     EXPECT_EQ(checked.code, 0) << checked.err;
-    const test::Ended valid =
-        test::run({"env", "node", test::source_path("tests/unit/engine/scene/validate_gltf.cjs"), path("scene.glb")});
+    const test::Ended valid = test::run(
+        {"/usr/bin/env", "node", test::source_path("tests/unit/engine/scene/validate_gltf.cjs"), path("scene.glb")});
     if (valid.code != kNoValidator && valid.code != kNoSuchProgram) {
         EXPECT_EQ(valid.code, 0) << valid.out;
     }

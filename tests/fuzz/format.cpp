@@ -20,6 +20,7 @@
 #include "engine/lighting/light_probe.h"
 #include "engine/lighting/probe_recipe.h"
 #include "engine/scene/draco_decode.h"
+#include "engine/scene/editable_gltf.h"
 #include "engine/scene/gltf_import.h"
 #include "engine/scene/memory_budget.h"
 #include "engine/scene/mesh_recipe.h"
@@ -47,6 +48,22 @@ void read_glb(std::span<const std::byte> bytes) {
     const scene::ImportedScene scene = scene::load_glb(bytes, "input.glb", handled_extensions());
     require_sane(scene);
     scene::merge_instances(scene);
+}
+
+/// What may be edited need not be a scene that is drawn.
+void edit_glb(std::span<const std::byte> bytes) {
+    scene::EditableGltf gltf({bytes.begin(), bytes.end()}, "input.glb");
+    constexpr std::size_t kMost = 3;  // an edit costs as much as the text is long
+    for (std::size_t i = 0; i < std::min(gltf.outline().materials.size(), kMost); ++i) {
+        const nlohmann::ordered_json value = {{"a", {1, 2}}};
+        const nlohmann::ordered_json before = gltf.material_extension(i, diffraction::kGltfExtension);
+        gltf.set_material_extension(i, diffraction::kGltfExtension, value);
+        ROWLAND_CHECK(gltf.material_extension(i, diffraction::kGltfExtension) == value, "it is what was set");
+        gltf.set_material_extension(i, diffraction::kGltfExtension, before);
+        ROWLAND_CHECK(gltf.material_extension(i, diffraction::kGltfExtension) == before, "and again");
+    }
+    const scene::EditableGltf again(gltf.bytes(), "again.glb");
+    ROWLAND_CHECK(again.outline().materials == gltf.outline().materials, "what is written can be opened");
 }
 
 /// The JSON of a .gltf, as the one chunk of a .glb: nothing outside of it can be read.
@@ -154,6 +171,7 @@ const std::vector<Format>& formats() {
     static const std::vector<Format> all = {
         {"glb", read_glb, {".glb"}},
         {"gltf", read_gltf, {".gltf"}},
+        {"editable-glb", edit_glb, {".glb"}},
         {"draco", read_draco, {".drc"}},
         {"hdr", read_hdr, {".hdr"}},
         {"exr", read_exr, {".exr"}},

@@ -83,6 +83,7 @@ class ROWLAND_PT_grating(bpy.types.Panel):
     def draw(self, context):
         layout = self.layout
         layout.use_property_split = True
+        layout.use_property_decorate = False
         fields = context.material.rowland
         row = layout.row()
         row.operator_menu_enum(ROWLAND_OT_preset.bl_idname, "file", text="Preset")

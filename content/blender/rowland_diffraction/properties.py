@@ -117,7 +117,9 @@ class RowlandGrating(bpy.types.PropertyGroup):
         self.replace(changed)
 
     def replace(self, new_object):
+        """The object, and what the viewport shows of it. Without nodes that would be the exported surface."""
         self.text = json.dumps(new_object)
-        self.id_data.diffuse_color = (*grating.viewport_colour(new_object), 1.0)
-        self.id_data.metallic = 1.0
-        self.id_data.roughness = 0.25
+        if self.id_data.use_nodes:
+            self.id_data.diffuse_color = (*grating.viewport_colour(new_object), 1.0)
+            self.id_data.metallic = 1.0
+            self.id_data.roughness = 0.25

@@ -87,7 +87,7 @@ void register_tile_types(cook::Registry& registry) {
         return object["text"].get<std::string>();
     };
     in_gltf.source_type = "tiles";
-    in_gltf.from_source = [](cook::Context& context, const std::filesystem::path&) {
+    in_gltf.from_source = [](cook::Context& context) {
         return nlohmann::ordered_json{{"text", read_tiles(context).text}};
     };
     registry.add_gltf_extension(std::move(in_gltf));
