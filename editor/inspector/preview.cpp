@@ -16,7 +16,6 @@ namespace rowland::inspector {
 namespace {
 
 constexpr glm::vec3 kUp(0.0F, 1.0F, 0.0F);
-constexpr glm::vec3 kPosition(0.0F, 0.052F, 0.0F);  ///< of the object, metres
 
 /// How far each shape leans back, so that it shows its colours.
 float lean_deg(PreviewShape shape) {
@@ -32,8 +31,8 @@ glm::mat4 turn_of(const Stage& stage) {
 }
 
 glm::mat4 object_to_world(const PreviewInputs& inputs) {
-    return glm::rotate(glm::translate(turn_of(inputs.stage), kPosition), glm::radians(lean_deg(inputs.object->shape)),
-                       {1.0F, 0.0F, 0.0F});
+    return glm::rotate(glm::translate(turn_of(inputs.stage), kPreviewObject),
+                       glm::radians(lean_deg(inputs.object->shape)), {1.0F, 0.0F, 0.0F});
 }
 
 scene::Camera turned_camera(const PreviewInputs& inputs) {
@@ -44,13 +43,13 @@ scene::Camera turned_camera(const PreviewInputs& inputs) {
     return camera;
 }
 
+}  // namespace
+
 glm::vec3 lamp_direction(const Stage& stage) {
     const float azimuth = glm::radians(stage.lamp_azimuth_deg);
     const float elevation = glm::radians(stage.lamp_elevation_deg);
     return {std::cos(elevation) * std::sin(azimuth), std::sin(elevation), std::cos(elevation) * std::cos(azimuth)};
 }
-
-}  // namespace
 
 scene::Camera opening_camera() {
     scene::Camera camera;
@@ -111,12 +110,21 @@ void Preview::show(const PreviewInputs& inputs) {
     if (inputs.saved) saved_->show(inputs, inputs.saved);
 }
 
+bool Preview::changes() const {
+    return drawn_ && unchanged_ <= kFramesToFill;
+}
+
 void Preview::draw(float seconds) {
     if (unchanged_ > kFramesToFill) return;
     ++unchanged_;
     drawn_ = true;
     now_.draw(inputs_, seconds);
     if (inputs_.saved) saved_->draw(inputs_, seconds);
+    // Maps begin to fill in the second frame in which nothing moves.
+    constexpr int kFramesToBegin = 3;
+    const bool filling =
+        diffraction::maps_are_filling(now_.world) || (inputs_.saved && diffraction::maps_are_filling(saved_->world));
+    if (unchanged_ >= kFramesToBegin && !filling) unchanged_ = kFramesToFill + 1;
 }
 
 std::optional<diffraction::ShadingPoint> Preview::pick(const glm::vec2& at) const {

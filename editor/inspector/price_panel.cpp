@@ -21,7 +21,7 @@ std::vector<PricedChoice> front(const PriceList& list) {
     std::vector<PricedChoice> result;
     for (const PricedChoice& choice : list.choices)
         if (choice.on_front && choice.candidate) result.push_back(choice);
-    std::ranges::sort(result, {}, &PricedChoice::price);
+    std::ranges::stable_sort(result, {}, &PricedChoice::price);
     return result;
 }
 
@@ -60,7 +60,7 @@ void draw_numbers(const PriceList& list, const Session& session, double frame_ms
     row("Per vertex",
         fmt::format("{} fetches, {} multiply-adds", cost.fetches_per_vertex, cost.multiply_adds_per_vertex));
     row("Per light", fmt::format("{} fetches, {} multiply-adds", cost.fetches_per_light, cost.multiply_adds_per_light));
-    if (frame_ms > 0.0) row("Frame time", fmt::format("{:.1f} ms, the median here", frame_ms));
+    if (frame_ms > 0.0) row("Frame time", fmt::format("{:.1f} ms, the median", frame_ms));
 }
 
 void draw_plot(const PriceList& list, float height) {
