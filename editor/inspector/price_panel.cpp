@@ -151,7 +151,8 @@ void PricePanel::draw(Session& session, double frame_ms, ControlMap& controls) {
         ImGui::SetNextItemWidth(7.0F * font);
         ImGui::DragFloat("##budget", &budget_, 0.001F, 0.002F, 1.0F, "error ≤ %.3f", ImGuiSliderFlags_Logarithmic);
         controls.mark("budget");
-        ImGui::SameLine();
+        const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+        if (ImGui::GetItemRectMax().x + 8.5F * font <= right) ImGui::SameLine();
         if (ImGui::Button("Cook to budget")) session.cook_to_budget(static_cast<double>(budget_));
         controls.mark("cook to budget");
     }

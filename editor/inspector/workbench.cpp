@@ -114,7 +114,7 @@ void Workbench::draw_tiles(const platform::InputState& input, const WorkbenchFra
     const float status = 1.9F * font;
     const float height = frame.size.y - top - status;
     // The preview keeps a third of the window, whatever its size.
-    layout_.material_width = std::clamp(layout_.material_width, 12.0F, 0.3F * frame.size.x / font);
+    layout_.material_width = std::clamp(layout_.material_width, 12.0F, 0.32F * frame.size.x / font);
     layout_.physics_width = std::clamp(layout_.physics_width, 12.0F, 0.34F * frame.size.x / font);
     layout_.price_height = std::clamp(layout_.price_height, 4.0F, 0.6F * height / font);
     const float left = layout_.material_width * font;
