@@ -12,22 +12,33 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// Charts side by side and terms below each other, for one volume texture.
+/// The texels of a row that one look-up reads.
+void append(const CircleMap& map, int chart, int view, int row, int look_up, std::vector<glm::vec4>& texels) {
+    for (int column = 0; column < map.side; ++column) {
+        glm::vec4& texel = texels.emplace_back(0.0F);
+        for (int i = 0; i < 4; ++i) {
+            const int component = 4 * look_up + i;
+            if (component < 3 * map.terms)
+                texel[i] = map.xyz[map.index(chart, component / 3, view, row, column)][component % 3];
+        }
+    }
+}
+
+/// Four components of the terms' values per texel: circle_map.glsl. A pixel's look-ups lie within a row of the volume:
+/// below each other they would share sets of a processor's cache.
 MapTexels in_layout(const CircleMap& map) {
-    std::array<std::vector<glm::vec3>, 1> levels;
-    levels[0].reserve(map.xyz.size());
+    const int look_ups = look_ups_of(map.terms);
+    std::array<std::vector<glm::vec4>, 1> levels;
+    std::vector<glm::vec4>& texels = levels[0];
+    texels.reserve(map.xyz.size() / static_cast<std::size_t>(map.terms) * static_cast<std::size_t>(look_ups));
     for (int view = 0; view < map.views; ++view)
-        for (int term = 0; term < map.terms; ++term)
+        for (int chart = 0; chart < map.charts; ++chart)
             for (int row = 0; row < map.side; ++row)
-                for (int chart = 0; chart < map.charts; ++chart) {
-                    const auto from =
-                        map.xyz.begin() + static_cast<std::ptrdiff_t>(map.index(chart, term, view, row, 0));
-                    levels[0].insert(levels[0].end(), from, from + map.side);
-                }
+                for (int look_up = 0; look_up < look_ups; ++look_up) append(map, chart, view, row, look_up, texels);
     return pack(levels,
                 {.kind = gpu::TextureKind::Volume,
-                 .width = map.side * map.charts,
-                 .height = map.side * map.terms,
+                 .width = map.side * look_ups,
+                 .height = map.side * map.charts,
                  .depth = map.views},
                 {.filter = gpu::Filter::Linear});
 }
@@ -71,6 +82,7 @@ void GpuCircle::describe(const SurfaceState&, gpu::ProgramDesc& desc) const {
         set_shaders(desc, "shaders/pixel_shaded.vert.glsl", "representations/circle/circle.frag.glsl");
     desc.defines.push_back({"CHARTS", std::to_string(charts_)});
     desc.defines.push_back({"TERMS", std::to_string(size_.terms)});
+    desc.defines.push_back({"LOOK_UPS", std::to_string(look_ups_of(size_.terms))});
     desc.defines.push_back({"VIEWS", std::to_string(size_.views)});
 }
 
