@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "modules/diffraction/runtime/flatness.h"
+
 namespace rowland::diffraction {
 
 namespace {
@@ -71,15 +73,23 @@ GpuCircle::GpuCircle(const CookedMaterial& cooked, const CircleTables& tables, c
                                                     cooked.material.grating.pitch_nm, cooked.material.grating.cover,
                                                     tables.size})) {}
 
-void GpuCircle::update(const SurfaceObject& object, SurfaceLight& light, SurfaceState&) const {
+void GpuCircle::update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const {
+    if (!state.data) state.data = std::make_unique<CircleData>();
+    auto& data = static_cast<CircleData&>(*state.data);
+    if (data.mesh != state.mesh || !state.mesh) {
+        data.mesh = state.mesh;
+        data.flat = !object.skinned && flat_normal(object.mesh).has_value();
+    }
     map_.update({.texels = light.texels(light_part())}, fill_, object.map_pace);
 }
 
-void GpuCircle::describe(const SurfaceState&, gpu::ProgramDesc& desc) const {
-    if (cooked()->material.quality.map_at_vertices)
+void GpuCircle::describe(const SurfaceState& state, gpu::ProgramDesc& desc) const {
+    if (cooked()->material.quality.map_at_vertices) {
         set_vertex_shader(desc, "representations/circle/circle.vert.glsl");
-    else
+    } else {
         set_shaders(desc, "shaders/pixel_shaded.vert.glsl", "representations/circle/circle.frag.glsl");
+        if (!static_cast<const CircleData&>(*state.data).flat) desc.defines.push_back({"MATERIAL_CURVED_MIRROR", "1"});
+    }
     desc.defines.push_back({"CHARTS", std::to_string(charts_)});
     desc.defines.push_back({"TERMS", std::to_string(size_.terms)});
     desc.defines.push_back({"LOOK_UPS", std::to_string(look_ups_of(size_.terms))});
