@@ -5,11 +5,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <cctype>
-#include <cstdlib>
+#include <filesystem>
 #include <functional>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "engine/core/error.h"
@@ -45,9 +47,20 @@ const char* client_extensions() {
 struct Candidate {
     EGLDisplay display = EGL_NO_DISPLAY;
     const char* platform = "";
+    std::string pci_slot = {};
 };
 
 constexpr const char* kSoftwareDevice = "EGL software device";
+
+/// As the kernel names it; empty where it does not, or the driver does not tell.
+std::string pci_slot(EGLDeviceEXT device) {
+    if (!has_word(eglQueryDeviceStringEXT(device, EGL_EXTENSIONS), "EGL_EXT_device_drm")) return {};
+    const char* file = eglQueryDeviceStringEXT(device, EGL_DRM_DEVICE_FILE_EXT);
+    if (file == nullptr) return {};
+    const std::filesystem::path card = std::filesystem::path("/sys/class/drm") / std::filesystem::path(file).filename();
+    std::error_code none;
+    return std::filesystem::canonical(card / "device", none).filename().string();
+}
 
 /// In the driver's order.
 std::vector<Candidate> devices() {
@@ -62,7 +75,7 @@ std::vector<Candidate> devices() {
         const EGLDeviceEXT device = found[static_cast<std::size_t>(i)];
         const bool software = has_word(eglQueryDeviceStringEXT(device, EGL_EXTENSIONS), "EGL_MESA_device_software");
         candidates.push_back({eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, nullptr),
-                              software ? kSoftwareDevice : "EGL device"});
+                              software ? kSoftwareDevice : "EGL device", software ? "" : pci_slot(device)});
     }
     return candidates;
 }
@@ -131,11 +144,6 @@ bool is_wanted(std::string_view wanted, std::size_t number, std::string_view nam
            !std::ranges::search(name, wanted, {}, lower, lower).empty();
 }
 
-std::string wanted_gpu(const HeadlessOptions& options) {
-    const char* variable = std::getenv(gpu_variable);
-    return options.gpu.empty() && variable != nullptr ? variable : options.gpu;
-}
-
 std::string gl_string(GLenum name) {
     const GLubyte* text = glGetString(name);
     return text == nullptr ? "" : reinterpret_cast<const char*>(text);
@@ -146,7 +154,7 @@ std::string gl_string(GLenum name) {
 struct HeadlessContext::State {
     EGLDisplay display = EGL_NO_DISPLAY;
     EGLContext context = EGL_NO_CONTEXT;
-    std::string renderer;
+    GpuName name;
     std::string version;
 
     State() = default;
@@ -166,7 +174,7 @@ HeadlessContext::HeadlessContext(const HeadlessOptions& options) {
     if (!has_word(client_extensions(), "EGL_EXT_platform_base")) {
         fail("an EGL library without EGL_EXT_platform_base, or none", "install a current libEGL and its driver");
     }
-    const std::string wanted = wanted_gpu(options);
+    const std::string wanted = wanted_gpu(options.gpu);
     std::string reason = "neither a hardware device nor the surfaceless platform of Mesa";
     std::vector<std::string> others;
     for (const Candidate& candidate : candidates()) {
@@ -175,9 +183,9 @@ HeadlessContext::HeadlessContext(const HeadlessOptions& options) {
         state_->context = create_context(candidate.display, options.debug, reason);
         if (state_->context == EGL_NO_CONTEXT) continue;
         make_current();
-        state_->renderer = gl_string(GL_RENDERER);
+        state_->name = {gl_string(GL_RENDERER), gl_string(GL_VENDOR), candidate.pci_slot};
         state_->version = gl_string(GL_VERSION);
-        const std::string name = fmt::format("{}, {}", state_->renderer, candidate.platform);
+        const std::string name = fmt::format("{}, {}", renderer(), candidate.platform);
         if (wanted.empty() || is_wanted(wanted, others.size(), name)) return;
         others.push_back(fmt::format("{} = {}", others.size(), name));
     }
@@ -197,8 +205,12 @@ void HeadlessContext::make_current() {
     gpu::forget_bound_state();
 }
 
+const GpuName& HeadlessContext::name() const {
+    return state_->name;
+}
+
 const std::string& HeadlessContext::renderer() const {
-    return state_->renderer;
+    return state_->name.renderer;
 }
 
 const std::string& HeadlessContext::version() const {
@@ -206,7 +218,7 @@ const std::string& HeadlessContext::version() const {
 }
 
 bool HeadlessContext::is_software() const {
-    return gpu::is_software_renderer(state_->renderer);
+    return gpu::is_software_renderer(renderer());
 }
 
 }  // namespace rowland::platform

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "engine/platform/debug_build.h"
+#include "engine/platform/gpu_choice.h"
 
 namespace rowland::platform {
 
@@ -13,8 +14,6 @@ struct HeadlessOptions {
     /// what the environment variable ROWLAND_GPU says, or the first.
     std::string gpu{};
 };
-
-inline constexpr const char* gpu_variable = "ROWLAND_GPU";
 
 /// An OpenGL 4.5 core context without a window: EGL, no surface, so everything is drawn into framebuffer objects. Takes
 /// the GPU that is asked for, or the first hardware device there is, or the software renderer; needs neither X nor
@@ -32,6 +31,7 @@ class HeadlessContext {
     /// Makes the context current on the calling thread. Throws Error (system).
     void make_current();
 
+    const GpuName& name() const;
     const std::string& renderer() const;  ///< GL_RENDERER
     const std::string& version() const;   ///< GL_VERSION
     /// True on a CPU rasteriser (llvmpipe and its like), whose timings are those of a CPU.

@@ -11,6 +11,7 @@
 #include "engine/gpu/bound_state.h"
 #include "engine/platform/glfw_events.h"
 #include "engine/platform/glfw_library.h"
+#include "engine/platform/gpu_choice.h"
 
 namespace rowland::platform {
 
@@ -116,9 +117,11 @@ struct Window::State {
 Window::Window(const WindowOptions& options) : state_(std::make_unique<State>()) {
     ROWLAND_CHECK_OP(options.size.x, >=, 1);
     ROWLAND_CHECK_OP(options.size.y, >=, 1);
+    const std::string gpu = choose_gpu_of_windows(options.gpu);
     state_->handle = open(options);
     collect_events(state_->handle, state_->events);
     set_vsync(options.vsync);
+    require_gpu_of_window(gpu);
 }
 
 Window::~Window() = default;

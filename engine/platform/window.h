@@ -25,6 +25,7 @@ struct WindowOptions {
     glm::ivec2 size{1280, 720};  ///< screen coordinates, each >= 1
     bool vsync = true;
     bool debug = debug_build();  ///< a debug context: the driver reports errors through KHR_debug (see gpu/debug.h)
+    std::string gpu{};           ///< as HeadlessOptions'
 };
 
 /// A window with an OpenGL 4.5 core context, which is current on the thread that made it. All members are for the main
@@ -40,7 +41,8 @@ class Window {
  public:
     using DropHandler = std::function<void(const std::vector<std::filesystem::path>&)>;
 
-    /// Throws Error (system) that names what is missing if there is no display or no OpenGL 4.5 core.
+    /// Throws Error (system) that names what is missing if there is no display, no OpenGL 4.5 core, or if the display
+    /// does not draw on the GPU that is asked for; and Error (input) that lists the GPUs if none is that one.
     explicit Window(const WindowOptions& options = {});
     ~Window();
     Window(const Window&) = delete;

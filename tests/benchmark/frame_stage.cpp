@@ -6,6 +6,7 @@
 #include <chrono>
 #include <ctime>
 #include <filesystem>
+#include <glm/gtc/constants.hpp>
 #include <glm/gtc/quaternion.hpp>
 
 #include "editor/trade/light_loop.h"
@@ -15,6 +16,7 @@
 #include "engine/post/display_transform.h"
 #include "engine/post/shader_files.h"
 #include "engine/post/working_space.h"
+#include "engine/render/local_reflection.h"
 #include "engine/scene/directional_light.h"
 #include "engine/scene/mesh_recipe.h"
 #include "engine/scene/transform.h"
@@ -59,6 +61,14 @@ gpu::ShaderLibrary post_library() {
     return library;
 }
 
+render::Effects effects_of(Effect effect) {
+    render::Effects effects;
+    if (effect == Effect::AmbientOcclusion) effects.ambient_occlusion = render::AmbientOcclusionSettings{};
+    if (effect == Effect::SoftShadow) effects.soft_shadows = render::SoftShadowSettings{};
+    effects.local_reflections = effect == Effect::LocalReflection;
+    return effects;
+}
+
 /// Lindsay & Agu's: blur, exposure (part of the display transform), vignette; and the display's encoding.
 post::PostSettings all_effects() {
     return {.bloom = post::BloomSettings{},
@@ -98,12 +108,13 @@ std::unique_ptr<render::Renderer> FrameStage::make_renderer(const FrameVariant& 
     renderer->add_material_type(std::make_unique<trade::LightLoopType>());
     renderer->set_probe(probe_of(variant));
     renderer->use_key_lights(variant.lighting == Lighting::StudioKeyLights);
+    renderer->set_effects(effects_of(variant.effect));
     return renderer;
 }
 
 render::Renderer& FrameStage::renderer(const FrameVariant& variant) {
     const bool in_probe = variant.lighting == Lighting::LampsInProbe;
-    auto& renderer = renderers_[{variant.lighting, in_probe ? variant.lamps : 0}];
+    auto& renderer = renderers_[{variant.lighting, in_probe ? variant.lamps : 0, variant.effect}];
     if (!renderer) renderer = make_renderer(variant);
     return *renderer;
 }
@@ -171,7 +182,20 @@ FrameScene::FrameScene(FrameVariant variant, FrameStage& stage, bool software)
                                                             .irradiance = glm::vec3(0.5F),
                                                             .casts_shadow = variant_.shadow});
     }
+    if (variant_.effect == Effect::LocalReflection) add_reflected_plane();
     move();
+}
+
+/// Above the camera, so that it is not in the picture; its top faces down.
+void FrameScene::add_reflected_plane() {
+    constexpr float kHeight = 0.2F;
+    constexpr float kHalf = 0.5F;
+    const ecs::Entity plane = world_.create();
+    world_.add(plane, scene::Transform{.translation = {0.0F, kHeight, 0.0F},
+                                       .rotation = glm::angleAxis(glm::pi<float>(), glm::vec3(1.0F, 0.0F, 0.0F))});
+    world_.add(plane, render::MeshInstance(stage_->disc(2500)));
+    world_.add(plane, render::StandardMaterial{});
+    world_.add(plane, render::ReflectedTop{.half = glm::vec2(kHalf)});
 }
 
 void FrameScene::shade_in_a_loop(const std::vector<render::DistantLight>& lights) {

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -28,7 +29,7 @@ class FrameStage {
     explicit FrameStage(glm::ivec2 size);
 
     const render::MeshInstance& disc(int vertices);
-    /// One renderer per light: a change of light would update everything that depends on it.
+    /// One renderer per light and effect: a change would update everything that depends on it.
     render::Renderer& renderer(const FrameVariant& variant);
     /// A variant's material on the GPU; its light fills the maps.
     std::shared_ptr<const diffraction::GpuMaterial> material(const FrameVariant& variant);
@@ -52,7 +53,7 @@ class FrameStage {
     post::DisplayPass display_pass_;
     post::PostStack post_stack_;
     std::map<int, render::MeshInstance> discs_;
-    std::map<std::pair<Lighting, int>, std::unique_ptr<render::Renderer>> renderers_;
+    std::map<std::tuple<Lighting, int, Effect>, std::unique_ptr<render::Renderer>> renderers_;
     std::map<std::string, diffraction::CookedMaterial> cooked_;
     std::map<std::pair<std::string, const render::Renderer*>, std::shared_ptr<const diffraction::GpuMaterial>>
         materials_;
@@ -79,6 +80,7 @@ class FrameScene {
     const FrameVariant& variant() const { return variant_; }
 
  private:
+    void add_reflected_plane();
     void shade_in_a_loop(const std::vector<render::DistantLight>& lights);
     void move();
 

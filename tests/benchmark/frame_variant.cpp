@@ -52,6 +52,12 @@ FrameVariant with_shadow(FrameVariant variant) {
     return variant;
 }
 
+FrameVariant with_effect(FrameVariant variant, const std::string& suffix, Effect effect) {
+    variant.name += suffix;
+    variant.effect = effect;
+    return variant;
+}
+
 FrameVariant with_groove_map(FrameVariant variant) {
     variant.name += "/groove-map";
     variant.groove_map = true;
@@ -81,7 +87,13 @@ void add_plain(std::vector<FrameVariant>& variants) {
     variants.push_back(with_vertices(engine_surface("plain/vertices:2500", Shader::Plain), kFewVertices));
     variants.back().baseline = variants.back().name;
     variants.push_back(with_post(engine_surface("plain/post", Shader::Plain)));
-    variants.push_back(with_shadow(engine_surface("plain", Shader::Plain)));
+    const FrameVariant plain = engine_surface("plain", Shader::Plain);
+    const FrameVariant shadow = with_shadow(plain);
+    variants.push_back(shadow);
+    variants.push_back(with_effect(plain, "/ambient-occlusion", Effect::AmbientOcclusion));
+    variants.push_back(with_effect(shadow, "/ambient-occlusion", Effect::AmbientOcclusion));
+    variants.push_back(with_effect(shadow, "/soft", Effect::SoftShadow));
+    variants.push_back(with_effect(plain, "/local-reflection", Effect::LocalReflection));
 }
 
 void add_representation(const TimedRepresentation& drawn, std::vector<FrameVariant>& variants) {

@@ -28,6 +28,14 @@ enum class Lighting {
     LampsInScene,     ///< the dark room and directional lights; without the sun
 };
 
+/// An effect of the renderer: engine/render/effects.h.
+enum class Effect {
+    None,
+    AmbientOcclusion,  ///< with contact shadows, where the sun casts a shadow
+    SoftShadow,
+    LocalReflection,  ///< of a plane that faces the disc
+};
+
 /// A frame that is timed.
 struct FrameVariant {
     std::string name;
@@ -38,7 +46,8 @@ struct FrameVariant {
     Motion motion = Motion::Rest;
     Lighting lighting = Lighting::Studio;
     int lamps = 0;
-    bool shadow = false;      ///< the sun casts one
+    bool shadow = false;  ///< the sun casts one
+    Effect effect = Effect::None;
     bool groove_map = false;  ///< a texture varies the grooves' direction and pitch
     bool post = false;        ///< bloom, vignette and display transform after it
 };

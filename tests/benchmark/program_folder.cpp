@@ -1,5 +1,8 @@
 #include "tests/benchmark/program_folder.h"
 
+#include <fmt/format.h>
+
+#include <cstddef>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -17,12 +20,16 @@ void write_programs(const std::filesystem::path& folder, const std::vector<Frame
     FrameStage stage(size);
     nlohmann::ordered_json frames = nlohmann::ordered_json::array();
     Progress progress("programs", variants.size());
+    const auto add = [&](const std::string& name, std::size_t program, const LoopLengths& lengths) {
+        frames.push_back({{"name", name}, {"program", std::to_string(program)}, {"lengths", lengths}});
+    };
     for (const FrameVariant& variant : variants) {
+        const std::size_t known_passes = log.passes().size();
         FrameScene(variant, stage, software).settle();
         ROWLAND_CHECK(log.last_mesh().has_value(), "a frame without its disc");
-        frames.push_back({{"name", variant.name},
-                          {"program", std::to_string(log.last_mesh()->program)},
-                          {"lengths", log.last_mesh()->lengths}});
+        add(variant.name, log.last_mesh()->program, log.last_mesh()->lengths);
+        for (std::size_t i = known_passes; i < log.passes().size() && variant.effect != Effect::None; ++i)
+            add(fmt::format("{}/pass:{}", variant.name, i - known_passes + 1), log.passes()[i], {});
         progress.advance();
     }
     nlohmann::ordered_json names = nlohmann::ordered_json::array();

@@ -1,5 +1,7 @@
 #include "tests/benchmark/program_log.h"
 
+#include <algorithm>
+
 #include "engine/core/check.h"
 #include "tests/support/replaced_function.h"
 
@@ -15,12 +17,19 @@ std::string stage_of(GLuint shader) {
     return type == GL_VERTEX_SHADER ? "vert" : type == GL_FRAGMENT_SHADER ? "frag" : "comp";
 }
 
+GLuint current_program() {
+    GLint program = 0;
+    glGetIntegerv(GL_CURRENT_PROGRAM, &program);
+    return static_cast<GLuint>(program);
+}
+
 }  // namespace
 
 struct ProgramLog::Replaced {
     test::ReplacedFunction<&epoxy_glShaderSource> of_shader_source{"glShaderSource", shader_source};
     test::ReplacedFunction<&epoxy_glAttachShader> of_attach_shader{"glAttachShader", attach_shader};
     test::ReplacedFunction<&epoxy_glLinkProgram> of_link_program{"glLinkProgram", link_program};
+    test::ReplacedFunction<&epoxy_glDrawArraysInstanced> of_draw_arrays{"glDrawArraysInstanced", draw_arrays};
     test::ReplacedFunction<&epoxy_glDrawElements> of_draw_elements{"glDrawElements", draw_elements};
 };
 
@@ -49,14 +58,22 @@ void ProgramLog::link_program(GLuint program) {
     active_log->replaced_->of_link_program.driver(program);
 }
 
+void ProgramLog::draw_arrays(GLenum mode, GLint first, GLsizei count, GLsizei instances) {
+    active_log->replaced_->of_draw_arrays.driver(mode, first, count, instances);
+    std::vector<std::size_t>& passes = active_log->passes_;
+    const auto program = active_log->current();
+    if (program && std::ranges::find(passes, *program) == passes.end()) passes.push_back(*program);
+}
+
 void ProgramLog::draw_elements(GLenum mode, GLsizei count, GLenum type, const void* indices) {
     active_log->replaced_->of_draw_elements.driver(mode, count, type, indices);
-    GLint current = 0;
-    glGetIntegerv(GL_CURRENT_PROGRAM, &current);
-    const auto program = static_cast<GLuint>(current);
-    const auto linked = active_log->linked_.find(program);
-    if (linked == active_log->linked_.end()) return;  // linked before the log began
-    active_log->last_mesh_ = MeshDraw{linked->second, loop_lengths(program)};
+    if (const auto program = active_log->current())
+        active_log->last_mesh_ = MeshDraw{*program, loop_lengths(current_program())};
+}
+
+std::optional<std::size_t> ProgramLog::current() const {
+    const auto linked = linked_.find(current_program());
+    return linked == linked_.end() ? std::nullopt : std::optional(linked->second);
 }
 
 void ProgramLog::record(GLuint program) {

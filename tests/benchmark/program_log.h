@@ -35,15 +35,21 @@ class ProgramLog {
     /// The last draw of an indexed mesh.
     const std::optional<MeshDraw>& last_mesh() const { return last_mesh_; }
 
+    /// The programs of draws without indices, each once: passes over the picture.
+    const std::vector<std::size_t>& passes() const { return passes_; }
+
  private:
     struct Replaced;
 
     static void shader_source(GLuint shader, GLsizei count, const GLchar* const* strings, const GLint* lengths);
     static void attach_shader(GLuint program, GLuint shader);
     static void link_program(GLuint program);
+    static void draw_arrays(GLenum mode, GLint first, GLsizei count, GLsizei instances);
     static void draw_elements(GLenum mode, GLsizei count, GLenum type, const void* indices);
 
     void record(GLuint program);
+    /// In programs(); none if it was linked before the log began.
+    std::optional<std::size_t> current() const;
 
     std::map<GLuint, std::string> shader_texts_;
     std::map<GLuint, ProgramTexts> attached_;
@@ -51,6 +57,7 @@ class ProgramLog {
     std::map<ProgramTexts, std::size_t> known_;
     std::vector<ProgramTexts> programs_;
     std::optional<MeshDraw> last_mesh_;
+    std::vector<std::size_t> passes_;
     std::unique_ptr<Replaced> replaced_;
 };
 

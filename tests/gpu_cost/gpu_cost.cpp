@@ -28,7 +28,9 @@ constexpr const char* kAssumptions =
     "that run. fetch: those of them that read textures, buffers or attributes. waves: what a SIMD unit holds.\n"
     "Assumed: caches hit. Loops over lights, streak segments and constants run as often as in the frame, those over a\n"
     "pixel's parts once, others whose length the pixel computes 8 times. Three waves of four enter a branch;\n"
-    "half of them one that all pixels decide alike.\n";
+    "half of them one that all pixels decide alike. FRAME/pass:1 and on: what the frame's effect draws before, per "
+    "pixel\n"
+    "of its own; those of ambient occlusion are a quarter of the picture's.\n";
 
 struct Options {
     std::vector<std::string> only;

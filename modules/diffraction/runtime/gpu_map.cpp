@@ -8,11 +8,24 @@
 
 namespace rowland::diffraction {
 
-float largest_component(std::span<const glm::vec3> xyz) {
+namespace {
+
+template <typename Value>
+float largest_of(std::span<const Value> values) {
     float largest = 1e-30F;
-    for (const glm::vec3& value : xyz)
-        largest = std::max({largest, std::abs(value.x), std::abs(value.y), std::abs(value.z)});
+    for (const Value& value : values)
+        for (int i = 0; i < Value::length(); ++i) largest = std::max(largest, std::abs(value[i]));
     return largest;
+}
+
+}  // namespace
+
+float largest_component(std::span<const glm::vec3> xyz) {
+    return largest_of(xyz);
+}
+
+float largest_component(std::span<const glm::vec4> values) {
+    return largest_of(values);
 }
 
 GpuMap::GpuMap(std::span<const glm::vec3> xyz, const gpu::TextureDesc& desc, const gpu::Sampling& sampling)

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <span>
 
 #include "engine/gpu/program.h"
@@ -11,6 +12,7 @@ namespace rowland::diffraction {
 
 /// Largest magnitude of a component, above 0.
 float largest_component(std::span<const glm::vec3> xyz);
+float largest_component(std::span<const glm::vec4> values);
 
 /// A map of radiance (XYZ) on the GPU: fp16, divided by its largest component, as fp16 ends at 65504.
 class GpuMap {
@@ -20,7 +22,7 @@ class GpuMap {
     GpuMap(std::span<const glm::vec3> xyz, const gpu::TextureDesc& desc, const gpu::Sampling& sampling);
 
     /// A map without values. `scale`: the largest component to come. upload() takes halves divided by it, four per
-    /// texel; the fourth is not read.
+    /// texel.
     GpuMap(gpu::TextureDesc desc, const gpu::Sampling& sampling, float scale);
     void upload(std::span<const std::uint16_t> halves, gpu::TextureSlice slice) { texture_.upload(halves, slice); }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <glm/gtc/packing.hpp>
-#include <glm/vec4.hpp>
 #include <utility>
 
 #include "engine/core/check.h"
@@ -15,26 +14,44 @@ namespace {
 
 constexpr std::size_t kTexelsPerTask = 1 << 14;
 
-std::vector<std::uint16_t> as_halves(const std::vector<glm::vec3>& values, float scale) {
+glm::vec4 texel_of(const glm::vec3& value) {
+    return {value, 0.0F};
+}
+
+glm::vec4 texel_of(const glm::vec4& value) {
+    return value;
+}
+
+template <typename Value>
+std::vector<std::uint16_t> as_halves(const std::vector<Value>& values, float scale) {
     std::vector<std::uint16_t> halves(4 * values.size());
     parallel_for((values.size() + kTexelsPerTask - 1) / kTexelsPerTask, [&](std::size_t task) {
         const std::size_t end = std::min(values.size(), (task + 1) * kTexelsPerTask);
         for (std::size_t i = task * kTexelsPerTask; i < end; ++i) {
-            const glm::u16vec4 texel = glm::packHalf(glm::vec4(values[i] / scale, 0.0F));
+            const glm::u16vec4 texel = glm::packHalf(texel_of(values[i] / scale));
             for (int o = 0; o < 4; ++o) halves[4 * i + static_cast<std::size_t>(o)] = texel[o];
         }
     });
     return halves;
 }
 
-}  // namespace
-
-MapTexels pack(std::span<const std::vector<glm::vec3>> levels, gpu::TextureDesc desc, const gpu::Sampling& sampling) {
+template <typename Value>
+MapTexels packed(std::span<const std::vector<Value>> levels, gpu::TextureDesc desc, const gpu::Sampling& sampling) {
     desc.levels = static_cast<int>(levels.size());
     MapTexels texels{.desc = desc, .sampling = sampling, .scale = 0.0F, .levels = {}};
     for (const auto& values : levels) texels.scale = std::max(texels.scale, largest_component(values));
     for (const auto& values : levels) texels.levels.push_back(as_halves(values, texels.scale));
     return texels;
+}
+
+}  // namespace
+
+MapTexels pack(std::span<const std::vector<glm::vec3>> levels, gpu::TextureDesc desc, const gpu::Sampling& sampling) {
+    return packed(levels, desc, sampling);
+}
+
+MapTexels pack(std::span<const std::vector<glm::vec4>> levels, gpu::TextureDesc desc, const gpu::Sampling& sampling) {
+    return packed(levels, desc, sampling);
 }
 
 MapUpload::MapUpload(MapTexels texels)

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <optional>
 #include <span>
 #include <vector>
@@ -15,12 +16,13 @@ struct MapTexels {
     gpu::TextureDesc desc;
     gpu::Sampling sampling;
     float scale = 1.0F;  ///< the largest component, by which the halves are divided
-    /// Halves of each level, four per texel; the fourth is not read.
+    /// Halves of each level, four per texel.
     std::vector<std::vector<std::uint16_t>> levels;
 };
 
 /// `levels`: values in the order of each level's rows and slices. Uses all cores.
 MapTexels pack(std::span<const std::vector<glm::vec3>> levels, gpu::TextureDesc desc, const gpu::Sampling& sampling);
+MapTexels pack(std::span<const std::vector<glm::vec4>> levels, gpu::TextureDesc desc, const gpu::Sampling& sampling);
 
 /// Uploads a map, some slices at a time.
 class MapUpload {

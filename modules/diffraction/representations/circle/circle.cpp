@@ -41,10 +41,11 @@ CircleTables read(ByteReader&, const CircleSettings& settings) {
 ShadingCost cost(const CircleTables& tables) {
     constexpr std::size_t kHalfTexel = 8;
     const auto side = static_cast<std::size_t>(tables.size.side);
-    return {.fetches_per_pixel = tables.size.terms,
+    const int look_ups = look_ups_of(tables.size.terms);
+    return {.fetches_per_pixel = look_ups,
             .multiply_adds_per_pixel = 3 * tables.size.terms + 40,
             .table_bytes = 2 * side * side * static_cast<std::size_t>(tables.size.views) *
-                           static_cast<std::size_t>(tables.size.terms) * kHalfTexel};
+                           static_cast<std::size_t>(look_ups) * kHalfTexel};
 }
 
 Facts facts(const CircleTables& tables) {

@@ -1,6 +1,5 @@
 #version 450 core
 // A map for all orientations, at the pixels.
-#define MATERIAL_CURVED_MIRROR
 #include "modules/diffraction/shaders/surface.glsl"
 #include "modules/diffraction/representations/circle/circle_map.glsl"
 

@@ -208,6 +208,10 @@ std::array<double, 6> covered_cosine(double ior, double r) {
     return series;
 }
 
+int look_ups_of(int terms) {
+    return (3 * terms + 3) / 4;
+}
+
 int chart_count(const KernelTable& kernel) {
     return is_even(kernel) ? 1 : 2;
 }

@@ -1,6 +1,7 @@
 // A map over g in the world and v_g, Fourier terms of the normal's angle around g: circle_map.h. The program defines
-// CHARTS, TERMS and VIEWS. Charts lie side by side, terms below each other. Filtering never reaches a
-// neighbour, as the equator lies 1.5 texels inside.
+// CHARTS, TERMS, LOOK_UPS and VIEWS. A look-up holds four components of the terms' values, which follow each other:
+// red, green and blue of the first term, red of the second. Look-ups lie side by side, charts below each other.
+// Filtering never reaches a neighbour, as the equator lies 1.5 texels inside.
 layout(binding = 11) uniform sampler3D circle_map;
 uniform float circle_map_scale;  // chart coordinates to texture coordinates
 uniform float map_scale;  // of the stored values
@@ -34,9 +35,13 @@ vec3 map_radiance(float v_g, vec3 g, vec3 n) {
 #endif
     float r = 0.5 + v_g * (0.5 - 0.5 / float(VIEWS));
     vec3 sum = vec3(0.0);
-    for (int term = 0; term < TERMS; ++term) {
-        vec2 at = (st + vec2(chart, term)) / vec2(CHARTS, TERMS);
-        sum += factors[term] * textureLod(circle_map, vec3(at, r), 0.0).xyz;
+    for (int look_up = 0; look_up < LOOK_UPS; ++look_up) {
+        vec2 at = (st + vec2(look_up, chart)) / vec2(LOOK_UPS, CHARTS);
+        vec4 values = textureLod(circle_map, vec3(at, r), 0.0);
+        for (int i = 0; i < 4; ++i) {
+            int component = 4 * look_up + i;
+            if (component < 3 * TERMS) sum[component % 3] += factors[component / 3] * values[i];
+        }
     }
     return map_scale * sum;
 }

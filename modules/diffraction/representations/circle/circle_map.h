@@ -58,6 +58,9 @@ int circle_terms(const std::optional<Cover>& cover);
 /// The Fourier coefficients of T(r cos t) max(0, cos t) on 1, cos t, cos 2t, cos 4t, cos 3t, cos 5t, PHYSICS (28).
 std::array<double, 6> covered_cosine(double ior, double r);
 
+/// The look-ups of a map of so many terms: four components each.
+int look_ups_of(int terms);
+
 /// The number of charts of a map under this kernel.
 int chart_count(const KernelTable& kernel);
 

@@ -8,26 +8,39 @@
 #include <utility>
 #include <vector>
 
+#include "modules/diffraction/runtime/flatness.h"
+
 namespace rowland::diffraction {
 
 namespace {
 
-/// Charts side by side and terms below each other, for one volume texture.
+/// The texels of a row that one look-up reads.
+void append(const CircleMap& map, int chart, int view, int row, int look_up, std::vector<glm::vec4>& texels) {
+    for (int column = 0; column < map.side; ++column) {
+        glm::vec4& texel = texels.emplace_back(0.0F);
+        for (int i = 0; i < 4; ++i) {
+            const int component = 4 * look_up + i;
+            if (component < 3 * map.terms)
+                texel[i] = map.xyz[map.index(chart, component / 3, view, row, column)][component % 3];
+        }
+    }
+}
+
+/// Four components of the terms' values per texel: circle_map.glsl. A pixel's look-ups lie within a row of the volume:
+/// below each other they would share sets of a processor's cache.
 MapTexels in_layout(const CircleMap& map) {
-    std::array<std::vector<glm::vec3>, 1> levels;
-    levels[0].reserve(map.xyz.size());
+    const int look_ups = look_ups_of(map.terms);
+    std::array<std::vector<glm::vec4>, 1> levels;
+    std::vector<glm::vec4>& texels = levels[0];
+    texels.reserve(map.xyz.size() / static_cast<std::size_t>(map.terms) * static_cast<std::size_t>(look_ups));
     for (int view = 0; view < map.views; ++view)
-        for (int term = 0; term < map.terms; ++term)
+        for (int chart = 0; chart < map.charts; ++chart)
             for (int row = 0; row < map.side; ++row)
-                for (int chart = 0; chart < map.charts; ++chart) {
-                    const auto from =
-                        map.xyz.begin() + static_cast<std::ptrdiff_t>(map.index(chart, term, view, row, 0));
-                    levels[0].insert(levels[0].end(), from, from + map.side);
-                }
+                for (int look_up = 0; look_up < look_ups; ++look_up) append(map, chart, view, row, look_up, texels);
     return pack(levels,
                 {.kind = gpu::TextureKind::Volume,
-                 .width = map.side * map.charts,
-                 .height = map.side * map.terms,
+                 .width = map.side * look_ups,
+                 .height = map.side * map.charts,
                  .depth = map.views},
                 {.filter = gpu::Filter::Linear});
 }
@@ -60,17 +73,26 @@ GpuCircle::GpuCircle(const CookedMaterial& cooked, const CircleTables& tables, c
                                                     cooked.material.grating.pitch_nm, cooked.material.grating.cover,
                                                     tables.size})) {}
 
-void GpuCircle::update(const SurfaceObject& object, SurfaceLight& light, SurfaceState&) const {
+void GpuCircle::update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const {
+    if (!state.data) state.data = std::make_unique<CircleData>();
+    auto& data = static_cast<CircleData&>(*state.data);
+    if (data.mesh != state.mesh || !state.mesh) {
+        data.mesh = state.mesh;
+        data.flat = !object.skinned && flat_normal(object.mesh).has_value();
+    }
     map_.update({.texels = light.texels(light_part())}, fill_, object.map_pace);
 }
 
-void GpuCircle::describe(const SurfaceState&, gpu::ProgramDesc& desc) const {
-    if (cooked()->material.quality.map_at_vertices)
+void GpuCircle::describe(const SurfaceState& state, gpu::ProgramDesc& desc) const {
+    if (cooked()->material.quality.map_at_vertices) {
         set_vertex_shader(desc, "representations/circle/circle.vert.glsl");
-    else
+    } else {
         set_shaders(desc, "shaders/pixel_shaded.vert.glsl", "representations/circle/circle.frag.glsl");
+        if (!static_cast<const CircleData&>(*state.data).flat) desc.defines.push_back({"MATERIAL_CURVED_MIRROR", "1"});
+    }
     desc.defines.push_back({"CHARTS", std::to_string(charts_)});
     desc.defines.push_back({"TERMS", std::to_string(size_.terms)});
+    desc.defines.push_back({"LOOK_UPS", std::to_string(look_ups_of(size_.terms))});
     desc.defines.push_back({"VIEWS", std::to_string(size_.views)});
 }
 

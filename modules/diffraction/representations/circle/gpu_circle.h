@@ -8,6 +8,12 @@
 
 namespace rowland::diffraction {
 
+/// GpuCircle's data of an object.
+struct CircleData final : ObjectData {
+    std::shared_ptr<const scene::Mesh> mesh;  ///< of `flat`
+    bool flat = false;                        ///< so is its mirror, which needs no average over the pixel
+};
+
 /// One map for all objects of a material: circle_map.glsl. It follows the probe; objects do not matter.
 class GpuCircle final : public GpuMaterial {
  public:

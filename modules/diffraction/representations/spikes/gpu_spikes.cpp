@@ -12,13 +12,13 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// Row c, one texel per nanometre: XYZ of a spike there under light of colour c.
+/// For each of the light's colours, one texel per nanometre: XYZ of a spike there under light of that colour.
 gpu::Texture make_wavelengths() {
     constexpr int kCount = colour::kVisibleMax - colour::kVisibleMin + 1;
     std::vector<glm::vec4> texels;
     for (int c = 0; c < 3; ++c)
         for (int i = 0; i < kCount; ++i) texels.emplace_back(glm::vec3(spike_colour(colour::kVisibleMin + i)[c]), 0.0F);
-    gpu::Texture texture({.format = gpu::Format::RGBA32F, .width = kCount, .height = 3});
+    gpu::Texture texture({.kind = gpu::TextureKind::Line, .format = gpu::Format::RGBA32F, .width = 3 * kCount});
     texture.upload(std::span<const glm::vec4>(texels));
     return texture;
 }

@@ -7,14 +7,15 @@
 
 const int LAYERS = (COEFFICIENTS + 1 + 3) / 4;
 
-// Row c: XYZ of a spike of coefficient 1 under light of colour c, one texel per nanometre from 380 to 780.
-layout(binding = 9) uniform sampler2D wavelength_table;
+// XYZ of a spike of coefficient 1 under red, then under green, then under blue light, one texel per nanometre from 380 to
+// 780. A line: rows of a plane would be filtered across.
+layout(binding = 9) uniform sampler1D wavelength_table;
 
 vec3 wavelength_to_xyz(float normalised, vec3 rgb) {
-    float s = (clamp(normalised, 0.0, 1.0) * 400.0 + 0.5) / 401.0;
-    return rgb.r * texture(wavelength_table, vec2(s, 0.5 / 3.0)).xyz +
-           rgb.g * texture(wavelength_table, vec2(s, 1.5 / 3.0)).xyz +
-           rgb.b * texture(wavelength_table, vec2(s, 2.5 / 3.0)).xyz;
+    float s = (clamp(normalised, 0.0, 1.0) * 400.0 + 0.5) / 1203.0;
+    return rgb.r * textureLod(wavelength_table, s, 0.0).xyz +
+           rgb.g * textureLod(wavelength_table, s + 1.0 / 3.0, 0.0).xyz +
+           rgb.b * textureLod(wavelength_table, s + 2.0 / 3.0, 0.0).xyz;
 }
 
 // Layer k*LAYERS + j of the table: entries 4j..4j+3 of spike k's [c_0 ... c_(n*n-1), (wavelength - 380) / 400].

@@ -107,6 +107,20 @@ TEST_F(Circle, MotionFillsNothingAndObjectsShareTheMap) {
     EXPECT_EQ(filling().maps_shown(), 2);
 }
 
+/// What a flat mirror shows changes little over a pixel, and the average is expensive.
+TEST_F(Circle, OnlyACurvedMirrorIsAveragedOverThePixel) {
+    const auto is_averaged = [&] {
+        draw();
+        const gpu::ProgramDesc program = material_->program(world_.get<SurfaceState>(entity_));
+        return std::ranges::any_of(program.defines,
+                                   [](const gpu::Define& define) { return define.first == "MATERIAL_CURVED_MIRROR"; });
+    };
+    show(cook(kSlitCd, kCircle));
+    EXPECT_TRUE(is_averaged());
+    world_.add(entity_, render::make_mesh_instance(flat_triangle()));
+    EXPECT_FALSE(is_averaged());
+}
+
 /// The first frame does not wait for the full map.
 TEST_F(Circle, ACoarseMapIsShownUntilTheFullOneIsThere) {
     const CookedMaterial cooked = cook(kSlitCd, kCircle);

@@ -4,7 +4,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <epoxy/gl.h>
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <array>
 #include <chrono>
@@ -12,13 +12,20 @@
 #include <filesystem>
 #include <functional>
 #include <stdexcept>
+#include <string>
 #include <thread>
 #include <vector>
+
+#include "engine/platform/gpu_choice.h"
+#include "engine/platform/headless_context.h"
+#include "tests/support/message_of.h"
 
 namespace rowland::platform {
 namespace {
 
 using namespace std::chrono_literals;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 using Pixel = std::array<std::uint8_t, 4>;
 
 /// Polls until `done`; false if that takes longer than a display server ever needs.
@@ -56,6 +63,18 @@ TEST(Window, HasADebugContextOfOpenGl45Core) {
     glGetIntegerv(GL_CONTEXT_FLAGS, &flags);
     EXPECT_NE(profile & GL_CONTEXT_CORE_PROFILE_BIT, 0);
     EXPECT_NE(flags & GL_CONTEXT_FLAG_DEBUG_BIT, 0);
+}
+
+TEST(Window, DrawsOnTheGpuThatIsChosenOrRefuses) {
+    const std::string renderer = HeadlessContext().renderer();
+    EXPECT_THAT(test::message_of([] {
+                    const Window window({.title = "test", .size = {64, 64}, .gpu = "no such"});
+                }),
+                AllOf(HasSubstr("no GPU \"no such\""), HasSubstr("0 = " + renderer)));
+    const Window window({.title = "test", .size = {64, 64}, .gpu = renderer});
+    EXPECT_EQ(reinterpret_cast<const char*>(glGetString(GL_RENDERER)), renderer);
+    EXPECT_THAT(test::message_of([] { require_gpu_of_window("another GPU"); }, Fault::System),
+                AllOf(HasSubstr(renderer), HasSubstr("another GPU"), HasSubstr("set DRI_PRIME=1")));
 }
 
 TEST(Window, ShowsTheClearColourToItsLastCornerBeforeAndAfterResize) {
