@@ -7,11 +7,9 @@
 #include <vector>
 
 #include "engine/lighting/light_samples.h"
-#include "modules/diffraction/bake/kernel_cells.h"
 #include "modules/diffraction/model/colour_kernel.h"
 #include "modules/diffraction/model/cover.h"
 #include "modules/diffraction/model/shading_point.h"
-#include "modules/diffraction/representations/planar/light_disc.h"
 
 namespace rowland::diffraction {
 
@@ -36,39 +34,10 @@ struct PlanarMapSize {
 /// What is shown while a larger map is filled: within 10 ms of a tilt on two cores.
 inline constexpr PlanarMapSize kCoarsePlanarMap{.azimuths = 64, .views = 64};
 
-/// Fills a map at once or incrementally. Holds the light projected on the plane and the kernel's weights, not the
-/// texels.
-class PlanarFill {
- public:
-    /// `normal`: unit. `zero_order_xyz`: as of ColourKernel. `cover`: T(s_n) is in the map, T(v_n) is not. Uses all
-    /// cores; the result does not depend on them.
-    PlanarFill(const lighting::LightSamples& texels, const KernelTable& kernel, double pitch_nm,
-               const glm::dvec3& normal, const PlanarMapSize& size = {},
-               const glm::dmat3& zero_order_xyz = glm::dmat3(0.0), const std::optional<Cover>& cover = std::nullopt);
-
-    /// The map with its frame, all black.
-    PlanarMap empty() const;
-
-    /// Fills azimuths [begin, end) of a map from empty(), or of an older map of the same size, whose frame becomes this
-    /// fill's. Any order gives the same map. Values are optimised for linear interpolation (kBestLinear): they are not
-    /// the radiance at the nodes. After a stop request it returns early with an unusable map.
-    void fill(int begin, int end, PlanarMap& map, const std::stop_token& stop = {}) const;
-
- private:
-    struct Profile;
-    Profile project(int azimuth) const;
-    Profile mirrored(const Profile& profile) const;
-    void correlate(const Profile& profile, int azimuth, PlanarMap& map) const;
-
-    PlanarMapSize size_;
-    PlaneAxes axes_;
-    int cells_;  ///< of A, and of the disc's side
-    KernelCells kernel_;
-    std::vector<float> rows_;     ///< light over the plane's disc, cells_² of (r, g, b, 0): flux · s_n T(s_n) / 2
-    std::vector<float> columns_;  ///< the same, transposed
-};
-
-/// A map, filled at once. After a stop request it returns early with an unusable map.
+/// Fills a map with values for linear interpolation: they are not the radiance at the nodes. `normal`: unit.
+/// `zero_order_xyz`: as of ColourKernel. `cover`: T(s_n) is in the map, T(v_n) is not. Light is spread over the
+/// azimuths between two nodes (PHYSICS §6). Uses all cores; the result does not depend on them. After a stop request
+/// it returns early with an unusable map.
 PlanarMap fill_planar_map(const lighting::LightSamples& texels, const KernelTable& kernel, double pitch_nm,
                           const glm::dvec3& normal, const PlanarMapSize& size = {},
                           const glm::dmat3& zero_order_xyz = glm::dmat3(0.0),
