@@ -100,16 +100,28 @@ ArcCells mirrored(const ArcCells& profile) {
     return result;
 }
 
-/// A map's column from the profiles at its azimuth and at the neighbours'.
-void fill_azimuth(const KernelCells& kernel, ArcCells here, const ArcCells& before, const ArcCells& after, int azimuth,
-                  PlanarMap& map) {
+/// Of each slice of a map.
+std::vector<KernelCells> kernels_of(const PlanarMap& map, const KernelTable& kernel, double pitch_nm,
+                                    const glm::dmat3& zero_order_xyz) {
+    std::vector<KernelCells> kernels;
+    for (int slice = 0; slice < map.slices(); ++slice)
+        kernels.emplace_back(kernel, map.pitch ? pitch_nm * map.pitch->factor_at(slice) : pitch_nm, map.views,
+                             zero_order_xyz);
+    return kernels;
+}
+
+/// A map's columns from the profiles at their azimuth and at the neighbours'.
+void fill_azimuth(const std::vector<KernelCells>& kernels, ArcCells here, const ArcCells& before, const ArcCells& after,
+                  std::size_t azimuth, PlanarMap& map) {
     for (std::size_t k = 0; k < here.size(); ++k) here[k] -= kBestAzimuth * (before[k] - 2.0F * here[k] + after[k]);
-    std::vector<float> xyz(static_cast<std::size_t>(map.views) * 4);
-    kernel.correlate_rgb(here, xyz);
-    for (int view = 0; view < map.views; ++view) {
-        const float* from = xyz.data() + static_cast<std::ptrdiff_t>(view) * 4;
-        map.xyz[static_cast<std::size_t>(view) * static_cast<std::size_t>(map.azimuths) +
-                static_cast<std::size_t>(azimuth)] = {from[0], from[1], from[2]};
+    const auto azimuths = static_cast<std::size_t>(map.azimuths);
+    const auto views = static_cast<std::size_t>(map.views);
+    std::vector<float> xyz(views * 4);
+    for (std::size_t slice = 0; slice < kernels.size(); ++slice) {
+        kernels[slice].correlate_rgb(here, xyz);
+        for (std::size_t view = 0; view < views; ++view)
+            map.xyz[(slice * views + view) * azimuths + azimuth] = {xyz[4 * view], xyz[4 * view + 1],
+                                                                    xyz[4 * view + 2]};
     }
 }
 
@@ -129,11 +141,19 @@ PlanarMap fill_planar_map(const lighting::LightSamples& texels, const KernelTabl
     ROWLAND_CHECK_OP(size.azimuths % 2, ==, 0);
     ROWLAND_CHECK_OP(size.views, >=, 8);
     const PlaneAxes axes = plane_axes(normal);
-    PlanarMap map{.azimuths = size.azimuths, .views = size.views, .e1 = axes.e1, .e2 = axes.e2, .n = axes.n, .xyz = {}};
-    map.xyz.resize(static_cast<std::size_t>(size.azimuths) * static_cast<std::size_t>(size.views), glm::vec3(0.0F));
-    const KernelCells cells(kernel, pitch_nm, size.views, zero_order_xyz);
+    PlanarMap map{.azimuths = size.azimuths,
+                  .views = size.views,
+                  .e1 = axes.e1,
+                  .e2 = axes.e2,
+                  .n = axes.n,
+                  .pitch = size.pitch,
+                  .xyz = {}};
+    map.xyz.resize(static_cast<std::size_t>(size.azimuths) * static_cast<std::size_t>(size.views) *
+                       static_cast<std::size_t>(map.slices()),
+                   glm::vec3(0.0F));
+    const std::vector<KernelCells> kernels = kernels_of(map, kernel, pitch_nm, zero_order_xyz);
     const double step = 2.0 * pi / size.azimuths;
-    const LightProjection light(light_on_disc(texels, axes, cover, cells.cells()), step);
+    const LightProjection light(light_on_disc(texels, axes, cover, kernels[0].cells()), step);
     // A rotation by π mirrors A: half of the projections suffice.
     std::vector<ArcCells> profiles(static_cast<std::size_t>(size.azimuths) / 2);
     parallel_for(profiles.size(), [&](std::size_t i) {
@@ -147,28 +167,35 @@ PlanarMap fill_planar_map(const lighting::LightSamples& texels, const KernelTabl
     const auto azimuths = static_cast<std::size_t>(size.azimuths);
     parallel_for(azimuths, [&](std::size_t i) {
         if (!stop.stop_requested())
-            fill_azimuth(cells, profile_at(i), profile_at(i + azimuths - 1), profile_at(i + 1), static_cast<int>(i),
-                         map);
+            fill_azimuth(kernels, profile_at(i), profile_at(i + azimuths - 1), profile_at(i + 1), i, map);
     });
     return map;
 }
 
-glm::dvec3 sample(const PlanarMap& map, double azimuth, double v_g) {
+glm::dvec3 sample(const PlanarMap& map, double azimuth, double v_g, double pitch_factor) {
     const double turns = azimuth / (2.0 * pi);
     const auto azimuths = static_cast<std::size_t>(map.azimuths);
     const AxisLookup s = look_up_repeating((turns - std::floor(turns)) * map.azimuths, azimuths);
     const AxisLookup t = look_up_axis(0.5 * (v_g + 1.0), static_cast<std::size_t>(map.views));
-    const auto at = [&](std::size_t column, std::size_t row) { return glm::dvec3(map.xyz[row * azimuths + column]); };
-    return glm::mix(glm::mix(at(s.first, t.first), at(s.second, t.first), s.weight),
-                    glm::mix(at(s.first, t.second), at(s.second, t.second), s.weight), t.weight);
+    const auto in_slice = [&](std::size_t slice) {
+        const glm::vec3* values = map.xyz.data() + slice * static_cast<std::size_t>(map.views) * azimuths;
+        const auto at = [&](std::size_t column, std::size_t row) {
+            return glm::dvec3(values[row * azimuths + column]);
+        };
+        return glm::mix(glm::mix(at(s.first, t.first), at(s.second, t.first), s.weight),
+                        glm::mix(at(s.first, t.second), at(s.second, t.second), s.weight), t.weight);
+    };
+    if (!map.pitch) return in_slice(0);
+    const AxisLookup r = look_up_axis(map.pitch->position_of(pitch_factor), static_cast<std::size_t>(map.pitch->nodes));
+    return glm::mix(in_slice(r.first), in_slice(r.second), r.weight);
 }
 
-glm::dvec3 sample(const PlanarMap& map, const ShadingPoint& frame) {
+glm::dvec3 sample(const PlanarMap& map, const ShadingPoint& frame, double pitch_factor) {
     const glm::dmat3 to_tangent = world_to_tangent(frame);
     const glm::dvec3 v = to_tangent * glm::normalize(frame.view);
     if (v.z <= 0.0) return glm::dvec3(0.0);
     const glm::dvec3 g(to_tangent[0][0], to_tangent[1][0], to_tangent[2][0]);
-    return sample(map, std::atan2(glm::dot(g, map.e2), glm::dot(g, map.e1)), v.x);
+    return sample(map, std::atan2(glm::dot(g, map.e2), glm::dot(g, map.e1)), v.x, pitch_factor);
 }
 
 }  // namespace rowland::diffraction

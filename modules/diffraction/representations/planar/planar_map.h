@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/lighting/light_samples.h"
+#include "modules/diffraction/bake/pitch_axis.h"
 #include "modules/diffraction/model/colour_kernel.h"
 #include "modules/diffraction/model/cover.h"
 #include "modules/diffraction/model/shading_point.h"
@@ -14,7 +15,8 @@
 namespace rowland::diffraction {
 
 /// The radiance of a flat grating under a probe, flat lobe (PHYSICS §6 "planar"): XYZ over the azimuth of g in the
-/// plane and v_g. A 2D texture: GL_LINEAR, GL_REPEAT in s, GL_CLAMP_TO_EDGE in t.
+/// plane and v_g. A 2D texture: GL_LINEAR, GL_REPEAT in s, GL_CLAMP_TO_EDGE in t. With a pitch axis a volume of such
+/// slices, a slice for each node, GL_CLAMP_TO_EDGE in r.
 ///   azimuth φ: g = cos φ e1 + sin φ e2, column i holds φ = 2π i/azimuths;   s = φ/2π + ½/azimuths
 ///   v_g: row j holds v_g = 2j/(views−1) − 1, both ends included;   t = (½(v_g+1)(views−1) + ½)/views
 struct PlanarMap {
@@ -23,16 +25,20 @@ struct PlanarMap {
     glm::dvec3 e1{1.0, 0.0, 0.0};  ///< (e1, e2, n) right-handed, world axes
     glm::dvec3 e2{0.0, 1.0, 0.0};
     glm::dvec3 n{0.0, 0.0, 1.0};
-    std::vector<glm::vec3> xyz;  ///< row by row of the texture: index j·azimuths + i
+    std::optional<PitchAxis> pitch{};
+    std::vector<glm::vec3> xyz;  ///< row by row of the texture: index (slice·views + j)·azimuths + i
+
+    int slices() const { return pitch ? pitch->nodes : 1; }
 };
 
 struct PlanarMapSize {
     int azimuths = 128;  ///< even, ≥ 4
     int views = 128;     ///< ≥ 8
+    std::optional<PitchAxis> pitch{};
 };
 
 /// What is shown while a larger map is filled: within 10 ms of a tilt on two cores.
-inline constexpr PlanarMapSize kCoarsePlanarMap{.azimuths = 64, .views = 64};
+inline constexpr PlanarMapSize kCoarsePlanarMap{.azimuths = 64, .views = 64, .pitch = std::nullopt};
 
 /// Fills a map with values for linear interpolation: they are not the radiance at the nodes. `normal`: unit.
 /// `zero_order_xyz`: as of ColourKernel. `cover`: T(s_n) is in the map, T(v_n) is not. Light is spread over the
@@ -43,10 +49,11 @@ PlanarMap fill_planar_map(const lighting::LightSamples& texels, const KernelTabl
                           const glm::dmat3& zero_order_xyz = glm::dmat3(0.0),
                           const std::optional<Cover>& cover = std::nullopt, const std::stop_token& stop = {});
 
-/// XYZ at an azimuth (radians, unbounded) and a v_g, as the texture unit interpolates.
-glm::dvec3 sample(const PlanarMap& map, double azimuth, double v_g);
+/// XYZ at an azimuth (radians, unbounded) and a v_g, as the texture unit interpolates. The pitch factor is for maps
+/// with a pitch axis.
+glm::dvec3 sample(const PlanarMap& map, double azimuth, double v_g, double pitch_factor = 1.0);
 
 /// XYZ of a point whose normal is the map's; black for a view below the horizon.
-glm::dvec3 sample(const PlanarMap& map, const ShadingPoint& frame);
+glm::dvec3 sample(const PlanarMap& map, const ShadingPoint& frame, double pitch_factor = 1.0);
 
 }  // namespace rowland::diffraction

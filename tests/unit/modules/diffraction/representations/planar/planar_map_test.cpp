@@ -186,6 +186,31 @@ TEST(PlanarMap, ASmallLampIsAsBrightBetweenAzimuthsAsAtThem) {
     EXPECT_LT(largest, 1.7 * mean);
 }
 
+/// The steps between pitches that groove textures get. Order 1 moves by 16 nm from slice to slice.
+TEST(PlanarMap, PitchesBetweenSlicesAreInterpolated) {
+    lighting::LightSamples lamp;
+    lamp.push_back({0.4, 0.5, std::sqrt(1.0 - 0.41)}, glm::dvec3(1.0));
+    const KernelTable kernel = tabulate(ColourKernel(test::compact_disc(), colour::LightSpectra()));
+    const glm::dvec3 n(0, 0, 1);
+    const PitchAxis axis{.smallest = 0.8, .largest = 1.9, .nodes = 31};
+    const PlanarMap map = fill_planar_map(lamp, kernel, 1600.0, n, {64, 64, axis});
+    EXPECT_EQ(map.xyz.size(), 64U * 64U * 31U);
+    for (const double position : {0.0, 0.5, 0.525, 0.975, 1.0}) {
+        const double factor = axis.smallest * std::pow(axis.largest / axis.smallest, position);
+        const PlanarMap one = fill_planar_map(lamp, kernel, factor * 1600.0, n, {64, 64});
+        std::vector<glm::dvec3> expected;
+        std::vector<glm::dvec3> found;
+        for (int i = 0; i < 300; ++i) {
+            const double v_g = 0.8 * std::sin(1.7 * i);
+            expected.push_back(sample(one, 0.1 * i, v_g));
+            found.push_back(sample(map, 0.1 * i, v_g, factor));
+        }
+        const double error = relative_rms(found, expected);
+        RecordProperty(fmt::format("position_{}", static_cast<int>(1000.0 * position)), fmt::format("{:.3g}", error));
+        EXPECT_LT(error, 0.02) << position;
+    }
+}
+
 TEST(PlanarMap, AnyNumberOfThreadsGivesTheSameMap) {
     const auto texels = texels_of({.bands = 2, .coefficients = std::vector<glm::dvec3>(4, glm::dvec3(1, 2, 0.5))}, 128);
     const KernelTable kernel = tabulate(ColourKernel(test::compact_disc(), colour::LightSpectra()));
