@@ -58,6 +58,12 @@ FrameVariant with_effect(FrameVariant variant, const std::string& suffix, Effect
     return variant;
 }
 
+FrameVariant with_cover(FrameVariant variant) {
+    variant.name += "/cover";
+    variant.material["cover"] = {{"ior", 1.58}};
+    return variant;
+}
+
 FrameVariant with_groove_map(FrameVariant variant) {
     variant.name += "/groove-map";
     variant.groove_map = true;
@@ -159,6 +165,7 @@ std::vector<FrameVariant> all_variants() {
             variants.push_back(with_groove_map(grating(drawn, "", "plain")));
         if (drawn.name == "arc" || drawn.name == "planar" || drawn.name == "direct")
             variants.push_back(with_shadow(grating(drawn, "", "plain")));
+        if (drawn.name == "planar/pits") variants.push_back(with_cover(grating(drawn, "", "plain")));
         if (drawn.name == "planar") variants.push_back(moving(grating(drawn, "/spinning", "plain"), Motion::Spinning));
         if (drawn.name != "direct")
             add_lamps_in_probe(drawn, variants);

@@ -59,17 +59,6 @@ void fill_planar(State& state, int side) {
                                        .xyz.data());
 }
 
-/// A frame's part of the work while the map fills: 8 of 128 azimuths.
-void fill_planar_in_part(State& state) {
-    const glm::dvec3 normal = glm::normalize(glm::dvec3(0.2, 0.9, 0.3));
-    const diffraction::PlanarFill fill(studio_texels(), cd().kernel, cd().material.grating.pitch_nm, normal);
-    diffraction::PlanarMap map = fill.empty();
-    for (auto _ : state) {
-        fill.fill(0, 8, map);
-        ::benchmark::DoNotOptimize(map.xyz.data());
-    }
-}
-
 /// A map of Stam's pits: what a thread fills after a tilt, first the coarse one.
 void fill_lobe(State& state, const diffraction::LobeMapSize& size) {
     const glm::dvec3 normal = glm::normalize(glm::dvec3(0.2, 0.9, 0.3));
@@ -103,7 +92,6 @@ void add(const std::string& name, F function, Arguments... arguments) {
 
 void register_map_fills() {
     for (const int side : {64, 128, 256}) add("planar_fill/side:" + std::to_string(side), fill_planar, side);
-    add("planar_fill/side:128/azimuths:8", fill_planar_in_part);
     add("planar_lobe_fill/64x64x32", fill_lobe, diffraction::kCoarseLobeMap);
     add("planar_lobe_fill/352x128x128", fill_lobe, diffraction::LobeMapSize{});
     for (const int side : {32, 64}) add("circle_fill/side:" + std::to_string(side), fill_circle, side);

@@ -21,7 +21,7 @@ using PointShader = std::function<glm::dvec3(const ShadingPoint&)>;
 
 /// The parts of a baked material that maps are filled from.
 struct MaterialKernel {
-    const KernelTable& kernel;
+    KernelTable kernel;
     double pitch_nm = 0.0;
     glm::dmat3 zero_order_xyz{0.0};  ///< ColourKernel::zero_order_xyz()
     std::optional<Cover> cover = std::nullopt;

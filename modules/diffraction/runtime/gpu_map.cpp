@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <utility>
 
 #include "modules/diffraction/runtime/bindings.h"
 
@@ -28,16 +28,12 @@ float largest_component(std::span<const glm::vec4> values) {
     return largest_of(values);
 }
 
-GpuMap::GpuMap(std::span<const glm::vec3> xyz, const gpu::TextureDesc& desc, const gpu::Sampling& sampling)
-    : GpuMap(desc, sampling, largest_component(xyz)) {
-    std::vector<glm::vec3> stored(xyz.size());
-    std::transform(xyz.begin(), xyz.end(), stored.begin(), [&](const glm::vec3& value) { return value / scale_; });
-    texture_.upload(std::span<const glm::vec3>(stored), {.layers = desc.depth});
-}
-
-GpuMap::GpuMap(gpu::TextureDesc desc, const gpu::Sampling& sampling, float scale) : scale_(scale) {
+GpuMap::GpuMap(gpu::TextureDesc desc, const gpu::Sampling& sampling, float scale, GpuMap spare) : scale_(scale) {
     desc.format = gpu::Format::RGBA16F;
-    texture_ = gpu::Texture(desc, sampling);
+    const gpu::TextureDesc& old = spare.texture_.desc();
+    const bool fits = spare.texture_.id() != 0 && old.kind == desc.kind && old.width == desc.width &&
+                      old.height == desc.height && old.depth == desc.depth && old.levels == desc.levels;
+    texture_ = fits ? std::move(spare.texture_) : gpu::Texture(desc, sampling);
 }
 
 void GpuMap::bind(const gpu::Program& program) const {

@@ -18,12 +18,10 @@ float largest_component(std::span<const glm::vec4> values);
 class GpuMap {
  public:
     GpuMap() = default;
-    /// `xyz` in the order of the texture's rows and slices.
-    GpuMap(std::span<const glm::vec3> xyz, const gpu::TextureDesc& desc, const gpu::Sampling& sampling);
-
     /// A map without values. `scale`: the largest component to come. upload() takes halves divided by it, four per
-    /// texel.
-    GpuMap(gpu::TextureDesc desc, const gpu::Sampling& sampling, float scale);
+    /// texel. `spare` is a map that is no longer shown: its texture is used again if it has the size. Maps of one size
+    /// are sampled in one way.
+    GpuMap(gpu::TextureDesc desc, const gpu::Sampling& sampling, float scale, GpuMap spare);
     void upload(std::span<const std::uint16_t> halves, gpu::TextureSlice slice) { texture_.upload(halves, slice); }
 
     void bind(const gpu::Program& program) const;

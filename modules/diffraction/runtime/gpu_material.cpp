@@ -32,8 +32,10 @@ static_assert(std::tuple_size_v<GpuClasses> == kRepresentationCount);
 GpuMaterial::GpuMaterial(const CookedMaterial& cooked, const glm::dmat3& xyz_to_working)
     : cooked_(std::make_shared<const CookedMaterial>(cooked)),
       base_{.base_colour = cooked.material.base.colour, .metallic = 0.0F, .roughness = cooked.material.base.roughness},
-      working_kernel_(in_space(cooked.kernel, xyz_to_working)),
-      working_zero_order_(xyz_to_working * cooked.zero_order_xyz),
+      working_material_{.kernel = in_space(cooked.kernel, xyz_to_working),
+                        .pitch_nm = cooked.material.grating.pitch_nm,
+                        .zero_order_xyz = xyz_to_working * cooked.zero_order_xyz,
+                        .cover = cooked.material.grating.cover},
       even_kernel_(is_even(cooked.kernel)),
       key_lights_(cooked.material.quality.key_lights),
       separate_lights_(key_lights_ || info(cooked.tables).is_map),

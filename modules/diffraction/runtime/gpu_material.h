@@ -13,6 +13,7 @@
 #include "engine/render/material.h"
 #include "engine/scene/mesh.h"
 #include "modules/diffraction/asset/cooked_material.h"
+#include "modules/diffraction/representations/point_shader.h"
 #include "modules/diffraction/runtime/gpu_kernel.h"
 #include "modules/diffraction/runtime/groove_map.h"
 #include "modules/diffraction/runtime/map_filling.h"
@@ -82,8 +83,7 @@ class GpuMaterial {
     GpuMaterial(const CookedMaterial& cooked, const glm::dmat3& xyz_to_working);
 
     /// The kernel and order 0 of cooked() in the working space.
-    const KernelTable& working_kernel() const { return working_kernel_; }
-    const glm::dmat3& working_zero_order() const { return working_zero_order_; }
+    const MaterialKernel& working_material() const { return working_material_; }
 
     /// The representation's shader files and defines.
     virtual void describe(const SurfaceState& state, gpu::ProgramDesc& desc) const = 0;
@@ -100,8 +100,7 @@ class GpuMaterial {
     render::StandardMaterial base_;
     glm::vec3 mirror_weight_{0.0F};
     glm::vec3 base_weight_{1.0F};
-    KernelTable working_kernel_;
-    glm::dmat3 working_zero_order_;
+    MaterialKernel working_material_;
     bool even_kernel_;  ///< k(−x) = k(x)
     bool key_lights_;
     bool separate_lights_;  ///< directional lights are shaded light by light

@@ -56,13 +56,14 @@ void MapFilling::want(const MapInput& input, const std::shared_ptr<const FillMap
 }
 
 void MapFilling::begin_upload(Filled filled) {
-    upload_.emplace(std::move(filled.map->texels));
+    upload_.emplace(std::move(filled.map->texels), std::exchange(spare_, {}));
     uploading_ = std::move(filled);
 }
 
 void MapFilling::upload(int slices) {
     // A coarse map is small.
     if (!upload_ || !upload_->upload(uploading_->detail == MapDetail::Full ? slices : kAllSlices)) return;
+    if (map_) spare_ = std::move(*map_);
     map_ = upload_->take();
     upload_.reset();
     shown_ = std::exchange(uploading_, std::nullopt);

@@ -76,6 +76,7 @@ class MapFilling {
     std::optional<MapUpload> upload_;  ///< of uploading_
     std::optional<Filled> uploading_;
     std::optional<GpuMap> map_;
+    GpuMap spare_;                 ///< the map before it, whose texture the next one of its size takes
     std::optional<Filled> shown_;  ///< what map_ is
     int fills_begun_ = 0;
     int maps_shown_ = 0;

@@ -54,8 +54,8 @@ MapTexels pack(std::span<const std::vector<glm::vec4>> levels, gpu::TextureDesc 
     return packed(levels, desc, sampling);
 }
 
-MapUpload::MapUpload(MapTexels texels)
-    : texels_(std::move(texels)), map_(texels_.desc, texels_.sampling, texels_.scale) {}
+MapUpload::MapUpload(MapTexels texels, GpuMap spare)
+    : texels_(std::move(texels)), map_(texels_.desc, texels_.sampling, texels_.scale, std::move(spare)) {}
 
 bool MapUpload::upload(int slices) {
     for (int left = std::max(1, slices); left > 0 && level_ < texels_.levels.size();) {

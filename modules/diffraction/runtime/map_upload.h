@@ -27,7 +27,8 @@ MapTexels pack(std::span<const std::vector<glm::vec4>> levels, gpu::TextureDesc 
 /// Uploads a map, some slices at a time.
 class MapUpload {
  public:
-    explicit MapUpload(MapTexels texels);
+    /// Into the texture of `spare`, if it fits.
+    explicit MapUpload(MapTexels texels, GpuMap spare = {});
 
     /// Uploads up to so many slices, at least one; true when all are uploaded.
     bool upload(int slices);

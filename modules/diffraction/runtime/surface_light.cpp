@@ -16,6 +16,7 @@
 namespace rowland::diffraction {
 
 static_assert(lighting::kMaximumKeyLights <= ROWLAND_MAXIMUM_KEY_LOBES);
+static_assert(kLobeTableOctaves == ROWLAND_LOBE_TABLE_OCTAVES && kLobeTableStart == ROWLAND_LOBE_TABLE_START);
 
 namespace {
 

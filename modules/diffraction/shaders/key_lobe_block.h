@@ -7,6 +7,9 @@ namespace rowland::diffraction {
 using glm::vec4;
 #endif
 #define ROWLAND_MAXIMUM_KEY_LOBES 64
+// Rows of a light's table: direct/lobe_table.h.
+#define ROWLAND_LOBE_TABLE_OCTAVES 28
+#define ROWLAND_LOBE_TABLE_START (-18)
 struct KeyLobe {
     vec4 direction;  // xyz: unit, toward the light; w: concentration
     vec4 flux;       // xyz: linear Rec.709 radiance * sr; w: their largest

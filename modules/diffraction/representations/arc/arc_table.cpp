@@ -80,10 +80,6 @@ MatrixXd leading_weights(const MatrixXd& table, Eigen::Index rank) {
     return decomposition.matrixU().leftCols(rank);
 }
 
-double pitch_factor_at(const PitchAxis& axis, int node) {
-    return axis.smallest * std::pow(axis.largest / axis.smallest, static_cast<double>(node) / (axis.nodes - 1));
-}
-
 void put(const std::vector<glm::dmat3>& terms, std::span<const double> signs, Eigen::Index row, MatrixXd& table) {
     for (std::size_t k = 0; k < terms.size(); ++k)
         for (int c = 0; c < 3; ++c)
@@ -101,7 +97,7 @@ MatrixXd tabulate(const Grating& grating, const ArcTable& table, const colour::I
                     light_term_count(table.terms, table.bands) * kTermColumns);
     if (is_flat(grating.lobe)) {
         parallel_for(columns * rows, [&](std::size_t texel) {
-            const double factor = table.pitch ? pitch_factor_at(*table.pitch, static_cast<int>(texel / columns)) : 1.0;
+            const double factor = table.pitch ? table.pitch->factor_at(static_cast<int>(texel / columns)) : 1.0;
             const double v_g = node_view(table.grid, static_cast<int>(texel % columns), 0).x;
             put(table.terms == LightTerms::ArcMoments ? terms.moments(v_g, factor)
                                                       : terms.coefficients(v_g, 0.0, factor),
@@ -197,10 +193,10 @@ glm::dvec3 shade(const ArcTable& table, std::span<const glm::dvec3> products, co
     const auto columns = static_cast<std::size_t>(table.grid.columns);
     BilinearLookup place = look_up(table.grid, view.x, view.y, view.z);
     if (table.pitch) {
-        const double position =
-            std::log(pitch_factor / table.pitch->smallest) / std::log(table.pitch->largest / table.pitch->smallest);
-        place = combine(look_up_axis(0.5 + 0.5 * view.x, columns),
-                        look_up_axis(position, static_cast<std::size_t>(table.pitch->nodes)), columns);
+        place =
+            combine(look_up_axis(0.5 + 0.5 * view.x, columns),
+                    look_up_axis(table.pitch->position_of(pitch_factor), static_cast<std::size_t>(table.pitch->nodes)),
+                    columns);
     }
     const std::size_t texels = columns * static_cast<std::size_t>(table.rows());
     for (std::size_t r = 0; r < products.size(); ++r)

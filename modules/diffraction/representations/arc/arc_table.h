@@ -9,6 +9,7 @@
 #include "engine/colour/light_spectra.h"
 #include "engine/lighting/sh_light.h"
 #include "modules/diffraction/bake/packed_texels.h"
+#include "modules/diffraction/bake/pitch_axis.h"
 #include "modules/diffraction/bake/view_mapping.h"
 #include "modules/diffraction/model/grating.h"
 #include "modules/diffraction/representations/descriptor.h"
@@ -20,15 +21,6 @@ namespace rowland::diffraction {
 enum class LightTerms : std::uint8_t {
     ArcMoments = 0,  ///< 2n−1 moments of the arc profile (arc_moments.h); flat lobe in air
     Harmonics = 1,   ///< n² SH coefficients; any grating
-};
-
-/// Pitches that vary over the surface: factors of the material's pitch, at equal steps of their logarithm.
-struct PitchAxis {
-    double smallest = 0.5;  ///< > 0
-    double largest = 2.0;   ///< > smallest
-    int nodes = 32;         ///< ≥ 2
-
-    friend bool operator==(const PitchAxis&, const PitchAxis&) = default;
 };
 
 /// The transfer table as a product (the principal components that the paper suggests, PHYSICS §5):

@@ -33,20 +33,13 @@ ViewGrid weight_grid(const ArcTable& table) {
     return grid;
 }
 
-std::optional<glm::vec2> pitch_scale_bias(const std::optional<PitchAxis>& axis) {
-    if (!axis) return std::nullopt;
-    const double nodes = axis->nodes;
-    const double scale = (nodes - 1.0) / nodes / std::log(axis->largest / axis->smallest);
-    return glm::vec2(glm::dvec2(scale, 0.5 / nodes - scale * std::log(axis->smallest)));
-}
-
 }  // namespace
 
 GpuArc::GpuArc(const CookedMaterial& cooked, const ArcTable& table, const glm::dmat3& xyz_to_working)
     : GpuMaterial(cooked, xyz_to_working),
       products_(table, xyz_to_working),
       weights_(table, weight_grid(table)),
-      pitch_scale_bias_(pitch_scale_bias(table.pitch)) {}
+      pitch_(table.pitch) {}
 
 std::vector<glm::vec4> GpuArc::grooved_products(const SurfaceObject& object, const lighting::ShLight& light,
                                                 SurfaceState& state) const {
@@ -79,7 +72,7 @@ void GpuArc::describe(const SurfaceState& state, gpu::ProgramDesc& desc) const {
     set_shaders(desc, turns ? "shaders/pixel_shaded.vert.glsl" : "representations/arc/arc.vert.glsl",
                 "representations/arc/arc.frag.glsl");
     if (turns) desc.defines.push_back({"TURNS", std::to_string(products_.bands())});
-    if (pitch_scale_bias_ && state.grooves) desc.defines.push_back({"PITCH_AXIS", "1"});
+    if (pitch_ && state.grooves) desc.defines.push_back({"PITCH_AXIS", "1"});
     desc.defines.push_back({"LAYERS", std::to_string(products_.layers())});
     weights_.add_defines(desc);
 }
@@ -87,7 +80,7 @@ void GpuArc::describe(const SurfaceState& state, gpu::ProgramDesc& desc) const {
 void GpuArc::bind_tables(const gpu::Program& program, const SurfaceState& state) const {
     weights_.bind();
     state.vertex_light.bind_storage(kVertexLightBinding);
-    if (pitch_scale_bias_) program.set("pitch_scale_bias", *pitch_scale_bias_);
+    if (pitch_) program.set("pitch_scale_bias", glm::vec2(pitch_->scale_bias()));
     if (const ArcPlane* plane = plane_of(state)) {
         program.set("arc_e1", plane->e1);
         program.set("arc_e2", plane->e2);

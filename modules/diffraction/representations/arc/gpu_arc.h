@@ -27,7 +27,7 @@ class GpuArc final : public GpuMaterial {
 
     ArcProducts products_;
     GpuTable weights_;
-    std::optional<glm::vec2> pitch_scale_bias_;  ///< scale and offset from log f to the weights' second coordinate
+    std::optional<PitchAxis> pitch_;
 };
 
 }  // namespace rowland::diffraction

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -46,16 +45,14 @@ MapTexels in_layout(const CircleMap& map) {
 }
 
 struct Filling {
-    KernelTable kernel;
-    glm::dmat3 zero_order;
-    double pitch_nm;
-    std::optional<Cover> cover;
+    MaterialKernel material;
     CircleMapSize full;
 
     FilledMap operator()(const MapInput& input, MapDetail detail, const std::stop_token& stop) const {
         CircleMapSize size = full;
         if (detail == MapDetail::Coarse) size.side = std::min(size.side, kCoarseCircleSide);
-        const CircleMap map = fill_circle_map(*input.texels, kernel, pitch_nm, size, zero_order, cover, stop);
+        const CircleMap map = fill_circle_map(*input.texels, material.kernel, material.pitch_nm, size,
+                                              material.zero_order_xyz, material.cover, stop);
         if (stop.stop_requested()) return {};
         return {.texels = in_layout(map), .set_uniforms = [scale = map.scale()](const gpu::Program& program) {
                     program.set("circle_map_scale", static_cast<float>(scale));
@@ -68,10 +65,8 @@ struct Filling {
 GpuCircle::GpuCircle(const CookedMaterial& cooked, const CircleTables& tables, const glm::dmat3& xyz_to_working)
     : GpuMaterial(cooked, xyz_to_working),
       size_(tables.size),
-      charts_(chart_count(working_kernel())),
-      fill_(std::make_shared<const FillMap>(Filling{working_kernel(), working_zero_order(),
-                                                    cooked.material.grating.pitch_nm, cooked.material.grating.cover,
-                                                    tables.size})) {}
+      charts_(chart_count(working_material().kernel)),
+      fill_(std::make_shared<const FillMap>(Filling{working_material(), tables.size})) {}
 
 void GpuCircle::update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const {
     if (!state.data) state.data = std::make_unique<CircleData>();

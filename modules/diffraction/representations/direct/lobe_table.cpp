@@ -11,8 +11,7 @@ namespace rowland::diffraction {
 namespace {
 
 constexpr int kRowsPerOctave = 2;
-/// Variances up to 1/16, on either side of n.
-constexpr int kRows = 2 * kRowsPerOctave * 14;
+constexpr int kRows = kRowsPerOctave * kLobeTableOctaves;
 /// Farther along g, half of a lobe is below the horizon.
 constexpr double kSteepest = 0.9995;
 
@@ -21,7 +20,7 @@ double cell_centre(int cell, int cells) {
 }
 
 double row_coordinate(double s_g, double variance) {
-    return 0.5 + std::copysign(std::log2(1.0 + variance / kLeastLobeVariance) * kRowsPerOctave / kRows, s_g);
+    return 0.5 + std::copysign(std::log2(1.0 + variance / kLeastLobeVariance) / kLobeTableOctaves, s_g);
 }
 
 /// Variance of s_g.
@@ -37,7 +36,7 @@ struct RowSetting {
 };
 
 RowSetting row_setting(const lighting::LobeMoments& moments, double t) {
-    const double variance = kLeastLobeVariance * (std::exp2(std::abs(t - 0.5) * kRows / kRowsPerOctave) - 1.0);
+    const double variance = kLeastLobeVariance * (std::exp2(std::abs(t - 0.5) * kLobeTableOctaves) - 1.0);
     const double wider = variance - moments.variance_across;
     if (wider >= 0.0) return {.s_g = 0.0, .footprint = std::sqrt(3.0 * wider)};
     const double s_g = std::sqrt(wider / (moments.variance_along - moments.variance_across));

@@ -27,8 +27,11 @@ struct LobeTable {
     glm::dvec3 at(double s_g, double variance, double x_nm) const;
 };
 
-/// The table does not resolve variances below it.
-inline constexpr double kLeastLobeVariance = 1.0 / (1 << 18);
+/// The table does not resolve variances below two to this power.
+inline constexpr int kLobeTableStart = -18;
+inline constexpr double kLeastLobeVariance = 1.0 / (1 << -kLobeTableStart);
+/// From the least variance to 1/16, on either side of n.
+inline constexpr int kLobeTableOctaves = 2 * 14;
 
 /// Mean of s_n⁺ over a lobe of concentration κ, whose s_n counts as normal; s_n is that of its direction.
 double lobe_height(double concentration, double s_n);

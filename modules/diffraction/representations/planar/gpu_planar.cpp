@@ -35,9 +35,10 @@ GpuPlanar::GpuPlanar(const CookedMaterial& cooked, const PlanarTables& tables, c
       stand_in_([material = this->cooked(), table = tables.stand_in, xyz_to_working] {
           return std::make_unique<const GpuArc>(*material, *table, xyz_to_working);
       }),
-      fill_(planar_filling(tables, working_kernel(), working_zero_order(), cooked.material.grating, xyz_to_working)),
+      fill_(planar_filling(tables, working_material(), xyz_to_working)),
       lobe_map_(tables.lobe.has_value()),
-      half_turn_(tables.lobe && tables.lobe->pattern.even) {}
+      half_turn_(tables.lobe && tables.lobe->pattern.even),
+      pitch_axis_(tables.size.pitch.has_value()) {}
 
 void GpuPlanar::find_flatness(const SurfaceObject& object, const SurfaceState& state, PlanarData& data) const {
     if (data.mesh == state.mesh && state.mesh) return;
@@ -80,6 +81,7 @@ void GpuPlanar::describe(const SurfaceState& state, gpu::ProgramDesc& desc) cons
         set_vertex_shader(desc, "representations/planar/planar.vert.glsl");
     else
         set_shaders(desc, "shaders/pixel_shaded.vert.glsl", "representations/planar/planar.frag.glsl");
+    if (pitch_axis_) desc.defines.push_back({"PITCH_AXIS", "1"});
     if (lobe_map_) desc.defines.push_back({"LOBE_MAP", "1"});
     if (half_turn_) desc.defines.push_back({"HALF_TURN", "1"});
 }

@@ -42,6 +42,7 @@ class GpuPlanar final : public GpuMaterial {
     std::shared_ptr<const FillMap> fill_;
     bool lobe_map_;   ///< of a lobe that is not flat
     bool half_turn_;  ///< such a map has half of the azimuths
+    bool pitch_axis_;
 };
 
 }  // namespace rowland::diffraction

@@ -115,7 +115,8 @@ ShadingCost cost(const PlanarTables& tables) {
     const auto of = [](int count) { return static_cast<std::size_t>(count); };
     const std::size_t texels = tables.lobe ? of(slices(tables.lobe->size, tables.lobe->pattern.even)) *
                                                  of(tables.lobe->size.views.g) * of(tables.lobe->size.views.h)
-                                           : of(tables.size.azimuths) * of(tables.size.views);
+                                           : of(tables.size.azimuths) * of(tables.size.views) *
+                                                 of(tables.size.pitch ? tables.size.pitch->nodes : 1);
     return {.fetches_per_pixel = 1, .multiply_adds_per_pixel = 12, .table_bytes = texels * kHalfTexel};
 }
 

@@ -5,6 +5,8 @@
 
 #ifdef LOBE_MAP
 vec3 diffracted_radiance(GrooveView view) { return map_radiance(view.direction.xy, view.axes[0]); }
+#elif defined(PITCH_AXIS)
+vec3 diffracted_radiance(GrooveView view) { return map_radiance_of_pitch(view.direction.x, view.axes[0], view.pitch); }
 #else
 vec3 diffracted_radiance(GrooveView view) { return map_radiance(view.direction.x, view.axes[0], view.axes[2]); }
 #endif

@@ -4,7 +4,6 @@
 #include <array>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
-#include <optional>
 #include <utility>
 
 #include "modules/diffraction/representations/planar/lobe_map.h"
@@ -14,9 +13,11 @@ namespace rowland::diffraction {
 
 namespace {
 
-PlanarMapSize coarser(const PlanarMapSize& size) {
-    return {.azimuths = std::min(kCoarsePlanarMap.azimuths, size.azimuths),
-            .views = std::min(kCoarsePlanarMap.views, size.views)};
+PlanarMapSize coarser(PlanarMapSize size) {
+    size.azimuths = std::min(kCoarsePlanarMap.azimuths, size.azimuths);
+    size.views = std::min(kCoarsePlanarMap.views, size.views);
+    if (size.pitch) size.pitch->nodes = std::max(2, size.pitch->nodes / 4);
+    return size;
 }
 
 LobeMapSize coarser(const LobeMapSize& size) {
@@ -32,22 +33,23 @@ void set_axes(const gpu::Program& program, const glm::dvec3& e1, const glm::dvec
 
 /// Maps of flat lobe.
 struct FlatFilling {
-    KernelTable kernel;
-    glm::dmat3 zero_order;
-    double pitch_nm;
-    std::optional<Cover> cover;
+    MaterialKernel material;
     PlanarMapSize full;
 
     FilledMap operator()(const MapInput& input, MapDetail detail, const std::stop_token& stop) const {
         const PlanarMapSize size = detail == MapDetail::Full ? full : coarser(full);
-        PlanarMap map = fill_planar_map(*input.texels, kernel, pitch_nm, input.normal, size, zero_order, cover, stop);
+        PlanarMap map = fill_planar_map(*input.texels, material.kernel, material.pitch_nm, input.normal, size,
+                                        material.zero_order_xyz, material.cover, stop);
         const std::array levels{std::move(map.xyz)};
-        return {.texels = pack(levels, {.width = map.azimuths, .height = map.views},
-                               {.filter = gpu::Filter::Linear, .wrap_s = gpu::Wrap::Repeat}),
-                .set_uniforms = [e1 = map.e1, e2 = map.e2, size](const gpu::Program& program) {
-                    set_axes(program, e1, e2);
-                    program.set("planar_map_half_texel", glm::vec2(0.5 / glm::dvec2(size.azimuths, size.views)));
-                }};
+        const auto kind = map.pitch ? gpu::TextureKind::Volume : gpu::TextureKind::Plane;
+        return {
+            .texels = pack(levels, {.kind = kind, .width = map.azimuths, .height = map.views, .depth = map.slices()},
+                           {.filter = gpu::Filter::Linear, .wrap_s = gpu::Wrap::Repeat}),
+            .set_uniforms = [e1 = map.e1, e2 = map.e2, size](const gpu::Program& program) {
+                set_axes(program, e1, e2);
+                if (size.pitch) program.set("pitch_scale_bias", glm::vec2(size.pitch->scale_bias()));
+                program.set("planar_map_half_texel", glm::vec2(0.5 / glm::dvec2(size.azimuths, size.views)));
+            }};
     }
 };
 
@@ -82,12 +84,9 @@ struct LobeFilling {
 
 }  // namespace
 
-std::shared_ptr<const FillMap> planar_filling(const PlanarTables& tables, const KernelTable& kernel,
-                                              const glm::dmat3& zero_order, const Grating& grating,
+std::shared_ptr<const FillMap> planar_filling(const PlanarTables& tables, const MaterialKernel& material,
                                               const glm::dmat3& xyz_to_working) {
-    if (!tables.lobe)
-        return std::make_shared<const FillMap>(
-            FlatFilling{kernel, zero_order, grating.pitch_nm, grating.cover, tables.size});
+    if (!tables.lobe) return std::make_shared<const FillMap>(FlatFilling{material, tables.size});
     const DiffractionPattern pattern = in_space(tables.lobe->pattern, xyz_to_working);
     const auto level = [&](const LobeMapSize& size) {
         return LobeFilling::Level{size.azimuths, LobeSpectrum(pattern, size.views)};

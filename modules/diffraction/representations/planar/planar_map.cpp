@@ -1,15 +1,18 @@
 #include "modules/diffraction/representations/planar/planar_map.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <vector>
 
 #include "engine/core/check.h"
 #include "engine/core/parallel.h"
 #include "modules/diffraction/bake/kernel_cells.h"
 #include "modules/diffraction/bake/view_mapping.h"
+#include "modules/diffraction/representations/planar/light_disc.h"
 
 namespace rowland::diffraction {
 
@@ -17,16 +20,109 @@ namespace {
 
 using std::numbers::pi;
 
-using Disc = std::vector<float>;
+/// kBestLinear, and as much again for the light's spread over the azimuths between two nodes.
+constexpr float kBestAzimuth = 2.0F * kBestLinear;
 
-Disc transpose(const Disc& disc, int cells) {
-    Disc result(disc.size());
-    const auto side = static_cast<std::size_t>(cells);
+/// A(a) in cells of a, as flux: four floats (r, g, b, –) per cell.
+using ArcCells = std::vector<float>;
+
+/// The light of a plane seen along any g in it.
+class LightProjection {
+ public:
+    LightProjection(const LightDisc& disc, double azimuth_step);
+
+    /// A(a), averaged over the azimuths within half a step.
+    ArcCells at(double azimuth) const;
+
+ private:
+    int cells_;
+    double azimuth_step_;
+    std::vector<float> rows_;     ///< of the disc
+    std::vector<float> columns_;  ///< the same, transposed
+};
+
+LightProjection::LightProjection(const LightDisc& disc, double azimuth_step)
+    : cells_(disc.cells), azimuth_step_(azimuth_step), rows_(disc.fluxes), columns_(disc.fluxes.size()) {
+    const auto side = static_cast<std::size_t>(cells_);
     parallel_for(side, [&](std::size_t row) {
         for (std::size_t column = 0; column < side; ++column)
-            std::copy_n(disc.data() + (column * side + row) * 4, 4, result.data() + (row * side + column) * 4);
+            std::copy_n(rows_.data() + (column * side + row) * 4, 4, columns_.data() + (row * side + column) * 4);
     });
+}
+
+ArcCells LightProjection::at(double azimuth) const {
+    const double cosine = std::cos(azimuth);
+    const double sine = std::sin(azimuth);
+    // The inner loop runs along the axis where the cell of A changes fastest: consecutive sums are then independent.
+    const bool along_rows = std::abs(cosine) >= std::abs(sine);
+    const std::vector<float>& disc = along_rows ? rows_ : columns_;
+    const auto inner = static_cast<float>(along_rows ? cosine : sine);
+    const auto outer = static_cast<float>(along_rows ? sine : cosine);
+    const auto half_step = static_cast<float>(0.5 * azimuth_step_);
+    const auto side = static_cast<float>(cells_);
+    const float middle = 0.5F * (side - 1.0F);
+    // Where A changes from cell to cell: each texel's light begins and ends within two cells.
+    ArcCells changes((static_cast<std::size_t>(cells_) + 2) * 4, 0.0F);
+    const auto change_at = [&](float edge, const float* light, float density) {
+        const int cell = static_cast<int>(edge);
+        const float weight = edge - static_cast<float>(cell);
+        float* to = changes.data() + static_cast<std::ptrdiff_t>(cell) * 4;
+        add_scaled(to, light, (1.0F - weight) * density);
+        add_scaled(to + 4, light, weight * density);
+    };
+    for (int row = 0; row < cells_; ++row) {
+        const float y = static_cast<float>(row) - middle;
+        const auto [begin, end] = lit_columns(cells_, row);
+        const float* light = disc.data() + (static_cast<std::ptrdiff_t>(row) * cells_ + begin) * 4;
+        for (int column = begin; column < end; ++column, light += 4) {
+            const float x = static_cast<float>(column) - middle;
+            // In cells from the first one's edge. A texel is as wide as a cell at least.
+            const float centre = 0.5F * side + inner * x + outer * y;
+            const float half = std::max(0.5F, std::abs(outer * x - inner * y) * half_step);
+            const float first = std::clamp(centre - half, 0.0F, side - 1.0F);
+            const float last = std::clamp(centre + half, first + 1.0F, side);
+            const float density = 1.0F / (last - first);
+            change_at(first, light, density);
+            change_at(last, light, -density);
+        }
+    }
+    ArcCells profile(static_cast<std::size_t>(cells_) * 4);
+    std::array<double, 4> sum{};
+    for (std::size_t i = 0; i < profile.size(); ++i) profile[i] = static_cast<float>(sum[i % 4] += changes[i]);
+    return profile;
+}
+
+/// A half turn further.
+ArcCells mirrored(const ArcCells& profile) {
+    ArcCells result(profile.size());
+    for (std::size_t i = 0; i < profile.size(); i += 4)
+        std::copy_n(profile.data() + i, 4, result.data() + result.size() - 4 - i);
     return result;
+}
+
+/// Of each slice of a map.
+std::vector<KernelCells> kernels_of(const PlanarMap& map, const KernelTable& kernel, double pitch_nm,
+                                    const glm::dmat3& zero_order_xyz) {
+    std::vector<KernelCells> kernels;
+    for (int slice = 0; slice < map.slices(); ++slice)
+        kernels.emplace_back(kernel, map.pitch ? pitch_nm * map.pitch->factor_at(slice) : pitch_nm, map.views,
+                             zero_order_xyz);
+    return kernels;
+}
+
+/// A map's columns from the profiles at their azimuth and at the neighbours'.
+void fill_azimuth(const std::vector<KernelCells>& kernels, ArcCells here, const ArcCells& before, const ArcCells& after,
+                  std::size_t azimuth, PlanarMap& map) {
+    for (std::size_t k = 0; k < here.size(); ++k) here[k] -= kBestAzimuth * (before[k] - 2.0F * here[k] + after[k]);
+    const auto azimuths = static_cast<std::size_t>(map.azimuths);
+    const auto views = static_cast<std::size_t>(map.views);
+    std::vector<float> xyz(views * 4);
+    for (std::size_t slice = 0; slice < kernels.size(); ++slice) {
+        kernels[slice].correlate_rgb(here, xyz);
+        for (std::size_t view = 0; view < views; ++view)
+            map.xyz[(slice * views + view) * azimuths + azimuth] = {xyz[4 * view], xyz[4 * view + 1],
+                                                                    xyz[4 * view + 2]};
+    }
 }
 
 /// `position` ≥ 0, in columns.
@@ -38,138 +134,68 @@ AxisLookup look_up_repeating(double position, std::size_t count) {
 
 }  // namespace
 
-/// A(a) in cells of a, as flux: four floats per cell.
-struct PlanarFill::Profile {
-    std::vector<float> cells;
-};
-
-PlanarFill::PlanarFill(const lighting::LightSamples& texels, const KernelTable& kernel, double pitch_nm,
-                       const glm::dvec3& normal, const PlanarMapSize& size, const glm::dmat3& zero_order_xyz,
-                       const std::optional<Cover>& cover)
-    : size_(size), cells_(2 * (size.views - 1)), kernel_(kernel, pitch_nm, size.views, zero_order_xyz) {
-    ROWLAND_CHECK_OP(size.azimuths, >=, 4);
-    ROWLAND_CHECK_OP(size.azimuths % 2, ==, 0);
-    ROWLAND_CHECK_OP(size.views, >=, 8);
-    axes_ = plane_axes(normal);
-    rows_ = light_on_disc(texels, axes_, cover, cells_).fluxes;
-    columns_ = transpose(rows_, cells_);
-}
-
-PlanarMap PlanarFill::empty() const {
-    PlanarMap map{
-        .azimuths = size_.azimuths, .views = size_.views, .e1 = axes_.e1, .e2 = axes_.e2, .n = axes_.n, .xyz = {}};
-    map.xyz.resize(static_cast<std::size_t>(size_.azimuths) * static_cast<std::size_t>(size_.views), glm::vec3(0.0F));
-    return map;
-}
-
-PlanarFill::Profile PlanarFill::project(int azimuth) const {
-    const auto side = static_cast<std::size_t>(cells_);
-    Profile profile{.cells = std::vector<float>((side + 1) * 4, 0.0F)};
-    const double phi = 2.0 * pi * azimuth / size_.azimuths;
-    const double cosine = std::cos(phi);
-    const double sine = std::sin(phi);
-    // The inner loop runs along the axis where the cell of A changes fastest: consecutive sums are then independent.
-    const bool along_rows = std::abs(cosine) >= std::abs(sine);
-    const Disc& disc = along_rows ? rows_ : columns_;
-    const double inner = along_rows ? cosine : sine;
-    const double outer = along_rows ? sine : cosine;
-    const double middle = 0.5 * (cells_ - 1);
-    const float last = static_cast<float>(cells_ - 1);
-    for (int row = 0; row < cells_; ++row) {
-        const double y = row - middle;
-        const auto [begin, end] = lit_columns(cells_, row);
-        const float start = static_cast<float>(outer * y + middle - inner * middle);
-        const float step = static_cast<float>(inner);
-        const float* light = disc.data() + (static_cast<std::size_t>(row) * side) * 4;
-        for (int column = begin; column < end; ++column) {
-            const float position = std::clamp(start + step * static_cast<float>(column), 0.0F, last);
-            const int low = static_cast<int>(position);
-            const float weight = position - static_cast<float>(low);
-            float* to = profile.cells.data() + static_cast<std::ptrdiff_t>(low) * 4;
-            const float* from = light + static_cast<std::ptrdiff_t>(column) * 4;
-            add_scaled(to, from, 1.0F - weight);
-            add_scaled(to + 4, from, weight);
-        }
-    }
-    return profile;
-}
-
-PlanarFill::Profile PlanarFill::mirrored(const Profile& profile) const {
-    Profile result{.cells = std::vector<float>(profile.cells.size(), 0.0F)};
-    for (int cell = 0; cell < cells_; ++cell)
-        std::copy_n(profile.cells.data() + static_cast<std::ptrdiff_t>(cell) * 4, 4,
-                    result.cells.data() + static_cast<std::ptrdiff_t>(cells_ - 1 - cell) * 4);
-    return result;
-}
-
-void PlanarFill::correlate(const Profile& profile, int azimuth, PlanarMap& map) const {
-    std::vector<float> xyz(static_cast<std::size_t>(map.views) * 4);
-    kernel_.correlate_rgb(profile.cells, xyz);
-    for (int view = 0; view < map.views; ++view) {
-        const float* from = xyz.data() + static_cast<std::ptrdiff_t>(view) * 4;
-        map.xyz[static_cast<std::size_t>(view) * static_cast<std::size_t>(map.azimuths) +
-                static_cast<std::size_t>(azimuth)] = {from[0], from[1], from[2]};
-    }
-}
-
-void PlanarFill::fill(int begin, int end, PlanarMap& map, const std::stop_token& stop) const {
-    ROWLAND_CHECK(map.azimuths == size_.azimuths && map.views == size_.views, "a map of another size");
-    ROWLAND_CHECK(begin >= 0 && begin <= end && end <= size_.azimuths, "azimuths outside the map");
-    map.e1 = axes_.e1;
-    map.e2 = axes_.e2;
-    map.n = axes_.n;
-    const int half_turn = size_.azimuths / 2;
-    const auto wrap = [](int i, int count) { return (i % count + count) % count; };
-    // A rotation by π mirrors A: half of the projections suffice.
-    std::vector<char> needed(static_cast<std::size_t>(half_turn), 0);
-    for (int azimuth = begin - 1; azimuth <= end; ++azimuth)
-        if (begin < end) needed[static_cast<std::size_t>(wrap(azimuth, half_turn))] = 1;
-    std::vector<Profile> profiles(needed.size());
-    parallel_for(needed.size(), [&](std::size_t i) {
-        if (needed[i] != 0 && !stop.stop_requested()) profiles[i] = project(static_cast<int>(i));
-    });
-    if (stop.stop_requested()) return;
-    const auto profile_at = [&](int azimuth) {
-        const Profile& profile = profiles[static_cast<std::size_t>(wrap(azimuth, half_turn))];
-        return wrap(azimuth, size_.azimuths) < half_turn ? profile : mirrored(profile);
-    };
-    parallel_for(static_cast<std::size_t>(end - begin), [&](std::size_t i) {
-        if (stop.stop_requested()) return;
-        const int azimuth = begin + static_cast<int>(i);
-        Profile here = profile_at(azimuth);
-        const Profile before = profile_at(azimuth - 1);
-        const Profile after = profile_at(azimuth + 1);
-        for (std::size_t k = 0; k < here.cells.size(); ++k)
-            here.cells[k] -= kBestLinear * (before.cells[k] - 2.0F * here.cells[k] + after.cells[k]);
-        correlate(here, azimuth, map);
-    });
-}
-
 PlanarMap fill_planar_map(const lighting::LightSamples& texels, const KernelTable& kernel, double pitch_nm,
                           const glm::dvec3& normal, const PlanarMapSize& size, const glm::dmat3& zero_order_xyz,
                           const std::optional<Cover>& cover, const std::stop_token& stop) {
-    const PlanarFill fill(texels, kernel, pitch_nm, normal, size, zero_order_xyz, cover);
-    PlanarMap map = fill.empty();
-    fill.fill(0, size.azimuths, map, stop);
+    ROWLAND_CHECK_OP(size.azimuths, >=, 4);
+    ROWLAND_CHECK_OP(size.azimuths % 2, ==, 0);
+    ROWLAND_CHECK_OP(size.views, >=, 8);
+    const PlaneAxes axes = plane_axes(normal);
+    PlanarMap map{.azimuths = size.azimuths,
+                  .views = size.views,
+                  .e1 = axes.e1,
+                  .e2 = axes.e2,
+                  .n = axes.n,
+                  .pitch = size.pitch,
+                  .xyz = {}};
+    map.xyz.resize(static_cast<std::size_t>(size.azimuths) * static_cast<std::size_t>(size.views) *
+                       static_cast<std::size_t>(map.slices()),
+                   glm::vec3(0.0F));
+    const std::vector<KernelCells> kernels = kernels_of(map, kernel, pitch_nm, zero_order_xyz);
+    const double step = 2.0 * pi / size.azimuths;
+    const LightProjection light(light_on_disc(texels, axes, cover, kernels[0].cells()), step);
+    // A rotation by π mirrors A: half of the projections suffice.
+    std::vector<ArcCells> profiles(static_cast<std::size_t>(size.azimuths) / 2);
+    parallel_for(profiles.size(), [&](std::size_t i) {
+        if (!stop.stop_requested()) profiles[i] = light.at(step * static_cast<double>(i));
+    });
+    if (stop.stop_requested()) return map;
+    const auto profile_at = [&](std::size_t azimuth) {
+        const ArcCells& profile = profiles[azimuth % profiles.size()];
+        return azimuth / profiles.size() % 2 == 0 ? profile : mirrored(profile);
+    };
+    const auto azimuths = static_cast<std::size_t>(size.azimuths);
+    parallel_for(azimuths, [&](std::size_t i) {
+        if (!stop.stop_requested())
+            fill_azimuth(kernels, profile_at(i), profile_at(i + azimuths - 1), profile_at(i + 1), i, map);
+    });
     return map;
 }
 
-glm::dvec3 sample(const PlanarMap& map, double azimuth, double v_g) {
+glm::dvec3 sample(const PlanarMap& map, double azimuth, double v_g, double pitch_factor) {
     const double turns = azimuth / (2.0 * pi);
     const auto azimuths = static_cast<std::size_t>(map.azimuths);
     const AxisLookup s = look_up_repeating((turns - std::floor(turns)) * map.azimuths, azimuths);
     const AxisLookup t = look_up_axis(0.5 * (v_g + 1.0), static_cast<std::size_t>(map.views));
-    const auto at = [&](std::size_t column, std::size_t row) { return glm::dvec3(map.xyz[row * azimuths + column]); };
-    return glm::mix(glm::mix(at(s.first, t.first), at(s.second, t.first), s.weight),
-                    glm::mix(at(s.first, t.second), at(s.second, t.second), s.weight), t.weight);
+    const auto in_slice = [&](std::size_t slice) {
+        const glm::vec3* values = map.xyz.data() + slice * static_cast<std::size_t>(map.views) * azimuths;
+        const auto at = [&](std::size_t column, std::size_t row) {
+            return glm::dvec3(values[row * azimuths + column]);
+        };
+        return glm::mix(glm::mix(at(s.first, t.first), at(s.second, t.first), s.weight),
+                        glm::mix(at(s.first, t.second), at(s.second, t.second), s.weight), t.weight);
+    };
+    if (!map.pitch) return in_slice(0);
+    const AxisLookup r = look_up_axis(map.pitch->position_of(pitch_factor), static_cast<std::size_t>(map.pitch->nodes));
+    return glm::mix(in_slice(r.first), in_slice(r.second), r.weight);
 }
 
-glm::dvec3 sample(const PlanarMap& map, const ShadingPoint& frame) {
+glm::dvec3 sample(const PlanarMap& map, const ShadingPoint& frame, double pitch_factor) {
     const glm::dmat3 to_tangent = world_to_tangent(frame);
     const glm::dvec3 v = to_tangent * glm::normalize(frame.view);
     if (v.z <= 0.0) return glm::dvec3(0.0);
     const glm::dvec3 g(to_tangent[0][0], to_tangent[1][0], to_tangent[2][0]);
-    return sample(map, std::atan2(glm::dot(g, map.e2), glm::dot(g, map.e1)), v.x);
+    return sample(map, std::atan2(glm::dot(g, map.e2), glm::dot(g, map.e1)), v.x, pitch_factor);
 }
 
 }  // namespace rowland::diffraction

@@ -1,10 +1,15 @@
 // A flat object's map over the azimuth of g in its plane and v_g: planar_map.h. With LOBE_MAP it is
-// over v_h as well: lobe_map.h; with HALF_TURN over half of the azimuths.
+// over v_h as well: lobe_map.h; with HALF_TURN over half of the azimuths. With PITCH_AXIS it is over pitches as well.
 #ifdef LOBE_MAP
 layout(binding = 11) uniform sampler3D lobe_map;
 uniform vec4 lobe_map_axes;  // scales of v_g, v_h and the azimuth, offset of the azimuth
 #else
+#ifdef PITCH_AXIS
+layout(binding = 11) uniform sampler3D planar_map;
+uniform vec2 pitch_scale_bias;  // from the logarithm of the pitch factor to the map's third coordinate
+#else
 layout(binding = 11) uniform sampler2D planar_map;
+#endif
 uniform vec2 planar_map_half_texel;
 #endif
 uniform vec3 planar_e1;  // the azimuth's axes in the world
@@ -36,9 +41,18 @@ vec3 map_radiance(vec2 v, vec3 g) {
     return map_scale * textureLod(lobe_map, uvw, 0.0).xyz;
 }
 #else
-vec3 map_radiance(float v_g, vec3 g, vec3 n) {
+vec2 planar_map_uv(float v_g, vec3 g) {
     vec2 half_texel = planar_map_half_texel;
-    vec2 uv = vec2(turns(dot(g, planar_e2), dot(g, planar_e1)) + half_texel.x, 0.5 + v_g * (0.5 - half_texel.y));
-    return map_scale * textureLod(planar_map, uv, 0.0).xyz;
+    return vec2(turns(dot(g, planar_e2), dot(g, planar_e1)) + half_texel.x, 0.5 + v_g * (0.5 - half_texel.y));
 }
+#ifdef PITCH_AXIS
+vec3 map_radiance_of_pitch(float v_g, vec3 g, float pitch) {
+    float slice = log(pitch) * pitch_scale_bias.x + pitch_scale_bias.y;
+    return map_scale * textureLod(planar_map, vec3(planar_map_uv(v_g, g), slice), 0.0).xyz;
+}
+#else
+vec3 map_radiance(float v_g, vec3 g, vec3 n) {
+    return map_scale * textureLod(planar_map, planar_map_uv(v_g, g), 0.0).xyz;
+}
+#endif
 #endif

@@ -7,16 +7,16 @@
 #include <vector>
 
 #include "engine/lighting/light_samples.h"
-#include "modules/diffraction/bake/kernel_cells.h"
+#include "modules/diffraction/bake/pitch_axis.h"
 #include "modules/diffraction/model/colour_kernel.h"
 #include "modules/diffraction/model/cover.h"
 #include "modules/diffraction/model/shading_point.h"
-#include "modules/diffraction/representations/planar/light_disc.h"
 
 namespace rowland::diffraction {
 
 /// The radiance of a flat grating under a probe, flat lobe (PHYSICS §6 "planar"): XYZ over the azimuth of g in the
-/// plane and v_g. A 2D texture: GL_LINEAR, GL_REPEAT in s, GL_CLAMP_TO_EDGE in t.
+/// plane and v_g. A 2D texture: GL_LINEAR, GL_REPEAT in s, GL_CLAMP_TO_EDGE in t. With a pitch axis a volume of such
+/// slices, a slice for each node, GL_CLAMP_TO_EDGE in r.
 ///   azimuth φ: g = cos φ e1 + sin φ e2, column i holds φ = 2π i/azimuths;   s = φ/2π + ½/azimuths
 ///   v_g: row j holds v_g = 2j/(views−1) − 1, both ends included;   t = (½(v_g+1)(views−1) + ½)/views
 struct PlanarMap {
@@ -25,59 +25,35 @@ struct PlanarMap {
     glm::dvec3 e1{1.0, 0.0, 0.0};  ///< (e1, e2, n) right-handed, world axes
     glm::dvec3 e2{0.0, 1.0, 0.0};
     glm::dvec3 n{0.0, 0.0, 1.0};
-    std::vector<glm::vec3> xyz;  ///< row by row of the texture: index j·azimuths + i
+    std::optional<PitchAxis> pitch{};
+    std::vector<glm::vec3> xyz;  ///< row by row of the texture: index (slice·views + j)·azimuths + i
+
+    int slices() const { return pitch ? pitch->nodes : 1; }
 };
 
 struct PlanarMapSize {
     int azimuths = 128;  ///< even, ≥ 4
     int views = 128;     ///< ≥ 8
+    std::optional<PitchAxis> pitch{};
 };
 
 /// What is shown while a larger map is filled: within 10 ms of a tilt on two cores.
-inline constexpr PlanarMapSize kCoarsePlanarMap{.azimuths = 64, .views = 64};
+inline constexpr PlanarMapSize kCoarsePlanarMap{.azimuths = 64, .views = 64, .pitch = std::nullopt};
 
-/// Fills a map at once or incrementally. Holds the light projected on the plane and the kernel's weights, not the
-/// texels.
-class PlanarFill {
- public:
-    /// `normal`: unit. `zero_order_xyz`: as of ColourKernel. `cover`: T(s_n) is in the map, T(v_n) is not. Uses all
-    /// cores; the result does not depend on them.
-    PlanarFill(const lighting::LightSamples& texels, const KernelTable& kernel, double pitch_nm,
-               const glm::dvec3& normal, const PlanarMapSize& size = {},
-               const glm::dmat3& zero_order_xyz = glm::dmat3(0.0), const std::optional<Cover>& cover = std::nullopt);
-
-    /// The map with its frame, all black.
-    PlanarMap empty() const;
-
-    /// Fills azimuths [begin, end) of a map from empty(), or of an older map of the same size, whose frame becomes this
-    /// fill's. Any order gives the same map. Values are optimised for linear interpolation (kBestLinear): they are not
-    /// the radiance at the nodes. After a stop request it returns early with an unusable map.
-    void fill(int begin, int end, PlanarMap& map, const std::stop_token& stop = {}) const;
-
- private:
-    struct Profile;
-    Profile project(int azimuth) const;
-    Profile mirrored(const Profile& profile) const;
-    void correlate(const Profile& profile, int azimuth, PlanarMap& map) const;
-
-    PlanarMapSize size_;
-    PlaneAxes axes_;
-    int cells_;  ///< of A, and of the disc's side
-    KernelCells kernel_;
-    std::vector<float> rows_;     ///< light over the plane's disc, cells_² of (r, g, b, 0): flux · s_n T(s_n) / 2
-    std::vector<float> columns_;  ///< the same, transposed
-};
-
-/// A map, filled at once. After a stop request it returns early with an unusable map.
+/// Fills a map with values for linear interpolation: they are not the radiance at the nodes. `normal`: unit.
+/// `zero_order_xyz`: as of ColourKernel. `cover`: T(s_n) is in the map, T(v_n) is not. Light is spread over the
+/// azimuths between two nodes (PHYSICS §6). Uses all cores; the result does not depend on them. After a stop request
+/// it returns early with an unusable map.
 PlanarMap fill_planar_map(const lighting::LightSamples& texels, const KernelTable& kernel, double pitch_nm,
                           const glm::dvec3& normal, const PlanarMapSize& size = {},
                           const glm::dmat3& zero_order_xyz = glm::dmat3(0.0),
                           const std::optional<Cover>& cover = std::nullopt, const std::stop_token& stop = {});
 
-/// XYZ at an azimuth (radians, unbounded) and a v_g, as the texture unit interpolates.
-glm::dvec3 sample(const PlanarMap& map, double azimuth, double v_g);
+/// XYZ at an azimuth (radians, unbounded) and a v_g, as the texture unit interpolates. The pitch factor is for maps
+/// with a pitch axis.
+glm::dvec3 sample(const PlanarMap& map, double azimuth, double v_g, double pitch_factor = 1.0);
 
 /// XYZ of a point whose normal is the map's; black for a view below the horizon.
-glm::dvec3 sample(const PlanarMap& map, const ShadingPoint& frame);
+glm::dvec3 sample(const PlanarMap& map, const ShadingPoint& frame, double pitch_factor = 1.0);
 
 }  // namespace rowland::diffraction

@@ -46,7 +46,9 @@ PlanarMap filter_error(const PlanarMap& map) {
     PlanarMap error = map;
     const auto azimuths = static_cast<std::size_t>(map.azimuths);
     error.xyz = error_of(map.xyz, {{.texels = azimuths, .stride = 1, .repeats = true},
-                                   {.texels = static_cast<std::size_t>(map.views), .stride = azimuths}});
+                                   {.texels = static_cast<std::size_t>(map.views), .stride = azimuths},
+                                   {.texels = static_cast<std::size_t>(map.slices()),
+                                    .stride = azimuths * static_cast<std::size_t>(map.views)}});
     return error;
 }
 

@@ -63,14 +63,14 @@ class Grooves : public GratingPicture {
         Point point;
         double pitch = 1.0;
     };
-    std::optional<Turned> on_patches(const Point& point) const {
+    std::optional<Turned> on_patches(const Point& point, std::span<const Texel, 4> patches = kPatches) const {
         glm::dvec2 uv(0.0);
         for (std::size_t i = 0; i < 3; ++i) uv += point.weights[static_cast<int>(i)] * glm::dvec2(mesh_.uvs[i]);
         const glm::dvec2 place = 2.0 * uv;
         for (int axis = 0; axis < 2; ++axis)
             if (std::abs(place[axis] - std::round(place[axis])) < 1e-3) return std::nullopt;
         const auto wrapped = [](double at) { return (static_cast<int>(std::floor(at)) % 2 + 2) % 2; };
-        const Texel& texel = kPatches[2 * wrapped(place.y) + wrapped(place.x)];
+        const Texel& texel = patches[static_cast<std::size_t>(2 * wrapped(place.y) + wrapped(place.x))];
         return turned_by(point, texel);
     }
     static Turned turned_by(const Point& point, const Texel& texel) {
@@ -314,14 +314,17 @@ TEST_F(Grooves, ALevelOfMomentsIsTheirMean) {
     }
 }
 
-/// Patches of one pitch: a map over the azimuth serves all directions. The map in the vertices' place knows no texture.
+/// A map over the azimuth serves all directions, of the flat lobe all pitches as well. The map in the vertices' place
+/// knows no texture.
 TEST_F(Grooves, PlanarMapsOfAnyLobeServeAllDirections) {
     constexpr Texel kTurned[] = {{0, 128}, {60, 128}, {130, 128}, {200, 128}};
-    const auto map = map_of(kTurned, 2);
     for (const char* grating : {kFlatFoil, kFoil})
         for (const char* map_at : {"pixels", "vertices"}) {
-            const std::string settings = R"("map_resolution": 32, "map_at": ")";
-            const CookedMaterial cooked = cook_planar(grating, settings + map_at + "\"");
+            const bool flat = std::string(grating) == kFlatFoil;
+            const auto map = map_of(flat ? kPatches : kTurned, 2);
+            const std::string settings =
+                R"({"representation": "planar", "key_lights": false, "map_resolution": 32, "map_at": ")";
+            const CookedMaterial cooked = cook_with(grating, settings + map_at + "\"}", *map);
             ASSERT_FALSE(groove_refusal(cooked.material, *map));
             if (!renderer_) show_with(cooked, map, 0.4);
             use(cooked);
@@ -330,15 +333,18 @@ TEST_F(Grooves, PlanarMapsOfAnyLobeServeAllDirections) {
             const glm::dvec3 normal = glm::transpose(vertex_frame(0))[2];
             const auto difference_from = [&](const auto& light_map) {
                 const auto error = filter_error(light_map);
-                const auto at = [](const auto& looked_up, const Point& point) {
-                    const glm::dmat3 axes = glm::transpose(point.to_tangent);
-                    return sample(looked_up, {.view = axes * point.view, .normal = axes[2], .grating = axes[0]});
+                const auto at = [](const auto& looked_up, const Turned& turned) {
+                    const glm::dmat3 axes = glm::transpose(turned.point.to_tangent);
+                    const ShadingPoint frame{.view = axes * turned.point.view, .normal = axes[2], .grating = axes[0]};
+                    if constexpr (requires { looked_up.pitch; })
+                        return sample(looked_up, frame, turned.pitch);
+                    else
+                        return sample(looked_up, frame);
                 };
                 const auto on_patch = [&](const auto& looked_up) {
                     return [&](const Point& point) {
-                        const auto turned = on_patches(point);
-                        return turned ? at(looked_up, turned->point)
-                                      : glm::dvec3(std::numeric_limits<double>::quiet_NaN());
+                        const auto turned = on_patches(point, flat ? kPatches : kTurned);
+                        return turned ? at(looked_up, *turned) : glm::dvec3(std::numeric_limits<double>::quiet_NaN());
                     };
                 };
                 return largest_difference(draw(), on_patch(light_map), on_patch(error));
@@ -361,9 +367,11 @@ TEST_F(Grooves, WhatKnowsOneDirectionOrOnePitchIsRefusedByPlace) {
     const auto refusal = [&](const std::string& grating, const std::string& quality) {
         return groove_refusal(material(grating, quality), *map).value_or(Refusal{}).key;
     };
-    for (const char* name : {"spikes", "bins", "transfer", "planar", "circle"})
+    for (const char* name : {"spikes", "bins", "transfer", "circle"})
         EXPECT_EQ(refusal(kFlatFoil, R"({"representation": ")" + std::string(name) + "\"}"), "quality/representation");
-    EXPECT_EQ(refusal(kFoil, R"({"representation": "arc"})"), "grooveTexture");
+    EXPECT_EQ(refusal(kFlatFoil, R"({"representation": "planar"})"), "");
+    for (const char* name : {"arc", "planar"})
+        EXPECT_EQ(refusal(kFoil, R"({"representation": ")" + std::string(name) + "\"}"), "grooveTexture");
     EXPECT_EQ(refusal(R"({"pitch_nm": 1500, "profile": {"type": "slit", "width_nm": 700},
                             "groove_lobe": {"pits": {"length_nm": 850, "coherent": 0.3}}})",
                       R"({"representation": "streak"})"),

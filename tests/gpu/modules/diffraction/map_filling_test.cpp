@@ -12,6 +12,7 @@
 
 #include "engine/core/error.h"
 #include "tests/gpu/gl_test.h"
+#include "tests/support/replaced_function.h"
 
 namespace rowland::diffraction {
 namespace {
@@ -64,6 +65,22 @@ TEST_F(MapFillingTest, CoarseMapsFollowAnObjectThatTurnsInEveryFrame) {
     EXPECT_GT(coarse_count_, 1);
     update_until_complete(normal);
     EXPECT_TRUE(filling_.has_map());
+}
+
+int textures_created = 0;
+void APIENTRY create_textures(GLenum target, GLsizei count, GLuint* names) {
+    textures_created += count;
+    rowland::test::ReplacedFunction<&epoxy_glCreateTextures>::driver(target, count, names);
+}
+
+/// The one that is shown, and the one that the next map goes to.
+TEST_F(MapFillingTest, MapsOfOneSizeTakeTurnsInTwoTextures) {
+    const rowland::test::ReplacedFunction<&epoxy_glCreateTextures> counted("glCreateTextures", create_textures);
+    full_maps_.release(1000);
+    textures_created = 0;
+    double normal = 0.0;
+    while (filling_.maps_shown() < 10) update(normal += 1.0);
+    EXPECT_EQ(textures_created, 2);
 }
 
 TEST_F(MapFillingTest, UnderNewLightAFrameMayWaitForTheFullMap) {

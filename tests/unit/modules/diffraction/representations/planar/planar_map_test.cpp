@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -155,23 +156,70 @@ TEST(PlanarMap, OneLampIsSeenAtItsAzimuth) {
         EXPECT_EQ(sample(map, {.view = {0.1, 0.2, -0.3}, .normal = n, .grating = {1, 0, 0}}), glm::dvec3(0.0));
 }
 
-TEST(PlanarMap, PartsInAnyOrderAndThreadsGiveTheSameMap) {
+/// Otherwise a lamp's streak is a row of dots. Measured .61 to 1.52 times the mean; of light that is not spread −.11 to
+/// 2.51.
+TEST(PlanarMap, ASmallLampIsAsBrightBetweenAzimuthsAsAtThem) {
+    lighting::LightSamples lamp;
+    lamp.push_back({0.4, 0.5, std::sqrt(1.0 - 0.41)}, glm::dvec3(1.0));
+    Grating coarse = test::compact_disc();
+    coarse.pitch_nm = 20000.0;
+    coarse.orders = {1};
+    const KernelTable kernel = tabulate(ColourKernel(coarse, colour::LightSpectra()));
+    constexpr int kNodes = 128;
+    const PlanarMap map = fill_planar_map(lamp, kernel, coarse.pitch_nm, {0, 0, 1}, {kNodes, kNodes});
+    // Along the order's crest, over eight nodes from where the lamp moves fastest from azimuth to azimuth.
+    double sum = 0.0;
+    double least = 1e30;
+    double largest = 0.0;
+    constexpr int kSteps = 160;
+    for (int i = 0; i < kSteps; ++i) {
+        const double azimuth = std::atan2(0.5, 0.4) + 0.5 * std::numbers::pi + 2.0 * std::numbers::pi / kNodes * i / 20;
+        const double crest = 550.0 / coarse.pitch_nm - 0.4 * std::cos(azimuth) - 0.5 * std::sin(azimuth);
+        const double value = sample(map, azimuth, crest).y;
+        sum += value;
+        least = std::min(least, value);
+        largest = std::max(largest, value);
+    }
+    const double mean = sum / kSteps;
+    RecordProperty("range", fmt::format("{:.3g} to {:.3g}", least / mean, largest / mean));
+    EXPECT_GT(least, 0.5 * mean);
+    EXPECT_LT(largest, 1.7 * mean);
+}
+
+/// The steps between pitches that groove textures get. Order 1 moves by 16 nm from slice to slice.
+TEST(PlanarMap, PitchesBetweenSlicesAreInterpolated) {
+    lighting::LightSamples lamp;
+    lamp.push_back({0.4, 0.5, std::sqrt(1.0 - 0.41)}, glm::dvec3(1.0));
+    const KernelTable kernel = tabulate(ColourKernel(test::compact_disc(), colour::LightSpectra()));
+    const glm::dvec3 n(0, 0, 1);
+    const PitchAxis axis{.smallest = 0.8, .largest = 1.9, .nodes = 31};
+    const PlanarMap map = fill_planar_map(lamp, kernel, 1600.0, n, {64, 64, axis});
+    EXPECT_EQ(map.xyz.size(), 64U * 64U * 31U);
+    for (const double position : {0.0, 0.5, 0.525, 0.975, 1.0}) {
+        const double factor = axis.smallest * std::pow(axis.largest / axis.smallest, position);
+        const PlanarMap one = fill_planar_map(lamp, kernel, factor * 1600.0, n, {64, 64});
+        std::vector<glm::dvec3> expected;
+        std::vector<glm::dvec3> found;
+        for (int i = 0; i < 300; ++i) {
+            const double v_g = 0.8 * std::sin(1.7 * i);
+            expected.push_back(sample(one, 0.1 * i, v_g));
+            found.push_back(sample(map, 0.1 * i, v_g, factor));
+        }
+        const double error = relative_rms(found, expected);
+        RecordProperty(fmt::format("position_{}", static_cast<int>(1000.0 * position)), fmt::format("{:.3g}", error));
+        EXPECT_LT(error, 0.02) << position;
+    }
+}
+
+TEST(PlanarMap, AnyNumberOfThreadsGivesTheSameMap) {
     const auto texels = texels_of({.bands = 2, .coefficients = std::vector<glm::dvec3>(4, glm::dvec3(1, 2, 0.5))}, 128);
     const KernelTable kernel = tabulate(ColourKernel(test::compact_disc(), colour::LightSpectra()));
     const glm::dvec3 n = glm::normalize(glm::dvec3(0.2, 0.9, 0.4));
-    const auto whole = [&](unsigned threads) {
+    const auto filled = [&](unsigned threads) {
         const ThreadLimit limit(threads);
         return fill_planar_map(texels, kernel, 1600.0, n, {32, 32});
     };
-    const PlanarMap one = whole(1);
-    EXPECT_EQ(one.xyz, whole(2).xyz);
-    const PlanarFill fill(texels, kernel, 1600.0, n, {32, 32});
-    PlanarMap parts = fill.empty();
-    fill.fill(20, 32, parts);
-    fill.fill(0, 3, parts);
-    fill.fill(3, 3, parts);
-    fill.fill(3, 20, parts);
-    EXPECT_EQ(one.xyz, parts.xyz);
+    EXPECT_EQ(filled(1).xyz, filled(2).xyz);
 }
 
 }  // namespace
