@@ -19,7 +19,7 @@ namespace rowland::render {
 /// Component of a drawn entity: it mirrors the opaque objects around its group where it would mirror the environment.
 /// glTF nodes have it by their extras, with all nodes below them as one group: `"reflects_objects": true`.
 struct ReflectsObjects {
-    ecs::Entity group;  ///< what is mirrored is not of the same group
+    ecs::Entity group;  ///< a mirror shows nothing of its own group
 };
 
 /// The light from objects around a point and their distance, as two cube maps. A mirror near the point searches them
