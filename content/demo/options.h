@@ -26,7 +26,7 @@ struct Options : app::CommonOptions {
     bool dither = false;
     bool ambient_occlusion = true;  ///< and contact shadows
     bool soft_shadows = true;
-    bool local_reflections = true;  ///< of the table
+    bool local_reflections = true;  ///< of the table and of objects
     bool sun = false;               ///< a lamp that casts shadows
     bool list_views = false;
     std::optional<std::filesystem::path> capture_linear;

@@ -51,6 +51,7 @@ render::Effects effects(const Options& options) {
     if (options.ambient_occlusion) effects.ambient_occlusion = render::AmbientOcclusionSettings{};
     if (options.soft_shadows) effects.soft_shadows = render::SoftShadowSettings{};
     effects.local_reflections = options.local_reflections;
+    effects.object_reflections = options.local_reflections;
     return effects;
 }
 

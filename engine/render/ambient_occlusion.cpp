@@ -40,10 +40,16 @@ void AmbientOcclusion::draw(ProgramCache& programs, const scene::Camera& camera,
     occlusion.set("contact", toward_light ? settings.contact_m : 0.0F);
     occlusion.set("toward_light", glm::mat3(camera.view()) * toward_light.value_or(glm::vec3(0.0F, 1.0F, 0.0F)));
     targets_->depth.depth().bind(kSourceUnit);
-    triangle_.draw(occlusion, targets_->raw);
+    triangle_.draw(occlusion, targets_->smooth);
 
-    targets_->raw.colour().bind(kSourceUnit);
-    triangle_.draw(programs.get(full_screen("engine/render/shaders/occlusion_mean.frag.glsl")), targets_->smooth);
+    const gpu::Program& mean = programs.get(full_screen("engine/render/shaders/occlusion_mean.frag.glsl"));
+    mean.use();
+    mean.set("axis", glm::ivec2(1, 0));
+    targets_->smooth.colour().bind(kSourceUnit);
+    triangle_.draw(mean, targets_->across);
+    mean.set("axis", glm::ivec2(0, 1));
+    targets_->across.colour().bind(kSourceUnit);
+    triangle_.draw(mean, targets_->smooth);
 }
 
 }  // namespace rowland::render

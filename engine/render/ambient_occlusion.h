@@ -16,8 +16,8 @@ namespace rowland::render {
 ///
 /// Ambient light: ground-truth ambient occlusion (Jimenez et al. 2016, "Practical realtime strategies for accurate
 /// indirect occlusion", eqs. 7 and 10): the cosine-weighted visibility within the horizons of two slices, which are
-/// turned from pixel to pixel in a pattern of 4×4. Normals are those of the depth. A mean over the pattern, of pixels
-/// of similar depth, removes it, so that nothing changes from frame to frame but what moves.
+/// turned from pixel to pixel in a pattern of 4×4. Normals are those of the depth. A mean over 7×7 pixels of similar
+/// depth removes the pattern, so that nothing changes from frame to frame but what moves.
 ///
 /// The light that casts shadows: a short ray toward it through the depth, which darkens what a shadow map's bias leaves
 /// bright.
@@ -34,7 +34,7 @@ class AmbientOcclusion {
  private:
     struct Targets {
         gpu::Framebuffer depth;
-        gpu::Framebuffer raw;
+        gpu::Framebuffer across;  ///< the mean along rows
         gpu::Framebuffer smooth;
     };
     std::optional<Targets> targets_;

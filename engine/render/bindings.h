@@ -11,6 +11,8 @@ inline constexpr unsigned kKeyIrradianceUnit = 15;
 inline constexpr unsigned kVisibilityUnit = 16;
 inline constexpr unsigned kPlaneMapUnit = 17;
 inline constexpr unsigned kMirrorUnit = 18;
+inline constexpr unsigned kSurroundingLightUnit = 19;
+inline constexpr unsigned kSurroundingNearnessUnit = 20;
 
 inline constexpr unsigned kFrameBinding = 0;
 inline constexpr unsigned kObjectBinding = 1;

@@ -44,6 +44,10 @@ DrawList gather_draws(ecs::World& world, std::span<const std::unique_ptr<Materia
             draw.columns = world.find<PictureColumns>(entity);
             add_pose(world, draw, list.joints);
             draw.features = features_of(material, *mesh.gpu, draw.skinned, lights);
+            if (const auto* reflects = world.find<ReflectsObjects>(entity))
+                draw.reflects = reflects->group;
+            else
+                draw.features &= ~feature::kObjectReflections;
             list.draws.push_back(draw);
         });
     return list;

@@ -6,6 +6,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "engine/gpu/program.h"
 #include "engine/render/gpu_mesh.h"
 #include "engine/render/material.h"
+#include "engine/render/object_reflection.h"
 #include "engine/render/picture_columns.h"
 #include "engine/render/shaders/object_block.h"
 #include "engine/render/surface_features.h"
@@ -38,6 +40,8 @@ struct Draw {
     std::size_t block_offset = 0;                  ///< of its ObjectBlock, bytes
     float distance2 = 0.0F;                        ///< from the eye to the bounds' centre, squared
     const PictureColumns* columns = nullptr;       ///< null: all
+    std::optional<ecs::Entity> reflects = {};      ///< the group of its ReflectsObjects
+    const ObjectReflection* reflection = nullptr;  ///< of that group
 };
 
 struct DrawList {

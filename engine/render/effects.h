@@ -24,7 +24,8 @@ struct SoftShadowSettings {
 struct Effects {
     std::optional<AmbientOcclusionSettings> ambient_occlusion = std::nullopt;
     std::optional<SoftShadowSettings> soft_shadows = std::nullopt;
-    bool local_reflections = false;  ///< mirrors show what has a ReflectedTop
+    bool local_reflections = false;   ///< mirrors show what has a ReflectedTop
+    bool object_reflections = false;  ///< what has ReflectsObjects mirrors the objects around it
 
     friend bool operator==(const Effects&, const Effects&) = default;
 };

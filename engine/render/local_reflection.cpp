@@ -89,7 +89,9 @@ bool LocalReflection::update(ecs::World& world, const PlaneLight& light, float p
             block->plane_size = glm::vec4(top.half, pixel_angle, map_ != nullptr ? 1.0F : 0.0F);
             const glm::vec3 normal =
                 glm::normalize(glm::inverseTranspose(glm::mat3(matrix)) * glm::vec3(0.0F, 1.0F, 0.0F));
-            block->plane_normal = glm::vec4(normal, 0.0F);
+            block->plane_normal = glm::vec4(normal, material.roughness);
+            normal_ = normal;
+            height_ = glm::dot(normal, glm::vec3(matrix * glm::vec4(top.centre, 1.0F)));
             block->plane_ambient = glm::vec4(ambient_radiance(light, glm::dvec3(normal)), 0.0F);
             add_lights(light.lights, normal, *block);
             block->plane_colour = glm::vec4(
@@ -98,6 +100,12 @@ bool LocalReflection::update(ecs::World& world, const PlaneLight& light, float p
         });
     if (block) block_.write_values(std::span<const ReflectionBlock>(&*block, 1));
     return block.has_value();
+}
+
+bool LocalReflection::covers(const scene::Bounds& box) const {
+    const glm::vec3 middle = 0.5F * (box.minimum + box.maximum);
+    const float highest = glm::dot(normal_, middle) + glm::dot(glm::abs(normal_), box.maximum - middle);
+    return highest < height_ + 1e-4F;
 }
 
 void LocalReflection::bind() const {

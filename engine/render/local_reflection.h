@@ -41,15 +41,20 @@ struct PlaneLight {
     glm::mat3 rec709_to_working{1.0F};
 };
 
-/// Reflections of the plane. It reflects ambient and directional light diffusely; points and spots are left out.
+/// Reflections of the plane, as of a dielectric: it reflects ambient and directional light diffusely, and the
+/// environment in a lobe of its roughness. Highlights, points and spots are left out.
 class LocalReflection {
  public:
     /// Takes over the frame's plane and its light. False if there is none. `pixel_angle`: of a pixel, radians.
     bool update(ecs::World& world, const PlaneLight& light, float pixel_angle);
     void bind() const;
+    /// Whether a box lies below the plane, where mirrors show the plane alone.
+    bool covers(const scene::Bounds& box) const;
 
  private:
     gpu::StreamBuffer block_;
+    glm::vec3 normal_{0.0F, 1.0F, 0.0F};  ///< of the plane, unit
+    float height_ = 0.0F;                 ///< of its points along the normal
     const gpu::Texture* map_ = nullptr;
 };
 

@@ -103,6 +103,8 @@ class MaterialType {
     virtual gpu::ProgramDesc program(ecs::World& world, ecs::Entity entity) const = 0;
     /// Once a frame, before anything is drawn: updates per-object data.
     virtual void update(ecs::World& world, const FrameLight& light) = 0;
+    /// Changes in each update() after which an entity looks different, though neither it nor the light has moved.
+    virtual std::uint64_t version() const { return 0; }
     /// Binds what an owned entity's program reads. The program is in use.
     virtual void bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const = 0;
 };

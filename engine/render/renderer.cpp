@@ -15,6 +15,7 @@
 #include "engine/render/bindings.h"
 #include "engine/render/brdf_table.h"
 #include "engine/render/draw_state.h"
+#include "engine/render/renderer_frame.h"
 #include "engine/render/shader_files.h"
 #include "engine/render/soft_shadow.h"
 #include "engine/render/world_bounds.h"
@@ -49,26 +50,6 @@ glm::vec3 centre_of(const scene::Bounds& box) {
 }
 
 }  // namespace
-
-/// The state of one call of render().
-struct Renderer::Frame {
-    const scene::Camera* camera = nullptr;
-    glm::ivec2 size{1};
-    float aspect = 1.0F;
-    bool into_halves = false;  ///< the target holds half floats
-    Shading shading = Shading::Full;
-    bool occlusion = false;
-    glm::mat4 view_projection{1.0F};
-    DrawList list;
-    std::vector<Draw*> used;  ///< those that need an ObjectBlock
-    std::vector<const Draw*> opaque;
-    std::vector<const Draw*> blended;
-    std::vector<const Draw*> casters;
-    ShadowView shadow;
-    std::size_t light_offset = 0;   ///< of the LightBlock in frame_data_, bytes
-    std::size_t joints_offset = 0;  ///< of the joint matrices
-    float farthest = 0.0F;          ///< extent of the drawn entities along the camera's axis
-};
 
 Renderer::Renderer(const glm::dmat3& xyz_to_working)
     : xyz_to_working_(xyz_to_working),
@@ -112,12 +93,14 @@ void Renderer::set_shadow_map_size(int size) {
 void Renderer::set_effects(const Effects& effects) {
     // Soft shadows read the map's depth, others compare with it.
     if (effects.soft_shadows.has_value() != effects_.soft_shadows.has_value()) shadow_map_.reset();
+    object_reflections_.reset();
     effects_ = effects;
 }
 
 void Renderer::reload_shaders(const std::filesystem::path& source_tree) {
     programs_.reload(source_tree);
     surface_programs_.clear();
+    object_reflections_.reset();
 }
 
 void Renderer::render(ecs::World& world, const scene::Camera& camera, const gpu::Framebuffer& target, Shading shading) {
@@ -143,6 +126,7 @@ void Renderer::render(ecs::World& world, const scene::Camera& camera, const gpu:
     upload(frame);
     bind_frame(frame);
     draw_shadow_map(frame);
+    draw_object_reflections(world, frame);
     draw_occlusion(frame);
     {
         const gpu::PassTimes::Scope scope(times_, "opaque");
@@ -187,22 +171,13 @@ void Renderer::update_ambient() {
     probe_changed_ = false;
 }
 
-void Renderer::update_reflection(ecs::World& world, const Frame& frame) {
-    if (effects_.local_reflections && frame.shading == Shading::Full) {
-        if (!reflection_) reflection_.emplace();
-        const float height = static_cast<float>(frame.size.y);
-        const PlaneLight light{ambient_, light_.key_lights(), lights_, glm::mat3(rec709_to_working_)};
-        if (reflection_->update(world, light, frame.camera->vertical_field_of_view / height)) return;
-    }
-    reflection_.reset();
-}
-
 SurfaceFeatures Renderer::light_features(const Frame& frame) const {
     SurfaceFeatures features = lights_.features();
     if (!light_.key_lights().empty()) features |= feature::kKeyLights;
     if (frame.occlusion) features |= feature::kAmbientOcclusion;
     if (lights_.shadow_light && effects_.soft_shadows) features |= feature::kSoftShadows;
     if (reflection_) features |= feature::kLocalReflections;
+    if (effects_.object_reflections) features |= feature::kObjectReflections;
     return features;
 }
 
@@ -366,6 +341,7 @@ void Renderer::draw_pass(ecs::World& world, const std::vector<const Draw*>& draw
         draw->program->use();
         bind_surface(*draw);
         if (draw->type != nullptr) draw->type->bind(world, draw->entity, *draw->program);
+        if ((draw->features & feature::kObjectReflections) != 0) draw->reflection->bind(*draw->program);
         draw->mesh->draw();
     }
 }

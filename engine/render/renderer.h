@@ -25,6 +25,7 @@
 #include "engine/render/light_maps.h"
 #include "engine/render/local_reflection.h"
 #include "engine/render/material.h"
+#include "engine/render/object_reflection.h"
 #include "engine/render/program_cache.h"
 #include "engine/render/scene_lights.h"
 #include "engine/render/shaders/frame_block.h"
@@ -44,6 +45,7 @@ struct FrameReport {
     int drawn = 0;                      ///< entities in the picture
     int culled = 0;                     ///< entities outside it
     int shadow_drawn = 0;               ///< entities in the shadow map
+    int reflections_drawn = 0;          ///< entities in the faces of mirrors' surroundings; none unless these changed
     int programs = 0;                   ///< compiled so far
     std::vector<gpu::PassTime> passes;  ///< so far in the frame, if set_pass_times() was called
 };
@@ -72,8 +74,8 @@ class Renderer {
     /// The effects of the next frames; none by default.
     void set_effects(const Effects& effects);
     const Effects& effects() const { return effects_; }
-    /// Where the times of the passes "shadow", "occlusion", "opaque", "sky" and "blend" are written; null, the default:
-    /// nowhere. The owner calls begin_frame(). Must outlive the draws.
+    /// Where the times of the passes "shadow", "reflections", "occlusion", "opaque", "sky" and "blend" are written;
+    /// null, the default: nowhere. The owner calls begin_frame(). Must outlive the draws.
     void set_pass_times(gpu::PassTimes* times) { times_ = times; }
     /// Rebuilds all programs in use, from `source_tree` where it has their files. If one does not compile, all stay as
     /// they were and its Error (system) with file and line is thrown.
@@ -103,6 +105,10 @@ class Renderer {
     void draw_shadow_map(Frame& frame);
     void draw_occlusion(const Frame& frame);
     void update_reflection(ecs::World& world, const Frame& frame);
+    void draw_object_reflections(ecs::World& world, Frame& frame);
+    Frame surroundings(ecs::World& world, const Frame& frame, ecs::Entity group);
+    Hash128 content_of(const Frame& around, const glm::vec3& centre) const;
+    void draw_surroundings(ecs::World& world, Frame& around, ObjectReflection& reflection);
     void draw_outline(const Draw& draw, const gpu::Program& program) const;
     void draw_pass(ecs::World& world, const std::vector<const Draw*>& draws, glm::ivec2 size);
     void draw_sky();
@@ -128,6 +134,7 @@ class Renderer {
     Effects effects_;
     std::optional<AmbientOcclusion> occlusion_;
     std::optional<LocalReflection> reflection_;
+    std::optional<ObjectReflections> object_reflections_;
 
     bool probe_changed_ = false;  ///< or whether its key lights are apart
     FrameLight light_;

@@ -9,6 +9,7 @@
 #include "engine/core/check.h"
 #include "engine/render/gpu_mesh.h"
 #include "engine/render/local_reflection.h"
+#include "engine/render/object_reflection.h"
 #include "engine/render/surface_textures.h"
 #include "engine/scene/node_label.h"
 #include "engine/scene/skin.h"
@@ -55,6 +56,8 @@ class Builder {
         world_.add(entity, make_material(material, textures_));
         if (scene::is_marked(scene_.nodes.at(imported.node).extras, "reflected_top"))
             world_.add(entity, top_of(scene_.meshes[imported.mesh]));
+        if (const auto group = reflecting_node(imported.node))
+            world_.add(entity, ReflectsObjects{instance_.nodes[*group]});
         if (material != nullptr) attach_extensions(entity, *material, *imported.material);
     }
 
@@ -66,6 +69,13 @@ class Builder {
     }
 
  private:
+    /// The node or the nearest one above it that is marked.
+    std::optional<std::size_t> reflecting_node(std::optional<std::size_t> node) const {
+        while (node && !scene::is_marked(scene_.nodes.at(*node).extras, "reflects_objects"))
+            node = scene_.nodes[*node].parent;
+        return node;
+    }
+
     ecs::Entity child_of(std::size_t node) {
         const ecs::Entity entity = world_.create();
         world_.add(entity, scene::Transform{});

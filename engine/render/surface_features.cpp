@@ -8,7 +8,7 @@ namespace rowland::render {
 
 namespace {
 
-constexpr std::array<std::pair<SurfaceFeatures, const char*>, 17> kSwitches = {
+constexpr std::array<std::pair<SurfaceFeatures, const char*>, 18> kSwitches = {
     {{feature::kColours, "HAS_COLOURS"},
      {feature::kSkinned, "SKINNED"},
      {feature::kTextureTransform, "TEXTURE_TRANSFORM"},
@@ -25,6 +25,7 @@ constexpr std::array<std::pair<SurfaceFeatures, const char*>, 17> kSwitches = {
      {feature::kAmbientOcclusion, "AMBIENT_OCCLUSION"},
      {feature::kSoftShadows, "SOFT_SHADOWS"},
      {feature::kLocalReflections, "LOCAL_REFLECTIONS"},
+     {feature::kObjectReflections, "OBJECT_REFLECTIONS"},
      {feature::kFromEye, "FROM_EYE"}}};
 
 bool is_identity(const scene::TextureTransform& transform) {

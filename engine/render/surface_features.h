@@ -37,7 +37,8 @@ inline constexpr SurfaceFeatures kAmbientOcclusion = 1U << 27U;
 inline constexpr SurfaceFeatures kSoftShadows = 1U << 28U;
 inline constexpr SurfaceFeatures kLocalReflections = 1U << 29U;
 inline constexpr SurfaceFeatures kFromEye = 1U << 30U;  ///< of a surface's outline: as the camera sees it
-inline constexpr SurfaceFeatures kEffects = kAmbientOcclusion | kSoftShadows | kLocalReflections;
+inline constexpr SurfaceFeatures kObjectReflections = 1U << 31U;
+inline constexpr SurfaceFeatures kEffects = kAmbientOcclusion | kSoftShadows | kLocalReflections | kObjectReflections;
 inline constexpr SurfaceFeatures kLights =
     kDirectionalLights | kSeveralDirectionalLights | kPunctualLights | kShadows | kKeyLights | kEffects;
 }  // namespace feature

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
+#include <filesystem>
+#include <string>
 #include <utility>
 
 #include "engine/scene/glb_write.h"
@@ -64,7 +67,9 @@ cook::AssetType mesh_type() {
 
 GlbScene build_scene_source(cook::Context& context) {
     const nlohmann::json document = context.read_json(context.source());
-    return build_scene(parse_scene_recipe(document, context.source().string()));
+    return build_scene(
+        parse_scene_recipe(document, context.source().string()),
+        [&](const std::filesystem::path& path, std::uint64_t max_bytes) { return context.read(path, max_bytes); });
 }
 
 cook::AssetType scene_type() {

@@ -10,19 +10,22 @@
 #include <glm/gtc/quaternion.hpp>
 #include <mutex>
 #include <numbers>
+#include <span>
 
 #include "engine/core/error.h"
 #include "engine/core/json_vector.h"
 #include "engine/core/parallel.h"
 #include "engine/image/png.h"
+#include "engine/image/png_decode.h"
 
 namespace rowland::scene {
 
 namespace {
 
-constexpr std::size_t kMostElements = 4096;      ///< of each array
-constexpr std::size_t kMostVertices = 1U << 23;  ///< of all meshes
-constexpr std::size_t kMostTexels = 1U << 24;    ///< of all textures
+constexpr std::size_t kMostElements = 4096;          ///< of each array
+constexpr std::size_t kMostVertices = 1U << 23;      ///< of all meshes
+constexpr std::size_t kMostTexels = 1U << 24;        ///< of all textures
+constexpr std::uint64_t kLargestPicture = 1U << 26;  ///< bytes
 constexpr double kRadians = std::numbers::pi / 180.0;
 constexpr NumberRange kPosition{.minimum = -1e6, .maximum = 1e6};
 constexpr NumberRange kDegrees{.minimum = -360.0, .maximum = 360.0};
@@ -210,14 +213,29 @@ class Parsing {
     GlbScene& scene_ = recipe_.scene;
 };
 
-void check_texels(const SceneRecipe& recipe) {
+/// Of a PNG that can be decoded.
+image::ByteImageSize size_of_picture(std::span<const std::byte> png, const std::string& name) {
+    if (!image::is_png(png)) refuse_input(name, "", "no PNG", "a PNG file", "convert it");
+    const image::ByteImage picture = image::decode_png(png, name);
+    return {picture.width, picture.height};
+}
+
+/// Reads the textures that are pictures.
+void add_pictures(const SceneRecipe& recipe, const ReadFile& read, GlbScene& scene) {
     std::size_t texels = 0;
     for (std::size_t i = 0; i < recipe.textures.size(); ++i) {
         const TextureRecipe& texture = recipe.textures[i];
-        texels += static_cast<std::size_t>(texture.width) * static_cast<std::size_t>(texture.height);
+        image::ByteImageSize size{texture.width, texture.height};
+        if (!texture.picture.empty()) {
+            const std::filesystem::path file = std::filesystem::path(recipe.file).parent_path() / texture.picture;
+            scene.textures[i].png = read(file, kLargestPicture);
+            size = size_of_picture(scene.textures[i].png, file.string());
+        }
+        texels += static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
         if (texels > kMostTexels)
-            refuse_input(recipe.file, fmt::format("/scene/textures/{}/size", i), fmt::format("{} texels", texels),
-                         fmt::format("at most {} in all textures", kMostTexels));
+            refuse_input(recipe.file,
+                         fmt::format("/scene/textures/{}/{}", i, texture.picture.empty() ? "size" : "picture"),
+                         fmt::format("{} texels", texels), fmt::format("at most {} in all textures", kMostTexels));
     }
 }
 
@@ -274,10 +292,12 @@ std::vector<std::byte> png_of(const TextureRecipe& recipe) {
 
 }  // namespace
 
-GlbScene build_scene(const SceneRecipe& recipe) {
-    check_texels(recipe);
+GlbScene build_scene(const SceneRecipe& recipe, const ReadFile& read) {
     GlbScene scene = recipe.scene;
-    parallel_for(recipe.textures.size(), [&](std::size_t i) { scene.textures[i].png = png_of(recipe.textures[i]); });
+    add_pictures(recipe, read, scene);
+    parallel_for(recipe.textures.size(), [&](std::size_t i) {
+        if (recipe.textures[i].picture.empty()) scene.textures[i].png = png_of(recipe.textures[i]);
+    });
     std::size_t vertices = 0;
     for (std::size_t i = 0; i < recipe.meshes.size(); ++i) {
         for (const SceneRecipe::Part& part : recipe.meshes[i]) {

@@ -1,10 +1,15 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/core/file.h"
 #include "engine/scene/glb_write.h"
 #include "engine/scene/mesh_recipe.h"
 #include "engine/scene/texture_recipe.h"
@@ -34,8 +39,11 @@ bool is_scene_recipe(const nlohmann::json& document);
 /// textures by number. Throws Error (input).
 SceneRecipe parse_scene_recipe(const nlohmann::json& document, const std::string& file);
 
-/// Paints the textures and builds the meshes. Throws Error (input) if there are unreasonably many vertices or texels in
-/// all.
-GlbScene build_scene(const SceneRecipe& recipe);
+/// As rowland::read_file.
+using ReadFile = std::function<std::vector<std::byte>(const std::filesystem::path& path, std::uint64_t max_bytes)>;
+
+/// Reads and paints the textures and builds the meshes. Throws Error (input) for a picture that is no PNG, and if there
+/// are unreasonably many vertices or texels in all.
+GlbScene build_scene(const SceneRecipe& recipe, const ReadFile& read = read_file);
 
 }  // namespace rowland::scene

@@ -175,6 +175,11 @@ LayerRecipe parse_layer(JsonReader& reader) {
 
 TextureRecipe parse_texture(JsonReader& reader) {
     TextureRecipe recipe;
+    if (reader.has("picture")) {
+        recipe.picture = reader.text("picture");
+        if (recipe.picture.empty()) reader.fail("picture", "no name", "a PNG file");
+        return recipe;
+    }
     const std::vector<double> size = reader.numbers("size", 2, {.minimum = 1.0, .maximum = kLargestSide});
     for (std::size_t i = 0; i < 2; ++i)
         if (size[i] != std::floor(size[i]))

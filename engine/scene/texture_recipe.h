@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "engine/core/json_reader.h"
@@ -54,9 +55,10 @@ struct LayerRecipe {
     bool operator==(const LayerRecipe&) const = default;
 };
 
-/// A picture painted in layers, each over those before it, on opaque black. Plain numbers: the user of the texture
-/// decides whether they mean colours.
+/// A picture painted in layers, each over those before it, on opaque black; or the picture of a PNG file. Plain
+/// numbers: the user of the texture decides whether they mean colours.
 struct TextureRecipe {
+    std::string picture;  ///< a file beside the recipe's; empty: painted
     int width = 1;  ///< texels, 1 … 8192
     int height = 1;
     std::vector<LayerRecipe> layers;  ///< at most 32
@@ -64,7 +66,7 @@ struct TextureRecipe {
     bool operator==(const TextureRecipe&) const = default;
 };
 
-/// Reads "size" and "layers" of an object that may hold more; the format is in scene_recipe.schema.json. The caller
+/// Reads "picture", or "size" and "layers", of an object that may hold more; the format is in scene_recipe.schema.json. The caller
 /// calls `finish()`. Throws Error (input).
 TextureRecipe parse_texture(JsonReader& reader);
 
@@ -73,7 +75,7 @@ struct PaintedTexture {
     std::vector<std::uint8_t> texels;  ///< width·height·channels, row by row from the top
 };
 
-/// The same recipe gives the same bytes with any number of threads.
+/// Of layers. The same recipe gives the same bytes with any number of threads.
 PaintedTexture paint(const TextureRecipe& recipe);
 
 }  // namespace rowland::scene

@@ -299,7 +299,8 @@ TEST(Schema, OfSceneRecipesAgreesWithTheParser) {
             {"pattern": "tiles", "size": [0.5, 0.25], "gap": 0.1, "g": 1},
             {"pattern": "hexagons", "size": 0.5, "gap": 0.1, "b": 0},
             {"pattern": "rosette", "centre": [1, 0.5], "radius": 0.4, "petals": 5, "petal_depth": 0.25, "rings": 2,
-             "gap": 0.5}]}]}})"),
+             "gap": 0.5}]},
+            {"name": "b", "picture": "b.png", "wrap_x": "clamp"}]}})"),
         json::parse(R"({"scene": {
             "textures": [{"name": "a", "size": [1, 1], "layers": []}],
             "materials": [{"name": "m", "color": [0.5, 0, 1], "alpha": 0.5, "metallic": 1, "roughness": 0.25,

@@ -16,6 +16,9 @@ vec3 direct_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness, inout 
 #ifdef LOCAL_REFLECTIONS
 #include "engine/render/shaders/local_reflection.glsl"
 #endif
+#ifdef OBJECT_REFLECTIONS
+#include "engine/render/shaders/object_reflection.glsl"
+#endif
 
 // The environment's light as the scene near the surface hides and replaces it.
 vec3 with_surroundings(vec3 light, vec3 direction, float roughness) {
@@ -24,6 +27,9 @@ vec3 with_surroundings(vec3 light, vec3 direction, float roughness) {
 #endif
 #ifdef LOCAL_REFLECTIONS
     light = with_local_reflection(light, direction, roughness);
+#endif
+#ifdef OBJECT_REFLECTIONS
+    light = with_object_reflection(light, direction, roughness);
 #endif
     return light;
 }
@@ -91,6 +97,7 @@ void main() {
 #else
     vec3 v = normalize(eye.xyz - world_position);
     vec3 n = surface_normal();
+    n -= min(dot(n, v), 0.0) * v;  // an outline's pixel may lie outside its triangle, where normals turn away
     read_screen_visibility();
     MaterialTerms terms = material_terms();
     sum += terms.base_weight * base_radiance(base.rgb, n, v, terms.added);

@@ -40,6 +40,15 @@ vec3 plane_albedo(vec2 at, float footprint) {
     return mat3(rec709_to_working) * (plane_colour.rgb * texel);
 }
 
+// What the plane's own lobe reflects of the environment toward the mirror.
+vec3 plane_gloss(vec3 direction, float visibility) {
+    float roughness = plane_normal.w;
+    vec2 split = textureLod(brdf_table, vec2(-dot(direction, plane_normal.xyz), roughness), 0.0).rg;
+    vec3 mirrored = reflect(direction, plane_normal.xyz);
+    vec3 light = textureLod(environment_map, mirrored, roughness * environment.x).rgb * environment.y;
+    return light * ((0.04 * split.x + split.y) * visibility);
+}
+
 // The light from a direction: that of the plane, if the ray meets it, in place of the environment's. A rough surface
 // sees a blurred edge and map.
 vec3 with_local_reflection(vec3 environment_radiance, vec3 direction, float roughness) {
@@ -54,9 +63,10 @@ vec3 with_local_reflection(vec3 environment_radiance, vec3 direction, float roug
     float coverage = inside.x * inside.y;
     if (coverage <= 0.0) return environment_radiance;
     vec3 met = world_position + distance * direction;
-    vec3 light = ambient_visibility_at(met) * plane_ambient.rgb;
+    float visibility = ambient_visibility_at(met);
+    vec3 light = visibility * plane_ambient.rgb;
 #ifdef SHADOWS
     light += shadow_tap(shadow_coordinates(met, plane_normal.xyz, lights[0].position.xyz)) * plane_lamp.rgb;
 #endif
-    return mix(environment_radiance, plane_albedo(at, footprint) * light, coverage);
+    return mix(environment_radiance, plane_albedo(at, footprint) * light + plane_gloss(direction, visibility), coverage);
 }

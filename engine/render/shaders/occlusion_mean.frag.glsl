@@ -1,7 +1,9 @@
 #version 450 core
-// The mean of occlusion.frag.glsl's result over its pattern of 4x4 pixels, of those at a similar depth. Five by five
-// pixels whose outer ones count half hold every part of the pattern once, about the middle.
+// The mean of occlusion.frag.glsl's result along one axis, of pixels at a similar depth; a pass along either axis removes
+// its pattern of 4x4 pixels. Seven pixels of falling weight hold every part of the pattern equally; with four equal ones,
+// thin occluders would cast fans of stripes.
 layout(binding = 0) uniform sampler2D visibility_map;
+uniform ivec2 axis;
 
 layout(location = 0) out vec4 visibility;
 
@@ -13,13 +15,11 @@ void main() {
     float depth = texelFetch(visibility_map, texel, 0).z;
     vec2 sum = vec2(0.0);
     float weights = 0.0;
-    for (int y = -2; y <= 2; ++y)
-        for (int x = -2; x <= 2; ++x) {
-            vec3 other = texelFetch(visibility_map, clamp(texel + ivec2(x, y), ivec2(0), last), 0).xyz;
-            float weight = (abs(x) == 2 ? 0.5 : 1.0) * (abs(y) == 2 ? 0.5 : 1.0) *
-                           max(1.0 - abs(other.z - depth) / (SIMILAR * depth), 0.0);
-            sum += weight * other.xy;
-            weights += weight;
-        }
+    for (int i = -3; i <= 3; ++i) {
+        vec3 other = texelFetch(visibility_map, clamp(texel + i * axis, ivec2(0), last), 0).xyz;
+        float weight = float(4 - abs(i)) * max(1.0 - abs(other.z - depth) / (SIMILAR * depth), 0.0);
+        sum += weight * other.xy;
+        weights += weight;
+    }
     visibility = vec4(sum / weights, depth, 1.0);
 }

@@ -12,7 +12,7 @@ layout(std140, binding = 3) uniform ReflectionBlock {
 #endif
     mat4 world_to_plane;   // x, z: along the plane from its middle; y: above it
     vec4 plane_size;       // xy: half of its sides; z: angle of a pixel, radians; w: 1 if it has a map
-    vec4 plane_normal;     // xyz: unit, world
+    vec4 plane_normal;     // xyz: unit, world; w: perceptual roughness
     vec4 plane_ambient;    // xyz: radiance if it were white, without the light that casts shadows; working space
     vec4 plane_lamp;       // xyz: radiance if it were white, of that light
     vec4 plane_colour;     // xyz: as ObjectBlock's base_colour

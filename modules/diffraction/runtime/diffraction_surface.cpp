@@ -143,6 +143,7 @@ void DiffractionSurfaceType::update(ecs::World& world, const LightParts& light) 
                 update_surface(scene::posed(*instance.mesh, scene::joint_matrices(world, *skin)), true);
             else
                 update_surface(*instance.mesh, false);
+            if (changed || surface.material->filling(state)) ++version_;
         });
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <map>
 #include <memory>
@@ -56,6 +57,7 @@ class DiffractionSurfaceType final : public render::MaterialType {
     bool owns(ecs::World& world, ecs::Entity entity) const override;
     gpu::ProgramDesc program(ecs::World& world, ecs::Entity entity) const override;
     void update(ecs::World& world, const render::FrameLight& light) override;
+    std::uint64_t version() const override { return version_; }
     /// The same under light that does not come from the renderer.
     void update(ecs::World& world, const LightParts& light);
     void bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const override;
@@ -75,6 +77,7 @@ class DiffractionSurfaceType final : public render::MaterialType {
     std::set<std::pair<std::string, std::string>> warned_of_;  ///< illuminants baked for, lit by
     LightDivision division_;
     SurfaceLight light_;
+    std::uint64_t version_ = 0;
 };
 
 }  // namespace rowland::diffraction

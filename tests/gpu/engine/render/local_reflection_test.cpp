@@ -1,6 +1,7 @@
 // What mirrors show of the plane they stand on, against rays.
 #include <algorithm>
 
+#include "engine/render/brdf_table.h"
 #include "engine/render/local_reflection.h"
 #include "engine/scene/directional_light.h"
 #include "tests/gpu/engine/render/traced_scene.h"
@@ -36,7 +37,14 @@ class LocalReflectionTest : public test::TracedSceneTest {
     struct Reflected {
         std::size_t pixel;
         std::optional<Hit> floor;
+        double gloss = 0.0;  ///< of the floor toward the mirror, in even light of 1
     };
+    /// What the floor's lobe reflects of even light.
+    static double lobe(double cosine) {
+        static const std::vector<glm::vec2> table = bake_brdf_table(kTable);
+        const glm::dvec2 split(table[kTable * (kTable - 1) + static_cast<std::size_t>(cosine * kTable)]);
+        return 0.04 * split.x + split.y;
+    }
     /// Of the pixels that show the sphere, where their mirrored rays meet the floor.
     std::vector<Reflected> reflected() const {
         std::vector<Reflected> result;
@@ -47,14 +55,16 @@ class LocalReflectionTest : public test::TracedSceneTest {
                 const glm::dvec3 incident = glm::normalize(hit->point - glm::dvec3(camera_.eye));
                 // At the outline a pixel sees other rays.
                 if (glm::dot(incident, hit->normal) > -0.2) continue;
-                const auto met = trace(hit->point + 1e-5 * hit->normal, glm::reflect(incident, hit->normal));
+                const glm::dvec3 mirrored = glm::reflect(incident, hit->normal);
+                const auto met = trace(hit->point + 1e-5 * hit->normal, mirrored);
                 const bool inside = met && glm::max(std::abs(met->point.x), std::abs(met->point.z)) < kFloor;
-                result.push_back({index(column, row), inside ? met : std::nullopt});
+                result.push_back({index(column, row), inside ? met : std::nullopt, inside ? lobe(-mirrored.y) : 0.0});
             }
         return result;
     }
 
     static constexpr int kMap = 128;
+    static constexpr std::size_t kTable = 64;
     static inline const std::vector<glm::vec4> kTexels = {
         {0.1F, 0.1F, 0.1F, 1.0F}, {0.3F, 0.3F, 0.3F, 1.0F}, {0.5F, 0.5F, 0.5F, 1.0F}, {0.7F, 0.7F, 0.7F, 1.0F}};
     const StandardMaterial kMirror{.base_colour = glm::vec3(1.0F), .metallic = 1.0F, .roughness = 0.0F};
@@ -69,7 +79,7 @@ TEST_F(LocalReflectionTest, AMirrorShowsThePlaneWhereItsRaysMeetIt) {
     const auto pixels = reflected();
     for (const Reflected& one : pixels) {
         of_floor += one.floor ? 1 : 0;
-        const double expected = one.floor ? albedo(one.floor->point) : 1.0;
+        const double expected = one.floor ? albedo(one.floor->point) + one.gloss : 1.0;
         wrong += std::abs(shown[one.pixel] - expected) > 0.02 ? 1 : 0;
     }
     EXPECT_GT(of_floor, 300);
@@ -89,7 +99,7 @@ TEST_F(LocalReflectionTest, ThePlanesMapMayHaveLevelsAndAnAnisotropicFilter) {
     const std::vector<float> shown = greens();
     for (const Reflected& one : reflected())
         if (one.floor && glm::length(one.floor->point) < 0.5) {
-            ASSERT_NEAR(shown[one.pixel], 0.25F, 0.005F);
+            ASSERT_NEAR(shown[one.pixel], 0.25 + one.gloss, 0.01);
         }
 }
 
@@ -109,7 +119,7 @@ TEST_F(LocalReflectionTest, ThePlaneIsLitByTheProbeAndTheLampAndHasItsShadow) {
         const bool in_shadow = trace(one.floor->point + glm::dvec3(0.0, 1e-6, 0.0), glm::dvec3(toward)).has_value();
         ++counted;
         shadowed += in_shadow ? 1 : 0;
-        const double expected = albedo(one.floor->point) * (0.5 + (in_shadow ? 0.0 : lamp));
+        const double expected = albedo(one.floor->point) * (0.5 + (in_shadow ? 0.0 : lamp)) + 0.5 * one.gloss;
         wrong += std::abs(shown[one.pixel] - expected) > 0.05 * expected + 0.01 ? 1 : 0;
     }
     EXPECT_GT(shadowed, 20);

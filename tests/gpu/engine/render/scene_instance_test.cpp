@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/core/error.h"
+#include "engine/render/object_reflection.h"
 #include "engine/render/surface_textures.h"
 #include "engine/scene/directional_light.h"
 #include "engine/scene/node_label.h"
@@ -233,6 +234,14 @@ TEST_F(SceneInstanceTest, ANodeIsFoundByItsNameAndHasItsExtras) {
     EXPECT_EQ(world_.get<scene::NodeLabel>(instance.nodes[1]).extras, scene.nodes[1].extras);
     world_.destroy(instance.nodes[1]);
     EXPECT_EQ(instance.node_named(world_, "disc"), std::nullopt);
+}
+
+TEST_F(SceneInstanceTest, WhatIsBelowANodeThatReflectsObjectsIsOneGroup) {
+    scene::ImportedScene scene = two_nodes();
+    EXPECT_FALSE(world_.find<ReflectsObjects>(instantiate(world_, scene, renderer_, "test.gltf").drawn[0]));
+    scene.nodes[0].extras = {{"reflects_objects", true}};
+    const SceneInstance instance = instantiate(world_, scene, renderer_, "test.gltf");
+    EXPECT_EQ(world_.get<ReflectsObjects>(instance.drawn[0]).group, instance.nodes[0]);
 }
 
 TEST_F(SceneInstanceTest, AMaterialExtensionReachesTheTypeThatHandlesIt) {

@@ -1,7 +1,9 @@
 // What a surface's maps, colours and modes do, pixel by pixel.
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "engine/lighting/environment_map.h"
 #include "engine/scene/directional_light.h"
 #include "tests/gpu/render_test.h"
 
@@ -279,6 +281,30 @@ TEST_F(SurfaceTest, ABlendedSurfaceDoesNotHideOneBehindItInTheSamePlace) {
     glass(-0.6F);
     EXPECT_NEAR(at(draw(), -0.4F, 0.0F).r, 0.25F, 5e-4F);
     EXPECT_NEAR(at(draw(), 0.4F, 0.0F).r, 0.25F, 5e-4F);
+}
+
+TEST_F(SurfaceTest, AnOutlineWhoseNormalsTurnAwayMirrorsWhatIsBehindIt) {
+    // Bright above, black ahead.
+    lighting::LightProbe probe = even_light(1.0F);
+    lighting::CubeLayout& layout = probe.environment.layout;
+    layout = {.face_size = 16, .levels = 1};
+    probe.environment.halves.assign(3 * layout.offset(1), 0);
+    probe.ambient = {};
+    for (int face = 0; face < 6; ++face)
+        for (int row = 0; row < layout.face_size; ++row)
+            for (int column = 0; column < layout.face_size; ++column) {
+                const double s = (2.0 * column + 1.0) / layout.face_size - 1.0;
+                const double t = (2.0 * row + 1.0) / layout.face_size - 1.0;
+                if (lighting::cube_direction(face, s, t).y < 0.2) continue;
+                const std::size_t texel = 3 * layout.index(0, face, column, row);
+                std::fill_n(probe.environment.halves.begin() + static_cast<std::ptrdiff_t>(texel), 3, 0x3C00);
+            }
+    renderer_.set_probe(std::move(probe));
+    scene::Mesh mesh = square();
+    mesh.normals.assign(4, {0.0F, -0.8F, -0.6F});
+    add(std::move(mesh), {.base_colour = glm::vec3(0.0F), .roughness = 0.0F});
+    const auto pixels = draw();
+    EXPECT_LT(at(pixels, 0.0F, 0.0F).g, 0.01F);
 }
 
 }  // namespace

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <map>
+#include <utility>
+
+#include "engine/core/hash.h"
+#include "engine/ecs/entity.h"
+#include "engine/gpu/framebuffer.h"
+#include "engine/gpu/full_screen_pass.h"
+#include "engine/gpu/program.h"
+#include "engine/gpu/texture.h"
+#include "engine/render/program_cache.h"
+#include "engine/scene/camera.h"
+
+namespace rowland::render {
+
+/// Component of a drawn entity: it mirrors the opaque objects around its group where it would mirror the environment.
+/// glTF nodes have it by their extras, with all nodes below them as one group: `"reflects_objects": true`.
+struct ReflectsObjects {
+    ecs::Entity group;  ///< a mirror shows nothing of its own group
+};
+
+/// The light from objects around a point and their distance, as two cube maps. A mirror near the point searches them
+/// for what its rays meet [Szirmay-Kalos et al. 2005, "Approximate ray-tracing on the GPU with distance impostors"]:
+/// for any camera, without noise. What the point does not see, mirrors do not show.
+class ObjectReflection {
+ public:
+    static constexpr int kFaces = 6;
+
+    /// Of a cube map's face, of so many texels; 1: for empty surroundings.
+    explicit ObjectReflection(int face_size);
+
+    /// The view of a face from the centre.
+    scene::Camera camera(int face) const;
+    /// Takes a face from a picture that shows it, of twice the size, and the picture's depth.
+    void store(ProgramCache& programs, const gpu::FullScreenTriangle& triangle, const gpu::Framebuffer& picture,
+               int face);
+    /// After all faces are stored.
+    void finish() { light_.generate_levels(); }
+    /// For draws by a program in use.
+    void bind(const gpu::Program& program) const;
+
+    glm::vec3 centre{0.0F};
+    Hash128 content;  ///< of what it was drawn from
+
+ private:
+    gpu::Texture light_;     ///< working space, times coverage; alpha: coverage
+    gpu::Texture nearness_;  ///< 1 / distance, metres; 0: nothing
+};
+
+/// Those of all groups, and what it takes to draw them.
+struct ObjectReflections {
+    static constexpr int kFaceSize = 128;
+
+    ObjectReflections();
+    ObjectReflection& of(ecs::Entity group);
+
+    ObjectReflection nothing{1};  ///< what mirrors mirror in another's surroundings
+    gpu::Texture all_visible;     ///< there in place of AmbientOcclusion::visibility()
+    gpu::Framebuffer picture{{.width = 2 * kFaceSize, .height = 2 * kFaceSize, .depth = true}};
+    gpu::FullScreenTriangle triangle;
+
+ private:
+    std::map<std::pair<std::uint32_t, std::uint32_t>, ObjectReflection> of_groups_;
+};
+
+}  // namespace rowland::render
