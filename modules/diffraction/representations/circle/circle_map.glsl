@@ -1,7 +1,7 @@
 // A map over g in the world and v_g, Fourier terms of the normal's angle around g: circle_map.h. The program defines
 // CHARTS, TERMS and VIEWS. Charts lie side by side, terms below each other. Filtering never reaches a
 // neighbour, as the equator lies 1.5 texels inside.
-layout(binding = 11) uniform sampler3D circle_map;
+TEXTURE_UNIT(11) uniform sampler3D circle_map;
 uniform float circle_map_scale;  // chart coordinates to texture coordinates
 uniform float map_scale;  // of the stored values
 

@@ -8,7 +8,7 @@
 const int LAYERS = (COEFFICIENTS + 1 + 3) / 4;
 
 // Row c: XYZ of a spike of coefficient 1 under light of colour c, one texel per nanometre from 380 to 780.
-layout(binding = 9) uniform sampler2D wavelength_table;
+TEXTURE_UNIT(9) uniform sampler2D wavelength_table;
 
 vec3 wavelength_to_xyz(float normalised, vec3 rgb) {
     float s = (clamp(normalised, 0.0, 1.0) * 400.0 + 0.5) / 401.0;
