@@ -158,9 +158,13 @@ void ShaderLibrary::paste(const std::string& name, std::span<const Define> defin
     if (is_root && !versioned) fail(name, 1, "no #version", "#version 450 core as the first directive");
 }
 
-ShaderText ShaderLibrary::assemble(const std::string& name, std::span<const Define> defines) const {
+ShaderText ShaderLibrary::assemble(const std::string& name, std::span<const Define> defines, Dialect dialect) const {
     ShaderText result;
     paste(name, defines, result);
+    if (dialect == Dialect::Es300) {
+        const std::size_t version = result.text.find("#version");
+        result.text.replace(version, result.text.find('\n', version) - version, "#version 300 es");
+    }
     return result;
 }
 

@@ -27,10 +27,17 @@ struct ShaderText {
 };
 inline constexpr std::size_t lines_per_file = 100000;
 
+/// The language of an assembled stage: dialect.glsl.
+enum class Dialect {
+    Desktop,  ///< as the file's `#version` says
+    Es300,    ///< GLSL ES 3.00, that of WebGL 2
+};
+
 /// `#line` so that the line below it counts as line `line` of files[file].
 std::string line_directive(std::size_t file, std::size_t line);
 
-/// The shader files of this part: full_screen_triangle.vert.glsl and half_float.glsl. Every ShaderLibrary holds them.
+/// The shader files of this part: dialect.glsl, full_screen_triangle.vert.glsl and half_float.glsl. Every ShaderLibrary
+/// holds them.
 std::span<const EmbeddedFile> shader_files();
 
 /// Finds shader files by their path from the top of the source tree, among those built into the program or, for hot
@@ -54,7 +61,8 @@ class ShaderLibrary {
     /// pasted once however often it is included. In headers that C++ reads as well, its lines are blank: from
     /// `#ifdef __cplusplus` to the `#else` or `#endif`. The defines go below the file's own `#version`, which must be its
     /// first directive. Throws Error (system) that names the file and the line of a bad include.
-    ShaderText assemble(const std::string& name, std::span<const Define> defines = {}) const;
+    ShaderText assemble(const std::string& name, std::span<const Define> defines = {},
+                        Dialect dialect = Dialect::Desktop) const;
 
  private:
     std::optional<std::string> find(const std::string& name) const;

@@ -54,7 +54,7 @@ void add_light(vec3 irradiance, vec3 l, inout LitSurface surface) {
 #ifdef SOFT_SHADOWS
 #include "engine/render/shaders/soft_shadow.glsl"
 #else
-layout(binding = 2) uniform sampler2DShadow shadow_map;
+TEXTURE_UNIT(2) uniform sampler2DShadow shadow_map;
 #endif
 
 // Four filtered comparisons half a texel apart reach 1.5 texels along each axis. Within that reach, a plane lies at most

@@ -1,5 +1,5 @@
-layout(binding = 0) uniform samplerCube environment_map;
-layout(binding = 1) uniform sampler2D brdf_table;
+TEXTURE_UNIT(0) uniform samplerCube environment_map;
+TEXTURE_UNIT(1) uniform sampler2D brdf_table;
 
 layout(location = 0) out vec4 radiance;
 
@@ -41,7 +41,7 @@ vec3 environment_light(vec3 direction, float roughness) {
 
 #ifdef MATERIAL_HAS_MIRROR
 #ifdef MATERIAL_CURVED_MIRROR
-layout(binding = 18) uniform samplerCube mirror_map;  // the environment with box-filtered levels
+TEXTURE_UNIT(18) uniform samplerCube mirror_map;  // the environment with box-filtered levels
 
 // What a mirror shows, averaged over the pixel: a curved one spreads the directions over many texels, and a lamp may be
 // one. Uses derivatives: call it in uniform control flow.

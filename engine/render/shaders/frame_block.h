@@ -8,7 +8,8 @@ using glm::mat4;
 using glm::vec4;
 struct FrameBlock {
 #else
-layout(std140, binding = 0) uniform FrameBlock {
+#include "engine/gpu/shaders/dialect.glsl"
+BLOCK_BINDING(0) uniform FrameBlock {
 #endif
     mat4 view_projection;
     mat4 clip_to_world;      // inverse of the projection and the camera's rotation, without its translation

@@ -16,7 +16,8 @@ struct Light {
 #ifdef __cplusplus
 struct LightBlock {
 #else
-layout(std140, binding = 2) uniform LightBlock {
+#include "engine/gpu/shaders/dialect.glsl"
+BLOCK_BINDING(2) uniform LightBlock {
 #endif
     vec4 light_counts;  // x: directional; y: all
     Light lights[ROWLAND_MAXIMUM_LIGHTS];

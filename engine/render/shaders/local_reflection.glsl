@@ -1,6 +1,6 @@
 // What a reflected ray meets nearby: engine/render/local_reflection.h.
 #include "engine/render/shaders/reflection_block.h"
-layout(binding = 17) uniform sampler2D plane_map;
+TEXTURE_UNIT(17) uniform sampler2D plane_map;
 
 // The plane's visibility of ambient light where the picture shows that point; 1 where something hides it.
 float ambient_visibility_at(vec3 position) {

@@ -8,7 +8,8 @@ using glm::mat4;
 using glm::vec4;
 struct ObjectBlock {
 #else
-layout(std140, binding = 1) uniform ObjectBlock {
+#include "engine/gpu/shaders/dialect.glsl"
+BLOCK_BINDING(1) uniform ObjectBlock {
 #endif
     mat4 object_to_world;
     mat4 normal_to_world;     // inverse transpose of the upper 3x3

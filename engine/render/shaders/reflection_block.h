@@ -8,7 +8,8 @@ using glm::mat4;
 using glm::vec4;
 struct ReflectionBlock {
 #else
-layout(std140, binding = 3) uniform ReflectionBlock {
+#include "engine/gpu/shaders/dialect.glsl"
+BLOCK_BINDING(3) uniform ReflectionBlock {
 #endif
     mat4 world_to_plane;   // x, z: along the plane from its middle; y: above it
     vec4 plane_size;       // xy: half of its sides; z: angle of a pixel, radians; w: 1 if it has a map

@@ -1,6 +1,6 @@
 // Visibility from the depth of the picture: engine/render/ambient_occlusion.h. AMBIENT_OCCLUSION.
 #ifdef AMBIENT_OCCLUSION
-layout(binding = 16) uniform sampler2D visibility_map;
+TEXTURE_UNIT(16) uniform sampler2D visibility_map;
 
 vec2 screen_visibility;  // of ambient light, of the light that casts shadows
 

@@ -1,5 +1,5 @@
 // The shadow map's light is a disc: engine/render/soft_shadow.h.
-layout(binding = 2) uniform sampler2D shadow_map;
+TEXTURE_UNIT(2) uniform sampler2D shadow_map;
 
 const int SHADOW_TAPS = 16;
 const float WIDEST_PENUMBRA = 24.0;  // texels

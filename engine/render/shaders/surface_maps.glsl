@@ -1,19 +1,19 @@
 // The factors of an object's surface times its maps. A map's define names the texture coordinates it uses: uv or uv1.
 
 #ifdef BASE_COLOUR_MAP
-layout(binding = 3) uniform sampler2D base_colour_map;
+TEXTURE_UNIT(3) uniform sampler2D base_colour_map;
 #endif
 #ifdef METALLIC_ROUGHNESS_MAP
-layout(binding = 4) uniform sampler2D metallic_roughness_map;
+TEXTURE_UNIT(4) uniform sampler2D metallic_roughness_map;
 #endif
 #ifdef NORMAL_MAP
-layout(binding = 5) uniform sampler2D normal_map;
+TEXTURE_UNIT(5) uniform sampler2D normal_map;
 #endif
 #ifdef OCCLUSION_MAP
-layout(binding = 6) uniform sampler2D occlusion_map;
+TEXTURE_UNIT(6) uniform sampler2D occlusion_map;
 #endif
 #ifdef EMISSIVE_MAP
-layout(binding = 7) uniform sampler2D emissive_map;
+TEXTURE_UNIT(7) uniform sampler2D emissive_map;
 #endif
 
 #ifdef TEXTURE_TRANSFORM

@@ -106,7 +106,7 @@ mat3 groove_axes() {
 
 #ifdef GROOVE_MAP
 // Means over the grooves: runtime/groove_moments.h.
-layout(binding = 13) uniform sampler2D groove_map;
+TEXTURE_UNIT(13) uniform sampler2D groove_map;
 uniform vec4 groove_uv_linear;
 uniform vec2 groove_uv_offset;
 uniform float groove_pitch;  // the smallest, over the material's

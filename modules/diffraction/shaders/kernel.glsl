@@ -1,6 +1,6 @@
 // d k(d u), the colour kernel smoothed by a normal distribution of u: bake/blurred_kernel.h. Layers for red, green and
 // blue light, then one for each colour of the scene's lights. Values are in the colour space of the stored ones.
-layout(binding = 10) uniform sampler2DArray kernel_table;
+TEXTURE_UNIT(10) uniform sampler2DArray kernel_table;
 uniform vec4 kernel_scale_bias;  // scale and offset from u to s; deviation of u in row 0; scale of the values
 uniform vec2 kernel_rows;        // scale and offset from log2(deviation of u) to t
 uniform vec2 kernel_reach;       // k is 0 where |u| differs from x by more than y

@@ -24,7 +24,7 @@ struct KeyLobe {
 #ifdef __cplusplus
 struct KeyLobeBlock {
 #else
-layout(std140, binding = 6) uniform KeyLobeBlock {
+BLOCK_BINDING(6) uniform KeyLobeBlock {
 #endif
     vec4 key_lobe_count;  // x
     KeyLobe key_lobes[ROWLAND_MAXIMUM_KEY_LOBES];

@@ -3,7 +3,7 @@
 #include "modules/diffraction/shaders/groove_lobe.glsl"
 #ifdef KEY_LOBE_TABLE
 
-layout(binding = 14) uniform sampler2DArray lobe_table;  // a layer for each light
+TEXTURE_UNIT(14) uniform sampler2DArray lobe_table;  // a layer for each light
 uniform vec3 lobe_scale_bias;  // scale and offset from u to s; scale of the values, per unit of the largest flux
 uniform vec2 lobe_reach;       // the kernel is 0 where |u| differs from x by more than y
 

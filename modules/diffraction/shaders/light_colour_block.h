@@ -7,7 +7,7 @@ namespace rowland::diffraction {
 using glm::vec4;
 struct LightColourBlock {
 #else
-layout(std140, binding = 7) uniform LightColourBlock {
+BLOCK_BINDING(7) uniform LightColourBlock {
 #endif
     vec4 light_colours[ROWLAND_MAXIMUM_LIGHTS];  // x: its colour's layer of the kernel table; y: the light's strength
                                                  // over that colour

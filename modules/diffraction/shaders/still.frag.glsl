@@ -2,7 +2,7 @@
 // An image of the diffraction term from the current view, which includes a cover's transmittance of the view.
 #include "modules/diffraction/shaders/surface.glsl"
 
-layout(binding = 11) uniform sampler2D still;  // XYZ times alpha; alpha: the known fraction
+TEXTURE_UNIT(11) uniform sampler2D still;  // XYZ times alpha; alpha: the known fraction
 uniform vec2 still_scale;                      // pixels to texture coordinates
 
 vec3 diffracted_radiance(GrooveView view) {

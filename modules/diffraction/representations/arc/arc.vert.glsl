@@ -6,7 +6,7 @@
 
 // Red, green and blue (working space) of the products of ranks 4j ... 4j+3, for j < LAYERS; vertex by vertex, from the
 // CPU.
-layout(std430, binding = 4) readonly buffer ArcProducts { vec4 vertex_products[]; };
+STORAGE(4, ArcProducts, vec4, vertex_products);
 
 out vec3 world_grating;
 out vec4 arc_products[3 * LAYERS];
@@ -15,7 +15,7 @@ void material_vertex(vec3 position, vec3 g, vec3 h, vec3 n) {
     turn_grooves(g, h);
     shade_lights(position, mat3(g, h, n));
     world_grating = g;
-    for (int i = 0; i < 3 * LAYERS; ++i) arc_products[i] = vertex_products[gl_VertexID * 3 * LAYERS + i];
+    for (int i = 0; i < 3 * LAYERS; ++i) arc_products[i] = STORED_VEC4(vertex_products, gl_VertexID * 3 * LAYERS + i);
 }
 
 #include "engine/render/shaders/forward_vertex_main.glsl"

@@ -6,7 +6,7 @@ const int PRODUCTS = 3 * LAYERS;
 
 #ifdef TURNS
 // The constant, then cos and sin of each multiple of the azimuth: arc_turns.h.
-layout(std430, binding = 4) readonly buffer ArcTurns { vec4 turn_terms[]; };
+STORAGE(4, ArcTurns, vec4, turn_terms);
 uniform vec3 arc_e1;  // the azimuth's axes in the world
 uniform vec3 arc_e2;
 
@@ -15,12 +15,13 @@ vec4[PRODUCTS] products_at(vec3 g, float fade) {
     vec2 once = fade * vec2(dot(g, arc_e1), dot(g, arc_e2));
     vec2 turn = vec2(1.0, 0.0);
     vec4 products[PRODUCTS];
-    for (int i = 0; i < PRODUCTS; ++i) products[i] = turn_terms[i];
+    for (int i = 0; i < PRODUCTS; ++i) products[i] = STORED_VEC4(turn_terms, i);
     for (int m = 1; m < TURNS; ++m) {
         turn = vec2(turn.x * once.x - turn.y * once.y, turn.x * once.y + turn.y * once.x);
         int at = (2 * m - 1) * PRODUCTS;
         for (int i = 0; i < PRODUCTS; ++i)
-            products[i] += turn.x * turn_terms[at + i] + turn.y * turn_terms[at + PRODUCTS + i];
+            products[i] += turn.x * STORED_VEC4(turn_terms, at + i) +
+                           turn.y * STORED_VEC4(turn_terms, at + PRODUCTS + i);
         once *= fade * fade;
     }
     return products;

@@ -2,7 +2,7 @@
 // CHARTS, TERMS, LOOK_UPS and VIEWS. A look-up holds four components of the terms' values, which follow each other:
 // red, green and blue of the first term, red of the second. Look-ups lie side by side, charts below each other.
 // Filtering never reaches a neighbour, as the equator lies 1.5 texels inside.
-layout(binding = 11) uniform sampler3D circle_map;
+TEXTURE_UNIT(11) uniform sampler3D circle_map;
 uniform float circle_map_scale;  // chart coordinates to texture coordinates
 uniform float map_scale;  // of the stored values
 

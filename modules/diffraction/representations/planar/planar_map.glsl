@@ -1,14 +1,14 @@
 // A flat object's map over the azimuth of g in its plane and v_g: planar_map.h. With LOBE_MAP it is
 // over v_h as well: lobe_map.h; with HALF_TURN over half of the azimuths. With PITCH_AXIS it is over pitches as well.
 #ifdef LOBE_MAP
-layout(binding = 11) uniform sampler3D lobe_map;
+TEXTURE_UNIT(11) uniform sampler3D lobe_map;
 uniform vec4 lobe_map_axes;  // scales of v_g, v_h and the azimuth, offset of the azimuth
 #else
 #ifdef PITCH_AXIS
-layout(binding = 11) uniform sampler3D planar_map;
+TEXTURE_UNIT(11) uniform sampler3D planar_map;
 uniform vec2 pitch_scale_bias;  // from the logarithm of the pitch factor to the map's third coordinate
 #else
-layout(binding = 11) uniform sampler2D planar_map;
+TEXTURE_UNIT(11) uniform sampler2D planar_map;
 #endif
 uniform vec2 planar_map_half_texel;
 #endif

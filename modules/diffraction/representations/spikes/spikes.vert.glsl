@@ -9,13 +9,13 @@ const int LAYERS = (COEFFICIENTS + 1 + 3) / 4;
 
 // XYZ of a spike of coefficient 1 under red, then under green, then under blue light, one texel per nanometre from 380 to
 // 780. A line: rows of a plane would be filtered across.
-layout(binding = 9) uniform sampler1D wavelength_table;
+TEXTURE_UNIT(9) uniform SAMPLER_LINE wavelength_table;
 
 vec3 wavelength_to_xyz(float normalised, vec3 rgb) {
     float s = (clamp(normalised, 0.0, 1.0) * 400.0 + 0.5) / 1203.0;
-    return rgb.r * textureLod(wavelength_table, s, 0.0).xyz +
-           rgb.g * textureLod(wavelength_table, s + 1.0 / 3.0, 0.0).xyz +
-           rgb.b * textureLod(wavelength_table, s + 2.0 / 3.0, 0.0).xyz;
+    return rgb.r * LINE_LOD(wavelength_table, s, 0.0).xyz +
+           rgb.g * LINE_LOD(wavelength_table, s + 1.0 / 3.0, 0.0).xyz +
+           rgb.b * LINE_LOD(wavelength_table, s + 2.0 / 3.0, 0.0).xyz;
 }
 
 // Layer k*LAYERS + j of the table: entries 4j..4j+3 of spike k's [c_0 ... c_(n*n-1), (wavelength - 380) / 400].

@@ -6,12 +6,24 @@
 #include "modules/diffraction/representations/arc/arc_sum.glsl"
 #endif
 
+// Of a segment: x: first path over the pitch; y: step over the pitch. Then for each node the columns: of red, green and
+// blue light, working space.
+#ifdef GL_ES
+STORAGE(6, StreakSegments, vec4, streak_segments);
+uniform int streak_segment_count;
+vec4 segment_first_step(int i) { return STORED_VEC4(streak_segments, i * (1 + 3 * NODES)); }
+vec4 segment_weight(int i, int k) { return STORED_VEC4(streak_segments, i * (1 + 3 * NODES) + 1 + k); }
+#else
 struct StreakSegment {
-    vec4 first_step;          // x: first path over the pitch; y: step over the pitch
-    vec4 weights[3 * NODES];  // for each node the columns: of red, green and blue light, working space
+    vec4 first_step;
+    vec4 weights[3 * NODES];
 };
 layout(std430, binding = 6) readonly buffer StreakSegments { StreakSegment streak_segments[]; };
-layout(binding = 11) uniform sampler3D streak_map;  // streak_map.h
+#define streak_segment_count streak_segments.length()
+vec4 segment_first_step(int i) { return streak_segments[i].first_step; }
+vec4 segment_weight(int i, int k) { return streak_segments[i].weights[k]; }
+#endif
+TEXTURE_UNIT(11) uniform sampler3D streak_map;  // streak_map.h
 uniform float map_scale;                            // of the stored values
 uniform float streak_reach;                         // streak.h
 uniform float streak_level;                         // log2 of the lobe's deviation over the map's
@@ -55,8 +67,8 @@ vec3 streak_position(float s_g, float s_h, float up, mat3 axes) {
 }
 
 vec3 segment_radiance(int i, StreakView at, GrooveView view) {
-    float first = streak_segments[i].first_step.x / view.pitch - view.direction.x;
-    float step_g = streak_segments[i].first_step.y / view.pitch;
+    float first = segment_first_step(i).x / view.pitch - view.direction.x;
+    float step_g = segment_first_step(i).y / view.pitch;
     float low = max(first, -at.limit);
     float high = min(first + float(NODES - 1) * step_g, at.limit);
     vec3 sum = vec3(0.0);
@@ -93,7 +105,7 @@ vec3 segment_radiance(int i, StreakView at, GrooveView view) {
                              cover_transmittance(sqrt(square_n(middle + t * extent, s_h)));
             vec2 chart_at = mean.xy + t * (slope.xy + t * bend);
             vec3 rgb = fraction * textureLod(streak_map, vec3(chart_at, mean.z + t * slope.z), level).rgb;
-            for (int c = 0; c < 3; ++c) sum += streak_segments[i].weights[3 * j + c].xyz * rgb[c];
+            for (int c = 0; c < 3; ++c) sum += segment_weight(i, 3 * j + c).xyz * rgb[c];
         }
     }
     return sum;
@@ -102,7 +114,7 @@ vec3 segment_radiance(int i, StreakView at, GrooveView view) {
 vec3 diffracted_radiance(GrooveView view) {
     StreakView at = streak_view(view);
     vec3 sum = vec3(0.0);
-    for (int i = 0; i < streak_segments.length(); ++i) sum += segment_radiance(i, at, view);
+    for (int i = 0; i < streak_segment_count; ++i) sum += segment_radiance(i, at, view);
     sum *= streak_power * map_scale;
 #ifdef REST
     sum += rest_weight * arc_radiance(view);
