@@ -1,6 +1,6 @@
 // What a reflected ray meets among the objects around its mirror: engine/render/object_reflection.h.
-layout(binding = 19) uniform samplerCube surrounding_light;     // times coverage; alpha: coverage
-layout(binding = 20) uniform samplerCube surrounding_nearness;  // 1 / distance from the centre, metres; 0: nothing
+TEXTURE_UNIT(19) uniform samplerCube surrounding_light;     // times coverage; alpha: coverage
+TEXTURE_UNIT(20) uniform samplerCube surrounding_nearness;  // 1 / distance from the centre, metres; 0: nothing
 uniform vec4 surroundings;  // xyz: the centre, world; w: angle of a texel, radians
 
 const int MARCH_STEPS = 16;
