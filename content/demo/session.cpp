@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "content/demo/play/hierarchy.h"
+#include "engine/app/unused_file.h"
 #include "engine/core/error.h"
 #include "engine/core/log.h"
 #include "engine/scene/transform.h"
@@ -123,6 +124,7 @@ void Session::set(const SettingEvent& event) {
             break;
         case Setting::Probe:
             use_probe(probe_named(text()));
+            messages_.say(probe_path_.filename().string() + ": the light");
             break;
         case Setting::View:
             use_view(text());
@@ -241,6 +243,10 @@ void Session::refresh_scene() {
 }
 
 void Session::draw(float seconds) {
+    if (const std::string why = failure(); why != shown_failure_) {
+        shown_failure_ = why;
+        if (!why.empty()) messages_.add_logged(why, true);
+    }
     draw_from(play_.camera(), seconds);
     for (const Action action : std::exchange(screenshots_, {}))
         messages_.attempt([&] { write_screenshot(action == Action::LinearScreenshot); });
@@ -253,12 +259,12 @@ void Session::draw_from(const scene::Camera& camera, float seconds) {
 }
 
 void Session::write_screenshot(bool linear) {
-    const std::filesystem::path path =
-        options_.output_folder / fmt::format("screenshot_{:04}.{}", screenshots_taken_++, linear ? "exr" : "png");
+    const std::filesystem::path path = app::unused_file(options_.output_folder, "screenshot", linear ? ".exr" : ".png");
     if (linear)
         view::write_linear_capture(picture_->linear(), path);
     else
         view::write_display_capture(picture_->encoded(), path);
+    messages_.say(path.string() + ": the picture");
 }
 
 std::string Session::failure() const {

@@ -60,6 +60,8 @@ class Session {
     void draw(float seconds);
     /// The same through another camera, without screenshots.
     void draw_from(const scene::Camera& camera, float seconds);
+    /// What the user is told, newest last.
+    const std::vector<Message>& messages() const { return messages_.all(); }
     /// Why the picture does not show a file's present content; empty if it does.
     std::string failure() const;
 
@@ -84,6 +86,7 @@ class Session {
     Comparison comparison_;
     asset::FileWatch shaders_;
     std::string shader_failure_;
+    std::string shown_failure_;  ///< failure(), as it was told last
     int frames_followed_ = 0;
     std::vector<std::filesystem::path> probe_paths_;
     std::filesystem::path probe_path_;
@@ -93,7 +96,6 @@ class Session {
     std::vector<std::string> views_;
     std::string view_;
     std::vector<Action> screenshots_;
-    int screenshots_taken_ = 0;
 };
 
 }  // namespace rowland::demo

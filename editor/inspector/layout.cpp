@@ -32,6 +32,14 @@ void visit_numbers(AnyLayout& layout, Visit&& visit) {
 
 }  // namespace
 
+void remember(Layout& layout, const std::filesystem::path& path) {
+    constexpr std::size_t kMost = 10;
+    const std::string name = std::filesystem::absolute(path).lexically_normal().string();
+    std::erase(layout.recent, name);
+    layout.recent.insert(layout.recent.begin(), name);
+    if (layout.recent.size() > kMost) layout.recent.pop_back();
+}
+
 Layout load_layout(const std::filesystem::path& path) {
     Layout layout;
     std::error_code ignored;
@@ -45,6 +53,7 @@ Layout load_layout(const std::filesystem::path& path) {
         layout.stage.lamp = json.value("lamp", false);
         layout.shape = json.value("shape", layout.shape);
         layout.light = json.value("light", layout.light);
+        layout.recent = json.value("recent", layout.recent);
     } catch (const std::exception& error) {
         log_warning("{}: using the default layout: {}", path.string(), error.what());
     }
@@ -52,7 +61,8 @@ Layout load_layout(const std::filesystem::path& path) {
 }
 
 void save_layout(const Layout& layout, const std::filesystem::path& path) {
-    Json json = {{"shape", layout.shape}, {"light", layout.light}, {"lamp", layout.stage.lamp}};
+    Json json = {
+        {"shape", layout.shape}, {"light", layout.light}, {"recent", layout.recent}, {"lamp", layout.stage.lamp}};
     visit_numbers(layout, [&](const char* key, auto value, auto, auto) { json[key] = value; });
     // A path need not be UTF-8.
     write_file_atomic(path, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");

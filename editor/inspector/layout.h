@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "editor/inspector/preview.h"
 
@@ -17,9 +18,13 @@ struct Layout {
     float physics_width = 26;
     float price_height = 17;
     std::string shape = "disc";
-    std::string light;  ///< path of the last probe; empty: the first shipped one
+    std::vector<std::string> recent{};  ///< absolute paths of files that were opened or saved, the last one first
+    std::string light;                  ///< path of the last probe; empty: the first shipped one
     Stage stage{};
 };
+
+/// Puts a file first among the recent ones, of which ten are kept.
+void remember(Layout& layout, const std::filesystem::path& path);
 
 /// The file's layout. Missing members have their defaults, and numbers are clamped to their ranges. A missing or broken
 /// file gives the default layout, since a layout is not worth a refusal.

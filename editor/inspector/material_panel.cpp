@@ -57,7 +57,7 @@ void draw_refusal(const Refusal& refusal) {
 /// The next control follows the label that was just drawn.
 void begin_control() {
     const float font = ImGui::GetFontSize();
-    ImGui::SameLine(8.2F * font);
+    ImGui::SameLine(7.7F * font);
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - 2.0F * font);
 }
 
@@ -91,7 +91,11 @@ void draw_colour(Document& document, const Field& field) {
     const Json value = value_of(field, document.json());
     for (std::size_t i = 0; i < 3 && value.is_array() && i < value.size(); ++i)
         rgb[i] = static_cast<float>(number_of(value[i]));
-    if (!ImGui::ColorEdit3("##value", rgb.data(), ImGuiColorEditFlags_Float)) return;
+    // Its numbers need room; without them a click on the patch opens them.
+    const bool narrow = ImGui::CalcItemWidth() < 10.5F * ImGui::GetFontSize();
+    if (!ImGui::ColorEdit3("##value", rgb.data(),
+                           ImGuiColorEditFlags_Float | (narrow ? ImGuiColorEditFlags_NoInputs : 0)))
+        return;
     Json edited = Json::array();
     for (const float part : rgb) edited.push_back(rounded(part));
     document.set_value(field, edited);
@@ -99,7 +103,11 @@ void draw_colour(Document& document, const Field& field) {
 
 void draw_choice(Document& document, const Field& field, ControlMap& controls) {
     const std::string present = choice_of(field, document.json());
-    if (!ImGui::BeginCombo("##value", present.empty() ? "?" : present.c_str(), ImGuiComboFlags_HeightLargest)) return;
+    const float letters = ImGui::CalcTextSize(present.c_str()).x;
+    const bool narrow = ImGui::CalcItemWidth() < letters + 2.5F * ImGui::GetFontSize();
+    if (!ImGui::BeginCombo("##value", present.empty() ? "?" : present.c_str(),
+                           ImGuiComboFlags_HeightLargest | (narrow ? ImGuiComboFlags_NoArrowButton : 0)))
+        return;
     for (const Choice& choice : field.choices) {
         if (ImGui::Selectable(choice.name.c_str(), choice.name == present) && choice.name != present)
             document.set_choice(field, choice.name);

@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/core/json_reader.h"
 #include "modules/diffraction/asset/efficiency_csv.h"
@@ -13,6 +14,10 @@ namespace rowland::inspector {
 namespace {
 
 constexpr std::uint64_t kLargestSource = 16 << 20;
+
+bool is_light_file(const std::string& extension) {
+    return extension == ".hdr" || extension == ".exr" || extension == ".pic" || extension == ".probe";
+}
 
 bool is_probe_recipe(const std::filesystem::path& path) {
     const nlohmann::json json = parse_json(read_text_file(path, kLargestSource), path.string());
@@ -41,10 +46,19 @@ OpenedFile open_file(const std::filesystem::path& path) {
     if (extension == ".csv")
         return diffraction::parse_efficiency_csv(read_text_file(path, diffraction::kMaximumNamedFileSize),
                                                  path.string());
-    for (const char* of_light : {".hdr", ".exr", ".pic", ".probe"})
-        if (extension == of_light) return LightSource{path};
-    if (is_probe_recipe(path)) return LightSource{path};
+    if (is_light_file(extension) || is_probe_recipe(path)) return LightSource{path};
     return Document::open(path);
+}
+
+bool replaces_material(const std::filesystem::path& path) {
+    const std::string extension = path.extension().string();
+    if (is_scene_file(path)) return true;
+    if (extension == ".csv" || is_light_file(extension) || is_picture_file(path)) return false;
+    try {
+        return !is_probe_recipe(path);
+    } catch (const Error&) {
+        return false;
+    }
 }
 
 }  // namespace rowland::inspector

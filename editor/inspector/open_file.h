@@ -33,4 +33,7 @@ using OpenedFile = std::variant<Document, LightSource, diffraction::EfficiencyTa
 /// (.csv). Throws Error (input).
 OpenedFile open_file(const std::filesystem::path& path);
 
+/// Whether opening the file replaces the material: not if it is a light, a table, or will be refused.
+bool replaces_material(const std::filesystem::path& path);
+
 }  // namespace rowland::inspector

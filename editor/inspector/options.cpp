@@ -16,9 +16,10 @@ constexpr const char* kFooter =
     "  rowland-inspector my_foil.json --probe stage.hdr --shape sheet\n"
     "  rowland-inspector --preset dvd --capture inspector.png --size 1600x1000\n\n"
     "Drop a material, a glTF file, a probe or a table of efficiencies onto the window to open it.\n"
-    "Keys: Tab and arrows move through all controls, Space and Enter use them; Ctrl+Z undoes and Ctrl+Shift+Z redoes,\n"
-    "Ctrl+S saves, Ctrl+O opens, Ctrl+= and Ctrl+- change the size of text, F1 to F5 choose the shape, F6 compares\n"
-    "with the saved version. Drag the preview to orbit, turn the wheel to zoom, click to pick a point.";
+    "Keys: F1 lists all. Tab and arrows move through all controls, Space and Enter use them; Ctrl+Z undoes and\n"
+    "Ctrl+Shift+Z redoes, Ctrl+S saves, Ctrl+O opens, Ctrl+= and Ctrl+- change the size of text, Ctrl+1 to Ctrl+5\n"
+    "choose the shape, F6 compares with the saved version, F12 writes a screenshot. Drag the preview to orbit, turn\n"
+    "the wheel to zoom, click to pick a point.";
 
 void read_size(const std::string& text, Options& options) {
     int used = 0;

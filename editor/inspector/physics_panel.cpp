@@ -34,7 +34,7 @@ std::string numbers_of(const glm::dvec3& value) {
 
 void row(const char* name, const std::string& value) {
     ImGui::TextDisabled("%s", name);
-    ImGui::SameLine(9.5F * ImGui::GetFontSize());
+    ImGui::SameLine(8.0F * ImGui::GetFontSize());
     ImGui::TextUnformatted(value.c_str());
 }
 

@@ -80,7 +80,7 @@ Plot::Plot(const char* name, float height, const PlotAxis& x, const PlotAxis& y)
     hovered_ = ImGui::IsItemHovered();
     minimum_ = {corner.x + 3.2F * font, corner.y + 1.5F * font};
     maximum_ = {corner.x + width - 0.6F * font, corner.y + height - 2.5F * font};
-    legend_x_ = minimum_.x + 0.5F * font;
+    legend_x_ = minimum_.x + 0.2F * font;
     draw_axes();
 }
 
@@ -154,9 +154,9 @@ void Plot::legend(const std::string& name, std::size_t series) {
     const float font = ImGui::GetFontSize();
     const float y = minimum_.y - 0.7F * font;
     float done = 0.0F;
-    dashed(*draw_, {legend_x_, y}, {legend_x_ + 1.6F * font, y}, series_colour(series), dash_of(series), 2.0F, done);
-    draw_->AddText({legend_x_ + 1.9F * font, y - font / 2.0F}, kPlotWords, name.c_str());
-    legend_x_ += 2.6F * font + ImGui::CalcTextSize(name.c_str()).x;
+    dashed(*draw_, {legend_x_, y}, {legend_x_ + 1.2F * font, y}, series_colour(series), dash_of(series), 2.0F, done);
+    draw_->AddText({legend_x_ + 1.5F * font, y - font / 2.0F}, kPlotWords, name.c_str());
+    legend_x_ += 2.1F * font + ImGui::CalcTextSize(name.c_str()).x;
 }
 
 void Plot::text(double x, double y, const char* words, ImU32 colour) const {

@@ -17,7 +17,6 @@ namespace rowland::inspector {
 namespace {
 
 constexpr glm::vec3 kUp(0.0F, 1.0F, 0.0F);
-constexpr glm::vec3 kPosition(0.0F, 0.052F, 0.0F);  ///< of the object, metres
 
 /// How far each shape leans back, so that it shows its colours.
 float lean_deg(PreviewShape shape) {
@@ -34,7 +33,7 @@ glm::mat4 turn_of(const Stage& stage) {
 
 /// Places the object's root.
 scene::Transform placement(const PreviewInputs& inputs) {
-    const glm::mat4 to_world = glm::rotate(glm::translate(turn_of(inputs.stage), kPosition),
+    const glm::mat4 to_world = glm::rotate(glm::translate(turn_of(inputs.stage), kPreviewObject),
                                            glm::radians(lean_deg(inputs.object->shape)), {1.0F, 0.0F, 0.0F});
     scene::Transform at{.translation = glm::vec3(to_world[3]), .rotation = glm::quat_cast(glm::mat3(to_world))};
     if (!inputs.object->scene) return at;
@@ -52,13 +51,13 @@ scene::Camera turned_camera(const PreviewInputs& inputs) {
     return camera;
 }
 
+}  // namespace
+
 glm::vec3 lamp_direction(const Stage& stage) {
     const float azimuth = glm::radians(stage.lamp_azimuth_deg);
     const float elevation = glm::radians(stage.lamp_elevation_deg);
     return {std::cos(elevation) * std::sin(azimuth), std::sin(elevation), std::cos(elevation) * std::cos(azimuth)};
 }
-
-}  // namespace
 
 scene::Camera opening_camera() {
     scene::Camera camera;
@@ -175,6 +174,10 @@ void Preview::show(const PreviewInputs& inputs) {
     if (inputs.saved) saved_->show(inputs, *inputs.saved);
 }
 
+bool Preview::changes() const {
+    return drawn_ && unchanged_ <= kFramesToFill;
+}
+
 void Preview::draw(float seconds) {
     if (unchanged_ > kFramesToFill) return;
     ++unchanged_;
@@ -182,6 +185,11 @@ void Preview::draw(float seconds) {
     now_.draw(inputs_, seconds);
     if (inputs_.saved) saved_->draw(inputs_, seconds);
     if (inputs_.grooves_of && unchanged_ == 1) draw_grooves();
+    // Maps begin to fill in the second frame in which nothing moves.
+    constexpr int kFramesToBegin = 3;
+    const bool filling =
+        diffraction::maps_are_filling(now_.world) || (inputs_.saved && diffraction::maps_are_filling(saved_->world));
+    if (unchanged_ >= kFramesToBegin && !filling) unchanged_ = kFramesToFill + 1;
 }
 
 float Preview::aspect() const {

@@ -35,6 +35,11 @@ struct Stage {
     friend bool operator==(const Stage&, const Stage&) = default;
 };
 
+/// Toward the lamp, of a picture whose probe is not turned.
+glm::vec3 lamp_direction(const Stage& stage);
+
+inline constexpr glm::vec3 kPreviewObject{0.0F, 0.052F, 0.0F};  ///< where the object is, metres
+
 /// What is shown: a shape, which has the one material 0, or a scene with its own. Never changes, so the pointer to it
 /// is its identity.
 struct PreviewObject {
@@ -84,6 +89,8 @@ class Preview {
     /// Draws a frame, `seconds` after the last, until the picture of the inputs no longer changes.
     void draw(float seconds);
     bool drawn() const { return drawn_; }
+    /// Whether maps may still fill: the next frame may differ.
+    bool changes() const;
 
     /// Of the last frame. Display values.
     const gpu::Framebuffer& display() const { return now_.picture.encoded(); }

@@ -1,11 +1,15 @@
 #include "editor/inspector/preview_panel.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <glm/geometric.hpp>
 #include <string>
 
 #include "editor/inspector/groove_handle.h"
+#include "editor/inspector/lamp_handle.h"
 
 namespace rowland::inspector {
 
@@ -71,7 +75,11 @@ void draw_light_picker(Session& session, ControlMap& controls) {
             if (ImGui::Selectable(name.c_str())) session.choose_light(path);
             controls.mark("light=" + name);
         }
-        ImGui::TextDisabled("or drop an .hdr or .exr");
+        ImGui::TextDisabled("or drop an .hdr or .exr, of the mapping");
+        for (const char* mapping : {"auto", "equirect", "angular"}) {
+            if (ImGui::Selectable(mapping, session.mapping() == mapping)) session.choose_mapping(mapping);
+            controls.mark(std::string("mapping=") + mapping);
+        }
         ImGui::EndCombo();
     }
     controls.mark("light picker");
@@ -124,6 +132,7 @@ void PreviewPanel::draw(Session& session, const platform::InputState& input, flo
     session.draw(glm::ivec2(pixels_per_unit * glm::vec2(size.x, size.y)), camera_.camera(), comparing, seconds);
     draw_picture(session, corner, size);
     GrooveHandle::draw(session, corner, size, controls);
+    if (session.stage.lamp) draw_lamp(session.stage, corner, size, controls);
 }
 
 void PreviewPanel::draw_picture(const Session& session, const ImVec2& corner, const ImVec2& size) const {
@@ -163,26 +172,56 @@ void PreviewPanel::draw_saved(const Session& session, const ImVec2& corner, cons
     label(x + 0.8F * font, "now");
 }
 
+void PreviewPanel::draw_lamp(const Stage& stage, const ImVec2& corner, const ImVec2& size, ControlMap& controls) const {
+    const LampHandle handle = lamp_handle(camera_.camera(), size.x / size.y, stage);
+    const auto in_window = [&](const glm::vec2& at) {
+        return ImVec2(corner.x + at.x * size.x, corner.y + at.y * size.y);
+    };
+    const ImVec2 at = in_window(handle.at);
+    const float radius = 0.45F * ImGui::GetFontSize();
+    const int alpha = handle.behind ? 90 : 220;
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    draw.AddLine(in_window(handle.centre), at, IM_COL32(255, 235, 170, alpha / 3), 1.5F);
+    draw.AddCircleFilled(at, radius, IM_COL32(255, 235, 170, alpha));
+    draw.AddCircle(at, radius, kBlack, 0, 1.5F);
+    controls.note("lamp handle",
+                  fmt::format("{:.0f} {:.0f} {:.0f} {:.0f}", at.x - 1.0F, at.y - 1.0F, at.x + 1.0F, at.y + 1.0F));
+    controls.note("lamp is", fmt::format("{:.0f} {:.0f}", stage.lamp_azimuth_deg, stage.lamp_elevation_deg));
+}
+
+bool PreviewPanel::near_lamp(const Stage& stage, const glm::vec2& at, const ImVec2& size) const {
+    if (!stage.lamp) return false;
+    const glm::vec2 apart = (lamp_handle(camera_.camera(), size.x / size.y, stage).at - at) * glm::vec2(size.x, size.y);
+    return glm::length(apart) < 0.8F * ImGui::GetFontSize();
+}
+
 void PreviewPanel::use_mouse(Session& session, const platform::InputState& input, const ImVec2& corner,
                              const ImVec2& size) {
     const ImGuiIO& io = ImGui::GetIO();
     const glm::vec2 at((io.MousePos.x - corner.x) / size.x, (io.MousePos.y - corner.y) / size.y);
     const bool near_line = comparing && session.saved() && std::abs(at.x - line_) < 6.0F / size.x;
-    if (ImGui::IsItemActivated())
-        drag_ = near_line                                                 ? Drag::Line
+    const bool on_lamp = near_lamp(session.stage, at, size);
+    if (ImGui::IsItemActivated()) {
+        drag_ = on_lamp                                                   ? Drag::Lamp
+                : near_line                                               ? Drag::Line
                 : GrooveHandle::grabs(session, corner, size, io.MousePos) ? Drag::Grooves
                                                                           : Drag::None;
+        if (on_lamp) lamp_behind_ = lamp_handle(camera_.camera(), size.x / size.y, session.stage).behind;
+    }
     scene::OrbitInput orbit;
     if (ImGui::IsItemActive()) {
         if (drag_ == Drag::None && ImGui::IsMouseDragging(ImGuiMouseButton_Left, 4.0F)) drag_ = Drag::Orbit;
         if (drag_ == Drag::Line) line_ = std::clamp(at.x, 0.0F, 1.0F);
         if (drag_ == Drag::Grooves) GrooveHandle::drag(session, at);
+        if (drag_ == Drag::Lamp && (io.MouseDelta.x != 0.0F || io.MouseDelta.y != 0.0F))
+            drag_lamp(session.stage, camera_.camera(), size.x / size.y, at, lamp_behind_);
         if (drag_ == Drag::Orbit) orbit.drag = {io.MouseDelta.x, io.MouseDelta.y};
     }
     if (ImGui::IsItemHovered()) orbit.scroll = static_cast<float>(input.scroll().y);
     camera_.update(orbit);
     if (ImGui::IsItemDeactivated() && drag_ == Drag::None) session.pick(at);
     if (ImGui::IsItemDeactivated() && drag_ == Drag::Grooves) session.document().finish_edit();
+    if (ImGui::IsItemHovered() && on_lamp) ImGui::SetTooltip("Drag: move the lamp");
     if (ImGui::IsItemHovered() && near_line) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
 }
 

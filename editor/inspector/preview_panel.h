@@ -26,13 +26,16 @@ class PreviewPanel {
     void draw_tools(Session& session, ControlMap& controls);
     void draw_picture(const Session& session, const ImVec2& corner, const ImVec2& size) const;
     void draw_saved(const Session& session, const ImVec2& corner, const ImVec2& end) const;
+    void draw_lamp(const Stage& stage, const ImVec2& corner, const ImVec2& size, ControlMap& controls) const;
+    bool near_lamp(const Stage& stage, const glm::vec2& at, const ImVec2& size) const;
     void use_mouse(Session& session, const platform::InputState& input, const ImVec2& corner, const ImVec2& size);
 
-    enum class Drag { None, Line, Grooves, Orbit };
+    enum class Drag { None, Line, Lamp, Grooves, Orbit };
 
     scene::OrbitCamera camera_;
     float line_ = 0.5F;  ///< its distance from the picture's left edge, as a fraction of the width
     Drag drag_ = Drag::None;
+    bool lamp_behind_ = false;  ///< when the drag of the lamp began
 };
 
 }  // namespace rowland::inspector

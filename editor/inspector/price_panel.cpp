@@ -21,7 +21,7 @@ std::vector<PricedChoice> front(const PriceList& list) {
     std::vector<PricedChoice> result;
     for (const PricedChoice& choice : list.choices)
         if (choice.on_front && choice.candidate) result.push_back(choice);
-    std::ranges::sort(result, {}, &PricedChoice::price);
+    std::ranges::stable_sort(result, {}, &PricedChoice::price);
     return result;
 }
 
@@ -60,7 +60,7 @@ void draw_numbers(const PriceList& list, const Session& session, double frame_ms
     row("Per vertex",
         fmt::format("{} fetches, {} multiply-adds", cost.fetches_per_vertex, cost.multiply_adds_per_vertex));
     row("Per light", fmt::format("{} fetches, {} multiply-adds", cost.fetches_per_light, cost.multiply_adds_per_light));
-    if (frame_ms > 0.0) row("Frame time", fmt::format("{:.1f} ms, the median here", frame_ms));
+    if (frame_ms > 0.0) row("Frame time", fmt::format("{:.1f} ms, the median", frame_ms));
 }
 
 void draw_plot(const PriceList& list, float height) {
@@ -151,7 +151,8 @@ void PricePanel::draw(Session& session, double frame_ms, ControlMap& controls) {
         ImGui::SetNextItemWidth(7.0F * font);
         ImGui::DragFloat("##budget", &budget_, 0.001F, 0.002F, 1.0F, "error ≤ %.3f", ImGuiSliderFlags_Logarithmic);
         controls.mark("budget");
-        ImGui::SameLine();
+        const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+        if (ImGui::GetItemRectMax().x + 8.5F * font <= right) ImGui::SameLine();
         if (ImGui::Button("Cook to budget")) session.cook_to_budget(static_cast<double>(budget_));
         controls.mark("cook to budget");
     }

@@ -4,6 +4,9 @@
 #include <array>
 #include <utility>
 
+#include "engine/app/unused_file.h"
+#include "engine/view/capture.h"
+
 namespace rowland::inspector {
 
 namespace {
@@ -13,6 +16,12 @@ constexpr int kSweepViews = 61;
 
 const std::array kPresets = {"cd",         "cd_pressed",       "cd_r", "dvd", "blu_ray", "ruled_600",
                              "ruled_1200", "holographic_foil", "vinyl"};
+
+/// On which a preset shows its colours at first sight. The sheet is bent, so that light and eye are nearly along the
+/// surface somewhere: only there the finest grooves send light, and the coarsest reflect a streak.
+PreviewShape shape_of_preset(const std::string& name) {
+    return name.starts_with("cd") || name == "dvd" ? PreviewShape::Disc : PreviewShape::Sheet;
+}
 
 /// The members of a quality that choose among representations; the others hold for every choice.
 Json choice_of_quality(Json quality) {
@@ -56,7 +65,8 @@ void Session::open(const std::filesystem::path& path) {
 
 void Session::open_preset(const std::string& name) {
     const std::filesystem::path path = preset_path(name);
-    messages_.attempt([&] { use_material(Document::open_as_new(path), path); });
+    const bool opened = messages_.attempt([&] { use_material(Document::open_as_new(path), path); });
+    if (opened && !document_.is_scene()) choose_shape(shape_of_preset(name));
 }
 
 void Session::adopt(Document document) {
@@ -78,8 +88,19 @@ void Session::save_as(const std::filesystem::path& path) {
     if (messages_.attempt([&] { document_.save_as(path); })) messages_.say(path.string() + ": saved");
 }
 
+void Session::write_screenshot(const gpu::Framebuffer& picture) {
+    const std::filesystem::path path = app::unused_file(std::filesystem::current_path(), "screenshot", ".png");
+    if (messages_.attempt([&] { view::write_display_capture(picture, path); }))
+        messages_.say(path.string() + ": the window");
+}
+
 void Session::choose_light(const std::filesystem::path& path) {
     chosen_light_ = std::make_shared<const LightSource>(LightSource{path});
+}
+
+void Session::choose_mapping(const std::string& mapping) {
+    settings_.probe_mapping = mapping;
+    if (chosen_light_) choose_light(chosen_light_->path);
 }
 
 void Session::choose_shape(PreviewShape shape) {
@@ -98,10 +119,12 @@ template <typename Key, typename Value>
 bool Session::poll(Computed<Key, Value>& computed) {
     const auto change = computed.poll();
     if (!change.failure.empty()) messages_.say(change.failure, true);
+    news_ = news_ || change.value || !change.failure.empty();
     return change.value;
 }
 
-void Session::update() {
+bool Session::update() {
+    news_ = false;
     want_opening();
     take_opened(opening_.poll());
     const auto cooking = [this](auto& computed, const std::shared_ptr<const MaterialSource>& source) {
@@ -112,8 +135,8 @@ void Session::update() {
     cooking(saved_, document_.saved());
     if (poll(cooked_) && !is_table(cooked_.value()->get()->material->material.grating))
         last_scalar_ = cooked_.value()->get()->material->material.grating;
-    saved_.poll();  // its failure is that of cooked_
-    gratings_.update(document_, cook_, cooked_.current() ? *cooked_.value() : nullptr);
+    news_ = saved_.poll().value || news_;  // its failure is that of cooked_
+    news_ = gratings_.update(document_, cook_, cooked_.current() ? *cooked_.value() : nullptr) || news_;
     for (std::string& failure : gratings_.take_failures()) messages_.say(std::move(failure), true);
 
     light_.want(chosen_light_ ? std::optional(chosen_light_) : std::nullopt,
@@ -121,13 +144,18 @@ void Session::update() {
                     Light light = load_light(source->path, mapping);
                     return stop.stop_requested() ? std::nullopt : std::optional(std::move(light));
                 });
-    if (poll(light_)) messages_.say(light()->path.filename().string() + ": the light");
+    if (poll(light_))
+        messages_.say(light()->path.filename().string() + ": the light" +
+                      (light()->image.mapping() == lighting::Mapping::Angular ? ", an angular map" : ""));
 
     want_point_numbers();
     poll(point_);
     want_prices();
     poll(all_prices_);
     poll(pinned_price_);
+    use_budget();
+    const bool before = std::exchange(was_busy_, busy());
+    return news_ || was_busy_ != before;
 }
 
 void Session::want_point_numbers() {
@@ -244,6 +272,7 @@ void Session::want_prices() {
 }
 
 void Session::stop_pricing() {
+    budget_.reset();
     measure_all_of_.reset();
     stopped_price_of_ = price_inputs(false);
 }
@@ -273,10 +302,30 @@ void Session::choose_priced(const PricedChoice& choice) {
 }
 
 void Session::cook_to_budget(double max_error) {
-    if (const auto choice = cheapest_within(prices(), max_error))
-        choose_priced(*choice);
-    else
-        messages_.say("no measured choice is within that error: measure all choices, or allow more", true);
+    budget_ = max_error;
+    if (!all_measured()) price();
+}
+
+bool Session::all_measured() const {
+    return all_prices_.is_of(price_inputs(true)) && all_prices_.value()->total > 0 &&
+           all_prices_.value()->done == all_prices_.value()->total;
+}
+
+/// Does what cook_to_budget() was asked for.
+void Session::use_budget() {
+    if (!budget_ || !light()) return;
+    if (all_measured()) {
+        const double max_error = *std::exchange(budget_, std::nullopt);
+        if (const auto choice = cheapest_within(prices(), max_error))
+            choose_priced(*choice);
+        else
+            messages_.say("no choice is within that error: allow more", true);
+    } else if (measure_all_of_ != price_inputs(true)) {
+        budget_.reset();
+        messages_.say("an edit ended the measurement: cook to budget again");
+    } else if (!all_prices_.busy()) {
+        budget_.reset();  // the measurement failed, which was said
+    }
 }
 
 std::span<const char* const> Session::presets() {

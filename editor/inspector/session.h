@@ -22,9 +22,9 @@
 namespace rowland::inspector {
 
 struct SessionSettings {
-    std::filesystem::path content_folder;    ///< holds materials/ and probes/
-    std::string probe_mapping = "equirect";  ///< of images
-    bool still = false;                      ///< for captures: maps are complete in the second frame
+    std::filesystem::path content_folder;  ///< holds materials/ and probes/
+    std::string probe_mapping = "auto";    ///< of images
+    bool still = false;                    ///< for captures: maps are complete in the second frame
 };
 
 struct PickedPixel {
@@ -62,7 +62,8 @@ class Session {
     void cancel_opening();
     /// The glTF file that is being opened; empty: none.
     std::filesystem::path opening() const { return opening_of_ ? *opening_of_ : std::filesystem::path(); }
-    /// A shipped material as the start of a new one, or as the grating of a scene's chosen material: "cd".
+    /// A shipped material ("cd") as the start of a new one, on the shape that shows its colours, or as the grating of a
+    /// scene's chosen material.
     void open_preset(const std::string& name);
     /// Whether opening the file or a preset would drop the document.
     bool replaces_document(const std::filesystem::path& path) const;
@@ -72,7 +73,12 @@ class Session {
     void save(bool over_changes = false);
     bool asks_to_overwrite = false;
     void save_as(const std::filesystem::path& path);
+    /// Writes a picture into the current folder, under a name that no file has.
+    void write_screenshot(const gpu::Framebuffer& picture);
     void choose_light(const std::filesystem::path& path);
+    /// How images cover the sphere: "auto", "equirect" or "angular".
+    void choose_mapping(const std::string& mapping);
+    const std::string& mapping() const { return settings_.probe_mapping; }
     void choose_shape(PreviewShape shape);
     /// Picks the surface at a point of the last picture, if there is one; in a scene that chooses its material.
     void pick(const glm::vec2& at);
@@ -84,8 +90,9 @@ class Session {
     /// Gives the chosen material a foil pattern (groove_picture.h) as its groove texture; a picture is opened for that.
     void set_foil_pattern(const std::string& name);
 
-    /// Updates all values from their inputs; call it every frame.
-    void update();
+    /// Updates all values from their inputs; call it every frame. Returns whether a result, a message or the end of
+    /// background work is new.
+    bool update();
     /// Whether something is being computed that the picture or the panes will show.
     bool busy() const;
     /// Draws the preview if there is something to draw and the picture may have changed.
@@ -102,13 +109,15 @@ class Session {
         return all_prices_.is_of(price_inputs(true)) || pinned_price_.is_of(price_inputs(false));
     }
     void choose_priced(const PricedChoice& choice);
-    /// Pins the cheapest measured choice within an error.
+    /// Pins the cheapest choice within an error, once all choices are measured.
     void cook_to_budget(double max_error);
 
     const Preview& preview() const { return preview_; }
     Preview& preview() { return preview_; }
     /// The open scene; null: the document is a material file.
     const SceneObject* scene() const { return scene_.get(); }
+    /// Whether the next frame's picture may differ from the last though its inputs are the same.
+    bool picture_changes() const { return ready() && preview_.changes(); }
     /// Null before the first is loaded.
     Light light() const { return light_.value() ? *light_.value() : nullptr; }
     /// The last material that was cooked; null before the first, and for a material of a scene without a grating.
@@ -190,6 +199,8 @@ class Session {
     PriceWork price_work(bool present_only) const;
     void want_point_numbers();
     void want_prices();
+    bool all_measured() const;
+    void use_budget();
     void read_picked_pixel();
 
     SessionSettings settings_;
@@ -211,6 +222,9 @@ class Session {
     std::optional<diffraction::Grating> last_scalar_;  ///< the last cooked grating with a scalar profile
     std::optional<PriceInputs> measure_all_of_;        ///< the user asked for it
     std::optional<PriceInputs> stopped_price_of_;      ///< the user stopped it
+    std::optional<double> budget_;                     ///< to cook to, once all choices are measured
+    bool news_ = false;                                ///< in this update
+    bool was_busy_ = false;                            ///< after the last update
 
     // The destructors wait for the work, so these are last.
     SceneGratings gratings_;

@@ -28,6 +28,7 @@ void Session::want_opening() {
 }
 
 void Session::take_opened(const Opening::Change& change) {
+    news_ = news_ || change.value || !change.failure.empty();
     if (!change.failure.empty()) {
         messages_.say(change.failure, true);
         opening_of_.reset();
@@ -51,8 +52,7 @@ void Session::cancel_opening() {
 }
 
 bool Session::replaces_document(const std::filesystem::path& path) const {
-    if (is_scene_file(path)) return true;
-    return !document_.is_scene() && path.extension() == ".json";
+    return is_scene_file(path) || (!document_.is_scene() && replaces_material(path));
 }
 
 void Session::adopt(OpenedScene opened) {

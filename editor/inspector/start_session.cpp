@@ -29,6 +29,7 @@ void start_session(Session& session, const Options& options, const Layout& layou
     if (const auto shape = parse_preview_shape(layout.shape)) session.choose_shape(*shape);
     if (options.preset) {
         session.open_preset(*options.preset);
+        if (options.shape) session.choose_shape(*options.shape);
         require_opened(session);
     }
     if (options.file) {

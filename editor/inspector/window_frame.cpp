@@ -4,6 +4,7 @@ namespace rowland::inspector {
 
 WindowFrame::WindowFrame(const Options& options, const post::OcioConfig& config, Session& session, Layout& layout)
     : layout_(layout),
+      session_(session),
       ui_({.scale = layout.scale}),
       controls_(options.controls),
       workbench_(config, session, layout, controls_) {}
@@ -16,12 +17,14 @@ const gpu::Framebuffer& WindowFrame::draw(const platform::InputState& input, boo
                     {.size = glm::vec2(frame.size),
                      .pixels_per_unit = static_cast<float>(frame.framebuffer_size.x) / static_cast<float>(frame.size.x),
                      .seconds = static_cast<float>(frame.seconds),
-                     .frame_ms = frame_ms});
+                     .frame_ms = frame_ms,
+                     .in_window = keys});
     const glm::ivec2 pixels = frame.framebuffer_size;
     if (!target_ || target_->size() != pixels)
         target_.emplace(gpu::FramebufferDesc{.width = pixels.x, .height = pixels.y, .colours = {gpu::Format::RGBA8}});
     target_->clear({0.05F, 0.05F, 0.05F, 1.0F});
     ui_.draw(*target_);
+    if (workbench_.take_screenshot()) session_.write_screenshot(*target_);
     return *target_;
 }
 

@@ -26,6 +26,7 @@ class WindowFrame {
 
  private:
     Layout& layout_;
+    Session& session_;
     ui::Ui ui_;
     ControlMap controls_;
     Workbench workbench_;

@@ -1,5 +1,9 @@
 #include "editor/inspector/window_loop.h"
 
+#include <algorithm>
+#include <variant>
+
+#include "editor/inspector/redraw.h"
 #include "editor/inspector/start_session.h"
 #include "editor/inspector/window_frame.h"
 #include "engine/app/window_loop.h"
@@ -10,6 +14,11 @@
 namespace rowland::inspector {
 
 namespace {
+
+/// Each poll of the window adds the state of the game pad, which the inspector does not use.
+bool is_of_user(const platform::InputEvent& event) {
+    return !std::holds_alternative<platform::GamepadEvent>(event);
+}
 
 class Program {
  public:
@@ -37,26 +46,26 @@ class Program {
 
  private:
     app::Next update(const app::Frame& frame) {
+        gpu::require_context();
         if (dragged_) drag_times_.add(frame.elapsed);
         input_.begin_frame();
         for (const platform::InputEvent& event : frame.events) input_.apply(event);
         dragged_ = input_.mouse_button(platform::MouseButton::Left).down;
-        for (const std::filesystem::path& file : frame.dropped) session_.open(file);
+        for (const std::filesystem::path& file : frame.dropped) window_frame_.workbench().open(file);
         if (loop_.window().should_close()) {
             loop_.window().request_close(false);
             window_frame_.workbench().ask_to_close();
         }
         if (window_frame_.workbench().closed()) return app::Next::End;
-        session_.update();
-        constexpr int kAwakeFrames = 15;
-        const bool used = input_.mouse_delta() != glm::dvec2(0.0) || input_.scroll() != glm::dvec2(0.0) || dragged_ ||
-                          !input_.typed().empty() || session_.cooking();
-        quiet_frames_ = used ? 0 : quiet_frames_ + 1;
-        return quiet_frames_ > kAwakeFrames ? app::Next::Rest : app::Next::Frame;
+        const bool results = session_.update();
+        const bool used = frame.woken || !frame.dropped.empty() || input_.any_down() || frame.pixels != drawn_pixels_ ||
+                          std::ranges::any_of(frame.events, is_of_user);
+        return redraw_.next(used || results || session_.picture_changes() || window_frame_.workbench().due(),
+                            session_.busy(), Redraw::Clock::now());
     }
 
     void draw(const app::Frame& frame) {
-        gpu::require_context();
+        drawn_pixels_ = frame.pixels;
         window_frame_
             .draw(input_, true, {.size = frame.size, .framebuffer_size = frame.pixels, .seconds = frame.seconds()},
                   loop_.times().statistics().median_ms)
@@ -100,7 +109,8 @@ class Program {
     platform::InputState input_;
     platform::FrameTimes drag_times_;  ///< with the mouse button down
     bool dragged_ = false;             ///< in the last frame
-    int quiet_frames_ = 0;
+    glm::ivec2 drawn_pixels_{0};       ///< of the last frame
+    Redraw redraw_;
 };
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <span>
+#include <utility>
 
 #include "editor/inspector/overwrite_question.h"
 
@@ -21,45 +21,6 @@ bool begin_tile(const char* name, const ImVec2& corner, const ImVec2& size, ImGu
     return ImGui::Begin(name, nullptr, kTile | more);
 }
 
-/// Runs the enabled commands whose keys were pressed in this frame.
-void run_pressed(std::span<const Command> commands, const platform::InputState& input) {
-    using platform::Key;
-    // A long frame may hold both the press and the release of a modifier.
-    const auto held = [&](Key left, Key right) {
-        return input.key(left).down || input.key(left).released || input.key(right).down || input.key(right).released;
-    };
-    const bool control = held(Key::LeftControl, Key::RightControl);
-    const bool shift = held(Key::LeftShift, Key::RightShift);
-    for (const Command& command : commands)
-        if (command.enabled && command.key && input.key(*command.key).pressed &&
-            control == command.keys.starts_with("Ctrl+") && shift == (command.keys.find("Shift+") != std::string::npos))
-            command.run();
-}
-
-void draw_menu_bar(std::span<const Command> commands, ControlMap& controls) {
-    if (!ImGui::BeginMainMenuBar()) return;
-    for (auto menu = commands.begin(); menu != commands.end();) {
-        const auto end =
-            std::find_if(menu, commands.end(), [&](const Command& other) { return other.menu != menu->menu; });
-        if (!menu->menu.empty() && ImGui::BeginMenu(menu->menu.c_str())) {
-            for (const Command& command : std::span(menu, end)) {
-                if (command.name.empty()) {
-                    ImGui::Separator();
-                    continue;
-                }
-                if (ImGui::MenuItem(command.name.c_str(), command.keys.c_str(), command.checked, command.enabled))
-                    command.run();
-                controls.mark("menu " + command.name);
-            }
-            ImGui::EndMenu();
-        } else if (!menu->menu.empty()) {
-            controls.mark("menu " + menu->menu);
-        }
-        menu = end;
-    }
-    ImGui::EndMainMenuBar();
-}
-
 }  // namespace
 
 void Workbench::draw(const platform::InputState& input, bool keys_are_ours, const WorkbenchFrame& frame) {
@@ -67,6 +28,12 @@ void Workbench::draw(const platform::InputState& input, bool keys_are_ours, cons
     if (keys_are_ours) run_pressed(present, input);
     draw_menu_bar(present, controls_);
     draw_tiles(input, frame);
+    if (help_) draw_help(present, help_, controls_);
+    const float font = ImGui::GetFontSize();
+    if (frame.in_window)
+        messages_.draw(session_.messages(), frame.size.x - 0.5F * font, frame.size.y - 2.4F * font,
+                       std::min(30.0F * font, frame.size.x - font));
+    controls_.note("unread", std::to_string(messages_.shown()));
     dialogs_.draw(controls_);
     draw_overwrite_question(session_, controls_);
     note_facts();
@@ -112,8 +79,8 @@ std::vector<Command> Workbench::commands() {
                           }});
     for (std::size_t i = 0; i < kPreviewShapes.size(); ++i) {
         const PreviewShape shape = kPreviewShapes[i];
-        result.push_back({"View", preview_shape_name(shape), fmt::format("F{}", i + 1),
-                          static_cast<Key>(static_cast<std::size_t>(Key::F1) + i),
+        result.push_back({"View", preview_shape_name(shape), fmt::format("Ctrl+{}", i + 1),
+                          static_cast<Key>(static_cast<std::size_t>(Key::Digit1) + i),
                           [this, shape] { session_.choose_shape(shape); },
                           shape != PreviewShape::Model || session_.has_model(), shape == session_.shape()});
     }
@@ -123,8 +90,10 @@ std::vector<Command> Workbench::commands() {
          session_.saved() != nullptr, preview_.comparing},
         {"View", "Show grooves", "G", Key::G, [this] { session_.shows_grooves = !session_.shows_grooves; }, true,
          session_.shows_grooves},
+        {"View", "Screenshot", "F12", Key::F12, [this] { screenshot_ = true; }},
         {"View", "Larger text", "Ctrl+=", Key::Equal, scale_by(0.1F)},
         {"View", "Smaller text", "Ctrl+-", Key::Minus, scale_by(-0.1F)},
+        {"Help", "Keys", "F1", Key::F1, [this] { help_ = !help_; }, true, help_},
         {"", "Redo", "Ctrl+Y", Key::Y, [&document] { document.redo(); }},
         {"", "Larger text", "Ctrl+Shift+=", Key::Equal, scale_by(0.1F)},
     };
@@ -157,7 +126,7 @@ void Workbench::draw_tiles(const platform::InputState& input, const WorkbenchFra
     const float status = 1.9F * font;
     const float height = frame.size.y - top - status;
     // The preview keeps a third of the window, whatever its size.
-    layout_.material_width = std::clamp(layout_.material_width, 12.0F, 0.3F * frame.size.x / font);
+    layout_.material_width = std::clamp(layout_.material_width, 12.0F, 0.32F * frame.size.x / font);
     layout_.physics_width = std::clamp(layout_.physics_width, 12.0F, 0.34F * frame.size.x / font);
     layout_.price_height = std::clamp(layout_.price_height, 4.0F, 0.6F * height / font);
     const float left = layout_.material_width * font;
@@ -187,6 +156,8 @@ void Workbench::draw_tiles(const platform::InputState& input, const WorkbenchFra
     splitter("right splitter", {frame.size.x - right - gap, top}, {gap, height}, layout_.physics_width, -1.0F);
     splitter("lower splitter", {left + gap, top + height - below - gap}, {middle, gap}, layout_.price_height, -1.0F);
     draw_status(top + height, frame.size.x, status, frame.frame_ms);
+    // The first Tab goes to the first field. A window takes the focus when it appears.
+    if (!std::exchange(begun_, true)) ImGui::SetWindowFocus("Material");
 }
 
 void Workbench::draw_status(float top, float width, float height, double frame_ms) {

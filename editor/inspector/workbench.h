@@ -1,11 +1,10 @@
 #pragma once
 
-#include <functional>
 #include <glm/vec2.hpp>
-#include <optional>
-#include <string>
+#include <utility>
 #include <vector>
 
+#include "editor/inspector/command.h"
 #include "editor/inspector/control_map.h"
 #include "editor/inspector/dialogs.h"
 #include "editor/inspector/layout.h"
@@ -16,25 +15,16 @@
 #include "editor/inspector/scene_panel.h"
 #include "editor/inspector/session.h"
 #include "engine/platform/input.h"
+#include "engine/ui/message_list.h"
 
 namespace rowland::inspector {
-
-/// Something that the user can do by a menu, a key, or both.
-struct Command {
-    std::string menu;    ///< commands of one menu follow each other; empty: in no menu
-    std::string name;    ///< empty: a line between others
-    std::string keys{};  ///< "Ctrl+Shift+S"; Ctrl and Shift must be down exactly if they are named
-    std::optional<platform::Key> key{};
-    std::function<void()> run{};
-    bool enabled = true;
-    bool checked = false;
-};
 
 struct WorkbenchFrame {
     glm::vec2 size{0.0F};       ///< screen coordinates
     float pixels_per_unit = 1;  ///< of the framebuffer
     float seconds = 0.0F;       ///< since the last frame
     double frame_ms = 0.0;      ///< median
+    bool in_window = false;     ///< messages are shown; false for captures
 };
 
 /// The inspector's window: a menu, the fields on the left, the preview with its price below, the physics on the right.
@@ -42,15 +32,21 @@ struct WorkbenchFrame {
 class Workbench {
  public:
     Workbench(const post::OcioConfig& config, Session& session, Layout& layout, ControlMap& controls)
-        : session_(session), layout_(layout), controls_(controls), physics_(config), dialogs_(session) {}
+        : session_(session), layout_(layout), controls_(controls), physics_(config), dialogs_(session, layout) {}
 
     void draw(const platform::InputState& input, bool keys_are_ours, const WorkbenchFrame& frame);
 
+    /// Opens a file; asks first if edits would be lost.
+    void open(const std::filesystem::path& file) { dialogs_.open(file); }
     /// Closes; asks first if edits would be lost.
     void ask_to_close() {
         dialogs_.unless_lost([this] { closed_ = true; });
     }
     bool closed() const { return closed_; }
+    /// Whether the user asked for a screenshot since the last call.
+    bool take_screenshot() { return std::exchange(screenshot_, false); }
+    /// Whether a message disappears with the next frame.
+    bool due() const { return messages_.due(); }
 
  private:
     std::vector<Command> commands();
@@ -68,6 +64,10 @@ class Workbench {
     PricePanel price_;
     PreviewPanel preview_;
     Dialogs dialogs_;
+    ui::MessageList messages_;
+    bool begun_ = false;  ///< a frame was drawn
+    bool help_ = false;
+    bool screenshot_ = false;
     bool closed_ = false;
 };
 

@@ -53,8 +53,10 @@ CLI::App* CompareCommand::declare(CLI::App& program) {
     command->add_option("--probe", probe, "Light probe, Radiance .hdr or OpenEXR")
         ->required()
         ->type_name("FILE[:MAPPING]");
-    command->add_option("--probe-mapping", mapping, "How the image covers the sphere: equirect or angular")
-        ->check(CLI::IsMember({"equirect", "angular"}))
+    command
+        ->add_option("--probe-mapping", mapping,
+                     "How the image covers the sphere: equirect, angular, or auto (recognised)")
+        ->check(CLI::IsMember({"auto", "equirect", "angular"}))
         ->capture_default_str();
     command->add_option("--method", method, "The method in question")->required()->type_name("METHOD");
     command->add_option("--against", against, "The method it is held to")->capture_default_str()->type_name("METHOD");

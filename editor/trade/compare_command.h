@@ -15,7 +15,7 @@ namespace rowland::trade {
 struct CompareCommand {
     std::filesystem::path material;
     std::string probe;
-    std::string mapping = "equirect";
+    std::string mapping = "auto";
     std::string method;
     std::string against = "reference";
     std::optional<std::filesystem::path> frames;

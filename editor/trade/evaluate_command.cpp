@@ -106,8 +106,10 @@ CLI::App* EvaluateCommand::declare(CLI::App& program) {
     command->add_option("--material", material, "Material, JSON")->type_name("FILE");
     command->add_option("--cooked", cooked, "Cooked material, in place of --material and --method")->type_name("FILE");
     command->add_option("--probe", probe, "Light probe, Radiance .hdr or OpenEXR")->type_name("FILE");
-    command->add_option("--probe-mapping", mapping, "How the image covers the sphere: equirect or angular")
-        ->check(CLI::IsMember({"equirect", "angular"}))
+    command
+        ->add_option("--probe-mapping", mapping,
+                     "How the image covers the sphere: equirect, angular, or auto (recognised)")
+        ->check(CLI::IsMember({"auto", "equirect", "angular"}))
         ->capture_default_str();
     command->add_option("--probe-sh", probe_sh, "In place of --probe: CSV l,m,r,g,b, which is the light itself")
         ->type_name("FILE");

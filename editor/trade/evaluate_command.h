@@ -27,7 +27,7 @@ struct EvaluateCommand {
     std::optional<std::filesystem::path> probe_sh;
     std::optional<std::filesystem::path> illuminant;
     std::filesystem::path frames;
-    std::string mapping = "equirect";
+    std::string mapping = "auto";
     std::string method;
     /// Settings of the method, as its text would have them after a slash.
     std::map<std::string, std::string> settings;

@@ -17,7 +17,7 @@ std::vector<diffraction::ShadingPoint> read_frames(const std::filesystem::path& 
 /// Light from CSV `l,m,r,g,b`: every (l, m) of its bands once, in any order. Throws Error (input).
 lighting::ShLight read_sh_light(const std::filesystem::path& path);
 
-/// A probe image file. `mapping` is "equirect" or "angular". Texels that were no light are counted on standard error.
+/// A probe image file. `mapping`: as for parse_mapping(). Texels that were no light are counted on standard error.
 lighting::ProbeImage read_probe(const std::filesystem::path& path, const std::string& mapping);
 
 }  // namespace rowland::trade

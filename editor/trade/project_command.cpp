@@ -15,7 +15,7 @@ namespace {
 
 struct ProjectOptions {
     std::filesystem::path probe;
-    std::string mapping = "equirect";
+    std::string mapping = "auto";
     int bands = 5;
 };
 
@@ -41,8 +41,10 @@ void add_project_command(CLI::App& program) {
     command->add_option("--probe", options->probe, "Light probe, Radiance .hdr or OpenEXR")
         ->required()
         ->type_name("FILE");
-    command->add_option("--probe-mapping", options->mapping, "How the image covers the sphere: equirect or angular")
-        ->check(CLI::IsMember({"equirect", "angular"}))
+    command
+        ->add_option("--probe-mapping", options->mapping,
+                     "How the image covers the sphere: equirect, angular, or auto (recognised)")
+        ->check(CLI::IsMember({"auto", "equirect", "angular"}))
         ->capture_default_str();
     command->add_option("--bands", options->bands, "Bands n: n*n coefficients per channel")
         ->required()

@@ -134,8 +134,11 @@ Sweep::Sweep(SweepInputs inputs)
         const auto settings = inputs_.settings.empty() ? sweep_plan(parsed.grating.lobe) : inputs_.settings;
         materials_.push_back({json, path.string(), material_hash(json, path), std::move(parsed), settings});
     }
-    for (const ProbeFile& file : inputs_.probes)
-        probes_.push_back({read_probe(file.path, file.mapping), hash_of_file(file.path, kLargestProbe, file.mapping)});
+    for (const ProbeFile& file : inputs_.probes) {
+        lighting::ProbeImage image = read_probe(file.path, file.mapping);
+        const std::string mapping = lighting::mapping_name(image.mapping());
+        probes_.push_back({std::move(image), hash_of_file(file.path, kLargestProbe, mapping)});
+    }
     for (ProbeSource& probe : probes_)
         probe.lights = std::make_shared<diffraction::ProbeLights>(probe.image, kProjectedBands);
 }

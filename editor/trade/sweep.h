@@ -25,7 +25,7 @@ namespace rowland::trade {
 /// A probe's file and how it covers the sphere.
 struct ProbeFile {
     std::filesystem::path path;
-    std::string mapping = "equirect";
+    std::string mapping = "auto";
 };
 
 /// "FILE" or "FILE:angular" or "FILE:equirect"; without a suffix, `mapping`.

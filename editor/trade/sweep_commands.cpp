@@ -25,7 +25,7 @@ constexpr int kMagnified = 3;
 struct SweepOptions {
     std::vector<std::filesystem::path> materials;
     std::vector<std::string> probes;
-    std::string mapping = "equirect";
+    std::string mapping = "auto";
     std::vector<std::string> frames;  ///< NAME=FILE
     std::vector<std::string> settings;
     std::vector<int> picture_size = {160, 90};
@@ -46,7 +46,7 @@ void add_options(CLI::App& command, SweepOptions& options) {
         ->required()
         ->type_name("FILE[:MAPPING]");
     command.add_option("--probe-mapping", options.mapping, "The mapping of probes that name none")
-        ->check(CLI::IsMember({"equirect", "angular"}))
+        ->check(CLI::IsMember({"auto", "equirect", "angular"}))
         ->capture_default_str();
     command
         .add_option("--frames", options.frames,

@@ -6,8 +6,9 @@ namespace rowland::app {
 
 void add_common_options(CLI::App& app, CommonOptions& options, const std::string& capture_help) {
     app.add_option("--probe", options.probe, "Light probe: .hdr, .exr, a probe recipe (.json) or a cooked .probe");
-    app.add_option("--probe-mapping", options.probe_mapping, "How an image covers the sphere: equirect or angular")
-        ->check(CLI::IsMember({"equirect", "angular"}))
+    app.add_option("--probe-mapping", options.probe_mapping,
+                   "How an image covers the sphere: equirect, angular, or auto (recognised)")
+        ->check(CLI::IsMember({"auto", "equirect", "angular"}))
         ->capture_default_str();
     app.add_option("--ocio", options.ocio_config, "OpenColorIO config in place of $OCIO and the shipped one");
     app.add_option("--display", options.display, "Display of the OpenColorIO config (a wrong name lists them)");

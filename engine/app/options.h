@@ -14,7 +14,7 @@ namespace rowland::app {
 /// The options of every program that draws.
 struct CommonOptions {
     std::optional<std::filesystem::path> probe;
-    std::string probe_mapping = "equirect";
+    std::string probe_mapping = "auto";
     std::optional<std::filesystem::path> ocio_config;
     std::string display;                           ///< of the OpenColorIO config; empty: its default
     std::string view;                              ///< of the display; empty: its default

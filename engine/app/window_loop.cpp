@@ -17,8 +17,8 @@ WindowLoop::WindowLoop(const std::string& title, glm::ivec2 size, bool debug)
 
 Frame WindowLoop::next_frame() {
     Frame frame;
-    frame.elapsed = clock_.tick();
-    times_.add(frame.elapsed);
+    frame.elapsed = since_drawn_ += clock_.tick();
+    frame.woken = std::exchange(woken_, false);
     frame.events = window_.poll_events();
     frame.dropped = std::exchange(dropped_, {});
     frame.size = window_.size();
@@ -28,18 +28,25 @@ Frame WindowLoop::next_frame() {
 
 void WindowLoop::run(const std::function<Next(const Frame&)>& update, const std::function<void(const Frame&)>& draw) {
     constexpr std::chrono::milliseconds kMinimisedFrame(20);  // no display sets the pace
-    constexpr std::chrono::milliseconds kRest(30);
+    constexpr std::chrono::milliseconds kWatch(30);
+    constexpr std::chrono::milliseconds kWait(1000);
     for (;;) {
         const Frame frame = next_frame();
         const Next next = update(frame);
         if (next == Next::End) return;
+        if (next != Next::Frame) {
+            waited_ = true;
+            woken_ = window_.wait(next == Next::Watch ? kWatch : kWait);
+            continue;
+        }
+        if (!std::exchange(waited_, false)) times_.add(frame.elapsed);
+        since_drawn_ = {};
         if (frame.pixels.x < 1 || frame.pixels.y < 1) {
             std::this_thread::sleep_for(kMinimisedFrame);
             continue;
         }
         draw(frame);
         window_.swap();
-        if (next == Next::Rest) std::this_thread::sleep_for(kRest);
     }
 }
 

@@ -16,7 +16,8 @@ namespace rowland::app {
 struct Frame {
     std::vector<platform::InputEvent> events;
     std::vector<std::filesystem::path> dropped;  ///< files
-    std::chrono::nanoseconds elapsed{0};         ///< since the last frame; 0 in the first
+    std::chrono::nanoseconds elapsed{0};         ///< since the last frame that was drawn; 0 in the first
+    bool woken = false;                          ///< the loop waited, and something happened to the window
     glm::ivec2 size{0};                          ///< of the window, in the mouse's units
     glm::ivec2 pixels{0};                        ///< of its framebuffer; 0 while it is minimised
 
@@ -24,8 +25,9 @@ struct Frame {
 };
 
 enum class Next {
-    Frame,  ///< the next one, as soon as the display takes it
-    Rest,   ///< the next one, after a short sleep that leaves the processor to background work
+    Frame,  ///< draw, then update as soon as the display takes it
+    Watch,  ///< draw nothing; update when something happens to the window, or soon, for the results of background work
+    Wait,   ///< draw nothing; update when something happens to the window, or after a second
     End,
 };
 
@@ -37,11 +39,11 @@ class WindowLoop {
 
     platform::Window& window() { return window_; }
     const platform::Window& window() const { return window_; }
-    /// Of the last frames.
+    /// Of the last frames that followed another without a wait.
     const platform::FrameTimes& times() const { return times_; }
 
-    /// Until `update` returns End: polls the window, calls `update`, then `draw` and shows what it drew. A minimised
-    /// window draws nothing.
+    /// Until `update` returns End: polls the window, calls `update`, and if that asks for it `draw`, and shows what it
+    /// drew. A minimised window draws nothing.
     void run(const std::function<Next(const Frame&)>& update, const std::function<void(const Frame&)>& draw);
 
  private:
@@ -51,6 +53,9 @@ class WindowLoop {
     std::vector<std::filesystem::path> dropped_;
     platform::FrameClock clock_;
     platform::FrameTimes times_;
+    std::chrono::nanoseconds since_drawn_{0};
+    bool waited_ = false;  ///< since the last frame
+    bool woken_ = false;
 };
 
 }  // namespace rowland::app

@@ -13,15 +13,20 @@ namespace rowland {
 struct Message {
     std::string text;
     bool failure = false;
+    std::size_t number = 0;  ///< in the order they were said
 };
 
 /// What the user was told, newest last. Each message is logged as well.
 class Messages {
  public:
     void say(std::string text, bool failure = false) {
-        constexpr std::size_t kMost = 50;
         log_line(failure ? LogLevel::Error : LogLevel::Info, text);
-        messages_.push_back({std::move(text), failure});
+        add_logged(std::move(text), failure);
+    }
+    /// The same for a message that was logged already.
+    void add_logged(std::string text, bool failure) {
+        constexpr std::size_t kMost = 50;
+        messages_.push_back({std::move(text), failure, said_++});
         if (messages_.size() > kMost) messages_.erase(messages_.begin());
     }
     /// Runs an action; an exception becomes a message. Returns whether there was none.
@@ -39,6 +44,7 @@ class Messages {
 
  private:
     std::vector<Message> messages_;
+    std::size_t said_ = 0;
 };
 
 }  // namespace rowland

@@ -220,14 +220,8 @@ glm::ivec2 probe_shape(int width, int height) {
     return {width, height};
 }
 
-Mapping parse_mapping(const std::string& name) {
-    if (name == "equirect") return Mapping::Equirectangular;
-    if (name == "angular") return Mapping::Angular;
-    refuse_input("probe mapping", "", fmt::format("\"{}\"", name.substr(0, 40)), "equirect or angular");
-}
-
 ProbeImage::ProbeImage(image::Image image, Mapping mapping, const std::string& file)
-    : image_(std::move(image)), mapping_(mapping) {
+    : image_(std::move(image)), mapping_(mapping == Mapping::Auto ? recognised_mapping(image_, file) : mapping) {
     check_shape(image_, mapping_, file);
     report_ = clean(image_);
     if (image_.width == 1 && image_.height == 1) image_ = everywhere(image_.texels[0], mapping_);

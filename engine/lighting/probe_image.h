@@ -8,18 +8,10 @@
 #include <vector>
 
 #include "engine/image/image.h"
+#include "engine/lighting/mapping.h"
 #include "engine/lighting/sh_light.h"
 
 namespace rowland::lighting {
-
-/// How a probe image covers the sphere.
-enum class Mapping {
-    Equirectangular,  ///< top row +Y, centre −Z, right +X
-    Angular,  ///< Debevec's light probe: square, centre −Z, radius = angle/π; texels beyond radius 1 are no light
-};
-
-/// "equirect" or "angular". Throws Error (input) otherwise.
-Mapping parse_mapping(const std::string& name);
 
 /// Texels that were counted and set to 0 when the probe was made.
 struct TexelReport {
@@ -35,7 +27,8 @@ class ProbeImage {
     /// Replaces NaN, infinite and negative components by 0 (see report()). Two kinds of images are resampled: one of a
     /// single texel, to a larger one of the same radiance; and an equirectangular one with texels more than 8 times as
     /// long as wide, so that sums over texels cost in proportion to the image (see probe_shape()). Throws Error (input)
-    /// if the image is empty, or not square for an angular map; `file` names it in messages.
+    /// if the image is empty, not square for an angular map, or cannot be recognised (Mapping::Auto); `file` names it
+    /// in messages.
     ProbeImage(image::Image image, Mapping mapping, const std::string& file = "probe");
 
     const image::Image& image() const { return image_; }

@@ -18,7 +18,7 @@
 namespace rowland::live {
 
 struct LiveAssetSettings {
-    std::string probe_mapping = "equirect";          ///< of probe images
+    std::string probe_mapping = "auto";              ///< of probe images
     bool watch = true;                               ///< cooked assets follow their sources
     std::vector<cook::Recooker::Job> follow_also{};  ///< cooks these when they change, if `watch`
 };

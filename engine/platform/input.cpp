@@ -59,6 +59,10 @@ void InputState::apply(const InputEvent& event) {
     std::visit([this](const auto& concrete) { on(concrete); }, event);
 }
 
+bool InputState::any_down() const {
+    return std::ranges::any_of(keys_, &ButtonState::down) || std::ranges::any_of(buttons_, &ButtonState::down);
+}
+
 float InputState::key_axis(Key negative, Key positive) const {
     const auto active = [this](Key k) { return key(k).down || key(k).pressed ? 1.0F : 0.0F; };
     return active(positive) - active(negative);

@@ -103,6 +103,8 @@ class InputState {
 
     const ButtonState& key(Key key) const { return keys_[static_cast<std::size_t>(key)]; }
     const ButtonState& mouse_button(MouseButton button) const { return buttons_[static_cast<std::size_t>(button)]; }
+    /// Whether a key or a mouse button is down at the end of the frame.
+    bool any_down() const;
     const ButtonState& gamepad_button(GamepadButton button) const { return pad_[static_cast<std::size_t>(button)]; }
 
     /// -1, 0 or 1 as the one key, neither (or both), or the other was down at any time of the frame.

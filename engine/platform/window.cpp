@@ -149,6 +149,12 @@ std::vector<InputEvent> Window::poll_events() {
     return events;
 }
 
+bool Window::wait(std::chrono::milliseconds limit) {
+    const auto begin = std::chrono::steady_clock::now();
+    glfwWaitEventsTimeout(std::chrono::duration<double>(limit).count());
+    return std::chrono::steady_clock::now() - begin < limit;
+}
+
 void Window::poll(InputState& input) {
     const std::vector<InputEvent> events = poll_events();
     input.begin_frame();

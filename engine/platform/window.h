@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <glm/vec2.hpp>
@@ -54,6 +55,9 @@ class Window {
     /// The input since the last poll, in order. Passes dropped files to the drop handler first, and what that throws to
     /// the caller.
     std::vector<InputEvent> poll_events();
+    /// Waits until something happens to a window (input, exposure, another size), at most `limit` (> 0). False if
+    /// nothing did.
+    bool wait(std::chrono::milliseconds limit);
     /// Starts a frame of `input` and feeds it poll_events().
     void poll(InputState& input);
     /// Called from a poll with the files of each drop; empty: drops are ignored.

@@ -38,6 +38,7 @@ Ui::Ui(const UiOptions& options) : state_(std::make_unique<State>()) {
     io.BackendPlatformName = "rowland";
     io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
     io.ConfigWindowsMoveFromTitleBarOnly = true;
+    io.ConfigInputTextCursorBlink = false;  // a program may draw only when something changes
     map_keys(io);
     set_scale(options.scale);
     ImGui_ImplOpenGL3_Init("#version 450 core");

@@ -85,6 +85,8 @@ std::filesystem::path DemoUser::numbered(const char* format, int number) const {
 }
 
 image::ByteImage DemoUser::shot() {
+    // An earlier demo may have left some.
+    while (std::filesystem::exists(numbered("screenshot_{:04}.png", shots_))) ++shots_;
     const std::filesystem::path file = numbered("screenshot_{:04}.png", shots_++);
     user_.key("F12");
     EXPECT_TRUE(wait_until([&] { return std::filesystem::exists(file); }, 60s)) << messages();
@@ -124,6 +126,7 @@ void DemoUser::wait_for_message(const std::string& text, std::chrono::seconds li
 }
 
 std::filesystem::path DemoUser::measured_pixel(std::chrono::seconds limit) {
+    while (std::filesystem::exists(numbered("pixel_{:04}.json", pixels_))) ++pixels_;
     const std::filesystem::path file = numbered("pixel_{:04}.json", pixels_++);
     wait_until(
         [&] {

@@ -77,13 +77,28 @@ int InspectorUser::frames() const {
     return count;
 }
 
+void InspectorUser::wait_for_rest() {
+    int last = 0;
+    const bool rests = wait_until(
+        [&] {
+            const int before = std::exchange(last, frames());
+            std::this_thread::sleep_for(1s);
+            return last == before && last == frames();
+        },
+        kLimit);
+    if (!rests) throw std::runtime_error("the inspector draws without end");
+}
+
 void InspectorUser::wait_for_frames(int count) {
-    std::this_thread::sleep_for(60ms);
     int first = 0;
     const bool drawn = wait_until(
         [&] {
             const int now = frames();
-            if (first == 0) first = now;
+            if (first == 0 && now > 0) {
+                first = now;
+                // A key that the inspector does not use: it draws some frames, and sees all input before it.
+                user_.key("Pause");
+            }
             return (first > 0 && now >= first + count) || !user_.program().alive();
         },
         kLimit);
@@ -159,7 +174,7 @@ Facts InspectorUser::facts() {
 
 int InspectorUser::leave() {
     user_.key("ctrl+q");
-    const std::string discard = "button Discard them";
+    const std::string discard = "button Discard";
     wait_until(
         [&] {
             if (read_facts().contains(discard) && user_.program().alive()) {

@@ -40,6 +40,11 @@ class InspectorUser {
     /// All facts once everything until now is drawn.
     Facts facts();
 
+    /// The number of frames that were drawn.
+    int frames() const;
+    /// Waits until no frame was drawn for a second.
+    void wait_for_rest();
+
     /// Leaves by Ctrl+Q and discards unsaved edits; returns the exit code.
     int leave();
     /// Waits for an end of itself; returns the exit code.
@@ -47,7 +52,6 @@ class InspectorUser {
 
  private:
     Facts read_facts() const;
-    int frames() const;
     /// Waits for so many frames. After three the inspector has seen the last input, and shows it.
     void wait_for_frames(int count = 3);
     /// The middle of a control, once it is there.

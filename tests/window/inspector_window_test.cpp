@@ -21,6 +21,7 @@ using nlohmann::json;
 using test::Facts;
 using test::InspectorUser;
 using test::operator""ms;
+using test::operator""s;
 using testing::HasSubstr;
 
 /// The material that the inspector shows.
@@ -170,10 +171,82 @@ TEST_F(InspectorWindow, DroppedFilesAreOpenedByTheirKind) {
     user.wait_for("document", "gold rule.json");
     user.drop(path("letter.txt"));
     user.wait_for("message", "letter.txt");
+    write_file_atomic(path("rows.csv"), std::string_view("wavelength_nm,R+1\n380,0.1\n780,0.2\n"));
+    user.drop(path("rows.csv"));
+    user.wait_for("message", "rows.csv");
     const Facts dropped = user.facts();
     EXPECT_EQ(dropped.at("document"), "gold rule.json");
     EXPECT_EQ(dropped.at("light"), "venice_sunset_256.hdr");
     EXPECT_EQ(material(dropped)["metal"], "Au");
+}
+
+TEST_F(InspectorWindow, NothingIsDrawnWhileNothingChanges) {
+    InspectorUser user(folder_.path(), preset("cd"));
+    user.wait_for("point", " ");
+    user.wait_for("busy", "no");
+    user.wait_for("unread", "0");  // news end by themselves
+    user.wait_for_rest();
+    const int before = user.frames();
+    std::this_thread::sleep_for(3s);
+    EXPECT_EQ(user.frames(), before);
+    user.key("ctrl+z");
+    EXPECT_GT(user.frames(), before);
+}
+
+TEST_F(InspectorWindow, TheFirstTabGoesToTheFirstField) {
+    InspectorUser user(folder_.path(), preset("cd"));
+    user.key("Tab");
+    user.enter("1000");
+    EXPECT_EQ(material(user.facts())["grating"]["pitch_nm"], 1000);
+}
+
+TEST_F(InspectorWindow, AFileIsChosenByClicksAndEditsAreSavedOnTheWay) {
+    const std::string text = R"({"grating": {"pitch_nm": 1600, "profile": {"type": "slit", "width_nm": 800}}})";
+    std::filesystem::create_directory(path("folder"));
+    write_file_atomic(path("folder/first.json"), text);
+    write_file_atomic(path("folder/second.json"), text);
+    InspectorUser user(folder_.path(), {path("folder/first.json"), "--probe", path("sky.json")});
+    user.click("lines per mm");
+    user.enter("1250");
+    user.key("ctrl+o");
+    user.enter(path("folder/"));
+    user.click("file second.json");
+    user.facts();  // a dialog finds its position in its first frames
+    user.click("button Save");
+    user.wait_for("document", "second.json");
+    EXPECT_EQ(diffraction::load_material(path("folder/first.json")).grating.pitch_nm, 800);
+    EXPECT_EQ(diffraction::load_material(path("folder/second.json")).grating.pitch_nm, 1600);
+
+    user.key("ctrl+o");
+    user.facts();
+    user.click("recent second.json");
+    user.wait_for("document", "second.json");
+    user.key("ctrl+shift+s");
+    user.enter(path("folder/first.json"));
+    user.facts();
+    user.click("button Replace");
+    user.wait_for("document", "first.json");
+    EXPECT_EQ(diffraction::load_material(path("folder/first.json")).grating.pitch_nm, 1600);
+}
+
+TEST_F(InspectorWindow, TheLampIsDraggedByItsHandle) {
+    InspectorUser user(folder_.path(), preset("cd"));
+    user.wait_for("busy", "no");
+    user.click("lamp");
+    user.wait_for("lamp is", "35 50");
+    user.drag("lamp handle", {-40, 0});
+    const Facts dragged = user.facts();
+    EXPECT_LT(std::stoi(dragged.at("lamp is")), 20);
+    EXPECT_FALSE(dragged.contains("picked"));
+}
+
+TEST_F(InspectorWindow, ScreenshotsAreNumberedAndSaid) {
+    InspectorUser user(folder_.path(), preset("cd"), {.folder = folder_.path()});
+    for (const char* name : {"screenshot_0000.png", "screenshot_0001.png"}) {
+        user.key("F12");
+        user.wait_for("message", name);
+        EXPECT_TRUE(std::filesystem::exists(path(name)));
+    }
 }
 
 TEST_F(InspectorWindow, TheLayoutSurvivesARestart) {

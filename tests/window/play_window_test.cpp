@@ -101,7 +101,7 @@ TEST_F(PlayWindow, AThrownDiscTurnsOnByItself) {
     EXPECT_GT(turned, 10.0);
 }
 
-TEST_F(PlayWindow, LightsAreAddedUpToTheMostAndRemoved) {
+TEST_F(PlayWindow, AHeldKeyAddsOneLight) {
     DemoUser user(folder_.path(), arguments({"--no-watch"}));
     user.key("space");
     user.point_at({160, 90});
@@ -111,13 +111,14 @@ TEST_F(PlayWindow, LightsAreAddedUpToTheMostAndRemoved) {
     user.key("BackSpace");
     const image::ByteImage without = user.shot();
     EXPECT_EQ(difference(first, without, kWhole), 0.0);
+    user.key("g");
+    const image::ByteImage one = user.shot();
+    user.key("BackSpace");
     user.hold_key("g");
-    user.wait_for_message("64 lights are the most", 150s);
+    std::this_thread::sleep_for(1500ms);  // longer than keys take to repeat
     user.release_key("g");
-    EXPECT_GT(difference(without, user.shot(), kWhole), 10.0);
-    const std::string messages = user.leave();
-    EXPECT_THAT(messages, HasSubstr("64 lights are the most"));
-    EXPECT_THAT(messages, Not(HasSubstr("65 lights")));
+    EXPECT_EQ(difference(one, user.shot(), kWhole), 0.0);
+    user.leave();
 }
 
 TEST_F(PlayWindow, AWalkGoesForwardAndEscapeOnlyEndsIt) {

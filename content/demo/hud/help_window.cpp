@@ -18,7 +18,13 @@ void help_window(bool& open) {
         ImGui::BeginTable("controls", 2, ImGuiTableFlags_RowBg)) {
         ImGui::TableSetupColumn("control", ImGuiTableColumnFlags_WidthFixed);
         ImGui::TableSetupColumn("what");
+        std::string group;
         for (const HelpLine& line : help_lines()) {
+            if (group != line.group) {
+                ImGui::TableNextRow();
+                ImGui::TableNextColumn();
+                ImGui::TextDisabled("%s", (group = line.group).c_str());
+            }
             ImGui::TableNextRow();
             ImGui::TableNextColumn();
             ImGui::TextUnformatted(line.control.c_str());

@@ -9,6 +9,7 @@
 
 #include "content/demo/pixel/surface_point.h"
 #include "content/demo/play/hierarchy.h"
+#include "engine/app/unused_file.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/core/log.h"
@@ -201,7 +202,7 @@ void Hud::write_pixel() {
         return;
     }
     const PixelReading& reading = *meter_.reading();
-    const std::string name = fmt::format("pixel_{:04}", pixels_written_++);
+    const std::string name = app::unused_file(options_.output_folder, "pixel", ".json").stem().string();
     try {
         write_file_atomic(options_.output_folder / (name + ".csv"), frames_csv(reading.query.frame));
         write_file_atomic(options_.output_folder / (name + ".json"), reading_json(reading));
@@ -213,7 +214,10 @@ void Hud::write_pixel() {
 
 void Hud::main_window() {
     const ImGuiIO& io = ImGui::GetIO();
-    const float width = (session_.comparison().wiping() ? 28.0F : 21.0F) * ImGui::GetFontSize();
+    // The panel would cover what a wipe compares: it folds to its title, which a click unfolds.
+    const bool wiping = session_.comparison().wiping();
+    if (std::exchange(wiped_, wiping) != wiping) ImGui::SetNextWindowCollapsed(wiping);
+    const float width = (wiping ? 28.0F : 21.0F) * ImGui::GetFontSize();
     ImGui::SetNextWindowPos({10.0F, 10.0F});
     ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, io.DisplaySize.y - 60.0F});
     const ImGuiWindowFlags flags =
@@ -251,6 +255,9 @@ void Hud::build() {
     session_.picture().time_passes(times_);
     if (times_) frame_window(frame_times_, session_.picture().pass_times().latest(), times_);
     if (help_) help_window(help_);
+    const float font = ImGui::GetFontSize();
+    const float width = std::min(30.0F * font, static_cast<float>(window_.x) - 20.0F);
+    messages_.draw(session_.messages(), 10.0F + width, static_cast<float>(window_.y) - 3.0F * font, width);
 }
 
 void Hud::draw_in_window() {

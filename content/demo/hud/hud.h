@@ -12,6 +12,7 @@
 #include "content/demo/session.h"
 #include "engine/platform/frame_pacing.h"
 #include "engine/platform/input.h"
+#include "engine/ui/message_list.h"
 #include "engine/ui/ui.h"
 
 namespace rowland::demo {
@@ -66,7 +67,8 @@ class Hud {
     ReferenceStill still_;
     bool reference_ = false;  ///< right of a wipe's line
     std::optional<PixelTarget> target_;
-    int pixels_written_ = 0;
+    ui::MessageList messages_;
+    bool wiped_ = false;  ///< in the last frame
     bool panels_;
     bool help_ = false;
     bool times_ = false;

@@ -46,8 +46,10 @@ std::optional<double> wipe_line(float line, const std::string& left, const std::
     list->AddLine({x + 1.0F, 0.0F}, {x + 1.0F, size.y}, IM_COL32(0, 0, 0, 160), 3.0F);
     list->AddLine({x, 0.0F}, {x, size.y}, colour, 1.5F);
     list->AddCircleFilled({x, 0.5F * size.y}, kHandleRadius, colour);
-    draw_label(list, x - 8.0F, 10.0F, left, true);
-    draw_label(list, x + 8.0F, 10.0F, right, false);
+    // Below the title of the folded panel.
+    const float top = 10.0F + 1.5F * ImGui::GetFrameHeight();
+    draw_label(list, x - 8.0F, top, left, true);
+    draw_label(list, x + 8.0F, top, right, false);
     return moved;
 }
 

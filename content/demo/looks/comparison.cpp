@@ -48,6 +48,8 @@ std::vector<ecs::Entity> Comparison::gratings() {
         .each([&](ecs::Entity entity, const DiffractionSurface&, const render::MeshInstance&) {
             found.push_back(entity);
         });
+    // A wipe reorders the world's components; a list keeps the order of creation.
+    std::ranges::sort(found, {}, [](ecs::Entity entity) { return entity.index; });
     return found;
 }
 

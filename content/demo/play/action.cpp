@@ -24,8 +24,8 @@ constexpr std::array kActionKeys{
               GamepadButton::West},
     ActionKey{Action::OneStep, Key::N, "one step", "pause and advance by 1/30 s", true},
     ActionKey{Action::AddLight, Key::G, "add light", "add a light in front of what is under the cursor, at most 64",
-              true, GamepadButton::RightBumper},
-    ActionKey{Action::RemoveLight, Key::Backspace, "remove light", "remove the last added light", true,
+              false, GamepadButton::RightBumper},
+    ActionKey{Action::RemoveLight, Key::Backspace, "remove light", "remove the last added light", false,
               GamepadButton::LeftBumper},
     ActionKey{Action::TurnLightLeft, Key::Comma, "turn environment left", "turn the environment left", true,
               GamepadButton::Left},
@@ -65,6 +65,40 @@ constexpr std::array kHeldKeys{HeldKey{Held::Forward, Key::W, "walk forward"},
                                HeldKey{Held::Slow, Key::LeftControl, "walk slowly"},
                                HeldKey{Held::Spin, Key::LeftShift, "and drag: spin an object about its own axis"}};
 
+const char* group_of(Action action) {
+    switch (action) {
+        case Action::Walk:
+        case Action::ResetView:
+        case Action::PutBack:
+        case Action::Pause:
+        case Action::SlowMotion:
+        case Action::OneStep:
+            return "View and motion";
+        case Action::AddLight:
+        case Action::RemoveLight:
+        case Action::TurnLightLeft:
+        case Action::TurnLightRight:
+        case Action::Lamp:
+        case Action::NextProbe:
+            return "Light";
+        case Action::NextView:
+        case Action::LessExposure:
+        case Action::MoreExposure:
+        case Action::Bloom:
+        case Action::Vignette:
+        case Action::AutoExposure:
+        case Action::Dither:
+            return "Picture";
+        case Action::NextLook:
+        case Action::NextDetail:
+        case Action::Wipe:
+        case Action::Reference:
+            return "Gratings";
+        default:
+            return "Program";
+    }
+}
+
 const char* button_name(GamepadButton button) {
     constexpr platform::PerEnum<GamepadButton, const char*> kNames{
         "A",     "B",          "X",           "Y",  "left bumper", "right bumper", "back", "start",
@@ -103,21 +137,27 @@ platform::Key key_of(Held held) {
 }
 
 std::vector<HelpLine> help_lines() {
-    std::vector<HelpLine> lines{{"drag an object", "turn it; release it in motion and it goes on turning"},
-                                {"wheel on a held object", "spin it about its own axis"},
-                                {"drag the background", "orbit"},
-                                {"wheel", "zoom"}};
-    for (const HeldKey& row : kHeldKeys) lines.push_back({platform::name_of(row.key), row.help});
-    for (const ActionKey& row : kActionKeys) lines.push_back({platform::name_of(row.key), row.help});
-    lines.push_back({"pad sticks", "orbit, or walk and look; with A held: turn the object in the middle"});
+    std::vector<HelpLine> lines{{"Mouse", "drag an object", "turn it; release it in motion and it goes on turning"},
+                                {"Mouse", "wheel on a held object", "spin it about its own axis"},
+                                {"Mouse", "drag the background", "orbit"},
+                                {"Mouse", "wheel", "zoom"}};
+    for (const HeldKey& row : kHeldKeys) lines.push_back({"Held keys", platform::name_of(row.key), row.help});
     for (const ActionKey& row : kActionKeys)
-        if (row.button) lines.push_back({std::string("pad ") + button_name(*row.button), row.help});
+        lines.push_back({group_of(row.action), platform::name_of(row.key), row.help});
+    constexpr const char* kPad = "Game pad";
+    lines.push_back({kPad, "pad sticks", "orbit, or walk and look; with A held: turn the object in the middle"});
+    for (const ActionKey& row : kActionKeys)
+        if (row.button) lines.push_back({kPad, std::string("pad ") + button_name(*row.button), row.help});
     return lines;
 }
 
 std::string help_text() {
     std::string text;
-    for (const HelpLine& line : help_lines()) text += fmt::format("  {:<24}{}\n", line.control, line.what);
+    std::string group;
+    for (const HelpLine& line : help_lines()) {
+        if (group != line.group) text += fmt::format(" {}\n", group = line.group);
+        text += fmt::format("  {:<24}{}\n", line.control, line.what);
+    }
     return text;
 }
 

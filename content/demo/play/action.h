@@ -49,8 +49,9 @@ platform::Key key_of(Held held);
 /// Mouse drag that equals a stick at full travel.
 inline constexpr float kStickPixelsPerSecond = 400.0F;
 
-/// A line of the list of controls: "F12", "screenshot".
+/// A line of the list of controls: "Picture", "F12", "screenshot".
 struct HelpLine {
+    std::string group;  ///< lines of one group follow each other
     std::string control;
     std::string what;
 };

@@ -24,6 +24,19 @@ TEST(InspectorLayout, IsReadAsItWasWritten) {
     EXPECT_EQ(again.stage, layout.stage);
 }
 
+TEST(InspectorLayout, TheLastTenFilesAreRemembered) {
+    const test::TemporaryFolder folder;
+    Layout layout;
+    for (int i = 0; i < 12; ++i) remember(layout, "/a/" + std::to_string(i) + ".json");
+    remember(layout, "/a/x/../5.json");
+    save_layout(layout, folder.path() / "layout.json");
+    const std::vector<std::string> recent = load_layout(folder.path() / "layout.json").recent;
+    EXPECT_EQ(recent, layout.recent);
+    ASSERT_EQ(recent.size(), 10U);
+    EXPECT_EQ(recent[0], "/a/5.json");
+    EXPECT_EQ(recent[1], "/a/11.json");
+}
+
 TEST(InspectorLayout, NonsenseGivesTheDefault) {
     const test::TemporaryFolder folder;
     const auto file = folder.path() / "layout.json";

@@ -115,6 +115,34 @@ TEST_F(SessionTest, MeasuredPricesStayWhileOnlyTheChoiceChanges) {
     EXPECT_FALSE(session_.prices_are_current());
 }
 
+TEST_F(SessionTest, APresetOpensOnTheShapeThatShowsItsColours) {
+    session_.open_preset("blu_ray");
+    EXPECT_EQ(session_.shape(), PreviewShape::Sheet);
+    session_.open_preset("cd");
+    EXPECT_EQ(session_.shape(), PreviewShape::Disc);
+}
+
+TEST_F(SessionTest, ACookToABudgetMeasuresWhatItNeeds) {
+    settle();
+    session_.cook_to_budget(0.2);
+    EXPECT_TRUE(session_.document().material().quality.pinned.has_value());
+    settle();
+    const auto expected = cheapest_within(session_.prices(), 0.2);
+    ASSERT_TRUE(expected.has_value());
+    EXPECT_EQ(nlohmann::json(session_.document().json()["quality"]), expected->settings);
+    EXPECT_LE(present().error, 0.2);
+}
+
+TEST_F(SessionTest, AnEditEndsACookToABudget) {
+    settle();
+    session_.cook_to_budget(0.2);
+    draw(2);
+    session_.document().set_value(field_at("/grating/pitch_nm"), 900);
+    draw(2);
+    EXPECT_THAT(session_.messages().back().text, HasSubstr("an edit ended the measurement"));
+    EXPECT_EQ(session_.document().json()["quality"]["spikes"], 2);
+}
+
 /// A grating that sends next to nothing on: what a cover adds to the preview is its gloss.
 TEST_F(SessionTest, AGlossIsSeenInThePreviewAndTakenBack) {
     session_.document().set_value(field_at("/grating/profile/width_nm"), 1);

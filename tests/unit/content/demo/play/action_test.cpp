@@ -36,6 +36,14 @@ TEST(DemoAction, HelpHasALineForEveryKey) {
     for (const HeldKey& row : held_keys()) EXPECT_TRUE(has(row.key, row.help)) << row.help;
 }
 
+TEST(DemoAction, HelpIsInGroupsThatFollowEachOther) {
+    std::vector<std::string> groups;
+    for (const HelpLine& line : help_lines())
+        if (groups.empty() || groups.back() != line.group) groups.push_back(line.group);
+    EXPECT_EQ(std::set(groups.begin(), groups.end()).size(), groups.size());
+    EXPECT_GT(groups.size(), 4U);
+}
+
 TEST(DemoAction, KeysAreKnownByTheirNames) {
     EXPECT_EQ(platform::name_of(platform::Key::W), "W");
     EXPECT_EQ(platform::name_of(platform::Key::Digit3), "3");

@@ -230,6 +230,15 @@ TEST(DemoPlay, TurningTheEnvironmentTurnsEverythingElseTheOtherWay) {
     EXPECT_LT(glm::distance(glm::vec3(object_to_world(small.world, play.lights().entities()[0])[3]), hit->point), 0.5F);
 }
 
+TEST(DemoPlay, AHeldKeyAddsOneLight) {
+    SmallWorld small;
+    Play play = small.play();
+    play.step(std::vector{test::key(Key::G, true)});
+    test::wait(play, 500);
+    play.step(std::vector{test::key(Key::G, false)});
+    EXPECT_EQ(play.lights().entities().size(), 1U);
+}
+
 TEST(DemoPlay, LightsAreAddedBeforeWhatIsUnderTheCursorUpToTheMost) {
     SmallWorld small;
     const ecs::Entity lamp = small.world.create();

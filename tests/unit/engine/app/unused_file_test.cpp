@@ -1,0 +1,22 @@
+#include "engine/app/unused_file.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/core/file.h"
+#include "tests/support/temporary_folder.h"
+
+namespace rowland::app {
+namespace {
+
+TEST(UnusedFile, IsTheFirstNumberThatNoFileHas) {
+    const test::TemporaryFolder folder;
+    EXPECT_EQ(unused_file(folder.path(), "shot", ".png"), folder.path() / "shot_0000.png");
+    write_file_atomic(folder.path() / "shot_0000.png", "x");
+    std::filesystem::create_symlink("nowhere", folder.path() / "shot_0001.png");
+    write_file_atomic(folder.path() / "shot_0003.png", "x");
+    EXPECT_EQ(unused_file(folder.path(), "shot", ".png"), folder.path() / "shot_0002.png");
+    EXPECT_EQ(unused_file(folder.path(), "shot", ".exr"), folder.path() / "shot_0000.exr");
+}
+
+}  // namespace
+}  // namespace rowland::app
