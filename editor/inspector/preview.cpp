@@ -16,6 +16,7 @@ namespace rowland::inspector {
 namespace {
 
 constexpr glm::vec3 kUp(0.0F, 1.0F, 0.0F);
+constexpr glm::vec3 kPosition(0.0F, 0.052F, 0.0F);  ///< of the object, metres
 
 /// How far each shape leans back, so that it shows its colours.
 float lean_deg(PreviewShape shape) {
@@ -31,8 +32,8 @@ glm::mat4 turn_of(const Stage& stage) {
 }
 
 glm::mat4 object_to_world(const PreviewInputs& inputs) {
-    return glm::rotate(glm::translate(turn_of(inputs.stage), kPreviewObject),
-                       glm::radians(lean_deg(inputs.object->shape)), {1.0F, 0.0F, 0.0F});
+    return glm::rotate(glm::translate(turn_of(inputs.stage), kPosition), glm::radians(lean_deg(inputs.object->shape)),
+                       {1.0F, 0.0F, 0.0F});
 }
 
 scene::Camera turned_camera(const PreviewInputs& inputs) {
