@@ -26,15 +26,16 @@ constexpr glm::ivec2 kSize{64, 48};
 /// A red sphere on the left and a blue one on the right.
 std::vector<std::byte> two_spheres() {
     scene::GlbScene scene;
-    scene.materials = {{.name = "red", .colour = {0.8, 0.02, 0.02, 1.0}},
-                       {.name = "blue", .colour = {0.02, 0.02, 0.8, 1.0}}};
     for (std::size_t i = 0; i < 2; ++i) {
+        scene::GlbMaterial& material = scene.materials.emplace_back();
+        material.name = i == 0 ? "red" : "blue";
+        material.colour = i == 0 ? glm::dvec4(0.8, 0.02, 0.02, 1.0) : glm::dvec4(0.02, 0.02, 0.8, 1.0);
         scene.meshes.push_back(
             {i == 0 ? "left" : "right", {{scene::build_mesh(scene::SphereRecipe{.radius = 0.5}), i}}});
-        scene::GlbNode node{.name = i == 0 ? "left" : "right"};
+        scene::GlbNode& node = scene.nodes.emplace_back();
+        node.name = i == 0 ? "left" : "right";
         node.local.translation.x = i == 0 ? -0.6F : 0.6F;
         node.mesh = i;
-        scene.nodes.push_back(std::move(node));
     }
     return scene::write_glb(scene);
 }
