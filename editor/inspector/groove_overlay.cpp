@@ -11,7 +11,7 @@ namespace rowland::inspector {
 
 namespace {
 
-constexpr float kCell = 22.0F;       ///< pixels between strokes
+constexpr float kCell = 16.0F;       ///< pixels between strokes
 constexpr float kStep = 1e-4F;       ///< metres; small against an object of 0.1 m
 constexpr bool kEvenMoments = true;  ///< grooves have no sense of direction
 

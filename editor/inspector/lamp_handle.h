@@ -7,8 +7,8 @@
 
 namespace rowland::inspector {
 
-/// The lamp's handle in the preview: a point on a sphere around the object, in the direction of the lamp. The sphere
-/// has the same size in the picture at all distances.
+/// The lamp's handle in the preview: a point on a sphere around the camera's target, in the direction of the lamp. The
+/// sphere has the same size in the picture at all distances.
 struct LampHandle {
     glm::vec2 at{0.0F};      ///< in the picture, from its upper left corner, in [0, 1]
     glm::vec2 centre{0.0F};  ///< of the sphere, likewise

@@ -52,7 +52,8 @@ OpenedFile open_file(const std::filesystem::path& path) {
 
 bool replaces_material(const std::filesystem::path& path) {
     const std::string extension = path.extension().string();
-    if (is_scene_file(path) || is_picture_file(path) || extension == ".csv" || is_light_file(extension)) return false;
+    if (is_scene_file(path)) return true;
+    if (extension == ".csv" || is_light_file(extension) || is_picture_file(path)) return false;
     try {
         return !is_probe_recipe(path);
     } catch (const Error&) {

@@ -17,6 +17,7 @@ namespace rowland::inspector {
 namespace {
 
 constexpr glm::vec3 kUp(0.0F, 1.0F, 0.0F);
+constexpr glm::vec3 kPosition(0.0F, 0.052F, 0.0F);  ///< of the object, metres
 
 /// How far each shape leans back, so that it shows its colours.
 float lean_deg(PreviewShape shape) {
@@ -33,7 +34,7 @@ glm::mat4 turn_of(const Stage& stage) {
 
 /// Places the object's root.
 scene::Transform placement(const PreviewInputs& inputs) {
-    const glm::mat4 to_world = glm::rotate(glm::translate(turn_of(inputs.stage), kPreviewObject),
+    const glm::mat4 to_world = glm::rotate(glm::translate(turn_of(inputs.stage), kPosition),
                                            glm::radians(lean_deg(inputs.object->shape)), {1.0F, 0.0F, 0.0F});
     scene::Transform at{.translation = glm::vec3(to_world[3]), .rotation = glm::quat_cast(glm::mat3(to_world))};
     if (!inputs.object->scene) return at;
@@ -184,12 +185,12 @@ void Preview::draw(float seconds) {
     drawn_ = true;
     now_.draw(inputs_, seconds);
     if (inputs_.saved) saved_->draw(inputs_, seconds);
+    if (inputs_.grooves_of && unchanged_ == 1) draw_grooves();
     // Maps begin to fill in the second frame in which nothing moves.
     constexpr int kFramesToBegin = 3;
     const bool filling =
         diffraction::maps_are_filling(now_.world) || (inputs_.saved && diffraction::maps_are_filling(saved_->world));
     if (unchanged_ >= kFramesToBegin && !filling) unchanged_ = kFramesToFill + 1;
-    if (inputs_.grooves_of && unchanged_ == 1) draw_grooves();
 }
 
 float Preview::aspect() const {

@@ -38,8 +38,6 @@ struct Stage {
 /// Toward the lamp, of a picture whose probe is not turned.
 glm::vec3 lamp_direction(const Stage& stage);
 
-inline constexpr glm::vec3 kPreviewObject{0.0F, 0.052F, 0.0F};  ///< where the object is, metres
-
 /// What is shown: a shape, which has the one material 0, or a scene with its own. Never changes, so the pointer to it
 /// is its identity.
 struct PreviewObject {

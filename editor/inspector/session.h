@@ -62,8 +62,8 @@ class Session {
     void cancel_opening();
     /// The glTF file that is being opened; empty: none.
     std::filesystem::path opening() const { return opening_of_ ? *opening_of_ : std::filesystem::path(); }
-    /// A shipped material as the start of a new one, on the shape that shows its colours, or as the grating of a
-    /// scene's chosen material: "cd".
+    /// A shipped material ("cd") as the start of a new one, on the shape that shows its colours, or as the grating of a
+    /// scene's chosen material.
     void open_preset(const std::string& name);
     /// Whether opening the file or a preset would drop the document.
     bool replaces_document(const std::filesystem::path& path) const;

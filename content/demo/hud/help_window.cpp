@@ -16,7 +16,7 @@ void help_window(bool& open) {
     ImGui::SetNextWindowBgAlpha(0.96F);
     if (ImGui::Begin("Controls", &open, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove) &&
         ImGui::BeginTable("controls", 2, ImGuiTableFlags_RowBg)) {
-        ImGui::TableSetupColumn("control", ImGuiTableColumnFlags_WidthFixed);
+        ImGui::TableSetupColumn("control", ImGuiTableColumnFlags_WidthFixed, 12.5F * ImGui::GetFontSize());
         ImGui::TableSetupColumn("what");
         std::string group;
         for (const HelpLine& line : help_lines()) {

@@ -26,15 +26,16 @@ constexpr glm::ivec2 kSize{64, 48};
 /// A red sphere on the left and a blue one on the right.
 std::vector<std::byte> two_spheres() {
     scene::GlbScene scene;
-    scene.materials = {{.name = "red", .colour = {0.8, 0.02, 0.02, 1.0}},
-                       {.name = "blue", .colour = {0.02, 0.02, 0.8, 1.0}}};
     for (std::size_t i = 0; i < 2; ++i) {
+        scene::GlbMaterial& material = scene.materials.emplace_back();
+        material.name = i == 0 ? "red" : "blue";
+        material.colour = i == 0 ? glm::dvec4(0.8, 0.02, 0.02, 1.0) : glm::dvec4(0.02, 0.02, 0.8, 1.0);
         scene.meshes.push_back(
             {i == 0 ? "left" : "right", {{scene::build_mesh(scene::SphereRecipe{.radius = 0.5}), i}}});
-        scene::GlbNode node{.name = i == 0 ? "left" : "right"};
+        scene::GlbNode& node = scene.nodes.emplace_back();
+        node.name = i == 0 ? "left" : "right";
         node.local.translation.x = i == 0 ? -0.6F : 0.6F;
         node.mesh = i;
-        scene.nodes.push_back(std::move(node));
     }
     return scene::write_glb(scene);
 }
@@ -72,9 +73,13 @@ class SceneSession : public testing::Test {
         draw_until([&] { return session_.scene() != nullptr && session_.ready(); });
         draw(3);
     }
+    void draw_until_cooked() {
+        draw(1);  // begins it
+        draw_until([&] { return session_.cooked() && !session_.cooking(); });
+    }
     void attach() {
         session_.open(path("m.json"));
-        draw_until([&] { return session_.cooked() && !session_.cooking(); });
+        draw_until_cooked();
         draw(100);
     }
     std::vector<glm::vec4> picture() { return session_.preview().linear().read_rgba_float(); }
@@ -128,7 +133,7 @@ TEST_F(SceneSession, AClickChoosesAMaterialAndItsGratingLeavesTheOthersAsTheyWer
     draw(100);
     EXPECT_EQ(picture(), before);
     session_.document().undo();
-    draw_until([&] { return session_.cooked() != nullptr; });
+    draw_until_cooked();
     draw(100);
     EXPECT_EQ(picture(), after);
 }
@@ -142,7 +147,7 @@ TEST_F(SceneSession, TurnedGroovesAreDrawnWithoutBakingAndThePickedFrameTurnsWit
     ASSERT_TRUE(session_.surface());
     const glm::dvec3 g = session_.surface()->frame.grating;
     session_.document().set_value(field_at("/grooveRotation"), 1.0);
-    draw_until([&] { return !session_.cooking(); });
+    draw_until_cooked();
     draw(100);
     EXPECT_EQ(session_.cooked(), cooked);
     EXPECT_EQ(changes(before, picture())[1], 0);
@@ -173,7 +178,7 @@ TEST_F(SceneSession, StrokesFollowTheGroovesWhereTheyAreSeen) {
     const glm::dvec2 upright = gradients();
     EXPECT_GT(upright.x, 1.5 * upright.y);
     session_.document().set_value(field_at("/grooveRotation"), 1.571);
-    draw_until([&] { return !session_.cooking(); });
+    draw_until_cooked();
     draw(2);
     const glm::dvec2 flat = gradients();
     EXPECT_GT(flat.y, 1.5 * flat.x);
@@ -190,12 +195,12 @@ TEST_F(SceneSession, AFoilPatternVariesTheGroovesOfItsMaterial) {
                       R"({"grating": {"pitch_nm": 1600, "orders": [1], "profile": {"type": "slit", "width_nm": 800}},
                           "quality": {"representation": "direct"}})");
     session_.open(path("foil.json"));
-    draw_until([&] { return session_.cooked() && !session_.cooking(); });
+    draw_until_cooked();
     draw(10);
     const auto before = picture();
     session_.set_foil_pattern("tiles");
     EXPECT_FALSE(session_.messages().back().failure) << session_.messages().back().text;
-    draw_until([&] { return !session_.cooking(); });
+    draw_until_cooked();
     draw(10);
     EXPECT_GT(changes(before, picture())[0], 50);
     EXPECT_EQ(changes(before, picture())[1], 0);

@@ -114,6 +114,16 @@ TEST_F(ComparisonTest, TwinsAreNoGratingsAndGoWithTheirs) {
     EXPECT_EQ(world_.living(), living - 2);
 }
 
+TEST_F(ComparisonTest, GratingsAreListedInTheOrderOfTheirCreation) {
+    add_grating(cooked(900));
+    add_grating(cooked(1100));
+    const std::vector<ecs::Entity> before = comparison_.gratings();
+    ASSERT_EQ(before.size(), 3U);
+    world_.remove<diffraction::DiffractionSurface>(before[0]);
+    world_.add(before[0], surface_of(cooked(1300)));
+    EXPECT_EQ(comparison_.gratings(), before);
+}
+
 TEST_F(ComparisonTest, AMaterialLoadedAnewKeepsItsObjectsLook) {
     comparison_.set_look(grating_, Side::Left, coarse_spikes());
     const Pixels before = settled();
