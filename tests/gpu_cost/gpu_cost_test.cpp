@@ -58,6 +58,14 @@ TEST_F(GpuCost, EachLightCostsWhatTheOneBeforeItDid) {
     EXPECT_NEAR((cycles("plain/lights:64") - cycles("plain/lights:16")) / 48.0, one, 0.01 * one);
 }
 
+TEST_F(GpuCost, AnEffectCostsItsPassesAndMoreAtTheSurface) {
+    const json frames = frames_of("plain/ambient-occlusion");
+    EXPECT_GT(frames.at("plain/ambient-occlusion").at("fragment").at("times_plain"), 1.0);
+    for (const char* pass : {"/pass:1", "/pass:2"})
+        EXPECT_GT(frames.at(std::string("plain/ambient-occlusion") + pass).at("fragment").at("fetches"), 8) << pass;
+    EXPECT_EQ(frames.size(), 4U);  // and "plain"
+}
+
 TEST_F(GpuCost, AMissingFrontEndIsNamedWithItsPackage) {
     const test::Ended ended = run({"--only", "unlit"}, {.environment = {{"PATH", "/nowhere"}}});
     EXPECT_EQ(ended.code, 1);
