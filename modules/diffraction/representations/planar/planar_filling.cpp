@@ -16,7 +16,7 @@ namespace {
 PlanarMapSize coarser(PlanarMapSize size) {
     size.azimuths = std::min(kCoarsePlanarMap.azimuths, size.azimuths);
     size.views = std::min(kCoarsePlanarMap.views, size.views);
-    if (size.pitch) size.pitch->nodes = std::max(2, size.pitch->nodes / 4);
+    if (size.pitch) size.pitch->nodes = std::max(2, size.pitch->nodes / 2);
     return size;
 }
 
