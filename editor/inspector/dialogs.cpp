@@ -7,8 +7,6 @@
 #include <cstring>
 #include <utility>
 
-#include "editor/inspector/open_file.h"
-
 namespace rowland::inspector {
 
 namespace {
@@ -61,7 +59,7 @@ void Dialogs::ask_open() {
 void Dialogs::ask_save_as(std::function<void()> after) {
     const Document& document = session_.document();
     after_ = std::move(after);
-    shown_ = FileKind::Materials;
+    shown_ = document.is_scene() ? FileKind::Models : FileKind::Materials;
     ask(Kind::SaveAs, document.path().empty()
                           ? (std::filesystem::current_path() / document.name()).replace_extension(".json").string()
                           : std::filesystem::absolute(document.path()).string());
@@ -109,7 +107,8 @@ void Dialogs::draw_file(ControlMap& controls) {
     const FileList list = list_files(path_, folder_, shown_);
     ImGui::TextUnformatted(
         opens ? "Type a path (Tab completes it) or choose a file. Files may be dropped onto the window."
-              : "A material file (.json).");
+        : session_.document().is_scene() ? "A glTF file (.gltf, .glb)."
+                                         : "A material file (.json).");
     const bool entered = draw_path(list, controls);
     draw_list(list, controls);
     if (opens && !layout_.recent.empty()) {

@@ -35,8 +35,12 @@ std::string common_beginning(const std::vector<ListedFile>& files) {
 }  // namespace
 
 const char* file_kind_name(FileKind kind) {
-    constexpr std::array kNames = {"all kinds", "materials (.json)", "models (.gltf, .glb)",
-                                   "lights (.hdr, .exr, .pic, .json)", "tables of efficiencies (.csv)"};
+    constexpr std::array kNames = {"all kinds",
+                                   "materials (.json)",
+                                   "models (.gltf, .glb)",
+                                   "lights (.hdr, .exr, .pic, .json)",
+                                   "tables of efficiencies (.csv)",
+                                   "pictures of grooves (.png, .jpg, .jpeg)"};
     return kNames.at(static_cast<std::size_t>(kind));
 }
 

@@ -8,9 +8,9 @@
 namespace rowland::inspector {
 
 /// What the names of files say of them. A recipe of a light is a .json file, as a material is.
-enum class FileKind { All, Materials, Models, Lights, Tables };
-inline constexpr std::array kFileKinds = {FileKind::All, FileKind::Materials, FileKind::Models, FileKind::Lights,
-                                          FileKind::Tables};
+enum class FileKind { All, Materials, Models, Lights, Tables, Pictures };
+inline constexpr std::array kFileKinds = {FileKind::All,    FileKind::Materials, FileKind::Models,
+                                          FileKind::Lights, FileKind::Tables,    FileKind::Pictures};
 
 /// "materials (.json)".
 const char* file_kind_name(FileKind kind);
