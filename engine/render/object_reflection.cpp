@@ -44,7 +44,12 @@ gpu::Texture empty_cube(gpu::Format format, int face_size, int levels, gpu::Filt
 
 ObjectReflection::ObjectReflection(int face_size)
     : light_(empty_cube(gpu::Format::RGBA16F, face_size, 0, gpu::Filter::Trilinear)),
-      nearness_(empty_cube(gpu::Format::R32F, face_size, 1, gpu::Filter::Nearest)) {}
+      nearness_(empty_cube(gpu::Format::R32F, face_size, 1, gpu::Filter::Nearest)) {
+    for (int face = 0; face < kFaces; ++face) {
+        targets_.push_back(gpu::Framebuffer::onto(light_, 0, face));
+        targets_.push_back(gpu::Framebuffer::onto(nearness_, 0, face));
+    }
+}
 
 scene::Camera ObjectReflection::camera(int face) const {
     const CubeFace& axes = kCubeFaces.at(static_cast<std::size_t>(face));
@@ -66,7 +71,7 @@ void ObjectReflection::store(ProgramCache& programs, const gpu::FullScreenTriang
     picture.depth().bind(1);
     for (const bool nearness : {false, true}) {
         program.set("nearness", nearness ? 1 : 0);
-        triangle.draw(program, gpu::Framebuffer::onto(nearness ? nearness_ : light_, 0, face));
+        triangle.draw(program, targets_.at(static_cast<std::size_t>(2 * face + (nearness ? 1 : 0))));
     }
 }
 

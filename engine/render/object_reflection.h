@@ -4,12 +4,14 @@
 #include <glm/vec3.hpp>
 #include <map>
 #include <utility>
+#include <vector>
 
 #include "engine/core/hash.h"
 #include "engine/ecs/entity.h"
 #include "engine/gpu/framebuffer.h"
 #include "engine/gpu/full_screen_pass.h"
 #include "engine/gpu/program.h"
+#include "engine/gpu/stream_buffer.h"
 #include "engine/gpu/texture.h"
 #include "engine/render/program_cache.h"
 #include "engine/scene/camera.h"
@@ -43,11 +45,17 @@ class ObjectReflection {
     void bind(const gpu::Program& program) const;
 
     glm::vec3 centre{0.0F};
-    Hash128 content;  ///< of what it was drawn from
+    Hash128 scene;             ///< of what all faces must be drawn again for: light, objects
+    Hash128 motion;            ///< of what one face in a frame is enough for
+    int stale_faces = kFaces;  ///< from next_face on
+    bool all_at_once = true;   ///< not one in a frame
+    int next_face = 0;
+    gpu::StreamBuffer frame_data;  ///< as the renderer's
 
  private:
-    gpu::Texture light_;     ///< working space, times coverage; alpha: coverage
-    gpu::Texture nearness_;  ///< 1 / distance, metres; 0: nothing
+    gpu::Texture light_;                     ///< working space, times coverage; alpha: coverage
+    gpu::Texture nearness_;                  ///< 1 / distance, metres; 0: nothing
+    std::vector<gpu::Framebuffer> targets_;  ///< light and nearness of each face
 };
 
 /// Those of all groups, and what it takes to draw them.

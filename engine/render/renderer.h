@@ -107,7 +107,7 @@ class Renderer {
     void update_reflection(ecs::World& world, const Frame& frame);
     void draw_object_reflections(ecs::World& world, Frame& frame);
     Frame surroundings(ecs::World& world, const Frame& frame, ecs::Entity group);
-    Hash128 content_of(const Frame& around, const glm::vec3& centre) const;
+    void update_staleness(const Frame& around, ObjectReflection& reflection) const;
     void draw_surroundings(ecs::World& world, Frame& around, ObjectReflection& reflection);
     void draw_outline(const Draw& draw, const gpu::Program& program) const;
     void draw_pass(ecs::World& world, const std::vector<const Draw*>& draws, glm::ivec2 size);

@@ -1,8 +1,10 @@
 // What mirrors show of the scene: the plane they stand on and the objects around them.
 #include <algorithm>
+#include <array>
 #include <glm/geometric.hpp>
-#include <map>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "engine/render/bindings.h"
 #include "engine/render/renderer.h"
@@ -18,12 +20,11 @@ void add_bytes(Hasher& hasher, const T& value) {
     hasher.bytes(std::as_bytes(std::span(&value, 1)));
 }
 
-void add_draw(Hasher& hasher, const Draw& draw, const glm::mat3& to_working) {
+void add_draw(Hasher& hasher, const Draw& draw) {
     add_bytes(hasher, draw.entity);
     add_bytes(hasher, draw.mesh);
     add_bytes(hasher, draw.program);
     for (const SurfaceMap& map : kSurfaceMaps) add_bytes(hasher, (draw.material->*map.texture).texture.get());
-    add_bytes(hasher, object_block(draw, to_working));
 }
 
 /// The bounds of all that is in the picture, by group; in an order that does not depend on the camera.
@@ -57,19 +58,18 @@ void Renderer::draw_object_reflections(ecs::World& world, Frame& frame) {
     if (groups.empty()) return object_reflections_.reset();
     const gpu::PassTimes::Scope scope(times_, "reflections");
     if (!object_reflections_) object_reflections_.emplace();
+    bool drawn = false;
     for (const auto& [group, box] : groups) {
         ObjectReflection& reflection = object_reflections_->of(group);
         reflection.centre = 0.5F * (box.minimum + box.maximum);
         Frame around = surroundings(world, frame, group);
-        const Hash128 content = content_of(around, reflection.centre);
-        if (reflection.content != content) draw_surroundings(world, around, reflection);
-        reflection.content = content;
+        update_staleness(around, reflection);
+        drawn = drawn || reflection.stale_faces > 0;
+        if (reflection.stale_faces > 0) draw_surroundings(world, around, reflection);
         for (Draw& draw : frame.list.draws)
             if (draw.reflects == group) draw.reflection = &reflection;
     }
-    if (report_.reflections_drawn == 0) return;
-    upload(frame);
-    bind_frame(frame);
+    if (drawn) bind_frame(frame);
 }
 
 /// What is drawn around a group: all opaque objects but its own and those below the plane that mirrors show.
@@ -92,22 +92,37 @@ Renderer::Frame Renderer::surroundings(ecs::World& world, const Frame& frame, ec
     return around;
 }
 
-/// Shadows are left out: they are those of the camera's last view that changed anything else.
-Hash128 Renderer::content_of(const Frame& around, const glm::vec3& centre) const {
-    Hasher hasher;
-    add_bytes(hasher, centre);
-    add_bytes(hasher, light_.version);
-    add_bytes(hasher, lights_.block);
-    for (const auto& type : types_) add_bytes(hasher, type->version());
-    for (const glm::mat4& joint : around.list.joints) add_bytes(hasher, joint);
+/// All faces are drawn again for another scene, light or centre, and one in a frame while objects turn. Shadows that
+/// change by the camera alone wait for that.
+void Renderer::update_staleness(const Frame& around, ObjectReflection& reflection) const {
+    Hasher scene;
+    Hasher motion;
+    add_bytes(scene, reflection.centre);
+    add_bytes(scene, light_.version);
+    add_bytes(scene, lights_.block);
+    for (const auto& type : types_) add_bytes(motion, type->version());
+    for (const glm::mat4& joint : around.list.joints) add_bytes(motion, joint);
     const glm::mat3 to_working(rec709_to_working_);
-    for (const Draw& draw : around.list.draws) add_draw(hasher, draw, to_working);
-    return hasher.digest();
+    for (const Draw& draw : around.list.draws) {
+        add_draw(scene, draw);
+        add_bytes(motion, object_block(draw, to_working));
+    }
+    const Hash128 new_scene = scene.digest();
+    const Hash128 new_motion = motion.digest();
+    if (reflection.scene == new_scene && reflection.motion == new_motion) return;
+    reflection.stale_faces = ObjectReflection::kFaces;
+    if (reflection.scene != new_scene) reflection.all_at_once = true;
+    reflection.scene = new_scene;
+    reflection.motion = new_motion;
 }
 
 void Renderer::draw_surroundings(ecs::World& world, Frame& around, ObjectReflection& reflection) {
     const gpu::Framebuffer& picture = object_reflections_->picture;
-    for (int face = 0; face < ObjectReflection::kFaces; ++face) {
+    std::swap(frame_data_, reflection.frame_data);
+    const int faces = std::exchange(reflection.all_at_once, false) ? reflection.stale_faces : 1;
+    for (int i = 0; i < faces; ++i) {
+        const int face = std::exchange(reflection.next_face, (reflection.next_face + 1) % ObjectReflection::kFaces);
+        --reflection.stale_faces;
         const scene::Camera camera = reflection.camera(face);
         around.camera = &camera;
         around.view_projection = camera.projection(1.0F) * camera.view();
@@ -130,6 +145,7 @@ void Renderer::draw_surroundings(ecs::World& world, Frame& around, ObjectReflect
         draw_pass(world, around.opaque, around.size);
         reflection.store(programs_, object_reflections_->triangle, picture, face);
     }
+    std::swap(frame_data_, reflection.frame_data);
     reflection.finish();
 }
 

@@ -107,11 +107,16 @@ TEST_F(ObjectReflectionTest, TheSurroundingsAreDrawnAgainOnlyAfterAChange) {
     greens();
     EXPECT_EQ(renderer_.report().reflections_drawn, 0);
     camera_.eye.x -= 0.1F;
-    world_.get<scene::WorldMatrix>(last()).matrix[3].x += 0.05F;
-    EXPECT_NE(greens(), first);
-    EXPECT_GT(renderer_.report().reflections_drawn, 0);
-    world_.get<scene::WorldMatrix>(last()).matrix[3].x -= 0.05F;
+    // A face in a frame.
+    const auto move = [&](float along_x) {
+        world_.get<scene::WorldMatrix>(last()).matrix[3].x += along_x;
+        for (int face = 1; face < ObjectReflection::kFaces; ++face) greens();
+        return greens();
+    };
+    EXPECT_NE(move(0.05F), first);
+    EXPECT_EQ(move(-0.05F), first);
     EXPECT_EQ(greens(), first);
+    EXPECT_EQ(renderer_.report().reflections_drawn, 0);
     renderer_.set_probe(even_light(0.5F * kSky));
     greens();
     EXPECT_GT(renderer_.report().reflections_drawn, 0);
