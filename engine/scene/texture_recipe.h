@@ -59,15 +59,15 @@ struct LayerRecipe {
 /// numbers: the user of the texture decides whether they mean colours.
 struct TextureRecipe {
     std::string picture;  ///< a file beside the recipe's; empty: painted
-    int width = 1;  ///< texels, 1 … 8192
+    int width = 1;        ///< texels, 1 … 8192
     int height = 1;
     std::vector<LayerRecipe> layers;  ///< at most 32
 
     bool operator==(const TextureRecipe&) const = default;
 };
 
-/// Reads "picture", or "size" and "layers", of an object that may hold more; the format is in scene_recipe.schema.json. The caller
-/// calls `finish()`. Throws Error (input).
+/// Reads "picture", or "size" and "layers", of an object that may hold more; the format is in scene_recipe.schema.json.
+/// The caller calls `finish()`. Throws Error (input).
 TextureRecipe parse_texture(JsonReader& reader);
 
 struct PaintedTexture {
