@@ -58,8 +58,8 @@ struct LayerRecipe {
 /// A picture painted in layers, each over those before it, on opaque black; or the picture of a PNG file. Plain
 /// numbers: the user of the texture decides whether they mean colours.
 struct TextureRecipe {
-    std::string picture;  ///< a file beside the recipe's; empty: painted
-    int width = 1;        ///< texels, 1 … 8192
+    std::string picture{};  ///< a file beside the recipe's; empty: painted
+    int width = 1;          ///< texels, 1 … 8192
     int height = 1;
     std::vector<LayerRecipe> layers;  ///< at most 32
 
