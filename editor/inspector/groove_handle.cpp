@@ -22,7 +22,9 @@ ImVec2 on_screen(const glm::vec2& at, const ImVec2& corner, const ImVec2& size) 
 }
 
 std::optional<Knob> knob_of(const Session& session, const ImVec2& corner, const ImVec2& size) {
-    if (!session.shows_grooves || !session.surface() || !session.document().has_grating()) return std::nullopt;
+    if (!session.shows_grooves || session.shape() != PreviewShape::Model || !session.surface() ||
+        !session.document().has_grating())
+        return std::nullopt;
     const Preview& preview = session.preview();
     const PickedSurface surface = preview.as_placed_now(*session.surface());
     const glm::vec3 along(glm::cross(surface.frame.normal, surface.frame.grating));

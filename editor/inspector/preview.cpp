@@ -104,6 +104,7 @@ void Preview::Side::add_shape() {
     const ecs::Entity entity = add(root, {});
     world.add(entity, render::MeshInstance(object->parts.meshes.front()));
     drawn.push_back({entity, 0, 0, {}});
+    set_own_material(drawn.back());
 }
 
 void Preview::Side::add_scene() {

@@ -53,7 +53,6 @@ class SceneWindow : public ::testing::Test {
         user.click("attach");
         user.click("attach=dvd");
         user.wait_for("material", "740");
-        user.wait_for("busy", "no");
         user.click("show grooves");
         user.drag("groove handle", {30, 18});
         user.wait_for("material", "grooveRotation");
@@ -74,7 +73,7 @@ class SceneWindow : public ::testing::Test {
         EXPECT_EQ(read_file(after, 1 << 26), read_file(before, 1 << 26));
     }
 
-    static constexpr const char* kWidth = "360";
+    static constexpr const char* kWidth = "720";
     test::TemporaryFolder folder_;
 };
 
@@ -96,7 +95,7 @@ TEST_F(SceneWindow, OneSphereOfManyGetsARainbow) {
         EXPECT_EQ(user.leave(), 0);
     }
     const std::vector<std::uint8_t> after = drawn(scene);
-    // Only pixels of that sphere differ, a fortieth of the picture; they have all hues.
+    // Only pixels of that sphere differ, which is about 30 wide; they have all hues.
     std::size_t changed = 0;
     glm::ivec3 most_of(0);
     for (std::size_t i = 0; i < before.size(); i += 4) {
@@ -107,9 +106,9 @@ TEST_F(SceneWindow, OneSphereOfManyGetsARainbow) {
         for (int c = 0; c < 3; ++c)
             if (rgb[c] == highest && highest > 40 + std::min({rgb.r, rgb.g, rgb.b})) ++most_of[c];
     }
-    EXPECT_GT(changed, before.size() / 4 / 200);
-    EXPECT_LT(changed, before.size() / 4 / 20);
-    for (int c = 0; c < 3; ++c) EXPECT_GT(most_of[c], 20) << c;
+    EXPECT_GT(changed, 200U);
+    EXPECT_LT(changed, 5000U);
+    for (int c = 0; c < 3; ++c) EXPECT_GT(most_of[c], 8) << c;
     expect_only_grating(original, scene, 7);
 }
 
@@ -120,7 +119,7 @@ TEST_F(SceneWindow, ADracoModelAndAGlbAreSavedLikewise) {
         std::filesystem::copy_file(original, scene);
         {
             InspectorUser user(folder_.path(), {scene, "--probe", path("sky.json")});
-            edit(user, {0.5, 0.5}, "blinn3");
+            edit(user, {0.5, 0.5}, "blinn3-fx");
             EXPECT_EQ(user.leave(), 0);
         }
         expect_only_grating(original, scene, 0);
