@@ -25,7 +25,7 @@ class Redraw {
 
  private:
     /// ImGui places a new window in its second frame, and ui::InputFeed passes a fast drag in three.
-    static constexpr int kFrames = 5;
+    static constexpr int kFrames = 7;
     /// A modal dialog fades in.
     static constexpr std::chrono::milliseconds kAfterwards{250};
 

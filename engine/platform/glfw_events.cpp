@@ -66,6 +66,7 @@ void collect_events(GLFWwindow* window, WindowEvents& events) {
     glfwSetWindowFocusCallback(
         window, [](GLFWwindow* w, int focused) { events_of(w).input.push_back(FocusEvent{focused == GLFW_TRUE}); });
     glfwSetDropCallback(window, on_drop);
+    glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { events_of(w).exposed = true; });
 }
 
 GamepadEvent read_gamepad() {

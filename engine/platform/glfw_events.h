@@ -17,6 +17,7 @@ std::optional<MouseButton> mouse_button_of_glfw(int button);
 struct WindowEvents {
     std::vector<InputEvent> input;
     std::vector<std::vector<std::filesystem::path>> drops;  ///< the files of each drop
+    bool exposed = false;                                   ///< the window's content is lost
 };
 
 /// Appends what happens in `window` to `events`, which becomes the window's user pointer and must outlive the window.

@@ -155,7 +155,8 @@ std::vector<InputEvent> Window::poll_events() {
 bool Window::wait(std::chrono::milliseconds limit) {
     const auto begin = std::chrono::steady_clock::now();
     glfwWaitEventsTimeout(std::chrono::duration<double>(limit).count());
-    return std::chrono::steady_clock::now() - begin < limit;
+    const bool exposed = std::exchange(state_->events.exposed, false);
+    return exposed || std::chrono::steady_clock::now() - begin < limit;
 }
 
 void Window::poll(InputState& input) {

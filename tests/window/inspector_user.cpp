@@ -97,7 +97,7 @@ void InspectorUser::wait_for_frames(int count) {
             if (first == 0 && now > 0) {
                 first = now;
                 // A key that the inspector does not use: it draws some frames, and sees all input before it.
-                user_.key("Pause");
+                user_.key("F4");
             }
             return (first > 0 && now >= first + count) || !user_.program().alive();
         },

@@ -52,8 +52,8 @@ class InspectorUser {
 
  private:
     Facts read_facts() const;
-    /// Waits for so many frames. After three the inspector has seen the last input, and shows it.
-    void wait_for_frames(int count = 3);
+    /// Waits for so many frames. After two the inspector has seen the last input; a popup finds its position in two more.
+    void wait_for_frames(int count = 5);
     /// The middle of a control, once it is there.
     glm::ivec2 middle_of(const std::string& control) const;
     void click_at(glm::ivec2 position);

@@ -13,7 +13,7 @@ TEST(Redraw, DrawsAWhileAfterAChangeThenRests) {
     EXPECT_EQ(redraw.next(false, false, now += 1000ms), app::Next::Wait);
     EXPECT_EQ(redraw.next(true, false, now += 1000ms), app::Next::Frame);
     // Slow frames: several are drawn though the time is over.
-    for (int frame = 0; frame < 3; ++frame) EXPECT_EQ(redraw.next(false, false, now += 1000ms), app::Next::Frame);
+    for (int frame = 0; frame < 5; ++frame) EXPECT_EQ(redraw.next(false, false, now += 1000ms), app::Next::Frame);
     EXPECT_EQ(redraw.next(false, false, now += 1000ms), app::Next::Wait);
     // Fast frames: the time counts.
     EXPECT_EQ(redraw.next(true, false, now += 1ms), app::Next::Frame);
