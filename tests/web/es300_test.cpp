@@ -29,7 +29,7 @@ std::vector<Program> programs() {
     const std::string pixels = "shaders/pixel_shaded.vert.glsl";
     const std::string vertices = "shaders/vertex_shaded.frag.glsl";
     const Defines line{{"VIEW_MAPPING", "2"}, {"TABLE_COLUMNS", "128"}, {"TABLE_ROWS", "1"}, {"LAYERS", "2"}};
-    const Defines plane{{"VIEW_MAPPING", "1"}, {"TABLE_COLUMNS", "64"}, {"TABLE_ROWS", "64"}, {"LAYERS", "2"}};
+    const Defines plane{{"VIEW_MAPPING", "1"}, {"TABLE_COLUMNS", "64"}, {"TABLE_ROWS", "64"}};
     const auto with = [](Defines defines, const Defines& more) {
         defines.insert(defines.end(), more.begin(), more.end());
         return defines;
@@ -61,7 +61,7 @@ std::vector<Program> programs() {
          "representations/streak/streak.frag.glsl",
          {{"STREAK", "1"}, {"NODES", "7"}, {"LOBE_GAUSSIAN", "1"}}},
         {"streak_rest", "representations/arc/arc.vert.glsl", "representations/streak/streak.frag.glsl",
-         with(plane, {{"STREAK", "1"}, {"NODES", "7"}, {"REST", "1"}, {"LOBE_PITS", "1"}})},
+         with(plane, {{"STREAK", "1"}, {"NODES", "7"}, {"REST", "1"}, {"LAYERS", "2"}, {"LOBE_PITS", "1"}})},
     };
 }
 

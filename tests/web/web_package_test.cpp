@@ -1,4 +1,4 @@
-// The npm package in a browser: content/web/three/test.
+// The npm package in a browser: content/web/three/test, in the copy that `./rowland web` builds.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -15,7 +15,7 @@ bool runs(const test::Command& command) {
 }
 
 TEST(WebPackage, ItsTestsPassInABrowser) {
-    const std::filesystem::path package = test::content_path("web/three");
+    const std::filesystem::path package = test::source_path("build/web/three");
     if (!runs({"/usr/bin/env", "node", "--version"})) GTEST_SKIP() << "needs node (Debian: nodejs)";
     if (!runs({"/usr/bin/env", "chromium", "--version"})) GTEST_SKIP() << "needs chromium";
     if (!std::filesystem::exists(package / "dist/bake.wasm"))

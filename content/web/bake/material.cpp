@@ -13,6 +13,13 @@
 
 namespace rowland::web {
 
+namespace {
+
+/// Levels of the smoothed kernel an octave: blur().
+constexpr int kLevels = 8;
+
+}  // namespace
+
 const glm::dmat3& xyz_to_working() {
     static const glm::dmat3 matrix = glm::inverse(colour::rec709_to_xyz());
     return matrix;
@@ -72,8 +79,7 @@ ROWLAND_EXPORT(kernel_texture) Numbers* kernel_texture(const Material* material,
     using namespace diffraction;
     const double pitch_nm = material->grating().pitch_nm;
     const KernelTable kernel = in_space(material->kernel, material->has_pits() ? glm::dmat3(1.0) : xyz_to_working());
-    BlurredKernel blurred = blur_for_lights(kernel, pitch_nm);
-    if (blurred.columns > most_columns) blurred = blur(kernel, std::max(4.0, 0.2 * pitch_nm), most_columns);
+    const BlurredKernel blurred = blur_for_lights(kernel, pitch_nm, most_columns, kLevels);
     const KernelUniforms uniforms = kernel_uniforms(kernel, blurred, pitch_nm);
     auto* numbers = new Numbers;
     append(static_cast<float>(blurred.columns), *numbers);

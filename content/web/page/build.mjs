@@ -1,17 +1,19 @@
-// Writes the static site: node build.mjs FOLDER. The package must be built.
-import { cpSync, mkdirSync, writeFileSync } from "node:fs";
+// Writes the static site: node build.mjs FOLDER PACKAGE, the latter built.
+import { cpSync, mkdirSync } from "node:fs";
 import { createRequire } from "node:module";
 import { fileURLToPath } from "node:url";
 
 const here = fileURLToPath(new URL(".", import.meta.url));
-const three = fileURLToPath(new URL("../three/", import.meta.url));
-const { buildSync } = createRequire(three + "package.json")("esbuild");
-const out = process.argv[2];
-if (!out) throw new Error("build.mjs: no folder; expected: node build.mjs FOLDER");
+const [out, from] = process.argv.slice(2);
+if (!from) throw new Error("expected: node build.mjs FOLDER PACKAGE");
+const { buildSync } = createRequire(from + "/package.json")("esbuild");
 
 mkdirSync(out, { recursive: true });
-const options = { bundle: true, minify: true, format: "esm", target: "es2022", nodePaths: [three + "node_modules"], logLevel: "warning" };
+const options = {
+    bundle: true, minify: true, format: "esm", target: "es2022", logLevel: "warning",
+    nodePaths: [from + "/node_modules"], alias: { "@rowland/three": from + "/dist/index.js" },
+};
 buildSync({ ...options, entryPoints: [here + "page.ts"], outfile: out + "/page.js" });
-buildSync({ ...options, entryPoints: [three + "src/worker.ts"], outfile: out + "/worker.js" });
+buildSync({ ...options, entryPoints: [from + "/dist/worker.js"], outfile: out + "/worker.js" });
 for (const file of ["index.html", "page.css"]) cpSync(here + file, `${out}/${file}`);
-for (const file of ["bake.wasm", "arc.wasm"]) cpSync(`${three}dist/${file}`, `${out}/${file}`);
+for (const file of ["bake.wasm", "arc.wasm"]) cpSync(`${from}/dist/${file}`, `${out}/${file}`);

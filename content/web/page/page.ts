@@ -4,7 +4,7 @@ import {
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { DataUtils } from "three";
-import { GratingMaterial, Rowland } from "../three/src/index.js";
+import { GratingMaterial, Rowland } from "@rowland/three";
 import { builtInLight, LIGHT_NAMES, lightOf } from "./lights.js";
 import { numberAt, SAMPLES, slidersOf, withNumber } from "./samples.js";
 
@@ -17,11 +17,11 @@ addEventListener("unhandledrejection", (event) => report(event.reason));
 const canvas = element<HTMLCanvasElement>("view");
 const scene = new Scene();
 const camera = new PerspectiveCamera(35, 1, 0.01, 10);
-camera.position.set(0.05, 0.25, 0.42);
+camera.position.set(0.08, 0.24, 0.33);
 const renderer = new WebGLRenderer({ canvas, antialias: true });
 renderer.toneMapping = ACESFilmicToneMapping;
 const controls = new OrbitControls(camera, canvas);
-controls.target.set(0, 0.01, 0.04);
+controls.target.set(0.04, 0.0, 0.045);
 controls.maxPolarAngle = 0.49 * Math.PI;
 controls.minDistance = 0.12;
 controls.maxDistance = 1.5;
@@ -100,7 +100,7 @@ function showSample(index: number): void {
             rebake(index);
         })));
     const price = meshes[index].material.price;
-    element("price").textContent = `Price: ${price.map} look-up${price.map === 1 ? "" : "s"} a pixel for the environment, one for each key light in reach.`;
+    element("price").textContent = `Price: ${price.map} look-up${price.map === 1 ? "" : "s"} a pixel for the environment, nine for each bright light in reach.`;
 }
 sample.append(...SAMPLES.map(({ name }) => new Option(name)));
 sample.addEventListener("change", () => showSample(sample.selectedIndex));

@@ -1,10 +1,9 @@
-// Puts the WebAssembly modules beside the compiled code: content/web/bake, which ROWLAND_BAKE names when it is elsewhere.
+// Puts the WebAssembly modules beside the compiled code.
 import { copyFileSync, existsSync } from "node:fs";
-import { fileURLToPath } from "node:url";
+import { here, top } from "./places.mjs";
 
-const bake = process.env.ROWLAND_BAKE ?? fileURLToPath(new URL("../../../../build/web/bake", import.meta.url));
-const dist = fileURLToPath(new URL("../dist/", import.meta.url));
 for (const name of ["bake.wasm", "arc.wasm"]) {
-    if (!existsSync(`${bake}/${name}`)) throw new Error(`${bake}/${name}: missing; build content/web/bake first (./rowland web)`);
-    copyFileSync(`${bake}/${name}`, dist + name);
+    const module = `${top}build/web/bake/${name}`;
+    if (!existsSync(module)) throw new Error(`${module}: missing; ./rowland web builds it`);
+    copyFileSync(module, `${here}dist/${name}`);
 }

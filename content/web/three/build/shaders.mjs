@@ -1,10 +1,7 @@
 // Writes src/generated/shaders.ts: the GLSL of the tree with its includes pasted in, for three. Uniform blocks become
 // plain uniforms, as three gives blocks to ShaderMaterial alone.
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
-import { fileURLToPath } from "node:url";
-
-const here = fileURLToPath(new URL("..", import.meta.url));
-const top = fileURLToPath(new URL("../../../..", import.meta.url));
+import { here, top } from "./places.mjs";
 
 /// Without the lines of C++ in a header that both languages read, as engine/gpu/shader_library.cpp.
 function glslLines(text) {

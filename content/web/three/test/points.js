@@ -68,7 +68,10 @@ try {
     rowland.onError = (error) => post({ error: error.message });
     const loader = probe.endsWith(".exr") ? new EXRLoader() : new RGBELoader();
     loader.setDataType(THREE.FloatType);
-    await rowland.setProbe(await loader.loadAsync(probe), { keyLights });
+    const light = await loader.loadAsync(probe);
+    // three takes a byte of a Radiance mantissa as n/255; the format and Rowland as n/256.
+    if (probe.endsWith(".hdr")) light.image.data = light.image.data.map((x) => (x * 255) / 256);
+    await rowland.setProbe(light, { keyLights });
     const results = [];
     for (const one of cases) results.push(await radiance(renderer, rowland, one));
     await post({ results });
