@@ -65,14 +65,19 @@ export async function lightOf(file: File): Promise<Texture> {
     if (extension !== ".hdr" && extension !== ".exr") throw new Error(`${file.name}: expected a panorama, .hdr or .exr`);
     const loader = extension === ".exr" ? new EXRLoader() : new RGBELoader();
     loader.setDataType(FloatType);
-    const url = URL.createObjectURL(file);
+    let image: { data?: Float32Array; width?: number; height?: number } | undefined;
     try {
-        const texture = await loader.loadAsync(url);
-        texture.mapping = EquirectangularReflectionMapping;
-        return texture;
+        image = loader.parse(await file.arrayBuffer()) as never;
     } catch (error) {
-        throw new Error(`${file.name}: ${(error as Error).message ?? error}; expected a Radiance HDR or OpenEXR panorama`);
-    } finally {
-        URL.revokeObjectURL(url);
+        throw new Error(`${file.name}: ${(error as Error).message}`);
     }
+    const { data, width, height } = image ?? {};
+    if (!data || !width || !height || data.length !== 4 * width * height)
+        throw new Error(`${file.name}: no picture; expected a Radiance HDR or OpenEXR panorama of colours`);
+    const texture = new DataTexture(data as Float32Array<ArrayBuffer>, width, height, RGBAFormat, FloatType);
+    texture.flipY = extension === ".hdr"; // as three's loaders give them
+    texture.mapping = EquirectangularReflectionMapping;
+    texture.minFilter = texture.magFilter = LinearFilter;
+    texture.needsUpdate = true;
+    return texture;
 }
