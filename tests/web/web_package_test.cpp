@@ -16,13 +16,13 @@ bool runs(const test::Command& command) {
 
 TEST(WebPackage, ItsTestsPassInABrowser) {
     const std::filesystem::path package = test::source_path("build/web/three");
-    if (!runs({"/usr/bin/env", "node", "--version"})) GTEST_SKIP() << "needs node (Debian: nodejs)";
+    if (!runs({"/usr/bin/env", "npm", "--version"})) GTEST_SKIP() << "needs npm (Debian: nodejs, npm)";
     if (!runs({"/usr/bin/env", "chromium", "--version"})) GTEST_SKIP() << "needs chromium";
     if (!std::filesystem::exists(package / "dist/bake.wasm"))
         GTEST_SKIP() << "needs the built package: ./rowland web --out FOLDER";
     ROWLAND_TEST_DATA(probe, "probes/venice_sunset_256.hdr");
     const std::string data = probe.parent_path().parent_path().string();
-    const test::Ended ended = test::run({"/usr/bin/env", "node", "--test", "test/"},
+    const test::Ended ended = test::run({"/usr/bin/env", "npm", "test"},
                                         {.environment = {{"ROWLAND_TRADE", ROWLAND_TRADE}, {"ROWLAND_DATA", data}},
                                          .folder = package,
                                          .limit = std::chrono::minutes(15)});

@@ -78,7 +78,11 @@ function evaluate(folder, probe, { grating, frames, method }) {
 const missing = !chromium() ? "needs Chromium" : !trade ? "needs ROWLAND_TRADE, the program rowland-trade"
     : !existsSync(probes) ? `needs the test data's probes in ${probes}` : false;
 
-for (const probe of ["venice_sunset_256.hdr", "blender_city.exr"])
+// Under a narrow sun, `evaluate` itself is .5 % off: it takes a lobe in slices of 25 nm. The pixel of the worst point is within 7e-4
+// of the sum in 400 slices (measured).
+const PROBES = { "venice_sunset_256.hdr": 2e-3, "blender_city.exr": 6e-3 };
+
+for (const [probe, tolerance] of Object.entries(PROBES))
     test(`pixels equal rowland-trade evaluate under ${probe}`, { skip: missing }, async (t) => {
         const folder = mkdtempSync(join(tmpdir(), "rowland-accuracy-"));
         try {
@@ -96,7 +100,7 @@ for (const probe of ["venice_sunset_256.hdr", "blender_city.exr"])
                     const at = errors.indexOf(worst);
                     t.diagnostic(`${one.name}: ${worst.toExponential(2)} of the largest component, at point ${at}: ` +
                         `${results[i][at]} for ${expected[at]}`);
-                    assert.ok(largest > 0 && worst < 2e-3, `${worst} of the largest component`);
+                    assert.ok(largest > 0 && worst < tolerance, `${worst} of the largest component`);
                 });
         } finally {
             rmSync(folder, { recursive: true });
