@@ -82,7 +82,8 @@ void add_info_command(CLI::App& program, const cook::Registry& registry) {
 
 }  // namespace
 
-int run_cooker(int argc, const char* const* argv, const cook::Registry& registry) {
+int run_cooker(int argc, const char* const* argv, const cook::Registry& registry,
+               std::initializer_list<AddCommand> more) {
     return run_program([&] {
         int exit_code = 0;
         CLI::App program("Turns sources into the cooked assets that Rowland loads, and checks both.", "rowland-cook");
@@ -96,6 +97,7 @@ int run_cooker(int argc, const char* const* argv, const cook::Registry& registry
         add_info_command(program, registry);
         add_attach_commands(program, registry, exit_code);
         add_farm_commands(program, registry, exit_code);
+        for (const AddCommand add : more) add(program);
         try {
             program.parse(argc, argv);
         } catch (const CLI::ParseError& error) {

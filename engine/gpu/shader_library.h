@@ -59,8 +59,8 @@ class ShaderLibrary {
 
     /// A stage's whole text. `#include "name"` is looked up beside the including file, then from the top; a file is
     /// pasted once however often it is included. In headers that C++ reads as well, its lines are blank: from
-    /// `#ifdef __cplusplus` to the `#else` or `#endif`. The defines go below the file's own `#version`, which must be its
-    /// first directive. Throws Error (system) that names the file and the line of a bad include.
+    /// `#ifdef __cplusplus` to the `#else` or `#endif`. The defines go below the file's own `#version`, which must be
+    /// its first directive. Throws Error (system) that names the file and the line of a bad include.
     ShaderText assemble(const std::string& name, std::span<const Define> defines = {},
                         Dialect dialect = Dialect::Desktop) const;
 

@@ -35,6 +35,7 @@ std::vector<Wall> walls() {
         {"modules/diffraction/bake/", with_graphics({"modules/diffraction/reference/"})},
         {"modules/diffraction/asset/", with_graphics({"modules/diffraction/reference/"})},
         {"modules/diffraction/evaluate/", kGraphics},
+        {"modules/diffraction/portable/", with_graphics({"modules/diffraction/reference/"})},
         {"modules/diffraction/runtime/", {"modules/diffraction/reference/", "modules/diffraction/evaluate/"}},
         {"engine/math/", with_graphics({"engine/lighting/", "engine/scene/", "engine/cook/"})},
         {"engine/lighting/", kGraphics},

@@ -29,7 +29,7 @@ std::vector<Program> programs() {
     const std::string pixels = "shaders/pixel_shaded.vert.glsl";
     const std::string vertices = "shaders/vertex_shaded.frag.glsl";
     const Defines line{{"VIEW_MAPPING", "2"}, {"TABLE_COLUMNS", "128"}, {"TABLE_ROWS", "1"}, {"LAYERS", "2"}};
-    const Defines plane{{"VIEW_MAPPING", "1"}, {"TABLE_COLUMNS", "64"}, {"TABLE_ROWS", "64"}, {"LAYERS", "2"}};
+    const Defines plane{{"VIEW_MAPPING", "1"}, {"TABLE_COLUMNS", "64"}, {"TABLE_ROWS", "64"}};
     const auto with = [](Defines defines, const Defines& more) {
         defines.insert(defines.end(), more.begin(), more.end());
         return defines;
@@ -43,7 +43,8 @@ std::vector<Program> programs() {
          with(plane, {{"VERTEX_SHADED", "1"}, {"BANDS", "5"}})},
         {"arc", "representations/arc/arc.vert.glsl", "representations/arc/arc.frag.glsl", line},
         {"arc_turns", pixels, "representations/arc/arc.frag.glsl",
-         with(line, {{"TURNS", "5"}, {"PITCH_AXIS", "1"}, {"GROOVE_MAP", "uv"}, {"HAS_UV", ""}, {"GROOVES_EVEN", "1"}})},
+         with(line,
+              {{"TURNS", "5"}, {"PITCH_AXIS", "1"}, {"GROOVE_MAP", "uv"}, {"HAS_UV", ""}, {"GROOVES_EVEN", "1"}})},
         {"direct", pixels, "representations/direct/direct.frag.glsl", {{"LOBE_GAUSSIAN", "1"}}},
         {"planar", pixels, "representations/planar/planar.frag.glsl", {}},
         {"planar_volume",
@@ -60,7 +61,7 @@ std::vector<Program> programs() {
          "representations/streak/streak.frag.glsl",
          {{"STREAK", "1"}, {"NODES", "7"}, {"LOBE_GAUSSIAN", "1"}}},
         {"streak_rest", "representations/arc/arc.vert.glsl", "representations/streak/streak.frag.glsl",
-         with(plane, {{"STREAK", "1"}, {"NODES", "7"}, {"REST", "1"}, {"LOBE_PITS", "1"}})},
+         with(plane, {{"STREAK", "1"}, {"NODES", "7"}, {"REST", "1"}, {"LAYERS", "2"}, {"LOBE_PITS", "1"}})},
     };
 }
 

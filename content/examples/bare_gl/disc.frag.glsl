@@ -1,4 +1,4 @@
-// Before this text come Rowland's planar_map.glsl and kernel.glsl.
+// Before this text come Rowland's dialect.glsl, planar_map.glsl and kernel.glsl.
 in vec3 world_position;
 uniform vec3 eye;
 uniform vec3 centre;          // of the disc

@@ -157,11 +157,13 @@ int main(int argc, char** argv) try {
     if (argc != 4) return std::fprintf(stderr, "usage: bare_gl MATERIAL PROBE PICTURE\n"), 2;
     make_headless_context();
     const std::string from = "#version 450 core\n";
-    const std::string rowland = std::string(ROWLAND_SHADERS) + "/modules/diffraction/";
+    const std::string rowland = ROWLAND_SHADERS "/";
+    const std::string module = rowland + "modules/diffraction/";
     const GLuint program =
         make_program({from, read_text(EXAMPLE_SHADERS "/disc.vert.glsl")},
-                     {from, read_text(rowland + "representations/planar/planar_map.glsl"),
-                      read_text(rowland + "shaders/kernel.glsl"), read_text(EXAMPLE_SHADERS "/disc.frag.glsl")});
+                     {from, read_text(rowland + "engine/gpu/shaders/dialect.glsl"),
+                      read_text(module + "representations/planar/planar_map.glsl"),
+                      read_text(module + "shaders/kernel.glsl"), read_text(EXAMPLE_SHADERS "/disc.frag.glsl")});
 
     const diffraction::CookedMaterial material = diffraction::load_cooked_material(argv[1]);
     bind_kernel(program, material);

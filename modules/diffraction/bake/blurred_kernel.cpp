@@ -21,7 +21,6 @@ constexpr double kWidestDeviation = 0.2;
 /// Columns for lights: one per so many nm, within the limits below.
 constexpr double kColumn_nm = 2.0;
 constexpr int kFewestColumns = 1024;
-constexpr int kMostColumns = 4096;
 
 /// Weights of a normal distribution in cells of width `step`, normalised: of cells 0, ±1, ±2, … from its centre.
 std::vector<double> stencil(double deviation, double step) {
@@ -48,7 +47,7 @@ glm::dmat3 BlurredKernel::at(double x_nm, double deviation_nm) const {
     int level = 0;
     const double s = interpolate((x_nm - begin_nm) / (end_nm - begin_nm) * (columns - 1), columns, column);
     const double t =
-        interpolate(std::log2(std::max(deviation_nm, narrowest_nm) / narrowest_nm) * kLevelsPerOctave, levels, level);
+        interpolate(std::log2(std::max(deviation_nm, narrowest_nm) / narrowest_nm) * levels_per_octave, levels, level);
     const auto value = [&](int i, int j) {
         return glm::dmat3(
             values[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(i)]);
@@ -57,13 +56,14 @@ glm::dmat3 BlurredKernel::at(double x_nm, double deviation_nm) const {
            t * ((1.0 - s) * value(column, level + 1) + s * value(column + 1, level + 1));
 }
 
-BlurredKernel blur(const KernelTable& kernel, double widest_nm, int columns) {
+BlurredKernel blur(const KernelTable& kernel, double widest_nm, int columns, int levels_per_octave) {
     ROWLAND_CHECK_OP(widest_nm, >=, kNarrowest_nm);
     ROWLAND_CHECK_OP(columns, >=, 2);
-    BlurredKernel blurred{.narrowest_nm = kNarrowest_nm, .columns = columns, .values = {}};
-    blurred.levels = 2 + static_cast<int>(std::ceil(std::log2(widest_nm / kNarrowest_nm) * kLevelsPerOctave));
+    BlurredKernel blurred{
+        .narrowest_nm = kNarrowest_nm, .columns = columns, .levels_per_octave = levels_per_octave, .values = {}};
+    blurred.levels = 2 + static_cast<int>(std::ceil(std::log2(widest_nm / kNarrowest_nm) * levels_per_octave));
     const auto deviation_of = [&](int level) {
-        return kNarrowest_nm * std::exp2(static_cast<double>(level) / kLevelsPerOctave);
+        return kNarrowest_nm * std::exp2(static_cast<double>(level) / levels_per_octave);
     };
     const double margin = kBlurReach * deviation_of(blurred.levels - 1) + 1.0;
     blurred.begin_nm = kernel.begin_nm - margin;
@@ -90,18 +90,18 @@ BlurredKernel blur(const KernelTable& kernel, double widest_nm, int columns) {
     return blurred;
 }
 
-BlurredKernel blur_for_lights(const KernelTable& kernel, double pitch_nm) {
+BlurredKernel blur_for_lights(const KernelTable& kernel, double pitch_nm, int most_columns, int levels_per_octave) {
     const double widest_nm = std::max(kNarrowest_nm, kWidestDeviation * pitch_nm);
     const double extent_nm = kernel.end_nm - kernel.begin_nm + 8.0 * widest_nm;
-    const double columns = std::clamp(extent_nm / kColumn_nm, double{kFewestColumns}, double{kMostColumns});
-    return blur(kernel, widest_nm, static_cast<int>(columns));
+    const double columns = std::clamp(extent_nm / kColumn_nm, double{kFewestColumns}, double(most_columns));
+    return blur(kernel, widest_nm, static_cast<int>(columns), levels_per_octave);
 }
 
 KernelUniforms kernel_uniforms(const KernelTable& kernel, const BlurredKernel& blurred, double pitch_nm) {
     const double step = 1.0 / blurred.columns;
     const double per_nm = (1.0 - step) / (blurred.end_nm - blurred.begin_nm);
     const double narrowest = blurred.narrowest_nm / pitch_nm;
-    const double rows = static_cast<double>(kLevelsPerOctave) / blurred.levels;
+    const double rows = static_cast<double>(blurred.levels_per_octave) / blurred.levels;
     const double nearest = colour::kVisibleMin / pitch_nm;
     const double farthest = std::max(std::abs(kernel.begin_nm), std::abs(kernel.end_nm)) / pitch_nm;
     return {.scale_bias = glm::dvec4(pitch_nm * per_nm, 0.5 * step - blurred.begin_nm * per_nm, narrowest, pitch_nm),

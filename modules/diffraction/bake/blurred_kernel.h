@@ -9,29 +9,33 @@
 
 namespace rowland::diffraction {
 
+inline constexpr int kLevelsPerOctave = 2;
+
 /// k smoothed by normal distributions, over x and the deviation σ: the response to a light of that extent in one
 /// look-up. A 2D texture, GL_LINEAR, GL_CLAMP_TO_EDGE, three texels (the matrix's columns) per entry.
 ///   s = ((x − begin)/(end − begin) (columns−1) + ½)/columns
-///   t = (log₂(σ/narrowest)·kLevelsPerOctave + ½)/levels
+///   t = (log₂(σ/narrowest)·levels_per_octave + ½)/levels
 struct BlurredKernel {
     double begin_nm = 0.0;
     double end_nm = 0.0;
     double narrowest_nm = 0.0;  ///< σ of level 0
     int columns = 0;
     int levels = 0;
+    int levels_per_octave = kLevelsPerOctave;
     std::vector<glm::mat3> values;  ///< per nm; level by level
 
     /// Interpolated as the texture unit does. 0 at the table's ends.
     glm::dmat3 at(double x_nm, double deviation_nm) const;
 };
 
-inline constexpr int kLevelsPerOctave = 2;
+/// σ from 4 nm to at least `widest_nm` ≥ 4; x to 4σ beyond the kernel. Where σ is wider than the kernel's features,
+/// values are as 1/σ, and n levels an octave are off by (ln 2/n)²/8 between them: 1.5 % for 2, .1 % for 8.
+BlurredKernel blur(const KernelTable& kernel, double widest_nm, int columns = 2048,
+                   int levels_per_octave = kLevelsPerOctave);
 
-/// σ from 4 nm to at least `widest_nm` ≥ 4; x to 4σ beyond the kernel.
-BlurredKernel blur(const KernelTable& kernel, double widest_nm, int columns = 2048);
-
-/// blur() for lights and pixels on a grating of this pitch: deviations of u up to .2.
-BlurredKernel blur_for_lights(const KernelTable& kernel, double pitch_nm);
+/// blur() for lights and pixels on a grating of this pitch: deviations of u up to .2. At most so many columns.
+BlurredKernel blur_for_lights(const KernelTable& kernel, double pitch_nm, int most_columns = 4096,
+                              int levels_per_octave = kLevelsPerOctave);
 
 /// The uniforms of shaders/kernel.glsl, which looks up u = x/d instead of x.
 struct KernelUniforms {

@@ -16,11 +16,15 @@ vec3 key_lobe_radiance(KeyLobe lobe, GrooveView view) {
 #endif
     axis.x = clamp(axis.x, -1.0, 1.0);
     float across = max(length(axis.yz), 1e-6);
+    float growth = 0.0;
+#ifdef KEY_LOBE_PARTS
+    growth = horizon_growth(lobe, axis, across);
+#endif
     vec3 sum = vec3(0.0);
     float whole = 0.0;
     for (int i = 0; i < 3; ++i) {
         float weight;
-        LightPart part = lobe_part(lobe, axis, across, i, weight);
+        LightPart part = lobe_part(lobe, axis, across, growth, i, weight);
         whole += weight;
         if (part.cosine <= 0.0) continue;
         float deviation = length(vec2(part.deviation, u.deviation));

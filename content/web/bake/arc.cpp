@@ -1,0 +1,62 @@
+// The representation arc: curved surfaces under light in spherical harmonics.
+#include <glm/glm.hpp>
+
+#include "content/web/bake/exports.h"
+#include "content/web/bake/material.h"
+#include "engine/scene/mesh.h"
+#include "modules/diffraction/representations/arc/arc_products.h"
+
+namespace rowland::web {
+
+/// A table, and what vertices take from it.
+struct Arc {
+    diffraction::ArcTable table;
+    diffraction::ArcProducts products;
+};
+
+ROWLAND_EXPORT(bake_arc) Arc* bake_arc(const Material* material, int bands, int rank) {
+    using namespace diffraction;
+    const ArcSettings settings{.bands = bands,
+                               .rank = rank,
+                               .storage = Storage::Float,
+                               .illuminant = material->source.material.quality.illuminant};
+    ArcTable table = bake(material->grating(), settings);
+    ArcProducts products(table, xyz_to_working());
+    return new Arc{.table = std::move(table), .products = std::move(products)};
+}
+
+ROWLAND_EXPORT(release_arc) void release_arc(const Arc* arc) {
+    delete arc;
+}
+
+/// Mapping of views, columns, rows, layers; then the weights, RGBA, layer by layer.
+ROWLAND_EXPORT(arc_weights) Numbers* arc_weights(const Arc* arc) {
+    const diffraction::ArcTable& table = arc->table;
+    const std::size_t layers = diffraction::weight_layers(table.rank);
+    auto* numbers = new Numbers;
+    append(glm::vec4(static_cast<int>(table.grid.mapping), table.grid.columns, table.grid.rows, layers), *numbers);
+    const std::size_t texels = table.grid.texels();
+    for (std::size_t texel = 0; texel < layers * texels; ++texel)
+        for (std::size_t component = 0; component < diffraction::kTexelComponents; ++component)
+            append(static_cast<float>(table.value(texel / texels, texel, component)), *numbers);
+    return numbers;
+}
+
+/// The products of vertices: 3 · layers vectors each. `sh`: of rest_sh(), in the table's bands. `normals` and
+/// `gratings`: of `vertices` vertices in the world.
+ROWLAND_EXPORT(arc_products)
+Numbers* arc_products(const Arc* arc, const float* sh, const float* normals, const float* gratings, int vertices) {
+    lighting::ShLight light{.bands = arc->table.bands, .coefficients = {}};
+    for (int i = 0; i < light.bands * light.bands; ++i)
+        light.coefficients.emplace_back(sh[3 * i], sh[3 * i + 1], sh[3 * i + 2]);
+    scene::Mesh frames;
+    for (int i = 0; i < vertices; ++i) {
+        frames.normals.emplace_back(normals[3 * i], normals[3 * i + 1], normals[3 * i + 2]);
+        frames.tangents.emplace_back(gratings[3 * i], gratings[3 * i + 1], gratings[3 * i + 2], 1.0F);
+    }
+    auto* numbers = new Numbers;
+    for (const glm::vec4& product : arc->products(light, frames, glm::mat4(1.0F), 0.0)) append(product, *numbers);
+    return numbers;
+}
+
+}  // namespace rowland::web

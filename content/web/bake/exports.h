@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+/// A function that the page's worker calls.
+#define ROWLAND_EXPORT(name) extern "C" __attribute__((export_name(#name)))
+
+namespace rowland::web {
+
+/// What a call gives back: a list of numbers, which the worker copies and releases.
+using Numbers = std::vector<float>;
+
+/// Appends values that are made of floats.
+template <typename Value>
+void append(const Value& value, Numbers& numbers) {
+    static_assert(sizeof(Value) % sizeof(float) == 0);
+    const auto* floats = reinterpret_cast<const float*>(&value);
+    numbers.insert(numbers.end(), floats, floats + sizeof(Value) / sizeof(float));
+}
+
+}  // namespace rowland::web

@@ -1,0 +1,87 @@
+// A probe, and what a material's flat surfaces show of it.
+#include <cstdlib>
+
+#include "content/web/bake/exports.h"
+#include "content/web/bake/material.h"
+#include "engine/lighting/light_samples.h"
+#include "modules/diffraction/bake/diffraction_pattern.h"
+#include "modules/diffraction/representations/planar/lobe_map.h"
+#include "modules/diffraction/representations/planar/planar_map.h"
+#include "modules/diffraction/runtime/key_lobe.h"
+
+namespace rowland::web {
+
+/// A probe without its key lights, and these.
+struct Probe {
+    lighting::ProbeImage image;
+    std::vector<lighting::KeyLight> keys;
+    lighting::LightSamples rest;
+};
+
+/// `texels`: linear Rec.709, row 0 at the top; released here.
+ROWLAND_EXPORT(read_probe) Probe* read_probe(glm::vec3* texels, int width, int height, int key_lights) {
+    image::Image image{width, height, std::vector<glm::vec3>(texels, texels + width * height)};
+    std::free(texels);
+    auto* probe = new Probe{.image = {std::move(image), lighting::Mapping::Equirectangular}, .keys = {}, .rest = {}};
+    probe->keys = lighting::fit_key_lights(probe->image, key_lights);
+    probe->rest = lighting::light_samples(probe->image, probe->keys);
+    return probe;
+}
+
+ROWLAND_EXPORT(release_probe) void release_probe(const Probe* probe) {
+    delete probe;
+}
+
+/// KeyLobe for each light: shaders/key_lobe_block.h.
+ROWLAND_EXPORT(key_lobes) Numbers* key_lobes(const Probe* probe) {
+    auto* numbers = new Numbers;
+    for (const lighting::KeyLight& key : probe->keys) append(diffraction::key_lobe(key), *numbers);
+    return numbers;
+}
+
+/// Raw SH of the light without its key lights.
+ROWLAND_EXPORT(rest_sh) Numbers* rest_sh(const Probe* probe, int bands) {
+    auto* numbers = new Numbers;
+    for (const glm::dvec3& coefficient :
+         lighting::residual(lighting::project(probe->image, bands), probe->keys, bands).coefficients)
+        append(glm::vec3(coefficient), *numbers);
+    return numbers;
+}
+
+/// The map of a plane, flat lobe: e1, e2, then RGB over azimuths and views. `resolution`: even.
+ROWLAND_EXPORT(planar_map)
+Numbers* planar_map(const Material* material, const Probe* probe, double x, double y, double z, int resolution) {
+    const diffraction::PlanarMap map = diffraction::fill_planar_map(
+        probe->rest, in_space(material->kernel, xyz_to_working()), material->grating().pitch_nm, glm::dvec3(x, y, z),
+        {.azimuths = resolution, .views = resolution}, xyz_to_working() * material->zero_order_xyz,
+        material->grating().cover);
+    auto* numbers = new Numbers;
+    append(glm::vec3(map.e1), *numbers);
+    append(glm::vec3(map.e2), *numbers);
+    for (const glm::vec3& value : map.xyz) append(value, *numbers);
+    return numbers;
+}
+
+/// The map of a plane, other lobes: e1, e2, lobe_map_axes, width, height, depth, whether it holds the half turn alone;
+/// then RGB.
+ROWLAND_EXPORT(lobe_map)
+Numbers* lobe_map(const Material* material, const Probe* probe, double x, double y, double z, int azimuths, int views_g,
+                  int views_h) {
+    using namespace diffraction;
+    const DiffractionPattern pattern = in_space(
+        diffraction_pattern(material->grating(), colour::LightSpectra(material->source.material.quality.illuminant)),
+        xyz_to_working());
+    const LobeMap map =
+        fill_lobe_map(probe->rest, LobeSpectrum(pattern, {.g = views_g, .h = views_h}), glm::dvec3(x, y, z), azimuths);
+    const int depth = slices(map.size, map.half_turn);
+    auto* numbers = new Numbers;
+    append(glm::vec3(map.axes.e1), *numbers);
+    append(glm::vec3(map.axes.e2), *numbers);
+    append(glm::vec4(0.5 - 0.5 / views_g, 0.5 - 0.5 / views_h, static_cast<double>(azimuths) / depth, 0.5 / depth),
+           *numbers);
+    append(glm::vec4(views_g, views_h, depth, map.half_turn ? 1 : 0), *numbers);
+    for (const glm::vec3& value : map.values) append(value, *numbers);
+    return numbers;
+}
+
+}  // namespace rowland::web

@@ -1,0 +1,83 @@
+import { DataTexture, EquirectangularReflectionMapping, FloatType, LinearFilter, RGBAFormat, type Texture } from "three";
+import { EXRLoader } from "three/examples/jsm/loaders/EXRLoader.js";
+import { RGBELoader } from "three/examples/jsm/loaders/RGBELoader.js";
+
+/** A lamp on the sphere: its direction and size in degrees, its radiance. */
+interface Box {
+    azimuth: number;
+    height: number;
+    width: number;
+    tall: number;
+    radiance: [number, number, number];
+}
+
+const LIGHTS: Record<string, { top: number[]; bottom: number[]; boxes: Box[] }> = {
+    Studio: {
+        top: [0.25, 0.26, 0.28],
+        bottom: [0.06, 0.06, 0.06],
+        boxes: [
+            { azimuth: -40, height: 45, width: 30, tall: 18, radiance: [14, 13.5, 13] },
+            { azimuth: 60, height: 30, width: 6, tall: 40, radiance: [22, 23, 25] },
+            { azimuth: 170, height: 60, width: 14, tall: 14, radiance: [9, 9, 9] },
+        ],
+    },
+    Night: {
+        top: [0.012, 0.015, 0.025],
+        bottom: [0.01, 0.009, 0.008],
+        boxes: [
+            { azimuth: -15, height: 35, width: 2, tall: 2, radiance: [900, 700, 430] },
+            { azimuth: 40, height: 50, width: 2, tall: 2, radiance: [620, 640, 700] },
+            { azimuth: 130, height: 25, width: 3, tall: 1.5, radiance: [500, 330, 180] },
+        ],
+    },
+    Overcast: { top: [0.9, 0.95, 1.05], bottom: [0.2, 0.19, 0.17], boxes: [] },
+};
+export const LIGHT_NAMES = Object.keys(LIGHTS);
+
+/** An equirectangular texture, as three's loaders give: centre −Z, its last row on top. */
+export function builtInLight(name: string, width = 512): DataTexture {
+    const height = width / 2;
+    const { top, bottom, boxes } = LIGHTS[name];
+    const data = new Float32Array(4 * width * height);
+    for (let row = 0; row < height; ++row)
+        for (let column = 0; column < width; ++column) {
+            const up = 180 * ((row + 0.5) / height - 0.5);
+            const around = 360 * ((column + 0.5) / width - 0.5);
+            const mix = Math.min(Math.max(0.5 + up / 30, 0), 1);
+            const rgb = top.map((x, c) => bottom[c] + mix * (x - bottom[c]));
+            for (const box of boxes) {
+                const turned = ((around - box.azimuth + 540) % 360) - 180;
+                const inside = Math.abs(turned) * Math.cos((up * Math.PI) / 180) < box.width / 2 && Math.abs(up - box.height) < box.tall / 2;
+                if (inside) box.radiance.forEach((x, c) => (rgb[c] += x));
+            }
+            data.set([...rgb, 1], 4 * (row * width + column));
+        }
+    const texture = new DataTexture(data, width, height, RGBAFormat, FloatType);
+    texture.mapping = EquirectangularReflectionMapping;
+    texture.minFilter = texture.magFilter = LinearFilter;
+    texture.needsUpdate = true;
+    return texture;
+}
+
+/** A panorama that the user gives. */
+export async function lightOf(file: File): Promise<Texture> {
+    const extension = file.name.slice(file.name.lastIndexOf(".")).toLowerCase();
+    if (extension !== ".hdr" && extension !== ".exr") throw new Error(`${file.name}: expected a panorama, .hdr or .exr`);
+    const loader = extension === ".exr" ? new EXRLoader() : new RGBELoader();
+    loader.setDataType(FloatType);
+    let image: { data?: Float32Array; width?: number; height?: number } | undefined;
+    try {
+        image = loader.parse(await file.arrayBuffer()) as never;
+    } catch (error) {
+        throw new Error(`${file.name}: ${(error as Error).message}`);
+    }
+    const { data, width, height } = image ?? {};
+    if (!data || !width || !height || data.length !== 4 * width * height)
+        throw new Error(`${file.name}: no picture; expected a Radiance HDR or OpenEXR panorama of colours`);
+    const texture = new DataTexture(data as Float32Array<ArrayBuffer>, width, height, RGBAFormat, FloatType);
+    texture.flipY = extension === ".hdr"; // as three's loaders give them
+    texture.mapping = EquirectangularReflectionMapping;
+    texture.minFilter = texture.magFilter = LinearFilter;
+    texture.needsUpdate = true;
+    return texture;
+}

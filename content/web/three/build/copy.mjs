@@ -1,0 +1,9 @@
+// Puts the WebAssembly modules beside the compiled code.
+import { copyFileSync, existsSync } from "node:fs";
+import { here, top } from "./places.mjs";
+
+for (const name of ["bake.wasm", "arc.wasm"]) {
+    const module = `${top}build/web/bake/${name}`;
+    if (!existsSync(module)) throw new Error(`${module}: missing; ./rowland web builds it`);
+    copyFileSync(module, `${here}dist/${name}`);
+}

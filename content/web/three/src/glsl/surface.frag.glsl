@@ -1,0 +1,78 @@
+// Beneath three's <lights_physical_pars_fragment>: the diffraction term of MeshPhysicalMaterial.
+#define SEPARATE_LIGHTS
+#define KEY_LOBE_PARTS
+#include "engine/gpu/shaders/dialect.glsl"
+in vec3 world_position;
+in vec3 world_normal;
+#define eye cameraPosition
+uniform mat3 xyz_to_working;  // linear Rec.709
+uniform vec3 mirror_weight;
+uniform vec3 base_weight;
+uniform float light_scale;  // of the probe
+#include "modules/diffraction/shaders/cover.glsl"
+#include "modules/diffraction/shaders/groove_view.glsl"
+#include "modules/diffraction/shaders/small_light.glsl"
+#include "modules/diffraction/shaders/key_lobe_parts.glsl"
+#ifdef ROWLAND_PLANAR
+#include "modules/diffraction/representations/planar/planar_map.glsl"
+#endif
+#ifdef ROWLAND_ARC
+#include "modules/diffraction/representations/arc/arc_sum.glsl"
+#endif
+
+GrooveView lit_view;
+vec3 lit_sum;  // of three's lights
+
+void prepare_grooves() {
+    lit_view = groove_view();
+    lit_sum = vec3(0.0);
+}
+
+// A light of three. `s`: toward it, in the world; `irradiance`: on a surface that faces it.
+void add_lamp(vec3 s, vec3 irradiance) {
+    PixelU u = pixel_u_of(lit_view, s);
+    float above = lit_view.direction.z > 0.0 ? max(dot(s, lit_view.axes[2]), 0.0) : 0.0;
+    vec3 factor = 0.5 * above * cover_transmittance(above) *
+                  groove_factor(dot(s, lit_view.axes[1]) + lit_view.direction.y);
+    lit_sum += kernel_to_working(factor * pitch_kernel_value(u.mean, u.deviation, irradiance, 1.0));
+}
+
+vec3 probe_radiance() {
+    if (lit_view.direction.z <= 0.0) return vec3(0.0);
+    vec3 sum = vec3(0.0);
+#if defined(ROWLAND_PLANAR) && defined(LOBE_MAP)
+    sum += map_radiance(lit_view.direction.xy, lit_view.axes[0]);
+#elif defined(ROWLAND_PLANAR)
+    sum += map_radiance(lit_view.direction.x, lit_view.axes[0], lit_view.axes[2]);
+#endif
+#ifdef ROWLAND_ARC
+    sum += arc_radiance(lit_view);
+#endif
+#ifdef KEY_LOBES
+    sum += kernel_to_working(key_lights_radiance(lit_view));
+#endif
+    return light_scale * sum;
+}
+
+// `base`: what the layer under the grooves reflects; `mirrored`: the environment in the mirror direction.
+vec3 grating_surface(vec3 base, vec3 mirrored) {
+    vec3 diffracted = probe_radiance() + lit_sum;
+    float passed = cover_transmittance(abs(lit_view.direction.z));
+#ifdef COVER
+    vec3 mirror = vec3(1.0 - passed) + passed * passed * mirror_weight;
+#else
+    vec3 mirror = mirror_weight;
+#endif
+    return passed * (base_weight * base + diffracted) + mirror * mirrored;
+}
+
+void RE_Direct_Grating(const in IncidentLight directLight, const in vec3 geometryPosition,
+                       const in vec3 geometryNormal, const in vec3 geometryViewDir,
+                       const in vec3 geometryClearcoatNormal, const in PhysicalMaterial material,
+                       inout ReflectedLight reflectedLight) {
+    RE_Direct_Physical(directLight, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal, material,
+                       reflectedLight);
+    add_lamp(inverseTransformDirection(directLight.direction, viewMatrix), directLight.color);
+}
+#undef RE_Direct
+#define RE_Direct RE_Direct_Grating

@@ -1,0 +1,265 @@
+import {
+    Matrix3, MeshPhysicalMaterial, Vector2, Vector3, Vector4, type BufferGeometry, type IUniform,
+    type MeshPhysicalMaterialParameters, type Object3D, type Scene, type Texture, type WebGLProgramParametersWithUniforms,
+    type Camera, type WebGLRenderer,
+} from "three";
+import { flatNormal, groovesOf, worldFrames, worldNormal, type Grooves } from "./frames.js";
+import { FRAGMENT, VERTEX } from "./generated/shaders.js";
+import type { Rowland } from "./rowland.js";
+import type { MaterialTables, PlaneMap } from "./tasks.js";
+import { arrayTexture, planeTexture, storageTexture, volumeTexture } from "./textures.js";
+
+/** How the light of a probe is shaded: a map for flat meshes, a table for curved ones, or its key lights alone. */
+export type Representation = "planar" | "arc" | "direct";
+
+export interface GratingParameters extends MeshPhysicalMaterialParameters {
+    rowland?: Rowland;
+    /** A material file's JSON, or the object of ROWLAND_materials_diffraction. */
+    grating?: object;
+    /** Of the mesh: "tangent" if it has tangents, else "radial". */
+    grooves?: Grooves;
+    /** "planar" for flat meshes, else "arc". */
+    representation?: Representation;
+}
+
+const BANDS = 5;
+/** A plane that tilts by less keeps its map. */
+const STEADY = 1e-3;
+
+// material_facts() of content/web/bake/material.cpp.
+const FACT = {
+    lobe: 1, gaussian: 2, pits: 4, incoherent: 7, ior: 8, zeroOrder: 9, xyzToWorking: 18, mirror: 27, base: 30, colour: 33,
+    roughness: 36, hasBase: 37, rotation: 38,
+};
+
+let materials = 0;
+
+/**
+ * MeshPhysicalMaterial under a diffraction grating. The physical material is the layer beneath it. Under `rowland`'s
+ * probe and three's lights; until the first tables arrive it draws the layer alone. One material for each mesh: its map
+ * follows the mesh.
+ */
+export class GratingMaterial extends MeshPhysicalMaterial {
+    readonly isGratingMaterial = true;
+    /** When the kernel is there; rejects for a bad material. */
+    ready: Promise<void> = Promise.resolve();
+    /** When the light shown is that of the current probe and plane. */
+    settled: Promise<void> = Promise.resolve();
+
+    private rowland?: Rowland;
+    private grating?: object;
+    private grooves?: Grooves;
+    private representation?: Representation;
+    private readonly number = ++materials;
+    private tables?: MaterialTables;
+    private lightShown = 0;
+    private normalShown?: Vector3;
+    private frameShown?: Float32Array;
+    private busy = false;
+    private readonly uniforms: Record<string, IUniform> = {};
+
+    constructor({ rowland, grating, grooves, representation, ...physical }: GratingParameters = {}) {
+        super({ color: 0x000000, roughness: 0.3, ...physical });
+        Object.assign(this, { grooves, representation });
+        if (rowland && grating) this.bake(rowland, grating);
+    }
+
+    override copy(source: this): this {
+        super.copy(source);
+        this.grooves = source.grooves;
+        this.representation = source.representation;
+        if (source.rowland && source.grating) this.bake(source.rowland, source.grating);
+        return this;
+    }
+
+    /** Another grating on the same mesh, as sliders ask for it. */
+    bake(rowland: Rowland, grating: object): void {
+        this.rowland = rowland;
+        this.grating = grating;
+        this.ready = rowland.material(this.number, grating).then((tables) => this.setKernel(tables));
+        this.ready.catch((error: Error) => rowland.onError(error));
+    }
+
+    private set(name: string, value: unknown): void {
+        const old = this.uniforms[name];
+        if (!old) {
+            this.uniforms[name] = { value };
+            this.needsUpdate = true; // the program takes its list of uniforms when it is compiled
+            return;
+        }
+        (old.value as Partial<Texture> | undefined)?.dispose?.();
+        old.value = value;
+    }
+
+    private define(name: string, value: string | undefined): void {
+        const defines = (this.defines ??= {});
+        if (defines[name] === value) return;
+        if (value === undefined) delete defines[name];
+        else defines[name] = value;
+        this.needsUpdate = true;
+    }
+
+    private flag(name: string, on: boolean): void {
+        this.define(name, on ? "1" : undefined);
+    }
+
+    private setKernel(tables: MaterialTables): void {
+        const { facts, kernel, kernelUniforms } = tables;
+        const vector = (at: number) => new Vector3().fromArray(facts, at);
+        const matrix = (at: number) => new Matrix3().fromArray(facts, at);
+        this.tables = tables;
+        this.lightShown = 0;
+        this.normalShown = this.frameShown = undefined;
+        this.set("kernel_table", arrayTexture(kernel));
+        const scale = new Vector4().fromArray(kernelUniforms, 0);
+        scale.w *= kernel.scale;
+        this.set("kernel_scale_bias", scale);
+        this.set("kernel_rows", new Vector2().fromArray(kernelUniforms, 4));
+        this.set("kernel_reach", new Vector2().fromArray(kernelUniforms, 6));
+        this.set("lobe_gaussian", new Vector2().fromArray(facts, FACT.gaussian));
+        this.set("pit_wavelengths", vector(FACT.pits));
+        this.set("incoherent", facts[FACT.incoherent]);
+        this.set("cover_square", facts[FACT.ior] ** 2);
+        this.set("zero_order", matrix(FACT.zeroOrder));
+        this.set("xyz_to_working", matrix(FACT.xyzToWorking));
+        this.set("mirror_weight", vector(FACT.mirror));
+        this.set("base_weight", vector(FACT.base));
+        const turn = facts[FACT.rotation];
+        this.set("groove_turn", new Vector2(Math.cos(turn), Math.sin(turn)));
+        this.set("light_scale", 1);
+        if (facts[FACT.hasBase] === 1) {
+            this.color.fromArray(facts, FACT.colour);
+            this.roughness = facts[FACT.roughness];
+        }
+        this.flag("LOBE_GAUSSIAN", facts[FACT.lobe] === 1);
+        this.flag("LOBE_PITS", facts[FACT.lobe] === 2);
+        this.flag("COVER", facts[FACT.ior] > 0);
+        this.flag("ZERO_ORDER", facts.subarray(FACT.zeroOrder, FACT.zeroOrder + 9).some((x) => x !== 0));
+        this.flag("NO_KEY_LIGHTS", true);
+        this.flag("ROWLAND", true);
+        this.rowland!.onUpdate();
+    }
+
+    private setLight(keyLobes: Float32Array): void {
+        const count = keyLobes.length / 28;
+        this.flag("NO_KEY_LIGHTS", count === 0);
+        if (count === 0) return;
+        this.define("ROWLAND_MAXIMUM_KEY_LOBES", String(count));
+        const names = ["direction", "flux", "moments", "nodes", "mean", "variance", "height"];
+        this.set("key_lobe_count", new Vector4(count));
+        this.set("key_lobes", Array.from({ length: count }, (_, light) =>
+            Object.fromEntries(names.map((name, i) => [name, new Vector4().fromArray(keyLobes, 28 * light + 4 * i)]))));
+    }
+
+    private setPlane({ e1, e2, axes, halfTurn, table }: PlaneMap): void {
+        this.set("planar_e1", new Vector3(...e1));
+        this.set("planar_e2", new Vector3(...e2));
+        this.set("map_scale", table.scale);
+        if (axes) {
+            this.set("lobe_map", volumeTexture(table, !halfTurn));
+            this.set("lobe_map_axes", new Vector4(...axes));
+        } else {
+            this.set("planar_map", planeTexture(table));
+            this.set("planar_map_half_texel", new Vector2(0.5 / table.width, 0.5 / table.height));
+        }
+        this.flag("LOBE_MAP", axes !== null);
+        this.flag("HALF_TURN", halfTurn);
+        this.flag("ROWLAND_PLANAR", true);
+    }
+
+    private get flatLobe(): boolean {
+        return this.tables!.facts[FACT.lobe] === 0;
+    }
+
+    private async showPlane(normal: Vector3): Promise<void> {
+        const rowland = this.rowland!;
+        this.normalShown = normal;
+        for (const detail of ["coarse", "full"] as const) {
+            this.setPlane(await rowland.plane(this.number, normal.toArray(), this.flatLobe, detail));
+            rowland.onUpdate();
+        }
+    }
+
+    private async showArc(geometry: BufferGeometry, object: Object3D): Promise<void> {
+        const rowland = this.rowland!;
+        this.frameShown = Float32Array.from(object.matrixWorld.elements);
+        const turn = this.tables!.facts[FACT.rotation];
+        const { normals, gratings } = worldFrames(geometry, object, this.grooves ?? groovesOf(geometry), turn);
+        if (!this.uniforms.packed_table || this.defines?.LAYERS === undefined) {
+            const arc = await rowland.arc(this.number, BANDS);
+            this.set("packed_table", arrayTexture(arc.weights, arc.mapping === 0));
+            this.set("table_range", storageTexture(Float32Array.from({ length: 8 * arc.layers }, (_, i) => (i % 8 < 4 ? 1 : 0))));
+            this.define("VIEW_MAPPING", String(arc.mapping));
+            this.define("TABLE_COLUMNS", String(arc.weights.width));
+            this.define("TABLE_ROWS", String(arc.weights.height));
+            this.define("LAYERS", String(arc.layers));
+        }
+        this.set("vertex_products", storageTexture(await rowland.products(this.number, BANDS, normals, gratings)));
+        this.flag("ROWLAND_ARC", true);
+        rowland.onUpdate();
+    }
+
+    /** Brings the tables up to the light and to where the object is. */
+    private async settle(geometry: BufferGeometry, object: Object3D): Promise<void> {
+        const rowland = this.rowland!;
+        if (this.lightShown !== rowland.lightVersion) {
+            this.lightShown = rowland.lightVersion;
+            this.normalShown = this.frameShown = undefined;
+            this.setLight(await rowland.keyLobes());
+        }
+        const flat = flatNormal(geometry);
+        const kind = this.representation ?? (flat ? "planar" : "arc");
+        if (kind === "planar" && flat) await this.showPlane(worldNormal(flat, object));
+        if (kind === "arc") await this.showArc(geometry, object);
+        rowland.onUpdate();
+    }
+
+    private isSettled(geometry: BufferGeometry, object: Object3D): boolean {
+        if (this.lightShown !== this.rowland!.lightVersion) return false;
+        if (this.normalShown) return worldNormal(flatNormal(geometry)!, object).distanceTo(this.normalShown) < STEADY;
+        if (this.frameShown) return this.frameShown.every((x, i) => Math.abs(x - object.matrixWorld.elements[i]) < STEADY);
+        return true;
+    }
+
+    override onBeforeRender(_: WebGLRenderer, scene: Scene, __: Camera, geometry: BufferGeometry, object: Object3D): void {
+        if (!this.tables || !this.rowland) return;
+        this.uniforms.light_scale.value = scene.environmentIntensity;
+        this.flag("ROWLAND_RADIAL", (this.grooves ?? groovesOf(geometry)) === "radial");
+        if (this.busy || this.rowland.lightVersion === 0 || this.isSettled(geometry, object)) return;
+        this.busy = true;
+        this.settled = this.settle(geometry, object)
+            .catch((error: Error) => this.rowland!.onError(error))
+            .finally(() => (this.busy = false));
+    }
+
+    /** Texture look-ups a pixel: for the light of the probe without its key lights. */
+    get price(): { map: number } {
+        return { map: this.defines?.ROWLAND_ARC ? Number(this.defines.LAYERS) : this.representation === "direct" ? 0 : 1 };
+    }
+
+    override customProgramCacheKey(): string {
+        return "@rowland/three";
+    }
+
+    override onBeforeCompile(shader: WebGLProgramParametersWithUniforms): void {
+        Object.assign(shader.uniforms, this.uniforms);
+        const put = (text: string, chunk: string, before: string, after: string) =>
+            text.replace(`#include <${chunk}>`, `${before}\n#include <${chunk}>\n${after}`);
+        const only = (text: string) => `#ifdef ROWLAND\n${text}\n#endif`;
+        shader.vertexShader = put(shader.vertexShader, "common", "",
+            only(`#ifndef USE_TANGENT\nin vec4 tangent;\n#endif\n${VERTEX}`));
+        shader.vertexShader = put(shader.vertexShader, "project_vertex", "",
+            only("pass_grooves(transformed, objectNormal, tangent, transformedNormal);"));
+        let fragment = shader.fragmentShader;
+        fragment = put(fragment, "lights_physical_pars_fragment", "", only(FRAGMENT));
+        fragment = put(fragment, "lights_fragment_begin", only("prepare_grooves();"), "");
+        fragment = put(fragment, "opaque_fragment",
+            only("vec3 mirrored = vec3(0.0);\n#ifdef USE_ENVMAP\n" +
+                "mirrored = getIBLRadiance(geometryViewDir, normal, 0.0);\n#endif\n" +
+                "outgoingLight = grating_surface(totalDiffuse + totalSpecular, mirrored) + totalEmissiveRadiance;"),
+            // Purer than the screen's colours: paled until it can show them.
+            "#if defined(ROWLAND) && !defined(ROWLAND_UNCOMPRESSED)\n" +
+                "gl_FragColor.rgb -= min(min(gl_FragColor.r, gl_FragColor.g), min(gl_FragColor.b, 0.0));\n#endif");
+        shader.fragmentShader = fragment;
+    }
+}

@@ -1,0 +1,53 @@
+/** A WebAssembly module of the bake: content/web/bake. */
+
+type Export = (...numbers: number[]) => number;
+
+export class BakeModule {
+    private constructor(
+        private readonly exports: WebAssembly.Exports,
+        private readonly memory: WebAssembly.Memory,
+    ) {}
+
+    static async load(bytes: BufferSource | WebAssembly.Module): Promise<BakeModule> {
+        let memory: WebAssembly.Memory;
+        const refused = (message: number): never => {
+            const all = new Uint8Array(memory.buffer);
+            throw new Error(new TextDecoder().decode(all.slice(message, all.indexOf(0, message))));
+        };
+        const module = bytes instanceof WebAssembly.Module ? bytes : await WebAssembly.compile(bytes);
+        const imports: WebAssembly.Imports = {};
+        for (const { module: from, name } of WebAssembly.Module.imports(module)) {
+            imports[from] ??= {};
+            // What the C++ library asks of a system that a page does not have is never reached.
+            imports[from][name] = from === "worker" ? refused : () => 0;
+        }
+        const instance = await WebAssembly.instantiate(module, imports);
+        memory = instance.exports.memory as WebAssembly.Memory;
+        (instance.exports._initialize as (() => void) | undefined)?.();
+        return new BakeModule(instance.exports, memory);
+    }
+
+    call(name: string, ...numbers: number[]): number {
+        return (this.exports[name] as Export)(...numbers);
+    }
+
+    /** The address of a copy. */
+    put(bytes: Uint8Array): number {
+        const address = this.call("room", bytes.length);
+        new Uint8Array(this.memory.buffer).set(bytes, address);
+        return address;
+    }
+
+    putFloats(floats: Float32Array): number {
+        return this.put(new Uint8Array(floats.buffer, floats.byteOffset, floats.byteLength));
+    }
+
+    /** What a call gives back. */
+    numbers(name: string, ...numbers: number[]): Float32Array {
+        const list = this.call(name, ...numbers);
+        const begin = this.call("numbers_begin", list);
+        const copy = new Float32Array(this.memory.buffer, begin, this.call("numbers_count", list)).slice();
+        this.call("release_numbers", list);
+        return copy;
+    }
+}

@@ -1,0 +1,153 @@
+/** What the worker computes, and the tables that it gives back. */
+
+import { packRgb, toHalf, type Halves } from "./half.js";
+import { BakeModule } from "./module.js";
+
+/** Of a texture; RGBA halves. */
+export interface Table extends Halves {
+    readonly width: number;
+    readonly height: number;
+    readonly depth: number;
+}
+
+export interface MaterialTables {
+    readonly facts: Float32Array;
+    readonly kernel: Table;
+    readonly kernelUniforms: Float32Array; // scale_bias, rows, reach of shaders/kernel.glsl
+}
+
+export interface PlaneMap {
+    readonly e1: number[];
+    readonly e2: number[];
+    readonly axes: number[] | null; // lobe_map_axes of a volume
+    readonly halfTurn: boolean;
+    readonly table: Table;
+}
+
+export interface ArcTables {
+    readonly mapping: number;
+    readonly weights: Table;
+    readonly layers: number;
+}
+
+/** Map sizes: what is shown first, then in full. */
+export type Detail = "coarse" | "full";
+
+const MOST_TEXELS = 2048;
+const SIZES = { coarse: { flat: 64, azimuths: 64, g: 64, h: 32 }, full: { flat: 256, azimuths: 176, g: 64, h: 64 } };
+
+function table(width: number, height: number, depth: number, rgb: Float32Array): Table {
+    return { width, height, depth, ...packRgb(rgb) };
+}
+
+export type Fetch = (name: "bake" | "arc") => Promise<BufferSource>;
+
+/** Materials and probes by number, in the modules' memory. One probe is kept. */
+export class Tasks {
+    private readonly modules = new Map<string, Promise<BakeModule>>();
+    private readonly json = new Map<number, string>();
+    private readonly baked = new Map<number, number>();
+    private readonly arcs = new Map<number, number>();
+    private probe = 0;
+
+    constructor(private readonly fetch: Fetch) {}
+
+    private module(name: "bake" | "arc"): Promise<BakeModule> {
+        let module = this.modules.get(name);
+        if (!module) this.modules.set(name, (module = this.fetch(name).then((bytes) => BakeModule.load(bytes))));
+        return module;
+    }
+
+    private static read(module: BakeModule, json: string): number {
+        const text = new TextEncoder().encode(json);
+        const address = module.put(text);
+        const material = module.call("read_material", address, text.length);
+        module.call("give_back", address);
+        return material;
+    }
+
+    async material(id: number, json: string): Promise<MaterialTables> {
+        const bake = await this.module("bake");
+        const material = Tasks.read(bake, json);
+        if (this.baked.has(id)) bake.call("release_material", this.baked.get(id)!);
+        if (this.arcs.has(id)) (await this.module("arc")).call("release_arc", this.arcs.get(id)!);
+        this.arcs.delete(id);
+        this.json.set(id, json);
+        this.baked.set(id, material);
+        const texture = bake.numbers("kernel_texture", material, MOST_TEXELS);
+        return {
+            facts: bake.numbers("material_facts", material),
+            kernel: table(texture[0], texture[1], 3, texture.subarray(10)),
+            kernelUniforms: texture.slice(2, 10),
+        };
+    }
+
+    /** `texels`: RGB, linear Rec.709, row 0 at the top. */
+    async light(texels: Float32Array, width: number, height: number, keyLights: number): Promise<void> {
+        const bake = await this.module("bake");
+        if (this.probe !== 0) bake.call("release_probe", this.probe);
+        this.probe = bake.call("read_probe", bake.putFloats(texels), width, height, keyLights);
+    }
+
+    /** The numbers of the key lights: KeyLobe of shaders/key_lobe_block.h. */
+    async keyLobes(): Promise<Float32Array> {
+        return (await this.module("bake")).numbers("key_lobes", this.probe);
+    }
+
+    async plane(id: number, normal: number[], flatLobe: boolean, detail: Detail): Promise<PlaneMap> {
+        const bake = await this.module("bake");
+        const material = this.baked.get(id)!;
+        const [x, y, z] = normal;
+        const size = SIZES[detail];
+        if (flatLobe) {
+            const map = bake.numbers("planar_map", material, this.probe, x, y, z, size.flat);
+            return {
+                e1: [...map.subarray(0, 3)],
+                e2: [...map.subarray(3, 6)],
+                axes: null,
+                halfTurn: false,
+                table: table(size.flat, size.flat, 1, map.subarray(6)),
+            };
+        }
+        const map = bake.numbers("lobe_map", material, this.probe, x, y, z, size.azimuths, size.g, size.h);
+        return {
+            e1: [...map.subarray(0, 3)],
+            e2: [...map.subarray(3, 6)],
+            axes: [...map.subarray(6, 10)],
+            halfTurn: map[13] === 1,
+            table: table(map[10], map[11], map[12], map.subarray(14)),
+        };
+    }
+
+    private async arcOf(id: number, bands: number): Promise<[BakeModule, number]> {
+        const module = await this.module("arc");
+        let arc = this.arcs.get(id);
+        if (arc === undefined) {
+            arc = module.call("bake_arc", Tasks.read(module, this.json.get(id)!), bands, 12);
+            this.arcs.set(id, arc);
+        }
+        return [module, arc];
+    }
+
+    async arc(id: number, bands: number): Promise<ArcTables> {
+        const [module, arc] = await this.arcOf(id, bands);
+        const numbers = module.numbers("arc_weights", arc);
+        const [mapping, width, height, layers] = numbers;
+        const weights = numbers.subarray(4);
+        return {
+            mapping,
+            layers,
+            weights: { width, height, depth: layers, texels: Uint16Array.from(weights, toHalf), scale: 1 },
+        };
+    }
+
+    /** 3 · layers vectors for each vertex. */
+    async products(id: number, bands: number, normals: Float32Array, gratings: Float32Array): Promise<Float32Array> {
+        const [module, arc] = await this.arcOf(id, bands);
+        const sh = (await this.module("bake")).numbers("rest_sh", this.probe, bands);
+        const inputs = [sh, normals, gratings].map((floats) => module.putFloats(floats));
+        const products = module.numbers("arc_products", arc, ...inputs, normals.length / 3);
+        for (const input of inputs) module.call("give_back", input);
+        return products;
+    }
+}

@@ -1,0 +1,46 @@
+import {
+    ClampToEdgeWrapping, Data3DTexture, DataArrayTexture, DataTexture, FloatType, HalfFloatType, LinearFilter,
+    NearestFilter, RepeatWrapping, RGBAFormat, type Texture,
+} from "three";
+import type { Table } from "./tasks.js";
+
+function filtered<Kind extends Texture>(texture: Kind): Kind {
+    texture.format = RGBAFormat;
+    texture.type = HalfFloatType;
+    texture.magFilter = LinearFilter;
+    texture.minFilter = LinearFilter;
+    texture.needsUpdate = true;
+    return texture;
+}
+
+const texels = (table: Table) => table.texels as Uint16Array<ArrayBuffer>;
+
+export function planeTexture(table: Table): DataTexture {
+    const texture = filtered(new DataTexture(texels(table), table.width, table.height));
+    texture.wrapS = RepeatWrapping;
+    return texture;
+}
+
+export function arrayTexture(table: Table, repeated = false): DataArrayTexture {
+    const texture = filtered(new DataArrayTexture(texels(table), table.width, table.height, table.depth));
+    if (repeated) texture.wrapS = RepeatWrapping;
+    return texture;
+}
+
+export function volumeTexture(table: Table, repeated: boolean): Data3DTexture {
+    const texture = filtered(new Data3DTexture(texels(table), table.width, table.height, table.depth));
+    texture.wrapR = repeated ? RepeatWrapping : ClampToEdgeWrapping;
+    return texture;
+}
+
+/** STORAGE of dialect.glsl: vec4s in rows of 1024 texels, read unfiltered. */
+export function storageTexture(vectors: Float32Array): DataTexture {
+    const rows = Math.max(1, Math.ceil(vectors.length / 4096));
+    const padded = new Float32Array(4096 * rows);
+    padded.set(vectors);
+    const texture = new DataTexture(padded, 1024, rows, RGBAFormat, FloatType);
+    texture.magFilter = NearestFilter;
+    texture.minFilter = NearestFilter;
+    texture.needsUpdate = true;
+    return texture;
+}

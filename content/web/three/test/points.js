@@ -1,0 +1,80 @@
+// Renders the points of a test, a quad of pixels each, and posts their radiance.
+import * as THREE from "three";
+import { EXRLoader } from "three/examples/jsm/loaders/EXRLoader.js";
+import { RGBELoader } from "three/examples/jsm/loaders/RGBELoader.js";
+import { GratingMaterial, Rowland } from "../dist/index.js";
+
+const post = (value) => fetch("/result", { method: "POST", body: JSON.stringify(value) });
+
+/** The material with each vertex at the pixel that `place` names. */
+class PointMaterial extends GratingMaterial {
+    onBeforeCompile(shader) {
+        super.onBeforeCompile(shader);
+        shader.vertexShader = "attribute vec2 place;\n" +
+            shader.vertexShader.replace(/}\s*$/, "gl_Position = vec4(place, 0.0, 1.0);\n}");
+    }
+}
+
+/** A quad for each frame, seen from the origin. */
+function geometry(frames) {
+    const arrays = { position: [], normal: [], tangent: [], place: [] };
+    const count = frames.length;
+    frames.forEach(({ view, normal, grating }, i) => {
+        for (const [x, y] of [[0, -1], [1, -1], [1, 1], [0, -1], [1, 1], [0, 1]]) {
+            arrays.position.push(...view.map((c) => -c));
+            arrays.normal.push(...normal);
+            arrays.tangent.push(...grating, 1);
+            arrays.place.push((2 * (i + x)) / count - 1, y);
+        }
+    });
+    const result = new THREE.BufferGeometry();
+    const sizes = { position: 3, normal: 3, tangent: 4, place: 2 };
+    for (const [name, size] of Object.entries(sizes))
+        result.setAttribute(name, new THREE.Float32BufferAttribute(arrays[name], size));
+    return result;
+}
+
+async function radiance(renderer, rowland, { grating, representation, frames, lamp }) {
+    const scene = new THREE.Scene();
+    const camera = new THREE.PerspectiveCamera();
+    const material = new PointMaterial({ rowland, grating, representation, side: THREE.DoubleSide });
+    material.defines.ROWLAND_UNCOMPRESSED = "1";
+    if (lamp) {
+        const light = new THREE.DirectionalLight(new THREE.Color(...lamp.flux), 1);
+        light.position.set(...lamp.direction);
+        scene.add(light);
+    }
+    const mesh = new THREE.Mesh(geometry(frames), material);
+    mesh.frustumCulled = false;
+    scene.add(mesh);
+    const target = new THREE.WebGLRenderTarget(2 * frames.length, 2, { type: THREE.FloatType });
+    await material.ready;
+    const draw = () => {
+        renderer.setRenderTarget(target);
+        renderer.render(scene, camera);
+    };
+    draw();
+    await material.settled;
+    draw();
+    const pixels = new Float32Array(8 * frames.length * 2);
+    renderer.readRenderTargetPixels(target, 0, 0, 2 * frames.length, 2, pixels);
+    return frames.map((_, i) => [...pixels.subarray(8 * i, 8 * i + 3)]);
+}
+
+try {
+    const { probe, keyLights, cases } = await (await fetch("/task")).json();
+    const renderer = new THREE.WebGLRenderer();
+    const rowland = new Rowland();
+    rowland.onError = (error) => post({ error: error.message });
+    const loader = probe.endsWith(".exr") ? new EXRLoader() : new RGBELoader();
+    loader.setDataType(THREE.FloatType);
+    const light = await loader.loadAsync(probe);
+    // three takes a byte of a Radiance mantissa as n/255; the format and Rowland as n/256.
+    if (probe.endsWith(".hdr")) light.image.data = light.image.data.map((x) => (x * 255) / 256);
+    await rowland.setProbe(light, { keyLights });
+    const results = [];
+    for (const one of cases) results.push(await radiance(renderer, rowland, one));
+    await post({ results });
+} catch (error) {
+    await post({ error: error.message + "\n" + error.stack });
+}
