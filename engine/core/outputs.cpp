@@ -37,7 +37,7 @@ void check_outputs(std::span<const std::filesystem::path> inputs, std::span<cons
         for (const std::string& key : keys_of(input)) users.emplace(key, "an input");
     for (const auto& [option, path, extension] : outputs) {
         const std::string file = fmt::format("{} {}", option, path.string());
-        if (!extension.empty() && lower_case(path.extension().string()) != extension)
+        if (!extension.empty() && lower_case(path.extension().string()) != lower_case(extension))
             refuse_input(file, {}, fmt::format("the extension \"{}\"", path.extension().string()), extension,
                          "name the file by its format");
         const std::vector<std::string> keys = keys_of(path);

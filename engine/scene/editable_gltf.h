@@ -18,9 +18,9 @@ namespace rowland::scene {
 /// A .gltf or .glb whose materials are edited. All that an edit does not name stays byte for byte: the JSON text is
 /// edited in place, and the other chunks of a GLB are copied. Files that it names are not read.
 ///
-/// A copy shares the binary chunk and what is known of the file on disk, and holds a JSON text of its own: undo and
-/// redo keep copies from before and after each edit. Indices of materials, meshes and textures that are out of range
-/// are logic errors.
+/// Copies have the binary chunk, and what is known of the file on disk, in common; each holds a JSON text of its own:
+/// undo and redo keep copies from before and after each edit. Indices of materials, meshes and textures that are out of
+/// range are logic errors.
 class EditableGltf {
  public:
     enum class IfChanged { Refuse, Overwrite };

@@ -1,7 +1,7 @@
-"""Inside Blender: a model with gratings is exported, imported again and compared. Arguments after --: the folder to write.
+"""Inside Blender: a model with gratings is exported, imported again and compared.
 
-Leaves in that folder: plain.glb (no gratings), scene.glb, scene.gltf with its files, again.glb (exported after the import).
-Exits with 1 and a message if something differs.
+Argument after --: a folder. Leaves there plain.glb (no gratings), scene.glb, scene.gltf with its files, and again.glb
+(exported after the import). Exits with 1 and a message if something differs.
 """
 
 import json

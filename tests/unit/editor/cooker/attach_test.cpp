@@ -91,6 +91,8 @@ TEST_F(Attach, ReplacesTheSceneAndListShowsIt) {
     EXPECT_EQ(text(), once) << "again, as a build does";
     EXPECT_EQ(attach({"--remove", "Chrome"}).code, 0);
     EXPECT_EQ(text(), kScene);
+    write("SCENE.GLTF", kScene);
+    EXPECT_EQ(attach({"--material", "Chrome", dvd}, "SCENE.GLTF").code, 0);
 }
 
 TEST_F(Attach, WritesAnOutputAndWhatWasRead) {

@@ -46,7 +46,7 @@ TEST(JsonText, MakesTheObjectsAroundAValue) {
 }
 
 TEST(JsonText, OfAnObjectOnlyWhatDiffersIsWritten) {
-    const std::string text = R"({"a":{"same":1.000, "other": 2,"gone":3, "list":[1.0]}})";
+    const std::string text = R"({"a":{"same":1.000, "other": 2,"lost":3, "list":[1.0]}})";
     EXPECT_EQ(after(text, {"a"}, {{"same", 1}, {"other", 5}, {"list", {1}}, {"new", "n"}}),
               R"({"a":{"same":1.000, "other": 5,"list":[1.0],"new":"n"}})");
 }
