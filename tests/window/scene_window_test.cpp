@@ -15,6 +15,7 @@
 #include "engine/image/byte_image.h"
 #include "engine/scene/editable_gltf.h"
 #include "modules/diffraction/asset/gltf_extension.h"
+#include "tests/support/source_tree.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"
 #include "tests/window/inspector_user.h"
@@ -68,12 +69,12 @@ class SceneWindow : public ::testing::Test {
         EXPECT_EQ(grating["grating"]["pitch_nm"], 740);
         EXPECT_NE(grating["grooveRotation"], 0.0);
         saved.set_material_extension(material, diffraction::kGltfExtension, nullptr);
-        EXPECT_EQ(saved, scene::EditableGltf::open(before));
         saved.save();
         EXPECT_EQ(read_file(after, 1 << 26), read_file(before, 1 << 26));
     }
 
     static constexpr const char* kWidth = "720";
+    const std::string kLamps = test::content_path("probes/night.json").string();
     test::TemporaryFolder folder_;
 };
 
@@ -95,7 +96,7 @@ TEST_F(SceneWindow, OneSphereOfManyGetsARainbow) {
         EXPECT_EQ(user.leave(), 0);
     }
     const std::vector<std::uint8_t> after = drawn(scene);
-    // Only pixels of that sphere differ, which is about 30 wide; they have all hues.
+    // Only pixels of that sample differ, which is 94 wide; they have all hues.
     std::size_t changed = 0;
     glm::ivec3 most_of(0);
     for (std::size_t i = 0; i < before.size(); i += 4) {
@@ -106,9 +107,9 @@ TEST_F(SceneWindow, OneSphereOfManyGetsARainbow) {
         for (int c = 0; c < 3; ++c)
             if (rgb[c] == highest && highest > 40 + std::min({rgb.r, rgb.g, rgb.b})) ++most_of[c];
     }
-    EXPECT_GT(changed, 200U);
-    EXPECT_LT(changed, 5000U);
-    for (int c = 0; c < 3; ++c) EXPECT_GT(most_of[c], 8) << c;
+    EXPECT_GT(changed, 3000U);
+    EXPECT_LE(changed, 95U * 95U);
+    for (int c = 0; c < 3; ++c) EXPECT_GT(most_of[c], 40) << c;
     expect_only_grating(original, scene, 7);
 }
 
