@@ -140,7 +140,8 @@ TEST(DemoCabinet, EveryGratingIsSeen) {
     }
     // Measured: 0.028 for the record, which is nearly as grey without, and from 0.2 to 0.9 for the others.
     for (const Region& grating : kGratings) EXPECT_GT(difference(picture, plain, grating), 0.01) << grating.name;
-    EXPECT_EQ(difference(picture, plain, kDiffuseSphere), 0.0);
+    // Occlusion reads the depths of all objects, which two programs may round differently.
+    EXPECT_LT(difference(picture, plain, kDiffuseSphere), 1e-6);
 }
 
 }  // namespace

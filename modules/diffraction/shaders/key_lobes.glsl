@@ -8,8 +8,8 @@ uniform vec3 lobe_scale_bias;  // scale and offset from u to s; scale of the val
 uniform vec2 lobe_reach;       // the kernel is 0 where |u| differs from x by more than y
 
 // Position between the rows of the table, by 12 times the variance of u and its least one: LobeTable.
-const float LOBE_ROW_SCALE = 1.0 / ROWLAND_LOBE_TABLE_OCTAVES;
-const float LOBE_ROW_BIAS = LOBE_ROW_SCALE * (-ROWLAND_LOBE_TABLE_START - 3.58496250072116);
+const float LOBE_ROW_SCALE = 1.0 / float(ROWLAND_LOBE_TABLE_OCTAVES);
+const float LOBE_ROW_BIAS = LOBE_ROW_SCALE * (float(-ROWLAND_LOBE_TABLE_START) - 3.58496250072116);
 float lobe_row(float variance, float s_g) {
     float row = log2(variance) * LOBE_ROW_SCALE + LOBE_ROW_BIAS;  // not negative
     uint side = floatBitsToUint(s_g) & 0x80000000u;
