@@ -30,14 +30,18 @@ void MessageList::draw(std::span<const Message> all, float right, float bottom, 
     ImGui::SetNextWindowPos({right, bottom}, ImGuiCond_Always, {1.0F, 1.0F});
     ImGui::SetNextWindowSize({width, 0.0F});
     ImGui::SetNextWindowBgAlpha(0.96F);
+    // News let the mouse through to what they cover.
+    const bool closes = std::ranges::any_of(open, &Message::failure);
     ImGui::Begin("##messages", nullptr,
-                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
-                     ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
-                     ImGuiWindowFlags_NoFocusOnAppearing);
+                 (closes ? ImGuiWindowFlags_None : ImGuiWindowFlags_NoInputs) | ImGuiWindowFlags_NoTitleBar |
+                     ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_AlwaysAutoResize |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);
     for (const Message* message : open) {
         ImGui::PushID(static_cast<int>(message->number));
-        if (ImGui::SmallButton("×")) unread_.close(*message);
-        ImGui::SameLine();
+        if (message->failure) {
+            if (ImGui::SmallButton("×")) unread_.close(*message);
+            ImGui::SameLine();
+        }
         ImGui::PushTextWrapPos(0.0F);
         if (message->failure)
             ImGui::TextColored({0.95F, 0.60F, 0.15F, 1.0F}, "%s", message->text.c_str());

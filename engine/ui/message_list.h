@@ -32,8 +32,8 @@ class UnreadMessages {
     std::size_t next_ = 0;  ///< number of the first message that was not seen yet
 };
 
-/// The unread messages in a corner of the window, each with a button that closes it. Call between Ui::begin_frame() and
-/// Ui::draw().
+/// The unread messages in a corner of the window, failures with a button that closes them. Call between
+/// Ui::begin_frame() and Ui::draw().
 class MessageList {
  public:
     /// `right`, `bottom`: the list's lower right corner; `width`: its greatest.

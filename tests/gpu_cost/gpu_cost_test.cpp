@@ -62,7 +62,7 @@ TEST_F(GpuCost, AnEffectCostsItsPassesAndMoreAtTheSurface) {
     const json frames = frames_of("plain/ambient-occlusion");
     EXPECT_GT(frames.at("plain/ambient-occlusion").at("fragment").at("times_plain"), 1.0);
     for (const char* pass : {"/pass:1", "/pass:2"})
-        EXPECT_GT(frames.at(std::string("plain/ambient-occlusion") + pass).at("fragment").at("fetches"), 8) << pass;
+        EXPECT_GE(frames.at(std::string("plain/ambient-occlusion") + pass).at("fragment").at("fetches"), 8) << pass;
     EXPECT_EQ(frames.size(), 4U);  // and "plain"
 }
 
