@@ -194,6 +194,7 @@ TEST_F(PlayWindow, ASavedSceneIsShownAndTurnedObjectsStayTurned) {
     ASSERT_NE(other.find(plaster), std::string::npos);
     other.replace(other.find(plaster), plaster.size(), R"("name": "plaster", "color": [0.75, 0.05, 0.75])");
     write_file_atomic(source, text);
+    std::filesystem::copy(test::content_path("textures"), path("content/textures"));
 
     DemoUser user(folder_.path(), arguments({"--cooked-folder", path("cooked"), "--content-folder", path("content")}));
     user.key("space");
