@@ -35,6 +35,7 @@ int side_limit(TextureKind kind, const Limits& limits) {
 
 Limits read_limits() {
     Limits limits{.vertex_storage_blocks = read(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS),
+                  .buffer_texels = read(GL_MAX_TEXTURE_BUFFER_SIZE),
                   .texture_side = read(GL_MAX_TEXTURE_SIZE),
                   .cube_side = read(GL_MAX_CUBE_MAP_TEXTURE_SIZE),
                   .volume_side = read(GL_MAX_3D_TEXTURE_SIZE),
@@ -62,6 +63,9 @@ void require_vertex_storage(const VertexStorage& storage, const Limits& limits) 
     if (storage.bytes > static_cast<std::uint64_t>(limits.storage_block_bytes))
         refuse(storage.what, fmt::format("a storage buffer of {} bytes", storage.bytes),
                fmt::format("at most {}", limits.storage_block_bytes), storage.remedy);
+    if (storage.texels > static_cast<std::uint64_t>(limits.buffer_texels))
+        refuse(storage.what, fmt::format("a buffer of {} texels", storage.texels),
+               fmt::format("at most {}", limits.buffer_texels), storage.remedy);
 }
 
 }  // namespace rowland::gpu

@@ -12,6 +12,7 @@ namespace rowland::gpu {
 struct Limits {
     std::int64_t storage_block_bytes = 1 << 24;  ///< that a shader sees of a storage buffer
     int vertex_storage_blocks = 0;               ///< storage buffers of a vertex stage
+    int buffer_texels = 1 << 16;                 ///< of a buffer that a shader reads as a texture
     int texture_side = 16384;                    ///< texels; of a line, a plane, a layer
     int cube_side = 16384;
     int volume_side = 2048;
@@ -24,11 +25,12 @@ Limits read_limits();
 /// Throws Error (system) that names a side or a number of layers that is too large.
 void require_texture(const TextureDesc& desc, const Limits& limits);
 
-/// Storage buffers that an object's vertex stage reads.
+/// Buffers that an object's vertex stage reads.
 struct VertexStorage {
-    std::string what;  ///< that needs them
-    int blocks = 1;
-    std::size_t bytes = 0;  ///< of the largest
+    std::string what;        ///< that needs them
+    int blocks = 1;          ///< storage buffers
+    std::size_t bytes = 0;   ///< of the largest
+    std::size_t texels = 0;  ///< of a buffer that is read as a texture
     std::string remedy;
 };
 /// Throws Error (system) with this remedy.

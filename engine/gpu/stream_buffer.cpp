@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "engine/core/check.h"
+#include "engine/gpu/bound_state.h"
 
 namespace rowland::gpu {
 
@@ -45,6 +47,23 @@ void StreamBuffer::bind_uniform(unsigned binding, std::size_t offset, std::size_
 void StreamBuffer::bind_storage(unsigned binding, std::size_t offset, std::size_t bytes) const {
     ROWLAND_CHECK_OP(offset + bytes, <=, size_);
     buffer_.bind_storage(binding, copy_ * stride_ + offset, bytes);
+}
+
+void StreamBuffer::ReleaseTexture::operator()(GLuint name) const {
+    glDeleteTextures(1, &name);
+    bound_state().forget(BoundState::Slot::Texture, name);
+}
+
+void StreamBuffer::bind_texels(unsigned unit) const {
+    if (texels_.get() == 0) {
+        GLuint name = 0;
+        glCreateTextures(GL_TEXTURE_BUFFER, 1, &name);
+        texels_ = Handle<ReleaseTexture>(name);
+    }
+    if (std::exchange(texels_write_, writes_) != writes_)
+        glTextureBufferRange(texels_.get(), GL_RGB32F, buffer_.id(), static_cast<GLintptr>(copy_ * stride_),
+                             static_cast<GLsizeiptr>(size_));
+    if (bound_state().changes(BoundState::Slot::Texture, unit, {texels_.get()})) glBindTextureUnit(unit, texels_.get());
 }
 
 }  // namespace rowland::gpu

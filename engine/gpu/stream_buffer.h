@@ -7,6 +7,7 @@
 
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/fence.h"
+#include "engine/gpu/handle.h"
 
 namespace rowland::gpu {
 
@@ -29,6 +30,9 @@ class StreamBuffer {
     void bind_uniform(unsigned binding) const { bind_uniform(binding, 0, size_); }
     void bind_storage(unsigned binding) const { bind_storage(binding, 0, size_); }
 
+    /// Binds all of it to a texture unit, as texels of three floats for a samplerBuffer.
+    void bind_texels(unsigned unit) const;
+
     /// Of the content, bytes.
     std::size_t size() const { return size_; }
     /// How often content was written.
@@ -36,6 +40,9 @@ class StreamBuffer {
 
  private:
     static constexpr std::size_t kCopies = 3;
+    struct ReleaseTexture {
+        void operator()(GLuint name) const;
+    };
     void allocate(std::size_t copy_bytes, std::size_t copies);
     void next_copy();
 
@@ -46,6 +53,8 @@ class StreamBuffer {
     std::array<std::optional<Fence>, kCopies> read_;  ///< after the draws that read a copy
     std::size_t size_ = 0;
     int writes_ = 0;
+    mutable Handle<ReleaseTexture> texels_;  ///< made when first bound
+    mutable int texels_write_ = 0;           ///< which write it shows; 0: none
 };
 
 }  // namespace rowland::gpu

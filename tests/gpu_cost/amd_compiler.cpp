@@ -51,6 +51,7 @@ vk::raii::DescriptorSetLayout make_set_layout(const vk::raii::Device& device) {
         bindings.emplace_back(i,
                               i < kFirstStorageBinding   ? vk::DescriptorType::eUniformBuffer
                               : i < kFirstTextureBinding ? vk::DescriptorType::eStorageBuffer
+                              : i == kTexelBufferBinding ? vk::DescriptorType::eUniformTexelBuffer
                                                          : vk::DescriptorType::eCombinedImageSampler,
                               1, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment);
     return {device, vk::DescriptorSetLayoutCreateInfo({}, bindings)};

@@ -16,6 +16,8 @@ struct Spirv {
 inline constexpr std::uint32_t kFirstStorageBinding = 32;
 inline constexpr std::uint32_t kFirstTextureBinding = 64;
 inline constexpr std::uint32_t kBindings = 96;
+inline constexpr std::uint32_t kTexelBufferBinding =
+    kFirstTextureBinding + 12;  ///< the one samplerBuffer: tangent_light.glsl
 
 /// A program's two stages as GLSL.
 struct ProgramText {

@@ -2,8 +2,9 @@
 //   TEXTURE_UNIT(unit)          before a sampler. ES sets units by the samplers' names
 //   BLOCK_BINDING(point)        before a uniform block, likewise
 //   SAMPLER_LINE, LINE_LOD(name, x, level)  a texture of one row; in ES one of height 1
-//   STORAGE(point, block, type, name)  an array of vec4 or float of any length; in ES a texture of rows of 1024 texels
-//   STORED_VEC4(name, i), STORED_FLOAT(name, i)  an element of it
+//   STORAGE(point, block, type, name)  an array of vec4 of any length; in ES a texture of rows of 1024 texels
+//   STORED_VEC4(name, i)        an element of it
+//   SAMPLER_BUFFER, BUFFER_TEXEL(name, i)  a buffer read as texels, and one of them; in ES such a texture
 #ifdef GL_ES
 precision highp float;
 precision highp int;
@@ -18,7 +19,8 @@ precision highp samplerCube;
 #define LINE_LOD(name, x, level) textureLod(name, vec2(x, 0.5), level)
 #define STORAGE(point, block, type, name) uniform sampler2D name
 #define STORED_VEC4(name, i) texelFetch(name, ivec2((i) & 1023, (i) >> 10), 0)
-#define STORED_FLOAT(name, i) texelFetch(name, ivec2((i) & 1023, (i) >> 10), 0).x
+#define SAMPLER_BUFFER sampler2D
+#define BUFFER_TEXEL(name, i) STORED_VEC4(name, i)
 #else
 #define TEXTURE_UNIT(unit) layout(binding = unit)
 #define BLOCK_BINDING(point) layout(std140, binding = point)
@@ -26,5 +28,6 @@ precision highp samplerCube;
 #define LINE_LOD(name, x, level) textureLod(name, x, level)
 #define STORAGE(point, block, type, name) layout(std430, binding = point) readonly buffer block { type name[]; }
 #define STORED_VEC4(name, i) name[i]
-#define STORED_FLOAT(name, i) name[i]
+#define SAMPLER_BUFFER samplerBuffer
+#define BUFFER_TEXEL(name, i) texelFetch(name, i)
 #endif

@@ -46,6 +46,9 @@ struct MaterialTerms {
     vec3 added;          // the material's own radiance
 };
 
+// A normal that does not turn away from the view: an outline's pixel may lie outside its triangle.
+vec3 seen_normal(vec3 n, vec3 v) { return n - min(dot(n, v), 0.0) * v; }
+
 // Fresnel reflectance [Schlick 1994].
 vec3 schlick_reflectance(vec3 f0, float cosine) {
     float rise = 1.0 - cosine;

@@ -96,8 +96,7 @@ void main() {
     sum += base.rgb;
 #else
     vec3 v = normalize(eye.xyz - world_position);
-    vec3 n = surface_normal();
-    n -= min(dot(n, v), 0.0) * v;  // an outline's pixel may lie outside its triangle, where normals turn away
+    vec3 n = seen_normal(surface_normal(), v);
     read_screen_visibility();
     MaterialTerms terms = material_terms();
     sum += terms.base_weight * base_radiance(base.rgb, n, v, terms.added);

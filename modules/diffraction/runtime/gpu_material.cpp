@@ -77,12 +77,13 @@ void GpuMaterial::bind(const gpu::Program& program, const SurfaceLight& light, c
     program.set("groove_turn", glm::vec2(std::cos(state.groove_rotation), std::sin(state.groove_rotation)));
 }
 
-void GpuMaterial::require_vertex_light(const SurfaceObject& object, std::size_t bytes_per_vertex, int tables) const {
+void GpuMaterial::require_vertex_light(const SurfaceObject& object, const VertexLight& light) const {
     const std::size_t vertices = object.mesh.positions.size();
     gpu::require_vertex_storage(
         {.what = fmt::format("a grating of representation {} on {} vertices", info(cooked_->tables).name, vertices),
-         .blocks = 1 + tables + (object.skinned ? 1 : 0),
-         .bytes = vertices * bytes_per_vertex,
+         .blocks = light.blocks + (object.skinned ? 1 : 0),
+         .bytes = vertices * light.bytes,
+         .texels = vertices * light.texels,
          .remedy = "take fewer bands, a mesh of fewer vertices, or the representation circle or direct"},
         limits_);
 }

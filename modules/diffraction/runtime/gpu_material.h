@@ -88,9 +88,14 @@ class GpuMaterial {
     /// The representation's shader files and defines.
     virtual void describe(const SurfaceState& state, gpu::ProgramDesc& desc) const = 0;
     virtual void bind_tables(const gpu::Program& program, const SurfaceState& state) const = 0;
-    /// Throws Error (system) if the GPU cannot read so many bytes of light per vertex and `tables` other storage
-    /// buffers in the vertex stage.
-    void require_vertex_light(const SurfaceObject& object, std::size_t bytes_per_vertex, int tables = 0) const;
+    /// What the vertex stage reads: storage buffers, bytes of one for each vertex, texels of a buffer for each vertex.
+    struct VertexLight {
+        int blocks = 1;
+        std::size_t bytes = 0;
+        std::size_t texels = 0;
+    };
+    /// Throws Error (system) if the GPU cannot read that.
+    void require_vertex_light(const SurfaceObject& object, const VertexLight& light) const;
 
  private:
     void add_defines(const SurfaceState& state, gpu::ProgramDesc& desc) const;

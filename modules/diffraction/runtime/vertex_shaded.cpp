@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "modules/diffraction/representations/descriptor.h"
+#include "engine/math/sh_basis.h"
 #include "modules/diffraction/runtime/bindings.h"
 #include "modules/diffraction/runtime/tangent_light.h"
 
@@ -17,7 +17,7 @@ VertexShaded::VertexShaded(const CookedMaterial& cooked, const glm::dmat3& xyz_t
 
 void VertexShaded::update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const {
     if (!object.changed) return;
-    require_vertex_light(object, harmonics_bytes(bands_), 1);
+    require_vertex_light(object, {.texels = static_cast<std::size_t>(math::sh_count(bands_))});
     const std::vector<float> rotated = rotate_to_vertices(light.harmonics(bands_, light_part()), object.mesh,
                                                           object.object_to_world, object.groove_rotation);
     state.vertex_light.write_values(std::span<const float>(rotated));
@@ -31,7 +31,7 @@ void VertexShaded::describe(const SurfaceState&, gpu::ProgramDesc& desc) const {
 
 void VertexShaded::bind_tables(const gpu::Program&, const SurfaceState& state) const {
     table_.bind();
-    state.vertex_light.bind_storage(kVertexLightBinding);
+    state.vertex_light.bind_texels(kVertexLightUnit);
 }
 
 }  // namespace rowland::diffraction

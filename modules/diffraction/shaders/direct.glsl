@@ -45,34 +45,36 @@ vec3 key_lights_at_pixel(GrooveView view) { return vec3(0.0); }
 #endif
 #if defined(MATERIAL_PUNCTUAL_LIGHTS) || defined(MATERIAL_DIRECTIONAL_LIGHTS)
 GrooveView lit_view;
-
-float lit_transmittance;  // of a cover, for the view
+KernelScale lit_scale;
+float lit_weight;  // of all lights
 
 void prepare_lights(GrooveView view) {
     lit_view = view;
-    lit_transmittance = cover_transmittance(view.direction.z);
+    // The engine's normal, whose cosine to each light is then computed once; the same where the view is above the horizon.
+    lit_view.axes[2] = seen_normal(view.axes[2], normalize(eye.xyz - world_position));
+    lit_scale = kernel_scale();
+    lit_weight = small_light_weight(lit_scale, view.direction.z) * cover_transmittance(view.direction.z);
 }
 
 // XYZ with pits, else working space.
-void add_light_of(GrooveView view, PixelU u, int i, float attenuation, vec3 l, inout vec3 sum) {
-    KernelRow row = kernel_row(view.pitch * u.deviation);
-    add_small_light(i, attenuation, l, view.axes, view.direction, u.mean, row, view.pitch, sum);
+void add_light_of(GrooveView view, PixelU u, int i, float weight, vec3 l, inout vec3 sum) {
+    add_small_light(lit_scale, i, weight, l, view.axes, view.direction.y, u, view.pitch, sum);
 }
 
 void material_light(int i, float attenuation, vec3 l, inout vec3 added) {
     vec3 sum = vec3(0.0);
-    attenuation *= lit_transmittance;
+    float weight = lit_weight * attenuation;
 #ifdef GROOVE_MAP
     MeshU mesh = mesh_u_of(lit_view, l);
     int parts = groove_parts(lit_view);
     for (int part = 0; part < parts; ++part) {
         GrooveView one = groove_part(lit_view, parts, part);
         if (one.pitch > 0.0)
-            add_light_of(one, turned_pixel_u(one, mesh), i, one.coverage * attenuation, l, sum);
+            add_light_of(one, turned_pixel_u(one, mesh), i, one.coverage * weight, l, sum);
     }
     sum /= float(parts);
 #else
-    add_light_of(lit_view, pixel_u_of(lit_view, l), i, attenuation, l, sum);
+    add_light_of(lit_view, pixel_u_of(lit_view, l), i, weight, l, sum);
 #endif
     added += kernel_to_working(sum);
 }

@@ -1,5 +1,6 @@
 // The tangent frame of a pixel, the view in it, and what the pixel covers (PHYSICS §11).
 #include "modules/diffraction/shaders/has_direct.glsl"
+#include "modules/diffraction/shaders/pixel_u.glsl"
 #if !defined(VERTEX_SHADED) || defined(LIGHTS_AT_PIXELS)
 
 in vec3 world_grating;
@@ -32,14 +33,6 @@ struct GrooveView {
 #endif
 };
 
-// The mean of u = s_g + v_g over the pixel, and its deviation: PHYSICS (38).
-struct PixelU {
-    float mean;
-    float deviation;
-};
-
-const float BOX_DEVIATION = 0.28867513459481;  // of a box, over its width
-
 // `s`: toward the light, in the world.
 #ifdef GROOVE_MAP
 // s + v along g and h of the mesh, and its differences to the pixels beside and below.
@@ -65,9 +58,8 @@ PixelU turned_pixel_u(GrooveView view, MeshU mesh) {
     vec2 u = turned(view, mesh.u);
     // The mesh's own change, as the map may be discontinuous: its moments tell how it varies.
     vec2 across = view.turn * mesh.change;
-    float variance = BOX_DEVIATION * BOX_DEVIATION * dot(across, across) +
-                     dot(view.spread, vec2(u.y * u.y, u.x * u.x));
-    return PixelU(view.fade * u.x, sqrt(variance));
+    float spread_square = dot(view.spread, vec2(u.y * u.y, u.x * u.x));
+    return PixelU(view.fade * u.x, dot(across, across) + spread_square / BOX_VARIANCE);
 }
 
 PixelU pixel_u(GrooveView view, vec3 s) {
@@ -85,13 +77,15 @@ MeshU mesh_u_of(GrooveView view, vec3 s) {
 vec3 to_tangent(GrooveView view, vec3 s) { return s * view.axes; }
 
 PixelU pixel_u(GrooveView view, vec3 s) {
-    return PixelU(dot(s, view.axes[0]) + view.direction.x, BOX_DEVIATION * length(s * view.g_change + view.v_g_change));
+    vec2 change = s * view.g_change + view.v_g_change;
+    return PixelU(dot(s, view.axes[0]) + view.direction.x, dot(change, change));
 }
 
 // The same for any `s` that varies from pixel to pixel. Uses derivatives: call it in uniform control flow.
 PixelU pixel_u_of(GrooveView view, vec3 s) {
     float u = dot(s, view.axes[0]) + view.direction.x;
-    return PixelU(u, BOX_DEVIATION * length(vec2(dFdx(u), dFdy(u))));
+    vec2 change = vec2(dFdx(u), dFdy(u));
+    return PixelU(u, dot(change, change));
 }
 #endif
 

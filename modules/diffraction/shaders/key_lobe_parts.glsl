@@ -11,7 +11,7 @@ vec3 key_lobe_radiance(KeyLobe lobe, GrooveView view) {
     if (mean.z < -lobe.moments.w) return vec3(0.0);
 #ifndef ZERO_ORDER
     // The parts lie within 2.3 deviations of the lobe's direction, and each reaches 5 times 0.84 of one.
-    float reach = view.pitch * (6.5 * sqrt(lobe.moments.z) + 5.0 * u.deviation) + 5.0 * kernel_scale_bias.z;
+    float reach = view.pitch * (6.5 * sqrt(lobe.moments.z) + 5.0 * deviation_of(u)) + 5.0 * kernel_scale_bias.z;
     if (!kernel_reached(view.pitch * u.mean, reach)) return vec3(0.0);
 #endif
     axis.x = clamp(axis.x, -1.0, 1.0);
@@ -27,7 +27,7 @@ vec3 key_lobe_radiance(KeyLobe lobe, GrooveView view) {
         LightPart part = lobe_part(lobe, axis, across, growth, i, weight);
         whole += weight;
         if (part.cosine <= 0.0) continue;
-        float deviation = length(vec2(part.deviation, u.deviation));
+        float deviation = sqrt(part.deviation * part.deviation + BOX_VARIANCE * u.square_width);
         sum += part.cosine * pitch_kernel_value(u.mean + part.centre - axis.x, deviation, lobe.flux.rgb, view.pitch);
     }
     vec2 along = spread_along_grooves(mean, lobe.moments);

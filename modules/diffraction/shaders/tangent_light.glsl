@@ -1,9 +1,7 @@
-// The light's SH, rotated to each vertex's tangent frame on the CPU. RGB after RGB. BANDS is defined by the program.
+// The light's SH, rotated to each vertex's tangent frame on the CPU. BANDS is defined by the program. As texels, as llvmpipe
+// reads each float of a storage block vertex by vertex.
 const int COEFFICIENTS = BANDS * BANDS;
 
-STORAGE(4, TangentLight, float, tangent_light);
+TEXTURE_UNIT(12) uniform SAMPLER_BUFFER tangent_light;
 
-vec3 light_coefficient(int i) {
-    int at = 3 * (gl_VertexID * COEFFICIENTS + i);
-    return vec3(STORED_FLOAT(tangent_light, at), STORED_FLOAT(tangent_light, at + 1), STORED_FLOAT(tangent_light, at + 2));
-}
+vec3 light_coefficient(int i) { return BUFFER_TEXEL(tangent_light, gl_VertexID * COEFFICIENTS + i).xyz; }

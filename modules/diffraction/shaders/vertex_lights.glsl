@@ -21,10 +21,11 @@ vec3 shade_lights(vec3 position, mat3 axes) {
     if (direction.z > 0.0) sum = key_lights_radiance(axes, direction, mat2x3(0.0), vec2(0.0));
 #endif
 #ifdef DIRECTIONAL_LIGHTS
-    KernelRow row = kernel_row(0.0);
+    KernelScale scale = kernel_scale();
     vec3 first = vec3(0.0);
-    float u = dot(lights[0].position.xyz, axes[0]) + direction.x;
-    add_small_light(0, 1.0, lights[0].position.xyz, axes, direction, u, row, 1.0, first);
+    float weight = small_light_weight(scale, direction.z);
+    PixelU u = PixelU(dot(lights[0].position.xyz, axes[0]) + direction.x, 0.0);
+    add_small_light(scale, 0, weight, lights[0].position.xyz, axes, direction.y, u, 1.0, first);
 #ifdef SHADOWED_AT_PIXELS
     shadowed_at_vertex = kernel_to_working(first);
 #else
@@ -32,8 +33,8 @@ vec3 shade_lights(vec3 position, mat3 axes) {
 #endif
 #ifdef SEVERAL_DIRECTIONAL_LIGHTS
     for (int i = 1; i < int(light_counts.x); ++i) {
-        u = dot(lights[i].position.xyz, axes[0]) + direction.x;
-        add_small_light(i, 1.0, lights[i].position.xyz, axes, direction, u, row, 1.0, sum);
+        u.mean = dot(lights[i].position.xyz, axes[0]) + direction.x;
+        add_small_light(scale, i, weight, lights[i].position.xyz, axes, direction.y, u, 1.0, sum);
     }
 #endif
 #endif

@@ -59,7 +59,7 @@ std::vector<glm::vec4> GpuArc::grooved_products(const SurfaceObject& object, con
 
 void GpuArc::update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const {
     if (!object.changed) return;
-    require_vertex_light(object, static_cast<std::size_t>(3 * products_.layers()) * sizeof(glm::vec4));
+    require_vertex_light(object, {.bytes = static_cast<std::size_t>(3 * products_.layers()) * sizeof(glm::vec4)});
     const lighting::ShLight& harmonics = light.harmonics(products_.bands(), light_part());
     const std::vector<glm::vec4> products =
         state.grooves ? grooved_products(object, harmonics, state)

@@ -48,8 +48,16 @@ TEST(Limits, StorageOfVerticesIsRefusedByNumberAndSize) {
               "a table: 3 storage buffers that its vertex stage reads; expected at most 2, this GPU's limit; halve it");
     EXPECT_EQ(require(2, (1 << 24) + 1),
               "a table: a storage buffer of 16777217 bytes; expected at most 16777216, this GPU's limit; halve it");
-    EXPECT_NO_THROW(require_vertex_storage({.what = "a table", .blocks = 2, .bytes = 1 << 24, .remedy = ""},
-                                           {.vertex_storage_blocks = 2}));
+    EXPECT_NO_THROW(
+        require_vertex_storage({.what = "a table", .blocks = 2, .bytes = 1 << 24, .texels = 1 << 16, .remedy = ""},
+                               {.vertex_storage_blocks = 2}));
+    EXPECT_EQ(test::message_of(
+                  [&] {
+                      require_vertex_storage({.what = "a mesh", .texels = (1 << 16) + 1, .remedy = "halve it"},
+                                             {.vertex_storage_blocks = 1});
+                  },
+                  Fault::System),
+              "a mesh: a buffer of 65537 texels; expected at most 65536, this GPU's limit; halve it");
 }
 
 TEST_F(LimitsTest, ADriverAllowsWhatOpenGlGuarantees) {
@@ -57,6 +65,7 @@ TEST_F(LimitsTest, ADriverAllowsWhatOpenGlGuarantees) {
     const Limits guaranteed;
     EXPECT_GE(limits.storage_block_bytes, guaranteed.storage_block_bytes);
     EXPECT_GE(limits.vertex_storage_blocks, guaranteed.vertex_storage_blocks);
+    EXPECT_GE(limits.buffer_texels, guaranteed.buffer_texels);
     EXPECT_GE(limits.texture_side, guaranteed.texture_side);
     EXPECT_GE(limits.cube_side, guaranteed.cube_side);
     EXPECT_GE(limits.volume_side, guaranteed.volume_side);

@@ -65,6 +65,26 @@ TEST_F(StreamBufferTest, ContentMayGrowAndShrink) {
     expect_the_numbers_of_the_pixels();
 }
 
+TEST_F(StreamBufferTest, TexelsAreWhatWasWrittenLast) {
+    const gpu::Program program = build_full_screen(R"(#version 450 core
+layout(binding = 3) uniform samplerBuffer values;
+layout(location = 0) out vec4 colour;
+void main() { colour = texelFetch(values, textureSize(values) - 1); })");
+    gpu::StreamBuffer buffer;
+    for (int i = 0; i < 10; ++i) {
+        const auto count = static_cast<std::size_t>(i % 7 == 0 ? 16 * (i + 1) : 16);
+        std::vector<glm::vec3> written(count, glm::vec3(-1.0F));
+        written.back() = glm::vec3(i, 2 * i, 3 * i);
+        buffer.write_values(std::span<const glm::vec3>(written));
+        buffer.bind_texels(3);
+        target_.bind();
+        gpu::apply({.depth_test = gpu::DepthTest::Off, .depth_write = false, .cull = gpu::Cull::None});
+        program.use();
+        triangle_.draw(3);
+        EXPECT_EQ(glm::vec3(target_.read_rgba_float()[0]), written.back()) << i;
+    }
+}
+
 TEST_F(StreamBufferTest, MakesABufferInTheFirstTwoWritesAndWhereContentDoesNotFit) {
     gpu::StreamBuffer buffer;
     test::CallCounts calls;

@@ -34,7 +34,7 @@ void add_lamp(vec3 s, vec3 irradiance) {
     float above = lit_view.direction.z > 0.0 ? max(dot(s, lit_view.axes[2]), 0.0) : 0.0;
     vec3 factor = 0.5 * above * cover_transmittance(above) *
                   groove_factor(dot(s, lit_view.axes[1]) + lit_view.direction.y);
-    lit_sum += kernel_to_working(factor * pitch_kernel_value(u.mean, u.deviation, irradiance, 1.0));
+    lit_sum += kernel_to_working(factor * pitch_kernel_value(u.mean, deviation_of(u), irradiance, 1.0));
 }
 
 vec3 probe_radiance() {
