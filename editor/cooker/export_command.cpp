@@ -75,8 +75,7 @@ void add_light(const Options& options, const diffraction::CookedMaterial& cooked
                      "\"flat\"",
                      "leave --planar out: the map of this material is a volume, which a document does not hold");
     const glm::dvec3 normal(options.normal[0], options.normal[1], options.normal[2]);
-    add_planar_map(cooked, light, glm::normalize(normal), {.azimuths = options.resolution, .views = options.resolution},
-                   document);
+    add_planar_map(cooked, light, glm::normalize(normal), diffraction::planar_map_size(options.resolution), document);
 }
 
 void run_export(const Options& options) {

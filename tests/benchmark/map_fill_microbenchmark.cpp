@@ -1,4 +1,5 @@
 // Filling the maps that depend on the light: at run time, when a flat object has turned or the probe has changed.
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <string>
 
@@ -77,7 +78,7 @@ void fill_circle(State& state, int side) {
     for (auto _ : state)
         ::benchmark::DoNotOptimize(diffraction::fill_circle_map(texels, material.kernel,
                                                                 material.material.grating.pitch_nm,
-                                                                {.side = side, .views = 2 * side})
+                                                                {.side = side, .views = std::max(std::min(2 * side, 128), 5 * side / 4)})
                                        .xyz.data());
 }
 
@@ -94,7 +95,7 @@ void register_map_fills() {
     for (const int side : {64, 128, 256}) add("planar_fill/side:" + std::to_string(side), fill_planar, side);
     add("planar_lobe_fill/64x64x32", fill_lobe, diffraction::kCoarseLobeMap);
     add("planar_lobe_fill/352x128x128", fill_lobe, diffraction::LobeMapSize{});
-    for (const int side : {32, 64}) add("circle_fill/side:" + std::to_string(side), fill_circle, side);
+    for (const int side : {32, 64, 112}) add("circle_fill/side:" + std::to_string(side), fill_circle, side);
 }
 
 }  // namespace rowland::microbenchmark

@@ -24,11 +24,6 @@ bool as_bright(const Grating& grating, int a, int b) {
     return true;
 }
 
-bool is_even(const Grating& grating) {
-    return std::all_of(grating.orders.begin(), grating.orders.end(),
-                       [&](int order) { return lists(grating, -order) && as_bright(grating, order, -order); });
-}
-
 void add_order(const Grating& grating, const colour::LightSpectra& spectra, int order,
                std::vector<DiffractionPattern::Node>& nodes) {
     constexpr double kFarthest = 2.0;
@@ -47,6 +42,11 @@ void add_order(const Grating& grating, const colour::LightSpectra& spectra, int 
 }
 
 }  // namespace
+
+bool is_even(const Grating& grating) {
+    return std::all_of(grating.orders.begin(), grating.orders.end(),
+                       [&](int order) { return lists(grating, -order) && as_bright(grating, order, -order); });
+}
 
 DiffractionPattern diffraction_pattern(const Grating& grating, const colour::LightSpectra& spectra) {
     ROWLAND_CHECK_OP(grating.pitch_nm, >, 0.0);

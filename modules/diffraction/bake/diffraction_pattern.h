@@ -30,6 +30,9 @@ inline constexpr double kPatternStep = 0.004;
 /// Orders are sharp, efficiencies those at normal incidence. Only |u| ≤ 2, beyond which no pair of directions lies.
 DiffractionPattern diffraction_pattern(const Grating& grating, const colour::LightSpectra& spectra);
 
+/// Whether orders m and −m of a grating are equally bright.
+bool is_even(const Grating& grating);
+
 /// The pattern in another colour space than XYZ.
 DiffractionPattern in_space(DiffractionPattern pattern, const glm::dmat3& xyz_to_space);
 

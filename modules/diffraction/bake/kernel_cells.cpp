@@ -60,7 +60,7 @@ void KernelCells::sharpen(std::span<float> xyz, std::size_t floats) const {
     for (std::size_t i = floats; i + floats < xyz.size(); ++i) {
         const float here = xyz[i];
         float& left = before[i % floats];
-        xyz[i] -= kBestLinear * (left - 2.0F * here + xyz[i + floats]);
+        xyz[i] -= kBestView * (left - 2.0F * here + xyz[i + floats]);
         left = here;
     }
 }
@@ -68,24 +68,28 @@ void KernelCells::sharpen(std::span<float> xyz, std::size_t floats) const {
 template <int kLanes>
 void KernelCells::correlate(std::span<const float> light, std::span<float> xyz) const {
     for (int view = 0; view < views_; ++view) {
-        std::array<float, std::size_t{3} * kLanes> sum{};
         const Range reached = range(view);
-        const float* weight = weights_.data() + static_cast<std::size_t>(reached.begin + 2 * view) * kWeightFloats;
-        const float* from = light.data() + static_cast<std::size_t>(reached.begin) * 3 * kLanes;
-        for (int cell = reached.begin; cell < reached.end;
-             ++cell, weight += kWeightFloats, from += std::ptrdiff_t{3} * kLanes)
-            for (int o = 0; o < 3; ++o)
-                for (int lane = 0; lane < kLanes; ++lane)
-                    sum[static_cast<std::size_t>(o * kLanes + lane)] += weight[o] * from[lane] +
-                                                                        weight[4 + o] * from[kLanes + lane] +
-                                                                        weight[8 + o] * from[2 * kLanes + lane];
-        std::copy(sum.begin(), sum.end(), xyz.begin() + static_cast<std::ptrdiff_t>(view) * 3 * kLanes);
+        for (std::size_t o = 0; o < 3; ++o) {
+            const float* weight =
+                weights_.data() + static_cast<std::size_t>(reached.begin + 2 * view) * kWeightFloats + o;
+            const float* from = light.data() + static_cast<std::size_t>(reached.begin) * 3 * kLanes;
+            std::array<float, kLanes> sum{};
+            for (int cell = reached.begin; cell < reached.end;
+                 ++cell, weight += kWeightFloats, from += std::ptrdiff_t{3} * kLanes)
+                for (std::size_t lane = 0; lane < kLanes; ++lane)
+                    sum[lane] +=
+                        weight[0] * from[lane] + weight[4] * from[kLanes + lane] + weight[8] * from[2 * kLanes + lane];
+            std::copy(sum.begin(), sum.end(),
+                      xyz.begin() + (static_cast<std::ptrdiff_t>(view) * 3 + static_cast<std::ptrdiff_t>(o)) * kLanes);
+        }
     }
     sharpen(xyz, std::size_t{3} * kLanes);
 }
 
 template void KernelCells::correlate<8>(std::span<const float> light, std::span<float> xyz) const;
-template void KernelCells::correlate<12>(std::span<const float> light, std::span<float> xyz) const;
+template void KernelCells::correlate<16>(std::span<const float> light, std::span<float> xyz) const;
+template void KernelCells::correlate<20>(std::span<const float> light, std::span<float> xyz) const;
+template void KernelCells::correlate<24>(std::span<const float> light, std::span<float> xyz) const;
 
 void KernelCells::correlate_rgb(std::span<const float> light, std::span<float> xyz) const {
     for (int view = 0; view < views_; ++view) {

@@ -13,6 +13,10 @@ namespace rowland::diffraction {
 /// their second difference, which more than halves the interpolation's RMS error.
 inline constexpr float kBestLinear = 1.0F / 12.0F;
 
+/// The same along views at step h under KernelCells: h²/32 more, for light that is spread over cells of ½ h (a variance
+/// of h²/24, divided linearly among two) and the kernel's mean over them (h²/48).
+inline constexpr float kBestView = kBestLinear + 1.0F / 32.0F;
+
 /// A colour kernel over equal cells, for correlation with arc profiles: 2(views − 1) cells of a ∈ [−1, 1] and views at
 /// v_g = 2j/(views−1) − 1, so that a weight depends on the sum a + v_g alone. It is the kernel's mean over the cell.
 class KernelCells {
@@ -22,7 +26,7 @@ class KernelCells {
     int cells() const { return cells_; }
 
     /// `light`: ½ flux · s_n in cells of a, 3·kLanes floats per cell: red of kLanes independent profiles, then green,
-    /// then blue. `xyz` gets 3·kLanes floats per view, likewise, for linear interpolation. kLanes is 8 or 12.
+    /// then blue. `xyz` gets 3·kLanes floats per view, likewise, for linear interpolation. kLanes is 8, 16, 20 or 24.
     template <int kLanes>
     void correlate(std::span<const float> light, std::span<float> xyz) const;
 
@@ -30,7 +34,7 @@ class KernelCells {
     void correlate_rgb(std::span<const float> light, std::span<float> xyz) const;
 
  private:
-    /// Lowers the inner views by kBestLinear of their second difference. `floats` per view.
+    /// Lowers the inner views by kBestView of their second difference. `floats` per view.
     void sharpen(std::span<float> xyz, std::size_t floats) const;
 
     /// Cells that the kernel's weights reach from a view.

@@ -5,6 +5,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <numbers>
 #include <optional>
 #include <stop_token>
 #include <vector>
@@ -15,6 +16,20 @@
 #include "modules/diffraction/model/shading_point.h"
 
 namespace rowland::diffraction {
+
+/// Nodes of some terms of a circle map.
+struct CircleLevel {
+    int first_term = 0;
+    int terms = 0;
+    int views = 0;
+    int side = 0;                ///< texels of a chart's side
+    std::vector<glm::vec3> xyz;  ///< see index()
+
+    /// `term` counts from first_term.
+    std::size_t index(int chart, int term, int view, int row, int column) const;
+    /// Scale of chart coordinates to texture coordinates: the equator lies 1½ texels inside the edge.
+    double scale() const { return 0.5 - 1.5 / side; }
+};
 
 /// The radiance of any grating surface of flat lobe under a probe (PHYSICS §6 "circle"): XYZ over the grating vector g
 /// in world space and v_g, as a Fourier series in the normal's angle t around g. It does not depend on the object.
@@ -30,24 +45,21 @@ namespace rowland::diffraction {
 ///   values are optimised for linear interpolation (kBestLinear), not the radiance at the nodes
 ///   XYZ = Σ_i term_i · f_i, f = 1, cos t, sin t, cos 2t, sin 2t, cos 4t, sin 4t (, cos 6t, sin 6t)
 /// Under a cover f ends with cos 3t, sin 3t, cos 5t, sin 5t (PHYSICS §10), and T(v_n) is left out.
+/// The terms from the sixth on are small, so they have half as many nodes on each axis: level 1.
 struct CircleMap {
     int charts = 0;  ///< 1 or 2
-    int terms = 0;   ///< 7, 9 or 11
     bool covered = false;
-    int views = 0;
-    int side = 0;                ///< texels of a chart's side
-    std::vector<glm::vec3> xyz;  ///< see index()
-
-    std::size_t index(int chart, int term, int view, int row, int column) const;
-    /// Scale of chart coordinates to texture coordinates: the equator lies 1½ texels inside the edge.
-    double scale() const { return 0.5 - 1.5 / side; }
+    std::array<CircleLevel, 2> levels;
 };
 
 struct CircleMapSize {
-    int side = 64;    ///< ≥ 8
-    int views = 128;  ///< ≥ 8
-    int terms = 7;    ///< 7: up to cos 4t; 9: up to cos 6t. Under a cover 9: with cos 3t; 11: with cos 5t as well
+    int side = 112;   ///< of level 0: even, ≥ 8
+    int views = 140;  ///< of level 0: even, ≥ 8
+    int terms = 7;    ///< 5: up to cos 2t; 7: to cos 4t; 9: to cos 6t. Under a cover 9: with cos 3t; 11: with cos 5t
 };
+
+/// The first of these terms are in level 0.
+inline constexpr int kFineTerms = 5;
 
 /// Of the map that is shown while a larger one is filled: within a tenth of a second on two cores.
 inline constexpr int kCoarseCircleSide = 16;
@@ -55,11 +67,16 @@ inline constexpr int kCoarseCircleSide = 16;
 /// The terms that a grating's map has by default: under a cover the multiples 3 and 5 as well.
 int circle_terms(const std::optional<Cover>& cover);
 
+/// Fourier series of max(0, cos t) on 1, cos t, cos 2t, cos 4t, cos 6t.
+inline constexpr std::array<double, 5> kClampedCosine{1.0 / std::numbers::pi, 0.5, 2.0 / (3.0 * std::numbers::pi),
+                                                      -2.0 / (15.0 * std::numbers::pi),
+                                                      2.0 / (35.0 * std::numbers::pi)};
+
 /// The Fourier coefficients of T(r cos t) max(0, cos t) on 1, cos t, cos 2t, cos 4t, cos 3t, cos 5t, PHYSICS (28).
 std::array<double, 6> covered_cosine(double ior, double r);
 
-/// The look-ups of a map of so many terms: four components each.
-int look_ups_of(int terms);
+/// The look-ups of each level of a map of so many terms: four components each.
+std::array<int, 2> look_ups_of(int terms);
 
 /// The number of charts of a map under this kernel.
 int chart_count(const KernelTable& kernel);

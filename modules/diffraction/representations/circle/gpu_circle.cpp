@@ -14,34 +14,46 @@ namespace rowland::diffraction {
 namespace {
 
 /// The texels of a row that one look-up reads.
-void append(const CircleMap& map, int chart, int view, int row, int look_up, std::vector<glm::vec4>& texels) {
-    for (int column = 0; column < map.side; ++column) {
+void append(const CircleLevel& level, int chart, int view, int row, int look_up, std::vector<glm::vec4>& texels) {
+    for (int column = 0; column < level.side; ++column) {
         glm::vec4& texel = texels.emplace_back(0.0F);
         for (int i = 0; i < 4; ++i) {
             const int component = 4 * look_up + i;
-            if (component < 3 * map.terms)
-                texel[i] = map.xyz[map.index(chart, component / 3, view, row, column)][component % 3];
+            if (component < 3 * level.terms)
+                texel[i] = level.xyz[level.index(chart, component / 3, view, row, column)][component % 3];
         }
     }
+}
+
+/// Look-ups that lie side by side in the texture, in either level.
+int look_ups_abreast(int terms) {
+    const std::array<int, 2> look_ups = look_ups_of(terms);
+    return std::max(look_ups[0], look_ups[1]);
 }
 
 /// Four components of the terms' values per texel: circle_map.glsl. A pixel's look-ups lie within a row of the volume:
 /// below each other they would share sets of a processor's cache.
 MapTexels in_layout(const CircleMap& map) {
-    const int look_ups = look_ups_of(map.terms);
-    std::array<std::vector<glm::vec4>, 1> levels;
-    std::vector<glm::vec4>& texels = levels[0];
-    texels.reserve(map.xyz.size() / static_cast<std::size_t>(map.terms) * static_cast<std::size_t>(look_ups));
-    for (int view = 0; view < map.views; ++view)
-        for (int chart = 0; chart < map.charts; ++chart)
-            for (int row = 0; row < map.side; ++row)
-                for (int look_up = 0; look_up < look_ups; ++look_up) append(map, chart, view, row, look_up, texels);
+    const CircleLevel& fine = map.levels[0];
+    const int abreast = look_ups_abreast(fine.terms + map.levels[1].terms);
+    std::vector<std::vector<glm::vec4>> levels;
+    for (const CircleLevel& level : map.levels) {
+        if (level.terms == 0) continue;
+        std::vector<glm::vec4>& texels = levels.emplace_back();
+        texels.reserve(static_cast<std::size_t>(level.views * map.charts * level.side) *
+                       static_cast<std::size_t>(level.side * abreast));
+        for (int view = 0; view < level.views; ++view)
+            for (int chart = 0; chart < map.charts; ++chart)
+                for (int row = 0; row < level.side; ++row)
+                    for (int look_up = 0; look_up < abreast; ++look_up)
+                        append(level, chart, view, row, look_up, texels);
+    }
     return pack(levels,
                 {.kind = gpu::TextureKind::Volume,
-                 .width = map.side * look_ups,
-                 .height = map.side * map.charts,
-                 .depth = map.views},
-                {.filter = gpu::Filter::Linear});
+                 .width = fine.side * abreast,
+                 .height = fine.side * map.charts,
+                 .depth = fine.views},
+                {.filter = gpu::Filter::Trilinear});
 }
 
 struct Filling {
@@ -54,9 +66,9 @@ struct Filling {
         const CircleMap map = fill_circle_map(*input.texels, material.kernel, material.pitch_nm, size,
                                               material.zero_order_xyz, material.cover, stop);
         if (stop.stop_requested()) return {};
-        return {.texels = in_layout(map), .set_uniforms = [scale = map.scale()](const gpu::Program& program) {
-                    program.set("circle_map_scale", static_cast<float>(scale));
-                }};
+        return {.texels = in_layout(map),
+                .set_uniforms = [scales = glm::vec2(glm::dvec2(map.levels[0].scale(), map.levels[1].scale()))](
+                                    const gpu::Program& program) { program.set("circle_map_scales", scales); }};
     }
 };
 
@@ -87,7 +99,7 @@ void GpuCircle::describe(const SurfaceState& state, gpu::ProgramDesc& desc) cons
     }
     desc.defines.push_back({"CHARTS", std::to_string(charts_)});
     desc.defines.push_back({"TERMS", std::to_string(size_.terms)});
-    desc.defines.push_back({"LOOK_UPS", std::to_string(look_ups_of(size_.terms))});
+    desc.defines.push_back({"LOOK_UPS", std::to_string(look_ups_abreast(size_.terms))});
     desc.defines.push_back({"VIEWS", std::to_string(size_.views)});
 }
 

@@ -65,8 +65,8 @@ const RepresentationInfo& PlanarSettings::info() {
         .budget = [](bool flat_lobe, SurfaceShape surface) -> std::vector<std::string> {
             if (surface != SurfaceShape::Flat) return {};
             if (!flat_lobe) return {"map_resolution=32", "map_resolution=64", "map_resolution=128"};
-            return {"map_resolution=32", "map_resolution=64", "map_resolution=128", "map_resolution=256",
-                    "map_resolution=512"};
+            return {"map_resolution=32",  "map_resolution=64",  "map_resolution=128",
+                    "map_resolution=192", "map_resolution=256", "map_resolution=512"};
         }};
     return info;
 }
@@ -86,7 +86,7 @@ std::optional<Refusal> PlanarSettings::refusal(const SettingValues& values, cons
 PlanarSettings PlanarSettings::from(const SettingValues& values, const Grating& grating) {
     const int views = values.number("map_resolution");
     PlanarSettings settings{
-        .size = {.azimuths = views + views % 2, .views = views},
+        .size = planar_map_size(views),
         .grating = grating,
         .stand_in = {
             .bands = values.number("bands"), .rank = values.number("rank"), .grid = default_view_grid(grating.lobe)}};

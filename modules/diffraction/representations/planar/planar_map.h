@@ -32,10 +32,16 @@ struct PlanarMap {
 };
 
 struct PlanarMapSize {
-    int azimuths = 128;  ///< even, ≥ 4
+    int azimuths = 256;  ///< even, ≥ 4
     int views = 128;     ///< ≥ 8
     std::optional<PitchAxis> pitch{};
 };
+
+/// The map of so many views: light changes faster along the azimuth than radiance does along v_g, which the kernel
+/// smooths.
+constexpr PlanarMapSize planar_map_size(int views) {
+    return {.azimuths = 2 * views, .views = views, .pitch = std::nullopt};
+}
 
 /// What is shown while a larger map is filled: within 10 ms of a tilt on two cores.
 inline constexpr PlanarMapSize kCoarsePlanarMap{.azimuths = 64, .views = 64, .pitch = std::nullopt};

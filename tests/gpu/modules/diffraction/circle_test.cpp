@@ -58,6 +58,18 @@ TEST_F(Circle, PixelsEqualTheCpusMap) {
     }
 }
 
+/// Without a second level, and with twice as many terms in it as by default.
+TEST_F(Circle, PixelsHaveAnyNumberOfMultiples) {
+    for (const char* multiples : {"2", "4"}) {
+        const std::string quality = R"({"representation": "circle", "map_resolution": 24, "angle_multiples": )";
+        const CookedMaterial cooked = cook(kSlitCd, quality + multiples + "}");
+        if (!renderer_) show(cooked);
+        use(cooked);
+        EXPECT_LT(difference_from(map(cooked), draw()), kMapTolerance) << multiples;
+        EXPECT_GT(brightest_, 0.01);
+    }
+}
+
 /// With lights at the pixels and, in one value with the map, at the vertices.
 TEST_F(Circle, AMapAtTheVerticesIsInterpolated) {
     light_ = light_of(smooth_probe(), three_keys());

@@ -73,16 +73,19 @@ LobeTable filter_error(const LobeTable& table) {
 }
 
 CircleMap filter_error(const CircleMap& map) {
-    const auto side = static_cast<std::size_t>(map.side);
-    const std::size_t slices = side * side * static_cast<std::size_t>(map.views);
-    const std::vector<glm::vec3> by_term =
-        error_of(map.xyz, {{.texels = side, .stride = 1},
-                           {.texels = side, .stride = side},
-                           {.texels = static_cast<std::size_t>(map.views), .stride = side * side}});
     CircleMap error = map;
-    std::fill(error.xyz.begin(), error.xyz.end(), glm::vec3(0.0F));
-    const std::size_t chart = slices * static_cast<std::size_t>(map.terms);
-    for (std::size_t i = 0; i < by_term.size(); ++i) error.xyz[i / chart * chart + i % slices] += by_term[i];
+    for (CircleLevel& level : error.levels) {
+        const auto side = static_cast<std::size_t>(level.side);
+        const std::size_t slices = side * side * static_cast<std::size_t>(level.views);
+        const std::size_t chart = slices * static_cast<std::size_t>(level.terms);
+        const std::vector<glm::vec3> by_term =
+            error_of(level.xyz, {{.texels = side, .stride = 1},
+                                 {.texels = side, .stride = side},
+                                 {.texels = static_cast<std::size_t>(level.views), .stride = side * side}});
+        std::fill(level.xyz.begin(), level.xyz.end(), glm::vec3(0.0F));
+        level.first_term = 0;
+        for (std::size_t i = 0; i < by_term.size(); ++i) level.xyz[i / chart * chart + i % slices] += by_term[i];
+    }
     return error;
 }
 

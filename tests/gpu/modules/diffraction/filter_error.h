@@ -18,7 +18,7 @@ inline constexpr double kPositionError = 1.0 / 256.0;
 PlanarMap filter_error(const PlanarMap& map);
 LobeMap filter_error(const LobeMap& map);
 LobeTable filter_error(const LobeTable& table);
-/// In the first term, whose factor is 1: the others' factors are within [−1, 1].
+/// In one term of each level, with the factor 1: the others' factors are within [−1, 1].
 CircleMap filter_error(const CircleMap& map);
 
 /// Between two levels the larger value counts.

@@ -111,9 +111,9 @@ TEST(MaterialJson, EveryRepresentationTakesItsSettings) {
         std::get<PlanarSettings>(pinned(R"({"representation": "planar", "rank": 6, "map_resolution": 63})"));
     EXPECT_EQ(planar.stand_in.rank, 6);
     EXPECT_EQ(planar.size.views, 63);
-    EXPECT_EQ(planar.size.azimuths, 64);  // a map's azimuths are even in number
-    const auto circle = std::get<CircleSettings>(pinned(R"({"representation": "circle", "map_resolution": 32})"));
-    EXPECT_EQ(circle.size.side, 32);
+    EXPECT_EQ(planar.size.azimuths, 126);
+    const auto circle = std::get<CircleSettings>(pinned(R"({"representation": "circle", "map_resolution": 31})"));
+    EXPECT_EQ(circle.size.side, 32);  // even, as level 1 has half
     EXPECT_EQ(circle.size.views, 64);
     EXPECT_TRUE(std::holds_alternative<DirectSettings>(pinned(R"({"representation": "direct"})")));
     const auto spikes = std::get<SpikeTableSettings>(
@@ -182,6 +182,18 @@ TEST(MaterialJson, LobesThatARepresentationCannotShadeAreRefused) {
     EXPECT_THAT(
         refusal(with_quality(R"({"representation": "streak"})", R"({"pits": {"length_nm": 850, "coherent": 0}})")),
         HasSubstr("/quality/representation"));
+}
+
+TEST(MaterialJson, CirclesTakeMultiplesOfTheAngle) {
+    const auto terms = [](const std::string& multiples) {
+        const Material material = parse(with_quality(R"({"representation": "circle")" + multiples + "}"));
+        return std::get<CircleSettings>(representation(material)).size.terms;
+    };
+    EXPECT_EQ(terms(""), 7);
+    EXPECT_EQ(terms(R"(, "angle_multiples": 2)"), 5);
+    EXPECT_EQ(terms(R"(, "angle_multiples": 4)"), 9);
+    EXPECT_THAT(refusal(with_quality(R"({"representation": "circle", "angle_multiples": 5})")),
+                AllOf(HasSubstr("/quality/angle_multiples"), HasSubstr("at most 4")));
 }
 
 TEST(MaterialJson, StreaksTakeTheirSettings) {
