@@ -76,11 +76,12 @@ CookedFilm load_cooked_film(const std::filesystem::path& path) {
 
 std::string describe(const CookedFilm& cooked) {
     const FilmTable& table = cooked.table;
-    return fmt::format("layers: {}\nthickness_nm: {}\nroughness: {}\nilluminant: {}\ntable: {} x {} x {}\n"
-                       "table_bytes: {}\ntable_error_largest: {:.5f}\ntable_error_rms: {:.5f}\n",
-                       cooked.material.film.layers.size(), cooked.material.range.thickest_nm,
-                       cooked.material.range.roughest, cooked.material.illuminant.name, table.columns, table.rows,
-                       table.layers, table.bytes(), table.error.largest, table.error.rms);
+    return fmt::format(
+        "layers: {}\nthickness_nm: {}\nroughness: {}\nilluminant: {}\ntable: {} x {} x {}\n"
+        "table_bytes: {}\ntable_error_largest: {:.5f}\ntable_error_rms: {:.5f}\n",
+        cooked.material.film.layers.size(), cooked.material.range.thickest_nm, cooked.material.range.roughest,
+        cooked.material.illuminant.name, table.columns, table.rows, table.layers, table.bytes(), table.error.largest,
+        table.error.rms);
 }
 
 }  // namespace rowland::thin_film

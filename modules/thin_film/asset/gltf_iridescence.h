@@ -23,7 +23,7 @@ struct GltfIridescence {
     double thickness_at_0_nm = 100.0;  ///< where the thickness texture is 0
     double thickness_at_1_nm = 400.0;  ///< where it is 1, and everywhere without one; may be the smaller
     std::optional<scene::TextureUse> thickness_texture;  ///< G
-    std::optional<Base> base;  ///< "metal" or "base" of its extras, as in a film material file
+    std::optional<Base> base;                       ///< "metal" or "base" of its extras, as in a film material file
     colour::Illuminant illuminant = colour::d65();  ///< of its extras
 };
 

@@ -87,8 +87,8 @@ double square(double x) {
     return x * x;
 }
 
-/// Moves the nodes along one axis so that lines between them are nearest to the curve in the mean square, not only exact
-/// at the nodes: by a twelfth of the second difference. PHYSICS (4).
+/// Moves the nodes along one axis so that lines between them are nearest to the curve in the mean square, not only
+/// exact at the nodes: by a twelfth of the second difference. PHYSICS (4).
 void fit_nodes(std::vector<glm::mat3>& values, std::size_t stride, std::size_t count) {
     const std::vector<glm::mat3> nodes = values;
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -138,7 +138,8 @@ TableError measure(const Averages& averages, const FilmTable& table, const Table
         std::vector<double> thicknesses_nm;
         const int steps = range.thickest_nm > range.thinnest_nm ? 3 * table.rows : 0;
         for (int j = 0; j <= steps; ++j)
-            thicknesses_nm.push_back(range.thinnest_nm + (range.thickest_nm - range.thinnest_nm) * j / std::max(steps, 1));
+            thicknesses_nm.push_back(range.thinnest_nm +
+                                     (range.thickest_nm - range.thinnest_nm) * j / std::max(steps, 1));
         const std::vector<glm::dmat3> exact = averages.at(cosine, roughness, thicknesses_nm);
         double scale = 0.0;
         for (const glm::dmat3& value : exact) scale = std::max(scale, largest_component(value));
@@ -217,7 +218,8 @@ FilmTable empty_table(const Film& film, const TableRange& range, const TableSize
 FilmTable bake_table(const FilmColour& colour, const TableRange& range, const TableSize& size) {
     FilmTable table = empty_table(colour.film(), range, size);
     // What a node of another angle but the same path difference needs.
-    const double spread = path_difference(table.index, 1.0, 1.0) / std::max(path_difference(table.index, 1.0, 0.0), 1e-9);
+    const double spread =
+        path_difference(table.index, 1.0, 1.0) / std::max(path_difference(table.index, 1.0, 0.0), 1e-9);
     const double reach = table.rows > 1 ? std::min(spread, 2.0) : 1.0;
     const Averages averages(colour, range.thinnest_nm / reach, range.thickest_nm * reach, table.layers > 1);
     fill(averages, table);

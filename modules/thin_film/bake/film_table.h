@@ -28,13 +28,13 @@ struct FilmTable {
     int columns = 0;
     int rows = 0;
     int layers = 0;
-    double index = 1.0;            ///< n of the outermost layer
-    double begin_nm = 0.0;         ///< x of the first row
-    double end_nm = 0.0;           ///< x of the last row
-    double roughest = 0.0;         ///< of the last layer; 0 with one layer
-    double only_thickness_nm = 0.0; ///< with one row
-    std::vector<glm::mat3> values{}; ///< linear Rec.709 → XYZ; columns fastest, layers slowest
-    TableError error{};            ///< measured between nodes, of the table with its storage's rounding
+    double index = 1.0;               ///< n of the outermost layer
+    double begin_nm = 0.0;            ///< x of the first row
+    double end_nm = 0.0;              ///< x of the last row
+    double roughest = 0.0;            ///< of the last layer; 0 with one layer
+    double only_thickness_nm = 0.0;   ///< with one row
+    std::vector<glm::mat3> values{};  ///< linear Rec.709 → XYZ; columns fastest, layers slowest
+    TableError error{};               ///< measured between nodes, of the table with its storage's rounding
 
     /// As the shader reads it: linear between the nodes, clamped to the table. `cosine` of the view.
     glm::dmat3 at(double cosine, double thickness_nm, double roughness) const;

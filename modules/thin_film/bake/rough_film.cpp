@@ -40,8 +40,7 @@ RoughFilm::RoughFilm(const FilmColour& colour, double thinnest_nm, double thicke
 
 glm::dmat3 RoughFilm::average(std::span<const double> angles, double thickness_nm) const {
     const double last = static_cast<double>(nodes_ - 1);
-    const double position =
-        step_nm_ > 0.0 ? std::clamp((thickness_nm - thinnest_nm_) / step_nm_, 0.0, last) : 0.0;
+    const double position = step_nm_ > 0.0 ? std::clamp((thickness_nm - thinnest_nm_) / step_nm_, 0.0, last) : 0.0;
     const std::size_t first = std::min(static_cast<std::size_t>(std::max(position - 1.0, 0.0)), nodes_ - 4);
     const std::array<double, 4> weights = cubic_weights(position - static_cast<double>(first));
     glm::dmat3 sum(0.0);

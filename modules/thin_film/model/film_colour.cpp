@@ -10,7 +10,8 @@ FilmColour::FilmColour(const Film& film, const colour::LightSpectra& spectra) : 
     for (int nm = colour::kVisibleMin; nm <= colour::kVisibleMax; ++nm) {
         const bool at_an_end = nm == colour::kVisibleMin || nm == colour::kVisibleMax;
         const glm::dmat3 observed = glm::outerProduct(colour::cie_xyz(nm), spectra(nm));
-        wavelengths_.push_back({static_cast<double>(nm), base_index(film.base, nm), (at_an_end ? 0.5 : 1.0) * observed});
+        wavelengths_.push_back(
+            {static_cast<double>(nm), base_index(film.base, nm), (at_an_end ? 0.5 : 1.0) * observed});
     }
 }
 

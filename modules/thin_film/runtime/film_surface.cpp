@@ -60,6 +60,12 @@ FilmMaterial film_material(const GltfIridescence& iridescence, const render::Sta
             .illuminant = iridescence.illuminant};
 }
 
+/// Whether nothing is seen of the light that passes the film.
+bool is_black(const render::StandardMaterial& material) {
+    const bool metal = material.metallic == 1.0F && !material.metallic_roughness_texture;
+    return material.alpha_mode != scene::AlphaMode::Blend && (metal || material.base_colour == glm::vec3(0.0F));
+}
+
 void add_map(const char* define, const render::SurfaceTexture& texture, gpu::ProgramDesc& desc) {
     if (!texture) return;
     desc.defines.push_back({define, texture.uv_set == 1 ? "uv1" : "uv"});
@@ -92,8 +98,7 @@ void FilmSurfaceType::attach(ecs::World& world, ecs::Entity entity, const nlohma
         .factor_texture = texture(read.factor_texture, textures, file, pointer + "/iridescenceTexture"),
         .thickness_at_0_nm = static_cast<float>(read.thickness_at_0_nm),
         .thickness_at_1_nm = static_cast<float>(read.thickness_at_1_nm),
-        .thickness_texture =
-            texture(read.thickness_texture, textures, file, pointer + "/iridescenceThicknessTexture")};
+        .thickness_texture = texture(read.thickness_texture, textures, file, pointer + "/iridescenceThicknessTexture")};
     auto& material = world.get<render::StandardMaterial>(entity);
     if (read.factor == 0.0 || material.unlit) return;
     if (material.clear_coat > 0.0F)
@@ -126,7 +131,11 @@ bool FilmSurfaceType::owns(ecs::World& world, ecs::Entity entity) const {
 gpu::ProgramDesc FilmSurfaceType::program(ecs::World& world, ecs::Entity entity) const {
     const FilmSurface& surface = world.get<FilmSurface>(entity);
     gpu::ProgramDesc desc{.vertex = "engine/render/shaders/plain.vert.glsl",
-                          .fragment = "modules/thin_film/shaders/film.frag.glsl"};
+                          .fragment = "modules/thin_film/shaders/film.frag.glsl",
+                          .defines = {{"AMBIENT_AT_VERTICES", "1"}}};
+    if (surface.film->is_line()) desc.defines.push_back({"FILM_LINE", "1"});
+    if (surface.factor == 1.0F && !surface.factor_texture) desc.defines.push_back({"FILM_WHOLE", "1"});
+    if (is_black(world.get<render::StandardMaterial>(entity))) desc.defines.push_back({"FILM_ON_BLACK", "1"});
     add_map("FILM_FACTOR_MAP", surface.factor_texture, desc);
     add_map("FILM_THICKNESS_MAP", surface.thickness_texture, desc);
     return desc;

@@ -16,10 +16,10 @@ namespace rowland::thin_film {
 /// metallic factor and colour are those of its diffuse base.
 struct FilmSurface {
     std::shared_ptr<const GpuFilm> film = nullptr;
-    float factor = 1.0F;                        ///< 0: no film
-    render::SurfaceTexture factor_texture = {};  ///< R
-    float thickness_at_0_nm = 0.0F;              ///< where the thickness texture is 0
-    float thickness_at_1_nm = 400.0F;            ///< where it is 1, and everywhere without one
+    float factor = 1.0F;                            ///< 0: no film
+    render::SurfaceTexture factor_texture = {};     ///< R
+    float thickness_at_0_nm = 0.0F;                 ///< where the thickness texture is 0
+    float thickness_at_1_nm = 400.0F;               ///< where it is 1, and everywhere without one
     render::SurfaceTexture thickness_texture = {};  ///< G
 };
 

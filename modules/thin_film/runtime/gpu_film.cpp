@@ -1,7 +1,5 @@
 #include "modules/thin_film/runtime/gpu_film.h"
 
-#include <cstdint>
-#include <glm/gtc/packing.hpp>
 #include <glm/matrix.hpp>
 #include <span>
 #include <utility>
@@ -13,22 +11,32 @@ namespace rowland::thin_film {
 
 namespace {
 
-gpu::Texture upload(const FilmTable& table, const glm::dmat3& xyz_to_working) {
+bool fits_a_line(const FilmTable& table) {
+    return table.rows == 1 && table.layers <= 2;
+}
+
+/// Four components a texel: columns of M in the working space, one after another.
+std::vector<glm::vec4> working_columns(const FilmTable& table, const glm::dmat3& xyz_to_working) {
     const glm::dmat3 working_to_rec709 = glm::inverse(xyz_to_working * colour::rec709_to_xyz());
-    std::vector<std::uint16_t> halves;
-    halves.reserve(12 * table.values.size());
+    std::vector<glm::vec4> columns;
+    columns.reserve(3 * table.values.size());
     for (int column = 0; column < 3; ++column)
-        for (const glm::mat3& value : table.values) {
-            const glm::mat3 working(xyz_to_working * glm::dmat3(value) * working_to_rec709);
-            for (int row = 0; row < 3; ++row) halves.push_back(glm::packHalf1x16(working[column][row]));
-            halves.push_back(0);
-        }
-    gpu::Texture texture({.kind = gpu::TextureKind::Volume,
-                          .format = gpu::Format::RGBA16F,
-                          .width = table.columns,
+        for (const glm::mat3& value : table.values)
+            columns.emplace_back(glm::mat3(xyz_to_working * glm::dmat3(value) * working_to_rec709)[column], 0.0F);
+    return columns;
+}
+
+/// A line is small, and software renderers read floats faster than halves.
+gpu::Texture upload(const FilmTable& table, const glm::dmat3& xyz_to_working) {
+    const int slices = 3 * table.layers;
+    const bool line = fits_a_line(table);
+    gpu::Texture texture({.kind = line ? gpu::TextureKind::Line : gpu::TextureKind::Volume,
+                          .format = line ? gpu::Format::RGBA32F : gpu::Format::RGBA16F,
+                          .width = line ? slices * table.columns : table.columns,
                           .height = table.rows,
-                          .depth = 3 * table.layers});
-    texture.upload(std::span<const std::uint16_t>(halves), {.layers = 3 * table.layers});
+                          .depth = line ? 1 : slices});
+    texture.upload(std::span<const glm::vec4>(working_columns(table, xyz_to_working)),
+                   {.layers = texture.desc().depth});
     return texture;
 }
 
@@ -38,14 +46,20 @@ glm::vec2 to_texels(double begin, double end, int nodes) {
     return {scale, 0.5 / nodes - begin * scale};
 }
 
+glm::vec4 axes(const FilmTable& table) {
+    const glm::vec2 columns = to_texels(0.0, 1.0, table.columns);
+    const auto slices = static_cast<float>(3 * table.layers);
+    if (fits_a_line(table)) return {columns / slices, static_cast<float>(table.layers - 1) / slices, 1.0F / 3.0F};
+    return {columns, table.roughest > 0.0 ? (table.layers - 1) / table.roughest : 0.0, 1.0F / slices};
+}
+
 }  // namespace
 
 GpuFilm::GpuFilm(const FilmTable& table, const glm::dmat3& xyz_to_working, std::string illuminant)
     : texture_(upload(table, xyz_to_working)),
       path_((table.index - 1.0) * (table.index + 1.0), to_texels(table.begin_nm, table.end_nm, table.rows),
             table.layers - 1),
-      axes_(to_texels(0.0, 1.0, table.columns), table.roughest > 0.0 ? (table.layers - 1) / table.roughest : 0.0,
-            1.0 / (3.0 * table.layers)),
+      axes_(axes(table)),
       illuminant_(std::move(illuminant)) {}
 
 void GpuFilm::bind(const gpu::Program& program) const {

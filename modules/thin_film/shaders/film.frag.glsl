@@ -39,17 +39,30 @@ MaterialTerms material_terms() {
 
 vec3 transmittance(float n_v, float roughness) {
     seen = film_matrix(n_v, thickness, roughness);
+#ifdef FILM_ON_BLACK
+    return vec3(0.0);  // nothing is seen of what passes
+#else
     return clamp(1.0 - factor * (seen * vec3(1.0)), 0.0, 1.0);
+#endif
+}
+
+// Of the film, where there is one, and of the bare surface.
+vec3 with_factor(vec3 bare, vec3 film) {
+#ifdef FILM_WHOLE
+    return max(film, 0.0);
+#else
+    return mix(bare, max(film, 0.0), factor);
+#endif
 }
 
 vec3 reflect_lobe(vec3 light, vec3 f0, float n_v, float roughness, vec2 split) {
     vec3 bare = (f0 * split.x + split.y) * light;
-    return mix(bare, max(seen * light, 0.0) * (split.x + split.y), factor);
+    return with_factor(bare, seen * light * (split.x + split.y));
 }
 
 vec3 reflect_specular(vec3 light, vec3 f0, float cosine) {
     vec3 bare = light * schlick_reflectance(f0, cosine);
-    return mix(bare, max(film_matrix(cosine, thickness, 0.0) * light, 0.0), factor);
+    return with_factor(bare, film_matrix(cosine, thickness, 0.0) * light);
 }
 
 #include "engine/render/shaders/forward_fragment_main.glsl"

@@ -86,12 +86,10 @@ TEST_F(FilmPixel, OfADirectionalLightIsSeenAtTheHalfVector) {
     const double roughness = 0.35;
     add_film_square({{"film", {{"ior", 1.8}, {"thickness_nm", 300}}}, {"metal", "Ag"}, {"roughness", roughness}});
     const glm::dvec3 l = glm::normalize(glm::dvec3(-0.7, 0.2, 0.6));
-    world_.add(world_.create(),
-               scene::DirectionalLight{.direction = glm::vec3(l), .irradiance = {1.0F, 2.0F, 0.5F}});
+    world_.add(world_.create(), scene::DirectionalLight{.direction = glm::vec3(l), .irradiance = {1.0F, 2.0F, 0.5F}});
     camera_.eye = {2.0F, 0.0F, 1.5F};
     const glm::dvec3 v = view();
-    const double whole =
-        rowland::test::reflected(l, {0.0, 0.0, 1.0}, v, glm::dvec3(1.0), 1.0, roughness).x;
+    const double whole = rowland::test::reflected(l, {0.0, 0.0, 1.0}, v, glm::dvec3(1.0), 1.0, roughness).x;
     const glm::dvec3 light(1.0, 2.0, 0.5);
     expect_near(centre(), whole * exact(glm::dot(v, glm::normalize(l + v)), light), 3e-3);
 }

@@ -75,10 +75,10 @@ TEST_F(GltfFilm, ThicknessGoesFromMinimumToMaximumByTheTexturesGreenEvenIfItFall
 
 TEST_F(GltfFilm, WithoutATextureIsAsThickAsTheMaximumOnTheBaseOfKhrMaterialsIor) {
     register_module(renderer_);
-    const auto pixels = pixels_of({{"KHR_materials_ior", {{"ior", 1.0}}},
-                                   {"KHR_materials_iridescence",
-                                    {{"iridescenceFactor", 1.0}, {"iridescenceIor", 1.33},
-                                     {"iridescenceThicknessMaximum", 300.0}}}});
+    const auto pixels =
+        pixels_of({{"KHR_materials_ior", {{"ior", 1.0}}},
+                   {"KHR_materials_iridescence",
+                    {{"iridescenceFactor", 1.0}, {"iridescenceIor", 1.33}, {"iridescenceThicknessMaximum", 300.0}}}});
     expect_at(pixels, 0.2F, exact(1.33, 300.0, 1.0, 0.2F));
 }
 
@@ -86,8 +86,8 @@ TEST_F(GltfFilm, TheFactorAndItsTextureMixItWithThePlainSurface) {
     const auto plain = pixels_of(nlohmann::json::object());
     register_module(renderer_);
     const auto film = pixels_of({{"KHR_materials_iridescence", {{"iridescenceFactor", 1.0}}}});
-    const auto mixed = pixels_of({{"KHR_materials_iridescence",
-                                   {{"iridescenceFactor", 0.5}, {"iridescenceTexture", {{"index", 0}}}}}});
+    const auto mixed = pixels_of(
+        {{"KHR_materials_iridescence", {{"iridescenceFactor", 0.5}, {"iridescenceTexture", {{"index", 0}}}}}});
     expect_at(mixed, -0.5F, glm::dvec3(at(plain, -0.5F, 0.0F)));
     expect_at(mixed, 0.5F, 0.5 * glm::dvec3(at(plain, 0.5F, 0.0F) + at(film, 0.5F, 0.0F)));
 }
@@ -100,17 +100,17 @@ TEST_F(GltfFilm, OfFactorZeroIsThePlainSurface) {
 
 TEST_F(GltfFilm, ANamedMetalIsTheBase) {
     register_module(renderer_);
-    const auto pixels = pixels_of({{"KHR_materials_iridescence",
-                                    {{"iridescenceFactor", 1.0}, {"iridescenceThicknessMaximum", 0.0},
-                                     {"extras", {{"metal", "Ag"}}}}}});
+    const auto pixels = pixels_of(
+        {{"KHR_materials_iridescence",
+          {{"iridescenceFactor", 1.0}, {"iridescenceThicknessMaximum", 0.0}, {"extras", {{"metal", "Ag"}}}}}});
     EXPECT_GT(at(pixels, 0.0F, 0.0F).g, 0.9F);
 }
 
 TEST_F(GltfFilm, ATextureThatIsNotThereIsRefusedWithItsPlace) {
     register_module(renderer_);
     const std::string message = rowland::test::message_of([&] {
-        pixels_of({{"KHR_materials_iridescence",
-                    {{"iridescenceFactor", 1.0}, {"iridescenceTexture", {{"index", 7}}}}}});
+        pixels_of(
+            {{"KHR_materials_iridescence", {{"iridescenceFactor", 1.0}, {"iridescenceTexture", {{"index", 7}}}}}});
     });
     for (const char* part : {"scene.gltf", "/materials/0/extensions/KHR_materials_iridescence/iridescenceTexture/index",
                              "7", "1 textures"})

@@ -22,9 +22,9 @@ TEST(FilmColour, OfWhiteLightMatchesTheOracle) {
     const test::Csv oracle = test::read_csv(path);
     ASSERT_GT(oracle.rows.size(), 600U);
     for (std::size_t row = 0; row < oracle.rows.size(); ++row) {
-        const Film film{.layers = {{.index = oracle.number(row, "film_ior"),
-                                    .thickness_nm = oracle.number(row, "thickness_nm")}},
-                        .base = base_of(oracle.text(row, "base"))};
+        const Film film{
+            .layers = {{.index = oracle.number(row, "film_ior"), .thickness_nm = oracle.number(row, "thickness_nm")}},
+            .base = base_of(oracle.text(row, "base"))};
         const FilmColour colour(film, colour::LightSpectra{});
         const glm::dvec3 xyz = colour(oracle.number(row, "cosine")) * glm::dvec3(1.0);
         const char* const axes[] = {"X", "Y", "Z"};
