@@ -34,12 +34,17 @@ std::string metal_name(Metal metal) {
     return std::string(kNames[static_cast<std::size_t>(metal)]);
 }
 
-double metal_reflectance(Metal metal, double wavelength_nm, double medium) {
+std::complex<double> metal_index(Metal metal, double wavelength_nm) {
     static const std::array<RefractiveIndex, 4> indices = {load_index(Metal::Al), load_index(Metal::Ag),
                                                            load_index(Metal::Au), load_index(Metal::Cu)};
     const RefractiveIndex& index = indices[static_cast<std::size_t>(metal)];
-    const double n = index.n(wavelength_nm);
-    const double k = index.k(wavelength_nm);
+    return {index.n(wavelength_nm), index.k(wavelength_nm)};
+}
+
+double metal_reflectance(Metal metal, double wavelength_nm, double medium) {
+    const std::complex<double> index = metal_index(metal, wavelength_nm);
+    const double n = index.real();
+    const double k = index.imag();
     return ((n - medium) * (n - medium) + k * k) / ((n + medium) * (n + medium) + k * k);
 }
 

@@ -23,6 +23,8 @@
 #include "modules/diffraction/asset/material_json.h"
 #include "modules/diffraction/module.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
+#include "modules/thin_film/module.h"
+#include "modules/thin_film/runtime/film_surface.h"
 #include "tests/benchmark/cd_materials.h"
 #include "tests/benchmark/even_grooves.h"
 #include "tests/benchmark/lamps.h"
@@ -105,6 +107,7 @@ std::unique_ptr<render::Renderer> FrameStage::make_renderer(const FrameVariant& 
     diffraction::DiffractionSettings settings;
     settings.map_pace = diffraction::MapPace::Whole;
     diffraction::register_module(*renderer, settings);
+    thin_film::register_module(*renderer);
     renderer->add_material_type(std::make_unique<trade::LightLoopType>());
     renderer->set_probe(probe_of(variant));
     renderer->use_key_lights(variant.lighting == Lighting::StudioKeyLights);
@@ -170,6 +173,8 @@ FrameScene::FrameScene(FrameVariant variant, FrameStage& stage, bool software)
         world_.add(disc_,
                    diffraction::DiffractionSurface{.material = stage.material(variant_),
                                                    .grooves = variant_.groove_map ? stage.groove_map() : nullptr});
+    if (variant_.shader == Shader::Film)
+        thin_film::add_film(world_, disc_, thin_film::cook_film(variant_.material, "the film"), stage.xyz_to_working());
     if (variant_.lighting == Lighting::LampsInScene) {
         std::vector<render::DistantLight> distant;
         for (const scene::DirectionalLight& lamp : lamps(variant_.lamps)) {

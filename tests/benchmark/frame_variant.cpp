@@ -98,6 +98,9 @@ void add_plain(std::vector<FrameVariant>& variants) {
     variants.push_back(shadow);
     variants.push_back(with_effect(plain, "/ambient-occlusion", Effect::AmbientOcclusion));
     variants.push_back(with_effect(shadow, "/ambient-occlusion", Effect::AmbientOcclusion));
+    FrameVariant film = engine_surface("film", Shader::Film);
+    film.material = {{"film", {{"ior", 1.33}, {"thickness_nm", 400}}}, {"base", {{"ior", 1.5}}}, {"roughness", 0.3}};
+    variants.push_back(film);
     variants.push_back(with_effect(shadow, "/soft", Effect::SoftShadow));
     variants.push_back(with_effect(plain, "/local-reflection", Effect::LocalReflection));
 }

@@ -11,6 +11,7 @@ enum class Shader {
     Unlit,      ///< its base colour: what a frame costs without any shading
     Plain,      ///< the engine's metallic-roughness surface alone
     Grating,    ///< a diffraction material
+    Film,       ///< the engine's surface under a thin film
     LightLoop,  ///< the grating's lights and orders one by one (editor/trade/light_loop.h)
 };
 
@@ -41,7 +42,7 @@ struct FrameVariant {
     std::string name;
     std::string baseline;  ///< the name of the variant that this one's time is divided by
     Shader shader = Shader::Plain;
-    nlohmann::json material;  ///< of Shader::Grating: a material file
+    nlohmann::json material;  ///< of Shader::Grating and Film: a material file
     int vertices = 25000;     ///< of the disc: 25 000 or 2 500
     Motion motion = Motion::Rest;
     Lighting lighting = Lighting::Studio;

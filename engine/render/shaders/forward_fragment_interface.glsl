@@ -4,6 +4,14 @@
 //   vec3 reflect_specular(vec3 light, vec3 f0, float cosine);
 // the light that the base's microfacets reflect of `light` (radiance or irradiance, working space) that meets them at the
 // angle of this cosine. `f0`: the base's reflectance at normal incidence. Without it: light * schlick_reflectance().
+// If it also defines MATERIAL_SPECULAR_LOBE, it defines
+//   vec3 reflect_lobe(vec3 light, vec3 f0, float n_v, float roughness, vec2 split);
+// what the whole lobe of a view reflects of the environment's light, for a reflectance whose mean over the lobe is not
+// that at one angle. `split`: the lobe's albedo for reflectance 1 - (1 - cosine)^5 and for (1 - cosine)^5.
+// If it defines MATERIAL_TRANSMITTANCE, it also defines
+//   vec3 transmittance(float n_v, float roughness);
+// the fraction of the light that passes on to the diffuse base and, where the surface blends, of what lies behind it.
+// Called before reflect_lobe().
 // If it defines MATERIAL_DIRECTIONAL_LIGHTS, MATERIAL_PUNCTUAL_LIGHTS or both, it also defines
 //   void material_light(int i, float attenuation, vec3 l, inout vec3 added);
 // which adds to its own radiance that of lights[i], of that kind. `attenuation`: irradiance on a surface that faces the

@@ -57,8 +57,10 @@ vec3 mirrored_light(vec3 direction) { return environment_light(direction, 0.0); 
 vec2 lobe_albedo(float n_v, float roughness) { return texture(brdf_table, vec2(n_v, roughness)).rg; }
 
 // `split`: lobe_albedo().
-vec3 environment_reflection(vec3 light, vec3 f0, float n_v, vec2 split) {
-#ifdef MATERIAL_SPECULAR
+vec3 environment_reflection(vec3 light, vec3 f0, float n_v, float roughness, vec2 split) {
+#if defined(MATERIAL_SPECULAR_LOBE)
+    return reflect_lobe(light, f0, n_v, roughness, split);
+#elif defined(MATERIAL_SPECULAR)
     // The angle at which (1 - cosine)^5 equals its mean over the lobe; a smooth surface has n_v itself, which the
     // table's half floats cannot resolve near normal incidence.
     float albedo = split.x + split.y;
@@ -69,17 +71,36 @@ vec3 environment_reflection(vec3 light, vec3 f0, float n_v, vec2 split) {
 #endif
 }
 
+#ifdef MATERIAL_TRANSMITTANCE
+// The part of the light that reaches the diffuse base. Where the surface blends, the base's alpha becomes the fraction
+// of what lies behind that is hidden.
+vec3 under_transmittance(float n_v, float roughness, inout float alpha) {
+    vec3 passing = transmittance(n_v, roughness);
+#ifdef ALPHA_BLEND
+    vec3 seen = passing * alpha;
+    alpha = 1.0 - (1.0 - alpha) * dot(passing, vec3(1.0 / 3.0));
+    return seen;
+#else
+    return passing;
+#endif
+}
+#endif
+
 // The metallic-roughness surface: split sum [Karis 2013] over the prefiltered probe, and the lights, whose part of the
 // material's own radiance goes to `added`.
-vec3 base_radiance(vec3 base, vec3 n, vec3 v, inout vec3 added) {
+vec3 base_radiance(inout vec4 base_alpha, vec3 n, vec3 v, inout vec3 added) {
+    vec3 base = base_alpha.rgb;
     vec2 factors = surface_metallic_roughness();
     float roughness = factors.y;
     vec3 f0 = mix(vec3(0.04), base, factors.x);
     vec3 diffuse = base * (1.0 - factors.x);
     float n_v = max(dot(n, v), 0.0);
+#ifdef MATERIAL_TRANSMITTANCE
+    diffuse *= under_transmittance(n_v, roughness, base_alpha.a);
+#endif
     vec2 split = lobe_albedo(n_v, roughness);
     vec3 from_mirror = environment_light(reflect(-v, n), roughness);
-    vec3 reflected = environment_reflection(from_mirror, f0, n_v, split);
+    vec3 reflected = environment_reflection(from_mirror, f0, n_v, roughness, split);
 #ifdef AMBIENT_AT_VERTICES
     vec3 from_all_sides = ambient_at_vertex;
 #else
@@ -99,13 +120,15 @@ void main() {
     vec3 n = seen_normal(surface_normal(), v);
     read_screen_visibility();
     MaterialTerms terms = material_terms();
-    sum += terms.base_weight * base_radiance(base.rgb, n, v, terms.added);
+    sum += terms.base_weight * base_radiance(base, n, v, terms.added);
     sum += terms.added;
 #ifdef MATERIAL_HAS_MIRROR
     sum += terms.mirror_weight * mirrored_light(reflect(-v, n));
 #endif
 #endif
-#ifdef ALPHA_BLEND
+#if defined(ALPHA_BLEND) && defined(MATERIAL_TRANSMITTANCE)
+    radiance = vec4(sum / max(base.a, 1e-4), base.a);  // blending multiplies by alpha; reflections are whole already
+#elif defined(ALPHA_BLEND)
     radiance = vec4(sum, base.a);
 #else
     radiance = vec4(sum, 1.0);

@@ -1,0 +1,84 @@
+#include "modules/thin_film/asset/gltf_iridescence.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "engine/core/json_reader.h"
+#include "engine/core/json_vector.h"
+#include "modules/thin_film/asset/film_material.h"
+
+namespace rowland::thin_film {
+
+namespace {
+
+constexpr std::int64_t kLargestIndex = std::numeric_limits<std::int32_t>::max();
+constexpr std::int64_t kLastUvSet = 1;
+
+/// glTF allows both members on every object, with any content.
+void allow_foreign(JsonReader& json) {
+    json.has("extras");
+    json.has("extensions");
+}
+
+void parse_uv_transform(JsonReader json, scene::TextureUse& use) {
+    use.transform = {.offset = read_vector_or(json, "offset", glm::vec2(0.0F), kFiniteFloat),
+                     .rotation = static_cast<float>(json.number_or("rotation", 0.0, kFiniteFloat)),
+                     .scale = read_vector_or(json, "scale", glm::vec2(1.0F), kFiniteFloat)};
+    use.uv_set = static_cast<int>(json.integer_or("texCoord", use.uv_set, 0, kLastUvSet));
+}
+
+std::optional<scene::TextureUse> parse_texture(JsonReader& json, const char* key) {
+    std::optional<JsonReader> info = json.object_if_there(key);
+    if (!info) return std::nullopt;
+    scene::TextureUse use{.texture = static_cast<std::size_t>(info->integer("index", 0, kLargestIndex)),
+                          .uv_set = static_cast<int>(info->integer_or("texCoord", 0, 0, kLastUvSet)),
+                          .transform = {}};
+    if (auto extensions = info->object_if_there("extensions"))
+        if (auto transform = extensions->object_if_there("KHR_texture_transform")) parse_uv_transform(*transform, use);
+    allow_foreign(*info);
+    info->finish();
+    return use;
+}
+
+}  // namespace
+
+GltfIridescence parse_gltf_iridescence(const nlohmann::json& json, const std::string& file,
+                                       const std::string& pointer) {
+    JsonReader reader(json, file, pointer);
+    GltfIridescence read;
+    read.factor = reader.number_or("iridescenceFactor", read.factor, {.minimum = 0.0, .maximum = 1.0});
+    read.factor_texture = parse_texture(reader, "iridescenceTexture");
+    read.ior = reader.number_or("iridescenceIor", read.ior, kFilmIndex);
+    read.thickness_at_0_nm = reader.number_or("iridescenceThicknessMinimum", read.thickness_at_0_nm, kThickness_nm);
+    read.thickness_at_1_nm = reader.number_or("iridescenceThicknessMaximum", read.thickness_at_1_nm, kThickness_nm);
+    read.thickness_texture = parse_texture(reader, "iridescenceThicknessTexture");
+    if (reader.has("extras") && reader.raw("extras").is_object()) {
+        JsonReader extras = reader.object("extras");
+        if (extras.has("metal") || extras.has("base")) read.base = parse_base(extras);
+        read.illuminant = parse_illuminant(extras);
+    }
+    allow_foreign(reader);
+    reader.finish();
+    return read;
+}
+
+double parse_gltf_ior(const nlohmann::json& json, const std::string& file, const std::string& pointer) {
+    JsonReader reader(json, file, pointer);
+    const double ior = reader.number_or("ior", 1.5, {.minimum = 0.0, .maximum = 1e6});
+    if (ior > 0.0 && ior < 1.0) reader.fail("ior", fmt::format("{}", ior), "0, or a number from 1 up");
+    allow_foreign(reader);
+    reader.finish();
+    constexpr double kInfinite = 1e6;
+    return ior == 0.0 ? kInfinite : ior;
+}
+
+std::string describe(const GltfIridescence& iridescence) {
+    const std::string thickness =
+        iridescence.thickness_texture
+            ? fmt::format("{:g} to {:g}", iridescence.thickness_at_0_nm, iridescence.thickness_at_1_nm)
+            : fmt::format("{:g}", iridescence.thickness_at_1_nm);
+    return fmt::format("{} nm of ior {:g}, factor {:g}", thickness, iridescence.ior, iridescence.factor);
+}
+
+}  // namespace rowland::thin_film

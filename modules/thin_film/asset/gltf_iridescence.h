@@ -1,0 +1,40 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "engine/colour/illuminant.h"
+#include "engine/scene/material_description.h"
+#include "modules/thin_film/model/film.h"
+
+namespace rowland::thin_film {
+
+/// Khronos' glTF material extension for thin films.
+inline constexpr const char* kIridescenceExtension = "KHR_materials_iridescence";
+/// That of a dielectric's index of refraction: the base under a film.
+inline constexpr const char* kIorExtension = "KHR_materials_ior";
+
+/// A material's KHR_materials_iridescence object.
+struct GltfIridescence {
+    double factor = 0.0;
+    std::optional<scene::TextureUse> factor_texture;  ///< R
+    double ior = 1.3;
+    double thickness_at_0_nm = 100.0;  ///< where the thickness texture is 0
+    double thickness_at_1_nm = 400.0;  ///< where it is 1, and everywhere without one; may be the smaller
+    std::optional<scene::TextureUse> thickness_texture;  ///< G
+    std::optional<Base> base;                       ///< "metal" or "base" of its extras, as in a film material file
+    colour::Illuminant illuminant = colour::d65();  ///< of its extras
+};
+
+/// Parses the extension's object. Other extras and extensions are ignored. Throws Error (input).
+GltfIridescence parse_gltf_iridescence(const nlohmann::json& json, const std::string& file, const std::string& pointer);
+
+/// The index of a KHR_materials_ior object, 1.5 if it does not say. 0, which that extension allows, stands for an
+/// infinite one: a very large one. Throws Error (input).
+double parse_gltf_ior(const nlohmann::json& json, const std::string& file, const std::string& pointer);
+
+/// "100 to 400 nm of ior 1.3, factor 1"
+std::string describe(const GltfIridescence& iridescence);
+
+}  // namespace rowland::thin_film

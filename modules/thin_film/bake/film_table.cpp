@@ -1,0 +1,230 @@
+#include "modules/thin_film/bake/film_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/packing.hpp>
+#include <optional>
+#include <span>
+
+#include "engine/core/check.h"
+#include "engine/core/parallel.h"
+#include "modules/thin_film/bake/lobe_angles.h"
+#include "modules/thin_film/bake/rough_film.h"
+
+namespace rowland::thin_film {
+
+namespace {
+
+/// Thicker films than this are not asked for, and it keeps a film of index 1, in which x does not reach 0, finite.
+constexpr double kThickest_nm = 1e7;
+
+/// The error is measured from this cosine on: nearer to grazing incidence a film's fringes are as sharp as a
+/// resonator's, and few pixels show them.
+constexpr double kLeastMeasuredCosine = 0.05;
+constexpr std::size_t kMeasuredCosines = 101;  // in step with no table
+
+double thickness_of(double index, double x_nm, double cosine) {
+    return std::min(x_nm / std::max(path_difference(index, 1.0, cosine), 1e-9), kThickest_nm);
+}
+
+double position(double at, int nodes) {
+    return std::clamp(at, 0.0, 1.0) * (nodes - 1);
+}
+
+/// Nodes on both sides of a position, and the weight of the second.
+struct Between {
+    std::size_t first;
+    std::size_t second;
+    double weight;
+
+    explicit Between(double position, int nodes)
+        : first(static_cast<std::size_t>(position)),
+          second(std::min(first + 1, static_cast<std::size_t>(nodes) - 1)),
+          weight(position - static_cast<double>(first)) {}
+};
+
+glm::mat3 to_half(const glm::mat3& matrix) {
+    glm::mat3 result;
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row)
+            result[column][row] = glm::unpackHalf1x16(glm::packHalf1x16(matrix[column][row]));
+    return result;
+}
+
+double largest_component(const glm::dmat3& matrix) {
+    double largest = 0.0;
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row) largest = std::max(largest, std::abs(matrix[column][row]));
+    return largest;
+}
+
+/// M at any point of a range, averaged over the lobe: what a table interpolates.
+class Averages {
+ public:
+    Averages(const FilmColour& colour, double thinnest_nm, double thickest_nm, bool rough) : colour_(colour) {
+        if (rough) rough_.emplace(colour, thinnest_nm, thickest_nm);
+    }
+
+    /// At one view, for several thicknesses.
+    std::vector<glm::dmat3> at(double cosine, double roughness, std::span<const double> thicknesses_nm) const {
+        std::vector<glm::dmat3> result;
+        if (roughness == 0.0) {
+            const FilmColour::AtAngle smooth = colour_.at(cosine);
+            for (const double thickness_nm : thicknesses_nm) result.push_back(smooth(thickness_nm));
+        } else {
+            const std::vector<double> angles = lobe_angles(cosine, roughness, RoughFilm::kAngleSteps);
+            for (const double thickness_nm : thicknesses_nm) result.push_back(rough_->average(angles, thickness_nm));
+        }
+        return result;
+    }
+
+ private:
+    const FilmColour& colour_;
+    std::optional<RoughFilm> rough_;
+};
+
+double square(double x) {
+    return x * x;
+}
+
+/// Moves the nodes along one axis so that lines between them are nearest to the curve in the mean square, not only
+/// exact at the nodes: by a twelfth of the second difference. PHYSICS (4).
+void fit_nodes(std::vector<glm::mat3>& values, std::size_t stride, std::size_t count) {
+    const std::vector<glm::mat3> nodes = values;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const std::size_t along = i / stride % count;
+        if (along == 0 || along + 1 == count) continue;
+        values[i] -= (nodes[i - stride] + nodes[i + stride] - 2.0F * nodes[i]) / 12.0F;
+    }
+}
+
+void fill(const Averages& averages, FilmTable& table) {
+    const auto columns = static_cast<std::size_t>(table.columns);
+    const auto rows = static_cast<std::size_t>(table.rows);
+    table.values.resize(columns * rows * static_cast<std::size_t>(table.layers));
+    parallel_for(columns * static_cast<std::size_t>(table.layers), [&](std::size_t i) {
+        const std::size_t column = i % columns;
+        const std::size_t layer = i / columns;
+        const double cosine = square(static_cast<double>(column) / (table.columns - 1));
+        std::vector<double> thicknesses_nm;
+        for (int row = 0; row < table.rows; ++row) thicknesses_nm.push_back(table.thickness_nm(row, cosine));
+        const std::vector<glm::dmat3> values =
+            averages.at(cosine, table.roughness(static_cast<double>(layer)), thicknesses_nm);
+        for (std::size_t row = 0; row < rows; ++row)
+            table.values[(layer * rows + row) * columns + column] = glm::mat3(values[row]);
+    });
+    fit_nodes(table.values, 1, columns);
+    fit_nodes(table.values, columns, rows);
+    for (glm::mat3& value : table.values) value = to_half(value);
+}
+
+/// The roughnesses that a range asks for: 0, for light from one direction, and layers and the middles between them.
+std::vector<double> measured_roughnesses(const FilmTable& table, double smoothest) {
+    std::vector<double> result = {0.0};
+    for (int half_layer = 1; half_layer <= 2 * (table.layers - 1); ++half_layer)
+        if (const double roughness = table.roughness(0.5 * half_layer); roughness >= smoothest)
+            result.push_back(roughness);
+    return result;
+}
+
+TableError measure(const Averages& averages, const FilmTable& table, const TableRange& range) {
+    const std::vector<double> roughnesses = measured_roughnesses(table, range.smoothest);
+    std::vector<TableError> errors(roughnesses.size() * kMeasuredCosines);
+    parallel_for(errors.size(), [&](std::size_t i) {
+        const double root = std::sqrt(kLeastMeasuredCosine);
+        const auto step = static_cast<double>(i % kMeasuredCosines);
+        const double cosine = square(root + (1.0 - root) * (step + 0.5) / kMeasuredCosines);
+        const double roughness = roughnesses[i / kMeasuredCosines];
+        std::vector<double> thicknesses_nm;
+        const int steps = range.thickest_nm > range.thinnest_nm ? 3 * table.rows : 0;
+        for (int j = 0; j <= steps; ++j)
+            thicknesses_nm.push_back(range.thinnest_nm +
+                                     (range.thickest_nm - range.thinnest_nm) * j / std::max(steps, 1));
+        const std::vector<glm::dmat3> exact = averages.at(cosine, roughness, thicknesses_nm);
+        double scale = 0.0;
+        for (const glm::dmat3& value : exact) scale = std::max(scale, largest_component(value));
+        for (std::size_t j = 0; j < exact.size(); ++j) {
+            const double off = largest_component(table.at(cosine, thicknesses_nm[j], roughness) - exact[j]) / scale;
+            errors[i].largest = std::max(errors[i].largest, off);
+            errors[i].rms += off * off / static_cast<double>(exact.size());
+        }
+    });
+    TableError error;
+    for (const TableError& of : errors) {
+        error.largest = std::max(error.largest, of.largest);
+        error.rms += of.rms / static_cast<double>(errors.size());
+    }
+    error.rms = std::sqrt(error.rms);
+    return error;
+}
+
+}  // namespace
+
+double path_difference(double index, double thickness_nm, double cosine) {
+    return 2.0 * thickness_nm * std::sqrt((index - 1.0) * (index + 1.0) + cosine * cosine);
+}
+
+glm::dmat3 FilmTable::at(double cosine, double thickness_nm, double roughness) const {
+    const double x = path_difference(index, thickness_nm, cosine);
+    const Between column(position(std::sqrt(std::clamp(cosine, 0.0, 1.0)), columns), columns);
+    const Between row(position(end_nm > begin_nm ? (x - begin_nm) / (end_nm - begin_nm) : 0.0, rows), rows);
+    const Between layer(position(roughest > 0.0 ? roughness / roughest : 0.0, layers), layers);
+    const auto value = [&](std::size_t l, std::size_t r, std::size_t c) {
+        return glm::dmat3(values[(l * static_cast<std::size_t>(rows) + r) * static_cast<std::size_t>(columns) + c]);
+    };
+    const auto in_row = [&](std::size_t l, std::size_t r) {
+        return (1.0 - column.weight) * value(l, r, column.first) + column.weight * value(l, r, column.second);
+    };
+    const auto in_layer = [&](std::size_t l) {
+        return (1.0 - row.weight) * in_row(l, row.first) + row.weight * in_row(l, row.second);
+    };
+    return (1.0 - layer.weight) * in_layer(layer.first) + layer.weight * in_layer(layer.second);
+}
+
+double FilmTable::thickness_nm(int row, double cosine) const {
+    if (rows == 1) return only_thickness_nm;
+    return thickness_of(index, begin_nm + (end_nm - begin_nm) * row / (rows - 1), cosine);
+}
+
+double FilmTable::roughness(double layer) const {
+    return layers > 1 ? roughest * layer / (layers - 1) : 0.0;
+}
+
+TableSize table_size(const TableRange& range) {
+    const bool rough = range.roughest > 0.0;
+    const bool one_roughness = range.smoothest == range.roughest;
+    if (range.thickest_nm == range.thinnest_nm) {
+        if (!rough) return {.columns = 128, .rows = 1, .layers = 1};
+        return one_roughness ? TableSize{.columns = 128, .rows = 1, .layers = 2}
+                             : TableSize{.columns = 96, .rows = 1, .layers = 18};
+    }
+    if (!rough) return {.columns = 24, .rows = 150, .layers = 1};
+    return one_roughness ? TableSize{.columns = 20, .rows = 90, .layers = 2}
+                         : TableSize{.columns = 16, .rows = 37, .layers = 6};
+}
+
+FilmTable empty_table(const Film& film, const TableRange& range, const TableSize& size) {
+    const double index = film.layers.front().index.real();
+    return {.columns = size.columns,
+            .rows = size.rows,
+            .layers = size.layers,
+            .index = index,
+            .begin_nm = path_difference(index, range.thinnest_nm, 0.0),
+            .end_nm = path_difference(index, range.thickest_nm, 1.0),
+            .roughest = range.roughest,
+            .only_thickness_nm = range.thinnest_nm};
+}
+
+FilmTable bake_table(const FilmColour& colour, const TableRange& range, const TableSize& size) {
+    FilmTable table = empty_table(colour.film(), range, size);
+    // What a node of another angle but the same path difference needs.
+    const double spread =
+        path_difference(table.index, 1.0, 1.0) / std::max(path_difference(table.index, 1.0, 0.0), 1e-9);
+    const double reach = table.rows > 1 ? std::min(spread, 2.0) : 1.0;
+    const Averages averages(colour, range.thinnest_nm / reach, range.thickest_nm * reach, table.layers > 1);
+    fill(averages, table);
+    table.error = measure(averages, table, range);
+    return table;
+}
+
+}  // namespace rowland::thin_film

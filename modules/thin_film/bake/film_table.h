@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <glm/mat3x3.hpp>
+#include <vector>
+
+#include "modules/thin_film/model/film_colour.h"
+
+namespace rowland::thin_film {
+
+/// What of a film's surface a table is for.
+struct TableRange {
+    double thinnest_nm = 0.0;
+    double thickest_nm = 0.0;  ///< ≥ thinnest_nm; of the outermost layer
+    double smoothest = 0.0;    ///< perceptual roughness
+    double roughest = 0.0;     ///< ≥ smoothest
+};
+
+struct TableError {
+    double largest = 0.0;  ///< of a component, over the largest component at that angle and roughness
+    double rms = 0.0;      ///< √ of the mean of its square
+};
+
+/// M averaged over the microfacets that a view sees, at nodes. PHYSICS (4), (5). Axes: √cos of the view; the path
+/// difference x = 2 t √(n² − sin²θ) in the outermost layer, along which fringes of all angles lie alike; roughness,
+/// of which the first node is 0.
+struct FilmTable {
+    int columns = 0;
+    int rows = 0;
+    int layers = 0;
+    double index = 1.0;               ///< n of the outermost layer
+    double begin_nm = 0.0;            ///< x of the first row
+    double end_nm = 0.0;              ///< x of the last row
+    double roughest = 0.0;            ///< of the last layer; 0 with one layer
+    double only_thickness_nm = 0.0;   ///< with one row
+    std::vector<glm::mat3> values{};  ///< linear Rec.709 → XYZ; columns fastest, layers slowest
+    TableError error{};               ///< measured between nodes, of the table with its storage's rounding
+
+    /// As the shader reads it: linear between the nodes, clamped to the table. `cosine` of the view.
+    glm::dmat3 at(double cosine, double thickness_nm, double roughness) const;
+    /// Of the nodes.
+    double thickness_nm(int row, double cosine) const;
+    double roughness(double layer) const;
+    std::size_t bytes() const { return values.size() * kBytesPerNode; }
+
+    static constexpr std::size_t kBytesPerNode = 18;  ///< nine half floats
+};
+
+/// Path difference in a layer of index n at an angle in air.
+double path_difference(double index, double thickness_nm, double cosine);
+
+/// Nodes along the axes.
+struct TableSize {
+    int columns = 16;
+    int rows = 64;
+    int layers = 1;  ///< 1 only if the range has no roughness
+};
+
+/// The size with which a table of this range has at most 64 kB, chosen by measured error: PHYSICS §5.
+TableSize table_size(const TableRange& range);
+
+/// A table without values.
+FilmTable empty_table(const Film& film, const TableRange& range, const TableSize& size);
+
+FilmTable bake_table(const FilmColour& colour, const TableRange& range, const TableSize& size);
+
+}  // namespace rowland::thin_film

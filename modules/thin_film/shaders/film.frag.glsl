@@ -1,0 +1,68 @@
+#version 450 core
+// A metallic-roughness surface under a thin film: PHYSICS (4), (5).
+#define MATERIAL_SPECULAR
+#define MATERIAL_SPECULAR_LOBE
+#define MATERIAL_TRANSMITTANCE
+#include "engine/render/shaders/forward_fragment_interface.glsl"
+#include "modules/thin_film/shaders/film_lookup.glsl"
+
+#ifdef FILM_FACTOR_MAP
+TEXTURE_UNIT(9) uniform sampler2D film_factor_map;  // R
+#endif
+#ifdef FILM_THICKNESS_MAP
+TEXTURE_UNIT(10) uniform sampler2D film_thickness_map;  // G
+#endif
+uniform float film_factor;
+uniform vec2 film_thickness;  // nm: where the thickness map is 0, and where it is 1
+uniform vec4 film_uv_linear[2];  // of the factor map and of the thickness map
+uniform vec4 film_uv_offset;    // xy, zw: likewise
+
+float factor;  // of this pixel
+float thickness;
+mat3 seen;     // M of the lobe that the view sees
+
+vec2 film_uv(int map, vec2 uv) {
+    return film_uv_linear[map].xy * uv.x + film_uv_linear[map].zw * uv.y + (map == 0 ? film_uv_offset.xy : film_uv_offset.zw);
+}
+
+MaterialTerms material_terms() {
+    factor = film_factor;
+    thickness = film_thickness.y;
+#ifdef FILM_FACTOR_MAP
+    factor *= texture(film_factor_map, film_uv(0, FILM_FACTOR_MAP)).r;
+#endif
+#ifdef FILM_THICKNESS_MAP
+    thickness = mix(film_thickness.x, film_thickness.y, texture(film_thickness_map, film_uv(1, FILM_THICKNESS_MAP)).g);
+#endif
+    return MaterialTerms(vec3(1.0), vec3(0.0), vec3(0.0));
+}
+
+vec3 transmittance(float n_v, float roughness) {
+    seen = film_matrix(n_v, thickness, roughness);
+#ifdef FILM_ON_BLACK
+    return vec3(0.0);  // nothing is seen of what passes
+#else
+    return clamp(1.0 - factor * (seen * vec3(1.0)), 0.0, 1.0);
+#endif
+}
+
+// Of the film, where there is one, and of the bare surface.
+vec3 with_factor(vec3 bare, vec3 film) {
+#ifdef FILM_WHOLE
+    return max(film, 0.0);
+#else
+    return mix(bare, max(film, 0.0), factor);
+#endif
+}
+
+vec3 reflect_lobe(vec3 light, vec3 f0, float n_v, float roughness, vec2 split) {
+    vec3 bare = (f0 * split.x + split.y) * light;
+    return with_factor(bare, seen * light * (split.x + split.y));
+}
+
+vec3 reflect_specular(vec3 light, vec3 f0, float cosine) {
+    vec3 bare = light * schlick_reflectance(f0, cosine);
+    return with_factor(bare, film_matrix(cosine, thickness, 0.0) * light);
+}
+
+#include "engine/render/shaders/forward_fragment_main.glsl"

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <span>
+
+#include "engine/core/embedded_file.h"
+
+namespace rowland::thin_film {
+
+/// The module's shaders.
+std::span<const EmbeddedFile> shader_files();
+
+}  // namespace rowland::thin_film
