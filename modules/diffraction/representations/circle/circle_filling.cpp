@@ -109,11 +109,12 @@ void add_moments(std::span<const Lamp> lamps, const CircleFrame& frame, int cell
         const int low = std::min(static_cast<int>(position), cells - 2);
         const float second = position - static_cast<float>(low);
         float* to = moments.data() + static_cast<std::ptrdiff_t>(low) * 4 * kTerms;
-        for (const float fraction : {1.0F - second, second})
-            for (std::size_t term = 0; term < kTerms; ++term, to += 4) {
-                const float weight = fraction * weights[term];
-                for (std::size_t c = 0; c < 4; ++c) to[c] += weight * lamp.flux[c];
-            }
+        std::array<float, 4 * kTerms> light;
+        for (std::size_t term = 0; term < kTerms; ++term)
+            for (std::size_t c = 0; c < 4; ++c) light[4 * term + c] = weights[term] * lamp.flux[c];
+        for (std::size_t k = 0; k < light.size(); ++k) to[k] += (1.0F - second) * light[k];
+        to += light.size();
+        for (std::size_t k = 0; k < light.size(); ++k) to[k] += second * light[k];
     }
 }
 

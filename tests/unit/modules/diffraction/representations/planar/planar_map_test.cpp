@@ -186,6 +186,33 @@ TEST(PlanarMap, ASmallLampIsAsBrightBetweenAzimuthsAsAtThem) {
     EXPECT_LT(largest, 1.7 * mean);
 }
 
+/// Linear interpolation of the map's values has no error along the second difference. Light's spread over
+/// the map's cells must not put it back: without its correction the coefficient is .03.
+TEST(PlanarMap, ViewsAreBestForLinearInterpolation) {
+    constexpr int kSteps = 256;
+    constexpr int kFiner = 4;
+    const KernelTable kernel = tabulate(ColourKernel(test::compact_disc(), colour::LightSpectra()));
+    lighting::LightSamples lamp;
+    lamp.push_back(glm::normalize(glm::dvec3(0.3, 0.8, 0.2)), glm::dvec3(5.0));
+    const auto map = [&](int steps) {
+        return fill_planar_map(lamp, kernel, 1600.0, glm::dvec3(0.0, 1.0, 0.0), {.azimuths = 16, .views = steps + 1});
+    };
+    const PlanarMap few = map(kSteps);
+    const PlanarMap many = map(kSteps * kFiner);
+    double product = 0.0;
+    double square = 0.0;
+    for (int azimuth = 0; azimuth < 16; ++azimuth)
+        for (int i = 2 * kFiner; i < (kSteps - 2) * kFiner; ++i) {
+            const double phi = 2.0 * std::numbers::pi * azimuth / 16;
+            const auto exact = [&](int at) { return sample(many, phi, 2.0 * at / (kSteps * kFiner) - 1.0).y; };
+            const double change = exact(i - kFiner) - 2.0 * exact(i) + exact(i + kFiner);
+            product += change * (sample(few, phi, 2.0 * i / (kSteps * kFiner) - 1.0).y - exact(i));
+            square += change * change;
+        }
+    RecordProperty("coefficient", fmt::format("{:.3g}", product / square));
+    EXPECT_NEAR(product / square, 0.0, 0.01);
+}
+
 /// The steps between pitches that groove textures get. Order 1 moves by 16 nm from slice to slice.
 TEST(PlanarMap, PitchesBetweenSlicesAreInterpolated) {
     lighting::LightSamples lamp;
