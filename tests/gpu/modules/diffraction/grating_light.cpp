@@ -31,7 +31,7 @@ lighting::ProbeImage smooth_probe() {
 std::vector<lighting::KeyLight> three_keys() {
     return {{.direction = glm::normalize(glm::dvec3(0.5, 0.3, 0.8)), .flux = {1.0, 0.8, 0.5}, .concentration = 300.0},
             {.direction = glm::normalize(glm::dvec3(-0.8, 0.5, 0.2)), .flux = {0.2, 0.5, 1.0}, .concentration = 60.0},
-            {.direction = glm::normalize(glm::dvec3(0.1, -0.9, 0.15)), .flux = {0.9, 0.2, 0.1}, .concentration = 1e6}};
+            {.direction = glm::normalize(glm::dvec3(0.1, -0.9, 0.15)), .flux = {0.9, 0.2, 0.1}, .concentration = 1e4}};
 }
 
 LightParts light_of(const lighting::ProbeImage& probe, std::vector<lighting::KeyLight> keys, std::uint64_t version) {
