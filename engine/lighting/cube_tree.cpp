@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <utility>
 
 #include "engine/core/check.h"
 #include "engine/lighting/environment_map.h"
@@ -23,8 +24,12 @@ std::size_t node_index(int side, int face, int column, int row) {
     return (static_cast<std::size_t>(face) * n + static_cast<std::size_t>(row)) * n + static_cast<std::size_t>(column);
 }
 
-std::vector<Node> make_leaves(std::span<const glm::vec3> texels, int side) {
-    std::vector<Node> leaves(texels.size());
+/// Leaves without light.
+std::vector<Node> make_leaves(int side, std::size_t count) {
+    ROWLAND_CHECK(std::has_single_bit(static_cast<unsigned>(side)) && side >= CubeTree::kRootSide,
+                  "a cube tree's faces are powers of two of at least four texels");
+    ROWLAND_CHECK_OP(count, ==, std::size_t{6} * static_cast<std::size_t>(side * side));
+    std::vector<Node> leaves(count);
     for (int row = 0; row < side; ++row)
         for (int column = 0; column < side; ++column) {
             const double solid_angle = cube_solid_angle(side, column, row);
@@ -33,7 +38,6 @@ std::vector<Node> make_leaves(std::span<const glm::vec3> texels, int side) {
                 Node& leaf = leaves[i];
                 leaf.solid_angle = static_cast<float>(solid_angle);
                 leaf.size = static_cast<float>(std::sqrt(solid_angle));
-                leaf.flux = texels[i] * leaf.solid_angle;
                 leaf.centre = glm::vec3(
                     glm::normalize(cube_direction(face, (2 * column + 1.0) / side - 1, (2 * row + 1.0) / side - 1)));
                 leaf.source = leaf.centre;
@@ -62,10 +66,22 @@ Node join(const Node* const (&children)[4]) {
 }  // namespace
 
 CubeTree::CubeTree(std::span<const glm::vec3> texels, int face_size) {
-    ROWLAND_CHECK(std::has_single_bit(static_cast<unsigned>(face_size)) && face_size >= kRootSide,
-                  "a cube tree's faces are powers of two of at least four texels");
-    ROWLAND_CHECK_OP(texels.size(), ==, std::size_t{6} * static_cast<std::size_t>(face_size * face_size));
-    levels_.push_back(make_leaves(texels, face_size));
+    std::vector<Node> leaves = make_leaves(face_size, texels.size());
+    for (std::size_t i = 0; i < leaves.size(); ++i) leaves[i].flux = texels[i] * leaves[i].solid_angle;
+    join_levels(std::move(leaves), face_size);
+}
+
+CubeTree::CubeTree(std::span<const CubeCell> cells, int face_size) {
+    std::vector<Node> leaves = make_leaves(face_size, cells.size());
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+        leaves[i].flux = glm::vec3(cells[i].flux);
+        if (cells[i].direction != glm::dvec3(0.0)) leaves[i].source = glm::vec3(glm::normalize(cells[i].direction));
+    }
+    join_levels(std::move(leaves), face_size);
+}
+
+void CubeTree::join_levels(std::vector<Node> leaves, int face_size) {
+    levels_.push_back(std::move(leaves));
     for (int side = face_size / 2; side >= kRootSide; side /= 2) {
         const std::vector<Node>& finer = levels_.back();
         std::vector<Node> level(finer.size() / 4);

@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "engine/lighting/light_samples.h"
+
 namespace rowland::lighting {
 
 /// The light of a cube map as a quadtree on each face. A sum over any cut through the tree counts each texel once, so
@@ -21,6 +23,8 @@ class CubeTree {
 
     /// `texels`: 6·face_size² of radiance in CubeLayout's order; face_size a power of two ≥ 4.
     CubeTree(std::span<const glm::vec3> texels, int face_size);
+    /// The same of light that was gathered in cells: a leaf's source is its cell's weighted mean direction.
+    CubeTree(std::span<const CubeCell> cells, int face_size);
 
     /// Depth of the leaves, whose nodes are the texels; the roots (depth 0) are faces cut in 4 × 4.
     int leaf_depth() const { return static_cast<int>(levels_.size()) - 1; }
@@ -31,6 +35,8 @@ class CubeTree {
     static constexpr int kRootSide = 4;
 
  private:
+    void join_levels(std::vector<Node> leaves, int face_size);
+
     std::vector<std::vector<Node>> levels_;  ///< by depth; faces, rows, columns
 };
 

@@ -1,18 +1,21 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "engine/colour/working_space.h"
 #include "engine/core/check.h"
 #include "engine/core/parallel.h"
+#include "engine/lighting/cube_tree.h"
 #include "engine/lighting/key_lights.h"
+#include "engine/lighting/light_metric.h"
 #include "engine/lighting/light_samples.h"
-#include "engine/math/sh_basis.h"
 
 namespace rowland::lighting {
 
@@ -20,109 +23,11 @@ namespace {
 
 using std::numbers::pi;
 
-/// Cells a side of a cube face that the probe is summed in before lobes are fitted: 0.025 rad.
-constexpr int kFaceSize = 64;
-
-/// Concentrations of the lobes that greedy selection tries; refinement changes them.
-constexpr std::array<double, 3> kTrialConcentrations{40.0, 150.0, 600.0};
-constexpr double kNarrowestConcentration = 3000.0;
-
-/// exp(−this) of a lobe's peak is left out of sums.
-constexpr double kReach = 12.0;
+/// Cells a side of a cube face that the probe is summed in: .006 rad. A cell's light is at its centroid.
+constexpr int kFitFace = 256;
 
 /// Tikhonov regularisation, relative to the matrix's diagonal: keeps overlapping lobes from cancelling each other.
 constexpr double kRidge = 1e-3;
-
-struct Shape {
-    glm::dvec3 direction{0.0};
-    double concentration = 0.0;
-};
-
-/// Concentration of the convolution of two lobes of variance a and b and of two smoothing kernels, one for each factor
-/// of an inner product. Variances of narrow lobes add; the error is of order 1/κ².
-double smoothed_twice(double a, double b, const KeyLightFit& settings) {
-    return 1.0 / (a + b + 2.0 / settings.smoothing);
-}
-
-/// Inner products of the smoothed probe with smoothed lobes, both without their low bands.
-class SmoothedProbe {
- public:
-    SmoothedProbe(LightSamples cells, const KeyLightFit& settings)
-        : cells_(std::move(cells)), settings_(settings), low_(coefficients(), glm::dvec3(0.0)) {
-        std::vector<double> basis(coefficients());
-        for (std::size_t i = 0; i < cells_.size(); ++i) {
-            math::evaluate_sh(glm::normalize(cells_.direction(i)), settings.exact_bands, basis);
-            for (std::size_t k = 0; k < basis.size(); ++k) low_[k] += basis[k] * cells_.flux(i);
-        }
-    }
-
-    const LightSamples& cells() const { return cells_; }
-    const KeyLightFit& settings() const { return settings_; }
-
-    /// ⟨probe, lobe of flux 1⟩.
-    glm::dvec3 with(const Shape& lobe) const {
-        const KeyLight wide{lobe.direction, glm::dvec3(1.0), smoothed_twice(1.0 / lobe.concentration, 0.0, settings_)};
-        const auto concentration = static_cast<float>(wide.concentration);
-        const float nearest = 1.0F - static_cast<float>(kReach) / concentration;
-        const double peak = lobe_density(wide, lobe.direction);
-        const glm::vec3 axis(lobe.direction);
-        glm::dvec3 sum(0.0);
-        for (std::size_t i = 0; i < cells_.size(); ++i) {
-            const float cosine = cells_.x[i] * axis.x + cells_.y[i] * axis.y + cells_.z[i] * axis.z;
-            if (cosine <= nearest) continue;
-            // Single precision suffices: smoothed lobes are wide.
-            sum += peak * static_cast<double>(std::exp(concentration * (cosine - 1.0F))) * cells_.flux(i);
-        }
-        std::vector<double> basis(coefficients());
-        math::evaluate_sh(lobe.direction, settings_.exact_bands, basis);
-        const std::vector<double> factors = lobe_band_factors(wide.concentration, settings_.exact_bands);
-        for (int l = 0; l < settings_.exact_bands; ++l)
-            for (int m = -l; m <= l; ++m) {
-                const auto k = static_cast<std::size_t>(math::sh_index(l, m));
-                sum -= factors[static_cast<std::size_t>(l)] * basis[k] * low_[k];
-            }
-        return sum;
-    }
-
- private:
-    std::size_t coefficients() const { return static_cast<std::size_t>(math::sh_count(settings_.exact_bands)); }
-
-    LightSamples cells_;
-    KeyLightFit settings_;
-    std::vector<glm::dvec3> low_;  ///< SH of the probe
-};
-
-/// ⟨lobe, lobe⟩, both of flux 1, for lobes of two concentrations.
-class LobeProduct {
- public:
-    LobeProduct(double a, double b, const KeyLightFit& settings)
-        : concentration_(smoothed_twice(1.0 / a, 1.0 / b, settings)),
-          peak_(lobe_density({glm::dvec3(0, 1, 0), glm::dvec3(1.0), concentration_}, glm::dvec3(0, 1, 0))),
-          factors_(lobe_band_factors(concentration_, settings.exact_bands)) {}
-
-    double operator()(const glm::dvec3& a, const glm::dvec3& b) const {
-        const double cosine = glm::dot(a, b);
-        double product = peak_ * std::exp(concentration_ * (cosine - 1.0));
-        double before = 0.0;
-        double legendre = 1.0;
-        for (int l = 0; l < static_cast<int>(factors_.size()); ++l) {
-            product -= (2 * l + 1) / (4.0 * pi) * factors_[static_cast<std::size_t>(l)] * legendre;
-            const double next = ((2 * l + 1) * cosine * legendre - l * before) / (l + 1);
-            before = legendre;
-            legendre = next;
-        }
-        return product;
-    }
-
- private:
-    double concentration_;
-    double peak_;
-    std::vector<double> factors_;
-};
-
-double inner_product(const Shape& a, const Shape& b, const KeyLightFit& settings) {
-    return LobeProduct(a.concentration, b.concentration, settings)(a.direction, b.direction);
-}
 
 /// Least squares with fluxes ≥ 0: while a flux is negative, its lobe is left out and the others are solved again.
 Eigen::VectorXd solve_non_negative(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right) {
@@ -146,14 +51,14 @@ Eigen::VectorXd solve_non_negative(const Eigen::MatrixXd& matrix, const Eigen::V
 /// Lobes and their least-squares fluxes.
 class Fit {
  public:
-    explicit Fit(const SmoothedProbe& probe) : probe_(&probe) {}
+    explicit Fit(const MeasuredProbe& probe) : probe_(&probe) {}
 
-    const std::vector<Shape>& lobes() const { return lobes_; }
+    const std::vector<LobeShape>& lobes() const { return lobes_; }
     const std::vector<glm::dvec3>& fluxes() const { return fluxes_; }
     /// By how much the lobes reduce the squared error.
     double gain() const { return gain_; }
 
-    void add(const Shape& lobe) {
+    void add(const LobeShape& lobe) {
         lobes_.emplace_back();
         const auto n = static_cast<Eigen::Index>(lobes_.size());
         right_.conservativeResize(n, 3);
@@ -162,7 +67,7 @@ class Fit {
     }
 
     /// Replaces a lobe if that increases the gain; returns whether it did.
-    bool try_replace(std::size_t k, const Shape& lobe) {
+    bool try_replace(std::size_t k, const LobeShape& lobe) {
         Fit changed = *this;
         changed.replace(k, lobe);
         if (!(changed.gain_ > gain_)) return false;
@@ -171,7 +76,7 @@ class Fit {
     }
 
  private:
-    void replace(std::size_t k, const Shape& lobe) {
+    void replace(std::size_t k, const LobeShape& lobe) {
         lobes_[k] = lobe;
         const auto row = static_cast<Eigen::Index>(k);
         const glm::dvec3 with_probe = probe_->with(lobe);
@@ -194,80 +99,115 @@ class Fit {
         }
     }
 
-    const SmoothedProbe* probe_;
-    std::vector<Shape> lobes_;
+    const MeasuredProbe* probe_;
+    std::vector<LobeShape> lobes_;
     Eigen::MatrixX3d right_;  ///< ⟨probe, lobe⟩ by channel
     Eigen::MatrixXd matrix_;  ///< ⟨lobe, lobe⟩
     std::vector<glm::dvec3> fluxes_;
     double gain_ = 0.0;
 };
 
+/// Lobes of one concentration that greedy selection tries; refinement changes them.
+struct TrialLobes {
+    double concentration;
+    int side;           ///< nodes a side of a cube face, at whose light the lobes are
+    std::size_t count;  ///< at most: at the nodes of the largest flux
+};
+constexpr std::array<TrialLobes, 5> kTrialLobes{
+    {{40.0, 16, 1536}, {150.0, 32, 2048}, {600.0, 64, 1024}, {3000.0, 64, 1024}, {20000.0, 64, 1024}}};
+
+std::vector<glm::dvec3> trial_directions(const CubeTree& tree, const TrialLobes& trial) {
+    const int depth = std::countr_zero(static_cast<unsigned>(trial.side / CubeTree::kRootSide));
+    std::vector<const CubeTree::Node*> nodes;
+    for (int face = 0; face < 6; ++face)
+        for (int row = 0; row < trial.side; ++row)
+            for (int column = 0; column < trial.side; ++column) nodes.push_back(&tree.node(depth, face, column, row));
+    const auto flux = [](const CubeTree::Node* node) { return node->flux.x + node->flux.y + node->flux.z; };
+    std::stable_sort(nodes.begin(), nodes.end(),
+                     [&](const CubeTree::Node* a, const CubeTree::Node* b) { return flux(a) > flux(b); });
+    nodes.resize(std::min(nodes.size(), trial.count));
+    std::vector<glm::dvec3> directions;
+    for (const CubeTree::Node* node : nodes) directions.push_back(glm::normalize(glm::dvec3(node->source)));
+    return directions;
+}
+
 /// The lobes that greedy selection chooses from, with their inner products.
 class Candidates {
  public:
-    explicit Candidates(const SmoothedProbe& probe) : settings_(probe.settings()) {
-        constexpr std::size_t kStride = 4;  // the trial lobes are wider than four cells
-        for (const double concentration : kTrialConcentrations)
-            for (std::size_t i = 0; i < probe.cells().size(); i += kStride)
-                shapes_.push_back({glm::normalize(probe.cells().direction(i)), concentration});
-        products_.resize(shapes_.size());
-        parallel_for(shapes_.size(), [&](std::size_t i) { products_[i] = probe.with(shapes_[i]); });
-        for (const double concentration : kTrialConcentrations)
-            norms_.push_back(LobeProduct(concentration, concentration, settings_)({0, 0, 1}, {0, 0, 1}));
+    Candidates(const MeasuredProbe& probe, double narrowest) : settings_(probe.settings()) {
+        for (const TrialLobes& trial : kTrialLobes) {
+            const double concentration = std::min(trial.concentration, narrowest);
+            const double norm = LobeProduct(2.0 / concentration, settings_)(1.0);
+            for (const glm::dvec3& direction : trial_directions(probe.tree(), trial))
+                candidates_.push_back({.shape = {direction, concentration}, .norm = norm});
+        }
+        parallel_for(candidates_.size(),
+                     [&](std::size_t i) { candidates_[i].with_probe = probe.with(candidates_[i].shape); });
     }
 
     /// The one that reduces the residual of a fit most. The fit has one lobe more than at the call before.
-    Shape best(const Fit& fit) {
-        const std::size_t each = shapes_.size() / kTrialConcentrations.size();
-        if (!fit.lobes().empty()) {
-            const Shape& lobe = fit.lobes().back();
-            std::vector<double>& column = with_lobes_.emplace_back(shapes_.size());
-            for (std::size_t trial = 0; trial < kTrialConcentrations.size(); ++trial) {
-                const LobeProduct product(kTrialConcentrations[trial], lobe.concentration, settings_);
-                for (std::size_t i = trial * each; i < (trial + 1) * each; ++i)
-                    column[i] = product(shapes_[i].direction, lobe.direction);
-            }
-        }
+    LobeShape best(const Fit& fit) {
+        if (!fit.lobes().empty()) add_column(fit.lobes().back());
         std::size_t best = 0;
         double best_gain = -1.0;
-        for (std::size_t i = 0; i < shapes_.size(); ++i) {
-            glm::dvec3 residual = products_[i];
+        for (std::size_t i = 0; i < candidates_.size(); ++i) {
+            glm::dvec3 residual = candidates_[i].with_probe;
             for (std::size_t k = 0; k < with_lobes_.size(); ++k) residual -= with_lobes_[k][i] * fit.fluxes()[k];
             residual = glm::max(residual, glm::dvec3(0.0));
-            const double gain = glm::dot(residual, residual) / norms_[i / each];
+            const double gain = glm::dot(residual, residual) / candidates_[i].norm;
             if (gain <= best_gain) continue;
             best_gain = gain;
             best = i;
         }
-        return shapes_[best];
+        return candidates_[best].shape;
     }
 
  private:
+    struct Candidate {
+        LobeShape shape;
+        double norm = 0.0;  ///< ⟨candidate, candidate⟩
+        glm::dvec3 with_probe{0.0};
+    };
+
+    void add_column(const LobeShape& lobe) {
+        std::vector<double>& column = with_lobes_.emplace_back(candidates_.size());
+        constexpr std::size_t kBlock = 512;
+        parallel_for((candidates_.size() + kBlock - 1) / kBlock, [&](std::size_t block) {
+            std::optional<LobeProduct> product;
+            const std::size_t begin = block * kBlock;
+            for (std::size_t i = begin; i < std::min(begin + kBlock, candidates_.size()); ++i) {
+                const LobeShape& shape = candidates_[i].shape;
+                if (i == begin || shape.concentration != candidates_[i - 1].shape.concentration)
+                    product.emplace(1.0 / shape.concentration + 1.0 / lobe.concentration, settings_);
+                column[i] = (*product)(glm::dot(shape.direction, lobe.direction));
+            }
+        });
+    }
+
     KeyLightFit settings_;
-    std::vector<Shape> shapes_;
-    std::vector<glm::dvec3> products_;             ///< ⟨probe, candidate⟩
-    std::vector<double> norms_;                    ///< ⟨candidate, candidate⟩, one for each concentration
+    std::vector<Candidate> candidates_;
     std::vector<std::vector<double>> with_lobes_;  ///< ⟨candidate, lobe⟩, lobe by lobe
 };
 
 /// Line search by one step: along two tangents, then in width.
-void refine(Fit& fit, std::size_t k, double step, double narrowest) {
+void refine(Fit& fit, std::size_t k, double step, double narrowest, const KeyLightFit& settings) {
     const auto turned = [&](int way) {
-        const Shape lobe = fit.lobes()[k];
+        const LobeShape lobe = fit.lobes()[k];
         const glm::dvec3 axis = std::abs(lobe.direction.y) < 0.7 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
         const glm::dvec3 first = glm::normalize(glm::cross(axis, lobe.direction));
         const glm::dvec3 tangent = way < 2 ? first : glm::cross(lobe.direction, first);
-        const double width = step / std::sqrt(lobe.concentration);
-        return Shape{glm::normalize(lobe.direction + (way % 2 == 0 ? width : -width) * tangent), lobe.concentration};
+        const double width = step * std::sqrt(1.0 / lobe.concentration + 2.0 / settings.smoothing);
+        return LobeShape{glm::normalize(lobe.direction + (way % 2 == 0 ? width : -width) * tangent),
+                         lobe.concentration};
     };
     for (const int way : {0, 2})
         if (!fit.try_replace(k, turned(way))) fit.try_replace(k, turned(way + 1));
     const auto scaled = [&](double factor) {
-        Shape lobe = fit.lobes()[k];
+        LobeShape lobe = fit.lobes()[k];
         lobe.concentration = std::clamp(lobe.concentration * factor, kWidestConcentration, narrowest);
         return lobe;
     };
-    const double factor = 1.0 + step;
+    const double factor = 1.0 + 2.0 * step;
     if (!fit.try_replace(k, scaled(factor))) fit.try_replace(k, scaled(1.0 / factor));
 }
 
@@ -290,21 +230,20 @@ std::vector<KeyLight> fit_key_lights(const ProbeImage& probe, int count, const K
     ROWLAND_CHECK_OP(count, <=, kMaximumKeyLights);
     ROWLAND_CHECK_OP(settings.smoothing, >, 0.0);
     if (count == 0) return {};
-    const SmoothedProbe smoothed(cell_samples(gather_cells(probe, kFaceSize)), settings);
-    if (smoothed.cells().size() == 0) return {};
-    // A lobe's deviation is at least 0.7 of a texel's side.
+    const MeasuredProbe measured(CubeTree(gather_cells(probe, kFitFace), kFitFace), settings);
+    // A texel's light, bilinear as it is seen, has a variance of a sixth of its side's square.
     const double side = 2.0 * pi / probe.image().width;
-    const double narrowest = std::clamp(1.0 / (0.5 * side * side), kWidestConcentration, kNarrowestConcentration);
-    Candidates candidates(smoothed);
-    Fit fit(smoothed);
+    const double narrowest = std::clamp(6.0 / (side * side), kWidestConcentration, kNarrowestConcentration);
+    Candidates candidates(measured, narrowest);
+    Fit fit(measured);
     while (fit.lobes().size() < static_cast<std::size_t>(count)) {
         const double before = fit.gain();
         fit.add(candidates.best(fit));
-        for (const double step : {0.6, 0.3, 0.15}) refine(fit, fit.lobes().size() - 1, step, narrowest);
+        for (const double step : {0.6, 0.3, 0.15}) refine(fit, fit.lobes().size() - 1, step, narrowest, settings);
         if (!(fit.gain() > before * (1.0 + 1e-9))) break;
     }
-    for (const double step : {0.5, 0.3, 0.2, 0.1, 0.05})
-        for (std::size_t k = 0; k < fit.lobes().size(); ++k) refine(fit, k, step, narrowest);
+    for (const double step : {0.5, 0.3, 0.2, 0.1, 0.05, 0.02, 0.01})
+        for (std::size_t k = 0; k < fit.lobes().size(); ++k) refine(fit, k, step, narrowest, settings);
     return brightest_first(fit);
 }
 

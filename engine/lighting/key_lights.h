@@ -26,23 +26,25 @@ double lobe_density(const KeyLight& key, const glm::dvec3& s);
 /// I_{l+½}(κ)/I_½(κ), to 1e-10.
 std::vector<double> lobe_band_factors(double concentration, int bands);
 
-/// What the fit of key lights minimises: the squared error of the light, summed over the sphere, after smoothing and
-/// without the lowest bands.
+/// What the fit of key lights minimises: the squared error of the light, smoothed, without the lowest bands. Band l
+/// counts by about 1/l, as in the mean over all circles of the light's integral along them.
 struct KeyLightFit {
-    /// Concentration of the lobe that smooths: detail below 1/√smoothing rad, 0.06 by default, does not count.
-    double smoothing = 300.0;
-    /// These bands do not count: who uses the residual() has them exactly, as SH.
+    /// Concentration of the lobe that smooths: detail below 1/√smoothing rad, .02 by default, does not count. That of
+    /// an order's colours on a compact disc is .026.
+    double smoothing = 2500.0;
+    /// These bands do not count: who uses the residual() has them exactly, as SH. 1 to 32.
     int exact_bands = 5;
 };
 
 /// Up to `count` (0 to 64) lobes for the bright parts of a probe, brightest first; fewer where more do not help. Greedy
 /// selection, then refinement of each lobe against the residual of the others. Fluxes are those of least squares, never
-/// negative, so the residual is small on either side of 0. No lobe is narrower than a texel or wider than
-/// kWidestConcentration. Does not depend on the number of threads; 0.3 s of two cores for 16.
+/// negative, so the residual is small on either side of 0. No lobe is narrower than a texel or kNarrowestConcentration,
+/// or wider than kWidestConcentration. Does not depend on the number of threads.
 std::vector<KeyLight> fit_key_lights(const ProbeImage& probe, int count, const KeyLightFit& settings = {});
 
-/// The widest lobe that fit_key_lights() gives.
+/// The widest and the narrowest lobe that fit_key_lights() gives.
 inline constexpr double kWidestConcentration = 40.0;
+inline constexpr double kNarrowestConcentration = 1e6;
 
 /// Raw radiance SH of the lobes, in closed form; 1 ≤ bands ≤ 32.
 ShLight project(std::span<const KeyLight> keys, int bands);

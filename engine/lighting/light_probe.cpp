@@ -26,9 +26,8 @@ constexpr std::uint32_t kMaximumFace = 8192;
 /// Longest name of an illuminant in a file; a recipe may name a path.
 constexpr std::size_t kMaximumIlluminantName = 4096;
 
-/// Range of a key light's concentration in a file; fit_key_lights() gives 40 to 3000.
+/// Least concentration of a key light in a file; fit_key_lights() gives kWidestConcentration or more.
 constexpr double kLeastConcentration = 1e-3;
-constexpr double kGreatestConcentration = 1e6;
 
 void write_sh(const ShLight& light, ByteWriter& writer) {
     ROWLAND_CHECK_OP(light.coefficients.size(), ==, static_cast<std::size_t>(math::sh_count(light.bands)));
@@ -108,9 +107,9 @@ std::vector<KeyLight> read_key_lights(ByteReader& reader) {
         for (int c = 0; c < 3; ++c)
             if (!(key.flux[c] >= 0.0 && key.flux[c] < std::numeric_limits<float>::max()))
                 reader.fail(fmt::format("a key light's flux {}", key.flux[c]), "a number >= 0");
-        if (!(key.concentration >= kLeastConcentration && key.concentration <= kGreatestConcentration))
+        if (!(key.concentration >= kLeastConcentration && key.concentration <= kNarrowestConcentration))
             reader.fail(fmt::format("a key light's concentration {}", key.concentration),
-                        fmt::format("{} to {}", kLeastConcentration, kGreatestConcentration));
+                        fmt::format("{} to {}", kLeastConcentration, kNarrowestConcentration));
         keys.push_back(key);
     }
     return keys;

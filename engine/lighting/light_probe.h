@@ -48,7 +48,7 @@ struct LightProbe {
 };
 
 /// Version of serialise()'s layout and of build_light_probe()'s results; part of the cooked header.
-inline constexpr std::uint32_t kLightProbeVersion = 4;
+inline constexpr std::uint32_t kLightProbeVersion = 5;
 
 /// Deterministic for any number of threads.
 LightProbe build_light_probe(const ProbeImage& probe, const LightProbeSettings& settings = {});

@@ -1,6 +1,7 @@
 #include "engine/lighting/light_samples.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -131,14 +132,16 @@ LightSamples light_samples(const ProbeImage& probe, std::span<const KeyLight> ke
     LightSamples texels = row_samples(*fine, 0, fine->image().height);
     const std::size_t count = texels.size();
     const auto width = static_cast<std::size_t>(fine->image().width);
+    const double side = 2.0 * std::numbers::pi / fine->image().width;
     std::vector<LobeFractions> lobes(keys.size());
     parallel_for(keys.size(), [&](std::size_t k) {
+        if (!is_resolved(keys[k], side)) return;
         lobes[k] = lobe_fractions(
             keys[k], count, [&](std::size_t i) { return texels.direction(i); },
             [&](std::size_t i) { return fine->solid_angle(static_cast<int>(i % width), static_cast<int>(i / width)); });
     });
     for (std::size_t k = 0; k < keys.size(); ++k) {
-        if (lobes[k].indices.empty()) texels.push_back(keys[k].direction, -keys[k].flux);
+        if (!is_resolved(keys[k], side)) subtract_narrow_lobe(keys[k], texels);
         for (std::size_t j = 0; j < lobes[k].indices.size(); ++j) {
             const std::size_t i = lobes[k].indices[j];
             const glm::vec3 lobe(lobes[k].fractions[j] * keys[k].flux);
@@ -148,6 +151,32 @@ LightSamples light_samples(const ProbeImage& probe, std::span<const KeyLight> ke
         }
     }
     return texels;
+}
+
+void subtract_narrow_lobe(const KeyLight& key, LightSamples& samples) {
+    // The density over t = κ(1 − cos) is exp(−t): Gauss–Laguerre quadrature.
+    struct Node {
+        double t;
+        double weight;
+    };
+    constexpr std::array<Node, 3> kNodes{{{0.4157745567834791, 0.7110930099291730},
+                                          {2.2942803602790417, 0.2785177335692408},
+                                          {6.2899450829374792, 0.0103892565015861}}};
+    constexpr int kAngles = 8;
+    ROWLAND_CHECK_OP(key.concentration, >=, 100.0);
+    const glm::dvec3 far = std::abs(key.direction.y) < 0.7 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 first = glm::normalize(glm::cross(far, key.direction));
+    const glm::dvec3 second = glm::cross(key.direction, first);
+    for (const Node& node : kNodes) {
+        const double drop = node.t / key.concentration;
+        const double sine = std::sqrt(drop * (2.0 - drop));
+        for (int i = 0; i < kAngles; ++i) {
+            const double angle = 2.0 * std::numbers::pi * i / kAngles;
+            samples.push_back(
+                (1.0 - drop) * key.direction + sine * (std::cos(angle) * first + std::sin(angle) * second),
+                -node.weight / kAngles * key.flux);
+        }
+    }
 }
 
 std::vector<CubeCell> gather_cells(const ProbeImage& probe, int face_size) {

@@ -50,12 +50,17 @@ LightSamples cell_samples(std::span<const CubeCell> cells);
 /// cell_samples(gather_cells(…)).
 LightSamples gather_texels(const LightSamples& texels, int face_size);
 
-/// How the flux of a lobe divides among directions: fractions that sum to 1. Empty if the lobe is so narrow that it
-/// lies between the directions.
+/// How the flux of a lobe divides among directions: fractions that sum to 1.
 struct LobeFractions {
     std::vector<std::size_t> indices;
     std::vector<double> fractions;
 };
+
+/// Whether lobe_fractions() holds for directions whose cells have sides of at most `side` radians: the midpoint rule
+/// needs a deviation of a side.
+inline bool is_resolved(const KeyLight& key, double side) {
+    return key.concentration * side * side < 1.0;
+}
 
 /// Integrates the lobe by the midpoint rule: `direction(i)` and `solid_angle(i)` for i < count.
 template <typename Direction, typename SolidAngle>
@@ -63,7 +68,6 @@ LobeFractions lobe_fractions(const KeyLight& key, std::size_t count, const Direc
                              const SolidAngle& solid_angle) {
     // κ(1 − cos) beyond which the density, exp(−this) of its peak, does not count.
     constexpr double kReach = 30.0;
-    constexpr double kSumTolerance = 0.1;
     LobeFractions result;
     double sum = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -74,9 +78,11 @@ LobeFractions lobe_fractions(const KeyLight& key, std::size_t count, const Direc
         result.fractions.push_back(lobe_density(key, s) * solid_angle(i));
         sum += result.fractions.back();
     }
-    if (sum < 1.0 - kSumTolerance || sum > 1.0 + kSumTolerance) return {};
     for (double& fraction : result.fractions) fraction /= sum;
     return result;
 }
+
+/// Appends samples of the negative flux of a lobe of κ ≥ 100, whose low moments they have: three circles of eight.
+void subtract_narrow_lobe(const KeyLight& key, LightSamples& samples);
 
 }  // namespace rowland::lighting

@@ -13,9 +13,9 @@ namespace rowland::lighting {
 
 namespace {
 
-/// Cube faces that lobes are sampled on: cells of at most 0.016 rad, less than the deviation of the narrowest lobe that
-/// fit_key_lights() gives (0.018).
+/// Cube faces that lobes are sampled on, and the longest side of a cell.
 constexpr int kLobeFace = 128;
+constexpr double kLobeCellSide = 2.0 / kLobeFace;
 
 /// Steps of a position along a cell's side.
 constexpr double kPositions = 256.0;
@@ -70,13 +70,14 @@ void subtract(std::span<const KeyLight> keys, LightSamples& samples) {
     }
     std::vector<LobeFractions> lobes(keys.size());
     parallel_for(keys.size(), [&](std::size_t k) {
+        if (!is_resolved(keys[k], kLobeCellSide)) return;
         lobes[k] = lobe_fractions(
             keys[k], directions.size(), [&](std::size_t i) { return directions[i]; },
             [&](std::size_t i) { return solid_angles[i % solid_angles.size()]; });
     });
     std::vector<glm::dvec3> flux(directions.size(), glm::dvec3(0.0));
     for (std::size_t k = 0; k < keys.size(); ++k) {
-        if (lobes[k].indices.empty()) samples.push_back(keys[k].direction, -keys[k].flux);
+        if (!is_resolved(keys[k], kLobeCellSide)) subtract_narrow_lobe(keys[k], samples);
         for (std::size_t j = 0; j < lobes[k].indices.size(); ++j)
             flux[lobes[k].indices[j]] += lobes[k].fractions[j] * keys[k].flux;
     }

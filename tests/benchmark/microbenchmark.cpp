@@ -32,6 +32,7 @@ void register_all() {
     register_frame_rotation();
     register_vertex_updates();
     register_projection();
+    register_key_lights();
     register_bakes();
     register_brute_force();
     register_map_fills();

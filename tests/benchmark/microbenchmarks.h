@@ -12,6 +12,7 @@ void register_sh_rotation();
 void register_frame_rotation();
 void register_vertex_updates();
 void register_projection();
+void register_key_lights();
 void register_bakes();
 void register_brute_force();
 void register_map_fills();

@@ -28,7 +28,7 @@ float mean_above(float sine, float concentration) {
 float mean_above(float sine, float cosine, float concentration) {
     if (concentration < 3.0) return mean_above(sine, concentration);
     float root = sqrt(concentration);
-    float begin = -sign(sine) * sqrt(max(2.0 - 2.0 * cosine, 0.0)) * root;
+    float begin = -sine * sqrt(2.0 / (1.0 + cosine)) * root;  // 2 - 2 cos cancels at the horizon
     float end = sqrt(2.0 + 2.0 * cosine) * root;
     float above = begin > 0.0 ? normal_cdf(-begin) - normal_cdf(-end) : normal_cdf(end) - normal_cdf(begin);
     float at_begin = exp(-0.5 * begin * begin);

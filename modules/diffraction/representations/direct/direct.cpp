@@ -132,9 +132,9 @@ glm::dvec3 seen_through(const Kernel& kernel, const DirectMaterial& material, co
 double mean_above_narrow(double sine, double cosine, double z) {
     const double root = std::sqrt(z);
     const auto gauss = [](double y) { return std::exp(-0.5 * y * y); };
-    // 2 sin(t₀/2) and 2 cos(t₀/2), t₀ in (−π/2, π/2).
-    const double half_cosine = std::sqrt(std::max(0.0, 2.0 + 2.0 * cosine));
-    const double half_sine = std::copysign(std::sqrt(std::max(0.0, 2.0 - 2.0 * cosine)), sine);
+    // 2 cos(t₀/2) and 2 sin(t₀/2), t₀ in (−π/2, π/2), without cancellation.
+    const double half_cosine = std::sqrt(2.0 + 2.0 * cosine);
+    const double half_sine = 2.0 * sine / half_cosine;
     const double begin = -half_sine * root;
     const double end = half_cosine * root;
     const auto below = [](double y) { return 0.5 * std::erfc(-y / std::numbers::sqrt2); };

@@ -80,7 +80,7 @@ class KeyLightTest : public test::RenderTest {
 TEST_F(KeyLightTest, LobesOnADiffuseSurfaceAreThoseOfTheCpu) {
     renderer_.use_key_lights(true);
     const glm::dvec3 n(0.0, 0.0, 1.0);
-    for (const double concentration : {1.0, 40.0, 300.0, 3000.0, 1e5})
+    for (const double concentration : {1.0, 40.0, 300.0, 3000.0, 1e5, 1e6})
         for (int i = 0; i <= 24; ++i) {
             const double angle = pi * i / 24;
             const lighting::KeyLight key{

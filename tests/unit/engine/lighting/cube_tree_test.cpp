@@ -47,5 +47,18 @@ TEST(CubeTree, ALoneLampIsWhereItStands) {
     }
 }
 
+TEST(CubeTree, OfCellsKeepsTheDirectionWithinACell) {
+    std::vector<CubeCell> cells(std::size_t{6} * kSize * kSize);
+    const glm::dvec3 lamp = glm::normalize(cube_direction(3, (2 * 9 + 1.7) / kSize - 1, (2 * 5 + 0.4) / kSize - 1));
+    cells[(3 * kSize + 5) * kSize + 9] = {.flux = {2.0, 1.0, 0.5}, .direction = 3.5 * lamp};
+    const CubeTree tree(cells, kSize);
+    for (int depth = 0; depth <= tree.leaf_depth(); ++depth) {
+        const int shrink = kSize / tree.side(depth);
+        const auto& node = tree.node(depth, 3, 9 / shrink, 5 / shrink);
+        EXPECT_LT(glm::length(glm::dvec3(node.source) - lamp), 1e-6) << depth;
+        EXPECT_EQ(node.flux, glm::vec3(2.0F, 1.0F, 0.5F)) << depth;
+    }
+}
+
 }  // namespace
 }  // namespace rowland::lighting

@@ -43,7 +43,7 @@ double lobe_mean(const KeyLight& key, const Function& function) {
 
 /// ∫ density over the sphere, by Gauss–Legendre in cos θ on the part that a double can see of the lobe.
 TEST(KeyLights, DensityIntegratesToOne) {
-    for (const double concentration : {1e-3, 0.5, 10.0, 1e3, 1e5}) {
+    for (const double concentration : {1e-3, 0.5, 10.0, 1e3, 1e5, 1e6}) {
         const KeyLight key{kDirection, glm::dvec3(1.0), concentration};
         const glm::dvec3 side = glm::normalize(glm::cross(kDirection, glm::dvec3(1.0, 0.0, 0.0)));
         const math::QuadratureRule rule = math::gauss_legendre(60, 0.0, std::min(2.0, 40.0 / concentration));
@@ -73,7 +73,7 @@ TEST(KeyLights, BandFactorsAreTheLobesLegendreMeans) {
 
 /// Both recurrences meet where one takes over from the other, and obey I_{l−1} − I_{l+1} = (2l+1)/κ I_l.
 TEST(KeyLights, BandFactorsObeyTheRecurrenceTo32Bands) {
-    for (const double concentration : {1e-3, 1.0, 40.0, 119.9, 120.1, 1e3, 1e5}) {
+    for (const double concentration : {1e-3, 1.0, 40.0, 119.9, 120.1, 1e3, 1e5, 1e6}) {
         const std::vector<double> f = lobe_band_factors(concentration, 32);
         EXPECT_EQ(f[0], 1.0);
         for (std::size_t l = 1; l + 1 < f.size(); ++l) {
@@ -142,6 +142,29 @@ TEST(FitKeyLights, FindsTheLobesAProbeIsMadeOf) {
     EXPECT_NEAR(keys[0].concentration, 200.0, 30.0);
     EXPECT_LT(glm::length(keys[1].direction - glm::normalize(glm::dvec3(-0.9, -0.2, 0.3))), 0.005);
     EXPECT_NEAR(keys[1].concentration, 600.0, 150.0);
+}
+
+/// Lamps of one texel, .012 rad, before a dim wall: each is one light, no wider than its texel.
+TEST(FitKeyLights, LampsOfATexelStayLampsOfATexel) {
+    constexpr int kWidth = 512;
+    image::Image image{.width = kWidth, .height = kWidth / 2, .texels = {}};
+    image.texels.resize(std::size_t{kWidth} * kWidth / 2, glm::vec3(0.1F));
+    const glm::ivec2 lamps[] = {{100, 120}, {130, 120}, {300, 90}, {301, 180}};
+    for (const glm::ivec2& lamp : lamps) image.at(lamp.x, lamp.y) = glm::vec3(2e4F, 1e4F, 1e4F);
+    const ProbeImage probe(image, Mapping::Equirectangular);
+    const std::vector<KeyLight> keys = fit_key_lights(probe, 4);
+    ASSERT_EQ(keys.size(), 4U);
+    const double side = 2.0 * pi / kWidth;
+    for (const glm::ivec2& lamp : lamps) {
+        const glm::dvec3 direction = probe.direction(lamp.x + 0.5, lamp.y + 0.5);
+        const auto key = std::max_element(keys.begin(), keys.end(), [&](const KeyLight& a, const KeyLight& b) {
+            return glm::dot(a.direction, direction) < glm::dot(b.direction, direction);
+        });
+        EXPECT_LT(glm::distance(key->direction, direction), 0.1 * side);
+        const double flux = 2e4 * probe.solid_angle(lamp.x, lamp.y);
+        EXPECT_NEAR(key->flux.x, flux, 0.02 * flux);
+        EXPECT_GT(key->concentration, 1.0 / (side * side));
+    }
 }
 
 /// Light that varies slowly lies in the bands that do not count, unless fewer are left out.

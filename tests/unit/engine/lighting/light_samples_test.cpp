@@ -44,6 +44,26 @@ TEST(LightSamples, LobesAreTakenOutFluxForFlux) {
     }
 }
 
+/// The mean cosine to the axis is 1 − 1/κ, and of its square 1 − 2/κ + 2/κ². Floats: 1e-7 of 1.
+TEST(LightSamples, ANarrowLobeKeepsItsMoments) {
+    for (const double concentration : {100.0, 1e4, 1e6}) {
+        const KeyLight key{glm::normalize(glm::dvec3(0.4, 0.3, 0.7)), {3.0, 2.0, 1.0}, concentration};
+        LightSamples samples;
+        subtract_narrow_lobe(key, samples);
+        EXPECT_LT(glm::length(total(samples) + key.flux), 1e-6);
+        glm::dvec3 mean(0.0);
+        double square = 0.0;
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+            const double weight = -samples.red[i] / key.flux.x;
+            const double cosine = glm::dot(samples.direction(i), key.direction);
+            mean += weight * samples.direction(i);
+            square += weight * cosine * cosine;
+        }
+        EXPECT_LT(glm::distance(mean, (1.0 - 1.0 / concentration) * key.direction), 1e-6) << concentration;
+        EXPECT_NEAR(square, 1.0 - 2.0 / concentration * (1.0 - 1.0 / concentration), 1e-6) << concentration;
+    }
+}
+
 TEST(LightSamples, GatheringKeepsFluxAndPlace) {
     image::Image image{.width = 256, .height = 128, .texels = {}};
     image.texels.resize(std::size_t{256} * 128, glm::vec3(0.0F));
