@@ -14,4 +14,7 @@ void add_project_command(CLI::App& program);
 /// `report`: the same, drawn into one HTML file with the paper's own figures.
 void add_sweep_commands(CLI::App& program);
 
+/// `films`: a picture of thin films' colours, and how far off common formulas are.
+void add_films_command(CLI::App& program);
+
 }  // namespace rowland::trade
