@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 namespace CLI {
 class App;
 }
@@ -12,7 +14,8 @@ namespace rowland::trade {
 void add_project_command(CLI::App& program);
 /// `sweep`: errors, times, counts and bytes of many settings, as CSV and JSON lines in a folder.
 /// `report`: the same, drawn into one HTML file with the paper's own figures.
-void add_sweep_commands(CLI::App& program);
+/// `command_line`: for the report, as it was typed.
+void add_sweep_commands(CLI::App& program, const std::string& command_line);
 
 /// `films`: a picture of thin films' colours, and how far off common formulas are.
 void add_films_command(CLI::App& program);
