@@ -17,4 +17,7 @@ void add_project_command(CLI::App& program);
 /// `command_line`: for the report, as it was typed.
 void add_sweep_commands(CLI::App& program, const std::string& command_line);
 
+/// `films`: a picture of thin films' colours, and how far off common formulas are.
+void add_films_command(CLI::App& program);
+
 }  // namespace rowland::trade

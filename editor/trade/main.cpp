@@ -59,6 +59,7 @@ int main(int argc, char** argv) {
         rowland::trade::CompareCommand compare;
         compare.declare(program)->callback([&] { compare.run(); });
         rowland::trade::add_sweep_commands(program, command_line({argv, static_cast<std::size_t>(argc)}));
+        rowland::trade::add_films_command(program);
         if (argc > 1) check_command(program, argv[1]);
         try {
             program.parse(argc, argv);

@@ -29,6 +29,8 @@
 #include "modules/diffraction/asset/efficiency_csv.h"
 #include "modules/diffraction/asset/gltf_extension.h"
 #include "modules/diffraction/asset/material_json.h"
+#include "modules/thin_film/asset/cooked_film.h"
+#include "modules/thin_film/asset/gltf_iridescence.h"
 #include "tests/fuzz/sane_scene.h"
 
 namespace rowland::fuzz {
@@ -118,6 +120,14 @@ void read_material(std::span<const std::byte> bytes) {
     diffraction::parse_material(parse_json(text(bytes), "input.json"), "input.json", named);
 }
 
+void read_film(std::span<const std::byte> bytes) {
+    thin_film::parse_film_material(parse_json(text(bytes), "input.json"), "input.json");
+}
+
+void read_iridescence(std::span<const std::byte> bytes) {
+    thin_film::describe(thin_film::parse_gltf_iridescence(parse_json(text(bytes), "input.json"), "input.json", ""));
+}
+
 void read_probe_recipe(std::span<const std::byte> bytes) {
     lighting::parse_probe_recipe(parse_json(text(bytes), "input.json"), "input.json");
 }
@@ -152,6 +162,8 @@ void read_cooked(std::span<const std::byte> bytes) {
     const asset::CookedAsset cooked = asset::unpack(bytes, "input.cooked");
     if (cooked.header.type == diffraction::kMaterialAssetType)
         diffraction::describe(diffraction::read_cooked_material(cooked.payload, "input.cooked"));
+    else if (cooked.header.type == thin_film::kFilmAssetType)
+        thin_film::describe(thin_film::read_cooked_film(cooked.payload, "input.cooked"));
     else
         lighting::deserialise(cooked.payload, "input.cooked");
 }
@@ -159,6 +171,10 @@ void read_cooked(std::span<const std::byte> bytes) {
 /// Payloads alone: behind the container's checksum few mutations would be seen.
 void read_cooked_material(std::span<const std::byte> bytes) {
     diffraction::describe(diffraction::read_cooked_material(bytes, "input.material"));
+}
+
+void read_cooked_film(std::span<const std::byte> bytes) {
+    thin_film::describe(thin_film::read_cooked_film(bytes, "input.film"));
 }
 
 void read_cooked_probe(std::span<const std::byte> bytes) {
@@ -177,6 +193,8 @@ const std::vector<Format>& formats() {
         {"exr", read_exr, {".exr"}},
         {"byte-image", read_byte_image, {".png", ".jpg"}},
         {"material", read_material, {".json"}},
+        {"film", read_film, {}},
+        {"iridescence", read_iridescence, {}},
         {"probe-recipe", read_probe_recipe, {".json"}},
         {"mesh-recipe", read_mesh_recipe, {".json"}},
         {"scene-recipe", read_scene_recipe, {".json"}},
@@ -186,6 +204,7 @@ const std::vector<Format>& formats() {
         {"plan", read_plan, {}},
         {"cooked", read_cooked, {".material", ".probe"}},
         {"cooked-material", read_cooked_material, {}},
+        {"cooked-film", read_cooked_film, {}},
         {"cooked-probe", read_cooked_probe, {}},
     };
     return all;

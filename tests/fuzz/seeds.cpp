@@ -17,6 +17,7 @@
 #include "engine/scene/draco_encode.h"
 #include "engine/scene/mesh_recipe.h"
 #include "modules/diffraction/asset/cooked_material.h"
+#include "modules/thin_film/asset/cooked_film.h"
 #include "tests/support/source_tree.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"
@@ -139,10 +140,31 @@ std::vector<Seed> cooked_seeds() {
     return result;
 }
 
+constexpr const char* kFilm = R"({"film": {"ior": 1.33, "thickness_nm": 400}, "base": {"ior": 1.5, "k": 0.1}})";
+constexpr const char* kLayers =
+    R"({"film": [{"ior": 1.4, "thickness_nm": 90}], "metal": "Al", "roughness": 0.2, "illuminant": "F11"})";
+constexpr const char* kIridescence =
+    R"({"iridescenceFactor": 0.5, "iridescenceIor": 1.4, "iridescenceThicknessMaximum": 300,
+        "iridescenceThicknessTexture": {"index": 1, "extensions": {"KHR_texture_transform": {"scale": [2, 3]}}},
+        "extras": {"metal": "Au"}})";
+
+Seed written(std::string_view text) {
+    const auto* begin = reinterpret_cast<const std::byte*>(text.data());
+    return {std::string(text), {begin, begin + text.size()}};
+}
+
+Seed cooked_film() {
+    const nlohmann::json json = nlohmann::json::parse(kFilm);
+    return {"cooked film", thin_film::write_cooked_film(json, thin_film::cook_film(json, "seed.json"))};
+}
+
 /// Those that are made, not read.
 std::vector<Seed> made_seeds(std::string_view format) {
     if (format == "draco") return draco_seeds();
     if (format == "cooked-material") return cooked_seeds();
+    if (format == "film") return {written(kFilm), written(kLayers)};
+    if (format == "iridescence") return {written(kIridescence)};
+    if (format == "cooked-film") return {cooked_film()};
     if (format == "cooked-probe") return {{"clear sky", cooked_probe()}};
     if (format == "recording") return {recording()};
     if (format == "plan") return {plan()};

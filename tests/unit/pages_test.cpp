@@ -18,6 +18,12 @@ namespace rowland::test {
 namespace {
 
 constexpr const char* kPhysics = "modules/diffraction/PHYSICS.md";
+constexpr const char* kFilmPhysics = "modules/thin_film/PHYSICS.md";
+
+/// The page that a file cites: that of the module it belongs to or tests.
+std::string page_cited_by(const std::string& path) {
+    return path.find("thin_film") == std::string::npos ? kPhysics : kFilmPhysics;
+}
 
 std::string text_of(const std::string& path) {
     for (const TreeFile& file : tree_files())
@@ -64,53 +70,67 @@ std::set<int> formulas_of(const std::string& page) {
 /// A comment's text may continue on the next line.
 const std::string kSpace = R"((?:\s|///?|\*)+)";
 
+/// Sections and formulas of a page.
+struct Numbers {
+    explicit Numbers(const std::string& path)
+        : page(text_of(path)), sections(sections_of(page)), formulas(formulas_of(page)) {}
+
+    std::string page;
+    std::map<int, std::string> sections;
+    std::set<int> formulas;
+};
+
+void expect_cited(const Numbers& cited, const std::string& rest, const std::string& where) {
+    static const std::regex citation("^PHYSICS" + kSpace + R"((?:§(\d+)|\((\d+)\))(?:,? "([^"]+)\")?)");
+    std::smatch match;
+    if (!std::regex_search(rest, match, citation)) {
+        ADD_FAILURE() << where << ": PHYSICS without a section (§4) or a formula (3)";
+        return;
+    }
+    if (match[2].matched) {
+        EXPECT_TRUE(cited.formulas.contains(std::stoi(match[2]))) << where << ": no formula (" << match[2] << ")";
+        return;
+    }
+    const auto section = cited.sections.find(std::stoi(match[1]));
+    ASSERT_NE(section, cited.sections.end()) << where << ": no section §" << match[1];
+    if (match[3].matched) {
+        EXPECT_NE(section->second.find(match[3].str()), std::string::npos)
+            << where << ": §" << match[1] << " does not contain \"" << match[3] << "\"";
+    }
+}
+
 TEST(Physics, EveryCitationOfThePageNamesASectionOrAFormulaThatExists) {
-    const std::string page = text_of(kPhysics);
-    const std::map<int, std::string> sections = sections_of(page);
-    const std::set<int> formulas = formulas_of(page);
+    const std::map<std::string, Numbers> pages = {{kPhysics, Numbers(kPhysics)}, {kFilmPhysics, Numbers(kFilmPhysics)}};
     const std::regex mention(R"(\bPHYSICS\b(?!\.md))");
-    const std::regex citation("^PHYSICS" + kSpace + R"((?:§(\d+)|\((\d+)\))(?:,? "([^"]+)\")?)");
-    int citations = 0;
+    std::map<std::string, int> citations;
     for (const TreeFile& file : tree_files()) {
-        if (file.path == kPhysics || file.path == "tests/unit/pages_test.cpp") continue;
+        if (pages.contains(file.path) || file.path == "tests/unit/pages_test.cpp") continue;
         if (file.text.find("PHYSICS") == std::string::npos) continue;
+        const std::string page = page_cited_by(file.path);
         for (const std::smatch& found : matches(file.text, mention)) {
-            const std::string rest = file.text.substr(static_cast<std::size_t>(found.position()), 120);
-            const std::string where = file.path + ":" + std::to_string(line_at(file.text, found.position()));
-            std::smatch match;
-            if (!std::regex_search(rest, match, citation)) {
-                ADD_FAILURE() << where << ": PHYSICS without a section (§4) or a formula (3)";
-                continue;
-            }
-            ++citations;
-            if (match[2].matched) {
-                EXPECT_TRUE(formulas.contains(std::stoi(match[2]))) << where << ": no formula (" << match[2] << ")";
-                continue;
-            }
-            const auto section = sections.find(std::stoi(match[1]));
-            ASSERT_NE(section, sections.end()) << where << ": no section §" << match[1];
-            if (match[3].matched) {
-                EXPECT_NE(section->second.find(match[3].str()), std::string::npos)
-                    << where << ": §" << match[1] << " does not contain \"" << match[3] << "\"";
-            }
+            ++citations[page];
+            expect_cited(pages.at(page), file.text.substr(static_cast<std::size_t>(found.position()), 120),
+                         file.path + ":" + std::to_string(line_at(file.text, found.position())));
         }
     }
-    EXPECT_GT(citations, 40);
+    EXPECT_GT(citations[kPhysics], 40);
+    EXPECT_GT(citations[kFilmPhysics], 5);
 }
 
 TEST(Physics, SectionsAndFormulasAreNumberedWithoutGaps) {
-    const std::string page = text_of(kPhysics);
-    const auto sections = sections_of(page);
-    const auto formulas = formulas_of(page);
-    ASSERT_GE(sections.size(), 9U);
-    ASSERT_GE(formulas.size(), 20U);
-    EXPECT_EQ(sections.rbegin()->first, static_cast<int>(sections.size()));
-    EXPECT_EQ(*formulas.rbegin(), static_cast<int>(formulas.size()));
-    // §30 or (99) in the page's own text.
-    for (const std::smatch& match : matches(page, std::regex("§(\\d+)")))
-        EXPECT_TRUE(sections.contains(std::stoi(match[1]))) << match.str();
-    for (const std::smatch& match : matches(page, std::regex(" \\((\\d\\d?)\\)")))
-        EXPECT_TRUE(formulas.contains(std::stoi(match[1]))) << match.str();
+    for (const auto& [path, sections_at_least, formulas_at_least] :
+         {std::tuple(kPhysics, 9U, 20U), std::tuple(kFilmPhysics, 5U, 5U)}) {
+        const Numbers numbers(path);
+        ASSERT_GE(numbers.sections.size(), sections_at_least);
+        ASSERT_GE(numbers.formulas.size(), formulas_at_least);
+        EXPECT_EQ(numbers.sections.rbegin()->first, static_cast<int>(numbers.sections.size()));
+        EXPECT_EQ(*numbers.formulas.rbegin(), static_cast<int>(numbers.formulas.size()));
+        // §30 or (99) in the page's own text.
+        for (const std::smatch& match : matches(numbers.page, std::regex("§(\\d+)")))
+            EXPECT_TRUE(numbers.sections.contains(std::stoi(match[1]))) << match.str();
+        for (const std::smatch& match : matches(numbers.page, std::regex(" \\((\\d\\d?)\\)")))
+            EXPECT_TRUE(numbers.formulas.contains(std::stoi(match[1]))) << match.str();
+    }
 }
 
 /// README → PHYSICS.md → the code of k and A.

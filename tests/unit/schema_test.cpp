@@ -320,8 +320,9 @@ TEST(Schema, OfSceneRecipesAgreesWithTheParser) {
         crosses_scene);
 }
 
-TEST(Schema, OfSceneRecipesAllowsTheShippedScene) {
-    EXPECT_TRUE(test::satisfies(read("content/scenes/cabinet.json"), scene_recipe_schema()));
+TEST(Schema, OfSceneRecipesAllowsTheShippedScenes) {
+    for (const char* scene : {"content/scenes/cabinet.json", "content/scenes/films.json"})
+        EXPECT_TRUE(test::satisfies(read(scene), scene_recipe_schema())) << scene;
 }
 
 TEST(Schema, GratingsOfTheShippedSceneAreOnesTheModuleReads) {
