@@ -1,5 +1,5 @@
-// The page that explains how to port shows the code of its examples as it is: C++ and GLSL of bare_gl, TypeScript of the
-// package for three.js.
+// The page that explains how to port shows the code of its examples as it is: C++ and GLSL of bare_gl, TypeScript of
+// the package for three.js.
 #include <gtest/gtest.h>
 
 #include <filesystem>
