@@ -1,4 +1,5 @@
-// The page that explains the bare OpenGL example shows its code as it is.
+// The page that explains how to port shows the code of its examples as it is: C++ and GLSL of bare_gl, TypeScript of
+// the package for three.js.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -13,28 +14,29 @@ namespace {
 
 constexpr std::uint64_t kMostBytes = 1 << 20;
 
-/// All source of the example, one file after the other.
-std::string example_source() {
+/// All files of a folder, one after the other.
+std::string source_of(const char* folder) {
     std::string text;
-    for (const auto& entry : std::filesystem::directory_iterator(test::content_path("examples/bare_gl")))
-        text += read_text_file(entry.path(), kMostBytes);
+    for (const auto& entry : std::filesystem::directory_iterator(test::content_path(folder)))
+        if (entry.is_regular_file()) text += read_text_file(entry.path(), kMostBytes);
     return text;
 }
 
 TEST(PortingPage, EveryLineOfItsCodeIsTheExamples) {
-    const std::string source = example_source();
+    const std::string bare_gl = source_of("examples/bare_gl");
+    const std::string three = source_of("web/three/src");
     std::istringstream page(read_text_file(test::source_path("modules/diffraction/PORTING.md"), kMostBytes));
-    bool in_code = false;
+    const std::string* source = nullptr;  // of the code that the line is of
     int lines = 0;
     for (std::string line; std::getline(page, line);) {
         if (line.starts_with("```")) {
-            in_code = line == "```cpp" || line == "```glsl";
-        } else if (in_code && !line.empty()) {
-            EXPECT_NE(source.find(line + "\n"), std::string::npos) << line;
+            source = line == "```cpp" || line == "```glsl" ? &bare_gl : line == "```ts" ? &three : nullptr;
+        } else if (source != nullptr && !line.empty()) {
+            EXPECT_NE(source->find(line + "\n"), std::string::npos) << line;
             ++lines;
         }
     }
-    EXPECT_GT(lines, 20);
+    EXPECT_GT(lines, 30);
 }
 
 }  // namespace

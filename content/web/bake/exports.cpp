@@ -7,13 +7,10 @@
 
 #include "engine/core/check.h"
 
-namespace rowland::web {
-namespace {
-
 /// Throws in the worker; its memory is not used again.
-[[noreturn]] void refused(const char* message) __attribute__((import_module("worker"), import_name("refused")));
+extern "C" [[noreturn]] ROWLAND_IMPORT(refused) void worker_refused(const char* message);
 
-}  // namespace
+namespace rowland::web {
 
 ROWLAND_EXPORT(room) void* room(std::size_t bytes) {
     return std::malloc(bytes);
@@ -40,7 +37,7 @@ ROWLAND_EXPORT(release_numbers) void release_numbers(const Numbers* numbers) {
 namespace rowland {
 
 void check_failed(const char*, int, std::string_view message) {
-    web::refused(std::string(message).c_str());
+    worker_refused(std::string(message).c_str());
 }
 
 }  // namespace rowland
@@ -51,5 +48,5 @@ extern "C" void* __cxa_allocate_exception(std::size_t bytes) {
 }
 
 extern "C" [[noreturn]] void __cxa_throw(void* thrown, std::type_info*, void (*)(void*)) {
-    rowland::web::refused(static_cast<const std::exception*>(thrown)->what());
+    worker_refused(static_cast<const std::exception*>(thrown)->what());
 }

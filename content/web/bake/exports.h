@@ -5,6 +5,9 @@
 /// A function that the page's worker calls.
 #define ROWLAND_EXPORT(name) extern "C" __attribute__((export_name(#name)))
 
+/// A function of the worker: src/module.ts of the package.
+#define ROWLAND_IMPORT(name) __attribute__((import_module("worker"), import_name(#name)))
+
 namespace rowland::web {
 
 /// What a call gives back: a list of numbers, which the worker copies and releases.

@@ -32,6 +32,14 @@ ROWLAND_EXPORT(release_probe) void release_probe(const Probe* probe) {
     delete probe;
 }
 
+/// The probe's image, RGB.
+ROWLAND_EXPORT(probe_texels) Numbers* probe_texels(const Probe* probe) {
+    auto* numbers =
+        new Numbers{static_cast<float>(probe->image.image().width), static_cast<float>(probe->image.image().height)};
+    for (const glm::vec3& texel : probe->image.image().texels) append(texel, *numbers);
+    return numbers;
+}
+
 /// KeyLobe for each light: shaders/key_lobe_block.h.
 ROWLAND_EXPORT(key_lobes) Numbers* key_lobes(const Probe* probe) {
     auto* numbers = new Numbers;

@@ -16,4 +16,4 @@ const options = {
 buildSync({ ...options, entryPoints: [here + "page.ts"], outfile: out + "/page.js" });
 buildSync({ ...options, entryPoints: [from + "/dist/worker.js"], outfile: out + "/worker.js" });
 for (const file of ["index.html", "page.css"]) cpSync(here + file, `${out}/${file}`);
-for (const file of ["bake.wasm", "arc.wasm"]) cpSync(`${from}/dist/${file}`, `${out}/${file}`);
+for (const file of ["bake.wasm", "arc.wasm", "reference.wasm"]) cpSync(`${from}/dist/${file}`, `${out}/${file}`);

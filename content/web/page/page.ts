@@ -1,11 +1,14 @@
 import {
-    ACESFilmicToneMapping, Color, DirectionalLight, HalfFloatType, Mesh, MeshStandardMaterial, PerspectiveCamera, PlaneGeometry,
-    PMREMGenerator, Raycaster, Scene, Vector2, WebGLRenderer, type DataTexture, type Texture,
+    ACESFilmicToneMapping, Color, DataTexture, DirectionalLight, HalfFloatType, LinearFilter, Mesh, MeshStandardMaterial, PerspectiveCamera, PlaneGeometry,
+    PMREMGenerator, Raycaster, RGBAFormat, Scene, Vector2, WebGLRenderer, type Intersection, type Texture,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { DataUtils } from "three";
 import { GratingMaterial, Rowland } from "@rowland/three";
 import { builtInLight, LIGHT_NAMES, lightOf } from "./lights.js";
+import { addressOf, settingsOf, type Settings } from "./address.js";
+import { PixelComparer } from "./pixel.js";
+import { ReferenceView } from "./reference_view.js";
 import { numberAt, SAMPLES, slidersOf, withNumber } from "./samples.js";
 
 const element = <Kind extends HTMLElement>(id: string) => document.getElementById(id) as Kind;
@@ -32,14 +35,29 @@ rowland.onError = report;
 // Frames are drawn when something has changed.
 let asked = false;
 let frames = 0;
-function draw(): void {
+function redraw(): void {
     if (asked) return;
     asked = true;
     requestAnimationFrame(() => {
         asked = false;
+        if (renderer.getContext().isContextLost()) return;
         renderer.render(scene, camera);
+        if (referenceShown.checked) reference.draw();
         document.documentElement.dataset.frames = String(++frames);
+        document.documentElement.dataset.busy = String(rowland.busy);
     });
+}
+
+// The ground truth beside the picture begins again when that has changed.
+const referenceShown = element<HTMLInputElement>("reference");
+const reference = new ReferenceView(renderer, redraw);
+let restarting = 0;
+function draw(): void {
+    redraw();
+    reference.stop();
+    clearTimeout(restarting);
+    if (!referenceShown.checked || rowland.lightVersion === 0) return;
+    restarting = window.setTimeout(() => reference.start(hitAt, camera), 400);
 }
 rowland.onUpdate = draw;
 controls.addEventListener("change", draw);
@@ -53,19 +71,34 @@ const lamp = new DirectionalLight(0xffffff, 0);
 lamp.position.set(-0.4, 1, 0.5);
 scene.add(lamp);
 
-const meshes = SAMPLES.map(({ material, geometry, position, name }) => {
-    const mesh = new Mesh(geometry(), new GratingMaterial({ rowland, grating: material, grooves: undefined }));
+let wanted: Settings = { sample: 0, light: 0 };
+try {
+    wanted = settingsOf(location.hash);
+} catch (error) {
+    report(error);
+}
+const materials = SAMPLES.map(({ material }, index) => (index === wanted.sample && wanted.material) || material);
+const meshes = SAMPLES.map(({ geometry, position, name }, index) => {
+    const representation = index === wanted.sample ? wanted.representation : undefined;
+    const mesh = new Mesh(geometry(), new GratingMaterial({ rowland, grating: materials[index], representation }));
     mesh.position.set(...position);
     mesh.name = name;
     scene.add(mesh);
     return mesh;
 });
-const materials = SAMPLES.map(({ material }) => material);
 
 // The panel.
 const sample = element<HTMLSelectElement>("sample");
+const lights = element<HTMLSelectElement>("light");
 const sliders = element("sliders");
-let chosen = 0;
+let chosen = wanted.sample;
+
+/** Whoever opens the address sees the chosen sample. */
+function writeAddress(): void {
+    const material = materials[chosen] === SAMPLES[chosen].material ? undefined : materials[chosen];
+    const representation = chosen === wanted.sample ? wanted.representation : undefined;
+    history.replaceState(null, "", addressOf({ sample: chosen, light: lights.selectedIndex, representation, material }));
+}
 
 function slider(label: string, from: number, to: number, step: number, value: number, change: (value: number) => void) {
     const row = document.createElement("label");
@@ -88,6 +121,7 @@ function rebake(index: number): void {
     waiting = window.setTimeout(() => {
         message.textContent = "";
         meshes[index].material.bake(rowland, materials[index]);
+        writeAddress();
     }, 80);
 }
 
@@ -103,16 +137,19 @@ function showSample(index: number): void {
     element("price").textContent = `Price: ${price.map} look-up${price.map === 1 ? "" : "s"} a pixel for the environment, nine for each bright light in reach.`;
 }
 sample.append(...SAMPLES.map(({ name }) => new Option(name)));
-sample.addEventListener("change", () => showSample(sample.selectedIndex));
-showSample(0);
+sample.addEventListener("change", () => {
+    showSample(sample.selectedIndex);
+    writeAddress();
+});
+showSample(wanted.sample);
 
-function bind(id: string, change: (value: number) => void): void {
+function bind(id: string, change: (value: number) => void, update = draw): void {
     const input = element<HTMLInputElement>(id);
     const output = input.nextElementSibling as HTMLOutputElement;
     const show = () => {
         output.value = input.value;
         change(Number(input.value));
-        draw();
+        update();
     };
     input.addEventListener("input", show);
     show();
@@ -120,15 +157,28 @@ function bind(id: string, change: (value: number) => void): void {
 bind("lamp", (value) => (lamp.intensity = value));
 bind("exposure", (value) => (renderer.toneMappingExposure = 2 ** value));
 
+// Both sides show the light that the grooves diffract of the panorama, and nothing else.
+referenceShown.addEventListener("change", () => {
+    const on = referenceShown.checked;
+    for (const { material } of meshes) material.diffractionOnly = on;
+    table.visible = !on;
+    lamp.visible = !on;
+    scene.background = on ? new Color(0) : environment ?? null;
+    draw();
+});
+bind("line", (value) => (reference.line = value), redraw);
+
 // Light.
 let environment: Texture | undefined;
 /** Halves are filtered on every GPU; floats are not. */
 function filterable(texture: Texture): Texture {
     const image = texture.image as { data: Float32Array; width: number; height: number };
     if (renderer.extensions.has("OES_texture_float_linear") || !(image.data instanceof Float32Array)) return texture;
-    const halves = (texture as DataTexture).clone();
-    halves.image = { ...image, data: Uint16Array.from(image.data, (x) => DataUtils.toHalfFloat(Math.min(x, 65504))) } as never;
-    halves.type = HalfFloatType;
+    const data = Uint16Array.from(image.data, (x) => DataUtils.toHalfFloat(Math.min(x, 65504)));
+    const halves = new DataTexture(data, image.width, image.height, RGBAFormat, HalfFloatType);
+    halves.mapping = texture.mapping;
+    halves.flipY = texture.flipY;
+    halves.minFilter = halves.magFilter = LinearFilter;
     halves.needsUpdate = true;
     return halves;
 }
@@ -139,19 +189,20 @@ async function light(texture: Texture): Promise<void> {
     environment = pmrem.fromEquirectangular(filterable(texture)).texture;
     pmrem.dispose();
     scene.environment = environment;
-    scene.background = environment;
+    if (!referenceShown.checked) scene.background = environment;
     scene.backgroundBlurriness = 0.3;
     draw();
     await rowland.setProbe(texture);
 }
 
-let shownLight: Texture = builtInLight(LIGHT_NAMES[0]);
-const lights = element<HTMLSelectElement>("light");
+let shownLight: Texture = builtInLight(LIGHT_NAMES[wanted.light]);
 lights.append(...LIGHT_NAMES.map((name) => new Option(name)));
+lights.selectedIndex = wanted.light;
 lights.addEventListener("change", () => {
     message.textContent = "";
     shownLight = builtInLight(LIGHT_NAMES[lights.selectedIndex]);
     light(shownLight).catch(report);
+    writeAddress();
 });
 
 addEventListener("dragover", (event) => event.preventDefault());
@@ -163,27 +214,76 @@ addEventListener("drop", (event) => {
     lightOf(file).then((texture) => light((shownLight = texture))).catch(report);
 });
 
-// Turning a sample by hand.
 const ray = new Raycaster();
-let held: Mesh | undefined;
-function under(event: PointerEvent): Mesh | undefined {
-    const box = canvas.getBoundingClientRect();
-    ray.setFromCamera(new Vector2((2 * (event.clientX - box.left)) / box.width - 1, 1 - (2 * (event.clientY - box.top)) / box.height), camera);
-    return ray.intersectObjects(meshes, false)[0]?.object as Mesh | undefined;
+/** What the point (x, y) of the picture shows, in pixels from the left and from below. */
+function hitAt(x: number, y: number): Intersection<Mesh> | undefined {
+    ray.setFromCamera(new Vector2((2 * x) / canvas.width - 1, (2 * y) / canvas.height - 1), camera);
+    return ray.intersectObjects(meshes, false)[0] as Intersection<Mesh> | undefined;
 }
+/** The pixel at a pointer, and what its middle shows. */
+function under(event: PointerEvent) {
+    const box = canvas.getBoundingClientRect();
+    const x = Math.floor(((event.clientX - box.left) * canvas.width) / box.width);
+    const y = Math.floor(((event.clientY - box.top) * canvas.height) / box.height);
+    return { x, y, hit: hitAt(x + 0.5, canvas.height - y - 0.5) };
+}
+
+// The error of the pixel that the pointer rests on.
+const comparer = new PixelComparer(renderer, scene, camera, lamp);
+let resting = 0;
+let compared = 0;
+function rest(event: PointerEvent, milliseconds: number): void {
+    clearTimeout(resting);
+    resting = window.setTimeout(async () => {
+        const { x, y, hit } = under(event);
+        if (!hit || rowland.lightVersion === 0) return;
+        const number = ++compared;
+        const { shown, reference, error } = await comparer.compare(hit, x, y);
+        if (number !== compared) return;
+        const text = (rgb: number[]) => rgb.map((value) => value.toPrecision(3)).join(", ");
+        element("pixel").textContent = `Diffracted light of this pixel: ${text(shown)} (red, green, blue). The sum over wavelengths and ` +
+            `the panorama: ${text(reference)}. Difference: ${(100 * error).toPrecision(2)} %.`;
+    }, milliseconds);
+}
+
+// Turning a sample by hand, or zooming with a second finger.
+let held: Mesh | undefined;
+const down = new Set<number>();
+const fingers = new Map<number, PointerEvent>(); // of the held sample
+const spread = () => {
+    const [a, b] = [...fingers.values()];
+    return Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY);
+};
 canvas.addEventListener("pointerdown", (event) => {
-    held = under(event);
-    if (!held) return;
+    if (down.size === 0) held = under(event).hit?.object;
+    down.add(event.pointerId);
+    if (!held) return; // the controls' own
+    if (fingers.size === 0) showSample(meshes.indexOf(held as never));
     controls.enabled = false;
-    showSample(meshes.indexOf(held as never));
+    fingers.set(event.pointerId, event);
     canvas.setPointerCapture(event.pointerId);
 }, { capture: true });
 canvas.addEventListener("pointermove", (event) => {
-    if (!held) return;
-    held.rotation.y += 0.01 * event.movementX;
+    const before = fingers.get(event.pointerId);
+    if (event.buttons === 0) rest(event, 400);
+    else clearTimeout(resting);
+    if (!held || !before) return;
+    if (fingers.size === 1) {
+        held.rotation.y += 0.01 * (event.clientX - before.clientX);
+        fingers.set(event.pointerId, event);
+    } else {
+        const old = spread();
+        fingers.set(event.pointerId, event);
+        if (fingers.size === 2) zoom(old / Math.max(spread(), 1));
+    }
+    controls.update();
     draw();
 });
-const release = () => {
+const release = (event: PointerEvent) => {
+    down.delete(event.pointerId);
+    fingers.delete(event.pointerId);
+    if (down.size > 0) return;
+    if (event.pointerType === "touch" && held) rest(event, 0);
     held = undefined;
     controls.enabled = true;
 };

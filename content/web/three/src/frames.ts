@@ -1,4 +1,7 @@
-import { Matrix3, Vector3, type BufferGeometry, type Object3D } from "three";
+import {
+    BufferGeometry, Float32BufferAttribute, Matrix3, Vector3, Vector4, type BufferAttribute, type Camera, type Intersection,
+    type Mesh, type Object3D,
+} from "three";
 
 /** Which way g, across the grooves, points on a mesh: along its tangents, or away from its origin as on a disc. */
 export type Grooves = "tangent" | "radial";
@@ -48,4 +51,20 @@ export function worldFrames(geometry: BufferGeometry, object: Object3D, grooves:
         g.toArray(gratings, 3 * i);
     }
     return { normals, gratings };
+}
+
+/** Unit vectors in the world at a point of a mesh: toward the eye, the normal, the grating vector. */
+export function pointFrame({ object, point, face, barycoord }: Intersection<Mesh>, grooves: Grooves, turn: number, camera: Camera): Float32Array {
+    const vertex = new BufferGeometry();
+    for (const [name, size] of [["position", 3], ["normal", 3], ["tangent", 4]] as const) {
+        const attribute = object.geometry.getAttribute(name) as BufferAttribute | undefined;
+        if (!attribute) continue;
+        const sum = new Vector4(0, 0, 0, 0);
+        for (const [index, weight] of [[face!.a, barycoord!.x], [face!.b, barycoord!.y], [face!.c, barycoord!.z]])
+            sum.addScaledVector(new Vector4().fromBufferAttribute(attribute, index), weight);
+        vertex.setAttribute(name, new Float32BufferAttribute(sum.toArray().slice(0, size), size));
+    }
+    const { normals, gratings } = worldFrames(vertex, object, grooves, turn);
+    const view = new Vector3().setFromMatrixPosition(camera.matrixWorld).sub(point).normalize();
+    return Float32Array.of(...view.toArray(), ...normals, ...gratings);
 }

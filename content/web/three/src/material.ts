@@ -1,9 +1,9 @@
 import {
     Matrix3, MeshPhysicalMaterial, Vector2, Vector3, Vector4, type BufferGeometry, type IUniform,
     type MeshPhysicalMaterialParameters, type Object3D, type Scene, type Texture, type WebGLProgramParametersWithUniforms,
-    type Camera, type WebGLRenderer,
+    type Camera, type Intersection, type Mesh, type WebGLRenderer,
 } from "three";
-import { flatNormal, groovesOf, worldFrames, worldNormal, type Grooves } from "./frames.js";
+import { flatNormal, groovesOf, pointFrame, worldFrames, worldNormal, type Grooves } from "./frames.js";
 import { FRAGMENT, VERTEX } from "./generated/shaders.js";
 import type { Rowland } from "./rowland.js";
 import type { MaterialTables, PlaneMap } from "./tasks.js";
@@ -232,6 +232,28 @@ export class GratingMaterial extends MeshPhysicalMaterial {
             .finally(() => (this.busy = false));
     }
 
+    /** Draws the light that the grooves diffract, alone: to compare it with reference(). */
+    get diffractionOnly(): boolean {
+        return this.defines?.ROWLAND_DIFFRACTION_ONLY !== undefined;
+    }
+    set diffractionOnly(on: boolean) {
+        this.flag("ROWLAND_DIFFRACTION_ONLY", on);
+    }
+
+    /**
+     * The ground truth under the probe, linear Rec.709: a sum over wavelengths along arcs of the probe's texels, without
+     * tables. Nine numbers a point, as pointFrame() gives them. Takes milliseconds a point.
+     */
+    reference(points: Float32Array): Promise<Float32Array> {
+        return this.rowland!.reference(this.number, points);
+    }
+
+    /** The numbers of a point on a mesh that a Raycaster of `camera` hits. */
+    pointFrame(hit: Intersection<Mesh>, camera: Camera): Float32Array {
+        const turn = this.tables!.facts[FACT.rotation];
+        return pointFrame(hit, this.grooves ?? groovesOf(hit.object.geometry), turn, camera);
+    }
+
     /** Texture look-ups a pixel: for the light of the probe without its key lights. */
     get price(): { map: number } {
         return { map: this.defines?.ROWLAND_ARC ? Number(this.defines.LAYERS) : this.representation === "direct" ? 0 : 1 };
@@ -258,7 +280,7 @@ export class GratingMaterial extends MeshPhysicalMaterial {
                 "mirrored = getIBLRadiance(geometryViewDir, normal, 0.0);\n#endif\n" +
                 "outgoingLight = grating_surface(totalDiffuse + totalSpecular, mirrored) + totalEmissiveRadiance;"),
             // Purer than the screen's colours: paled until it can show them.
-            "#if defined(ROWLAND) && !defined(ROWLAND_UNCOMPRESSED)\n" +
+            "#if defined(ROWLAND) && !defined(ROWLAND_UNCOMPRESSED) && !defined(ROWLAND_DIFFRACTION_ONLY)\n" +
                 "gl_FragColor.rgb -= min(min(gl_FragColor.r, gl_FragColor.g), min(gl_FragColor.b, 0.0));\n#endif");
         shader.fragmentShader = fragment;
     }

@@ -10,16 +10,21 @@ export class BakeModule {
 
     static async load(bytes: BufferSource | WebAssembly.Module): Promise<BakeModule> {
         let memory: WebAssembly.Memory;
-        const refused = (message: number): never => {
-            const all = new Uint8Array(memory.buffer);
-            throw new Error(new TextDecoder().decode(all.slice(message, all.indexOf(0, message))));
+        const textAt = (begin: number, length: number) => new TextDecoder().decode(new Uint8Array(memory.buffer, begin, length));
+        const worker: Record<string, (a: number, b: number) => number> = {
+            refused: (message) => {
+                throw new Error(textAt(message, new Uint8Array(memory.buffer).indexOf(0, message) - message));
+            },
+            number: (begin, length) => Number(textAt(begin, length)),
+            text: (number, address) =>
+                new TextEncoder().encodeInto(String(Number(number.toPrecision(9))), new Uint8Array(memory.buffer, address)).written,
         };
         const module = bytes instanceof WebAssembly.Module ? bytes : await WebAssembly.compile(bytes);
         const imports: WebAssembly.Imports = {};
         for (const { module: from, name } of WebAssembly.Module.imports(module)) {
             imports[from] ??= {};
             // What the C++ library asks of a system that a page does not have is never reached.
-            imports[from][name] = from === "worker" ? refused : () => 0;
+            imports[from][name] = from === "worker" ? worker[name] : () => 0;
         }
         const instance = await WebAssembly.instantiate(module, imports);
         memory = instance.exports.memory as WebAssembly.Memory;

@@ -62,6 +62,11 @@ export class Rowland {
         this.onUpdate();
     }
 
+    /** Whether the worker has tasks left. */
+    get busy(): boolean {
+        return this.waiting.size > 0;
+    }
+
     /** @internal */
     material(id: number, json: object): Promise<MaterialTables> {
         return this.run("material", [id, JSON.stringify(json)]);
@@ -81,6 +86,10 @@ export class Rowland {
     /** @internal */
     products(id: number, bands: number, normals: Float32Array, gratings: Float32Array): Promise<Float32Array> {
         return this.run("products", [id, bands, normals, gratings], [normals.buffer, gratings.buffer] as ArrayBuffer[]);
+    }
+    /** @internal */
+    reference(id: number, points: Float32Array): Promise<Float32Array> {
+        return this.run("reference", [id, points], [points.buffer as ArrayBuffer]);
     }
 
     dispose(): void {

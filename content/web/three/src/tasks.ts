@@ -40,7 +40,8 @@ function table(width: number, height: number, depth: number, rgb: Float32Array):
     return { width, height, depth, ...packRgb(rgb) };
 }
 
-export type Fetch = (name: "bake" | "arc") => Promise<BufferSource>;
+type ModuleName = "bake" | "arc" | "reference";
+export type Fetch = (name: ModuleName) => Promise<BufferSource>;
 
 /** Materials and probes by number, in the modules' memory. One probe is kept. */
 export class Tasks {
@@ -49,10 +50,11 @@ export class Tasks {
     private readonly baked = new Map<number, number>();
     private readonly arcs = new Map<number, number>();
     private probe = 0;
+    private image = 0; // the probe's, in the module of the reference
 
     constructor(private readonly fetch: Fetch) {}
 
-    private module(name: "bake" | "arc"): Promise<BakeModule> {
+    private module(name: ModuleName): Promise<BakeModule> {
         let module = this.modules.get(name);
         if (!module) this.modules.set(name, (module = this.fetch(name).then((bytes) => BakeModule.load(bytes))));
         return module;
@@ -86,6 +88,8 @@ export class Tasks {
     async light(texels: Float32Array, width: number, height: number, keyLights: number): Promise<void> {
         const bake = await this.module("bake");
         if (this.probe !== 0) bake.call("release_probe", this.probe);
+        if (this.image !== 0) (await this.module("reference")).call("release_image", this.image);
+        this.image = 0;
         this.probe = bake.call("read_probe", bake.putFloats(texels), width, height, keyLights);
     }
 
@@ -149,5 +153,21 @@ export class Tasks {
         const products = module.numbers("arc_products", arc, ...inputs, normals.length / 3);
         for (const input of inputs) module.call("give_back", input);
         return products;
+    }
+
+    /** Radiance of points by the sum over wavelengths, along arcs of the probe's texels. */
+    async reference(id: number, points: Float32Array): Promise<Float32Array> {
+        if (this.probe === 0) throw new Error("reference() needs a probe: call setProbe() before it");
+        const module = await this.module("reference");
+        if (this.image === 0) {
+            const texels = (await this.module("bake")).numbers("probe_texels", this.probe);
+            this.image = module.call("read_image", module.putFloats(texels.subarray(2)), texels[0], texels[1]);
+        }
+        const material = Tasks.read(module, this.json.get(id)!);
+        const address = module.putFloats(points);
+        const radiance = module.numbers("reference_radiance", material, this.image, address, points.length / 9);
+        module.call("give_back", address);
+        module.call("release_material", material);
+        return radiance;
     }
 }

@@ -34,6 +34,14 @@ function geometry(frames) {
     return result;
 }
 
+async function reference(rowland, { grating, frames }) {
+    const material = new GratingMaterial({ rowland, grating });
+    await material.ready;
+    const points = frames.flatMap(({ view, normal, grating }) => [...view, ...normal, ...grating]);
+    const radiance = await material.reference(Float32Array.from(points));
+    return frames.map((_, i) => [...radiance.subarray(3 * i, 3 * i + 3)]);
+}
+
 async function radiance(renderer, rowland, { grating, representation, frames, lamp }) {
     const scene = new THREE.Scene();
     const camera = new THREE.PerspectiveCamera();
@@ -73,7 +81,8 @@ try {
     if (probe.endsWith(".hdr")) light.image.data = light.image.data.map((x) => (x * 255) / 256);
     await rowland.setProbe(light, { keyLights });
     const results = [];
-    for (const one of cases) results.push(await radiance(renderer, rowland, one));
+    for (const one of cases)
+        results.push(await (one.representation === "reference" ? reference(rowland, one) : radiance(renderer, rowland, one)));
     await post({ results });
 } catch (error) {
     await post({ error: error.message + "\n" + error.stack });

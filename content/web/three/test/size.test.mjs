@@ -17,5 +17,5 @@ test("the package stays as small as it is", { skip: built ? false : "needs dist:
         bake: zipped(readFileSync(packageFolder + "dist/bake.wasm")), arc: zipped(readFileSync(packageFolder + "dist/arc.wasm")) };
     t.diagnostic(JSON.stringify(sizes));
     // Measured: 14 kB of bake.wasm are colour tables; arc.wasm is loaded with the first curved mesh.
-    assert.ok(sizes.script + sizes.worker + sizes.bake < 175000 && sizes.arc < 215000, JSON.stringify(sizes));
+    assert.ok(sizes.script + sizes.worker + sizes.bake < 145000 && sizes.arc < 145000, JSON.stringify(sizes));
 });

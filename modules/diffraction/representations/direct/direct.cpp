@@ -51,10 +51,11 @@ LightSpot clamp_at_horizon(const Spread& spread) {
     return spot;
 }
 
-/// A normal distribution is split into slices. They are no wider than this in x, so that the kernel's width hides the
-/// steps. The distribution ends at this many deviations; the weights are normalised for the 3e-4 lost.
-constexpr double kSlice_nm = 25.0;
-constexpr double kNormalReach = 3.6;
+/// A normal distribution is split into slices: at least so many, and none wider than this in x, so that the kernel's
+/// width hides the steps. The distribution ends at this many deviations; the weights are normalised for the 7e-6 lost.
+constexpr int kFewestSlices = 36;
+constexpr double kSlice_nm = 12.0;
+constexpr double kNormalReach = 4.5;
 
 /// D_h convolved with a light's normal distribution along the grooves.
 double widened_density(const GrooveLobe& lobe, double sum_h, double deviation_h, double wavelength_nm) {
@@ -81,11 +82,12 @@ glm::dmat3 mean_over(const Kernel& kernel, const DirectMaterial& material, doubl
 
 template <typename Kernel>
 glm::dmat3 mean_over_normal(const Kernel& kernel, const DirectMaterial& material, double u, double deviation) {
-    const auto slices =
-        std::max(12, static_cast<int>(std::ceil(2.0 * kNormalReach * deviation * material.pitch_nm / kSlice_nm)));
+    const double extent_nm = 2.0 * kNormalReach * deviation * material.pitch_nm;
+    const int slices = std::max(kFewestSlices, static_cast<int>(std::ceil(extent_nm / kSlice_nm)));
     const double width = 2.0 * kNormalReach / slices;
-    // Uniform slices add width²/12 to the variance (Sheppard's correction).
-    const double scale = deviation / std::sqrt(1.0 + width * width / 12.0);
+    // The weight of a slice at its middle adds width²/12 to the variance (Sheppard's correction); spread evenly over
+    // the slice it adds as much again.
+    const double scale = deviation / std::sqrt(1.0 + width * width / 6.0);
     const auto below = [](double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); };
     const double whole = below(kNormalReach) - below(-kNormalReach);
     glm::dmat3 sum(0.0);

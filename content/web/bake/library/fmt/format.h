@@ -1,6 +1,5 @@
 #pragma once
 // What the bake uses of {fmt}, in a twentieth of its size: each {…} becomes the next argument, whatever its format.
-#include <cstdio>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -19,14 +18,14 @@ Joined<Range> join(const Range& values, std::string_view between) {
     return {values, between};
 }
 
+std::string number_text(double number);
+
 template <typename Value>
 std::string text_of(const Value& value) {
     if constexpr (std::is_convertible_v<Value, std::string_view>) {
         return std::string(std::string_view(value));
     } else if constexpr (std::is_floating_point_v<Value>) {
-        char digits[32];
-        std::snprintf(digits, sizeof digits, "%.9g", static_cast<double>(value));
-        return digits;
+        return number_text(static_cast<double>(value));
     } else if constexpr (std::is_same_v<Value, bool>) {
         return value ? "true" : "false";
     } else if constexpr (std::is_same_v<Value, char>) {

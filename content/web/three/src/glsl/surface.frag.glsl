@@ -58,6 +58,9 @@ vec3 probe_radiance() {
 vec3 grating_surface(vec3 base, vec3 mirrored) {
     vec3 diffracted = probe_radiance() + lit_sum;
     float passed = cover_transmittance(abs(lit_view.direction.z));
+#ifdef ROWLAND_DIFFRACTION_ONLY
+    return passed * diffracted;
+#endif
 #ifdef COVER
     vec3 mirror = vec3(1.0 - passed) + passed * passed * mirror_weight;
 #else

@@ -136,6 +136,41 @@ TEST(Direct, LobeIsItsArcIntegral) {
         }
 }
 
+/// A normal distribution is summed in slices of k; here 2000 of them. Measured: at most 1.1e-4 of the largest
+/// component; 6.9e-3 with 12 slices and a variance corrected by width²/12 alone.
+TEST(Direct, SlicesOfANormalDistributionAreItsIntegral) {
+    const Kernels kernels(compact_disc());
+    for (const double deviation_nm : {4.0, 10.0, 25.0, 60.0, 150.0}) {
+        LightSpot spot{.flux = {1.0, 0.5, 0.25}, .shape = LightSpot::Shape::Normal};
+        spot.parts[0] = {.cosine = 1.0, .centre_g = 0.0, .deviation_g = deviation_nm / 1600.0};
+        std::vector<glm::dvec3> found;
+        std::vector<glm::dvec3> expected;
+        for (double x = 0.0; x < 3400.0; x += 7.0) {
+            found.push_back(direct_radiance(kernels.table, {1600.0}, spot, {x / 1600.0}));
+            glm::dmat3 mean(0.0);
+            double weights = 0.0;
+            constexpr int kCells = 2000;
+            for (int i = 0; i < kCells; ++i) {
+                const double z = 12.0 * ((i + 0.5) / kCells - 0.5);
+                const double half = 6.0 * deviation_nm / kCells;
+                const double weight = std::exp(-0.5 * z * z);
+                weights += weight;
+                mean += weight * kernels.table.average(x + deviation_nm * z - half, x + deviation_nm * z + half);
+            }
+            expected.push_back(0.5 * 1600.0 / weights * (mean * spot.flux));
+        }
+        double worst = 0.0;
+        double largest = 0.0;
+        for (std::size_t i = 0; i < found.size(); ++i)
+            for (int c = 0; c < 3; ++c) {
+                worst = std::max(worst, std::abs(found[i][c] - expected[i][c]));
+                largest = std::max(largest, expected[i][c]);
+            }
+        RecordProperty(fmt::format("deviation_{}", deviation_nm), fmt::format("{:.3g}", worst / largest));
+        EXPECT_LT(worst, 2e-4 * largest) << deviation_nm;
+    }
+}
+
 TEST(Direct, LobeBelowTheHorizonIsBlack) {
     const Kernels kernels(compact_disc());
     const lighting::KeyLight key{toward(0.1, -0.9), glm::dvec3(1.0), 400.0};

@@ -1,0 +1,58 @@
+// The static site, as a visitor meets it. SITE is the folder that `./rowland web --out` wrote.
+import assert from "node:assert/strict";
+import { existsSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import test from "node:test";
+import { chromium, packageFolder, resultOf } from "./browser.mjs";
+
+const site = process.env.SITE ?? packageFolder + "../site";
+const missing = !chromium() ? "needs Chromium" : existsSync(join(site, "index.html")) ? false : `needs the page in ${site}`;
+
+const LOADED = ["index.html", "page.css", "page.js", "worker.js", "bake.wasm", "arc.wasm"]; // before anything is asked
+
+async function visit(query) {
+    const folder = mkdtempSync(join(tmpdir(), "rowland-page-"));
+    try {
+        const page = join(folder, "index.html");
+        writeFileSync(page, readFileSync(join(site, "index.html"), "utf8")
+            .replace('<script type="module"', '<script src="driver.js"></script>\n$&'));
+        const files = { "/index.html": page, "/driver.js": packageFolder + "test/page_driver.js" };
+        const result = await resultOf("index.html?" + query, {}, { folder: site, files, seconds: 400 });
+        assert.deepEqual(result.errors, []);
+        if (process.env.PICTURES)
+            for (const [name, { url }] of Object.entries(result.pictures))
+                writeFileSync(join(process.env.PICTURES, `${query.replace(/\W/g, "_")}_${name}.png`), Buffer.from(url.split(",")[1], "base64"));
+        return result;
+    } finally {
+        rmSync(folder, { recursive: true });
+    }
+}
+
+test("the page needs at most 2 MB", { skip: missing }, (t) => {
+    const bytes = LOADED.reduce((sum, name) => sum + statSync(join(site, name)).size, 0);
+    t.diagnostic(`${bytes} bytes, not zipped`);
+    assert.ok(bytes <= 2e6, String(bytes));
+});
+
+let colour; // of the picture without limits
+test("the page draws on demand, outlives a lost context and names a broken file", { skip: missing }, async (t) => {
+    const result = await visit("visit=8000");
+    t.diagnostic(`first frame ${Math.round(result.firstFrame)} ms, settled ${Math.round(result.settled)} ms, in software`);
+    t.diagnostic(`${result.lost} | ${result.broken} | ${result.pixel}`);
+    assert.equal(result.framesAtRest, 0);
+    assert.match(result.lost, /context was lost/);
+    assert.match(result.broken, /broken\.hdr/);
+    assert.match(result.pixel, /Difference: \d/);
+    colour = result.pictures.first.colour;
+    const { first, restored } = result.pictures;
+    assert.ok(first.colour > 4, `colours of ${first.colour}`);
+    assert.ok(Math.abs(restored.colour - first.colour) < 0.1 * first.colour, `${restored.colour} after ${first.colour}`);
+});
+
+for (const limit of ["halves", "small"])
+    test(`the page shows the same with ${limit === "halves" ? "halves filtered alone" : "textures of 2048 texels"}`, { skip: missing }, async () => {
+        const result = await visit(limit);
+        const found = result.pictures.first.colour;
+        assert.ok(Math.abs(found - colour) < 0.02 * colour, `colours of ${found}, without the limit ${colour}`);
+    });

@@ -1,0 +1,114 @@
+// Before the page's own script: a WebGL with the limits that the address names, and what a visitor does.
+const limits = new URLSearchParams(location.search);
+const gl = WebGL2RenderingContext.prototype;
+const getExtension = gl.getExtension;
+const getParameter = gl.getParameter;
+const errors = [];
+if (limits.has("halves")) {
+    gl.getExtension = function (name) {
+        return name === "OES_texture_float_linear" ? null : getExtension.call(this, name);
+    };
+    for (const name of ["texImage2D", "texImage3D", "texSubImage2D", "texSubImage3D"]) {
+        const upload = gl[name];
+        gl[name] = function (...args) {
+            upload.apply(this, args);
+            const wide = args.includes(this.FLOAT) && this.getTexParameter(args[0], this.TEXTURE_MAG_FILTER) === this.LINEAR;
+            if (wide) errors.push(`${name}: a texture of floats is filtered`);
+        };
+    }
+}
+if (limits.has("small")) {
+    gl.getParameter = function (name) {
+        const value = getParameter.call(this, name);
+        return [this.MAX_TEXTURE_SIZE, this.MAX_3D_TEXTURE_SIZE, this.MAX_CUBE_MAP_TEXTURE_SIZE].includes(name) ? Math.min(value, 2048) : value;
+    };
+    for (const name of ["texStorage2D", "texStorage3D", "texImage2D", "texImage3D"]) {
+        const allocate = gl[name];
+        gl[name] = function (...args) {
+            const sizes = name.startsWith("texStorage") ? args.slice(3) : args.slice(3, 5);
+            if (sizes.some((size) => typeof size === "number" && size > 2048)) errors.push(`${name} of ${sizes}`);
+            return allocate.apply(this, args);
+        };
+    }
+}
+addEventListener("error", (event) => errors.push(event.message));
+
+const post = (value) => fetch("/result", { method: "POST", body: JSON.stringify(value) });
+const wait = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds));
+const frames = () => Number(document.documentElement.dataset.frames ?? 0);
+const said = () => document.getElementById("message").textContent;
+async function until(what, isSo) {
+    for (let i = 0; i < 1200; ++i) {
+        if (isSo()) return;
+        await wait(100);
+    }
+    throw new Error(`waited two minutes for ${what}; the page says "${said()}"`);
+}
+
+/** Every table has arrived, and no frame was drawn for a second. */
+async function settled() {
+    for (let last = -1; last !== frames(); await wait(1000)) {
+        last = frames();
+        await until("the tables", () => document.documentElement.dataset.busy === "false");
+    }
+}
+
+/** The picture as a PNG, and how colourful it is: the mean difference of the largest and smallest of red, green and blue. */
+async function picture() {
+    const canvas = document.getElementById("view");
+    const drawn = frames();
+    dispatchEvent(new Event("resize")); // draws
+    const url = await new Promise((resolve) => {
+        const take = () => (frames() > drawn ? resolve(canvas.toDataURL("image/png")) : requestAnimationFrame(take));
+        requestAnimationFrame(take);
+    });
+    const image = await createImageBitmap(await (await fetch(url)).blob());
+    const flat = Object.assign(document.createElement("canvas"), { width: 320, height: 180 }).getContext("2d");
+    flat.drawImage(image, 0, 0, 320, 180);
+    const { data } = flat.getImageData(0, 0, 320, 180);
+    let colour = 0;
+    for (let i = 0; i < data.length; i += 4)
+        colour += Math.max(data[i], data[i + 1], data[i + 2]) - Math.min(data[i], data[i + 1], data[i + 2]);
+    return { url, colour: colour / (data.length / 4) };
+}
+
+function pointer(type, x, y) {
+    document.getElementById("view").dispatchEvent(new PointerEvent(type, { clientX: x, clientY: y, pointerId: 1, bubbles: true }));
+}
+
+async function visit() {
+    const result = { errors, pictures: {} };
+    const show = async (name) => (result.pictures[name] = await picture());
+    await until("the first frame", () => frames() > 0);
+    result.firstFrame = performance.now();
+    await settled();
+    result.settled = performance.now() - 1000;
+    const before = frames();
+    await wait(2000);
+    result.framesAtRest = frames() - before;
+    await show("first");
+    if (limits.has("visit")) {
+        const context = document.getElementById("view").getContext("webgl2");
+        const loss = context.getExtension("WEBGL_lose_context");
+        loss.loseContext();
+        await until("word of the loss", () => said() !== "");
+        result.lost = said();
+        loss.restoreContext();
+        await until("the context", () => said() === "");
+        await settled();
+        await show("restored");
+        const dropped = new DataTransfer();
+        dropped.items.add(new File(["#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 64 +X 128\n"], "broken.hdr"));
+        dispatchEvent(new DragEvent("drop", { dataTransfer: dropped }));
+        await until("word of the broken file", () => said() !== "");
+        result.broken = said();
+        pointer("pointermove", innerWidth * 0.1, innerHeight * 0.55);
+        await until("the pixel's error", () => document.getElementById("pixel").textContent.includes("Difference"));
+        result.pixel = document.getElementById("pixel").textContent;
+        document.getElementById("reference").click();
+        await wait(Number(limits.get("visit")));
+        await show("reference");
+    }
+    await post(result);
+}
+visit().catch((error) => post({ errors: [error.message, ...errors] }));
