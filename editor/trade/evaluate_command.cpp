@@ -8,6 +8,7 @@
 #include <charconv>
 #include <iterator>
 
+#include "editor/trade/evaluate_film.h"
 #include "editor/trade/inputs.h"
 #include "editor/trade/results.h"
 #include "engine/core/error.h"
@@ -101,6 +102,7 @@ CLI::App* EvaluateCommand::declare(CLI::App& program) {
         "--bands 5 is another way to write the setting bands=5, and so on; a method ignores flags that it has no\n"
         "setting for. Settings that are not given are the material's where it pins the same method, else the "
         "defaults.\n"
+        "A film's material takes the methods reference and table: what it reflects of the probe.\n"
         "Example:\n"
         "  rowland-trade evaluate --material cd.json --probe sunset.hdr --method reference --frames frames.csv");
     command->add_option("--material", material, "Material, JSON")->type_name("FILE");
@@ -209,7 +211,22 @@ std::vector<glm::dvec3> EvaluateCommand::by_representation(const colour::Illumin
     return evaluate_points(method, exact_spikes(shaded.grating, exact, lit), kernel, lit, points);
 }
 
+void EvaluateCommand::run_film() const {
+    if (!probe) refuse_usage("--probe", "none", "a probe: the material is a film");
+    if (cooked || probe_sh || illuminant || error)
+        refuse_usage("--cooked, --probe-sh, --illuminant, --error", "one of them", "none: the material is a film");
+    const auto rows = film_radiance(diffraction::load_material_json(*material), material->string(), method,
+                                    read_probe(*probe, mapping), read_frames(frames));
+    std::string text = "X,Y,Z\n";
+    for (const glm::dvec3& xyz : rows) text += format_row(xyz) + '\n';
+    write_results(text);
+}
+
 void EvaluateCommand::run() const {
+    if (material && is_film(diffraction::load_material_json(*material))) {
+        run_film();
+        return;
+    }
     check_usage();
     const auto points = read_frames(frames);
     const colour::LightSpectra spectra(illuminant ? colour::load_illuminant(*illuminant) : colour::d65());

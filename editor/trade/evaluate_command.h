@@ -39,6 +39,7 @@ struct EvaluateCommand {
 
  private:
     void check_usage() const;
+    void run_film() const;
     diffraction::Method asked_method() const;
     diffraction::EvaluationLight light(int key_lights, math::SphericalWindow window) const;
     std::vector<diffraction::CheckedRadiance> by_reference(const colour::LightSpectra& spectra,

@@ -40,6 +40,7 @@ std::vector<Wall> walls() {
         {"modules/thin_film/", {"modules/diffraction/"}},
         {"modules/diffraction/", {"modules/thin_film/"}},
         {"modules/thin_film/model/", with_graphics({"modules/thin_film/bake/", "modules/thin_film/asset/"})},
+        {"modules/thin_film/reference/", with_graphics({"modules/thin_film/bake/", "modules/thin_film/asset/"})},
         {"modules/thin_film/bake/", with_graphics({"modules/thin_film/asset/"})},
         {"modules/thin_film/asset/", kGraphics},
         {"modules/thin_film/cook.", kGraphics},

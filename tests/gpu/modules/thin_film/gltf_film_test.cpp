@@ -15,7 +15,7 @@ class GltfFilm : public rowland::test::RenderTest {
     GltfFilm() { renderer_.set_probe(even_light(1.0F)); }
 
     /// One square with a material of these extensions, and a texture of two texels side by side.
-    scene::ImportedScene scene_with(const nlohmann::json& extensions) const {
+    scene::ImportedScene scene_with(const nlohmann::json& extensions, scene::AlphaMode alpha_mode) const {
         scene::ImportedScene scene;
         scene.meshes = {square()};
         scene.nodes.resize(1);
@@ -28,6 +28,8 @@ class GltfFilm : public rowland::test::RenderTest {
         scene.textures[0].nearest = true;
         scene::MaterialDescription material;
         material.base_colour = {0.0F, 0.0F, 0.0F, 1.0F};
+        if (alpha_mode == scene::AlphaMode::Blend) material.base_colour.a = 0.0F;
+        material.alpha_mode = alpha_mode;
         material.metallic = 0.0F;
         material.roughness = 0.0F;
         for (const auto& [name, value] : extensions.items()) material.extensions[name] = value;
@@ -36,9 +38,10 @@ class GltfFilm : public rowland::test::RenderTest {
         return scene;
     }
 
-    std::vector<glm::vec4> pixels_of(const nlohmann::json& extensions) {
+    std::vector<glm::vec4> pixels_of(const nlohmann::json& extensions,
+                                     scene::AlphaMode alpha_mode = scene::AlphaMode::Opaque) {
         const render::SceneInstance instance =
-            render::instantiate(world_, scene_with(extensions), renderer_, "scene.gltf");
+            render::instantiate(world_, scene_with(extensions, alpha_mode), renderer_, "scene.gltf");
         for (const ecs::Entity entity : instance.drawn) world_.add(entity, scene::WorldMatrix{glm::mat4(1.0F)});
         const std::vector<glm::vec4> pixels = draw();
         render::destroy(world_, instance);
@@ -90,6 +93,18 @@ TEST_F(GltfFilm, TheFactorAndItsTextureMixItWithThePlainSurface) {
         {{"KHR_materials_iridescence", {{"iridescenceFactor", 0.5}, {"iridescenceTexture", {{"index", 0}}}}}});
     expect_at(mixed, -0.5F, glm::dvec3(at(plain, -0.5F, 0.0F)));
     expect_at(mixed, 0.5F, 0.5 * glm::dvec3(at(plain, 0.5F, 0.0F) + at(film, 0.5F, 0.0F)));
+}
+
+TEST_F(GltfFilm, ThatBlendsAddsItsReflectionToWhatPassesOfTheLightBehind) {
+    register_module(renderer_);
+    const auto pixels =
+        pixels_of({{"KHR_materials_ior", {{"ior", 1.0}}},
+                   {"KHR_materials_iridescence",
+                    {{"iridescenceFactor", 1.0}, {"iridescenceIor", 1.8}, {"iridescenceThicknessMaximum", 90.0}}}},
+                  scene::AlphaMode::Blend);
+    const glm::dvec3 reflected = exact(1.8, 90.0, 1.0, 0.2F);
+    EXPECT_GT(reflected.g, 0.2);
+    expect_at(pixels, 0.2F, reflected + (1.0 - (reflected.r + reflected.g + reflected.b) / 3.0));
 }
 
 TEST_F(GltfFilm, OfFactorZeroIsThePlainSurface) {

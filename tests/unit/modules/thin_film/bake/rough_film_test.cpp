@@ -9,6 +9,7 @@
 
 #include "engine/lighting/light_samples.h"
 #include "modules/thin_film/bake/film_table.h"
+#include "modules/thin_film/reference/rough_reference.h"
 #include "tests/support/test_data.h"
 
 namespace rowland::thin_film {
@@ -34,58 +35,20 @@ std::vector<Facing> random_facings(int count) {
     return facings;
 }
 
-/// M at many angles, linear between them.
-class ManyAngles {
- public:
-    explicit ManyAngles(const Film& film) {
-        const FilmColour colour(film, colour::LightSpectra{});
-        for (int i = 0; i <= kSteps; ++i) values_.push_back(colour(static_cast<double>(i) / kSteps));
-    }
-    glm::dmat3 operator()(double cosine) const {
-        const double at = cosine * kSteps;
-        const auto i = std::min(static_cast<std::size_t>(at), static_cast<std::size_t>(kSteps) - 1);
-        const double t = at - static_cast<double>(i);
-        return (1.0 - t) * values_[i] + t * values_[i + 1];
-    }
-
- private:
-    static constexpr int kSteps = 1000;
-    std::vector<glm::dmat3> values_;
-};
-
-/// What a GGX lobe of reflectance 1 sends to the view of unit flux per solid angle from l.
-double lobe(const Facing& facing, const glm::dvec3& l, double roughness, double v_h, double n_h) {
-    const double a2 = std::pow(roughness, 4.0);
-    const double n_l = glm::dot(facing.n, l);
-    const double n_v = glm::dot(facing.n, facing.v);
-    const double d = a2 / (3.14159265358979 * std::pow(n_h * n_h * (a2 - 1.0) + 1.0, 2.0));
-    const double smith = n_v * std::sqrt(n_l * n_l * (1.0 - a2) + a2) + n_l * std::sqrt(n_v * n_v * (1.0 - a2) + a2);
-    return v_h > 0.0 ? d * n_l / (2.0 * smith) : 0.0;
-}
-
 /// Relative RMS error over the facings.
 double error_under(const lighting::LightSamples& light, const Film& film, double roughness, int facings) {
     const double thickness_nm = film.layers.front().thickness_nm;
     const TableRange range{thickness_nm, thickness_nm, roughness, roughness};
     const FilmTable table = bake_table(FilmColour(film, colour::LightSpectra{}), range, table_size(range));
-    const ManyAngles exact(film);
+    const RoughReference reference(film, colour::LightSpectra{});
     double off = 0.0;
     double whole = 0.0;
     for (const Facing& facing : random_facings(facings)) {
-        glm::dvec3 white(0.0);
-        glm::dvec3 brute_force(0.0);
-        for (std::size_t i = 0; i < light.size(); ++i) {
-            const glm::dvec3 l = light.direction(i);
-            if (glm::dot(facing.n, l) <= 0.0) continue;
-            const glm::dvec3 h = glm::normalize(l + facing.v);
-            const double v_h = std::min(glm::dot(facing.v, h), 1.0);
-            const glm::dvec3 part = lobe(facing, l, roughness, v_h, glm::dot(facing.n, h)) * light.flux(i);
-            white += part;
-            brute_force += exact(v_h) * part;
-        }
-        const glm::dvec3 found = table.at(glm::dot(facing.n, facing.v), thickness_nm, roughness) * white;
-        off += glm::dot(found - brute_force, found - brute_force);
-        whole += glm::dot(brute_force, brute_force);
+        const RoughReference::Reflected reflected = reference.reflected(light, facing.n, facing.v, roughness);
+        const glm::dvec3 found =
+            table.at(glm::dot(facing.n, facing.v), thickness_nm, roughness) * reflected.without_fresnel;
+        off += glm::dot(found - reflected.xyz, found - reflected.xyz);
+        whole += glm::dot(reflected.xyz, reflected.xyz);
     }
     return std::sqrt(off / whole);
 }
