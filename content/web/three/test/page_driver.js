@@ -102,7 +102,7 @@ async function visit() {
         dispatchEvent(new DragEvent("drop", { dataTransfer: dropped }));
         await until("word of the broken file", () => said() !== "");
         result.broken = said();
-        pointer("pointermove", innerWidth * 0.1, innerHeight * 0.55);
+        pointer("pointermove", innerWidth * 0.15, innerHeight * 0.64);
         await until("the pixel's error", () => document.getElementById("pixel").textContent.includes("Difference"));
         result.pixel = document.getElementById("pixel").textContent;
         document.getElementById("reference").click();
