@@ -2,12 +2,12 @@
 #include <vector>
 
 #include "editor/inspector/field.h"
+#include "modules/diffraction/asset/gltf_extension.h"
 
 namespace rowland::inspector {
 
 namespace {
 
-const char* const kExtension = "ROWLAND_materials_diffraction";
 const char* const kTransform = "KHR_texture_transform";
 const char* const kTransformPointer = "/grooveTexture/extensions/KHR_texture_transform/";
 
@@ -57,14 +57,14 @@ std::vector<Field> make_groove_fields() {
          .help =
              "Turns the grooves in the surface, from the mesh's tangent toward its bitangent. Or drag the handle in "
              "the preview (G).",
-         .source = kExtension},
+         .source = diffraction::kGltfExtension},
         {.pointer = "/grooveTexture",
          .label = "Groove texture",
          .kind = FieldKind::Choice,
          .choices = {{"none", nullptr}, {"texture", {{"index", 0}}}},
          .help = "Varies the grooves over the mesh. R: rotation / 180 degrees, G: pitch / (2 pitch_nm), 0 where there "
                  "is no grating.",
-         .source = kExtension},
+         .source = diffraction::kGltfExtension},
         of_texture({.pointer = "/grooveTexture/index",
                     .label = "Texture",
                     .kind = FieldKind::Count,
@@ -73,12 +73,12 @@ std::vector<Field> make_groove_fields() {
                     .required = true,
                     .help = "Number of the texture in the file, from 0. A picture that is not saved yet has a number "
                             "from 1000000 on.",
-                    .source = kExtension}),
+                    .source = diffraction::kGltfExtension}),
         of_texture({.pointer = "/grooveTexture/texCoord",
                     .label = "UV set",
                     .kind = FieldKind::Count,
                     .default_value = 0,
-                    .help = "Which texture coordinates of the mesh place it; 0 or 1.",
+                    .help = "Which set of the mesh's texture coordinates it uses; 0 or 1.",
                     .source = "glTF 2.0, textureInfo"}),
         of_texture({.pointer = "/grooveTexture/sparkle",
                     .label = "Sparkle",
@@ -86,7 +86,7 @@ std::vector<Field> make_groove_fields() {
                     .choices = {{"off", nullptr}, {"on", true}},
                     .help = "on: a pixel shows the grooves of one texel, so that small cells sparkle. off: the mean of "
                             "what it covers.",
-                    .source = kExtension})};
+                    .source = diffraction::kGltfExtension})};
     for (Field& field : transform_fields()) all.push_back(std::move(field));
     return all;
 }

@@ -88,6 +88,7 @@ std::vector<std::byte> foil_pattern(std::string_view name) {
 std::vector<std::byte> as_groove_picture(std::vector<std::byte> picture, const std::string& name) {
     image::ByteImage image = image::decode_byte_image(picture, name);
     std::vector<std::uint8_t> rgb;
+    rgb.reserve(image.rgba.size() / 4 * 3);
     bool grooves = true;
     for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
         grooves = grooves && image.rgba[i + 2] == 0;

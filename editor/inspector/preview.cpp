@@ -32,7 +32,7 @@ glm::mat4 turn_of(const Stage& stage) {
     return glm::rotate(glm::mat4(1.0F), -glm::radians(stage.rotation_deg), kUp);
 }
 
-/// Places the object's root.
+/// Sets the transform of the object's root.
 scene::Transform placement(const PreviewInputs& inputs) {
     const glm::mat4 to_world = glm::rotate(glm::translate(turn_of(inputs.stage), kPosition),
                                            glm::radians(lean_deg(inputs.object->shape)), {1.0F, 0.0F, 0.0F});

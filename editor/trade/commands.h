@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 namespace CLI {
 class App;
 }
@@ -12,6 +14,7 @@ namespace rowland::trade {
 void add_project_command(CLI::App& program);
 /// `sweep`: errors, times, counts and bytes of many settings, as CSV and JSON lines in a folder.
 /// `report`: the same, drawn into one HTML file with the paper's own figures.
-void add_sweep_commands(CLI::App& program);
+/// `command_line`: for the report, as it was typed.
+void add_sweep_commands(CLI::App& program, const std::string& command_line);
 
 }  // namespace rowland::trade

@@ -46,7 +46,7 @@ CLI::App* CompareCommand::declare(CLI::App& program) {
         "and\n"
         "largest error over the largest value (both XYZ), the mean error of Y where the scene is dark over its mean "
         "Y,\n"
-        "and CIEDE2000 on the display.\n"
+        "CIEDE2000 on the display and, of the scene, the mean of HDR-FLIP: 0 looks the same, 1 could not be further.\n"
         "Example:\n"
         "  rowland-trade compare --material cd.json --probe sunset.hdr --method spikes/bands=5 --difference d.png");
     command->add_option("--material", material, "Material, JSON")->required()->type_name("FILE");
@@ -96,7 +96,7 @@ void CompareCommand::run() const {
     const FrameSet set = frames ? frames_of_file("frames", *frames) : scene.frames;
     const std::vector<glm::dvec3> b = radiance(material, image, against, set);
     const std::vector<glm::dvec3> a = radiance(material, image, method, set);
-    const MethodError error = compare(a, b);
+    const MethodError error = frames ? compare(a, b) : compare_pictures(scene, a, b);
     if (difference) {
         const RgbPicture shown = difference_image(picture(scene, a), picture(scene, b), size[0], size[1], magnified);
         image::write_png(*difference, shown.width, shown.height, shown.rgb);
@@ -105,6 +105,7 @@ void CompareCommand::run() const {
         fmt::format("quantity,value\nrelative_rms,{:.6g}\nlargest,{:.6g}\ndark_absolute,{:.6g}\n"
                     "median_delta_e,{:.6g}\np95_delta_e,{:.6g}\n",
                     error.relative_rms, error.largest, error.dark_absolute, error.median_delta_e, error.high_delta_e));
+    if (error.flip) write_results(fmt::format("hdr_flip,{:.6g}\n", *error.flip));
 }
 
 }  // namespace rowland::trade

@@ -3,6 +3,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -12,10 +14,21 @@
 #include "engine/core/error.h"
 #include "engine/core/json_reader.h"
 #include "engine/core/program.h"
+#include "engine/core/utf8.h"
 
 namespace {
 
 constexpr int kUsageError = 2;
+
+/// As a shell would take it.
+std::string command_line(std::span<char*> arguments) {
+    std::string text;
+    for (const std::string argument : arguments) {
+        const bool quoted = argument.empty() || argument.find_first_of(" \t\n\"$&|;<>()*?") != std::string::npos;
+        text += fmt::format("{}{}", text.empty() ? "" : " ", quoted ? "'" + argument + "'" : argument);
+    }
+    return rowland::valid_utf8(text);
+}
 
 /// CLI11 reports a misspelt command only as a missing one.
 void check_command(const CLI::App& program, std::string_view word) {
@@ -45,7 +58,7 @@ int main(int argc, char** argv) {
         evaluate.declare(program)->callback([&] { evaluate.run(); });
         rowland::trade::CompareCommand compare;
         compare.declare(program)->callback([&] { compare.run(); });
-        rowland::trade::add_sweep_commands(program);
+        rowland::trade::add_sweep_commands(program, command_line({argv, static_cast<std::size_t>(argc)}));
         if (argc > 1) check_command(program, argv[1]);
         try {
             program.parse(argc, argv);

@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "editor/trade/hdr_flip.h"
 #include "engine/colour/delta_e.h"
 #include "engine/colour/working_space.h"
 #include "engine/core/check.h"
@@ -101,6 +102,17 @@ MethodError compare(std::span<const glm::dvec3> radiance, std::span<const glm::d
             .dark_absolute = dark_error(radiance, reference),
             .median_delta_e = quantile(differences, 0.5),
             .high_delta_e = quantile(differences, 0.95)};
+}
+
+MethodError compare_pictures(const PictureFrames& frames, std::span<const glm::dvec3> radiance,
+                             std::span<const glm::dvec3> reference) {
+    MethodError error = compare(radiance, reference);
+    const std::vector<double> map =
+        hdr_flip(picture(frames, radiance), picture(frames, reference), frames.width, frames.height);
+    double sum = 0.0;
+    for (const std::size_t pixel : frames.pixels) sum += map[pixel];
+    error.flip = frames.pixels.empty() ? 0.0 : sum / static_cast<double>(frames.pixels.size());
+    return error;
 }
 
 }  // namespace rowland::trade

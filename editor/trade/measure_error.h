@@ -2,11 +2,13 @@
 
 #include <array>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "editor/trade/frame_sets.h"
+#include "editor/trade/picture_scene.h"
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/representations/evaluation_light.h"
 
@@ -20,11 +22,12 @@ inline std::vector<glm::dvec3> shaded(const diffraction::CookedMaterial& cooked,
 
 /// The difference of one method from another over the same points.
 struct MethodError {
-    double relative_rms = 0.0;    ///< PHYSICS §1
-    double largest = 0.0;         ///< largest ‖ΔXYZ‖ over the largest ‖XYZ‖ of the reference
-    double dark_absolute = 0.0;   ///< mean |ΔY| of the dark points over the mean Y of all; 0 if no point is dark
-    double median_delta_e = 0.0;  ///< CIEDE2000 on the display, both exposed for the reference
-    double high_delta_e = 0.0;    ///< its 95th percentile
+    double relative_rms = 0.0;     ///< PHYSICS §1
+    double largest = 0.0;          ///< largest ‖ΔXYZ‖ over the largest ‖XYZ‖ of the reference
+    double dark_absolute = 0.0;    ///< mean |ΔY| of the dark points over the mean Y of all; 0 if no point is dark
+    double median_delta_e = 0.0;   ///< CIEDE2000 on the display, both exposed for the reference
+    double high_delta_e = 0.0;     ///< its 95th percentile
+    std::optional<double> flip{};  ///< of pictures: mean hdr_flip() over the pixels that see a surface
 };
 
 /// The names of the quantities in tables.
@@ -40,6 +43,10 @@ inline constexpr double kDark = 0.2;
 
 /// The spans are of one length, one value per point.
 MethodError compare(std::span<const glm::dvec3> radiance, std::span<const glm::dvec3> reference);
+
+/// The same of a picture, with "flip".
+MethodError compare_pictures(const PictureFrames& frames, std::span<const glm::dvec3> radiance,
+                             std::span<const glm::dvec3> reference);
 
 /// Display values (sRGB, encoded, clamped to [0, 1]) of XYZ under the shipped colour configuration.
 std::vector<glm::vec3> displayed(std::span<const glm::dvec3> xyz, float exposure_stops);

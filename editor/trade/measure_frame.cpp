@@ -1,8 +1,9 @@
 #include "editor/trade/measure_frame.h"
 
 #include <algorithm>
-#include <limits>
+#include <iterator>
 
+#include "editor/trade/other_load.h"
 #include "editor/trade/picture_scene.h"
 
 namespace rowland::trade {
@@ -38,26 +39,27 @@ void FrameTimer::light_by(int key_lights) {
 }
 
 template <typename Show>
-double FrameTimer::fastest(Show&& show) {
+std::vector<double> FrameTimer::times(Show&& show) {
     show();
-    double ms = std::numeric_limits<double>::infinity();
+    std::vector<double> ms;
     for (int i = 0; i < kWarmUpFrames; ++i) stage_.draw();
-    for (int i = 0; i < kFramesPerRound; ++i) {
-        ms = std::min(ms, stage_.draw());
-        if (ms > kSlow_ms) break;
-    }
+    while (ms.size() < kFramesPerRound && (ms.empty() || ms.back() <= kSlow_ms)) ms.push_back(stage_.draw());
     return ms;
 }
 
 FrameTime FrameTimer::time(const diffraction::CookedMaterial& material, int key_lights) {
     light_by(key_lights);
-    FrameTime result{.ms = std::numeric_limits<double>::infinity(),
-                     .plain_ms = std::numeric_limits<double>::infinity()};
     const auto grating = stage_.upload(material);
-    for (int round = 0; round < kRounds && !(round > 0 && result.ms > kSlow_ms); ++round) {
-        result.plain_ms = std::min(result.plain_ms, fastest([&] { stage_.show_plain(); }));
-        result.ms = std::min(result.ms, fastest([&] { stage_.show_grating(grating); }));
+    const OtherLoad load;
+    std::vector<double> plain;
+    std::vector<double> ms;
+    for (int round = 0; round < kRounds && (ms.empty() || std::ranges::min(ms) <= kSlow_ms); ++round) {
+        std::ranges::copy(times([&] { stage_.show_plain(); }), std::back_inserter(plain));
+        std::ranges::copy(times([&] { stage_.show_grating(grating); }), std::back_inserter(ms));
     }
+    std::ranges::sort(ms);
+    FrameTime result{.ms = ms.front(), .plain_ms = std::ranges::min(plain), .other_load = load.fraction()};
+    if (ms.size() > 1) result.spread = ms[ms.size() / 2] / ms.front() - 1.0;
     return result;
 }
 

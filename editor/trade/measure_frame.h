@@ -16,6 +16,8 @@ namespace rowland::trade {
 struct FrameTime {
     double ms = 0.0;
     double plain_ms = 0.0;  ///< of the plain material without separate key lights; same mesh, camera and rounds
+    std::optional<double> spread{};      ///< by how much the median of its frames is longer, relative; of two or more
+    std::optional<double> other_load{};  ///< OtherLoad::fraction() of the rounds
 
     double ratio() const { return ms / plain_ms; }
 };
@@ -30,8 +32,9 @@ class FrameTimer {
 
  private:
     void light_by(int key_lights);
+    /// Milliseconds of frames after the warm-up.
     template <typename Show>
-    double fastest(Show&& show);
+    std::vector<double> times(Show&& show);
 
     platform::HeadlessContext context_;
     const lighting::ProbeImage* image_;

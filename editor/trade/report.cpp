@@ -8,7 +8,10 @@
 #include <variant>
 
 #include "editor/trade/embedded_files.h"
+#include "editor/trade/other_load.h"
 #include "editor/trade/pareto.h"
+#include "editor/trade/source_versions.h"
+#include "editor/trade/sweep_plan.h"
 #include "editor/trade/sweep_tables.h"
 #include "engine/core/check.h"
 
@@ -25,11 +28,12 @@ nlohmann::ordered_json representation_names() {
     return names;
 }
 
-/// A row of the sweep's table, with "memory": its tables and the disc's light.
+/// A row of the sweep's table, with "memory": its tables and the disc's light; and "paper" if it is the paper's.
 nlohmann::ordered_json panel_row(const SweepResults& results, const ErrorRow& error) {
     const CostRow& cost = cost_of(results, error);
     nlohmann::ordered_json row = sweep_row(results, error);
     row["memory"] = cost.cost.table_bytes + cost.cost.vertex_bytes * kDiscVertices;
+    if (results.settings[error.material][error.setting] == paper_setting()) row["paper"] = true;
     return row;
 }
 
@@ -63,6 +67,19 @@ nlohmann::ordered_json panels(const SweepResults& results) {
     return list;
 }
 
+nlohmann::ordered_json probes(const SweepResults& results) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < results.probe_statistics.size(); ++i) {
+        const ProbeStatistics& probe = results.probe_statistics[i];
+        list.push_back({{"name", results.probes[i]},
+                        {"size", {probe.width, probe.height}},
+                        {"mean", probe.mean},
+                        {"peak_over_mean", probe.peak_over_mean},
+                        {"brightest_fraction", probe.brightest_fraction}});
+    }
+    return list;
+}
+
 }  // namespace
 
 std::vector<std::size_t> pictured_settings(const SweepResults& results, std::size_t material, std::size_t probe) {
@@ -80,8 +97,14 @@ std::vector<std::size_t> pictured_settings(const SweepResults& results, std::siz
 
 nlohmann::ordered_json report_data(const SweepResults& results, const SweepInputs& inputs,
                                    const std::vector<DifferencePicture>& differences,
-                                   const nlohmann::ordered_json& paper) {
-    nlohmann::ordered_json json = {{"device", results.device},
+                                   const nlohmann::ordered_json& paper, const ReportOrigin& origin) {
+    nlohmann::ordered_json json = {{"date", origin.date},
+                                   {"command", origin.command},
+                                   {"version", release_version() + ", " + method_version().substr(0, 8)},
+                                   {"probes", probes(results)},
+                                   {"loaded", kLoaded},
+                                   {"loaded_times", results.loaded_times()},
+                                   {"device", results.device},
                                    {"frame_size", {inputs.frame_size.x, inputs.frame_size.y}},
                                    {"vertices", kDiscVertices},
                                    {"real_time_ratio", kRealTimeRatio},
@@ -94,7 +117,8 @@ nlohmann::ordered_json report_data(const SweepResults& results, const SweepInput
         json["differences"].push_back(
             {{"group", results.materials[difference.material] + " under " + results.probes[difference.probe]},
              {"setting", difference.setting},
-             {"error", difference.error},
+             {"error", difference.error.relative_rms},
+             {"flip", difference.error.flip.value_or(0.0)},
              {"image", data_url(difference.picture)}});
     return json;
 }

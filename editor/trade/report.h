@@ -17,14 +17,20 @@ struct DifferencePicture {
     std::size_t material = 0;
     std::size_t probe = 0;
     std::string setting;
-    double error = 0.0;  ///< relative RMS over the picture
+    MethodError error{};
     RgbPicture picture;
+};
+
+/// How a report was made.
+struct ReportOrigin {
+    std::string date;     ///< UTC, ISO 8601
+    std::string command;  ///< as it was typed
 };
 
 /// Everything the report draws, as its script reads it. `paper`: paper_evidence().
 nlohmann::ordered_json report_data(const SweepResults& results, const SweepInputs& inputs,
                                    const std::vector<DifferencePicture>& differences,
-                                   const nlohmann::ordered_json& paper);
+                                   const nlohmann::ordered_json& paper, const ReportOrigin& origin);
 
 /// The report: one HTML file that needs no other.
 std::string report_html(const nlohmann::ordered_json& data);

@@ -1,4 +1,5 @@
-# Writes ${OUTPUT}, which defines source_versions.h. REFERENCE and METHODS: files that hold a path a line.
+# Writes ${OUTPUT}, which defines source_versions.h. REFERENCE and METHODS: files that hold a path a line;
+# RELEASE: the version number.
 function(hash_of list result)
   file(STRINGS ${list} paths)
   set(hashes "")
@@ -23,6 +24,9 @@ std::string reference_version() {
 }
 std::string method_version() {
     return "@methods@";
+}
+std::string release_version() {
+    return "@RELEASE@";
 }
 
 }  // namespace rowland::trade

@@ -8,5 +8,6 @@ namespace rowland::trade {
 /// reused.
 std::string reference_version();  ///< of the reference and the libraries it uses
 std::string method_version();     ///< of all code that shades, on the CPU or the GPU
+std::string release_version();    ///< Rowland's version number
 
 }  // namespace rowland::trade

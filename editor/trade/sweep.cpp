@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "editor/trade/inputs.h"
+#include "editor/trade/other_load.h"
 #include "editor/trade/source_versions.h"
 #include "editor/trade/sweep_plan.h"
 #include "engine/core/error.h"
@@ -81,6 +82,14 @@ std::vector<glm::dvec3> to_vectors(const nlohmann::json& json) {
     for (const nlohmann::json& value : json)
         values.emplace_back(value.at(0).get<double>(), value.at(1).get<double>(), value.at(2).get<double>());
     return values;
+}
+
+void add_if_known(const char* name, const std::optional<double>& value, nlohmann::json& entry) {
+    if (value) entry[name] = *value;
+}
+
+std::optional<double> known_in(const nlohmann::json& entry, const char* name) {
+    return entry.contains(name) ? std::optional<double>(entry.at(name)) : std::nullopt;
 }
 
 /// File names without extension; those that repeat are numbered.
@@ -214,11 +223,14 @@ void Sweep::measure_errors(const SweepResults& results) {
             cooked = cook(row.material, setting);
         cooked_for = &row;
         const diffraction::MeasuredScene& measured = scene(row.material, row.probe, set_named(row.set));
-        const MethodError error =
-            compare(measured.shaded(*cooked, setting.key_lights, setting.window), measured.reference);
+        const std::vector<glm::dvec3> shown = measured.shaded(*cooked, setting.key_lights, setting.window);
+        const MethodError error = row.set == picture_.frames.name
+                                      ? compare_pictures(picture_, shown, measured.reference)
+                                      : compare(shown, measured.reference);
         nlohmann::json entry = {
             {"of", {results.materials[row.material], results.probes[row.probe], row.set, method_name(setting)}}};
         for (const auto& [name, value] : kErrorQuantities) entry[name] = error.*value;
+        add_if_known("hdr_flip", error.flip, entry);
         results_.add(error_key(row), std::move(entry));
         progress.advance();
     }
@@ -244,9 +256,12 @@ void Sweep::measure_times(SweepResults& results) {
         const std::string key = time_key(material, setting, results.device);
         if (results_.find(key) == nullptr) {
             const FrameTime time = timer.time(cook(material, setting), setting.key_lights);
-            results_.add(key, {{"ms", time.ms},
-                               {"plain_ms", time.plain_ms},
-                               {"of", {results.materials[material], method_name(setting)}}});
+            nlohmann::json entry = {{"ms", time.ms},
+                                    {"plain_ms", time.plain_ms},
+                                    {"of", {results.materials[material], method_name(setting)}}};
+            add_if_known("spread", time.spread, entry);
+            add_if_known("other_load", time.other_load, entry);
+            results_.add(key, std::move(entry));
         }
         progress.advance();
     }
@@ -261,7 +276,10 @@ void Sweep::collect(SweepResults& results) {
                 .material = m, .setting = s, .cost = diffraction::shading_cost(cooked.tables), .time = std::nullopt};
             if (!results.device.empty()) {
                 const nlohmann::json& time = *results_.find(time_key(m, setting, results.device));
-                cost.time = FrameTime{.ms = time.at("ms"), .plain_ms = time.at("plain_ms")};
+                cost.time = FrameTime{.ms = time.at("ms"),
+                                      .plain_ms = time.at("plain_ms"),
+                                      .spread = known_in(time, "spread"),
+                                      .other_load = known_in(time, "other_load")};
             }
             results.costs.push_back(cost);
         }
@@ -269,7 +287,13 @@ void Sweep::collect(SweepResults& results) {
     for (ErrorRow& row : results.errors) {
         const nlohmann::json& entry = *results_.find(error_key(row));
         for (const auto& [name, value] : kErrorQuantities) row.error.*value = entry.at(name);
+        row.error.flip = known_in(entry, "hdr_flip");
     }
+}
+
+std::size_t SweepResults::loaded_times() const {
+    return static_cast<std::size_t>(std::ranges::count_if(
+        costs, [](const CostRow& cost) { return cost.time && cost.time->other_load.value_or(0.0) > kLoaded; }));
 }
 
 SweepResults Sweep::run() {
@@ -281,7 +305,13 @@ SweepResults Sweep::run() {
     for (const MaterialSource& material : materials_) results.settings.push_back(material.settings);
     measure_times(results);
     measure_errors(results);
+    for (const ProbeSource& probe : probes_) results.probe_statistics.push_back(statistics_of(probe.image));
     collect(results);
+    if (const std::size_t doubtful = results.loaded_times(); doubtful > 0)
+        log_warning(
+            "{} of {} frame times were taken while other programs used more than {:.0f} % of the processors; for "
+            "better ones, remove {} and run again when the machine is idle",
+            doubtful, results.costs.size(), 100.0 * kLoaded, (inputs_.folder / "journal.jsonl").string());
     return results;
 }
 

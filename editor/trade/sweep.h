@@ -15,6 +15,7 @@
 #include "editor/trade/measure_error.h"
 #include "editor/trade/measure_frame.h"
 #include "editor/trade/picture_scene.h"
+#include "editor/trade/probe_statistics.h"
 #include "engine/lighting/probe_image.h"
 #include "modules/diffraction/asset/method.h"
 #include "modules/diffraction/evaluate/measured_scene.h"
@@ -66,6 +67,10 @@ struct SweepResults {
     std::vector<ErrorRow> errors;
     std::vector<CostRow> costs;
     std::string device;  ///< that frames were timed on; empty: none was
+    std::vector<ProbeStatistics> probe_statistics{};
+
+    /// How many frame times were taken while other programs used more than kLoaded of the processors.
+    std::size_t loaded_times() const;
 };
 
 /// Measures every setting with every material and probe. Each result is written to a journal in the folder at once, so

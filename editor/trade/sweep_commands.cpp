@@ -1,7 +1,9 @@
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <ctime>
 #include <memory>
 
 #include "editor/trade/commands.h"
@@ -9,6 +11,7 @@
 #include "editor/trade/report.h"
 #include "editor/trade/results.h"
 #include "editor/trade/sweep.h"
+#include "editor/trade/sweep_plan.h"
 #include "editor/trade/sweep_tables.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
@@ -19,7 +22,6 @@ namespace rowland::trade {
 
 namespace {
 
-constexpr const char* kPaperSetting = "spikes/bands=5/spikes=4";
 constexpr int kMagnified = 3;
 
 struct SweepOptions {
@@ -145,27 +147,30 @@ std::vector<DifferencePicture> difference_pictures(Sweep& sweep, const SweepResu
                     {.material = m,
                      .probe = p,
                      .setting = method_name(setting),
-                     .error = compare(shown, scene.reference).relative_rms,
+                     .error = compare_pictures(frames, shown, scene.reference),
                      .picture = difference_image(picture(frames, shown), picture(frames, scene.reference), frames.width,
                                                  frames.height, kMagnified)});
             }
     return pictures;
 }
 
-void run_report(const SweepOptions& options) {
+std::string now() {
+    return fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr)));
+}
+
+void run_report(const SweepOptions& options, const std::string& command_line) {
     Sweep sweep(inputs_of(options, {"sweep.csv", "sweep.jsonl", "report.html"}));
     const SweepResults results = run_and_write(sweep);
     const auto differences = difference_pictures(sweep, results);
-    const auto paper = paper_evidence(sweep.cook(0, diffraction::parse_method(kPaperSetting)),
-                                      sweep.inputs().frame_size, sweep.inputs().times);
-    const auto data = report_data(results, sweep.inputs(), differences, paper);
+    const auto paper = paper_evidence(sweep.cook(0, paper_setting()), sweep.inputs().frame_size, sweep.inputs().times);
+    const auto data = report_data(results, sweep.inputs(), differences, paper, {now(), command_line});
     write_file_atomic(options.output / "report.html", report_html(data));
     write_results(fmt::format("file\n{}\n", (options.output / "report.html").string()));
 }
 
 }  // namespace
 
-void add_sweep_commands(CLI::App& program) {
+void add_sweep_commands(CLI::App& program, const std::string& command_line) {
     const auto options = std::make_shared<SweepOptions>();
     CLI::App* sweep =
         program.add_subcommand("sweep", "Measure error and cost of settings, one axis at a time around each tier");
@@ -185,7 +190,7 @@ void add_sweep_commands(CLI::App& program) {
         "Example:\n"
         "  rowland-trade report --material cd.json --probe sunset.hdr --probe church.hdr:angular --output results");
     add_options(*report, *options);
-    report->callback([options] { run_report(*options); });
+    report->callback([options, command_line] { run_report(*options, command_line); });
 }
 
 }  // namespace rowland::trade

@@ -62,6 +62,10 @@ std::vector<Tier> tiers(const diffraction::GrooveLobe& lobe) {
     return result;
 }
 
+diffraction::Method paper_setting() {
+    return diffraction::parse_method("spikes/bands=5/spikes=4");
+}
+
 std::vector<diffraction::Method> sweep_plan(const diffraction::GrooveLobe& lobe) {
     Plan plan(lobe);
     for (const Tier& tier : tiers(lobe)) plan.add(diffraction::parse_method(tier.setting));

@@ -17,6 +17,9 @@ struct Tier {
 /// The tiers a grating with this lobe can be shaded by.
 std::vector<Tier> tiers(const diffraction::GrooveLobe& lobe);
 
+/// What Lindsay & Agu 2006 shade by. Reports show it even where another setting is better in every way.
+diffraction::Method paper_setting();
+
 /// One axis at a time around each tier, and what varying one at a time misses: about 120 settings for the flat lobe,
 /// each once, in a fixed order, tiers first. The representations' descriptors name tiers and axes.
 std::vector<diffraction::Method> sweep_plan(const diffraction::GrooveLobe& lobe);

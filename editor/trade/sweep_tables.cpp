@@ -50,12 +50,15 @@ nlohmann::ordered_json sweep_row(const SweepResults& results, const ErrorRow& ro
     for (const char* key : setting_columns()) json[key] = setting.quality.value(key, nlohmann::json());
     json["key_lights"] = setting.key_lights;
     json["window"] = math::window_name(setting.window);
-    for (const auto& [name, value] : kErrorQuantities) json[name] = row.error.*value;
-    const auto& [material, number, cost, time] = cost_of(results, row);
     using Json = nlohmann::ordered_json;
+    for (const auto& [name, value] : kErrorQuantities) json[name] = row.error.*value;
+    json["hdr_flip"] = row.error.flip ? Json(*row.error.flip) : Json();
+    const auto& [material, number, cost, time] = cost_of(results, row);
     json["frame_ms"] = time ? Json(time->ms) : Json();
     json["plain_ms"] = time ? Json(time->plain_ms) : Json();
     json["frame_ratio"] = time ? Json(time->ratio()) : Json();
+    json["frame_spread"] = time && time->spread ? Json(*time->spread) : Json();
+    json["other_load"] = time && time->other_load ? Json(*time->other_load) : Json();
     json["fetches_per_vertex"] = cost.fetches_per_vertex;
     json["multiply_adds_per_vertex"] = cost.multiply_adds_per_vertex;
     json["fetches_per_pixel"] = cost.fetches_per_pixel;

@@ -36,8 +36,10 @@ void Progress::advance(std::size_t steps) {
     drawn_ = now;
     const double elapsed_s = std::chrono::duration<double>(now - started_).count();
     const double fraction = static_cast<double>(done) / static_cast<double>(total_);
-    fmt::print(stderr, "\r\033[K{} {:3.0f} % ({:.0f} s left)", label_, 100.0 * fraction,
-               elapsed_s * (1.0 - fraction) / fraction);
+    constexpr std::size_t kBar = 24;  // characters
+    const auto filled = std::min(kBar, static_cast<std::size_t>(fraction * kBar));
+    fmt::print(stderr, "\r\033[K{} [{}{}] {:3.0f} %, {:.0f} s left", label_, std::string(filled, '#'),
+               std::string(kBar - filled, '.'), 100.0 * fraction, elapsed_s * (1.0 - fraction) / fraction);
     std::fflush(stderr);
 }
 

@@ -8,8 +8,8 @@
 
 namespace rowland {
 
-/// One line of progress on standard error, redrawn in place: percentage and remaining time. Silent when standard error
-/// is not a terminal or another Progress is shown. advance() may be called from many threads.
+/// One line of progress on standard error, drawn again and again: a bar, percentage and remaining time. Silent when
+/// standard error is not a terminal or another Progress is shown. advance() may be called from many threads.
 class Progress {
  public:
     Progress(std::string label, std::size_t total);

@@ -66,7 +66,7 @@ struct ObjectReflections {
     ObjectReflection& of(ecs::Entity group);
 
     ObjectReflection nothing{1};  ///< what mirrors mirror in another's surroundings
-    gpu::Texture all_visible;     ///< there in place of AmbientOcclusion::visibility()
+    gpu::Texture all_visible;     ///< used there instead of AmbientOcclusion::visibility()
     gpu::Framebuffer picture{{.width = 2 * kFaceSize, .height = 2 * kFaceSize, .depth = true}};
     gpu::FullScreenTriangle triangle;
 

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdint>
-#include <cstring>
 
 #include "engine/core/check.h"
 #include "engine/core/file.h"
@@ -12,22 +10,6 @@
 #include "engine/scene/memory_budget.h"
 
 namespace rowland::scene {
-
-namespace {
-
-bool is_glb(const GltfSource& source) {
-    return source.bytes.size() >= 4 && std::memcmp(source.bytes.data(), "glTF", 4) == 0;
-}
-
-/// glTF 2.0, 4.4: the JSON chunk comes first.
-std::string json_chunk(std::span<const std::byte> glb) {
-    constexpr std::size_t kBegin = 20;  // after the file's header and the chunk's
-    std::uint32_t size = 0;
-    std::memcpy(&size, glb.data() + 12, sizeof(size));
-    return {reinterpret_cast<const char*>(glb.data() + kBegin), size};
-}
-
-}  // namespace
 
 EditableGltf EditableGltf::open(const std::filesystem::path& path) {
     return {read_file(path, MemoryBudget::kDefaultLimit), path};
@@ -37,12 +19,10 @@ EditableGltf::EditableGltf(std::vector<std::byte> bytes, std::filesystem::path p
     : on_disk_(std::make_shared<OnDisk>(std::move(path), Hasher().bytes(bytes).digest())), json_("{}") {
     GltfSource source = split_gltf(std::move(bytes), on_disk_->path.string(), std::nullopt);
     outline_ = read_outline(source.json, source.file);
-    is_binary_ = is_glb(source);
-    if (!is_binary_) {
-        json_ = JsonText({reinterpret_cast<const char*>(source.bytes.data()), source.bytes.size()});
-        return;
-    }
-    json_ = JsonText(json_chunk(source.bytes));
+    const std::span<const std::byte> json = source.json_text();
+    json_ = JsonText({reinterpret_cast<const char*>(json.data()), json.size()});
+    is_binary_ = source.is_glb();
+    if (!is_binary_) return;
     binary_begin_ = source.binary_offset;
     binary_size_ = source.binary_size;
     opened_ = std::make_shared<const std::vector<std::byte>>(std::move(source.bytes));

@@ -62,7 +62,8 @@ void split_binary(GltfSource& source) {
     reader.take(header_size);
     const Chunk json = read_chunk(reader);
     if (json.type != kChunkJson) reader.fail("a first chunk that is not JSON", "a JSON chunk");
-    source.json = parse_text(json.data, source.file);
+    source.json_size = json.data.size();
+    source.json_offset = reader.offset() - json.data.size();
     // Chunks of other types are for extensions and skipped; BIN, if there is one, comes right after JSON.
     constexpr std::size_t kChunkHeader = 8;
     if (reader.remaining() < kChunkHeader) return;
@@ -84,7 +85,8 @@ GltfSource split_gltf(std::vector<std::byte> bytes, std::string file, std::optio
     if (start == kMagic)
         split_binary(source);
     else
-        source.json = parse_text(source.bytes, source.file);
+        source.json_size = source.bytes.size();
+    source.json = parse_text(source.json_text(), source.file);
     return source;
 }
 

@@ -16,9 +16,13 @@ struct GltfSource {
     std::optional<std::filesystem::path> folder;  ///< of the files it names; nullopt: it may name none
     nlohmann::json json;
     std::vector<std::byte> bytes;   ///< the whole file
+    std::size_t json_offset = 0;    ///< of the JSON's text within `bytes`; 0: the file is a .gltf
+    std::size_t json_size = 0;      ///< bytes
     std::size_t binary_offset = 0;  ///< of the BIN chunk's data within `bytes`
     std::size_t binary_size = 0;    ///< 0 if there is none
 
+    bool is_glb() const { return json_offset > 0; }
+    std::span<const std::byte> json_text() const { return std::span(bytes).subspan(json_offset, json_size); }
     std::span<const std::byte> binary() const { return std::span(bytes).subspan(binary_offset, binary_size); }
 };
 

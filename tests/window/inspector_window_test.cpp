@@ -10,6 +10,7 @@
 
 #include "engine/core/file.h"
 #include "modules/diffraction/asset/material_json.h"
+#include "tests/support/small_sky.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"
 #include "tests/window/inspector_user.h"
@@ -33,10 +34,7 @@ class InspectorWindow : public ::testing::Test {
  protected:
     void SetUp() override {
         ROWLAND_NEEDS_VIRTUAL_DISPLAY();
-        // A small probe: the reference is quick under it.
-        write_file_atomic(
-            path("sky.json"),
-            R"({"probe": {"type": "clear_sky", "sun_azimuth_deg": 40, "sun_elevation_deg": 35, "width": 128}})");
+        write_file_atomic(path("sky.json"), test::small_sky(128));
     }
     std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
     /// A preset's material under the small probe.

@@ -15,6 +15,7 @@
 #include "engine/image/byte_image.h"
 #include "engine/scene/editable_gltf.h"
 #include "modules/diffraction/asset/gltf_extension.h"
+#include "tests/support/small_sky.h"
 #include "tests/support/source_tree.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"
@@ -31,9 +32,7 @@ class SceneWindow : public ::testing::Test {
  protected:
     void SetUp() override {
         ROWLAND_NEEDS_VIRTUAL_DISPLAY();
-        write_file_atomic(
-            path("sky.json"),
-            R"({"probe": {"type": "clear_sky", "sun_azimuth_deg": 40, "sun_elevation_deg": 35, "width": 128}})");
+        write_file_atomic(path("sky.json"), test::small_sky(128));
     }
     std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
 

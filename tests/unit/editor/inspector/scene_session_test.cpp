@@ -13,6 +13,7 @@
 #include "engine/platform/headless_context.h"
 #include "engine/scene/glb_write.h"
 #include "engine/scene/mesh_recipe.h"
+#include "tests/support/small_sky.h"
 #include "tests/support/source_tree.h"
 #include "tests/support/temporary_folder.h"
 
@@ -43,9 +44,7 @@ std::vector<std::byte> two_spheres() {
 class SceneSession : public testing::Test {
  protected:
     SceneSession() {
-        write_file_atomic(
-            path("sky.json"),
-            R"({"probe": {"type": "clear_sky", "sun_azimuth_deg": 40, "sun_elevation_deg": 35, "width": 64}})");
+        write_file_atomic(path("sky.json"), test::small_sky(64));
         write_file_atomic(
             path("m.json"),
             R"({"grating": {"pitch_nm": 1600, "orders": [1], "profile": {"type": "slit", "width_nm": 800}},

@@ -30,7 +30,7 @@ SweepResults results() {
 }
 
 TEST(Report, MarksTheFronts) {
-    const auto data = report_data(results(), {}, {}, {});
+    const auto data = report_data(results(), {}, {}, {}, {});
     const auto& rows = data["panels"][0]["rows"];
     ASSERT_EQ(rows.size(), 3U);
     EXPECT_FALSE(rows[0].contains("front_speed"));
@@ -44,7 +44,7 @@ TEST(Report, MarksTheFronts) {
 TEST(Report, FiguresFollowTheMeasurements) {
     SweepResults changed = results();
     changed.errors[1].error.relative_rms = 0.9;
-    const auto data = report_data(changed, {}, {}, {});
+    const auto data = report_data(changed, {}, {}, {}, {});
     EXPECT_EQ(data["panels"][0]["rows"][1]["relative_rms"], 0.9);
     EXPECT_TRUE(data["panels"][0]["rows"][2].contains("front_speed"));
 }
@@ -56,10 +56,41 @@ TEST(Report, PicturesTheBestInRealTimeAndTheFirst) {
     EXPECT_EQ(pictured_settings(slow, 0, 0), (std::vector<std::size_t>{0}));
 }
 
+TEST(Report, SaysHowItWasMadeAndUnderWhatLight) {
+    SweepResults r = results();
+    r.probe_statistics = {{.width = 64, .height = 32, .mean = 0.5, .peak_over_mean = 9.0, .brightest_fraction = 0.25}};
+    const auto data = report_data(r, {}, {}, {}, {.date = "2026-01-02T03:04:05Z", .command = "rowland-trade report"});
+    EXPECT_EQ(data["date"], "2026-01-02T03:04:05Z");
+    EXPECT_EQ(data["command"], "rowland-trade report");
+    EXPECT_THAT(data["version"].get<std::string>(), testing::MatchesRegex("[0-9.]+, [0-9a-f]{8}"));
+    EXPECT_EQ(data["probes"][0]["name"], "sky");
+    EXPECT_EQ(data["probes"][0]["brightest_fraction"], 0.25);
+}
+
+TEST(Report, SaysThatTheMachineWasLoaded) {
+    SweepResults r = results();
+    r.costs[0].time->other_load = 0.02;
+    EXPECT_EQ(report_data(r, {}, {}, {}, {})["loaded_times"], 0);
+    r.costs[1].time->other_load = 0.4;
+    r.costs[1].time->spread = 0.3;
+    const auto data = report_data(r, {}, {}, {}, {});
+    EXPECT_EQ(data["loaded_times"], 1);
+    EXPECT_EQ(data["panels"][0]["rows"][1]["frame_spread"], 0.3);
+    EXPECT_TRUE(data["panels"][0]["rows"][0]["frame_spread"].is_null());
+}
+
+TEST(Report, MarksThePapersSetting) {
+    SweepResults r = results();
+    r.settings[0][2] = diffraction::parse_method("spikes/spikes=4/bands=5");
+    const auto data = report_data(r, {}, {}, {}, {});
+    EXPECT_FALSE(data["panels"][0]["rows"][1].contains("paper"));
+    EXPECT_TRUE(data["panels"][0]["rows"][2].contains("paper"));
+}
+
 TEST(Report, IsOneFileAndItsDataCannotEndTheScript) {
     SweepResults hostile = results();
     hostile.probes = {"</script><script>alert(1)</script>"};
-    const std::string page = report_html(report_data(hostile, {}, {}, {}));
+    const std::string page = report_html(report_data(hostile, {}, {}, {}, {}));
     EXPECT_THAT(page, Not(HasSubstr("<script>alert")));
     EXPECT_THAT(page, HasSubstr("\\u003c/script>"));
     EXPECT_THAT(page, Not(HasSubstr("/*DATA*/")));

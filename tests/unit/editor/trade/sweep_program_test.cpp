@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "engine/core/file.h"
+#include "tests/support/program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/unit/editor/trade/trade_run.h"
 
@@ -54,6 +55,7 @@ TEST_F(TradeSweep, HasARowForEverySettingAndSetInBothTables) {
         EXPECT_EQ(json["setting"], row.at("setting"));
         EXPECT_EQ(json["relative_rms"], std::stod(row.at("relative_rms")));
         EXPECT_EQ(row.at("frame_ms"), "") << "no times were asked for";
+        EXPECT_EQ(row.at("hdr_flip").empty(), row.at("set") != "picture") << "only pictures have neighbours";
         EXPECT_GT(std::stoull(row.at("table_bytes")), 0U);
         // A map is exact on its plane but for its resolution; three bands lose the sun.
         EXPECT_FALSE(row.at("set") == "sphere" && row.at("representation") == "planar");
@@ -176,7 +178,19 @@ TEST_F(TradeSweep, FramesAreTimedAgainstThePlainMaterial) {
         EXPECT_GT(std::stod(row.at("frame_ms")), 0.0);
         EXPECT_NEAR(std::stod(row.at("frame_ratio")), std::stod(row.at("frame_ms")) / std::stod(row.at("plain_ms")),
                     1e-6);
+        EXPECT_GE(std::stod(row.at("frame_spread")), 0.0);
+        EXPECT_GE(std::stod(row.at("other_load")), 0.0);
+        EXPECT_LE(std::stod(row.at("other_load")), 1.0);
     }
+}
+
+/// A program that keeps the processors busy while frames are timed.
+TEST_F(TradeSweep, SaysThatFramesWereTimedUnderLoad) {
+    const test::Running busy({"/bin/sh", "-c", "while :; do :; done"});
+    const test::Running busier({"/bin/sh", "-c", "while :; do :; done"});
+    const auto done = run("sweep --frame-size 64 36 " + test::small_sweep());
+    ASSERT_EQ(done.exit_code, 0) << done.messages;
+    EXPECT_THAT(done.messages, HasSubstr("while other programs used more than 10 %"));
 }
 
 TEST_F(TradeSweep, CompareSaysHowFarAMethodIsFromTheReference) {
@@ -185,13 +199,16 @@ TEST_F(TradeSweep, CompareSaysHowFarAMethodIsFromTheReference) {
     ASSERT_EQ(arc.exit_code, 0) << arc.messages;
     write_file_atomic(folder_.path() / "arc.csv", arc.output);
     const auto rows = test::read_rows(folder_.path() / "arc.csv");
-    ASSERT_EQ(rows.size(), 5U);
+    ASSERT_EQ(rows.size(), 6U);
     EXPECT_EQ(rows[0].at("quantity"), "relative_rms");
     EXPECT_GT(std::stod(rows[0].at("value")), 0.01);
     EXPECT_GE(std::stod(rows[4].at("value")), std::stod(rows[3].at("value"))) << "95 % and median";
+    EXPECT_EQ(rows[5].at("quantity"), "hdr_flip");
+    EXPECT_GT(std::stod(rows[5].at("value")), 1e-3);
+    EXPECT_LT(std::stod(rows[5].at("value")), 0.5);
     EXPECT_THAT(file("d.png"), HasSubstr("PNG"));
     const auto same = run(common + "reference");
-    EXPECT_THAT(same.output, HasSubstr("relative_rms,0\n"));
+    EXPECT_THAT(same.output, AllOf(HasSubstr("relative_rms,0\n"), HasSubstr("hdr_flip,0\n")));
     // The two ways round have one difference and two scales.
     EXPECT_EQ(run(common + "arc/bands=4/rank=8 --against arc/bands=4/rank=8").output, same.output);
 }

@@ -296,8 +296,9 @@ TEST_F(TradeProgram, WrongUsageExitsWith2AndSaysWhy) {
     EXPECT_THAT(refusal("evaluate --material cd.json --method streaks" + light),
                 AllOf(HasSubstr("streaks"), HasSubstr("reference, spikes")));
     EXPECT_THAT(refusal("evaluate --material cd.json --method streak" + light), HasSubstr("groove_lobe"));
-    write("foil.json",
-          R"({"grating": {"pitch_nm": 1600, "profile": {"type": "slit", "width_nm": 800}, "groove_lobe": {"sigma": 0.1}}})");
+    write(
+        "foil.json",
+        R"({"grating": {"pitch_nm": 1600, "profile": {"type": "slit", "width_nm": 800}, "groove_lobe": {"sigma": 0.1}}})");
     EXPECT_THAT(refusal("evaluate --material foil.json --method streak/key_lights=0" + light), HasSubstr("--probe"));
     EXPECT_THAT(refusal("evaluate --material cd.json --method direct" + light), HasSubstr("--probe-sh"));
     EXPECT_THAT(refusal("evaluate --material cd.json --method arc --key-lights 4" + light), HasSubstr("--probe-sh"));

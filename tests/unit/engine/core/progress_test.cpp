@@ -47,7 +47,7 @@ TEST(Progress, DrawsShareOnATerminalAndErasesItsLine) {
         text.append(buffer.data(), static_cast<std::size_t>(count));
     }
     ::close(master);
-    EXPECT_NE(text.find("baking  25 % ("), std::string::npos) << text;
+    EXPECT_NE(text.find("baking [######..................]  25 %, "), std::string::npos) << text;
     EXPECT_EQ(text.find("one table"), std::string::npos) << "work within work has no line of its own";
     EXPECT_TRUE(text.ends_with("\r\033[K")) << text;
 }
