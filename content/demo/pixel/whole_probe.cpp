@@ -29,11 +29,11 @@ WholeProbe load_whole_probe(const std::filesystem::path& path, const std::string
     if (path.extension() != ".probe")
         return {.image = {image::load_image(path), lighting::parse_mapping(mapping), path.string()},
                 .key_lights = lighting::LightProbeSettings().key_lights};
-    const std::filesystem::path recipe = recipes / path.stem().replace_extension(".json");
-    if (!std::filesystem::is_regular_file(recipe))
-        refuse_input(path.string(), "", "a cooked probe without its recipe " + recipe.string(),
-                     "the light at full resolution", "give the probe's image or recipe");
-    return from_recipe(recipe);
+    const std::filesystem::path name = path.stem().replace_extension(".json");
+    for (const std::filesystem::path& folder : {recipes, path.parent_path() / "recipes"})
+        if (std::filesystem::is_regular_file(folder / name)) return from_recipe(folder / name);
+    refuse_input(path.string(), "", "a cooked probe without its recipe " + (recipes / name).string(),
+                 "the light at full resolution", "give the probe's image or recipe");
 }
 
 }  // namespace rowland::demo

@@ -14,7 +14,7 @@ struct WholeProbe {
 };
 
 /// The image of a probe: an image file (`mapping` "equirect" or "angular"), or that of a recipe. For a cooked probe,
-/// the recipe of its name in `recipes`. Throws Error (input), also if there is none.
+/// the recipe of its name in `recipes`, or in the folder "recipes" beside it. Throws Error (input), also if there is none.
 WholeProbe load_whole_probe(const std::filesystem::path& path, const std::string& mapping,
                             const std::filesystem::path& recipes);
 

@@ -152,20 +152,41 @@ const float VARYING_MUCH = 1e-2;
 
 int groove_parts(GrooveView view) {
     float variation = view.spread.x + view.spread.y;
+#ifdef FINE_GROOVE_PARTS
+    return variation > VARYING ? 64 : 1;
+#else
     return variation > VARYING_MUCH ? 16 : variation > VARYING ? 4 : 1;
+#endif
 }
+
+// The moments of one of `parts` of the pixel. Half the part's width: a trilinear look-up averages over about twice the
+// width that it is asked for.
+#ifdef FINE_GROOVE_PARTS
+// A golden-ratio lattice. Each point is of one texel, as grooves between two texels' would be of neither.
+vec4 part_moments(MeshView mesh, int parts, int part) {
+    mat2 change = mesh.map_uv_change;
+    vec2 at = vec2((float(part) + 0.5) / float(parts), fract(0.61803399 * float(part))) - 0.5;
+    vec2 texels = vec2(textureSize(groove_map, 0));
+    vec2 steps = max(abs(change[0]), abs(change[1])) * texels;
+    float level = max(log2(max(steps.x, steps.y) / 16.0), 0.0);
+    vec2 uv = mesh.map_uv + change * at;
+    if (level == 0.0) uv = (floor(uv * texels) + 0.5) / texels;
+    return textureLod(groove_map, uv, level);
+}
+#else
+vec4 part_moments(MeshView mesh, int parts, int part) {
+    int bits = parts == 4 ? 1 : 2;  // of the part's column and of its row
+    float side = parts == 4 ? 0.5 : 0.25;
+    vec2 at = (vec2(part & ((1 << bits) - 1), part >> bits) + 0.5) * side - 0.5;
+    mat2 width = mesh.map_uv_change * (0.5 * side);
+    return textureGrad(groove_map, mesh.map_uv + mesh.map_uv_change * at, width[0], width[1]);
+}
+#endif
 
 // One of `parts`; `view`: the whole pixel.
 GrooveView groove_part(GrooveView view, int parts, int part) {
     if (parts == 1) return view;
-    int bits = parts == 4 ? 1 : 2;  // of the part's column and of its row
-    float side = parts == 4 ? 0.5 : 0.25;
-    vec2 at = (vec2(part & ((1 << bits) - 1), part >> bits) + 0.5) * side - 0.5;
-    mat2 change = view.mesh.map_uv_change;
-    // Half the part's width: a trilinear look-up averages over about twice the width that it is asked for.
-    mat2 width = change * (0.5 * side);
-    vec4 moments = textureGrad(groove_map, view.mesh.map_uv + change * at, width[0], width[1]);
-    return grooves_of(view.mesh, view.g_change, view.v_g_change, moments);
+    return grooves_of(view.mesh, view.g_change, view.v_g_change, part_moments(view.mesh, parts, part));
 }
 #endif
 

@@ -81,6 +81,7 @@ void GpuPlanar::describe(const SurfaceState& state, gpu::ProgramDesc& desc) cons
         set_vertex_shader(desc, "representations/planar/planar.vert.glsl");
     else
         set_shaders(desc, "shaders/pixel_shaded.vert.glsl", "representations/planar/planar.frag.glsl");
+    if (state.grooves) desc.defines.push_back({"FINE_GROOVE_PARTS", "1"});  // each is one look-up
     if (pitch_axis_) desc.defines.push_back({"PITCH_AXIS", "1"});
     if (lobe_map_) desc.defines.push_back({"LOBE_MAP", "1"});
     if (half_turn_) desc.defines.push_back({"HALF_TURN", "1"});
