@@ -58,7 +58,7 @@ FrameTime FrameTimer::time(const diffraction::CookedMaterial& material, int key_
         std::ranges::copy(times([&] { stage_.show_grating(grating); }), std::back_inserter(ms));
     }
     std::ranges::sort(ms);
-    FrameTime result{.ms = ms.front(), .plain_ms = std::ranges::min(plain), .other_load = load.share()};
+    FrameTime result{.ms = ms.front(), .plain_ms = std::ranges::min(plain), .other_load = load.fraction()};
     if (ms.size() > 1) result.spread = ms[ms.size() / 2] / ms.front() - 1.0;
     return result;
 }

@@ -17,7 +17,7 @@ struct FrameTime {
     double ms = 0.0;
     double plain_ms = 0.0;  ///< of the plain material without separate key lights; same mesh, camera and rounds
     std::optional<double> spread{};      ///< by how much the median of its frames is longer, relative; of two or more
-    std::optional<double> other_load{};  ///< OtherLoad::share() of the rounds
+    std::optional<double> other_load{};  ///< OtherLoad::fraction() of the rounds
 
     double ratio() const { return ms / plain_ms; }
 };

@@ -30,7 +30,7 @@ std::optional<OtherLoad::Used> OtherLoad::used() {
     return result;
 }
 
-std::optional<double> OtherLoad::share() const {
+std::optional<double> OtherLoad::fraction() const {
     const std::optional<Used> now = used();
     if (!start_ || !now || now->all_s <= start_->all_s) return std::nullopt;
     const double others = (now->busy_s - start_->busy_s) - (now->own_s - start_->own_s);

@@ -12,9 +12,9 @@ class OtherLoad {
  public:
     OtherLoad();
 
-    /// The share of the machine's processor time that other programs, and other virtual machines, have used since the
-    /// object was made, 0 to 1; nullopt where the system does not tell.
-    std::optional<double> share() const;
+    /// The fraction of the machine's processor time that other programs, and other virtual machines, have used since
+    /// the object was made, 0 to 1; nullopt where the system does not tell.
+    std::optional<double> fraction() const;
 
  private:
     struct Used {

@@ -47,7 +47,7 @@ ProbeStatistics statistics_of(const lighting::ProbeImage& probe) {
     ProbeStatistics result{.width = image.width, .height = image.height, .mean = light / kSphere};
     if (light <= 0.0) return result;
     result.peak_over_mean = texels.front().luminance / result.mean;
-    result.brightest_share = brightest(texels, 1e-3 * kSphere) / light;
+    result.brightest_fraction = brightest(texels, 1e-3 * kSphere) / light;
     return result;
 }
 

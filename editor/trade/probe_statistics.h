@@ -8,9 +8,9 @@ namespace rowland::trade {
 struct ProbeStatistics {
     int width = 0;  ///< texels
     int height = 0;
-    double mean = 0.0;             ///< luminance over the sphere, in the image's unit
-    double peak_over_mean = 0.0;   ///< of luminance; 0 if the probe is black
-    double brightest_share = 0.0;  ///< of the light, from the brightest thousandth of the sphere
+    double mean = 0.0;                ///< luminance over the sphere, in the image's unit
+    double peak_over_mean = 0.0;      ///< of luminance; 0 if the probe is black
+    double brightest_fraction = 0.0;  ///< of the light, from the brightest thousandth of the sphere
 };
 
 ProbeStatistics statistics_of(const lighting::ProbeImage& probe);

@@ -75,7 +75,7 @@ nlohmann::ordered_json probes(const SweepResults& results) {
                         {"size", {probe.width, probe.height}},
                         {"mean", probe.mean},
                         {"peak_over_mean", probe.peak_over_mean},
-                        {"brightest_share", probe.brightest_share}});
+                        {"brightest_fraction", probe.brightest_fraction}});
     }
     return list;
 }

@@ -17,9 +17,9 @@ TEST(OtherLoad, SeesOtherProcesses) {
     const test::Running second({"/bin/sh", "-c", "while :; do :; done"});
     const OtherLoad load;
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
-    ASSERT_TRUE(load.share());
-    EXPECT_GT(*load.share(), 0.5 * std::min(1.0, 2.0 / processors));
-    EXPECT_LE(*load.share(), 1.0);
+    ASSERT_TRUE(load.fraction());
+    EXPECT_GT(*load.fraction(), 0.5 * std::min(1.0, 2.0 / processors));
+    EXPECT_LE(*load.fraction(), 1.0);
 }
 
 /// Two threads beside as many other processes get about half of two processors, on an idle machine all they ask for:
@@ -43,8 +43,8 @@ TEST(OtherLoad, DoesNotCountThisProcess) {
         static_cast<double>(after.tv_sec - before.tv_sec) + 1e-9 * static_cast<double>(after.tv_nsec - before.tv_nsec);
     const double all_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count() *
                          std::thread::hardware_concurrency();
-    ASSERT_TRUE(load.share());
-    EXPECT_LT(*load.share(), 1.0 - own_s / all_s + 0.1);  // the system counts in steps of 10 ms
+    ASSERT_TRUE(load.fraction());
+    EXPECT_LT(*load.fraction(), 1.0 - own_s / all_s + 0.1);  // the system counts in steps of 10 ms
 }
 
 }  // namespace

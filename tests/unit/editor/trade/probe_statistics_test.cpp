@@ -17,7 +17,7 @@ TEST(ProbeStatistics, OfAUniformProbe) {
     EXPECT_EQ(found.height, 32);
     EXPECT_NEAR(found.mean, 0.5, 1e-6);
     EXPECT_NEAR(found.peak_over_mean, 1.0, 1e-6);
-    EXPECT_NEAR(found.brightest_share, 1e-3, 1e-8);
+    EXPECT_NEAR(found.brightest_fraction, 1e-3, 1e-8);
 }
 
 TEST(ProbeStatistics, ALampOfATexel) {
@@ -25,7 +25,7 @@ TEST(ProbeStatistics, ALampOfATexel) {
     const ProbeStatistics found = statistics_of(uniform_but(16 * 64 + 20, 50.0F));
     EXPECT_NEAR(found.mean, 0.5 + 49.5 * 7.666e-4, 1e-4);
     EXPECT_NEAR(found.peak_over_mean, 50.0 / found.mean, 1e-6);
-    EXPECT_NEAR(found.brightest_share, (50.0 * 7.666e-4 + 0.5 * 2.334e-4) / found.mean, 1e-4);
+    EXPECT_NEAR(found.brightest_fraction, (50.0 * 7.666e-4 + 0.5 * 2.334e-4) / found.mean, 1e-4);
 }
 
 TEST(ProbeStatistics, OfABlackProbe) {

@@ -58,13 +58,13 @@ TEST(Report, PicturesTheBestInRealTimeAndTheFirst) {
 
 TEST(Report, SaysHowItWasMadeAndUnderWhatLight) {
     SweepResults r = results();
-    r.probe_statistics = {{.width = 64, .height = 32, .mean = 0.5, .peak_over_mean = 9.0, .brightest_share = 0.25}};
+    r.probe_statistics = {{.width = 64, .height = 32, .mean = 0.5, .peak_over_mean = 9.0, .brightest_fraction = 0.25}};
     const auto data = report_data(r, {}, {}, {}, {.date = "2026-01-02T03:04:05Z", .command = "rowland-trade report"});
     EXPECT_EQ(data["date"], "2026-01-02T03:04:05Z");
     EXPECT_EQ(data["command"], "rowland-trade report");
     EXPECT_THAT(data["version"].get<std::string>(), testing::MatchesRegex("[0-9.]+, [0-9a-f]{8}"));
     EXPECT_EQ(data["probes"][0]["name"], "sky");
-    EXPECT_EQ(data["probes"][0]["brightest_share"], 0.25);
+    EXPECT_EQ(data["probes"][0]["brightest_fraction"], 0.25);
 }
 
 TEST(Report, SaysThatTheMachineWasLoaded) {
