@@ -79,6 +79,7 @@ void fill_circle(State& state, int side) {
         ::benchmark::DoNotOptimize(
             diffraction::fill_circle_map(texels, material.kernel, material.material.grating.pitch_nm,
                                          {.side = side, .views = std::max(std::min(2 * side, 128), 5 * side / 4)})
+                .levels[0]
                 .xyz.data());
 }
 
