@@ -231,8 +231,8 @@ glm::dvec3 from_lobe(const Export& document, const std::vector<float>& kernel, c
     for (int ring = 0; ring < kRings; ++ring)
         for (int turn = 0; turn < kTurns; ++turn) {
             // Directions of equal power: 1 - cosine is exponentially distributed.
-            const double depth = -std::log(1.0 - (ring + 0.5) / kRings) / concentration;
-            if (depth > 2.0) continue;
+            const double depth =
+                -std::log(1.0 - (ring + 0.5) / kRings * -std::expm1(-2.0 * concentration)) / concentration;
             const double sine = std::sqrt(depth * (2.0 - depth));
             const double phi = 2.0 * pi * (turn + 0.5 * (ring % 2)) / kTurns;
             const glm::dvec3 s =
@@ -250,7 +250,8 @@ glm::dvec3 from_lobe(const Export& document, const std::vector<float>& kernel, c
     return xyz;
 }
 
-// Key lights as `direct` shades them are approximations of lobes (PHYSICS §11, up to .7 % each), and so are these sums.
+// Key lights as `direct` shades them are approximations of lobes (PHYSICS §11): 2 % for the widest there are, as these
+// four.
 TEST(Export, KeyLightsAndTheKernelShadeAsTheDirectRepresentationDoes) {
     ROWLAND_TEST_DATA(probe, "probes/venice_sunset_256.hdr");
     const Export document(kCd, {"--probe", probe, "--key-lights", "4"});
@@ -264,7 +265,7 @@ TEST(Export, KeyLightsAndTheKernelShadeAsTheDirectRepresentationDoes) {
         for (const nlohmann::json& light : document.json["probe"]["key_lights"])
             found.back() += from_lobe(document, kernel, light, point);
     }
-    EXPECT_LT(difference(found, evaluated(probe, "direct", 4, frames)), 2e-2);
+    EXPECT_LT(difference(found, evaluated(probe, "direct", 4, frames)), 2.5e-2);
 }
 
 TEST(Export, IsSmallSatisfiesItsSchemaAndHasTheSameBytesEveryTime) {
