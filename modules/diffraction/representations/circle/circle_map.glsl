@@ -16,8 +16,9 @@ vec3 terms_from(int first, int terms, int level, float chart, vec2 p, float v_g,
     for (int component = 0; component < 3 * terms; component += 4) {
         vec2 at = (st + vec2(component / 4, chart)) / vec2(LOOK_UPS, CHARTS);
         vec4 values = textureLod(circle_map, vec3(at, r), float(level));
-        for (int i = 0; i < 4 && component + i < 3 * terms; ++i)
-            sum[(component + i) % 3] += factors[first + (component + i) / 3] * values[i];
+        // AMD's compiler unrolls loops of one condition only.
+        for (int i = 0; i < 4; ++i)
+            if (component + i < 3 * terms) sum[(component + i) % 3] += factors[first + (component + i) / 3] * values[i];
     }
     return sum;
 }
