@@ -55,9 +55,8 @@ std::string with_json(std::string glb, const std::string& old_text, const std::s
 }
 
 /// Measures views under a probe, prints the table, and holds: jumps of at most 4 %, or little more than the content's
-/// own, and still pictures within 8 % of those of 16 samples. The worst is the foil, whose facets are as small as
-/// pixels. The wing cases mirror lamps a thousand times as bright as white, whose images one look-up per pixel widens:
-/// they are held up to white.
+/// own, and still pictures within 5 % of those of 16 samples. The wing cases mirror lamps a thousand times as bright as
+/// white, whose images one look-up per pixel widens: they are held to 8 %, up to white.
 void hold_goals(test::Shimmer& shimmer, const demo::Options& options, const std::string& probe,
                 const std::vector<std::size_t>& views) {
     shimmer.session().use_probe(options.cooked_folder / (probe + ".probe"));
@@ -70,7 +69,10 @@ void hold_goals(test::Shimmer& shimmer, const demo::Options& options, const std:
                 where, found.pixels, 100.0 * found.jumping, 100.0 * found.content_jumping, 100.0 * found.error,
                 100.0 * found.displayed);
             EXPECT_LE(found.jumping, std::max(test::Shimmer::kCalm, found.content_jumping + 0.025)) << where;
-            EXPECT_LE(object == "wing cases" ? found.displayed : found.error, 0.08) << where;
+            if (object == "wing cases")
+                EXPECT_LE(found.displayed, 0.08) << where;
+            else
+                EXPECT_LE(found.error, 0.05) << where;
         }
 }
 
