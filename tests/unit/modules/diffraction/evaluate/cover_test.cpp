@@ -39,7 +39,7 @@ nlohmann::json material(bool covered, bool narrow) {
 std::vector<std::string> whole_light_methods(SurfaceShape surface, bool narrow) {
     if (narrow) return {"streak"};
     if (surface == SurfaceShape::Flat) return {"planar/map_resolution=128", "planar/map_resolution=128/key_lights=16"};
-    return {"circle/map_resolution=48/key_lights=16"};
+    return {"circle/key_lights=16"};
 }
 
 /// Methods whose error is the detail that the light loses: under a harsh probe that says nothing of the cover, which
@@ -83,7 +83,7 @@ class CoverUnderProbe : public ::testing::TestWithParam<ProbeCase> {
             key.begin(), key.end(), [](char c) { return c == '/' || c == '='; }, '_');
         RecordProperty(key, fmt::format("{:.4f} {:.4f}", bare, covered));
         if (held) {
-            EXPECT_LE(covered, bare + 0.003) << name;
+            EXPECT_LE(covered, std::max(bare + 0.003, 0.01)) << name;
         }
     }
 
