@@ -56,12 +56,13 @@ ROWLAND_EXPORT(rest_sh) Numbers* rest_sh(const Probe* probe, int bands) {
     return numbers;
 }
 
-/// The map of a plane, flat lobe: e1, e2, then RGB over azimuths and views. `resolution`: even.
+/// The map of a plane, flat lobe: e1, e2, then RGB over azimuths and views. `resolution`: views, even; azimuths are
+/// twice as many.
 ROWLAND_EXPORT(planar_map)
 Numbers* planar_map(const Material* material, const Probe* probe, double x, double y, double z, int resolution) {
     const diffraction::PlanarMap map = diffraction::fill_planar_map(
         probe->rest, in_space(material->kernel, xyz_to_working()), material->grating().pitch_nm, glm::dvec3(x, y, z),
-        {.azimuths = resolution, .views = resolution}, xyz_to_working() * material->zero_order_xyz,
+        diffraction::planar_map_size(resolution), xyz_to_working() * material->zero_order_xyz,
         material->grating().cover);
     auto* numbers = new Numbers;
     append(glm::vec3(map.e1), *numbers);

@@ -110,7 +110,7 @@ export class Tasks {
                 e2: [...map.subarray(3, 6)],
                 axes: null,
                 halfTurn: false,
-                table: table(size.flat, size.flat, 1, map.subarray(6)),
+                table: table(2 * size.flat, size.flat, 1, map.subarray(6)),
             };
         }
         const map = bake.numbers("lobe_map", material, this.probe, x, y, z, size.azimuths, size.g, size.h);
