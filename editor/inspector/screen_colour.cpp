@@ -5,19 +5,16 @@
 #include <glm/matrix.hpp>
 
 #include "engine/colour/observer.h"
+#include "engine/colour/srgb.h"
 #include "engine/colour/working_space.h"
 
 namespace rowland::inspector {
 
 namespace {
 
-/// IEC 61966-2-1.
 glm::vec3 encoded(const glm::dvec3& linear) {
     glm::vec3 result;
-    for (int i = 0; i < 3; ++i) {
-        const double x = std::clamp(linear[i], 0.0, 1.0);
-        result[i] = static_cast<float>(x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055);
-    }
+    for (int i = 0; i < 3; ++i) result[i] = static_cast<float>(colour::srgb_encoded(std::clamp(linear[i], 0.0, 1.0)));
     return result;
 }
 

@@ -7,13 +7,16 @@
 #include <cstdint>
 #include <iterator>
 #include <memory>
+#include <numbers>
 #include <string>
 #include <vector>
 
 #include "editor/trade/commands.h"
 #include "editor/trade/results.h"
 #include "engine/colour/primaries.h"
+#include "engine/colour/srgb.h"
 #include "engine/image/png.h"
+#include "modules/diffraction/evaluate/radiance_error.h"
 #include "modules/thin_film/model/film_colour.h"
 #include "modules/thin_film/model/reflectance.h"
 #include "modules/thin_film/reference/gltf_formula.h"
@@ -50,7 +53,7 @@ double thickness_nm(int column) {
 }
 
 double cosine(int row) {
-    return std::cos(85.0 * row / (kAngles - 1) * 3.14159265358979 / 180.0);
+    return std::cos(85.0 * row / (kAngles - 1) * std::numbers::pi / 180.0);
 }
 
 /// Linear Rec.709 of reflected white light for all angles and thicknesses.
@@ -94,20 +97,8 @@ Colours three_wavelengths(const Swatch& swatch) {
     return colours;
 }
 
-double relative_rms(const Colours& found, const Colours& expected) {
-    double off = 0.0;
-    double whole = 0.0;
-    for (std::size_t i = 0; i < expected.size(); ++i) {
-        off += glm::dot(found[i] - expected[i], found[i] - expected[i]);
-        whole += glm::dot(expected[i], expected[i]);
-    }
-    return std::sqrt(off / whole);
-}
-
-std::uint8_t srgb(double linear) {
-    const double value = std::clamp(linear, 0.0, 1.0);
-    const double encoded = value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1.0 / 2.4) - 0.055;
-    return static_cast<std::uint8_t>(std::lround(255.0 * encoded));
+std::uint8_t byte_of(double linear) {
+    return static_cast<std::uint8_t>(std::lround(255.0 * colour::srgb_encoded(std::clamp(linear, 0.0, 1.0))));
 }
 
 /// A row of pictures for each base: exact, glTF's formula, three wavelengths.
@@ -129,7 +120,7 @@ class Page {
                     const int x = block_column * (kThicknesses + kGap) + column;
                     const int y = block_row * (kAngles + kGap) + row;
                     const glm::dvec3& colour = colours[static_cast<std::size_t>(row * kThicknesses + column)];
-                    rgb_[static_cast<std::size_t>((y * kWidth + x) * 3 + c)] = srgb(colour[c] / largest);
+                    rgb_[static_cast<std::size_t>((y * kWidth + x) * 3 + c)] = byte_of(colour[c] / largest);
                 }
     }
     void write(const std::filesystem::path& path) const { image::write_png(path, kWidth, kHeight, rgb_); }
@@ -151,7 +142,8 @@ void show_films(const std::filesystem::path& picture) {
         page.add(2, row, three, truth);
         ++row;
         fmt::format_to(std::back_inserter(table), "| {} | {:.1f} % | {:.1f} % |\n", swatch.name,
-                       100.0 * relative_rms(formula, truth), 100.0 * relative_rms(three, truth));
+                       100.0 * diffraction::relative_rms(formula, truth),
+                       100.0 * diffraction::relative_rms(three, truth));
     }
     page.write(picture);
     write_results(table);

@@ -7,6 +7,7 @@
 
 #include "editor/trade/hdr_flip.h"
 #include "engine/colour/delta_e.h"
+#include "engine/colour/srgb.h"
 #include "engine/colour/working_space.h"
 #include "engine/core/check.h"
 #include "engine/post/display_transform.h"
@@ -21,10 +22,7 @@ constexpr double kMiddleGrey = 0.18;
 
 glm::dvec3 srgb_to_linear(const glm::vec3& encoded) {
     glm::dvec3 linear;
-    for (int i = 0; i < 3; ++i) {
-        const double value = static_cast<double>(encoded[i]);
-        linear[i] = value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
-    }
+    for (int i = 0; i < 3; ++i) linear[i] = colour::srgb_linear(static_cast<double>(encoded[i]));
     return linear;
 }
 
