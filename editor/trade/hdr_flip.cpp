@@ -80,10 +80,9 @@ Plane seen(const Plane& plane, const Sensitivity& sensitivity, double pixels_per
     for (std::size_t i = 0; i < 2; ++i) {
         if (sensitivity.a[i] == 0.0) continue;
         const double deviation = std::sqrt(sensitivity.b[i] / (2.0 * pi * pi)) * pixels_per_degree;
-        double of_line = 0.0;
-        for (int x = -radius; x <= radius; ++x) of_line += std::exp(-0.5 * x * x / (deviation * deviation));
-        const double weight = sensitivity.a[i] * std::sqrt(pi / sensitivity.b[i]) * of_line * of_line;
         const Kernel kernel = gaussian(deviation, radius);
+        const double middle = kernel[static_cast<std::size_t>(radius)];  // 1 before the kernel was normalised
+        const double weight = sensitivity.a[i] * std::sqrt(pi / sensitivity.b[i]) / (middle * middle);
         const Plane part = filtered(plane, kernel, kernel);
         for (std::size_t p = 0; p < sum.values.size(); ++p) sum.values[p] += weight * part.values[p];
         weights += weight;

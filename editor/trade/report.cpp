@@ -67,10 +67,10 @@ nlohmann::ordered_json panels(const SweepResults& results) {
     return list;
 }
 
-nlohmann::ordered_json probes(const SweepResults& results) {
+nlohmann::ordered_json probes(const SweepResults& results, const std::vector<ProbeStatistics>& statistics) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    for (std::size_t i = 0; i < results.probe_statistics.size(); ++i) {
-        const ProbeStatistics& probe = results.probe_statistics[i];
+    for (std::size_t i = 0; i < statistics.size(); ++i) {
+        const ProbeStatistics& probe = statistics[i];
         list.push_back({{"name", results.probes[i]},
                         {"size", {probe.width, probe.height}},
                         {"mean", probe.mean},
@@ -101,7 +101,7 @@ nlohmann::ordered_json report_data(const SweepResults& results, const SweepInput
     nlohmann::ordered_json json = {{"date", origin.date},
                                    {"command", origin.command},
                                    {"version", release_version() + ", " + method_version().substr(0, 8)},
-                                   {"probes", probes(results)},
+                                   {"probes", probes(results, origin.probes)},
                                    {"loaded", kLoaded},
                                    {"loaded_times", results.loaded_times()},
                                    {"device", results.device},

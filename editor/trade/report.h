@@ -21,10 +21,11 @@ struct DifferencePicture {
     RgbPicture picture;
 };
 
-/// How a report was made.
+/// How a report was made, and under what light.
 struct ReportOrigin {
     std::string date;     ///< UTC, ISO 8601
     std::string command;  ///< as it was typed
+    std::vector<ProbeStatistics> probes{};
 };
 
 /// Everything the report draws, as its script reads it. `paper`: paper_evidence().

@@ -296,6 +296,12 @@ std::size_t SweepResults::loaded_times() const {
         costs, [](const CostRow& cost) { return cost.time && cost.time->other_load.value_or(0.0) > kLoaded; }));
 }
 
+std::vector<ProbeStatistics> Sweep::probe_statistics() const {
+    std::vector<ProbeStatistics> result;
+    for (const ProbeSource& probe : probes_) result.push_back(statistics_of(probe.image));
+    return result;
+}
+
 SweepResults Sweep::run() {
     SweepResults results;
     results.materials = stems(inputs_.materials);
@@ -305,7 +311,6 @@ SweepResults Sweep::run() {
     for (const MaterialSource& material : materials_) results.settings.push_back(material.settings);
     measure_times(results);
     measure_errors(results);
-    for (const ProbeSource& probe : probes_) results.probe_statistics.push_back(statistics_of(probe.image));
     collect(results);
     if (const std::size_t doubtful = results.loaded_times(); doubtful > 0)
         log_warning(

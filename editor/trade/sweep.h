@@ -67,7 +67,6 @@ struct SweepResults {
     std::vector<ErrorRow> errors;
     std::vector<CostRow> costs;
     std::string device;  ///< that frames were timed on; empty: none was
-    std::vector<ProbeStatistics> probe_statistics{};
 
     /// How many frame times were taken while other programs used more than kLoaded of the processors.
     std::size_t loaded_times() const;
@@ -86,6 +85,7 @@ class Sweep {
     const diffraction::MeasuredScene& scene(std::size_t material, std::size_t probe, const FrameSet& set);
     diffraction::CookedMaterial cook(std::size_t material, const diffraction::Method& setting) const;
     const PictureFrames& picture_frames() const { return picture_; }
+    std::vector<ProbeStatistics> probe_statistics() const;
     const SweepInputs& inputs() const { return inputs_; }
 
  private:

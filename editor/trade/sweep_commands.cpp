@@ -13,6 +13,7 @@
 #include "editor/trade/sweep.h"
 #include "editor/trade/sweep_plan.h"
 #include "editor/trade/sweep_tables.h"
+#include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/core/outputs.h"
@@ -134,6 +135,15 @@ void run_sweep(const SweepOptions& options) {
                               (options.output / "sweep.jsonl").string()));
 }
 
+const MethodError& picture_error(const SweepResults& results, std::size_t material, std::size_t probe,
+                                 std::size_t setting) {
+    const auto found = std::ranges::find_if(results.errors, [&](const ErrorRow& row) {
+        return row.set == "picture" && row.material == material && row.probe == probe && row.setting == setting;
+    });
+    ROWLAND_CHECK(found != results.errors.end(), "every setting has its picture's error");
+    return found->error;
+}
+
 std::vector<DifferencePicture> difference_pictures(Sweep& sweep, const SweepResults& results) {
     std::vector<DifferencePicture> pictures;
     const PictureFrames& frames = sweep.picture_frames();
@@ -147,7 +157,7 @@ std::vector<DifferencePicture> difference_pictures(Sweep& sweep, const SweepResu
                     {.material = m,
                      .probe = p,
                      .setting = method_name(setting),
-                     .error = compare_pictures(frames, shown, scene.reference),
+                     .error = picture_error(results, m, p, s),
                      .picture = difference_image(picture(frames, shown), picture(frames, scene.reference), frames.width,
                                                  frames.height, kMagnified)});
             }
@@ -163,7 +173,8 @@ void run_report(const SweepOptions& options, const std::string& command_line) {
     const SweepResults results = run_and_write(sweep);
     const auto differences = difference_pictures(sweep, results);
     const auto paper = paper_evidence(sweep.cook(0, paper_setting()), sweep.inputs().frame_size, sweep.inputs().times);
-    const auto data = report_data(results, sweep.inputs(), differences, paper, {now(), command_line});
+    const auto data =
+        report_data(results, sweep.inputs(), differences, paper, {now(), command_line, sweep.probe_statistics()});
     write_file_atomic(options.output / "report.html", report_html(data));
     write_results(fmt::format("file\n{}\n", (options.output / "report.html").string()));
 }

@@ -57,9 +57,11 @@ TEST(Report, PicturesTheBestInRealTimeAndTheFirst) {
 }
 
 TEST(Report, SaysHowItWasMadeAndUnderWhatLight) {
-    SweepResults r = results();
-    r.probe_statistics = {{.width = 64, .height = 32, .mean = 0.5, .peak_over_mean = 9.0, .brightest_fraction = 0.25}};
-    const auto data = report_data(r, {}, {}, {}, {.date = "2026-01-02T03:04:05Z", .command = "rowland-trade report"});
+    const auto data = report_data(
+        results(), {}, {}, {},
+        {.date = "2026-01-02T03:04:05Z",
+         .command = "rowland-trade report",
+         .probes = {{.width = 64, .height = 32, .mean = 0.5, .peak_over_mean = 9.0, .brightest_fraction = 0.25}}});
     EXPECT_EQ(data["date"], "2026-01-02T03:04:05Z");
     EXPECT_EQ(data["command"], "rowland-trade report");
     EXPECT_THAT(data["version"].get<std::string>(), testing::MatchesRegex("[0-9.]+, [0-9a-f]{8}"));
