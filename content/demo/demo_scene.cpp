@@ -251,6 +251,12 @@ scene::Bounds DemoScene::room() {
     return box;
 }
 
+const nlohmann::json* DemoScene::sheet() const {
+    if (!own_view_) return nullptr;
+    const nlohmann::json& extras = scene_->nodes[scene_->cameras.front().node].extras;
+    return extras.is_object() && extras.contains("glare") ? &extras["glare"] : nullptr;
+}
+
 std::vector<scene::Camera> DemoScene::views() const {
     if (!own_view_) return {camera_};
     return all_views(*scene_, scene::merge_instances(*scene_));

@@ -4,6 +4,7 @@
 #include <functional>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -47,6 +48,9 @@ class DemoScene {
     /// Turns the lamp that casts shadows on or off.
     void set_sun(bool on);
     bool sun() const { return world_.alive(sun_); }
+
+    /// The sheet that the scene's first camera looks through: its extras' "glare", null if there is none.
+    const nlohmann::json* sheet() const;
 
     ecs::World& world() { return world_; }
     const scene::Camera& camera() const { return camera_; }

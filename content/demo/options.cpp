@@ -45,6 +45,7 @@ void add_options(CLI::App& app, Options& options) {
     app.add_option("--exposure", options.exposure_stops, "Exposure in stops")
         ->check(finite(-32.0, 32.0))
         ->capture_default_str();
+    app.add_option("--glare", options.glare, "Material to look through, as glasses or a screen: .json");
     app.add_option("--bloom", options.bloom, "Fraction of the light that the lens scatters")->check(finite(0.0, 1.0));
     app.add_option("--vignette", options.vignette, "Fraction of the light lost in the corners")
         ->check(finite(0.0, 1.0));
@@ -114,7 +115,8 @@ void check_outputs(const Options& options) {
     if (options.benchmark) outputs.push_back({"--benchmark", *options.benchmark});
     if (options.record) outputs.push_back({"--record", *options.record});
     std::vector<std::filesystem::path> inputs =
-        app::given({options.probe, options.ocio_config, options.scene, options.mesh, options.material, options.play});
+        app::given({options.probe, options.ocio_config, options.scene, options.mesh, options.material, options.glare,
+                    options.play});
     for (const cook::Recooker::Job& job : shipped_jobs(options)) inputs.insert(inputs.end(), {job.source, job.output});
     rowland::check_outputs(inputs, outputs);
 }

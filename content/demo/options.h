@@ -20,7 +20,8 @@ struct Options : app::CommonOptions {
     std::optional<int> frames;  ///< none: 1 for captures, 12 for a flight, 300 for a benchmark, all of a recording
     std::string light_window = "auto";
     float exposure_stops = 0.0F;
-    float bloom = 0.0F;     ///< fraction of the light that is scattered
+    float bloom = 0.0F;                          ///< fraction of the light that is scattered
+    std::optional<std::filesystem::path> glare;  ///< a material to look through
     float vignette = 0.0F;  ///< fraction of the light lost in the corners, on top of the lens' own falloff
     bool auto_exposure = false;
     bool dither = false;

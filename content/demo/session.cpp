@@ -58,7 +58,7 @@ render::Effects effects(const Options& options) {
 diffraction::DiffractionSettings diffraction_settings(const Options& options, Pace pace) {
     diffraction::DiffractionSettings settings;
     if (options.light_window != "auto") settings.window = math::parse_window(options.light_window);
-    settings.map_pace = pace == Pace::Still ? diffraction::MapPace::Whole : diffraction::MapPace::WholeUnderNewLight;
+    settings.map_pace = pace == Pace::Still ? diffraction::MapPace::Whole : diffraction::MapPace::Incremental;
     return settings;
 }
 
@@ -86,9 +86,11 @@ Session::Session(const Options& options, const post::OcioConfig& config, glm::iv
       shaders_(picture_->shader_sources(options.shader_folder)),
       probe_paths_(probe_paths(options)),
       views_(config.views(config.default_display())),
-      view_(config.default_view(config.default_display())) {
+      view_(config.default_view(config.default_display())),
+      sheets_(sheets(options, scene_)) {
     play_.set_pose([this](const Play& play) { scene_.pose(play); });
     use_probe(probe_paths_[0]);
+    if (options.glare || scene_.sheet() != nullptr) look_through(1);
 }
 
 std::vector<Action> Session::carry_out() {
@@ -183,8 +185,15 @@ bool Session::perform(Action action) {
         case Action::Dither:
             toggle(post.dither);
             break;
+        case Action::Glare:
+            if (sheets_.empty())
+                messages_.say("nothing to look through: start with --glare FILE");
+            else
+                look_through((sheet_ + 1) % (sheets_.size() + 1));
+            break;
         case Action::Reload:
             reload_shaders();
+            look_through(sheet_);
             assets_.reload_all();
             break;
         case Action::Screenshot:
@@ -214,6 +223,14 @@ void Session::use_view(const std::string& view) {
     picture_->set_view(config_, view);
     view_ = view;
     log_info("view {}", view_);
+}
+
+void Session::look_through(std::size_t sheet) {
+    std::optional<post::GlareSettings> glare;
+    if (sheet > 0) glare = glare_of(sheets_[sheet - 1], scene_, picture_->xyz_to_working());
+    picture_->post_settings().glare = std::move(glare);
+    sheet_ = sheet;
+    if (sheet > 0) messages_.say(sheets_[sheet - 1].name + ": looked through");
 }
 
 void Session::reload_shaders() {

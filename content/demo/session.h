@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec2.hpp>
@@ -12,6 +13,7 @@
 #include "content/demo/looks/comparison.h"
 #include "content/demo/options.h"
 #include "content/demo/play/play.h"
+#include "content/demo/sheets.h"
 #include "engine/asset/file_watch.h"
 #include "engine/core/messages.h"
 #include "engine/post/ocio_config.h"
@@ -47,6 +49,8 @@ class Session {
     const std::filesystem::path& probe_path() const { return probe_path_; }
     const std::string& view() const { return view_; }
     const std::vector<std::string>& views() const { return views_; }
+    /// What one looks through; empty: nothing.
+    std::string sheet() const { return sheet_ == 0 ? std::string() : sheets_[sheet_ - 1].name; }
 
     /// Lights the scene with another probe. Throws Error (input) and keeps the old one.
     void use_probe(const std::filesystem::path& path);
@@ -69,6 +73,7 @@ class Session {
     void set(const SettingEvent& setting);
     bool perform(Action action);
     void use_view(const std::string& view);
+    void look_through(std::size_t sheet);
     void set_look(Side side, const std::string& object, const std::string& look);
     void show_probe();
     std::filesystem::path probe_named(const std::string& name) const;
@@ -95,6 +100,8 @@ class Session {
     std::uint64_t probe_changes_ = 0;
     std::vector<std::string> views_;
     std::string view_;
+    std::vector<Sheet> sheets_;
+    std::size_t sheet_ = 0;  ///< that one looks through: one more than its index; 0: none
     std::vector<Action> screenshots_;
 };
 

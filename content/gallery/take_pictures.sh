@@ -25,9 +25,16 @@ keep foil "$work"/sunset/flight_03_*.png
 keep beetle "$work"/sunset/flight_04_*.png
 flight night
 keep discs_at_night "$work"/night/flight_02_*.png
-demo --scene "$root/build/release/cooked/films.glb" --probe "$root/build/release/cooked/captured_courtyard.probe" \
-    --width 960 --height 540 --bloom 0.04 --frames 1 --capture "$work/films.png"
-keep films "$work/films.png"
+# scene NAME CAPTURE PICTURE [OPTIONS]: a scene of content/scenes.
+scene() {
+    demo --scene "$root/build/release/cooked/$1.glb" --probe "$root/build/release/cooked/captured_$2.probe" \
+        --width 960 --height 540 --bloom 0.04 --frames 1 --capture "$work/$3.png" "${@:4}"
+    keep "$3" "$work/$3.png"
+}
+scene films courtyard films
+scene lattices night lattices
+scene sheets sunset sheets
+scene sheets sunset starbursts --glare "$root/content/materials/camera_under_display.json"
 for lobe in pits flat; do
     demo --disc --sun --material "$here/cd_$lobe.json" --probe "$root/content/probes/night.json" \
         --auto-exposure --width 640 --height 480 --capture "$work/$lobe.png"

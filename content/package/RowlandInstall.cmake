@@ -1,7 +1,7 @@
 # What `cmake --install` gives to other projects, which take it by find_package(Rowland): libraries with their headers,
 # shaders, and the programs that cook and check. Included by the root after all targets.
 #
-# Components: `library`, all that needs no GPU; `runtime`, the engine and the module's drawing, on top of it; `tools`.
+# Components: `library`, all that needs no GPU; `runtime`, the engine and the modules' drawing, on top of it; `tools`.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -45,13 +45,15 @@ rowland_export(library
   rowland_diffraction_model DiffractionModel
   rowland_diffraction_bake DiffractionBake
   rowland_diffraction_representations DiffractionRepresentations
-  rowland_diffraction_asset DiffractionAsset)
+  rowland_diffraction_asset DiffractionAsset
+  rowland_thin_film_model ThinFilmModel
+  rowland_thin_film_bake ThinFilmBake)
 file(GLOB representations ${PROJECT_SOURCE_DIR}/modules/diffraction/representations/*)
 list(FILTER representations EXCLUDE REGEX "\\.[a-z]+$")
 rowland_install_headers(library ${representations})
 install(DIRECTORY modules/diffraction/representations DESTINATION ${shaders_folder}/modules/diffraction
         COMPONENT library FILES_MATCHING PATTERN "*.glsl")
-foreach(folder IN ITEMS engine/gpu engine/render modules/diffraction)
+foreach(folder IN ITEMS engine/gpu engine/render modules/diffraction modules/thin_film)
   install(DIRECTORY ${folder}/shaders DESTINATION ${shaders_folder}/${folder} COMPONENT library
           FILES_MATCHING PATTERN "*.glsl" PATTERN "*_block.h")
 endforeach()
@@ -65,10 +67,15 @@ rowland_export(runtime
   rowland_post Post
   rowland_render Render
   rowland_view View
-  rowland_diffraction Diffraction)
+  rowland_diffraction Diffraction
+  rowland_thin_film_asset ThinFilmAsset
+  rowland_thin_film ThinFilm)
 rowland_install_headers(runtime
-  ${PROJECT_SOURCE_DIR}/engine/render/shaders ${PROJECT_SOURCE_DIR}/modules/diffraction/shaders)
-install(FILES modules/diffraction/module.h DESTINATION ${headers_folder}/modules/diffraction COMPONENT runtime)
+  ${PROJECT_SOURCE_DIR}/engine/render/shaders ${PROJECT_SOURCE_DIR}/modules/diffraction/shaders
+  ${PROJECT_SOURCE_DIR}/modules/thin_film/shaders)
+foreach(module IN ITEMS diffraction thin_film)
+  install(FILES modules/${module}/module.h DESTINATION ${headers_folder}/modules/${module} COMPONENT runtime)
+endforeach()
 
 install(TARGETS rowland-cook rowland-trade RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT tools)
 # What Scene and the tools run beside them; engine/core/child_process.h says where it is looked for.

@@ -82,6 +82,12 @@ void run_export(const Options& options) {
     check_usage(options);
     const std::filesystem::path bytes = bytes_beside(options.output);
     const diffraction::CookedMaterial cooked = load(options.material);
+    if (cooked.material.grating.lattice)
+        refuse_input(options.material.string(), "/grating/lattice", "a lattice", "grooves of one direction (pitch_nm)",
+                     "a document does not hold the pattern of a lattice");
+    if (cooked.material.grating.transmission)
+        refuse_input(options.material.string(), "transmission", "a sheet that transmits", "a reflecting grating",
+                     "documents hold reflected light alone");
     diffraction::PortableDocument document = diffraction::make_portable(bytes.filename().string());
     add_material(cooked, document);
     if (options.arc) {

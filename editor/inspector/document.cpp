@@ -147,9 +147,9 @@ void Document::reparse(Slot& slot) const {
         slot.accepted = is_scene() ? accept_extension(slot.json, name_, folder_, {}, &new_textures_)
                                    : accept_material(slot.json, name_, folder_);
     } catch (const Error& error) {
-        const Field* field = field_of_refusal(error.info().location);
-        // The parser names the table's file, not the material's, if a row of the table is wrong.
-        if (field == nullptr && error.info().file != name_) field = &field_at("/grating/profile/file");
+        const Field* field = field_of_refusal(error.info().location, slot.json);
+        // The parser names the table's or the height map's file, not the material's, if its content is wrong.
+        if (field == nullptr && error.info().file != name_) field = shown_field("/grating/profile/file", slot.json);
         slot.refusal = Refusal{field, error.what()};
     }
 }

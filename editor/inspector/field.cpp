@@ -15,9 +15,10 @@ namespace rowland::inspector {
 namespace {
 
 /// Members in the order of files. Others go to the end of their object.
-constexpr std::array kFileOrder = {
-    "grating", "pitch_nm", "grooves", "profile",   "orders",  "normalization",  "groove_lobe",  "metal", "cover", "ior",
-    "tint",    "base",     "color",   "roughness", "quality", "grooveRotation", "grooveTexture"};
+constexpr std::array kFileOrder = {"grating",       "pitch_nm",       "grooves",      "profile", "orders",
+                                   "normalization", "groove_lobe",    "metal",        "cover",   "transmission",
+                                   "ior",           "tint",           "base",         "color",   "roughness",
+                                   "quality",       "grooveRotation", "grooveTexture"};
 
 auto position_in_file(const std::string& key) {
     return std::find(kFileOrder.begin(), kFileOrder.end(), key) - kFileOrder.begin();
@@ -59,6 +60,11 @@ Json carried_over(const Json& from, const Choice& to, const std::string& discrim
 /// A whole number loses its fraction: 5.0 is written as 5.
 Json plain(const Json& value) {
     constexpr double kExact = 9e15;  // up to here every double with a zero fraction converts exactly
+    if (value.is_array()) {
+        Json parts = Json::array();
+        for (const Json& part : value) parts.push_back(plain(part));
+        return parts;
+    }
     if (!value.is_number_float()) return value;
     const double number = value.get<double>();
     if (number != std::floor(number) || std::abs(number) > kExact) return value;
@@ -75,21 +81,26 @@ const Field& field_at(std::string_view pointer) {
     check_failed(__FILE__, __LINE__, fmt::format("no field at {}", pointer));
 }
 
-const Field* field_of_refusal(std::string_view pointer) {
-    const Field* best = nullptr;
-    for (const auto all : {fields(), groove_fields()})
-        for (const Field& field : all) {
-            const std::string& own = field.pointer;
-            const bool contains = pointer == own || (pointer.starts_with(own) && pointer[own.size()] == '/');
-            if (contains && (best == nullptr || own.size() > best->pointer.size())) best = &field;
-        }
-    return best;
-}
-
 bool is_shown(const Field& field, const Json& material) {
     if (field.only_with.empty()) return true;
-    const std::string present = choice_of(field_at(field.only_with), material);
-    return std::find(field.only_for.begin(), field.only_for.end(), present) != field.only_for.end();
+    const Field* other = shown_field(field.only_with, material);
+    return other != nullptr && std::ranges::count(field.only_for, choice_of(*other, material)) > 0;
+}
+
+const Field* shown_field(std::string_view pointer, const Json& material) {
+    for (const auto all : {fields(), groove_fields()})
+        for (const Field& field : all)
+            if (field.pointer == pointer && is_shown(field, material)) return &field;
+    return nullptr;
+}
+
+const Field* field_of_refusal(std::string_view pointer, const Json& material) {
+    for (;;) {
+        if (const Field* field = shown_field(pointer, material)) return field;
+        const std::size_t end = pointer.rfind('/');
+        if (end == std::string_view::npos) return nullptr;
+        pointer = pointer.substr(0, end);
+    }
 }
 
 Json value_of(const Field& field, const Json& material) {
@@ -103,6 +114,7 @@ Json value_of(const Field& field, const Json& material) {
 
 bool can_revert(const Field& field, const Json& material) {
     const Json* found = find(material, field.pointer);
+    if (field.required && field.default_value.is_null()) return false;
     return field.required ? found == nullptr || *found != field.default_value : found != nullptr;
 }
 
@@ -154,7 +166,9 @@ Json with_choice(const Json& material, const Field& field, const std::string& na
     const auto found = std::find_if(field.choices.begin(), field.choices.end(),
                                     [&](const Choice& choice) { return choice.name == name; });
     ROWLAND_CHECK(found != field.choices.end(), fmt::format("{} has no choice {}", field.pointer, name));
-    Json value = carried_over(value_of(field, material), *found, field.discriminator);
+    // A profile of grooves is none of a lattice.
+    Json value = field.pointer == "/grating" ? found->value
+                                             : carried_over(value_of(field, material), *found, field.discriminator);
     // Every quality has an illuminant.
     const Json* illuminant = find(material, "/quality/illuminant");
     if (field.pointer == "/quality" && illuminant != nullptr) value["illuminant"] = *illuminant;

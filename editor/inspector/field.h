@@ -26,7 +26,8 @@ struct Choice {
     Json value;  ///< null: the member is left out
 };
 
-/// One field of a material file: the editor's control, its range, its tooltip and its reset value.
+/// One field of a material file: the editor's control, its range, its tooltip and its reset value. A pointer may have
+/// several fields, of which a material shows one at most.
 struct Field {
     std::string pointer;  ///< JSON pointer, as in the refusals of the module's parser
     std::string label;
@@ -36,11 +37,12 @@ struct Field {
     double maximum = 1.0;
     bool logarithmic = false;  ///< the slider
     Json default_value{};      ///< of an absent member
-    bool required = false;     ///< reverting sets `default_value` instead of removing the member
+    /// Reverting sets `default_value` instead of removing the member; if that is null, there is no reverting.
+    bool required = false;
     std::vector<Choice> choices{};
     /// The member whose value identifies a choice that is an object; empty: the names of its members identify it.
     std::string discriminator{};
-    /// Shown only if the choice of the field `only_with` (a pointer) is one of `only_for`; empty: always.
+    /// Shown only if the field `only_with` (a pointer) is, and its choice is one of `only_for`; empty: always.
     std::string only_with{};
     std::vector<std::string> only_for{};
     /// Values of an absent member that depend on the choice of `only_with`; others have `default_value`.
@@ -55,14 +57,17 @@ std::span<const Field> fields();
 /// The fields that only a scene's material has: its grooves on the mesh.
 std::span<const Field> groove_fields();
 
-/// The field at a JSON pointer, which must exist.
+/// The first field at a JSON pointer, which must exist.
 const Field& field_at(std::string_view pointer);
-
-/// The field that contains the JSON pointer of a refusal; the innermost of several, null if none does.
-const Field* field_of_refusal(std::string_view pointer);
 
 /// Whether the field has a meaning for the material.
 bool is_shown(const Field& field, const Json& material);
+
+/// The material's field at a JSON pointer; null: none.
+const Field* shown_field(std::string_view pointer, const Json& material);
+
+/// The material's field that contains the JSON pointer of a refusal; the innermost of several, null if none does.
+const Field* field_of_refusal(std::string_view pointer, const Json& material);
 
 /// The field's value, or its default if the member is absent.
 Json value_of(const Field& field, const Json& material);

@@ -82,7 +82,9 @@ void draw_pair(Document& document, const Field& field) {
     const Json value = value_of(field, document.json());
     for (std::size_t i = 0; i < 2 && value.is_array() && i < value.size(); ++i)
         pair[i] = static_cast<float>(number_of(value[i]));
-    if (ImGui::DragFloat2("##value", pair.data(), static_cast<float>(drag_step(field, 0.0)), 0.0F, 0.0F, "%.4g"))
+    const float largest = std::max(std::abs(pair[0]), std::abs(pair[1]));
+    const auto step = static_cast<float>(drag_step(field, static_cast<double>(largest)));
+    if (ImGui::DragFloat2("##value", pair.data(), step, 0.0F, 0.0F, "%.7g"))
         document.set_value(field, {rounded(pair[0]), rounded(pair[1])});
 }
 

@@ -181,6 +181,15 @@ void draw_directions(const diffraction::Grating& grating, const PaneLight& light
     ImGui::TextDisabled("g: across the grooves. h: along them. Rings: 30° and 60°.");
 }
 
+void draw_spectrum_at_point(const std::vector<double>& spectrum) {
+    const Plot plot("##spectrum", plot_height(), {380.0, 780.0, "wavelength, nm"},
+                    {0.0, 1.1 * highest({&spectrum}), ""});
+    for (std::size_t i = 0; i < spectrum.size(); ++i) {
+        const double nm = 380.0 + static_cast<double>(i);
+        plot.bar(nm, nm + 1.0, spectrum[i], wavelength_colour(nm, 0.85F));
+    }
+}
+
 void draw_sweep(const ViewSweep& sweep) {
     double lowest = 0.0;
     for (const double value : sweep.harmonics) lowest = std::min(lowest, value);
@@ -231,11 +240,15 @@ void draw_energy(const diffraction::Grating& grating, const PaneLight& light, Co
 }  // namespace
 
 void PhysicsPanel::draw(const Session& session, ControlMap& controls) {
-    draw_light_controls(light_, controls);
     const diffraction::Grating& grating = session.document().material().grating;
+    if (!grating.lattice) draw_light_controls(light_, controls);
     const PointNumbers* numbers = session.point_numbers();
-    if (pane("Point: spectrum and colour"))
+    if (pane(grating.lattice ? "Point: colour" : "Point: spectrum and colour"))
         numbers != nullptr ? draw_point(session, *numbers, controls) : ImGui::TextDisabled("Computing…");
+    if (grating.lattice) {
+        if (pane("Diffraction pattern")) pattern_.draw(session, display_, controls);
+        return;
+    }
     if (pane("Diffraction over angle")) draw_angles(grating, light_);
     if (pane("Where the power goes")) draw_energy(grating, light_, controls);
     if (pane("Where orders go, from above")) draw_directions(grating, light_);
@@ -246,13 +259,7 @@ void PhysicsPanel::draw(const Session& session, ControlMap& controls) {
 }
 
 void PhysicsPanel::draw_point(const Session& session, const PointNumbers& numbers, ControlMap& controls) const {
-    const std::vector<double>& spectrum = numbers.radiance.spectrum;
-    const Plot plot("##spectrum", plot_height(), {380.0, 780.0, "wavelength, nm"},
-                    {0.0, 1.1 * highest({&spectrum}), ""});
-    for (std::size_t i = 0; i < spectrum.size(); ++i) {
-        const double nm = 380.0 + static_cast<double>(i);
-        plot.bar(nm, nm + 1.0, spectrum[i], wavelength_colour(nm, 0.85F));
-    }
+    if (!session.document().material().grating.lattice) draw_spectrum_at_point(numbers.radiance.spectrum);
     const glm::dvec3 working = session.preview().xyz_to_working() * numbers.radiance.reference;
     glm::vec3 display(working);
     display_.apply_cpu(std::span(&display, 1), session.stage.exposure_stops);

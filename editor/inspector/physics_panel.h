@@ -1,6 +1,7 @@
 #pragma once
 
 #include "editor/inspector/control_map.h"
+#include "editor/inspector/pattern_pane.h"
 #include "editor/inspector/session.h"
 #include "engine/post/display_transform.h"
 
@@ -26,6 +27,7 @@ class PhysicsPanel {
 
     post::DisplayTransform display_;
     PaneLight light_;
+    PatternPane pattern_;
 };
 
 }  // namespace rowland::inspector

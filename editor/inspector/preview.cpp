@@ -2,6 +2,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <memory>
 #include <utility>
 
 #include "engine/core/check.h"
@@ -10,6 +11,7 @@
 #include "engine/scene/directional_light.h"
 #include "engine/scene/transform.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
+#include "modules/diffraction/runtime/glare_pattern.h"
 #include "modules/material_types.h"
 
 namespace rowland::inspector {
@@ -91,6 +93,7 @@ void Preview::Side::show(const PreviewInputs& inputs, const Gratings& wanted) {
     gratings.resize(wanted.size());
     for (std::size_t i = 0; i < wanted.size(); ++i)
         if (std::exchange(gratings[i], wanted[i]) != wanted[i]) show_grating(i);
+    look_through(inputs.glare_of && *inputs.glare_of < wanted.size() ? wanted[*inputs.glare_of] : nullptr);
 }
 
 ecs::Entity Preview::Side::add(ecs::Entity parent, const scene::Transform& local) {
@@ -146,6 +149,16 @@ void Preview::Side::show_grating(std::size_t material) {
                                  grating->has_base);
         if (!object->scene) world.get<render::StandardMaterial>(part.entity).double_sided = true;
     }
+}
+
+void Preview::Side::look_through(std::shared_ptr<const CookedGrating> grating) {
+    if (std::exchange(sheet, grating) == grating) return;
+    auto& glare = picture.post_settings().glare;
+    glare.reset();
+    if (grating)
+        glare = post::GlareSettings{.pattern = std::make_shared<post::GlarePattern>(diffraction::glare_pattern(
+                                        grating->material->material.grating, picture.xyz_to_working())),
+                                    .angle = static_cast<float>(grating->groove_rotation)};
 }
 
 void Preview::Side::draw(const PreviewInputs& inputs, float seconds) {

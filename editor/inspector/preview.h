@@ -70,6 +70,7 @@ struct PreviewInputs {
     Gratings gratings;                      ///< by material
     std::optional<Gratings> saved;          ///< drawn into a second picture; nullopt: not drawn
     std::optional<std::size_t> grooves_of;  ///< the material whose grooves are drawn as strokes; nullopt: none
+    std::optional<std::size_t> glare_of;    ///< the material that is held before the camera as well; nullopt: none
 
     friend bool operator==(const PreviewInputs&, const PreviewInputs&) = default;
 };
@@ -128,6 +129,7 @@ class Preview {
         void add_scene();
         void set_own_material(const Drawn& part);
         void show_grating(std::size_t material);
+        void look_through(std::shared_ptr<const CookedGrating> grating);
 
         view::Picture picture;
         ecs::World world;
@@ -138,6 +140,7 @@ class Preview {
         std::shared_ptr<const PreviewObject> object;
         std::shared_ptr<const InspectedLight> light;
         Gratings gratings;
+        std::shared_ptr<const CookedGrating> sheet;  ///< before the camera; null: none
     };
 
     float aspect() const;

@@ -100,6 +100,10 @@ void PreviewPanel::draw_tools(Session& session, ControlMap& controls) {
     continue_line(4.5F);
     ImGui::Checkbox("Lamp", &session.stage.lamp);
     controls.mark("lamp");
+    continue_line(7.5F);
+    ImGui::Checkbox("Look through", &session.looks_through);
+    controls.mark("look through");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Hold the material before the camera: what it does to bright lights");
     if (session.saved()) {
         continue_line(4.0F);
         ImGui::Checkbox("A/B", &comparing);

@@ -17,8 +17,9 @@ namespace {
 std::string summary_of(const Document& document, std::size_t material) {
     const auto& source = document.accepted(material);
     if (!source) return "–";
+    const Field* profile = shown_field("/grating/profile", source->json);
     return fmt::format("{:g} nm {}", source->material.grating.pitch_nm,
-                       choice_of(field_at("/grating/profile"), source->json));
+                       profile != nullptr ? choice_of(*profile, source->json) : "");
 }
 
 const char* origin_of(scene::TangentSource tangents) {

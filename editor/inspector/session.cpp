@@ -148,6 +148,8 @@ bool Session::update() {
         messages_.say(light()->path.filename().string() + ": the light" +
                       (light()->image.mapping() == lighting::Mapping::Angular ? ", an angular map" : ""));
 
+    want_pattern();
+    poll(pattern_);
     want_point_numbers();
     poll(point_);
     want_prices();
@@ -156,6 +158,13 @@ bool Session::update() {
     use_budget();
     const bool before = std::exchange(was_busy_, busy());
     return news_ || was_busy_ != before;
+}
+
+void Session::want_pattern() {
+    const auto& source = document_.accepted();
+    pattern_.want(
+        source && source->material.grating.lattice ? std::optional(source) : std::nullopt,
+        [source](auto&&...) { return std::make_shared<const PatternFigure>(pattern_figure(source->material)); });
 }
 
 void Session::want_point_numbers() {
@@ -180,22 +189,23 @@ void Session::want_point_numbers() {
 bool Session::busy() const {
     const auto& source = document_.accepted();
     return !cooked_.wants(source ? std::optional(source) : std::nullopt) || cooked_.busy() || opening_of_ ||
-           gratings_.busy() || saved_.busy() || light_.busy() || point_.busy() || pricing();
+           gratings_.busy() || saved_.busy() || light_.busy() || pattern_.busy() || point_.busy() || pricing();
 }
 
 void Session::draw(glm::ivec2 size, const scene::Camera& camera, bool with_saved, float seconds) {
     if (!ready() || size.x < 1 || size.y < 1) return;
+    const std::size_t chosen = object_->scene ? document_.chosen() : 0;
     messages_.attempt([&] {
-        preview_.show(
-            {.size = size,
-             .eye = camera.eye,
-             .target = camera.target,
-             .stage = stage,
-             .object = object_,
-             .light = light(),
-             .gratings = shown_with(cooked_),
-             .saved = with_saved && saved() ? std::optional(shown_with(saved_)) : std::nullopt,
-             .grooves_of = shows_grooves ? std::optional(object_->scene ? document_.chosen() : 0) : std::nullopt});
+        preview_.show({.size = size,
+                       .eye = camera.eye,
+                       .target = camera.target,
+                       .stage = stage,
+                       .object = object_,
+                       .light = light(),
+                       .gratings = shown_with(cooked_),
+                       .saved = with_saved && saved() ? std::optional(shown_with(saved_)) : std::nullopt,
+                       .grooves_of = shows_grooves ? std::optional(chosen) : std::nullopt,
+                       .glare_of = looks_through ? std::optional(chosen) : std::nullopt});
     });
     preview_.draw(seconds);
     update_surface();

@@ -12,6 +12,7 @@
 #include "editor/inspector/document.h"
 #include "editor/inspector/inspected_light.h"
 #include "editor/inspector/open_file.h"
+#include "editor/inspector/physics/pattern_figure.h"
 #include "editor/inspector/physics/point_radiance.h"
 #include "editor/inspector/physics/price.h"
 #include "editor/inspector/preview.h"
@@ -52,6 +53,7 @@ class Session {
     Document& document() { return document_; }
     const Document& document() const { return document_; }
     Stage stage;
+    bool looks_through = false;  ///< the chosen material is held before the camera as well
     bool shows_grooves = false;  ///< strokes along the grooves of the chosen material
 
     /// A material, a glTF file, a probe or a table of efficiencies. A glTF file is opened in the background; a material
@@ -138,6 +140,8 @@ class Session {
     /// Of the picked point, or one near the picture's middle; null before the first.
     const PointNumbers* point_numbers() const { return point_.value(); }
     bool point_numbers_are_current() const { return point_.current(); }
+    /// Of the last material with a lattice; null before the first is computed.
+    std::shared_ptr<const PatternFigure> pattern() const { return pattern_.value() ? *pattern_.value() : nullptr; }
     /// The grating that the efficiency pane compares the material with: a scalar profile with the opened table, a table
     /// with the last scalar profile. nullopt: none.
     std::optional<diffraction::Grating> compared() const;
@@ -197,6 +201,7 @@ class Session {
     /// The material decides the errors of all choices but for its own choice; `of_all` leaves that out.
     PriceInputs price_inputs(bool of_all) const;
     PriceWork price_work(bool present_only) const;
+    void want_pattern();
     void want_point_numbers();
     void want_prices();
     bool all_measured() const;
@@ -232,6 +237,7 @@ class Session {
     CookedOf cooked_;
     CookedOf saved_;
     Computed<std::shared_ptr<const LightSource>, Light> light_;
+    Computed<std::shared_ptr<const MaterialSource>, std::shared_ptr<const PatternFigure>> pattern_;
     Computed<PointInputs, PointNumbers> point_;
     Computed<PriceInputs, PriceList> all_prices_;
     Computed<PriceInputs, PriceList> pinned_price_;

@@ -28,6 +28,7 @@ void Workbench::draw(const platform::InputState& input, bool keys_are_ours, cons
     if (keys_are_ours) run_pressed(present, input);
     draw_menu_bar(present, controls_);
     draw_tiles(input, frame);
+    film_.draw(controls_);
     if (help_) draw_help(present, help_, controls_);
     const float font = ImGui::GetFontSize();
     if (frame.in_window)
@@ -90,6 +91,7 @@ std::vector<Command> Workbench::commands() {
          session_.saved() != nullptr, preview_.comparing},
         {"View", "Show grooves", "G", Key::G, [this] { session_.shows_grooves = !session_.shows_grooves; }, true,
          session_.shows_grooves},
+        {"View", "Thin film", "F7", Key::F7, [this] { film_.open = !film_.open; }, true, film_.open},
         {"View", "Screenshot", "F12", Key::F12, [this] { screenshot_ = true; }},
         {"View", "Larger text", "Ctrl+=", Key::Equal, scale_by(0.1F)},
         {"View", "Smaller text", "Ctrl+-", Key::Minus, scale_by(-0.1F)},

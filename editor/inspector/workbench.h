@@ -7,6 +7,7 @@
 #include "editor/inspector/command.h"
 #include "editor/inspector/control_map.h"
 #include "editor/inspector/dialogs.h"
+#include "editor/inspector/film_panel.h"
 #include "editor/inspector/layout.h"
 #include "editor/inspector/material_panel.h"
 #include "editor/inspector/physics_panel.h"
@@ -45,8 +46,8 @@ class Workbench {
     bool closed() const { return closed_; }
     /// Whether the user asked for a screenshot since the last call.
     bool take_screenshot() { return std::exchange(screenshot_, false); }
-    /// Whether a message disappears with the next frame.
-    bool due() const { return messages_.due(); }
+    /// Whether a message disappears with the next frame, or the film's curves may change.
+    bool due() const { return messages_.due() || film_.busy(); }
 
  private:
     std::vector<Command> commands();
@@ -63,6 +64,7 @@ class Workbench {
     PhysicsPanel physics_;
     PricePanel price_;
     PreviewPanel preview_;
+    FilmPanel film_;
     Dialogs dialogs_;
     ui::MessageList messages_;
     bool begun_ = false;  ///< a frame was drawn

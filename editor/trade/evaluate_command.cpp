@@ -208,7 +208,11 @@ std::vector<glm::dvec3> EvaluateCommand::by_representation(const colour::Illumin
     diffraction::CookedMaterial kernel = diffraction::bake_kernel(shaded);
     diffraction::SpikeSettings exact = spikes->spikes;
     exact.illuminant = white;
-    return evaluate_points(method, exact_spikes(shaded.grating, exact, lit), kernel, lit, points);
+    std::vector<glm::dvec3> xyz =
+        evaluate_points(method, exact_spikes(shaded.grating, exact, lit), kernel, lit, points);
+    kernel.reflected = diffraction::bake_reflected_side(shaded);
+    add_reflected_side(kernel, lit, points, xyz);
+    return xyz;
 }
 
 void EvaluateCommand::run_film() const {

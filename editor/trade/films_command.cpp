@@ -12,37 +12,20 @@
 #include <vector>
 
 #include "editor/trade/commands.h"
+#include "editor/trade/film_methods.h"
+#include "editor/trade/inputs.h"
 #include "editor/trade/results.h"
+#include "editor/trade/sweep.h"
 #include "engine/colour/primaries.h"
 #include "engine/colour/srgb.h"
 #include "engine/image/png.h"
 #include "modules/diffraction/evaluate/radiance_error.h"
 #include "modules/thin_film/model/film_colour.h"
-#include "modules/thin_film/model/reflectance.h"
 #include "modules/thin_film/reference/gltf_formula.h"
 
 namespace rowland::trade {
 
 namespace {
-
-using thin_film::Film;
-
-struct Swatch {
-    const char* name;
-    double film_ior;
-    thin_film::Base base;
-};
-
-const std::array<Swatch, 6>& swatches() {
-    static const std::array<Swatch, 6> all = {
-        {{"soap (1.33 on air)", 1.33, std::complex<double>(1.0)},
-         {"coating (1.38 on glass 1.5)", 1.38, std::complex<double>(1.5)},
-         {"oil (1.47 on water 1.33)", 1.47, std::complex<double>(1.33)},
-         {"oxide (1.77 on Al)", 1.77, colour::Metal::Al},
-         {"glass (1.5 on Cu)", 1.5, colour::Metal::Cu},
-         {"oxide (2.4 on titanium, 2.5 + 3.3i)", 2.4, std::complex<double>(2.5, 3.3)}}};
-    return all;
-}
 
 constexpr int kThicknesses = 240;  ///< 0 to 1000 nm, from left to right
 constexpr int kAngles = 60;        ///< 0 to 85 degrees, from the top down
@@ -59,9 +42,8 @@ double cosine(int row) {
 /// Linear Rec.709 of reflected white light for all angles and thicknesses.
 using Colours = std::vector<glm::dvec3>;
 
-Colours exact(const Swatch& swatch) {
-    const thin_film::FilmColour colour({.layers = {{swatch.film_ior, 0.0}}, .base = swatch.base},
-                                       colour::LightSpectra{});
+Colours exact(const FilmSubject& subject) {
+    const thin_film::FilmColour colour(subject.film(0.0), colour::LightSpectra{});
     Colours colours;
     for (int row = 0; row < kAngles; ++row) {
         const auto at = colour.at(cosine(row));
@@ -72,28 +54,20 @@ Colours exact(const Swatch& swatch) {
 }
 
 /// As a renderer has it that knows the base by its colour at normal incidence.
-Colours by_formula(const Swatch& swatch) {
-    const thin_film::FilmColour bare({.layers = {{1.0, 0.0}}, .base = swatch.base}, colour::LightSpectra{});
-    const glm::dvec3 f0 = colour::xyz_to_rec709() * (bare(1.0) * glm::dvec3(1.0));
+Colours by_formula(const FilmSubject& subject) {
+    const glm::dvec3 f0 = thin_film::normal_colour(subject.base);
     Colours colours;
     for (int row = 0; row < kAngles; ++row)
         for (int column = 0; column < kThicknesses; ++column)
-            colours.push_back(thin_film::gltf_formula(swatch.film_ior, thickness_nm(column), f0, cosine(row)));
+            colours.push_back(thin_film::gltf_formula(subject.film_ior, thickness_nm(column), f0, cosine(row)));
     return colours;
 }
 
-/// Airy's sum at one wavelength for each of red, green and blue.
-Colours three_wavelengths(const Swatch& swatch) {
-    constexpr std::array<double, 3> kWavelengths_nm = {650.0, 550.0, 450.0};
+Colours by_three_wavelengths(const FilmSubject& subject) {
     Colours colours;
     for (int row = 0; row < kAngles; ++row)
-        for (int column = 0; column < kThicknesses; ++column) {
-            const Film film{.layers = {{swatch.film_ior, thickness_nm(column)}}, .base = swatch.base};
-            glm::dvec3 colour(0.0);
-            for (int c = 0; c < 3; ++c)
-                colour[c] = thin_film::reflectance(film, kWavelengths_nm.at(static_cast<std::size_t>(c)), cosine(row));
-            colours.push_back(colour);
-        }
+        for (int column = 0; column < kThicknesses; ++column)
+            colours.push_back(three_wavelengths(subject.film(thickness_nm(column)), cosine(row)));
     return colours;
 }
 
@@ -129,24 +103,49 @@ class Page {
     std::vector<std::uint8_t> rgb_;
 };
 
-void show_films(const std::filesystem::path& picture) {
+/// A table of how far off the formulas are.
+std::string swatches(const std::filesystem::path& picture) {
     Page page;
     std::string table = "| film | glTF's formula | three wavelengths |\n| --- | --- | --- |\n";
     int row = 0;
-    for (const Swatch& swatch : swatches()) {
-        const Colours truth = exact(swatch);
-        const Colours formula = by_formula(swatch);
-        const Colours three = three_wavelengths(swatch);
+    for (const FilmSubject& subject : film_subjects()) {
+        const Colours truth = exact(subject);
+        const Colours formula = by_formula(subject);
+        const Colours three = by_three_wavelengths(subject);
         page.add(0, row, truth, truth);
         page.add(1, row, formula, truth);
         page.add(2, row, three, truth);
         ++row;
-        fmt::format_to(std::back_inserter(table), "| {} | {:.1f} % | {:.1f} % |\n", swatch.name,
+        fmt::format_to(std::back_inserter(table), "| {} | {:.1f} % | {:.1f} % |\n", subject.name,
                        100.0 * diffraction::relative_rms(formula, truth),
                        100.0 * diffraction::relative_rms(three, truth));
     }
     page.write(picture);
-    write_results(table);
+    return table;
+}
+
+/// A table of the methods under one probe.
+std::string trade_under(const ProbeFile& probe) {
+    std::string table = fmt::format(
+        "\n{}:\n\n| film | roughness | method | error | bytes | fetches | multiply-adds | functions |\n"
+        "| --- | --- | --- | --- | --- | --- | --- | --- |\n",
+        probe.path.stem().string());
+    for (const FilmRow& row : film_rows(read_probe(probe.path, probe.mapping)))
+        fmt::format_to(std::back_inserter(table), "| {} | {} | {} | {:.1f} % | {} | {} | {} | {} |\n", row.film,
+                       row.roughness, row.method, 100.0 * row.relative_rms, row.table_bytes, row.fetches,
+                       row.multiply_adds, row.functions);
+    return table;
+}
+
+struct FilmsOptions {
+    std::filesystem::path picture;
+    std::vector<std::string> probes;
+};
+
+void show_films(const FilmsOptions& options) {
+    std::string tables = swatches(options.picture);
+    for (const std::string& probe : options.probes) tables += trade_under(parse_probe_file(probe, "auto"));
+    write_results(tables);
 }
 
 }  // namespace
@@ -157,11 +156,18 @@ void add_films_command(CLI::App& program) {
         "Writes a picture: a row for each of six bases; in it the exact colours, those of glTF's formula and of three\n"
         "wavelengths; from left to right 0 to 1000 nm, from the top down 0 to 85 degrees. Standard output: how far "
         "off\n"
-        "the formulas are, relative RMS.\n"
+        "the formulas are, relative RMS; under each probe, what the table, spherical harmonics and the formulas make "
+        "of rough films.\n"
         "Example:\n  rowland-trade films swatches.png");
-    const auto picture = std::make_shared<std::filesystem::path>();
-    command->add_option("picture", *picture, "PNG to write")->required()->type_name("FILE");
-    command->callback([picture] { show_films(*picture); });
+    const auto options = std::make_shared<FilmsOptions>();
+    command->add_option("picture", options->picture, "PNG to write")->required()->type_name("FILE");
+    command
+        ->add_option(
+            "--probe", options->probes,
+            "Also prints error and cost of four methods on rough films under this light; may be given several\n"
+            "times. FILE:angular and FILE:equirect name its mapping")
+        ->type_name("FILE[:MAPPING]");
+    command->callback([options] { show_films(*options); });
 }
 
 }  // namespace rowland::trade

@@ -53,10 +53,11 @@ gpu::Texture colour_rows(const diffraction::Grating& grating, std::span<const fl
 LightLoop::LightLoop(const diffraction::Grating& grating, const colour::LightSpectra& spectra,
                      const glm::dmat3& xyz_to_working)
     : pitch_nm_(grating.pitch_nm), orders_(orders_other_than_0(grating)) {
-    if (!is_flat(grating.lobe) || grating.cover || grating.grooves < diffraction::kManyGrooves ||
-        orders_.size() > kMostOrders)
+    if (grating.lattice || !is_flat(grating.lobe) || grating.cover || grating.transmission ||
+        grating.grooves < diffraction::kManyGrooves || orders_.size() > kMostOrders)
         refuse_input("light loop", {}, "another grating",
-                     "a flat groove_lobe without a cover, sharp orders (50 grooves or more), at most 64 of them");
+                     "a flat groove_lobe without a cover or a transmission, sharp orders (50 grooves or more), at most "
+                     "64 of them");
     const diffraction::LayerWeights weights = diffraction::layer_weights(grating);
     mirror_weight_ = glm::vec3(xyz_to_working * weights.mirror);
     base_weight_ = glm::vec3(xyz_to_working * weights.base);

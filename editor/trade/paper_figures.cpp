@@ -203,7 +203,7 @@ nlohmann::ordered_json paper_evidence(const diffraction::CookedMaterial& paper, 
                         {"peak", to_json(figure.peak)},
                         {"peak_width_degrees", figure.peak_width_degrees},
                         {"grooves", grating.grooves}};
-    if (!gpu || !is_flat(grating.lobe) || grating.cover) return json;
+    if (!gpu || grating.lattice || !is_flat(grating.lobe) || grating.cover || grating.transmission) return json;
     Progress progress("the paper's figures", 3);
     PaperStage stage(paper, size);
     json["rates"] = stage.rates();

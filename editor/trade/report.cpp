@@ -14,6 +14,7 @@
 #include "editor/trade/sweep_plan.h"
 #include "editor/trade/sweep_tables.h"
 #include "engine/core/check.h"
+#include "modules/diffraction/asset/material_json.h"
 
 namespace rowland::trade {
 
@@ -45,7 +46,18 @@ void mark_front(const char* cost, const char* mark, nlohmann::ordered_json& rows
     for (const std::size_t i : pareto_front(points)) rows[i][mark] = true;
 }
 
-nlohmann::ordered_json panels(const SweepResults& results) {
+/// A material file for the page in a browser, which chooses representations itself; null if it names another file.
+nlohmann::json browser_material(const std::filesystem::path& path) {
+    nlohmann::json json = diffraction::load_material_json(path);
+    const diffraction::Material material = diffraction::parse_material(json, path.string());
+    if (std::holds_alternative<diffraction::EfficiencyTable>(material.grating.profile)) return nullptr;
+    json.erase("quality");
+    return json;
+}
+
+nlohmann::ordered_json panels(const SweepResults& results, const SweepInputs& inputs) {
+    std::vector<nlohmann::json> materials(results.materials.size());
+    std::ranges::transform(inputs.materials, materials.begin(), browser_material);
     std::map<std::tuple<std::size_t, std::size_t, std::string>, nlohmann::ordered_json> panels;
     std::vector<std::tuple<std::size_t, std::size_t, std::string>> order;  // sets as they were measured
     for (const ErrorRow& error : results.errors) {
@@ -62,6 +74,7 @@ nlohmann::ordered_json panels(const SweepResults& results) {
         list.push_back({{"material", results.materials[material]},
                         {"probe", results.probes[probe]},
                         {"set", set},
+                        {"browser_material", materials[material]},
                         {"rows", panels[key]}});
     }
     return list;
@@ -77,6 +90,22 @@ nlohmann::ordered_json probes(const SweepResults& results, const std::vector<Pro
                         {"peak_over_mean", probe.peak_over_mean},
                         {"brightest_fraction", probe.brightest_fraction}});
     }
+    return list;
+}
+
+nlohmann::ordered_json films(const SweepResults& results, const std::vector<std::vector<FilmRow>>& of_probes) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (std::size_t probe = 0; probe < of_probes.size(); ++probe)
+        for (const FilmRow& row : of_probes[probe])
+            list.push_back({{"probe", results.probes[probe]},
+                            {"film", row.film},
+                            {"roughness", row.roughness},
+                            {"method", row.method},
+                            {"relative_rms", row.relative_rms},
+                            {"table_bytes", row.table_bytes},
+                            {"fetches", row.fetches},
+                            {"multiply_adds", row.multiply_adds},
+                            {"functions", row.functions}});
     return list;
 }
 
@@ -110,8 +139,9 @@ nlohmann::ordered_json report_data(const SweepResults& results, const SweepInput
                                    {"real_time_ratio", kRealTimeRatio},
                                    {"full_difference", kFullDifference},
                                    {"representations", representation_names()},
-                                   {"panels", panels(results)},
+                                   {"panels", panels(results, inputs)},
                                    {"differences", nlohmann::ordered_json::array()},
+                                   {"films", films(results, origin.films)},
                                    {"paper", paper}};
     for (const DifferencePicture& difference : differences)
         json["differences"].push_back(

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "editor/trade/difference_image.h"
+#include "editor/trade/film_methods.h"
 #include "editor/trade/sweep.h"
 
 namespace rowland::trade {
@@ -21,14 +22,16 @@ struct DifferencePicture {
     RgbPicture picture;
 };
 
-/// How a report was made, and under what light.
+/// How a report was made, under what light, and what it says of thin films.
 struct ReportOrigin {
     std::string date;     ///< UTC, ISO 8601
     std::string command;  ///< as it was typed
     std::vector<ProbeStatistics> probes{};
+    std::vector<std::vector<FilmRow>> films{};  ///< for each probe
 };
 
-/// Everything the report draws, as its script reads it. `paper`: paper_evidence().
+/// Everything the report draws, as its script reads it; materials are read from the inputs' files. `paper`:
+/// paper_evidence().
 nlohmann::ordered_json report_data(const SweepResults& results, const SweepInputs& inputs,
                                    const std::vector<DifferencePicture>& differences,
                                    const nlohmann::ordered_json& paper, const ReportOrigin& origin);

@@ -302,6 +302,12 @@ std::vector<ProbeStatistics> Sweep::probe_statistics() const {
     return result;
 }
 
+std::vector<std::vector<FilmRow>> Sweep::film_rows() const {
+    std::vector<std::vector<FilmRow>> result;
+    for (const ProbeSource& probe : probes_) result.push_back(trade::film_rows(probe.image));
+    return result;
+}
+
 SweepResults Sweep::run() {
     SweepResults results;
     results.materials = stems(inputs_.materials);

@@ -10,6 +10,7 @@
 #include <tuple>
 #include <vector>
 
+#include "editor/trade/film_methods.h"
 #include "editor/trade/frame_sets.h"
 #include "editor/trade/journal.h"
 #include "editor/trade/measure_error.h"
@@ -86,6 +87,8 @@ class Sweep {
     diffraction::CookedMaterial cook(std::size_t material, const diffraction::Method& setting) const;
     const PictureFrames& picture_frames() const { return picture_; }
     std::vector<ProbeStatistics> probe_statistics() const;
+    /// The methods for thin films, under each probe.
+    std::vector<std::vector<FilmRow>> film_rows() const;
     const SweepInputs& inputs() const { return inputs_; }
 
  private:

@@ -173,8 +173,8 @@ void run_report(const SweepOptions& options, const std::string& command_line) {
     const SweepResults results = run_and_write(sweep);
     const auto differences = difference_pictures(sweep, results);
     const auto paper = paper_evidence(sweep.cook(0, paper_setting()), sweep.inputs().frame_size, sweep.inputs().times);
-    const auto data =
-        report_data(results, sweep.inputs(), differences, paper, {now(), command_line, sweep.probe_statistics()});
+    const auto data = report_data(results, sweep.inputs(), differences, paper,
+                                  {now(), command_line, sweep.probe_statistics(), sweep.film_rows()});
     write_file_atomic(options.output / "report.html", report_html(data));
     write_results(fmt::format("file\n{}\n", (options.output / "report.html").string()));
 }
@@ -196,8 +196,9 @@ void add_sweep_commands(CLI::App& program, const std::string& command_line) {
     CLI::App* report = program.add_subcommand("report", "Sweep, and draw the results as one HTML file");
     report->footer(
         "Writes report.html into the output folder, beside the files of sweep: error against frame time and memory,\n"
-        "difference pictures, tables, and the figures of Lindsay & Agu 2006. The file needs no network and no other\n"
-        "file. Continues where a sweep or report was stopped.\n"
+        "difference pictures, tables, methods for thin films, and the figures of Lindsay & Agu 2006. The file needs "
+        "no\n"
+        "network and no other file. Continues where a sweep or report was stopped.\n"
         "Example:\n"
         "  rowland-trade report --material cd.json --probe sunset.hdr --probe church.hdr:angular --output results");
     add_options(*report, *options);

@@ -27,10 +27,11 @@ struct BlendFactors {
     GLenum source, target;
     GLenum source_alpha;
 };
-constexpr std::array<BlendFactors, 4> kBlendFactors = {{{GL_ONE, GL_ZERO, GL_ONE},
+constexpr std::array<BlendFactors, 5> kBlendFactors = {{{GL_ONE, GL_ZERO, GL_ONE},
                                                         {GL_ONE, GL_ONE, GL_ONE},
                                                         {GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE},
-                                                        {GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE}}};
+                                                        {GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE},
+                                                        {GL_ONE, GL_SRC1_COLOR, GL_ONE}}};
 constexpr std::array<GLenum, 4> kDepthFunctions = {GL_ALWAYS, GL_LESS, GL_LEQUAL, GL_EQUAL};
 
 void apply_depth(const PipelineState& state) {

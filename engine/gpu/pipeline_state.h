@@ -7,7 +7,8 @@ namespace rowland::gpu {
 enum class DepthTest { Off, Less, LessEqual, Equal };
 enum class Cull { None, Back, Front };
 /// Add: source + target. Over: source·alpha + target·(1 − alpha). Premultiplied: source + target·(1 − alpha).
-enum class Blend { Off, Add, Over, Premultiplied };
+/// Filter: source + target·second output (index 1), each component by itself.
+enum class Blend { Off, Add, Over, Premultiplied, Filter };
 
 enum class FrontFace { CounterClockwise, Clockwise };
 

@@ -180,6 +180,10 @@ void Texture::bind(unsigned unit) const {
     if (bound_state().changes(BoundState::Slot::Texture, unit, {id()})) glBindTextureUnit(unit, id());
 }
 
+void Texture::bind_image(unsigned unit) const {
+    glBindImageTexture(unit, id(), 0, GL_TRUE, 0, GL_READ_WRITE, internal_format(desc_.format));
+}
+
 std::vector<glm::vec4> Texture::read(TextureSlice slice) const {
     std::vector<glm::vec4> result(texels(slice));
     const glm::ivec2 area = size(slice.level);

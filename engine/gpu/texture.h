@@ -70,6 +70,8 @@ class Texture {
     void set_sampling(const Sampling& sampling);
     /// Binds to a texture unit, as `layout(binding = unit)` in GLSL.
     void bind(unsigned unit) const;
+    /// Binds level 0 with all its layers to an image unit, for what a compute program reads and writes.
+    void bind_image(unsigned unit) const;
 
     /// Texels of whole slices as floats, RGBA, in the order of uploads. Waits for the GPU.
     std::vector<glm::vec4> read(TextureSlice slice = {}) const;

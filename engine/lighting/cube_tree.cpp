@@ -99,8 +99,4 @@ void CubeTree::join_levels(std::vector<Node> leaves, int face_size) {
     std::reverse(levels_.begin(), levels_.end());
 }
 
-const CubeTree::Node& CubeTree::node(int depth, int face, int column, int row) const {
-    return levels_[static_cast<std::size_t>(depth)][node_index(side(depth), face, column, row)];
-}
-
 }  // namespace rowland::lighting

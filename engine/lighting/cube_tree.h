@@ -30,7 +30,12 @@ class CubeTree {
     int leaf_depth() const { return static_cast<int>(levels_.size()) - 1; }
     /// Nodes a side of a face.
     int side(int depth) const { return kRootSide << depth; }
-    const Node& node(int depth, int face, int column, int row) const;
+    const Node& node(int depth, int face, int column, int row) const {
+        const auto n = static_cast<std::size_t>(side(depth));
+        return levels_[static_cast<std::size_t>(depth)]
+                      [(static_cast<std::size_t>(face) * n + static_cast<std::size_t>(row)) * n +
+                       static_cast<std::size_t>(column)];
+    }
 
     static constexpr int kRootSide = 4;
 

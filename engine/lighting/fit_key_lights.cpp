@@ -53,8 +53,8 @@ class Fit {
  public:
     explicit Fit(const MeasuredProbe& probe) : probe_(&probe) {}
 
-    const std::vector<LobeShape>& lobes() const { return lobes_; }
-    const std::vector<glm::dvec3>& fluxes() const { return fluxes_; }
+    const std::vector<MeasuredLobe>& lobes() const { return lobes_; }
+    const Eigen::MatrixX3d& fluxes() const { return fluxes_; }
     /// By how much the lobes reduce the squared error.
     double gain() const { return gain_; }
 
@@ -75,35 +75,48 @@ class Fit {
         return true;
     }
 
+    /// Removes the lobe without which the gain, at fluxes of either sign, is largest.
+    void remove_least() {
+        const Eigen::MatrixXd inverse = matrix_.llt().solve(Eigen::MatrixXd::Identity(matrix_.rows(), matrix_.cols()));
+        Eigen::Index least = 0;
+        (fluxes_.rowwise().squaredNorm().array() / inverse.diagonal().array()).minCoeff(&least);
+        std::vector<Eigen::Index> kept(lobes_.size());
+        std::iota(kept.begin(), kept.end(), Eigen::Index{0});
+        kept.erase(kept.begin() + least);
+        lobes_.erase(lobes_.begin() + least);
+        right_ = right_(kept, Eigen::all).eval();
+        matrix_ = matrix_(kept, kept).eval();
+        solve_fluxes();
+    }
+
  private:
     void replace(std::size_t k, const LobeShape& lobe) {
-        lobes_[k] = lobe;
+        lobes_[k] = probe_->measure(lobe);
         const auto row = static_cast<Eigen::Index>(k);
-        const glm::dvec3 with_probe = probe_->with(lobe);
+        const glm::dvec3 with_probe = probe_->with(lobes_[k]);
         right_.row(row) << with_probe.x, with_probe.y, with_probe.z;
         for (std::size_t j = 0; j < lobes_.size(); ++j) {
-            const double product = inner_product(lobe, lobes_[j], probe_->settings()) * (j == k ? 1.0 + kRidge : 1.0);
+            const LobeProduct product(1.0 / lobe.concentration + 1.0 / lobes_[j].shape.concentration,
+                                      probe_->settings());
             const auto column = static_cast<Eigen::Index>(j);
-            matrix_(row, column) = matrix_(column, row) = product;
+            matrix_(row, column) = matrix_(column, row) =
+                inner_product(lobes_[k], lobes_[j], product) * (j == k ? 1.0 + kRidge : 1.0);
         }
         solve_fluxes();
     }
 
     void solve_fluxes() {
-        fluxes_.assign(lobes_.size(), glm::dvec3(0.0));
-        gain_ = 0.0;
-        for (int c = 0; c < 3; ++c) {
-            const Eigen::VectorXd flux = solve_non_negative(matrix_, right_.col(c));
-            for (std::size_t i = 0; i < lobes_.size(); ++i) fluxes_[i][c] = flux[static_cast<Eigen::Index>(i)];
-            gain_ += flux.dot(right_.col(c));
-        }
+        fluxes_ = matrix_.llt().solve(right_);
+        for (int c = 0; c < 3; ++c)
+            if (fluxes_.col(c).minCoeff() < 0.0) fluxes_.col(c) = solve_non_negative(matrix_, right_.col(c));
+        gain_ = fluxes_.cwiseProduct(right_).sum();
     }
 
     const MeasuredProbe* probe_;
-    std::vector<LobeShape> lobes_;
-    Eigen::MatrixX3d right_;  ///< ⟨probe, lobe⟩ by channel
-    Eigen::MatrixXd matrix_;  ///< ⟨lobe, lobe⟩
-    std::vector<glm::dvec3> fluxes_;
+    std::vector<MeasuredLobe> lobes_;
+    Eigen::MatrixX3d right_;   ///< ⟨probe, lobe⟩ by channel
+    Eigen::MatrixXd matrix_;   ///< ⟨lobe, lobe⟩
+    Eigen::MatrixX3d fluxes_;  ///< by channel
     double gain_ = 0.0;
 };
 
@@ -135,14 +148,18 @@ std::vector<glm::dvec3> trial_directions(const CubeTree& tree, const TrialLobes&
 class Candidates {
  public:
     Candidates(const MeasuredProbe& probe, double narrowest) : settings_(probe.settings()) {
-        for (const TrialLobes& trial : kTrialLobes) {
-            const double concentration = std::min(trial.concentration, narrowest);
-            const double norm = LobeProduct(2.0 / concentration, settings_)(1.0);
+        std::vector<LobeShape> shapes;
+        for (const TrialLobes& trial : kTrialLobes)
             for (const glm::dvec3& direction : trial_directions(probe.tree(), trial))
-                candidates_.push_back({.shape = {direction, concentration}, .norm = norm});
-        }
-        parallel_for(candidates_.size(),
-                     [&](std::size_t i) { candidates_[i].with_probe = probe.with(candidates_[i].shape); });
+                shapes.push_back({direction, std::min(trial.concentration, narrowest)});
+        candidates_.resize(shapes.size());
+        parallel_for(shapes.size(), [&](std::size_t i) {
+            Candidate& candidate = candidates_[i];
+            candidate.lobe = probe.measure(shapes[i]);
+            candidate.with_probe = probe.with(candidate.lobe);
+            candidate.norm =
+                inner_product(candidate.lobe, candidate.lobe, LobeProduct(2.0 / shapes[i].concentration, settings_));
+        });
     }
 
     /// The one that reduces the residual of a fit most. The fit has one lobe more than at the call before.
@@ -152,34 +169,41 @@ class Candidates {
         double best_gain = -1.0;
         for (std::size_t i = 0; i < candidates_.size(); ++i) {
             glm::dvec3 residual = candidates_[i].with_probe;
-            for (std::size_t k = 0; k < with_lobes_.size(); ++k) residual -= with_lobes_[k][i] * fit.fluxes()[k];
+            for (std::size_t k = 0; k < with_lobes_.size(); ++k) {
+                const auto row = static_cast<Eigen::Index>(k);
+                residual -=
+                    with_lobes_[k][i] * glm::dvec3(fit.fluxes()(row, 0), fit.fluxes()(row, 1), fit.fluxes()(row, 2));
+            }
             residual = glm::max(residual, glm::dvec3(0.0));
             const double gain = glm::dot(residual, residual) / candidates_[i].norm;
             if (gain <= best_gain) continue;
             best_gain = gain;
             best = i;
         }
-        return candidates_[best].shape;
+        return candidates_[best].lobe.shape;
     }
 
  private:
     struct Candidate {
-        LobeShape shape;
+        MeasuredLobe lobe;
         double norm = 0.0;  ///< ⟨candidate, candidate⟩
         glm::dvec3 with_probe{0.0};
     };
 
-    void add_column(const LobeShape& lobe) {
+    void add_column(const MeasuredLobe& lobe) {
         std::vector<double>& column = with_lobes_.emplace_back(candidates_.size());
         constexpr std::size_t kBlock = 512;
         parallel_for((candidates_.size() + kBlock - 1) / kBlock, [&](std::size_t block) {
             std::optional<LobeProduct> product;
+            double concentration = 0.0;
             const std::size_t begin = block * kBlock;
             for (std::size_t i = begin; i < std::min(begin + kBlock, candidates_.size()); ++i) {
-                const LobeShape& shape = candidates_[i].shape;
-                if (i == begin || shape.concentration != candidates_[i - 1].shape.concentration)
-                    product.emplace(1.0 / shape.concentration + 1.0 / lobe.concentration, settings_);
-                column[i] = (*product)(glm::dot(shape.direction, lobe.direction));
+                const MeasuredLobe& candidate = candidates_[i].lobe;
+                if (candidate.shape.concentration != concentration) {
+                    concentration = candidate.shape.concentration;
+                    product.emplace(1.0 / concentration + 1.0 / lobe.shape.concentration, settings_);
+                }
+                column[i] = inner_product(candidate, lobe, *product);
             }
         });
     }
@@ -192,7 +216,7 @@ class Candidates {
 /// Line search by one step: along two tangents, then in width.
 void refine(Fit& fit, std::size_t k, double step, double narrowest, const KeyLightFit& settings) {
     const auto turned = [&](int way) {
-        const LobeShape lobe = fit.lobes()[k];
+        const LobeShape lobe = fit.lobes()[k].shape;
         const glm::dvec3 axis = std::abs(lobe.direction.y) < 0.7 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
         const glm::dvec3 first = glm::normalize(glm::cross(axis, lobe.direction));
         const glm::dvec3 tangent = way < 2 ? first : glm::cross(lobe.direction, first);
@@ -203,7 +227,7 @@ void refine(Fit& fit, std::size_t k, double step, double narrowest, const KeyLig
     for (const int way : {0, 2})
         if (!fit.try_replace(k, turned(way))) fit.try_replace(k, turned(way + 1));
     const auto scaled = [&](double factor) {
-        LobeShape lobe = fit.lobes()[k];
+        LobeShape lobe = fit.lobes()[k].shape;
         lobe.concentration = std::clamp(lobe.concentration * factor, kWidestConcentration, narrowest);
         return lobe;
     };
@@ -214,8 +238,9 @@ void refine(Fit& fit, std::size_t k, double step, double narrowest, const KeyLig
 std::vector<KeyLight> brightest_first(const Fit& fit) {
     std::vector<KeyLight> keys;
     for (std::size_t k = 0; k < fit.lobes().size(); ++k) {
-        const glm::dvec3 flux = fit.fluxes()[k];
-        if (flux != glm::dvec3(0.0)) keys.push_back({fit.lobes()[k].direction, flux, fit.lobes()[k].concentration});
+        const Eigen::RowVector3d flux = fit.fluxes().row(static_cast<Eigen::Index>(k));
+        const LobeShape& shape = fit.lobes()[k].shape;
+        if (flux.any()) keys.push_back({shape.direction, {flux[0], flux[1], flux[2]}, shape.concentration});
     }
     std::stable_sort(keys.begin(), keys.end(), [](const KeyLight& a, const KeyLight& b) {
         return colour::luminance(a.flux) > colour::luminance(b.flux);
@@ -230,20 +255,28 @@ std::vector<KeyLight> fit_key_lights(const ProbeImage& probe, int count, const K
     ROWLAND_CHECK_OP(count, <=, kMaximumKeyLights);
     ROWLAND_CHECK_OP(settings.smoothing, >, 0.0);
     if (count == 0) return {};
-    const MeasuredProbe measured(CubeTree(gather_cells(probe, kFitFace), kFitFace), settings);
+    const MeasuredProbe measured(gather_cells(probe, kFitFace), kFitFace, settings);
     // A texel's light, bilinear as it is seen, has a variance of a sixth of its side's square.
     const double side = 2.0 * pi / probe.image().width;
     const double narrowest = std::clamp(6.0 / (side * side), kWidestConcentration, kNarrowestConcentration);
     Candidates candidates(measured, narrowest);
     Fit fit(measured);
-    while (fit.lobes().size() < static_cast<std::size_t>(count)) {
+    const auto wanted = static_cast<std::size_t>(count);
+    while (fit.lobes().size() < wanted + wanted / 2) {
         const double before = fit.gain();
         fit.add(candidates.best(fit));
         for (const double step : {0.6, 0.3, 0.15}) refine(fit, fit.lobes().size() - 1, step, narrowest, settings);
         if (!(fit.gain() > before * (1.0 + 1e-9))) break;
     }
-    for (const double step : {0.5, 0.3, 0.2, 0.1, 0.05, 0.02, 0.01})
+    const auto refine_all = [&](double step) {
         for (std::size_t k = 0; k < fit.lobes().size(); ++k) refine(fit, k, step, narrowest, settings);
+    };
+    if (fit.lobes().size() > wanted) refine_all(0.3);
+    while (fit.lobes().size() > wanted) {
+        fit.remove_least();
+        if (fit.lobes().size() % 4 == 0) refine_all(0.2);
+    }
+    for (const double step : {0.5, 0.3, 0.2, 0.1, 0.05, 0.02, 0.01}) refine_all(step);
     return brightest_first(fit);
 }
 

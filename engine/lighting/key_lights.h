@@ -26,20 +26,22 @@ double lobe_density(const KeyLight& key, const glm::dvec3& s);
 /// I_{l+½}(κ)/I_½(κ), to 1e-10.
 std::vector<double> lobe_band_factors(double concentration, int bands);
 
-/// What the fit of key lights minimises: the squared error of the light, smoothed, without the lowest bands. Band l
-/// counts by about 1/l, as in the mean over all circles of the light's integral along them.
+/// What the fit of key lights minimises: the squared error that remains when the lowest bands of the residual() are
+/// shown as SH, smoothed, relative to what surfaces see (DirectionWeight). Band l counts by about 1/l, as in the mean
+/// over all circles of the light's integral along them.
 struct KeyLightFit {
     /// Concentration of the lobe that smooths: detail below 1/√smoothing rad, .02 by default, does not count. That of
     /// an order's colours on a compact disc is .026.
     double smoothing = 2500.0;
-    /// These bands do not count: who uses the residual() has them exactly, as SH. 1 to 32.
+    /// Who uses the residual() has these bands exactly, as SH. 1 to 32.
     int exact_bands = 5;
 };
 
 /// Up to `count` (0 to 64) lobes for the bright parts of a probe, brightest first; fewer where more do not help. Greedy
-/// selection, then refinement of each lobe against the residual of the others. Fluxes are those of least squares, never
-/// negative, so the residual is small on either side of 0. No lobe is narrower than a texel or kNarrowestConcentration,
-/// or wider than kWidestConcentration. Does not depend on the number of threads.
+/// selection of half as many again, removal of those that matter least, and refinement of each lobe against the
+/// residual of the others. Fluxes are those of least squares, never negative, so the residual is small on either side
+/// of 0. No lobe is narrower than a texel or kNarrowestConcentration, or wider than kWidestConcentration. Does not
+/// depend on the number of threads.
 std::vector<KeyLight> fit_key_lights(const ProbeImage& probe, int count, const KeyLightFit& settings = {});
 
 /// The widest and the narrowest lobe that fit_key_lights() gives.

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
-#include <utility>
+#include <vector>
 
+#include "engine/core/parallel.h"
 #include "engine/math/sh_basis.h"
 
 namespace rowland::lighting {
@@ -15,32 +16,131 @@ namespace {
 // An arc of a grating integrates light along a circle, so that over all arcs the square of band l counts by about 1/l.
 // Smoothing by a lobe of variance v multiplies it by exp(−l² v/2), and Σ √v exp(−l² v/2) is about 1/l over these
 // scales: from the finest detail that counts to the exact bands.
-constexpr int kScales = 4;
 constexpr double kScaleRatio = 4.0;
 
-/// Nodes of a tree are opened until they are smaller than this fraction of a scale's deviation.
-constexpr double kOpening = 1.0 / 3.0;
+/// Nodes of a tree are opened until they are smaller than this fraction of a scale's deviation; at a distance of d
+/// deviations, 1 + d²/kFarther times as large, for less light of theirs counts.
+constexpr double kOpening = 1.0 / 4.0;
+constexpr float kFarther = 4.0F;
 
 /// exp(−this) of a peak is left out of sums.
 constexpr double kMetricReach = 12.0;
 
-/// Nodes that low bands are summed in: cells of .025 rad.
-constexpr int kLowBandSide = 64;
+/// The weight varies slowly, so the weighted light of the exact bands lies in these and so many more.
+constexpr int kFurtherBands = 3;
+
+/// Nodes a side of a cube face that bands are summed in, and the signal of light: .05 and .1 rad.
+constexpr int kLowBandSide = 32;
+constexpr int kSignalSide = 16;
+
+int depth_of(const CubeTree& tree, int side) {
+    int depth = 0;
+    while (depth < tree.leaf_depth() && tree.side(depth) < side) ++depth;
+    return depth;
+}
+
+/// Calls function(node) for all nodes of a depth.
+template <typename Function>
+void for_each_node(const CubeTree& tree, int depth, const Function& function) {
+    const int side = tree.side(depth);
+    for (int face = 0; face < 6; ++face)
+        for (int row = 0; row < side; ++row)
+            for (int column = 0; column < side; ++column) function(tree.node(depth, face, column, row));
+}
+
+/// A sum over a tree: exp(concentration (cosine − 1)) about an axis.
+struct TreeSum {
+    const CubeTree& tree;
+    glm::vec3 axis{0.0F};
+    float concentration = 0.0F;
+    float reach = 0.0F;  ///< chord
+    float open = 0.0F;   ///< size of the largest node on the axis that is not opened
+    glm::dvec3 sum{0.0};
+
+    void add(int depth, int face, int column, int row) {
+        const CubeTree::Node& node = tree.node(depth, face, column, row);
+        const glm::vec3 chord = node.source - axis;
+        const float square = glm::dot(chord, chord);
+        const bool opened = depth < tree.leaf_depth() && node.size > open * (1.0F + concentration * square / kFarther);
+        // Light of a node is at most a diagonal of a stretched cell from its centroid.
+        const float within = reach + (opened ? 1.7F * node.size : 0.0F);
+        if (square > within * within) return;
+        if (!opened) {
+            sum += static_cast<double>(std::exp(-0.5F * concentration * square)) * glm::dvec3(node.flux);
+            return;
+        }
+        for (int i = 0; i < 4; ++i) add(depth + 1, face, 2 * column + i % 2, 2 * row + i / 2);
+    }
+};
+
+/// LobeProduct of a lobe and all light of a tree.
+glm::dvec3 product_with(const CubeTree& tree, const LobeShape& lobe, const KeyLightFit& settings) {
+    const LobeProduct product(1.0 / lobe.concentration, settings);
+    glm::dvec3 result(0.0);
+    for (const LobeProduct::Scale& scale : product.scales()) {
+        const double deviation = 1.0 / std::sqrt(scale.concentration);
+        TreeSum light{.tree = tree,
+                      .axis = glm::vec3(lobe.direction),
+                      .concentration = static_cast<float>(scale.concentration),
+                      .reach = static_cast<float>(std::sqrt(2.0 * kMetricReach) * deviation),
+                      .open = static_cast<float>(kOpening * deviation)};
+        for (int face = 0; face < 6; ++face)
+            for (int row = 0; row < CubeTree::kRootSide; ++row)
+                for (int column = 0; column < CubeTree::kRootSide; ++column) light.add(0, face, column, row);
+        result += scale.peak * light.sum;
+    }
+    return result;
+}
+
+/// The light of a tree's nodes, times what LobeProduct sees at each.
+DirectionWeight weight_of(const CubeTree& light, const KeyLightFit& settings) {
+    std::vector<const CubeTree::Node*> nodes;
+    for_each_node(light, depth_of(light, kSignalSide), [&](const CubeTree::Node& node) { nodes.push_back(&node); });
+    std::vector<DirectionWeight::Signal> signals(nodes.size());
+    parallel_for(nodes.size(), [&](std::size_t i) {
+        const glm::dvec3 direction = glm::normalize(glm::dvec3(nodes[i]->source));
+        const glm::dvec3 flux(nodes[i]->flux);
+        if (flux == glm::dvec3(0.0)) return;
+        signals[i] = {direction, glm::dot(flux, product_with(light, {direction, kNarrowestConcentration}, settings))};
+    });
+    return DirectionWeight(signals);
+}
+
+CubeTree weighted_tree(std::span<const CubeCell> cells, int face_size, const DirectionWeight& weight) {
+    std::vector<CubeCell> weighted(cells.begin(), cells.end());
+    for (CubeCell& cell : weighted)
+        if (cell.direction != glm::dvec3(0.0)) cell.flux *= weight.root(glm::normalize(cell.direction));
+    return {weighted, face_size};
+}
+
+/// Square root of how much each coefficient counts, by its band.
+Eigen::VectorXd band_roots(int bands, const KeyLightFit& settings) {
+    std::vector<double> weights(static_cast<std::size_t>(bands), 0.0);
+    double smoothed = 2.0 / settings.smoothing;
+    for (int i = 0; i < LobeProduct::kScales; ++i, smoothed *= kScaleRatio) {
+        const std::vector<double> factors = lobe_band_factors(1.0 / smoothed, bands);
+        for (std::size_t l = 0; l < weights.size(); ++l) weights[l] += std::sqrt(smoothed) * factors[l];
+    }
+    Eigen::VectorXd roots(math::sh_count(bands));
+    for (int l = 0; l < bands; ++l)
+        for (int m = -l; m <= l; ++m) roots[math::sh_index(l, m)] = std::sqrt(weights[static_cast<std::size_t>(l)]);
+    return roots;
+}
+
+Eigen::VectorXd sh_at(const glm::dvec3& direction, int bands) {
+    Eigen::VectorXd values(math::sh_count(bands));
+    math::evaluate_sh(direction, bands, {values.data(), static_cast<std::size_t>(values.size())});
+    return values;
+}
 
 }  // namespace
 
-LobeProduct::LobeProduct(double variance, const KeyLightFit& settings)
-    : band_factors_(static_cast<std::size_t>(settings.exact_bands), 0.0) {
-    const glm::dvec3 pole(0.0, 1.0, 0.0);
+LobeProduct::LobeProduct(double variance, const KeyLightFit& settings) {
     double smoothed = 2.0 / settings.smoothing;  // both factors are smoothed
-    for (int i = 0; i < kScales; ++i) {
-        const double weight = std::sqrt(smoothed);
-        const double concentration = 1.0 / (smoothed + variance);
-        scales_.push_back({concentration, weight * lobe_density({pole, glm::dvec3(1.0), concentration}, pole)});
-        if (!band_factors_.empty()) {
-            const std::vector<double> factors = lobe_band_factors(concentration, settings.exact_bands);
-            for (std::size_t l = 0; l < factors.size(); ++l) band_factors_[l] += weight * factors[l];
-        }
+    for (Scale& scale : scales_) {
+        scale.concentration = 1.0 / (smoothed + variance);
+        const double density = scale.concentration / (-2.0 * std::numbers::pi * std::expm1(-2.0 * scale.concentration));
+        scale.peak = std::sqrt(smoothed) * density;
         smoothed *= kScaleRatio;
     }
 }
@@ -48,85 +148,65 @@ LobeProduct::LobeProduct(double variance, const KeyLightFit& settings)
 double LobeProduct::operator()(double cosine) const {
     double product = 0.0;
     for (const Scale& scale : scales_) product += scale.peak * std::exp(scale.concentration * (cosine - 1.0));
-    double before = 0.0;
-    double legendre = 1.0;
-    for (int l = 0; l < static_cast<int>(band_factors_.size()); ++l) {
-        product -= (2 * l + 1) / (4.0 * std::numbers::pi) * band_factors_[static_cast<std::size_t>(l)] * legendre;
-        const double next = ((2 * l + 1) * cosine * legendre - l * before) / (l + 1);
-        before = legendre;
-        legendre = next;
-    }
     return product;
 }
 
-double inner_product(const LobeShape& a, const LobeShape& b, const KeyLightFit& settings) {
-    return LobeProduct(1.0 / a.concentration + 1.0 / b.concentration, settings)(glm::dot(a.direction, b.direction));
+double inner_product(const MeasuredLobe& a, const MeasuredLobe& b, const LobeProduct& product) {
+    return a.root * b.root * product(glm::dot(a.shape.direction, b.shape.direction)) - a.bands.dot(b.bands) +
+           a.error.dot(b.error);
 }
 
-/// A sum over the tree: exp(concentration (cosine − 1)) about an axis.
-struct MeasuredProbe::Query {
-    glm::vec3 axis{0.0F};
-    float concentration = 0.0F;
-    float reach = 0.0F;  ///< chord
-    float open = 0.0F;   ///< size of the largest node that is not opened
-};
+MeasuredProbe::MeasuredProbe(std::span<const CubeCell> cells, int face_size, const KeyLightFit& settings)
+    : MeasuredProbe(cells, face_size, CubeTree(cells, face_size), settings) {}
 
-MeasuredProbe::MeasuredProbe(CubeTree tree, const KeyLightFit& settings)
-    : tree_(std::move(tree)),
-      settings_(settings),
-      low_(static_cast<std::size_t>(math::sh_count(settings.exact_bands)), glm::dvec3(0.0)) {
-    int depth = 0;
-    while (depth < tree_.leaf_depth() && tree_.side(depth) < kLowBandSide) ++depth;
-    const int side = tree_.side(depth);
-    std::vector<double> basis(low_.size());
-    for (int face = 0; face < 6; ++face)
-        for (int row = 0; row < side; ++row)
-            for (int column = 0; column < side; ++column) {
-                const CubeTree::Node& node = tree_.node(depth, face, column, row);
-                math::evaluate_sh(glm::normalize(glm::dvec3(node.source)), settings.exact_bands, basis);
-                for (std::size_t k = 0; k < basis.size(); ++k) low_[k] += basis[k] * glm::dvec3(node.flux);
-            }
+MeasuredProbe::MeasuredProbe(std::span<const CubeCell> cells, int face_size, const CubeTree& light,
+                             const KeyLightFit& settings)
+    : settings_(settings),
+      low_bands_(std::min(settings.exact_bands + kFurtherBands, math::kMaximumBands)),
+      weight_(weight_of(light, settings)),
+      tree_(weighted_tree(cells, face_size, weight_)),
+      band_roots_(band_roots(low_bands_, settings)) {
+    add_low_bands(light);
 }
 
-void MeasuredProbe::add_node(const Query& query, int depth, int face, int column, int row, glm::dvec3& sum) const {
-    const CubeTree::Node& node = tree_.node(depth, face, column, row);
-    const bool open = depth < tree_.leaf_depth() && node.size > query.open;
-    const glm::vec3 chord = node.source - query.axis;
-    const float square = glm::dot(chord, chord);
-    // Light of a node is at most a diagonal of a stretched cell from its centroid.
-    const float reach = query.reach + (open ? 1.7F * node.size : 0.0F);
-    if (square > reach * reach) return;
-    if (!open) {
-        sum += static_cast<double>(std::exp(-0.5F * query.concentration * square)) * glm::dvec3(node.flux);
-        return;
-    }
-    for (int i = 0; i < 4; ++i) add_node(query, depth + 1, face, 2 * column + i % 2, 2 * row + i / 2, sum);
+void MeasuredProbe::add_low_bands(const CubeTree& light) {
+    const Eigen::Index exact = math::sh_count(settings_.exact_bands);
+    const Eigen::Index low = math::sh_count(low_bands_);
+    shown_ = Eigen::MatrixXd::Zero(low, exact);
+    bands_ = Eigen::MatrixX3d::Zero(low, 3);
+    Eigen::MatrixX3d plain = Eigen::MatrixX3d::Zero(exact, 3);
+    for_each_node(light, depth_of(light, kLowBandSide), [&](const CubeTree::Node& node) {
+        const glm::dvec3 source = glm::normalize(glm::dvec3(node.source));
+        const Eigen::VectorXd at_light = sh_at(source, low_bands_);
+        const Eigen::RowVector3d flux(node.flux.x, node.flux.y, node.flux.z);
+        plain += at_light.head(exact) * flux;
+        bands_ += weight_.root(source) * at_light * flux;
+        const glm::dvec3 centre = glm::normalize(glm::dvec3(node.centre));
+        const Eigen::VectorXd at_centre = sh_at(centre, low_bands_);
+        shown_ += weight_.root(centre) * static_cast<double>(node.solid_angle) * at_centre *
+                  at_centre.head(exact).transpose();
+    });
+    error_ = bands_ - shown_ * plain;
+    bands_ = band_roots_.asDiagonal() * bands_;
+    error_ = band_roots_.asDiagonal() * error_;
 }
 
-glm::dvec3 MeasuredProbe::with(const LobeShape& lobe) const {
-    const LobeProduct product(1.0 / lobe.concentration, settings_);
-    glm::dvec3 sum(0.0);
-    for (const LobeProduct::Scale& scale : product.scales()) {
-        const double deviation = 1.0 / std::sqrt(scale.concentration);
-        const Query query{.axis = glm::vec3(lobe.direction),
-                          .concentration = static_cast<float>(scale.concentration),
-                          .reach = static_cast<float>(std::sqrt(2.0 * kMetricReach) * deviation),
-                          .open = static_cast<float>(kOpening * deviation)};
-        glm::dvec3 light(0.0);
-        for (int face = 0; face < 6; ++face)
-            for (int row = 0; row < CubeTree::kRootSide; ++row)
-                for (int column = 0; column < CubeTree::kRootSide; ++column)
-                    add_node(query, 0, face, column, row, light);
-        sum += scale.peak * light;
-    }
-    std::vector<double> basis(low_.size());
-    math::evaluate_sh(lobe.direction, settings_.exact_bands, basis);
-    for (int l = 0; l < settings_.exact_bands; ++l)
-        for (int m = -l; m <= l; ++m) {
-            const auto k = static_cast<std::size_t>(math::sh_index(l, m));
-            sum -= product.band_factors()[static_cast<std::size_t>(l)] * basis[k] * low_[k];
-        }
-    return sum;
+MeasuredLobe MeasuredProbe::measure(const LobeShape& lobe) const {
+    MeasuredLobe measured{.shape = lobe, .root = weight_.root(lobe.direction), .bands = {}, .error = {}};
+    Eigen::VectorXd light = sh_at(lobe.direction, low_bands_);
+    const std::vector<double> factors = lobe_band_factors(lobe.concentration, low_bands_);
+    for (int l = 0; l < low_bands_; ++l)
+        light.segment(math::sh_index(l, -l), 2 * l + 1) *= factors[static_cast<std::size_t>(l)];
+    measured.bands = measured.root * light;
+    measured.error = measured.bands - shown_ * light.head(shown_.cols());
+    measured.bands.array() *= band_roots_.array();
+    measured.error.array() *= band_roots_.array();
+    return measured;
+}
+
+glm::dvec3 MeasuredProbe::with(const MeasuredLobe& lobe) const {
+    const Eigen::RowVector3d low = lobe.error.transpose() * error_ - lobe.bands.transpose() * bands_;
+    return lobe.root * product_with(tree_, lobe.shape, settings_) + glm::dvec3(low[0], low[1], low[2]);
 }
 
 }  // namespace rowland::lighting

@@ -1,10 +1,14 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <array>
 #include <glm/vec3.hpp>
-#include <vector>
+#include <span>
 
 #include "engine/lighting/cube_tree.h"
+#include "engine/lighting/direction_weight.h"
 #include "engine/lighting/key_lights.h"
+#include "engine/lighting/light_samples.h"
 
 namespace rowland::lighting {
 
@@ -14,8 +18,8 @@ struct LobeShape {
     double concentration = 100.0;
 };
 
-/// Inner product of two lobes of flux 1, over the cosine between them, as KeyLightFit says: smoothed, weighted by band,
-/// and without the exact bands. Variances of narrow lobes add; the error is of order 1/κ².
+/// Inner product of two lobes of flux 1 over the cosine between them, as KeyLightFit says: smoothed and weighted by
+/// band, all bands, equal weights of all directions. Variances of narrow lobes add; the error is of order 1/κ².
 class LobeProduct {
  public:
     /// `variance`: the sum of both lobes' 1/κ.
@@ -23,41 +27,58 @@ class LobeProduct {
 
     double operator()(double cosine) const;
 
-    /// Σ peak exp(concentration (cosine − 1)) − Σ_l band_factor Σ_m Y_lm Y_lm is the product.
+    /// Σ peak exp(concentration (cosine − 1)) is the product.
     struct Scale {
         double concentration = 0.0;
         double peak = 0.0;
     };
-    const std::vector<Scale>& scales() const { return scales_; }
-    const std::vector<double>& band_factors() const { return band_factors_; }
+    static constexpr int kScales = 4;
+    const std::array<Scale, kScales>& scales() const { return scales_; }
 
  private:
-    std::vector<Scale> scales_;
-    std::vector<double> band_factors_;
+    std::array<Scale, kScales> scales_;
 };
 
-/// LobeProduct of two lobes.
-double inner_product(const LobeShape& a, const LobeShape& b, const KeyLightFit& settings);
+/// A lobe as the metric sees it.
+struct MeasuredLobe {
+    LobeShape shape;
+    double root = 1.0;      ///< DirectionWeight::root()
+    Eigen::VectorXd bands;  ///< of the weighted light, the low bands
+    Eigen::VectorXd error;  ///< the same of the weighted error: without what the exact bands show
+};
 
-/// A probe that is compared with lobes. Light near a lobe is summed in small nodes of a tree, light far off in large
-/// ones.
+/// Compares a probe with lobes. What counts is the error that the exact bands leave, light − SH(light), times the
+/// DirectionWeight's root: where SH(light) of a lamp shows far from the lamp, it counts as what is seen there. Light
+/// near a lobe is summed in small nodes of a tree, light far off in large ones.
 class MeasuredProbe {
  public:
-    MeasuredProbe(CubeTree tree, const KeyLightFit& settings);
+    /// `cells`: of gather_cells() with `face_size`.
+    MeasuredProbe(std::span<const CubeCell> cells, int face_size, const KeyLightFit& settings);
 
+    /// The light times the weight's root.
     const CubeTree& tree() const { return tree_; }
     const KeyLightFit& settings() const { return settings_; }
+    const DirectionWeight& weight() const { return weight_; }
 
+    MeasuredLobe measure(const LobeShape& lobe) const;
     /// Inner product of the probe and a lobe, by channel.
-    glm::dvec3 with(const LobeShape& lobe) const;
+    glm::dvec3 with(const MeasuredLobe& lobe) const;
 
  private:
-    struct Query;
-    void add_node(const Query& query, int depth, int face, int column, int row, glm::dvec3& sum) const;
+    MeasuredProbe(std::span<const CubeCell> cells, int face_size, const CubeTree& light, const KeyLightFit& settings);
+    void add_low_bands(const CubeTree& light);
 
-    CubeTree tree_;
     KeyLightFit settings_;
-    std::vector<glm::dvec3> low_;  ///< SH of the probe in the exact bands
+    int low_bands_;
+    DirectionWeight weight_;
+    CubeTree tree_;
+    Eigen::VectorXd band_roots_;  ///< square root of each coefficient's weight
+    Eigen::MatrixXd shown_;       ///< from SH in the exact bands to their weighted light in the low bands
+    Eigen::MatrixX3d bands_;      ///< of the probe, as MeasuredLobe's
+    Eigen::MatrixX3d error_;
 };
+
+/// Inner product of two lobes; `product` is for the sum of their variances.
+double inner_product(const MeasuredLobe& a, const MeasuredLobe& b, const LobeProduct& product);
 
 }  // namespace rowland::lighting

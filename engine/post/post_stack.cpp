@@ -1,5 +1,6 @@
 #include "engine/post/post_stack.h"
 
+#include <cmath>
 #include <utility>
 
 #include "engine/core/check.h"
@@ -28,6 +29,17 @@ const gpu::Framebuffer& sized(std::optional<gpu::Framebuffer>& framebuffer, glm:
 }
 
 }  // namespace
+
+const gpu::Texture& PostStack::with_glare(const gpu::Texture& picture, const PostSettings& settings) {
+    if (!settings.glare || !has_effect(*settings.glare)) return picture;
+    const gpu::PassTimes::Scope scope(times_, "glare");
+    const gpu::Framebuffer& glared = sized(glared_, picture.size(), picture.desc().format);
+    // This frame's automatic exposure is measured later, with glare.
+    const float stops = settings.exposure_stops + automatic_stops_.value_or(0.0F);
+    made(glare_, *library_).draw(picture, *settings.glare, settings.glare->threshold * std::exp2(-stops), glared);
+    passes_ += GlarePass::passes();
+    return glared.colour();
+}
 
 const gpu::Texture& PostStack::with_bloom(const gpu::Texture& picture, const PostSettings& settings) {
     if (!settings.bloom) return picture;
@@ -95,10 +107,12 @@ void PostStack::draw_display(const gpu::Texture& picture, const DisplayPass& dis
 }
 
 void PostStack::reload(const gpu::ShaderLibrary& library) {
+    std::optional<GlarePass> glare = rebuilt(glare_, library);
     std::optional<BloomPass> bloom = rebuilt(bloom_, library);
     std::optional<AutoExposurePass> auto_exposure = rebuilt(auto_exposure_, library);
     std::optional<VignettePass> vignette = rebuilt(vignette_, library);
     std::optional<DitherPass> dither = rebuilt(dither_, library);
+    glare_ = std::move(glare);
     bloom_ = std::move(bloom);
     auto_exposure_ = std::move(auto_exposure);
     vignette_ = std::move(vignette);
@@ -109,7 +123,7 @@ void PostStack::reload(const gpu::ShaderLibrary& library) {
 void PostStack::draw(const gpu::Texture& hdr, const DisplayPass& display, const PostSettings& settings,
                      const PostFrame& frame, const gpu::Framebuffer& target) {
     passes_ = 0;
-    const gpu::Texture& bloomed = with_bloom(hdr, settings);
+    const gpu::Texture& bloomed = with_bloom(with_glare(hdr, settings), settings);
     exposure_stops_ = settings.exposure_stops + automatic_stops(bloomed, settings, frame);
     // Exposure is a factor and so is the vignette: the display pass exposes at no extra cost, to the same effect.
     draw_display(with_vignette(bloomed, settings), display, settings, frame, target);

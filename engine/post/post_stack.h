@@ -12,12 +12,14 @@
 #include "engine/post/bloom.h"
 #include "engine/post/display_pass.h"
 #include "engine/post/dither.h"
+#include "engine/post/glare.h"
 #include "engine/post/vignette.h"
 
 namespace rowland::post {
 
 /// The effects; by default none but the display transform.
 struct PostSettings {
+    std::optional<GlareSettings> glare = {};
     std::optional<BloomSettings> bloom = {};
     std::optional<AutoExposureSettings> auto_exposure = {};
     /// Automatic exposure is for this very picture, and each frame waits for the GPU. Otherwise it is for the picture
@@ -34,8 +36,8 @@ struct PostFrame {
     glm::vec3 luminance_weights{0.0F};  ///< post::luminance_weights, for automatic exposure
 };
 
-/// From a scene-linear picture to a display: bloom, exposure, vignette, display transform, dither, in this order. An
-/// effect that is off, or set so that it changes nothing, runs no pass and compiles no program.
+/// From a scene-linear picture to a display: glare, bloom, exposure, vignette, display transform, dither, in this
+/// order. An effect that is off, or set so that it changes nothing, runs no pass and compiles no program.
 class PostStack {
  public:
     /// `library` must hold post::shader_files() and outlive the stack.
@@ -57,11 +59,12 @@ class PostStack {
     /// Rebuilds the programs in use from `library`, which replaces the present one. If one does not compile, all stay
     /// as they were and its Error (system) is thrown.
     void reload(const gpu::ShaderLibrary& library);
-    /// Where the time of each effect that runs is written: "bloom", "auto exposure", "vignette", "display", "dither".
-    /// Null, the default: nothing is timed. Must outlive the draws.
+    /// Where the time of each effect that runs is written: "glare", "bloom", "auto exposure", "vignette", "display",
+    /// "dither". Null, the default: nothing is timed. Must outlive the draws.
     void set_pass_times(gpu::PassTimes* times) { times_ = times; }
 
  private:
+    const gpu::Texture& with_glare(const gpu::Texture& picture, const PostSettings& settings);
     const gpu::Texture& with_bloom(const gpu::Texture& picture, const PostSettings& settings);
     const gpu::Texture& with_vignette(const gpu::Texture& picture, const PostSettings& settings);
     float automatic_stops(const gpu::Texture& picture, const PostSettings& settings, const PostFrame& frame);
@@ -70,10 +73,12 @@ class PostStack {
 
     const gpu::ShaderLibrary* library_;
     gpu::PassTimes* times_ = nullptr;
+    std::optional<GlarePass> glare_;
     std::optional<BloomPass> bloom_;
     std::optional<AutoExposurePass> auto_exposure_;
     std::optional<VignettePass> vignette_;
     std::optional<DitherPass> dither_;
+    std::optional<gpu::Framebuffer> glared_;
     std::optional<gpu::Framebuffer> bloomed_;
     std::optional<gpu::Framebuffer> vignetted_;
     std::optional<gpu::Framebuffer> displayed_;

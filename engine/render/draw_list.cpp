@@ -44,6 +44,7 @@ DrawList gather_draws(ecs::World& world, std::span<const std::unique_ptr<Materia
             draw.columns = world.find<PictureColumns>(entity);
             add_pose(world, draw, list.joints);
             draw.features = features_of(material, *mesh.gpu, draw.skinned, lights);
+            if (draw.type == nullptr) draw.features &= ~feature::kPassesLight;
             if (const auto* reflects = world.find<ReflectsObjects>(entity))
                 draw.reflects = reflects->group;
             else

@@ -35,6 +35,7 @@ struct Draw {
     std::size_t first_joint = 0;
     SurfaceFeatures features = 0;
     const gpu::Program* program = nullptr;         ///< null if it is not drawn in the main pass
+    const gpu::Program* coat_program = nullptr;    ///< MaterialType::coat_program(), or null
     const gpu::Program* depth_program = nullptr;   ///< null if it is not drawn into the depth of occlusion
     const gpu::Program* shadow_program = nullptr;  ///< null if no light casts its shadow
     std::size_t block_offset = 0;                  ///< of its ObjectBlock, bytes

@@ -31,6 +31,14 @@ void MaterialType::attach(ecs::World& /*world*/, ecs::Entity /*entity*/, const n
     ROWLAND_CHECK(false, "attach() on a material type without a glTF extension, for " + pointer);
 }
 
+std::optional<gpu::ProgramDesc> MaterialType::coat_program(ecs::World& /*world*/, ecs::Entity /*entity*/) const {
+    return std::nullopt;
+}
+
+void MaterialType::bind_coat(ecs::World& /*world*/, ecs::Entity /*entity*/, const gpu::Program& /*program*/) const {
+    ROWLAND_CHECK(false, "bind_coat() on a material type without coats");
+}
+
 const MaterialType* owner_of(ecs::World& world, ecs::Entity entity,
                              std::span<const std::unique_ptr<MaterialType>> types, const std::string& file,
                              const std::string& pointer) {

@@ -41,6 +41,7 @@ struct StandardMaterial {
     float occlusion_strength = 1.0F;
     SurfaceTexture emissive_texture = {};
     scene::AlphaMode alpha_mode = scene::AlphaMode::Opaque;
+    bool passes_light = false;  ///< the material type says how much of what lies behind is seen, in place of alpha
     float alpha_cutoff = 0.5F;
     bool double_sided = false;
     bool unlit = false;       ///< shows base colour and emission, independent of light
@@ -75,6 +76,11 @@ struct FrameLight {
 
 class SurfaceTextures;
 
+/// Component, while attach() runs: the entity's material as its file has it, with all its extensions.
+struct FileMaterial {
+    const scene::MaterialDescription* description;
+};
+
 /// A kind of surface that a module adds to the engine: see engine/MODULES.md. Its shaders include the engine's forward
 /// interface and define material_vertex and material_terms (engine/render/shaders/forward_*_interface.glsl). Texture
 /// units 8 to 14 and buffer bindings from 4 on are its own.
@@ -89,6 +95,9 @@ class MaterialType {
     virtual std::string name() const = 0;
     /// The glTF material extension that describes such a surface; empty if none does.
     virtual std::string gltf_extension() const { return {}; }
+    /// Other material extensions that attach() reads, from the entity's FileMaterial. A warning says that they are
+    /// ignored where they stand without gltf_extension().
+    virtual std::vector<std::string> gltf_extensions_beside() const { return {}; }
     /// Gives an entity, which already has its MeshInstance and StandardMaterial, the surface that the extension's JSON
     /// describes. `textures`: those of its file. `file` and `pointer` (JSON) are for messages. Throws Error
     /// (input).
@@ -101,12 +110,16 @@ class MaterialType {
     virtual bool owns(ecs::World& world, ecs::Entity entity) const = 0;
     /// The program that draws an owned entity; equal descriptions share one.
     virtual gpu::ProgramDesc program(ecs::World& world, ecs::Entity entity) const = 0;
+    /// A second program that is drawn over the first, of an owned entity that passes light; nullopt: none.
+    virtual std::optional<gpu::ProgramDesc> coat_program(ecs::World& world, ecs::Entity entity) const;
     /// Once a frame, before anything is drawn: updates per-object data.
     virtual void update(ecs::World& world, const FrameLight& light) = 0;
     /// Changes in each update() after which an entity looks different, though neither it nor the light has moved.
     virtual std::uint64_t version() const { return 0; }
     /// Binds what an owned entity's program reads. The program is in use.
     virtual void bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const = 0;
+    /// The same for coat_program().
+    virtual void bind_coat(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const;
 };
 
 /// The type that draws an entity; null: the engine's own surface. `file` and `pointer` (empty: the entity's name) are

@@ -67,8 +67,10 @@ void Renderer::add_material_type(std::unique_ptr<MaterialType> type) {
 
 std::vector<std::string> Renderer::gltf_extensions() const {
     std::vector<std::string> names;
-    for (const auto& type : types_)
+    for (const auto& type : types_) {
         if (std::string name = type->gltf_extension(); !name.empty()) names.push_back(std::move(name));
+        for (std::string& name : type->gltf_extensions_beside()) names.push_back(std::move(name));
+    }
     return names;
 }
 
@@ -192,6 +194,7 @@ void Renderer::select_draws(ecs::World& world, Frame& frame) {
         }
         // Also for what is not seen yet, so that no later frame waits for a compiler.
         const gpu::Program& program = program_of(world, draw);
+        draw.coat_program = coat_program_of(world, draw);
         if (frame.occlusion && (draw.features & feature::kAlphaBlend) == 0)
             draw.depth_program = &surface_program(kShadowShader, of_shadow(draw.features) | feature::kFromEye);
         if (!frustum.may_see(draw.bounds)) {
@@ -343,6 +346,10 @@ void Renderer::draw_pass(ecs::World& world, const std::vector<const Draw*>& draw
         if (draw->type != nullptr) draw->type->bind(world, draw->entity, *draw->program);
         if ((draw->features & feature::kObjectReflections) != 0) draw->reflection->bind(*draw->program);
         draw->mesh->draw();
+        if (draw->coat_program == nullptr) continue;
+        draw->coat_program->use();
+        draw->type->bind_coat(world, draw->entity, *draw->coat_program);
+        draw->mesh->draw();
     }
 }
 
@@ -358,6 +365,14 @@ const gpu::Program& Renderer::program_of(ecs::World& world, const Draw& draw) {
     gpu::ProgramDesc desc = draw.type->program(world, draw.entity);
     add_defines(draw.features, desc);
     return programs_.get(desc);
+}
+
+const gpu::Program* Renderer::coat_program_of(ecs::World& world, const Draw& draw) {
+    if (draw.type == nullptr || (draw.features & feature::kPassesLight) == 0) return nullptr;
+    std::optional<gpu::ProgramDesc> desc = draw.type->coat_program(world, draw.entity);
+    if (!desc) return nullptr;
+    add_defines(draw.features, *desc);
+    return &programs_.get(*desc);
 }
 
 const gpu::Program& Renderer::surface_program(const char* shader, SurfaceFeatures features) {

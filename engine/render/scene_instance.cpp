@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <set>
 #include <utility>
 #include <variant>
 
 #include "engine/core/check.h"
+#include "engine/core/log.h"
 #include "engine/render/gpu_mesh.h"
 #include "engine/render/local_reflection.h"
 #include "engine/render/object_reflection.h"
@@ -97,11 +99,24 @@ class Builder {
 
     void attach_extensions(ecs::Entity entity, const scene::MaterialDescription& material, std::size_t index) {
         const std::string pointer = fmt::format("/materials/{}/extensions", index);
+        world_.add(entity, FileMaterial{&material});
         for (const auto& [name, json] : material.extensions)
             for (const auto& type : renderer_.material_types())
                 if (type->gltf_extension() == name)
                     type->attach(world_, entity, json, textures_, file_, pointer + "/" + name);
+        world_.remove<FileMaterial>(entity);
+        warn_of_extensions_alone(material, pointer);
         owner_of(world_, entity, renderer_.material_types(), file_, pointer);
+    }
+
+    /// Once for each extension of the file.
+    void warn_of_extensions_alone(const scene::MaterialDescription& material, const std::string& pointer) {
+        for (const auto& type : renderer_.material_types()) {
+            if (material.extensions.contains(type->gltf_extension())) continue;
+            for (const std::string& name : type->gltf_extensions_beside())
+                if (material.extensions.contains(name) && warned_of_.insert(name).second)
+                    log_warning("{}: {}/{} is ignored without {}", file_, pointer, name, type->gltf_extension());
+        }
     }
 
     ecs::World& world_;
@@ -111,6 +126,7 @@ class Builder {
     SceneInstance& instance_;
     SurfaceTextures textures_;
     std::vector<MeshInstance> meshes_;  ///< by index; made when first used
+    std::set<std::string> warned_of_;   ///< extensions
 };
 
 }  // namespace

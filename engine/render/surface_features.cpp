@@ -67,13 +67,14 @@ SurfaceFeatures features_of(const StandardMaterial& material, const GpuMesh& mes
     if (material.clear_coat > 0.0F) features |= feature::kClearCoat;
     if (material.alpha_mode == scene::AlphaMode::Mask) features |= feature::kAlphaMask;
     // What blends is not in the depth that occlusion is computed from.
-    if (material.alpha_mode == scene::AlphaMode::Blend)
+    if (material.passes_light) features |= feature::kPassesLight;
+    if (material.alpha_mode == scene::AlphaMode::Blend || material.passes_light)
         features = (features | feature::kAlphaBlend) & ~feature::kAmbientOcclusion;
     return material.unlit ? without_light(features) : features;
 }
 
 SurfaceFeatures without_light(SurfaceFeatures features) {
-    features &= ~(feature::kLights | feature::kDoubleSided | feature::kClearCoat);
+    features &= ~(feature::kLights | feature::kDoubleSided | feature::kClearCoat | feature::kPassesLight);
     return keep_maps(features, feature::kBaseColourMap | feature::kEmissiveMap) | feature::kUnlit;
 }
 

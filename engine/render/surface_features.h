@@ -21,6 +21,7 @@ inline constexpr SurfaceFeatures kMetallicRoughnessMap = 1U << 3U;
 inline constexpr SurfaceFeatures kNormalMap = 1U << 4U;
 inline constexpr SurfaceFeatures kOcclusionMap = 1U << 5U;
 inline constexpr SurfaceFeatures kEmissiveMap = 1U << 6U;
+inline constexpr SurfaceFeatures kPassesLight = 1U << 7U;
 inline constexpr unsigned kSecondUvShift = 8;  ///< a map's bit shifted left by this: the map uses the second UV set
 inline constexpr SurfaceFeatures kTextureTransform = 1U << 16U;
 inline constexpr SurfaceFeatures kDoubleSided = 1U << 17U;

@@ -143,6 +143,7 @@ class Writing {
             pbr["baseColorTexture"] = std::move(use_of_it);
         }
         Json json = {{"name", material.name}, {"pbrMetallicRoughness", std::move(pbr)}};
+        if (material.emission != glm::dvec3(0.0)) json["emissiveFactor"] = to_json(material.emission);
         if (material.blend) json["alphaMode"] = "BLEND";
         if (material.double_sided) json["doubleSided"] = true;
         for (const auto& [name, value] : material.extensions.items()) {

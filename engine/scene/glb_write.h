@@ -35,6 +35,7 @@ struct GlbMaterial {
     glm::dvec4 colour{1.0};  ///< linear, with alpha, each 0 … 1
     double metallic = 0.0;
     double roughness = 0.5;
+    glm::dvec3 emission{0.0};                     ///< linear, each 0 … 1
     std::optional<ColourTexture> colour_texture;  ///< multiplies the colour
     bool blend = false;                           ///< over what is behind, by alpha
     bool double_sided = false;

@@ -100,6 +100,7 @@ class Parsing {
         material.colour = glm::dvec4(colour, reader.number_or("alpha", 1.0, kFraction));
         material.metallic = reader.number_or("metallic", material.metallic, kFraction);
         material.roughness = reader.number_or("roughness", material.roughness, kFraction);
+        material.emission = read_vector_or(reader, "emission", material.emission, kFraction);
         if (reader.has("color_texture")) material.colour_texture = colour_texture(reader.object("color_texture"));
         material.blend = reader.boolean_or("blend", false);
         material.double_sided = reader.boolean_or("double_sided", false);

@@ -84,6 +84,7 @@ void Picture::draw(ecs::World& world, const scene::Camera& camera, float seconds
         const gpu::PassTimes::Scope scope(timed_ ? &pass_times_ : nullptr, "resolve");
         targets_->multisampled.resolve_to(targets_->linear);
     }
+    if (post_settings_.glare) post_settings_.glare->vertical_fov = camera.vertical_field_of_view;
     if (post_settings_.vignette) post_settings_.vignette->vertical_fov = camera.vertical_field_of_view;
     post_stack_.draw(targets_->linear.colour(), display_, post_settings_,
                      {.index = frame_++, .seconds = seconds, .luminance_weights = luminance_weights_},

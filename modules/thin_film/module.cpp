@@ -7,7 +7,6 @@
 namespace rowland::thin_film {
 
 void register_module(render::Renderer& renderer) {
-    renderer.add_material_type(std::make_unique<IorType>());
     renderer.add_material_type(std::make_unique<FilmSurfaceType>(renderer.xyz_to_working()));
 }
 

@@ -31,6 +31,15 @@ nlohmann::json cd_material(const nlohmann::json& quality, const nlohmann::json& 
             {"quality", quality}};
 }
 
+nlohmann::json lattice_material(const nlohmann::json& quality) {
+    const nlohmann::json grooves = {{"type", "sinusoidal"}, {"depth_nm", 110}};
+    nlohmann::json material = cd_material(quality);
+    material["grating"] = {{"lattice", {{"a_nm", {1000, 0}}, {"b_nm", {0, 1000}}}},
+                           {"profile", {{"type", "crossed"}, {"along_a", grooves}, {"along_b", grooves}}},
+                           {"orders", 2}};
+    return material;
+}
+
 nlohmann::json material_of(const TimedRepresentation& representation) {
     return cd_material(representation.quality, representation.groove_lobe);
 }

@@ -20,6 +20,8 @@ std::vector<TimedRepresentation> timed_representations();
 
 /// The compact disc's material file, drawn as `quality` says.
 nlohmann::json cd_material(const nlohmann::json& quality, const nlohmann::json& groove_lobe = "flat");
+/// Crossed foil's material file.
+nlohmann::json lattice_material(const nlohmann::json& quality);
 nlohmann::json material_of(const TimedRepresentation& representation);
 
 }  // namespace rowland::benchmark

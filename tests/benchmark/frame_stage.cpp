@@ -23,6 +23,7 @@
 #include "modules/diffraction/asset/material_json.h"
 #include "modules/diffraction/module.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
+#include "modules/diffraction/runtime/glare_pattern.h"
 #include "modules/thin_film/module.h"
 #include "modules/thin_film/runtime/film_surface.h"
 #include "tests/benchmark/cd_materials.h"
@@ -140,9 +141,24 @@ std::shared_ptr<const diffraction::GrooveMap> FrameStage::groove_map() {
     return groove_map_;
 }
 
+/// Crossed, 500 lines per mm.
+std::shared_ptr<const post::GlarePattern> FrameStage::glasses() {
+    const diffraction::SinusoidalProfile grooves{.depth_nm = 85.0};
+    const diffraction::Lattice crossed{.a_nm = {2000.0, 0.0},
+                                       .b_nm = {0.0, 2000.0},
+                                       .profile = diffraction::CrossedProfile{.along_a = grooves, .along_b = grooves}};
+    if (!glasses_)
+        glasses_ = std::make_shared<post::GlarePattern>(
+            diffraction::glare_pattern({.pitch_nm = 2000.0, .orders = {}, .lattice = crossed}, xyz_to_working_));
+    return glasses_;
+}
+
 void FrameStage::draw(const FrameVariant& variant, ecs::World& world, render::Shading shading) {
     renderer(variant).render(world, camera(), linear_, shading);
-    if (variant.post) develop(all_effects());
+    if (!variant.post) return;
+    post::PostSettings effects = all_effects();
+    if (variant.glare) effects.glare = post::GlareSettings{.pattern = glasses(), .vertical_fov = kFieldOfView};
+    develop(effects);
 }
 
 void FrameStage::develop(const post::PostSettings& settings) {
@@ -173,8 +189,7 @@ FrameScene::FrameScene(FrameVariant variant, FrameStage& stage, bool software)
         world_.add(disc_,
                    diffraction::DiffractionSurface{.material = stage.material(variant_),
                                                    .grooves = variant_.groove_map ? stage.groove_map() : nullptr});
-    if (variant_.shader == Shader::Film)
-        thin_film::add_film(world_, disc_, thin_film::cook_film(variant_.material, "the film"), stage.xyz_to_working());
+    if (variant_.shader == Shader::Film) add_film();
     if (variant_.lighting == Lighting::LampsInScene) {
         std::vector<render::DistantLight> distant;
         for (const scene::DirectionalLight& lamp : lamps(variant_.lamps)) {
@@ -189,6 +204,25 @@ FrameScene::FrameScene(FrameVariant variant, FrameStage& stage, bool software)
     }
     if (variant_.effect == Effect::LocalReflection) add_reflected_plane();
     move();
+}
+
+void FrameScene::add_film() {
+    thin_film::CookedFilm film = thin_film::cook_film(variant_.material, "the film");
+    if (variant_.thickness_map) {
+        film.material.range.thinnest_nm = 100.0;
+        film.table = thin_film::bake_film(film.material);
+    }
+    thin_film::add_film(world_, disc_, film, stage_->xyz_to_working());
+    if (!variant_.thickness_map) return;
+    auto map = std::make_shared<gpu::Texture>(gpu::TextureDesc{.format = gpu::Format::RGBA8, .width = 64, .height = 1});
+    std::vector<std::uint8_t> ramp;
+    for (int i = 0; i < 64; ++i)
+        for (int c = 0; c < 4; ++c) ramp.push_back(static_cast<std::uint8_t>(4 * i));
+    map->upload(std::span<const std::uint8_t>(ramp));
+    world_.get<render::StandardMaterial>(disc_).base_colour = glm::vec3(0.5F);  // what passes is seen
+    auto& surface = world_.get<thin_film::FilmSurface>(disc_);
+    surface.thickness_at_0_nm = 100.0F;
+    surface.thickness_texture.texture = std::move(map);
 }
 
 /// Above the camera, so that it is not in the picture; its top faces down.

@@ -44,6 +44,7 @@ class FrameStage {
  private:
     std::unique_ptr<render::Renderer> make_renderer(const FrameVariant& variant) const;
     const diffraction::CookedMaterial& cooked(const nlohmann::json& material);
+    std::shared_ptr<const post::GlarePattern> glasses();
     void develop(const post::PostSettings& settings);
 
     glm::dmat3 xyz_to_working_;
@@ -58,6 +59,7 @@ class FrameStage {
     std::map<std::pair<std::string, const render::Renderer*>, std::shared_ptr<const diffraction::GpuMaterial>>
         materials_;
     std::shared_ptr<const diffraction::GrooveMap> groove_map_;
+    std::shared_ptr<const post::GlarePattern> glasses_;
 };
 
 /// The times of a frame.
@@ -80,6 +82,7 @@ class FrameScene {
     const FrameVariant& variant() const { return variant_; }
 
  private:
+    void add_film();
     void add_reflected_plane();
     void shade_in_a_loop(const std::vector<render::DistantLight>& lights);
     void move();

@@ -70,6 +70,12 @@ FrameVariant with_groove_map(FrameVariant variant) {
     return variant;
 }
 
+FrameVariant with_thickness_map(FrameVariant variant) {
+    variant.name += "/thickness-map";
+    variant.thickness_map = true;
+    return variant;
+}
+
 FrameVariant with_lamps(FrameVariant variant, int lamps) {
     variant.name += std::to_string(lamps);
     variant.baseline += "1";
@@ -93,6 +99,9 @@ void add_plain(std::vector<FrameVariant>& variants) {
     variants.push_back(with_vertices(engine_surface("plain/vertices:2500", Shader::Plain), kFewVertices));
     variants.back().baseline = variants.back().name;
     variants.push_back(with_post(engine_surface("plain/post", Shader::Plain)));
+    variants.push_back(with_post(engine_surface("plain/post/glare", Shader::Plain)));
+    variants.back().baseline = "plain/post";
+    variants.back().glare = true;
     const FrameVariant plain = engine_surface("plain", Shader::Plain);
     const FrameVariant shadow = with_shadow(plain);
     variants.push_back(shadow);
@@ -101,6 +110,7 @@ void add_plain(std::vector<FrameVariant>& variants) {
     FrameVariant film = engine_surface("film", Shader::Film);
     film.material = {{"film", {{"ior", 1.33}, {"thickness_nm", 400}}}, {"base", {{"ior", 1.5}}}, {"roughness", 0.3}};
     variants.push_back(film);
+    variants.push_back(with_thickness_map(film));
     variants.push_back(with_effect(shadow, "/soft", Effect::SoftShadow));
     variants.push_back(with_effect(plain, "/local-reflection", Effect::LocalReflection));
 }
@@ -149,6 +159,19 @@ void add_lamps_in_scene(const TimedRepresentation& direct, std::vector<FrameVari
     }
 }
 
+/// A lattice under the lights of grooves, in one look-up each as well, or three for key lights.
+void add_lattice(const TimedRepresentation& direct, std::vector<FrameVariant>& variants) {
+    const auto lattice = [&](FrameVariant variant) {
+        variant.name.replace(0, direct.name.size(), "lattice");
+        variant.material = lattice_material(direct.quality);
+        return variant;
+    };
+    variants.push_back(lattice(grating(direct, "/key-lights:16", "plain", Lighting::StudioKeyLights)));
+    for (const int lamps : {1, 16})
+        variants.push_back(
+            lattice(with_lamps(grating(direct, "/lights:", "direct/lights:", Lighting::LampsInScene), lamps)));
+}
+
 bool matches(const std::string& pattern, const std::string& name) {
     return fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
 }
@@ -172,8 +195,10 @@ std::vector<FrameVariant> all_variants() {
         if (drawn.name == "planar") variants.push_back(moving(grating(drawn, "/spinning", "plain"), Motion::Spinning));
         if (drawn.name != "direct")
             add_lamps_in_probe(drawn, variants);
-        else
+        else {
             add_lamps_in_scene(drawn, variants);
+            add_lattice(drawn, variants);
+        }
     }
     variants.push_back(
         grating({"arc", {{"representation", "arc"}, {"bands", 8}, {"rank", 12}}, true}, "/bands:8/rank:12", "plain"));

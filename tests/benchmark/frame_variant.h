@@ -49,8 +49,10 @@ struct FrameVariant {
     int lamps = 0;
     bool shadow = false;  ///< the sun casts one
     Effect effect = Effect::None;
-    bool groove_map = false;  ///< a texture varies the grooves' direction and pitch
-    bool post = false;        ///< bloom, vignette and display transform after it
+    bool groove_map = false;     ///< a texture varies the grooves' direction and pitch
+    bool thickness_map = false;  ///< a texture varies the film's thickness from 100 nm to its own
+    bool post = false;           ///< bloom, vignette and display transform after it
+    bool glare = false;          ///< and, before them, crossed diffraction glasses
 };
 
 /// All frames that are timed, each baseline before the variants that are compared with it.

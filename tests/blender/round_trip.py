@@ -71,6 +71,13 @@ def edit_by_panel(fields):
     fields.sigma = 0.05
     expect(fields.object()["grating"]["groove_lobe"], {"sigma": 0.05}, "lobe")
     expect(fields.object()["quality"], {"representation": "streak"}, "a representation that draws this lobe")
+    fields.transmits = True
+    fields.transmission_ior = 1.46
+    fields.transmission_reflectance = 0.25
+    expect(fields.object()["transmission"], {"ior": 1.46, "reflectance": 0.25}, "transmission")
+    expect("metal" in fields.object(), False, "a sheet has no metal")
+    fields.transmits = False
+    expect("transmission" in fields.object(), False, "no transmission")
     fields.metal = "perfect"
     expect("metal" in fields.object(), False, "no metal")
     fields.metal = "Au"

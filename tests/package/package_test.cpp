@@ -191,7 +191,7 @@ TEST_F(PackageTest, PixelsOfTheBareGlExampleAreWhatTheCpuEvaluates) {
     EXPECT_GT(lit, 5) << "pixels that the lamp's light reaches";
 }
 
-TEST_F(PackageTest, EngineExampleDrawsAGltfSceneWithAGrating) {
+TEST_F(PackageTest, EngineExampleDrawsAGltfSceneWithAGratingAndAFilm) {
     install("runtime");
     install("tools");  // Draco streams are decoded by a program of theirs
     const std::string program = build_example("engine_scene");
@@ -200,8 +200,12 @@ TEST_F(PackageTest, EngineExampleDrawsAGltfSceneWithAGrating) {
     const glm::ivec3 grating = middle_of_card(program, R"({ "ROWLAND_materials_diffraction": {
         "grating": { "pitch_nm": 1600, "profile": { "type": "slit", "width_nm": 800 } },
         "quality": { "representation": "arc" } } })");
-    const glm::ivec3 difference = glm::abs(grating - plain);
-    EXPECT_GT(difference.x + difference.y + difference.z, 20);
+    const glm::ivec3 film = middle_of_card(program, R"({ "KHR_materials_iridescence": {
+        "iridescenceFactor": 1, "iridescenceIor": 2.4, "extras": { "metal": "Al" } } })");
+    for (const glm::ivec3& drawn : {grating, film}) {
+        const glm::ivec3 difference = glm::abs(drawn - plain);
+        EXPECT_GT(difference.x + difference.y + difference.z, 20);
+    }
 }
 
 TEST_F(PackageTest, AModuleOfAnotherProjectChangesHowLightIsReflected) {

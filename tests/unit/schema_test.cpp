@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <set>
@@ -17,7 +18,9 @@
 #include "engine/scene/mesh_recipe.h"
 #include "engine/scene/scene_recipe.h"
 #include "modules/diffraction/asset/gltf_extension.h"
+#include "modules/diffraction/asset/height_map_png.h"
 #include "modules/diffraction/asset/material_json.h"
+#include "modules/thin_film/asset/film_material.h"
 #include "tests/support/json_schema.h"
 #include "tests/support/source_tree.h"
 #include "tests/support/temporary_folder.h"
@@ -85,6 +88,11 @@ void expect_agreement(const json& schema, const std::vector<json>& documents,
 /// Whatever a material calls its table; its lamp is lamp.csv.
 diffraction::NamedText read_one_table(const std::string& name) {
     if (name == "lamp.csv") return {.text = "wavelength_nm,relative_power\n500,1\n600,2\n", .file = name};
+    if (name == "cell.png") {
+        diffraction::HeightMap map{.columns = 16, .rows = 16, .heights = {}, .depth_nm = 0.0};
+        map.heights.assign(256, 9);
+        return {.text = diffraction::write_height_map(map), .file = name};
+    }
     return {.text = "wavelength_nm,R-1,R+1\n500,0.1,0.4\n", .file = name};
 }
 
@@ -106,21 +114,43 @@ bool crosses_quality(const json& document) {
     return view || map || multiples || layers || streak;
 }
 
+/// What a cell's sides forbid each other, its profile and its orders.
+bool crosses_cell(const json& grating) {
+    if (!grating.contains("lattice")) return false;
+    const auto a = grating["lattice"]["a_nm"].get<std::vector<double>>();
+    const auto b = grating["lattice"]["b_nm"].get<std::vector<double>>();
+    const double length_a = std::hypot(a[0], a[1]);
+    const double length_b = std::hypot(b[0], b[1]);
+    const json& profile = grating["profile"];
+    const bool short_or_long = std::min(length_a, length_b) < 300.0 || std::max(length_a, length_b) > 1e7;
+    const bool flat = std::abs(a[0] * b[1] - a[1] * b[0]) < 0.0348995 * length_a * length_b;  // 2 degrees
+    const bool wide =
+        profile["type"] == "aperture" && (profile["width_nm"] > length_a || profile["height_nm"] > length_b);
+    const bool picture =
+        profile["type"] == "height_map" && (profile["file"] != "cell.png" || 2 * grating.value("orders", 2) >= 16);
+    return short_or_long || flat || wide || picture;
+}
+
 /// What a material's members forbid each other.
 bool crosses_members(const json& document) {
     const json& grating = document["grating"];
+    if (crosses_cell(grating)) return true;
     const json& profile = grating["profile"];
     const json lobe = grating.value("groove_lobe", json("flat"));
     const bool wide = profile["type"] == "slit" && profile["width_nm"] > grating["pitch_nm"];
     const bool agu = grating.value("normalization", "energy") == "agu" && profile["type"] != "slit";
     const bool plated_table =
         profile["type"] == "table" && (document.contains("metal") || document.contains("/cover/tint"_json_pointer));
+    const bool plated_sheet =
+        document.contains("transmission") &&
+        (document.contains("metal") || document.contains("cover") ||
+         (profile["type"] == "table" && document["transmission"].value("reflectance", 0.0) > 0.0));
     const bool few = grating.value("grooves", 1500.0) < 50.0 && (profile["type"] == "table" || lobe.contains("pits"));
     const bool endless = grating.value("orders", json()) == "all" && grating["pitch_nm"] > 190000.0;
     const std::string lamp = document.value("quality", json::object()).value("illuminant", "D65");
     const auto names = colour::illuminant_names();
     const bool dark = lamp != "lamp.csv" && std::find(names.begin(), names.end(), lamp) == names.end();
-    return wide || agu || plated_table || few || endless || dark || crosses_quality(document);
+    return wide || agu || plated_table || plated_sheet || few || endless || dark || crosses_quality(document);
 }
 
 /// A schema cannot know which files there are.
@@ -137,7 +167,16 @@ TEST(Schema, OfMaterialsAgreesWithTheParser) {
     const auto pinned = [&](const std::string& quality) {
         return material(R"({"type": "slit", "width_nm": 800}}, "quality": )", quality + "}");
     };
+    const auto cell = [](const std::string& profile, const std::string& rest) {
+        return json::parse(R"({"grating": {"lattice": {"a_nm": [900, 10], "b_nm": [-100, 2000]}, "profile": )" +
+                           profile + rest);
+    };
     const std::vector<json> documents = {
+        cell(R"({"type": "aperture", "width_nm": 500, "height_nm": 600})", R"(, "orders": 3}})"),
+        cell(R"({"type": "height_map", "file": "cell.png", "depth_nm": 100})", R"(}, "cover": {"ior": 1.5}})"),
+        cell(
+            R"({"type": "crossed", "along_a": {"type": "lamellar", "duty": 0.4, "depth_nm": 100}, "along_b": {"type": "sinusoidal", "depth_nm": 90}})",
+            R"(}, "metal": "Al", "quality": {"representation": "planar"}})"),
         read("content/materials/cd.json"),
         read("content/materials/cd_paper.json"),
         material(R"({"type": "lamellar", "duty": 0.4, "depth_nm": 100})", R"(, "groove_lobe": {"sigma": 0.2}}})"),
@@ -147,6 +186,8 @@ TEST(Schema, OfMaterialsAgreesWithTheParser) {
             R"({"max_error": 0.1, "surface": "curved", "probes": ["a.json", {"image": "b.hdr", "mapping": "angular"}]})"),
         material(R"({"type": "slit", "width_nm": 0.5}, "normalization": "agu", "orders": "all"}})", ""),
         material(R"({"type": "blazed", "depth_nm": 100}})", R"(, "cover": {"ior": 1.5, "tint": [0.25, 1, 0]}})"),
+        material(R"({"type": "lamellar", "duty": 0.5, "depth_nm": 500}})",
+                 R"(, "transmission": {"ior": 1.5, "reflectance": 0.25}})"),
         material(R"({"type": "table", "file": "t.csv"}})", R"(, "base": {"roughness": 0.1}})"),
         material(R"({"type": "sinusoidal", "depth_nm": 90})",
                  R"(, "groove_lobe": {"pits": {"length_nm": 850, "coherent": 0.3}}}})"),
@@ -181,6 +222,18 @@ TEST(Schema, OfTheGltfExtensionAgreesWithTheParser) {
         schema, documents,
         [&](const json& document) { diffraction::parse_gltf_extension(document, "test", folder.path()); },
         [](const json& document) { return crosses_members(document) || names_another_file(document); });
+}
+
+TEST(Schema, OfFilmsAgreesWithTheParser) {
+    const std::vector<json> documents = {
+        json::parse(R"({"film": {"ior": 1.33, "k": 0.1, "thickness_nm": 400}, "base": {"ior": 1.5, "k": 2},
+                        "roughness": 0.3, "illuminant": "F11"})"),
+        json::parse(
+            R"({"film": [{"ior": 1.4, "thickness_nm": 90}, {"ior": 2.3, "thickness_nm": 60}], "metal": "Au"})")};
+    expect_agreement(
+        read("modules/thin_film/asset/film.schema.json"), documents,
+        [](const json& document) { thin_film::parse_film_material(document, "test"); },
+        [](const json&) { return false; });
 }
 
 TEST(Schema, OfProbeRecipesAgreesWithTheParser) {
@@ -305,7 +358,7 @@ TEST(Schema, OfSceneRecipesAgreesWithTheParser) {
         json::parse(R"({"scene": {
             "textures": [{"name": "a", "size": [1, 1], "layers": []}],
             "materials": [{"name": "m", "color": [0.5, 0, 1], "alpha": 0.5, "metallic": 1, "roughness": 0.25,
-                           "color_texture": {"name": "a", "repeat": [2, 3]}, "blend": true, "double_sided": false,
+                           "emission": [1, 0.5, 0.25], "color_texture": {"name": "a", "repeat": [2, 3]}, "blend": true, "double_sided": false,
                            "extensions": {"X": 1}}],
             "meshes": [{"name": "s", "parts": [{"shape": {"type": "sphere", "radius": 0.5}, "material": "m"}]}],
             "nodes": [{"name": "top", "mesh": "s", "extras": {}}]}})"),
@@ -321,7 +374,8 @@ TEST(Schema, OfSceneRecipesAgreesWithTheParser) {
 }
 
 TEST(Schema, OfSceneRecipesAllowsTheShippedScenes) {
-    for (const char* scene : {"content/scenes/cabinet.json", "content/scenes/films.json"})
+    for (const char* scene : {"content/scenes/cabinet.json", "content/scenes/films.json",
+                              "content/scenes/lattices.json", "content/scenes/sheets.json"})
         EXPECT_TRUE(test::satisfies(read(scene), scene_recipe_schema())) << scene;
 }
 

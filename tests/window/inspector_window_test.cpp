@@ -113,6 +113,32 @@ TEST_F(InspectorWindow, AMaterialIsEditedPickedLitSavedAndOpenedAgain) {
     EXPECT_EQ(user.leave(), 0);
 }
 
+TEST_F(InspectorWindow, ALatticesPatternFollowsItsFields) {
+    write_file_atomic(path("foil.json"), std::string_view(R"({"grating": {
+        "lattice": {"a_nm": [1000, 0], "b_nm": [0, 1000]},
+        "profile": {"type": "crossed", "along_a": {"type": "sinusoidal", "depth_nm": 110},
+                    "along_b": {"type": "sinusoidal", "depth_nm": 110}}},
+        "quality": {"representation": "direct"}})"));
+    InspectorUser user(folder_.path(), {path("foil.json"), "--probe", path("sky.json")});
+    user.wait_for("pattern", " ");
+    const auto pattern = [&] {
+        user.wait_for("busy", "no");
+        return user.facts().at("pattern");
+    };
+    const std::string before = pattern();
+    user.drag("/grating/orders", {-15, 0});
+    EXPECT_EQ(material(user.facts())["grating"]["orders"], 1);
+    EXPECT_NE(pattern(), before);
+    user.key("ctrl+z");
+    EXPECT_EQ(pattern(), before);
+    user.click("/grating/profile");
+    user.click("/grating/profile=aperture");
+    user.drag("/grating/profile/width_nm", {20, 0});
+    EXPECT_GT(material(user.facts())["grating"]["profile"]["width_nm"], 500);
+    EXPECT_NE(pattern(), before);
+    EXPECT_EQ(user.leave(), 0);
+}
+
 TEST_F(InspectorWindow, EditsOutliveALostContext) {
     const std::string text = R"({"grating": {"pitch_nm": 1600, "profile": {"type": "slit", "width_nm": 800}}})";
     write_file_atomic(path("mine.json"), text);
@@ -264,6 +290,36 @@ TEST_F(InspectorWindow, TheLayoutSurvivesARestart) {
     user.wait_for("shape is", "card");
     EXPECT_NE(before.at("picture"), after.at("picture"));
     EXPECT_EQ(user.facts().at("picture"), after.at("picture"));
+}
+
+TEST_F(InspectorWindow, AFilmsFiguresFollowItsFields) {
+    InspectorUser user(folder_.path(), preset("cd"));
+    user.click("menu View");
+    user.click("menu Thin film");
+    const auto figures = [&] {
+        user.wait_for("film is current", "yes");
+        const Facts facts = user.facts();
+        std::string all;
+        for (const char* name : {"film at 550 nm", "film reflects", "film table error", "film formula error"})
+            all += facts.at(name) + " ";
+        return all;
+    };
+    std::string before = figures();
+    const auto expect_change = [&](const char* field) {
+        const std::string after = figures();
+        EXPECT_NE(after, before) << field;
+        before = after;
+    };
+    for (const char* field : {"film Index", "film Thickness", "film Base index", "film Base k", "film Angle of view"}) {
+        user.drag(field, {40, 0});
+        expect_change(field);
+    }
+    user.click("film Base");
+    user.click("film Base=Au");
+    expect_change("film Base");
+    user.drag("film Roughness", {80, 0});
+    expect_change("film Roughness");
+    EXPECT_EQ(user.leave(), 0);
 }
 
 }  // namespace

@@ -104,6 +104,13 @@ def set_profile_kind(grating, kind):
         grating["grating"].pop("normalization", None)
 
 
+def set_transmits(grating, transmits):
+    set_value(grating, ("transmission",), {"ior": 1.5} if transmits else None)
+    if transmits:  # a sheet has neither
+        grating.pop("metal", None)
+        grating.pop("cover", None)
+
+
 def spectral_colour(wavelength_nm):
     """A rough linear RGB of a wavelength, after the shape of the eye's sensitivities."""
     def bell(centre, width):

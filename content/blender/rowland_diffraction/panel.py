@@ -93,8 +93,9 @@ class ROWLAND_PT_grating(bpy.types.Panel):
         names = ["pitch_nm", "lines_per_mm", "profile", *grating.PROFILES[fields.profile]]
         names += ["lobe", *LOBE_FIELDS[fields.lobe], "groove_rotation"]
         table = fields.profile == "table"
-        names += [] if table else ["metal"]
-        names += ["covered"] + (["cover_ior"] if fields.covered else [])
+        names += ["transmits"] + (["transmission_ior", "transmission_reflectance"] if fields.transmits else [])
+        names += [] if table or fields.transmits else ["metal"]
+        names += [] if fields.transmits else ["covered"] + (["cover_ior"] if fields.covered else [])
         names += ["cover_tint"] if fields.covered and not table else []
         for name in names:
             layout.prop(fields, name)

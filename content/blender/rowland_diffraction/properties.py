@@ -58,6 +58,7 @@ def update_image(self, _context):
 
 GRATING = grating.SCHEMA["grating"]["properties"]
 COVER = grating.SCHEMA["cover"]["properties"]
+TRANSMISSION = grating.SCHEMA["transmission"]["properties"]
 LOBE = {list(lobe["properties"])[0]: lobe["properties"] for lobe in GRATING["groove_lobe"]["oneOf"] if "type" in lobe}
 PITS = LOBE["pits"]["pits"]["properties"]
 MEMBERS = {name: schema for members in grating.PROFILES.values() for name, schema in members.items()}
@@ -103,6 +104,14 @@ class RowlandGrating(bpy.types.PropertyGroup):
         name="Tint", subtype="COLOR", size=3, min=0, max=1,
         get=lambda self: grating.value_at(self.object(), ("cover", "tint"), (1.0, 1.0, 1.0)),
         set=lambda self, value: self.change(grating.set_value, ("cover", "tint"), [rounded(v) for v in value]))
+    transmits: bpy.props.BoolProperty(
+        name="Transmission", description="A thin sheet that one looks through",
+        get=lambda self: "transmission" in self.object(),
+        set=lambda self, value: self.change(grating.set_transmits, value))
+    transmission_ior: number(
+        ("transmission", "ior"), "Index of refraction", TRANSMISSION["ior"], 1.5, precision=3)
+    transmission_reflectance: number(
+        ("transmission", "reflectance"), "Reflectance", TRANSMISSION["reflectance"], 0, precision=3)
     groove_rotation: number(
         ("grooveRotation",), "Rotation", subtype="ANGLE",
         description="Of the grating vector, from the tangent toward the bitangent")

@@ -81,6 +81,9 @@ void picture_panel(const Panel& panel) {
     ImGui::TextDisabled("%+.2f stops in all", static_cast<double>(panel.session.picture().exposure_stops()));
     effect_row(panel, Action::Bloom, Setting::Bloom, "blur", post.bloom);
     effect_row(panel, Action::Vignette, Setting::Vignette, "vignette", post.vignette);
+    const std::string sheet = panel.session.sheet();
+    action_check_box(panel, Action::Glare, (sheet.empty() ? "glare###glare" : "glare: " + sheet + "###glare").c_str(),
+                     !sheet.empty());
     action_check_box(panel, Action::Dither, "dither", post.dither.has_value());
     text_choice(panel, Setting::View, "view", panel.session.views(), panel.session.view());
 }

@@ -40,6 +40,8 @@ constexpr std::array kActionKeys{
     ActionKey{Action::Vignette, Key::Digit2, "vignette", "vignette on or off"},
     ActionKey{Action::AutoExposure, Key::Digit3, "automatic exposure", "automatic exposure on or off"},
     ActionKey{Action::Dither, Key::Digit4, "dither", "dither on or off"},
+    ActionKey{Action::Glare, Key::Digit5, "glare",
+              "look through the next sheet of glasses or screens, or through none"},
     ActionKey{Action::NextLook, Key::T, "next representation",
               "the next representation of the grating under the cursor, or of all"},
     ActionKey{Action::NextDetail, Key::Y, "next detail", "the same representation coarser or finer"},
@@ -88,6 +90,7 @@ const char* group_of(Action action) {
         case Action::Vignette:
         case Action::AutoExposure:
         case Action::Dither:
+        case Action::Glare:
             return "Picture";
         case Action::NextLook:
         case Action::NextDetail:

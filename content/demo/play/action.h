@@ -14,7 +14,7 @@ namespace rowland::demo {
 enum class Action {
     // clang-format off
     Walk, ResetView, PutBack, Pause, SlowMotion, OneStep, AddLight, RemoveLight, TurnLightLeft, TurnLightRight,
-    Lamp, NextProbe, NextView, LessExposure, MoreExposure, Bloom, Vignette, AutoExposure, Dither,
+    Lamp, NextProbe, NextView, LessExposure, MoreExposure, Bloom, Vignette, AutoExposure, Dither, Glare,
     Help, Hud, FrameGraph, NextLook, NextDetail, Wipe, Reference, WritePixel,
     Reload, LinearScreenshot, FullScreen, Screenshot, Close,
     // clang-format on

@@ -1,12 +1,13 @@
 // engine_scene SCENE PROBE PICTURE: a glTF scene, drawn by Rowland's engine. Materials with the extension
-// ROWLAND_materials_diffraction are gratings.
+// ROWLAND_materials_diffraction are gratings, those with KHR_materials_iridescence thin films.
 #include <modules/diffraction/module.h>
+#include <modules/thin_film/module.h>
 
 #include "draw_scene.h"
 
 int main(int argc, char** argv) {
     return draw_scene(argc, argv, [](rowland::render::Renderer& renderer) {
-        using namespace rowland::diffraction;
-        register_module(renderer, {.map_pace = MapPace::Whole});
+        rowland::diffraction::register_module(renderer, {.map_pace = rowland::diffraction::MapPace::Whole});
+        rowland::thin_film::register_module(renderer);
     });
 }

@@ -11,7 +11,7 @@
 
 namespace rowland::web {
 
-/// A probe without its key lights, and these.
+/// A probe, its key lights, once they are found, and its samples without them.
 struct Probe {
     lighting::ProbeImage image;
     std::vector<lighting::KeyLight> keys;
@@ -19,13 +19,17 @@ struct Probe {
 };
 
 /// `texels`: linear Rec.709, row 0 at the top; released here.
-ROWLAND_EXPORT(read_probe) Probe* read_probe(glm::vec3* texels, int width, int height, int key_lights) {
+ROWLAND_EXPORT(read_probe) Probe* read_probe(glm::vec3* texels, int width, int height) {
     image::Image image{width, height, std::vector<glm::vec3>(texels, texels + width * height)};
     std::free(texels);
     auto* probe = new Probe{.image = {std::move(image), lighting::Mapping::Equirectangular}, .keys = {}, .rest = {}};
-    probe->keys = lighting::fit_key_lights(probe->image, key_lights);
     probe->rest = lighting::light_samples(probe->image, probe->keys);
     return probe;
+}
+
+ROWLAND_EXPORT(find_key_lights) void find_key_lights(Probe* probe, int count) {
+    probe->keys = lighting::fit_key_lights(probe->image, count);
+    probe->rest = lighting::light_samples(probe->image, probe->keys);
 }
 
 ROWLAND_EXPORT(release_probe) void release_probe(const Probe* probe) {

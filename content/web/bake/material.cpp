@@ -7,7 +7,6 @@
 #include "engine/colour/light_spectra.h"
 #include "engine/colour/working_space.h"
 #include "engine/core/error.h"
-#include "engine/core/json_reader.h"
 #include "modules/diffraction/asset/layer_weights.h"
 #include "modules/diffraction/representations/direct/direct.h"
 
@@ -25,13 +24,15 @@ const glm::dmat3& xyz_to_working() {
     return matrix;
 }
 
-/// From a material's JSON.
+/// From a material's JSON, as JSON.stringify() gives it.
 ROWLAND_EXPORT(read_material) Material* read_material(const char* json, std::size_t size) {
     auto* material = new Material;
     const std::string name = "material";
-    material->source = diffraction::parse_gltf_extension(parse_json(std::string(json, size), name), name, {});
+    material->source = diffraction::parse_gltf_extension(nlohmann::json::parse({json, size}), name, {});
     if (const auto refusal = diffraction::baked_refusal(material->grating()))
         refuse_input(name, refusal->key, refusal->found, refusal->expected, refusal->remedy);
+    if (material->grating().transmission)
+        refuse_input(name, "/transmission", "a sheet that transmits", "a reflecting grating", "leave it out");
     const diffraction::ColourKernel kernel(material->grating(),
                                            colour::LightSpectra(material->source.material.quality.illuminant));
     material->kernel = tabulate(kernel);

@@ -44,7 +44,9 @@ function redraw(): void {
         renderer.render(scene, camera);
         if (referenceShown.checked) reference.draw();
         document.documentElement.dataset.frames = String(++frames);
+        document.documentElement.dataset.pose = JSON.stringify({ distance: controls.getDistance(), azimuth: controls.getAzimuthalAngle(), turns: meshes.map(({ rotation }) => rotation.y) });
         document.documentElement.dataset.busy = String(rowland.busy);
+        document.documentElement.dataset.lit = String(meshes.filter(({ material }) => material.lit).length);
     });
 }
 
@@ -184,6 +186,7 @@ function filterable(texture: Texture): Texture {
 }
 
 async function light(texture: Texture): Promise<void> {
+    const baked = rowland.setProbe(texture); // beside what follows
     const pmrem = new PMREMGenerator(renderer);
     environment?.dispose();
     environment = pmrem.fromEquirectangular(filterable(texture)).texture;
@@ -192,7 +195,7 @@ async function light(texture: Texture): Promise<void> {
     if (!referenceShown.checked) scene.background = environment;
     scene.backgroundBlurriness = 0.3;
     draw();
-    await rowland.setProbe(texture);
+    await baked;
 }
 
 let shownLight: Texture = builtInLight(LIGHT_NAMES[wanted.light]);

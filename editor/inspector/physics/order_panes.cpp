@@ -44,7 +44,8 @@ double absorbed_fraction(const diffraction::Grating& grating, double wavelength_
 }  // namespace
 
 AngleCurve angle_curve(const diffraction::Grating& grating, double wavelength_nm, double incidence_deg, int samples) {
-    const glm::dvec3 s = direction(incidence_deg);
+    glm::dvec3 s = direction(incidence_deg);
+    if (grating.transmission) s.z = -s.z;
     const auto brdf = [&](double angle_deg) {
         return diffraction::brdf_energy(grating, s, direction(angle_deg), wavelength_nm);
     };

@@ -26,8 +26,8 @@ struct AngleCurve {
     std::vector<OrderPeak> peaks;    ///< the shown orders that leave the surface, ascending angles
 };
 
-/// brdf_energy() (PHYSICS §3) for light from `incidence_deg` and views in the plane across the grooves, both within
-/// ±90°: at about `samples` even angles, with more around each peak.
+/// brdf_energy() (PHYSICS §3) for light from `incidence_deg`, of a sheet from behind, and views in the plane across the
+/// grooves, both within ±90°: at about `samples` even angles, with more around each peak.
 AngleCurve angle_curve(const diffraction::Grating& grating, double wavelength_nm, double incidence_deg,
                        int samples = 721);
 

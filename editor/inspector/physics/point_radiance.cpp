@@ -41,6 +41,7 @@ std::vector<double> spectrum_at(const diffraction::Material& material, const lig
     const diffraction::IncidentLight light(probe);
     const glm::dmat3 to_tangent = diffraction::world_to_tangent(frame);
     const glm::dvec3 view = to_tangent * glm::normalize(frame.view);
+    const glm::dmat3 light_axes = grating.transmission ? diffraction::mirrored_in_surface(to_tangent) : to_tangent;
     std::vector<double> spectrum(colour::kVisibleMax - colour::kVisibleMin + 1, 0.0);
     if (view.z <= 0.0) return spectrum;
     const double passed = diffraction::transmittance(grating.cover, view.z);
@@ -49,7 +50,7 @@ std::vector<double> spectrum_at(const diffraction::Material& material, const lig
         for (const int order : grating.orders) {
             const double a = order * nm / grating.pitch_nm - view.x;
             if (order == 0 || std::abs(a) >= 1.0) continue;
-            const glm::dvec3 arc = arc_profile(light, to_tangent, grating.lobe,
+            const glm::dvec3 arc = arc_profile(light, light_axes, grating.lobe,
                                                {.a = a, .v_h = view.y, .wavelength_nm = nm}, grating.cover);
             spectrum[i] += passed * diffraction::order_efficiency(grating, order, nm, a) * glm::dot(spectra(nm), arc);
         }

@@ -12,6 +12,9 @@
 //   vec3 transmittance(float n_v, float roughness);
 // the fraction of the light that passes on to the diffuse base and, where the surface blends, of what lies behind it.
 // Called before reflect_lobe().
+// If it defines MATERIAL_PASSES_LIGHT, which needs StandardMaterial::passes_light, it also defines
+//   vec3 background_weight();
+// the fraction of what lies behind that is seen through the surface. Called after material_terms().
 // If it defines MATERIAL_DIRECTIONAL_LIGHTS, MATERIAL_PUNCTUAL_LIGHTS or both, it also defines
 //   void material_light(int i, float attenuation, vec3 l, inout vec3 added);
 // which adds to its own radiance that of lights[i], of that kind. `attenuation`: irradiance on a surface that faces the

@@ -2,6 +2,9 @@ TEXTURE_UNIT(0) uniform samplerCube environment_map;
 TEXTURE_UNIT(1) uniform sampler2D brdf_table;
 
 layout(location = 0) out vec4 radiance;
+#ifdef MATERIAL_PASSES_LIGHT
+layout(location = 0, index = 1) out vec4 background;  // what lies behind is multiplied by it
+#endif
 
 const float PI = 3.14159265358979;
 
@@ -126,7 +129,10 @@ void main() {
     sum += terms.mirror_weight * mirrored_light(reflect(-v, n));
 #endif
 #endif
-#if defined(ALPHA_BLEND) && defined(MATERIAL_TRANSMITTANCE)
+#ifdef MATERIAL_PASSES_LIGHT
+    radiance = vec4(sum, 1.0);
+    background = vec4(background_weight(), 0.0);
+#elif defined(ALPHA_BLEND) && defined(MATERIAL_TRANSMITTANCE)
     radiance = vec4(sum / max(base.a, 1e-4), base.a);  // blending multiplies by alpha; reflections are whole already
 #elif defined(ALPHA_BLEND)
     radiance = vec4(sum, base.a);

@@ -15,6 +15,7 @@
 #include "engine/core/error.h"
 #include "engine/core/json_reader.h"
 #include "modules/diffraction/asset/efficiency_csv.h"
+#include "modules/diffraction/asset/height_map_png.h"
 #include "modules/diffraction/asset/layer_weights.h"
 
 namespace rowland::diffraction {
@@ -31,6 +32,9 @@ NamedTexts named_texts(const nlohmann::json& json, const Material& material) {
     NamedTexts texts;
     if (const auto* efficiencies = std::get_if<EfficiencyTable>(&material.grating.profile))
         texts[json["grating"]["profile"]["file"].get<std::string>()] = write_efficiency_csv(*efficiencies);
+    if (const auto& lattice = material.grating.lattice)
+        if (const auto* heights = std::get_if<HeightMap>(&lattice->profile))
+            texts[json["grating"]["profile"]["file"].get<std::string>()] = write_height_map(*heights);
     const colour::Illuminant& illuminant = material.quality.illuminant;
     if (illuminant.name.ends_with(".csv")) texts[illuminant.name] = write_illuminant_csv(illuminant);
     return texts;
@@ -90,6 +94,20 @@ KernelTable read_kernel(ByteReader& reader) {
     return kernel;
 }
 
+void write_baked(const CookedMaterial& cooked, ByteWriter& writer) {
+    write_kernel(cooked.kernel, writer);
+    const glm::mat3 zero_order(cooked.zero_order_xyz);
+    write_matrices({&zero_order, 1}, writer);
+    write_tables(cooked.tables, writer);
+}
+
+/// What write_baked() writes, for cooked.material.
+void read_baked(ByteReader& reader, CookedMaterial& cooked) {
+    cooked.kernel = read_kernel(reader);
+    cooked.zero_order_xyz = glm::dmat3(read_matrices(reader, "zero order", 1, 1)[0]);
+    cooked.tables = read_tables(reader, representation(cooked.material));
+}
+
 }  // namespace
 
 void require_baked_grooves(const Grating& grating, const std::string& file) {
@@ -108,7 +126,16 @@ CookedMaterial bake_kernel(const Material& material) {
 CookedMaterial bake_material(const Material& material) {
     CookedMaterial cooked = bake_kernel(material);
     cooked.tables = bake_tables(material.grating, representation(material));
+    cooked.reflected = bake_reflected_side(material);
     return cooked;
+}
+
+std::shared_ptr<const CookedMaterial> bake_reflected_side(const Material& material) {
+    const std::optional<Grating> side = reflected_side(material.grating);
+    if (!side) return nullptr;
+    Material reflecting = material;
+    reflecting.grating = *side;
+    return std::make_shared<const CookedMaterial>(bake_material(reflecting));
 }
 
 CookedMaterial cook_material(const nlohmann::json& json, const std::string& file, const ReadNamed& read) {
@@ -125,10 +152,8 @@ std::vector<std::byte> write_cooked_material(const nlohmann::json& json, const C
     ByteWriter writer;
     writer.text(json.dump());
     write_named(named_texts(json, cooked.material), writer);
-    write_kernel(cooked.kernel, writer);
-    const glm::mat3 zero_order(cooked.zero_order_xyz);
-    write_matrices({&zero_order, 1}, writer);
-    write_tables(cooked.tables, writer);
+    write_baked(cooked, writer);
+    if (cooked.reflected) write_baked(*cooked.reflected, writer);
     writer.text(cooked.measured ? write_budget_record(*cooked.measured) : std::string());
     return writer.take();
 }
@@ -138,9 +163,14 @@ CookedMaterial read_cooked_material(std::span<const std::byte> payload, const st
     CookedMaterial cooked;
     const nlohmann::json json = parse_json(reader.text(), file);
     cooked.material = parse_material(json, file, read_among(read_named(reader), file));
-    cooked.kernel = read_kernel(reader);
-    cooked.zero_order_xyz = glm::dmat3(read_matrices(reader, "zero order", 1, 1)[0]);
-    cooked.tables = read_tables(reader, representation(cooked.material));
+    read_baked(reader, cooked);
+    if (const auto side = reflected_side(cooked.material.grating)) {
+        auto reflected = std::make_shared<CookedMaterial>();
+        reflected->material = cooked.material;
+        reflected->material.grating = *side;
+        read_baked(reader, *reflected);
+        cooked.reflected = std::move(reflected);
+    }
     if (const std::string record = reader.text(); !record.empty()) cooked.measured = parse_budget_record(record, file);
     if (reader.remaining() != 0) reader.fail(fmt::format("{} bytes too many", reader.remaining()), "the end");
     return cooked;
@@ -190,8 +220,14 @@ std::string describe(const CookedMaterial& cooked) {
     const Grating& grating = cooked.material.grating;
     const LayerWeights weights = layer_weights(grating, cooked.material.quality.illuminant);
     Lines lines;
-    lines.add("pitch_nm", grating.pitch_nm);
-    lines.add("orders", fmt::format("{}", fmt::join(grating.orders, " ")));
+    if (const auto& lattice = grating.lattice) {
+        lines.add("a_nm", fmt::format("{} {}", lattice->a_nm.x, lattice->a_nm.y));
+        lines.add("b_nm", fmt::format("{} {}", lattice->b_nm.x, lattice->b_nm.y));
+        lines.add("orders", lattice->orders);
+    } else {
+        lines.add("pitch_nm", grating.pitch_nm);
+        lines.add("orders", fmt::format("{}", fmt::join(grating.orders, " ")));
+    }
     lines.add("representation", info(cooked.tables).name);
     lines.add("illuminant", cooked.material.quality.illuminant.name);
     lines.add("key_lights", cooked.material.quality.key_lights);

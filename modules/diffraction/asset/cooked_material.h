@@ -27,7 +27,11 @@ struct CookedMaterial {
     KernelTable kernel;                      ///< for analytic lights, key lights, and maps filled at run time
     glm::dmat3 zero_order_xyz{0.0};          ///< ColourKernel::zero_order_xyz()
     std::optional<BudgetRecord> measured{};  ///< if the representation was chosen for max_error
+    std::shared_ptr<const CookedMaterial> reflected = nullptr;  ///< reflected_side(), with the same quality; null: none
 };
+
+/// The material of reflected_side(), baked as the other side is; null without one.
+std::shared_ptr<const CookedMaterial> bake_reflected_side(const Material& material);
 
 /// Throws Error (input) naming `file` for fewer grooves than baked materials have.
 void require_baked_grooves(const Grating& grating, const std::string& file);
@@ -44,8 +48,8 @@ CookedMaterial cook_material(const nlohmann::json& json, const std::string& file
 CookedMaterial cook_material(const nlohmann::json& json, const std::string& file);
 
 /// The payload of a cooked material: the source as compact JSON with the chosen representation pinned, the CSV files
-/// that it names, the kernel, the representation's number and tables, and the record of the choice (else empty text).
-/// It needs no other file.
+/// that it names, the kernel, the representation's number and tables, those of a sheet's reflected side, and the record
+/// of the choice (else empty text). It needs no other file.
 std::vector<std::byte> write_cooked_material(const nlohmann::json& json, const CookedMaterial& cooked);
 
 /// Inverse of write_cooked_material for untrusted bytes. Throws Error (input).

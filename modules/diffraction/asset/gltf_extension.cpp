@@ -49,6 +49,9 @@ GltfGrating parse_gltf_extension(const nlohmann::json& json, const std::string& 
     result.has_base = reader.has("base");
     result.groove_rotation = reader.number_or("grooveRotation", 0.0, {});
     if (auto texture = reader.object_if_there("grooveTexture")) result.groove_texture = parse_groove_texture(*texture);
+    if (result.groove_texture && result.material.grating.lattice)
+        reader.fail("grooveTexture", "a groove texture on a lattice", "no grooveTexture",
+                    "it varies grooves of one direction");
     allow_foreign_members(reader);
     reader.finish();
     return result;

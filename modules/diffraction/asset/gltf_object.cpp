@@ -50,7 +50,8 @@ void move_named_files(OrderedJson& object, const std::filesystem::path& from, co
 
 std::string describe(const GltfGrating& grating) {
     const Grating& grooves = grating.material.grating;
-    std::string text = fmt::format("{:g} nm {}", grooves.pitch_nm, profile_descriptors()[grooves.profile.index()].name);
+    std::string text = fmt::format("{:g} nm {}", grooves.pitch_nm,
+                                   grooves.lattice ? "lattice" : profile_descriptors()[grooves.profile.index()].name);
     if (grating.groove_rotation != 0.0)
         text += fmt::format(", grooves turned by {:.4g} degrees", grating.groove_rotation * 180.0 / std::numbers::pi);
     if (grating.groove_texture) text += fmt::format(", groove texture {}", grating.groove_texture->index);

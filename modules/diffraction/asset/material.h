@@ -44,7 +44,8 @@ struct Material {
     Quality quality;
 };
 
-/// The representation to bake: the pinned one, else spikes. A cooker pins the one that it chooses for max_error.
+/// The representation to bake: the pinned one, else spikes, of a lattice planar. A cooker pins the one that it chooses
+/// for max_error.
 Representation representation(const Material& material);
 
 }  // namespace rowland::diffraction

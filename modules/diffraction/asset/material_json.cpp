@@ -7,8 +7,9 @@
 
 #include "engine/core/file.h"
 #include "engine/core/json_reader.h"
-#include "modules/diffraction/asset/efficiency_csv.h"
+#include "modules/diffraction/asset/lattice_json.h"
 #include "modules/diffraction/asset/material_parts.h"
+#include "modules/diffraction/asset/profile_json.h"
 #include "modules/diffraction/asset/quality_json.h"
 #include "modules/diffraction/model/grating_equation.h"
 
@@ -25,37 +26,6 @@ constexpr double kLargestPitchOfAll_nm = 190000.0;
 
 /// Longer than any pit; ℓ/λ periods can still be integrated.
 constexpr double kLongestPit_nm = 100000.0;
-
-EfficiencyTable parse_table(JsonReader& json, const char* key, const ReadNamed& read) {
-    const std::string name = json.text(key);
-    if (name.empty()) json.fail(key, "an empty name", "a CSV file of efficiencies");
-    const NamedText table = read(name);
-    return parse_efficiency_csv(table.text, table.file);
-}
-
-NumberRange range_of(const ProfileMember& member, double pitch_nm) {
-    return {.minimum = 0.0,
-            .maximum = member.within_pitch ? pitch_nm : member.less_than,
-            .minimum_open = true,
-            .maximum_open = !member.within_pitch && std::isfinite(member.less_than)};
-}
-
-Profile parse_profile(JsonReader json, double pitch_nm, const ReadNamed& read) {
-    const std::span<const ProfileDescriptor> descriptors = profile_descriptors();
-    std::vector<std::string_view> names;
-    for (const ProfileDescriptor& descriptor : descriptors) names.push_back(descriptor.name);
-    const std::string type = json.choice("type", names);
-    const auto named = std::find(names.begin(), names.end(), type) - names.begin();
-    Profile profile = descriptors[static_cast<std::size_t>(named)].empty;
-    for (const ProfileMember& member : descriptors[static_cast<std::size_t>(named)].members) {
-        if (member.value == nullptr)
-            profile = parse_table(json, member.key, read);
-        else
-            member.value(profile) = json.number(member.key, range_of(member, pitch_nm));
-    }
-    json.finish();
-    return profile;
-}
 
 std::vector<int> parse_orders(JsonReader& json, double pitch_nm) {
     const nlohmann::json& value = json.raw("orders");
@@ -124,6 +94,11 @@ void check_few_grooves(JsonReader& json, const Grating& grating) {
 
 Grating parse_grating(JsonReader json, const ReadNamed& read) {
     Grating grating;
+    if (json.has("lattice")) {
+        grating = parse_lattice_grating(json, read);
+        json.finish();
+        return grating;
+    }
     grating.pitch_nm = json.number("pitch_nm", {.minimum = 1.0, .maximum = 1e7});
     grating.profile = parse_profile(json.object("profile"), grating.pitch_nm, read);
     grating.grooves = json.number_or("grooves", grating.grooves, {.minimum = 1.0, .maximum = 1e9});
@@ -156,6 +131,25 @@ Cover parse_cover(JsonReader json, const Profile& profile) {
     return cover;
 }
 
+Transmission parse_transmission(JsonReader json, const Profile& profile) {
+    const Transmission transmission{.ior = json.number("ior", kIor),
+                                    .reflectance = json.number_or("reflectance", 0.0, kUnit)};
+    if (transmission.reflectance > 0.0 && std::holds_alternative<EfficiencyTable>(profile))
+        json.fail("reflectance", "a reflectance beside a table of efficiencies", "no reflectance",
+                  "the table's efficiencies are those of the transmitted orders");
+    json.finish();
+    return transmission;
+}
+
+/// A sheet whose grooves lie in air.
+void refuse_beside_transmission(JsonReader& json) {
+    if (json.has("metal"))
+        json.fail("metal", "a metal beside a transmission", "no metal", "a sheet that transmits light has none");
+    if (json.has("cover"))
+        json.fail("cover", "a cover beside a transmission", "no cover",
+                  "for grooves in another medium, ior is 1 plus the difference of the two indices");
+}
+
 BaseLayer parse_base(JsonReader json) {
     BaseLayer base;
     if (json.has("color")) {
@@ -167,10 +161,17 @@ BaseLayer parse_base(JsonReader json) {
     return base;
 }
 
+Representation default_representation(const Grating& grating) {
+    if (!grating.lattice) return SpikeTableSettings{};
+    const nlohmann::json settings = {{"map_resolution", 128}};  // an eighth of the memory of planar's own default
+    JsonReader reader(settings, "defaults");
+    return PlanarSettings::from(SettingValues(PlanarSettings::info(), reader), grating);
+}
+
 }  // namespace
 
 Representation representation(const Material& material) {
-    Representation result = material.quality.pinned.value_or(SpikeTableSettings{});
+    Representation result = material.quality.pinned.value_or(default_representation(material.grating));
     set_illuminant(result, material.quality.illuminant);
     return result;
 }
@@ -185,6 +186,10 @@ Material parse_material_parts(JsonReader& reader, const ReadNamed& read) {
         material.grating.metal = colour::parse_metal(reader.choice("metal", {"Al", "Ag", "Au", "Cu"}));
     }
     if (reader.has("cover")) material.grating.cover = parse_cover(reader.object("cover"), material.grating.profile);
+    if (reader.has("transmission")) {
+        refuse_beside_transmission(reader);
+        material.grating.transmission = parse_transmission(reader.object("transmission"), material.grating.profile);
+    }
     if (reader.has("base")) material.base = parse_base(reader.object("base"));
     if (reader.has("quality")) material.quality = parse_quality(reader.object("quality"), material.grating, read);
     return material;

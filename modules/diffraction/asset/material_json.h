@@ -16,8 +16,8 @@ struct NamedText {
     std::string file;
 };
 
-/// Reads a file that a material names: "file" of a table profile, "illuminant" of its quality. Throws Error (input) if
-/// it cannot.
+/// Reads a file that a material names: "file" of a table or a height map, "illuminant" of its quality. Throws Error
+/// (input) if it cannot.
 using ReadNamed = std::function<NamedText(const std::string& name)>;
 
 /// The largest file that a material may name.

@@ -24,12 +24,13 @@ struct BlurredKernel {
     int levels_per_octave = kLevelsPerOctave;
     std::vector<glm::mat3> values;  ///< per nm; level by level
 
-    /// Interpolated as the texture unit does. 0 at the table's ends.
+    /// Interpolated as the texture unit does. 0 at the table's ends. At least as wide as a column.
     glm::dmat3 at(double x_nm, double deviation_nm) const;
 };
 
-/// σ from 4 nm to at least `widest_nm` ≥ 4; x to 4σ beyond the kernel. Where σ is wider than the kernel's features,
-/// values are as 1/σ, and n levels an octave are off by (ln 2/n)²/8 between them: 1.5 % for 2, .1 % for 8.
+/// σ from 1 nm to at least `widest_nm` ≥ 1; x to 4σ beyond the kernel. A value is what at() is to give for σ: the
+/// stencil is narrower by what columns and interpolation add. Where σ is wider than the kernel's features, values are
+/// as 1/σ, and n levels an octave are off by (ln 2/n)²/8 between them: 1.5 % for 2, .1 % for 8.
 BlurredKernel blur(const KernelTable& kernel, double widest_nm, int columns = 2048,
                    int levels_per_octave = kLevelsPerOctave);
 

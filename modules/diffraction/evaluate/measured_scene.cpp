@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <optional>
 #include <variant>
 
@@ -9,6 +10,18 @@
 #include "modules/diffraction/evaluate/point_shader.h"
 
 namespace rowland::diffraction {
+
+namespace {
+
+/// A planar material as curved surfaces show it.
+CookedMaterial with_stand_in(const CookedMaterial& cooked) {
+    CookedMaterial result = cooked;
+    result.tables = *std::get<PlanarTables>(cooked.tables).stand_in;
+    if (cooked.reflected) result.reflected = std::make_shared<const CookedMaterial>(with_stand_in(*cooked.reflected));
+    return result;
+}
+
+}  // namespace
 
 bool is_flat(const Surface& surface) {
     constexpr double kSameNormal = 1.0 - 1e-9;
@@ -22,10 +35,7 @@ std::vector<glm::dvec3> shade_surfaces(const CookedMaterial& cooked, const Evalu
     std::vector<glm::dvec3> result;
     for (const Surface& surface : surfaces) {
         std::optional<CookedMaterial> stand_in;
-        if (const auto* planar = std::get_if<PlanarTables>(&cooked.tables); planar != nullptr && !is_flat(surface)) {
-            stand_in = cooked;
-            stand_in->tables = *planar->stand_in;
-        }
+        if (std::holds_alternative<PlanarTables>(cooked.tables) && !is_flat(surface)) stand_in = with_stand_in(cooked);
         const std::vector<glm::dvec3> part = evaluate_baked(stand_in ? *stand_in : cooked, light, surface);
         result.insert(result.end(), part.begin(), part.end());
     }

@@ -27,7 +27,9 @@ PointComparison PointComparer::compare(const std::shared_ptr<const CookedMateria
     const std::array points{frame};
     const colour::LightSpectra spectra(cooked->material.quality.illuminant);
     PointComparison result;
-    result.shown = evaluate_points(info(cooked->tables).name, ready_->shader, *cooked, lit, points)[0];
+    std::vector<glm::dvec3> shown = evaluate_points(info(cooked->tables).name, ready_->shader, *cooked, lit, points);
+    add_reflected_side(*cooked, lit, points, shown);
+    result.shown = shown[0];
     result.reference = reference_radiance(cooked->material.grating, *probe_, spectra, points)[0];
     result.error = relative_rms(std::span(&result.shown, 1), std::span(&result.reference, 1));
     return result;

@@ -1,5 +1,6 @@
 #include "modules/diffraction/evaluate/point_shader.h"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <memory>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "engine/core/progress.h"
 #include "engine/math/sh_rotation.h"
 #include "modules/diffraction/representations/direct/direct.h"
+#include "modules/diffraction/representations/direct/pattern_light.h"
 #include "modules/diffraction/representations/streak/streak.h"
 
 namespace rowland::diffraction {
@@ -37,6 +39,28 @@ DirectPart direct_part(const CookedMaterial& cooked, const EvaluationLight& ligh
     return part;
 }
 
+/// XYZ of the probe's key lights. The shader refers to `cooked`.
+PointShader key_light_shader(const CookedMaterial& cooked, const EvaluationLight& light) {
+    DirectPart direct = direct_part(cooked, light);
+    if (direct.keys.empty()) return [](const ShadingPoint&) { return glm::dvec3(0.0); };
+    const Material& material = cooked.material;
+    if (material.grating.lattice)
+        return [picture = pattern_picture(material.grating, colour::LightSpectra(material.quality.illuminant)),
+                direct = std::move(direct)](const ShadingPoint& frame) {
+            return pattern_radiance(picture, direct.material.cover, direct.keys, frame);
+        };
+    return [&cooked, direct = std::move(direct)](const ShadingPoint& frame) {
+        return direct_radiance(cooked.kernel, direct.material, direct.keys, frame);
+    };
+}
+
+/// The points as they are shaded: those of a sheet that transmits from behind.
+std::vector<ShadingPoint> lit_points(const Grating& grating, std::span<const ShadingPoint> frames) {
+    std::vector<ShadingPoint> points(frames.begin(), frames.end());
+    if (grating.transmission) std::transform(points.begin(), points.end(), points.begin(), lit_from_behind);
+    return points;
+}
+
 /// T(v_n) of a point.
 double seen_through(const std::optional<Cover>& cover, const ShadingPoint& frame) {
     return cover ? transmittance(cover, glm::dot(glm::normalize(frame.view), glm::normalize(frame.normal))) : 1.0;
@@ -47,12 +71,13 @@ double seen_through(const std::optional<Cover>& cover, const ShadingPoint& frame
 std::vector<glm::dvec3> evaluate_points(const std::string& title, const PointShader& shader,
                                         const CookedMaterial& cooked, const EvaluationLight& light,
                                         std::span<const ShadingPoint> frames) {
-    const DirectPart direct = direct_part(cooked, light);
-    std::vector<glm::dvec3> result(frames.size());
-    Progress progress(title, frames.size());
-    parallel_for(frames.size(), [&](std::size_t i) {
-        result[i] = shader(frames[i]) + direct_radiance(cooked.kernel, direct.material, direct.keys, frames[i]);
-        result[i] *= seen_through(direct.material.cover, frames[i]);
+    const PointShader key_lights = key_light_shader(cooked, light);
+    const std::vector<ShadingPoint> points = lit_points(cooked.material.grating, frames);
+    std::vector<glm::dvec3> result(points.size());
+    Progress progress(title, points.size());
+    parallel_for(points.size(), [&](std::size_t i) {
+        result[i] = shader(points[i]) + key_lights(points[i]);
+        result[i] *= seen_through(cooked.material.grating.cover, points[i]);
         progress.advance();
     });
     return result;
@@ -66,24 +91,43 @@ PointShader baked_shader(const CookedMaterial& cooked, const EvaluationLight& li
     return std::visit([&](const auto& tables) { return point_shader(tables, kernel, light); }, cooked.tables);
 }
 
-std::vector<glm::dvec3> evaluate_baked(const CookedMaterial& cooked, const EvaluationLight& light,
-                                       std::span<const ShadingPoint> frames) {
+namespace {
+
+std::vector<glm::dvec3> evaluate_side(const CookedMaterial& cooked, const EvaluationLight& light,
+                                      std::span<const ShadingPoint> frames) {
     const PointShader shader = baked_shader(cooked, light);
     const std::string title = info(cooked.tables).name;
     if (!info(cooked.tables).needs_flat_surface) return evaluate_points(title, shader, cooked, light, frames);
     // All cores fill a plane's map, so the points are shaded one after the other.
-    std::vector<glm::dvec3> maps(frames.size());
-    Progress progress(title, frames.size());
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-        maps[i] = shader(frames[i]);
+    const std::vector<ShadingPoint> points = lit_points(cooked.material.grating, frames);
+    std::vector<glm::dvec3> maps(points.size());
+    Progress progress(title, points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        maps[i] = shader(points[i]);
         progress.advance();
     }
-    const DirectPart direct = direct_part(cooked, light);
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-        maps[i] += direct_radiance(cooked.kernel, direct.material, direct.keys, frames[i]);
-        maps[i] *= seen_through(direct.material.cover, frames[i]);
+    const PointShader key_lights = key_light_shader(cooked, light);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        maps[i] += key_lights(points[i]);
+        maps[i] *= seen_through(cooked.material.grating.cover, points[i]);
     }
     return maps;
+}
+
+}  // namespace
+
+void add_reflected_side(const CookedMaterial& cooked, const EvaluationLight& light,
+                        std::span<const ShadingPoint> frames, std::vector<glm::dvec3>& xyz) {
+    if (!cooked.reflected) return;
+    const std::vector<glm::dvec3> reflected = evaluate_side(*cooked.reflected, light, frames);
+    for (std::size_t i = 0; i < xyz.size(); ++i) xyz[i] += reflected[i];
+}
+
+std::vector<glm::dvec3> evaluate_baked(const CookedMaterial& cooked, const EvaluationLight& light,
+                                       std::span<const ShadingPoint> frames) {
+    std::vector<glm::dvec3> xyz = evaluate_side(cooked, light, frames);
+    add_reflected_side(cooked, light, frames, xyz);
+    return xyz;
 }
 
 PointShader exact_spikes(const Grating& grating, const SpikeSettings& settings, const EvaluationLight& light) {

@@ -98,6 +98,7 @@ class Search {
             CookedMaterial cooked = unbaked_;
             cooked.material.quality = choice.quality;
             cooked.tables = bake_tables(cooked.material.grating, representation(cooked.material));
+            cooked.reflected = bake_reflected_side(cooked.material);
             known = std::make_shared<const CookedMaterial>(std::move(cooked));
         }
         choice.baked = known;

@@ -32,9 +32,10 @@ double path_density(const Grating& grating, double path_nm, double wavelength_nm
 }
 
 double brdf_energy(const Grating& grating, const glm::dvec3& s, const glm::dvec3& v, double wavelength_nm) {
-    if (s.z <= 0.0 || v.z <= 0.0) return 0.0;
+    const double s_n = grating.transmission ? -s.z : s.z;
+    if (s_n <= 0.0 || v.z <= 0.0) return 0.0;
     return grating.pitch_nm * path_density(grating, grating.pitch_nm * (s.x + v.x), wavelength_nm, s.x) *
-           lobe_density(grating.lobe, s.y + v.y, wavelength_nm) * transmittance(grating.cover, s.z) *
+           lobe_density(grating.lobe, s.y + v.y, wavelength_nm) * transmittance(grating.cover, s_n) *
            transmittance(grating.cover, v.z);
 }
 

@@ -18,8 +18,8 @@ double path_density(const Grating& grating, double path_nm, double wavelength_nm
 
 /// The energy-conserving BRDF at one pair of directions, with the true width of N grooves (PHYSICS §3):
 /// f_E = d · path_density(d u, λ) · D_h(s_h + v_h) · T(s_n) T(v_n), T of the cover; 0 if a direction is below the
-/// surface. Reciprocal, but for tables of several incidences that are not. With the "agu" normalisation
-/// order_efficiency()'s factor is included.
+/// surface or, of a sheet's transmitted side, the light is above it. Reciprocal, but for tables of several incidences
+/// that are not. With the "agu" normalisation order_efficiency()'s factor is included.
 double brdf_energy(const Grating& grating, const glm::dvec3& s, const glm::dvec3& v, double wavelength_nm);
 
 }  // namespace rowland::diffraction

@@ -1,5 +1,6 @@
 #include "modules/diffraction/model/efficiency.h"
 
+#include <algorithm>
 #include <glm/matrix.hpp>
 
 #include "engine/colour/observer.h"
@@ -9,9 +10,11 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// The wavelength in the medium that the grooves lie in, which sets the phase of a groove's depth. A table's is in air.
+/// The wavelength at which 4π depth/λ is the phase of a groove's depth: that in the medium that the grooves lie in or,
+/// for light that passes a sheet, PHYSICS (42); infinite for a sheet of index 1. A table's is in air.
 double groove_wavelength(const Grating& grating, double wavelength_nm) {
     if (std::holds_alternative<EfficiencyTable>(grating.profile)) return wavelength_nm;
+    if (grating.transmission) return 2.0 * wavelength_nm / (grating.transmission->ior - 1.0);
     return wavelength_nm / groove_medium(grating.cover);
 }
 
@@ -22,10 +25,18 @@ double normalization_factor(const Grating& grating, double wavelength_nm) {
     return wavelength_nm / kAguWavelength_nm;
 }
 
+/// +1, or −1 where an order is that of the other sign of the profile: a sheet is thickest where its reflecting relief
+/// is least deep.
+int order_sign(const Grating& grating) {
+    return grating.side_reflectance ? -1 : 1;
+}
+
 }  // namespace
 
 double reflectance(const Grating& grating, double wavelength_nm) {
     if (std::holds_alternative<EfficiencyTable>(grating.profile)) return 1.0;
+    if (grating.transmission) return 1.0 - grating.transmission->reflectance;
+    if (grating.side_reflectance) return *grating.side_reflectance;
     const double metal =
         grating.metal ? colour::metal_reflectance(*grating.metal, wavelength_nm, groove_medium(grating.cover)) : 1.0;
     return metal * dye_transmittance(grating.cover, wavelength_nm);
@@ -33,16 +44,29 @@ double reflectance(const Grating& grating, double wavelength_nm) {
 
 double order_efficiency(const Grating& grating, int order, double wavelength_nm, double s_g) {
     return reflectance(grating, wavelength_nm) * normalization_factor(grating, wavelength_nm) *
-           profile_efficiency(grating.profile, grating.pitch_nm, order, groove_wavelength(grating, wavelength_nm), s_g);
+           profile_efficiency(grating.profile, grating.pitch_nm, order_sign(grating) * order,
+                              groove_wavelength(grating, wavelength_nm), s_g);
 }
 
 double fractional_order_efficiency(const Grating& grating, double fractional_order, double wavelength_nm) {
     return reflectance(grating, wavelength_nm) * normalization_factor(grating, wavelength_nm) *
-           groove_spectrum(grating.profile, grating.pitch_nm, fractional_order,
+           groove_spectrum(grating.profile, grating.pitch_nm, order_sign(grating) * fractional_order,
                            groove_wavelength(grating, wavelength_nm));
 }
 
+std::vector<double> lattice_order_efficiencies(const Grating& grating, double wavelength_nm) {
+    std::vector<double> orders = lattice_efficiencies(*grating.lattice, groove_wavelength(grating, wavelength_nm));
+    const double reflected = reflectance(grating, wavelength_nm);
+    for (double& efficiency : orders) efficiency *= reflected;
+    if (order_sign(grating) < 0) std::reverse(orders.begin(), orders.end());
+    return orders;
+}
+
 double zero_order_efficiency(const Grating& grating, double wavelength_nm) {
+    if (grating.lattice) {
+        const std::vector<double> orders = lattice_order_efficiencies(grating, wavelength_nm);
+        return orders[orders.size() / 2];
+    }
     return reflectance(grating, wavelength_nm) *
            profile_efficiency(grating.profile, grating.pitch_nm, 0, groove_wavelength(grating, wavelength_nm));
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/mat3x3.hpp>
+#include <vector>
 
 #include "engine/colour/light_spectra.h"
 #include "modules/diffraction/model/grating.h"
@@ -8,7 +9,8 @@
 namespace rowland::diffraction {
 
 /// R(λ): the metal's reflectance in the medium over it, times what a cover's dye passes twice. 1 for a table of
-/// efficiencies, which was measured with both.
+/// efficiencies, which was measured with both. Of a sheet, the fraction that it transmits; of its reflected side, the
+/// rest.
 double reflectance(const Grating& grating, double wavelength_nm);
 
 /// The weight of order m at wavelength λ in the diffraction term: R(λ) η_m(λ), for the "agu" normalisation times
@@ -21,7 +23,11 @@ double order_efficiency(const Grating& grating, int order, double wavelength_nm,
 /// contract violation for tables.
 double fractional_order_efficiency(const Grating& grating, double fractional_order, double wavelength_nm);
 
-/// R(λ) η_0(λ): the fraction of the power in the mirror reflection, whatever the normalisation.
+/// R(λ) η_mk(λ) of a grating with a lattice, in the order of lattice_efficiencies().
+std::vector<double> lattice_order_efficiencies(const Grating& grating, double wavelength_nm);
+
+/// R(λ) η_0(λ): the fraction of the power in the mirror reflection or, of a sheet, straight through, whatever the
+/// normalisation.
 double zero_order_efficiency(const Grating& grating, double wavelength_nm);
 
 /// cmf(λ) E(λ)ᵀ per nm, linear RGB in, XYZ out: what a sum over wavelengths multiplies the efficiency with.

@@ -25,6 +25,12 @@ double square(double x) {
     return x * x;
 }
 
+/// J_order(z), order ≥ 0. By POSIX: std::cyl_bessel_j of libstdc++ is not a number at high orders, nor from z = 1000
+/// on.
+double bessel_j(int order, double z) {
+    return ::jn(order, z);
+}
+
 /// Phase φ between light from the top and from the bottom of a groove, in turns, at normal incidence and diffraction.
 double phase_turns(double depth_nm, double wavelength_nm) {
     return 2.0 * depth_nm / wavelength_nm;
@@ -43,7 +49,7 @@ double efficiency(const LamellarProfile& lamellar, double, int order, double wav
 }
 
 double efficiency(const SinusoidalProfile& sinusoidal, double, int order, double wavelength_nm, double) {
-    return square(std::cyl_bessel_j(std::abs(order), pi * phase_turns(sinusoidal.depth_nm, wavelength_nm)));
+    return square(bessel_j(std::abs(order), pi * phase_turns(sinusoidal.depth_nm, wavelength_nm)));
 }
 
 double efficiency(const BlazedProfile& blazed, double, int order, double wavelength_nm, double) {
@@ -70,11 +76,11 @@ double spectrum(const SinusoidalProfile& sinusoidal, double, double x, double wa
     // Jacobi–Anger: exp(iz cos θ) = Σ_k i^k J_k(z) exp(ikθ). J_k is below 1e-16 from k = z + 6 z^⅓ + 16 on.
     const double z = pi * phase_turns(sinusoidal.depth_nm, wavelength_nm);
     const int last = static_cast<int>(z + 6.0 * std::cbrt(z)) + 16;
-    std::complex<double> sum = std::cyl_bessel_j(0, z) * sinc(x);
+    std::complex<double> sum = bessel_j(0, z) * sinc(x);
     std::complex<double> power = 1.0;
     for (int k = 1; k <= last; ++k) {
         power *= std::complex<double>(0.0, 1.0);
-        sum += power * (std::cyl_bessel_j(k, z) * (sinc(x - k) + sinc(x + k)));
+        sum += power * (bessel_j(k, z) * (sinc(x - k) + sinc(x + k)));
     }
     return std::norm(sum);
 }

@@ -45,6 +45,10 @@ const math::QuadratureRule& panel_rule(int nodes) {
 
 }  // namespace
 
+glm::dmat3 mirrored_in_surface(const glm::dmat3& world_to_tangent) {
+    return glm::dmat3(glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, -1)) * world_to_tangent;
+}
+
 glm::dvec3 arc_profile(const IncidentLight& light, const glm::dmat3& world_to_tangent, const GrooveLobe& lobe,
                        const Arc& arc, const std::optional<Cover>& cover) {
     if (std::abs(arc.a) >= 1.0) return glm::dvec3(0.0);

@@ -8,6 +8,7 @@
 #include "engine/core/progress.h"
 #include "modules/diffraction/model/efficiency.h"
 #include "modules/diffraction/reference/arc_profile.h"
+#include "modules/diffraction/reference/lattice_radiance.h"
 #include "modules/diffraction/reference/path_weights.h"
 
 namespace rowland::diffraction {
@@ -32,6 +33,7 @@ glm::dvec3 frame_radiance(const IncidentLight& light, const Grating& grating, co
     const glm::dmat3 tangent = world_to_tangent(frame);
     const glm::dvec3 v = tangent * glm::normalize(frame.view);
     if (v.z <= 0.0) return glm::dvec3(0.0);
+    const glm::dmat3 light_axes = grating.transmission ? mirrored_in_surface(tangent) : tangent;
     glm::dvec3 xyz(0.0);
     // All wavelengths of order 0 have the same arc: it is integrated once.
     double last_arc = 2.0;
@@ -40,7 +42,7 @@ glm::dvec3 frame_radiance(const IncidentLight& light, const Grating& grating, co
         const double a = weights[i].path_nm / grating.pitch_nm - v.x;
         if (a <= -1.0 || a >= 1.0) continue;
         if (a != last_arc || !is_flat(grating.lobe))
-            profile = arc_profile(light, tangent, grating.lobe,
+            profile = arc_profile(light, light_axes, grating.lobe,
                                   {.a = a,
                                    .v_h = v.y,
                                    .wavelength_nm = weights[i].wavelength_nm,
@@ -53,9 +55,10 @@ glm::dvec3 frame_radiance(const IncidentLight& light, const Grating& grating, co
     return transmittance(grating.cover, v.z) * xyz;
 }
 
-std::vector<glm::dvec3> radiance(const Grating& grating, const IncidentLight& light,
-                                 const colour::LightSpectra& spectra, std::span<const ShadingPoint> frames,
-                                 int refinement) {
+std::vector<glm::dvec3> side_radiance(const Grating& grating, const IncidentLight& light,
+                                      const colour::LightSpectra& spectra, std::span<const ShadingPoint> frames,
+                                      int refinement) {
+    if (grating.lattice) return lattice_radiance(grating, light, spectra, frames, refinement);
     const std::vector<PathWeight> weights = path_weights(grating, spectra, light.panel_angle, refinement);
     std::vector<glm::dvec3> result(frames.size());
     Progress progress(refinement == 1 ? "reference" : "reference, finer", frames.size());
@@ -63,6 +66,18 @@ std::vector<glm::dvec3> radiance(const Grating& grating, const IncidentLight& li
         result[i] = frame_radiance(light, grating, weights, frames[i], refinement);
         progress.advance();
     });
+    return result;
+}
+
+/// Of both sides of a sheet.
+std::vector<glm::dvec3> radiance(const Grating& grating, const IncidentLight& light,
+                                 const colour::LightSpectra& spectra, std::span<const ShadingPoint> frames,
+                                 int refinement) {
+    std::vector<glm::dvec3> result = side_radiance(grating, light, spectra, frames, refinement);
+    if (const auto side = reflected_side(grating)) {
+        const std::vector<glm::dvec3> reflected = side_radiance(*side, light, spectra, frames, refinement);
+        for (std::size_t i = 0; i < result.size(); ++i) result[i] += reflected[i];
+    }
     return result;
 }
 

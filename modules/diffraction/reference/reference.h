@@ -14,8 +14,9 @@ namespace rowland::diffraction {
 /// The ground truth: XYZ of the listed orders of `grating` for every frame, PHYSICS (14), exact but for quadrature. Per
 /// order and nanometre the light is integrated along its half circle s_g = mλ/d − v_g, from a probe at full resolution
 /// (bilinear) or from SH; the step follows the probe's texels and the lobe. Fewer than kManyGrooves grooves have their
-/// true width (profiles but tables, lobes but pits). A table of several incidences is evaluated at s_g of each arc. A
-/// view below the horizon is black. A cover's gloss is not included. All frames must be valid.
+/// true width (profiles but tables, lobes but pits). A sheet that transmits shows the light mirrored in its plane, and
+/// adds what it reflects. The orders of a lattice are points, PHYSICS (46). A table of several incidences is evaluated
+/// at s_g of each arc. A view below the horizon is black. A cover's gloss is not included. All frames must be valid.
 ///
 /// Uses all cores; the result does not depend on their number. Shares no code with the baked representations.
 std::vector<glm::dvec3> reference_radiance(const Grating& grating, const IncidentLight& light,

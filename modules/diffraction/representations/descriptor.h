@@ -52,6 +52,7 @@ struct RepresentationInfo {
     const char* summary;  ///< one line for people
     Lobes lobes = Lobes::Any;
     bool is_map = false;              ///< filled from the probe at run time; directional lights are shaded separately
+    bool lattices = false;            ///< it also shades lattices
     bool needs_flat_surface = false;  ///< curved meshes are shaded by a stand-in
     bool takes_harmonics = false;     ///< light is given as SH, to which windows apply
     bool in_demo = true;              ///< shown in the demo's comparison

@@ -37,6 +37,16 @@ std::string names_for(Lobes lobes) {
     return names;
 }
 
+/// Everything that a representation for grooves would need is a function of u_g alone.
+std::optional<Refusal> lattice_refusal(const RepresentationInfo& info, const Grating& grating) {
+    if (!grating.lattice || info.lattices) return std::nullopt;
+    std::string names;
+    for (const RepresentationInfo* other : representations())
+        if (other->lattices) names += fmt::format("{}\"{}\"", names.empty() ? "" : " or ", other->name);
+    return Refusal{"representation", fmt::format("\"{}\" with a lattice", info.name), names,
+                   "the others shade grooves of one direction"};
+}
+
 std::optional<Refusal> lobe_refusal(const RepresentationInfo& info, const GrooveLobe& lobe) {
     if (info.lobes == Lobes::Flat && !is_flat(lobe))
         return Refusal{"representation", fmt::format("\"{}\" with a groove_lobe that is not flat", info.name),
@@ -84,6 +94,7 @@ std::optional<Refusal> baked_refusal(const Grating& grating) {
 }
 
 std::optional<Refusal> refusal(const RepresentationInfo& info, const SettingValues& values, const Grating& grating) {
+    if (auto refused = lattice_refusal(info, grating)) return refused;
     if (auto refused = lobe_refusal(info, grating.lobe)) return refused;
     std::optional<Refusal> refused;
     for_each_representation([&]<typename Settings>(std::size_t) {

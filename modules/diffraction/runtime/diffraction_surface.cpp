@@ -34,6 +34,46 @@ bool update_key(const DiffractionSurface& surface, const render::MeshInstance& i
     return !same;
 }
 
+/// The same surface seen from its other side.
+scene::Mesh turned_over(const scene::Mesh& mesh) {
+    scene::Mesh turned = mesh;
+    for (glm::vec3& normal : turned.normals) normal = -normal;
+    for (glm::vec4& tangent : turned.tangents) tangent.w = -tangent.w;  // the bitangent stays
+    return turned;
+}
+
+/// A sheet that transmits is lit on its other side (PHYSICS §12). Only a changed object's mesh is read.
+void update_lit_side(const GpuMaterial& material, const SurfaceObject& object, SurfaceLight& light,
+                     SurfaceState& state) {
+    if (!material.transmits() || !object.changed) return material.update(object, light, state);
+    const scene::Mesh turned = turned_over(object.mesh);
+    material.update({.mesh = turned,
+                     .object_to_world = object.object_to_world,
+                     .groove_rotation = object.groove_rotation,
+                     .skinned = object.skinned,
+                     .changed = object.changed,
+                     .map_pace = object.map_pace},
+                    light, state);
+}
+
+void update_sides(const DiffractionSurface& surface, const SurfaceObject& object, SurfaceLight& light,
+                  SurfaceState& state) {
+    update_lit_side(*surface.material, object, light, state);
+    const std::shared_ptr<const GpuMaterial>& reflecting = surface.material->reflected();
+    if (!reflecting) return;
+    if (!state.reflected) state.reflected = std::make_unique<SurfaceState>();
+    SurfaceState& reflected = *state.reflected;
+    reflected.material = reflecting;
+    reflected.mesh = state.mesh;
+    reflected.groove_rotation = state.groove_rotation;
+    reflected.grooves = state.grooves;
+    reflecting->update(object, light, reflected);
+}
+
+bool is_filling(const GpuMaterial& material, const SurfaceState& state) {
+    return material.filling(state) || (state.reflected && material.reflected()->filling(*state.reflected));
+}
+
 }  // namespace
 
 Material drawable_material(const GltfGrating& grating, const GrooveMap* grooves, const std::string& file,
@@ -50,7 +90,9 @@ Material drawable_material(const GltfGrating& grating, const GrooveMap* grooves,
 void add_surface(ecs::World& world, ecs::Entity entity, DiffractionSurface surface, bool has_base) {
     const render::StandardMaterial base = surface.material->base();
     world.add(entity, std::move(surface));
-    world.get<render::StandardMaterial>(entity).clear_coat = 0.0F;
+    auto& material = world.get<render::StandardMaterial>(entity);
+    material.clear_coat = 0.0F;
+    material.passes_light = base.passes_light;
     if (has_base) world.add(entity, render::StandardMaterial(base));
 }
 
@@ -131,19 +173,20 @@ void DiffractionSurfaceType::update(ecs::World& world, const LightParts& light) 
             warn_of_other_white(surface.material->illuminant(), light.illuminant);
             const bool changed = update_key(surface, instance, glm::mat3(world_matrix.matrix), light_.version(), state);
             const auto update_surface = [&](const scene::Mesh& mesh, bool skinned) {
-                surface.material->update({.mesh = mesh,
-                                          .object_to_world = world_matrix.matrix,
-                                          .groove_rotation = static_cast<double>(surface.groove_rotation),
-                                          .skinned = skinned,
-                                          .changed = changed || skinned,
-                                          .map_pace = map_pace_},
-                                         light_, state);
+                update_sides(surface,
+                             {.mesh = mesh,
+                              .object_to_world = world_matrix.matrix,
+                              .groove_rotation = static_cast<double>(surface.groove_rotation),
+                              .skinned = skinned,
+                              .changed = changed || skinned,
+                              .map_pace = map_pace_},
+                             light_, state);
             };
             if (const scene::Skin* skin = world.find<scene::Skin>(entity))
                 update_surface(scene::posed(*instance.mesh, scene::joint_matrices(world, *skin)), true);
             else
                 update_surface(*instance.mesh, false);
-            if (changed || surface.material->filling(state)) ++version_;
+            if (changed || is_filling(*surface.material, state)) ++version_;
         });
 }
 
@@ -151,9 +194,20 @@ bool maps_are_filling(ecs::World& world) {
     bool filling = false;
     world.view<DiffractionSurface, SurfaceState>().each(
         [&](ecs::Entity, const DiffractionSurface& surface, const SurfaceState& state) {
-            filling = filling || surface.material->filling(state);
+            filling = filling || is_filling(*surface.material, state);
         });
     return filling;
+}
+
+std::optional<gpu::ProgramDesc> DiffractionSurfaceType::coat_program(ecs::World& world, ecs::Entity entity) const {
+    const SurfaceState& state = world.get<SurfaceState>(entity);
+    if (!state.reflected) return std::nullopt;
+    return state.reflected->material->program(*state.reflected);
+}
+
+void DiffractionSurfaceType::bind_coat(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const {
+    const SurfaceState& reflected = *world.get<SurfaceState>(entity).reflected;
+    reflected.material->bind(program, light_, reflected);
 }
 
 void DiffractionSurfaceType::bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const {

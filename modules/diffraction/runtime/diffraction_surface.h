@@ -61,6 +61,8 @@ class DiffractionSurfaceType final : public render::MaterialType {
     /// The same under light that does not come from the renderer.
     void update(ecs::World& world, const LightParts& light);
     void bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const override;
+    std::optional<gpu::ProgramDesc> coat_program(ecs::World& world, ecs::Entity entity) const override;
+    void bind_coat(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const override;
 
  private:
     void warn_of_other_white(const std::string& baked_for, const std::string& lit_by);

@@ -27,11 +27,19 @@ namespace {
 using GpuClasses = std::tuple<GpuSpikes, GpuBins, GpuTransfer, GpuArc, GpuDirect, GpuPlanar, GpuCircle, GpuStreak>;
 static_assert(std::tuple_size_v<GpuClasses> == kRepresentationCount);
 
+/// Both sides of a sheet.
+bool passes_light(const Grating& grating) {
+    return grating.transmission || grating.side_reflectance;
+}
+
 }  // namespace
 
 GpuMaterial::GpuMaterial(const CookedMaterial& cooked, const glm::dmat3& xyz_to_working)
     : cooked_(std::make_shared<const CookedMaterial>(cooked)),
-      base_{.base_colour = cooked.material.base.colour, .metallic = 0.0F, .roughness = cooked.material.base.roughness},
+      base_{.base_colour = cooked.material.base.colour,
+            .metallic = 0.0F,
+            .roughness = cooked.material.base.roughness,
+            .passes_light = passes_light(cooked.material.grating)},
       working_material_{.kernel = in_space(cooked.kernel, xyz_to_working),
                         .pitch_nm = cooked.material.grating.pitch_nm,
                         .zero_order_xyz = xyz_to_working * cooked.zero_order_xyz,
@@ -39,9 +47,12 @@ GpuMaterial::GpuMaterial(const CookedMaterial& cooked, const glm::dmat3& xyz_to_
       even_kernel_(is_even(cooked.kernel)),
       key_lights_(cooked.material.quality.key_lights),
       separate_lights_(key_lights_ || info(cooked.tables).is_map),
-      lights_at_vertices_(cooked.material.quality.lights_at_vertices && cooked.zero_order_xyz == glm::dmat3(0.0)),
+      lights_at_vertices_(cooked.material.quality.lights_at_vertices && cooked.zero_order_xyz == glm::dmat3(0.0) &&
+                          !cooked.material.grating.lattice),
       kernel_(cooked, xyz_to_working) {
+    if (cooked.reflected) reflected_ = make_gpu_material(*cooked.reflected, xyz_to_working);
     const LayerWeights weights = layer_weights(cooked.material.grating, cooked.material.quality.illuminant);
+    if (cooked.material.grating.lattice) pattern_.emplace(cooked.material, xyz_to_working);
     mirror_weight_ = glm::vec3(xyz_to_working * weights.mirror);
     base_weight_ = glm::vec3(xyz_to_working * weights.base);
 }
@@ -59,14 +70,20 @@ void GpuMaterial::add_defines(const SurfaceState& state, gpu::ProgramDesc& desc)
     desc.defines.push_back({"AMBIENT_AT_VERTICES", "1"});
     if (!key_lights_) desc.defines.push_back({"NO_KEY_LIGHTS", "1"});
     if (cooked_->material.grating.cover) desc.defines.push_back({"COVER", "1"});
+    if (transmits()) desc.defines.push_back({"TRANSMISSION", "1"});
+    if (cooked_->material.grating.side_reflectance) desc.defines.push_back({"REFLECTED_SIDE", "1"});
     kernel_.add_defines(desc);
+    if (pattern_) desc.defines.push_back({"LATTICE", "1"});
     if (state.grooves) state.grooves->add_defines(even_kernel_, desc);
     if (lights_at_vertices_ && !state.grooves) desc.defines.push_back({"LIGHTS_AT_VERTICES", "1"});
 }
 
 void GpuMaterial::bind(const gpu::Program& program, const SurfaceLight& light, const SurfaceState& state) const {
     bind_tables(program, state);
-    kernel_.bind(program, light.key_lights(), light.light_colours());
+    if (pattern_)
+        pattern_->bind(program, light.light_colours());
+    else
+        kernel_.bind(program, light.key_lights(), light.light_colours());
     light.bind_light_colours();
     if (key_lights_) light.bind_key_lights();
     if (state.grooves) state.grooves->bind(even_kernel_, program);

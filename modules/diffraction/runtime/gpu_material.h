@@ -15,6 +15,7 @@
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/representations/point_shader.h"
 #include "modules/diffraction/runtime/gpu_kernel.h"
+#include "modules/diffraction/runtime/gpu_pattern.h"
 #include "modules/diffraction/runtime/groove_map.h"
 #include "modules/diffraction/runtime/map_filling.h"
 #include "modules/diffraction/runtime/surface_light.h"
@@ -37,8 +38,9 @@ struct SurfaceState {
     std::shared_ptr<const GrooveMap> grooves;
     std::uint64_t light_version = 0;
 
-    gpu::StreamBuffer vertex_light;    ///< per vertex; may be empty
-    std::unique_ptr<ObjectData> data;  ///< may be null
+    gpu::StreamBuffer vertex_light;           ///< per vertex; may be empty
+    std::unique_ptr<ObjectData> data;         ///< may be null
+    std::unique_ptr<SurfaceState> reflected;  ///< of GpuMaterial::reflected(); null before it is updated
 };
 
 /// An object with a grating in this frame.
@@ -61,6 +63,10 @@ class GpuMaterial {
     /// The engine's surface under the grating.
     const render::StandardMaterial& base() const { return base_; }
     const std::shared_ptr<const CookedMaterial>& cooked() const { return cooked_; }
+    /// Whether it is a sheet, which shows the light behind it.
+    bool transmits() const { return cooked_->material.grating.transmission.has_value(); }
+    /// What else a sheet reflects, drawn over it; null: nothing.
+    const std::shared_ptr<const GpuMaterial>& reflected() const { return reflected_; }
     /// Name of the illuminant that the tables are baked for.
     const std::string& illuminant() const { return cooked_->material.quality.illuminant.name; }
 
@@ -101,6 +107,7 @@ class GpuMaterial {
     void add_defines(const SurfaceState& state, gpu::ProgramDesc& desc) const;
 
     std::shared_ptr<const CookedMaterial> cooked_;
+    std::shared_ptr<const GpuMaterial> reflected_;
     gpu::Limits limits_ = gpu::read_limits();
     render::StandardMaterial base_;
     glm::vec3 mirror_weight_{0.0F};
@@ -111,6 +118,7 @@ class GpuMaterial {
     bool separate_lights_;  ///< directional lights are shaded light by light
     bool lights_at_vertices_;
     GpuKernel kernel_;
+    std::optional<GpuPattern> pattern_;  ///< of a lattice, instead of the kernel
 };
 
 /// `xyz_to_working` as the renderer's.

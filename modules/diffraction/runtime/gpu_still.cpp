@@ -14,6 +14,7 @@ CookedMaterial as_a_map(const CookedMaterial& cooked) {
     CookedMaterial map = cooked;
     map.material.quality.key_lights = false;
     map.tables = CircleTables{};
+    map.reflected = nullptr;  // the image shows both sides of a sheet
     return map;
 }
 

@@ -72,15 +72,18 @@ void MapFilling::upload(int slices) {
 
 void MapFilling::update(const MapInput& input, const std::shared_ptr<const FillMap>& fill, MapPace pace) {
     warn_of_black(input);
-    const bool new_light = !shown_ || shown_->input.texels != input.texels;
-    if (pace == MapPace::Whole || (pace == MapPace::WholeUnderNewLight && new_light)) {
+    if (pace == MapPace::Whole) {
         if (is_complete() && wanted_ == input) return;
         filling_.reset();
         wanted_ = input;
         ++fills_begun_;
         return fill_now(input, *fill, MapDetail::Full);
     }
-    if (!map_) fill_now(input, *fill, MapDetail::Coarse);
+    if (const bool new_light = !shown_ || shown_->input.texels != input.texels; new_light) {
+        filling_.reset();
+        wanted_.reset();
+        fill_now(input, *fill, MapDetail::Coarse);
+    }
     const Filling::Change change = filling_.poll();
     if (!change.failure.empty()) fail_system("", "a map that cannot be filled: " + change.failure);
     if (change.value) begin_upload(*filling_.value());

@@ -15,9 +15,8 @@ namespace rowland::diffraction {
 
 /// How long frames wait for maps.
 enum class MapPace {
-    Incremental,         ///< for coarse maps, tens of milliseconds, if there is no map yet; never for full ones
-    WholeUnderNewLight,  ///< for full maps if the probe is new; else as Incremental. For programs that load meanwhile
-    Whole,               ///< for full maps, always. For stills
+    Incremental,  ///< for a coarse map, tens of milliseconds, where the light is new; never for full ones
+    Whole,        ///< for full maps, always. For stills
 };
 
 /// What a map is filled from, besides its material.
@@ -40,7 +39,7 @@ struct FilledMap {
 using FillMap = std::function<FilledMap(const MapInput&, MapDetail, const std::stop_token&)>;
 
 /// A map that follows its input: another thread fills a coarse map and then the full one, and frames upload them. The
-/// last map is shown until there is another, so that an object that turns in every frame gets coarse maps.
+/// last map under the same light is shown until there is another: an object that turns in every frame gets coarse maps.
 class MapFilling {
  public:
     /// Call once per frame; then there is a map. Throws Error (system) if a map cannot be filled.

@@ -3,6 +3,8 @@
 #include "modules/diffraction/shaders/small_light.glsl"
 #include "modules/diffraction/shaders/key_lobes.glsl"
 #include "modules/diffraction/shaders/key_lobe_parts.glsl"
+#include "modules/diffraction/shaders/key_lobe_windows.glsl"
+#include "modules/diffraction/shaders/pattern.glsl"
 
 #ifdef LIGHTS_BESIDE
 in vec3 lights_at_vertex;
@@ -26,7 +28,9 @@ vec3 lights_from_vertices() {
 
 #if defined(KEY_LOBES) && !defined(LIGHTS_AT_VERTICES)
 vec3 key_lights_at_pixel(GrooveView view) {
-#ifdef KEY_LOBE_TABLE
+#if defined(LATTICE)
+    return pattern_key_lights(view);
+#elif defined(KEY_LOBE_TABLE)
     return kernel_to_working(key_lights_radiance(view.axes, view.direction, view.g_change, view.v_g_change));
 #else
     return kernel_to_working(key_lights_radiance(view));
@@ -45,26 +49,36 @@ vec3 key_lights_at_pixel(GrooveView view) { return vec3(0.0); }
 #endif
 #if defined(MATERIAL_PUNCTUAL_LIGHTS) || defined(MATERIAL_DIRECTIONAL_LIGHTS)
 GrooveView lit_view;
+#ifndef LATTICE
 KernelScale lit_scale;
+#endif
 float lit_weight;  // of all lights
 
 void prepare_lights(GrooveView view) {
     lit_view = view;
     // The engine's normal, whose cosine to each light is then computed once; the same where the view is above the horizon.
-    lit_view.axes[2] = seen_normal(view.axes[2], normalize(eye.xyz - world_position));
+    lit_view.axes[2] = LIT_SIDE * seen_normal(LIT_SIDE * view.axes[2], normalize(eye.xyz - world_position));
+#ifdef LATTICE
+    lit_weight = view.direction.z > 0.0 ? cover_transmittance(view.direction.z) : 0.0;
+#else
     lit_scale = kernel_scale();
     lit_weight = small_light_weight(lit_scale, view.direction.z) * cover_transmittance(view.direction.z);
+#endif
 }
 
+#ifndef LATTICE
 // XYZ with pits, else working space.
 void add_light_of(GrooveView view, PixelU u, int i, float weight, vec3 l, inout vec3 sum) {
     add_small_light(lit_scale, i, weight, l, view.axes, view.direction.y, u, view.pitch, sum);
 }
+#endif
 
 void material_light(int i, float attenuation, vec3 l, inout vec3 added) {
     vec3 sum = vec3(0.0);
     float weight = lit_weight * attenuation;
-#ifdef GROOVE_MAP
+#if defined(LATTICE)
+    add_pattern_light(i, weight, l, lit_view, sum);
+#elif defined(GROOVE_MAP)
     MeshU mesh = mesh_u_of(lit_view, l);
     int parts = groove_parts(lit_view);
     for (int part = 0; part < parts; ++part) {

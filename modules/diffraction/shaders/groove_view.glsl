@@ -1,5 +1,6 @@
 // The tangent frame of a pixel, the view in it, and what the pixel covers (PHYSICS §11).
 #include "modules/diffraction/shaders/has_direct.glsl"
+#include "modules/diffraction/shaders/lit_side.glsl"
 #include "modules/diffraction/shaders/pixel_u.glsl"
 #if !defined(VERTEX_SHADED) || defined(LIGHTS_AT_PIXELS)
 
@@ -18,12 +19,16 @@ struct MeshView {
 #endif
 
 struct GrooveView {
-    mat3 axes;       // columns g, h, n in the world
+    mat3 axes;       // columns g, h, n in the world, of the lit side
     vec3 direction;  // toward the eye, in (g, h, n)
     float pitch;     // over the material's; 0: no grating here
     // Differences of g and v_g to the pixels beside and below, before a map's rotation.
     mat2x3 g_change;
     vec2 v_g_change;
+#ifdef LATTICE
+    mat2x3 h_change;
+    vec2 v_h_change;
+#endif
 #ifdef GROOVE_MAP
     MeshView mesh;
     vec2 turn;       // cosine and sine of the map's mean rotation
@@ -92,7 +97,7 @@ PixelU pixel_u_of(GrooveView view, vec3 s) {
 // The interpolated grating vector, made orthonormal to the normal; shorter where the vertices' vectors cancel, as at a
 // disc's hub.
 mat3 groove_axes() {
-    vec3 n = normalize(world_normal);
+    vec3 n = LIT_SIDE * normalize(world_normal);
     vec3 g = world_grating - n * dot(n, world_grating);
     g *= inversesqrt(max(dot(g, g), 1e-12));
     return mat3(g, cross(n, g), n);
@@ -193,7 +198,7 @@ GrooveView groove_part(GrooveView view, int parts, int part) {
 // Uses derivatives: call it in uniform control flow.
 GrooveView groove_view() {
     mat3 axes = groove_axes();
-    vec3 direction = normalize(eye.xyz - world_position) * axes;
+    vec3 direction = lit_view_direction(normalize(eye.xyz - world_position), axes);
     mat2x3 g_change = mat2x3(dFdx(axes[0]), dFdy(axes[0]));
     vec2 v_g_change = vec2(dFdx(direction.x), dFdy(direction.x));
 #ifdef GROOVE_MAP
@@ -201,6 +206,9 @@ GrooveView groove_view() {
     MeshView mesh = MeshView(axes, direction, mat2x3(dFdx(axes[1]), dFdy(axes[1])),
                              vec2(dFdx(direction.y), dFdy(direction.y)), uv, mat2(dFdx(uv), dFdy(uv)));
     return grooves_of(mesh, g_change, v_g_change, texture(groove_map, uv));
+#elif defined(LATTICE)
+    return GrooveView(axes, direction, 1.0, g_change, v_g_change, mat2x3(dFdx(axes[1]), dFdy(axes[1])),
+                      vec2(dFdx(direction.y), dFdy(direction.y)));
 #else
     return GrooveView(axes, direction, 1.0, g_change, v_g_change);
 #endif

@@ -21,9 +21,9 @@
 // A streak shows the whole probe, key lights included. The incoherent rest of Stam's pits needs key lights.
 #if defined(SEPARATE_LIGHTS) && !defined(NO_KEY_LIGHTS) && !(defined(STREAK) && defined(LOBE_GAUSSIAN))
 #define KEY_LOBES
-// One look-up per key light. The tables do not support order 0 or varying pitches. A program that defines KEY_LOBE_PARTS
-// has no tables, and the horizon cuts its lobes as on the CPU.
-#if !defined(ZERO_ORDER) && !defined(GROOVE_MAP) && !defined(KEY_LOBE_PARTS)
+// One look-up per key light. The tables do not support order 0 or varying pitches. A program that defines
+// KEY_LOBE_WINDOWS has no tables: key_lobe_windows.glsl.
+#if !defined(ZERO_ORDER) && !defined(GROOVE_MAP) && !defined(KEY_LOBE_WINDOWS)
 #define KEY_LOBE_TABLE
 #endif
 #endif

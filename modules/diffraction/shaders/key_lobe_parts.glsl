@@ -1,7 +1,7 @@
 // The probe's key lights on a grating part by part, without tables.
 #include "modules/diffraction/shaders/light_spot.glsl"
 #include "modules/diffraction/shaders/small_light.glsl"
-#if defined(KEY_LOBES) && !defined(KEY_LOBE_TABLE)
+#if defined(KEY_LOBES) && !defined(KEY_LOBE_TABLE) && !defined(KEY_LOBE_WINDOWS)
 
 vec3 key_lobe_radiance(KeyLobe lobe, GrooveView view) {
     PixelU u = pixel_u(view, lobe.direction.xyz);
@@ -16,15 +16,11 @@ vec3 key_lobe_radiance(KeyLobe lobe, GrooveView view) {
 #endif
     axis.x = clamp(axis.x, -1.0, 1.0);
     float across = max(length(axis.yz), 1e-6);
-    float growth = 0.0;
-#ifdef KEY_LOBE_PARTS
-    growth = horizon_growth(lobe, axis, across);
-#endif
     vec3 sum = vec3(0.0);
     float whole = 0.0;
     for (int i = 0; i < 3; ++i) {
         float weight;
-        LightPart part = lobe_part(lobe, axis, across, growth, i, weight);
+        LightPart part = lobe_part(lobe, axis, across, i, weight);
         whole += weight;
         if (part.cosine <= 0.0) continue;
         float deviation = sqrt(part.deviation * part.deviation + BOX_VARIANCE * u.square_width);

@@ -23,37 +23,9 @@ float mean_above(float sine, float concentration) {
     return clamped_mean(ratio * sine, sqrt(max(variance, 0.0)));
 }
 
-#ifdef KEY_LOBE_PARTS
-// The same, exact in the tails also: direct.cpp, mean_above_narrow() where it holds. `cosine`: of t0, not negative.
-float mean_above(float sine, float cosine, float concentration) {
-    if (concentration < 3.0) return mean_above(sine, concentration);
-    float root = sqrt(concentration);
-    float begin = -sine * sqrt(2.0 / (1.0 + cosine)) * root;  // 2 - 2 cos cancels at the horizon
-    float end = sqrt(2.0 + 2.0 * cosine) * root;
-    float above = begin > 0.0 ? normal_cdf(-begin) - normal_cdf(-end) : normal_cdf(end) - normal_cdf(begin);
-    float at_begin = exp(-0.5 * begin * begin);
-    float at_end = exp(-0.5 * end * end);
-    float second = 0.375 / concentration;
-    const float ROOT_2PI = 2.50662827463100;
-    float even = (ROOT_2PI * above * (1.0 - second) + second * (end * at_end - begin * at_begin)) / root;
-    float odd = (at_begin - at_end) / concentration;
-    float norm = ROOT_2PI / root * (1.0 + 0.125 / concentration + 0.0703125 / (concentration * concentration));
-    return max((cosine * odd + sine * even) / norm, 0.0);
-}
-
-// By how much the horizon shifts the parts: direct.cpp, lobe_parts().
-float horizon_growth(KeyLobe lobe, vec3 axis, float across) {
-    vec2 height = vec2(axis.z, abs(axis.y)) / across;
-    vec2 cosines = across * lobe.nodes.x + vec2(-axis.x, axis.x) * lobe.nodes.y;  // at both sides of the lobe
-    float plus = mean_above(height.x, height.y, lobe.direction.w * max(cosines.x, 0.0) * across);
-    float minus = mean_above(height.x, height.y, lobe.direction.w * max(cosines.y, 0.0) * across);
-    return plus > 1e-7 && minus > 1e-7 ? log(plus / minus) / (2.0 * asin(lobe.nodes.y)) : 0.0;
-}
-#endif
-
-// Part 0: the middle of the lobe; 1 and 2: its sides. `axis`: its direction in (g, h, n). `growth`: horizon_growth(), under
-// KEY_LOBE_PARTS. The caller divides by the sum of the `weight`s.
-LightPart lobe_part(KeyLobe lobe, vec3 axis, float across, float growth, int part, out float weight) {
+// Part 0: the middle of the lobe; 1 and 2: its sides. `axis`: its direction in (g, h, n). The caller divides by the sum of
+// the `weight`s.
+LightPart lobe_part(KeyLobe lobe, vec3 axis, float across, int part, out float weight) {
     const float SKEW = 1.0 + 0.7 / 0.6;
     float side = part == 0 ? 0.0 : part == 1 ? lobe.nodes.y : -lobe.nodes.y;
     float middle = part == 0 ? 1.0 : lobe.nodes.x;
@@ -66,12 +38,7 @@ LightPart lobe_part(KeyLobe lobe, vec3 axis, float across, float growth, int par
     float variance = lobe.nodes.z;
     float deviation = sqrt(variance);
     float shift = -1.5 * variance * sine / cosine;
-#ifdef KEY_LOBE_PARTS
-    shift += variance * growth;
-    float above = mean_above(axis.z / across, abs(axis.y) / across, lobe.direction.w * cosine * across);
-#else
     float above = mean_above(axis.z / across, lobe.direction.w * cosine * across);
-#endif
     shift = clamp(shift, -deviation, deviation);
     return LightPart(weight * cosine * above,
                      (sine * cos(shift) + cosine * sin(shift)) * lobe.nodes.w,

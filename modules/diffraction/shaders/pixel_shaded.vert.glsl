@@ -8,7 +8,7 @@ out vec3 world_grating;
 
 void material_vertex(vec3 position, vec3 g, vec3 h, vec3 n) {
     turn_grooves(g, h);
-    shade_lights(position, mat3(g, h, n));
+    shade_lights(position, lit_axes(g, h, n));
     world_grating = g;
 }
 

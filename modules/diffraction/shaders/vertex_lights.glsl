@@ -1,6 +1,7 @@
 // Key lights and directional lights at the vertices, under LIGHTS_AT_VERTICES; the first directional light separately if
 // it casts shadows.
 #include "modules/diffraction/shaders/has_direct.glsl"
+#include "modules/diffraction/shaders/lit_side.glsl"
 #ifdef LIGHTS_AT_VERTICES
 #include "modules/diffraction/shaders/small_light.glsl"
 #include "modules/diffraction/shaders/key_lobes.glsl"
@@ -15,7 +16,7 @@ out vec3 shadowed_at_vertex;
 
 // The sum of the lights without shadows, working space. `axes`: columns g, h, n in the world.
 vec3 shade_lights(vec3 position, mat3 axes) {
-    vec3 direction = normalize(eye.xyz - position) * axes;
+    vec3 direction = lit_view_direction(normalize(eye.xyz - position), axes);
     vec3 sum = vec3(0.0);
 #ifdef KEY_LOBES
     if (direction.z > 0.0) sum = key_lights_radiance(axes, direction, mat2x3(0.0), vec2(0.0));

@@ -12,9 +12,9 @@ out vec3 world_grating;
 
 void material_vertex(vec3 position, vec3 g, vec3 h, vec3 n) {
     turn_grooves(g, h);
-    vec3 v = normalize(eye.xyz - position);
-    vec3 view = vec3(dot(v, g), dot(v, h), dot(v, n));
-    diffracted = diffracted_radiance(view, g, n) + shade_lights(position, mat3(g, h, n));
+    mat3 axes = lit_axes(g, h, n);
+    vec3 view = lit_view_direction(normalize(eye.xyz - position), axes);
+    diffracted = diffracted_radiance(view, g, axes[2]) + shade_lights(position, axes);
 #ifdef LIGHTS_AT_PIXELS
     world_grating = g;
 #endif

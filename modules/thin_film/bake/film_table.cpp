@@ -27,6 +27,11 @@ double thickness_of(double index, double x_nm, double cosine) {
     return std::min(x_nm / std::max(path_difference(index, 1.0, cosine), 1e-9), kThickest_nm);
 }
 
+/// Coordinate of the rows, of which they are equal steps. PHYSICS (4).
+double row_coordinate(double x_nm) {
+    return std::sqrt(x_nm + FilmTable::kPathOffset_nm);
+}
+
 double position(double at, int nodes) {
     return std::clamp(at, 0.0, 1.0) * (nodes - 1);
 }
@@ -165,9 +170,9 @@ double path_difference(double index, double thickness_nm, double cosine) {
 }
 
 glm::dmat3 FilmTable::at(double cosine, double thickness_nm, double roughness) const {
-    const double x = path_difference(index, thickness_nm, cosine);
+    const double y = row_coordinate(path_difference(index, thickness_nm, cosine));
     const Between column(position(std::sqrt(std::clamp(cosine, 0.0, 1.0)), columns), columns);
-    const Between row(position(end_nm > begin_nm ? (x - begin_nm) / (end_nm - begin_nm) : 0.0, rows), rows);
+    const Between row(position(end > begin ? (y - begin) / (end - begin) : 0.0, rows), rows);
     const Between layer(position(roughest > 0.0 ? roughness / roughest : 0.0, layers), layers);
     const auto value = [&](std::size_t l, std::size_t r, std::size_t c) {
         return glm::dmat3(values[(l * static_cast<std::size_t>(rows) + r) * static_cast<std::size_t>(columns) + c]);
@@ -183,7 +188,8 @@ glm::dmat3 FilmTable::at(double cosine, double thickness_nm, double roughness) c
 
 double FilmTable::thickness_nm(int row, double cosine) const {
     if (rows == 1) return only_thickness_nm;
-    return thickness_of(index, begin_nm + (end_nm - begin_nm) * row / (rows - 1), cosine);
+    const double x_nm = square(begin + (end - begin) * row / (rows - 1)) - kPathOffset_nm;
+    return thickness_of(index, std::max(x_nm, 0.0), cosine);
 }
 
 double FilmTable::roughness(double layer) const {
@@ -199,8 +205,10 @@ TableSize table_size(const TableRange& range) {
                              : TableSize{.columns = 96, .rows = 1, .layers = 18};
     }
     if (!rough) return {.columns = 24, .rows = 150, .layers = 1};
-    return one_roughness ? TableSize{.columns = 20, .rows = 90, .layers = 2}
-                         : TableSize{.columns = 16, .rows = 37, .layers = 6};
+    if (one_roughness) return {.columns = 20, .rows = 90, .layers = 2};
+    constexpr double kWideLobe = 0.7;
+    return range.roughest > kWideLobe ? TableSize{.columns = 16, .rows = 28, .layers = 8}
+                                      : TableSize{.columns = 16, .rows = 37, .layers = 6};
 }
 
 FilmTable empty_table(const Film& film, const TableRange& range, const TableSize& size) {
@@ -209,8 +217,8 @@ FilmTable empty_table(const Film& film, const TableRange& range, const TableSize
             .rows = size.rows,
             .layers = size.layers,
             .index = index,
-            .begin_nm = path_difference(index, range.thinnest_nm, 0.0),
-            .end_nm = path_difference(index, range.thickest_nm, 1.0),
+            .begin = row_coordinate(path_difference(index, range.thinnest_nm, 0.0)),
+            .end = row_coordinate(path_difference(index, range.thickest_nm, 1.0)),
             .roughest = range.roughest,
             .only_thickness_nm = range.thinnest_nm};
 }

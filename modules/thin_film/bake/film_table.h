@@ -22,15 +22,15 @@ struct TableError {
 };
 
 /// M averaged over the microfacets that a view sees, at nodes. PHYSICS (4), (5). Axes: √cos of the view; the path
-/// difference x = 2 t √(n² − sin²θ) in the outermost layer, along which fringes of all angles lie alike; roughness,
-/// of which the first node is 0.
+/// difference x = 2 t √(n² − sin²θ) in the outermost layer, along which fringes of all angles lie alike, in equal steps
+/// of √(x + kPathOffset_nm); roughness, of which the first node is 0.
 struct FilmTable {
     int columns = 0;
     int rows = 0;
     int layers = 0;
     double index = 1.0;               ///< n of the outermost layer
-    double begin_nm = 0.0;            ///< x of the first row
-    double end_nm = 0.0;              ///< x of the last row
+    double begin = 0.0;               ///< √(x + kPathOffset_nm) of the first row, √nm
+    double end = 0.0;                 ///< of the last row
     double roughest = 0.0;            ///< of the last layer; 0 with one layer
     double only_thickness_nm = 0.0;   ///< with one row
     std::vector<glm::mat3> values{};  ///< linear Rec.709 → XYZ; columns fastest, layers slowest
@@ -44,6 +44,7 @@ struct FilmTable {
     std::size_t bytes() const { return values.size() * kBytesPerNode; }
 
     static constexpr std::size_t kBytesPerNode = 18;  ///< nine half floats
+    static constexpr double kPathOffset_nm = 20.0;
 };
 
 /// Path difference in a layer of index n at an angle in air.

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "engine/colour/primaries.h"
+#include "modules/thin_film/model/film_colour.h"
 
 namespace rowland::thin_film {
 
@@ -46,6 +47,11 @@ double schlick(double f0, double cosine) {
 }
 
 }  // namespace
+
+glm::dvec3 normal_colour(const Base& base) {
+    const FilmColour bare({.layers = {{.index = 1.0, .thickness_nm = 0.0}}, .base = base}, colour::LightSpectra{});
+    return colour::xyz_to_rec709() * (bare(1.0) * glm::dvec3(1.0));
+}
 
 glm::dvec3 gltf_formula(double film_ior, double thickness_nm, const glm::dvec3& base_f0, double cosine) {
     // A film thinner than 0.03 nm fades into air.

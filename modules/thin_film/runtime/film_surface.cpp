@@ -21,10 +21,16 @@ namespace rowland::thin_film {
 
 namespace {
 
-/// Component: the index of a KHR_materials_ior.
-struct DielectricBase {
-    double ior = 1.5;
-};
+/// Of the material's KHR_materials_ior.
+double dielectric_ior(ecs::World& world, ecs::Entity entity, const std::string& file, const std::string& pointer) {
+    constexpr double kDefault = 1.5;
+    const auto* material = world.find<render::FileMaterial>(entity);
+    if (material == nullptr) return kDefault;
+    const auto& extensions = material->description->extensions;
+    const auto found = extensions.find(kIorExtension);
+    if (found == extensions.end()) return kDefault;
+    return parse_gltf_ior(found->second, file, pointer.substr(0, pointer.rfind('/') + 1) + kIorExtension);
+}
 
 render::SurfaceTexture texture(const std::optional<scene::TextureUse>& use, render::SurfaceTextures& textures,
                                const std::string& file, const std::string& pointer) {
@@ -63,7 +69,7 @@ FilmMaterial film_material(const GltfIridescence& iridescence, const render::Sta
 /// Whether nothing is seen of the light that passes the film.
 bool is_black(const render::StandardMaterial& material) {
     const bool metal = material.metallic == 1.0F && !material.metallic_roughness_texture;
-    return material.alpha_mode != scene::AlphaMode::Blend && (metal || material.base_colour == glm::vec3(0.0F));
+    return !material.passes_light && (metal || material.base_colour == glm::vec3(0.0F));
 }
 
 void add_map(const char* define, const render::SurfaceTexture& texture, gpu::ProgramDesc& desc) {
@@ -81,6 +87,7 @@ void add_film(ecs::World& world, ecs::Entity entity, const CookedFilm& cooked, c
     material.base_colour = glm::vec3(0.0F);
     material.roughness = static_cast<float>(cooked.material.range.roughest);
     material.clear_coat = 0.0F;
+    material.passes_light = material.alpha_mode == scene::AlphaMode::Blend;
     world.add(entity, FilmSurface{.film = std::make_shared<const GpuFilm>(cooked.table, xyz_to_working,
                                                                           cooked.material.illuminant.name),
                                   .thickness_at_1_nm = static_cast<float>(cooked.material.range.thickest_nm)});
@@ -88,6 +95,10 @@ void add_film(ecs::World& world, ecs::Entity entity, const CookedFilm& cooked, c
 
 std::string FilmSurfaceType::gltf_extension() const {
     return kIridescenceExtension;
+}
+
+std::vector<std::string> FilmSurfaceType::gltf_extensions_beside() const {
+    return {kIorExtension};
 }
 
 void FilmSurfaceType::attach(ecs::World& world, ecs::Entity entity, const nlohmann::json& extension,
@@ -104,8 +115,8 @@ void FilmSurfaceType::attach(ecs::World& world, ecs::Entity entity, const nlohma
     if (material.clear_coat > 0.0F)
         log_warning("{}: {}: KHR_materials_clearcoat over a thin film is not drawn", file, pointer);
     material.clear_coat = 0.0F;
-    const auto* dielectric = world.find<DielectricBase>(entity);
-    const double ior = dielectric != nullptr ? dielectric->ior : DielectricBase{}.ior;
+    material.passes_light = material.alpha_mode == scene::AlphaMode::Blend;
+    const double ior = dielectric_ior(world, entity, file, pointer);
     const std::string key = fmt::format("{} {} {} {} {} {} {} {}", extension.dump(), ior, material.metallic,
                                         material.base_colour.r, material.base_colour.g, material.base_colour.b,
                                         material.roughness, static_cast<bool>(material.metallic_roughness_texture));
@@ -133,9 +144,13 @@ gpu::ProgramDesc FilmSurfaceType::program(ecs::World& world, ecs::Entity entity)
     gpu::ProgramDesc desc{.vertex = "engine/render/shaders/plain.vert.glsl",
                           .fragment = "modules/thin_film/shaders/film.frag.glsl",
                           .defines = {{"AMBIENT_AT_VERTICES", "1"}}};
-    if (surface.film->is_line()) desc.defines.push_back({"FILM_LINE", "1"});
+    const gpu::TextureKind table = surface.film->kind();
+    if (table == gpu::TextureKind::Line) desc.defines.push_back({"FILM_LINE", "1"});
+    if (table == gpu::TextureKind::Plane) desc.defines.push_back({"FILM_PLANE", "1"});
     if (surface.factor == 1.0F && !surface.factor_texture) desc.defines.push_back({"FILM_WHOLE", "1"});
-    if (is_black(world.get<render::StandardMaterial>(entity))) desc.defines.push_back({"FILM_ON_BLACK", "1"});
+    const auto& material = world.get<render::StandardMaterial>(entity);
+    if (material.passes_light) desc.defines.push_back({"FILM_PASSES_LIGHT", "1"});
+    if (is_black(material)) desc.defines.push_back({"FILM_ON_BLACK", "1"});
     add_map("FILM_FACTOR_MAP", surface.factor_texture, desc);
     add_map("FILM_THICKNESS_MAP", surface.thickness_texture, desc);
     return desc;
@@ -165,15 +180,6 @@ void FilmSurfaceType::bind(ecs::World& world, ecs::Entity entity, const gpu::Pro
     program.set("film_uv_offset", glm::vec4(uv[0].offset, uv[1].offset));
     if (surface.factor_texture) surface.factor_texture.texture->bind(kFactorMapUnit);
     if (surface.thickness_texture) surface.thickness_texture.texture->bind(kThicknessMapUnit);
-}
-
-std::string IorType::gltf_extension() const {
-    return kIorExtension;
-}
-
-void IorType::attach(ecs::World& world, ecs::Entity entity, const nlohmann::json& extension,
-                     render::SurfaceTextures& /*textures*/, const std::string& file, const std::string& pointer) {
-    world.add(entity, DielectricBase{parse_gltf_ior(extension, file, pointer)});
 }
 
 }  // namespace rowland::thin_film

@@ -5,6 +5,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "engine/render/material.h"
 #include "modules/thin_film/asset/cooked_film.h"
@@ -35,6 +36,7 @@ class FilmSurfaceType final : public render::MaterialType {
 
     std::string name() const override { return "thin film"; }
     std::string gltf_extension() const override;
+    std::vector<std::string> gltf_extensions_beside() const override;
     /// Bakes the film now. Equal films share their tables.
     void attach(ecs::World& world, ecs::Entity entity, const nlohmann::json& extension,
                 render::SurfaceTextures& textures, const std::string& file, const std::string& pointer) override;
@@ -51,20 +53,6 @@ class FilmSurfaceType final : public render::MaterialType {
     glm::dmat3 xyz_to_working_;
     std::map<std::string, std::weak_ptr<const GpuFilm>> baked_;
     std::set<std::string> warned_of_;  ///< illuminants baked for and lit by
-};
-
-/// Reads KHR_materials_ior for the base under a film, and draws nothing: glTF files name it before the film.
-class IorType final : public render::MaterialType {
- public:
-    std::string name() const override { return "index of refraction"; }
-    std::string gltf_extension() const override;
-    void attach(ecs::World& world, ecs::Entity entity, const nlohmann::json& extension,
-                render::SurfaceTextures& textures, const std::string& file, const std::string& pointer) override;
-    void add_shaders(gpu::ShaderLibrary& /*library*/) const override {}
-    bool owns(ecs::World& /*world*/, ecs::Entity /*entity*/) const override { return false; }
-    gpu::ProgramDesc program(ecs::World& /*world*/, ecs::Entity /*entity*/) const override { return {}; }
-    void update(ecs::World& /*world*/, const render::FrameLight& /*light*/) override {}
-    void bind(ecs::World& /*world*/, ecs::Entity /*entity*/, const gpu::Program& /*program*/) const override {}
 };
 
 }  // namespace rowland::thin_film

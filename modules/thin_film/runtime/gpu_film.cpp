@@ -11,30 +11,35 @@ namespace rowland::thin_film {
 
 namespace {
 
-bool fits_a_line(const FilmTable& table) {
-    return table.rows == 1 && table.layers <= 2;
+gpu::TextureKind kind_for(const FilmTable& table) {
+    if (table.layers > 2) return gpu::TextureKind::Volume;
+    return table.rows > 1 ? gpu::TextureKind::Plane : gpu::TextureKind::Line;
 }
 
-/// Four components a texel: columns of M in the working space, one after another.
+/// Columns of M in the working space, one after another. The fourth components are the reflectance of white.
 std::vector<glm::vec4> working_columns(const FilmTable& table, const glm::dmat3& xyz_to_working) {
     const glm::dmat3 working_to_rec709 = glm::inverse(xyz_to_working * colour::rec709_to_xyz());
     std::vector<glm::vec4> columns;
     columns.reserve(3 * table.values.size());
     for (int column = 0; column < 3; ++column)
-        for (const glm::mat3& value : table.values)
-            columns.emplace_back(glm::mat3(xyz_to_working * glm::dmat3(value) * working_to_rec709)[column], 0.0F);
+        for (const glm::mat3& value : table.values) {
+            const glm::mat3 working(xyz_to_working * glm::dmat3(value) * working_to_rec709);
+            columns.emplace_back(working[column], (working * glm::vec3(1.0F))[column]);
+        }
     return columns;
 }
 
 /// A line is small, and software renderers read floats faster than halves.
 gpu::Texture upload(const FilmTable& table, const glm::dmat3& xyz_to_working) {
+    const gpu::TextureKind kind = kind_for(table);
     const int slices = 3 * table.layers;
-    const bool line = fits_a_line(table);
-    gpu::Texture texture({.kind = line ? gpu::TextureKind::Line : gpu::TextureKind::Volume,
-                          .format = line ? gpu::Format::RGBA32F : gpu::Format::RGBA16F,
+    const bool line = kind == gpu::TextureKind::Line;
+    const bool volume = kind == gpu::TextureKind::Volume;
+    gpu::Texture texture({.kind = kind,
+                          .format = volume ? gpu::Format::RGBA16F : gpu::Format::RGBA32F,
                           .width = line ? slices * table.columns : table.columns,
-                          .height = table.rows,
-                          .depth = line ? 1 : slices});
+                          .height = volume ? table.rows : table.rows * (line ? 1 : slices),
+                          .depth = volume ? slices : 1});
     texture.upload(std::span<const glm::vec4>(working_columns(table, xyz_to_working)),
                    {.layers = texture.desc().depth});
     return texture;
@@ -46,21 +51,36 @@ glm::vec2 to_texels(double begin, double end, int nodes) {
     return {scale, 0.5 / nodes - begin * scale};
 }
 
-glm::vec4 axes(const FilmTable& table) {
-    const glm::vec2 columns = to_texels(0.0, 1.0, table.columns);
+/// film_path and film_axes of the shaders.
+struct Axes {
+    glm::vec4 path;
+    glm::vec4 axes;
+};
+
+Axes axes(const FilmTable& table) {
     const auto slices = static_cast<float>(3 * table.layers);
-    if (fits_a_line(table)) return {columns / slices, static_cast<float>(table.layers - 1) / slices, 1.0F / 3.0F};
-    return {columns, table.roughest > 0.0 ? (table.layers - 1) / table.roughest : 0.0, 1.0F / slices};
+    const auto last = static_cast<float>(table.layers - 1);
+    const auto square = static_cast<float>((table.index - 1.0) * (table.index + 1.0));
+    const glm::vec2 columns = to_texels(0.0, 1.0, table.columns);
+    const glm::vec2 rows = to_texels(table.begin, table.end, table.rows);
+    switch (kind_for(table)) {
+        case gpu::TextureKind::Line:
+            return {{square, 0.0F, 0.0F, last}, {columns / slices, last / slices, 1.0F / 3.0F}};
+        case gpu::TextureKind::Plane:
+            return {{square, rows / slices, last}, {columns, last / slices, 1.0F / 3.0F}};
+        default:
+            return {{square, rows, last}, {columns, last / static_cast<float>(table.roughest), 1.0F / slices}};
+    }
 }
 
 }  // namespace
 
 GpuFilm::GpuFilm(const FilmTable& table, const glm::dmat3& xyz_to_working, std::string illuminant)
-    : texture_(upload(table, xyz_to_working)),
-      path_((table.index - 1.0) * (table.index + 1.0), to_texels(table.begin_nm, table.end_nm, table.rows),
-            table.layers - 1),
-      axes_(axes(table)),
-      illuminant_(std::move(illuminant)) {}
+    : texture_(upload(table, xyz_to_working)), illuminant_(std::move(illuminant)) {
+    const Axes of_table = axes(table);
+    path_ = of_table.path;
+    axes_ = of_table.axes;
+}
 
 void GpuFilm::bind(const gpu::Program& program) const {
     texture_.bind(kFilmTableUnit);

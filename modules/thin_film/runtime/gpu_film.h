@@ -22,8 +22,9 @@ class GpuFilm {
     GpuFilm(const FilmTable& table, const glm::dmat3& xyz_to_working, std::string illuminant);
 
     void bind(const gpu::Program& program) const;
-    /// Whether the table is of one thickness and at most one roughness: FILM_LINE in the shaders.
-    bool is_line() const { return texture_.desc().kind == gpu::TextureKind::Line; }
+    /// Line: of one thickness and at most one roughness. Plane: of several thicknesses and at most one roughness. Else
+    /// Volume. FILM_LINE and FILM_PLANE in the shaders.
+    gpu::TextureKind kind() const { return texture_.desc().kind; }
     const std::string& illuminant() const { return illuminant_; }
 
  private:

@@ -3,6 +3,9 @@
 #define MATERIAL_SPECULAR
 #define MATERIAL_SPECULAR_LOBE
 #define MATERIAL_TRANSMITTANCE
+#ifdef FILM_PASSES_LIGHT
+#define MATERIAL_PASSES_LIGHT
+#endif
 #include "engine/render/shaders/forward_fragment_interface.glsl"
 #include "modules/thin_film/shaders/film_lookup.glsl"
 
@@ -19,7 +22,8 @@ uniform vec4 film_uv_offset;    // xy, zw: likewise
 
 float factor;  // of this pixel
 float thickness;
-mat3 seen;     // M of the lobe that the view sees
+mat3x4 seen;   // M of the lobe that the view sees
+vec3 passing;  // of white light
 
 vec2 film_uv(int map, vec2 uv) {
     return film_uv_linear[map].xy * uv.x + film_uv_linear[map].zw * uv.y + (map == 0 ? film_uv_offset.xy : film_uv_offset.zw);
@@ -40,11 +44,18 @@ MaterialTerms material_terms() {
 vec3 transmittance(float n_v, float roughness) {
     seen = film_matrix(n_v, thickness, roughness);
 #ifdef FILM_ON_BLACK
-    return vec3(0.0);  // nothing is seen of what passes
+    passing = vec3(0.0);  // nothing is seen of it
 #else
-    return clamp(1.0 - factor * (seen * vec3(1.0)), 0.0, 1.0);
+    passing = clamp(1.0 - factor * vec3(seen[0].w, seen[1].w, seen[2].w), 0.0, 1.0);
 #endif
+    return passing;
 }
+
+#ifdef FILM_PASSES_LIGHT
+vec4 surface_colour();
+
+vec3 background_weight() { return (1.0 - surface_colour().a) * passing; }
+#endif
 
 // Of the film, where there is one, and of the bare surface.
 vec3 with_factor(vec3 bare, vec3 film) {
@@ -57,12 +68,12 @@ vec3 with_factor(vec3 bare, vec3 film) {
 
 vec3 reflect_lobe(vec3 light, vec3 f0, float n_v, float roughness, vec2 split) {
     vec3 bare = (f0 * split.x + split.y) * light;
-    return with_factor(bare, seen * light * (split.x + split.y));
+    return with_factor(bare, (seen * light).rgb * (split.x + split.y));
 }
 
 vec3 reflect_specular(vec3 light, vec3 f0, float cosine) {
     vec3 bare = light * schlick_reflectance(f0, cosine);
-    return with_factor(bare, film_matrix(cosine, thickness, 0.0) * light);
+    return with_factor(bare, (film_matrix(cosine, thickness, 0.0) * light).rgb);
 }
 
 #include "engine/render/shaders/forward_fragment_main.glsl"

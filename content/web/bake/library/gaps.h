@@ -1,17 +1,11 @@
 #pragma once
 // What emscripten's C++ library (3.1.6) lacks of the standard one; included before every source of the bake.
-#include <math.h>
 #include <stdlib.h>
 
 #include <charconv>
 #include <string>
 
 namespace std {
-
-/// J_n(x).
-inline double cyl_bessel_j(int order, double x) {
-    return ::jn(order, x);
-}
 
 /// The value of the same bits.
 template <typename To, typename From>

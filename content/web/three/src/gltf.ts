@@ -19,7 +19,10 @@ export class GratingExtension implements GLTFLoaderPlugin {
 
     async extendMaterialParams(material: number, parameters: GratingParameters): Promise<void> {
         const grating = this.grating(material);
-        if (grating) Object.assign(parameters, { grating, rowland: this.rowland });
+        if (!grating) return;
+        if ("grooveTexture" in grating)
+            console.warn(`material ${material}: its grooves do not follow grooveTexture, which @rowland/three does not read`);
+        Object.assign(parameters, { grating, rowland: this.rowland });
     }
 
     /** A material for each mesh, as its map follows the mesh. */

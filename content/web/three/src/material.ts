@@ -53,6 +53,8 @@ export class GratingMaterial extends MeshPhysicalMaterial {
     private readonly number = ++materials;
     private tables?: MaterialTables;
     private lightShown = 0;
+    private hasArcTable = false;
+    private mapped = false; // the light of the probe is in the picture, coarsely at least
     private normalShown?: Vector3;
     private frameShown?: Float32Array;
     private busy = false;
@@ -109,6 +111,7 @@ export class GratingMaterial extends MeshPhysicalMaterial {
         const matrix = (at: number) => new Matrix3().fromArray(facts, at);
         this.tables = tables;
         this.lightShown = 0;
+        this.hasArcTable = this.mapped = false;
         this.normalShown = this.frameShown = undefined;
         this.set("kernel_table", arrayTexture(kernel));
         const scale = new Vector4().fromArray(kernelUniforms, 0);
@@ -174,8 +177,10 @@ export class GratingMaterial extends MeshPhysicalMaterial {
     private async showPlane(normal: Vector3): Promise<void> {
         const rowland = this.rowland!;
         this.normalShown = normal;
-        for (const detail of ["coarse", "full"] as const) {
+        const details = rowland.preview ? (["coarse"] as const) : (["coarse", "full"] as const);
+        for (const detail of details) {
             this.setPlane(await rowland.plane(this.number, normal.toArray(), this.flatLobe, detail));
+            this.mapped = true;
             rowland.onUpdate();
         }
     }
@@ -185,8 +190,9 @@ export class GratingMaterial extends MeshPhysicalMaterial {
         this.frameShown = Float32Array.from(object.matrixWorld.elements);
         const turn = this.tables!.facts[FACT.rotation];
         const { normals, gratings } = worldFrames(geometry, object, this.grooves ?? groovesOf(geometry), turn);
-        if (!this.uniforms.packed_table || this.defines?.LAYERS === undefined) {
+        if (!this.hasArcTable) {
             const arc = await rowland.arc(this.number, BANDS);
+            this.hasArcTable = true;
             this.set("packed_table", arrayTexture(arc.weights, arc.mapping === 0));
             this.set("table_range", storageTexture(Float32Array.from({ length: 8 * arc.layers }, (_, i) => (i % 8 < 4 ? 1 : 0))));
             this.define("VIEW_MAPPING", String(arc.mapping));
@@ -196,6 +202,7 @@ export class GratingMaterial extends MeshPhysicalMaterial {
         }
         this.set("vertex_products", storageTexture(await rowland.products(this.number, BANDS, normals, gratings)));
         this.flag("ROWLAND_ARC", true);
+        this.mapped = true;
         rowland.onUpdate();
     }
 
@@ -204,13 +211,15 @@ export class GratingMaterial extends MeshPhysicalMaterial {
         const rowland = this.rowland!;
         if (this.lightShown !== rowland.lightVersion) {
             this.lightShown = rowland.lightVersion;
+            this.mapped = false;
             this.normalShown = this.frameShown = undefined;
             this.setLight(await rowland.keyLobes());
         }
         const flat = flatNormal(geometry);
         const kind = this.representation ?? (flat ? "planar" : "arc");
         if (kind === "planar" && flat) await this.showPlane(worldNormal(flat, object));
-        if (kind === "arc") await this.showArc(geometry, object);
+        if (kind === "arc" && !rowland.preview) await this.showArc(geometry, object);
+        this.mapped = true;
         rowland.onUpdate();
     }
 
@@ -230,6 +239,11 @@ export class GratingMaterial extends MeshPhysicalMaterial {
         this.settled = this.settle(geometry, object)
             .catch((error: Error) => this.rowland!.onError(error))
             .finally(() => (this.busy = false));
+    }
+
+    /** Whether the picture has the light of the probe; maps are coarse at first. */
+    get lit(): boolean {
+        return this.mapped;
     }
 
     /** Draws the light that the grooves diffract, alone: to compare it with reference(). */

@@ -24,7 +24,7 @@ export class BakeModule {
         for (const { module: from, name } of WebAssembly.Module.imports(module)) {
             imports[from] ??= {};
             // What the C++ library asks of a system that a page does not have is never reached.
-            imports[from][name] = from === "worker" ? worker[name] : () => 0;
+            imports[from][name] = from === "worker" ? worker[name] : from === "Math" ? (Math[name as keyof Math] as () => number) : () => 0;
         }
         const instance = await WebAssembly.instantiate(module, imports);
         memory = instance.exports.memory as WebAssembly.Memory;

@@ -1,4 +1,5 @@
 import { DataUtils, FloatType, HalfFloatType, type DataTexture, type Texture } from "three";
+import { TaskWorker } from "./task_worker.js";
 import type { ArcTables, Detail, MaterialTables, PlaneMap } from "./tasks.js";
 
 /** RGB texels of a texture that three's HDR or EXR loader gives, row 0 at the top. */
@@ -19,80 +20,103 @@ export function texelsOf(texture: Texture): { texels: Float32Array; width: numbe
     return { texels, width, height };
 }
 
-/** The worker that bakes materials and light. One for a page. */
+/** In which a page asks for the coarse maps of a light, before its bright parts are looked for. */
+const PREVIEW_MS = 100;
+
+/** What has a worker of its own, so that the tables of curved meshes, of seconds, hold up neither maps nor the ground truth. */
+type Work = "maps" | "tables" | "truth";
+
+/** The workers that bake materials and light. One Rowland for a page. */
 export class Rowland {
-    private readonly worker: Worker;
-    private readonly waiting = new Map<number, { resolve: (result: never) => void; reject: (error: Error) => void }>();
-    private next = 1;
+    private readonly workers = new Map<Work, TaskWorker>();
+    private readonly json = new Map<number, string>();
+    private referenceImage?: { light: number; sent: Promise<void> };
     /** Called when a picture would be another than before: draw. */
     onUpdate: () => void = () => {};
     /** Called with what a material or its light could not be baked for. */
     onError: (error: Error) => void = (error) => console.error(error);
-    /** Rises with each probe. */
+    /** Rises when the light is another. */
     lightVersion = 0;
+    /** Whether its bright parts are still to be found. */
+    preview = false;
+    private newestLight = 0;
 
-    constructor(worker: Worker = new Worker(new URL("./worker.js", import.meta.url), { type: "module" })) {
-        this.worker = worker;
-        worker.onmessage = ({ data }) => {
-            const waiting = this.waiting.get(data.id);
-            this.waiting.delete(data.id);
-            if (data.error === undefined) waiting?.resolve(data.result as never);
-            else waiting?.reject(new Error(data.error));
-        };
-        worker.onerror = (event) => {
-            const error = new Error(event.message || "the worker of @rowland/three did not start");
-            for (const waiting of this.waiting.values()) waiting.reject(error);
-            this.waiting.clear();
-        };
+    constructor(private readonly startWorker = () => new Worker(new URL("./worker.js", import.meta.url), { type: "module" })) {
+        this.worker("maps"); // while the page loads its light
     }
 
-    private run<Result>(task: string, args: unknown[], transfer: Transferable[] = []): Promise<Result> {
-        const id = this.next++;
-        return new Promise<Result>((resolve, reject) => {
-            this.waiting.set(id, { resolve: resolve as (result: never) => void, reject });
-            this.worker.postMessage({ id, task, args }, transfer);
-        });
+    private worker(work: Work): TaskWorker {
+        const worker = this.workers.get(work) ?? new TaskWorker(this.startWorker());
+        this.workers.set(work, worker);
+        return worker;
     }
 
-    /** Sets the light: an equirectangular texture of floats or halves. Its bright parts become `keyLights` sharp lights. */
+    /**
+     * Sets the light: an equirectangular texture of floats or halves. Its bright parts become `keyLights` sharp lights;
+     * until they are found, a second later, it is seen as a whole in coarse maps.
+     */
     async setProbe(texture: Texture, { keyLights = 16 }: { keyLights?: number } = {}): Promise<void> {
         const { texels, width, height } = texelsOf(texture);
-        await this.run("light", [texels, width, height, keyLights], [texels.buffer as ArrayBuffer]);
+        const light = ++this.newestLight;
+        await this.worker("maps").run("light", [texels, width, height], [texels]);
+        this.show(keyLights > 0);
+        if (keyLights === 0) return;
+        await new Promise((resolve) => setTimeout(resolve, PREVIEW_MS));
+        if (light !== this.newestLight) return;
+        await this.worker("maps").run("findKeyLights", [keyLights]);
+        this.show(false);
+    }
+
+    private show(preview: boolean): void {
+        this.preview = preview;
         this.lightVersion += 1;
         this.onUpdate();
     }
 
-    /** Whether the worker has tasks left. */
+    /** Whether the workers have tasks left. */
     get busy(): boolean {
-        return this.waiting.size > 0;
+        return [...this.workers.values()].some(({ busy }) => busy);
     }
 
     /** @internal */
-    material(id: number, json: object): Promise<MaterialTables> {
-        return this.run("material", [id, JSON.stringify(json)]);
+    material(id: number, material: object): Promise<MaterialTables> {
+        const json = JSON.stringify(material);
+        this.json.set(id, json);
+        return this.worker("maps").run("material", [id, json]);
     }
     /** @internal */
     keyLobes(): Promise<Float32Array> {
-        return this.run("keyLobes", []);
+        return this.worker("maps").run("keyLobes", []);
     }
     /** @internal */
     plane(id: number, normal: number[], flatLobe: boolean, detail: Detail): Promise<PlaneMap> {
-        return this.run("plane", [id, normal, flatLobe, detail]);
+        return this.worker("maps").run("plane", [id, normal, flatLobe, detail]);
     }
+
     /** @internal */
     arc(id: number, bands: number): Promise<ArcTables> {
-        return this.run("arc", [id, bands]);
+        return this.worker("tables").run("arc", [id, this.json.get(id), bands]);
     }
     /** @internal */
-    products(id: number, bands: number, normals: Float32Array, gratings: Float32Array): Promise<Float32Array> {
-        return this.run("products", [id, bands, normals, gratings], [normals.buffer, gratings.buffer] as ArrayBuffer[]);
+    async products(id: number, bands: number, normals: Float32Array, gratings: Float32Array): Promise<Float32Array> {
+        const sh = await this.worker("maps").run<Float32Array>("restSh", [bands]);
+        return this.worker("tables").run("products", [id, this.json.get(id), bands, sh, normals, gratings], [sh, normals, gratings]);
     }
     /** @internal */
-    reference(id: number, points: Float32Array): Promise<Float32Array> {
-        return this.run("reference", [id, points], [points.buffer as ArrayBuffer]);
+    async reference(id: number, points: Float32Array): Promise<Float32Array> {
+        if (this.lightVersion === 0) throw new Error("reference() needs a probe: call setProbe() before it");
+        if (this.referenceImage?.light !== this.lightVersion)
+            this.referenceImage = { light: this.lightVersion, sent: this.sendImage() };
+        await this.referenceImage.sent;
+        return this.worker("truth").run("reference", [this.json.get(id), points], [points]);
+    }
+
+    private async sendImage(): Promise<void> {
+        const texels = await this.worker("maps").run<Float32Array>("probeTexels", []);
+        await this.worker("truth").run("referenceImage", [texels], [texels]);
     }
 
     dispose(): void {
-        this.worker.terminate();
+        for (const worker of this.workers.values()) worker.dispose();
     }
 }

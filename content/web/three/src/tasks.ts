@@ -43,12 +43,11 @@ function table(width: number, height: number, depth: number, rgb: Float32Array):
 type ModuleName = "bake" | "arc" | "reference";
 export type Fetch = (name: ModuleName) => Promise<BufferSource>;
 
-/** Materials and probes by number, in the modules' memory. One probe is kept. */
+/** Materials and probes by number, in the modules' memory. One probe is kept. A worker has one of them. */
 export class Tasks {
     private readonly modules = new Map<string, Promise<BakeModule>>();
-    private readonly json = new Map<number, string>();
     private readonly baked = new Map<number, number>();
-    private readonly arcs = new Map<number, number>();
+    private readonly arcs = new Map<number, { json: string; arc: number }>();
     private probe = 0;
     private image = 0; // the probe's, in the module of the reference
 
@@ -72,9 +71,6 @@ export class Tasks {
         const bake = await this.module("bake");
         const material = Tasks.read(bake, json);
         if (this.baked.has(id)) bake.call("release_material", this.baked.get(id)!);
-        if (this.arcs.has(id)) (await this.module("arc")).call("release_arc", this.arcs.get(id)!);
-        this.arcs.delete(id);
-        this.json.set(id, json);
         this.baked.set(id, material);
         const texture = bake.numbers("kernel_texture", material, MOST_TEXELS);
         return {
@@ -85,17 +81,30 @@ export class Tasks {
     }
 
     /** `texels`: RGB, linear Rec.709, row 0 at the top. */
-    async light(texels: Float32Array, width: number, height: number, keyLights: number): Promise<void> {
+    async light(texels: Float32Array, width: number, height: number): Promise<void> {
         const bake = await this.module("bake");
         if (this.probe !== 0) bake.call("release_probe", this.probe);
-        if (this.image !== 0) (await this.module("reference")).call("release_image", this.image);
-        this.image = 0;
-        this.probe = bake.call("read_probe", bake.putFloats(texels), width, height, keyLights);
+        this.probe = bake.call("read_probe", bake.putFloats(texels), width, height);
+    }
+
+    /** Takes the brightest parts out of the probe's light. A second. */
+    async findKeyLights(count: number): Promise<void> {
+        (await this.module("bake")).call("find_key_lights", this.probe, count);
     }
 
     /** The numbers of the key lights: KeyLobe of shaders/key_lobe_block.h. */
     async keyLobes(): Promise<Float32Array> {
         return (await this.module("bake")).numbers("key_lobes", this.probe);
+    }
+
+    /** Raw SH of the light without its key lights. */
+    async restSh(bands: number): Promise<Float32Array> {
+        return (await this.module("bake")).numbers("rest_sh", this.probe, bands);
+    }
+
+    /** Width, height, then the probe's RGB texels. */
+    async probeTexels(): Promise<Float32Array> {
+        return (await this.module("bake")).numbers("probe_texels", this.probe);
     }
 
     async plane(id: number, normal: number[], flatLobe: boolean, detail: Detail): Promise<PlaneMap> {
@@ -123,18 +132,21 @@ export class Tasks {
         };
     }
 
-    private async arcOf(id: number, bands: number): Promise<[BakeModule, number]> {
+    private async arcOf(id: number, json: string, bands: number): Promise<[BakeModule, number]> {
         const module = await this.module("arc");
-        let arc = this.arcs.get(id);
-        if (arc === undefined) {
-            arc = module.call("bake_arc", Tasks.read(module, this.json.get(id)!), bands, 12);
-            this.arcs.set(id, arc);
-        }
+        const kept = this.arcs.get(id);
+        if (kept?.json === json) return [module, kept.arc];
+        if (kept) module.call("release_arc", kept.arc);
+        this.arcs.delete(id);
+        const material = Tasks.read(module, json);
+        const arc = module.call("bake_arc", material, bands, 12);
+        module.call("release_material", material);
+        this.arcs.set(id, { json, arc });
         return [module, arc];
     }
 
-    async arc(id: number, bands: number): Promise<ArcTables> {
-        const [module, arc] = await this.arcOf(id, bands);
+    async arc(id: number, json: string, bands: number): Promise<ArcTables> {
+        const [module, arc] = await this.arcOf(id, json, bands);
         const numbers = module.numbers("arc_weights", arc);
         const [mapping, width, height, layers] = numbers;
         const weights = numbers.subarray(4);
@@ -145,25 +157,26 @@ export class Tasks {
         };
     }
 
-    /** 3 · layers vectors for each vertex. */
-    async products(id: number, bands: number, normals: Float32Array, gratings: Float32Array): Promise<Float32Array> {
-        const [module, arc] = await this.arcOf(id, bands);
-        const sh = (await this.module("bake")).numbers("rest_sh", this.probe, bands);
+    /** 3 · layers vectors for each vertex. `sh`: restSh(). */
+    async products(id: number, json: string, bands: number, sh: Float32Array, normals: Float32Array, gratings: Float32Array): Promise<Float32Array> {
+        const [module, arc] = await this.arcOf(id, json, bands);
         const inputs = [sh, normals, gratings].map((floats) => module.putFloats(floats));
         const products = module.numbers("arc_products", arc, ...inputs, normals.length / 3);
         for (const input of inputs) module.call("give_back", input);
         return products;
     }
 
-    /** Radiance of points by the sum over wavelengths, along arcs of the probe's texels. */
-    async reference(id: number, points: Float32Array): Promise<Float32Array> {
-        if (this.probe === 0) throw new Error("reference() needs a probe: call setProbe() before it");
+    /** The light of reference(): probeTexels(). */
+    async referenceImage(probe: Float32Array): Promise<void> {
         const module = await this.module("reference");
-        if (this.image === 0) {
-            const texels = (await this.module("bake")).numbers("probe_texels", this.probe);
-            this.image = module.call("read_image", module.putFloats(texels.subarray(2)), texels[0], texels[1]);
-        }
-        const material = Tasks.read(module, this.json.get(id)!);
+        if (this.image !== 0) module.call("release_image", this.image);
+        this.image = module.call("read_image", module.putFloats(probe.subarray(2)), probe[0], probe[1]);
+    }
+
+    /** Radiance of points by the sum over wavelengths, along arcs of the image's texels. */
+    async reference(json: string, points: Float32Array): Promise<Float32Array> {
+        const module = await this.module("reference");
+        const material = Tasks.read(module, json);
         const address = module.putFloats(points);
         const radiance = module.numbers("reference_radiance", material, this.image, address, points.length / 9);
         module.call("give_back", address);

@@ -5,6 +5,7 @@ import { createServer } from "node:http";
 import { tmpdir } from "node:os";
 import { extname, join, normalize } from "node:path";
 import { fileURLToPath } from "node:url";
+import { DevTools } from "./devtools.mjs";
 
 export const packageFolder = fileURLToPath(new URL("..", import.meta.url));
 const TYPES = { ".html": "text/html", ".js": "text/javascript", ".mjs": "text/javascript", ".wasm": "application/wasm",
@@ -14,20 +15,25 @@ export function chromium() {
     return ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find((path) => existsSync(path));
 }
 
-/** Starts a server; `task` is what the page fetches, `files` maps further paths to files. */
-function serve(task, files, folder, onResult) {
-    const server = createServer((request, response) => {
+async function bodyOf(request) {
+    const parts = [];
+    for await (const part of request) parts.push(part);
+    return JSON.parse(Buffer.concat(parts).toString());
+}
+
+/**
+ * Starts a server; `task` is what the page fetches, `files` maps further paths to files. A page posts its result to
+ * /result, and to /devtools what a hand would do, as commands of the DevTools protocol.
+ */
+function serve(task, files, folder, onResult, onCommand) {
+    const server = createServer(async (request, response) => {
         const path = new URL(request.url, "http://localhost").pathname;
         if (path === "/task") return response.end(JSON.stringify(task));
         if (path === "/result") {
-            const parts = [];
-            request.on("data", (part) => parts.push(part));
-            request.on("end", () => {
-                response.end();
-                onResult(JSON.parse(Buffer.concat(parts).toString()));
-            });
-            return;
+            onResult(await bodyOf(request));
+            return response.end();
         }
+        if (path === "/devtools") return response.end(JSON.stringify(await onCommand(await bodyOf(request))));
         const file = files[path] ?? join(folder, normalize(path));
         if (!existsSync(file)) {
             response.statusCode = 404;
@@ -41,15 +47,16 @@ function serve(task, files, folder, onResult) {
 
 /** What the page posts to /result. */
 export async function resultOf(page, task, { files = {}, folder = packageFolder, seconds = 240 } = {}) {
-    let server, browser, timer;
+    let server, browser, tools, timer;
     const profile = mkdtempSync(join(tmpdir(), "rowland-chromium-"));
     try {
         return await new Promise(async (resolve, reject) => {
-            server = await serve(task, files, folder, resolve);
+            server = await serve(task, files, folder, resolve, (command) => tools.command(command));
             timer = setTimeout(() => reject(new Error(`no result of ${page} in ${seconds} s`)), 1000 * seconds);
             browser = spawn(chromium(), ["--headless=new", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader",
-                "--enable-unsafe-swiftshader", `--user-data-dir=${profile}`,
-                `http://127.0.0.1:${server.address().port}/${page}`], { stdio: "ignore" });
+                "--enable-unsafe-swiftshader", "--remote-debugging-pipe", `--user-data-dir=${profile}`,
+                `http://127.0.0.1:${server.address().port}/${page}`], { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"] });
+            tools = new DevTools(browser);
             browser.on("error", reject);
         });
     } finally {

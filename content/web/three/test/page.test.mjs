@@ -38,7 +38,7 @@ test("the page needs at most 2 MB", { skip: missing }, (t) => {
 let colour; // of the picture without limits
 test("the page draws on demand, outlives a lost context and names a broken file", { skip: missing }, async (t) => {
     const result = await visit("visit=8000");
-    t.diagnostic(`first frame ${Math.round(result.firstFrame)} ms, settled ${Math.round(result.settled)} ms, in software`);
+    t.diagnostic(`first frame ${Math.round(result.firstFrame)} ms, first light ${Math.round(result.firstLight)} ms, settled ${Math.round(result.settled)} ms, in software`);
     t.diagnostic(`${result.lost} | ${result.broken} | ${result.pixel}`);
     assert.equal(result.framesAtRest, 0);
     assert.match(result.lost, /context was lost/);
@@ -48,6 +48,16 @@ test("the page draws on demand, outlives a lost context and names a broken file"
     const { first, restored } = result.pictures;
     assert.ok(first.colour > 4, `colours of ${first.colour}`);
     assert.ok(Math.abs(restored.colour - first.colour) < 0.1 * first.colour, `${restored.colour} after ${first.colour}`);
+});
+
+test("fingers turn a disc, orbit and zoom", { skip: missing }, async (t) => {
+    const { turn, orbit, pinch } = (await visit("touch")).touches;
+    t.diagnostic(JSON.stringify({ turn, orbit, pinch }));
+    assert.ok(Math.abs(Math.max(...turn.after.turns) - 0.8) < 0.05, "a sample turns .01 rad for each pixel");
+    assert.ok(Math.abs(turn.after.azimuth - turn.before.azimuth) < 1e-6);
+    assert.ok(Math.abs(orbit.after.azimuth - orbit.before.azimuth) > 0.1);
+    assert.deepEqual(orbit.after.turns, orbit.before.turns);
+    assert.ok(pinch.after.distance < 0.7 * pinch.before.distance, "fingers that part come nearer");
 });
 
 for (const limit of ["halves", "small"])

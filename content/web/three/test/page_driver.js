@@ -76,11 +76,44 @@ function pointer(type, x, y) {
     document.getElementById("view").dispatchEvent(new PointerEvent(type, { clientX: x, clientY: y, pointerId: 1, bubbles: true }));
 }
 
+const devtools = async (method, params) => (await fetch("/devtools", { method: "POST", body: JSON.stringify({ method, params }) })).json();
+/** Fingers along straight lines: [x, y] where each begins and ends. */
+async function swipe(fingers) {
+    const touch = (type, touchPoints) => devtools("Input.dispatchTouchEvent", { type, touchPoints });
+    const at = (part) => fingers.map(([from, to], id) => ({ id, x: from[0] + part * (to[0] - from[0]), y: from[1] + part * (to[1] - from[1]) }));
+    const pose = () => JSON.parse(document.documentElement.dataset.pose);
+    const before = pose();
+    const drawn = frames();
+    await touch("touchStart", at(0));
+    for (const part of [0.25, 0.5, 0.75, 1]) await touch("touchMove", at(part));
+    await touch("touchEnd", []);
+    await until("a frame after the touch", () => frames() > drawn);
+    await wait(1000);
+    return { before, after: pose() };
+}
+
+/** A finger that turns a sample, one that orbits, and two that zoom. */
+async function touches() {
+    await devtools("Emulation.setTouchEmulationEnabled", { enabled: true, maxTouchPoints: 2 });
+    const sample = [innerWidth * 0.15, innerHeight * 0.64];
+    const sky = [innerWidth * 0.3, innerHeight * 0.08];
+    const beside = ([x, y], by) => [x + by, y];
+    return {
+        turn: await swipe([[sample, beside(sample, 80)]]),
+        orbit: await swipe([[sky, beside(sky, 80)]]),
+        pinch: await swipe([[beside(sky, -20), beside(sky, -70)], [beside(sky, 20), beside(sky, 70)]]),
+    };
+}
+
 async function visit() {
     const result = { errors, pictures: {} };
     const show = async (name) => (result.pictures[name] = await picture());
     await until("the first frame", () => frames() > 0);
     result.firstFrame = performance.now();
+    // Every flat sample; the ball's table takes seconds.
+    await until("the first light", () => Number(document.documentElement.dataset.lit) >= 4);
+    result.firstLight = performance.now();
+    if (limits.has("touch")) return post({ ...result, touches: await touches() });
     await settled();
     result.settled = performance.now() - 1000;
     const before = frames();

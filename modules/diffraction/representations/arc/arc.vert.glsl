@@ -13,7 +13,7 @@ out vec4 arc_products[3 * LAYERS];
 
 void material_vertex(vec3 position, vec3 g, vec3 h, vec3 n) {
     turn_grooves(g, h);
-    shade_lights(position, mat3(g, h, n));
+    shade_lights(position, lit_axes(g, h, n));
     world_grating = g;
     for (int i = 0; i < 3 * LAYERS; ++i) arc_products[i] = STORED_VEC4(vertex_products, gl_VertexID * 3 * LAYERS + i);
 }

@@ -187,7 +187,14 @@ class LevelFilling {
                 }
     }
 
-    /// Optimises the values of a chart's slice for linear interpolation; slices in the order of a level's values.
+    /// By how much values are lowered, of their second difference: for linear interpolation, and for the light's blur.
+    float sharpening_at(std::size_t row, std::size_t column) const {
+        const glm::dvec2 p = point_of(static_cast<int>(row), static_cast<int>(column));
+        const double step = 2.0 / (level_.side * level_.scale() * (1.0 + glm::dot(p, p)));  // of g
+        return kBestLinear + static_cast<float>(0.5 * kCircleLightVariance / (step * step));
+    }
+
+    /// Optimises the values of a chart's slice; slices in the order of a level's values.
     void sharpen_slice(std::size_t number) {
         const auto side = static_cast<std::size_t>(level_.side);
         glm::vec3* slice = level_.xyz.data() + number * side * side;
@@ -195,7 +202,7 @@ class LevelFilling {
         for (std::size_t row = 1; row + 1 < side; ++row)
             for (std::size_t column = 1; column + 1 < side; ++column) {
                 const std::size_t i = row * side + column;
-                slice[i] -= kBestLinear *
+                slice[i] -= sharpening_at(row, column) *
                             (values[i - 1] + values[i + 1] + values[i - side] + values[i + side] - 4.0F * values[i]);
             }
     }

@@ -1,60 +1,75 @@
 #include "modules/diffraction/representations/circle/circle_light.h"
 
+#include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
-#include <span>
+#include <numbers>
 #include <vector>
-
-#include "engine/lighting/environment_map.h"
 
 namespace rowland::diffraction {
 
 namespace {
 
-using lighting::CubeCell;
+using std::numbers::pi;
 
-constexpr int kCellParts = 4;      ///< of a cell's side
-constexpr int kPartsOfFace = 256;  ///< parts of a face's side
+/// A row beyond either edge, for texels between the edge and the last cell's middle.
+constexpr int kLightRows = kCircleLightCells + 2;
+constexpr double kCellAngle = 0.5 * pi / kCircleLightCells;
 
-/// A cell's light spreads by weight · variance of direction. Above this fraction of all weight the cell is divided. In
-/// a cell of uniform light it is 5e-5 of the cell's weight, so at most 1700 of the 25 000 cells are divided.
-constexpr double kBrightSpread = 3e-8;
-
-/// A part is so small that the length of Σ weight · direction is its weight.
-double weight_of(const CubeCell& part) {
-    return glm::length(part.direction);
+std::size_t light_cell(int face, int row, int column) {
+    return (static_cast<std::size_t>(face) * kLightRows + static_cast<std::size_t>(row)) * kLightRows +
+           static_cast<std::size_t>(column);
 }
 
-void add_cell(std::span<const CubeCell> parts, int face, int row, int column, double largest_spread,
-              lighting::LightSamples& samples) {
-    const lighting::CubeLayout layout{kPartsOfFace, 1};
-    std::vector<CubeCell> cell;
-    CubeCell sum;
-    double weight = 0.0;
-    for (int i = 0; i < kCellParts * kCellParts; ++i) {
-        const CubeCell& part =
-            parts[layout.index(0, face, kCellParts * column + i % kCellParts, kCellParts * row + i / kCellParts)];
-        cell.push_back(part);
-        sum.flux += part.flux;
-        sum.direction += part.direction;
-        weight += weight_of(part);
-    }
-    if (weight - glm::length(sum.direction) <= largest_spread) cell = {sum};
-    for (const CubeCell& part : cell)
-        if (part.direction != glm::dvec3(0.0)) samples.push_back(glm::normalize(part.direction), part.flux);
+/// A face for each sign of each axis.
+int light_face(const glm::dvec3& s) {
+    int axis = 0;
+    for (int i = 1; i < 3; ++i)
+        if (std::abs(s[i]) > std::abs(s[axis])) axis = i;
+    return 2 * axis + (s[axis] < 0.0 ? 1 : 0);
+}
+
+/// Of a direction's tangent on a face to cells.
+double cell_of(double tangent) {
+    return (std::atan(tangent) + 0.25 * pi) / kCellAngle + 0.5;
+}
+
+double tangent_of(int cell) {
+    return std::tan((cell - 0.5) * kCellAngle - 0.25 * pi);
+}
+
+void add_texel(const glm::dvec3& s, const glm::dvec3& flux, std::vector<glm::dvec3>& cells) {
+    const int face = light_face(s);
+    const int axis = face / 2;
+    const double x = cell_of(s[(axis + 1) % 3] / std::abs(s[axis]));
+    const double y = cell_of(s[(axis + 2) % 3] / std::abs(s[axis]));
+    const int column = static_cast<int>(x);
+    const int row = static_cast<int>(y);
+    const double right = x - column;
+    const double below = y - row;
+    cells[light_cell(face, row, column)] += (1.0 - below) * (1.0 - right) * flux;
+    cells[light_cell(face, row, column + 1)] += (1.0 - below) * right * flux;
+    cells[light_cell(face, row + 1, column)] += below * (1.0 - right) * flux;
+    cells[light_cell(face, row + 1, column + 1)] += below * right * flux;
 }
 
 }  // namespace
 
 lighting::LightSamples circle_light(const lighting::LightSamples& texels) {
-    const std::vector<CubeCell> parts = lighting::gather_cells(texels, kPartsOfFace);
-    double weight = 0.0;
-    for (const CubeCell& part : parts) weight += weight_of(part);
+    std::vector<glm::dvec3> cells(light_cell(6, 0, 0), glm::dvec3(0.0));
+    for (std::size_t i = 0; i < texels.size(); ++i) add_texel(texels.direction(i), texels.flux(i), cells);
     lighting::LightSamples samples;
     for (int face = 0; face < 6; ++face)
-        for (int row = 0; row < kPartsOfFace / kCellParts; ++row)
-            for (int column = 0; column < kPartsOfFace / kCellParts; ++column)
-                add_cell(parts, face, row, column, kBrightSpread * weight, samples);
+        for (int row = 0; row < kLightRows; ++row)
+            for (int column = 0; column < kLightRows; ++column) {
+                const glm::dvec3& flux = cells[light_cell(face, row, column)];
+                if (flux == glm::dvec3(0.0)) continue;
+                glm::dvec3 s;
+                s[face / 2] = face % 2 == 0 ? 1.0 : -1.0;
+                s[(face / 2 + 1) % 3] = tangent_of(column);
+                s[(face / 2 + 2) % 3] = tangent_of(row);
+                samples.push_back(glm::normalize(s), flux);
+            }
     return samples;
 }
 

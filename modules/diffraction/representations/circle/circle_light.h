@@ -4,9 +4,16 @@
 
 namespace rowland::diffraction {
 
-/// The light of a circle map as few samples: one for each cell of .025 rad of a cube map, and one for each of its 16
-/// parts where a cell's light is bright. The sums over circles then differ from those of the texels by .3 % or less
-/// (PHYSICS §6). Does not depend on the number of threads.
+/// Cells of a face's side, equal in angle.
+inline constexpr int kCircleLightCells = 64;
+
+/// By which circle_light() blurs: the variance of a direction, in radians², along each axis in a face's middle.
+inline constexpr double kCircleLightVariance = 1.0040e-4;
+
+/// A probe as a circle map is filled from it: 26 000 samples on the faces of a cube. Each texel is divided linearly
+/// among the four samples around it, so that its mean direction is kept. This blurs all light alike, by less than a
+/// map's nodes resolve, and the filling restores what is lost. Detail that the nodes do not resolve, such as what
+/// remains of a lamp beside its key light, is averaged; it would show as the nodes' pattern.
 lighting::LightSamples circle_light(const lighting::LightSamples& texels);
 
 }  // namespace rowland::diffraction

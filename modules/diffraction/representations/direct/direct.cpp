@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "modules/diffraction/model/grating.h"
+#include "modules/diffraction/representations/direct/lobe_cosine.h"
 
 namespace rowland::diffraction {
 
@@ -51,11 +52,10 @@ LightSpot clamp_at_horizon(const Spread& spread) {
     return spot;
 }
 
-/// A normal distribution is split into slices: at least so many, and none wider than this in x, so that the kernel's
-/// width hides the steps. The distribution ends at this many deviations; the weights are normalised for the 7e-6 lost.
-constexpr int kFewestSlices = 36;
+/// A lobe is summed in slices: at least so many, and none wider than this in x, so that the kernel's width hides the
+/// steps.
+constexpr int kFewestSlices = 54;
 constexpr double kSlice_nm = 12.0;
-constexpr double kNormalReach = 4.5;
 
 /// D_h convolved with a light's normal distribution along the grooves.
 double widened_density(const GrooveLobe& lobe, double sum_h, double deviation_h, double wavelength_nm) {
@@ -80,73 +80,65 @@ glm::dmat3 mean_over(const Kernel& kernel, const DirectMaterial& material, doubl
     return mean;
 }
 
+/// Σ_parts s_n⁺ d k̄: what direct_radiance() needs of a kernel.
 template <typename Kernel>
-glm::dmat3 mean_over_normal(const Kernel& kernel, const DirectMaterial& material, double u, double deviation) {
-    const double extent_nm = 2.0 * kNormalReach * deviation * material.pitch_nm;
-    const int slices = std::max(kFewestSlices, static_cast<int>(std::ceil(extent_nm / kSlice_nm)));
-    const double width = 2.0 * kNormalReach / slices;
-    // The weight of a slice at its middle adds width²/12 to the variance (Sheppard's correction); spread evenly over
-    // the slice it adds as much again.
-    const double scale = deviation / std::sqrt(1.0 + width * width / 6.0);
-    const auto below = [](double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); };
-    const double whole = below(kNormalReach) - below(-kNormalReach);
+glm::dmat3 sum_over_parts(const Kernel& kernel, const DirectMaterial& material, const LightSpot& spot,
+                          const DirectView& view) {
     glm::dmat3 sum(0.0);
-    for (int i = 0; i < slices; ++i) {
-        const double z = -kNormalReach + i * width;
-        sum += (below(z + width) - below(z)) / whole *
-               mean_over(kernel, material, u + scale * (z + 0.5 * width), 0.5 * scale * width);
+    for (const LightSpot::Part& part : spot.parts) {
+        if (part.cosine <= 0.0) continue;
+        // A box's variance is a third of its half-width's square.
+        const double half = std::hypot(std::sqrt(3.0) * part.deviation_g, view.footprint);
+        sum += part.cosine * mean_over(kernel, material, part.centre_g + view.v_g, std::max(half, kNarrowest));
     }
     return sum;
 }
 
 template <typename Kernel>
-glm::dmat3 mean_over_part(const Kernel& kernel, const DirectMaterial& material, const LightSpot& spot,
-                          const LightSpot::Part& part, const DirectView& view) {
-    const double u = part.centre_g + view.v_g;
-    // A box's variance is a third of its half-width's square.
-    const double deviation = std::hypot(part.deviation_g, view.footprint / std::sqrt(3.0));
-    if (spot.shape == LightSpot::Shape::Normal && deviation > kNarrowest)
-        return mean_over_normal(kernel, material, u, deviation);
-    return mean_over(kernel, material, u, std::max(std::sqrt(3.0) * deviation, kNarrowest));
+glm::dmat3 sum_over_slices(const Kernel& kernel, const DirectMaterial& material, const LightSpot& spot,
+                           const DirectView& view) {
+    const LobeCosine lobe(spot.axis, spot.concentration);
+    const double extent_nm = (lobe.end() - lobe.begin()) * material.pitch_nm;
+    glm::dmat3 sum(0.0);
+    for (const LobeSlice& slice : lobe_slices(lobe, std::max(kFewestSlices, static_cast<int>(extent_nm / kSlice_nm)))) {
+        const double half = std::hypot(0.5 * (slice.end_g - slice.begin_g), view.footprint);
+        sum += slice.cosine *
+               mean_over(kernel, material, 0.5 * (slice.begin_g + slice.end_g) + view.v_g, std::max(half, kNarrowest));
+    }
+    return sum;
 }
 
-/// The smoothed kernel holds the mean.
-glm::dmat3 mean_over_part(const BlurredKernel& kernel, const DirectMaterial& material, const LightSpot&,
-                          const LightSpot::Part& part, const DirectView& view) {
+template <typename Kernel>
+glm::dmat3 sum_over(const Kernel& kernel, const DirectMaterial& material, const LightSpot& spot,
+                    const DirectView& view) {
+    return spot.concentration > 0.0 ? sum_over_slices(kernel, material, spot, view)
+                                    : sum_over_parts(kernel, material, spot, view);
+}
+
+/// The smoothed kernel holds the mean over a part.
+glm::dmat3 sum_over(const BlurredKernel& kernel, const DirectMaterial& material, const LightSpot& spot,
+                    const DirectView& view) {
     const double d = material.pitch_nm;
-    const double deviation = std::hypot(part.deviation_g, view.footprint / std::sqrt(3.0));
-    return d * kernel.at(d * (part.centre_g + view.v_g), d * deviation);
+    glm::dmat3 sum(0.0);
+    for (const LightSpot::Part& part : spot.parts) {
+        if (part.cosine <= 0.0) continue;
+        const double deviation = std::hypot(part.deviation_g, view.footprint / std::sqrt(3.0));
+        sum += part.cosine * d * kernel.at(d * (part.centre_g + view.v_g), d * deviation);
+    }
+    return sum;
 }
 
 template <typename Kernel>
 glm::dvec3 seen_through(const Kernel& kernel, const DirectMaterial& material, const LightSpot& spot,
                         const DirectView& view) {
-    glm::dvec3 sum(0.0);
-    for (const LightSpot::Part& part : spot.parts)
-        if (part.cosine > 0.0)
-            sum += 0.5 * part.cosine * (mean_over_part(kernel, material, spot, part, view) * spot.flux);
-    return transmittance(material.cover, spot) * groove_factor(material.lobe, spot, view.v_h) * sum;
+    return transmittance(material.cover, spot) * groove_factor(material.lobe, spot, view.v_h) *
+           (0.5 * (sum_over(kernel, material, spot, view) * spot.flux));
 }
 
-/// mean_above_wide() for z ≥ kFewTurns, which is exact in the tails also. With τ = t − t₀,
-/// sin t = sin τ cos t₀ + cos τ sin t₀: the first term has a closed integral, the second is normal in y = 2√z sin(τ/2),
-/// to 1/z².
+/// mean_above_wide() for z ≥ kFewTurns, exact in the tails also.
 double mean_above_narrow(double sine, double cosine, double z) {
-    const double root = std::sqrt(z);
-    const auto gauss = [](double y) { return std::exp(-0.5 * y * y); };
-    // 2 cos(t₀/2) and 2 sin(t₀/2), t₀ in (−π/2, π/2), without cancellation.
-    const double half_cosine = std::sqrt(2.0 + 2.0 * cosine);
-    const double half_sine = 2.0 * sine / half_cosine;
-    const double begin = -half_sine * root;
-    const double end = half_cosine * root;
-    const auto below = [](double y) { return 0.5 * std::erfc(-y / std::numbers::sqrt2); };
-    const double above = begin > 0.0 ? below(-begin) - below(-end) : below(end) - below(begin);
-    const double root_2pi = std::sqrt(2.0 * std::numbers::pi);
-    const double second = 3.0 / (8.0 * z);
-    const double even = (root_2pi * above * (1.0 - second) + second * (end * gauss(end) - begin * gauss(begin))) / root;
-    const double odd = (gauss(begin) - gauss(end)) / z;
-    const double norm = root_2pi / root * (1.0 + 1.0 / (8.0 * z) + 9.0 / (128.0 * z * z));
-    return std::max(0.0, (cosine * odd + sine * even) / norm);
+    const double whole = std::sqrt(2.0 * std::numbers::pi / z) * (1.0 + 1.0 / (8.0 * z) + 9.0 / (128.0 * z * z));
+    return light_above_narrow(sine, cosine, z) / whole;
 }
 
 constexpr double kFewTurns = 3.0;
@@ -238,8 +230,9 @@ LightSpot light_spot(const lighting::KeyLight& light, const glm::dmat3& world_to
     const glm::dvec3 axis = world_to_tangent * light.direction;
     LightSpot spot = clamp_at_horizon({moments.mean * axis, moments.variance_along, moments.variance_across, axis});
     spot.flux = light.flux;
-    spot.shape = LightSpot::Shape::Normal;
     spot.parts = lobe_parts(axis, light.concentration);
+    spot.axis = axis;
+    spot.concentration = light.concentration;
     return spot;
 }
 

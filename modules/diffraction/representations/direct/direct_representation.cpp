@@ -5,6 +5,7 @@ namespace rowland::diffraction {
 const RepresentationInfo& DirectSettings::info() {
     static const RepresentationInfo info{.name = "direct",
                                          .summary = "key lights and analytic lights alone",
+                                         .lattices = true,
                                          .key_lights = KeyLightUse::Always,
                                          .sweep_tier = "key_lights=16",
                                          .sweep_key_lights = {4, 16, 64},

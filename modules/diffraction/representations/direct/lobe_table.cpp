@@ -5,6 +5,10 @@
 #include <cstddef>
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
+#include <span>
+
+#include "modules/diffraction/bake/kernel_cells.h"
+#include "modules/diffraction/representations/direct/lobe_cosine.h"
 
 namespace rowland::diffraction {
 
@@ -41,6 +45,26 @@ RowSetting row_setting(const lighting::LobeMoments& moments, double t) {
     if (wider >= 0.0) return {.s_g = 0.0, .footprint = std::sqrt(3.0 * wider)};
     const double s_g = std::sqrt(wider / (moments.variance_along - moments.variance_across));
     return {.s_g = std::copysign(std::min(s_g, kSteepest), t - 0.5), .footprint = 0.0};
+}
+
+/// Lowers the inner nodes of a row, so that linear interpolation is right on average.
+void sharpen(std::span<glm::vec3> row) {
+    glm::vec3 left = row[0];
+    for (std::size_t i = 1; i + 1 < row.size(); ++i) {
+        const glm::vec3 here = row[i];
+        row[i] -= kBestLinear * (left - 2.0F * here + row[i + 1]);
+        left = here;
+    }
+}
+
+glm::dmat3 radiance_of(const BlurredKernel& kernel, double pitch_nm, std::span<const LobeWindow> windows, double v_g,
+                       double footprint) {
+    glm::dmat3 sum(0.0);
+    for (const LobeWindow& window : windows) {
+        const double deviation = std::hypot(window.deviation_g, footprint / std::sqrt(3.0));
+        sum += 0.5 * window.cosine * pitch_nm * kernel.at(pitch_nm * (window.centre_g + v_g), pitch_nm * deviation);
+    }
+    return sum;
 }
 
 }  // namespace
@@ -84,20 +108,20 @@ LobeTable make_lobe_table(const BlurredKernel& kernel, double pitch_nm, const li
     LobeTable table{
         .begin_nm = kernel.begin_nm, .end_nm = kernel.end_nm, .columns = columns, .rows = kRows, .values = {}};
     table.values.reserve(static_cast<std::size_t>(kRows) * static_cast<std::size_t>(columns));
-    const DirectMaterial material{.pitch_nm = pitch_nm, .zero_order_xyz = glm::dmat3(0.0), .lobe = FlatLobe{}};
     const lighting::LobeMoments moments = lighting::lobe_moments(light.concentration);
     lighting::KeyLight raised = light;
     for (int row = 0; row < kRows; ++row) {
         const RowSetting setting = row_setting(moments, cell_centre(row, kRows));
         raised.direction = {setting.s_g, 0.0, std::sqrt(1.0 - setting.s_g * setting.s_g)};
-        const LightSpot spot = light_spot(raised, glm::dmat3(1.0));
+        const std::vector<LobeWindow> windows = lobe_windows(LobeCosine(raised.direction, light.concentration));
         const double height = lobe_height(light.concentration, raised.direction.z);
         for (int column = 0; column < columns; ++column) {
             const double x = table.begin_nm + (table.end_nm - table.begin_nm) * cell_centre(column, columns);
-            const DirectView view{
-                .v_g = x / pitch_nm - moments.mean * setting.s_g, .v_h = 0.0, .footprint = setting.footprint};
-            table.values.emplace_back(direct_radiance(kernel, material, spot, view) / height);
+            const double v_g = x / pitch_nm - moments.mean * setting.s_g;
+            table.values.emplace_back(radiance_of(kernel, pitch_nm, windows, v_g, setting.footprint) * light.flux /
+                                      height);
         }
+        sharpen(std::span(table.values).last(static_cast<std::size_t>(columns)));
     }
     return table;
 }

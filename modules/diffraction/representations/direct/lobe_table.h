@@ -40,8 +40,9 @@ double lobe_height(double concentration, double s_n);
 /// of the lobe's deviation for κ ≥ 40.
 glm::dvec4 lobe_height_fit(double concentration);
 
-/// The table of a key light, from direct_radiance() of the raised lobe over lobe_height(). It deviates from
-/// direct_radiance() only where the horizon cuts the lobe.
+/// The table of a key light, from the radiance of the raised lobe (LobeCosine) over lobe_height(). It deviates from
+/// direct_radiance() where the horizon cuts the lobe. Nodes are those that interpolate best over x
+/// (kBestLinear).
 LobeTable make_lobe_table(const BlurredKernel& kernel, double pitch_nm, const lighting::KeyLight& light, int columns);
 
 /// CPU reference of key_lobes.glsl: XYZ of a key light from its table. `world_to_tangent`: rows g, h, n.

@@ -4,6 +4,8 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
+#include <glm/common.hpp>
 #include <numbers>
 
 #include "engine/core/check.h"
@@ -18,7 +20,8 @@ namespace {
 using math::FourierTransform;
 constexpr std::size_t kLanes = FourierTransform::kLanes;
 
-/// The most by which a frequency is amplified. More would show single lamps with rings around them.
+/// About the most by which a frequency is amplified. More would show single lamps with rings around them, and so would
+/// a limit that sets in at one frequency.
 constexpr double kMostRestored = 3.0;
 /// Pits' lobes are tabulated at this many wavelengths, and linear between.
 constexpr std::size_t kPitWavelengths = 16;
@@ -34,7 +37,9 @@ double sinc_of(double x) {
 double restored(double frequency, double disc_step) {
     const double angle = 2.0 * std::numbers::pi * frequency;
     const double left = std::pow(sinc_of(frequency), 6) * std::exp(-disc_step * disc_step * angle * angle / 12.0);
-    return std::min(1.0 / left, kMostRestored) * (1.0 + 2.0 * double{kBestLinear} * (1.0 - std::cos(angle)));
+    const double limit = 1.0 / kMostRestored;
+    return std::sqrt((1.0 + limit * limit) / (left * left + limit * limit)) *
+           (1.0 + 2.0 * double{kBestLinear} * (1.0 - std::cos(angle)));
 }
 
 std::vector<double> wavelengths_of(const GrooveLobe& lobe) {
@@ -95,7 +100,7 @@ TransformedOrders transformed_orders(const DiffractionPattern& pattern, const st
     for (const DiffractionPattern::Node& node : pattern.nodes) {
         const double fraction = hat(wavelengths_nm, r, static_cast<double>(node.wavelength_nm));
         if (fraction == 0.0) continue;
-        const double position = static_cast<double>(node.u) / step;
+        const double position = static_cast<double>(node.u.x) / step;
         const double low = std::floor(position);
         for (int offset = 0; offset < 2; ++offset) {
             const auto wrapped = static_cast<std::ptrdiff_t>(low) + offset + static_cast<std::ptrdiff_t>(size);
@@ -117,6 +122,77 @@ TransformedOrders transformed_orders(const DiffractionPattern& pattern, const st
     return orders;
 }
 
+/// The pattern's points, each divided among four nodes of the grid, as the conjugate of their transform.
+class TransformedPoints {
+ public:
+    TransformedPoints(const DiffractionPattern& pattern, const LobeMapViews& views, std::size_t size_g,
+                      std::size_t size_h)
+        : size_g_(size_g), size_h_(size_h) {
+        for (auto* parts : {&real_, &imaginary_})
+            for (std::vector<float>& column : *parts) column.assign(kLanes * size_g * size_h, 0.0F);
+        for (const DiffractionPattern::Node& node : pattern.nodes) add(node, views);
+        for (std::size_t c = 0; c < 3; ++c) {
+            transform(c, size_g, [&](std::size_t line, std::size_t i) { return line * size_g_ + i; });
+            transform(c, size_h, [&](std::size_t line, std::size_t i) { return i * size_g_ + line; });
+            for (float& value : imaginary_[c]) value = -value;
+        }
+    }
+
+    /// Copies column `c` of a frequency's matrix, times `factor`.
+    void copy(std::size_t c, std::size_t g, std::size_t h, float factor, float* real, float* imaginary) const {
+        const std::size_t at = kLanes * (h * size_g_ + g);
+        for (std::size_t o = 0; o < 3; ++o) {
+            real[o] = factor * real_[c][at + o];
+            imaginary[o] = factor * imaginary_[c][at + o];
+        }
+    }
+
+ private:
+    void add(const DiffractionPattern::Node& node, const LobeMapViews& views) {
+        const glm::dvec2 position(static_cast<double>(node.u.x) / views.step_g(),
+                                  static_cast<double>(node.u.y) / views.step_h());
+        const glm::dvec2 low = glm::floor(position);
+        const auto wrapped = [](double node_of, std::size_t size) {
+            return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(node_of) + static_cast<std::ptrdiff_t>(size)) %
+                   size;
+        };
+        for (int corner = 0; corner < 4; ++corner) {
+            const glm::dvec2 upper(corner & 1, corner >> 1);
+            const glm::dvec2 near = 1.0 - glm::abs(position - low - upper);
+            const std::size_t at =
+                kLanes * (wrapped(low.y + upper.y, size_h_) * size_g_ + wrapped(low.x + upper.x, size_g_));
+            for (std::size_t c = 0; c < 3; ++c)
+                for (std::size_t o = 0; o < 3; ++o)
+                    real_[c][at + o] +=
+                        static_cast<float>(near.x * near.y) * node.weight[static_cast<int>(c)][static_cast<int>(o)];
+        }
+    }
+
+    /// Transforms all lines along one axis; `index(line, i)`: the texel of a line's element.
+    template <typename Index>
+    void transform(std::size_t c, std::size_t size, const Index& index) {
+        const FourierTransform along(size);
+        parallel_for(size_g_ * size_h_ / size, [&](std::size_t line) {
+            std::array<std::vector<float>, 4> parts;
+            for (auto& part : parts) part.resize(kLanes * size);
+            for (std::size_t i = 0; i < size; ++i) {
+                std::copy_n(real_[c].data() + kLanes * index(line, i), kLanes, parts[0].data() + kLanes * i);
+                std::copy_n(imaginary_[c].data() + kLanes * index(line, i), kLanes, parts[1].data() + kLanes * i);
+            }
+            along({parts[0], parts[1]}, {parts[2], parts[3]});
+            for (std::size_t i = 0; i < size; ++i) {
+                std::copy_n(parts[0].data() + kLanes * i, kLanes, real_[c].data() + kLanes * index(line, i));
+                std::copy_n(parts[1].data() + kLanes * i, kLanes, imaginary_[c].data() + kLanes * index(line, i));
+            }
+        });
+    }
+
+    std::size_t size_g_;
+    std::size_t size_h_;
+    std::array<std::vector<float>, 3> real_;  ///< by column of the matrices, kLanes floats a frequency
+    std::array<std::vector<float>, 3> imaginary_;
+};
+
 }  // namespace
 
 LobeSpectrum::LobeSpectrum(const DiffractionPattern& pattern, const LobeMapViews& views)
@@ -127,27 +203,36 @@ LobeSpectrum::LobeSpectrum(const DiffractionPattern& pattern, const LobeMapViews
       size_h_(std::bit_ceil(2 * static_cast<std::size_t>(views.h))) {
     ROWLAND_CHECK_OP(views.g, >=, 8);
     ROWLAND_CHECK_OP(views.h, >=, 8);
-    const std::vector<double> wavelengths_nm = wavelengths_of(pattern.lobe);
-    std::vector<std::vector<double>> lobes(wavelengths_nm.size());
-    std::vector<TransformedOrders> orders(wavelengths_nm.size());
-    parallel_for(wavelengths_nm.size(), [&](std::size_t r) {
-        lobes[r] = transformed_lobe(pattern.lobe, wavelengths_nm[r], views.step_h(), size_h_);
-        orders[r] = transformed_orders(pattern, wavelengths_nm, r, views.step_g(), size_g_);
-    });
+    if (pattern.lobe)
+        fill_lobe(pattern);
+    else
+        fill_points(pattern);
+}
+
+double LobeSpectrum::factor(std::size_t g, std::size_t h) const {
     // A LightDisc holds half the flux.
-    const double scale = 2.0 / (views.step_g() * views.step_h() * static_cast<double>(size_g_ * size_h_));
+    const double scale = 2.0 / (views_.step_g() * views_.step_h() * static_cast<double>(size_g_ * size_h_));
     const auto restored_at = [&](std::size_t f, std::size_t size, double step) {
         const auto frequency = static_cast<double>(std::min(f, size - f)) / static_cast<double>(size);
         return restored(frequency, 2.0 / (disc_cells() * step));
     };
+    return scale * restored_at(g, size_g_, views_.step_g()) * restored_at(h, size_h_, views_.step_h());
+}
+
+void LobeSpectrum::fill_lobe(const DiffractionPattern& pattern) {
+    const std::vector<double> wavelengths_nm = wavelengths_of(*pattern.lobe);
+    std::vector<std::vector<double>> lobes(wavelengths_nm.size());
+    std::vector<TransformedOrders> orders(wavelengths_nm.size());
+    parallel_for(wavelengths_nm.size(), [&](std::size_t r) {
+        lobes[r] = transformed_lobe(*pattern.lobe, wavelengths_nm[r], views_.step_h(), size_h_);
+        orders[r] = transformed_orders(pattern, wavelengths_nm, r, views_.step_g(), size_g_);
+    });
     matrices_.assign((size_h_ / 2 + 1) * size_g_ * kFloats, 0.0F);
     parallel_for(size_h_ / 2 + 1, [&](std::size_t h) {
-        const double factor_h = scale * restored_at(h, size_h_, views.step_h());
         for (std::size_t g = 0; g < size_g_; ++g) {
             float* to = matrices_.data() + (h * size_g_ + g) * kFloats;
-            const double factor = factor_h * restored_at(g, size_g_, views.step_g());
             for (std::size_t r = 0; r < lobes.size(); ++r) {
-                const auto weight = static_cast<float>(factor * lobes[r][h]);
+                const auto weight = static_cast<float>(factor(g, h) * lobes[r][h]);
                 for (std::size_t c = 0; c < 3; ++c)
                     for (std::size_t o = 0; o < 3; ++o) {
                         to[kLanes * c + o] += weight * orders[r].real[c][kLanes * g + o];
@@ -158,8 +243,21 @@ LobeSpectrum::LobeSpectrum(const DiffractionPattern& pattern, const LobeMapViews
     });
 }
 
+void LobeSpectrum::fill_points(const DiffractionPattern& pattern) {
+    const TransformedPoints points(pattern, views_, size_g_, size_h_);
+    matrices_.assign(size_h_ * size_g_ * kFloats, 0.0F);
+    parallel_for(size_h_, [&](std::size_t h) {
+        for (std::size_t g = 0; g < size_g_; ++g) {
+            float* to = matrices_.data() + (h * size_g_ + g) * kFloats;
+            const auto weight = static_cast<float>(factor(g, h));
+            for (std::size_t c = 0; c < 3; ++c) points.copy(c, g, h, weight, to + kLanes * c, to + kLanes * (3 + c));
+        }
+    });
+}
+
 std::span<const float> LobeSpectrum::at(std::size_t frequency_h) const {
-    const std::size_t row = std::min(frequency_h, size_h_ - frequency_h);
+    const bool whole = matrices_.size() == size_h_ * size_g_ * kFloats;
+    const std::size_t row = whole ? frequency_h : std::min(frequency_h, size_h_ - frequency_h);
     return std::span(matrices_).subspan(row * size_g_ * kFloats, size_g_ * kFloats);
 }
 

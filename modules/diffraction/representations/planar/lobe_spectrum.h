@@ -21,7 +21,7 @@ struct LobeMapViews {
 
 /// The Fourier transform of a diffraction pattern over a grid of u, as correlation with light on LobeMapViews needs it:
 /// periods of at least 4, the extent of u. It also undoes the blur by the light's distribution among nodes, PHYSICS
-/// (33), as far as that amplifies nothing more than kMostRestored times, and lowers values for linear interpolation
+/// (33), as far as that amplifies little more than kMostRestored times, and lowers values for linear interpolation
 /// (kBestLinear) along both axes.
 class LobeSpectrum {
  public:
@@ -39,16 +39,23 @@ class LobeSpectrum {
 
     /// Three columns of a complex 3 × 3 matrix: the real parts, four floats a column, then the imaginary ones.
     static constexpr std::size_t kFloats = 24;
-    /// The matrices of all frequencies along g at one along h, which is taken as its magnitude: lobes are even.
+    /// The matrices of all frequencies along g at one along h.
     std::span<const float> at(std::size_t frequency_h) const;
 
  private:
+    /// Grooves: the transforms of orders along g times those of lobes along h.
+    void fill_lobe(const DiffractionPattern& pattern);
+    /// A pattern without a lobe.
+    void fill_points(const DiffractionPattern& pattern);
+    /// What a frequency's matrix is multiplied by.
+    double factor(std::size_t g, std::size_t h) const;
+
     LobeMapViews views_;
     bool even_;
     std::optional<Cover> cover_;
     std::size_t size_g_;
     std::size_t size_h_;
-    std::vector<float> matrices_;  ///< size_h/2 + 1 times size_g
+    std::vector<float> matrices_;  ///< rows of size_g: size_h/2 + 1 of a lobe, which is even, size_h of points
 };
 
 }  // namespace rowland::diffraction

@@ -10,11 +10,11 @@
 
 namespace rowland::diffraction {
 
-/// A map over (azimuth, v_g), or with a lobe that is not flat (azimuth, v_g, v_h), that is filled at run time for a
-/// flat object. The stand-in shades objects that are not flat.
+/// A map over (azimuth, v_g), or with a lobe that is not flat or a lattice (azimuth, v_g, v_h), that is filled at run
+/// time for a flat object. The stand-in shades objects that are not flat; a lattice's is black.
 struct PlanarSettings {
     PlanarMapSize size;                      ///< flat lobe
-    std::optional<LobeMapSize> lobe_size{};  ///< other lobes
+    std::optional<LobeMapSize> lobe_size{};  ///< other lobes, and lattices
     Grating grating{};
     ArcSettings stand_in;
 
@@ -32,7 +32,7 @@ struct PlanarLobe {
 
 struct PlanarTables {
     PlanarMapSize size;
-    std::optional<PlanarLobe> lobe{};  ///< of a lobe that is not flat
+    std::optional<PlanarLobe> lobe{};  ///< of a lobe that is not flat, or a lattice
     Lazy<ArcTable> stand_in;           ///< takes longer to bake than a map to fill, and flat objects do not read it
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <random>
 
 #include "engine/post/shader_files.h"
@@ -24,6 +25,14 @@ const PostSettings every_effect{.bloom = post::BloomSettings{.strength = 0.3F, .
                                 .exposure_stops = 0.5F,
                                 .vignette = post::VignetteSettings{.vertical_fov = 0.9F, .strength = 0.4F},
                                 .dither = post::DitherSettings{}};
+
+/// All light moves.
+post::GlareSettings glare_by(glm::vec2 offset) {
+    auto pattern = std::make_shared<post::GlarePattern>();
+    pattern->straight = glm::mat3(0.0F);
+    pattern->points = {{offset, glm::mat3(1.0F)}};
+    return {.pattern = pattern};
+}
 
 class PostStackTest : public test::GlTest {
  protected:
@@ -78,7 +87,10 @@ TEST_F(PostStackTest, EffectsThatChangeNothingRunNoPass) {
     const gpu::Framebuffer drawn = target({16, 16}, gpu::Format::RGBA8);
     post::PostStack stack(library_);
     stack.draw(plain_picture(0.5F), display_,
-               {.bloom = post::BloomSettings{.strength = 0.0F}, .vignette = post::VignetteSettings{}}, {}, drawn);
+               {.glare = post::GlareSettings{.pattern = std::make_shared<post::GlarePattern>()},
+                .bloom = post::BloomSettings{.strength = 0.0F},
+                .vignette = post::VignetteSettings{}},
+               {}, drawn);
     EXPECT_EQ(stack.passes(), 1);
 }
 
@@ -91,6 +103,7 @@ TEST_F(PostStackTest, EveryEffectAddsItsPasses) {
         stack.draw(hdr, display_, settings, frame(), drawn);
         return stack.passes();
     };
+    EXPECT_EQ(passes({.glare = glare_by({0.1F, 0.0F})}), 1 + 5);
     EXPECT_EQ(passes({.bloom = every_effect.bloom}), 1 + 2 * 3);
     EXPECT_EQ(passes({.auto_exposure = every_effect.auto_exposure}), 1 + 2);  // 40 × 30 → 5 × 4 → 1
     EXPECT_EQ(passes({.vignette = every_effect.vignette}), 1 + 1);
@@ -218,6 +231,24 @@ TEST_F(PostStackTest, DitherKeepsTheMeanThroughTheWholeStack) {
         // 0.05 of a step, and the display transform's 1e-4 between GPU and CPU.
         EXPECT_NEAR(mean, 255.0 * expected[0].g, 0.05 + 255.0 * 1e-4) << value;
     }
+}
+
+TEST_F(PostStackTest, TheThresholdOfGlareIsOfTheExposedPicture) {
+    const glm::ivec2 size(64, 36);
+    std::vector<glm::vec4> pixels(64 * 36, glm::vec4(0.0F));
+    pixels[18 * 64 + 32] = glm::vec4(1.5F);
+    gpu::Texture hdr({.format = gpu::Format::RGBA16F, .width = size.x, .height = size.y});
+    hdr.upload(std::span<const glm::vec4>(pixels));
+    const gpu::Framebuffer drawn = target(size, gpu::Format::RGBA32F);
+    post::PostStack stack(library_);
+    const auto display_value_of_the_lamp = [&](float stops, bool glare) {
+        PostSettings settings{.exposure_stops = stops};
+        if (glare) settings.glare = glare_by({0.2F, 0.0F});
+        stack.draw(hdr, display_, settings, {}, drawn);
+        return drawn.colour().read()[18 * 64 + 32].g;
+    };
+    EXPECT_EQ(display_value_of_the_lamp(-1.0F, true), display_value_of_the_lamp(-1.0F, false));
+    EXPECT_LT(display_value_of_the_lamp(0.0F, true), display_value_of_the_lamp(0.0F, false));
 }
 
 TEST_F(PostStackTest, AutomaticExposureWithoutWeightsIsALogicError) {

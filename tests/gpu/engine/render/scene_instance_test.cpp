@@ -20,6 +20,7 @@ struct Marked {
     int number = 0;
     std::string pointer;
     bool had_mesh_and_material = false;
+    bool had_another_beside = false;
 };
 
 /// A material type that marks the entities with its extension and draws none.
@@ -27,6 +28,7 @@ class MarkType final : public MaterialType {
  public:
     std::string name() const override { return "mark"; }
     std::string gltf_extension() const override { return "TEST_mark"; }
+    std::vector<std::string> gltf_extensions_beside() const override { return {"TEST_beside"}; }
     void attach(ecs::World& world, ecs::Entity entity, const nlohmann::json& extension, SurfaceTextures& /*textures*/,
                 const std::string& file, const std::string& pointer) override {
         if (!extension.contains("number"))
@@ -36,8 +38,10 @@ class MarkType final : public MaterialType {
                          .expected = "a number",
                          .remedy = {},
                          .fault = Fault::Input});
+        const auto& all = world.get<FileMaterial>(entity).description->extensions;
         world.add(entity, Marked{extension["number"].get<int>(), pointer,
-                                 world.find<MeshInstance>(entity) && world.find<StandardMaterial>(entity)});
+                                 world.find<MeshInstance>(entity) && world.find<StandardMaterial>(entity),
+                                 all.contains("TEST_beside")});
     }
     void add_shaders(gpu::ShaderLibrary& /*library*/) const override {}
     bool owns(ecs::World& /*world*/, ecs::Entity /*entity*/) const override { return false; }
@@ -247,7 +251,7 @@ TEST_F(SceneInstanceTest, WhatIsBelowANodeThatReflectsObjectsIsOneGroup) {
 TEST_F(SceneInstanceTest, AMaterialExtensionReachesTheTypeThatHandlesIt) {
     EXPECT_TRUE(renderer_.gltf_extensions().empty());
     renderer_.add_material_type(std::make_unique<MarkType>());
-    EXPECT_EQ(renderer_.gltf_extensions(), std::vector<std::string>{"TEST_mark"});
+    EXPECT_EQ(renderer_.gltf_extensions(), (std::vector<std::string>{"TEST_mark", "TEST_beside"}));
     scene::ImportedScene scene = two_nodes();
     scene.materials[0].extensions = {{"TEST_other", nlohmann::json::object()}, {"TEST_mark", {{"number", 7}}}};
     const SceneInstance instance = instantiate(world_, scene, renderer_, "test.gltf");
@@ -256,6 +260,27 @@ TEST_F(SceneInstanceTest, AMaterialExtensionReachesTheTypeThatHandlesIt) {
     EXPECT_EQ(marked->number, 7);
     EXPECT_EQ(marked->pointer, "/materials/0/extensions/TEST_mark");
     EXPECT_TRUE(marked->had_mesh_and_material);
+    EXPECT_FALSE(marked->had_another_beside);
+}
+
+TEST_F(SceneInstanceTest, AnExtensionBesideATypesOwnIsReadByItAndAloneIsWarnedOfOnce) {
+    renderer_.add_material_type(std::make_unique<MarkType>());
+    scene::ImportedScene scene = two_nodes();
+    scene.materials[0].extensions = {{"TEST_beside", nlohmann::json::object()}, {"TEST_mark", {{"number", 7}}}};
+    testing::internal::CaptureStderr();
+    const SceneInstance instance = instantiate(world_, scene, renderer_, "test.gltf");
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+    EXPECT_TRUE(world_.get<Marked>(instance.drawn[0]).had_another_beside);
+    EXPECT_EQ(world_.find<FileMaterial>(instance.drawn[0]), nullptr);
+
+    scene.materials[0].extensions.erase("TEST_mark");
+    scene.instances.push_back(scene.instances[0]);
+    testing::internal::CaptureStderr();
+    instantiate(world_, scene, renderer_, "test.gltf");
+    const std::string warning = "/materials/0/extensions/TEST_beside is ignored without TEST_mark";
+    const std::string said = testing::internal::GetCapturedStderr();
+    ASSERT_NE(said.find(warning), std::string::npos) << said;
+    EXPECT_EQ(said.find(warning, said.find(warning) + 1), std::string::npos) << said;
 }
 
 TEST_F(SceneInstanceTest, AWrongExtensionLeavesTheWorldAsItWas) {

@@ -79,7 +79,8 @@ TEST_F(Arc, GrazingViewsEqualTheCpu) {
     const auto rest = arc_xyz(cooked, light_.residual);
     EXPECT_LT(
         largest_difference(
-            draw(), [&](const Point& point) { return rest(point) + key_light_xyz(cooked, light_.key_lights, point); }),
+            draw(), [&](const Point& point) { return rest(point) + key_light_xyz(cooked, light_.key_lights, point); },
+            [&](const Point& point) { return key_light_error(cooked, light_.key_lights, point); }),
         kPictureTolerance);
     EXPECT_GT(compared_, 5);
 }

@@ -83,20 +83,17 @@ TEST_F(MapFillingTest, MapsOfOneSizeTakeTurnsInTwoTextures) {
     EXPECT_EQ(textures_created, 2);
 }
 
-TEST_F(MapFillingTest, UnderNewLightAFrameMayWaitForTheFullMap) {
-    full_maps_.release();
-    update(1.0, MapPace::WholeUnderNewLight);
-    EXPECT_TRUE(filling_.is_complete());
-    update(1.0, MapPace::WholeUnderNewLight);
-    EXPECT_EQ(filling_.fills_begun(), 1);
-
-    update(2.0, MapPace::WholeUnderNewLight);  // would hang if it waited
-    EXPECT_FALSE(filling_.is_complete());
-
+TEST_F(MapFillingTest, UnderNewLightNoFrameShowsTheOldOneNorWaitsForTheFullMap) {
+    update(1.0);
     texels_ = std::make_shared<const lighting::LightSamples>();
-    full_maps_.release(2);  // one for the map that is being filled
-    update(2.0, MapPace::WholeUnderNewLight);
-    EXPECT_TRUE(filling_.is_complete());
+    update(1.0);  // the old light's full map is still being filled
+    EXPECT_EQ(coarse_count_, 2);
+    EXPECT_EQ(filling_.maps_shown(), 2);
+    EXPECT_FALSE(filling_.is_complete());
+    full_maps_.release(2);
+    update_until_complete(1.0);
+    EXPECT_EQ(filling_.maps_shown(), 3);
+    EXPECT_EQ(coarse_count_, 2);
 }
 
 TEST_F(MapFillingTest, AStillWaitsForTheFullMapOfEveryInput) {

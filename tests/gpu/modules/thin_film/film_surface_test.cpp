@@ -35,6 +35,26 @@ class FilmPixel : public rowland::test::RenderTest {
         return entity;
     }
 
+    static constexpr double kRoughness = 0.35;
+    static constexpr double kThickness_nm = 280.0;
+
+    /// 100 to 400 nm, of which a texture of 153/255 everywhere makes kThickness_nm.
+    ecs::Entity add_textured_film(double smoothest) {
+        const ecs::Entity entity = add(square(), {.base_colour = glm::vec3(0.0F)});
+        cooked_.material = parse_film_material(
+            {{"film", {{"ior", 1.5}, {"thickness_nm", 400}}}, {"metal", "Cu"}, {"roughness", kRoughness}}, "film.json");
+        cooked_.material.range.thinnest_nm = 100.0;
+        cooked_.material.range.smoothest = smoothest;
+        cooked_.table = bake_film(cooked_.material);
+        add_film(world_, entity, cooked_, glm::inverse(colour::rec709_to_xyz()));
+        auto texel = std::make_shared<gpu::Texture>(gpu::TextureDesc{.format = gpu::Format::RGBA8});
+        texel->upload(std::span<const std::uint8_t>(std::array<std::uint8_t, 4>{0, 153, 0, 255}));
+        auto& surface = world_.get<FilmSurface>(entity);
+        surface.thickness_at_0_nm = 100.0F;
+        surface.thickness_texture.texture = std::move(texel);
+        return entity;
+    }
+
     glm::dvec3 view() const { return glm::normalize(glm::dvec3(camera_.eye)); }
     glm::dvec3 centre() { return glm::dvec3(draw()[kSize / 2 * kSize + kSize / 2]); }
     /// Rec.709 of what the table says.
@@ -92,6 +112,32 @@ TEST_F(FilmPixel, OfADirectionalLightIsSeenAtTheHalfVector) {
     const double whole = rowland::test::reflected(l, {0.0, 0.0, 1.0}, v, glm::dvec3(1.0), 1.0, roughness).x;
     const glm::dvec3 light(1.0, 2.0, 0.5);
     expect_near(centre(), whole * exact(glm::dot(v, glm::normalize(l + v)), light), 3e-3);
+}
+
+TEST_F(FilmPixel, OfTexturedThicknessReadsTheLobeForTheProbeAndTheMirrorForADirectionalLight) {
+    const glm::dvec3 l = glm::normalize(glm::dvec3(-0.7, 0.2, 0.6));
+    camera_.eye = {2.0F, 0.0F, 1.5F};
+    const glm::dvec3 v = view();
+    for (const double smoothest : {kRoughness, 0.0}) {  // one roughness: a plane; several: a volume
+        const ecs::Entity entity = add_textured_film(smoothest);
+        renderer_.set_probe(coloured_light());
+        const glm::vec2 split = render::bake_brdf_table(
+            64)[static_cast<std::size_t>(kRoughness * 64.0) * 64 + static_cast<std::size_t>(v.z * 64.0)];
+        const glm::dmat3 to_rec709 = glm::inverse(colour::rec709_to_xyz());
+        const double albedo = split.x + split.y;
+        // A cell of the engine's table of albedos, of which the nearest is taken, is 1 % wide here.
+        expect_near(centre(), to_rec709 * (cooked_.table.at(v.z, kThickness_nm, kRoughness) * kLight) * albedo, 1e-2);
+
+        renderer_.set_probe(even_light(0.0F));
+        const glm::dvec3 light(1.0, 2.0, 0.5);
+        const ecs::Entity lamp = world_.create();
+        world_.add(lamp, scene::DirectionalLight{.direction = glm::vec3(l), .irradiance = glm::vec3(light)});
+        const double whole = rowland::test::reflected(l, {0.0, 0.0, 1.0}, v, glm::dvec3(1.0), 1.0, kRoughness).x;
+        const glm::dmat3 mirror = cooked_.table.at(glm::dot(v, glm::normalize(l + v)), kThickness_nm, 0.0);
+        expect_near(centre(), whole * (to_rec709 * (mirror * light)), 5e-3);
+        world_.destroy(lamp);
+        world_.destroy(entity);
+    }
 }
 
 TEST_F(FilmPixel, NeverReflectsMoreThanAWhiteMetalWould) {

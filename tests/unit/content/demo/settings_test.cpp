@@ -6,7 +6,11 @@
 
 #include "content/demo/play/hierarchy.h"
 #include "content/demo/session.h"
+#include "engine/core/error.h"
+#include "engine/core/file.h"
 #include "engine/platform/headless_context.h"
+#include "tests/support/source_tree.h"
+#include "tests/support/temporary_folder.h"
 
 namespace rowland::demo {
 namespace {
@@ -53,6 +57,61 @@ TEST_F(DemoSettings, NumbersAreTaken) {
     EXPECT_EQ(session_->comparison().line(), 0.3F);
     set({Setting::Wipe, 0.0});
     EXPECT_FALSE(session_->comparison().wiping());
+}
+
+TEST_F(DemoSettings, OneLooksThroughTheNextSheetOrThroughNone) {
+    const auto press = [&] {
+        const std::vector<PlayEvent> events{ActionEvent{Action::Glare}};
+        session_->play().step(events);
+        session_->carry_out();
+    };
+    // Without a folder of materials there is nothing to look through.
+    press();
+    EXPECT_FALSE(post().glare);
+    options_.glare = test::content_path("materials/screen_door.json");
+    session_.emplace(options_, config_, glm::ivec2(64, 36), glm::ivec2(64, 36), Pace::Fluent);
+    ASSERT_TRUE(post().glare);
+    EXPECT_EQ(session_->sheet(), "screen_door");
+    EXPECT_FALSE(post().glare->pattern->points.empty());
+    press();
+    EXPECT_FALSE(post().glare);
+    EXPECT_EQ(session_->sheet(), "");
+    press();
+    EXPECT_TRUE(post().glare);
+    options_.glare = "no_such_sheet.json";
+    EXPECT_THROW(session_.emplace(options_, config_, glm::ivec2(64, 36), glm::ivec2(64, 36), Pace::Fluent), Error);
+}
+
+TEST_F(DemoSettings, AScenesCameraLooksThroughItsSheet) {
+    const std::string with_glare = R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
+        "nodes": [{"mesh": 0}, {"camera": 0, "translation": [0, 0, 2], "extras": {"glare": {"grating": {
+            "pitch_nm": 2000, "profile": {"type": "slit", "width_nm": 900}, "orders": [-1, 1]}, "grooveRotation": 0.5}}}],
+        "cameras": [{"type": "perspective", "perspective": {"yfov": 0.7, "znear": 0.01}}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+            "min": [0, 0, 0], "max": [1, 1, 0]}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "buffers": [{"byteLength": 36,
+            "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
+    const test::TemporaryFolder folder;
+    options_.scene = folder.path() / "triangle.gltf";
+    write_file_atomic(*options_.scene, with_glare);
+    session_.emplace(options_, config_, glm::ivec2(64, 36), glm::ivec2(64, 36), Pace::Fluent);
+    ASSERT_TRUE(post().glare);
+    EXPECT_EQ(post().glare->angle, 0.5F);
+    EXPECT_EQ(session_->sheet(), "triangle.gltf's camera");
+
+    std::string wrong = with_glare;
+    wrong.replace(wrong.find("\"pitch_nm\": 2000"), 16, "\"pitch_nm\": -200");
+    write_file_atomic(*options_.scene, wrong);
+    try {
+        session_.emplace(options_, config_, glm::ivec2(64, 36), glm::ivec2(64, 36), Pace::Fluent);
+        FAIL() << "a negative pitch is taken";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("triangle.gltf's camera: /extras/glare/grating/pitch_nm"),
+                  std::string::npos)
+            << error.what();
+    }
 }
 
 TEST_F(DemoSettings, ProbesAndViewsAreTakenByNameAndUnknownOnesLeaveTheOld) {

@@ -294,6 +294,12 @@ TEST(Export, RefusesWhatItCannotWriteOrMap) {
     };
     EXPECT_THAT(message({"-o", "out.txt"}), HasSubstr(".json"));
     EXPECT_THAT(message({"-o", "out.json", "--planar", "0", "1", "0"}), HasSubstr("no --probe"));
+    for (const char* material : {"materials/diffraction_glasses.json", "materials/screen_door.json"}) {
+        const test::Ended ended = test::run({ROWLAND_COOK, "export", test::content_path(material), "-o", "out.json"},
+                                            {.folder = folder.path()});
+        EXPECT_EQ(ended.code, 2) << material;
+        EXPECT_THAT(ended.err, HasSubstr("document")) << material;
+    }
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 

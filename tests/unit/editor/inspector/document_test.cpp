@@ -63,6 +63,46 @@ TEST_F(DocumentTest, AnEditIsInTheFileAfterSavingAndNotBefore) {
     EXPECT_EQ(Document::open(path("cd.json")).json(), document.json());
 }
 
+TEST_F(DocumentTest, ALatticeIsEditedTakenBackRefusedAndSaved) {
+    for (const char* name : {"butterfly_wing.json", "wing_cell.png"})
+        std::filesystem::copy_file(kMaterials / name, path(name));
+    Document document = Document::open(path("butterfly_wing.json"));
+    const Json start = document.json();
+    const auto field = [&](const char* pointer) -> const Field& {
+        const Field* shown = shown_field(pointer, document.json());
+        return shown != nullptr ? *shown : field_at(pointer);
+    };
+    EXPECT_EQ(value_of(field("/grating/profile/file"), document.json()), "wing_cell.png");
+    document.set_value(field("/grating/profile/depth_nm"), 250);
+    document.set_value(field("/grating/lattice/a_nm"), {600.0, 12.5});
+    EXPECT_EQ(document.json()["grating"]["lattice"].dump(), R"({"a_nm":[600,12.5],"b_nm":[250,1300]})");
+    EXPECT_EQ(document.material().grating.lattice->a_nm, glm::dvec2(600.0, 12.5));
+    document.finish_edit();
+
+    document.set_value(field("/grating/lattice/a_nm"), {500.0, 2600.0});  // along b
+    ASSERT_TRUE(document.refusal());
+    EXPECT_EQ(document.refusal()->field, &field("/grating/lattice/b_nm"));
+    EXPECT_THAT(document.refusal()->message, HasSubstr("degrees between a and b"));
+    document.undo();
+    document.set_value(field("/grating/profile/file"), "missing.png");
+    ASSERT_TRUE(document.refusal());
+    EXPECT_EQ(document.refusal()->field, &field("/grating/profile/file"));
+    document.undo();
+
+    document.set_choice(field("/grating/profile"), "crossed");
+    document.set_choice(field("/grating/profile/along_b"), "lamellar");
+    document.set_value(field("/grating/profile/along_b/duty"), 0.25);
+    document.set_value(field("/grating/orders"), 4);
+    EXPECT_FALSE(document.refusal());
+    document.save();
+    const diffraction::Material saved = diffraction::load_material(path("butterfly_wing.json"));
+    const auto& crossed = std::get<diffraction::CrossedProfile>(saved.grating.lattice->profile);
+    EXPECT_EQ(std::get<diffraction::LamellarProfile>(crossed.along_b).duty, 0.25);
+    EXPECT_EQ(saved.grating.lattice->orders, 4);
+    while (document.can_undo()) document.undo();
+    EXPECT_EQ(document.json(), start);
+}
+
 TEST_F(DocumentTest, EveryEditIsTakenBackInTurn) {
     Document document = opened();
     const Json start = document.json();

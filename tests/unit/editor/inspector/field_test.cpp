@@ -19,23 +19,34 @@ Json cd() {
 }
 
 diffraction::Material parse(const Json& material) {
-    return diffraction::parse_material(nlohmann::json::parse(material.dump()), "m.json");
+    return diffraction::parse_material(nlohmann::json::parse(material.dump()), "m.json",
+                                       diffraction::read_beside(test::content_path("materials")));
 }
 
-/// A material for which the field means something.
+/// A material that shows the field.
 Json suited_to(const Field& field) {
-    Json material = cd();
-    if (field.pointer == "/quality/representation" || field.only_with.empty()) return material;
-    const Field& other = field_at(field.only_with);
-    material = with_choice(material, other, field.only_for.front());
-    if (field.only_for.front() == "streak") material["grating"]["groove_lobe"] = {{"sigma", 0.1}};
+    if (field.only_with.empty()) return cd();
+    const std::string& name = field.only_for.front();
+    const auto offers = [&](const Field& other) {
+        return other.pointer == field.only_with &&
+               std::ranges::any_of(other.choices, [&](const Choice& choice) { return choice.name == name; });
+    };
+    const Field& other = *std::ranges::find_if(fields(), offers);
+    Json material = with_choice(suited_to(other), other, name);
+    if (name == "streak") material["grating"]["groove_lobe"] = {{"sigma", 0.1}};
+    if (name == "height_map") material["grating"]["profile"]["file"] = "wing_cell.png";
     return material;
+}
+
+/// Fields with the same pointer are told apart by what they are shown for.
+std::string name_of(const Field& field) {
+    return field.pointer + " " + field.only_with + " " + (field.only_for.empty() ? "" : field.only_for.front());
 }
 
 TEST(Fields, EveryOneHasItsUnitRangeHelpAndSource) {
     std::set<std::string> pointers;
     for (const Field& field : fields()) {
-        EXPECT_TRUE(pointers.insert(field.pointer).second) << field.pointer;
+        EXPECT_TRUE(pointers.insert(name_of(field)).second) << field.pointer;
         EXPECT_FALSE(field.label.empty()) << field.pointer;
         EXPECT_GT(field.help.size(), 20U) << field.pointer;
         EXPECT_FALSE(field.source.empty()) << field.pointer;
@@ -44,17 +55,33 @@ TEST(Fields, EveryOneHasItsUnitRangeHelpAndSource) {
     }
 }
 
+TEST(Fields, AMaterialShowsOneFieldOfAPointer) {
+    for (const Field& suited : fields()) {
+        const Json material = suited_to(suited);
+        EXPECT_EQ(shown_field(suited.pointer, material), &suited) << name_of(suited);
+        std::set<std::string> shown;
+        for (const Field& field : fields())
+            EXPECT_TRUE(!is_shown(field, material) || shown.insert(field.pointer).second) << field.pointer;
+    }
+}
+
 // The schema lists what a material may hold; whoever adds a member there must tell the inspector of it.
 TEST(Fields, EveryMemberOfTheSchemaHasAField) {
     const Json schema =
         Json::parse(read_text_file(test::source_path("modules/diffraction/asset/material.schema.json"), 1 << 20));
+    const auto has_field = [](const std::string& pointer) {
+        return std::ranges::any_of(fields(), [&](const Field& field) { return field.pointer == pointer; });
+    };
     for (const auto& [name, part] : schema["$defs"]["grating"]["properties"].items())
-        EXPECT_NE(field_of_refusal("/grating/" + name), nullptr) << name;
-    for (const char* name : {"metal", "quality"}) EXPECT_NE(field_of_refusal(std::string("/") + name), nullptr) << name;
-    EXPECT_EQ(schema["properties"].size(), 5U);  // those, the grating, the cover and the base
-    for (const std::string of : {"base", "cover"})
+        EXPECT_TRUE(has_field("/grating/" + name)) << name;
+    for (const auto& [name, part] : schema["$defs"]["lattice_grating"]["properties"].items())
+        EXPECT_TRUE(has_field("/grating/" + name) || name == "lattice") << name;
+    for (const char* name : {"/grating/lattice/a_nm", "/grating/lattice/b_nm", "/metal", "/quality"})
+        EXPECT_TRUE(has_field(name)) << name;
+    EXPECT_EQ(schema["properties"].size(), 6U);  // those, the grating and these
+    for (const std::string of : {"base", "cover", "transmission"})
         for (const auto& [name, part] : schema["$defs"][of]["properties"].items())
-            EXPECT_EQ(field_of_refusal("/" + of + "/" + name)->pointer, "/" + of + "/" + name);
+            EXPECT_TRUE(has_field("/" + of + "/" + name)) << name;
 }
 
 TEST(Fields, BothEndsOfEverySliderAreSaneMaterials) {
@@ -63,7 +90,11 @@ TEST(Fields, BothEndsOfEverySliderAreSaneMaterials) {
         if (field.kind != FieldKind::Number && field.kind != FieldKind::Count) continue;
         for (const double end : {field.minimum, field.maximum}) {
             Json material = suited_to(field);
-            if (field.pointer == "/grating/profile/width_nm") material["grating"]["pitch_nm"] = end;
+            Json& grating = material["grating"];
+            if (grating.contains("lattice"))
+                grating["lattice"] = {{"a_nm", {end + 500.0, 0.0}}, {"b_nm", {0.0, end + 500.0}}};
+            else if (field.pointer == "/grating/profile/width_nm")
+                grating["pitch_nm"] = end;
             if (field.pointer == "/grating/pitch_nm") material["grating"]["profile"]["width_nm"] = end / 2.0;
             if (field.pointer == "/quality/map_resolution" && end < 8.0) continue;  // the parser's is 8
             const Json value = field.kind == FieldKind::Count ? Json(static_cast<int>(end)) : Json(end);
@@ -81,7 +112,8 @@ TEST(Fields, EveryChoiceIsASaneMaterial) {
             if (choice.name == "table") continue;  // needs a file
             Json material = suited_to(field);
             if (choice.name == "streak") material["grating"]["groove_lobe"] = {{"sigma", 0.1}};
-            const Json chosen = with_choice(material, field, choice.name);
+            Json chosen = with_choice(material, field, choice.name);
+            if (choice.name == "height_map") chosen["grating"]["profile"]["file"] = "wing_cell.png";
             EXPECT_NO_THROW(parse(chosen)) << field.pointer << " " << choice.name;
             EXPECT_EQ(choice_of(field, chosen), choice.name) << field.pointer;
             ++checked;
@@ -132,11 +164,23 @@ TEST(Fields, RevertingLeavesOutWhatNeedNotBeThere) {
     EXPECT_EQ(reverted(with_value(cd(), pitch, 740), pitch), cd());
 }
 
+TEST(Fields, AnotherPatternReplacesTheGratingAndIsNotReverted) {
+    const Field& pattern = field_at("/grating");
+    const Json lattice = with_choice(cd(), pattern, "lattice");
+    EXPECT_FALSE(lattice["grating"].contains("pitch_nm"));
+    EXPECT_TRUE(parse(lattice).grating.lattice.has_value());
+    EXPECT_FALSE(can_revert(pattern, lattice));
+    EXPECT_EQ(value_of(*shown_field("/grating/orders", lattice), lattice), parse(lattice).grating.lattice->orders);
+    EXPECT_EQ(parse(with_choice(lattice, pattern, "grooves")).grating.pitch_nm, 1600.0);
+}
+
 TEST(Fields, ARefusalIsAboutTheFieldOfItsPlace) {
-    EXPECT_EQ(field_of_refusal("/grating/orders/3"), &field_at("/grating/orders"));
-    EXPECT_EQ(field_of_refusal("/grating/profile/width_nm"), &field_at("/grating/profile/width_nm"));
-    EXPECT_EQ(field_of_refusal("/grating/profile/unknown"), &field_at("/grating/profile"));
-    EXPECT_EQ(field_of_refusal("/grating/pitch_nm2"), nullptr);
+    const auto field = [](const char* pointer) { return field_of_refusal(pointer, cd()); };
+    EXPECT_EQ(field("/grating/orders/3"), &field_at("/grating/orders"));
+    EXPECT_EQ(field("/grating/profile/width_nm"), &field_at("/grating/profile/width_nm"));
+    EXPECT_EQ(field("/grating/profile/unknown"), &field_at("/grating/profile"));
+    EXPECT_EQ(field("/grating/pitch_nm2"), &field_at("/grating"));
+    EXPECT_EQ(field("/gratings"), nullptr);
 }
 
 TEST(Fields, OrdersAreReadAsPeopleWriteThem) {

@@ -3,9 +3,11 @@
 #include <gmock/gmock.h>
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "engine/core/file.h"
 #include "engine/platform/headless_context.h"
@@ -90,6 +92,19 @@ TEST_F(SessionTest, AllValuesFollowAnEdit) {
     EXPECT_NE(session_.point_numbers()->radiance.reference, before);
     EXPECT_TRUE(session_.prices_are_current());
     EXPECT_NE(present().error, error);
+}
+
+TEST_F(SessionTest, TheMaterialIsLookedThrough) {
+    session_.stage.exposure_stops = 6.0F;  // so that the sky is bright enough
+    settle();
+    draw(3);
+    const std::vector<std::uint8_t> without = session_.preview().display().read_rgba8();
+    session_.looks_through = true;
+    draw(3);
+    EXPECT_NE(session_.preview().display().read_rgba8(), without);
+    session_.looks_through = false;
+    draw(3);
+    EXPECT_EQ(session_.preview().display().read_rgba8(), without);
 }
 
 TEST_F(SessionTest, MeasuredPricesStayWhileOnlyTheChoiceChanges) {

@@ -49,6 +49,24 @@ TEST_F(FilmsProgram, WritesAPictureAndHowFarOffTheFormulasAre) {
     EXPECT_TRUE(std::filesystem::exists(folder_.path() / "swatches.png"));
 }
 
+TEST_F(FilmsProgram, PutsTheMethodsInTheirOrderUnderAProbe) {
+    const test::TradeRun run = test::run_trade(folder_.path(), "films swatches.png --probe even.hdr");
+    EXPECT_EQ(run.exit_code, 0) << run.messages;
+    // Light from everywhere: the mean over the lobe is exact, and so are three bands. The formulas are as far off as on
+    // smooth films.
+    const auto error = [&](const std::string& method) {
+        const std::string row = "| soap (1.33 on air) | 0.2 | " + method + " | ";
+        const std::size_t at = run.output.find(row);
+        return at == std::string::npos ? -1.0 : std::stod(run.output.substr(at + row.size()));
+    };
+    for (const char* method : {"table", "spherical harmonics, 3 bands"}) {
+        EXPECT_GE(error(method), 0.0) << run.output;
+        EXPECT_LE(error(method), 1.0) << method;
+    }
+    EXPECT_GT(error("glTF's formula"), 5.0);
+    EXPECT_GT(error("three wavelengths"), 2.0);
+}
+
 TEST_F(FilmsProgram, EvaluateGivesTheReferenceAndTheTableOfAFilm) {
     for (const char* roughness : {"0", "0.4"}) {
         write_film(roughness);

@@ -130,6 +130,7 @@ void expect_points(const std::string& page, const std::vector<test::Row>& rows, 
 TEST_F(ReportPage, ChartsShowTheTablesNumbers) {
     const std::string page = report("--frame-size 64 36 --setting direct/key_lights=2");
     const auto measured = rows();
+    EXPECT_THAT(part(page, "<section id=\"films\">", "</section>"), HasSubstr(">spherical harmonics, 3 bands</td>"));
     for (const char* set : {"tilted_cd", "sphere", "picture"}) {
         expect_points(page, measured, set, "frame_ratio",
                       [](const test::Row& row) { return std::stod(row.at("frame_ratio")); });
@@ -137,6 +138,8 @@ TEST_F(ReportPage, ChartsShowTheTablesNumbers) {
             return (std::stod(row.at("table_bytes")) + 25000.0 * std::stod(row.at("vertex_bytes"))) / 1e6;
         });
     }
+    EXPECT_NE(page.find("<a href=\"http://127.0.0.1:8080/#representation=direct&amp;material=%7B%22"),
+              std::string::npos);
     // Fig. 3 falls with the number of lights for the loop, and not for SH.
     const std::string figure_3 = part(page, "data-chart=\"figure 3\"", "</svg>");
     const Axis y = read_axis(figure_3, "y", "y");

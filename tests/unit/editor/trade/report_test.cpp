@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "engine/core/file.h"
+#include "tests/support/temporary_folder.h"
+
 namespace rowland::trade {
 namespace {
 
@@ -61,12 +64,15 @@ TEST(Report, SaysHowItWasMadeAndUnderWhatLight) {
         results(), {}, {}, {},
         {.date = "2026-01-02T03:04:05Z",
          .command = "rowland-trade report",
-         .probes = {{.width = 64, .height = 32, .mean = 0.5, .peak_over_mean = 9.0, .brightest_fraction = 0.25}}});
+         .probes = {{.width = 64, .height = 32, .mean = 0.5, .peak_over_mean = 9.0, .brightest_fraction = 0.25}},
+         .films = {{{.film = "soap", .roughness = 0.2, .method = "table", .relative_rms = 0.01, .fetches = 3}}}});
     EXPECT_EQ(data["date"], "2026-01-02T03:04:05Z");
     EXPECT_EQ(data["command"], "rowland-trade report");
     EXPECT_THAT(data["version"].get<std::string>(), testing::MatchesRegex("[0-9.]+, [0-9a-f]{8}"));
     EXPECT_EQ(data["probes"][0]["name"], "sky");
     EXPECT_EQ(data["probes"][0]["brightest_fraction"], 0.25);
+    EXPECT_EQ(data["films"][0]["probe"], "sky");
+    EXPECT_EQ(data["films"][0]["relative_rms"], 0.01);
 }
 
 TEST(Report, SaysThatTheMachineWasLoaded) {
@@ -87,6 +93,26 @@ TEST(Report, MarksThePapersSetting) {
     const auto data = report_data(r, {}, {}, {}, {});
     EXPECT_FALSE(data["panels"][0]["rows"][1].contains("paper"));
     EXPECT_TRUE(data["panels"][0]["rows"][2].contains("paper"));
+}
+
+/// Where it names no other file, which a page in a browser could not read.
+TEST(Report, HoldsTheMaterialForThePageInABrowser) {
+    const test::TemporaryFolder folder;
+    const auto material_of = [&](const char* text) {
+        write_file_atomic(folder.path() / "cd.json", std::string_view(text));
+        SweepInputs inputs;
+        inputs.materials = {folder.path() / "cd.json"};
+        return report_data(results(), inputs, {}, {}, {})["panels"][0]["browser_material"];
+    };
+    EXPECT_EQ(
+        material_of(R"({"grating": {"pitch_nm": 1600, "profile": {"type": "slit", "width_nm": 800}},
+                              "quality": {"representation": "direct"}})"),
+        nlohmann::json::parse(R"({"grating": {"pitch_nm": 1600, "profile": {"type": "slit", "width_nm": 800}}})"));
+    write_file_atomic(folder.path() / "t.csv", std::string_view("wavelength_nm,R-1,R+1\n380,0.1,0.1\n780,0.1,0.1\n"));
+    EXPECT_TRUE(
+        material_of(
+            R"({"grating": {"pitch_nm": 1600, "profile": {"type": "table", "file": "t.csv"}, "orders": [-1, 1]}})")
+            .is_null());
 }
 
 TEST(Report, IsOneFileAndItsDataCannotEndTheScript) {

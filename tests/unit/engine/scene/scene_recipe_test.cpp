@@ -31,7 +31,8 @@ const char* const kExtension = "ROWLAND_materials_diffraction";
 json small_scene() {
     return json::parse(R"({"scene": {
         "textures": [{"name": "paint", "size": [4, 2], "wrap_x": "clamp", "layers": [{"pattern": "all", "r": 0.2, "g": 0.4, "b": 0.6}]}],
-        "materials": [{"name": "plain", "color": [0.5, 0.25, 1], "metallic": 1, "roughness": 0.75},
+        "materials": [{"name": "plain", "color": [0.5, 0.25, 1], "metallic": 1, "roughness": 0.75,
+                       "emission": [1, 0.5, 0.25]},
                       {"name": "painted", "color_texture": {"name": "paint", "repeat": [2, 3]}, "blend": true,
                        "extensions": {"X_unknown": {"deep": [1, {"a": null}], "text": "é"}}}],
         "meshes": [{"name": "ball", "parts": [{"shape": {"type": "sphere", "radius": 0.5, "rings": 6, "segments": 8},
@@ -85,6 +86,7 @@ TEST(SceneRecipe, ImportFindsWhatTheRecipeSays) {
     EXPECT_EQ(plain.base_colour, glm::vec4(0.5F, 0.25F, 1.0F, 1.0F));
     EXPECT_EQ(plain.metallic, 1.0F);
     EXPECT_EQ(plain.roughness, 0.75F);
+    EXPECT_EQ(plain.emissive, glm::vec3(1.0F, 0.5F, 0.25F));
     const MaterialDescription& painted = scene.materials[scene.instances[1].material.value()];
     EXPECT_EQ(painted.alpha_mode, AlphaMode::Blend);
     ASSERT_TRUE(painted.base_colour_texture);

@@ -1,6 +1,6 @@
 // Beneath three's <lights_physical_pars_fragment>: the diffraction term of MeshPhysicalMaterial.
 #define SEPARATE_LIGHTS
-#define KEY_LOBE_PARTS
+#define KEY_LOBE_WINDOWS
 #include "engine/gpu/shaders/dialect.glsl"
 in vec3 world_position;
 in vec3 world_normal;
@@ -12,7 +12,7 @@ uniform float light_scale;  // of the probe
 #include "modules/diffraction/shaders/cover.glsl"
 #include "modules/diffraction/shaders/groove_view.glsl"
 #include "modules/diffraction/shaders/small_light.glsl"
-#include "modules/diffraction/shaders/key_lobe_parts.glsl"
+#include "modules/diffraction/shaders/key_lobe_windows.glsl"
 #ifdef ROWLAND_PLANAR
 #include "modules/diffraction/representations/planar/planar_map.glsl"
 #endif

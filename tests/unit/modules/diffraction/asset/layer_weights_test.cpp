@@ -44,6 +44,20 @@ TEST(LayerWeights, AListedZeroOrderIsNotLeftToTheEngine) {
     EXPECT_NEAR(weights.base.y, 1.0 - 0.25 - 1.0 / (pi * pi), kTolerance);
 }
 
+/// A relief whose listed orders are all that there are but a few per cent: both sides of a sheet take nearly all light.
+TEST(LayerWeights, BothSidesOfASheetTakeFromTheBase) {
+    Grating sheet{.pitch_nm = 2000.0,
+                  .profile = SinusoidalProfile{.depth_nm = 100.0},
+                  .orders = {-3, -2, -1, 1, 2, 3},
+                  .transmission = Transmission{.ior = 1.5, .reflectance = 0.5}};
+    EXPECT_LT(layer_weights(sheet).base.y, 0.01);
+    EXPECT_GE(layer_weights(sheet).base.y, 0.0);
+    const LayerWeights reflected = layer_weights(*reflected_side(sheet));
+    EXPECT_EQ(reflected.base, glm::dvec3(0.0));
+    EXPECT_LT(reflected.mirror.y, 0.5);
+    EXPECT_LT(reflected.mirror.y, layer_weights(sheet).mirror.y);  // in reflection the relief is four times as deep
+}
+
 TEST(LayerWeights, GoldTintsTheZeroOrder) {
     Grating grating{.pitch_nm = 1600.0, .profile = SlitProfile{.width_nm = 800.0}, .metal = colour::Metal::Au};
     const LayerWeights weights = layer_weights(grating);

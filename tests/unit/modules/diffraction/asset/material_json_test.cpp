@@ -65,6 +65,22 @@ TEST(MaterialJson, EveryFieldReachesTheMaterial) {
     EXPECT_EQ(settings.storage, Storage::Half);
 }
 
+TEST(MaterialJson, ASheetTransmitsInAirWithoutMetal) {
+    const std::string sheet =
+        R"({"grating": {"pitch_nm": 2000, "profile": {"type": "lamellar", "duty": 0.5, "depth_nm": 550}},
+                                  "transmission": )";
+    ASSERT_TRUE(parse(sheet + R"({"ior": 1.46}})").grating.transmission);
+    EXPECT_EQ(parse(sheet + R"({"ior": 1.46}})").grating.transmission->ior, 1.46);
+    EXPECT_EQ(parse(sheet + R"({"ior": 1.5, "reflectance": 0.25}})").grating.transmission->reflectance, 0.25);
+    EXPECT_THAT(refusal(sheet + R"({"ior": 1.5, "reflectance": 1.5}})"), HasSubstr("/transmission/reflectance"));
+    EXPECT_THAT(refusal(sheet + "{}}"), HasSubstr("/transmission"));
+    EXPECT_THAT(refusal(sheet + R"({"ior": 0.9}})"), HasSubstr("/transmission/ior"));
+    EXPECT_THAT(refusal(sheet + R"({"ior": 3.1}})"), HasSubstr("/transmission/ior"));
+    EXPECT_THAT(refusal(sheet + R"({"ior": 1.5, "tint": 1}})"), HasSubstr("tint"));
+    EXPECT_THAT(refusal(sheet + R"({"ior": 1.5}, "metal": "Al"})"), HasSubstr("a metal beside a transmission"));
+    EXPECT_THAT(refusal(sheet + R"({"ior": 1.5}, "cover": {"ior": 1.4}})"), HasSubstr("a cover beside a transmission"));
+}
+
 std::string with_quality(const std::string& quality, const std::string& lobe = "\"flat\"") {
     return R"({"grating": {"pitch_nm": 1600, "profile": {"type": "slit", "width_nm": 800}, "groove_lobe": )" + lobe +
            R"(}, "quality": )" + quality + "}";

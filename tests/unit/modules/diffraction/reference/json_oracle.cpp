@@ -10,10 +10,10 @@ namespace rowland::diffraction::test {
 
 namespace {
 
-/// The grating of a row: the material's JSON, where metal and cover lie within the grating.
+/// The grating of a row: the material's JSON, where metal, cover and transmission lie within the grating.
 Grating row_grating(const std::string& text, const std::filesystem::path& file) {
     nlohmann::json json = {{"grating", parse_json(text, file.string())}};
-    for (const char* member : {"metal", "cover"})
+    for (const char* member : {"metal", "cover", "transmission"})
         if (json["grating"].contains(member)) {
             json[member] = json["grating"][member];
             json["grating"].erase(member);

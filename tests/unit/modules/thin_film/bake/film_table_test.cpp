@@ -42,6 +42,11 @@ TEST(FilmTable, OfGltfsDefaultThicknessesIsWithinItsBudget) {
     expect_within_budget(bake(kTitanium, {100.0, 400.0, 0.0, 0.0}));
 }
 
+TEST(FilmTable, OfAWideRangeOfThicknessesIsWithinItsBudget) {
+    for (const Film& film : {kSoap, kTitanium, Film{.layers = {{1.77, 400.0}}, .base = colour::Metal::Al}})
+        expect_within_budget(bake(film, {0.0, 800.0, 0.0, 0.0}));
+}
+
 TEST(FilmTable, MatchesTheOracleWithinOnePercent) {
     ROWLAND_TEST_DATA(path, "oracle/thin_film_reflectance.csv");
     const rowland::test::Csv oracle = rowland::test::read_csv(path);

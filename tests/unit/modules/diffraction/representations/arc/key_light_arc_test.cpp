@@ -46,8 +46,8 @@ struct CapturedProbe {
 
 class ArcWithKeyLights : public ::testing::TestWithParam<CapturedProbe> {};
 
-/// Of luminance alone .17 was measured under Ennis (a doorway that the disc turns away from), .053 under Grace, .021
-/// under Blender Sunset, .015 under Royal Esplanade; blue has narrower colours and is farther off.
+/// Measured: .078 under Ennis (a doorway that the disc turns away from), .073 under Grace, .017 under Blender Sunset,
+/// .024 under Royal Esplanade. The fit under Ennis is the most sensitive to rounding, by a tenth.
 TEST_P(ArcWithKeyLights, MatchesTheOracleOfTheTiltedDisc) {
     const CapturedProbe& one = GetParam();
     ROWLAND_TEST_DATA(probe_path, "probes/" + one.file);
@@ -62,26 +62,27 @@ TEST_P(ArcWithKeyLights, MatchesTheOracleOfTheTiltedDisc) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Captured, ArcWithKeyLights,
-                         ::testing::Values(CapturedProbe{"grace", "grace_probe.hdr", lighting::Mapping::Angular, 0.1},
+                         ::testing::Values(CapturedProbe{"grace", "grace_probe.hdr", lighting::Mapping::Angular},
                                            CapturedProbe{
-                                               .name = "ennis", .file = "ennis_probulator.hdr", .tolerance = 0.2},
+                                               .name = "ennis", .file = "ennis_probulator.hdr", .tolerance = 0.09},
                                            CapturedProbe{"blender_sunset", "blender_sunset.exr"},
                                            CapturedProbe{"royal_esplanade", "royal_esplanade_1k.hdr"}),
                          [](const auto& one) { return one.param.name; });
 
 class ArcWithoutKeyLights : public ::testing::TestWithParam<std::pair<const char*, const char*>> {};
 
-/// The default number of lights and the accepted one. Four lights of Venice are .041 off, none .033.
+/// However few the lights.
 TEST_P(ArcWithoutKeyLights, IsFartherFromTheReference) {
     ROWLAND_TEST_DATA(path, std::string("probes/") + GetParam().second);
     ROWLAND_TEST_DATA(frames_path, "oracle/frames_tilted_cd.csv");
-    std::vector<ShadingPoint> frames = test::read_frames(rowland::test::read_csv(frames_path));
-    frames.resize(40);
+    const std::vector<ShadingPoint> all = test::read_frames(rowland::test::read_csv(frames_path));
+    std::vector<ShadingPoint> frames;  // of the whole disc: its parts show different light
+    for (std::size_t i = 0; i < all.size(); i += 3) frames.push_back(all[i]);
     const lighting::ProbeImage probe(image::load_image(path), lighting::Mapping::Auto);
     const auto expected = reference_radiance(lit_disc(), probe, colour::LightSpectra(), frames);
     const double without = test::relative_rms(lit(probe, 0, frames), expected);
     RecordProperty("none", fmt::format("{:.3g}", without));
-    for (const int count : {16, 32}) {
+    for (const int count : {4, 8, 16, 32}) {
         const double error = test::relative_rms(lit(probe, count, frames), expected);
         RecordProperty(fmt::format("lights_{}", count), fmt::format("{:.3g}", error));
         EXPECT_LT(error, without) << count;

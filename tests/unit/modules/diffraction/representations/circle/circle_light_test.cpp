@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
 
@@ -29,25 +29,36 @@ glm::dvec3 flux_of(const lighting::LightSamples& samples) {
     return sum;
 }
 
-TEST(CircleLight, SoftLightIsOneSampleForEachCell) {
-    EXPECT_EQ(circle_light(uniform_light(256)).size(), 6U * 64U * 64U);
+TEST(CircleLight, LightOfAnyResolutionIsOneSampleForEachCell) {
+    const std::size_t most = 6U * (kCircleLightCells + 2) * (kCircleLightCells + 2);
+    for (const int face_size : {128, 256}) EXPECT_LE(circle_light(uniform_light(face_size)).size(), most);
 }
 
-/// .01 rad apart, in one cell of .025 rad: both keep their directions and fluxes, and only their cell is divided.
-TEST(CircleLight, LampsInOneCellStayApart) {
-    lighting::LightSamples light = uniform_light(256);
-    const glm::dvec3 lamps[] = {glm::normalize(glm::dvec3(1.0, 0.007, 0.012)),
-                                glm::normalize(glm::dvec3(1.0, 0.017, 0.012))};
-    for (const glm::dvec3& lamp : lamps) light.push_back(lamp, glm::dvec3(1.0));
-    const lighting::LightSamples samples = circle_light(light);
-    EXPECT_EQ(samples.size(), 6U * 64U * 64U + 15U);
-    EXPECT_LT(glm::distance(flux_of(samples), flux_of(light)), 1e-4);
-    for (const glm::dvec3& lamp : lamps) {
-        double nearest = 1.0;
-        for (std::size_t i = 0; i < samples.size(); ++i)
-            if (samples.flux(i).x > 0.9) nearest = std::min(nearest, glm::distance(samples.direction(i), lamp));
-        EXPECT_LT(nearest, 1e-4);
+/// Each keeps its mean direction and spreads alike, wherever it lies among the cells: the map's filling relies on it. A
+/// cell is up to a quarter smaller along an axis away from a face's middle.
+TEST(CircleLight, LampsKeepTheirMeanDirectionAndSpreadAlike) {
+    const double largest = kCircleLightVariance;
+    double sum = 0.0;
+    constexpr int kLamps = 400;
+    for (int i = 0; i < kLamps; ++i) {
+        const double y = 2.0 * (i + 0.5) / kLamps - 1.0;
+        const double r = std::sqrt(1.0 - y * y);
+        const glm::dvec3 lamp(r * std::cos(2.4 * i), y, r * std::sin(2.4 * i));
+        lighting::LightSamples light;
+        light.push_back(lamp, glm::dvec3(1.0));
+        const lighting::LightSamples samples = circle_light(light);
+        glm::dvec3 mean(0.0);
+        double spread = 0.0;
+        for (std::size_t k = 0; k < samples.size(); ++k) {
+            const glm::dvec3 off = samples.direction(k) - lamp;
+            mean += samples.flux(k).x * samples.direction(k);
+            spread += samples.flux(k).x * glm::dot(off, off);
+        }
+        EXPECT_LT(glm::distance(glm::normalize(mean), lamp), 2e-4) << i;
+        EXPECT_LT(spread, 3.2 * largest) << i;  // a tent between two cells: up to ¼ h² = 1.5 times its mean, h²/6
+        sum += spread / kLamps;
     }
+    EXPECT_NEAR(sum, 2.0 * largest, 0.4 * largest);
 }
 
 /// The residual of a probe less its key lights is negative in places.

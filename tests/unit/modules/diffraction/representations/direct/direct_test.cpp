@@ -62,7 +62,7 @@ std::vector<glm::dvec3> by_quadrature(const ColourKernel& kernel, double pitch_n
                                       const Density& density) {
     const glm::dvec3 side = glm::normalize(glm::cross(axis, glm::dvec3(0.3, 0.5, 1.0)));
     const glm::dvec3 other = glm::cross(axis, side);
-    const math::QuadratureRule rule = math::gauss_legendre(48, cosine_end, 1.0);
+    const math::QuadratureRule rule = math::gauss_legendre(96, cosine_end, 1.0);
     constexpr int kAngles = 240;
     std::vector<glm::dvec3> xyz(frames().size(), glm::dvec3(0.0));
     const auto all = frames();
@@ -99,7 +99,7 @@ TEST(Direct, PunctualLightIsTheKernelItself) {
         expected.push_back(0.5 * 0.6 * 1600.0 * (kernels.exact(1600.0 * (0.3 + frame.view.x)) * light.flux));
     EXPECT_LT(relative_rms(radiance(kernels.exact, {1600.0}, light), expected), 1e-3);
     EXPECT_LT(relative_rms(radiance(kernels.table, {1600.0}, light), expected), 0.01);    // steps of 1.5 nm
-    EXPECT_LT(relative_rms(radiance(kernels.blurred, {1600.0}, light), expected), 0.06);  // 4 nm of smoothing
+    EXPECT_LT(relative_rms(radiance(kernels.blurred, {1600.0}, light), expected), 0.02);  // columns of 3 nm
 }
 
 TEST(Direct, DiscIsItsArcIntegral) {
@@ -115,14 +115,14 @@ TEST(Direct, DiscIsItsArcIntegral) {
     }
 }
 
-/// The error of three normal distributions, against the lobe's own integral: measured .016, .008, .003, .009 (slices of
-/// 𝒦) and .020, .008, .004, .011 (one look-up a part).
+/// A lobe against its own integral: slices of 𝒦 measured .0025 at most, three normal distributions with one look-up a
+/// part .014, .008, .003, .011.
 TEST(Direct, LobeIsItsArcIntegral) {
     const Kernels kernels(compact_disc());
     const struct {
         double concentration;
         double tolerance;
-    } cases[] = {{40.0, 0.02}, {100.0, 0.01}, {400.0, 0.005}, {2000.0, 0.01}};
+    } cases[] = {{40.0, 0.02}, {100.0, 0.01}, {400.0, 0.005}, {2000.0, 0.015}};
     for (const auto& one : cases)
         for (const double s_n : {0.9, 0.5, 0.2, 0.03, -0.05}) {
             const lighting::KeyLight key{toward(0.35, s_n), {1.0, 0.5, 0.25}, one.concentration};
@@ -131,44 +131,37 @@ TEST(Direct, LobeIsItsArcIntegral) {
             const double one_look = relative_rms(radiance(kernels.blurred, {1600.0}, key), expected);
             RecordProperty(fmt::format("k{}_{}", one.concentration, s_n),
                            fmt::format("{:.3g} {:.3g}", slices, one_look));
-            EXPECT_LT(slices, one.tolerance) << one.concentration << " " << s_n;
-            EXPECT_LT(one_look, one.tolerance + 0.005) << one.concentration << " " << s_n;
+            EXPECT_LT(slices, 0.004) << one.concentration << " " << s_n;
+            EXPECT_LT(one_look, one.tolerance) << one.concentration << " " << s_n;
         }
 }
 
-/// A normal distribution is summed in slices of k; here 2000 of them. Measured: at most 1.1e-4 of the largest
-/// component; 6.9e-3 with 12 slices and a variance corrected by width²/12 alone.
-TEST(Direct, SlicesOfANormalDistributionAreItsIntegral) {
+/// A look-up is as wide as it is asked to be, though columns of 3 nm and interpolation have a width of their own. The
+/// lobes are the sun and the narrowest one. Measured: .0016 and .0051; .013 and .034 for levels from 4 nm on.
+TEST(Direct, NarrowLobesAreTheirSlices) {
     const Kernels kernels(compact_disc());
-    for (const double deviation_nm : {4.0, 10.0, 25.0, 60.0, 150.0}) {
-        LightSpot spot{.flux = {1.0, 0.5, 0.25}, .shape = LightSpot::Shape::Normal};
-        spot.parts[0] = {.cosine = 1.0, .centre_g = 0.0, .deviation_g = deviation_nm / 1600.0};
-        std::vector<glm::dvec3> found;
-        std::vector<glm::dvec3> expected;
-        for (double x = 0.0; x < 3400.0; x += 7.0) {
-            found.push_back(direct_radiance(kernels.table, {1600.0}, spot, {x / 1600.0}));
-            glm::dmat3 mean(0.0);
-            double weights = 0.0;
-            constexpr int kCells = 2000;
-            for (int i = 0; i < kCells; ++i) {
-                const double z = 12.0 * ((i + 0.5) / kCells - 0.5);
-                const double half = 6.0 * deviation_nm / kCells;
-                const double weight = std::exp(-0.5 * z * z);
-                weights += weight;
-                mean += weight * kernels.table.average(x + deviation_nm * z - half, x + deviation_nm * z + half);
-            }
-            expected.push_back(0.5 * 1600.0 / weights * (mean * spot.flux));
-        }
-        double worst = 0.0;
-        double largest = 0.0;
-        for (std::size_t i = 0; i < found.size(); ++i)
-            for (int c = 0; c < 3; ++c) {
-                worst = std::max(worst, std::abs(found[i][c] - expected[i][c]));
-                largest = std::max(largest, expected[i][c]);
-            }
-        RecordProperty(fmt::format("deviation_{}", deviation_nm), fmt::format("{:.3g}", worst / largest));
-        EXPECT_LT(worst, 2e-4 * largest) << deviation_nm;
+    const BlurredKernel fine = blur(kernels.table, 0.25 * 1600.0, 2048, 8);
+    for (const double concentration : {1.6e5, lighting::kNarrowestConcentration}) {
+        const lighting::KeyLight key{toward(0.35, 0.9), {1.0, 0.5, 0.25}, concentration};
+        const double error = relative_rms(radiance(fine, {1600.0}, key), radiance(kernels.table, {1600.0}, key));
+        RecordProperty(fmt::format("k{}", concentration), fmt::format("{:.3g}", error));
+        EXPECT_LT(error, concentration < 2e5 ? 0.002 : 0.006) << concentration;
     }
+}
+
+/// About g the lobe ends at s_g = 1. Its three parts are 10 to 60 % off there; slices measured .0054 at most.
+TEST(Direct, LobeAboutTheGratingVectorIsItsArcIntegral) {
+    const Kernels kernels(compact_disc());
+    for (const double concentration : {40.0, 400.0})
+        for (const double s_g : {0.9, 0.95, 0.998})
+            for (const double s_n : {0.3, 0.06, 0.0}) {
+                if (std::hypot(s_g, s_n) >= 1.0) continue;
+                const lighting::KeyLight key{toward(s_g, s_n), {1.0, 0.5, 0.25}, concentration};
+                const auto expected = exact(kernels, FlatLobe{}, key);
+                const double error = relative_rms(radiance(kernels.table, {1600.0}, key), expected);
+                RecordProperty(fmt::format("k{}_{}_{}", concentration, s_g, s_n), fmt::format("{:.3g}", error));
+                EXPECT_LT(error, 0.008) << concentration << " " << s_g << " " << s_n;
+            }
 }
 
 TEST(Direct, LobeBelowTheHorizonIsBlack) {

@@ -1,0 +1,27 @@
+// The package does not shade lattices: refused when a material is read, so that no module holds what they need.
+#include "modules/diffraction/model/lattice.h"
+#include "modules/diffraction/asset/lattice_json.h"
+#include "modules/diffraction/bake/lattice_nodes.h"
+#include "modules/diffraction/reference/lattice_radiance.h"
+
+namespace rowland::diffraction {
+
+Grating parse_lattice_grating(JsonReader& json, const ReadNamed&) {
+    json.fail("lattice", "a lattice", "grooves of one direction (pitch_nm)", "the package does not shade lattices");
+}
+
+// Nothing reaches these.
+std::vector<double> lattice_efficiencies(const Lattice&, double) {
+    return {};
+}
+
+std::vector<DiffractionPattern::Node> lattice_nodes(const Grating&, const colour::LightSpectra&, double) {
+    return {};
+}
+
+std::vector<glm::dvec3> lattice_radiance(const Grating&, const IncidentLight&, const colour::LightSpectra&,
+                                         std::span<const ShadingPoint>, int) {
+    return {};
+}
+
+}  // namespace rowland::diffraction

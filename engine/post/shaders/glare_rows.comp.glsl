@@ -1,0 +1,38 @@
+#version 450 core
+
+#include "glare_fourier.glsl"
+
+layout(binding = 0) uniform sampler2D cells_of_light;
+layout(binding = 0, rg32f) uniform writeonly image2DArray spectrum;
+
+vec3 light(ivec2 at) {
+    return all(lessThan(at, textureSize(cells_of_light, 0))) ? texelFetch(cells_of_light, at, 0).rgb : vec3(0.0);
+}
+
+// Two rows a, b of real numbers are transformed as a + ib.
+void store(int frequency, int row, int channel) {
+    vec2 here = values[0][reversed(uint(frequency))];
+    vec2 mirrored = values[0][reversed(uint((LENGTH - frequency) % LENGTH))];
+    vec2 a = 0.5 * vec2(here.x + mirrored.x, here.y - mirrored.y);
+    vec2 b = 0.5 * vec2(here.y + mirrored.y, mirrored.x - here.x);
+    imageStore(spectrum, ivec3(frequency, row, channel), vec4(a, 0.0, 0.0));
+    imageStore(spectrum, ivec3(frequency, row + 1, channel), vec4(b, 0.0, 0.0));
+}
+
+void main() {
+    int row = int(2 * gl_WorkGroupID.x);
+    int left = int(gl_LocalInvocationIndex);
+    int right = left + LENGTH / 2;
+    vec3 a_left = light(ivec2(left, row));
+    vec3 b_left = light(ivec2(left, row + 1));
+    vec3 a_right = light(ivec2(right, row));
+    vec3 b_right = light(ivec2(right, row + 1));
+    for (int channel = 0; channel < 3; ++channel) {
+        barrier();
+        values[0][left] = vec2(a_left[channel], b_left[channel]);
+        values[0][right] = vec2(a_right[channel], b_right[channel]);
+        forward();
+        store(left, row, channel);
+        if (left == 0) store(LENGTH / 2, row, channel);
+    }
+}

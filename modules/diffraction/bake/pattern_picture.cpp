@@ -1,0 +1,141 @@
+#include "modules/diffraction/bake/pattern_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <glm/common.hpp>
+#include <span>
+
+#include "engine/core/check.h"
+#include "engine/core/parallel.h"
+
+namespace rowland::diffraction {
+
+namespace {
+
+/// The coarsest level has so many texels a side: of them, the pattern takes the middle half.
+constexpr int kCoarsestPicture = 8;
+/// |u_g| and |u_h| of all pairs of directions.
+constexpr double kFarthestPair = 2.0;
+/// The blur of a level: its variance over the square of a texel.
+constexpr double kLevelVariance = 0.64;
+/// The same with that of interpolation between texels, on average over positions.
+constexpr double kShownVariance = kLevelVariance + 1.0 / 6.0;
+/// Before its extent is known, points of a pattern are joined over this.
+constexpr double kCoarseStep = 0.01;
+
+/// The pattern takes the middle half of the picture, so that little of it is blurred over the border.
+double picture_half_width(const Grating& grating, const colour::LightSpectra& spectra) {
+    float farthest = 1e-6F;
+    for (const DiffractionPattern::Node& node : shaded_pattern(grating, spectra, kCoarseStep).nodes)
+        farthest = std::max({farthest, std::abs(node.u.x), std::abs(node.u.y)});
+    return std::min(2.05 * static_cast<double>(farthest), kFarthestPair);
+}
+
+/// Divides a point among the four texels around it.
+void add_point(const DiffractionPattern::Node& node, double half_width, PatternPicture::Level& level) {
+    const glm::dvec2 position = (glm::dvec2(node.u) / half_width + 1.0) * (0.5 * level.size) - 0.5;
+    const glm::dvec2 low = glm::floor(position);
+    const double texel = 2.0 * half_width / level.size;
+    for (int corner = 0; corner < 4; ++corner) {
+        const glm::dvec2 at = low + glm::dvec2(corner & 1, corner >> 1);
+        const glm::dvec2 near = 1.0 - glm::abs(position - at);
+        const glm::ivec2 cell = glm::clamp(glm::ivec2(at), 0, level.size - 1);
+        level.density[static_cast<std::size_t>(cell.y) * static_cast<std::size_t>(level.size) +
+                      static_cast<std::size_t>(cell.x)] +=
+            static_cast<float>(near.x * near.y / (texel * texel)) * node.weight;
+    }
+}
+
+/// Weights of a normal distribution, of this deviation in texels, at distances of `first`, `first` + 1 … −`first`.
+std::vector<float> normal_weights(double deviation, double first) {
+    std::vector<float> weights;
+    double sum = 0.0;
+    for (double x = first; x <= -first; x += 1.0) sum += std::exp(-0.5 * x * x / (deviation * deviation));
+    for (double x = first; x <= -first; x += 1.0)
+        weights.push_back(static_cast<float>(std::exp(-0.5 * x * x / (deviation * deviation)) / sum));
+    return weights;
+}
+
+/// Sums over neighbours along the rows, of every `stride`th texel, and exchanges rows and columns. Beyond the border is
+/// black.
+PatternPicture::Level blurred_and_turned(const PatternPicture::Level& level, std::span<const float> weights, int stride,
+                                         int rows) {
+    const int columns = level.size / stride;
+    const int before = static_cast<int>(weights.size()) / 2 - (stride == 2 ? 1 : 0);
+    PatternPicture::Level turned{.size = level.size, .density = {}};
+    turned.density.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), glm::mat3(0.0F));
+    parallel_for(static_cast<std::size_t>(rows), [&](std::size_t row) {
+        const glm::mat3* from = level.density.data() + row * static_cast<std::size_t>(level.size);
+        for (int column = 0; column < columns; ++column) {
+            glm::mat3 sum(0.0F);
+            for (int i = 0; i < static_cast<int>(weights.size()); ++i) {
+                const int at = column * stride + i - before;
+                if (at >= 0 && at < level.size) sum += weights[static_cast<std::size_t>(i)] * from[at];
+            }
+            turned.density[static_cast<std::size_t>(column) * static_cast<std::size_t>(rows) + row] = sum;
+        }
+    });
+    turned.size = rows;
+    return turned;
+}
+
+PatternPicture::Level blurred(const PatternPicture::Level& level, std::span<const float> weights, int stride) {
+    const PatternPicture::Level half = blurred_and_turned(level, weights, stride, level.size);
+    return blurred_and_turned(half, weights, stride, level.size / stride);
+}
+
+/// A point that is divided among four texels has a variance of a sixth of a texel's square.
+PatternPicture::Level smoothed(const PatternPicture::Level& points) {
+    return blurred(points, normal_weights(std::sqrt(kLevelVariance - 1.0 / 6.0), -3.0), 1);
+}
+
+/// The next level: its texels' centres lie between those of the finer one.
+PatternPicture::Level halved(const PatternPicture::Level& finer) {
+    return blurred(finer, normal_weights(std::sqrt(3.0 * kLevelVariance), -5.5), 2);
+}
+
+glm::dmat3 bilinear(const PatternPicture::Level& level, const glm::dvec2& uv) {
+    const glm::dvec2 position = glm::clamp(uv * double(level.size) - 0.5, 0.0, level.size - 1.0);
+    const glm::ivec2 low = glm::min(glm::ivec2(position), level.size - 2);
+    const glm::dvec2 t = position - glm::dvec2(low);
+    const auto of = [&](int row, int column) {
+        return glm::dmat3(level.density[static_cast<std::size_t>(row) * static_cast<std::size_t>(level.size) +
+                                        static_cast<std::size_t>(column)]);
+    };
+    return (1.0 - t.y) * ((1.0 - t.x) * of(low.y, low.x) + t.x * of(low.y, low.x + 1)) +
+           t.y * ((1.0 - t.x) * of(low.y + 1, low.x) + t.x * of(low.y + 1, low.x + 1));
+}
+
+}  // namespace
+
+double PatternPicture::level_bias() const {
+    const double texel = 2.0 * half_width / levels[0].size;
+    return -0.5 * std::log2(kShownVariance * texel * texel);
+}
+
+glm::dmat3 PatternPicture::at(const glm::dvec2& u, double variance) const {
+    if (std::max(std::abs(u.x), std::abs(u.y)) > half_width) return glm::dmat3(0.0);
+    const double wanted = 0.5 * std::log2(std::max(variance, 1e-30)) + level_bias();
+    const double level = std::clamp(wanted, 0.0, static_cast<double>(levels.size() - 1));
+    const auto finer = std::min(static_cast<std::size_t>(level), levels.size() - 2);
+    const double t = level - static_cast<double>(finer);
+    const glm::dvec2 uv = 0.5 * (u / half_width + 1.0);
+    return (1.0 - t) * bilinear(levels[finer], uv) + t * bilinear(levels[finer + 1], uv);
+}
+
+PatternPicture pattern_picture(const Grating& grating, const colour::LightSpectra& spectra, int size) {
+    ROWLAND_CHECK_OP(size, >=, 2 * kCoarsestPicture);
+    PatternPicture picture{.half_width = picture_half_width(grating, spectra), .levels = {}};
+    const double texel = 2.0 * picture.half_width / size;
+    PatternPicture::Level& finest = picture.levels.emplace_back();
+    finest.size = size;
+    finest.density.assign(static_cast<std::size_t>(size) * static_cast<std::size_t>(size), glm::mat3(0.0F));
+    for (const DiffractionPattern::Node& node : shaded_pattern(grating, spectra, texel).nodes)
+        add_point(node, picture.half_width, finest);
+    finest = smoothed(finest);
+    while (picture.levels.back().size > kCoarsestPicture) picture.levels.push_back(halved(picture.levels.back()));
+    return picture;
+}
+
+}  // namespace rowland::diffraction

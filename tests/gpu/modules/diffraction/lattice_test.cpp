@@ -1,0 +1,115 @@
+// Lattices on the GPU against the CPU.
+#include <gtest/gtest.h>
+
+#include "engine/scene/directional_light.h"
+#include "modules/diffraction/asset/layer_weights.h"
+#include "modules/diffraction/representations/direct/pattern_light.h"
+#include "modules/diffraction/representations/planar/gpu_planar.h"
+#include "tests/gpu/modules/diffraction/filter_error.h"
+#include "tests/gpu/modules/diffraction/grating_picture.h"
+#include "tests/gpu/render_test.h"
+
+namespace rowland::diffraction {
+namespace {
+
+constexpr const char* kCrossedFoil = R"({"lattice": {"a_nm": [1000, 100], "b_nm": [-200, 1200]}, "orders": 2,
+    "profile": {"type": "crossed", "along_a": {"type": "blazed", "depth_nm": 200},
+                "along_b": {"type": "sinusoidal", "depth_nm": 90}}})";
+constexpr const char* kScreen = R"({"lattice": {"a_nm": [4000, 0], "b_nm": [0, 5000]}, "orders": 8,
+    "profile": {"type": "aperture", "width_nm": 1500, "height_nm": 4000}})";
+/// Of the picture's maximum: halves, and positions of 8 bits between texels of a picture whose values change by all
+/// of their height from one to the next.
+constexpr double kPatternTolerance = 1e-2;
+
+class LatticePicture : public GratingPicture {
+ protected:
+    LatticePicture() { mesh_ = flat_triangle(); }
+
+    static PatternPicture picture_of(const CookedMaterial& cooked) {
+        return pattern_picture(cooked.material.grating, colour::LightSpectra());
+    }
+    /// Half the extent of the pixel in u, along the longer of its sides.
+    static double footprint_in_plane(const Point& point, const glm::dvec3& toward) {
+        const auto extent = [&](const Point::Change& change) {
+            return glm::length(glm::dvec2(glm::dot(toward, change.g), glm::dot(toward, change.h)) + change.view);
+        };
+        return 0.5 * std::max(extent(point.beside), extent(point.below));
+    }
+};
+
+TEST_F(LatticePicture, MapsEqualTheCpus) {
+    for (const char* grating : {kCrossedFoil, kScreen}) {
+        const CookedMaterial cooked =
+            cook(grating, R"({"representation": "planar", "map_resolution": 32, "views_h": 24, "key_lights": false})");
+        if (!renderer_) show(cooked, 0.7);
+        use(cooked);
+        const auto& lobe = *std::get<PlanarTables>(cooked.tables).lobe;
+        const glm::dvec3 normal = glm::transpose(vertex_frame(0))[2];
+        const LobeMap map =
+            fill_lobe_map(*light_.texels, LobeSpectrum(lobe.pattern, lobe.size.views), normal, lobe.size.azimuths);
+        const LobeMap map_error = filter_error(map);
+        const auto at = [](const LobeMap& looked_up, const Point& point) {
+            const glm::dmat3 axes = glm::transpose(point.to_tangent);
+            return sample(looked_up, ShadingPoint{.view = axes * point.view, .normal = axes[2], .grating = axes[0]});
+        };
+        const double difference = largest_difference(
+            draw(), [&](const Point& point) { return at(map, point); },
+            [&](const Point& point) { return at(map_error, point); });
+        EXPECT_LT(difference, kMapTolerance) << grating;
+        EXPECT_GT(brightest_, 0.01);
+    }
+}
+
+TEST_F(LatticePicture, KeyLightsEqualTheCpu) {
+    light_ = light_of(smooth_probe(), three_keys());
+    for (const char* grating : {kCrossedFoil, kScreen}) {
+        const CookedMaterial cooked = cook(grating, R"({"representation": "direct"})");
+        if (!renderer_) show(cooked, 0.5);
+        use(cooked);
+        const PatternPicture picture = picture_of(cooked);
+        const auto expected = [&](const Point& point) {
+            glm::dvec3 xyz(0.0);
+            for (const lighting::KeyLight& light : light_.key_lights) {
+                const double mean = lighting::lobe_moments(light.concentration).mean;
+                xyz += pattern_radiance(picture, pattern_light(light, std::nullopt, point.to_tangent),
+                                        glm::dvec2(point.view), footprint_in_plane(point, mean * light.direction));
+            }
+            return xyz;
+        };
+        EXPECT_LT(largest_difference(draw(), expected), kPatternTolerance) << grating;
+        EXPECT_GT(brightest_, 0.01);
+    }
+}
+
+/// Of two colours: each has a layer of the picture.
+TEST_F(LatticePicture, DirectionalLightsEqualTheCpu) {
+    const CookedMaterial cooked = cook(kCrossedFoil, R"({"representation": "direct"})");
+    show(cooked, 0.5);
+    const PatternPicture picture = picture_of(cooked);
+    const glm::dvec3 directions[] = {glm::normalize(glm::vec3(0.5F, 0.4F, 1.0F)),
+                                     glm::normalize(glm::vec3(-0.6F, 0.2F, 0.8F))};
+    const glm::dvec3 irradiances[] = {glm::dvec3(1.0), glm::dvec3(0.1, 0.3, 2.0)};
+    for (int i = 0; i < 2; ++i)
+        world_.add(world_.create(), scene::DirectionalLight{.direction = glm::vec3(directions[i]),
+                                                            .irradiance = glm::vec3(irradiances[i])});
+    const auto expected = [&](const Point& point) {
+        const glm::dvec3 n = glm::transpose(point.to_tangent)[2];
+        const glm::dvec3 v = glm::normalize(glm::dvec3(camera_.eye) - point.position);
+        glm::dvec3 xyz(0.0);
+        for (int i = 0; i < 2; ++i) {
+            const DirectLight light{.direction = directions[i], .flux = irradiances[i]};
+            xyz += pattern_radiance(picture, pattern_light(light, std::nullopt, point.to_tangent),
+                                    glm::dvec2(point.view), footprint_in_plane(point, directions[i]));
+            xyz += layer_weights(cooked.material.grating).base *
+                   rowland::test::reflected(directions[i], n, v, glm::dvec3(0.0), 0.0,
+                                            static_cast<double>(cooked.material.base.roughness)) *
+                   (colour::rec709_to_xyz() * irradiances[i]);
+        }
+        return xyz;
+    };
+    EXPECT_LT(largest_difference(draw(), expected), kPatternTolerance);
+    EXPECT_GT(brightest_, 0.05);
+}
+
+}  // namespace
+}  // namespace rowland::diffraction
