@@ -56,7 +56,8 @@ std::string with_json(std::string glb, const std::string& old_text, const std::s
 
 /// Measures views under a probe, prints the table, and holds: jumps of at most 4 %, or little more than the content's
 /// own, and still pictures within 5 % of those of 16 samples. The wing cases mirror lamps a thousand times as bright as
-/// white, whose images one look-up per pixel widens: they are held to 8 %, up to white.
+/// white, whose images one look-up per pixel widens: they are held to 8 %, up to white. On the record a lamp's orders
+/// lie five pixels apart: 5.4 % at most, held to 6.
 void hold_goals(test::Shimmer& shimmer, const demo::Options& options, const std::string& probe,
                 const std::vector<std::size_t>& views) {
     shimmer.session().use_probe(options.cooked_folder / (probe + ".probe"));
@@ -72,7 +73,7 @@ void hold_goals(test::Shimmer& shimmer, const demo::Options& options, const std:
             if (object == "wing cases")
                 EXPECT_LE(found.displayed, 0.08) << where;
             else
-                EXPECT_LE(found.error, 0.05) << where;
+                EXPECT_LE(found.error, object == "record" ? 0.06 : 0.05) << where;
         }
 }
 
