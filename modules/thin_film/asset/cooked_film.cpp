@@ -19,23 +19,20 @@ std::size_t node_count(const TableSize& size) {
 }
 
 void write_nodes(const FilmTable& table, ByteWriter& writer) {
-    std::vector<std::uint16_t> halves;
-    halves.reserve(9 * table.values.size());
+    std::vector<std::uint32_t> stored;
+    stored.reserve(3 * table.values.size());
     for (const glm::mat3& value : table.values)
-        for (int c = 0; c < 9; ++c) halves.push_back(glm::packHalf1x16(value[c / 3][c % 3]));
-    writer.array(std::span<const std::uint16_t>(halves));
+        for (int c = 0; c < 3; ++c) stored.push_back(glm::packF3x9_E1x5(value[c]));
+    writer.array(std::span<const std::uint32_t>(stored));
 }
 
 std::vector<glm::mat3> read_nodes(ByteReader& reader, std::size_t count) {
-    const std::vector<std::uint16_t> halves = reader.array<std::uint16_t>();
-    if (halves.size() != 9 * count)
-        reader.fail(fmt::format("{} numbers", halves.size()), fmt::format("nine for each of {} nodes", count));
+    const std::vector<std::uint32_t> stored = reader.array<std::uint32_t>();
+    if (stored.size() != 3 * count)
+        reader.fail(fmt::format("{} columns", stored.size()), fmt::format("three for each of {} nodes", count));
     std::vector<glm::mat3> values(count);
-    for (std::size_t i = 0; i < halves.size(); ++i) {
-        const float value = glm::unpackHalf1x16(halves[i]);
-        if (!std::isfinite(value)) reader.fail("a number that is not finite", "a finite one");
-        values[i / 9][static_cast<int>(i % 9 / 3)][static_cast<int>(i % 3)] = value;
-    }
+    for (std::size_t i = 0; i < stored.size(); ++i)
+        values[i / 3][static_cast<int>(i % 3)] = glm::unpackF3x9_E1x5(stored[i]);
     return values;
 }
 

@@ -13,7 +13,7 @@
 namespace rowland::thin_film {
 
 inline constexpr const char* kFilmAssetType = "film";
-inline constexpr std::uint32_t kFilmAssetVersion = 1;
+inline constexpr std::uint32_t kFilmAssetVersion = 2;
 
 struct CookedFilm {
     FilmMaterial material;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/gtc/packing.hpp>
 #include <optional>
 #include <span>
@@ -23,13 +24,13 @@ constexpr double kThickest_nm = 1e7;
 constexpr double kLeastMeasuredCosine = 0.05;
 constexpr std::size_t kMeasuredCosines = 101;  // in step with no table
 
-double thickness_of(double index, double x_nm, double cosine) {
-    return std::min(x_nm / std::max(path_difference(index, 1.0, cosine), 1e-9), kThickest_nm);
+/// Coordinates of the columns and the rows, of which they are equal steps. PHYSICS (4).
+double column_coordinate(double cosine) {
+    return std::sqrt(cosine + FilmTable::kCosineOffset);
 }
 
-/// Coordinate of the rows, of which they are equal steps. PHYSICS (4).
 double row_coordinate(double x_nm) {
-    return std::sqrt(x_nm + FilmTable::kPathOffset_nm);
+    return std::log2(x_nm + FilmTable::kPathOffset_nm);
 }
 
 double position(double at, int nodes) {
@@ -47,14 +48,6 @@ struct Between {
           second(std::min(first + 1, static_cast<std::size_t>(nodes) - 1)),
           weight(position - static_cast<double>(first)) {}
 };
-
-glm::mat3 to_half(const glm::mat3& matrix) {
-    glm::mat3 result;
-    for (int column = 0; column < 3; ++column)
-        for (int row = 0; row < 3; ++row)
-            result[column][row] = glm::unpackHalf1x16(glm::packHalf1x16(matrix[column][row]));
-    return result;
-}
 
 double largest_component(const glm::dmat3& matrix) {
     double largest = 0.0;
@@ -92,14 +85,14 @@ double square(double x) {
     return x * x;
 }
 
-/// Moves the nodes along one axis so that lines between them are nearest to the curve in the mean square, not only
-/// exact at the nodes: by a twelfth of the second difference. PHYSICS (4).
+/// Moves the nodes along one axis so that the largest distance of the lines between them from the curve is least: by
+/// 1/16 of the second difference. PHYSICS §4.
 void fit_nodes(std::vector<glm::mat3>& values, std::size_t stride, std::size_t count) {
     const std::vector<glm::mat3> nodes = values;
     for (std::size_t i = 0; i < values.size(); ++i) {
         const std::size_t along = i / stride % count;
         if (along == 0 || along + 1 == count) continue;
-        values[i] -= (nodes[i - stride] + nodes[i + stride] - 2.0F * nodes[i]) / 12.0F;
+        values[i] -= (nodes[i - stride] + nodes[i + stride] - 2.0F * nodes[i]) / 16.0F;
     }
 }
 
@@ -110,17 +103,18 @@ void fill(const Averages& averages, FilmTable& table) {
     parallel_for(columns * static_cast<std::size_t>(table.layers), [&](std::size_t i) {
         const std::size_t column = i % columns;
         const std::size_t layer = i / columns;
-        const double cosine = square(static_cast<double>(column) / (table.columns - 1));
+        const double cosine = table.cosine(static_cast<int>(column));
+        const double roughness = table.roughness(static_cast<double>(layer));
         std::vector<double> thicknesses_nm;
-        for (int row = 0; row < table.rows; ++row) thicknesses_nm.push_back(table.thickness_nm(row, cosine));
-        const std::vector<glm::dmat3> values =
-            averages.at(cosine, table.roughness(static_cast<double>(layer)), thicknesses_nm);
+        for (int row = 0; row < table.rows; ++row) thicknesses_nm.push_back(table.thickness_nm(row, cosine, roughness));
+        const std::vector<glm::dmat3> values = averages.at(cosine, roughness, thicknesses_nm);
         for (std::size_t row = 0; row < rows; ++row)
             table.values[(layer * rows + row) * columns + column] = glm::mat3(values[row]);
     });
     fit_nodes(table.values, 1, columns);
     fit_nodes(table.values, columns, rows);
-    for (glm::mat3& value : table.values) value = to_half(value);
+    fit_nodes(table.values, columns * rows, static_cast<std::size_t>(table.layers));
+    for (glm::mat3& value : table.values) value = to_stored(value);
 }
 
 /// The roughnesses that a range asks for: 0, for light from one direction, and layers and the middles between them.
@@ -165,13 +159,27 @@ TableError measure(const Averages& averages, const FilmTable& table, const Table
 
 }  // namespace
 
-double path_difference(double index, double thickness_nm, double cosine) {
-    return 2.0 * thickness_nm * std::sqrt((index - 1.0) * (index + 1.0) + cosine * cosine);
+double path_difference(double index, double thickness_nm, double square_cosine) {
+    return 2.0 * thickness_nm * std::sqrt((index - 1.0) * (index + 1.0) + square_cosine);
+}
+
+double mean_square_cosine(double view_cosine, double roughness) {
+    const double spread = 1.0 + 3.1 * roughness * roughness * roughness;
+    return 0.72 + (view_cosine * view_cosine - 0.72) / spread;
+}
+
+glm::mat3 to_stored(const glm::mat3& matrix) {
+    glm::mat3 result;
+    for (int column = 0; column < 3; ++column)
+        result[column] = glm::unpackF3x9_E1x5(glm::packF3x9_E1x5(glm::max(matrix[column], 0.0F)));
+    return result;
 }
 
 glm::dmat3 FilmTable::at(double cosine, double thickness_nm, double roughness) const {
-    const double y = row_coordinate(path_difference(index, thickness_nm, cosine));
-    const Between column(position(std::sqrt(std::clamp(cosine, 0.0, 1.0)), columns), columns);
+    const double y = row_coordinate(path_difference(index, thickness_nm, mean_square_cosine(cosine, roughness)));
+    const double first = column_coordinate(0.0);
+    const double u = (column_coordinate(std::clamp(cosine, 0.0, 1.0)) - first) / (column_coordinate(1.0) - first);
+    const Between column(position(u, columns), columns);
     const Between row(position(end > begin ? (y - begin) / (end - begin) : 0.0, rows), rows);
     const Between layer(position(roughest > 0.0 ? roughness / roughest : 0.0, layers), layers);
     const auto value = [&](std::size_t l, std::size_t r, std::size_t c) {
@@ -186,10 +194,17 @@ glm::dmat3 FilmTable::at(double cosine, double thickness_nm, double roughness) c
     return (1.0 - layer.weight) * in_layer(layer.first) + layer.weight * in_layer(layer.second);
 }
 
-double FilmTable::thickness_nm(int row, double cosine) const {
+double FilmTable::cosine(int column) const {
+    const double first = column_coordinate(0.0);
+    const double u = first + (column_coordinate(1.0) - first) * column / (columns - 1);
+    return std::clamp(square(u) - kCosineOffset, 0.0, 1.0);
+}
+
+double FilmTable::thickness_nm(int row, double cosine, double roughness) const {
     if (rows == 1) return only_thickness_nm;
-    const double x_nm = square(begin + (end - begin) * row / (rows - 1)) - kPathOffset_nm;
-    return thickness_of(index, std::max(x_nm, 0.0), cosine);
+    const double x_nm = std::exp2(begin + (end - begin) * row / (rows - 1)) - kPathOffset_nm;
+    const double of_1_nm = path_difference(index, 1.0, mean_square_cosine(cosine, roughness));
+    return std::min(std::max(x_nm, 0.0) / std::max(of_1_nm, 1e-9), kThickest_nm);
 }
 
 double FilmTable::roughness(double layer) const {
@@ -202,13 +217,13 @@ TableSize table_size(const TableRange& range) {
     if (range.thickest_nm == range.thinnest_nm) {
         if (!rough) return {.columns = 128, .rows = 1, .layers = 1};
         return one_roughness ? TableSize{.columns = 128, .rows = 1, .layers = 2}
-                             : TableSize{.columns = 96, .rows = 1, .layers = 18};
+                             : TableSize{.columns = 128, .rows = 1, .layers = 24};
     }
-    if (!rough) return {.columns = 24, .rows = 150, .layers = 1};
-    if (one_roughness) return {.columns = 20, .rows = 90, .layers = 2};
+    if (!rough) return {.columns = 26, .rows = 210, .layers = 1};
+    if (one_roughness) return {.columns = 20, .rows = 136, .layers = 2};
     constexpr double kWideLobe = 0.7;
-    return range.roughest > kWideLobe ? TableSize{.columns = 16, .rows = 28, .layers = 8}
-                                      : TableSize{.columns = 16, .rows = 37, .layers = 6};
+    return range.roughest > kWideLobe ? TableSize{.columns = 14, .rows = 39, .layers = 10}
+                                      : TableSize{.columns = 14, .rows = 48, .layers = 8};
 }
 
 FilmTable empty_table(const Film& film, const TableRange& range, const TableSize& size) {

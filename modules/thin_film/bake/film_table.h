@@ -21,15 +21,15 @@ struct TableError {
     double rms = 0.0;      ///< √ of the mean of its square
 };
 
-/// M averaged over the microfacets that a view sees, at nodes. PHYSICS (4), (5). Axes: √cos of the view; the path
-/// difference x = 2 t √(n² − sin²θ) in the outermost layer, along which fringes of all angles lie alike, in equal steps
-/// of √(x + kPathOffset_nm); roughness, of which the first node is 0.
+/// M averaged over the microfacets that a view sees, at nodes. PHYSICS (4), (5). Axes: √(c + kCosineOffset) of the
+/// view's cosine c; the path difference x in the outermost layer at the lobe's mean_square_cosine(), along which
+/// fringes of all angles lie alike, in equal steps of log(x + kPathOffset_nm); roughness, of which the first node is 0.
 struct FilmTable {
     int columns = 0;
     int rows = 0;
     int layers = 0;
     double index = 1.0;               ///< n of the outermost layer
-    double begin = 0.0;               ///< √(x + kPathOffset_nm) of the first row, √nm
+    double begin = 0.0;               ///< log₂(x + kPathOffset_nm) of the first row
     double end = 0.0;                 ///< of the last row
     double roughest = 0.0;            ///< of the last layer; 0 with one layer
     double only_thickness_nm = 0.0;   ///< with one row
@@ -39,16 +39,24 @@ struct FilmTable {
     /// As the shader reads it: linear between the nodes, clamped to the table. `cosine` of the view.
     glm::dmat3 at(double cosine, double thickness_nm, double roughness) const;
     /// Of the nodes.
-    double thickness_nm(int row, double cosine) const;
+    double cosine(int column) const;
+    double thickness_nm(int row, double cosine, double roughness) const;
     double roughness(double layer) const;
     std::size_t bytes() const { return values.size() * kBytesPerNode; }
 
-    static constexpr std::size_t kBytesPerNode = 18;  ///< nine half floats
-    static constexpr double kPathOffset_nm = 20.0;
+    static constexpr std::size_t kBytesPerNode = 12;  ///< nine bits a component and an exponent, for each column
+    static constexpr double kCosineOffset = 0.02;
+    static constexpr double kPathOffset_nm = 250.0;
 };
 
-/// Path difference in a layer of index n at an angle in air.
-double path_difference(double index, double thickness_nm, double cosine);
+/// Path difference 2 t √(n² − 1 + cos²θ) in a layer of index n at an angle in air.
+double path_difference(double index, double thickness_nm, double square_cosine);
+
+/// Mean of cos² over the microfacets that a view sees, to .05. PHYSICS (6).
+double mean_square_cosine(double view_cosine, double roughness);
+
+/// As it is stored: each column rounded to nine bits a component and an exponent of its own, and not below 0.
+glm::mat3 to_stored(const glm::mat3& matrix);
 
 /// Nodes along the axes.
 struct TableSize {

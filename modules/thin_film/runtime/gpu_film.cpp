@@ -1,5 +1,6 @@
 #include "modules/thin_film/runtime/gpu_film.h"
 
+#include <cmath>
 #include <glm/matrix.hpp>
 #include <span>
 #include <utility>
@@ -61,7 +62,8 @@ Axes axes(const FilmTable& table) {
     const auto slices = static_cast<float>(3 * table.layers);
     const auto last = static_cast<float>(table.layers - 1);
     const auto square = static_cast<float>((table.index - 1.0) * (table.index + 1.0));
-    const glm::vec2 columns = to_texels(0.0, 1.0, table.columns);
+    const glm::vec2 columns =
+        to_texels(std::sqrt(FilmTable::kCosineOffset), std::sqrt(1.0 + FilmTable::kCosineOffset), table.columns);
     const glm::vec2 rows = to_texels(table.begin, table.end, table.rows);
     switch (kind_for(table)) {
         case gpu::TextureKind::Line:

@@ -111,7 +111,8 @@ TEST_F(FilmPixel, OfADirectionalLightIsSeenAtTheHalfVector) {
     const glm::dvec3 v = view();
     const double whole = rowland::test::reflected(l, {0.0, 0.0, 1.0}, v, glm::dvec3(1.0), 1.0, roughness).x;
     const glm::dvec3 light(1.0, 2.0, 0.5);
-    expect_near(centre(), whole * exact(glm::dot(v, glm::normalize(l + v)), light), 3e-3);
+    // 1e-3 for each of the three columns of M that are stored in nine bits, and 1e-3 for the rest.
+    expect_near(centre(), whole * exact(glm::dot(v, glm::normalize(l + v)), light), 4e-3);
 }
 
 TEST_F(FilmPixel, OfTexturedThicknessReadsTheLobeForTheProbeAndTheMirrorForADirectionalLight) {
