@@ -41,6 +41,14 @@ inline void showValue(const Grating& grating, std::ostream& out) {
         out << fmt::format(", sigma {:.17g}", gaussian->sigma);
     if (const auto* pits = std::get_if<PitsLobe>(&grating.lobe))
         out << fmt::format(", pits {:.17g} {:.17g}", pits->length_nm, pits->coherent);
+    if (grating.cover) out << fmt::format(", cover {:.17g}", grating.cover->ior);
+    if (grating.transmission)
+        out << fmt::format(", through {:.17g}, reflects {:.17g}", grating.transmission->ior,
+                           grating.transmission->reflectance);
+    if (const auto& lattice = grating.lattice)
+        out << fmt::format(", lattice ({:.17g} {:.17g}) ({:.17g} {:.17g}) of profile {}, up to {}", lattice->a_nm.x,
+                           lattice->a_nm.y, lattice->b_nm.x, lattice->b_nm.y, lattice->profile.index(),
+                           lattice->orders);
     out << fmt::format(", orders {}}}", fmt::join(grating.orders, " "));
 }
 
@@ -160,7 +168,28 @@ inline rc::Gen<std::vector<int>> orders(double pitch_nm) {
     });
 }
 
-/// Any grating the material file allows but tables, with at least `least_grooves` grooves.
+/// A sheet that light passes, with or without a reflection, in place of a metal and a cover.
+inline rc::Gen<diffraction::Transmission> transmission() {
+    return rc::gen::exec([] {
+        return diffraction::Transmission{.ior = *rc::gen::oneOf(uniform(1.0, 3.0), rc::gen::element(1.0, 1.5)),
+                                         .reflectance = *rc::gen::oneOf(uniform(0.0, 1.0), rc::gen::element(0.0))};
+    });
+}
+
+/// What lies over the grooves and under them.
+inline void draw_layers(diffraction::Grating& grating) {
+    if (*whole(0, 3) == 0) {
+        grating.transmission = *transmission();
+        return;
+    }
+    if (*whole(0, 3) == 0)
+        grating.metal = *rc::gen::element(colour::Metal::Al, colour::Metal::Ag, colour::Metal::Au, colour::Metal::Cu);
+    if (*whole(0, 3) == 0)
+        grating.cover = diffraction::Cover{.ior = *uniform(1.0, 3.0),
+                                           .tint = {*uniform(0.0, 1.0), *uniform(0.0, 1.0), *uniform(0.0, 1.0)}};
+}
+
+/// Any grating of grooves that the material file allows but tables, with at least `least_grooves` grooves.
 inline rc::Gen<diffraction::Grating> grating(double least_grooves = 1.0) {
     return rc::gen::exec([least_grooves] {
         diffraction::Grating result;
@@ -169,16 +198,62 @@ inline rc::Gen<diffraction::Grating> grating(double least_grooves = 1.0) {
         result.profile = *profile(result.pitch_nm);
         result.lobe = *lobe();
         result.orders = *orders(result.pitch_nm);
-        if (*whole(0, 3) == 0)
-            result.metal =
-                *rc::gen::element(colour::Metal::Al, colour::Metal::Ag, colour::Metal::Au, colour::Metal::Cu);
-        if (*whole(0, 3) == 0)
-            result.cover = diffraction::Cover{.ior = *uniform(1.0, 3.0),
-                                              .tint = {*uniform(0.0, 1.0), *uniform(0.0, 1.0), *uniform(0.0, 1.0)}};
+        draw_layers(result);
         if (std::holds_alternative<diffraction::SlitProfile>(result.profile) && *whole(0, 2) == 0)
             result.normalization = diffraction::Normalization::Agu;
         return result;
     });
+}
+
+inline rc::Gen<diffraction::LatticeProfile> lattice_profile(double a_nm, double b_nm, int orders) {
+    return rc::gen::exec([=]() -> diffraction::LatticeProfile {
+        switch (*whole(0, 2)) {
+            case 0:
+                return diffraction::CrossedProfile{.along_a = *profile(a_nm), .along_b = *profile(b_nm)};
+            case 1:
+                return diffraction::ApertureProfile{
+                    .width_nm = a_nm * *rc::gen::oneOf(uniform(1e-6, 1.0), rc::gen::element(0.5, 1.0)),
+                    .height_nm = b_nm * *rc::gen::oneOf(uniform(1e-6, 1.0), rc::gen::element(0.5, 1.0))};
+            default: {
+                diffraction::HeightMap map{.columns = 2 * orders + *whole(1, 4),
+                                           .rows = 2 * orders + *whole(1, 4),
+                                           .heights = {},
+                                           .depth_nm = *uniform(0.0, 1000.0)};
+                for (int i = 0; i < map.columns * map.rows; ++i)
+                    map.heights.push_back(static_cast<std::uint8_t>(*whole(0, 255)));
+                return map;
+            }
+        }
+    });
+}
+
+/// Any lattice the material file allows, of few orders: sides from 300 nm to a tenth of a millimetre, at 5° or more.
+inline rc::Gen<diffraction::Grating> lattice() {
+    return rc::gen::exec([] {
+        diffraction::Lattice cell;
+        const double a_nm = *rc::gen::oneOf(log_uniform(300.0, 1e5), uniform(300.0, 3000.0), rc::gen::element(300.0));
+        const double b_nm = *rc::gen::oneOf(log_uniform(300.0, 1e5), uniform(300.0, 3000.0), rc::gen::just(a_nm));
+        const double a_angle = *rc::gen::oneOf(uniform(0.0, 2.0 * std::numbers::pi), rc::gen::element(0.0));
+        const double between = std::numbers::pi / 36.0 *
+                               *rc::gen::oneOf(uniform(1.0, 35.0), uniform(-35.0, -1.0), rc::gen::element(12.0, 18.0));
+        cell.a_nm = a_nm * glm::dvec2(std::cos(a_angle), std::sin(a_angle));
+        cell.b_nm = b_nm * glm::dvec2(std::cos(a_angle + between), std::sin(a_angle + between));
+        cell.orders = *whole(1, 3);
+        cell.profile = *lattice_profile(a_nm, b_nm, cell.orders);
+        diffraction::Grating result;
+        result.pitch_nm = std::min(a_nm, b_nm);
+        result.orders.clear();
+        result.lattice = std::move(cell);
+        draw_layers(result);
+        return result;
+    });
+}
+
+/// What harmonics shade: grooves of an order so sharp that it is a point, of at most `most_orders`, or a lattice.
+inline rc::Gen<diffraction::Grating> baked_grating(std::size_t most_orders) {
+    return rc::gen::oneOf(rc::gen::suchThat(grating(diffraction::kManyGrooves),
+                                            [=](const auto& one) { return one.orders.size() <= most_orders; }),
+                          lattice());
 }
 
 /// Raw SH of 1 to `most_bands` bands, over twelve decades of strength, sometimes none.

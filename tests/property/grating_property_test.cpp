@@ -74,6 +74,22 @@ RC_GTEST_PROP(EfficiencyProperty, OrdersShareThePower, ()) {
     RC_ASSERT(sum <= 1.0 + 1e-10);
 }
 
+/// The same of a lattice, by every nanometre's reflectance, and of both sides of a sheet (PHYSICS (43)).
+RC_GTEST_PROP(EfficiencyProperty, OrdersOfALatticeShareThePower, ()) {
+    const Grating shape = *lattice();
+    const double wavelength_nm = *wavelength();
+    double sum = 0.0;
+    const auto add = [&](const Grating& side) {
+        for (const double efficiency : lattice_order_efficiencies(side, wavelength_nm)) {
+            RC_ASSERT(efficiency >= 0.0);
+            sum += efficiency;
+        }
+    };
+    add(shape);
+    if (const auto side = reflected_side(shape)) add(*side);
+    RC_ASSERT(sum <= 1.0 + 1e-10);
+}
+
 /// At whole orders the groove's own spectrum is η_m. 1e-10: Σ_k J_k sinc of the sinusoidal profile, its worst.
 RC_GTEST_PROP(EfficiencyProperty, SpectrumMeetsItAtWholeOrders, ()) {
     const double pitch_nm = *pitch();

@@ -2,6 +2,7 @@
 #include "modules/diffraction/model/lattice.h"
 #include "modules/diffraction/asset/lattice_json.h"
 #include "modules/diffraction/bake/lattice_nodes.h"
+#include "modules/diffraction/bake/lattice_terms.h"
 #include "modules/diffraction/reference/lattice_radiance.h"
 
 namespace rowland::diffraction {
@@ -16,6 +17,21 @@ std::vector<double> lattice_efficiencies(const Lattice&, double) {
 }
 
 std::vector<DiffractionPattern::Node> lattice_nodes(const Grating&, const colour::LightSpectra&, double) {
+    return {};
+}
+
+std::vector<LatticeOrder> lattice_orders(const Grating&) {
+    return {};
+}
+
+std::vector<double> lattice_spectrum(const std::vector<LatticeOrder>&, const std::optional<Cover>&, const glm::dvec2&,
+                                     int) {
+    return {};
+}
+
+LatticeTerms::LatticeTerms(const Grating&, const colour::LightSpectra&, int bands) : cell_(0.0), bands_(bands) {}
+
+std::vector<glm::dmat3> LatticeTerms::coefficients(const glm::dvec2&) const {
     return {};
 }
 

@@ -28,6 +28,7 @@ TransferTerms::TransferTerms(const Grating& grating, const colour::LightSpectra&
       moments_(bands) {
     ROWLAND_CHECK_OP(grating.pitch_nm, >, 0.0);
     require_many_grooves(grating);
+    if (grating.lattice) lattice_.emplace(grating, spectra, bands);
     for (const int order : orders_)
         for (std::size_t j = 0; j < kWavelengths; ++j) {
             const double wavelength_nm = colour::kVisibleMin + static_cast<double>(j);
@@ -72,6 +73,7 @@ void TransferTerms::each_arc(double v_g, double pitch_nm, const Use& use) const 
 }
 
 std::vector<glm::dmat3> TransferTerms::coefficients(double v_g, double v_h, double pitch_factor) const {
+    if (lattice_) return lattice_->coefficients({v_g, v_h});
     if (!by_moments_) return summed_arcs(v_g, v_h, pitch_factor);
     // Fewer functions of a, and no quadrature along the arc.
     const std::vector<glm::dmat3> terms = moments(v_g, pitch_factor);

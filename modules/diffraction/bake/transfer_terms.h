@@ -1,25 +1,27 @@
 #pragma once
 
 #include <glm/mat3x3.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "engine/colour/light_spectra.h"
 #include "modules/diffraction/bake/arc_coefficients.h"
 #include "modules/diffraction/bake/arc_moments.h"
+#include "modules/diffraction/bake/lattice_terms.h"
 #include "modules/diffraction/model/grating.h"
 
 namespace rowland::diffraction {
 
-/// Whether arc moments describe all that a grating sees of a light: a flat lobe without a cover, whose T(s_n) is no
-/// polynomial.
+/// Whether arc moments describe all that a grating sees of a light: grooves of the flat lobe without a cover, whose
+/// T(s_n) is no polynomial.
 inline bool has_arc_moments(const Grating& grating) {
-    return is_flat(grating.lobe) && !grating.cover;
+    return sees_v_g_alone(grating) && !grating.cover;
 }
 
 /// The diffraction term of one view as SH coefficients with the wavelengths summed (PHYSICS §5):
 /// c_i,o,c(v) = Σ_m ∫ η_m(λ) cmf_o(λ) E_c(λ) C_i(mλ/d − v_g) dλ. This equals d ∫ C_i(a) k_o,c(d(a+v_g)) da, but knows
-/// the wavelength that the lobe depends on.
+/// the wavelength that the lobe depends on. Of a lattice: LatticeTerms.
 class TransferTerms {
  public:
     /// Throws as require_many_grooves().
@@ -45,6 +47,7 @@ class TransferTerms {
     std::vector<glm::dmat3> weights_;  ///< order by order, one per nanometre
     ArcCoefficients arcs_;
     ArcMoments moments_;
+    std::optional<LatticeTerms> lattice_;
 };
 
 }  // namespace rowland::diffraction

@@ -116,14 +116,15 @@ bool is_valid(const ViewGrid& grid) {
     return grid.mapping == ViewMapping::OneDimensional ? grid.rows == 1 : grid.rows >= 2;
 }
 
-void check_view_grid(const ViewGrid& grid, const GrooveLobe& lobe) {
+void check_view_grid(const ViewGrid& grid, const Grating& grating) {
     ROWLAND_CHECK(is_valid(grid), "a view grid's sizes must be those of its mapping");
-    if (grid.mapping != ViewMapping::OneDimensional || is_flat(lobe)) return;
+    if (grid.mapping != ViewMapping::OneDimensional || sees_v_g_alone(grating)) return;
     throw Error({.file = {},
                  .location = "view_mapping",
-                 .found = "one-dimensional for a groove lobe that is not flat",
-                 .expected = "spherical or parabolic: such a lobe also depends on the view along the grooves",
-                 .remedy = "change view_mapping, or the groove lobe to flat"});
+                 .found = fmt::format("one-dimensional for {}",
+                                      grating.lattice ? "a lattice" : "a groove lobe that is not flat"),
+                 .expected = "spherical or parabolic: radiance also depends on v_h",
+                 .remedy = "change view_mapping"});
 }
 
 std::vector<double> mirror_signs(int bands) {
@@ -133,7 +134,7 @@ std::vector<double> mirror_signs(int bands) {
     return signs;
 }
 
-void for_each_view(const char* title, const ViewGrid& grid,
+void for_each_view(const char* title, const ViewGrid& grid, const Grating& grating,
                    const std::function<void(const glm::dvec2&, std::size_t, std::size_t)>& body) {
     struct Task {
         int column, row;
@@ -143,7 +144,7 @@ void for_each_view(const char* title, const ViewGrid& grid,
     std::size_t texel = 0;
     for (int row = 0; row < grid.rows; ++row)
         for (int column = 0; column < grid.columns; ++column, ++texel) {
-            const std::size_t mirror = mirrored_texel(grid, column, row);
+            const std::size_t mirror = grating.lattice ? texel : mirrored_texel(grid, column, row);
             if (texel <= mirror) tasks.push_back({column, row, texel, mirror});
         }
     Progress progress(title, tasks.size());

@@ -10,7 +10,7 @@
 
 #include "engine/core/byte_stream.h"
 #include "modules/diffraction/bake/packed_texels.h"
-#include "modules/diffraction/model/lobe.h"
+#include "modules/diffraction/model/grating.h"
 
 namespace rowland::diffraction {
 
@@ -61,15 +61,16 @@ BilinearLookup look_up(const ViewGrid& grid, double v_g, double v_h, double v_n)
 /// True if the sizes are those of the mapping.
 bool is_valid(const ViewGrid& grid);
 
-/// Refuses (Error, input) a one-dimensional grid for a lobe that is not flat; the sizes must be valid.
-void check_view_grid(const ViewGrid& grid, const GrooveLobe& lobe);
+/// Refuses (Error, input) a one-dimensional grid for a grating that depends on more than v_g; the sizes must be valid.
+void check_view_grid(const ViewGrid& grid, const Grating& grating);
 
 /// The factors from the SH coefficients of the view (v_g, v_h) to those of (v_g, −v_h). Every lobe is even in s_h +
 /// v_h: −1 for the functions odd in h, m < 0, and 1 for the others. bands² entries.
 std::vector<double> mirror_signs(int bands);
 
-/// Calls body(view, texel, mirrored texel) for one view of each mirrored pair, on all cores.
-void for_each_view(const char* title, const ViewGrid& grid,
+/// Calls body(view, texel, mirrored texel) for one view of each mirrored pair, on all cores. A lattice has no pairs:
+/// both texels are the same.
+void for_each_view(const char* title, const ViewGrid& grid, const Grating& grating,
                    const std::function<void(const glm::dvec2& view, std::size_t texel, std::size_t mirror)>& body);
 
 /// A component of a layer as GL_LINEAR filters it.

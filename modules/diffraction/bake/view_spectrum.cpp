@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "engine/core/check.h"
 #include "engine/core/error.h"
@@ -21,10 +22,16 @@ void require_many_grooves(const Grating& grating) {
 }
 
 ViewSpectrum::ViewSpectrum(const Grating& grating, int bands)
-    : pitch_nm_(grating.pitch_nm), orders_(grating.orders), arcs_(bands, grating.lobe, grating.cover) {
+    : pitch_nm_(grating.pitch_nm),
+      lattice_orders_(grating.lattice ? lattice_orders(grating) : std::vector<LatticeOrder>{}),
+      orders_(grating.orders),
+      cover_(grating.cover),
+      arcs_(bands, grating.lobe, grating.cover) {
     ROWLAND_CHECK_OP(grating.pitch_nm, >, 0.0);
     require_many_grooves(grating);
     std::vector<double> totals(kWavelengths, 0.0);
+    for (const LatticeOrder& order : lattice_orders_)
+        std::transform(totals.begin(), totals.end(), order.efficiency.begin(), totals.begin(), std::plus<>());
     for (const int order : orders_) {
         for (std::size_t j = 0; j < kWavelengths; ++j) {
             const double wavelength_nm = colour::kVisibleMin + static_cast<double>(j);
@@ -36,6 +43,7 @@ ViewSpectrum::ViewSpectrum(const Grating& grating, int bands)
 }
 
 std::vector<double> ViewSpectrum::coefficients(double v_g, double v_h) const {
+    if (!lattice_orders_.empty()) return lattice_spectrum(lattice_orders_, cover_, {v_g, v_h}, bands());
     const auto count = static_cast<std::size_t>(math::sh_count(bands()));
     std::vector<double> arcs(kWavelengths * count, 0.0);
     for (std::size_t k = 0; k < orders_.size(); ++k) {

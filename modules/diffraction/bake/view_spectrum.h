@@ -4,6 +4,7 @@
 
 #include "engine/colour/illuminant.h"
 #include "modules/diffraction/bake/arc_coefficients.h"
+#include "modules/diffraction/bake/lattice_terms.h"
 #include "modules/diffraction/model/grating.h"
 
 namespace rowland::diffraction {
@@ -12,7 +13,8 @@ namespace rowland::diffraction {
 void require_many_grooves(const Grating& grating);
 
 /// The diffraction term of one view as SH coefficients per wavelength: c_i(v, λ) = Σ_m η_m(λ) C_i(mλ/d − v_g), PHYSICS
-/// §5, tabulated at every nanometre of the visible range. Holds everything that does not depend on the view.
+/// §5, or of a lattice (51), tabulated at every nanometre of the visible range. Holds everything that does not depend
+/// on the view.
 class ViewSpectrum {
  public:
     /// Throws as require_many_grooves().
@@ -27,9 +29,11 @@ class ViewSpectrum {
 
  private:
     double pitch_nm_;
+    std::vector<LatticeOrder> lattice_orders_;
     std::vector<int> orders_;
     std::vector<double> efficiencies_;  ///< order by order, 401 each
     double largest_efficiency_ = 0.0;
+    std::optional<Cover> cover_;
     ArcCoefficients arcs_;
 };
 

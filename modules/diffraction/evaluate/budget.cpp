@@ -41,7 +41,7 @@ double rounded_up(double error) {
 std::vector<nlohmann::json> budget_candidates(const Grating& grating, SurfaceShape surface) {
     std::vector<nlohmann::json> list;
     for (const RepresentationInfo* info : representations())
-        for (const std::string& settings : info->budget(is_flat(grating.lobe), surface)) {
+        for (const std::string& settings : info->budget(sees_v_g_alone(grating), surface)) {
             nlohmann::json quality =
                 parse_method(settings.empty() ? info->name : fmt::format("{}/{}", info->name, settings)).quality;
             if (info->key_lights == KeyLightUse::Always) {

@@ -50,6 +50,11 @@ inline std::optional<Grating> reflected_side(const Grating& sheet) {
     return side;
 }
 
+/// Whether radiance depends on the view's v_g alone: grooves of the flat lobe.
+inline bool sees_v_g_alone(const Grating& grating) {
+    return !grating.lattice && is_flat(grating.lobe);
+}
+
 /// Whether the grating shades the order.
 inline bool lists(const Grating& grating, int order) {
     return std::binary_search(grating.orders.begin(), grating.orders.end(), order);

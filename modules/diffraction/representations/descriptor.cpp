@@ -114,8 +114,8 @@ SettingInfo storage_setting(Storage default_value, std::vector<nlohmann::json> s
             .sweep = std::move(sweep)};
 }
 
-ViewGrid default_view_grid(const GrooveLobe& lobe) {
-    if (is_flat(lobe)) return {.mapping = ViewMapping::OneDimensional, .columns = 256, .rows = 1};
+ViewGrid default_view_grid(const Grating& grating) {
+    if (sees_v_g_alone(grating)) return {.mapping = ViewMapping::OneDimensional, .columns = 256, .rows = 1};
     return {.mapping = ViewMapping::Spherical, .columns = 64, .rows = 32};
 }
 
@@ -141,9 +141,11 @@ ViewGrid view_grid(const SettingValues& values, const ViewGrid& defaults) {
 }
 
 std::optional<Refusal> view_grid_refusal(const SettingValues& values, const Grating& grating) {
-    if (values.word_or("view_mapping", "") != "one-dimensional" || is_flat(grating.lobe)) return std::nullopt;
-    return Refusal{"view_mapping", "\"one-dimensional\" with a groove_lobe that is not flat",
-                   "\"spherical\" or \"parabolic\"", "such a lobe depends on the view along the grooves"};
+    if (values.word_or("view_mapping", "") != "one-dimensional" || sees_v_g_alone(grating)) return std::nullopt;
+    return Refusal{
+        "view_mapping",
+        fmt::format("\"one-dimensional\" with {}", grating.lattice ? "a lattice" : "a groove_lobe that is not flat"),
+        "\"spherical\" or \"parabolic\"", "radiance also depends on v_h, the view along the grooves"};
 }
 
 std::optional<Refusal> layer_refusal(const char* key, int layers) {

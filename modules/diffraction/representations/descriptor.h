@@ -112,15 +112,15 @@ constexpr int harmonic_layers(int bands) {
 }
 
 /// Flat lobe: 256 nodes over v_g, an error of 1e-4 or less from 740 nm pitch on. Others: 64 × 32 spherical nodes, .3 %
-/// for a lobe of .3 under 5 bands; as many parabolic nodes have .9 % (measured).
-ViewGrid default_view_grid(const GrooveLobe& lobe);
+/// for a lobe of .3 under 5 bands; as many parabolic nodes have .9 %. A lattice has .7 to 1.6 % (measured).
+ViewGrid default_view_grid(const Grating& grating);
 
 /// "view_resolution" is the number of rows: spherical tables have twice as many columns, parabolic ones as many, and
 /// one-dimensional ones that many nodes.
 ViewGrid view_grid(ViewMapping mapping, int resolution);
 /// The grid that "view_mapping" and "view_resolution" ask for, of `defaults` where they are absent.
 ViewGrid view_grid(const SettingValues& values, const ViewGrid& defaults);
-/// Refuses a one-dimensional grid for a lobe that depends on the view along the grooves.
+/// Refuses a one-dimensional grid for a grating that depends on more than v_g.
 std::optional<Refusal> view_grid_refusal(const SettingValues& values, const Grating& grating);
 /// Refuses more layers of four coefficients than every device supports in a texture array.
 std::optional<Refusal> layer_refusal(const char* key, int layers);

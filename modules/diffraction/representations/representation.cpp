@@ -95,7 +95,7 @@ std::optional<Refusal> baked_refusal(const Grating& grating) {
 
 std::optional<Refusal> refusal(const RepresentationInfo& info, const SettingValues& values, const Grating& grating) {
     if (auto refused = lattice_refusal(info, grating)) return refused;
-    if (auto refused = lobe_refusal(info, grating.lobe)) return refused;
+    if (auto refused = lobe_refusal(info, grating.lobe); refused && !grating.lattice) return refused;
     std::optional<Refusal> refused;
     for_each_representation([&]<typename Settings>(std::size_t) {
         if constexpr (requires { Settings::refusal(values, grating); })

@@ -95,7 +95,7 @@ MatrixXd tabulate(const Grating& grating, const ArcTable& table, const colour::I
     const std::size_t rows = static_cast<std::size_t>(table.rows());
     MatrixXd result(static_cast<Eigen::Index>(columns * rows),
                     light_term_count(table.terms, table.bands) * kTermColumns);
-    if (is_flat(grating.lobe)) {
+    if (sees_v_g_alone(grating)) {
         parallel_for(columns * rows, [&](std::size_t texel) {
             const double factor = table.pitch ? table.pitch->factor_at(static_cast<int>(texel / columns)) : 1.0;
             const double v_g = node_view(table.grid, static_cast<int>(texel % columns), 0).x;
@@ -106,11 +106,12 @@ MatrixXd tabulate(const Grating& grating, const ArcTable& table, const colour::I
         return result;
     }
     const std::vector<double> signs = mirror_signs(table.bands);
-    for_each_view("baking arcs", table.grid, [&](const glm::dvec2& view, std::size_t texel, std::size_t mirror) {
-        const std::vector<glm::dmat3> coefficients = terms.coefficients(view.x, view.y);
-        put(coefficients, {}, static_cast<Eigen::Index>(texel), result);
-        if (mirror != texel) put(coefficients, signs, static_cast<Eigen::Index>(mirror), result);
-    });
+    for_each_view("baking arcs", table.grid, grating,
+                  [&](const glm::dvec2& view, std::size_t texel, std::size_t mirror) {
+                      const std::vector<glm::dmat3> coefficients = terms.coefficients(view.x, view.y);
+                      put(coefficients, {}, static_cast<Eigen::Index>(texel), result);
+                      if (mirror != texel) put(coefficients, signs, static_cast<Eigen::Index>(mirror), result);
+                  });
     return result;
 }
 
@@ -120,7 +121,7 @@ void check_settings(const Grating& grating, const ArcSettings& settings) {
     ROWLAND_CHECK(settings.pitch->smallest > 0.0 && settings.pitch->largest > settings.pitch->smallest &&
                       settings.pitch->nodes >= 2,
                   "a pitch axis ascends");
-    if (is_flat(grating.lobe)) return;
+    if (sees_v_g_alone(grating)) return;
     throw Error({.file = {},
                  .location = "groove_lobe",
                  .found = "a lobe that is not flat, with a pitch that varies over the surface",
@@ -139,11 +140,11 @@ ArcTable bake(const Grating& grating, const ArcSettings& settings) {
     ArcTable table;
     table.bands = settings.bands;
     table.terms = has_arc_moments(grating) ? LightTerms::ArcMoments : LightTerms::Harmonics;
-    table.grid = settings.grid.value_or(default_view_grid(grating.lobe));
+    table.grid = settings.grid.value_or(default_view_grid(grating));
     table.pitch = settings.pitch;
     table.storage = settings.storage;
-    check_view_grid(table.grid, grating.lobe);
-    ROWLAND_CHECK(!is_flat(grating.lobe) || table.grid.mapping == ViewMapping::OneDimensional,
+    check_view_grid(table.grid, grating);
+    ROWLAND_CHECK(!sees_v_g_alone(grating) || table.grid.mapping == ViewMapping::OneDimensional,
                   "the flat lobe's weights are one-dimensional");
 
     const MatrixXd values = tabulate(grating, table, settings.illuminant);
@@ -295,6 +296,7 @@ const RepresentationInfo& ArcSettings::info() {
     static const RepresentationInfo info{
         .name = "arc",
         .summary = "a few products of table and light: light at the vertices, views in the pixels",
+        .lattices = true,
         .takes_harmonics = true,
         .settings = {bands_setting({2, 3, 4, 6, 8, 10, 12, 16}, {3, 5, 8}), rank_setting({2, 4, 6, 12, 16}, {4, 8, 16}),
                      view_mapping_setting(), view_resolution_setting(),
@@ -317,7 +319,7 @@ const RepresentationInfo& ArcSettings::info() {
 
 std::optional<Refusal> ArcSettings::refusal(const SettingValues& values, const Grating& grating) {
     const std::string mapping = values.word_or("view_mapping", "one-dimensional");
-    if (is_flat(grating.lobe) && mapping != "one-dimensional")
+    if (sees_v_g_alone(grating) && mapping != "one-dimensional")
         return Refusal{"view_mapping", fmt::format("\"{}\"", mapping),
                        "\"one-dimensional\" for arc with the flat groove_lobe",
                        "leave view_mapping out; arc moments depend on v_g alone"};
@@ -327,7 +329,7 @@ std::optional<Refusal> ArcSettings::refusal(const SettingValues& values, const G
 ArcSettings ArcSettings::from(const SettingValues& values, const Grating& grating) {
     return {.bands = values.number("bands"),
             .rank = values.number("rank"),
-            .grid = view_grid(values, default_view_grid(grating.lobe)),
+            .grid = view_grid(values, default_view_grid(grating)),
             .storage = values.storage()};
 }
 

@@ -59,7 +59,7 @@ std::vector<Bin> make_bins(const colour::LightSpectra& spectra, int count) {
 
 BinTable bake(const Grating& grating, const BinSettings& settings) {
     ROWLAND_CHECK(settings.bins >= 1 && settings.bins <= kMaximumBins, "1 to 400 bins");
-    check_view_grid(settings.grid, grating.lobe);
+    check_view_grid(settings.grid, grating);
     BinTable table;
     table.bands = settings.bands;
     table.grid = settings.grid;
@@ -72,21 +72,22 @@ BinTable bake(const Grating& grating, const BinSettings& settings) {
     const auto blocks = static_cast<std::size_t>(harmonic_layers(table.bands));
     const std::size_t texels = table.grid.texels();
     std::vector<double> values(bins.size() * blocks * texels * kTexelComponents, 0.0);
-    for_each_view("baking bins", table.grid, [&](const glm::dvec2& view, std::size_t texel, std::size_t mirror) {
-        const std::vector<double> coefficients = spectrum.coefficients(view.x, view.y);
-        for (std::size_t b = 0; b < bins.size(); ++b)
-            for (std::size_t i = 0; i < signs.size(); ++i) {
-                double mean = 0.0;
-                for (std::size_t j = 0; j < bins[b].weights.size(); ++j)
-                    mean += bins[b].weights[j] * coefficients[(bins[b].begin + j) * signs.size() + i];
-                const auto at = [&](std::size_t t) -> double& {
-                    return values[((b * blocks + i / kTexelComponents) * texels + t) * kTexelComponents +
-                                  i % kTexelComponents];
-                };
-                at(texel) = mean;
-                if (mirror != texel) at(mirror) = signs[i] * mean;
-            }
-    });
+    for_each_view("baking bins", table.grid, grating,
+                  [&](const glm::dvec2& view, std::size_t texel, std::size_t mirror) {
+                      const std::vector<double> coefficients = spectrum.coefficients(view.x, view.y);
+                      for (std::size_t b = 0; b < bins.size(); ++b)
+                          for (std::size_t i = 0; i < signs.size(); ++i) {
+                              double mean = 0.0;
+                              for (std::size_t j = 0; j < bins[b].weights.size(); ++j)
+                                  mean += bins[b].weights[j] * coefficients[(bins[b].begin + j) * signs.size() + i];
+                              const auto at = [&](std::size_t t) -> double& {
+                                  return values[((b * blocks + i / kTexelComponents) * texels + t) * kTexelComponents +
+                                                i % kTexelComponents];
+                              };
+                              at(texel) = mean;
+                              if (mirror != texel) at(mirror) = signs[i] * mean;
+                          }
+                  });
     pack(values, bins.size() * blocks, table);
     return table;
 }
@@ -131,6 +132,7 @@ const RepresentationInfo& BinSettings::info() {
     static const RepresentationInfo info{
         .name = "bins",
         .summary = "fixed wavelength bins, light as SH at the vertices",
+        .lattices = true,
         .takes_harmonics = true,
         .in_demo = false,
         .key_lights = KeyLightUse::OnRequest,

@@ -28,11 +28,6 @@ int lattice_azimuths(int views) {
     return 4 * views;
 }
 
-/// The map of a flat lobe does not depend on v_h.
-bool depends_on_v_h(const Grating& grating) {
-    return grating.lattice || !is_flat(grating.lobe);
-}
-
 SettingInfo views_h_setting() {
     return {.key = "views_h",
             .label = "Nodes along v_h",
@@ -88,7 +83,7 @@ const RepresentationInfo& PlanarSettings::info() {
 }
 
 std::optional<Refusal> PlanarSettings::refusal(const SettingValues& values, const Grating& grating) {
-    if (!depends_on_v_h(grating)) {
+    if (sees_v_g_alone(grating)) {
         if (!values.has("views_h")) return std::nullopt;
         return Refusal{"views_h", fmt::format("{} with the flat groove_lobe", values.number_or("views_h", 0)),
                        "no views_h: the map of a flat lobe does not depend on v_h"};
@@ -107,11 +102,10 @@ PlanarSettings PlanarSettings::from(const SettingValues& values, const Grating& 
         .size = planar_map_size(views),
         .grating = grating,
         .stand_in = {
-            .bands = values.number("bands"), .rank = values.number("rank"), .grid = default_view_grid(grating.lobe)}};
-    if (depends_on_v_h(grating))
+            .bands = values.number("bands"), .rank = values.number("rank"), .grid = default_view_grid(grating)}};
+    if (!sees_v_g_alone(grating))
         settings.lobe_size = {.azimuths = grating.lattice ? lattice_azimuths(views) : lobe_azimuths(views),
                               .views = {.g = views, .h = values.number_or("views_h", views)}};
-    if (grating.lattice) settings.stand_in = {.bands = 1, .rank = 1, .grid = view_grid(ViewMapping::OneDimensional, 2)};
     return settings;
 }
 

@@ -11,7 +11,7 @@
 namespace rowland::diffraction {
 
 /// A map over (azimuth, v_g), or with a lobe that is not flat or a lattice (azimuth, v_g, v_h), that is filled at run
-/// time for a flat object. The stand-in shades objects that are not flat; a lattice's is black.
+/// time for a flat object. The stand-in shades objects that are not flat.
 struct PlanarSettings {
     PlanarMapSize size;                      ///< flat lobe
     std::optional<LobeMapSize> lobe_size{};  ///< other lobes, and lattices

@@ -53,12 +53,12 @@ SpikeTable bake(const Grating& grating, const SpikeTableSettings& settings) {
     table.storage = settings.storage;
     table.mapping = settings.mapping;
     const ViewGrid grid = table.grid();
-    check_view_grid(grid, grating.lobe);
+    check_view_grid(grid, grating);
 
     const SpikeBaker baker(grating, settings.spikes);
     const std::vector<double> signs = mirror_signs(table.bands);
     std::vector<double> values(static_cast<std::size_t>(table.layers()) * grid.texels() * kTexelComponents, 0.0);
-    for_each_view("baking spikes", grid, [&](const glm::dvec2& view, std::size_t texel, std::size_t mirror) {
+    for_each_view("baking spikes", grid, grating, [&](const glm::dvec2& view, std::size_t texel, std::size_t mirror) {
         const SpikeSet spikes = baker.bake(view.x, view.y);
         store(spikes, table, texel, values);
         if (mirror != texel) store(mirrored(spikes, signs), table, mirror, values);
@@ -115,6 +115,7 @@ const RepresentationInfo& SpikeTableSettings::info() {
     static const RepresentationInfo info{
         .name = "spikes",
         .summary = "the paper's: a few wavelengths for each view, light as SH at the vertices",
+        .lattices = true,
         .takes_harmonics = true,
         .key_lights = KeyLightUse::OnRequest,
         .settings = {bands_setting({2, 3, 4, 6, 8, 10, 12, 16}, {3, 5, 8}),

@@ -32,7 +32,7 @@ StreakSurfaceSettings StreakSurfaceSettings::from(const SettingValues& values, c
     if (incoherent_rest(grating))
         settings.rest = ArcSettings{.bands = values.number("bands"),
                                     .rank = values.number("rank"),
-                                    .grid = view_grid(values, default_view_grid(grating.lobe))};
+                                    .grid = view_grid(values, default_view_grid(grating))};
     return settings;
 }
 

@@ -18,28 +18,29 @@ constexpr std::size_t kColours = 9;  ///< pairs of a light's channel and a trist
 TransferTable bake(const Grating& grating, const TransferSettings& settings) {
     TransferTable table;
     table.bands = settings.bands;
-    table.grid = settings.grid.value_or(default_view_grid(grating.lobe));
+    table.grid = settings.grid.value_or(default_view_grid(grating));
     table.storage = settings.storage;
-    check_view_grid(table.grid, grating.lobe);
+    check_view_grid(table.grid, grating);
 
     const TransferTerms terms(grating, colour::LightSpectra(settings.illuminant), table.bands);
     const std::vector<double> signs = mirror_signs(table.bands);
     const auto blocks = static_cast<std::size_t>(harmonic_layers(table.bands));
     const std::size_t texels = table.grid.texels();
     std::vector<double> values(kColours * blocks * texels * kTexelComponents, 0.0);
-    for_each_view("baking transfer", table.grid, [&](const glm::dvec2& view, std::size_t texel, std::size_t mirror) {
-        const std::vector<glm::dmat3> coefficients = terms.coefficients(view.x, view.y);
-        for (std::size_t pair = 0; pair < kColours; ++pair)
-            for (std::size_t i = 0; i < coefficients.size(); ++i) {
-                const std::size_t layer = pair * blocks + i / kTexelComponents;
-                const double value = coefficients[i][static_cast<int>(pair / 3)][static_cast<int>(pair % 3)];
-                const auto at = [&](std::size_t t) -> double& {
-                    return values[(layer * texels + t) * kTexelComponents + i % kTexelComponents];
-                };
-                at(texel) = value;
-                if (mirror != texel) at(mirror) = signs[i] * value;
-            }
-    });
+    for_each_view(
+        "baking transfer", table.grid, grating, [&](const glm::dvec2& view, std::size_t texel, std::size_t mirror) {
+            const std::vector<glm::dmat3> coefficients = terms.coefficients(view.x, view.y);
+            for (std::size_t pair = 0; pair < kColours; ++pair)
+                for (std::size_t i = 0; i < coefficients.size(); ++i) {
+                    const std::size_t layer = pair * blocks + i / kTexelComponents;
+                    const double value = coefficients[i][static_cast<int>(pair / 3)][static_cast<int>(pair % 3)];
+                    const auto at = [&](std::size_t t) -> double& {
+                        return values[(layer * texels + t) * kTexelComponents + i % kTexelComponents];
+                    };
+                    at(texel) = value;
+                    if (mirror != texel) at(mirror) = signs[i] * value;
+                }
+        });
     pack(values, kColours * blocks, table);
     return table;
 }
@@ -80,6 +81,7 @@ const RepresentationInfo& TransferSettings::info() {
     static const RepresentationInfo info{
         .name = "transfer",
         .summary = "wavelengths summed beforehand, light as SH at the vertices",
+        .lattices = true,
         .takes_harmonics = true,
         .key_lights = KeyLightUse::OnRequest,
         .settings = {bands_setting({2, 3, 4, 6, 8, 12, 16}, {3, 5, 8}), view_mapping_setting(),
@@ -105,7 +107,7 @@ std::optional<Refusal> TransferSettings::refusal(const SettingValues& values, co
 
 TransferSettings TransferSettings::from(const SettingValues& values, const Grating& grating) {
     return {.bands = values.number("bands"),
-            .grid = view_grid(values, default_view_grid(grating.lobe)),
+            .grid = view_grid(values, default_view_grid(grating)),
             .storage = values.storage()};
 }
 

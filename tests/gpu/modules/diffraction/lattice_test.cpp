@@ -17,6 +17,9 @@ constexpr const char* kCrossedFoil = R"({"lattice": {"a_nm": [1000, 100], "b_nm"
                 "along_b": {"type": "sinusoidal", "depth_nm": 90}}})";
 constexpr const char* kScreen = R"({"lattice": {"a_nm": [4000, 0], "b_nm": [0, 5000]}, "orders": 8,
     "profile": {"type": "aperture", "width_nm": 1500, "height_nm": 4000}})";
+/// Of so many orders that their points are joined.
+constexpr const char* kCoarseScreen = R"({"lattice": {"a_nm": [40000, 0], "b_nm": [9000, 50000]}, "orders": 6,
+    "profile": {"type": "aperture", "width_nm": 15000, "height_nm": 40000}})";
 /// Of the picture's maximum: halves, and positions of 8 bits between texels of a picture whose values change by all
 /// of their height from one to the next.
 constexpr double kPatternTolerance = 1e-2;
@@ -58,6 +61,40 @@ TEST_F(LatticePicture, MapsEqualTheCpus) {
         EXPECT_LT(difference, kMapTolerance) << grating;
         EXPECT_GT(brightest_, 0.01);
     }
+}
+
+/// On a triangle whose normals vary.
+class CurvedLattice : public GratingPicture {};
+
+TEST_F(CurvedLattice, TablesOverHarmonicsEqualTheCpus) {
+    for (const char* grating : {kCrossedFoil, kCoarseScreen}) {
+        const CookedMaterial cooked = cook(grating, R"({"representation": "transfer", "bands": 4})");
+        if (!renderer_) show(cooked, 0.7);
+        use(cooked);
+        EXPECT_LT(largest_difference(draw(), table_xyz<TransferTable>(cooked, light_.sh)), kPictureTolerance)
+            << grating;
+        EXPECT_GT(brightest_, 0.01);
+    }
+}
+
+TEST_F(CurvedLattice, MapsForFlatMeshesAreReplacedByArc) {
+    const CookedMaterial arc = cook(kCrossedFoil, R"({"representation": "arc", "bands": 4, "key_lights": false})");
+    show(arc, 0.7);
+    const std::vector<glm::vec4> by_arc = draw();
+    EXPECT_LT(largest_difference(by_arc, arc_xyz(arc, light_.sh)), kPictureTolerance);
+    EXPECT_GT(brightest_, 0.01);
+    use(cook(kCrossedFoil, R"({"representation": "planar", "bands": 4, "map_resolution": 32, "key_lights": false})"));
+    EXPECT_EQ(draw(), by_arc);
+}
+
+TEST_F(CurvedLattice, SpikesAndBinsEqualTheCpus) {
+    const CookedMaterial spikes = cook(kCrossedFoil, R"({"representation": "spikes"})");
+    show(spikes, -0.6);
+    EXPECT_LT(largest_difference(draw(), table_xyz<SpikeTable>(spikes, light_.sh)), kPictureTolerance);
+    const CookedMaterial bins = cook(kCrossedFoil, R"({"representation": "bins", "view_mapping": "parabolic"})");
+    use(bins);
+    EXPECT_LT(largest_difference(draw(), table_xyz<BinTable>(bins, light_.sh)), kPictureTolerance);
+    EXPECT_GT(brightest_, 0.01);
 }
 
 TEST_F(LatticePicture, KeyLightsEqualTheCpu) {

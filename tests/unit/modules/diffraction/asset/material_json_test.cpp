@@ -116,7 +116,7 @@ TEST(MaterialJson, EveryRepresentationTakesItsSettings) {
     const auto transfer =
         std::get<TransferSettings>(pinned(R"({"representation": "transfer", "bands": 6, "storage": "unorm8"})"));
     EXPECT_EQ(transfer.bands, 6);
-    EXPECT_EQ(transfer.grid, default_view_grid(FlatLobe{}));
+    EXPECT_EQ(transfer.grid, default_view_grid(Grating{}));
     EXPECT_EQ(transfer.storage, Storage::Unorm8);
     const auto arc =
         std::get<ArcSettings>(pinned(R"({"representation": "arc", "bands": 7, "rank": 12, "view_resolution": 99})"));

@@ -91,10 +91,15 @@ TEST(ViewMapping, LooksUpSomethingForAViewThatIsNoNumber) {
         for (const std::size_t texel : look_up(grid, none, none, none).texel) EXPECT_LT(texel, grid.texels());
 }
 
-TEST(ViewMapping, RefusesOneDimensionForALobe) {
+TEST(ViewMapping, RefusesOneDimensionForALobeAndForALattice) {
     const ViewGrid grid{ViewMapping::OneDimensional, 16, 1};
-    EXPECT_NO_THROW(check_view_grid(grid, FlatLobe{}));
-    EXPECT_THROW(check_view_grid(grid, GaussianLobe{0.3}), Error);
+    Grating grating;
+    EXPECT_NO_THROW(check_view_grid(grid, grating));
+    grating.lobe = GaussianLobe{0.3};
+    EXPECT_THROW(check_view_grid(grid, grating), Error);
+    grating.lobe = FlatLobe{};
+    grating.lattice.emplace();
+    EXPECT_THROW(check_view_grid(grid, grating), Error);
 }
 
 }  // namespace

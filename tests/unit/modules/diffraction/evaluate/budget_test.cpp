@@ -154,6 +154,25 @@ TEST(Budget, ALobeIsDrawnByWhatTakesLobes) {
     EXPECT_NE(choice.settings["representation"], "circle");
 }
 
+/// Maps are for flat lattices.
+TEST(Budget, ACurvedLatticeIsDrawnByHarmonics) {
+    Material material = with_budget(0.5, SurfaceShape::Curved);
+    material.grating = Grating{.pitch_nm = 1000.0, .orders = {}};
+    material.grating.lattice =
+        Lattice{.a_nm = {1000.0, 0.0},
+                .b_nm = {0.0, 1000.0},
+                .profile = CrossedProfile{.along_a = SinusoidalProfile{110.0}, .along_b = SinusoidalProfile{110.0}},
+                .orders = 2};
+    const std::vector<BudgetProbe> probes = {made_up()};
+    const std::vector<ShadingPoint> frames = some_frames(SurfaceShape::Curved, 40);
+    const BudgetChoice choice = choose_representation(material, probes, frames, "foil.json");
+    EXPECT_TRUE(find_representation(choice.settings["representation"].get<std::string>())->takes_harmonics);
+    const EvaluationLight light(probes[0].image, choice.cooked.measured->probes.front().key_lights,
+                                math::SphericalWindow::None);
+    const auto reference = reference_radiance(material.grating, probes[0].image, colour::LightSpectra(), frames);
+    EXPECT_LE(relative_rms(evaluate_baked(choice.cooked, light, frames), reference), 0.5);
+}
+
 TEST(Budget, PriceCountsWhatEveryPixelPays) {
     const ShadingCost arc{.fetches_per_pixel = 2, .multiply_adds_per_pixel = 32, .table_bytes = 1 << 20};
     EXPECT_DOUBLE_EQ(shading_price(arc, 0), 2.0 + 32.0 / 8.0 + 0.25);

@@ -123,6 +123,15 @@ TEST(Streak, NodesReplaceTheKernel) {
     EXPECT_GT(make_streak(grating, {.map_resolution = 512}).segments.size(), 2U);
 }
 
+/// A sun narrower than the nodes shows each node's weight by itself: none is negative, as light is not.
+TEST(Streak, NoWeightIsNegative) {
+    for (const int resolution : {64, 128, 320, 512})
+        for (const StreakSegment& segment : make_streak(narrow_disc(0.05), {.map_resolution = resolution}).segments)
+            for (const glm::mat3& weight : segment.weights)
+                for (int c = 0; c < 3; ++c)
+                    for (int o = 0; o < 3; ++o) EXPECT_GE(weight[c][o], 0.0F) << resolution;
+}
+
 /// Stam's pits are a streak and a smooth rest; both at the pits' total power under even light.
 TEST(Streak, PitsAreAStreakAndASmoothRest) {
     Grating grating = narrow_disc(0.1);
