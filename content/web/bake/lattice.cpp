@@ -16,6 +16,10 @@ std::vector<double> lattice_efficiencies(const Lattice&, double) {
     return {};
 }
 
+double lattice_zero_order(const Lattice&, double) {
+    return 0.0;
+}
+
 std::vector<DiffractionPattern::Node> lattice_nodes(const Grating&, const colour::LightSpectra&, double) {
     return {};
 }

@@ -24,17 +24,10 @@ constexpr double kShownVariance = kLevelVariance + 1.0 / 6.0;
 /// Before its extent is known, points of a pattern are joined over this.
 constexpr double kCoarseStep = 0.01;
 
-/// The pattern takes the middle half of the picture, so that little of it is blurred over the border.
-double picture_half_width(const Grating& grating, const colour::LightSpectra& spectra) {
-    float farthest = 1e-6F;
-    for (const DiffractionPattern::Node& node : shaded_pattern(grating, spectra, kCoarseStep).nodes)
-        farthest = std::max({farthest, std::abs(node.u.x), std::abs(node.u.y)});
-    return std::min(2.05 * static_cast<double>(farthest), kFarthestPair);
-}
-
 /// Divides a point among the four texels around it.
-void add_point(const DiffractionPattern::Node& node, double half_width, PatternPicture::Level& level) {
-    const glm::dvec2 position = (glm::dvec2(node.u) / half_width + 1.0) * (0.5 * level.size) - 0.5;
+template <typename Level, typename Value>
+void add_point(const glm::vec2& u, const Value& weight, double half_width, Level& level) {
+    const glm::dvec2 position = (glm::dvec2(u) / half_width + 1.0) * (0.5 * level.size) - 0.5;
     const glm::dvec2 low = glm::floor(position);
     const double texel = 2.0 * half_width / level.size;
     for (int corner = 0; corner < 4; ++corner) {
@@ -43,7 +36,7 @@ void add_point(const DiffractionPattern::Node& node, double half_width, PatternP
         const glm::ivec2 cell = glm::clamp(glm::ivec2(at), 0, level.size - 1);
         level.density[static_cast<std::size_t>(cell.y) * static_cast<std::size_t>(level.size) +
                       static_cast<std::size_t>(cell.x)] +=
-            static_cast<float>(near.x * near.y / (texel * texel)) * node.weight;
+            static_cast<float>(near.x * near.y / (texel * texel)) * weight;
     }
 }
 
@@ -59,16 +52,17 @@ std::vector<float> normal_weights(double deviation, double first) {
 
 /// Sums over neighbours along the rows, of every `stride`th texel, and exchanges rows and columns. Beyond the border is
 /// black.
-PatternPicture::Level blurred_and_turned(const PatternPicture::Level& level, std::span<const float> weights, int stride,
-                                         int rows) {
+template <typename Level>
+Level blurred_and_turned(const Level& level, std::span<const float> weights, int stride, int rows) {
+    using Value = typename decltype(level.density)::value_type;
     const int columns = level.size / stride;
     const int before = static_cast<int>(weights.size()) / 2 - (stride == 2 ? 1 : 0);
-    PatternPicture::Level turned{.size = level.size, .density = {}};
-    turned.density.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), glm::mat3(0.0F));
+    Level turned{.size = level.size, .density = {}};
+    turned.density.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), Value(0.0F));
     parallel_for(static_cast<std::size_t>(rows), [&](std::size_t row) {
-        const glm::mat3* from = level.density.data() + row * static_cast<std::size_t>(level.size);
+        const Value* from = level.density.data() + row * static_cast<std::size_t>(level.size);
         for (int column = 0; column < columns; ++column) {
-            glm::mat3 sum(0.0F);
+            Value sum(0.0F);
             for (int i = 0; i < static_cast<int>(weights.size()); ++i) {
                 const int at = column * stride + i - before;
                 if (at >= 0 && at < level.size) sum += weights[static_cast<std::size_t>(i)] * from[at];
@@ -80,62 +74,105 @@ PatternPicture::Level blurred_and_turned(const PatternPicture::Level& level, std
     return turned;
 }
 
-PatternPicture::Level blurred(const PatternPicture::Level& level, std::span<const float> weights, int stride) {
-    const PatternPicture::Level half = blurred_and_turned(level, weights, stride, level.size);
+template <typename Level>
+Level blurred(const Level& level, std::span<const float> weights, int stride) {
+    const Level half = blurred_and_turned(level, weights, stride, level.size);
     return blurred_and_turned(half, weights, stride, level.size / stride);
 }
 
-/// A point that is divided among four texels has a variance of a sixth of a texel's square.
-PatternPicture::Level smoothed(const PatternPicture::Level& points) {
-    return blurred(points, normal_weights(std::sqrt(kLevelVariance - 1.0 / 6.0), -3.0), 1);
+/// Blurs points, which divided among four texels have a variance of a sixth of a texel's square already. `variance`: in
+/// such squares.
+template <typename Level>
+Level smoothed(const Level& points, double variance) {
+    const double deviation = std::sqrt(variance - 1.0 / 6.0);
+    return blurred(points, normal_weights(deviation, -std::ceil(4.0 * deviation)), 1);
 }
 
 /// The next level: its texels' centres lie between those of the finer one.
-PatternPicture::Level halved(const PatternPicture::Level& finer) {
+template <typename Level>
+Level halved(const Level& finer) {
     return blurred(finer, normal_weights(std::sqrt(3.0 * kLevelVariance), -5.5), 2);
 }
 
-glm::dmat3 bilinear(const PatternPicture::Level& level, const glm::dvec2& uv) {
+template <typename Precise, typename Level>
+Precise bilinear(const Level& level, const glm::dvec2& uv) {
     const glm::dvec2 position = glm::clamp(uv * double(level.size) - 0.5, 0.0, level.size - 1.0);
     const glm::ivec2 low = glm::min(glm::ivec2(position), level.size - 2);
     const glm::dvec2 t = position - glm::dvec2(low);
     const auto of = [&](int row, int column) {
-        return glm::dmat3(level.density[static_cast<std::size_t>(row) * static_cast<std::size_t>(level.size) +
-                                        static_cast<std::size_t>(column)]);
+        return Precise(level.density[static_cast<std::size_t>(row) * static_cast<std::size_t>(level.size) +
+                                     static_cast<std::size_t>(column)]);
     };
     return (1.0 - t.y) * ((1.0 - t.x) * of(low.y, low.x) + t.x * of(low.y, low.x + 1)) +
            t.y * ((1.0 - t.x) * of(low.y + 1, low.x) + t.x * of(low.y + 1, low.x + 1));
 }
 
-}  // namespace
-
-double PatternPicture::level_bias() const {
-    const double texel = 2.0 * half_width / levels[0].size;
-    return -0.5 * std::log2(kShownVariance * texel * texel);
+/// A picture of `weight_of(node)` at each node, of this variance at least.
+template <typename Value, typename WeightOf>
+MippedPattern<Value> mipped(const DiffractionPattern& pattern, double half_width, double variance, int size,
+                            const WeightOf& weight_of) {
+    MippedPattern<Value> picture{.half_width = half_width, .variance = variance, .levels = {}};
+    auto& finest = picture.levels.emplace_back();
+    finest.size = size;
+    finest.density.assign(static_cast<std::size_t>(size) * static_cast<std::size_t>(size), Value(0.0F));
+    picture.variance = std::max(variance, picture.texel_variance());
+    for (const DiffractionPattern::Node& node : pattern.nodes) add_point(node.u, weight_of(node), half_width, finest);
+    const double in_texels = kShownVariance * picture.variance / picture.texel_variance();
+    finest = smoothed(finest, in_texels - 1.0 / 6.0);
+    while (picture.levels.back().size > kCoarsestPicture) picture.levels.push_back(halved(picture.levels.back()));
+    return picture;
 }
 
-glm::dmat3 PatternPicture::at(const glm::dvec2& u, double variance) const {
-    if (std::max(std::abs(u.x), std::abs(u.y)) > half_width) return glm::dmat3(0.0);
-    const double wanted = 0.5 * std::log2(std::max(variance, 1e-30)) + level_bias();
-    const double level = std::clamp(wanted, 0.0, static_cast<double>(levels.size() - 1));
-    const auto finer = std::min(static_cast<std::size_t>(level), levels.size() - 2);
-    const double t = level - static_cast<double>(finer);
+}  // namespace
+
+template <typename Value>
+double MippedPattern<Value>::texel_variance() const {
+    const double texel = 2.0 * half_width / levels[0].size;
+    return kShownVariance * texel * texel;
+}
+
+template <typename Value>
+typename MippedPattern<Value>::Precise MippedPattern<Value>::at(const glm::dvec2& u, double level) const {
+    if (std::max(std::abs(u.x), std::abs(u.y)) > half_width) return Precise(0.0);
+    const double held = std::clamp(level, 0.0, static_cast<double>(levels.size() - 1));
+    const auto finer = std::min(static_cast<std::size_t>(held), levels.size() - 2);
+    const double t = held - static_cast<double>(finer);
     const glm::dvec2 uv = 0.5 * (u / half_width + 1.0);
-    return (1.0 - t) * bilinear(levels[finer], uv) + t * bilinear(levels[finer + 1], uv);
+    return (1.0 - t) * bilinear<Precise>(levels[finer], uv) + t * bilinear<Precise>(levels[finer + 1], uv);
+}
+
+template struct MippedPattern<glm::mat3>;
+template struct MippedPattern<glm::vec3>;
+
+double level_of(const PatternPicture& picture, double variance) {
+    return 0.5 * std::log2(std::max(variance, 1e-30) / picture.texel_variance());
+}
+
+double level_of(const LightPicture& picture, double variance) {
+    const double wider = 1.0 + std::max(variance - picture.variance, 0.0) / picture.texel_variance();
+    const double finer = std::floor(0.5 * std::log2(wider));
+    return finer + (wider * std::exp2(-2.0 * finer) - 1.0) / 3.0;
+}
+
+double picture_half_width(const Grating& grating, const colour::LightSpectra& spectra) {
+    float farthest = 1e-6F;
+    for (const DiffractionPattern::Node& node : shaded_pattern(grating, spectra, kCoarseStep).nodes)
+        farthest = std::max({farthest, std::abs(node.u.x), std::abs(node.u.y)});
+    return std::min(2.05 * static_cast<double>(farthest), kFarthestPair);
 }
 
 PatternPicture pattern_picture(const Grating& grating, const colour::LightSpectra& spectra, int size) {
     ROWLAND_CHECK_OP(size, >=, 2 * kCoarsestPicture);
-    PatternPicture picture{.half_width = picture_half_width(grating, spectra), .levels = {}};
-    const double texel = 2.0 * picture.half_width / size;
-    PatternPicture::Level& finest = picture.levels.emplace_back();
-    finest.size = size;
-    finest.density.assign(static_cast<std::size_t>(size) * static_cast<std::size_t>(size), glm::mat3(0.0F));
-    for (const DiffractionPattern::Node& node : shaded_pattern(grating, spectra, texel).nodes)
-        add_point(node, picture.half_width, finest);
-    finest = smoothed(finest);
-    while (picture.levels.back().size > kCoarsestPicture) picture.levels.push_back(halved(picture.levels.back()));
-    return picture;
+    const double half_width = picture_half_width(grating, spectra);
+    return mipped<glm::mat3>(shaded_pattern(grating, spectra, 2.0 * half_width / size), half_width, 0.0, size,
+                             [](const DiffractionPattern::Node& node) { return node.weight; });
+}
+
+LightPicture light_picture(const DiffractionPattern& pattern, double half_width, const glm::vec3& flux, double variance,
+                           int size) {
+    ROWLAND_CHECK_OP(size, >=, 2 * kCoarsestPicture);
+    return mipped<glm::vec3>(pattern, half_width, variance, size,
+                             [&](const DiffractionPattern::Node& node) { return node.weight * flux; });
 }
 
 }  // namespace rowland::diffraction

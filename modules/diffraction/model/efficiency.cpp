@@ -63,12 +63,10 @@ std::vector<double> lattice_order_efficiencies(const Grating& grating, double wa
 }
 
 double zero_order_efficiency(const Grating& grating, double wavelength_nm) {
-    if (grating.lattice) {
-        const std::vector<double> orders = lattice_order_efficiencies(grating, wavelength_nm);
-        return orders[orders.size() / 2];
-    }
+    const double in_grooves_nm = groove_wavelength(grating, wavelength_nm);
     return reflectance(grating, wavelength_nm) *
-           profile_efficiency(grating.profile, grating.pitch_nm, 0, groove_wavelength(grating, wavelength_nm));
+           (grating.lattice ? lattice_zero_order(*grating.lattice, in_grooves_nm)
+                            : profile_efficiency(grating.profile, grating.pitch_nm, 0, in_grooves_nm));
 }
 
 glm::dmat3 observed_spectra(const colour::LightSpectra& spectra, double wavelength_nm) {

@@ -32,15 +32,16 @@ std::vector<double> groove_orders(const Profile& profile, double pitch_nm, int o
     return efficiencies;
 }
 
-std::vector<double> efficiencies_of(const CrossedProfile& crossed, const Lattice& lattice, double wavelength_nm) {
-    return product(groove_orders(crossed.along_a, glm::length(lattice.a_nm), lattice.orders, wavelength_nm),
-                   groove_orders(crossed.along_b, glm::length(lattice.b_nm), lattice.orders, wavelength_nm));
+std::vector<double> efficiencies_of(const CrossedProfile& crossed, const Lattice& lattice, int orders,
+                                    double wavelength_nm) {
+    return product(groove_orders(crossed.along_a, glm::length(lattice.a_nm), orders, wavelength_nm),
+                   groove_orders(crossed.along_b, glm::length(lattice.b_nm), orders, wavelength_nm));
 }
 
-std::vector<double> efficiencies_of(const ApertureProfile& aperture, const Lattice& lattice, double wavelength_nm) {
-    return product(
-        groove_orders(SlitProfile{aperture.width_nm}, glm::length(lattice.a_nm), lattice.orders, wavelength_nm),
-        groove_orders(SlitProfile{aperture.height_nm}, glm::length(lattice.b_nm), lattice.orders, wavelength_nm));
+std::vector<double> efficiencies_of(const ApertureProfile& aperture, const Lattice& lattice, int orders,
+                                    double wavelength_nm) {
+    return product(groove_orders(SlitProfile{aperture.width_nm}, glm::length(lattice.a_nm), orders, wavelength_nm),
+                   groove_orders(SlitProfile{aperture.height_nm}, glm::length(lattice.b_nm), orders, wavelength_nm));
 }
 
 /// exp(−2πi j/count) for j < count.
@@ -55,7 +56,7 @@ std::size_t modulo(int value, int count) {
 }
 
 /// |DFT(e^(iφ))|² of one cell: first along the rows, then across them.
-std::vector<double> efficiencies_of(const HeightMap& map, const Lattice& lattice, double wavelength_nm) {
+std::vector<double> efficiencies_of(const HeightMap& map, const Lattice&, int orders, double wavelength_nm) {
     ROWLAND_CHECK_OP(map.heights.size(), ==,
                      static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows));
     std::array<Amplitude, 256> reflected;
@@ -64,8 +65,8 @@ std::vector<double> efficiencies_of(const HeightMap& map, const Lattice& lattice
             std::polar(1.0, 4.0 * pi * map.depth_nm / wavelength_nm * static_cast<double>(height) / 255.0);
     const std::vector<Amplitude> roots_a = roots_of_unity(map.columns);
     const std::vector<Amplitude> roots_b = roots_of_unity(map.rows);
-    const int orders = lattice.orders;
-    const auto count = static_cast<std::size_t>(order_columns(lattice));
+    const int columns = 2 * orders + 1;
+    const auto count = static_cast<std::size_t>(columns);
     std::vector<Amplitude> sums(count * count);
     for (int row = 0; row < map.rows; ++row) {
         const std::uint8_t* heights = map.heights.data() + static_cast<std::ptrdiff_t>(row) * map.columns;
@@ -79,7 +80,7 @@ std::vector<double> efficiencies_of(const HeightMap& map, const Lattice& lattice
                 if (root >= roots_a.size()) root -= roots_a.size();
             }
             for (int k = -orders; k <= orders; ++k)  // rows run against b
-                sums[modulo(k + orders, order_columns(lattice)) * count + static_cast<std::size_t>(m + orders)] +=
+                sums[modulo(k + orders, columns) * count + static_cast<std::size_t>(m + orders)] +=
                     along * roots_b[modulo(-k * row, map.rows)];
         }
     }
@@ -96,7 +97,13 @@ glm::dmat2 reciprocal(const Lattice& lattice) {
 }
 
 std::vector<double> lattice_efficiencies(const Lattice& lattice, double wavelength_nm) {
-    return std::visit([&](const auto& profile) { return efficiencies_of(profile, lattice, wavelength_nm); },
+    return std::visit(
+        [&](const auto& profile) { return efficiencies_of(profile, lattice, lattice.orders, wavelength_nm); },
+        lattice.profile);
+}
+
+double lattice_zero_order(const Lattice& lattice, double wavelength_nm) {
+    return std::visit([&](const auto& profile) { return efficiencies_of(profile, lattice, 0, wavelength_nm)[0]; },
                       lattice.profile);
 }
 

@@ -56,5 +56,7 @@ constexpr int order_columns(const Lattice& lattice) {
 /// [(k + orders) · order_columns + m + orders]. Scalar theory at normal incidence; Goodman, Introduction to Fourier
 /// Optics, ch. 4. wavelength_nm > 0, in the medium over the surface.
 std::vector<double> lattice_efficiencies(const Lattice& lattice, double wavelength_nm);
+/// η_00 alone.
+double lattice_zero_order(const Lattice& lattice, double wavelength_nm);
 
 }  // namespace rowland::diffraction

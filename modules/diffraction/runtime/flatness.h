@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <optional>
 
 #include "engine/scene/mesh.h"
@@ -12,5 +13,8 @@ inline constexpr double kFlatness = 0.005;
 
 /// The mesh's normal in object axes, if all its normals agree.
 std::optional<glm::dvec3> flat_normal(const scene::Mesh& mesh);
+
+/// The tangent of a flat mesh with its bitangent's sign, in object axes, if all its tangents agree.
+std::optional<glm::vec4> common_tangent(const scene::Mesh& mesh);
 
 }  // namespace rowland::diffraction

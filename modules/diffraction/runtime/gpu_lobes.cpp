@@ -9,19 +9,9 @@
 #include "engine/core/parallel.h"
 #include "modules/diffraction/representations/direct/lobe_table.h"
 #include "modules/diffraction/runtime/bindings.h"
+#include "modules/diffraction/runtime/key_lobe.h"
 
 namespace rowland::diffraction {
-
-namespace {
-
-bool same_lobes(std::span<const lighting::KeyLight> a, std::span<const lighting::KeyLight> b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [](const lighting::KeyLight& one, const lighting::KeyLight& other) {
-                          return one.flux == other.flux && one.concentration == other.concentration;
-                      });
-}
-
-}  // namespace
 
 void GpuLobes::set(const BlurredKernel& kernel, double pitch_nm, std::span<const lighting::KeyLight> lights) {
     if (lights.empty() || same_lobes(lights, lights_)) return;

@@ -33,4 +33,11 @@ KeyLobe key_lobe(const lighting::KeyLight& light) {
             .height = glm::vec4(lobe_height_fit(light.concentration) + glm::dvec4(std::log2(flux), 0.0, 0.0, 0.0))};
 }
 
+bool same_lobes(std::span<const lighting::KeyLight> a, std::span<const lighting::KeyLight> b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const lighting::KeyLight& one, const lighting::KeyLight& other) {
+                          return one.flux == other.flux && one.concentration == other.concentration;
+                      });
+}
+
 }  // namespace rowland::diffraction

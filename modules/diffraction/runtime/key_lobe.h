@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "engine/lighting/key_lights.h"
 #include "modules/diffraction/shaders/key_lobe_block.h"
 
@@ -7,5 +9,8 @@ namespace rowland::diffraction {
 
 /// A key light as shaders read it.
 KeyLobe key_lobe(const lighting::KeyLight& light);
+
+/// Whether key lights are equal but for their directions.
+bool same_lobes(std::span<const lighting::KeyLight> a, std::span<const lighting::KeyLight> b);
 
 }  // namespace rowland::diffraction

@@ -22,7 +22,8 @@ enum class MapPace {
 /// What a map is filled from, besides its material.
 struct MapInput {
     std::shared_ptr<const lighting::LightSamples> texels;  ///< null: black
-    glm::dvec3 normal{0.0};  ///< of a flat object, in the world; 0: the map serves every object
+    glm::dvec3 normal{0.0};               ///< of a flat object, in the world; 0: the map serves every object
+    std::optional<glm::dvec3> grating{};  ///< g of all its points, in the world; none: they differ
 
     friend bool operator==(const MapInput&, const MapInput&) = default;
 };

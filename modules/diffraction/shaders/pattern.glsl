@@ -5,8 +5,10 @@
 #include "modules/diffraction/shaders/cover.glsl"
 #include "modules/diffraction/shaders/light_colour_block.h"
 
-TEXTURE_UNIT(10) uniform sampler2DArray pattern_picture;  // layers as of the kernel's table
+TEXTURE_UNIT(10) uniform sampler2DArray pattern_picture;  // a layer for each colour
 uniform vec4 pattern_scale;  // from u to the picture; bias of the level; scale of the values; reach of |u|
+
+const float FIRST_COLOUR_LAYER = 3.0;  // of the kernel's table, whose layers the lights name
 
 bool pattern_reaches(vec2 u) { return max(abs(u.x), abs(u.y)) < pattern_scale.w; }
 
@@ -28,35 +30,52 @@ void add_pattern_light(int i, float weight, vec3 l, GrooveView view, inout vec3 
     float above = max(dot(l, view.axes[2]), 0.0);
     float flux = weight * above * cover_transmittance(above) * light_colours[i].y;
     if (!pattern_reaches(u)) flux = 0.0;
-    sum += flux * pattern_scale.z * pattern_texel(u, level, light_colours[i].x);
+    sum += flux * pattern_scale.z * pattern_texel(u, level, light_colours[i].x - FIRST_COLOUR_LAYER);
 }
 #endif
 
 #ifdef KEY_LOBES
 #include "modules/diffraction/shaders/light_spot.glsl"
-vec3 pattern_key_light(KeyLobe lobe, GrooveView view) {
+TEXTURE_UNIT(14) uniform sampler2DArray pattern_lobes;  // a layer for each light
+uniform vec4 pattern_lobe_scale;  // from u to the picture; variance of a texel; scale of the values, per unit of the
+                                  // largest flux; reach of |u|
+const float PICTURE_VARIANCE = 0.75;  // direct/pattern_light.h, kPictureVariance
+
+vec3 pattern_lobe_texel(vec2 u, float level, int light) {
+    return textureLod(pattern_lobes, vec3(u * pattern_lobe_scale.x + 0.5, light), level).xyz;
+}
+
+// direct/pattern_light.h, pattern_radiance(), per unit of the scale.
+vec3 pattern_key_light(int i, KeyLobe lobe, GrooveView view) {
     vec3 mean = lobe.mean.xyz * view.axes;
     vec2 u = mean.xy + view.direction.xy;
-    if (!pattern_reaches(u)) return vec3(0.0);
-    float variance = lobe.moments.z + 0.5 * lobe.moments.y * dot(mean.xy, mean.xy);
+    if (max(abs(u.x), abs(u.y)) > pattern_lobe_scale.w) return vec3(0.0);
     vec2 right = vec2(dot(lobe.mean.xyz, view.g_change[0]), dot(lobe.mean.xyz, view.h_change[0])) +
                  vec2(view.v_g_change.x, view.v_h_change.x);
     vec2 down = vec2(dot(lobe.mean.xyz, view.g_change[1]), dot(lobe.mean.xyz, view.h_change[1])) +
                 vec2(view.v_g_change.y, view.v_h_change.y);
-    float level = pattern_level(variance + pixel_variance(right, down));
-    vec3 value = vec3(0.0);
-    for (int c = 0; c < 3; ++c) value += lobe.flux[c] * pattern_texel(u, level, float(c));
+    // In the plane the lobe is narrower toward the light than across.
+    float steepness = dot(mean.xy, mean.xy);
+    float across = lobe.moments.z + pixel_variance(right, down);
+    float narrowest = max(PICTURE_VARIANCE * lobe.moments.z, pattern_lobe_scale.y);
+    float shown = max(across + lobe.moments.y * steepness, narrowest);
+    float wider = 1.0 + (shown - narrowest) / pattern_lobe_scale.y;
+    float finer = floor(0.5 * log2(wider));
+    float level = finer + (wider * exp2(-2.0 * finer) - 1.0) / 3.0;
+    vec2 tap = vec2(-mean.y, mean.x) * sqrt(3.0 * max(across - shown, 0.0) / max(steepness, 1e-12));
+    vec3 value = 4.0 * pattern_lobe_texel(u, level, i) + pattern_lobe_texel(u + tap, level, i) +
+                 pattern_lobe_texel(u - tap, level, i);
     float far = abs(mean.z);
     vec4 power = lobe.height;
-    float height = max(mean.z, 0.0) +
-                   exp2(power.x + far * (power.y + far * (power.z + far * power.w))) / lobe.flux.w;
-    return height * lobe_transmittance(mean.z, lobe.moments) * value;
+    float flux = lobe.flux.w * max(mean.z, 0.0) +
+                 exp2(power.x + far * (power.y + far * (power.z + far * power.w)));
+    return flux / 6.0 * lobe_transmittance(mean.z, lobe.moments) * value;
 }
 
 vec3 pattern_key_lights(GrooveView view) {
     vec3 sum = vec3(0.0);
-    for (int i = 0; i < int(key_lobe_count.x); ++i) sum += pattern_key_light(key_lobes[i], view);
-    return pattern_scale.z * sum;
+    for (int i = 0; i < int(key_lobe_count.x); ++i) sum += pattern_key_light(i, key_lobes[i], view);
+    return pattern_lobe_scale.z * sum;
 }
 #endif
 #endif

@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "modules/diffraction/bake/pattern_picture.h"
 #include "modules/diffraction/representations/direct/direct.h"
@@ -19,16 +20,28 @@ struct PatternLight {
 };
 PatternLight pattern_light(const DirectLight& light, const std::optional<Cover>& cover,
                            const glm::dmat3& world_to_tangent);
-PatternLight pattern_light(const lighting::KeyLight& light, const std::optional<Cover>& cover,
-                           const glm::dmat3& world_to_tangent);
 
 /// XYZ = P̄(u) · irradiance, PHYSICS (50): one look-up for all orders. `footprint`: half the extent of the pixel in u.
 /// Without T(v_n).
 glm::dvec3 pattern_radiance(const PatternPicture& picture, const PatternLight& light, const glm::dvec2& v_p,
                             double footprint = 0.0);
 
+/// The part of a key light's variance that its picture is blurred by: that across it in the plane is at least this
+/// up to 30° from the normal.
+inline constexpr double kPictureVariance = 0.75;
+
+/// A picture for each key light, of one size. `space`: of the values, from XYZ. A texture of 45 MB or less in halves.
+std::vector<LightPicture> key_light_pictures(const Grating& grating, const colour::LightSpectra& spectra,
+                                             std::span<const lighting::KeyLight> lights,
+                                             const glm::dmat3& space = glm::dmat3(1.0));
+
+/// XYZ of a key light from its picture: three look-ups, as it is an ellipse in the plane, PHYSICS (51). Without T(v_n).
+glm::dvec3 pattern_radiance(const LightPicture& picture, const lighting::KeyLight& light,
+                            const std::optional<Cover>& cover, const glm::dmat3& world_to_tangent,
+                            const glm::dvec2& v_p, double footprint = 0.0);
+
 /// The sum over a probe's key lights at a point; black for a view below the horizon.
-glm::dvec3 pattern_radiance(const PatternPicture& picture, const std::optional<Cover>& cover,
+glm::dvec3 pattern_radiance(std::span<const LightPicture> pictures, const std::optional<Cover>& cover,
                             std::span<const lighting::KeyLight> lights, const ShadingPoint& frame);
 
 }  // namespace rowland::diffraction

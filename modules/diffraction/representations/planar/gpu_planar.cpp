@@ -7,13 +7,14 @@
 #include "engine/core/log.h"
 #include "modules/diffraction/representations/planar/planar_filling.h"
 #include "modules/diffraction/runtime/flatness.h"
+#include "modules/diffraction/runtime/tangent_light.h"
 
 namespace rowland::diffraction {
 
 namespace {
 
-/// Smaller changes of the normal do not show at the map's resolution.
-constexpr double kSameNormal = 1e-5;
+/// Smaller changes of a map's axes do not show at its resolution.
+constexpr double kSameAxis = 1e-5;
 
 PlanarData& data_of(SurfaceState& state) {
     if (!state.data) state.data = std::make_unique<PlanarData>();
@@ -26,6 +27,10 @@ const PlanarData& data_of(const SurfaceState& state) {
 
 glm::dvec3 in_world(const glm::dvec3& normal, const glm::mat4& object_to_world) {
     return glm::normalize(glm::inverseTranspose(glm::dmat3(object_to_world)) * normal);
+}
+
+void follow(const glm::dvec3& axis, glm::dvec3& followed) {
+    if (glm::length(followed - axis) > kSameAxis) followed = axis;
 }
 
 }  // namespace
@@ -44,23 +49,32 @@ void GpuPlanar::find_flatness(const SurfaceObject& object, const SurfaceState& s
     if (data.mesh == state.mesh && state.mesh) return;
     data.mesh = state.mesh;
     data.flat = object.skinned ? std::nullopt : flat_normal(object.mesh);
+    data.tangent = common_tangent(object.mesh);
     if (!data.flat && !object.skinned)
         log_warning("a grating of representation planar is on a mesh that is not flat: it is shaded as arc");
 }
 
-void GpuPlanar::update_map(const SurfaceObject& object, const SurfaceLight& light, PlanarData& data) const {
+void GpuPlanar::update_map(const SurfaceObject& object, const SurfaceLight& light, bool grooves,
+                           PlanarData& data) const {
     const auto& texels = light.texels(light_part());
     data.has_map = data.flat && texels;
     if (!data.has_map) return;
-    const glm::dvec3 normal = in_world(*data.flat, object.object_to_world);
-    if (glm::length(data.normal - normal) > kSameNormal) data.normal = normal;
-    data.map.update({.texels = texels, .normal = data.normal}, fill_, object.map_pace);
+    follow(in_world(*data.flat, object.object_to_world), data.normal);
+    if (lobe_map_ && !grooves && data.tangent) {
+        if (!data.grating) data.grating.emplace(0.0);
+        const glm::dmat3 to_tangent =
+            tangent_frame(glm::vec3(*data.flat), *data.tangent, object.object_to_world, object.groove_rotation);
+        follow(glm::transpose(to_tangent)[0], *data.grating);
+    } else {
+        data.grating.reset();
+    }
+    data.map.update({.texels = texels, .normal = data.normal, .grating = data.grating}, fill_, object.map_pace);
 }
 
 void GpuPlanar::update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const {
     PlanarData& data = data_of(state);
     find_flatness(object, state, data);
-    update_map(object, light, data);
+    update_map(object, light, state.grooves != nullptr, data);
     data.stand_in_is_old = data.stand_in_is_old || object.changed;
     if (data.has_map || !data.stand_in_is_old) return;
     SurfaceObject changed = object;

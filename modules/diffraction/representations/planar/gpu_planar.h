@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <memory>
 #include <optional>
 
@@ -16,14 +17,17 @@ namespace rowland::diffraction {
 struct PlanarData final : ObjectData {
     std::shared_ptr<const scene::Mesh> mesh;  ///< of `flat`
     std::optional<glm::dvec3> flat;           ///< the mesh's normal, in its own axes
+    std::optional<glm::vec4> tangent;         ///< of its mesh, if all agree
     glm::dvec3 normal{0.0};                   ///< of the map, in the world
+    std::optional<glm::dvec3> grating;        ///< the same, if it has one azimuth
     bool has_map = false;                     ///< the mesh is flat and the probe has texels
     MapFilling map;
     bool stand_in_is_old = true;  ///< the stand-in's vertex data are out of date
 };
 
 /// One map for each flat object: planar_map.glsl. It follows the object's normal and the probe; a rotation about the
-/// normal leaves it valid. An arc table shades objects that are not flat, and without a probe's texels.
+/// normal leaves it valid, unless it is over v_g and v_h alone, as all points have one g. An arc table shades objects
+/// that are not flat, and without a probe's texels.
 class GpuPlanar final : public GpuMaterial {
  public:
     GpuPlanar(const CookedMaterial& cooked, const PlanarTables& tables, const glm::dmat3& xyz_to_working);
@@ -36,7 +40,7 @@ class GpuPlanar final : public GpuMaterial {
     void bind_tables(const gpu::Program& program, const SurfaceState& state) const override;
 
     void find_flatness(const SurfaceObject& object, const SurfaceState& state, PlanarData& data) const;
-    void update_map(const SurfaceObject& object, const SurfaceLight& light, PlanarData& data) const;
+    void update_map(const SurfaceObject& object, const SurfaceLight& light, bool grooves, PlanarData& data) const;
 
     Lazy<std::unique_ptr<const GpuArc>> stand_in_;
     std::shared_ptr<const FillMap> fill_;

@@ -32,11 +32,25 @@ std::array<float, 4> spline_weights(float t) {
     return {first, second, 1.0F - first - second - last, last};
 }
 
+/// Factors of the frequencies of one axis that take the light's samples to the bilinear radiance between them: a
+/// texel's hat, whose variance is a sixth of the square of its side, as a normal distribution.
+std::vector<float> between_samples(std::size_t samples, std::size_t size, double step) {
+    const double variance = 4.0 * std::numbers::pi / (6.0 * static_cast<double>(std::max<std::size_t>(samples, 1)));
+    std::vector<float> factors;
+    for (std::size_t f = 0; f < size; ++f) {
+        const double angle =
+            2.0 * std::numbers::pi * static_cast<double>(std::min(f, size - f)) / (static_cast<double>(size) * step);
+        factors.push_back(static_cast<float>(std::exp(-0.5 * variance * angle * angle)));
+    }
+    return factors;
+}
+
 /// What one pair of azimuths is computed in: complex numbers, whose real parts belong to the first azimuth and whose
 /// imaginary parts to the second, as the pattern is real. Rows along h, one for each node along g.
 class AzimuthPair {
  public:
-    explicit AzimuthPair(const LobeSpectrum& spectrum);
+    /// `samples`: of the light, over the sphere.
+    AzimuthPair(const LobeSpectrum& spectrum, std::size_t samples);
 
     /// Adds the light of the disc, turned so that g is the first axis. `part` 0: the pair's first azimuth.
     void add_light(const LightDisc& disc, double azimuth, int part);
@@ -52,16 +66,20 @@ class AzimuthPair {
     const LobeSpectrum& spectrum_;
     FourierTransform along_g_;
     FourierTransform along_h_;
+    std::vector<float> between_g_;
+    std::vector<float> between_h_;
     std::size_t pitch_;  ///< floats of a row; not a power of two, so that a column's floats are not in one cache set
     std::array<std::vector<float>, 2> parts_;   ///< real and imaginary: views.g + 2 kMargin rows
     std::array<std::vector<float>, 2> column_;  ///< a column, and room for a transform's work
     std::array<std::vector<float>, 2> work_;
 };
 
-AzimuthPair::AzimuthPair(const LobeSpectrum& spectrum)
+AzimuthPair::AzimuthPair(const LobeSpectrum& spectrum, std::size_t samples)
     : spectrum_(spectrum),
       along_g_(spectrum.size_g()),
       along_h_(spectrum.size_h()),
+      between_g_(between_samples(samples, spectrum.size_g(), spectrum.views().step_g())),
+      between_h_(between_samples(samples, spectrum.size_h(), spectrum.views().step_h())),
       pitch_(kLightLanes * (spectrum.size_h() + 4)) {
     const std::size_t longest = kLightLanes * std::max(spectrum.size_g(), spectrum.size_h());
     for (auto& part : parts_) part.assign(static_cast<std::size_t>(spectrum.views().g + 2 * kMargin) * pitch_, 0.0F);
@@ -120,14 +138,14 @@ AzimuthPair::Parts AzimuthPair::row(int view_g) {
     return {std::span(parts_[0]).subspan(begin, count), std::span(parts_[1]).subspan(begin, count)};
 }
 
-/// Multiplies a frequency's light (r, g, b) by the pattern's matrix.
-void multiply(const float* matrix, float* real, float* imaginary) {
+/// Multiplies a frequency's light (r, g, b) by the pattern's matrix and a number.
+void multiply(const float* matrix, float factor, float* real, float* imaginary) {
     std::array<float, kLightLanes> product_r{};
     std::array<float, kLightLanes> product_i{};
     for (std::size_t c = 0; c < 3; ++c)
         for (std::size_t o = 0; o < kLightLanes; ++o) {
-            const float r = matrix[kLightLanes * c + o];
-            const float i = matrix[kLightLanes * (3 + c) + o];
+            const float r = factor * matrix[kLightLanes * c + o];
+            const float i = factor * matrix[kLightLanes * (3 + c) + o];
             product_r[o] += r * real[c] - i * imaginary[c];
             product_i[o] += r * imaginary[c] + i * real[c];
         }
@@ -157,7 +175,8 @@ void AzimuthPair::transform_columns() {
         along_g_({column_[0], column_[1]}, work());
         const float* matrix = spectrum_.at(h).data();
         for (std::size_t g = 0; g < along_g_.size(); ++g, matrix += LobeSpectrum::kFloats)
-            multiply(matrix, column_[0].data() + kLightLanes * g, column_[1].data() + kLightLanes * g);
+            multiply(matrix, between_g_[g] * between_h_[h], column_[0].data() + kLightLanes * g,
+                     column_[1].data() + kLightLanes * g);
         along_g_({column_[0], column_[1]}, work());
         for (std::size_t part = 0; part < 2; ++part)
             for (int i = 0; i < views; ++i)
@@ -186,16 +205,18 @@ std::size_t slice_texels(const LobeMap& map) {
     return static_cast<std::size_t>(map.size.views.g) * static_cast<std::size_t>(map.size.views.h);
 }
 
-void fill_pair(const LightDisc& disc, const LobeSpectrum& spectrum, int first, LobeMap& map) {
-    AzimuthPair pair(spectrum);
+void copy_slice(const AzimuthPair& pair, int part, int slice, LobeMap& map) {
+    glm::vec3* to = map.values.data() + static_cast<std::size_t>(slice) * slice_texels(map);
+    for (int h = 0; h < map.size.views.h; ++h)
+        for (int g = 0; g < map.size.views.g; ++g) *to++ = pair.value(part, g, h);
+}
+
+void fill_pair(const LightDisc& disc, const LobeSpectrum& spectrum, std::size_t samples, int first, LobeMap& map) {
+    AzimuthPair pair(spectrum, samples);
     for (int part = 0; part < 2; ++part)
         pair.add_light(disc, 2.0 * std::numbers::pi * (first + part) / map.size.azimuths, part);
     pair.correlate();
-    for (int part = 0; part < 2; ++part) {
-        glm::vec3* to = map.values.data() + static_cast<std::size_t>(first + part) * slice_texels(map);
-        for (int h = 0; h < map.size.views.h; ++h)
-            for (int g = 0; g < map.size.views.g; ++g) *to++ = pair.value(part, g, h);
-    }
+    for (int part = 0; part < 2; ++part) copy_slice(pair, part, first + part, map);
 }
 
 /// Lowers values by kBestLinear of their second difference along the azimuth, and adds the half turn's last slice.
@@ -234,9 +255,25 @@ LobeMap fill_lobe_map(const lighting::LightSamples& texels, const LobeSpectrum& 
     const LightDisc disc = light_on_disc(texels, map.axes, spectrum.cover(), spectrum.disc_cells());
     const int filled = map.half_turn ? azimuths / 2 : azimuths;
     parallel_for(static_cast<std::size_t>(filled / 2), [&](std::size_t pair) {
-        if (!stop.stop_requested()) fill_pair(disc, spectrum, 2 * static_cast<int>(pair), map);
+        if (!stop.stop_requested()) fill_pair(disc, spectrum, texels.size(), 2 * static_cast<int>(pair), map);
     });
     if (!stop.stop_requested()) finish_azimuths(map);
+    return map;
+}
+
+LobeMap fill_lobe_slice(const lighting::LightSamples& texels, const LobeSpectrum& spectrum, const glm::dvec3& normal,
+                        const glm::dvec3& grating) {
+    const glm::dvec3 n = glm::normalize(normal);
+    const glm::dvec3 g = glm::normalize(grating - n * glm::dot(n, grating));
+    LobeMap map{.size = {.azimuths = 1, .views = spectrum.views()},
+                .half_turn = false,
+                .axes = {glm::cross(g, n), g, n},
+                .values = {}};
+    map.values.resize(slice_texels(map));
+    AzimuthPair one(spectrum, texels.size());
+    one.add_light(light_on_disc(texels, map.axes, spectrum.cover(), spectrum.disc_cells()), 0.5 * std::numbers::pi, 0);
+    one.correlate();
+    copy_slice(one, 0, 0, map);
     return map;
 }
 

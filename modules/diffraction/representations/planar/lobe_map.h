@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <glm/vec3.hpp>
 #include <stop_token>
 #include <vector>
@@ -12,12 +13,21 @@
 namespace rowland::diffraction {
 
 struct LobeMapSize {
-    int azimuths = 352;  ///< of a whole turn: a multiple of 4, ≥ 8
+    int azimuths = 352;  ///< of a whole turn: a multiple of 4, ≥ 8; 1: that of one g alone
     LobeMapViews views;
 };
 
 /// What is shown while a larger map is filled: within 40 ms of a tilt on two cores.
 inline constexpr LobeMapSize kCoarseLobeMap{.azimuths = 64, .views = {.g = 64, .h = 32}};
+/// The same where g is the same everywhere.
+inline constexpr LobeMapSize kCoarseLobeSlice{.azimuths = 1, .views = {.g = 128, .h = 128}};
+
+/// The map for an object whose g is the same everywhere, in place of one of `size`: of twice as many views, 384 at
+/// most. More would show the probe's texels. 256 × 256 take 0.5 MB, and 25 MB for their LobeSpectrum.
+constexpr LobeMapSize one_azimuth(const LobeMapSize& size) {
+    constexpr int kMost = 384;
+    return {.azimuths = 1, .views = {.g = std::min(2 * size.views.g, kMost), .h = std::min(2 * size.views.h, kMost)}};
+}
 
 /// A pattern that is even needs the half turn alone, both ends included.
 constexpr int slices(const LobeMapSize& size, bool half_turn) {
@@ -30,7 +40,8 @@ constexpr int slices(const LobeMapSize& size, bool half_turn) {
 ///   v_h: the same in t
 ///   azimuth φ: g = cos φ e1 + sin φ e2, slice i holds φ = 2π i/azimuths. A pattern with P(−u) = P(u) needs the half
 ///     turn alone, as (φ + π, −v_g, −v_h) is then equal to (φ, v_g, v_h): azimuths/2 + 1 slices, GL_CLAMP_TO_EDGE in r.
-///     Others have `azimuths` slices, GL_REPEAT in r.
+///     Others have `azimuths` slices, GL_REPEAT in r. One azimuth is one slice, whose g is e2: a quarter of a turn,
+///     which rounding keeps in either half.
 ///   values are optimised for linear interpolation (kBestLinear), not the radiance at the nodes
 struct LobeMap {
     LobeMapSize size;
@@ -44,6 +55,10 @@ struct LobeMap {
 /// early with an unusable map.
 LobeMap fill_lobe_map(const lighting::LightSamples& texels, const LobeSpectrum& spectrum, const glm::dvec3& normal,
                       int azimuths, const std::stop_token& stop = {});
+
+/// The same for one azimuth, that of `grating`. Uses one core.
+LobeMap fill_lobe_slice(const lighting::LightSamples& texels, const LobeSpectrum& spectrum, const glm::dvec3& normal,
+                        const glm::dvec3& grating);
 
 /// The value of a point whose normal is the map's, as the texture unit interpolates; black for a view below the
 /// horizon.

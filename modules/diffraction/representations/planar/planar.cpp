@@ -40,8 +40,10 @@ SettingInfo views_h_setting() {
 
 std::optional<PlanarLobe> lobe_of(const PlanarSettings& settings) {
     if (!settings.lobe_size) return std::nullopt;
+    const LobeMapViews finest = one_azimuth(*settings.lobe_size).views;
     return PlanarLobe{*settings.lobe_size,
-                      shaded_pattern(settings.grating, colour::LightSpectra(settings.stand_in.illuminant))};
+                      shaded_pattern(settings.grating, colour::LightSpectra(settings.stand_in.illuminant),
+                                     0.25 * std::min(finest.step_g(), finest.step_h()))};
 }
 
 /// `fill(normal)` gives a plane's map; the last one is kept.

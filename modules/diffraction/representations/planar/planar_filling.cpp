@@ -6,6 +6,7 @@
 #include <glm/vec4.hpp>
 #include <utility>
 
+#include "engine/core/lazy.h"
 #include "modules/diffraction/representations/planar/lobe_map.h"
 #include "modules/diffraction/representations/planar/planar_map.h"
 
@@ -20,10 +21,9 @@ PlanarMapSize coarser(PlanarMapSize size) {
     return size;
 }
 
-LobeMapSize coarser(const LobeMapSize& size) {
-    return {.azimuths = std::min(kCoarseLobeMap.azimuths, size.azimuths),
-            .views = {.g = std::min(kCoarseLobeMap.views.g, size.views.g),
-                      .h = std::min(kCoarseLobeMap.views.h, size.views.h)}};
+LobeMapSize smaller(const LobeMapSize& a, const LobeMapSize& b) {
+    return {.azimuths = std::min(a.azimuths, b.azimuths),
+            .views = {.g = std::min(a.views.g, b.views.g), .h = std::min(a.views.h, b.views.h)}};
 }
 
 void set_axes(const gpu::Program& program, const glm::dvec3& e1, const glm::dvec3& e2) {
@@ -57,14 +57,20 @@ struct FlatFilling {
 struct LobeFilling {
     struct Level {
         int azimuths;
-        LobeSpectrum spectrum;
+        Lazy<LobeSpectrum> spectrum;
     };
-    Level coarse;
-    Level full;
+    struct Levels {
+        Level coarse;
+        Level full;
+    };
+    Levels all;  ///< azimuths
+    Levels one;
 
     FilledMap operator()(const MapInput& input, MapDetail detail, const std::stop_token& stop) const {
-        const Level& level = detail == MapDetail::Full ? full : coarse;
-        LobeMap map = fill_lobe_map(*input.texels, level.spectrum, input.normal, level.azimuths, stop);
+        const Levels& levels_of = input.grating ? one : all;
+        const Level& level = detail == MapDetail::Full ? levels_of.full : levels_of.coarse;
+        LobeMap map = input.grating ? fill_lobe_slice(*input.texels, *level.spectrum, input.normal, *input.grating)
+                                    : fill_lobe_map(*input.texels, *level.spectrum, input.normal, level.azimuths, stop);
         if (stop.stop_requested()) return {};
         const LobeMapSize& size = map.size;
         const int depth = slices(size, map.half_turn);
@@ -87,11 +93,18 @@ struct LobeFilling {
 std::shared_ptr<const FillMap> planar_filling(const PlanarTables& tables, const MaterialKernel& material,
                                               const glm::dmat3& xyz_to_working) {
     if (!tables.lobe) return std::make_shared<const FillMap>(FlatFilling{material, tables.size});
-    const DiffractionPattern pattern = in_space(tables.lobe->pattern, xyz_to_working);
-    const auto level = [&](const LobeMapSize& size) {
-        return LobeFilling::Level{size.azimuths, LobeSpectrum(pattern, size.views)};
+    const auto pattern = std::make_shared<const DiffractionPattern>(in_space(tables.lobe->pattern, xyz_to_working));
+    const auto levels = [&](const LobeMapSize& coarse, const LobeMapSize& full) {
+        const auto level = [&](const LobeMapSize& size) {
+            return LobeFilling::Level{size.azimuths, Lazy<LobeSpectrum>([pattern, views = size.views] {
+                                          return LobeSpectrum(*pattern, views);
+                                      })};
+        };
+        return LobeFilling::Levels{level(smaller(coarse, full)), level(full)};
     };
-    return std::make_shared<const FillMap>(LobeFilling{level(coarser(tables.lobe->size)), level(tables.lobe->size)});
+    const LobeMapSize& size = tables.lobe->size;
+    return std::make_shared<const FillMap>(
+        LobeFilling{.all = levels(kCoarseLobeMap, size), .one = levels(kCoarseLobeSlice, one_azimuth(size))});
 }
 
 }  // namespace rowland::diffraction

@@ -63,6 +63,37 @@ TEST_F(LatticePicture, MapsEqualTheCpus) {
     }
 }
 
+/// Where g is the same everywhere: of that azimuth alone, whether the pattern is even (kScreen) or not, and of the next
+/// one after a turn.
+TEST_F(LatticePicture, MapsOfOneAzimuthEqualTheCpus) {
+    for (glm::vec4& tangent : mesh_.tangents) tangent = mesh_.tangents[0];
+    for (const char* grating : {kCrossedFoil, kScreen}) {
+        const CookedMaterial cooked =
+            cook(grating, R"({"representation": "planar", "map_resolution": 32, "views_h": 24, "key_lights": false})");
+        if (!renderer_) show(cooked, 0.7);
+        use(cooked);
+        const auto& lobe = *std::get<PlanarTables>(cooked.tables).lobe;
+        for (const float turn : {0.7F, -2.9F}) {
+            world_.get<DiffractionSurface>(entity_).groove_rotation = turn;
+            rotation_ = double{turn};
+            const glm::dmat3 axes = glm::transpose(vertex_frame(0));
+            const LobeMap map = fill_lobe_slice(
+                *light_.texels, LobeSpectrum(lobe.pattern, one_azimuth(lobe.size).views), axes[2], axes[0]);
+            const LobeMap map_error = filter_error(map);
+            const auto at = [&](const LobeMap& looked_up, const Point& point) {
+                return sample(looked_up, ShadingPoint{.view = glm::transpose(point.to_tangent) * point.view,
+                                                      .normal = axes[2],
+                                                      .grating = axes[0]});
+            };
+            const double difference = largest_difference(
+                draw(), [&](const Point& point) { return at(map, point); },
+                [&](const Point& point) { return at(map_error, point); });
+            EXPECT_LT(difference, kMapTolerance) << grating << turn;
+            EXPECT_GT(brightest_, 0.01);
+        }
+    }
+}
+
 /// On a triangle whose normals vary.
 class CurvedLattice : public GratingPicture {};
 
@@ -103,13 +134,15 @@ TEST_F(LatticePicture, KeyLightsEqualTheCpu) {
         const CookedMaterial cooked = cook(grating, R"({"representation": "direct"})");
         if (!renderer_) show(cooked, 0.5);
         use(cooked);
-        const PatternPicture picture = picture_of(cooked);
+        const std::vector<LightPicture> pictures =
+            key_light_pictures(cooked.material.grating, colour::LightSpectra(), light_.key_lights);
         const auto expected = [&](const Point& point) {
             glm::dvec3 xyz(0.0);
-            for (const lighting::KeyLight& light : light_.key_lights) {
+            for (std::size_t i = 0; i < pictures.size(); ++i) {
+                const lighting::KeyLight& light = light_.key_lights[i];
                 const double mean = lighting::lobe_moments(light.concentration).mean;
-                xyz += pattern_radiance(picture, pattern_light(light, std::nullopt, point.to_tangent),
-                                        glm::dvec2(point.view), footprint_in_plane(point, mean * light.direction));
+                xyz += pattern_radiance(pictures[i], light, std::nullopt, point.to_tangent, glm::dvec2(point.view),
+                                        footprint_in_plane(point, mean * light.direction));
             }
             return xyz;
         };

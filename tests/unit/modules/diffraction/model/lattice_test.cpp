@@ -94,6 +94,18 @@ TEST(Lattice, OrdersOfAHeightMapSumToAtMostOne) {
     EXPECT_GT(sum, 0.9);
 }
 
+TEST(Lattice, OrderZeroAloneIsThatOfTheList) {
+    HeightMap map{.columns = 16, .rows = 12, .heights = {}, .depth_nm = 300.0};
+    for (int i = 0; i < 16 * 12; ++i) map.heights.push_back(static_cast<std::uint8_t>(i * 7919 % 251));
+    for (const LatticeProfile& profile :
+         {LatticeProfile(CrossedProfile{.along_a = SinusoidalProfile{110.0}, .along_b = BlazedProfile{150.0}}),
+          LatticeProfile(ApertureProfile{.width_nm = 500.0, .height_nm = 900.0}), LatticeProfile(map)}) {
+        const Lattice lattice{.a_nm = {2000.0, 0.0}, .b_nm = {500.0, 2000.0}, .profile = profile, .orders = 3};
+        EXPECT_NEAR(lattice_zero_order(lattice, kGreen_nm),
+                    lattice_efficiencies(lattice, kGreen_nm)[index_of(lattice, 0, 0)], 1e-15);
+    }
+}
+
 /// The grooves' depth is measured in wavelengths of the medium over them.
 TEST(Lattice, UnderACoverThePhaseIsTheMediums) {
     Grating grating;

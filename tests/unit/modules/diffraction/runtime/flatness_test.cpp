@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <glm/geometric.hpp>
 
 namespace rowland::diffraction {
@@ -31,6 +32,18 @@ TEST(Flatness, TwoSidesAreNotFlat) {
     EXPECT_FALSE(flat_normal(mesh_of({n, n, n, n, -n})).has_value());
     EXPECT_FALSE(flat_normal(mesh_of({n, -n})).has_value());
     EXPECT_FALSE(flat_normal(mesh_of({})).has_value());
+}
+
+TEST(CommonTangent, IsOfAllVerticesOrNone) {
+    scene::Mesh mesh;
+    const glm::vec4 x(1.0F, 0.0F, 0.0F, 1.0F);
+    EXPECT_FALSE(common_tangent(mesh).has_value());
+    mesh.tangents = {x, {std::cos(0.004F), std::sin(0.004F), 0.0F, 1.0F}};
+    EXPECT_EQ(common_tangent(mesh), x);
+    mesh.tangents = {x, {std::cos(0.02F), std::sin(0.02F), 0.0F, 1.0F}};
+    EXPECT_FALSE(common_tangent(mesh).has_value());
+    mesh.tangents = {x, {1.0F, 0.0F, 0.0F, -1.0F}};
+    EXPECT_FALSE(common_tangent(mesh).has_value());
 }
 
 }  // namespace
