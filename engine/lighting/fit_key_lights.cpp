@@ -1,4 +1,4 @@
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "engine/colour/working_space.h"
@@ -29,12 +30,50 @@ constexpr int kFitFace = 256;
 /// Tikhonov regularisation, relative to the matrix's diagonal: keeps overlapping lobes from cancelling each other.
 constexpr double kRidge = 1e-3;
 
+/// Cholesky factors of a fit's matrix. It has some tens of rows: Eigen's factorisations, whose blocks are for hundreds,
+/// would be a tenth of the code that the page for browsers loads.
+class Factors {
+ public:
+    explicit Factors(Eigen::MatrixXd matrix) : lower_(std::move(matrix)) {
+        for (Eigen::Index k = 0; k < lower_.rows(); ++k) {
+            const Eigen::Index below = lower_.rows() - k;
+            for (Eigen::Index j = 0; j < k; ++j) lower_.col(k).tail(below) -= lower_(k, j) * lower_.col(j).tail(below);
+            lower_.col(k).tail(below) /= std::sqrt(lower_(k, k));
+        }
+    }
+
+    Eigen::VectorXd solve(Eigen::VectorXd x) const {
+        for (Eigen::Index k = 0; k < x.size(); ++k) {
+            x[k] /= lower_(k, k);
+            x.tail(x.size() - k - 1) -= x[k] * lower_.col(k).tail(x.size() - k - 1);
+        }
+        for (Eigen::Index k = x.size() - 1; k >= 0; --k) {
+            const Eigen::Index below = x.size() - k - 1;
+            x[k] = (x[k] - lower_.col(k).tail(below).dot(x.tail(below))) / lower_(k, k);
+        }
+        return x;
+    }
+
+ private:
+    Eigen::MatrixXd lower_;  ///< the triangle above the diagonal is the matrix's
+};
+
+/// The indices of `values`, the largest first; equal ones in order.
+std::vector<std::size_t> descending(std::span<const double> values) {
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t i = 0; i < values.size(); ++i) order.emplace_back(-values[i], i);
+    std::sort(order.begin(), order.end());
+    std::vector<std::size_t> indices;
+    for (const auto& [value, index] : order) indices.push_back(index);
+    return indices;
+}
+
 /// Least squares with fluxes ≥ 0: while a flux is negative, its lobe is left out and the others are solved again.
 Eigen::VectorXd solve_non_negative(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right) {
     std::vector<Eigen::Index> used(static_cast<std::size_t>(right.size()));
     std::iota(used.begin(), used.end(), Eigen::Index{0});
     while (!used.empty()) {
-        const Eigen::VectorXd x = matrix(used, used).llt().solve(right(used));
+        const Eigen::VectorXd x = Factors(matrix(used, used)).solve(right(used));
         if (x.minCoeff() >= 0.0) {
             Eigen::VectorXd all = Eigen::VectorXd::Zero(right.size());
             all(used) = x;
@@ -77,9 +116,12 @@ class Fit {
 
     /// Removes the lobe without which the gain, at fluxes of either sign, is largest.
     void remove_least() {
-        const Eigen::MatrixXd inverse = matrix_.llt().solve(Eigen::MatrixXd::Identity(matrix_.rows(), matrix_.cols()));
+        const Factors factors(matrix_);
+        Eigen::VectorXd losses(matrix_.rows());
+        for (Eigen::Index k = 0; k < losses.size(); ++k)
+            losses[k] = fluxes_.row(k).squaredNorm() / factors.solve(Eigen::VectorXd::Unit(losses.size(), k))[k];
         Eigen::Index least = 0;
-        (fluxes_.rowwise().squaredNorm().array() / inverse.diagonal().array()).minCoeff(&least);
+        losses.minCoeff(&least);
         std::vector<Eigen::Index> kept(lobes_.size());
         std::iota(kept.begin(), kept.end(), Eigen::Index{0});
         kept.erase(kept.begin() + least);
@@ -106,9 +148,12 @@ class Fit {
     }
 
     void solve_fluxes() {
-        fluxes_ = matrix_.llt().solve(right_);
-        for (int c = 0; c < 3; ++c)
+        const Factors factors(matrix_);
+        fluxes_.resize(right_.rows(), 3);
+        for (int c = 0; c < 3; ++c) {
+            fluxes_.col(c) = factors.solve(right_.col(c));
             if (fluxes_.col(c).minCoeff() < 0.0) fluxes_.col(c) = solve_non_negative(matrix_, right_.col(c));
+        }
         gain_ = fluxes_.cwiseProduct(right_).sum();
     }
 
@@ -132,15 +177,18 @@ constexpr std::array<TrialLobes, 5> kTrialLobes{
 std::vector<glm::dvec3> trial_directions(const CubeTree& tree, const TrialLobes& trial) {
     const int depth = std::countr_zero(static_cast<unsigned>(trial.side / CubeTree::kRootSide));
     std::vector<const CubeTree::Node*> nodes;
+    std::vector<double> fluxes;
     for (int face = 0; face < 6; ++face)
         for (int row = 0; row < trial.side; ++row)
-            for (int column = 0; column < trial.side; ++column) nodes.push_back(&tree.node(depth, face, column, row));
-    const auto flux = [](const CubeTree::Node* node) { return node->flux.x + node->flux.y + node->flux.z; };
-    std::stable_sort(nodes.begin(), nodes.end(),
-                     [&](const CubeTree::Node* a, const CubeTree::Node* b) { return flux(a) > flux(b); });
-    nodes.resize(std::min(nodes.size(), trial.count));
+            for (int column = 0; column < trial.side; ++column) {
+                const CubeTree::Node& node = tree.node(depth, face, column, row);
+                nodes.push_back(&node);
+                fluxes.push_back(node.flux.x + node.flux.y + node.flux.z);
+            }
+    std::vector<std::size_t> brightest = descending(fluxes);
+    brightest.resize(std::min(brightest.size(), trial.count));
     std::vector<glm::dvec3> directions;
-    for (const CubeTree::Node* node : nodes) directions.push_back(glm::normalize(glm::dvec3(node->source)));
+    for (const std::size_t i : brightest) directions.push_back(glm::normalize(glm::dvec3(nodes[i]->source)));
     return directions;
 }
 
@@ -237,15 +285,17 @@ void refine(Fit& fit, std::size_t k, double step, double narrowest, const KeyLig
 
 std::vector<KeyLight> brightest_first(const Fit& fit) {
     std::vector<KeyLight> keys;
+    std::vector<double> luminances;
     for (std::size_t k = 0; k < fit.lobes().size(); ++k) {
         const Eigen::RowVector3d flux = fit.fluxes().row(static_cast<Eigen::Index>(k));
         const LobeShape& shape = fit.lobes()[k].shape;
-        if (flux.any()) keys.push_back({shape.direction, {flux[0], flux[1], flux[2]}, shape.concentration});
+        if (!flux.any()) continue;
+        keys.push_back({shape.direction, {flux[0], flux[1], flux[2]}, shape.concentration});
+        luminances.push_back(colour::luminance(keys.back().flux));
     }
-    std::stable_sort(keys.begin(), keys.end(), [](const KeyLight& a, const KeyLight& b) {
-        return colour::luminance(a.flux) > colour::luminance(b.flux);
-    });
-    return keys;
+    std::vector<KeyLight> sorted;
+    for (const std::size_t i : descending(luminances)) sorted.push_back(keys[i]);
+    return sorted;
 }
 
 }  // namespace

@@ -186,7 +186,7 @@ void MeasuredProbe::add_low_bands(const CubeTree& light) {
         shown_ += weight_.root(centre) * static_cast<double>(node.solid_angle) * at_centre *
                   at_centre.head(exact).transpose();
     });
-    error_ = bands_ - shown_ * plain;
+    error_ = bands_ - shown_.lazyProduct(plain);
     bands_ = band_roots_.asDiagonal() * bands_;
     error_ = band_roots_.asDiagonal() * error_;
 }

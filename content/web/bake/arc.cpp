@@ -1,8 +1,11 @@
 // The representation arc: curved surfaces under light in spherical harmonics.
+#include <cstdlib>
 #include <glm/glm.hpp>
 
 #include "content/web/bake/exports.h"
 #include "content/web/bake/material.h"
+#include "engine/lighting/key_lights.h"
+#include "engine/lighting/probe_image.h"
 #include "engine/scene/mesh.h"
 #include "modules/diffraction/representations/arc/arc_products.h"
 
@@ -39,6 +42,25 @@ ROWLAND_EXPORT(arc_weights) Numbers* arc_weights(const Arc* arc) {
     for (std::size_t texel = 0; texel < layers * texels; ++texel)
         for (std::size_t component = 0; component < diffraction::kTexelComponents; ++component)
             append(static_cast<float>(table.value(texel / texels, texel, component)), *numbers);
+    return numbers;
+}
+
+/// Raw SH of a probe's light without its key lights. `texels`: linear Rec.709, row 0 at the top; released here. `keys`:
+/// those of key_lights() in light.cpp, `count` of them.
+ROWLAND_EXPORT(rest_sh)
+Numbers* rest_sh(glm::vec3* texels, int width, int height, const float* keys, int count, int bands) {
+    image::Image image{width, height, std::vector<glm::vec3>(texels, texels + width * height)};
+    std::free(texels);
+    std::vector<lighting::KeyLight> lights;
+    for (int i = 0; i < count; ++i, keys += 7)
+        lights.push_back({.direction = {keys[0], keys[1], keys[2]},
+                          .flux = {keys[3], keys[4], keys[5]},
+                          .concentration = static_cast<double>(keys[6])});
+    const lighting::ShLight probe =
+        lighting::project(lighting::ProbeImage(std::move(image), lighting::Mapping::Equirectangular), bands);
+    auto* numbers = new Numbers;
+    for (const glm::dvec3& coefficient : lighting::residual(probe, lights, bands).coefficients)
+        append(glm::vec3(coefficient), *numbers);
     return numbers;
 }
 

@@ -36,8 +36,8 @@ ROWLAND_EXPORT(release_numbers) void release_numbers(const Numbers* numbers) {
 
 namespace rowland {
 
-void check_failed(const char*, int, std::string_view message) {
-    worker_refused(std::string(message).c_str());
+void check_failed(const char*, int line, std::string_view message) {
+    worker_refused(fmt::format("{}: {}", line, message).c_str());
 }
 
 }  // namespace rowland

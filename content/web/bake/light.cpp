@@ -51,26 +51,32 @@ ROWLAND_EXPORT(key_lobes) Numbers* key_lobes(const Probe* probe) {
     return numbers;
 }
 
-/// Raw SH of the light without its key lights.
-ROWLAND_EXPORT(rest_sh) Numbers* rest_sh(const Probe* probe, int bands) {
+/// KeyLight for each light, seven numbers: what arc_light() of arc.cpp takes.
+ROWLAND_EXPORT(key_lights) Numbers* key_lights(const Probe* probe) {
     auto* numbers = new Numbers;
-    for (const glm::dvec3& coefficient :
-         lighting::residual(lighting::project(probe->image, bands), probe->keys, bands).coefficients)
-        append(glm::vec3(coefficient), *numbers);
+    for (const lighting::KeyLight& key : probe->keys) {
+        append(glm::vec3(key.direction), *numbers);
+        append(glm::vec3(key.flux), *numbers);
+        append(static_cast<float>(key.concentration), *numbers);
+    }
     return numbers;
 }
 
-/// The map of a plane, flat lobe: e1, e2, then RGB over azimuths and views. `resolution`: views, even; azimuths are
-/// twice as many.
+/// The map of a plane, flat lobe: e1, e2, scale and bias of the pitch, then RGB over azimuths, views and pitches.
+/// `resolution`: views, even; azimuths are twice as many. `pitches`: from `smallest` to `largest` of the material's, or
+/// 1: that alone.
 ROWLAND_EXPORT(planar_map)
-Numbers* planar_map(const Material* material, const Probe* probe, double x, double y, double z, int resolution) {
+Numbers* planar_map(const Material* material, const Probe* probe, double x, double y, double z, int resolution,
+                    double smallest, double largest, int pitches) {
+    diffraction::PlanarMapSize size = diffraction::planar_map_size(resolution);
+    if (pitches > 1) size.pitch = diffraction::PitchAxis{.smallest = smallest, .largest = largest, .nodes = pitches};
     const diffraction::PlanarMap map = diffraction::fill_planar_map(
         probe->rest, in_space(material->kernel, xyz_to_working()), material->grating().pitch_nm, glm::dvec3(x, y, z),
-        diffraction::planar_map_size(resolution), xyz_to_working() * material->zero_order_xyz,
-        material->grating().cover);
+        size, xyz_to_working() * material->zero_order_xyz, material->grating().cover);
     auto* numbers = new Numbers;
     append(glm::vec3(map.e1), *numbers);
     append(glm::vec3(map.e2), *numbers);
+    append(map.pitch ? glm::vec2(map.pitch->scale_bias()) : glm::vec2(0.0F), *numbers);
     for (const glm::vec3& value : map.xyz) append(value, *numbers);
     return numbers;
 }

@@ -72,6 +72,7 @@ ROWLAND_EXPORT(material_facts) Numbers* material_facts(const Material* material)
     append(material->source.material.base.roughness, *numbers);
     append(static_cast<float>(material->source.has_base ? 1 : 0), *numbers);
     append(static_cast<float>(material->source.groove_rotation), *numbers);
+    append(static_cast<float>(is_even(material->kernel) ? 1 : 0), *numbers);
     return numbers;
 }
 

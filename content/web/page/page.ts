@@ -1,15 +1,16 @@
 import {
-    ACESFilmicToneMapping, Color, DataTexture, DirectionalLight, HalfFloatType, LinearFilter, Mesh, MeshStandardMaterial, PerspectiveCamera, PlaneGeometry,
-    PMREMGenerator, Raycaster, RGBAFormat, Scene, Vector2, WebGLRenderer, type Intersection, type Texture,
+    ACESFilmicToneMapping, Color, DataTexture, DirectionalLight, Group, HalfFloatType, LinearFilter, PerspectiveCamera, PMREMGenerator,
+    Raycaster, RGBAFormat, Scene, Vector2, Vector3, WebGLRenderer, type Intersection, type Material, type Mesh, type Object3D, type Texture,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { DataUtils } from "three";
-import { GratingMaterial, Rowland } from "@rowland/three";
+import { Rowland } from "@rowland/three";
 import { builtInLight, LIGHT_NAMES, lightOf } from "./lights.js";
-import { addressOf, settingsOf, type Settings } from "./address.js";
+import { addressOf, SCENE_NAMES, settingsOf, type Settings } from "./address.js";
 import { PixelComparer } from "./pixel.js";
 import { ReferenceView } from "./reference_view.js";
-import { numberAt, SAMPLES, slidersOf, withNumber } from "./samples.js";
+import { numberAt, slidersOf, withNumber } from "./samples.js";
+import { cabinet, hasReference, materialsOf, Rest, samples, type GratingMesh, type Piece, type Stage } from "./stage.js";
 
 const element = <Kind extends HTMLElement>(id: string) => document.getElementById(id) as Kind;
 const message = element("message");
@@ -19,18 +20,19 @@ addEventListener("unhandledrejection", (event) => report(event.reason));
 
 const canvas = element<HTMLCanvasElement>("view");
 const scene = new Scene();
-const camera = new PerspectiveCamera(35, 1, 0.01, 10);
-camera.position.set(0.08, 0.24, 0.33);
+const camera = new PerspectiveCamera(35, 1, 0.01, 40);
 const renderer = new WebGLRenderer({ canvas, antialias: true });
 renderer.toneMapping = ACESFilmicToneMapping;
 const controls = new OrbitControls(camera, canvas);
-controls.target.set(0.04, 0.0, 0.045);
 controls.maxPolarAngle = 0.49 * Math.PI;
-controls.minDistance = 0.12;
-controls.maxDistance = 1.5;
 
 const rowland = new Rowland();
 rowland.onError = report;
+
+/** Until it is loaded, nothing. */
+let stage: Stage = { objects: new Group(), pieces: [], eye: new Vector3(0, 0.3, 0.5), target: new Vector3(), nearest: 0.1, farthest: 3 };
+let loaded = false;
+const turns = new Map<Piece, number>();
 
 // Frames are drawn when something has changed.
 let asked = false;
@@ -44,9 +46,9 @@ function redraw(): void {
         renderer.render(scene, camera);
         if (referenceShown.checked) reference.draw();
         document.documentElement.dataset.frames = String(++frames);
-        document.documentElement.dataset.pose = JSON.stringify({ distance: controls.getDistance(), azimuth: controls.getAzimuthalAngle(), turns: meshes.map(({ rotation }) => rotation.y) });
-        document.documentElement.dataset.busy = String(rowland.busy);
-        document.documentElement.dataset.lit = String(meshes.filter(({ material }) => material.lit).length);
+        document.documentElement.dataset.pose = JSON.stringify({ distance: controls.getDistance(), azimuth: controls.getAzimuthalAngle(), turns: stage.pieces.map((piece) => turns.get(piece) ?? 0) });
+        document.documentElement.dataset.busy = String(!loaded || rowland.busy);
+        document.documentElement.dataset.lit = String(stage.pieces.flatMap(materialsOf).filter(({ lit }) => lit).length);
     });
 }
 
@@ -64,42 +66,31 @@ function draw(): void {
 rowland.onUpdate = draw;
 controls.addEventListener("change", draw);
 
-const table = new Mesh(new PlaneGeometry(0.6, 0.6).rotateX(-Math.PI / 2), new MeshStandardMaterial({ color: 0x222326, roughness: 0.9 }));
-table.position.y = -0.004;
-table.receiveShadow = true;
-scene.add(table);
-
 const lamp = new DirectionalLight(0xffffff, 0);
 lamp.position.set(-0.4, 1, 0.5);
 scene.add(lamp);
 
-let wanted: Settings = { sample: 0, light: 0 };
+let wanted: Settings = { scene: 0, light: 0 };
 try {
     wanted = settingsOf(location.hash);
 } catch (error) {
     report(error);
 }
-const materials = SAMPLES.map(({ material }, index) => (index === wanted.sample && wanted.material) || material);
-const meshes = SAMPLES.map(({ geometry, position, name }, index) => {
-    const representation = index === wanted.sample ? wanted.representation : undefined;
-    const mesh = new Mesh(geometry(), new GratingMaterial({ rowland, grating: materials[index], representation }));
-    mesh.position.set(...position);
-    mesh.name = name;
-    scene.add(mesh);
-    return mesh;
-});
 
 // The panel.
 const sample = element<HTMLSelectElement>("sample");
 const lights = element<HTMLSelectElement>("light");
 const sliders = element("sliders");
-let chosen = wanted.sample;
+let chosen = 0;
 
+const SAMPLES_SCENE = SCENE_NAMES.indexOf("samples");
 /** Whoever opens the address sees the chosen sample. */
 function writeAddress(): void {
-    const material = materials[chosen] === SAMPLES[chosen].material ? undefined : materials[chosen];
-    const representation = chosen === wanted.sample ? wanted.representation : undefined;
-    history.replaceState(null, "", addressOf({ sample: chosen, light: lights.selectedIndex, representation, material }));
+    const piece = stage.pieces[chosen];
+    const bent = wanted.scene === SAMPLES_SCENE && piece ? piece : undefined;
+    const material = bent && bent.grating !== bent.given ? bent.grating : undefined;
+    const representation = bent?.name === wanted.sample ? wanted.representation : undefined;
+    history.replaceState(null, "", addressOf({ scene: wanted.scene, sample: bent?.name, light: lights.selectedIndex, representation, material }));
 }
 
 function slider(label: string, from: number, to: number, step: number, value: number, change: (value: number) => void) {
@@ -117,12 +108,12 @@ function slider(label: string, from: number, to: number, step: number, value: nu
 }
 
 let waiting = 0;
-function rebake(index: number): void {
+function rebake(piece: Piece): void {
     clearTimeout(waiting);
     // The worker bakes in turn; only the last of a drag's values is worth it.
     waiting = window.setTimeout(() => {
         message.textContent = "";
-        meshes[index].material.bake(rowland, materials[index]);
+        for (const material of materialsOf(piece)) material.bake(rowland, piece.grating);
         writeAddress();
     }, 80);
 }
@@ -130,20 +121,26 @@ function rebake(index: number): void {
 function showSample(index: number): void {
     chosen = index;
     sample.selectedIndex = index;
-    sliders.replaceChildren(...slidersOf(materials[index]).map(({ label, path, from, to, step }) =>
-        slider(label, from, to, step, numberAt(materials[index], path)!, (value) => {
-            materials[index] = withNumber(materials[index], path, value);
-            rebake(index);
+    const piece = stage.pieces[index];
+    sliders.replaceChildren(...slidersOf(piece.grating).map(({ label, path, from, to, step }) =>
+        slider(label, from, to, step, numberAt(piece.grating, path)!, (value) => {
+            piece.grating = withNumber(piece.grating, path, value);
+            rebake(piece);
         })));
-    const price = meshes[index].material.price;
-    element("price").textContent = `Price: ${price.map} look-up${price.map === 1 ? "" : "s"} a pixel for the environment, nine for each bright light in reach.`;
+    const price = materialsOf(piece)[0].price;
+    element("price").textContent = `Price: ${price.map} look-up${price.map === 1 ? "" : "s"} a pixel for the environment, 39 for each bright light in reach.`;
 }
-sample.append(...SAMPLES.map(({ name }) => new Option(name)));
 sample.addEventListener("change", () => {
     showSample(sample.selectedIndex);
     writeAddress();
 });
-showSample(wanted.sample);
+const scenes = element<HTMLSelectElement>("scene");
+scenes.append(...SCENE_NAMES.map((name) => new Option(name[0].toUpperCase() + name.slice(1))));
+scenes.selectedIndex = wanted.scene;
+scenes.addEventListener("change", () => {
+    location.hash = addressOf({ scene: scenes.selectedIndex, light: lights.selectedIndex });
+    location.reload();
+});
 
 function bind(id: string, change: (value: number) => void, update = draw): void {
     const input = element<HTMLInputElement>(id);
@@ -160,10 +157,11 @@ bind("lamp", (value) => (lamp.intensity = value));
 bind("exposure", (value) => (renderer.toneMappingExposure = 2 ** value));
 
 // Both sides show the light that the grooves diffract of the panorama, and nothing else.
+let rest = new Rest(stage.objects);
 referenceShown.addEventListener("change", () => {
     const on = referenceShown.checked;
-    for (const { material } of meshes) material.diffractionOnly = on;
-    table.visible = !on;
+    for (const material of stage.pieces.flatMap(materialsOf)) material.diffractionOnly = on;
+    rest.show(on);
     lamp.visible = !on;
     scene.background = on ? new Color(0) : environment ?? null;
     draw();
@@ -219,27 +217,41 @@ addEventListener("drop", (event) => {
 
 const ray = new Raycaster();
 /** What the point (x, y) of the picture shows, in pixels from the left and from below. */
-function hitAt(x: number, y: number): Intersection<Mesh> | undefined {
+function seenAt(x: number, y: number): Intersection<Mesh> | undefined {
     ray.setFromCamera(new Vector2((2 * x) / canvas.width - 1, (2 * y) / canvas.height - 1), camera);
-    return ray.intersectObjects(meshes, false)[0] as Intersection<Mesh> | undefined;
+    const hits = ray.intersectObject(stage.objects) as Intersection<Mesh>[];
+    return hits.find(({ object }) => !(object.material as Material).transparent);
+}
+/** The same where the ground truth can be had. */
+function hitAt(x: number, y: number): Intersection<Mesh> | undefined {
+    const hit = seenAt(x, y);
+    return hit && hasReference(hit.object) ? hit : undefined;
+}
+function pieceOf(object: Object3D | null): Piece | undefined {
+    if (!object) return undefined;
+    return stage.pieces.find(({ handle }) => handle === object) ?? pieceOf(object.parent);
 }
 /** The pixel at a pointer, and what its middle shows. */
 function under(event: PointerEvent) {
     const box = canvas.getBoundingClientRect();
     const x = Math.floor(((event.clientX - box.left) * canvas.width) / box.width);
     const y = Math.floor(((event.clientY - box.top) * canvas.height) / box.height);
-    return { x, y, hit: hitAt(x + 0.5, canvas.height - y - 0.5) };
+    return { x, y, hit: seenAt(x + 0.5, canvas.height - y - 0.5) };
 }
 
 // The error of the pixel that the pointer rests on.
 const comparer = new PixelComparer(renderer, scene, camera, lamp);
 let resting = 0;
 let compared = 0;
-function rest(event: PointerEvent, milliseconds: number): void {
+function compareAfter(event: PointerEvent, milliseconds: number): void {
     clearTimeout(resting);
     resting = window.setTimeout(async () => {
         const { x, y, hit } = under(event);
-        if (!hit || rowland.lightVersion === 0) return;
+        if (!hit || !(hit.object as GratingMesh).material.isGratingMaterial || rowland.lightVersion === 0) return;
+        if (!hasReference(hit.object)) {
+            element("pixel").textContent = "No error of this pixel: its grooves are a texture's, and vary within it.";
+            return;
+        }
         const number = ++compared;
         const { shown, reference, error } = await comparer.compare(hit, x, y);
         if (number !== compared) return;
@@ -250,7 +262,11 @@ function rest(event: PointerEvent, milliseconds: number): void {
 }
 
 // Turning a sample by hand, or zooming with a second finger.
-let held: Mesh | undefined;
+let held: Piece | undefined;
+function turn(piece: Piece, angle: number): void {
+    piece.handle.rotateY(angle);
+    turns.set(piece, (turns.get(piece) ?? 0) + angle);
+}
 const down = new Set<number>();
 const fingers = new Map<number, PointerEvent>(); // of the held sample
 const spread = () => {
@@ -258,21 +274,21 @@ const spread = () => {
     return Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY);
 };
 canvas.addEventListener("pointerdown", (event) => {
-    if (down.size === 0) held = under(event).hit?.object;
+    if (down.size === 0) held = pieceOf(under(event).hit?.object ?? null);
     down.add(event.pointerId);
     if (!held) return; // the controls' own
-    if (fingers.size === 0) showSample(meshes.indexOf(held as never));
+    if (fingers.size === 0) showSample(stage.pieces.indexOf(held));
     controls.enabled = false;
     fingers.set(event.pointerId, event);
     canvas.setPointerCapture(event.pointerId);
 }, { capture: true });
 canvas.addEventListener("pointermove", (event) => {
     const before = fingers.get(event.pointerId);
-    if (event.buttons === 0) rest(event, 400);
+    if (event.buttons === 0) compareAfter(event, 400);
     else clearTimeout(resting);
     if (!held || !before) return;
     if (fingers.size === 1) {
-        held.rotation.y += 0.01 * (event.clientX - before.clientX);
+        turn(held, 0.01 * (event.clientX - before.clientX));
         fingers.set(event.pointerId, event);
     } else {
         const old = spread();
@@ -286,14 +302,14 @@ const release = (event: PointerEvent) => {
     down.delete(event.pointerId);
     fingers.delete(event.pointerId);
     if (down.size > 0) return;
-    if (event.pointerType === "touch" && held) rest(event, 0);
+    if (event.pointerType === "touch" && held) compareAfter(event, 0);
     held = undefined;
     controls.enabled = true;
 };
 canvas.addEventListener("pointerup", release);
 canvas.addEventListener("pointercancel", release);
 
-const KEYS: Record<string, () => void> = {
+const KEYS: Record<string, () => unknown> = {
     ArrowLeft: () => orbit(-0.06, 0),
     ArrowRight: () => orbit(0.06, 0),
     ArrowUp: () => orbit(0, -0.06),
@@ -301,8 +317,8 @@ const KEYS: Record<string, () => void> = {
     "+": () => zoom(0.9),
     "=": () => zoom(0.9),
     "-": () => zoom(1 / 0.9),
-    q: () => (meshes[chosen].rotation.y -= 0.05),
-    e: () => (meshes[chosen].rotation.y += 0.05),
+    q: () => stage.pieces[chosen] && turn(stage.pieces[chosen], -0.05),
+    e: () => stage.pieces[chosen] && turn(stage.pieces[chosen], 0.05),
 };
 function orbit(around: number, down: number): void {
     const offset = camera.position.clone().sub(controls.target);
@@ -332,11 +348,27 @@ function resize(): void {
     renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     renderer.setSize(innerWidth, innerHeight, false);
     camera.aspect = innerWidth / innerHeight;
+    // On a narrow screen as much from left to right as on one of 4 : 3.
+    camera.fov = (360 / Math.PI) * Math.atan(Math.tan((17.5 * Math.PI) / 180) * Math.max(1, 4 / 3 / camera.aspect));
     camera.updateProjectionMatrix();
     draw();
 }
 addEventListener("resize", resize);
 scene.background = new Color(0x101114);
 resize();
+light(shownLight).catch(report); // while the cabinet is fetched
+stage = wanted.scene === SAMPLES_SCENE ? samples(rowland, wanted) : await cabinet(rowland);
+loaded = true;
+scene.add(stage.objects);
+rest = new Rest(stage.objects);
+camera.position.copy(stage.eye);
+controls.target.copy(stage.target);
+controls.minDistance = stage.nearest;
+controls.maxDistance = stage.farthest;
 controls.update();
-light(shownLight).catch(report);
+sample.append(...stage.pieces.map(({ name }) => new Option(name)));
+const named = stage.pieces.findIndex(({ name }) => name === wanted.sample);
+if (wanted.sample !== undefined && named < 0)
+    report(new Error(`the address: expected sample to be one of ${stage.pieces.map(({ name }) => name).join(", ")}, found "${wanted.sample}"`));
+showSample(Math.max(named, 0));
+draw();

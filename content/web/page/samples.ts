@@ -75,5 +75,8 @@ export function withNumber(material: object, path: string[], value: number): obj
 }
 
 export function slidersOf(material: object): Slider[] {
-    return SLIDERS.filter(({ path }) => numberAt(material, path) !== undefined);
+    return SLIDERS.flatMap((slider) => {
+        const value = numberAt(material, slider.path);
+        return value === undefined ? [] : [{ ...slider, to: Math.max(slider.to, 2 * value) }];
+    });
 }

@@ -106,10 +106,29 @@ mat3 groove_axes() {
 #ifdef GROOVE_MAP
 // Means over the grooves: runtime/groove_moments.h.
 TEXTURE_UNIT(13) uniform sampler2D groove_map;
+#ifdef GL_ES
+uniform sampler2D groove_map_rest;  // what halves round off: ES filters no 16 bits
+#endif
 uniform vec4 groove_uv_linear;
 uniform vec2 groove_uv_offset;
 uniform float groove_pitch;  // the smallest, over the material's
 in float groove_hand;
+
+vec4 mean_moments(vec2 uv) {
+#ifdef GL_ES
+    return texture(groove_map, uv) + texture(groove_map_rest, uv);
+#else
+    return texture(groove_map, uv);
+#endif
+}
+
+vec4 mean_moments(vec2 uv, mat2 width) {
+#ifdef GL_ES
+    return textureGrad(groove_map, uv, width[0], width[1]) + textureGrad(groove_map_rest, uv, width[0], width[1]);
+#else
+    return textureGrad(groove_map, uv, width[0], width[1]);
+#endif
+}
 
 // What is left of 1 after the moments' rounding counts as 1.
 const float MOMENT_ROUNDING = 1e-4;
@@ -183,8 +202,7 @@ vec4 part_moments(MeshView mesh, int parts, int part) {
     int bits = parts == 4 ? 1 : 2;  // of the part's column and of its row
     float side = parts == 4 ? 0.5 : 0.25;
     vec2 at = (vec2(part & ((1 << bits) - 1), part >> bits) + 0.5) * side - 0.5;
-    mat2 width = mesh.map_uv_change * (0.5 * side);
-    return textureGrad(groove_map, mesh.map_uv + mesh.map_uv_change * at, width[0], width[1]);
+    return mean_moments(mesh.map_uv + mesh.map_uv_change * at, mesh.map_uv_change * (0.5 * side));
 }
 #endif
 
@@ -205,7 +223,7 @@ GrooveView groove_view() {
     vec2 uv = groove_uv_linear.xy * GROOVE_MAP.x + groove_uv_linear.zw * GROOVE_MAP.y + groove_uv_offset;
     MeshView mesh = MeshView(axes, direction, mat2x3(dFdx(axes[1]), dFdy(axes[1])),
                              vec2(dFdx(direction.y), dFdy(direction.y)), uv, mat2(dFdx(uv), dFdy(uv)));
-    return grooves_of(mesh, g_change, v_g_change, texture(groove_map, uv));
+    return grooves_of(mesh, g_change, v_g_change, mean_moments(uv));
 #elif defined(LATTICE)
     return GrooveView(axes, direction, 1.0, g_change, v_g_change, mat2x3(dFdx(axes[1]), dFdy(axes[1])),
                       vec2(dFdx(direction.y), dFdy(direction.y)));

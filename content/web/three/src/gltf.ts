@@ -1,7 +1,10 @@
-import { MeshPhysicalMaterial, type Mesh } from "three";
+import { Matrix4, MeshPhysicalMaterial, type BufferGeometry, type Mesh } from "three";
 import type { GLTF, GLTFLoaderPlugin, GLTFParser } from "three/examples/jsm/loaders/GLTFLoader.js";
+import { flatNormal } from "./frames.js";
 import { GratingMaterial, type GratingParameters } from "./material.js";
 import type { Rowland } from "./rowland.js";
+
+const IDENTITY = new Matrix4();
 
 /** The plug-in of GLTFLoader for ROWLAND_materials_diffraction: loader.register((parser) => new GratingExtension(parser, rowland)). */
 export class GratingExtension implements GLTFLoaderPlugin {
@@ -18,22 +21,30 @@ export class GratingExtension implements GLTFLoaderPlugin {
     }
 
     async extendMaterialParams(material: number, parameters: GratingParameters): Promise<void> {
-        const grating = this.grating(material);
+        const grating = this.grating(material) as { grooveTexture?: { index: number } } | undefined;
         if (!grating) return;
-        if ("grooveTexture" in grating)
-            console.warn(`material ${material}: its grooves do not follow grooveTexture, which @rowland/three does not read`);
         Object.assign(parameters, { grating, rowland: this.rowland });
+        if (grating.grooveTexture) await this.parser.assignTexture(parameters, "grooveTexture", grating.grooveTexture);
     }
 
-    /** A material for each mesh, as its map follows the mesh. */
+    /** A material for each mesh, as its map follows the mesh; one for flat parts of a mesh that face the same way. */
     async afterRoot(gltf: GLTF): Promise<void> {
         const seen = new Set<GratingMaterial>();
         for (const scene of gltf.scenes)
-            scene.traverse((object) => {
-                const mesh = object as Mesh<never, GratingMaterial>;
-                if (!mesh.material?.isGratingMaterial) return;
-                if (seen.has(mesh.material)) mesh.material = mesh.material.clone();
-                seen.add(mesh.material);
+            scene.traverse((parent) => {
+                const facing = new Map<string, GratingMaterial>();
+                for (const object of parent.children) {
+                    const mesh = object as Mesh<BufferGeometry, GratingMaterial>;
+                    if (!mesh.material?.isGratingMaterial) continue;
+                    mesh.updateMatrix();
+                    const flat = mesh.isMesh && mesh.matrix.equals(IDENTITY) ? flatNormal(mesh.geometry) : null;
+                    const key = `${mesh.material.uuid} ${flat?.toArray().map((x) => x.toFixed(3))}`;
+                    const shared = flat && facing.get(key);
+                    if (!shared && seen.has(mesh.material)) mesh.material = mesh.material.clone();
+                    if (shared) mesh.material = shared;
+                    seen.add(mesh.material);
+                    if (flat) facing.set(key, mesh.material);
+                }
             });
     }
 }

@@ -5,8 +5,9 @@ import {
 } from "three";
 import { flatNormal, groovesOf, pointFrame, worldFrames, worldNormal, type Grooves } from "./frames.js";
 import { FRAGMENT, VERTEX } from "./generated/shaders.js";
+import { grooveMap, type GrooveMap } from "./groove_map.js";
 import type { Rowland } from "./rowland.js";
-import type { MaterialTables, PlaneMap } from "./tasks.js";
+import type { MaterialTables, Pitches, PlaneMap } from "./tasks.js";
 import { arrayTexture, planeTexture, storageTexture, volumeTexture } from "./textures.js";
 
 /** How the light of a probe is shaded: a map for flat meshes, a table for curved ones, or its key lights alone. */
@@ -20,16 +21,20 @@ export interface GratingParameters extends MeshPhysicalMaterialParameters {
     grooves?: Grooves;
     /** "planar" for flat meshes, else "arc". */
     representation?: Representation;
+    /** Varies the grooves over the surface. R: rotation / π; G: half the pitch over the grating's; 0: no grating. */
+    grooveTexture?: Texture;
 }
 
 const BANDS = 5;
 /** A plane that tilts by less keeps its map. */
 const STEADY = 1e-3;
+/** Smaller relative differences of the pitch are ignored, as by runtime/groove_map.cpp. */
+const SAME_PITCH = 0.01;
 
 // material_facts() of content/web/bake/material.cpp.
 const FACT = {
     lobe: 1, gaussian: 2, pits: 4, incoherent: 7, ior: 8, zeroOrder: 9, xyzToWorking: 18, mirror: 27, base: 30, colour: 33,
-    roughness: 36, hasBase: 37, rotation: 38,
+    roughness: 36, hasBase: 37, rotation: 38, even: 39,
 };
 
 let materials = 0;
@@ -47,9 +52,12 @@ export class GratingMaterial extends MeshPhysicalMaterial {
     settled: Promise<void> = Promise.resolve();
 
     private rowland?: Rowland;
-    private grating?: object;
+    /** What bake() was called with. */
+    grating?: object;
     private grooves?: Grooves;
     private representation?: Representation;
+    private grooveTexture?: Texture;
+    private grooveMap?: GrooveMap;
     private readonly number = ++materials;
     private tables?: MaterialTables;
     private lightShown = 0;
@@ -60,9 +68,9 @@ export class GratingMaterial extends MeshPhysicalMaterial {
     private busy = false;
     private readonly uniforms: Record<string, IUniform> = {};
 
-    constructor({ rowland, grating, grooves, representation, ...physical }: GratingParameters = {}) {
+    constructor({ rowland, grating, grooves, representation, grooveTexture, ...physical }: GratingParameters = {}) {
         super({ color: 0x000000, roughness: 0.3, ...physical });
-        Object.assign(this, { grooves, representation });
+        Object.assign(this, { grooves, representation, grooveTexture });
         if (rowland && grating) this.bake(rowland, grating);
     }
 
@@ -70,6 +78,7 @@ export class GratingMaterial extends MeshPhysicalMaterial {
         super.copy(source);
         this.grooves = source.grooves;
         this.representation = source.representation;
+        this.grooveTexture = source.grooveTexture;
         if (source.rowland && source.grating) this.bake(source.rowland, source.grating);
         return this;
     }
@@ -140,7 +149,34 @@ export class GratingMaterial extends MeshPhysicalMaterial {
         this.flag("ZERO_ORDER", facts.subarray(FACT.zeroOrder, FACT.zeroOrder + 9).some((x) => x !== 0));
         this.flag("NO_KEY_LIGHTS", true);
         this.flag("ROWLAND", true);
+        if (this.grooveTexture) this.setGrooveMap(this.grooveTexture, facts[FACT.even] === 1);
         this.rowland!.onUpdate();
+    }
+
+    private setGrooveMap(texture: Texture, even: boolean): void {
+        const sparkle = (this.grating as { grooveTexture?: { sparkle?: boolean } }).grooveTexture?.sparkle ?? false;
+        const map = (this.grooveMap = grooveMap(texture, even, sparkle));
+        if (this.pitches && !this.flatLobe && this.representation !== "direct")
+            throw new Error(`grooveTexture: pitches of ${map.smallest.toPrecision(3)} to ${map.largest.toPrecision(3)} times pitch_nm ` +
+                'with a groove_lobe that is not flat; expected the flat groove_lobe or the representation "direct"');
+        this.set("groove_map", map.moments);
+        this.set("groove_map_rest", map.rest);
+        texture.updateMatrix();
+        const m = texture.matrix.elements; // by columns
+        this.set("groove_uv_linear", new Vector4(m[0], m[1], m[3], m[4]));
+        this.set("groove_uv_offset", new Vector2(m[6], m[7]));
+        this.set("groove_pitch", map.smallest);
+        this.define("ROWLAND_GROOVE_UV", texture.channel === 0 ? "uv" : "uv1");
+        this.flag("GROOVE_GAPS", map.gaps);
+        this.flag("GROOVES_EVEN", even);
+    }
+
+    /** Of a groove texture that varies them. */
+    private get pitches(): Pitches | null {
+        if (!this.grooveMap) return null;
+        const { smallest, largest } = this.grooveMap;
+        const varies = smallest < 1 - SAME_PITCH || largest > 1 + SAME_PITCH;
+        return varies ? [Math.min(smallest, largest * (1 - SAME_PITCH)), largest] : null;
     }
 
     private setLight(keyLobes: Float32Array): void {
@@ -154,19 +190,21 @@ export class GratingMaterial extends MeshPhysicalMaterial {
             Object.fromEntries(names.map((name, i) => [name, new Vector4().fromArray(keyLobes, 28 * light + 4 * i)]))));
     }
 
-    private setPlane({ e1, e2, axes, halfTurn, table }: PlaneMap): void {
+    private setPlane({ e1, e2, axes, halfTurn, pitch, table }: PlaneMap): void {
         this.set("planar_e1", new Vector3(...e1));
         this.set("planar_e2", new Vector3(...e2));
         this.set("map_scale", table.scale);
         if (axes) {
-            this.set("lobe_map", volumeTexture(table, !halfTurn));
+            this.set("lobe_map", volumeTexture(table, { r: !halfTurn }));
             this.set("lobe_map_axes", new Vector4(...axes));
         } else {
-            this.set("planar_map", planeTexture(table));
+            this.set("planar_map", pitch ? volumeTexture(table, { s: true }) : planeTexture(table));
+            if (pitch) this.set("pitch_scale_bias", new Vector2(...pitch));
             this.set("planar_map_half_texel", new Vector2(0.5 / table.width, 0.5 / table.height));
         }
         this.flag("LOBE_MAP", axes !== null);
         this.flag("HALF_TURN", halfTurn);
+        this.flag("PITCH_AXIS", pitch !== null);
         this.flag("ROWLAND_PLANAR", true);
     }
 
@@ -179,7 +217,7 @@ export class GratingMaterial extends MeshPhysicalMaterial {
         this.normalShown = normal;
         const details = rowland.preview ? (["coarse"] as const) : (["coarse", "full"] as const);
         for (const detail of details) {
-            this.setPlane(await rowland.plane(this.number, normal.toArray(), this.flatLobe, detail));
+            this.setPlane(await rowland.plane(this.number, normal.toArray(), this.flatLobe, this.pitches, detail));
             this.mapped = true;
             rowland.onUpdate();
         }
@@ -216,7 +254,8 @@ export class GratingMaterial extends MeshPhysicalMaterial {
             this.setLight(await rowland.keyLobes());
         }
         const flat = flatNormal(geometry);
-        const kind = this.representation ?? (flat ? "planar" : "arc");
+        // Tables of vertices do not follow a texture.
+        const kind = this.representation ?? (flat ? "planar" : this.grooveMap ? "direct" : "arc");
         if (kind === "planar" && flat) await this.showPlane(worldNormal(flat, object));
         if (kind === "arc" && !rowland.preview) await this.showArc(geometry, object);
         this.mapped = true;
@@ -239,6 +278,11 @@ export class GratingMaterial extends MeshPhysicalMaterial {
         this.settled = this.settle(geometry, object)
             .catch((error: Error) => this.rowland!.onError(error))
             .finally(() => (this.busy = false));
+    }
+
+    /** Whether reference() shows its grooves: not those of a texture, which vary within a pixel. */
+    get hasReference(): boolean {
+        return this.grooveTexture === undefined;
     }
 
     /** Whether the picture has the light of the probe; maps are coarse at first. */
@@ -283,7 +327,8 @@ export class GratingMaterial extends MeshPhysicalMaterial {
             text.replace(`#include <${chunk}>`, `${before}\n#include <${chunk}>\n${after}`);
         const only = (text: string) => `#ifdef ROWLAND\n${text}\n#endif`;
         shader.vertexShader = put(shader.vertexShader, "common", "",
-            only(`#ifndef USE_TANGENT\nin vec4 tangent;\n#endif\n${VERTEX}`));
+            only("#ifndef USE_TANGENT\nin vec4 tangent;\n#endif\n" +
+                `#if defined(ROWLAND_GROOVE_UV) && !defined(USE_UV1)\nin vec2 uv1;\n#endif\n${VERTEX}`));
         shader.vertexShader = put(shader.vertexShader, "project_vertex", "",
             only("pass_grooves(transformed, objectNormal, tangent, transformedNormal);"));
         let fragment = shader.fragmentShader;

@@ -1,6 +1,6 @@
 import { DataUtils, FloatType, HalfFloatType, type DataTexture, type Texture } from "three";
 import { TaskWorker } from "./task_worker.js";
-import type { ArcTables, Detail, MaterialTables, PlaneMap } from "./tasks.js";
+import type { ArcTables, Detail, MaterialTables, Pitches, PlaneMap } from "./tasks.js";
 
 /** RGB texels of a texture that three's HDR or EXR loader gives, row 0 at the top. */
 export function texelsOf(texture: Texture): { texels: Float32Array; width: number; height: number } {
@@ -30,6 +30,7 @@ type Work = "maps" | "tables" | "truth";
 export class Rowland {
     private readonly workers = new Map<Work, TaskWorker>();
     private readonly json = new Map<number, string>();
+    private rest?: { light: number; sh: Promise<Float32Array> }; // without the key lights
     private referenceImage?: { light: number; sent: Promise<void> };
     /** Called when a picture would be another than before: draw. */
     onUpdate: () => void = () => {};
@@ -89,8 +90,8 @@ export class Rowland {
         return this.worker("maps").run("keyLobes", []);
     }
     /** @internal */
-    plane(id: number, normal: number[], flatLobe: boolean, detail: Detail): Promise<PlaneMap> {
-        return this.worker("maps").run("plane", [id, normal, flatLobe, detail]);
+    plane(id: number, normal: number[], flatLobe: boolean, pitches: Pitches | null, detail: Detail): Promise<PlaneMap> {
+        return this.worker("maps").run("plane", [id, normal, flatLobe, pitches, detail]);
     }
 
     /** @internal */
@@ -99,8 +100,15 @@ export class Rowland {
     }
     /** @internal */
     async products(id: number, bands: number, normals: Float32Array, gratings: Float32Array): Promise<Float32Array> {
-        const sh = await this.worker("maps").run<Float32Array>("restSh", [bands]);
-        return this.worker("tables").run("products", [id, this.json.get(id), bands, sh, normals, gratings], [sh, normals, gratings]);
+        if (this.rest?.light !== this.lightVersion) this.rest = { light: this.lightVersion, sh: this.restSh(bands) };
+        const sh = await this.rest.sh;
+        return this.worker("tables").run("products", [id, this.json.get(id), bands, sh, normals, gratings], [normals, gratings]);
+    }
+
+    private async restSh(bands: number): Promise<Float32Array> {
+        const probe = await this.worker("maps").run<Float32Array>("probeTexels", []);
+        const keys = await this.worker("maps").run<Float32Array>("keyLights", []);
+        return this.worker("tables").run("restSh", [probe, keys, bands], [probe, keys]);
     }
     /** @internal */
     async reference(id: number, points: Float32Array): Promise<Float32Array> {

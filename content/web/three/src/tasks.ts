@@ -21,6 +21,7 @@ export interface PlaneMap {
     readonly e2: number[];
     readonly axes: number[] | null; // lobe_map_axes of a volume
     readonly halfTurn: boolean;
+    readonly pitch: number[] | null; // scale and bias of a volume of pitches
     readonly table: Table;
 }
 
@@ -33,8 +34,14 @@ export interface ArcTables {
 /** Map sizes: what is shown first, then in full. */
 export type Detail = "coarse" | "full";
 
+/** The smallest and the largest that a texture gives, over the material's. */
+export type Pitches = readonly [number, number];
+
 const MOST_TEXELS = 2048;
-const SIZES = { coarse: { flat: 64, azimuths: 64, g: 64, h: 32 }, full: { flat: 256, azimuths: 176, g: 64, h: 64 } };
+const SIZES = {
+    coarse: { flat: 64, azimuths: 64, g: 64, h: 32, pitched: 32, step: 1.1 },
+    full: { flat: 256, azimuths: 176, g: 64, h: 64, pitched: 128, step: 1.03 }, // step: of pitches
+};
 
 function table(width: number, height: number, depth: number, rgb: Float32Array): Table {
     return { width, height, depth, ...packRgb(rgb) };
@@ -97,9 +104,9 @@ export class Tasks {
         return (await this.module("bake")).numbers("key_lobes", this.probe);
     }
 
-    /** Raw SH of the light without its key lights. */
-    async restSh(bands: number): Promise<Float32Array> {
-        return (await this.module("bake")).numbers("rest_sh", this.probe, bands);
+    /** Their directions, fluxes and concentrations: seven numbers each. */
+    async keyLights(): Promise<Float32Array> {
+        return (await this.module("bake")).numbers("key_lights", this.probe);
     }
 
     /** Width, height, then the probe's RGB texels. */
@@ -107,19 +114,24 @@ export class Tasks {
         return (await this.module("bake")).numbers("probe_texels", this.probe);
     }
 
-    async plane(id: number, normal: number[], flatLobe: boolean, detail: Detail): Promise<PlaneMap> {
+    /** `pitches`: null for the material's alone. */
+    async plane(id: number, normal: number[], flatLobe: boolean, pitches: Pitches | null, detail: Detail): Promise<PlaneMap> {
         const bake = await this.module("bake");
         const material = this.baked.get(id)!;
         const [x, y, z] = normal;
         const size = SIZES[detail];
         if (flatLobe) {
-            const map = bake.numbers("planar_map", material, this.probe, x, y, z, size.flat);
+            const views = pitches ? size.pitched : size.flat;
+            const [smallest, largest] = pitches ?? [1, 1];
+            const depth = pitches ? 2 + Math.floor(Math.log(largest / smallest) / Math.log(size.step)) : 1;
+            const map = bake.numbers("planar_map", material, this.probe, x, y, z, views, smallest, largest, depth);
             return {
                 e1: [...map.subarray(0, 3)],
                 e2: [...map.subarray(3, 6)],
                 axes: null,
                 halfTurn: false,
-                table: table(2 * size.flat, size.flat, 1, map.subarray(6)),
+                pitch: pitches ? [...map.subarray(6, 8)] : null,
+                table: table(2 * views, views, depth, map.subarray(8)),
             };
         }
         const map = bake.numbers("lobe_map", material, this.probe, x, y, z, size.azimuths, size.g, size.h);
@@ -128,6 +140,7 @@ export class Tasks {
             e2: [...map.subarray(3, 6)],
             axes: [...map.subarray(6, 10)],
             halfTurn: map[13] === 1,
+            pitch: null,
             table: table(map[10], map[11], map[12], map.subarray(14)),
         };
     }
@@ -155,6 +168,15 @@ export class Tasks {
             layers,
             weights: { width, height, depth: layers, texels: Uint16Array.from(weights, toHalf), scale: 1 },
         };
+    }
+
+    /** Raw SH of the light without its key lights. `probe`: probeTexels(). */
+    async restSh(probe: Float32Array, keys: Float32Array, bands: number): Promise<Float32Array> {
+        const module = await this.module("arc");
+        const address = module.putFloats(keys);
+        const sh = module.numbers("rest_sh", module.putFloats(probe.subarray(2)), probe[0], probe[1], address, keys.length / 7, bands);
+        module.call("give_back", address);
+        return sh;
     }
 
     /** 3 · layers vectors for each vertex. `sh`: restSh(). */

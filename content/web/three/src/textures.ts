@@ -27,9 +27,10 @@ export function arrayTexture(table: Table, repeated = false): DataArrayTexture {
     return texture;
 }
 
-export function volumeTexture(table: Table, repeated: boolean): Data3DTexture {
+export function volumeTexture(table: Table, repeated: { s?: boolean; r?: boolean }): Data3DTexture {
     const texture = filtered(new Data3DTexture(texels(table), table.width, table.height, table.depth));
-    texture.wrapR = repeated ? RepeatWrapping : ClampToEdgeWrapping;
+    texture.wrapS = repeated.s ? RepeatWrapping : ClampToEdgeWrapping;
+    texture.wrapR = repeated.r ? RepeatWrapping : ClampToEdgeWrapping;
     return texture;
 }
 

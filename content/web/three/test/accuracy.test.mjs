@@ -53,19 +53,44 @@ function frames(seed, fixed) {
 }
 
 const TILTED = unit([0.3, 0.8, 0.5]);
+
+/** R and G of a groove texture's texels, one for each point: some turn, and three pitches, which are nodes of its map. */
+const BLAZED = { grating: { pitch_nm: 1300, profile: { type: "blazed", depth_nm: 250 }, orders: [1, 2] } };
+const PITCHES = [102, 128, 160];
+const texelsOf = (points) => points.map((_, i) => [(37 * i) % 256, PITCHES[i % 3]]);
+/** The grooves that a texel makes of a point's. */
+function turned({ view, normal, grating }, [red]) {
+    const angle = (Math.PI * red) / 255;
+    const across = [1, 2, 0].map((a, i) => normal[a] * grating[(a + 1) % 3] - normal[(a + 1) % 3] * grating[a]);
+    return { view, normal, grating: grating.map((x, i) => Math.cos(angle) * x + Math.sin(angle) * across[i]) };
+}
 const CASES = [
     { name: "planar", grating: CD, representation: "planar", frames: frames(1, TILTED), method: "planar/map_resolution=256" },
     { name: "arc", grating: CD, representation: "arc", frames: frames(2), method: "arc/bands=5/rank=12/storage=fp32" },
     { name: "arc, lobe and cover", grating: FOIL, representation: "arc", frames: frames(3),
         method: "arc/bands=5/rank=12/storage=fp32" },
     { name: "direct", grating: CD, representation: "direct", frames: frames(4), method: "direct" },
+    { name: "planar, groove texture", grating: CD, representation: "planar", frames: frames(7, TILTED), grooves: true,
+        method: "planar/map_resolution=128" },
+    { name: "direct, groove texture", grating: BLAZED, representation: "direct", frames: frames(8), grooves: true, method: "direct" },
     { name: "reference", grating: FOIL, representation: "reference", frames: frames(6).slice(0, 20), method: "reference" },
     { name: "direct, lobe and cover", grating: FOIL, representation: "direct", frames: frames(5), method: "direct" },
 ];
 
 const RGB = [[3.2409699, -1.5373832, -0.4986108], [-0.9692436, 1.8759675, 0.0415551], [0.0556301, -0.203977, 1.0569715]];
 
-function evaluate(folder, probe, { grating, frames, method }) {
+function evaluate(folder, probe, { grating, frames, method, grooves }) {
+    if (grooves) {
+        const texels = texelsOf(frames);
+        const expected = [];
+        for (const green of PITCHES) {
+            const pitch_nm = (grating.grating.pitch_nm * 2 * green) / 255;
+            const points = frames.map((_, i) => i).filter((i) => texels[i][1] === green);
+            evaluate(folder, probe, { grating: { ...grating, grating: { ...grating.grating, pitch_nm } }, method,
+                frames: points.map((i) => turned(frames[i], texels[i])) }).forEach((rgb, j) => (expected[points[j]] = rgb));
+        }
+        return expected;
+    }
     const material = join(folder, "material.json");
     const table = join(folder, "frames.csv");
     writeFileSync(material, JSON.stringify(grating));
@@ -104,7 +129,8 @@ for (const probe of ["venice_sunset_256.hdr", "blender_city.exr"])
         try {
             const path = await lossless(join(probes, probe), folder);
             const { results, error } = await resultOf("test/points.html",
-                { probe: "/probe/" + probe, keyLights: KEY_LIGHTS, cases: CASES }, { files: { ["/probe/" + probe]: path } });
+                { probe: "/probe/" + probe, keyLights: KEY_LIGHTS,
+                cases: CASES.map((one) => (one.grooves ? { ...one, texels: texelsOf(one.frames) } : one)) }, { files: { ["/probe/" + probe]: path } });
             assert.equal(error, undefined);
             for (const [i, one] of CASES.entries())
                 await t.test(one.name, () => {

@@ -72,16 +72,16 @@ async function picture() {
     return { url, colour: colour / (data.length / 4) };
 }
 
-function pointer(type, x, y) {
-    document.getElementById("view").dispatchEvent(new PointerEvent(type, { clientX: x, clientY: y, pointerId: 1, bubbles: true }));
+function pointer(type, x, y, buttons = 0) {
+    document.getElementById("view").dispatchEvent(new PointerEvent(type, { clientX: x, clientY: y, buttons, pointerId: 1, bubbles: true }));
 }
+const pose = () => JSON.parse(document.documentElement.dataset.pose);
 
 const devtools = async (method, params) => (await fetch("/devtools", { method: "POST", body: JSON.stringify({ method, params }) })).json();
 /** Fingers along straight lines: [x, y] where each begins and ends. */
 async function swipe(fingers) {
     const touch = (type, touchPoints) => devtools("Input.dispatchTouchEvent", { type, touchPoints });
     const at = (part) => fingers.map(([from, to], id) => ({ id, x: from[0] + part * (to[0] - from[0]), y: from[1] + part * (to[1] - from[1]) }));
-    const pose = () => JSON.parse(document.documentElement.dataset.pose);
     const before = pose();
     const drawn = frames();
     await touch("touchStart", at(0));
@@ -105,6 +105,18 @@ async function touches() {
     };
 }
 
+/** The names in the cabinet, and the pose before and after a drag of its record. */
+async function turnedRecord() {
+    const record = [innerWidth * 0.31, innerHeight * 0.4];
+    const before = pose();
+    const drawn = frames();
+    pointer("pointerdown", ...record);
+    pointer("pointermove", record[0] + 50, record[1], 1);
+    pointer("pointerup", record[0] + 50, record[1]);
+    await until("a frame after the drag", () => frames() > drawn);
+    return { pieces: [...document.getElementById("sample").options].map(({ text }) => text), before, after: pose() };
+}
+
 async function visit() {
     const result = { errors, pictures: {} };
     const show = async (name) => (result.pictures[name] = await picture());
@@ -113,6 +125,7 @@ async function visit() {
     // Every flat sample; the ball's table takes seconds.
     await until("the first light", () => Number(document.documentElement.dataset.lit) >= 4);
     result.firstLight = performance.now();
+    if (limits.has("cabinet")) return post({ ...result, ...(await turnedRecord()) });
     if (limits.has("touch")) return post({ ...result, touches: await touches() });
     await settled();
     result.settled = performance.now() - 1000;

@@ -17,7 +17,7 @@ class PointMaterial extends GratingMaterial {
 
 /** A quad for each frame, seen from the origin. */
 function geometry(frames) {
-    const arrays = { position: [], normal: [], tangent: [], place: [] };
+    const arrays = { position: [], normal: [], tangent: [], place: [], uv: [] };
     const count = frames.length;
     frames.forEach(({ view, normal, grating }, i) => {
         for (const [x, y] of [[0, -1], [1, -1], [1, 1], [0, -1], [1, 1], [0, 1]]) {
@@ -25,10 +25,11 @@ function geometry(frames) {
             arrays.normal.push(...normal);
             arrays.tangent.push(...grating, 1);
             arrays.place.push((2 * (i + x)) / count - 1, y);
+            arrays.uv.push((i + 0.5) / count, 0.5);
         }
     });
     const result = new THREE.BufferGeometry();
-    const sizes = { position: 3, normal: 3, tangent: 4, place: 2 };
+    const sizes = { position: 3, normal: 3, tangent: 4, place: 2, uv: 2 };
     for (const [name, size] of Object.entries(sizes))
         result.setAttribute(name, new THREE.Float32BufferAttribute(arrays[name], size));
     return result;
@@ -42,10 +43,18 @@ async function reference(rowland, { grating, frames }) {
     return frames.map((_, i) => [...radiance.subarray(3 * i, 3 * i + 3)]);
 }
 
-async function radiance(renderer, rowland, { grating, representation, frames, lamp }) {
+/** A texel for each point. */
+function grooveTexture(texels) {
+    const texture = new THREE.DataTexture(Uint8Array.from(texels.flatMap(([red, green]) => [red, green, 0, 255])), texels.length, 1);
+    texture.magFilter = THREE.LinearFilter;
+    return texture;
+}
+
+async function radiance(renderer, rowland, { grating, representation, frames, lamp, texels }) {
     const scene = new THREE.Scene();
     const camera = new THREE.PerspectiveCamera();
-    const material = new PointMaterial({ rowland, grating, representation, side: THREE.DoubleSide });
+    const material = new PointMaterial({ rowland, grating, representation, grooveTexture: texels && grooveTexture(texels),
+        side: THREE.DoubleSide });
     material.defines.ROWLAND_UNCOMPRESSED = "1";
     if (lamp) {
         const light = new THREE.DirectionalLight(new THREE.Color(...lamp.flux), 1);

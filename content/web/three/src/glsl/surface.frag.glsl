@@ -4,6 +4,10 @@
 #include "engine/gpu/shaders/dialect.glsl"
 in vec3 world_position;
 in vec3 world_normal;
+#ifdef ROWLAND_GROOVE_UV
+in vec2 groove_uv;
+#define GROOVE_MAP groove_uv
+#endif
 #define eye cameraPosition
 uniform mat3 xyz_to_working;  // linear Rec.709
 uniform vec3 mirror_weight;
@@ -22,41 +26,85 @@ uniform float light_scale;  // of the probe
 
 GrooveView lit_view;
 vec3 lit_sum;  // of three's lights
+#ifdef GROOVE_MAP
+int lit_parts;  // of a pixel whose grooves vary
+#else
+const int lit_parts = 1;
+#endif
 
 void prepare_grooves() {
     lit_view = groove_view();
     lit_sum = vec3(0.0);
+#ifdef GROOVE_MAP
+    lit_parts = groove_parts(lit_view);
+#endif
+}
+
+GrooveView lit_part(int part) {
+#ifdef GROOVE_MAP
+    GrooveView view = groove_part(lit_view, lit_parts, part);
+    if (view.pitch <= 0.0) view.direction.z = 0.0;  // no grating: as from below
+    return view;
+#else
+    return lit_view;
+#endif
+}
+
+float coverage_of(GrooveView view) {
+#ifdef GROOVE_MAP
+    return view.coverage / float(lit_parts);
+#else
+    return 1.0;
+#endif
+}
+
+vec3 lamp_radiance(GrooveView view, PixelU u, vec3 s, vec3 irradiance) {
+    if (view.direction.z <= 0.0) return vec3(0.0);
+    float above = max(dot(s, view.axes[2]), 0.0);
+    vec3 factor = 0.5 * above * cover_transmittance(above) *
+                  groove_factor(dot(s, view.axes[1]) + view.direction.y);
+    return kernel_to_working(factor * pitch_kernel_value(u.mean, deviation_of(u), irradiance, view.pitch));
 }
 
 // A light of three. `s`: toward it, in the world; `irradiance`: on a surface that faces it.
 void add_lamp(vec3 s, vec3 irradiance) {
-    PixelU u = pixel_u_of(lit_view, s);
-    float above = lit_view.direction.z > 0.0 ? max(dot(s, lit_view.axes[2]), 0.0) : 0.0;
-    vec3 factor = 0.5 * above * cover_transmittance(above) *
-                  groove_factor(dot(s, lit_view.axes[1]) + lit_view.direction.y);
-    lit_sum += kernel_to_working(factor * pitch_kernel_value(u.mean, deviation_of(u), irradiance, 1.0));
+#ifdef GROOVE_MAP
+    MeshU mesh = mesh_u_of(lit_view, s);
+    for (int part = 0; part < lit_parts; ++part) {
+        GrooveView view = lit_part(part);
+        lit_sum += coverage_of(view) * lamp_radiance(view, turned_pixel_u(view, mesh), s, irradiance);
+    }
+#else
+    lit_sum += lamp_radiance(lit_view, pixel_u_of(lit_view, s), s, irradiance);
+#endif
 }
 
-vec3 probe_radiance() {
-    if (lit_view.direction.z <= 0.0) return vec3(0.0);
+vec3 probe_radiance(GrooveView view) {
+    if (view.direction.z <= 0.0) return vec3(0.0);
     vec3 sum = vec3(0.0);
 #if defined(ROWLAND_PLANAR) && defined(LOBE_MAP)
-    sum += map_radiance(lit_view.direction.xy, lit_view.axes[0]);
+    sum += map_radiance(view.direction.xy, view.axes[0]);
+#elif defined(ROWLAND_PLANAR) && defined(PITCH_AXIS)
+    sum += map_radiance_of_pitch(view.direction.x, view.axes[0], view.pitch);
 #elif defined(ROWLAND_PLANAR)
-    sum += map_radiance(lit_view.direction.x, lit_view.axes[0], lit_view.axes[2]);
+    sum += map_radiance(view.direction.x, view.axes[0], view.axes[2]);
 #endif
 #ifdef ROWLAND_ARC
-    sum += arc_radiance(lit_view);
+    sum += arc_radiance(view);
 #endif
 #ifdef KEY_LOBES
-    sum += kernel_to_working(key_lights_radiance(lit_view));
+    sum += kernel_to_working(key_lights_radiance(view));
 #endif
     return light_scale * sum;
 }
 
 // `base`: what the layer under the grooves reflects; `mirrored`: the environment in the mirror direction.
 vec3 grating_surface(vec3 base, vec3 mirrored) {
-    vec3 diffracted = probe_radiance() + lit_sum;
+    vec3 diffracted = lit_sum;
+    for (int part = 0; part < lit_parts; ++part) {
+        GrooveView view = lit_part(part);
+        diffracted += coverage_of(view) * probe_radiance(view);
+    }
     float passed = cover_transmittance(abs(lit_view.direction.z));
 #ifdef ROWLAND_DIFFRACTION_ONLY
     return passed * diffracted;

@@ -3,6 +3,10 @@ out vec3 world_position;
 out vec3 world_normal;
 out vec3 world_grating;
 uniform vec2 groove_turn;  // cosine and sine
+#ifdef ROWLAND_GROOVE_UV
+out vec2 groove_uv;
+out float groove_hand;
+#endif
 #ifdef ROWLAND_ARC
 #include "engine/gpu/shaders/dialect.glsl"
 STORAGE(4, ArcProducts, vec4, vertex_products);
@@ -21,6 +25,10 @@ void pass_grooves(vec3 position, vec3 normal, vec4 tangent, vec3 normal_in_view)
     vec3 g = mat3(modelMatrix) * across;
     vec3 h = cross(world_normal, g) * tangent.w;
     world_grating = groove_turn.x * g + groove_turn.y * h;
+#ifdef ROWLAND_GROOVE_UV
+    groove_uv = ROWLAND_GROOVE_UV;
+    groove_hand = tangent.w;
+#endif
 #ifdef ROWLAND_ARC
     for (int i = 0; i < 3 * LAYERS; ++i) arc_products[i] = STORED_VEC4(vertex_products, gl_VertexID * 3 * LAYERS + i);
 #endif

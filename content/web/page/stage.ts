@@ -1,0 +1,106 @@
+import {
+    Color, Group, Mesh, MeshBasicMaterial, MeshStandardMaterial, PlaneGeometry, Vector3, type BufferGeometry,
+    type Light, type Material, type Object3D,
+} from "three";
+import { DRACOLoader } from "three/examples/jsm/loaders/DRACOLoader.js";
+import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
+import { GratingExtension, GratingMaterial, type Rowland } from "@rowland/three";
+import type { Settings } from "./address.js";
+import { SAMPLES } from "./samples.js";
+
+export type GratingMesh = Mesh<BufferGeometry, GratingMaterial>;
+
+/** A thing with a grating. */
+export interface Piece {
+    name: string;
+    /** What a hand turns, about its y axis. */
+    handle: Object3D;
+    meshes: GratingMesh[];
+    /** Its grating before a slider has moved. */
+    given: object;
+    /** The same in the present. */
+    grating: object;
+}
+
+/** What the page shows, and whence. */
+export interface Stage {
+    objects: Object3D;
+    pieces: Piece[];
+    eye: Vector3;
+    target: Vector3;
+    nearest: number;
+    farthest: number;
+}
+
+export const materialsOf = (piece: Piece) => [...new Set(piece.meshes.map(({ material }) => material))];
+
+export function samples(rowland: Rowland, bent: Settings): Stage {
+    const objects = new Group();
+    const ground = new Mesh(new PlaneGeometry(0.6, 0.6).rotateX(-Math.PI / 2), new MeshStandardMaterial({ color: 0x222326, roughness: 0.9 }));
+    ground.position.y = -0.004;
+    objects.add(ground);
+    const pieces = SAMPLES.map(({ geometry, position, name, material }) => {
+        const own = name === (bent.sample ?? SAMPLES[0].name) ? bent : undefined;
+        const grating = own?.material ?? material;
+        const mesh = new Mesh(geometry(), new GratingMaterial({ rowland, grating, representation: own?.representation }));
+        mesh.position.set(...position);
+        objects.add(mesh);
+        return { name, handle: mesh, meshes: [mesh], given: material, grating };
+    });
+    return { objects, pieces, eye: new Vector3(0.08, 0.24, 0.33), target: new Vector3(0.04, 0.0, 0.045), nearest: 0.12, farthest: 1.5 };
+}
+
+/** The outermost object around it that may be turned. */
+function handleOf(mesh: Object3D): Object3D {
+    let handle = mesh;
+    for (let at: Object3D | null = mesh; at; at = at.parent) if (at.userData.grab) handle = at;
+    return handle;
+}
+
+/** The demo's cabinet. */
+export async function cabinet(rowland: Rowland): Promise<Stage> {
+    const draco = new DRACOLoader().setDecoderPath("draco/").setWorkerLimit(1);
+    const loader = new GLTFLoader().setDRACOLoader(draco).register((parser) => new GratingExtension(parser, rowland));
+    const { scene } = await loader.loadAsync("cabinet.glb");
+    draco.dispose();
+    const byHandle = new Map<Object3D, Piece>();
+    scene.traverse((object) => {
+        if ((object as Light).isLight) object.visible = false; // the panel has one
+        const mesh = object as GratingMesh;
+        if (!mesh.isMesh || !mesh.material.isGratingMaterial) return;
+        const handle = handleOf(mesh);
+        const piece = byHandle.get(handle);
+        const grating = mesh.material.grating!;
+        if (piece) piece.meshes.push(mesh);
+        else byHandle.set(handle, { name: handle.name.replaceAll("_", " "), handle, meshes: [mesh], given: grating, grating });
+    });
+    return {
+        objects: scene, pieces: [...byHandle.values()], eye: new Vector3(0.02, 1.36, 0.98), target: new Vector3(0.02, 0.97, -0.03),
+        nearest: 0.15, farthest: 3,
+    };
+}
+
+/** What has no ground truth: black while that is shown. */
+export class Rest {
+    private readonly given: { mesh: Mesh; material: Material | Material[] }[] = [];
+    private readonly black = new MeshBasicMaterial({ color: new Color(0) });
+
+    constructor(objects: Object3D) {
+        objects.traverse((object) => {
+            const mesh = object as Mesh<BufferGeometry, Material>;
+            if (mesh.isMesh && !hasReference(mesh)) this.given.push({ mesh, material: mesh.material });
+        });
+    }
+
+    show(on: boolean): void {
+        for (const { mesh, material } of this.given) {
+            mesh.material = on ? this.black : material;
+            mesh.visible = on ? !(material as Material).transparent : true;
+        }
+    }
+}
+
+export function hasReference(mesh: Mesh): boolean {
+    const material = mesh.material as Partial<GratingMaterial>;
+    return material.isGratingMaterial === true && material.hasReference === true;
+}

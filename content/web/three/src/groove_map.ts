@@ -1,0 +1,113 @@
+import { DataTexture, DataUtils, HalfFloatType, LinearFilter, LinearMipmapLinearFilter, NearestFilter, RGBAFormat, type Texture } from "three";
+import { toHalf } from "./half.js";
+
+/**
+ * What groove_view.glsl reads of a groove texture (R: rotation / π, G: half the pitch over the material's; 0: no grating):
+ * the moments of modules/diffraction/runtime/groove_moments.h, as halves and what these round off.
+ */
+export interface GrooveMap {
+    readonly moments: DataTexture;
+    readonly rest: DataTexture;
+    /** Of the pitches, over the material's. */
+    readonly smallest: number;
+    readonly largest: number;
+    readonly gaps: boolean;
+}
+
+interface Level {
+    width: number;
+    height: number;
+    data: Float32Array; // RGBA
+}
+
+/** RGBA bytes, the row at v = 0 first. */
+function bytesOf(texture: Texture): { data: ArrayLike<number>; width: number; height: number } {
+    const image = texture.image as { data?: Uint8Array; width: number; height: number };
+    const { width, height } = image;
+    let { data } = image as { data?: ArrayLike<number> };
+    if (!data) {
+        const context = new OffscreenCanvas(width, height).getContext("2d", { willReadFrequently: true })!;
+        context.drawImage(image as never, 0, 0);
+        data = context.getImageData(0, 0, width, height).data;
+    }
+    if (data.length !== 4 * width * height) throw new Error("grooveTexture: expected a texture of RGBA bytes");
+    if (!texture.flipY) return { data, width, height };
+    const flipped = new Uint8Array(data.length);
+    for (let row = 0; row < height; ++row)
+        for (let i = 0; i < 4 * width; ++i) flipped[4 * width * row + i] = data[4 * width * (height - 1 - row) + i];
+    return { data: flipped, width, height };
+}
+
+/** Half as wide and high, rounded down; linear between the centres of texels. */
+function halved({ width, height, data }: Level): Level {
+    const to = { width: Math.max(1, width >> 1), height: Math.max(1, height >> 1) };
+    const half = new Float32Array(4 * to.width * to.height);
+    const between = (i: number, count: number, from: number) => {
+        const at = Math.max(((i + 0.5) * from) / count - 0.5, 0);
+        const low = Math.floor(at);
+        return { low, high: Math.min(low + 1, from - 1), weight: at - low };
+    };
+    for (let row = 0; row < to.height; ++row) {
+        const y = between(row, to.height, height);
+        for (let column = 0; column < to.width; ++column) {
+            const x = between(column, to.width, width);
+            for (let c = 0; c < 4; ++c) {
+                const inRow = (v: number) => {
+                    const left = data[4 * (v * width + x.low) + c];
+                    return left + x.weight * (data[4 * (v * width + x.high) + c] - left);
+                };
+                const low = inRow(y.low);
+                half[4 * (row * to.width + column) + c] = low + y.weight * (inRow(y.high) - low);
+            }
+        }
+    }
+    return { ...to, data: half };
+}
+
+function momentsOf(bytes: ArrayLike<number>, even: boolean, gaps: boolean, smallest: number): Float32Array {
+    const moments = new Float32Array(bytes.length);
+    for (let i = 0; i < bytes.length; i += 4) {
+        const [red, green] = [bytes[i], bytes[i + 1]];
+        moments.fill(0.5, i, i + 2);
+        if (green === 0) continue;
+        const angle = ((even ? 2 : 1) * Math.PI * red) / 255;
+        const inverse = smallest / ((2 * green) / 255);
+        moments[i] += 0.5 * Math.cos(angle);
+        moments[i + 1] += 0.5 * Math.sin(angle);
+        moments[i + 2] = inverse;
+        moments[i + 3] = gaps ? 1 : inverse * inverse;
+    }
+    return moments;
+}
+
+function texture(levels: Level[], texel: (value: number) => number, nearest: boolean, like: Texture): DataTexture {
+    const mipmaps = levels.map(({ width, height, data }) => ({ width, height, data: Uint16Array.from(data, texel) }));
+    const result = new DataTexture(mipmaps[0].data, mipmaps[0].width, mipmaps[0].height, RGBAFormat, HalfFloatType);
+    if (levels.length > 1) result.mipmaps = mipmaps as never;
+    result.wrapS = like.wrapS;
+    result.wrapT = like.wrapT;
+    result.magFilter = nearest ? NearestFilter : LinearFilter;
+    result.minFilter = nearest ? NearestFilter : LinearMipmapLinearFilter;
+    result.needsUpdate = true;
+    return result;
+}
+
+/** `even`: whether the material's kernel is; `sparkle`: a pixel shows the grooves of one texel. */
+export function grooveMap(from: Texture, even: boolean, sparkle: boolean): GrooveMap {
+    const { data: bytes, width, height } = bytesOf(from);
+    const greens = new Set<number>();
+    for (let i = 1; i < bytes.length; i += 4) greens.add(bytes[i]);
+    const gaps = greens.delete(0);
+    const factors = [...greens].map((green) => (2 * green) / 255);
+    const [smallest, largest] = factors.length > 0 ? [Math.min(...factors), Math.max(...factors)] : [1, 1];
+    const nearest = sparkle || from.magFilter === NearestFilter;
+    const levels: Level[] = [{ width, height, data: momentsOf(bytes, even, gaps, smallest) }];
+    for (let last = levels[0]; !nearest && last.width * last.height > 1; levels.push(last)) last = halved(last);
+    return {
+        moments: texture(levels, toHalf, nearest, from),
+        rest: texture(levels, (value) => toHalf(value - DataUtils.fromHalfFloat(toHalf(value))), nearest, from),
+        smallest,
+        largest,
+        gaps,
+    };
+}
