@@ -129,8 +129,8 @@ TEST(MaterialJson, EveryRepresentationTakesItsSettings) {
     EXPECT_EQ(planar.size.views, 63);
     EXPECT_EQ(planar.size.azimuths, 126);
     const auto circle = std::get<CircleSettings>(pinned(R"({"representation": "circle", "map_resolution": 31})"));
-    EXPECT_EQ(circle.size.side, 32);  // even, as level 1 has half
-    EXPECT_EQ(circle.size.views, 64);
+    EXPECT_EQ(circle.size.side, 31);
+    EXPECT_EQ(circle.size.views, 62);
     EXPECT_TRUE(std::holds_alternative<DirectSettings>(pinned(R"({"representation": "direct"})")));
     const auto spikes = std::get<SpikeTableSettings>(
         pinned(R"({"representation": "spikes", "view_mapping": "one-dimensional", "view_resolution": 100})"));
