@@ -15,8 +15,9 @@ struct FormatFacts {
     int bytes;
 };
 
-constexpr std::array<FormatFacts, 10> kFormats = {{{Format::RGBA8, GL_RGBA8, 4},
+constexpr std::array<FormatFacts, 11> kFormats = {{{Format::RGBA8, GL_RGBA8, 4},
                                                    {Format::SRGB8_A8, GL_SRGB8_ALPHA8, 4},
+                                                   {Format::RGB10_A2, GL_RGB10_A2, 4},
                                                    {Format::RGBA16, GL_RGBA16, 8},
                                                    {Format::RG16F, GL_RG16F, 4},
                                                    {Format::RGBA16F, GL_RGBA16F, 8},

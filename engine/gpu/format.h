@@ -4,10 +4,11 @@
 
 namespace rowland::gpu {
 
-/// Texel formats of textures and framebuffers. 8 and 16 without a suffix are unsigned normalised.
+/// Texel formats of textures and framebuffers. 8, 10 and 16 without a suffix are unsigned normalised.
 enum class Format {
     RGBA8,
     SRGB8_A8,
+    RGB10_A2,
     RGBA16,
     RG16F,
     RGBA16F,

@@ -108,7 +108,11 @@ void Texture::upload_typed(const void* data, std::size_t count, GLenum type, Tex
     ROWLAND_CHECK(count % texel_count == 0 && count / texel_count >= 1 && count / texel_count <= 4,
                   fmt::format("{} values do not fill {} texels", count, texel_count));
     constexpr std::array<GLenum, 4> layouts{GL_RED, GL_RG, GL_RGB, GL_RGBA};
-    const GLenum layout = desc_.format == Format::Depth32F ? GL_DEPTH_COMPONENT : layouts[count / texel_count - 1];
+    upload_area(data, desc_.format == Format::Depth32F ? GL_DEPTH_COMPONENT : layouts[count / texel_count - 1], type,
+                slice);
+}
+
+void Texture::upload_area(const void* data, GLenum layout, GLenum type, TextureSlice slice) {
     const glm::ivec2 area = size(slice.level);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     switch (desc_.kind) {
@@ -141,6 +145,12 @@ void Texture::upload(std::span<const std::uint16_t> data, TextureSlice slice) {
         ROWLAND_CHECK_OP(data.size_bytes(), ==,
                          texels(slice) * static_cast<std::size_t>(bytes_per_texel(desc_.format)));
     upload_typed(data.data(), data.size(), is_half ? GL_HALF_FLOAT : GL_UNSIGNED_SHORT, slice);
+}
+
+void Texture::upload(std::span<const std::uint32_t> data, TextureSlice slice) {
+    ROWLAND_CHECK(desc_.format == Format::RGB10_A2, "packed texels are RGB10_A2's");
+    ROWLAND_CHECK_OP(data.size(), ==, texels(slice));
+    upload_area(data.data(), GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV, slice);
 }
 
 void Texture::upload(std::span<const glm::vec3> data, TextureSlice slice) {

@@ -62,6 +62,8 @@ class Texture {
     void upload(std::span<const float> data, TextureSlice slice = {});
     void upload(std::span<const std::uint8_t> data, TextureSlice slice = {});
     void upload(std::span<const std::uint16_t> data, TextureSlice slice = {});
+    /// A texel of RGB10_A2 each: red in the lowest ten bits.
+    void upload(std::span<const std::uint32_t> data, TextureSlice slice = {});
     void upload(std::span<const glm::vec3> data, TextureSlice slice = {});
     void upload(std::span<const glm::vec4> data, TextureSlice slice = {});
 
@@ -88,6 +90,7 @@ class Texture {
         void operator()(GLuint name) const;
     };
     void upload_typed(const void* data, std::size_t count, GLenum type, TextureSlice slice);
+    void upload_area(const void* data, GLenum layout, GLenum type, TextureSlice slice);
     std::size_t texels(TextureSlice slice) const;
 
     Handle<Release> handle_;

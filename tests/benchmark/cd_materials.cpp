@@ -14,7 +14,7 @@ std::vector<TimedRepresentation> timed_representations() {
          {{"representation", "planar"}, {"map_resolution", 128}},
          true,
          {{"pits", {{"length_nm", 850}, {"coherent", 0.3}}}}},
-        {"circle", {{"representation", "circle"}, {"map_resolution", 112}}, true},
+        {"circle", {{"representation", "circle"}, {"map_resolution", 104}}, true},
         {"streak", {{"representation", "streak"}}, false, {{"sigma", 0.05}}},
         {"direct", {{"representation", "direct"}}},
     };

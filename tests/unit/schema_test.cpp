@@ -106,12 +106,11 @@ bool crosses_quality(const json& document) {
     const bool view = flat ? name == "arc" && !along_one_axis : quality.contains("view_mapping") && along_one_axis;
     const bool map = flat ? quality.contains("views_h")
                           : name == "circle" || (name == "planar" && quality.value("map_resolution", 128) > 256);
-    const bool multiples = quality.value("angle_multiples", 2) > 4 && !document.contains("cover");
     const bool narrow = !flat && document["grating"]["groove_lobe"].value("/pits/coherent"_json_pointer, 1.0) > 0.0;
     const bool streak = name == "streak" && !narrow;
     const int bands = quality.value("bands", 5);
     const bool layers = quality.value("spikes", quality.value("bins", 1)) * (bands * bands + 4) / 4 > 2048;
-    return view || map || multiples || layers || streak;
+    return view || map || layers || streak;
 }
 
 /// What a cell's sides forbid each other, its profile and its orders.

@@ -86,10 +86,9 @@ void KernelCells::correlate(std::span<const float> light, std::span<float> xyz) 
     sharpen(xyz, std::size_t{3} * kLanes);
 }
 
-template void KernelCells::correlate<8>(std::span<const float> light, std::span<float> xyz) const;
-template void KernelCells::correlate<16>(std::span<const float> light, std::span<float> xyz) const;
 template void KernelCells::correlate<20>(std::span<const float> light, std::span<float> xyz) const;
-template void KernelCells::correlate<24>(std::span<const float> light, std::span<float> xyz) const;
+template void KernelCells::correlate<40>(std::span<const float> light, std::span<float> xyz) const;
+template void KernelCells::correlate<48>(std::span<const float> light, std::span<float> xyz) const;
 
 void KernelCells::correlate_rgb(std::span<const float> light, std::span<float> xyz) const {
     for (int view = 0; view < views_; ++view) {

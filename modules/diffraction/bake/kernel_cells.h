@@ -26,7 +26,7 @@ class KernelCells {
     int cells() const { return cells_; }
 
     /// `light`: ½ flux · s_n in cells of a, 3·kLanes floats per cell: red of kLanes independent profiles, then green,
-    /// then blue. `xyz` gets 3·kLanes floats per view, likewise, for linear interpolation. kLanes is 8, 16, 20 or 24.
+    /// then blue. `xyz` gets 3·kLanes floats per view, likewise, for linear interpolation. kLanes is 20, 40 or 48.
     template <int kLanes>
     void correlate(std::span<const float> light, std::span<float> xyz) const;
 

@@ -13,6 +13,7 @@ inline constexpr unsigned kWavelengthTableUnit = 9;
 inline constexpr unsigned kKernelUnit = 10;
 inline constexpr int kFirstColourLayer = 3;  ///< of the kernel's texture
 inline constexpr unsigned kMapUnit = 11;
+inline constexpr unsigned kSecondMapUnit = 9;     ///< of `circle`
 inline constexpr unsigned kVertexLightUnit = 12;  ///< of representations without storage
 inline constexpr unsigned kGrooveMapUnit = 13;
 inline constexpr unsigned kLobeUnit = 14;

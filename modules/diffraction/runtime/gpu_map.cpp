@@ -28,17 +28,17 @@ float largest_component(std::span<const glm::vec4> values) {
     return largest_of(values);
 }
 
-GpuMap::GpuMap(gpu::TextureDesc desc, const gpu::Sampling& sampling, float scale, GpuMap spare) : scale_(scale) {
-    desc.format = gpu::Format::RGBA16F;
+GpuMap::GpuMap(const gpu::TextureDesc& desc, const gpu::Sampling& sampling, float scale, GpuMap spare) : scale_(scale) {
     const gpu::TextureDesc& old = spare.texture_.desc();
-    const bool fits = spare.texture_.id() != 0 && old.kind == desc.kind && old.width == desc.width &&
-                      old.height == desc.height && old.depth == desc.depth && old.levels == desc.levels;
+    const bool fits = spare.texture_.id() != 0 && old.kind == desc.kind && old.format == desc.format &&
+                      old.width == desc.width && old.height == desc.height && old.depth == desc.depth &&
+                      old.levels == desc.levels;
     texture_ = fits ? std::move(spare.texture_) : gpu::Texture(desc, sampling);
 }
 
-void GpuMap::bind(const gpu::Program& program) const {
-    texture_.bind(kMapUnit);
-    program.set("map_scale", scale_);
+void GpuMap::bind(const gpu::Program& program, bool second) const {
+    texture_.bind(second ? kSecondMapUnit : kMapUnit);
+    program.set(second ? "second_map_scale" : "map_scale", scale_);
 }
 
 }  // namespace rowland::diffraction

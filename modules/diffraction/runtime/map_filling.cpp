@@ -1,5 +1,7 @@
 #include "modules/diffraction/runtime/map_filling.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <limits>
 #include <utility>
 
@@ -56,16 +58,22 @@ void MapFilling::want(const MapInput& input, const std::shared_ptr<const FillMap
 }
 
 void MapFilling::begin_upload(Filled filled) {
-    upload_.emplace(std::move(filled.map->texels), std::exchange(spare_, {}));
+    spare_.resize(2);
+    uploads_.clear();
+    uploads_.emplace_back(std::move(filled.map->texels), std::move(spare_[0]));
+    if (filled.map->second) uploads_.emplace_back(std::move(*filled.map->second), std::move(spare_[1]));
+    spare_.clear();
     uploading_ = std::move(filled);
 }
 
 void MapFilling::upload(int slices) {
     // A coarse map is small.
-    if (!upload_ || !upload_->upload(uploading_->detail == MapDetail::Full ? slices : kAllSlices)) return;
-    if (map_) spare_ = std::move(*map_);
-    map_ = upload_->take();
-    upload_.reset();
+    const int wanted = uploading_ && uploading_->detail == MapDetail::Full ? slices : kAllSlices;
+    if (uploads_.empty() || !std::ranges::all_of(uploads_, [&](MapUpload& part) { return part.upload(wanted); }))
+        return;
+    spare_ = std::exchange(map_, {});
+    for (MapUpload& part : uploads_) map_.push_back(part.take());
+    uploads_.clear();
     shown_ = std::exchange(uploading_, std::nullopt);
     ++maps_shown_;
 }
@@ -92,7 +100,7 @@ void MapFilling::update(const MapInput& input, const std::shared_ptr<const FillM
 }
 
 void MapFilling::bind(const gpu::Program& program) const {
-    map_->bind(program);
+    for (std::size_t i = 0; i < map_.size(); ++i) map_[i].bind(program, i > 0);
     if (shown_->map->set_uniforms) shown_->map->set_uniforms(program);
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <stop_token>
+#include <vector>
 
 #include "engine/core/computed.h"
 #include "engine/gpu/program.h"
@@ -33,6 +34,7 @@ enum class MapDetail { Coarse, Full };
 /// A map on its way to the GPU.
 struct FilledMap {
     MapTexels texels;
+    std::optional<MapTexels> second{};                      ///< of maps in two textures
     std::function<void(const gpu::Program&)> set_uniforms;  ///< besides GpuMap's
 };
 
@@ -47,7 +49,7 @@ class MapFilling {
     void update(const MapInput& input, const std::shared_ptr<const FillMap>& fill, MapPace pace);
 
     /// Some map is shown.
-    bool has_map() const { return map_.has_value(); }
+    bool has_map() const { return !map_.empty(); }
     /// The full map of the last input is shown.
     bool is_complete() const { return shown_ && shown_->detail == MapDetail::Full && shown_->input == wanted_; }
     /// There must be a map.
@@ -73,10 +75,10 @@ class MapFilling {
 
     std::optional<MapInput> wanted_;
     Filling filling_;
-    std::optional<MapUpload> upload_;  ///< of uploading_
+    std::vector<MapUpload> uploads_;  ///< of uploading_, one per texture
     std::optional<Filled> uploading_;
-    std::optional<GpuMap> map_;
-    GpuMap spare_;                 ///< the map before it, whose texture the next one of its size takes
+    std::vector<GpuMap> map_;      ///< one per texture
+    std::vector<GpuMap> spare_;    ///< the map before it, whose textures the next one of its size takes
     std::optional<Filled> shown_;  ///< what map_ is
     int fills_begun_ = 0;
     int maps_shown_ = 0;

@@ -54,28 +54,48 @@ MapTexels pack(std::span<const std::vector<glm::vec4>> levels, gpu::TextureDesc 
     return packed(levels, desc, sampling);
 }
 
+MapTexels pack_ten_bits(std::span<const glm::vec3> values, gpu::TextureDesc desc, const gpu::Sampling& sampling) {
+    desc.format = gpu::Format::RGB10_A2;
+    MapTexels texels{.desc = desc, .sampling = sampling, .scale = largest_component(values)};
+    texels.ten_bits.resize(values.size());
+    parallel_for((values.size() + kTexelsPerTask - 1) / kTexelsPerTask, [&](std::size_t task) {
+        const std::size_t end = std::min(values.size(), (task + 1) * kTexelsPerTask);
+        for (std::size_t i = task * kTexelsPerTask; i < end; ++i)
+            texels.ten_bits[i] = glm::packUnorm3x10_1x2(glm::vec4(0.5F + 0.5F * values[i] / texels.scale, 1.0F));
+    });
+    return texels;
+}
+
 MapUpload::MapUpload(MapTexels texels, GpuMap spare)
     : texels_(std::move(texels)), map_(texels_.desc, texels_.sampling, texels_.scale, std::move(spare)) {}
 
+template <typename Word>
+void MapUpload::upload_slices(std::span<const Word> words, int count) {
+    const std::size_t slice = words.size() / static_cast<std::size_t>(std::max(1, texels_.desc.depth >> level_));
+    map_.upload(words.subspan(static_cast<std::size_t>(slice_) * slice, static_cast<std::size_t>(count) * slice),
+                {.level = static_cast<int>(level_), .layer = slice_, .layers = count});
+}
+
 bool MapUpload::upload(int slices) {
-    for (int left = std::max(1, slices); left > 0 && level_ < texels_.levels.size();) {
-        const std::span<const std::uint16_t> halves = texels_.levels[level_];
+    const auto levels = static_cast<std::size_t>(texels_.desc.levels);
+    for (int left = std::max(1, slices); left > 0 && level_ < levels;) {
         const int depth = std::max(1, texels_.desc.depth >> level_);
-        const std::size_t slice = halves.size() / static_cast<std::size_t>(depth);
         const int count = std::min(left, depth - slice_);
-        map_.upload(halves.subspan(static_cast<std::size_t>(slice_) * slice, static_cast<std::size_t>(count) * slice),
-                    {.level = static_cast<int>(level_), .layer = slice_, .layers = count});
+        if (texels_.levels.empty())
+            upload_slices(std::span<const std::uint32_t>(texels_.ten_bits), count);
+        else
+            upload_slices(std::span<const std::uint16_t>(texels_.levels[level_]), count);
         left -= count;
         slice_ += count;
         if (slice_ < depth) break;
         slice_ = 0;
         ++level_;
     }
-    return level_ == texels_.levels.size();
+    return level_ == levels;
 }
 
 GpuMap MapUpload::take() {
-    ROWLAND_CHECK_OP(level_, ==, texels_.levels.size());
+    ROWLAND_CHECK_OP(level_, ==, static_cast<std::size_t>(texels_.desc.levels));
     return std::move(map_);
 }
 

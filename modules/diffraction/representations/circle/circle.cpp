@@ -10,27 +10,23 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// Multiples of the angle that maps have in air.
-constexpr int kMultiplesInAir = 4;
+/// Look-ups that the terms take, of four components each.
+constexpr int kTermLookUps = (3 * kCircleTerms + 3) / 4;
 
-SettingInfo angle_multiples_setting() {
-    return {.key = "angle_multiples",
-            .label = "Multiples of the angle",
+SettingInfo angles_setting() {
+    return {.key = "angles",
+            .label = "Angles of the normal",
             .help =
-                "How many multiples of the normal's angle t about the grating vector the map has terms of: of t, 2t, "
-                "4t, 6t (3 by default); under a cover of t, 2t, 4t, 3t, 5t (all by default).",
-            .minimum = 2,
-            .maximum = 5,
-            .sweep = {2, 4}};
-}
-
-int rounded_up_to_even(int count) {
-    return count + count % 2;
+                "At how many angles of half a turn the map holds what a series to 2t lacks, t the normal's angle "
+                "about the grating vector (14 by default, 8 under a cover); 0: nothing.",
+            .minimum = 0,
+            .maximum = 24,
+            .sweep = {0, 8, 20}};
 }
 
 /// The kernel needs about 128 views, however soft the light; more where g is resolved as finely.
 int views_of(int side) {
-    return std::max(std::min(2 * side, 128), rounded_up_to_even(5 * side / 4));
+    return std::max(std::min(2 * side, 128), 5 * side / 4);
 }
 
 }  // namespace
@@ -41,67 +37,60 @@ const RepresentationInfo& CircleSettings::info() {
         .summary = "one map for all objects of any shape, of the whole probe",
         .lobes = Lobes::Flat,
         .is_map = true,
-        .settings = {map_resolution_setting(112, 128, {16, 24, 32, 48, 64, 80}, {16, 48, 112}),
-                     angle_multiples_setting()},
+        .settings = {map_resolution_setting(104, 128, {16, 24, 32, 48, 64, 80}, {16, 48, 104}), angles_setting()},
         .editor_start = {"map_resolution"},
-        .sweep_tier = "map_resolution=112/key_lights=16",
+        .sweep_tier = "map_resolution=104/key_lights=16",
         .sweep_key_lights = {0, 1, 2, 4, 8, 32},
-        // Flat surfaces have a better map; beyond 112 a map takes more than 64 MB.
+        // Flat surfaces have a better map; beyond 104 a map takes more than 64 MB.
         .budget = [](bool flat_lobe, SurfaceShape surface) -> std::vector<std::string> {
             if (!flat_lobe || surface != SurfaceShape::Curved) return {};
-            return {"map_resolution=16",
-                    "map_resolution=24",
-                    "map_resolution=32",
-                    "map_resolution=48",
-                    "map_resolution=64",
-                    "map_resolution=80",
-                    "map_resolution=112",
-                    "map_resolution=48/angle_multiples=2",
-                    "map_resolution=112/angle_multiples=2",
-                    "map_resolution=112/angle_multiples=4"};
+            return {"map_resolution=16",  "map_resolution=24",          "map_resolution=32",
+                    "map_resolution=48",  "map_resolution=64",          "map_resolution=80",
+                    "map_resolution=104", "map_resolution=48/angles=0", "map_resolution=104/angles=0"};
         }};
     return info;
 }
 
-std::optional<Refusal> CircleSettings::refusal(const SettingValues& values, const Grating& grating) {
-    const int multiples = values.number_or("angle_multiples", 2);
-    if (grating.cover || multiples <= kMultiplesInAir) return std::nullopt;
-    return Refusal{"angle_multiples", fmt::format("{} without a cover", multiples),
-                   fmt::format("at most {}: in air the series has no odd multiples from 3 on", kMultiplesInAir)};
+std::optional<Refusal> CircleSettings::refusal(const SettingValues&, const Grating&) {
+    return std::nullopt;
 }
 
 CircleSettings CircleSettings::from(const SettingValues& values, const Grating& grating) {
-    const int side = rounded_up_to_even(values.number("map_resolution"));
+    const int side = values.number("map_resolution");
     return {.size = {.side = side,
                      .views = views_of(side),
-                     .terms = 1 + 2 * values.number_or("angle_multiples", circle_terms(grating.cover) / 2)},
-            .charts = is_even(grating) ? 1 : 2};
+                     .angles = values.number_or("angles", circle_angles(grating.cover))},
+            .charts = is_even(grating) ? 1 : 2,
+            .covered = grating.cover.has_value()};
 }
 
 CircleTables bake(const Grating&, const CircleSettings& settings) {
-    return {settings.size, settings.charts};
+    return {settings.size, settings.charts, settings.covered};
 }
 
 void write(const CircleTables&, ByteWriter&) {}
 
 CircleTables read(ByteReader&, const CircleSettings& settings) {
-    return {settings.size, settings.charts};
+    return {settings.size, settings.charts, settings.covered};
 }
 
 ShadingCost cost(const CircleTables& tables) {
     constexpr std::size_t kHalfTexel = 8;
-    const auto side = static_cast<std::size_t>(tables.size.side);
-    const std::size_t nodes =
-        static_cast<std::size_t>(tables.charts) * side * side * static_cast<std::size_t>(tables.size.views);
-    const auto [fine, coarse] = look_ups_of(tables.size.terms);
-    const std::size_t texels = nodes * static_cast<std::size_t>(std::max(fine, coarse));
-    return {.fetches_per_pixel = fine + coarse,
-            .multiply_adds_per_pixel = 3 * tables.size.terms + 50,
-            .table_bytes = (texels + (coarse > 0 ? texels / 8 : 0)) * kHalfTexel};
+    constexpr std::size_t kRestTexel = 4;
+    const auto nodes = [&](int side, int views) {
+        return static_cast<std::size_t>(tables.charts * views) * static_cast<std::size_t>(side * side);
+    };
+    const CircleMapSize& size = tables.size;
+    const auto angles = static_cast<std::size_t>(rest_angles(size.angles, tables.covered));
+    return {.fetches_per_pixel = kTermLookUps + (angles > 0 ? 2 : 0),
+            .multiply_adds_per_pixel = 3 * kCircleTerms + (angles > 0 ? 60 : 30),
+            .table_bytes = nodes(size.side, size.views) * kTermLookUps * kHalfTexel +
+                           nodes(rest_side(size.side), rest_views(size.views)) * angles * kRestTexel};
 }
 
 Facts facts(const CircleTables& tables) {
-    return {{"map", fmt::format("{0} x {0} x {1}, {2} terms", tables.size.side, tables.size.views, tables.size.terms)}};
+    return {{"map", fmt::format("{0} x {0} x {1}, {2} angles", tables.size.side, tables.size.views,
+                                rest_angles(tables.size.angles, tables.covered))}};
 }
 
 PointShader point_shader(const CircleTables& tables, const MaterialKernel& material, const EvaluationLight& light) {

@@ -12,6 +12,7 @@ namespace rowland::diffraction {
 struct CircleSettings {
     CircleMapSize size;
     int charts = 2;  ///< of the map: 1 if orders m and −m are equally bright
+    bool covered = false;
 
     static const RepresentationInfo& info();
     static std::optional<Refusal> refusal(const SettingValues& values, const Grating& grating);
@@ -21,6 +22,7 @@ struct CircleSettings {
 struct CircleTables {
     CircleMapSize size;
     int charts = 2;
+    bool covered = false;
 };
 
 CircleTables bake(const Grating& grating, const CircleSettings& settings);

@@ -12,14 +12,22 @@ namespace {
 
 using std::numbers::pi;
 
-/// A row beyond either edge, for texels between the edge and the last cell's middle.
-constexpr int kLightRows = kCircleLightCells + 2;
-constexpr double kCellAngle = 0.5 * pi / kCircleLightCells;
+/// Cells of a cube's faces.
+struct LightCells {
+    int side;  ///< of a face
 
-std::size_t light_cell(int face, int row, int column) {
-    return (static_cast<std::size_t>(face) * kLightRows + static_cast<std::size_t>(row)) * kLightRows +
-           static_cast<std::size_t>(column);
-}
+    /// A row beyond either edge, for texels between the edge and the last cell's middle.
+    int rows() const { return side + 2; }
+    double angle() const { return 0.5 * pi / side; }
+    std::size_t index(int face, int row, int column) const {
+        return (static_cast<std::size_t>(face) * static_cast<std::size_t>(rows()) + static_cast<std::size_t>(row)) *
+                   static_cast<std::size_t>(rows()) +
+               static_cast<std::size_t>(column);
+    }
+    /// Of a direction's tangent on a face to cells, and back.
+    double cell_of(double tangent) const { return (std::atan(tangent) + 0.25 * pi) / angle() + 0.5; }
+    double tangent_of(int cell) const { return std::tan((cell - 0.5) * angle() - 0.25 * pi); }
+};
 
 /// A face for each sign of each axis.
 int light_face(const glm::dvec3& s) {
@@ -29,45 +37,37 @@ int light_face(const glm::dvec3& s) {
     return 2 * axis + (s[axis] < 0.0 ? 1 : 0);
 }
 
-/// Of a direction's tangent on a face to cells.
-double cell_of(double tangent) {
-    return (std::atan(tangent) + 0.25 * pi) / kCellAngle + 0.5;
-}
-
-double tangent_of(int cell) {
-    return std::tan((cell - 0.5) * kCellAngle - 0.25 * pi);
-}
-
-void add_texel(const glm::dvec3& s, const glm::dvec3& flux, std::vector<glm::dvec3>& cells) {
+void add_texel(const glm::dvec3& s, const glm::dvec3& flux, const LightCells& grid, std::vector<glm::dvec3>& cells) {
     const int face = light_face(s);
     const int axis = face / 2;
-    const double x = cell_of(s[(axis + 1) % 3] / std::abs(s[axis]));
-    const double y = cell_of(s[(axis + 2) % 3] / std::abs(s[axis]));
+    const double x = grid.cell_of(s[(axis + 1) % 3] / std::abs(s[axis]));
+    const double y = grid.cell_of(s[(axis + 2) % 3] / std::abs(s[axis]));
     const int column = static_cast<int>(x);
     const int row = static_cast<int>(y);
     const double right = x - column;
     const double below = y - row;
-    cells[light_cell(face, row, column)] += (1.0 - below) * (1.0 - right) * flux;
-    cells[light_cell(face, row, column + 1)] += (1.0 - below) * right * flux;
-    cells[light_cell(face, row + 1, column)] += below * (1.0 - right) * flux;
-    cells[light_cell(face, row + 1, column + 1)] += below * right * flux;
+    cells[grid.index(face, row, column)] += (1.0 - below) * (1.0 - right) * flux;
+    cells[grid.index(face, row, column + 1)] += (1.0 - below) * right * flux;
+    cells[grid.index(face, row + 1, column)] += below * (1.0 - right) * flux;
+    cells[grid.index(face, row + 1, column + 1)] += below * right * flux;
 }
 
 }  // namespace
 
-lighting::LightSamples circle_light(const lighting::LightSamples& texels) {
-    std::vector<glm::dvec3> cells(light_cell(6, 0, 0), glm::dvec3(0.0));
-    for (std::size_t i = 0; i < texels.size(); ++i) add_texel(texels.direction(i), texels.flux(i), cells);
+lighting::LightSamples circle_light(const lighting::LightSamples& texels, int cells_a_side) {
+    const LightCells grid{cells_a_side};
+    std::vector<glm::dvec3> cells(grid.index(6, 0, 0), glm::dvec3(0.0));
+    for (std::size_t i = 0; i < texels.size(); ++i) add_texel(texels.direction(i), texels.flux(i), grid, cells);
     lighting::LightSamples samples;
     for (int face = 0; face < 6; ++face)
-        for (int row = 0; row < kLightRows; ++row)
-            for (int column = 0; column < kLightRows; ++column) {
-                const glm::dvec3& flux = cells[light_cell(face, row, column)];
+        for (int row = 0; row < grid.rows(); ++row)
+            for (int column = 0; column < grid.rows(); ++column) {
+                const glm::dvec3& flux = cells[grid.index(face, row, column)];
                 if (flux == glm::dvec3(0.0)) continue;
                 glm::dvec3 s;
                 s[face / 2] = face % 2 == 0 ? 1.0 : -1.0;
-                s[(face / 2 + 1) % 3] = tangent_of(column);
-                s[(face / 2 + 2) % 3] = tangent_of(row);
+                s[(face / 2 + 1) % 3] = grid.tangent_of(column);
+                s[(face / 2 + 2) % 3] = grid.tangent_of(row);
                 samples.push_back(glm::normalize(s), flux);
             }
     return samples;

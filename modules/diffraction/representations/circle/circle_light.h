@@ -1,5 +1,7 @@
 #pragma once
 
+#include <numbers>
+
 #include "engine/lighting/light_samples.h"
 
 namespace rowland::diffraction {
@@ -8,12 +10,15 @@ namespace rowland::diffraction {
 inline constexpr int kCircleLightCells = 64;
 
 /// By which circle_light() blurs: the variance of a direction, in radians², along each axis in a face's middle.
-inline constexpr double kCircleLightVariance = 1.0040e-4;
+constexpr double circle_light_variance(int cells) {
+    const double angle = 0.5 * std::numbers::pi / cells;
+    return angle * angle / 6.0;
+}
 
-/// A probe as a circle map is filled from it: 26 000 samples on the faces of a cube. Each texel is divided linearly
-/// among the four samples around it, so that its mean direction is kept. This blurs all light alike, by less than a
-/// map's nodes resolve, and the filling restores what is lost. Detail that the nodes do not resolve, such as what
-/// remains of a lamp beside its key light, is averaged; it would show as the nodes' pattern.
-lighting::LightSamples circle_light(const lighting::LightSamples& texels);
+/// A probe as a circle map is filled from it: samples on the faces of a cube, 26 000 of 64 cells a side. Each texel is
+/// divided linearly among the four samples around it, so that its mean direction is kept. This blurs all light alike,
+/// by less than a map's nodes resolve, and the filling restores what is lost. Detail that the nodes do not resolve,
+/// such as what remains of a lamp beside its key light, is averaged; it would show as the nodes' pattern.
+lighting::LightSamples circle_light(const lighting::LightSamples& texels, int cells = kCircleLightCells);
 
 }  // namespace rowland::diffraction

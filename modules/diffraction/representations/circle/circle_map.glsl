@@ -1,27 +1,54 @@
 // A map over g in the world and v_g, Fourier terms of the normal's angle around g: circle_map.h. The program defines
-// CHARTS, TERMS, LOOK_UPS (side by side in the texture) and VIEWS. A look-up holds four components of the terms' values,
-// which follow each other: red, green and blue of the first term, red of the second. Charts lie below each other.
-// Filtering never reaches a neighbour, as the equator lies 1.5 texels inside. Level 0 holds five terms, level 1 the rest.
+// CHARTS, VIEWS, REST_VIEWS and ANGLES. A look-up of the terms holds four components of their values, which follow each
+// other: red, green and blue of the first term, red of the second. Look-ups lie side by side in the texture, charts
+// below each other. Filtering never reaches a neighbour, as the equator lies 1.5 texels inside.
 TEXTURE_UNIT(11) uniform sampler3D circle_map;
-uniform vec2 circle_map_scales;  // chart coordinates to texture coordinates, of each level
-uniform float map_scale;  // of the stored values
+uniform vec2 circle_map_scales;  // chart coordinates to texture coordinates, of the terms and of the rest
+uniform float map_scale;         // of the stored values
 
-const int FINE_TERMS = 5;
+const int TERMS = 5;
+const int LOOK_UPS = 4;
 
-// The sum of the terms in a level from `first` on.
-vec3 terms_from(int first, int terms, int level, float chart, vec2 p, float v_g, float factors[11]) {
-    vec2 st = 0.5 + p * (level == 0 ? circle_map_scales.x : circle_map_scales.y);
-    float r = 0.5 + v_g * (0.5 - (level == 0 ? 0.5 : 1.0) / float(VIEWS));
+vec3 circle_terms(float chart, vec2 p, float v_g, float factors[5]) {
+    vec2 st = 0.5 + p * circle_map_scales.x;
+    float r = 0.5 + v_g * (0.5 - 0.5 / float(VIEWS));
     vec3 sum = vec3(0.0);
-    for (int component = 0; component < 3 * terms; component += 4) {
-        vec2 at = (st + vec2(component / 4, chart)) / vec2(LOOK_UPS, CHARTS);
-        vec4 values = textureLod(circle_map, vec3(at, r), float(level));
+    for (int look_up = 0; look_up < LOOK_UPS; ++look_up) {
+        vec2 at = (st + vec2(look_up, chart)) / vec2(LOOK_UPS, CHARTS);
+        vec4 values = textureLod(circle_map, vec3(at, r), 0.0);
         // AMD's compiler unrolls loops of one condition only.
-        for (int i = 0; i < 4; ++i)
-            if (component + i < 3 * terms) sum[(component + i) % 3] += factors[first + (component + i) / 3] * values[i];
+        for (int i = 0; i < 4; ++i) {
+            int component = 4 * look_up + i;
+            if (component < 3 * TERMS) sum[component % 3] += factors[component / 3] * values[i];
+        }
     }
-    return sum;
+    return map_scale * sum;
 }
+
+#if ANGLES > 0
+// The rest of the series, in ten bits of either sign: a function for each angle, linear between two.
+TEXTURE_UNIT(9) uniform sampler3D circle_rest;
+uniform float second_map_scale;
+
+#ifdef COVER
+const int REST_ANGLES = 2 * ANGLES;
+#else
+const int REST_ANGLES = ANGLES;  // the period is half a turn
+#endif
+
+vec3 circle_rest_at(float chart, vec2 p, float v_g, vec2 t) {
+    float position = atan(t.y, t.x) * (float(ANGLES) / 3.14159265);
+    float node = floor(position);
+    float low = floor(mod(node + 0.5, float(REST_ANGLES)));
+    float high = low < float(REST_ANGLES) - 1.5 ? low + 1.0 : 0.0;
+    vec2 st = 0.5 + p * circle_map_scales.y;
+    float y = (st.y + chart) / float(CHARTS);
+    float r = 0.5 + v_g * (0.5 - 0.5 / float(REST_VIEWS));
+    vec3 first = textureLod(circle_rest, vec3((st.x + low) / float(REST_ANGLES), y, r), 0.0).rgb;
+    vec3 second = textureLod(circle_rest, vec3((st.x + high) / float(REST_ANGLES), y, r), 0.0).rgb;
+    return second_map_scale * (2.0 * mix(first, second, position - node) - 1.0);
+}
+#endif
 
 // In the colour space of the stored values.
 vec3 map_radiance(float v_g, vec3 g, vec3 n) {
@@ -38,20 +65,10 @@ vec3 map_radiance(float v_g, vec3 g, vec3 n) {
     float chart = lower ? 1.0 : 0.0;
 #endif
     vec2 p = g.xz / (1.0 + up * g.y);
-    vec2 t1 = n.xz - up * n.y * p;  // n·e1 and n·e2, as n·g = 0
-    vec2 t2 = vec2(t1.x * t1.x - t1.y * t1.y, 2.0 * t1.x * t1.y);
-    vec2 t4 = vec2(t2.x * t2.x - t2.y * t2.y, 2.0 * t2.x * t2.y);
-#ifdef COVER
-    vec2 t3 = vec2(t1.x * t2.x - t1.y * t2.y, t1.x * t2.y + t1.y * t2.x);
-    vec2 t5 = vec2(t1.x * t4.x - t1.y * t4.y, t1.x * t4.y + t1.y * t4.x);
-    float factors[11] = float[11](1.0, t1.x, t1.y, t2.x, t2.y, t4.x, t4.y, t3.x, t3.y, t5.x, t5.y);
-#else
-    vec2 t6 = vec2(t4.x * t2.x - t4.y * t2.y, t4.x * t2.y + t4.y * t2.x);
-    float factors[11] = float[11](1.0, t1.x, t1.y, t2.x, t2.y, t4.x, t4.y, t6.x, t6.y, 0.0, 0.0);
+    vec2 t = n.xz - up * n.y * p;  // n·e1 and n·e2, as n·g = 0
+    vec3 sum = circle_terms(chart, p, v_g, float[5](1.0, t.x, t.y, t.x * t.x - t.y * t.y, 2.0 * t.x * t.y));
+#if ANGLES > 0
+    sum += circle_rest_at(chart, p, v_g, t);
 #endif
-    vec3 sum = terms_from(0, FINE_TERMS, 0, chart, p, v_g, factors);
-#if TERMS > 5
-    sum += terms_from(FINE_TERMS, TERMS - FINE_TERMS, 1, chart, p, v_g, factors);
-#endif
-    return map_scale * sum;
+    return sum;
 }

@@ -17,22 +17,23 @@
 
 namespace rowland::diffraction {
 
-/// Nodes of some terms of a circle map.
-struct CircleLevel {
-    int first_term = 0;
-    int terms = 0;
+/// Functions of g and v_g on nodes.
+struct CircleGrid {
+    int functions = 0;
     int views = 0;
     int side = 0;                ///< texels of a chart's side
     std::vector<glm::vec3> xyz;  ///< see index()
 
-    /// `term` counts from first_term.
-    std::size_t index(int chart, int term, int view, int row, int column) const;
+    std::size_t index(int chart, int function, int view, int row, int column) const;
     /// Scale of chart coordinates to texture coordinates: the equator lies 1½ texels inside the edge.
     double scale() const { return 0.5 - 1.5 / side; }
 };
 
+/// The terms of a circle map: on 1, cos t, sin t, cos 2t, sin 2t.
+inline constexpr int kCircleTerms = 5;
+
 /// The radiance of any grating surface of flat lobe under a probe (PHYSICS §6 "circle"): XYZ over the grating vector g
-/// in world space and v_g, as a Fourier series in the normal's angle t around g. It does not depend on the object.
+/// in world space, v_g and the normal's angle t around g. It does not depend on the object.
 ///
 /// Chart 0 holds g of the upper half (g_y ≥ 0), chart 1 of the lower, each with a rim beyond the equator. An even
 /// kernel, k(−x) = k(x), needs chart 0 alone: (g, v_g) and (−g, −v_g) are then equal.
@@ -43,40 +44,43 @@ struct CircleLevel {
 ///     mirrored back for chart 1; cos t = n·e1, sin t = n·e2
 ///   v_g: slice j holds v_g = 2j/(views−1) − 1, both ends included; coordinate (½(v_g+1)(views−1) + ½)/views
 ///   values are optimised for linear interpolation (kBestLinear), not the radiance at the nodes
-///   XYZ = Σ_i term_i · f_i, f = 1, cos t, sin t, cos 2t, sin 2t, cos 4t, sin 4t (, cos 6t, sin 6t)
-/// Under a cover f ends with cos 3t, sin 3t, cos 5t, sin 5t (PHYSICS §10), and T(v_n) is left out.
-/// The terms from the sixth on are small, so they have half as many nodes on each axis: level 1.
+///   XYZ = Σ_i term_i · f_i + rest(t), f = 1, cos t, sin t, cos 2t, sin 2t
+/// The rest of the series has the period π (2π under a cover, where T(v_n) is left out): function j of `rest` holds it
+/// at t = j period/functions, linear between. It is small, so it has fewer nodes (rest_side(), rest_views()).
 struct CircleMap {
     int charts = 0;  ///< 1 or 2
     bool covered = false;
-    std::array<CircleLevel, 2> levels;
+    CircleGrid terms;
+    CircleGrid rest;  ///< none: no functions
+
+    double period() const { return covered ? 2.0 * std::numbers::pi : std::numbers::pi; }
 };
 
 struct CircleMapSize {
-    int side = 112;   ///< of level 0: even, ≥ 8
-    int views = 140;  ///< of level 0: even, ≥ 8
-    int terms = 7;    ///< 5: up to cos 2t; 7: to cos 4t; 9: to cos 6t. Under a cover 9: with cos 3t; 11: with cos 5t
+    int side = 104;   ///< of the terms: even, ≥ 8
+    int views = 130;  ///< of the terms: even, ≥ 8
+    int angles = 14;  ///< of the rest, for half a turn of the normal; 0: the series ends at cos 2t
 };
 
-/// The first of these terms are in level 0.
-inline constexpr int kFineTerms = 5;
+/// Nodes of the rest: 8 for 13 of the terms' on each axis.
+int rest_side(int side);
+int rest_views(int views);
+/// Functions of the rest.
+int rest_angles(int angles, bool covered);
+
+/// The angles for half a turn that a grating's map has by default: fewer under a cover, which lets in less light at
+/// grazing angles, where the series converges slowly.
+int circle_angles(const std::optional<Cover>& cover);
 
 /// Of the map that is shown while a larger one is filled: within a tenth of a second on two cores.
 inline constexpr int kCoarseCircleSide = 16;
 
-/// The terms that a grating's map has by default: under a cover the multiples 3 and 5 as well.
-int circle_terms(const std::optional<Cover>& cover);
+/// Multiples of the angle that a map is filled from.
+inline constexpr int kCircleMultiples = 13;
 
-/// Fourier series of max(0, cos t) on 1, cos t, cos 2t, cos 4t, cos 6t.
-inline constexpr std::array<double, 5> kClampedCosine{1.0 / std::numbers::pi, 0.5, 2.0 / (3.0 * std::numbers::pi),
-                                                      -2.0 / (15.0 * std::numbers::pi),
-                                                      2.0 / (35.0 * std::numbers::pi)};
-
-/// The Fourier coefficients of T(r cos t) max(0, cos t) on 1, cos t, cos 2t, cos 4t, cos 3t, cos 5t, PHYSICS (28).
-std::array<double, 6> covered_cosine(double ior, double r);
-
-/// The look-ups of each level of a map of so many terms: four components each.
-std::array<int, 2> look_ups_of(int terms);
+/// The Fourier coefficients of T(r cos t) max(0, cos t) on cos kt, k < kCircleMultiples, PHYSICS (28); without a cover
+/// T = 1, and r does not matter.
+std::array<double, kCircleMultiples> clamped_cosine(const std::optional<Cover>& cover, double r);
 
 /// The number of charts of a map under this kernel.
 int chart_count(const KernelTable& kernel);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,47 +14,58 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// The texels of a row that one look-up reads.
-void append(const CircleLevel& level, int chart, int view, int row, int look_up, std::vector<glm::vec4>& texels) {
-    for (int column = 0; column < level.side; ++column) {
+constexpr int kTermLookUps = (3 * kCircleTerms + 3) / 4;
+
+/// The texels of a row that one look-up of the terms reads.
+void append(const CircleGrid& grid, int chart, int view, int row, int look_up, std::vector<glm::vec4>& texels) {
+    for (int column = 0; column < grid.side; ++column) {
         glm::vec4& texel = texels.emplace_back(0.0F);
         for (int i = 0; i < 4; ++i) {
             const int component = 4 * look_up + i;
-            if (component < 3 * level.terms)
-                texel[i] = level.xyz[level.index(chart, component / 3, view, row, column)][component % 3];
+            if (component < 3 * grid.functions)
+                texel[i] = grid.xyz[grid.index(chart, component / 3, view, row, column)][component % 3];
         }
     }
 }
 
-/// Look-ups that lie side by side in the texture, in either level.
-int look_ups_abreast(int terms) {
-    const std::array<int, 2> look_ups = look_ups_of(terms);
-    return std::max(look_ups[0], look_ups[1]);
-}
-
 /// Four components of the terms' values per texel: circle_map.glsl. A pixel's look-ups lie within a row of the volume:
 /// below each other they would share sets of a processor's cache.
-MapTexels in_layout(const CircleMap& map) {
-    const CircleLevel& fine = map.levels[0];
-    const int abreast = look_ups_abreast(fine.terms + map.levels[1].terms);
-    std::vector<std::vector<glm::vec4>> levels;
-    for (const CircleLevel& level : map.levels) {
-        if (level.terms == 0) continue;
-        std::vector<glm::vec4>& texels = levels.emplace_back();
-        texels.reserve(static_cast<std::size_t>(level.views * map.charts * level.side) *
-                       static_cast<std::size_t>(level.side * abreast));
-        for (int view = 0; view < level.views; ++view)
-            for (int chart = 0; chart < map.charts; ++chart)
-                for (int row = 0; row < level.side; ++row)
-                    for (int look_up = 0; look_up < abreast; ++look_up)
-                        append(level, chart, view, row, look_up, texels);
-    }
-    return pack(levels,
+MapTexels terms_in_layout(const CircleGrid& grid, int charts) {
+    std::array<std::vector<glm::vec4>, 1> texels;
+    texels[0].reserve(static_cast<std::size_t>(grid.views * charts * grid.side) *
+                      static_cast<std::size_t>(grid.side * kTermLookUps));
+    for (int view = 0; view < grid.views; ++view)
+        for (int chart = 0; chart < charts; ++chart)
+            for (int row = 0; row < grid.side; ++row)
+                for (int look_up = 0; look_up < kTermLookUps; ++look_up)
+                    append(grid, chart, view, row, look_up, texels[0]);
+    return pack(texels,
                 {.kind = gpu::TextureKind::Volume,
-                 .width = fine.side * abreast,
-                 .height = fine.side * map.charts,
-                 .depth = fine.views},
-                {.filter = gpu::Filter::Trilinear});
+                 .width = grid.side * kTermLookUps,
+                 .height = grid.side * charts,
+                 .depth = grid.views},
+                {.filter = gpu::Filter::Linear});
+}
+
+/// The rest's angles, side by side as well.
+std::optional<MapTexels> rest_in_layout(const CircleGrid& grid, int charts) {
+    if (grid.functions == 0) return std::nullopt;
+    std::vector<glm::vec3> texels;
+    texels.reserve(grid.xyz.size());
+    for (int view = 0; view < grid.views; ++view)
+        for (int chart = 0; chart < charts; ++chart)
+            for (int row = 0; row < grid.side; ++row)
+                for (int angle = 0; angle < grid.functions; ++angle) {
+                    const auto from =
+                        grid.xyz.begin() + static_cast<std::ptrdiff_t>(grid.index(chart, angle, view, row, 0));
+                    texels.insert(texels.end(), from, from + grid.side);
+                }
+    return pack_ten_bits(texels,
+                         {.kind = gpu::TextureKind::Volume,
+                          .width = grid.side * grid.functions,
+                          .height = grid.side * charts,
+                          .depth = grid.views},
+                         {.filter = gpu::Filter::Linear});
 }
 
 struct Filling {
@@ -66,8 +78,9 @@ struct Filling {
         const CircleMap map = fill_circle_map(*input.texels, material.kernel, material.pitch_nm, size,
                                               material.zero_order_xyz, material.cover, stop);
         if (stop.stop_requested()) return {};
-        return {.texels = in_layout(map),
-                .set_uniforms = [scales = glm::vec2(glm::dvec2(map.levels[0].scale(), map.levels[1].scale()))](
+        return {.texels = terms_in_layout(map.terms, map.charts),
+                .second = rest_in_layout(map.rest, map.charts),
+                .set_uniforms = [scales = glm::vec2(glm::dvec2(map.terms.scale(), map.rest.scale()))](
                                     const gpu::Program& program) { program.set("circle_map_scales", scales); }};
     }
 };
@@ -98,9 +111,9 @@ void GpuCircle::describe(const SurfaceState& state, gpu::ProgramDesc& desc) cons
         if (!static_cast<const CircleData&>(*state.data).flat) desc.defines.push_back({"MATERIAL_CURVED_MIRROR", "1"});
     }
     desc.defines.push_back({"CHARTS", std::to_string(charts_)});
-    desc.defines.push_back({"TERMS", std::to_string(size_.terms)});
-    desc.defines.push_back({"LOOK_UPS", std::to_string(look_ups_abreast(size_.terms))});
     desc.defines.push_back({"VIEWS", std::to_string(size_.views)});
+    desc.defines.push_back({"REST_VIEWS", std::to_string(rest_views(size_.views))});
+    desc.defines.push_back({"ANGLES", std::to_string(size_.angles)});  // for half a turn
 }
 
 void GpuCircle::bind_tables(const gpu::Program& program, const SurfaceState&) const {

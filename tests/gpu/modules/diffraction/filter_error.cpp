@@ -5,7 +5,10 @@
 #include <glm/common.hpp>
 #include <initializer_list>
 #include <span>
+#include <utility>
 #include <vector>
+
+#include "modules/diffraction/runtime/gpu_map.h"
 
 namespace rowland::diffraction {
 
@@ -74,17 +77,24 @@ LobeTable filter_error(const LobeTable& table) {
 
 CircleMap filter_error(const CircleMap& map) {
     CircleMap error = map;
-    for (CircleLevel& level : error.levels) {
-        const auto side = static_cast<std::size_t>(level.side);
-        const std::size_t slices = side * side * static_cast<std::size_t>(level.views);
-        const std::size_t chart = slices * static_cast<std::size_t>(level.terms);
+    for (CircleGrid* grid : {&error.terms, &error.rest}) {
+        if (grid->functions == 0) continue;
+        const auto side = static_cast<std::size_t>(grid->side);
+        const std::size_t slices = side * side * static_cast<std::size_t>(grid->views);
+        grid->xyz = error_of(grid->xyz, {{.texels = side, .stride = 1},
+                                         {.texels = side, .stride = side},
+                                         {.texels = static_cast<std::size_t>(grid->views), .stride = side * side}});
+        if (grid == &error.rest) {
+            // Rounded to ten bits, of either sign.
+            const float step = largest_component(map.rest.xyz) / 1023.0F;
+            for (glm::vec3& value : grid->xyz) value += step;
+            continue;
+        }
+        // In the term whose factor is 1: the others' factors are within [−1, 1].
+        const std::size_t chart = slices * static_cast<std::size_t>(grid->functions);
         const std::vector<glm::vec3> by_term =
-            error_of(level.xyz, {{.texels = side, .stride = 1},
-                                 {.texels = side, .stride = side},
-                                 {.texels = static_cast<std::size_t>(level.views), .stride = side * side}});
-        std::fill(level.xyz.begin(), level.xyz.end(), glm::vec3(0.0F));
-        level.first_term = 0;
-        for (std::size_t i = 0; i < by_term.size(); ++i) level.xyz[i / chart * chart + i % slices] += by_term[i];
+            std::exchange(grid->xyz, std::vector<glm::vec3>(grid->xyz.size(), glm::vec3(0.0F)));
+        for (std::size_t i = 0; i < by_term.size(); ++i) grid->xyz[i / chart * chart + i % slices] += by_term[i];
     }
     return error;
 }

@@ -18,7 +18,7 @@ inline constexpr double kPositionError = 1.0 / 256.0;
 PlanarMap filter_error(const PlanarMap& map);
 LobeMap filter_error(const LobeMap& map);
 LobeTable filter_error(const LobeTable& table);
-/// In one term of each level, with the factor 1: the others' factors are within [−1, 1].
+/// With what ten bits round.
 CircleMap filter_error(const CircleMap& map);
 
 /// Between two levels the larger value counts.

@@ -129,8 +129,8 @@ TEST(MaterialJson, EveryRepresentationTakesItsSettings) {
     EXPECT_EQ(planar.size.views, 63);
     EXPECT_EQ(planar.size.azimuths, 126);
     const auto circle = std::get<CircleSettings>(pinned(R"({"representation": "circle", "map_resolution": 31})"));
-    EXPECT_EQ(circle.size.side, 32);  // even, as level 1 has half
-    EXPECT_EQ(circle.size.views, 64);
+    EXPECT_EQ(circle.size.side, 31);
+    EXPECT_EQ(circle.size.views, 62);
     EXPECT_TRUE(std::holds_alternative<DirectSettings>(pinned(R"({"representation": "direct"})")));
     const auto spikes = std::get<SpikeTableSettings>(
         pinned(R"({"representation": "spikes", "view_mapping": "one-dimensional", "view_resolution": 100})"));
@@ -200,16 +200,15 @@ TEST(MaterialJson, LobesThatARepresentationCannotShadeAreRefused) {
         HasSubstr("/quality/representation"));
 }
 
-TEST(MaterialJson, CirclesTakeMultiplesOfTheAngle) {
-    const auto terms = [](const std::string& multiples) {
-        const Material material = parse(with_quality(R"({"representation": "circle")" + multiples + "}"));
-        return std::get<CircleSettings>(representation(material)).size.terms;
+TEST(MaterialJson, CirclesTakeAnglesOfTheNormal) {
+    const auto angles = [](const std::string& given) {
+        const Material material = parse(with_quality(R"({"representation": "circle")" + given + "}"));
+        return std::get<CircleSettings>(representation(material)).size.angles;
     };
-    EXPECT_EQ(terms(""), 7);
-    EXPECT_EQ(terms(R"(, "angle_multiples": 2)"), 5);
-    EXPECT_EQ(terms(R"(, "angle_multiples": 4)"), 9);
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "circle", "angle_multiples": 5})")),
-                AllOf(HasSubstr("/quality/angle_multiples"), HasSubstr("at most 4")));
+    EXPECT_EQ(angles(""), 14);
+    EXPECT_EQ(angles(R"(, "angles": 0)"), 0);
+    EXPECT_EQ(angles(R"(, "angles": 20)"), 20);
+    EXPECT_THAT(refusal(with_quality(R"({"representation": "circle", "angles": 25})")), HasSubstr("/quality/angles"));
 }
 
 TEST(MaterialJson, StreaksTakeTheirSettings) {
