@@ -49,22 +49,24 @@ void SurfaceLight::set(const LightParts& light) {
 }
 
 const lighting::ShLight& SurfaceLight::harmonics(int bands, LightPart part) {
-    const std::span<const lighting::KeyLight> keys = key_lights(part.kind == LightPart::Rest ? part.key_lights : 0);
+    const std::span<const lighting::KeyLight> keys = key_lights(part.key_lights);
     const std::tuple key(bands, part.kind, keys.size());
     const auto found = windowed_.find(key);
     if (found != windowed_.end()) return found->second;
-    const lighting::ShLight light = part.kind == LightPart::Whole ? light_.sh
-                                    : keys.empty()                ? light_.probe_sh
-                                    : keys.size() == light_.key_lights.size()
-                                        ? light_.residual
-                                        : lighting::residual(light_.probe_sh, keys, light_.probe_sh.bands);
+    const auto unwindowed = [&] {
+        if (part.kind == LightPart::Whole) return light_.sh;
+        if (part.kind == LightPart::Probe) return light_.probe_sh;
+        if (keys.size() == light_.key_lights.size()) return light_.residual;
+        return lighting::residual(light_.probe_sh, keys, light_.probe_sh.bands);
+    };
+    const lighting::ShLight light = unwindowed();
     const math::SphericalWindow window = window_ ? *window_ : weakest_window(light, bands);
     return windowed_.emplace(key, lighting::limit_bands(light, bands, window)).first->second;
 }
 
 const std::shared_ptr<const lighting::LightSamples>& SurfaceLight::texels(LightPart part) const {
-    const std::span<const lighting::KeyLight> keys = key_lights(part.kind == LightPart::Rest ? part.key_lights : 0);
-    if (keys.empty()) return light_.probe_texels;
+    if (part.kind != LightPart::Rest) return light_.probe_texels;
+    const std::span<const lighting::KeyLight> keys = key_lights(part.key_lights);
     if (keys.size() == light_.key_lights.size()) return light_.texels;
     std::shared_ptr<const lighting::LightSamples>& texels = texels_[keys.size()];
     if (!texels) texels = std::make_shared<const lighting::LightSamples>(lighting::unpack(*light_.packed, keys));

@@ -78,7 +78,9 @@ void expect_kept_promises(const BudgetProbe& probe, SurfaceShape surface, std::s
         EXPECT_LE(bytes, kMostBytes) << probe.name << choice->settings;
         EXPECT_GE(record.price, price) << probe.name << max_error;
         price = record.price;
-        if (keys > 0) EXPECT_LT(error, error_with(0)) << probe.name << choice->settings;
+        if (keys > 0) {
+            EXPECT_LT(error, error_with(0)) << probe.name << choice->settings;
+        }
     }
 }
 

@@ -92,8 +92,9 @@ TEST(MeasuredPicture, IsOfADiscOrASphereFromThreeRadii) {
             const glm::dvec3 axis = glm::normalize(glm::cross(eye, point.view));
             EXPECT_NEAR(glm::dot(axis, outward), 0.0, 1e-9) << "eye, view and point are in one plane";
             const double angle = std::acos(glm::dot(glm::normalize(eye), point.view));
-            if (surface == SurfaceShape::Curved)
+            if (surface == SurfaceShape::Curved) {
                 EXPECT_NEAR(3.0 * std::sin(angle), glm::length(glm::cross(outward, point.view)), 1e-9);
+            }
         }
     }
     const auto flat = measured_points(ErrorMeasure::HdrFlip, SurfaceShape::Flat);
