@@ -8,6 +8,7 @@
 #include "editor/inspector/field.h"
 #include "editor/inspector/grating_fields.h"
 #include "engine/colour/illuminant.h"
+#include "engine/lighting/key_lights.h"
 #include "modules/diffraction/representations/representation.h"
 
 namespace rowland::inspector {
@@ -147,6 +148,14 @@ std::vector<std::string> with_optional_key_lights() {
     return names;
 }
 
+/// Spikes, bins and transfer take all light as SH.
+std::vector<Choice> defaults_of_key_lights() {
+    std::vector<Choice> result;
+    for (const auto* info : diffraction::representations())
+        if (info->key_lights == diffraction::KeyLightUse::OnRequest) result.push_back({info->name, 0});
+    return result;
+}
+
 std::vector<Field> budget_fields() {
     return {{.pointer = "/quality",
              .label = "Representation",
@@ -159,13 +168,22 @@ std::vector<Field> budget_fields() {
             {.pointer = "/quality/max_error",
              .label = "Error allowed",
              .minimum = 0.002,
-             .maximum = 1.0,
+             .maximum = 20.0,
              .logarithmic = true,
              .default_value = 0.05,
              .only_with = "/quality",
              .only_for = {"by budget"},
-             .help = "Relative RMS error against the reference that is tolerated; above 0.",
-             .source = "√(Σ|XYZ − XYZ_ref|² / Σ|XYZ_ref|²) over 120 views"},
+             .help = "Error against the reference that is tolerated; above 0.",
+             .source = "relative RMS: √(Σ|XYZ − XYZ_ref|² / Σ|XYZ_ref|²) over 120 views"},
+            {.pointer = "/quality/measure",
+             .label = "Error is",
+             .kind = FieldKind::Choice,
+             .default_value = "relative_rms",
+             .choices = {{"relative RMS", "relative_rms"}, {"ΔE2000", "delta_e"}, {"HDR-FLIP", "hdr_flip"}},
+             .only_with = "/quality",
+             .only_for = {"by budget"},
+             .help = "Relative RMS of XYZ; ΔE2000 that 95 % of the views do not exceed; or mean HDR-FLIP of a picture.",
+             .source = "Sharma et al. 2005; Andersson et al. 2021"},
             {.pointer = "/quality/surface",
              .label = "Measured on",
              .kind = FieldKind::Choice,
@@ -180,11 +198,14 @@ std::vector<Field> budget_fields() {
 std::vector<Field> light_fields() {
     return {{.pointer = "/quality/key_lights",
              .label = "Key lights",
-             .kind = FieldKind::Choice,
-             .choices = {{"default", nullptr}, {"on", true}, {"off", false}},
+             .kind = FieldKind::Count,
+             .minimum = 0,
+             .maximum = lighting::kMaximumKeyLights,
+             .default_value = lighting::kMaximumKeyLights,
              .only_with = "/quality",
              .only_for = with_optional_key_lights(),
-             .help = "Whether the probe's bright parts are shaded one by one, at full sharpness.",
+             .defaults_by_choice = defaults_of_key_lights(),
+             .help = "How many of the probe's bright parts are shaded one by one, at full sharpness. 0: none; 64: all.",
              .source = "von Mises–Fisher lobes fitted to the probe"},
             {.pointer = "/quality/illuminant",
              .label = "Illuminant",

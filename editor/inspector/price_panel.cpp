@@ -28,9 +28,15 @@ std::vector<PricedChoice> front(const PriceList& list) {
 std::string description_of(const PricedChoice& choice) {
     std::string text = choice.settings.value("representation", "?");
     for (const auto& [key, value] : choice.settings.items())
-        if (key != "representation" && key != "illuminant" && key != "max_error")
+        if (key != "representation" && key != "illuminant" && key != "max_error" && key != "measure")
             text += fmt::format("  {} {}", key, value.dump());
     return text;
+}
+
+const char* measure_label(diffraction::ErrorMeasure measure) {
+    return measure == diffraction::ErrorMeasure::RelativeRms ? "relative RMS"
+           : measure == diffraction::ErrorMeasure::DeltaE    ? "ΔE2000"
+                                                             : "HDR-FLIP";
 }
 
 std::string byte_count(std::size_t bytes) {
@@ -53,7 +59,7 @@ void draw_numbers(const PriceList& list, const Session& session, double frame_ms
         ImGui::TextUnformatted(value.c_str());
     };
     row("Representation", info(cooked->tables).name);
-    row("Measured error", measured ? fmt::format("{:.4f} relative RMS", present->error) : waiting);
+    row("Measured error", measured ? fmt::format("{:.4g} {}", present->error, measure_label(list.measure)) : waiting);
     row("Price", measured ? fmt::format("{:.4g} fetches per pixel", present->price) : waiting);
     row("Tables", fmt::format("{} ({} B)", byte_count(cost.table_bytes), cost.table_bytes));
     row("Per pixel", fmt::format("{} fetches, {} multiply-adds", cost.fetches_per_pixel, cost.multiply_adds_per_pixel));
@@ -79,7 +85,7 @@ void draw_plot(const PriceList& list, float height) {
         most_expensive = worst = 1.0;
     }
     Plot plot("##prices", height, {0.7 * cheapest, 1.4 * most_expensive, "price: fetches per pixel", true},
-              {0.6 * best, 1.7 * worst, "error", true});
+              {0.6 * best, 1.7 * worst, measure_label(list.measure), true});
     std::vector<glm::dvec2> line;
     for (const PricedChoice& choice : list.choices)
         if (choice.candidate && !choice.on_front) plot.marker(choice.price, choice.error, 6);
@@ -149,7 +155,7 @@ void PricePanel::draw(Session& session, double frame_ms, ControlMap& controls) {
         controls.mark("measure");
         ImGui::SameLine();
         ImGui::SetNextItemWidth(7.0F * font);
-        ImGui::DragFloat("##budget", &budget_, 0.001F, 0.002F, 1.0F, "error ≤ %.3f", ImGuiSliderFlags_Logarithmic);
+        ImGui::DragFloat("##budget", &budget_, 0.001F, 0.002F, 20.0F, "error ≤ %.3f", ImGuiSliderFlags_Logarithmic);
         controls.mark("budget");
         const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
         if (ImGui::GetItemRectMax().x + 8.5F * font <= right) ImGui::SameLine();

@@ -25,7 +25,7 @@ PreviewShape shape_of_preset(const std::string& name) {
 
 /// The members of a quality that choose among representations; the others hold for every choice.
 Json choice_of_quality(Json quality) {
-    for (const char* other : {"max_error", "surface", "illuminant", "probes"}) quality.erase(other);
+    for (const char* other : {"max_error", "measure", "surface", "illuminant", "probes"}) quality.erase(other);
     return quality;
 }
 

@@ -8,6 +8,7 @@
 #include "editor/trade/measure_error.h"
 #include "engine/core/check.h"
 #include "engine/image/png.h"
+#include "modules/diffraction/evaluate/error_measure.h"
 
 namespace rowland::trade {
 
@@ -65,7 +66,7 @@ RgbPicture difference_image(std::span<const glm::dvec3> a, std::span<const glm::
                             int magnified) {
     ROWLAND_CHECK_OP(a.size(), ==, b.size());
     ROWLAND_CHECK_OP(a.size(), ==, static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-    const float stops = exposure_for(b);
+    const float stops = diffraction::exposure_for(b);
     const std::vector<glm::vec3> shown_a = displayed(a, stops);
     const std::vector<glm::vec3> shown_b = displayed(b, stops);
     RgbPicture picture{

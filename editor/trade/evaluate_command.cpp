@@ -190,9 +190,9 @@ std::vector<glm::dvec3> EvaluateCommand::by_representation(const colour::Illumin
         const diffraction::Method asked = diffraction::parse_method(
             fmt::format("{}{}{}", info(asset.tables).name, count.empty() ? "" : "/key_lights=" + count,
                         window.empty() ? "" : "/window=" + window));
-        const int default_lights = asset.material.quality.key_lights ? lighting::LightProbeSettings().key_lights : 0;
-        return evaluate_baked(
-            asset, light(count.empty() && !probe_sh ? default_lights : asked.key_lights, asked.window), points);
+        if (!count.empty() || probe_sh) return evaluate_baked(asset, light(asked.key_lights, asked.window), points);
+        const diffraction::EvaluationLight fitted = light(lighting::LightProbeSettings().key_lights, asked.window);
+        return evaluate_baked(asset, fitted.with_first(asset.material.quality.key_lights), points);
     }
     const diffraction::Method asked = asked_method();
     const nlohmann::json json = diffraction::load_material_json(*material);

@@ -5,20 +5,18 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "editor/trade/hdr_flip.h"
 #include "engine/colour/delta_e.h"
 #include "engine/colour/srgb.h"
 #include "engine/colour/working_space.h"
 #include "engine/core/check.h"
 #include "engine/post/display_transform.h"
 #include "engine/post/working_space.h"
+#include "modules/diffraction/evaluate/error_measure.h"
 #include "modules/diffraction/evaluate/radiance_error.h"
 
 namespace rowland::trade {
 
 namespace {
-
-constexpr double kMiddleGrey = 0.18;
 
 glm::dvec3 srgb_to_linear(const glm::vec3& encoded) {
     glm::dvec3 linear;
@@ -28,12 +26,6 @@ glm::dvec3 srgb_to_linear(const glm::vec3& encoded) {
 
 glm::dvec3 display_lab(const glm::vec3& encoded) {
     return colour::xyz_to_lab(colour::rec709_to_xyz() * srgb_to_linear(encoded), colour::white_d65());
-}
-
-double quantile(const std::vector<double>& sorted, double fraction) {
-    if (sorted.empty()) return 0.0;
-    const auto index = static_cast<std::size_t>(std::ceil(fraction * static_cast<double>(sorted.size())));
-    return sorted[std::clamp<std::size_t>(index, 1, sorted.size()) - 1];
 }
 
 double largest_error(std::span<const glm::dvec3> radiance, std::span<const glm::dvec3> reference) {
@@ -61,17 +53,6 @@ double dark_error(std::span<const glm::dvec3> radiance, std::span<const glm::dve
 
 }  // namespace
 
-float exposure_for(std::span<const glm::dvec3> xyz) {
-    double sum = 0.0;
-    int lit = 0;
-    for (const glm::dvec3& value : xyz)
-        if (value.y > 0.0) {
-            sum += value.y;
-            ++lit;
-        }
-    return lit == 0 ? 0.0F : static_cast<float>(std::log2(kMiddleGrey * lit / sum));
-}
-
 std::vector<glm::vec3> displayed(std::span<const glm::dvec3> xyz, float exposure_stops) {
     const auto config = post::OcioConfig::shipped();
     const glm::dmat3 to_working = post::xyz_to_scene_linear(config);
@@ -92,24 +73,20 @@ std::vector<double> display_differences(std::span<const glm::vec3> a, std::span<
 
 MethodError compare(std::span<const glm::dvec3> radiance, std::span<const glm::dvec3> reference) {
     ROWLAND_CHECK_OP(radiance.size(), ==, reference.size());
-    const float stops = exposure_for(reference);
-    std::vector<double> differences = display_differences(displayed(radiance, stops), displayed(reference, stops));
-    std::sort(differences.begin(), differences.end());
+    const float stops = diffraction::exposure_for(reference);
+    const std::vector<double> differences =
+        display_differences(displayed(radiance, stops), displayed(reference, stops));
     return {.relative_rms = diffraction::relative_rms(radiance, reference),
             .largest = largest_error(radiance, reference),
             .dark_absolute = dark_error(radiance, reference),
-            .median_delta_e = quantile(differences, 0.5),
-            .high_delta_e = quantile(differences, 0.95)};
+            .median_delta_e = diffraction::quantile(differences, 0.5),
+            .high_delta_e = diffraction::quantile(differences, 0.95)};
 }
 
 MethodError compare_pictures(const PictureFrames& frames, std::span<const glm::dvec3> radiance,
                              std::span<const glm::dvec3> reference) {
     MethodError error = compare(radiance, reference);
-    const std::vector<double> map =
-        hdr_flip(picture(frames, radiance), picture(frames, reference), frames.width, frames.height);
-    double sum = 0.0;
-    for (const std::size_t pixel : frames.pixels) sum += map[pixel];
-    error.flip = frames.pixels.empty() ? 0.0 : sum / static_cast<double>(frames.pixels.size());
+    error.flip = mean_hdr_flip(frames, radiance, reference);
     return error;
 }
 

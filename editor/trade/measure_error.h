@@ -27,7 +27,7 @@ struct MethodError {
     double dark_absolute = 0.0;    ///< mean |ΔY| of the dark points over the mean Y of all; 0 if no point is dark
     double median_delta_e = 0.0;   ///< CIEDE2000 on the display, both exposed for the reference
     double high_delta_e = 0.0;     ///< its 95th percentile
-    std::optional<double> flip{};  ///< of pictures: mean hdr_flip() over the pixels that see a surface
+    std::optional<double> flip{};  ///< of pictures: mean_hdr_flip()
 };
 
 /// The names of the quantities in tables.
@@ -50,9 +50,6 @@ MethodError compare_pictures(const PictureFrames& frames, std::span<const glm::d
 
 /// Display values (sRGB, encoded, clamped to [0, 1]) of XYZ under the shipped colour configuration.
 std::vector<glm::vec3> displayed(std::span<const glm::dvec3> xyz, float exposure_stops);
-
-/// Stops that bring the mean Y of the points that are not black to 0.18.
-float exposure_for(std::span<const glm::dvec3> xyz);
 
 /// CIEDE2000 between the display values of each pair.
 std::vector<double> display_differences(std::span<const glm::vec3> a, std::span<const glm::vec3> b);

@@ -5,7 +5,6 @@
 #include <glm/matrix.hpp>
 #include <optional>
 
-#include "engine/core/check.h"
 #include "engine/scene/mesh_recipe.h"
 
 namespace rowland::trade {
@@ -93,20 +92,10 @@ PictureFrames picture_frames(const scene::Camera& camera, int width, int height)
                 disc_pixels.push_back(pixel);
             }
         }
-    PictureFrames result{.width = width,
-                         .height = height,
-                         .frames = {.name = "picture", .surfaces = {disc, sphere}},
-                         .pixels = disc_pixels};
+    PictureFrames result{{.width = width, .height = height, .pixels = disc_pixels},
+                         {.name = "picture", .surfaces = {disc, sphere}}};
     result.pixels.insert(result.pixels.end(), sphere_pixels.begin(), sphere_pixels.end());
     return result;
-}
-
-std::vector<glm::dvec3> picture(const PictureFrames& frames, std::span<const glm::dvec3> radiance) {
-    ROWLAND_CHECK_OP(radiance.size(), ==, frames.pixels.size());
-    std::vector<glm::dvec3> pixels(static_cast<std::size_t>(frames.width) * static_cast<std::size_t>(frames.height),
-                                   glm::dvec3(0.0));
-    for (std::size_t i = 0; i < radiance.size(); ++i) pixels[frames.pixels[i]] = radiance[i];
-    return pixels;
 }
 
 }  // namespace rowland::trade

@@ -8,6 +8,7 @@
 #include "editor/trade/frame_sets.h"
 #include "engine/scene/camera.h"
 #include "engine/scene/mesh.h"
+#include "modules/diffraction/evaluate/measured_picture.h"
 
 namespace rowland::trade {
 
@@ -23,15 +24,9 @@ scene::Camera close_camera();
 scene::Camera far_camera();
 
 /// The points of the scene that a camera sees, one per pixel. Both surfaces are exact, not meshes.
-struct PictureFrames {
-    int width = 0;
-    int height = 0;
-    FrameSet frames;                  ///< "picture": the disc's points, then the sphere's
-    std::vector<std::size_t> pixels;  ///< of each point of all_frames(): row · width + column, row 0 at the top
+struct PictureFrames : diffraction::PictureLayout {
+    FrameSet frames;  ///< "picture": the disc's points, then the sphere's
 };
 PictureFrames picture_frames(const scene::Camera& camera, int width, int height);
-
-/// XYZ of a picture's pixels; black where the camera sees no surface.
-std::vector<glm::dvec3> picture(const PictureFrames& frames, std::span<const glm::dvec3> radiance);
 
 }  // namespace rowland::trade

@@ -9,7 +9,7 @@
 #include "modules/diffraction/asset/gltf_object.h"
 #include "modules/diffraction/asset/material_json.h"
 #include "modules/diffraction/evaluate/budget.h"
-#include "modules/diffraction/evaluate/frame_sets.h"
+#include "modules/diffraction/evaluate/error_measure.h"
 
 namespace rowland::diffraction {
 
@@ -63,7 +63,7 @@ CookedMaterial choose(cook::Context& context, const Material& material, nlohmann
     const std::string file = context.source().string();
     require_baked_grooves(material.grating, file);
     const std::vector<BudgetProbe> probes = read_probes(context, material.quality);
-    const std::vector<ShadingPoint> frames = measured_frames(material.quality.surface);
+    const std::vector<ShadingPoint> frames = measured_points(material.quality.measure, material.quality.surface);
     BudgetChoice choice = choose_representation(material, probes, frames, file);
     const nlohmann::json asked = json.value("quality", nlohmann::json::object());
     json["quality"] = choice.settings;

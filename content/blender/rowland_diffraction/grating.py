@@ -41,7 +41,7 @@ def from_preset(file):
     grating.pop("base", None)
     quality = grating.get("quality", {})
     if quality and "representation" not in quality:
-        for measured in ("max_error", "probes", "surface"):
+        for measured in ("max_error", "measure", "probes", "surface"):
             quality.pop(measured, None)
         if not quality:
             del grating["quality"]

@@ -1,5 +1,6 @@
 #include "content/demo/pixel/pixel_meter.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <variant>
 
@@ -40,8 +41,8 @@ struct PixelMeter::Lit {
             source = query.probe;
             windowed.reset();
         }
-        const bool key_lights = query.cooked->material.quality.key_lights;
-        PixelReading reading{.query = query, .key_lights = key_lights ? most_key_lights : 0, .point = {}};
+        const int key_lights = std::min(query.cooked->material.quality.key_lights, most_key_lights);
+        PixelReading reading{.query = query, .key_lights = key_lights, .point = {}};
         if (query.window) {
             reading.window = *query.window;
         } else if (const int bands = bands_of(query.cooked->tables); bands > 0) {

@@ -27,7 +27,7 @@ diffraction::CookedMaterial as_harmonics(const diffraction::CookedMaterial& cook
     diffraction::CookedMaterial result = cooked;
     diffraction::Quality& quality = result.material.quality;
     quality.pinned = diffraction::TransferSettings{.bands = bands, .grid = {}, .storage = diffraction::Storage::Half};
-    quality.key_lights = false;
+    quality.key_lights = 0;
     result.tables = diffraction::bake_tables(result.material.grating, representation(result.material));
     return result;
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "modules/diffraction/evaluate/budget.h"
-#include "modules/diffraction/evaluate/frame_sets.h"
+#include "modules/diffraction/evaluate/error_measure.h"
 
 namespace rowland::inspector {
 
@@ -17,8 +17,8 @@ void mark_front(std::vector<PricedChoice>& choices) {
         });
 }
 
-PriceList list_of(const diffraction::SearchState& state, bool with_present) {
-    PriceList list{.choices = {}, .done = state.done, .total = state.total};
+PriceList list_of(const diffraction::SearchState& state, diffraction::ErrorMeasure measure, bool with_present) {
+    PriceList list{.choices = {}, .done = state.done, .total = state.total, .measure = measure};
     for (const diffraction::MeasuredChoice& choice : state.measured) {
         const bool present = with_present && list.choices.empty();
         list.choices.push_back({.settings = choice.settings,
@@ -39,12 +39,18 @@ void price_choices(const PriceQuery& query, const std::function<void(const Price
     const bool pinned = query.material.quality.pinned.has_value();
     const std::vector<diffraction::BudgetProbe> probes = {
         {.name = "the inspector's light", .image = query.probe, .key_lights = query.key_lights}};
-    const std::vector<diffraction::ShadingPoint> frames = diffraction::measured_frames(query.surface);
-    diffraction::SearchQuery search{.material = query.material, .probes = probes, .frames = frames, .settings = {}};
-    if (!query.present_only) search.settings = diffraction::budget_candidates(query.material.grating, query.surface);
+    const diffraction::ErrorMeasure measure = query.material.quality.measure;
+    const std::vector<diffraction::ShadingPoint> frames = diffraction::measured_points(measure, query.surface);
+    diffraction::SearchQuery search{.material = query.material,
+                                    .probes = probes,
+                                    .frames = frames,
+                                    .error = diffraction::error_function(measure, query.surface),
+                                    .settings = {}};
+    if (!query.present_only)
+        search.settings = diffraction::budget_candidates(query.material.grating, query.surface, query.key_lights);
     if (pinned) search.first = query.quality;
     diffraction::search(
-        search, [&](const diffraction::SearchState& state) { report(list_of(state, pinned)); }, stop);
+        search, [&](const diffraction::SearchState& state) { report(list_of(state, measure, pinned)); }, stop);
 }
 
 std::optional<PricedChoice> cheapest_within(const PriceList& list, double max_error) {

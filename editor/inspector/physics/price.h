@@ -17,7 +17,7 @@ struct PricedChoice {
     nlohmann::json settings;  ///< members of "quality"
     diffraction::ShadingCost cost;
     double price = 0.0;     ///< shading_price()
-    double error = 0.0;     ///< relative RMS against the reference
+    double error = 0.0;     ///< against the reference, as PriceList::measure says
     bool candidate = true;  ///< one of budget_candidates(); else only what the material pins
     bool present = false;   ///< what the material pins
     bool on_front = false;  ///< no other choice is as good in price and error and better in one of them
@@ -28,6 +28,7 @@ struct PriceList {
     std::vector<PricedChoice> choices;  ///< in the order they were measured, the present one first
     std::size_t done = 0;               ///< steps: bakes and measurements
     std::size_t total = 0;
+    diffraction::ErrorMeasure measure = diffraction::ErrorMeasure::RelativeRms;  ///< the material's
 };
 
 struct PriceQuery {
@@ -40,7 +41,7 @@ struct PriceQuery {
 };
 
 /// Measures the material as it is, then all budget_candidates(), the cheapest first, by diffraction::search() over
-/// measured_frames(): the search by which choose_representation() chooses. `report` gets the list after each step.
+/// measured_points(): the search by which choose_representation() chooses. `report` gets the list after each step.
 /// Returns early when it is asked to stop, between two settings.
 void price_choices(const PriceQuery& query, const std::function<void(const PriceList&)>& report,
                    const std::stop_token& stop);

@@ -1,5 +1,7 @@
 #include "modules/diffraction/asset/budget_record.h"
 
+#include <algorithm>
+#include <array>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -9,6 +11,8 @@
 namespace rowland::diffraction {
 
 namespace {
+
+constexpr std::array<const char*, 3> kMeasureNames = {"relative_rms", "delta_e", "hdr_flip"};
 
 constexpr NumberRange kNonNegative{.minimum = 0.0, .maximum = std::numeric_limits<double>::max()};
 
@@ -27,8 +31,18 @@ const char* surface_shape_name(SurfaceShape surface) {
     return surface == SurfaceShape::Flat ? "flat" : "curved";
 }
 
+const char* error_measure_name(ErrorMeasure measure) {
+    return kMeasureNames[static_cast<std::size_t>(measure)];
+}
+
+ErrorMeasure read_error_measure(JsonReader& json) {
+    const std::string name = json.choice_or("measure", kMeasureNames[0], {kMeasureNames.begin(), kMeasureNames.end()});
+    return static_cast<ErrorMeasure>(std::ranges::find(kMeasureNames, name) - kMeasureNames.begin());
+}
+
 std::string write_budget_record(const BudgetRecord& record) {
     nlohmann::json json = {{"max_error", record.max_error},
+                           {"measure", error_measure_name(record.measure)},
                            {"surface", surface_shape_name(record.surface)},
                            {"frames", record.frames},
                            {"price", record.price},
@@ -43,6 +57,7 @@ BudgetRecord parse_budget_record(std::string_view text, const std::string& file)
     JsonReader json(document, file);
     BudgetRecord record;
     record.max_error = json.number("max_error", kNonNegative);
+    record.measure = read_error_measure(json);
     if (json.choice("surface", {"flat", "curved"}) == "curved") record.surface = SurfaceShape::Curved;
     record.frames = static_cast<int>(json.integer("frames", 0, std::numeric_limits<int>::max()));
     record.price = json.number("price", kNonNegative);

@@ -14,6 +14,7 @@
 #include "engine/core/byte_stream.h"
 #include "engine/core/error.h"
 #include "engine/core/json_reader.h"
+#include "engine/lighting/key_lights.h"
 #include "modules/diffraction/asset/efficiency_csv.h"
 #include "modules/diffraction/asset/height_map_png.h"
 #include "modules/diffraction/asset/layer_weights.h"
@@ -207,6 +208,7 @@ void add_cost(const ShadingCost& cost, Lines& lines) {
 
 void add_record(const BudgetRecord& record, Lines& lines) {
     lines.add("max_error", record.max_error);
+    lines.add("measure", error_measure_name(record.measure));
     lines.add("measured_on", fmt::format("{} surface, {} frames", surface_shape_name(record.surface), record.frames));
     for (const BudgetRecord::OfProbe& probe : record.probes)
         lines.add("measured_error",
@@ -230,7 +232,10 @@ std::string describe(const CookedMaterial& cooked) {
     }
     lines.add("representation", info(cooked.tables).name);
     lines.add("illuminant", cooked.material.quality.illuminant.name);
-    lines.add("key_lights", cooked.material.quality.key_lights);
+    if (const int most = cooked.material.quality.key_lights; most == lighting::kMaximumKeyLights)
+        lines.add("key_lights", "all");
+    else
+        lines.add("key_lights", fmt::format("{} at most", most));
     for (const auto& [name, value] : std::visit([](const auto& tables) { return facts(tables); }, cooked.tables))
         lines.add(name.c_str(), value);
     add_cost(shading_cost(cooked.tables, cooked.material.quality.map_at_vertices), lines);

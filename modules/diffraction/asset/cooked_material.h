@@ -18,7 +18,7 @@
 namespace rowland::diffraction {
 
 inline constexpr const char* kMaterialAssetType = "material";
-inline constexpr std::uint32_t kMaterialAssetVersion = 5;
+inline constexpr std::uint32_t kMaterialAssetVersion = 6;
 
 /// A material with its baked tables.
 struct CookedMaterial {

@@ -31,7 +31,7 @@ void move_name(OrderedJson& owner, const char* key, const std::string& extension
 OrderedJson gltf_object(OrderedJson material, const std::filesystem::path& from, const std::filesystem::path& folder) {
     material.erase("base");
     if (auto quality = material.find("quality"); quality != material.end() && !quality->contains("representation")) {
-        for (const char* measured : {"max_error", "probes", "surface"}) quality->erase(measured);
+        for (const char* measured : {"max_error", "measure", "probes", "surface"}) quality->erase(measured);
         if (quality->empty()) material.erase("quality");
     }
     move_named_files(material, from, folder);

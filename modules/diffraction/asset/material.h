@@ -24,13 +24,23 @@ struct MeasuredProbe {
     lighting::Mapping mapping = lighting::Mapping::Equirectangular;  ///< of an image
 };
 
+/// The number that an error is: what "measure" names in a material.
+enum class ErrorMeasure {
+    RelativeRms,  ///< "relative_rms": relative RMS of XYZ over the views (PHYSICS §1)
+    DeltaE,       ///< "delta_e": CIEDE2000 that 95 % of the views do not exceed, exposed for the reference
+    HdrFlip,      ///< "hdr_flip": mean HDR-FLIP over a picture, 0 (looks the same) to 1
+};
+
 /// An error that is tolerated, or a representation pinned by hand.
 struct Quality {
-    double max_error = 0.05;                    ///< relative RMS against the reference, > 0
+    double max_error = 0.05;  ///< against the reference, > 0, as `measure` says
+    ErrorMeasure measure = ErrorMeasure::RelativeRms;
     std::vector<MeasuredProbe> probes;          ///< that max_error is for; none: the built-in clear sky
     SurfaceShape surface = SurfaceShape::Flat;  ///< that max_error is for
     std::optional<Representation> pinned;
-    bool key_lights = false;  ///< the probe's key lights are shaded one by one, at full sharpness
+    /// At most so many of the probe's key lights are shaded one by one, at full sharpness: the
+    /// brightest. The others remain in the probe. 0 to lighting::kMaximumKeyLights, which is all.
+    int key_lights = 0;
     /// Key lights and directional lights are shaded per vertex, for dense meshes, instead of per pixel.
     bool lights_at_vertices = false;
     bool map_at_vertices = false;                   ///< the map of `planar` or `circle` is read per vertex

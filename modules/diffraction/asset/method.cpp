@@ -114,7 +114,7 @@ nlohmann::json with_method(nlohmann::json json, const Method& method) {
                 quality[setting.key] = own[setting.key];
         if (own.contains("illuminant")) quality["illuminant"] = own["illuminant"];
     }
-    if (info(method).key_lights != KeyLightUse::Always) quality["key_lights"] = method.key_lights > 0;
+    if (info(method).key_lights != KeyLightUse::Always) quality["key_lights"] = method.key_lights;
     json["quality"] = std::move(quality);
     return json;
 }

@@ -8,11 +8,15 @@
 #include <utility>
 #include <vector>
 
+#include "engine/lighting/key_lights.h"
+#include "modules/diffraction/asset/budget_record.h"
+
 namespace rowland::diffraction {
 
 namespace {
 
 constexpr std::size_t kMostProbes = 16;
+constexpr double kDefaultDeltaE = 3.0;
 
 bool at_vertices(JsonReader& json, const char* key) {
     return json.choice_or(key, "pixels", {"pixels", "vertices"}) == "vertices";
@@ -60,8 +64,10 @@ std::vector<MeasuredProbe> parse_probes(JsonReader& json) {
     return probes;
 }
 
-/// The probes and the surface that max_error is measured on, if the cooker chooses the representation.
+/// What max_error is, and the probes and the surface it is measured on, if the cooker chooses the representation.
 void parse_measure(JsonReader& json, Quality& quality) {
+    quality.measure = read_error_measure(json);
+    if (quality.measure == ErrorMeasure::DeltaE && !json.has("max_error")) quality.max_error = kDefaultDeltaE;
     if (json.has("probes")) quality.probes = parse_probes(json);
     if (json.choice_or("surface", "flat", {"flat", "curved"}) == "curved") quality.surface = SurfaceShape::Curved;
 }
@@ -80,8 +86,14 @@ namespace {
 Quality pinned_quality(const ReadSettings& settings, const Grating& grating) {
     Quality quality;
     quality.pinned = make_representation(settings.info, settings.values, grating);
-    quality.key_lights = settings.info.key_lights != KeyLightUse::OnRequest;
+    quality.key_lights = settings.info.key_lights == KeyLightUse::OnRequest ? 0 : lighting::kMaximumKeyLights;
     return quality;
+}
+
+void read_key_lights(JsonReader& json, const RepresentationInfo& info, Quality& quality) {
+    const int least = info.key_lights == KeyLightUse::Always ? 1 : 0;
+    quality.key_lights =
+        static_cast<int>(json.integer_or("key_lights", quality.key_lights, least, lighting::kMaximumKeyLights));
 }
 
 }  // namespace
@@ -92,14 +104,13 @@ std::variant<Quality, Refusal> suited_quality(const nlohmann::json& settings, co
     const ReadSettings read = read_settings(json);
     if (auto refused = refusal(read.info, read.values, grating)) return *std::move(refused);
     Quality quality = pinned_quality(read, grating);
-    quality.key_lights = json.boolean_or("key_lights", quality.key_lights);
+    read_key_lights(json, read.info, quality);
     json.finish();
     return quality;
 }
 
 Quality parse_quality(JsonReader json, const Grating& grating, const ReadNamed& read) {
     Quality quality;
-    const double max_error = json.number_or("max_error", quality.max_error, {.minimum = 0.0, .minimum_open = true});
     colour::Illuminant illuminant = quality.illuminant;
     if (json.has("illuminant")) illuminant = parse_illuminant(json, read);
     if (json.has("representation")) {
@@ -107,16 +118,14 @@ Quality parse_quality(JsonReader json, const Grating& grating, const ReadNamed& 
         if (const auto refused = refusal(settings.info, settings.values, grating))
             json.fail(refused->key, refused->found, refused->expected, refused->remedy);
         quality = pinned_quality(settings, grating);
-        quality.key_lights = json.boolean_or("key_lights", quality.key_lights);
-        if (!quality.key_lights && settings.info.key_lights == KeyLightUse::Always)
-            json.fail("key_lights", "false", "true with this representation", "or leave it out");
+        read_key_lights(json, settings.info, quality);
         // Maps shade directional lights one by one even where they hold the key lights.
-        if (quality.key_lights || settings.info.is_map) quality.lights_at_vertices = at_vertices(json, "lights_at");
+        if (quality.key_lights > 0 || settings.info.is_map) quality.lights_at_vertices = at_vertices(json, "lights_at");
         if (settings.info.is_map) quality.map_at_vertices = at_vertices(json, "map_at");
     } else {
         parse_measure(json, quality);
     }
-    quality.max_error = max_error;
+    quality.max_error = json.number_or("max_error", quality.max_error, {.minimum = 0.0, .minimum_open = true});
     quality.illuminant = std::move(illuminant);
     json.finish();
     return quality;

@@ -18,13 +18,14 @@ namespace {
 BudgetRecord record_of(const MeasuredChoice& choice, const Material& material, std::span<const BudgetProbe> probes,
                        std::size_t frames) {
     BudgetRecord record{.max_error = material.quality.max_error,
+                        .measure = material.quality.measure,
                         .surface = material.quality.surface,
                         .frames = static_cast<int>(frames),
                         .price = choice.price,
                         .probes = {}};
     for (std::size_t i = 0; i < probes.size(); ++i)
         record.probes.push_back({.probe = probes[i].name,
-                                 .key_lights = choice.quality.key_lights ? probes[i].key_lights : 0,
+                                 .key_lights = std::min(choice.quality.key_lights, probes[i].key_lights),
                                  .error = choice.errors[i]});
     return record;
 }
@@ -36,9 +37,17 @@ double rounded_up(double error) {
     return std::ceil(error / digit) * digit;
 }
 
+/// None, 4, 8, 16 and so on, and the most that a probe has.
+std::vector<int> key_light_counts(int most) {
+    std::vector<int> counts{0};
+    for (int count = 4; count < most; count *= 2) counts.push_back(count);
+    if (most > 0) counts.push_back(most);
+    return counts;
+}
+
 }  // namespace
 
-std::vector<nlohmann::json> budget_candidates(const Grating& grating, SurfaceShape surface) {
+std::vector<nlohmann::json> budget_candidates(const Grating& grating, SurfaceShape surface, int most_key_lights) {
     std::vector<nlohmann::json> list;
     for (const RepresentationInfo* info : representations())
         for (const std::string& settings : info->budget(sees_v_g_alone(grating), surface)) {
@@ -48,7 +57,7 @@ std::vector<nlohmann::json> budget_candidates(const Grating& grating, SurfaceSha
                 list.push_back(std::move(quality));
                 continue;
             }
-            for (const bool keys : {false, true}) {
+            for (const int keys : key_light_counts(most_key_lights)) {
                 quality["key_lights"] = keys;
                 list.push_back(quality);
             }
@@ -60,11 +69,13 @@ BudgetChoice choose_representation(const Material& material, std::span<const Bud
                                    std::span<const ShadingPoint> frames, const std::string& file) {
     ROWLAND_CHECK(!probes.empty() && !frames.empty(), "an error needs light and views to be measured on");
     const double max_error = material.quality.max_error;
+    const int most = std::ranges::max(probes, {}, &BudgetProbe::key_lights).key_lights;
     std::unique_ptr<Progress> progress;
     const SearchState found = search({.material = material,
                                       .probes = probes,
                                       .frames = frames,
-                                      .settings = budget_candidates(material.grating, material.quality.surface),
+                                      .error = error_function(material.quality.measure, material.quality.surface),
+                                      .settings = budget_candidates(material.grating, material.quality.surface, most),
                                       .good_enough = max_error},
                                      [&](const SearchState& state) {
                                          if (!progress)

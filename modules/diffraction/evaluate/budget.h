@@ -10,8 +10,8 @@
 
 namespace rowland::diffraction {
 
-/// The settings that a budget chooses from, as members of a material's "quality".
-std::vector<nlohmann::json> budget_candidates(const Grating& grating, SurfaceShape surface);
+/// The settings that a budget chooses from, as members of a material's "quality". `most_key_lights`: of the probes.
+std::vector<nlohmann::json> budget_candidates(const Grating& grating, SurfaceShape surface, int most_key_lights);
 
 /// A representation chosen for a material.
 struct BudgetChoice {
@@ -19,9 +19,9 @@ struct BudgetChoice {
     CookedMaterial cooked;    ///< baked with them, and with the record of what was measured
 };
 
-/// The cheapest of budget_candidates() whose error is within the material's quality.max_error under every probe, by
-/// search(). The material pins nothing. Throws Error (input) naming `file` and the least error that can be reached, if
-/// that is above max_error.
+/// The cheapest of budget_candidates() whose error (quality.measure, over `frames`) is within the material's
+/// quality.max_error under every probe, by search(). The material pins nothing. Throws Error (input) naming `file` and
+/// the least error that can be reached, if that is above max_error.
 BudgetChoice choose_representation(const Material& material, std::span<const BudgetProbe> probes,
                                    std::span<const ShadingPoint> frames, const std::string& file);
 

@@ -1,5 +1,6 @@
 #include "modules/diffraction/evaluate/point_comparison.h"
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <utility>
@@ -12,16 +13,16 @@ namespace rowland::diffraction {
 
 PointComparer::PointComparer(lighting::ProbeImage probe, int key_lights)
     : probe_(std::make_unique<const lighting::ProbeImage>(std::move(probe))),
-      key_lights_(key_lights),
-      lights_(*probe_) {}
+      fitted_(key_lights),
+      lights_(*probe_, 0, key_lights) {}
 
-lighting::ShLight PointComparer::harmonics(bool with_key_lights, int bands) {
-    return lights_.split(with_key_lights ? key_lights_ : 0).harmonics(bands);
+lighting::ShLight PointComparer::harmonics(int key_lights, int bands) {
+    return lights_.split(std::min(key_lights, fitted_)).harmonics(bands);
 }
 
 PointComparison PointComparer::compare(const std::shared_ptr<const CookedMaterial>& cooked,
                                        math::SphericalWindow window, const ShadingPoint& frame) {
-    const EvaluationLight& lit = lights_.split(cooked->material.quality.key_lights ? key_lights_ : 0, window);
+    const EvaluationLight& lit = lights_.split(std::min(cooked->material.quality.key_lights, fitted_), window);
     if (!ready_ || ready_->cooked != cooked || ready_->light != &lit)
         ready_.emplace(Ready{cooked, &lit, baked_shader(*cooked, lit)});
     const std::array points{frame};

@@ -24,7 +24,7 @@ struct PointComparison {
 /// computed once. For one thread at a time.
 class PointComparer {
  public:
-    /// `key_lights`: the most that are extracted from the probe, for materials that shade key lights one by one.
+    /// `key_lights`: the most that are extracted from the probe; materials shade the first of them one by one.
     PointComparer(lighting::ProbeImage probe, int key_lights);
 
     /// `window`: on the light of tables over harmonics. The frame must be valid. Throws Error (input) where the
@@ -32,8 +32,8 @@ class PointComparer {
     PointComparison compare(const std::shared_ptr<const CookedMaterial>& cooked, math::SphericalWindow window,
                             const ShadingPoint& frame);
 
-    /// The light that tables over so many bands take, without a window.
-    lighting::ShLight harmonics(bool with_key_lights, int bands);
+    /// The light without so many key lights that tables over so many bands take, without a window.
+    lighting::ShLight harmonics(int key_lights, int bands);
 
  private:
     /// The last material, ready to shade.
@@ -44,7 +44,7 @@ class PointComparer {
     };
 
     std::unique_ptr<const lighting::ProbeImage> probe_;  ///< on the heap: the lights refer to it
-    int key_lights_;
+    int fitted_;
     ProbeLights lights_;
     std::optional<Ready> ready_;
 };

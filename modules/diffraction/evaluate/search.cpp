@@ -8,7 +8,6 @@
 #include "engine/colour/light_spectra.h"
 #include "modules/diffraction/asset/quality_json.h"
 #include "modules/diffraction/evaluate/measured_scene.h"
-#include "modules/diffraction/evaluate/radiance_error.h"
 #include "modules/diffraction/reference/reference.h"
 
 namespace rowland::diffraction {
@@ -42,7 +41,7 @@ class Search {
         for (const BudgetProbe& probe : query.probes) {
             most_key_lights_ = std::max(most_key_lights_, probe.key_lights);
             scenes_.push_back({.name = probe.name,
-                               .lights = std::make_shared<ProbeLights>(probe.image, kProjectedBands),
+                               .lights = std::make_shared<ProbeLights>(probe.image, kProjectedBands, probe.key_lights),
                                .surfaces = {{query.frames.begin(), query.frames.end()}},
                                .part = kReferencePart,
                                .by_reference = [this, &probe](std::span<const ShadingPoint> part) {
@@ -102,14 +101,15 @@ class Search {
             known = std::make_shared<const CookedMaterial>(std::move(cooked));
         }
         choice.baked = known;
-        choice.price = shading_price(shading_cost(known->tables), choice.quality.key_lights ? most_key_lights_ : 0);
+        choice.price =
+            shading_price(shading_cost(known->tables), std::min(choice.quality.key_lights, most_key_lights_));
     }
 
     /// Measures under the probes that follow, until an error is above the limit.
     void measure_up_to(double limit, MeasuredChoice& choice) {
         for (std::size_t i = choice.errors.size(); i < scenes_.size() && choice.error() <= limit; ++i) {
-            const int key_lights = choice.quality.key_lights ? query_.probes[i].key_lights : 0;
-            choice.errors.push_back(relative_rms(scenes_[i].shaded(*choice.baked, key_lights), scenes_[i].reference));
+            const int key_lights = std::min(choice.quality.key_lights, query_.probes[i].key_lights);
+            choice.errors.push_back(query_.error(scenes_[i].shaded(*choice.baked, key_lights), scenes_[i].reference));
         }
     }
 

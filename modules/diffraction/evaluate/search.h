@@ -12,6 +12,8 @@
 
 #include "engine/lighting/probe_image.h"
 #include "modules/diffraction/asset/cooked_material.h"
+#include "modules/diffraction/evaluate/error_measure.h"
+#include "modules/diffraction/evaluate/radiance_error.h"
 #include "modules/diffraction/model/shading_point.h"
 
 namespace rowland::diffraction {
@@ -20,7 +22,7 @@ namespace rowland::diffraction {
 struct BudgetProbe {
     std::string name;  ///< for messages and the record
     lighting::ProbeImage image;
-    int key_lights = 16;  ///< the most that are extracted, for representations that shade key lights one by one
+    int key_lights = 16;  ///< that are extracted; a setting shades the first of them one by one
 };
 
 /// The cost of shading a pixel in texture fetches: a fixed count, never a timing. Eight multiply-adds count as a fetch,
@@ -34,7 +36,7 @@ struct MeasuredChoice {
     Quality quality;
     std::shared_ptr<const CookedMaterial> baked;  ///< shared by settings that differ in key_lights alone
     double price = 0.0;                           ///< shading_price()
-    std::vector<double> errors{};                 ///< relative_rms() under each probe that was measured, in order
+    std::vector<double> errors{};                 ///< under each probe that was measured, in order
 
     /// The largest of the errors.
     double error() const;
@@ -51,6 +53,7 @@ struct SearchQuery {
     const Material& material;
     std::span<const BudgetProbe> probes;
     std::span<const ShadingPoint> frames;
+    ErrorFunction error = relative_rms;     ///< over the frames
     std::vector<nlohmann::json> settings;   ///< those that do not suit the grating are left out
     std::optional<nlohmann::json> first{};  ///< the "quality" that the material pins, measured before the others
     /// The search ends at the first setting whose errors are all at most this. A larger error under one probe skips the
@@ -59,7 +62,7 @@ struct SearchQuery {
     std::optional<double> good_enough{};
 };
 
-/// Measures settings, the cheapest first: `relative_rms()` over the frames against reference_radiance() under the
+/// Measures settings, the cheapest first: their errors over the frames against reference_radiance() under the
 /// material's illuminant, with no window on the light. `report` is called after each step. Returns early, between two
 /// steps, when it is asked to stop.
 ///

@@ -49,6 +49,12 @@ EvaluationLight::EvaluationLight(lighting::ProbeImage probe, int key_lights, mat
 EvaluationLight::EvaluationLight(lighting::ShLight light, math::SphericalWindow window)
     : sh_(std::move(light)), window_(window) {}
 
+EvaluationLight EvaluationLight::with_first(int key_lights) const {
+    EvaluationLight light = *this;
+    light.key_lights_.resize(std::min(key_lights_.size(), static_cast<std::size_t>(key_lights)));
+    return light;
+}
+
 lighting::ShLight EvaluationLight::harmonics(int bands) const {
     if (!probe_) return lighting::limit_bands(sh_, std::min(bands, sh_.bands), window_);
     const lighting::ShLight whole = bands <= sh_.bands ? sh_ : lighting::project(*probe_, bands);
@@ -63,6 +69,7 @@ const EvaluationLight& ProbeLights::split(int key_lights, math::SphericalWindow 
     const std::pair key(key_lights, window);
     const auto found = splits_.find(key);
     if (found != splits_.end()) return found->second;
+    if (key_lights < fitted_) return splits_.emplace(key, split(fitted_, window).with_first(key_lights)).first->second;
     if (!projected_) projected_ = bands_ > 0 ? lighting::project(*image_, bands_) : lighting::ShLight();
     return splits_.emplace(key, EvaluationLight(*image_, key_lights, window, *projected_)).first->second;
 }

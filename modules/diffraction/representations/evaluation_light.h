@@ -24,6 +24,8 @@ class EvaluationLight {
     EvaluationLight(lighting::ShLight light, math::SphericalWindow window);
 
     std::span<const lighting::KeyLight> key_lights() const { return key_lights_; }
+    /// The same light with only the first `key_lights` of its key lights; the others are part of the rest.
+    EvaluationLight with_first(int key_lights) const;
     /// The light without key lights, in at most so many bands, windowed.
     lighting::ShLight harmonics(int bands) const;
     /// The light without key lights, at full resolution.
@@ -42,14 +44,17 @@ class EvaluationLight {
 class ProbeLights {
  public:
     /// `image` must outlive it. `bands` are projected once for all splits; 0: each split projects the bands it needs.
-    explicit ProbeLights(const lighting::ProbeImage& image, int bands = 0) : image_(&image), bands_(bands) {}
+    /// `fitted`: how many key lights are fitted at once, as a cooked probe has them; 0: as many as a split asks for.
+    explicit ProbeLights(const lighting::ProbeImage& image, int bands = 0, int fitted = 0)
+        : image_(&image), bands_(bands), fitted_(fitted) {}
 
-    /// The light with at most so many key lights. The reference stays valid.
+    /// The light with at most so many key lights: the first of those that are fitted. The reference stays valid.
     const EvaluationLight& split(int key_lights, math::SphericalWindow window = math::SphericalWindow::None);
 
  private:
     const lighting::ProbeImage* image_;
     int bands_;
+    int fitted_;
     std::optional<lighting::ShLight> projected_;
     std::map<std::pair<int, math::SphericalWindow>, EvaluationLight> splits_;
 };

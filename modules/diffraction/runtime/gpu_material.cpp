@@ -46,7 +46,7 @@ GpuMaterial::GpuMaterial(const CookedMaterial& cooked, const glm::dmat3& xyz_to_
                         .cover = cooked.material.grating.cover},
       even_kernel_(is_even(cooked.kernel)),
       key_lights_(cooked.material.quality.key_lights),
-      separate_lights_(key_lights_ || info(cooked.tables).is_map),
+      separate_lights_(key_lights_ > 0 || info(cooked.tables).is_map),
       lights_at_vertices_(cooked.material.quality.lights_at_vertices && cooked.zero_order_xyz == glm::dmat3(0.0) &&
                           !cooked.material.grating.lattice),
       kernel_(cooked, xyz_to_working) {
@@ -68,7 +68,7 @@ void GpuMaterial::add_defines(const SurfaceState& state, gpu::ProgramDesc& desc)
     if (separate_lights_) desc.defines.push_back({"SEPARATE_LIGHTS", "1"});
     // It is nearly linear between vertices, and at the pixels a fifth of the plain surface.
     desc.defines.push_back({"AMBIENT_AT_VERTICES", "1"});
-    if (!key_lights_) desc.defines.push_back({"NO_KEY_LIGHTS", "1"});
+    if (key_lights_ == 0) desc.defines.push_back({"NO_KEY_LIGHTS", "1"});
     if (cooked_->material.grating.cover) desc.defines.push_back({"COVER", "1"});
     if (transmits()) desc.defines.push_back({"TRANSMISSION", "1"});
     if (cooked_->material.grating.side_reflectance) desc.defines.push_back({"REFLECTED_SIDE", "1"});
@@ -83,9 +83,9 @@ void GpuMaterial::bind(const gpu::Program& program, const SurfaceLight& light, c
     if (pattern_)
         pattern_->bind(program, light.key_lights(), light.light_colours());
     else
-        kernel_.bind(program, light.key_lights(), light.light_colours());
+        kernel_.bind(program, light.key_lights(key_lights_), light.light_colours());
     light.bind_light_colours();
-    if (key_lights_) light.bind_key_lights();
+    if (key_lights_ > 0) light.bind_key_lights(key_lights_);
     if (state.grooves) state.grooves->bind(even_kernel_, program);
     program.set("mirror_weight", mirror_weight_);
     program.set("base_weight", base_weight_);

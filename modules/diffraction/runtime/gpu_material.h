@@ -81,7 +81,7 @@ class GpuMaterial {
 
     /// The part of the light that is not shaded light by light.
     LightPart light_part() const {
-        if (key_lights_) return LightPart::Rest;
+        if (key_lights_ > 0) return {LightPart::Rest, key_lights_};
         return separate_lights_ ? LightPart::Probe : LightPart::Whole;
     }
 
@@ -113,8 +113,8 @@ class GpuMaterial {
     glm::vec3 mirror_weight_{0.0F};
     glm::vec3 base_weight_{1.0F};
     MaterialKernel working_material_;
-    bool even_kernel_;  ///< k(−x) = k(x)
-    bool key_lights_;
+    bool even_kernel_;      ///< k(−x) = k(x)
+    int key_lights_;        ///< the most that are shaded light by light
     bool separate_lights_;  ///< directional lights are shaded light by light
     bool lights_at_vertices_;
     GpuKernel kernel_;

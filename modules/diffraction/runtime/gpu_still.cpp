@@ -12,7 +12,7 @@ namespace {
 /// Like a map without key lights, a still shows the whole probe and no other light.
 CookedMaterial as_a_map(const CookedMaterial& cooked) {
     CookedMaterial map = cooked;
-    map.material.quality.key_lights = false;
+    map.material.quality.key_lights = 0;
     map.tables = CircleTables{};
     map.reflected = nullptr;  // the image shows both sides of a sheet
     return map;

@@ -159,7 +159,7 @@ Material suited_to_grooves(Material material, const GrooveMap& grooves) {
     Quality& quality = material.quality;
     if (!quality.pinned) {
         quality.pinned = ArcSettings{.rank = kPitchRank};
-        quality.key_lights = true;
+        quality.key_lights = lighting::kMaximumKeyLights;
     }
     if (!varies_pitch(grooves)) return material;
     const double largest = grooves.largest_pitch();

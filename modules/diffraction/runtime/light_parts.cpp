@@ -12,6 +12,7 @@ const LightParts& LightDivision::of(const render::FrameLight& light) {
     if (other_probe) {
         parts_.probe_sh = probe.sh;
         parts_.probe_texels = std::make_shared<const lighting::LightSamples>(lighting::unpack(probe.light));
+        parts_.packed = {light.probe, &probe.light};
         parts_.illuminant = probe.illuminant.name;
     }
     if (other_probe || key_lights_apart_ != light.key_lights_apart) {

@@ -22,6 +22,7 @@ struct LightParts {
     std::vector<lighting::KeyLight> key_lights;                  ///< those that are shaded as analytic lights
     std::shared_ptr<const lighting::LightSamples> probe_texels;  ///< the probe alone, at full resolution
     std::shared_ptr<const lighting::LightSamples> texels;        ///< the same without `key_lights`
+    std::shared_ptr<const lighting::PackedLight> packed;         ///< what `probe_texels` are unpacked from
     std::string illuminant = colour::d65().name;                 ///< name of the spectrum of the probe's white
     std::vector<glm::vec3> light_strengths;                      ///< see render::FrameLight; not part of `version`
     std::uint64_t version = 0;

@@ -41,25 +41,40 @@ void SurfaceLight::set(const LightParts& light) {
     if (light_.light_strengths != light.light_strengths) set_light_colours(light.light_strengths);
     light_.light_strengths = light.light_strengths;
     if (lit_ && light_.version == light.version) return;
+    if (light_.texels != light.texels) texels_.clear();
     light_ = light;
     lit_ = true;
     windowed_.clear();
-    key_lights_changed_ = true;
+    for (auto& [count, lights] : key_lights_) lights.changed = true;
 }
 
 const lighting::ShLight& SurfaceLight::harmonics(int bands, LightPart part) {
-    const auto found = windowed_.find({bands, part});
+    const std::span<const lighting::KeyLight> keys = key_lights(part.key_lights);
+    const std::tuple key(bands, part.kind, keys.size());
+    const auto found = windowed_.find(key);
     if (found != windowed_.end()) return found->second;
-    const lighting::ShLight& light = part == LightPart::Whole   ? light_.sh
-                                     : part == LightPart::Probe ? light_.probe_sh
-                                                                : light_.residual;
+    const auto unwindowed = [&] {
+        if (part.kind == LightPart::Whole) return light_.sh;
+        if (part.kind == LightPart::Probe) return light_.probe_sh;
+        if (keys.size() == light_.key_lights.size()) return light_.residual;
+        return lighting::residual(light_.probe_sh, keys, light_.probe_sh.bands);
+    };
+    const lighting::ShLight light = unwindowed();
     const math::SphericalWindow window = window_ ? *window_ : weakest_window(light, bands);
-    return windowed_.emplace(std::pair(bands, part), lighting::limit_bands(light, bands, window)).first->second;
+    return windowed_.emplace(key, lighting::limit_bands(light, bands, window)).first->second;
 }
 
-std::span<const lighting::KeyLight> SurfaceLight::key_lights() const {
-    return std::span(light_.key_lights)
-        .first(std::min<std::size_t>(light_.key_lights.size(), ROWLAND_MAXIMUM_KEY_LOBES));
+const std::shared_ptr<const lighting::LightSamples>& SurfaceLight::texels(LightPart part) const {
+    if (part.kind != LightPart::Rest) return light_.probe_texels;
+    const std::span<const lighting::KeyLight> keys = key_lights(part.key_lights);
+    if (keys.size() == light_.key_lights.size()) return light_.texels;
+    std::shared_ptr<const lighting::LightSamples>& texels = texels_[keys.size()];
+    if (!texels) texels = std::make_shared<const lighting::LightSamples>(lighting::unpack(*light_.packed, keys));
+    return texels;
+}
+
+std::span<const lighting::KeyLight> SurfaceLight::key_lights(int most) const {
+    return std::span(light_.key_lights).first(std::min(light_.key_lights.size(), static_cast<std::size_t>(most)));
 }
 
 void SurfaceLight::bind_light_colours() const {
@@ -68,15 +83,16 @@ void SurfaceLight::bind_light_colours() const {
     colour_buffer_.bind_uniform(kLightColourBinding);
 }
 
-void SurfaceLight::bind_key_lights() const {
-    if (std::exchange(key_lights_changed_, false)) {
+void SurfaceLight::bind_key_lights(int most) const {
+    const std::span<const lighting::KeyLight> lights = key_lights(most);
+    KeyLightBuffer& bound = key_lights_[lights.size()];
+    if (std::exchange(bound.changed, false)) {
         KeyLobeBlock block = {};
-        const std::span<const lighting::KeyLight> lights = key_lights();
         block.key_lobe_count.x = static_cast<float>(lights.size());
         std::transform(lights.begin(), lights.end(), block.key_lobes, key_lobe);
-        key_lights_.write_values(std::span<const KeyLobeBlock>(&block, 1));
+        bound.buffer.write_values(std::span<const KeyLobeBlock>(&block, 1));
     }
-    key_lights_.bind_uniform(kKeyLobeBinding);
+    bound.buffer.bind_uniform(kKeyLobeBinding);
 }
 
 }  // namespace rowland::diffraction

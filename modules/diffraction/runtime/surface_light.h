@@ -1,11 +1,12 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
 #include <span>
-#include <utility>
+#include <tuple>
 
 #include "engine/gpu/stream_buffer.h"
 #include "engine/lighting/sh_light.h"
@@ -16,10 +17,16 @@
 namespace rowland::diffraction {
 
 /// Which part of a frame's light.
-enum class LightPart {
-    Whole,  ///< the probe and the directional lights
-    Probe,  ///< the probe alone
-    Rest,   ///< the probe without its key lights
+struct LightPart {
+    enum Kind {
+        Whole,  ///< the probe and the directional lights
+        Probe,  ///< the probe alone
+        Rest,   ///< the probe without its first `key_lights` key lights
+    };
+    Kind kind;
+    int key_lights = 0;
+
+    constexpr LightPart(Kind part, int keys = 0) : kind(part), key_lights(keys) {}
 };
 
 /// A frame's light as gratings read it: windowed harmonics and GPU resources, cached until the light changes.
@@ -34,17 +41,15 @@ class SurfaceLight {
     /// The light in this number of bands, windowed.
     const lighting::ShLight& harmonics(int bands, LightPart part);
     /// The probe, or LightPart::Rest of it, at full resolution; null if the probe has no texels.
-    const std::shared_ptr<const lighting::LightSamples>& texels(LightPart part) const {
-        return part == LightPart::Rest ? light_.texels : light_.probe_texels;
-    }
+    const std::shared_ptr<const lighting::LightSamples>& texels(LightPart part) const;
 
-    /// The first ROWLAND_MAXIMUM_KEY_LOBES.
-    std::span<const lighting::KeyLight> key_lights() const;
+    /// The first so many, or all.
+    std::span<const lighting::KeyLight> key_lights(int most) const;
     /// Distinct colours of the engine's lights[], linear Rec.709, the largest component 1.
     std::span<const glm::vec3> light_colours() const { return light_colours_; }
-    /// The colours' uniform block (light_colour_block.h) and the key lights' (key_lobe_block.h).
+    /// The colours' uniform block (light_colour_block.h) and that of key_lights(most) (key_lobe_block.h).
     void bind_light_colours() const;
-    void bind_key_lights() const;
+    void bind_key_lights(int most) const;
 
  private:
     std::optional<math::SphericalWindow> window_;
@@ -56,9 +61,15 @@ class SurfaceLight {
     LightColourBlock colour_block_ = {};
     mutable gpu::StreamBuffer colour_buffer_;
     mutable bool colours_changed_ = true;  ///< since they were bound
-    std::map<std::pair<int, LightPart>, lighting::ShLight> windowed_;
-    mutable gpu::StreamBuffer key_lights_;
-    mutable bool key_lights_changed_ = true;  ///< since they were bound
+    /// By bands, part and number of key lights.
+    std::map<std::tuple<int, LightPart::Kind, std::size_t>, lighting::ShLight> windowed_;
+    /// Without so many key lights.
+    mutable std::map<std::size_t, std::shared_ptr<const lighting::LightSamples>> texels_;
+    struct KeyLightBuffer {
+        gpu::StreamBuffer buffer;
+        bool changed = true;  ///< since it was bound
+    };
+    mutable std::map<std::size_t, KeyLightBuffer> key_lights_;  ///< by their number
 };
 
 }  // namespace rowland::diffraction

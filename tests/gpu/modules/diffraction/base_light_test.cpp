@@ -16,7 +16,7 @@ class BaseLight : public GratingPicture {
     /// A grating that no light reaches, on a base layer under ambient light alone.
     void show_under_ambient_light(bool double_sided) {
         light_.sh.coefficients.assign(light_.sh.coefficients.size(), glm::dvec3(0.0));
-        cooked_ = cook(kSlitCd, R"({"representation": "arc", "key_lights": false})");
+        cooked_ = cook(kSlitCd, R"({"representation": "arc", "key_lights": 0})");
         show(cooked_);
         lighting::LightProbe probe;
         probe.sh = {.bands = 3, .coefficients = std::vector<glm::dvec3>(9, glm::dvec3(0.0))};

@@ -56,11 +56,11 @@ class Covered : public GratingPicture {
 };
 
 TEST_F(Covered, TablesEqualTheCpu) {
-    const CookedMaterial arc = cook_covered(kPressed, R"({"representation": "arc", "key_lights": false})");
+    const CookedMaterial arc = cook_covered(kPressed, R"({"representation": "arc", "key_lights": 0})");
     EXPECT_EQ(std::get<ArcTable>(arc.tables).grid.rows, 1);
     expect_equal(arc, arc_xyz(arc, light_.sh));
     const CookedMaterial lobe =
-        cook_covered(kPressedLobe, R"({"representation": "arc", "key_lights": false, "view_resolution": 10})");
+        cook_covered(kPressedLobe, R"({"representation": "arc", "key_lights": 0, "view_resolution": 10})");
     expect_equal(lobe, arc_xyz(lobe, light_.sh));
     const CookedMaterial spikes =
         cook_covered(kPressed, R"({"representation": "spikes", "bands": 3, "view_resolution": 10})");

@@ -188,7 +188,7 @@ TEST_F(Direct, PointLightsShineOnEveryRepresentation) {
     const glm::vec3 position(0.9F, 0.5F, 1.6F);
     const glm::dvec3 intensity(3.0, 2.0, 1.5);
     const char* const qualities[] = {kDirect, R"({"representation": "spikes"})",
-                                     R"({"representation": "arc", "key_lights": false})",
+                                     R"({"representation": "arc", "key_lights": 0})",
                                      R"({"representation": "circle", "map_resolution": 16})"};
     light_.sh.coefficients.assign(light_.sh.coefficients.size(), glm::dvec3(0.0));
     light_.residual = light_.sh;

@@ -197,7 +197,7 @@ TEST_F(Grooves, AMapOfOneRotationIsAGrooveRotation) {
         }
         const Texel turned[] = {{85, 128}};
         const auto map = map_of(turned, 1);
-        const CookedMaterial cooked = cook_with(kBlazed, R"({"representation": "arc", "key_lights": false})", *map);
+        const CookedMaterial cooked = cook_with(kBlazed, R"({"representation": "arc", "key_lights": 0})", *map);
         show_with(cooked, map, 0.25);
         const std::vector<glm::vec4> by_map = draw();
         const double angle = 0.25 + 3.14159265358979323846 / 3.0;
@@ -291,7 +291,7 @@ TEST_F(Grooves, AmbientLightIsThatOfTheMeanOfTheGroovesThatAPixelCovers) {
     for (glm::vec2& uv : mesh_.uvs) uv *= 300.0F;
     const std::vector<Texel> texels = rough_texels(kRoughSide);
     const auto map = map_of(texels, kRoughSide, {}, true);
-    const CookedMaterial cooked = cook_with(kFlatFoil, R"({"representation": "arc", "key_lights": false})", *map);
+    const CookedMaterial cooked = cook_with(kFlatFoil, R"({"representation": "arc", "key_lights": 0})", *map);
     show_with(cooked, map, 0.4);
     const auto wanted = mean_over(texels, [&](const Turned& turned) { return rest(cooked, turned); });
     EXPECT_LT(largest_difference(draw(), wanted), 0.03);
@@ -323,7 +323,7 @@ TEST_F(Grooves, PlanarMapsOfAnyLobeServeAllDirections) {
             const bool flat = std::string(grating) == kFlatFoil;
             const auto map = map_of(flat ? kPatches : kTurned, 2);
             const std::string settings =
-                R"({"representation": "planar", "key_lights": false, "map_resolution": 32, "map_at": ")";
+                R"({"representation": "planar", "key_lights": 0, "map_resolution": 32, "map_at": ")";
             const CookedMaterial cooked = cook_with(grating, settings + map_at + "\"}", *map);
             ASSERT_FALSE(groove_refusal(cooked.material, *map));
             if (!renderer_) show_with(cooked, map, 0.4);

@@ -43,7 +43,7 @@ class LatticePicture : public GratingPicture {
 TEST_F(LatticePicture, MapsEqualTheCpus) {
     for (const char* grating : {kCrossedFoil, kScreen}) {
         const CookedMaterial cooked =
-            cook(grating, R"({"representation": "planar", "map_resolution": 32, "views_h": 24, "key_lights": false})");
+            cook(grating, R"({"representation": "planar", "map_resolution": 32, "views_h": 24, "key_lights": 0})");
         if (!renderer_) show(cooked, 0.7);
         use(cooked);
         const auto& lobe = *std::get<PlanarTables>(cooked.tables).lobe;

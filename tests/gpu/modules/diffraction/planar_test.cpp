@@ -84,7 +84,7 @@ TEST_F(Planar, KeyLightsMayStayInTheMap) {
     light_.texels = std::make_shared<const lighting::LightSamples>();
     light_.probe_sh = light_.residual;
     const CookedMaterial cooked =
-        cook(kSlitCd, R"({"representation": "planar", "map_resolution": 64, "key_lights": false})");
+        cook(kSlitCd, R"({"representation": "planar", "map_resolution": 64, "key_lights": 0})");
     show(cooked, -0.3);
     const std::vector<glm::vec4> drawn = draw();
     EXPECT_TRUE(data().map.is_complete());

@@ -33,7 +33,7 @@ TEST_F(VertexShading, TransferEqualsTheCpuForEveryMappingAndStorage) {
 
 TEST_F(VertexShading, TransferTakesKeyLightsWhereItIsTold) {
     light_ = light_of(smooth_probe(), three_keys());
-    const CookedMaterial cooked = cook(kSlitCd, R"({"representation": "transfer", "key_lights": true})");
+    const CookedMaterial cooked = cook(kSlitCd, R"({"representation": "transfer", "key_lights": 64})");
     show(cooked, 0.5);
     const auto rest = table_xyz<TransferTable>(cooked, light_.residual);
     EXPECT_LT(

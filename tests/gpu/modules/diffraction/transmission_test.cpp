@@ -86,12 +86,11 @@ constexpr const char* kFlatLobe = R"({"pitch_nm": 1650})";
 constexpr const char* kLobe = R"({"pitch_nm": 1660, "groove_lobe": {"sigma": 0.3}})";
 
 TEST_F(Transmitted, VertexTablesShowTheLightBehind) {
-    expect_mirrored(kFlatLobe,
-                    R"({"representation": "spikes", "bands": 3, "view_resolution": 10, "key_lights": true})");
+    expect_mirrored(kFlatLobe, R"({"representation": "spikes", "bands": 3, "view_resolution": 10, "key_lights": 64})");
     expect_mirrored(kFlatLobe, R"({"representation": "bins", "bands": 3, "view_resolution": 10})");
     expect_mirrored(kLobe, R"({"representation": "transfer", "bands": 3, "view_resolution": 10})");
     expect_mirrored(kFlatLobe, R"({"representation": "transfer", "bands": 3, "view_resolution": 10,
-                                   "key_lights": true, "lights_at": "vertices"})");
+                                   "key_lights": 64, "lights_at": "vertices"})");
 }
 
 TEST_F(Transmitted, PixelTablesAndLightsShowTheLightBehind) {
@@ -112,7 +111,7 @@ TEST_F(Transmitted, WhatTheSheetReflectsIsDrawnOverIt) {
     const auto slits = [&](double reflectance, bool transmits) {
         nlohmann::json json = parse_json(
             R"({"grating": {"pitch_nm": 1670, "profile": {"type": "slit", "width_nm": 700}}, "base": {"color": [0, 0, 0]},
-                "quality": {"representation": "arc", "bands": 4, "key_lights": true}})",
+                "quality": {"representation": "arc", "bands": 4, "key_lights": 64}})",
             "test");
         if (transmits) json["transmission"] = {{"ior", 1.5}, {"reflectance", reflectance}};
         return drawn(cook_material(json, "test"), glm::vec3(1.0F), false);

@@ -70,7 +70,7 @@ TEST_F(UnusedModule, ASceneWithoutGratingsUploadsAndCompilesNothingOfIt) {
 TEST_F(UnusedModule, AGratingUploadsAndCompilesWhatItNeeds) {
     const Told without = frames(false);
     const Told grating = frames(true, R"({"grating": {"pitch_nm": 1600, "profile": {"type": "slit", "width_nm": 800}},
-                                          "quality": {"representation": "arc", "key_lights": false}})");
+                                          "quality": {"representation": "arc", "key_lights": 0}})");
     const std::size_t table = std::size_t{256} * 2 * 4 * 2;  // texels of halves
     EXPECT_GE(grating.bytes, without.bytes + table);
     std::size_t arcs = 0;

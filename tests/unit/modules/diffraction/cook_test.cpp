@@ -1,5 +1,6 @@
 #include "modules/diffraction/cook.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,7 +9,11 @@
 #include "engine/core/file.h"
 #include "engine/core/json_reader.h"
 #include "engine/core/parallel.h"
+#include "engine/lighting/probe_recipe.h"
 #include "modules/diffraction/asset/cooked_material.h"
+#include "modules/diffraction/evaluate/error_measure.h"
+#include "modules/diffraction/evaluate/point_shader.h"
+#include "modules/diffraction/reference/reference.h"
 #include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 
@@ -60,6 +65,30 @@ TEST_F(BudgetMaterial, RecordsWhatWasChosenAndMeasured) {
                                                    HasSubstr("flat surface, 120 frames"), HasSubstr("price: ")));
     for (std::size_t missing = 1; missing < 400; missing += 7)
         EXPECT_THROW(read_cooked_material(std::span(payload).first(payload.size() - missing), "m.material"), Error);
+}
+
+/// As the record and `rowland-cook info` say it, and as anyone computes it.
+TEST_F(BudgetMaterial, MayAskForTheErrorThatIsSeen) {
+    write({{"max_error", 0.1}, {"measure", "hdr_flip"}, {"surface", "curved"}, {"probes", {"room.json"}}});
+    const CookedMaterial cooked = read_cooked_material(cook(), "m.material");
+    ASSERT_TRUE(cooked.measured);
+    EXPECT_EQ(cooked.measured->measure, ErrorMeasure::HdrFlip);
+    const std::vector<ShadingPoint> points = measured_points(ErrorMeasure::HdrFlip, SurfaceShape::Curved);
+    EXPECT_EQ(static_cast<std::size_t>(cooked.measured->frames), points.size());
+    EXPECT_THAT(describe(cooked),
+                ::testing::AllOf(HasSubstr("measure: hdr_flip\n"), HasSubstr(fmt::format("{} frames", points.size()))));
+    const lighting::ProbeRecipe recipe =
+        lighting::parse_probe_recipe(parse_json(read_text_file(probe(), 1 << 16), "room.json"), "room.json");
+    const lighting::ProbeImage room = lighting::render_recipe(recipe, {}, "room.json");
+    const BudgetRecord::OfProbe& of_room = cooked.measured->probes.at(0);
+    const EvaluationLight light =
+        EvaluationLight(room, recipe.settings.key_lights, math::SphericalWindow::None).with_first(of_room.key_lights);
+    const double error = error_function(ErrorMeasure::HdrFlip, SurfaceShape::Curved)(
+        evaluate_baked(cooked, light, points),
+        reference_radiance(cooked.material.grating, room, colour::LightSpectra(), points));
+    EXPECT_LE(error, 0.1);
+    EXPECT_GT(error, 0.0);
+    EXPECT_NEAR(of_room.error, error, 1e-9);  // the same sums
 }
 
 TEST_F(BudgetMaterial, CookingAndCheckingDependOnTheProbe) {

@@ -33,7 +33,7 @@ class ReferenceStillTest : public test::RenderTest {
             room.image, {.bands = 4, .key_lights = 0, .light_face = 16, .prefilter = {.face_size = 16}}));
         const auto json = nlohmann::json::parse(
             R"({"grating": {"pitch_nm": 1600, "profile": {"type": "slit", "width_nm": 800}},
-                "quality": {"representation": "transfer", "bands": 2, "key_lights": false}})");
+                "quality": {"representation": "transfer", "bands": 2, "key_lights": 0}})");
         grating_ = add(square(), {.base_colour = glm::vec3(0.0F)});
         world_.add(grating_, diffraction::DiffractionSurface{
                                  .material = diffraction::make_gpu_material(diffraction::cook_material(json, "test"),

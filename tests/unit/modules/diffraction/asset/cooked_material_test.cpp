@@ -165,7 +165,7 @@ TEST(CookedMaterial, TheDescriptionCountsWhatShadingCosts) {
     EXPECT_THAT(text, ::testing::HasSubstr("representation: arc\n"));
     EXPECT_THAT(text, ::testing::HasSubstr("rank: 3\n"));
     EXPECT_THAT(text, ::testing::HasSubstr("fetches_per_pixel: 1\n"));
-    EXPECT_THAT(text, ::testing::HasSubstr("key_lights: true\n"));
+    EXPECT_THAT(text, ::testing::HasSubstr("key_lights: all\n"));
     // 8 nodes of four halves, scale and bias of a layer, 3 · 3 matrices.
     EXPECT_THAT(text, ::testing::HasSubstr("table_bytes: " + std::to_string(8 * 8 + 2 * 16 + 9 * 36) + "\n"));
 }

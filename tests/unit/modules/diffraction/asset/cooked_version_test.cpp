@@ -1,4 +1,4 @@
-// The promise about cooked files (content/README.md): version_5.material was written when version 5 was new.
+// The promise about cooked files (content/README.md): version_6.material was written when version 6 was new.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -92,6 +92,7 @@ TEST(MaterialJson, ABudgetNamesItsProbesAndItsSurface) {
                       "probes": ["a.json", "b.hdr", {"image": "c.hdr", "mapping": "angular"}, {"image": "d.exr"}]})"))
                                 .quality;
     EXPECT_EQ(quality.surface, SurfaceShape::Curved);
+    EXPECT_EQ(quality.measure, ErrorMeasure::RelativeRms);
     ASSERT_EQ(quality.probes.size(), 4U);
     EXPECT_EQ(quality.probes[0].file, "a.json");
     EXPECT_EQ(quality.probes[1].mapping, lighting::Mapping::Equirectangular);
@@ -102,6 +103,17 @@ TEST(MaterialJson, ABudgetNamesItsProbesAndItsSurface) {
     EXPECT_THAT(refusal(with_quality(R"({"probes": [{"image": "a.hdr", "file": "b"}]})")),
                 HasSubstr("/quality/probes/0/file"));
     EXPECT_THAT(refusal(with_quality(R"({"representation": "direct", "probes": ["a.json"]})")), HasSubstr("probes"));
+}
+
+TEST(MaterialJson, ABudgetNamesWhatItsErrorIs) {
+    const auto parsed = [](const std::string& quality) { return parse(with_quality(quality)).quality; };
+    EXPECT_EQ(parsed(R"({"measure": "hdr_flip"})").measure, ErrorMeasure::HdrFlip);
+    EXPECT_EQ(parsed(R"({"measure": "hdr_flip"})").max_error, 0.05);
+    EXPECT_EQ(parsed(R"({"measure": "delta_e"})").measure, ErrorMeasure::DeltaE);
+    EXPECT_EQ(parsed(R"({"measure": "delta_e"})").max_error, 3.0);
+    EXPECT_EQ(parsed(R"({"measure": "delta_e", "max_error": 1.5})").max_error, 1.5);
+    EXPECT_THAT(refusal(with_quality(R"({"measure": "flip"})")), HasSubstr("hdr_flip"));
+    EXPECT_THAT(refusal(with_quality(R"({"representation": "direct", "measure": "hdr_flip"})")), HasSubstr("measure"));
 }
 
 TEST(MaterialJson, EveryRepresentationTakesItsSettings) {
@@ -141,14 +153,17 @@ TEST(MaterialJson, EveryRepresentationTakesItsSettings) {
 
 TEST(MaterialJson, KeyLightsAreApartWhereNothingElseWouldAddThem) {
     const auto apart = [](const std::string& quality) { return parse(with_quality(quality)).quality.key_lights; };
-    EXPECT_FALSE(apart(R"({"representation": "spikes"})"));
-    EXPECT_TRUE(apart(R"({"representation": "spikes", "key_lights": true})"));
-    EXPECT_TRUE(apart(R"({"representation": "arc"})"));
-    EXPECT_FALSE(apart(R"({"representation": "arc", "key_lights": false})"));
-    EXPECT_TRUE(apart(R"({"representation": "circle"})"));
-    EXPECT_FALSE(apart(R"({"representation": "circle", "key_lights": false})"));
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "direct", "key_lights": false})")),
-                HasSubstr("/quality/key_lights"));
+    constexpr int kAll = lighting::kMaximumKeyLights;
+    EXPECT_EQ(apart(R"({"representation": "spikes"})"), 0);
+    EXPECT_EQ(apart(R"({"representation": "spikes", "key_lights": 64})"), kAll);
+    EXPECT_EQ(apart(R"({"representation": "arc"})"), kAll);
+    EXPECT_EQ(apart(R"({"representation": "arc", "key_lights": 0})"), 0);
+    EXPECT_EQ(apart(R"({"representation": "circle"})"), kAll);
+    EXPECT_EQ(apart(R"({"representation": "circle", "key_lights": 8})"), 8);
+    for (const char* out :
+         {R"("direct", "key_lights": 0)", R"("arc", "key_lights": 65)", R"("arc", "key_lights": true)"})
+        EXPECT_THAT(refusal(with_quality(std::string(R"({"representation": )") + out + "}")),
+                    HasSubstr("/quality/key_lights"));
 }
 
 TEST(MaterialJson, LightsOfTheirOwnAreAtThePixelsUnlessTold) {
@@ -157,7 +172,7 @@ TEST(MaterialJson, LightsOfTheirOwnAreAtThePixelsUnlessTold) {
     };
     EXPECT_FALSE(at_vertices(R"({"representation": "arc"})"));
     EXPECT_TRUE(at_vertices(R"({"representation": "arc", "lights_at": "vertices"})"));
-    EXPECT_TRUE(at_vertices(R"({"representation": "planar", "key_lights": false, "lights_at": "vertices"})"));
+    EXPECT_TRUE(at_vertices(R"({"representation": "planar", "key_lights": 0, "lights_at": "vertices"})"));
     EXPECT_THAT(refusal(with_quality(R"({"representation": "spikes", "lights_at": "vertices"})")),
                 HasSubstr("/quality/lights_at"));  // it has none
 }

@@ -46,9 +46,9 @@ TEST(Method, CooksTheMaterialAsItSays) {
     const auto& table = std::get<ArcTable>(arc.tables);
     EXPECT_EQ(table.bands, 3);
     EXPECT_EQ(table.rank, 4);
-    EXPECT_FALSE(arc.material.quality.key_lights);
-    EXPECT_TRUE(cook(kMaterial, "cd.json", parse_method("arc/bands=3/key_lights=4")).material.quality.key_lights);
-    EXPECT_FALSE(cook(kMaterial, "cd.json", parse_method("planar/map_resolution=16")).material.quality.key_lights)
+    EXPECT_EQ(arc.material.quality.key_lights, 0);
+    EXPECT_EQ(cook(kMaterial, "cd.json", parse_method("arc/bands=3/key_lights=4")).material.quality.key_lights, 4);
+    EXPECT_EQ(cook(kMaterial, "cd.json", parse_method("planar/map_resolution=16")).material.quality.key_lights, 0)
         << "a map without key lights holds the whole probe";
 }
 

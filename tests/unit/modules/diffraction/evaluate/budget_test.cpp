@@ -100,7 +100,8 @@ TEST(Budget, NothingCheaperWouldHaveDone) {
     const BudgetChoice choice = choose_representation(material, probes, frames, "cd.json");
     const auto reference = reference_radiance(material.grating, probes[0].image, colour::LightSpectra(), frames);
     int cheaper = 0;
-    for (const nlohmann::json& settings : budget_candidates(material.grating, SurfaceShape::Curved)) {
+    for (const nlohmann::json& settings :
+         budget_candidates(material.grating, SurfaceShape::Curved, probes[0].key_lights)) {
         nlohmann::json json = compact_disc();
         json["quality"] = settings;
         CookedMaterial other;
@@ -109,7 +110,7 @@ TEST(Budget, NothingCheaperWouldHaveDone) {
         } catch (const Error&) {
             continue;
         }
-        const int keys = other.material.quality.key_lights ? probes[0].key_lights : 0;
+        const int keys = other.material.quality.key_lights;
         if (shading_price(shading_cost(other.tables), keys) >= choice.cooked.measured->price) continue;
         ++cheaper;
         const EvaluationLight light(probes[0].image, keys, math::SphericalWindow::None);

@@ -98,8 +98,8 @@ TEST_F(PointComparisonTest, IsWhatTheProgramPrintsForEachMaterialProbeAndPoint) 
 }
 
 TEST_F(PointComparisonTest, KeyLightsAreTakenApartOnlyForMaterialsThatShadeThem) {
-    const auto with = cook("with", "1600", R"({"representation": "arc", "bands": 5, "key_lights": true})");
-    const auto without = cook("without", "1600", R"({"representation": "arc", "bands": 5, "key_lights": false})");
+    const auto with = cook("with", "1600", R"({"representation": "arc", "bands": 5, "key_lights": 64})");
+    const auto without = cook("without", "1600", R"({"representation": "arc", "bands": 5, "key_lights": 0})");
     PointComparer comparer(probe("sky.hdr"), 4);
     const auto window = math::SphericalWindow::Hann;
     const std::string common = "--probe sky.hdr --window hann --key-lights 4 --cooked ";

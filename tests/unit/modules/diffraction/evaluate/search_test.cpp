@@ -33,8 +33,8 @@ std::vector<ShadingPoint> six_frames() {
 }
 
 const std::vector<nlohmann::json> kSearched = {
-    {{"representation", "arc"}, {"bands", 8}, {"rank", 16}, {"key_lights", true}},
-    {{"representation", "arc"}, {"bands", 3}, {"rank", 4}, {"key_lights", false}},
+    {{"representation", "arc"}, {"bands", 8}, {"rank", 16}, {"key_lights", 64}},
+    {{"representation", "arc"}, {"bands", 3}, {"rank", 4}, {"key_lights", 0}},
     {{"representation", "streak"}},  // does not suit a flat lobe
     {{"representation", "planar"}, {"map_resolution", 64}},
 };

@@ -123,7 +123,7 @@ TEST(TransmittedLight, OfTheReferenceEqualsReflectedMirroredLight) {
 TEST(TransmittedLight, IsAddedToWhatTheSheetReflects) {
     nlohmann::json json = slits(true, false);
     json["transmission"]["reflectance"] = 0.25;
-    json["quality"] = {{"representation", "arc"}, {"key_lights", true}};
+    json["quality"] = {{"representation", "arc"}, {"key_lights", 64}};
     const CookedMaterial cooked = cook_material(json, "sheet.json");
     const lighting::ProbeImage probe = lamps(false);
     const EvaluationLight light(probe, 4, math::SphericalWindow::None);

@@ -1,4 +1,4 @@
-#include "editor/trade/hdr_flip.h"
+#include "engine/colour/hdr_flip.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include "engine/colour/delta_e.h"
 #include "engine/colour/working_space.h"
 
-namespace rowland::trade {
+namespace rowland::colour {
 namespace {
 
 using Pixels = std::vector<glm::dvec3>;
@@ -66,9 +66,9 @@ class SlowFlip {
     }
 
  private:
-    static glm::dvec3 white() { return colour::rec709_to_xyz() * glm::dvec3(1.0); }
+    static glm::dvec3 white() { return rec709_to_xyz() * glm::dvec3(1.0); }
     static glm::dvec3 lab(const glm::dvec3& rgb) {
-        const glm::dvec3 lab = colour::xyz_to_lab(colour::rec709_to_xyz() * rgb, white());
+        const glm::dvec3 lab = xyz_to_lab(rec709_to_xyz() * rgb, white());
         return {lab.x, 0.01 * lab.x * lab.y, 0.01 * lab.x * lab.z};
     }
     static double distance(const glm::dvec3& a, const glm::dvec3& b) {
@@ -80,7 +80,7 @@ class SlowFlip {
         const int radius = static_cast<int>(std::ceil(3.0 * std::sqrt(0.04 / (2.0 * kPi2)) * ppd_));
         Pixels opponent;
         for (const glm::dvec3& rgb : pixels) {
-            const glm::dvec3 xyz = colour::rec709_to_xyz() * rgb / white();
+            const glm::dvec3 xyz = rec709_to_xyz() * rgb / white();
             opponent.push_back({116.0 * xyz.y - 16.0, 500.0 * (xyz.x - xyz.y), 200.0 * (xyz.y - xyz.z)});
         }
         const auto sensitivity = [&](int dx, int dy) {
@@ -97,7 +97,7 @@ class SlowFlip {
         const glm::dvec3 c = convolved(opponent, x, y, radius, sensitivity) / total;
         const double relative_y = (c.x + 16.0) / 116.0;
         const glm::dvec3 xyz = white() * glm::dvec3(c.y / 500.0 + relative_y, relative_y, relative_y - c.z / 200.0);
-        return glm::clamp(glm::inverse(colour::rec709_to_xyz()) * xyz, 0.0, 1.0);
+        return glm::clamp(glm::inverse(rec709_to_xyz()) * xyz, 0.0, 1.0);
     }
 
     double feature(const Pixels& pixels, int x, int y, bool point) const {
@@ -118,7 +118,7 @@ class SlowFlip {
             return value / (value > 0.0 ? positive : negative);
         };
         std::vector<double> luminance;
-        for (const glm::dvec3& rgb : pixels) luminance.push_back((colour::rec709_to_xyz() * rgb).y / white().y);
+        for (const glm::dvec3& rgb : pixels) luminance.push_back((rec709_to_xyz() * rgb).y / white().y);
         return std::hypot(convolved(luminance, x, y, radius, [&](int dx, int dy) { return kernel(dx, dy); }),
                           convolved(luminance, x, y, radius, [&](int dx, int dy) { return kernel(dy, dx); }));
     }
@@ -150,7 +150,7 @@ TEST(Flip, OfUniformPicturesIsOfTheirColours) {
 
 Pixels in_xyz(const Pixels& rgb, double scale) {
     Pixels xyz;
-    for (const glm::dvec3& value : rgb) xyz.push_back(scale * (colour::rec709_to_xyz() * value));
+    for (const glm::dvec3& value : rgb) xyz.push_back(scale * (rec709_to_xyz() * value));
     return xyz;
 }
 
@@ -185,4 +185,4 @@ TEST(HdrFlip, OfABlackReferenceIsNothing) {
 }
 
 }  // namespace
-}  // namespace rowland::trade
+}  // namespace rowland::colour

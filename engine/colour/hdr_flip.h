@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-namespace rowland::trade {
+namespace rowland::colour {
 
 /// How many pixels a degree of sight holds on a display of 3840 pixels and 0.7 m that is seen from 0.7 m.
 inline constexpr double kPixelsPerDegree = 67.02;
@@ -22,4 +22,4 @@ std::vector<double> flip(std::span<const glm::dvec3> picture, std::span<const gl
 std::vector<double> hdr_flip(std::span<const glm::dvec3> picture, std::span<const glm::dvec3> reference, int width,
                              int height, double pixels_per_degree = kPixelsPerDegree);
 
-}  // namespace rowland::trade
+}  // namespace rowland::colour

@@ -1,4 +1,4 @@
-#include "editor/trade/hdr_flip.h"
+#include "engine/colour/hdr_flip.h"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 #include "engine/core/check.h"
 #include "engine/core/parallel.h"
 
-namespace rowland::trade {
+namespace rowland::colour {
 
 namespace {
 
@@ -92,24 +92,24 @@ Plane seen(const Plane& plane, const Sensitivity& sensitivity, double pixels_per
 }
 
 glm::dvec3 white() {
-    return colour::rec709_to_xyz() * glm::dvec3(1.0);
+    return rec709_to_xyz() * glm::dvec3(1.0);
 }
 
 /// Linear in XYZ: CIELAB without its cube root.
 glm::dvec3 to_ycxcz(const glm::dvec3& rgb) {
-    const glm::dvec3 relative = colour::rec709_to_xyz() * rgb / white();
+    const glm::dvec3 relative = rec709_to_xyz() * rgb / white();
     return {116.0 * relative.y - 16.0, 500.0 * (relative.x - relative.y), 200.0 * (relative.y - relative.z)};
 }
 
 glm::dvec3 from_ycxcz(const glm::dvec3& opponent) {
     const double y = (opponent.x + 16.0) / 116.0;
-    static const glm::dmat3 kToRgb = glm::inverse(colour::rec709_to_xyz());
+    static const glm::dmat3 kToRgb = glm::inverse(rec709_to_xyz());
     return kToRgb * (white() * glm::dvec3(opponent.y / 500.0 + y, y, y - opponent.z / 200.0));
 }
 
 /// CIELAB whose chroma fades with the luminance (Hunt).
 glm::dvec3 adjusted_lab(const glm::dvec3& rgb) {
-    const glm::dvec3 lab = colour::xyz_to_lab(colour::rec709_to_xyz() * rgb, white());
+    const glm::dvec3 lab = xyz_to_lab(rec709_to_xyz() * rgb, white());
     return {lab.x, 0.01 * lab.x * lab.y, 0.01 * lab.x * lab.z};
 }
 
@@ -205,7 +205,7 @@ double inverse_tone(double to) {
 }
 
 std::vector<glm::dvec3> to_rec709(std::span<const glm::dvec3> xyz) {
-    const glm::dmat3 to_rgb = glm::inverse(colour::rec709_to_xyz());
+    const glm::dmat3 to_rgb = glm::inverse(rec709_to_xyz());
     std::vector<glm::dvec3> rgb;
     for (const glm::dvec3& value : xyz) rgb.push_back(to_rgb * value);
     return rgb;
@@ -263,4 +263,4 @@ std::vector<double> hdr_flip(std::span<const glm::dvec3> picture, std::span<cons
     return largest;
 }
 
-}  // namespace rowland::trade
+}  // namespace rowland::colour
