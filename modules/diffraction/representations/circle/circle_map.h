@@ -57,8 +57,8 @@ struct CircleMap {
 };
 
 struct CircleMapSize {
-    int side = 104;   ///< of the terms: even, ≥ 8
-    int views = 130;  ///< of the terms: even, ≥ 8
+    int side = 104;   ///< of the terms, ≥ 8
+    int views = 130;  ///< of the terms, ≥ 8
     int angles = 14;  ///< of the rest, for half a turn of the normal; 0: the series ends at cos 2t
 };
 
