@@ -28,8 +28,6 @@ GrooveView lit_view;
 vec3 lit_sum;  // of three's lights
 #ifdef GROOVE_MAP
 int lit_parts;  // of a pixel whose grooves vary
-#else
-const int lit_parts = 1;
 #endif
 
 void prepare_grooves() {
@@ -40,23 +38,15 @@ void prepare_grooves() {
 #endif
 }
 
-GrooveView lit_part(int part) {
 #ifdef GROOVE_MAP
+GrooveView lit_part(int part) {
     GrooveView view = groove_part(lit_view, lit_parts, part);
     if (view.pitch <= 0.0) view.direction.z = 0.0;  // no grating: as from below
     return view;
-#else
-    return lit_view;
-#endif
 }
 
-float coverage_of(GrooveView view) {
-#ifdef GROOVE_MAP
-    return view.coverage / float(lit_parts);
-#else
-    return 1.0;
+float coverage_of(GrooveView view) { return view.coverage / float(lit_parts); }
 #endif
-}
 
 vec3 lamp_radiance(GrooveView view, PixelU u, vec3 s, vec3 irradiance) {
     if (view.direction.z <= 0.0) return vec3(0.0);
@@ -101,10 +91,14 @@ vec3 probe_radiance(GrooveView view) {
 // `base`: what the layer under the grooves reflects; `mirrored`: the environment in the mirror direction.
 vec3 grating_surface(vec3 base, vec3 mirrored) {
     vec3 diffracted = lit_sum;
+#ifdef GROOVE_MAP
     for (int part = 0; part < lit_parts; ++part) {
         GrooveView view = lit_part(part);
         diffracted += coverage_of(view) * probe_radiance(view);
     }
+#else
+    diffracted += probe_radiance(lit_view);
+#endif
     float passed = cover_transmittance(abs(lit_view.direction.z));
 #ifdef ROWLAND_DIFFRACTION_ONLY
     return passed * diffracted;
