@@ -91,7 +91,15 @@ Quality pinned_quality(const ReadSettings& settings, const Grating& grating) {
 }
 
 void read_key_lights(JsonReader& json, const RepresentationInfo& info, Quality& quality) {
-    const int least = info.key_lights == KeyLightUse::Always ? 1 : 0;
+    const bool always = info.key_lights == KeyLightUse::Always;
+    // Files of earlier versions say whether there are any.
+    if (json.has("key_lights") && json.raw("key_lights").is_boolean()) {
+        const bool any = json.boolean_or("key_lights", always);
+        if (always && !any) json.fail("key_lights", "false", "true with this representation", "or leave it out");
+        quality.key_lights = any ? lighting::kMaximumKeyLights : 0;
+        return;
+    }
+    const int least = always ? 1 : 0;
     quality.key_lights =
         static_cast<int>(json.integer_or("key_lights", quality.key_lights, least, lighting::kMaximumKeyLights));
 }

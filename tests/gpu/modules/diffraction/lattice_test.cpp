@@ -69,7 +69,7 @@ TEST_F(LatticePicture, MapsOfOneAzimuthEqualTheCpus) {
     for (glm::vec4& tangent : mesh_.tangents) tangent = mesh_.tangents[0];
     for (const char* grating : {kCrossedFoil, kScreen}) {
         const CookedMaterial cooked =
-            cook(grating, R"({"representation": "planar", "map_resolution": 32, "views_h": 24, "key_lights": false})");
+            cook(grating, R"({"representation": "planar", "map_resolution": 32, "views_h": 24, "key_lights": 0})");
         if (!renderer_) show(cooked, 0.7);
         use(cooked);
         const auto& lobe = *std::get<PlanarTables>(cooked.tables).lobe;
@@ -109,12 +109,12 @@ TEST_F(CurvedLattice, TablesOverHarmonicsEqualTheCpus) {
 }
 
 TEST_F(CurvedLattice, MapsForFlatMeshesAreReplacedByArc) {
-    const CookedMaterial arc = cook(kCrossedFoil, R"({"representation": "arc", "bands": 4, "key_lights": false})");
+    const CookedMaterial arc = cook(kCrossedFoil, R"({"representation": "arc", "bands": 4, "key_lights": 0})");
     show(arc, 0.7);
     const std::vector<glm::vec4> by_arc = draw();
     EXPECT_LT(largest_difference(by_arc, arc_xyz(arc, light_.sh)), kPictureTolerance);
     EXPECT_GT(brightest_, 0.01);
-    use(cook(kCrossedFoil, R"({"representation": "planar", "bands": 4, "map_resolution": 32, "key_lights": false})"));
+    use(cook(kCrossedFoil, R"({"representation": "planar", "bands": 4, "map_resolution": 32, "key_lights": 0})"));
     EXPECT_EQ(draw(), by_arc);
 }
 

@@ -160,8 +160,10 @@ TEST(MaterialJson, KeyLightsAreApartWhereNothingElseWouldAddThem) {
     EXPECT_EQ(apart(R"({"representation": "arc", "key_lights": 0})"), 0);
     EXPECT_EQ(apart(R"({"representation": "circle"})"), kAll);
     EXPECT_EQ(apart(R"({"representation": "circle", "key_lights": 8})"), 8);
+    EXPECT_EQ(apart(R"({"representation": "spikes", "key_lights": true})"), kAll);
+    EXPECT_EQ(apart(R"({"representation": "arc", "key_lights": false})"), 0);
     for (const char* out :
-         {R"("direct", "key_lights": 0)", R"("arc", "key_lights": 65)", R"("arc", "key_lights": true)"})
+         {R"("direct", "key_lights": 0)", R"("direct", "key_lights": false)", R"("arc", "key_lights": 65)"})
         EXPECT_THAT(refusal(with_quality(std::string(R"({"representation": )") + out + "}")),
                     HasSubstr("/quality/key_lights"));
 }
