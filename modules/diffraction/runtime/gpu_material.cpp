@@ -81,7 +81,7 @@ void GpuMaterial::add_defines(const SurfaceState& state, gpu::ProgramDesc& desc)
 void GpuMaterial::bind(const gpu::Program& program, const SurfaceLight& light, const SurfaceState& state) const {
     bind_tables(program, state);
     if (pattern_)
-        pattern_->bind(program, light.key_lights(), light.light_colours());
+        pattern_->bind(program, light.key_lights(key_lights_), light.light_colours());
     else
         kernel_.bind(program, light.key_lights(key_lights_), light.light_colours());
     light.bind_light_colours();
