@@ -54,7 +54,7 @@ TEST(FilmTable, OfAWideRangeOfThicknessesOnARoughSurfaceIsWithinItsBudget) {
 TEST(FilmTable, OfSeveralThicknessesAndRoughnessesFillsItsBytes) {
     const FilmTable table = bake(kSoap, {100.0, 400.0, 0.0, 0.6});
     EXPECT_LE(table.bytes(), 64U * 1024U);
-    EXPECT_LE(table.error.largest, 0.021);  // 0.0199 measured, and soap is the worst of six films: PHYSICS 5
+    EXPECT_LE(table.error.largest, 0.021);  // 0.0199 measured, and soap is the worst of six films: PHYSICS §5
     EXPECT_LE(table.error.rms, 0.005);
 }
 
