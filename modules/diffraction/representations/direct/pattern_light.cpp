@@ -18,10 +18,9 @@ double variance_in_plane(double along, double across, const glm::dvec3& axis) {
 PatternLight pattern_light(const DirectLight& light, const std::optional<Cover>& cover,
                            const glm::dmat3& world_to_tangent) {
     const LightSpot spot = light_spot(light, world_to_tangent);
-    return {.irradiance = spot.cosine() * transmittance(cover, spot) * light.flux,
-            .centre = {spot.parts[0].centre_g, spot.centre_h},
-            .variance =
-                0.5 * (spot.parts[0].deviation_g * spot.parts[0].deviation_g + spot.deviation_h * spot.deviation_h)};
+    return {.irradiance = spot.cosine * transmittance(cover, spot) * light.flux,
+            .centre = {spot.centre_g, spot.centre_h},
+            .variance = 0.5 * (spot.deviation_g * spot.deviation_g + spot.deviation_h * spot.deviation_h)};
 }
 
 PatternLight pattern_light(const lighting::KeyLight& light, const std::optional<Cover>& cover,
