@@ -5,7 +5,7 @@
 
 // The light above the horizon, A(z) = integral of sin t e^(z (cos(t - t0) - 1)) over t in (0, pi), over
 // z = concentration cos psi0 cos psi. log2(A) less its decay below the horizon is a cubic in log2(1 + z), by value and
-// slope at z = 0 and at another z.
+// slope at z = 0 and at another z, and linear beyond.
 struct LightAbove {
     float decay;  // of log2(A), over z
     float at;     // log2(1 + z) there
@@ -49,6 +49,7 @@ vec2 light_above_narrow(float sine, float cosine, float z) {
 
 LightAbove light_above(float sine, float cosine, float z) {
     float decay = sine < 0.0 ? sine * sine / (1.0 + cosine) : 0.0;
+    z = min(z, 1.5 / max(decay, 1e-6));  // beyond, little light is left and its slope is uncertain
     vec2 light = z < 3.0 ? light_above_wide(sine, cosine, z) : light_above_narrow(sine, cosine, z);
     float at = max(log2(1.0 + z), 1e-3);
     float value = log2(max(light.x, 1e-30)) + 1.44269504 * decay * z;
@@ -65,7 +66,7 @@ const float NO_LIGHT = -1e30;
 // psi, of this variance. `d`: from the middle, in deviations.
 float log_light(LightAbove above, float cosine, float z, float variance, float d) {
     float far = log2(1.0 + z) - above.at;
-    float light = above.powers.x + far * (above.powers.y + far * (above.powers.z + far * above.powers.w));
+    float light = above.powers.x + far * (above.powers.y + min(far, 0.0) * (above.powers.z + far * above.powers.w));
     // -2 sin^2(d/2) + d^2/2 of the angle, over the variance
     float square = d * d;
     float beyond_normal = 1.44269504 * variance * square * square * (1.0 / 24.0 - variance * square * (1.0 / 720.0));
@@ -92,9 +93,12 @@ vec3 key_lobe_radiance(KeyLobe lobe, GrooveView view) {
     float z = lobe.direction.w * across;
     float deviation = inversesqrt(lobe.direction.w);
     float variance = deviation * deviation;
-    // Half a deviation from the middle, away from g: where the lobe surrounds g, most of its light is there.
+    // Half a deviation from the middle, away from g: where the lobe surrounds g, most of its light is there. For a
+    // lobe below the horizon, from the nearest point of the horizon.
+    vec2 nearest = vec2(axis.z < 0.0 ? max(abs(axis.y), 1e-6) : across, abs(axis.x));
+    nearest *= inversesqrt(dot(nearest, nearest));
     LightAbove above = light_above(axis.z / across, abs(axis.y) / across,
-                                   0.5 * z * (across * (1.0 + lobe.turns.x) + abs(axis.x) * lobe.turns.y));
+                                   0.5 * z * dot(nearest, vec2(1.0 + lobe.turns.x, lobe.turns.y)));
     // Cosine and sine of psi in a window and in the next one.
     vec2 step = lobe.turns.zw;
     vec2 next = vec2(across, axis.x) * lobe.variance.z + vec2(axis.x, -across) * lobe.variance.w;
