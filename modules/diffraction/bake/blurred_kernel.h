@@ -9,7 +9,7 @@
 
 namespace rowland::diffraction {
 
-inline constexpr int kLevelsPerOctave = 2;
+inline constexpr int kLevelsPerOctave = 4;
 
 /// k smoothed by normal distributions, over x and the deviation σ: the response to a light of that extent in one
 /// look-up. A 2D texture, GL_LINEAR, GL_CLAMP_TO_EDGE, three texels (the matrix's columns) per entry.
@@ -30,7 +30,7 @@ struct BlurredKernel {
 
 /// σ from 1 nm to at least `widest_nm` ≥ 1; x to 4σ beyond the kernel. A value is what at() is to give for σ: the
 /// stencil is narrower by what columns and interpolation add. Where σ is wider than the kernel's features, values are
-/// as 1/σ, and n levels an octave are off by (ln 2/n)²/8 between them: 1.5 % for 2, .1 % for 8.
+/// as 1/σ, and n levels an octave are off by (ln 2/n)²/8 between them: .4 % for 4, .1 % for 8.
 BlurredKernel blur(const KernelTable& kernel, double widest_nm, int columns = 2048,
                    int levels_per_octave = kLevelsPerOctave);
 

@@ -9,27 +9,21 @@
 
 namespace rowland::diffraction {
 
-namespace {
-
-/// Fraction of a lobe's variance in ψ that lies between its three nodes, as in direct.cpp.
-constexpr double kBetween = 0.3;
-
-}  // namespace
-
 KeyLobe key_lobe(const lighting::KeyLight& light) {
     const lighting::LobeMoments moments = lighting::lobe_moments(light.concentration);
     const double flux = std::max(glm::compMax(light.flux), 1e-30);
-    const double step = std::sqrt(3.0 * kBetween / light.concentration);
-    const double variance = (1.0 - kBetween) / light.concentration;
+    const double deviation = 1.0 / std::sqrt(light.concentration);
+    const double step = ROWLAND_LOBE_WINDOW_STEP * deviation;
+    const double last = ROWLAND_LOBE_WINDOWS * step;
     const double elongation = (moments.variance_along - moments.variance_across) / (moments.mean * moments.mean);
     const double reach = 5.2 * std::sqrt(moments.variance_across);
     return {.direction = glm::vec4(glm::dvec4(light.direction, light.concentration)),
             .flux = glm::vec4(glm::dvec4(light.flux, flux)),
             .moments = glm::vec4(glm::dvec4(moments.mean, elongation, moments.variance_across, reach)),
-            .nodes = glm::vec4(glm::dvec4(std::cos(step), std::sin(step), variance, std::exp(-0.5 * variance))),
+            .turns = glm::vec4(glm::dvec4(std::cos(deviation), std::sin(deviation), std::cos(step), std::sin(step))),
             .mean = glm::vec4(glm::dvec4(moments.mean * light.direction, reach)),
-            .variance = glm::vec4(
-                glm::dvec4(12.0 * elongation, 12.0 * (moments.variance_across + kLeastLobeVariance), 0.0, 0.0)),
+            .variance = glm::vec4(glm::dvec4(12.0 * elongation, 12.0 * (moments.variance_across + kLeastLobeVariance),
+                                             std::cos(last), std::sin(last))),
             .height = glm::vec4(lobe_height_fit(light.concentration) + glm::dvec4(std::log2(flux), 0.0, 0.0, 0.0))};
 }
 

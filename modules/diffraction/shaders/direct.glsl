@@ -2,7 +2,6 @@
 // over the light and the pixel.
 #include "modules/diffraction/shaders/small_light.glsl"
 #include "modules/diffraction/shaders/key_lobes.glsl"
-#include "modules/diffraction/shaders/key_lobe_parts.glsl"
 #include "modules/diffraction/shaders/key_lobe_windows.glsl"
 #include "modules/diffraction/shaders/pattern.glsl"
 

@@ -10,14 +10,18 @@ using glm::vec4;
 // Rows of a light's table: direct/lobe_table.h.
 #define ROWLAND_LOBE_TABLE_OCTAVES 28
 #define ROWLAND_LOBE_TABLE_START (-18)
+// key_lobe_windows.glsl: windows on either side of the middle, and the step between them in deviations.
+#define ROWLAND_LOBE_WINDOWS 6
+#define ROWLAND_LOBE_WINDOW_STEP 0.505964
 struct KeyLobe {
     vec4 direction;  // xyz: unit, toward the light; w: concentration
     vec4 flux;       // xyz: linear Rec.709 radiance * sr; w: their largest
     vec4 moments;    // mean of the cosine; variance along the direction less that across it, over that mean's square;
                      // variance across it; 5.2 deviations across it
-    vec4 nodes;      // cosine and sine of the outer nodes' angle; variance about a node; exp(-variance / 2)
+    vec4 turns;      // cosine and sine of a deviation of psi, 1/sqrt(concentration); of the step between two windows
     vec4 mean;       // xyz: of the directions; w: 5.2 deviations across
-    vec4 variance;   // 12 times that of u = s_g + v_g: factor of the mean s_g, squared; constant
+    vec4 variance;   // xy: 12 times that of u = s_g + v_g: factor of the mean s_g, squared; constant. zw: cosine and
+                     // sine of the angle from the middle to the last window
     vec4 height;     // by how much the mean of s_n above 0 exceeds that of s_n, times the largest flux: log2 as a
                      // polynomial in the latter's distance from 0
 };

@@ -5,46 +5,6 @@
 #include "modules/diffraction/shaders/key_lobe_block.h"
 #include "modules/diffraction/shaders/normal_distribution.glsl"
 
-// A part of a light as a normal distribution in s_g.
-struct LightPart {
-    float cosine;  // mean of s_n above the horizon
-    float centre;
-    float deviation;
-};
-
-// Mean of max(0, sin t) for t from a von Mises distribution about t0: direct.h, mean_above_wide(). The form of the variance
-// avoids cancellation for narrow lobes.
-float mean_above(float sine, float concentration) {
-    float root = sqrt(concentration * concentration + 2.25);
-    float ratio = concentration / (0.5 + root);
-    float one_less_ratio = (0.5 + 2.25 / (root + concentration)) / (0.5 + root);
-    float one_less_second = 2.0 / (0.5 + root);
-    float variance = 0.5 * one_less_second + sine * sine * (one_less_ratio * (1.0 + ratio) - one_less_second);
-    return clamped_mean(ratio * sine, sqrt(max(variance, 0.0)));
-}
-
-// Part 0: the middle of the lobe; 1 and 2: its sides. `axis`: its direction in (g, h, n). The caller divides by the sum of
-// the `weight`s.
-LightPart lobe_part(KeyLobe lobe, vec3 axis, float across, int part, out float weight) {
-    const float SKEW = 1.0 + 0.7 / 0.6;
-    float side = part == 0 ? 0.0 : part == 1 ? lobe.nodes.y : -lobe.nodes.y;
-    float middle = part == 0 ? 1.0 : lobe.nodes.x;
-    // The angle psi from the plane across g: sin psi = s_g.
-    float cosine = across * middle - axis.x * side;
-    float sine = axis.x * middle + across * side;
-    weight = 0.0;
-    if (cosine <= 0.0) return LightPart(0.0, 0.0, 0.0);
-    weight = (part == 0 ? 2.0 / 3.0 : 1.0 / 6.0) * sqrt(cosine);
-    float variance = lobe.nodes.z;
-    float deviation = sqrt(variance);
-    float shift = -1.5 * variance * sine / cosine;
-    float above = mean_above(axis.z / across, lobe.direction.w * cosine * across);
-    shift = clamp(shift, -deviation, deviation);
-    return LightPart(weight * cosine * above,
-                     (sine * cos(shift) + cosine * sin(shift)) * lobe.nodes.w,
-                     deviation * across * min(pow(cosine / across, SKEW), 2.0));
-}
-
 // Mean and variance of x above 0, values weighted by x, for x of this mean and variance; 0 where nothing is above:
 // engine/lighting/key_lights.h, clamp_normal().
 struct ClampedMoments {

@@ -184,7 +184,7 @@ export class GratingMaterial extends MeshPhysicalMaterial {
         this.flag("NO_KEY_LIGHTS", count === 0);
         if (count === 0) return;
         this.define("ROWLAND_MAXIMUM_KEY_LOBES", String(count));
-        const names = ["direction", "flux", "moments", "nodes", "mean", "variance", "height"];
+        const names = ["direction", "flux", "moments", "turns", "mean", "variance", "height"];
         this.set("key_lobe_count", new Vector4(count));
         this.set("key_lobes", Array.from({ length: count }, (_, light) =>
             Object.fromEntries(names.map((name, i) => [name, new Vector4().fromArray(keyLobes, 28 * light + 4 * i)]))));

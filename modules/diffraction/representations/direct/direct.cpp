@@ -30,10 +30,9 @@ struct Spread {
 /// regression.
 LightSpot clamp_at_horizon(const Spread& spread) {
     LightSpot spot;
-    LightSpot::Part& part = spot.parts[0];
     const double variance_n = std::max(0.0, spread.covariance(2, 2));
     const lighting::ClampedNormal clamped = lighting::clamp_normal(spread.mean.z, std::sqrt(variance_n));
-    part.cosine = clamped.mean;
+    spot.cosine = clamped.mean;
     spot.centre_n = clamped.mean > 0.0 ? clamped.weighted_mean : 0.0;
     spot.deviation_n = clamped.mean > 0.0 ? std::sqrt(std::max(0.0, clamped.weighted_variance)) : 0.0;
     const double shift = clamped.mean > 0.0 ? clamped.weighted_mean - spread.mean.z : 0.0;
@@ -45,9 +44,9 @@ LightSpot clamp_at_horizon(const Spread& spread) {
     };
     double variance_g = 0.0;
     double variance_h = 0.0;
-    regress(0, part.centre_g, variance_g);
+    regress(0, spot.centre_g, variance_g);
     regress(1, spot.centre_h, variance_h);
-    part.deviation_g = std::sqrt(variance_g);
+    spot.deviation_g = std::sqrt(variance_g);
     spot.deviation_h = std::sqrt(variance_h);
     return spot;
 }
@@ -80,51 +79,34 @@ glm::dmat3 mean_over(const Kernel& kernel, const DirectMaterial& material, doubl
     return mean;
 }
 
-/// Σ_parts s_n⁺ d k̄: what direct_radiance() needs of a kernel.
+/// Light between two values of s_g: its mean over a pixel's u, with order 0.
 template <typename Kernel>
-glm::dmat3 sum_over_parts(const Kernel& kernel, const DirectMaterial& material, const LightSpot& spot,
-                          const DirectView& view) {
-    glm::dmat3 sum(0.0);
-    for (const LightSpot::Part& part : spot.parts) {
-        if (part.cosine <= 0.0) continue;
-        // A box's variance is a third of its half-width's square.
-        const double half = std::hypot(std::sqrt(3.0) * part.deviation_g, view.footprint);
-        sum += part.cosine * mean_over(kernel, material, part.centre_g + view.v_g, std::max(half, kNarrowest));
-    }
-    return sum;
+glm::dmat3 seen_over(const Kernel& kernel, const DirectMaterial& material, const DirectView& view, double centre_g,
+                     double half_g) {
+    const double half = std::hypot(half_g, view.footprint);
+    return mean_over(kernel, material, centre_g + view.v_g, std::max(half, kNarrowest));
 }
 
-template <typename Kernel>
-glm::dmat3 sum_over_slices(const Kernel& kernel, const DirectMaterial& material, const LightSpot& spot,
-                           const DirectView& view) {
-    const LobeCosine lobe(spot.axis, spot.concentration);
-    const double extent_nm = (lobe.end() - lobe.begin()) * material.pitch_nm;
-    glm::dmat3 sum(0.0);
-    for (const LobeSlice& slice : lobe_slices(lobe, std::max(kFewestSlices, static_cast<int>(extent_nm / kSlice_nm)))) {
-        const double half = std::hypot(0.5 * (slice.end_g - slice.begin_g), view.footprint);
-        sum += slice.cosine *
-               mean_over(kernel, material, 0.5 * (slice.begin_g + slice.end_g) + view.v_g, std::max(half, kNarrowest));
-    }
-    return sum;
+/// The smoothed kernel holds the mean.
+glm::dmat3 seen_over(const BlurredKernel& kernel, const DirectMaterial& material, const DirectView& view,
+                     double centre_g, double half_g) {
+    const double d = material.pitch_nm;
+    return d * kernel.at(d * (centre_g + view.v_g), d * std::hypot(half_g, view.footprint) / std::sqrt(3.0));
 }
 
+/// s_n⁺ d k̄: what direct_radiance() needs of a kernel.
 template <typename Kernel>
 glm::dmat3 sum_over(const Kernel& kernel, const DirectMaterial& material, const LightSpot& spot,
                     const DirectView& view) {
-    return spot.concentration > 0.0 ? sum_over_slices(kernel, material, spot, view)
-                                    : sum_over_parts(kernel, material, spot, view);
-}
-
-/// The smoothed kernel holds the mean over a part.
-glm::dmat3 sum_over(const BlurredKernel& kernel, const DirectMaterial& material, const LightSpot& spot,
-                    const DirectView& view) {
-    const double d = material.pitch_nm;
+    // A box's variance is a third of its half-width's square.
+    if (spot.concentration <= 0.0)
+        return spot.cosine * seen_over(kernel, material, view, spot.centre_g, std::sqrt(3.0) * spot.deviation_g);
+    const LobeCosine lobe(spot.axis, spot.concentration);
+    const double extent_nm = (lobe.end() - lobe.begin()) * material.pitch_nm;
     glm::dmat3 sum(0.0);
-    for (const LightSpot::Part& part : spot.parts) {
-        if (part.cosine <= 0.0) continue;
-        const double deviation = std::hypot(part.deviation_g, view.footprint / std::sqrt(3.0));
-        sum += part.cosine * d * kernel.at(d * (part.centre_g + view.v_g), d * deviation);
-    }
+    for (const LobeSlice& slice : lobe_slices(lobe, std::max(kFewestSlices, static_cast<int>(extent_nm / kSlice_nm))))
+        sum += slice.cosine * seen_over(kernel, material, view, 0.5 * (slice.begin_g + slice.end_g),
+                                        0.5 * (slice.end_g - slice.begin_g));
     return sum;
 }
 
@@ -133,60 +115,6 @@ glm::dvec3 seen_through(const Kernel& kernel, const DirectMaterial& material, co
                         const DirectView& view) {
     return transmittance(material.cover, spot) * groove_factor(material.lobe, spot, view.v_h) *
            (0.5 * (sum_over(kernel, material, spot, view) * spot.flux));
-}
-
-/// mean_above_wide() for z ≥ kFewTurns, exact in the tails also.
-double mean_above_narrow(double sine, double cosine, double z) {
-    const double whole = std::sqrt(2.0 * std::numbers::pi / z) * (1.0 + 1.0 / (8.0 * z) + 9.0 / (128.0 * z * z));
-    return light_above_narrow(sine, cosine, z) / whole;
-}
-
-constexpr double kFewTurns = 3.0;
-
-double mean_above(double sine, double cosine, double concentration) {
-    // sin t = sin(π − t), so t₀ can be taken in (−π/2, π/2).
-    return concentration < kFewTurns ? mean_above_wide(sine, concentration)
-                                     : mean_above_narrow(sine, std::abs(cosine), concentration);
-}
-
-/// A lobe along `axis` (tangent frame) in parts. With s_g = sin ψ its density is √cos ψ exp(κ cos(ψ − ψ₀)) in ψ, times
-/// a von Mises distribution of concentration κ cos ψ cos ψ₀ around g (both by I₀(z) ≈ e^z/√(2πz)). The normal
-/// distribution of ψ is split into three, whose nodes hold `kBetween` of its variance (Gauss–Hermite). The factor √cos
-/// ψ · s_n ~ cos^1.5 ψ weights the nodes and shifts the distribution around each.
-std::array<LightSpot::Part, 3> lobe_parts(const glm::dvec3& axis, double concentration) {
-    constexpr double kBetween = 0.3;
-    constexpr double kWithin = 1.0 - kBetween;
-    constexpr std::array<double, 3> kWeights{2.0 / 3.0, 1.0 / 6.0, 1.0 / 6.0};
-    // The parts are normal and have no skewness. Their widths change faster with ψ than cos ψ, so that together they
-    // have the lobe's skewness, −3 tan ψ σ⁴.
-    constexpr double kSkew = 1.0 + kWithin / (2.0 * kBetween);
-    const double step = std::sqrt(3.0 * kBetween / concentration);
-    const double variance = kWithin / concentration;
-    const double psi0 = std::asin(std::clamp(axis.x, -1.0, 1.0));
-    const double across = std::max(std::hypot(axis.y, axis.z), 1e-9);
-    const auto above = [&](double cosine) {
-        return mean_above(axis.z / across, axis.y / across, concentration * std::max(0.0, cosine) * across);
-    };
-    std::array<LightSpot::Part, 3> parts{};
-    double total = 0.0;
-    // Logarithmic derivative over ψ of the part above the horizon: it also shifts the parts.
-    const double plus = above(std::cos(psi0 + step));
-    const double minus = above(std::cos(psi0 - step));
-    const double growth = plus > 0.0 && minus > 0.0 ? std::log(plus / minus) / (2.0 * step) : 0.0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const double psi = psi0 + (i == 0 ? 0.0 : i == 1 ? step : -step);
-        const double cosine = std::cos(psi);
-        if (cosine <= 0.0) continue;
-        const double weight = kWeights[i] * std::sqrt(cosine);
-        total += weight;
-        // ψ is singular at the poles: the shift is clamped to the lobe's width.
-        const double shift =
-            std::clamp(variance * (growth - 1.5 * std::tan(psi)), -std::sqrt(variance), std::sqrt(variance));
-        parts[i] = {weight * cosine * above(cosine), std::sin(psi + shift) * std::exp(-0.5 * variance),
-                    std::sqrt(variance) * across * std::min(std::pow(cosine / across, kSkew), 2.0)};
-    }
-    for (LightSpot::Part& part : parts) part.cosine /= total;
-    return parts;
 }
 
 template <typename Light>
@@ -202,14 +130,6 @@ glm::dvec3 sum_of_lights(const KernelTable& kernel, const DirectMaterial& materi
 }
 
 }  // namespace
-
-double mean_above_wide(double sine, double concentration) {
-    const double bound = 0.5 + std::sqrt(concentration * concentration + 2.25);
-    const double mean = concentration / bound * sine;
-    const double second = 1.0 - 2.0 / bound;  // I₂/I₀
-    const double square = 0.5 * (1.0 - second * (1.0 - 2.0 * sine * sine));
-    return lighting::clamp_normal(mean, std::sqrt(std::max(0.0, square - mean * mean))).mean;
-}
 
 LightSpot light_spot(const DirectLight& light, const glm::dmat3& world_to_tangent) {
     const double half = std::sin(0.5 * light.angular_radius);
@@ -230,7 +150,6 @@ LightSpot light_spot(const lighting::KeyLight& light, const glm::dmat3& world_to
     const glm::dvec3 axis = world_to_tangent * light.direction;
     LightSpot spot = clamp_at_horizon({moments.mean * axis, moments.variance_along, moments.variance_across, axis});
     spot.flux = light.flux;
-    spot.parts = lobe_parts(axis, light.concentration);
     spot.axis = axis;
     spot.concentration = light.concentration;
     return spot;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -22,37 +21,24 @@ struct DirectLight {
     double angular_radius = 0.0;          ///< radians
 };
 
-/// A light in a surface's tangent frame: what a grating sees of it, as the sum of up to three simple shapes in s_g: a
-/// box, or normal distributions, which shaders use for a lobe.
+/// A light in a surface's tangent frame: what a grating sees of it.
 struct LightSpot {
-    struct Part {
-        double cosine = 0.0;       ///< the part's contribution to the mean of s_n⁺ over the light
-        double centre_g = 0.0;     ///< mean s_g
-        double deviation_g = 0.0;  ///< standard deviation of s_g
-    };
     glm::dvec3 flux{0.0};
-    std::array<Part, 3> parts{};  ///< cosine 0: unused
-    double centre_h = 0.0;        ///< mean s_h, directions weighted by s_n⁺
-    double centre_n = 0.0;        ///< mean s_n⁺, likewise
-    double deviation_n = 0.0;     ///< standard deviation of s_n⁺, likewise
-    double deviation_h = 0.0;     ///< standard deviation of s_h, likewise
-    glm::dvec3 axis{0.0};         ///< of a lobe
-    double concentration = 0.0;   ///< of a lobe; 0: a disc
-
-    /// Mean of s_n⁺ over the light.
-    double cosine() const { return parts[0].cosine + parts[1].cosine + parts[2].cosine; }
+    double cosine = 0.0;         ///< mean of s_n⁺ over the light
+    double centre_g = 0.0;       ///< mean s_g, directions weighted by s_n⁺
+    double deviation_g = 0.0;    ///< standard deviation of s_g, likewise
+    double centre_h = 0.0;       ///< mean s_h, likewise
+    double deviation_h = 0.0;    ///< standard deviation of s_h, likewise
+    double centre_n = 0.0;       ///< mean s_n⁺, likewise
+    double deviation_n = 0.0;    ///< standard deviation of s_n⁺, likewise
+    glm::dvec3 axis{0.0};        ///< of a lobe
+    double concentration = 0.0;  ///< of a lobe; 0: a disc
 };
-
-/// Mean of max(0, sin t) for t from a von Mises distribution about t₀, with sin t₀ = `sine`. Treats sin t as normal:
-/// for small concentrations. I₁/I₀ by Amos' bound (1974), exact at both ends and within 2 %.
-double mean_above_wide(double sine, double concentration);
 
 /// A disc, as one box of its variance in s_g.
 LightSpot light_spot(const DirectLight& light, const glm::dmat3& world_to_tangent);
 
-/// A von Mises–Fisher lobe. For smoothed kernels it is split into three normal distributions in s_g around nodes of
-/// ψ = asin s_g, each weighted by the part of the lobe's circle above the horizon. Within two deviations of g they are
-/// 20 % off and more.
+/// A von Mises–Fisher lobe.
 LightSpot light_spot(const lighting::KeyLight& light, const glm::dmat3& world_to_tangent);
 
 /// The view of a point and the pixel's extent.
@@ -80,16 +66,16 @@ glm::dvec3 groove_factor(const GrooveLobe& lobe, const LightSpot& spot, double v
 /// Mean of T over a light, to second order in its extent; 1 without a cover.
 double transmittance(const std::optional<Cover>& cover, const LightSpot& spot);
 
-/// XYZ = Σ_parts ½ s_n⁺ d k̄(d u) F · 2 D_h T(s_n) with u = s_g + v_g, PHYSICS §4 and §10, without T(v_n). k̄ is the mean
+/// XYZ = ½ s_n⁺ d k̄(d u) F · 2 D_h T(s_n) with u = s_g + v_g, PHYSICS §4 and §10, without T(v_n). k̄ is the mean
 /// of k over the light and the pixel, from differences of 𝒦. A box is one difference: the squares of its half-width and
-/// of the footprint add. A lobe is a sum of slices narrower than the kernel's features (LobeCosine), not of its parts.
+/// of the footprint add. A lobe is a sum of slices narrower than the kernel's features (LobeCosine).
 glm::dvec3 direct_radiance(const KernelTable& kernel, const DirectMaterial& material, const LightSpot& spot,
                            const DirectView& view);
 glm::dvec3 direct_radiance(const ColourKernel& kernel, const DirectMaterial& material, const LightSpot& spot,
                            const DirectView& view);
 
-/// The same from a smoothed kernel: one look-up per part, whatever its extent. A box counts as a normal distribution of
-/// its variance. Without order 0.
+/// The same from a smoothed kernel: one look-up for a box or a slice, which counts as a normal distribution of its
+/// variance, but as no narrower than a column. Without order 0.
 glm::dvec3 direct_radiance(const BlurredKernel& kernel, const DirectMaterial& material, const LightSpot& spot,
                            const DirectView& view);
 

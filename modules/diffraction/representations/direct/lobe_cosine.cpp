@@ -20,20 +20,8 @@ constexpr double kClosedForm = 3.0;
 /// In deviations.
 constexpr double kLobeReach = 4.5;
 
-/// light_above_narrow() for small z.
-double light_above_wide(double sine, double cosine, double z) {
-    static const math::QuadratureRule rule = math::gauss_legendre(12, 0.0, pi);
-    double sum = 0.0;
-    for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
-        const double height = std::sin(rule.nodes[i]);
-        const double along = std::cos(rule.nodes[i]) * cosine + height * sine;
-        sum += rule.weights[i] * height * std::exp(z * (along - 1.0));
-    }
-    return sum;
-}
-
-}  // namespace
-
+/// ∫₀^π sin t e^(z (cos(t − t₀) − 1)) dt for z ≥ 3, exact in the tails also. `sine` and `cosine`: of t₀, which lies in
+/// (−π/2, π/2).
 double light_above_narrow(double sine, double cosine, double z) {
     // With τ = t − t₀, sin t = sin τ cos t₀ + cos τ sin t₀: the first term has a closed integral, the second is normal
     // in y = 2√z sin(τ/2), to 1/z².
@@ -52,6 +40,20 @@ double light_above_narrow(double sine, double cosine, double z) {
     const double odd = (gauss(begin) - gauss(end)) / z;
     return std::max(0.0, cosine * odd + sine * even);
 }
+
+/// light_above_narrow() for smaller z.
+double light_above_wide(double sine, double cosine, double z) {
+    static const math::QuadratureRule rule = math::gauss_legendre(12, 0.0, pi);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
+        const double height = std::sin(rule.nodes[i]);
+        const double along = std::cos(rule.nodes[i]) * cosine + height * sine;
+        sum += rule.weights[i] * height * std::exp(z * (along - 1.0));
+    }
+    return sum;
+}
+
+}  // namespace
 
 LobeCosine::LobeCosine(const glm::dvec3& axis, double concentration)
     : concentration_(concentration),

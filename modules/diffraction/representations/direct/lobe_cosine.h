@@ -5,10 +5,6 @@
 
 namespace rowland::diffraction {
 
-/// ∫₀^π sin t e^(z (cos(t − t₀) − 1)) dt for z ≥ 3, exact in the tails also. `sine` and `cosine`: of t₀, which lies in
-/// (−π/2, π/2).
-double light_above_narrow(double sine, double cosine, double z);
-
 /// The light of a von Mises–Fisher lobe over ψ, s_g = sin ψ: the mean of s_n⁺ over the lobe is its integral. Exact
 /// where the horizon cuts the lobe and where the lobe surrounds g.
 class LobeCosine {
@@ -53,7 +49,7 @@ struct LobeWindow {
 };
 
 /// A lobe as seven normal distributions in s_g: it is divided among normal windows in ψ (Gauss–Hermite), and each has
-/// its window's light, mean and deviation. Near g three parts of LightSpot do not suffice.
+/// its window's light, mean and deviation.
 std::vector<LobeWindow> lobe_windows(const LobeCosine& lobe);
 
 }  // namespace rowland::diffraction

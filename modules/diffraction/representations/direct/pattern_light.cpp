@@ -36,10 +36,9 @@ int picture_size(double half_width, std::span<const lighting::KeyLight> lights) 
 PatternLight pattern_light(const DirectLight& light, const std::optional<Cover>& cover,
                            const glm::dmat3& world_to_tangent) {
     const LightSpot spot = light_spot(light, world_to_tangent);
-    return {.irradiance = spot.cosine() * transmittance(cover, spot) * light.flux,
-            .centre = {spot.parts[0].centre_g, spot.centre_h},
-            .variance =
-                0.5 * (spot.parts[0].deviation_g * spot.parts[0].deviation_g + spot.deviation_h * spot.deviation_h)};
+    return {.irradiance = spot.cosine * transmittance(cover, spot) * light.flux,
+            .centre = {spot.centre_g, spot.centre_h},
+            .variance = 0.5 * (spot.deviation_g * spot.deviation_g + spot.deviation_h * spot.deviation_h)};
 }
 
 glm::dvec3 pattern_radiance(const PatternPicture& picture, const PatternLight& light, const glm::dvec2& v_p,

@@ -96,7 +96,7 @@ class Grooves : public GratingPicture {
             return sum / static_cast<double>(texels.size());
         };
     }
-    /// Key lights part by part: their tables know one pitch.
+    /// Key lights without tables, which know one pitch.
     glm::dvec3 key_lights(const CookedMaterial& cooked, const Turned& turned) const {
         DirectMaterial material = direct_material(cooked);
         material.pitch_nm *= turned.pitch;

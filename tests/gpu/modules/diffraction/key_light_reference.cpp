@@ -1,8 +1,11 @@
 #include "tests/gpu/modules/diffraction/key_light_reference.h"
 
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <tuple>
 
+#include "modules/diffraction/representations/direct/lobe_cosine.h"
 #include "modules/diffraction/representations/direct/lobe_table.h"
 #include "tests/gpu/modules/diffraction/filter_error.h"
 
@@ -63,6 +66,24 @@ glm::dvec3 key_light_xyz(const CookedMaterial& cooked, const std::vector<lightin
         xyz += has_tables(cooked)
                    ? lobe_radiance(lobe_reference(cooked, key).table, material, key, point.to_tangent, view)
                    : direct_radiance(smoothed(cooked), material, light_spot(key, point.to_tangent), view);
+    }
+    return xyz;
+}
+
+glm::dvec3 order_zero_xyz(const CookedMaterial& cooked, const std::vector<lighting::KeyLight>& keys,
+                          const Point& point) {
+    constexpr int kSlices = 1000;
+    glm::dvec3 xyz(0.0);
+    for (const lighting::KeyLight& key : keys) {
+        const LightSpot spot = light_spot(key, point.to_tangent);
+        const double pixel = footprint(point, key.direction);
+        double density = 0.0;
+        for (const LobeSlice& slice : lobe_slices(LobeCosine(spot.axis, spot.concentration), kSlices)) {
+            const double deviation = std::hypot(0.5 * (slice.end_g - slice.begin_g), pixel) / std::sqrt(3.0);
+            const double z = (0.5 * (slice.begin_g + slice.end_g) + point.view.x) / deviation;
+            density += slice.cosine * std::exp(-0.5 * z * z) / (deviation * std::sqrt(2.0 * std::numbers::pi));
+        }
+        xyz += 0.5 * transmittance(cooked.material.grating.cover, spot) * density * (cooked.zero_order_xyz * key.flux);
     }
     return xyz;
 }
