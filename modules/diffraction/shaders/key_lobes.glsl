@@ -31,7 +31,7 @@ void add_key_lobe(int light, mat3 axes, vec3 direction, mat2x3 g_change, vec2 v_
     vec3 mean = key_lobes[light].mean.xyz;
     float s_g = dot(mean, axes[0]);
     float u = s_g + direction.x;
-    // Most lights miss the orders. A table's values reach 5.2 deviations: light_spot.glsl, lobe_part().
+    // Most lights miss the orders. Beyond five deviations a table holds next to nothing.
     if (abs(abs(u) - lobe_reach.x) - key_lobes[light].mean.w < beyond) {
         float mean_n = dot(mean, axes[2]);
         vec2 change = mean * g_change + v_g_change;
