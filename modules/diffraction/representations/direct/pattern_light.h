@@ -35,7 +35,7 @@ std::vector<LightPicture> key_light_pictures(const Grating& grating, const colou
                                              std::span<const lighting::KeyLight> lights,
                                              const glm::dmat3& space = glm::dmat3(1.0));
 
-/// XYZ of a key light from its picture: three look-ups, as it is an ellipse in the plane, PHYSICS (51). Without T(v_n).
+/// XYZ of a key light from its picture: three look-ups, as it is an ellipse in the plane, PHYSICS (52). Without T(v_n).
 glm::dvec3 pattern_radiance(const LightPicture& picture, const lighting::KeyLight& light,
                             const std::optional<Cover>& cover, const glm::dmat3& world_to_tangent,
                             const glm::dvec2& v_p, double footprint = 0.0);
