@@ -25,8 +25,8 @@ json quality_schema(const RepresentationInfo& info) {
                        {"illuminant", {{"$ref", "#/$defs/illuminant"}}},
                        {"representation", {{"const", info.name}}},
                        {"lights_at", where}};
-    properties["key_lights"] =
-        info.key_lights == KeyLightUse::Always ? json{{"const", true}} : json{{"enum", {true, false}}};
+    properties["key_lights"]["$ref"] =
+        info.key_lights == KeyLightUse::Always ? "#/$defs/some_key_lights" : "#/$defs/key_lights";
     if (info.is_map) properties["map_at"] = where;
     for (const SettingInfo& setting : info.settings)
         properties[setting.key] =
