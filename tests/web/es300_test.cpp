@@ -55,7 +55,7 @@ std::vector<Program> programs() {
         {"circle",
          pixels,
          "representations/circle/circle.frag.glsl",
-         {{"CHARTS", "2"}, {"TERMS", "7"}, {"LOOK_UPS", "4"}, {"VIEWS", "64"}}},
+         {{"CHARTS", "2"}, {"VIEWS", "64"}, {"REST_VIEWS", "40"}, {"ANGLES", "14"}}},
         {"streak",
          pixels,
          "representations/streak/streak.frag.glsl",
