@@ -62,8 +62,9 @@ std::set<int> formulas_of(const std::string& page) {
     for_each_line(page, [&](const std::string& line, int) {
         static const std::regex numbered(".*\\((\\d+)\\)$");
         std::smatch match;
-        if (std::regex_match(line, match, numbered))
+        if (std::regex_match(line, match, numbered)) {
             EXPECT_TRUE(formulas.insert(std::stoi(match[1])).second) << "twice: " << line;
+        }
     });
     return formulas;
 }
