@@ -10,9 +10,6 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// Look-ups that the terms take, of four components each.
-constexpr int kTermLookUps = (3 * kCircleTerms + 3) / 4;
-
 SettingInfo angles_setting() {
     return {.key = "angles",
             .label = "Angles of the normal",

@@ -31,6 +31,8 @@ struct CircleGrid {
 
 /// The terms of a circle map: on 1, cos t, sin t, cos 2t, sin 2t.
 inline constexpr int kCircleTerms = 5;
+/// Look-ups that they take, of four components each.
+inline constexpr int kTermLookUps = (3 * kCircleTerms + 3) / 4;
 
 /// The radiance of any grating surface of flat lobe under a probe (PHYSICS §6 "circle"): XYZ over the grating vector g
 /// in world space, v_g and the normal's angle t around g. It does not depend on the object.

@@ -14,8 +14,6 @@ namespace rowland::diffraction {
 
 namespace {
 
-constexpr int kTermLookUps = (3 * kCircleTerms + 3) / 4;
-
 /// The texels of a row that one look-up of the terms reads.
 void append(const CircleGrid& grid, int chart, int view, int row, int look_up, std::vector<glm::vec4>& texels) {
     for (int column = 0; column < grid.side; ++column) {
