@@ -117,17 +117,21 @@ void fill(const Averages& averages, FilmTable& table) {
     for (glm::mat3& value : table.values) value = to_stored(value);
 }
 
-/// The roughnesses that a range asks for: 0, for light from one direction, and layers and the middles between them.
-std::vector<double> measured_roughnesses(const FilmTable& table, double smoothest) {
+/// The roughnesses that a range asks for: 0, for light from one direction, and layers and the middles between them, or
+/// even steps.
+std::vector<double> measured_roughnesses(const FilmTable& table, const TableRange& range) {
     std::vector<double> result = {0.0};
     for (int half_layer = 1; half_layer <= 2 * (table.layers - 1); ++half_layer)
-        if (const double roughness = table.roughness(0.5 * half_layer); roughness >= smoothest)
+        if (const double roughness = table.roughness(0.5 * half_layer); roughness >= range.smoothest)
             result.push_back(roughness);
+    constexpr int kSteps = 8;
+    for (int step = 1; !table.lobe.empty() && step <= kSteps; ++step)
+        result.push_back(range.smoothest + (range.roughest - range.smoothest) * step / kSteps);
     return result;
 }
 
 TableError measure(const Averages& averages, const FilmTable& table, const TableRange& range) {
-    const std::vector<double> roughnesses = measured_roughnesses(table, range.smoothest);
+    const std::vector<double> roughnesses = measured_roughnesses(table, range);
     std::vector<TableError> errors(roughnesses.size() * kMeasuredCosines);
     parallel_for(errors.size(), [&](std::size_t i) {
         const double root = std::sqrt(kLeastMeasuredCosine);
@@ -135,7 +139,8 @@ TableError measure(const Averages& averages, const FilmTable& table, const Table
         const double cosine = square(root + (1.0 - root) * (step + 0.5) / kMeasuredCosines);
         const double roughness = roughnesses[i / kMeasuredCosines];
         std::vector<double> thicknesses_nm;
-        const int steps = range.thickest_nm > range.thinnest_nm ? 3 * table.rows : 0;
+        const bool smoothed = !table.lobe.empty() && roughness > 0.0;  // needs fewer steps, which take time
+        const int steps = range.thickest_nm > range.thinnest_nm ? (smoothed ? 1 : 3) * table.rows : 0;
         for (int j = 0; j <= steps; ++j)
             thicknesses_nm.push_back(range.thinnest_nm +
                                      (range.thickest_nm - range.thinnest_nm) * j / std::max(steps, 1));
@@ -176,9 +181,19 @@ glm::mat3 to_stored(const glm::mat3& matrix) {
 }
 
 glm::dmat3 FilmTable::at(double cosine, double thickness_nm, double roughness) const {
+    const double clamped = std::clamp(cosine, 0.0, 1.0);
+    if (roughness == 0.0 || lobe.empty()) return interpolated(column_coordinate(clamped), thickness_nm, roughness);
+    glm::dmat3 sum(0.0);
+    for (const LobeNode& node : lobe.at(clamped, roughness))
+        sum += node.weight * interpolated(node.root, thickness_nm, 0.0);
+    return sum;
+}
+
+glm::dmat3 FilmTable::interpolated(double root, double thickness_nm, double roughness) const {
+    const double cosine = square(root) - kCosineOffset;
     const double y = row_coordinate(path_difference(index, thickness_nm, mean_square_cosine(cosine, roughness)));
     const double first = column_coordinate(0.0);
-    const double u = (column_coordinate(std::clamp(cosine, 0.0, 1.0)) - first) / (column_coordinate(1.0) - first);
+    const double u = (root - first) / (column_coordinate(1.0) - first);
     const Between column(position(u, columns), columns);
     const Between row(position(end > begin ? (y - begin) / (end - begin) : 0.0, rows), rows);
     const Between layer(position(roughest > 0.0 ? roughness / roughest : 0.0, layers), layers);
@@ -221,9 +236,7 @@ TableSize table_size(const TableRange& range) {
     }
     if (!rough) return {.columns = 26, .rows = 210, .layers = 1};
     if (one_roughness) return {.columns = 20, .rows = 136, .layers = 2};
-    constexpr double kWideLobe = 0.7;
-    return range.roughest > kWideLobe ? TableSize{.columns = 14, .rows = 39, .layers = 10}
-                                      : TableSize{.columns = 14, .rows = 48, .layers = 8};
+    return {.columns = 26, .rows = 170, .layers = 1};
 }
 
 FilmTable empty_table(const Film& film, const TableRange& range, const TableSize& size) {
@@ -240,11 +253,13 @@ FilmTable empty_table(const Film& film, const TableRange& range, const TableSize
 
 FilmTable bake_table(const FilmColour& colour, const TableRange& range, const TableSize& size) {
     FilmTable table = empty_table(colour.film(), range, size);
+    const bool rough = range.roughest > 0.0;
+    if (rough && table.layers == 1) table.lobe = bake_lobe_nodes();
     // What a node of another angle but the same path difference needs.
     const double spread =
         path_difference(table.index, 1.0, 1.0) / std::max(path_difference(table.index, 1.0, 0.0), 1e-9);
     const double reach = table.rows > 1 ? std::min(spread, 2.0) : 1.0;
-    const Averages averages(colour, range.thinnest_nm / reach, range.thickest_nm * reach, table.layers > 1);
+    const Averages averages(colour, range.thinnest_nm / reach, range.thickest_nm * reach, rough);
     fill(averages, table);
     table.error = measure(averages, table, range);
     return table;

@@ -144,9 +144,7 @@ gpu::ProgramDesc FilmSurfaceType::program(ecs::World& world, ecs::Entity entity)
     gpu::ProgramDesc desc{.vertex = "engine/render/shaders/plain.vert.glsl",
                           .fragment = "modules/thin_film/shaders/film.frag.glsl",
                           .defines = {{"AMBIENT_AT_VERTICES", "1"}}};
-    const gpu::TextureKind table = surface.film->kind();
-    if (table == gpu::TextureKind::Line) desc.defines.push_back({"FILM_LINE", "1"});
-    if (table == gpu::TextureKind::Plane) desc.defines.push_back({"FILM_PLANE", "1"});
+    for (const gpu::Define& define : surface.film->defines()) desc.defines.push_back(define);
     if (surface.factor == 1.0F && !surface.factor_texture) desc.defines.push_back({"FILM_WHOLE", "1"});
     const auto& material = world.get<render::StandardMaterial>(entity);
     if (material.passes_light) desc.defines.push_back({"FILM_PASSES_LIGHT", "1"});

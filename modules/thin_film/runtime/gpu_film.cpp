@@ -12,9 +12,13 @@ namespace rowland::thin_film {
 
 namespace {
 
-gpu::TextureKind kind_for(const FilmTable& table) {
-    if (table.layers > 2) return gpu::TextureKind::Volume;
-    return table.rows > 1 ? gpu::TextureKind::Plane : gpu::TextureKind::Line;
+bool is_line(const FilmTable& table) {
+    return table.rows == 1 && table.layers <= 2;
+}
+
+/// One thickness, all roughnesses: layers are rows.
+bool has_roughnesses(const FilmTable& table) {
+    return table.layers > 2;
 }
 
 /// Columns of M in the working space, one after another. The fourth components are the reflectance of white.
@@ -30,19 +34,24 @@ std::vector<glm::vec4> working_columns(const FilmTable& table, const glm::dmat3&
     return columns;
 }
 
-/// A line is small, and software renderers read floats faster than halves.
+/// Software renderers read floats faster than halves.
 gpu::Texture upload(const FilmTable& table, const glm::dmat3& xyz_to_working) {
-    const gpu::TextureKind kind = kind_for(table);
     const int slices = 3 * table.layers;
-    const bool line = kind == gpu::TextureKind::Line;
-    const bool volume = kind == gpu::TextureKind::Volume;
-    gpu::Texture texture({.kind = kind,
-                          .format = volume ? gpu::Format::RGBA16F : gpu::Format::RGBA32F,
+    const bool line = is_line(table);
+    gpu::Texture texture({.kind = line ? gpu::TextureKind::Line : gpu::TextureKind::Plane,
+                          .format = gpu::Format::RGBA32F,
                           .width = line ? slices * table.columns : table.columns,
-                          .height = volume ? table.rows : table.rows * (line ? 1 : slices),
-                          .depth = volume ? slices : 1});
-    texture.upload(std::span<const glm::vec4>(working_columns(table, xyz_to_working)),
-                   {.layers = texture.desc().depth});
+                          .height = line ? 1 : table.rows * slices});
+    texture.upload(std::span<const glm::vec4>(working_columns(table, xyz_to_working)));
+    return texture;
+}
+
+gpu::Texture upload(const LobeNodeTable& nodes) {
+    gpu::Texture texture({.kind = gpu::TextureKind::Plane,
+                          .format = gpu::Format::RGBA32F,
+                          .width = LobeNodeTable::kColumns,
+                          .height = 2 * LobeNodeTable::kRows});
+    texture.upload(std::span<const glm::vec4>(nodes.texels));
     return texture;
 }
 
@@ -65,20 +74,26 @@ Axes axes(const FilmTable& table) {
     const glm::vec2 columns =
         to_texels(std::sqrt(FilmTable::kCosineOffset), std::sqrt(1.0 + FilmTable::kCosineOffset), table.columns);
     const glm::vec2 rows = to_texels(table.begin, table.end, table.rows);
-    switch (kind_for(table)) {
-        case gpu::TextureKind::Line:
-            return {{square, 0.0F, 0.0F, last}, {columns / slices, last / slices, 1.0F / 3.0F}};
-        case gpu::TextureKind::Plane:
-            return {{square, rows / slices, last}, {columns, last / slices, 1.0F / 3.0F}};
-        default:
-            return {{square, rows, last}, {columns, last / static_cast<float>(table.roughest), 1.0F / slices}};
+    if (is_line(table)) return {{square, 0.0F, 0.0F, 0.0F}, {columns / slices, last / slices, 1.0F / 3.0F}};
+    if (has_roughnesses(table)) {
+        const glm::vec2 roughnesses = to_texels(0.0, table.roughest, table.layers) / 3.0F;
+        return {{square, roughnesses, table.roughest}, {columns, 0.0F, 1.0F / 3.0F}};
     }
+    return {{square, rows / slices, 0.0F}, {columns, last / slices, 1.0F / 3.0F}};
+}
+
+std::vector<gpu::Define> defines_for(const FilmTable& table) {
+    if (is_line(table)) return {{"FILM_LINE", "1"}};
+    if (has_roughnesses(table)) return {{"FILM_ROUGHNESSES", "1"}};
+    if (!table.lobe.empty()) return {{"FILM_LOBE_NODES", "1"}};
+    return {};
 }
 
 }  // namespace
 
 GpuFilm::GpuFilm(const FilmTable& table, const glm::dmat3& xyz_to_working, std::string illuminant)
-    : texture_(upload(table, xyz_to_working)), illuminant_(std::move(illuminant)) {
+    : texture_(upload(table, xyz_to_working)), defines_(defines_for(table)), illuminant_(std::move(illuminant)) {
+    if (!table.lobe.empty()) lobe_nodes_ = upload(table.lobe);
     const Axes of_table = axes(table);
     path_ = of_table.path;
     axes_ = of_table.axes;
@@ -86,6 +101,7 @@ GpuFilm::GpuFilm(const FilmTable& table, const glm::dmat3& xyz_to_working, std::
 
 void GpuFilm::bind(const gpu::Program& program) const {
     texture_.bind(kFilmTableUnit);
+    if (lobe_nodes_) lobe_nodes_->bind(kLobeNodesUnit);
     program.set("film_path", path_);
     program.set("film_axes", axes_);
 }

@@ -2,7 +2,9 @@
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec4.hpp>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/gpu/program.h"
 #include "engine/gpu/texture.h"
@@ -14,6 +16,7 @@ namespace rowland::thin_film {
 inline constexpr unsigned kFilmTableUnit = 8;
 inline constexpr unsigned kFactorMapUnit = 9;
 inline constexpr unsigned kThicknessMapUnit = 10;
+inline constexpr unsigned kLobeNodesUnit = 11;
 
 /// A film's table on the GPU, in the working space.
 class GpuFilm {
@@ -22,13 +25,14 @@ class GpuFilm {
     GpuFilm(const FilmTable& table, const glm::dmat3& xyz_to_working, std::string illuminant);
 
     void bind(const gpu::Program& program) const;
-    /// Line: of one thickness and at most one roughness. Plane: of several thicknesses and at most one roughness. Else
-    /// Volume. FILM_LINE and FILM_PLANE in the shaders.
-    gpu::TextureKind kind() const { return texture_.desc().kind; }
+    /// Of the shaders that read it.
+    const std::vector<gpu::Define>& defines() const { return defines_; }
     const std::string& illuminant() const { return illuminant_; }
 
  private:
     gpu::Texture texture_;
+    std::optional<gpu::Texture> lobe_nodes_;
+    std::vector<gpu::Define> defines_;
     glm::vec4 path_;
     glm::vec4 axes_;
     std::string illuminant_;

@@ -42,7 +42,7 @@ MaterialTerms material_terms() {
 }
 
 vec3 transmittance(float n_v, float roughness) {
-    seen = film_matrix(n_v, thickness, roughness);
+    seen = film_lobe(n_v, thickness, roughness);
 #ifdef FILM_ON_BLACK
     passing = vec3(0.0);  // nothing is seen of it
 #else

@@ -1,18 +1,18 @@
 // The table of modules/thin_film/bake/film_table.h: the layers of the first column of M, then of the second and the
-// third. FILM_LINE: one thickness and one roughness, layers end to end. FILM_PLANE: one roughness, layers one upon
-// another. Else: a volume.
-#if defined(FILM_LINE)
+// third. FILM_LINE: one thickness and one roughness, layers end to end. FILM_ROUGHNESSES: one thickness, a row for each
+// roughness. Else a row for each path difference, and layers one upon another; FILM_LOBE_NODES: the mirror's alone.
+#ifdef FILM_LINE
 TEXTURE_UNIT(8) uniform SAMPLER_LINE film_table;
-#elif defined(FILM_PLANE)
-TEXTURE_UNIT(8) uniform sampler2D film_table;
 #else
-TEXTURE_UNIT(8) uniform sampler3D film_table;
+TEXTURE_UNIT(8) uniform sampler2D film_table;
+#endif
+#ifdef FILM_LOBE_NODES
+TEXTURE_UNIT(11) uniform sampler2D lobe_nodes;  // modules/thin_film/bake/lobe_nodes.h
 #endif
 uniform vec4 film_path;  // x: n^2 - 1 of the outermost layer; y, z: scale and bias from the logarithm of the path
-                         // difference to rows; w: the last layer
+                         // difference, or from the roughness, to rows; w: the greatest roughness
 uniform vec4 film_axes;  // x, y: scale and bias from the root of the cosine to columns; z: from the mirror's layer to the rough
-                         // one, in a volume layers per unit of roughness; w: from one column of M to the next, in a
-                         // volume a slice's width
+                         // one; w: from one column of M to the next
 
 // Of a lobe the row is that of its mean square cosine.
 float film_row(float cosine, float thickness_nm, float roughness) {
@@ -24,19 +24,36 @@ float film_row(float cosine, float thickness_nm, float roughness) {
 // M: light in the working space to what a film reflects of it. The fourth row is what each component of white becomes.
 mat3x4 film_matrix(float cosine, float thickness_nm, float roughness) {
     float column = sqrt(cosine + 0.02) * film_axes.x + film_axes.y;
-#if defined(FILM_LINE)
+#ifdef FILM_LINE
     float at = column + (roughness > 0.0 ? film_axes.z : 0.0);
     return mat3x4(LINE_LOD(film_table, at, 0.0), LINE_LOD(film_table, at + film_axes.w, 0.0),
                   LINE_LOD(film_table, at + 2.0 * film_axes.w, 0.0));
-#elif defined(FILM_PLANE)
+#else
+#ifdef FILM_ROUGHNESSES
+    float row = min(roughness, film_path.w) * film_path.y + film_path.z;
+#else
     float row = film_row(cosine, thickness_nm, roughness) + (roughness > 0.0 ? film_axes.z : 0.0);
+#endif
     return mat3x4(textureLod(film_table, vec2(column, row), 0.0), textureLod(film_table, vec2(column, row + film_axes.w), 0.0),
                   textureLod(film_table, vec2(column, row + 2.0 * film_axes.w), 0.0));
+#endif
+}
+
+// M averaged over the lobe that a view sees.
+mat3x4 film_lobe(float n_v, float thickness_nm, float roughness) {
+#ifdef FILM_LOBE_NODES
+    const vec2 size = vec2(32.0, 24.0);
+    float root = sqrt(n_v + 0.02);
+    float along = 0.5 * ((root - 0.141421) / (1.009950 - 0.141421) + 1.0 - sqrt(max(1.0 - n_v, 0.0)));
+    vec2 at = (vec2(along, sqrt(roughness)) * (size - 1.0) + 0.5) / vec2(size.x, 2.0 * size.y);
+    vec4 roots = root + roughness * roughness * textureLod(lobe_nodes, at, 0.0);
+    vec4 weights = textureLod(lobe_nodes, at + vec2(0.0, 0.5), 0.0);
+    vec4 cosines = max(roots * roots - 0.02, 0.0);
+    mat3x4 sum = weights.x * film_matrix(cosines.x, thickness_nm, 0.0);
+    sum += weights.y * film_matrix(cosines.y, thickness_nm, 0.0);
+    sum += weights.z * film_matrix(cosines.z, thickness_nm, 0.0);
+    return sum + weights.w * film_matrix(cosines.w, thickness_nm, 0.0);
 #else
-    float layer = min(roughness * film_axes.z, film_path.w) + 0.5;
-    vec3 at = vec3(column, film_row(cosine, thickness_nm, roughness), layer * film_axes.w);
-    const vec3 next = vec3(0.0, 0.0, 1.0 / 3.0);
-    return mat3x4(textureLod(film_table, at, 0.0), textureLod(film_table, at + next, 0.0),
-                  textureLod(film_table, at + 2.0 * next, 0.0));
+    return film_matrix(n_v, thickness_nm, roughness);
 #endif
 }

@@ -38,6 +38,19 @@ class FilmPixel : public rowland::test::RenderTest {
     static constexpr double kRoughness = 0.35;
     static constexpr double kThickness_nm = 280.0;
 
+    /// One thickness, and all roughnesses up to kRoughness, which it has.
+    ecs::Entity add_film_of_all_roughnesses() {
+        const ecs::Entity entity = add(square(), {.base_colour = glm::vec3(0.0F)});
+        cooked_.material = parse_film_material(
+            {{"film", {{"ior", 1.5}, {"thickness_nm", 400}}}, {"metal", "Cu"}, {"roughness", kRoughness}}, "film.json");
+        cooked_.material.range.smoothest = 0.0;
+        cooked_.material.range.roughest = 0.6;
+        cooked_.table = bake_film(cooked_.material);
+        add_film(world_, entity, cooked_, glm::inverse(colour::rec709_to_xyz()));
+        world_.get<render::StandardMaterial>(entity).roughness = static_cast<float>(kRoughness);
+        return entity;
+    }
+
     /// 100 to 400 nm, of which a texture of 153/255 everywhere makes kThickness_nm.
     ecs::Entity add_textured_film(double smoothest) {
         const ecs::Entity entity = add(square(), {.base_colour = glm::vec3(0.0F)});
@@ -101,6 +114,16 @@ TEST_F(FilmPixel, OfARoughFilmIsTheTablesMeanOverItsLobe) {
     expect_near(centre(), by_table(cosine, roughness, kLight) * static_cast<double>(split.x + split.y), 1e-2);
 }
 
+TEST_F(FilmPixel, OfAllRoughnessesReadsTheRowOfItsOwn) {
+    add_film_of_all_roughnesses();
+    camera_.eye = {2.0F, 0.0F, 1.5F};
+    const double cosine = view().z;
+    const glm::vec2 split = render::bake_brdf_table(
+        64)[static_cast<std::size_t>(kRoughness * 64.0) * 64 + static_cast<std::size_t>(cosine * 64.0)];
+    // A cell of the engine's table of albedos, of which the nearest is taken, is 1 % wide here.
+    expect_near(centre(), by_table(cosine, kRoughness, kLight) * static_cast<double>(split.x + split.y), 1e-2);
+}
+
 TEST_F(FilmPixel, OfADirectionalLightIsSeenAtTheHalfVector) {
     renderer_.set_probe(even_light(0.0F));
     const double roughness = 0.35;
@@ -119,7 +142,7 @@ TEST_F(FilmPixel, OfTexturedThicknessReadsTheLobeForTheProbeAndTheMirrorForADire
     const glm::dvec3 l = glm::normalize(glm::dvec3(-0.7, 0.2, 0.6));
     camera_.eye = {2.0F, 0.0F, 1.5F};
     const glm::dvec3 v = view();
-    for (const double smoothest : {kRoughness, 0.0}) {  // one roughness: a plane; several: a volume
+    for (const double smoothest : {kRoughness, 0.0}) {  // one roughness: its layer; several: the lobe's nodes
         const ecs::Entity entity = add_textured_film(smoothest);
         renderer_.set_probe(coloured_light());
         const glm::vec2 split = render::bake_brdf_table(

@@ -51,11 +51,8 @@ TEST(FilmTable, OfAWideRangeOfThicknessesOnARoughSurfaceIsWithinItsBudget) {
     expect_within_budget(bake(kSoap, {0.0, 800.0, 0.7, 0.7}));
 }
 
-TEST(FilmTable, OfSeveralThicknessesAndRoughnessesFillsItsBytes) {
-    const FilmTable table = bake(kSoap, {100.0, 400.0, 0.0, 0.6});
-    EXPECT_LE(table.bytes(), 64U * 1024U);
-    EXPECT_LE(table.error.largest, 0.021);  // 0.0199 measured, and soap is the worst of six films: PHYSICS §5
-    EXPECT_LE(table.error.rms, 0.005);
+TEST(FilmTable, OfSeveralThicknessesAndRoughnessesIsWithinItsBudget) {
+    for (const Film& film : {kSoap, kTitanium}) expect_within_budget(bake(film, {100.0, 400.0, 0.0, 0.6}));
 }
 
 TEST(FilmTable, MatchesTheOracleWithinOnePercent) {
