@@ -24,7 +24,7 @@ std::vector<DiffractionPattern::Node> lattice_nodes(const Grating&, const colour
     return {};
 }
 
-std::vector<LatticeOrder> lattice_orders(const Grating&) {
+std::vector<LatticeOrder> shaded_lattice_orders(const Grating&) {
     return {};
 }
 
