@@ -130,6 +130,29 @@ TEST_F(CurvedLattice, SpikesAndBinsEqualTheCpus) {
     EXPECT_GT(brightest_, 0.01);
 }
 
+/// Key lights are in the map alone.
+TEST_F(CurvedLattice, StreaksEqualTheCpus) {
+    light_ = light_of(smooth_probe(), three_keys());
+    for (const char* grating : {kCrossedFoil, kCoarseScreen}) {
+        const CookedMaterial cooked = cook(grating, R"({"representation": "streak", "map_resolution": 64})");
+        if (!renderer_) show(cooked, 0.7);
+        use(cooked);
+        const auto& tables = std::get<StreakTables>(cooked.tables);
+        const StreakMap map = fill_streak_map(*light_.probe_texels, tables.map);
+        const StreakMap map_error = filter_error(map);
+        const LatticeStreak streak_error = filter_error(*tables.lattice);
+        const auto by = [&](const LatticeStreak& streak, const StreakMap& looked_up, const Point& point) {
+            return evaluate(streak, looked_up, glm::transpose(point.to_tangent), point.view);
+        };
+        EXPECT_LT(largest_difference(
+                      draw(), [&](const Point& point) { return by(*tables.lattice, map, point); },
+                      [&](const Point& point) { return by(streak_error, map_error, point); }),
+                  kPictureTolerance)
+            << grating;
+        EXPECT_GT(brightest_, 0.01);
+    }
+}
+
 TEST_F(LatticePicture, KeyLightsEqualTheCpu) {
     light_ = light_of(smooth_probe(), three_keys());
     for (const char* grating : {kCrossedFoil, kScreen}) {

@@ -18,7 +18,7 @@ inline std::string refusal(const std::string& text) {
     return rowland::test::message_of([&] { parse(text); });
 }
 
-/// A material of a slit grating with these members too.
+/// A material of a slit grating with more members.
 inline std::string grating(const std::string& more) {
     return R"({"grating": {"pitch_nm": 1600, "profile": {"type": "slit", "width_nm": 800})" + more + "}}";
 }
