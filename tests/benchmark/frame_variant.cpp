@@ -159,17 +159,18 @@ void add_lamps_in_scene(const TimedRepresentation& direct, std::vector<FrameVari
     }
 }
 
-/// A lattice under the lights of grooves, in one look-up each as well, or three for key lights.
+/// A lattice under the lights of grooves, in one look-up each as well, or three for key lights; and as a streak.
 void add_lattice(const TimedRepresentation& direct, std::vector<FrameVariant>& variants) {
-    const auto lattice = [&](FrameVariant variant) {
+    const auto lattice = [&](FrameVariant variant, const nlohmann::json& quality) {
         variant.name.replace(0, direct.name.size(), "lattice");
-        variant.material = lattice_material(direct.quality);
+        variant.material = lattice_material(quality);
         return variant;
     };
-    variants.push_back(lattice(grating(direct, "/key-lights:16", "plain", Lighting::StudioKeyLights)));
+    variants.push_back(lattice(grating(direct, "/streak", "plain"), {{"representation", "streak"}}));
+    variants.push_back(lattice(grating(direct, "/key-lights:16", "plain", Lighting::StudioKeyLights), direct.quality));
     for (const int lamps : {1, 16})
-        variants.push_back(
-            lattice(with_lamps(grating(direct, "/lights:", "direct/lights:", Lighting::LampsInScene), lamps)));
+        variants.push_back(lattice(
+            with_lamps(grating(direct, "/lights:", "direct/lights:", Lighting::LampsInScene), lamps), direct.quality));
 }
 
 bool matches(const std::string& pattern, const std::string& name) {

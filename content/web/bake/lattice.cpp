@@ -4,6 +4,7 @@
 #include "modules/diffraction/bake/lattice_nodes.h"
 #include "modules/diffraction/bake/lattice_terms.h"
 #include "modules/diffraction/reference/lattice_radiance.h"
+#include "modules/diffraction/representations/streak/lattice_streak.h"
 
 namespace rowland::diffraction {
 
@@ -24,7 +25,7 @@ std::vector<DiffractionPattern::Node> lattice_nodes(const Grating&, const colour
     return {};
 }
 
-std::vector<LatticeOrder> lattice_orders(const Grating&) {
+std::vector<LatticeOrder> shaded_lattice_orders(const Grating&) {
     return {};
 }
 
@@ -36,6 +37,25 @@ std::vector<double> lattice_spectrum(const std::vector<LatticeOrder>&, const std
 LatticeTerms::LatticeTerms(const Grating&, const colour::LightSpectra&, int bands) : cell_(0.0), bands_(bands) {}
 
 std::vector<glm::dmat3> LatticeTerms::coefficients(const glm::dvec2&) const {
+    return {};
+}
+
+LatticeStreak make_lattice_streak(const Grating&, const StreakSettings&) {
+    return {};
+}
+
+StreakMapSize lattice_map_size(int) {
+    return {};
+}
+
+glm::dvec3 evaluate(const LatticeStreak&, const StreakMap&, const glm::dmat3&, const glm::dvec3&,
+                    const std::optional<Cover>&) {
+    return glm::dvec3(0.0);
+}
+
+void write(const LatticeStreak&, ByteWriter&) {}
+
+LatticeStreak read_lattice_streak(ByteReader&) {
     return {};
 }
 

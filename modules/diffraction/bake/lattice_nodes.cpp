@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <glm/geometric.hpp>
 
-#include "engine/core/parallel.h"
+#include "modules/diffraction/bake/lattice_orders.h"
 #include "modules/diffraction/model/efficiency.h"
 
 namespace rowland::diffraction {
@@ -14,15 +14,6 @@ namespace {
 
 constexpr int kRange_nm = colour::kVisibleMax - colour::kVisibleMin;
 constexpr double kFarthest = 2.0;
-constexpr double kDark = 1e-9;
-/// η of all orders at each whole nanometre.
-std::vector<std::vector<double>> efficiencies_by_wavelength(const Grating& grating) {
-    std::vector<std::vector<double>> efficiencies(kRange_nm + 1);
-    parallel_for(efficiencies.size(), [&](std::size_t i) {
-        efficiencies[i] = lattice_order_efficiencies(grating, colour::kVisibleMin + static_cast<double>(i));
-    });
-    return efficiencies;
-}
 
 /// One order's wavelengths, joined to nodes.
 class OrderNodes {
@@ -65,28 +56,19 @@ class OrderNodes {
 
 std::vector<DiffractionPattern::Node> lattice_nodes(const Grating& grating, const colour::LightSpectra& spectra,
                                                     double step) {
-    const Lattice& lattice = *grating.lattice;
-    const glm::dmat2 stars = reciprocal(lattice);
-    const std::vector<std::vector<double>> efficiencies = efficiencies_by_wavelength(grating);
     std::vector<DiffractionPattern::Node> nodes;
-    for (std::size_t order = 0; order < efficiencies[0].size(); ++order) {
-        const int columns = order_columns(lattice);
-        const glm::dvec2 u_per_nm = stars * glm::dvec2(static_cast<int>(order) % columns - lattice.orders,
-                                                       static_cast<int>(order) / columns - lattice.orders);
-        const double u_of_1nm = glm::length(u_per_nm);
-        const bool dark = std::all_of(efficiencies.begin(), efficiencies.end(),
-                                      [&](const std::vector<double>& of) { return of[order] < kDark; });
-        if (u_of_1nm == 0.0 || u_of_1nm * colour::kVisibleMin > kFarthest || dark) continue;
+    for (const LatticeOrder& order : lattice_orders(grating)) {
+        const double u_of_1nm = glm::length(order.u_per_nm);
         const int nodes_per_nm = std::max(1, static_cast<int>(std::ceil(u_of_1nm / step)));
         const int last = kRange_nm * nodes_per_nm;
-        OrderNodes joined(u_per_nm, step, nodes);
+        OrderNodes joined(order.u_per_nm, step, nodes);
         for (int i = 0; i <= last; ++i) {
             const double beyond_nm = static_cast<double>(i) / nodes_per_nm;
             const double wavelength_nm = colour::kVisibleMin + beyond_nm;
             if (u_of_1nm * wavelength_nm > kFarthest) break;
             const auto below = static_cast<std::size_t>(std::min(static_cast<int>(beyond_nm), kRange_nm - 1));
-            const double efficiency = std::lerp(efficiencies[below][order], efficiencies[below + 1][order],
-                                                beyond_nm - static_cast<double>(below));
+            const double efficiency =
+                std::lerp(order.efficiency[below], order.efficiency[below + 1], beyond_nm - static_cast<double>(below));
             const double step_nm = (i == 0 || i == last ? 0.5 : 1.0) / nodes_per_nm;
             joined.add(wavelength_nm, step_nm * efficiency * observed_spectra(spectra, wavelength_nm));
         }

@@ -9,7 +9,6 @@
 #include <optional>
 #include <utility>
 
-#include "engine/core/parallel.h"
 #include "engine/math/sh_basis.h"
 #include "modules/diffraction/bake/view_spectrum.h"
 #include "modules/diffraction/model/efficiency.h"
@@ -18,7 +17,6 @@ namespace rowland::diffraction {
 
 namespace {
 
-constexpr double kDarkOrder = 1e-9;
 /// Up to so many orders are summed one by one.
 constexpr std::size_t kFewOrders = 100;
 
@@ -47,28 +45,6 @@ SeenPart seen_part(const glm::dvec2& u, double length, const glm::dvec2& view) {
 
 }  // namespace
 
-std::vector<LatticeOrder> lattice_orders(const Grating& grating) {
-    const Lattice& lattice = *grating.lattice;
-    std::vector<std::vector<double>> by_wavelength(kWavelengths);
-    parallel_for(kWavelengths, [&](std::size_t j) {
-        by_wavelength[j] = lattice_order_efficiencies(grating, colour::kVisibleMin + static_cast<double>(j));
-    });
-    const glm::dmat2 stars = reciprocal(lattice);
-    const int columns = order_columns(lattice);
-    std::vector<LatticeOrder> orders;
-    for (std::size_t i = 0; i < by_wavelength[0].size(); ++i) {
-        LatticeOrder order;
-        order.u_per_nm = stars * glm::dvec2(static_cast<int>(i) % columns - lattice.orders,
-                                            static_cast<int>(i) / columns - lattice.orders);
-        if (grating.transmission) order.u_per_nm.y = -order.u_per_nm.y;
-        for (const std::vector<double>& efficiencies : by_wavelength) order.efficiency.push_back(efficiencies[i]);
-        const bool bright = *std::max_element(order.efficiency.begin(), order.efficiency.end()) >= kDarkOrder;
-        const double shortest = colour::kVisibleMin * glm::length(order.u_per_nm);
-        if (bright && shortest > 0.0 && shortest < 2.0) orders.push_back(std::move(order));
-    }
-    return orders;
-}
-
 std::vector<double> lattice_spectrum(const std::vector<LatticeOrder>& orders, const std::optional<Cover>& cover,
                                      const glm::dvec2& view, int bands) {
     const auto count = static_cast<std::size_t>(math::sh_count(bands));
@@ -87,7 +63,7 @@ std::vector<double> lattice_spectrum(const std::vector<LatticeOrder>& orders, co
 }
 
 LatticeTerms::LatticeTerms(const Grating& grating, const colour::LightSpectra& spectra, int bands)
-    : orders_(lattice_orders(grating)), cover_(grating.cover), cell_(cell_of(bands)), bands_(bands) {
+    : orders_(shaded_lattice_orders(grating)), cover_(grating.cover), cell_(cell_of(bands)), bands_(bands) {
     for (std::size_t j = 0; j < kWavelengths; ++j)
         observed_.push_back((j == 0 || j + 1 == kWavelengths ? 0.5 : 1.0) *
                             observed_spectra(spectra, colour::kVisibleMin + static_cast<double>(j)));

@@ -6,18 +6,10 @@
 #include <vector>
 
 #include "engine/colour/light_spectra.h"
+#include "modules/diffraction/bake/lattice_orders.h"
 #include "modules/diffraction/model/grating.h"
 
 namespace rowland::diffraction {
-
-/// An order of a lattice: wavelength λ lies at u = λ u_per_nm.
-struct LatticeOrder {
-    glm::dvec2 u_per_nm{0.0};  ///< in the frame that a point is shaded in: of a sheet, h is reversed (PHYSICS §13)
-    std::vector<double> efficiency;  ///< R η at every nanometre of the visible range
-};
-
-/// The orders of a grating with a lattice that some pair of directions sees, but (0, 0) and those darker than 1e-9.
-std::vector<LatticeOrder> lattice_orders(const Grating& grating);
 
 /// Σ η T(s_n) Y_i(s) over the orders of one view, PHYSICS (51), for every nanometre: [j·bands² + i].
 std::vector<double> lattice_spectrum(const std::vector<LatticeOrder>& orders, const std::optional<Cover>& cover,

@@ -88,10 +88,13 @@ Level smoothed(const Level& points, double variance) {
     return blurred(points, normal_weights(deviation, -std::ceil(4.0 * deviation)), 1);
 }
 
-/// The next level: its texels' centres lie between those of the finer one.
+/// The next level: its texels' centres lie between those of the finer one. `variance`: of the blur that it adds, in
+/// squares of the finer one's texels.
 template <typename Level>
-Level halved(const Level& finer) {
-    return blurred(finer, normal_weights(std::sqrt(3.0 * kLevelVariance), -5.5), 2);
+Level halved(const Level& finer, double variance) {
+    // Interpolation between its texels adds 4/6, where that of the finer one added 1/6.
+    const double deviation = std::sqrt(variance - 0.5);
+    return blurred(finer, normal_weights(deviation, 0.5 - std::ceil(4.0 * deviation)), 2);
 }
 
 template <typename Precise, typename Level>
@@ -111,15 +114,18 @@ Precise bilinear(const Level& level, const glm::dvec2& uv) {
 template <typename Value, typename WeightOf>
 MippedPattern<Value> mipped(const DiffractionPattern& pattern, double half_width, double variance, int size,
                             const WeightOf& weight_of) {
-    MippedPattern<Value> picture{.half_width = half_width, .variance = variance, .levels = {}};
+    MippedPattern<Value> picture{.half_width = half_width, .variance = variance, .growth = 0.0, .levels = {}};
     auto& finest = picture.levels.emplace_back();
     finest.size = size;
     finest.density.assign(static_cast<std::size_t>(size) * static_cast<std::size_t>(size), Value(0.0F));
     picture.variance = std::max(variance, picture.texel_variance());
+    picture.growth = std::max(picture.variance / 3.0, picture.texel_variance());
     for (const DiffractionPattern::Node& node : pattern.nodes) add_point(node.u, weight_of(node), half_width, finest);
     const double in_texels = kShownVariance * picture.variance / picture.texel_variance();
     finest = smoothed(finest, in_texels - 1.0 / 6.0);
-    while (picture.levels.back().size > kCoarsestPicture) picture.levels.push_back(halved(picture.levels.back()));
+    const double added = 3.0 * kShownVariance * picture.growth / picture.texel_variance();
+    while (picture.levels.back().size > kCoarsestPicture)
+        picture.levels.push_back(halved(picture.levels.back(), added));
     return picture;
 }
 
@@ -149,7 +155,7 @@ double level_of(const PatternPicture& picture, double variance) {
 }
 
 double level_of(const LightPicture& picture, double variance) {
-    const double wider = 1.0 + std::max(variance - picture.variance, 0.0) / picture.texel_variance();
+    const double wider = 1.0 + std::max(variance - picture.variance, 0.0) / picture.growth;
     const double finer = std::floor(0.5 * std::log2(wider));
     return finer + (wider * std::exp2(-2.0 * finer) - 1.0) / 3.0;
 }

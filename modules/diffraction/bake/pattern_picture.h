@@ -21,6 +21,7 @@ struct MippedPattern {
     double half_width =
         0.0;  ///< it shows |u_g|, |u_h| up to this: texel i of n is centred on ((2i + 1)/n − 1) half_width
     double variance = 0.0;  ///< of the blur of the finest level, interpolated between its texels
+    double growth = 0.0;    ///< level l is blurred by 4^l − 1 of it more
     struct Level {
         int size = 0;                ///< of a side
         std::vector<Value> density;  ///< row by row along h
@@ -29,8 +30,7 @@ struct MippedPattern {
 
     /// As the texture unit interpolates; 0 beyond the border.
     Precise at(const glm::dvec2& u, double level) const;
-    /// The variance of the narrowest blur that texels of the finest level show: level l is wider than the finest by
-    /// 4^l − 1 of it.
+    /// The variance of the narrowest blur that texels of the finest level show.
     double texel_variance() const;
 };
 
@@ -54,7 +54,8 @@ PatternPicture pattern_picture(const Grating& grating, const colour::LightSpectr
 /// The half-width of a picture: twice the pattern's, so that little of it is blurred over the border.
 double picture_half_width(const Grating& grating, const colour::LightSpectra& spectra);
 
-/// The pattern of light of one colour, blurred by `variance` or as narrow as its texels show.
+/// The pattern of light of one colour, blurred by `variance` or as narrow as its texels show. The second level has twice
+/// the variance, or more where its texels show no less.
 LightPicture light_picture(const DiffractionPattern& pattern, double half_width, const glm::vec3& flux, double variance,
                            int size);
 

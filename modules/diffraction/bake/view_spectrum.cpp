@@ -23,7 +23,7 @@ void require_many_grooves(const Grating& grating) {
 
 ViewSpectrum::ViewSpectrum(const Grating& grating, int bands)
     : pitch_nm_(grating.pitch_nm),
-      lattice_orders_(grating.lattice ? lattice_orders(grating) : std::vector<LatticeOrder>{}),
+      lattice_orders_(grating.lattice ? shaded_lattice_orders(grating) : std::vector<LatticeOrder>{}),
       orders_(grating.orders),
       cover_(grating.cover),
       arcs_(bands, grating.lobe, grating.cover) {

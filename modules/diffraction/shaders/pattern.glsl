@@ -39,7 +39,7 @@ void add_pattern_light(int i, float weight, vec3 l, GrooveView view, inout vec3 
 TEXTURE_UNIT(14) uniform sampler2DArray pattern_lobes;  // a layer for each light
 uniform vec4 pattern_lobe_scale;  // from u to the picture; variance of a texel; scale of the values, per unit of the
                                   // largest flux; reach of |u|
-const float PICTURE_VARIANCE = 0.75;  // direct/pattern_light.h, kPictureVariance
+const float PICTURE_VARIANCE = 0.5;   // direct/pattern_light.h, kPictureVariance
 
 vec3 pattern_lobe_texel(vec2 u, float level, int light) {
     return textureLod(pattern_lobes, vec3(u * pattern_lobe_scale.x + 0.5, light), level).xyz;
@@ -59,7 +59,7 @@ vec3 pattern_key_light(int i, KeyLobe lobe, GrooveView view) {
     float across = lobe.moments.z + pixel_variance(right, down);
     float narrowest = max(PICTURE_VARIANCE * lobe.moments.z, pattern_lobe_scale.y);
     float shown = max(across + lobe.moments.y * steepness, narrowest);
-    float wider = 1.0 + (shown - narrowest) / pattern_lobe_scale.y;
+    float wider = 1.0 + (shown - narrowest) / max(narrowest / 3.0, pattern_lobe_scale.y);
     float finer = floor(0.5 * log2(wider));
     float level = finer + (wider * exp2(-2.0 * finer) - 1.0) / 3.0;
     vec2 tap = vec2(-mean.y, mean.x) * sqrt(3.0 * max(across - shown, 0.0) / max(steepness, 1e-12));

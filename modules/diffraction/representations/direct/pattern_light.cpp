@@ -16,8 +16,8 @@ namespace {
 constexpr int kSmallestPicture = 128;
 /// Of all lights' finest levels.
 constexpr std::size_t kMostTexels = std::size_t{1} << 22;
-/// Bilinear interpolation of a normal distribution of so many texels' deviation is within 1 %.
-constexpr double kTexelsPerDeviation = 2.0;
+/// Of the finest level's blur: finer texels change nothing that is measured against the reference.
+constexpr double kTexelsPerDeviation = 1.6;
 
 int picture_size(double half_width, std::span<const lighting::KeyLight> lights) {
     double narrowest = half_width;

@@ -13,26 +13,31 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// StreakSegment of streak.frag.glsl, std430.
+/// StreakSegment of streak.frag.glsl and lattice_streak.frag.glsl, std430.
 struct ShaderSegment {
-    glm::vec4 first_step;  ///< x: first path over the pitch; y: step over the pitch
+    glm::vec4 first_step;  ///< x: first path over the pitch; y: step over the pitch; zw: a ray's direction
     /// For each node the columns: of red, green and blue light, working space.
     std::array<glm::vec4, std::size_t{3} * kSegmentNodes> weights;
 };
 static_assert(sizeof(ShaderSegment) == 16 * (1 + 3 * kSegmentNodes));
 
-gpu::Buffer segment_buffer(const Streak& streak, const glm::dmat3& xyz_to_working) {
+ShaderSegment shader_segment(const StreakSegment& segment, double pitch_nm, const glm::vec2& direction,
+                             const glm::dmat3& xyz_to_working) {
+    const auto pitch = static_cast<float>(pitch_nm);
+    ShaderSegment made{.first_step = {segment.first_nm / pitch, segment.step_nm / pitch, direction}, .weights = {}};
+    for (std::size_t i = 0; i < made.weights.size(); ++i)
+        made.weights[i] = glm::vec4(
+            glm::vec3(xyz_to_working * glm::dvec3(segment.weights[i / 3][static_cast<glm::length_t>(i % 3)])), 0.0F);
+    return made;
+}
+
+gpu::Buffer segment_buffer(const StreakTables& tables, const glm::dmat3& xyz_to_working) {
     std::vector<ShaderSegment> segments;
-    for (const StreakSegment& segment : streak.segments) {
-        const auto pitch = static_cast<float>(streak.pitch_nm);
-        ShaderSegment made{.first_step = {segment.first_nm / pitch, segment.step_nm / pitch, 0.0F, 0.0F},
-                           .weights = {}};
-        for (std::size_t i = 0; i < made.weights.size(); ++i)
-            made.weights[i] = glm::vec4(
-                glm::vec3(xyz_to_working * glm::dvec3(segment.weights[i / 3][static_cast<glm::length_t>(i % 3)])),
-                0.0F);
-        segments.push_back(made);
-    }
+    if (tables.lattice)
+        for (const RaySegment& ray : tables.lattice->segments)
+            segments.push_back(shader_segment(ray.nodes, tables.lattice->pitch_nm, ray.direction, xyz_to_working));
+    for (const StreakSegment& segment : tables.streak.segments)
+        segments.push_back(shader_segment(segment, tables.streak.pitch_nm, {}, xyz_to_working));
     if (segments.empty()) segments.push_back({.first_step = {4.0F, 0.0F, 0.0F, 0.0F}, .weights = {}});  // never visible
     return gpu::Buffer::of(std::span<const ShaderSegment>(segments));
 }
@@ -58,9 +63,11 @@ FilledMap fill(const StreakMapSize& full, const MapInput& input, MapDetail detai
 
 GpuStreak::GpuStreak(const CookedMaterial& cooked, const StreakTables& tables, const glm::dmat3& xyz_to_working)
     : GpuMaterial(cooked, xyz_to_working),
-      segments_(segment_buffer(tables.streak, xyz_to_working)),
+      lattice_(tables.lattice.has_value()),
+      segments_(segment_buffer(tables, xyz_to_working)),
       reach_(static_cast<float>(tables.streak.reach())),
-      level_(static_cast<float>(std::log2(tables.streak.sigma / tables.map.length))),
+      level_(static_cast<float>(
+          std::log2((tables.lattice ? tables.lattice->deviation : tables.streak.sigma) / tables.map.length))),
       power_(static_cast<float>(tables.streak.power / std::erf(1.0 / (tables.streak.sigma * std::numbers::sqrt2)))),
       rest_weight_(static_cast<float>(1.0 - tables.streak.power)),
       fill_(std::make_shared<const FillMap>(
@@ -76,12 +83,15 @@ void GpuStreak::update(const SurfaceObject& object, SurfaceLight& light, Surface
 }
 
 void GpuStreak::describe(const SurfaceState& state, gpu::ProgramDesc& desc) const {
-    set_shaders(desc, "shaders/pixel_shaded.vert.glsl", "representations/streak/streak.frag.glsl");
+    set_shaders(
+        desc, "shaders/pixel_shaded.vert.glsl",
+        lattice_ ? "representations/streak/lattice_streak.frag.glsl" : "representations/streak/streak.frag.glsl");
     if (rest_) {
         rest_->describe(state, desc);
         set_shaders(desc, "representations/arc/arc.vert.glsl", "representations/streak/streak.frag.glsl");
         desc.defines.push_back({"REST", "1"});
     }
+    if (lattice_) desc.defines.push_back({"NO_KEY_LIGHTS", "1"});  // the map holds them
     desc.defines.push_back({"STREAK", "1"});
     desc.defines.push_back({"NODES", std::to_string(kSegmentNodes)});
 }
@@ -90,8 +100,9 @@ void GpuStreak::bind_tables(const gpu::Program& program, const SurfaceState& sta
     if (rest_) rest_->bind_tables(program, state);
     segments_.bind_storage(kStreakSegmentBinding);
     map_.bind(program);
-    program.set("streak_reach", reach_);
     program.set("streak_level", level_);
+    if (lattice_) return;
+    program.set("streak_reach", reach_);
     program.set("streak_power", power_);
     program.set("rest_weight", rest_weight_);
 }

@@ -11,7 +11,8 @@
 namespace rowland::diffraction {
 
 /// The streak of a narrow lobe from a map of the whole probe, and an arc table for the incoherent rest of Stam's pits:
-/// streak.frag.glsl. One map for all objects of a material; it follows the probe.
+/// streak.frag.glsl. A lattice's rays: lattice_streak.frag.glsl. One map for all objects of a material; it follows the
+/// probe.
 class GpuStreak final : public GpuMaterial {
  public:
     GpuStreak(const CookedMaterial& cooked, const StreakTables& tables, const glm::dmat3& xyz_to_working);
@@ -25,9 +26,10 @@ class GpuStreak final : public GpuMaterial {
     void describe(const SurfaceState& state, gpu::ProgramDesc& desc) const override;
     void bind_tables(const gpu::Program& program, const SurfaceState& state) const override;
 
+    bool lattice_;
     gpu::Buffer segments_;
     float reach_;  ///< Streak::reach()
-    float level_;  ///< log2 of the lobe's deviation over the map's
+    float level_;  ///< log2 of the lobe's or a node's deviation over the map's
     float power_;  ///< scale of the streak's sum
     float rest_weight_;
     std::optional<GpuArc> rest_;

@@ -3,14 +3,17 @@
 #include <optional>
 
 #include "modules/diffraction/representations/arc/arc_table.h"
+#include "modules/diffraction/representations/streak/lattice_streak.h"
 #include "modules/diffraction/representations/streak/streak.h"
 
 namespace rowland::diffraction {
 
-/// Shades a narrow lobe from a map of the whole probe, and the incoherent rest of Stam's pits with an arc table.
+/// Shades a narrow lobe or a lattice from a map of the whole probe, and the incoherent rest of Stam's pits with an arc
+/// table.
 struct StreakSurfaceSettings {
     StreakSettings streak;
     std::optional<ArcSettings> rest{};  ///< of incoherent_rest(), if any
+    bool lattice = false;
 
     static const RepresentationInfo& info();
     static StreakSurfaceSettings from(const SettingValues& values, const Grating& grating);
@@ -18,9 +21,10 @@ struct StreakSurfaceSettings {
 };
 
 struct StreakTables {
-    Streak streak;
+    Streak streak{};
     StreakMapSize map;
-    std::optional<ArcTable> rest{};  ///< of weight 1 − streak.power
+    std::optional<LatticeStreak> lattice{};  ///< in place of `streak`
+    std::optional<ArcTable> rest{};          ///< of weight 1 − streak.power
 };
 
 StreakTables bake(const Grating& grating, const StreakSurfaceSettings& settings);

@@ -116,11 +116,24 @@ StreakMap filter_error(const StreakMap& map) {
     return error;
 }
 
+namespace {
+
+void make_positive(StreakSegment& segment) {
+    for (glm::mat3& weight : segment.weights)
+        for (int c = 0; c < 3; ++c) weight[c] = glm::abs(weight[c]);
+}
+
+}  // namespace
+
 Streak filter_error(const Streak& streak) {
     Streak error = streak;
-    for (StreakSegment& segment : error.segments)
-        for (glm::mat3& weight : segment.weights)
-            for (int c = 0; c < 3; ++c) weight[c] = glm::abs(weight[c]);
+    for (StreakSegment& segment : error.segments) make_positive(segment);
+    return error;
+}
+
+LatticeStreak filter_error(const LatticeStreak& streak) {
+    LatticeStreak error = streak;
+    for (RaySegment& ray : error.segments) make_positive(ray.nodes);
     return error;
 }
 

@@ -1,5 +1,9 @@
 // Lattices on the GPU against the CPU.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <optional>
+#include <string>
 
 #include "engine/scene/directional_light.h"
 #include "modules/diffraction/asset/layer_weights.h"
@@ -38,28 +42,40 @@ class LatticePicture : public GratingPicture {
         };
         return 0.5 * std::max(extent(point.beside), extent(point.below));
     }
-};
 
-TEST_F(LatticePicture, MapsEqualTheCpus) {
-    for (const char* grating : {kCrossedFoil, kScreen}) {
-        const CookedMaterial cooked =
-            cook(grating, R"({"representation": "planar", "map_resolution": 32, "views_h": 24, "key_lights": 0})");
-        if (!renderer_) show(cooked, 0.7);
-        use(cooked);
-        const auto& lobe = *std::get<PlanarTables>(cooked.tables).lobe;
-        const glm::dvec3 normal = glm::transpose(vertex_frame(0))[2];
-        const LobeMap map =
-            fill_lobe_map(*light_.texels, LobeSpectrum(lobe.pattern, lobe.size.views), normal, lobe.size.azimuths);
-        const LobeMap map_error = filter_error(map);
+    /// Shows a small map of the whole probe, until the next one.
+    const PlanarLobe& show_map(const char* grating) {
+        map_.emplace(
+            cook(grating, R"({"representation": "planar", "map_resolution": 32, "views_h": 24, "key_lights": 0})"));
+        if (!renderer_) show(*map_, 0.7);
+        use(*map_);
+        return *std::get<PlanarTables>(map_->tables).lobe;
+    }
+    /// The picture is the CPU's map.
+    void expect_shows(const LobeMap& map, const std::string& name) {
         const auto at = [](const LobeMap& looked_up, const Point& point) {
             const glm::dmat3 axes = glm::transpose(point.to_tangent);
             return sample(looked_up, ShadingPoint{.view = axes * point.view, .normal = axes[2], .grating = axes[0]});
         };
+        const LobeMap map_error = filter_error(map);
         const double difference = largest_difference(
             draw(), [&](const Point& point) { return at(map, point); },
             [&](const Point& point) { return at(map_error, point); });
-        EXPECT_LT(difference, kMapTolerance) << grating;
-        EXPECT_GT(brightest_, 0.01);
+        EXPECT_LT(difference, kMapTolerance) << name;
+        EXPECT_GT(brightest_, 0.01) << name;
+    }
+
+ private:
+    std::optional<CookedMaterial> map_;
+};
+
+TEST_F(LatticePicture, MapsEqualTheCpus) {
+    for (const char* grating : {kCrossedFoil, kScreen}) {
+        const PlanarLobe& lobe = show_map(grating);
+        const glm::dvec3 normal = glm::transpose(vertex_frame(0))[2];
+        expect_shows(
+            fill_lobe_map(*light_.texels, LobeSpectrum(lobe.pattern, lobe.size.views), normal, lobe.size.azimuths),
+            grating);
     }
 }
 
@@ -68,28 +84,14 @@ TEST_F(LatticePicture, MapsEqualTheCpus) {
 TEST_F(LatticePicture, MapsOfOneAzimuthEqualTheCpus) {
     for (glm::vec4& tangent : mesh_.tangents) tangent = mesh_.tangents[0];
     for (const char* grating : {kCrossedFoil, kScreen}) {
-        const CookedMaterial cooked =
-            cook(grating, R"({"representation": "planar", "map_resolution": 32, "views_h": 24, "key_lights": 0})");
-        if (!renderer_) show(cooked, 0.7);
-        use(cooked);
-        const auto& lobe = *std::get<PlanarTables>(cooked.tables).lobe;
+        const PlanarLobe& lobe = show_map(grating);
         for (const float turn : {0.7F, -2.9F}) {
             world_.get<DiffractionSurface>(entity_).groove_rotation = turn;
             rotation_ = double{turn};
             const glm::dmat3 axes = glm::transpose(vertex_frame(0));
-            const LobeMap map = fill_lobe_slice(
-                *light_.texels, LobeSpectrum(lobe.pattern, one_azimuth(lobe.size).views), axes[2], axes[0]);
-            const LobeMap map_error = filter_error(map);
-            const auto at = [&](const LobeMap& looked_up, const Point& point) {
-                return sample(looked_up, ShadingPoint{.view = glm::transpose(point.to_tangent) * point.view,
-                                                      .normal = axes[2],
-                                                      .grating = axes[0]});
-            };
-            const double difference = largest_difference(
-                draw(), [&](const Point& point) { return at(map, point); },
-                [&](const Point& point) { return at(map_error, point); });
-            EXPECT_LT(difference, kMapTolerance) << grating << turn;
-            EXPECT_GT(brightest_, 0.01);
+            expect_shows(fill_lobe_slice(*light_.texels, LobeSpectrum(lobe.pattern, one_azimuth(lobe.size).views),
+                                         axes[2], axes[0]),
+                         fmt::format("{}, turned by {}", grating, turn));
         }
     }
 }
@@ -126,6 +128,29 @@ TEST_F(CurvedLattice, SpikesAndBinsEqualTheCpus) {
     use(bins);
     EXPECT_LT(largest_difference(draw(), table_xyz<BinTable>(bins, light_.sh)), kPictureTolerance);
     EXPECT_GT(brightest_, 0.01);
+}
+
+/// Key lights are in the map alone.
+TEST_F(CurvedLattice, StreaksEqualTheCpus) {
+    light_ = light_of(smooth_probe(), three_keys());
+    for (const char* grating : {kCrossedFoil, kCoarseScreen}) {
+        const CookedMaterial cooked = cook(grating, R"({"representation": "streak", "map_resolution": 64})");
+        if (!renderer_) show(cooked, 0.7);
+        use(cooked);
+        const auto& tables = std::get<StreakTables>(cooked.tables);
+        const StreakMap map = fill_streak_map(*light_.probe_texels, tables.map);
+        const StreakMap map_error = filter_error(map);
+        const LatticeStreak streak_error = filter_error(*tables.lattice);
+        const auto by = [&](const LatticeStreak& streak, const StreakMap& looked_up, const Point& point) {
+            return evaluate(streak, looked_up, glm::transpose(point.to_tangent), point.view);
+        };
+        EXPECT_LT(largest_difference(
+                      draw(), [&](const Point& point) { return by(*tables.lattice, map, point); },
+                      [&](const Point& point) { return by(streak_error, map_error, point); }),
+                  kPictureTolerance)
+            << grating;
+        EXPECT_GT(brightest_, 0.01);
+    }
 }
 
 TEST_F(LatticePicture, KeyLightsEqualTheCpu) {

@@ -100,17 +100,15 @@ TEST(LatticeJson, PicturesThatHoldNoCellAreRefused) {
         AllOf(HasSubstr("/grating/profile/file"), HasSubstr("more than 8 texels")));
 }
 
-/// One message, whichever representation a file asks for.
 TEST(LatticeJson, RepresentationsForGroovesAreRefused) {
     const auto asking_for = [](const std::string& name) {
         std::string text = with_cell(kAperture);
         text.back() = ',';
         return text + R"( "quality": {"representation": ")" + name + "\"}}";
     };
-    for (const char* name : {"circle", "streak"})
-        EXPECT_THAT(lattice_refusal(asking_for(name)),
-                    AllOf(HasSubstr("/quality/representation"), HasSubstr("with a lattice"), HasSubstr("\"planar\"")));
-    for (const char* name : {"spikes", "bins", "transfer", "arc", "planar", "direct"})
+    EXPECT_THAT(lattice_refusal(asking_for("circle")),
+                AllOf(HasSubstr("/quality/representation"), HasSubstr("with a lattice"), HasSubstr("\"planar\"")));
+    for (const char* name : {"spikes", "bins", "transfer", "arc", "planar", "direct", "streak"})
         EXPECT_NO_THROW(lattice_of(asking_for(name))) << name;
 }
 

@@ -4,28 +4,18 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/file.h"
-#include "engine/core/json_reader.h"
-#include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/unit/modules/diffraction/asset/material_text.h"
 
 namespace rowland::diffraction {
 namespace {
 
+using test::grating;
+using test::parse;
+using test::refusal;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-Material parse(const std::string& text) {
-    return parse_material(parse_json(text, "m.json"), "m.json");
-}
-
-std::string refusal(const std::string& text) {
-    return rowland::test::message_of([&] { parse(text); });
-}
-
-std::string grating(const std::string& more) {
-    return R"({"grating": {"pitch_nm": 1600, "profile": {"type": "slit", "width_nm": 800})" + more + "}}";
-}
 
 TEST(MaterialJson, OnlyPitchAndProfileAreRequired) {
     const Material material = parse(grating(""));
@@ -79,176 +69,6 @@ TEST(MaterialJson, ASheetTransmitsInAirWithoutMetal) {
     EXPECT_THAT(refusal(sheet + R"({"ior": 1.5, "tint": 1}})"), HasSubstr("tint"));
     EXPECT_THAT(refusal(sheet + R"({"ior": 1.5}, "metal": "Al"})"), HasSubstr("a metal beside a transmission"));
     EXPECT_THAT(refusal(sheet + R"({"ior": 1.5}, "cover": {"ior": 1.4}})"), HasSubstr("a cover beside a transmission"));
-}
-
-std::string with_quality(const std::string& quality, const std::string& lobe = "\"flat\"") {
-    return R"({"grating": {"pitch_nm": 1600, "profile": {"type": "slit", "width_nm": 800}, "groove_lobe": )" + lobe +
-           R"(}, "quality": )" + quality + "}";
-}
-
-TEST(MaterialJson, ABudgetNamesItsProbesAndItsSurface) {
-    const Quality quality = parse(with_quality(
-                                      R"({"max_error": 0.1, "surface": "curved",
-                      "probes": ["a.json", "b.hdr", {"image": "c.hdr", "mapping": "angular"}, {"image": "d.exr"}]})"))
-                                .quality;
-    EXPECT_EQ(quality.surface, SurfaceShape::Curved);
-    EXPECT_EQ(quality.measure, ErrorMeasure::RelativeRms);
-    ASSERT_EQ(quality.probes.size(), 4U);
-    EXPECT_EQ(quality.probes[0].file, "a.json");
-    EXPECT_EQ(quality.probes[1].mapping, lighting::Mapping::Equirectangular);
-    EXPECT_EQ(quality.probes[2].mapping, lighting::Mapping::Angular);
-    EXPECT_EQ(quality.probes[3].file, "d.exr");
-    EXPECT_THAT(refusal(with_quality(R"({"probes": []})")), HasSubstr("/quality/probes"));
-    EXPECT_THAT(refusal(with_quality(R"({"probes": ["a", 3]})")), HasSubstr("/quality/probes/1"));
-    EXPECT_THAT(refusal(with_quality(R"({"probes": [{"image": "a.hdr", "file": "b"}]})")),
-                HasSubstr("/quality/probes/0/file"));
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "direct", "probes": ["a.json"]})")), HasSubstr("probes"));
-}
-
-TEST(MaterialJson, ABudgetNamesWhatItsErrorIs) {
-    const auto parsed = [](const std::string& quality) { return parse(with_quality(quality)).quality; };
-    EXPECT_EQ(parsed(R"({"measure": "hdr_flip"})").measure, ErrorMeasure::HdrFlip);
-    EXPECT_EQ(parsed(R"({"measure": "hdr_flip"})").max_error, 0.05);
-    EXPECT_EQ(parsed(R"({"measure": "delta_e"})").measure, ErrorMeasure::DeltaE);
-    EXPECT_EQ(parsed(R"({"measure": "delta_e"})").max_error, 3.0);
-    EXPECT_EQ(parsed(R"({"measure": "delta_e", "max_error": 1.5})").max_error, 1.5);
-    EXPECT_THAT(refusal(with_quality(R"({"measure": "flip"})")), HasSubstr("hdr_flip"));
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "direct", "measure": "hdr_flip"})")), HasSubstr("measure"));
-}
-
-TEST(MaterialJson, EveryRepresentationTakesItsSettings) {
-    const auto pinned = [](const std::string& quality) { return representation(parse(with_quality(quality))); };
-    const auto bins =
-        std::get<BinSettings>(pinned(R"({"representation": "bins", "bands": 4, "bins": 9, "view_mapping": "parabolic",
-                   "view_resolution": 20, "storage": "fp32"})"));
-    EXPECT_EQ(bins.bands, 4);
-    EXPECT_EQ(bins.bins, 9);
-    EXPECT_EQ(bins.grid, (ViewGrid{.mapping = ViewMapping::Parabolic, .columns = 20, .rows = 20}));
-    EXPECT_EQ(bins.storage, Storage::Float);
-    const auto transfer =
-        std::get<TransferSettings>(pinned(R"({"representation": "transfer", "bands": 6, "storage": "unorm8"})"));
-    EXPECT_EQ(transfer.bands, 6);
-    EXPECT_EQ(transfer.grid, default_view_grid(Grating{}));
-    EXPECT_EQ(transfer.storage, Storage::Unorm8);
-    const auto arc =
-        std::get<ArcSettings>(pinned(R"({"representation": "arc", "bands": 7, "rank": 12, "view_resolution": 99})"));
-    EXPECT_EQ(arc.bands, 7);
-    EXPECT_EQ(arc.rank, 12);
-    EXPECT_EQ(arc.grid, (ViewGrid{.mapping = ViewMapping::OneDimensional, .columns = 99, .rows = 1}));
-    const auto planar =
-        std::get<PlanarSettings>(pinned(R"({"representation": "planar", "rank": 6, "map_resolution": 63})"));
-    EXPECT_EQ(planar.stand_in.rank, 6);
-    EXPECT_EQ(planar.size.views, 63);
-    EXPECT_EQ(planar.size.azimuths, 126);
-    const auto circle = std::get<CircleSettings>(pinned(R"({"representation": "circle", "map_resolution": 31})"));
-    EXPECT_EQ(circle.size.side, 31);
-    EXPECT_EQ(circle.size.views, 62);
-    EXPECT_TRUE(std::holds_alternative<DirectSettings>(pinned(R"({"representation": "direct"})")));
-    const auto spikes = std::get<SpikeTableSettings>(
-        pinned(R"({"representation": "spikes", "view_mapping": "one-dimensional", "view_resolution": 100})"));
-    EXPECT_EQ(spikes.mapping, ViewMapping::OneDimensional);
-    EXPECT_EQ(spikes.phi_nodes, 100);
-    EXPECT_EQ(spikes.theta_nodes, 1);
-}
-
-TEST(MaterialJson, KeyLightsAreApartWhereNothingElseWouldAddThem) {
-    const auto apart = [](const std::string& quality) { return parse(with_quality(quality)).quality.key_lights; };
-    constexpr int kAll = lighting::kMaximumKeyLights;
-    EXPECT_EQ(apart(R"({"representation": "spikes"})"), 0);
-    EXPECT_EQ(apart(R"({"representation": "spikes", "key_lights": 64})"), kAll);
-    EXPECT_EQ(apart(R"({"representation": "arc"})"), kAll);
-    EXPECT_EQ(apart(R"({"representation": "arc", "key_lights": 0})"), 0);
-    EXPECT_EQ(apart(R"({"representation": "circle"})"), kAll);
-    EXPECT_EQ(apart(R"({"representation": "circle", "key_lights": 8})"), 8);
-    EXPECT_EQ(apart(R"({"representation": "spikes", "key_lights": true})"), kAll);
-    EXPECT_EQ(apart(R"({"representation": "arc", "key_lights": false})"), 0);
-    for (const char* out :
-         {R"("direct", "key_lights": 0)", R"("direct", "key_lights": false)", R"("arc", "key_lights": 65)"})
-        EXPECT_THAT(refusal(with_quality(std::string(R"({"representation": )") + out + "}")),
-                    HasSubstr("/quality/key_lights"));
-}
-
-TEST(MaterialJson, LightsOfTheirOwnAreAtThePixelsUnlessTold) {
-    const auto at_vertices = [](const std::string& quality) {
-        return parse(with_quality(quality)).quality.lights_at_vertices;
-    };
-    EXPECT_FALSE(at_vertices(R"({"representation": "arc"})"));
-    EXPECT_TRUE(at_vertices(R"({"representation": "arc", "lights_at": "vertices"})"));
-    EXPECT_TRUE(at_vertices(R"({"representation": "planar", "key_lights": 0, "lights_at": "vertices"})"));
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "spikes", "lights_at": "vertices"})")),
-                HasSubstr("/quality/lights_at"));  // it has none
-}
-
-TEST(MaterialJson, MapsAreLookedUpAtThePixelsUnlessTold) {
-    const auto parsed = [](const std::string& quality) { return parse(with_quality(quality)).quality; };
-    EXPECT_FALSE(parsed(R"({"representation": "planar"})").map_at_vertices);
-    const Quality quality = parsed(R"({"representation": "circle", "map_at": "vertices"})");
-    EXPECT_TRUE(quality.map_at_vertices);
-    EXPECT_FALSE(quality.lights_at_vertices);
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "arc", "map_at": "vertices"})")),
-                HasSubstr("/quality/map_at"));  // it has none
-}
-
-TEST(MaterialJson, SettingsThatARepresentationDoesNotHaveAreRefusedByName) {
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "arc", "spikes": 4})")), HasSubstr("/quality/spikes"));
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "arc", "rnak": 4})")),
-                AllOf(HasSubstr("/quality/rnak"), HasSubstr("rank")));
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "arc", "rank": 17})")), HasSubstr("/quality/rank"));
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "arc", "view_mapping": "parabolic"})")),
-                HasSubstr("/quality/view_mapping"));
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "spikes", "bands": 16, "spikes": 64})")),
-                AllOf(HasSubstr("/quality/spikes"), HasSubstr("2048")));
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "plannar"})")), HasSubstr("\"planar\""));
-}
-
-TEST(MaterialJson, LobesThatARepresentationCannotShadeAreRefused) {
-    const std::string sigma = R"({"sigma": 0.2})";
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "circle"})", sigma)), HasSubstr("/quality/representation"));
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "bins", "view_mapping": "one-dimensional"})", sigma)),
-                HasSubstr("/quality/view_mapping"));
-    EXPECT_NO_THROW(parse(with_quality(R"({"representation": "arc"})", sigma)));
-    EXPECT_NO_THROW(parse(with_quality(R"({"representation": "planar", "views_h": 64})", sigma)));
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "planar", "views_h": 64})")), HasSubstr("/quality/views_h"));
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "planar", "map_resolution": 257})", sigma)),
-                HasSubstr("/quality/map_resolution"));
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "streak"})")), HasSubstr("/quality/representation"));
-    EXPECT_THAT(
-        refusal(with_quality(R"({"representation": "streak"})", R"({"pits": {"length_nm": 850, "coherent": 0}})")),
-        HasSubstr("/quality/representation"));
-}
-
-TEST(MaterialJson, CirclesTakeAnglesOfTheNormal) {
-    const auto angles = [](const std::string& given) {
-        const Material material = parse(with_quality(R"({"representation": "circle")" + given + "}"));
-        return std::get<CircleSettings>(representation(material)).size.angles;
-    };
-    EXPECT_EQ(angles(""), 14);
-    EXPECT_EQ(angles(R"(, "angles": 0)"), 0);
-    EXPECT_EQ(angles(R"(, "angles": 20)"), 20);
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "circle", "angles": 25})")), HasSubstr("/quality/angles"));
-}
-
-TEST(MaterialJson, StreaksTakeTheirSettings) {
-    const auto settings = [](const std::string& quality, const std::string& lobe) {
-        return std::get<StreakSurfaceSettings>(representation(parse(with_quality(quality, lobe))));
-    };
-    const auto narrow = settings(R"({"representation": "streak"})", R"({"sigma": 0.05})");
-    EXPECT_EQ(narrow.streak.map_resolution, 320);
-    EXPECT_FALSE(narrow.rest.has_value());
-    const auto pits =
-        settings(R"({"representation": "streak", "map_resolution": 128, "bands": 7, "rank": 11, "illuminant": "A"})",
-                 R"({"pits": {"length_nm": 850, "coherent": 0.3}})");
-    EXPECT_EQ(pits.streak.map_resolution, 128);
-    EXPECT_EQ(pits.streak.illuminant.name, "A");
-    ASSERT_TRUE(pits.rest.has_value());
-    EXPECT_EQ(pits.rest->bands, 7);
-    EXPECT_EQ(pits.rest->rank, 11);
-    EXPECT_EQ(pits.rest->illuminant.name, "A");
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "streak", "map_resolution": 513})", R"({"sigma": 0.05})")),
-                HasSubstr("/quality/map_resolution"));
-    for (const std::string old : {"nodes", "taps"})
-        EXPECT_THAT(refusal(with_quality(R"({"representation": "streak", ")" + old + "\": 5}", R"({"sigma": 0.05})")),
-                    AllOf(HasSubstr("/quality/" + old), HasSubstr("\"map_resolution\"")));
 }
 
 TEST(MaterialJson, AllOrdersAreThoseThatPropagateSomewhere) {

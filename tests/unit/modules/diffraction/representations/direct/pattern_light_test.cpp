@@ -69,15 +69,16 @@ TEST(PatternPicture, EachLevelHoldsTheSameLight) {
     }
 }
 
-/// A grid of views around the mirror's direction, of the pattern's width.
+/// A grid of views around the mirror's direction, of the pattern's width: those above the horizon.
 std::vector<ShadingPoint> views_around(const glm::dvec3& light, double half_width, int side) {
     std::vector<ShadingPoint> frames;
     for (int i = 0; i < side; ++i)
         for (int j = 0; j < side; ++j) {
             const glm::dvec2 u = (2.0 * glm::dvec2(i + 0.5, j + 0.5) / double(side) - 1.0) * half_width;
             const glm::dvec2 v = u - glm::dvec2(light);
+            if (glm::dot(v, v) >= 1.0) continue;
             ShadingPoint frame = kPlane;
-            frame.view = {v.x, v.y, std::sqrt(std::max(1e-9, 1.0 - glm::dot(v, v)))};
+            frame.view = {v.x, v.y, std::sqrt(1.0 - glm::dot(v, v))};
             frames.push_back(frame);
         }
     return frames;
@@ -117,13 +118,13 @@ Comparison compare(const LitLattice& lit, const glm::dvec3& toward, const Incide
     return comparison;
 }
 
-/// Near the normal its picture is exact but for interpolation; inclined by 45° three look-ups stand for an
-/// ellipse. The grid of views holds 2 % less of the light.
+/// Near the normal its picture is exact but for interpolation; between there and 45° two levels mix, and three look-ups
+/// stand for an ellipse. The grid of views holds 2 % less of the light.
 TEST(PatternLight, ALobeIsTheReferences) {
     const struct {
         double inclination_deg;
         double tolerance;
-    } cases[] = {{12.6, 0.02}, {45.0, 0.17}};
+    } cases[] = {{12.6, 0.02}, {30.0, 0.055}, {45.0, 0.04}};
     for (const LitLattice& lit : lit_lattices())
         for (const auto& one : cases) {
             const double inclination = one.inclination_deg * std::numbers::pi / 180.0;
