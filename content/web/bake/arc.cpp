@@ -3,6 +3,7 @@
 #include <glm/glm.hpp>
 
 #include "content/web/bake/exports.h"
+#include "content/web/bake/key_light_numbers.h"
 #include "content/web/bake/material.h"
 #include "engine/lighting/key_lights.h"
 #include "engine/lighting/probe_image.h"
@@ -17,12 +18,15 @@ struct Arc {
     diffraction::ArcProducts products;
 };
 
-ROWLAND_EXPORT(bake_arc) Arc* bake_arc(const Material* material, int bands, int rank) {
+/// `pitches`: from `smallest` to `largest` of the material's, or 1: that alone.
+ROWLAND_EXPORT(bake_arc)
+Arc* bake_arc(const Material* material, int bands, int rank, double smallest, double largest, int pitches) {
     using namespace diffraction;
-    const ArcSettings settings{.bands = bands,
-                               .rank = rank,
-                               .storage = Storage::Float,
-                               .illuminant = material->source.material.quality.illuminant};
+    ArcSettings settings{.bands = bands,
+                         .rank = rank,
+                         .storage = Storage::Float,
+                         .illuminant = material->source.material.quality.illuminant};
+    if (pitches > 1) settings.pitch = PitchAxis{.smallest = smallest, .largest = largest, .nodes = pitches};
     ArcTable table = bake(material->grating(), settings);
     ArcProducts products(table, xyz_to_working());
     return new Arc{.table = std::move(table), .products = std::move(products)};
@@ -32,13 +36,14 @@ ROWLAND_EXPORT(release_arc) void release_arc(const Arc* arc) {
     delete arc;
 }
 
-/// Mapping of views, columns, rows, layers; then the weights, RGBA, layer by layer.
+/// Mapping of views, columns, rows, layers, scale and bias of the pitch; then the weights, RGBA, layer by layer.
 ROWLAND_EXPORT(arc_weights) Numbers* arc_weights(const Arc* arc) {
     const diffraction::ArcTable& table = arc->table;
     const std::size_t layers = diffraction::weight_layers(table.rank);
     auto* numbers = new Numbers;
-    append(glm::vec4(static_cast<int>(table.grid.mapping), table.grid.columns, table.grid.rows, layers), *numbers);
-    const std::size_t texels = table.grid.texels();
+    append(glm::vec4(static_cast<int>(table.grid.mapping), table.grid.columns, table.rows(), layers), *numbers);
+    append(table.pitch ? glm::vec2(table.pitch->scale_bias()) : glm::vec2(0.0F), *numbers);
+    const std::size_t texels = static_cast<std::size_t>(table.grid.columns) * static_cast<std::size_t>(table.rows());
     for (std::size_t texel = 0; texel < layers * texels; ++texel)
         for (std::size_t component = 0; component < diffraction::kTexelComponents; ++component)
             append(static_cast<float>(table.value(texel / texels, texel, component)), *numbers);
@@ -46,16 +51,12 @@ ROWLAND_EXPORT(arc_weights) Numbers* arc_weights(const Arc* arc) {
 }
 
 /// Raw SH of a probe's light without its key lights. `texels`: linear Rec.709, row 0 at the top; released here. `keys`:
-/// those of key_lights() in light.cpp, `count` of them.
+/// those of fit_key_lights() in light.cpp, `count` of them.
 ROWLAND_EXPORT(rest_sh)
 Numbers* rest_sh(glm::vec3* texels, int width, int height, const float* keys, int count, int bands) {
     image::Image image{width, height, std::vector<glm::vec3>(texels, texels + width * height)};
     std::free(texels);
-    std::vector<lighting::KeyLight> lights;
-    for (int i = 0; i < count; ++i, keys += 7)
-        lights.push_back({.direction = {keys[0], keys[1], keys[2]},
-                          .flux = {keys[3], keys[4], keys[5]},
-                          .concentration = static_cast<double>(keys[6])});
+    const std::vector<lighting::KeyLight> lights = key_lights_of(keys, count);
     const lighting::ShLight probe =
         lighting::project(lighting::ProbeImage(std::move(image), lighting::Mapping::Equirectangular), bands);
     auto* numbers = new Numbers;

@@ -2,6 +2,7 @@
 #include <cstdlib>
 
 #include "content/web/bake/exports.h"
+#include "content/web/bake/key_light_numbers.h"
 #include "content/web/bake/material.h"
 #include "engine/lighting/light_samples.h"
 #include "modules/diffraction/bake/diffraction_pattern.h"
@@ -27,9 +28,25 @@ ROWLAND_EXPORT(read_probe) Probe* read_probe(glm::vec3* texels, int width, int h
     return probe;
 }
 
-ROWLAND_EXPORT(find_key_lights) void find_key_lights(Probe* probe, int count) {
-    probe->keys = lighting::fit_key_lights(probe->image, count);
+/// Takes lights of fit_key_lights() out of the probe.
+ROWLAND_EXPORT(use_key_lights) void use_key_lights(Probe* probe, const float* keys, int count) {
+    probe->keys = key_lights_of(keys, count);
     probe->rest = lighting::light_samples(probe->image, probe->keys);
+}
+
+/// The brightest parts of an image: key_light_numbers.h. `texels`: as of read_probe(). A second.
+ROWLAND_EXPORT(fit_key_lights)
+Numbers* fit_key_lights(glm::vec3* texels, int width, int height, int count) {
+    image::Image image{width, height, std::vector<glm::vec3>(texels, texels + width * height)};
+    std::free(texels);
+    const lighting::ProbeImage probe(std::move(image), lighting::Mapping::Equirectangular);
+    auto* numbers = new Numbers;
+    for (const lighting::KeyLight& key : lighting::fit_key_lights(probe, count)) {
+        append(glm::vec3(key.direction), *numbers);
+        append(glm::vec3(key.flux), *numbers);
+        append(static_cast<float>(key.concentration), *numbers);
+    }
+    return numbers;
 }
 
 ROWLAND_EXPORT(release_probe) void release_probe(const Probe* probe) {
@@ -48,17 +65,6 @@ ROWLAND_EXPORT(probe_texels) Numbers* probe_texels(const Probe* probe) {
 ROWLAND_EXPORT(key_lobes) Numbers* key_lobes(const Probe* probe) {
     auto* numbers = new Numbers;
     for (const lighting::KeyLight& key : probe->keys) append(diffraction::key_lobe(key), *numbers);
-    return numbers;
-}
-
-/// KeyLight for each light, seven numbers: what arc_light() of arc.cpp takes.
-ROWLAND_EXPORT(key_lights) Numbers* key_lights(const Probe* probe) {
-    auto* numbers = new Numbers;
-    for (const lighting::KeyLight& key : probe->keys) {
-        append(glm::vec3(key.direction), *numbers);
-        append(glm::vec3(key.flux), *numbers);
-        append(static_cast<float>(key.concentration), *numbers);
-    }
     return numbers;
 }
 

@@ -1,7 +1,7 @@
 // Writes the static site: node build.mjs FOLDER PACKAGE CABINET, the package built and the cabinet cooked.
-import { cpSync, mkdirSync } from "node:fs";
+import { cpSync, mkdirSync, readFileSync } from "node:fs";
 import { createRequire } from "node:module";
-import { fileURLToPath } from "node:url";
+import { fileURLToPath, pathToFileURL } from "node:url";
 
 const here = fileURLToPath(new URL(".", import.meta.url));
 const [out, from, cabinet] = process.argv.slice(2);
@@ -13,7 +13,26 @@ const options = {
     bundle: true, minify: true, format: "esm", target: "es2022", logLevel: "warning",
     nodePaths: [from + "/node_modules"], alias: { "@rowland/three": from + "/dist/index.js" },
 };
-buildSync({ ...options, entryPoints: [here + "page.ts"], outfile: out + "/page.js" });
+
+/** So that nothing is fitted when the page opens. */
+async function builtInKeyLights() {
+    const { outputFiles } = buildSync({ ...options, entryPoints: [here + "lights.ts"], define: { BUILT_IN_KEY_LIGHTS: "{}" }, write: false });
+    const { builtInLight, LIGHT_NAMES } = await import("data:text/javascript;base64," + Buffer.from(outputFiles[0].contents).toString("base64"));
+    const { Tasks } = await import(pathToFileURL(from + "/dist/tasks.js"));
+    const { texelsOf } = await import(pathToFileURL(from + "/dist/rowland.js"));
+    const tasks = new Tasks(async (name) => readFileSync(`${from}/dist/${name}.wasm`));
+    const lights = {};
+    for (const name of LIGHT_NAMES) {
+        const { texels, width, height } = texelsOf(builtInLight(name));
+        const probe = new Float32Array(2 + texels.length);
+        probe.set([width, height]);
+        probe.set(texels, 2);
+        const numbers = await tasks.fitKeyLights(probe, 16);
+        lights[name] = Array.from(numbers, (x) => Number(x.toPrecision(8)));
+    }
+    return JSON.stringify(lights);
+}
+buildSync({ ...options, entryPoints: [here + "page.ts"], define: { BUILT_IN_KEY_LIGHTS: await builtInKeyLights() }, outfile: out + "/page.js" });
 buildSync({ ...options, entryPoints: [from + "/dist/worker.js"], outfile: out + "/worker.js" });
 for (const file of ["index.html", "page.css"]) cpSync(here + file, `${out}/${file}`);
 for (const file of ["bake.wasm", "arc.wasm", "reference.wasm"]) cpSync(`${from}/dist/${file}`, `${out}/${file}`);

@@ -34,6 +34,11 @@ const LIGHTS: Record<string, { top: number[]; bottom: number[]; boxes: Box[] }> 
 };
 export const LIGHT_NAMES = Object.keys(LIGHTS);
 
+/** Of each light, by Rowland.fitKeyLights(): build.mjs. */
+declare const BUILT_IN_KEY_LIGHTS: Record<string, number[]>;
+
+export const keyLightsOf = (name: string) => Float32Array.from(BUILT_IN_KEY_LIGHTS[name]);
+
 /** An equirectangular texture, as three's loaders give: centre −Z, its last row on top. */
 export function builtInLight(name: string, width = 512): DataTexture {
     const height = width / 2;
@@ -65,9 +70,9 @@ export async function lightOf(file: File): Promise<Texture> {
     if (extension !== ".hdr" && extension !== ".exr") throw new Error(`${file.name}: expected a panorama, .hdr or .exr`);
     const loader = extension === ".exr" ? new EXRLoader() : new RGBELoader();
     loader.setDataType(FloatType);
-    let image: { data?: Float32Array; width?: number; height?: number } | undefined;
+    let image: { data?: ArrayLike<number>; width?: number; height?: number } | undefined;
     try {
-        image = loader.parse(await file.arrayBuffer()) as never;
+        image = loader.parse(await file.arrayBuffer()) as unknown as typeof image;
     } catch (error) {
         throw new Error(`${file.name}: ${(error as Error).message}`);
     }

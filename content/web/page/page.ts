@@ -5,8 +5,9 @@ import {
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { DataUtils } from "three";
 import { Rowland } from "@rowland/three";
-import { builtInLight, LIGHT_NAMES, lightOf } from "./lights.js";
+import { builtInLight, keyLightsOf, LIGHT_NAMES, lightOf } from "./lights.js";
 import { addressOf, SCENE_NAMES, settingsOf, type Settings } from "./address.js";
+import { Frames } from "./frames.js";
 import { PixelComparer } from "./pixel.js";
 import { ReferenceView } from "./reference_view.js";
 import { numberAt, slidersOf, withNumber } from "./samples.js";
@@ -34,22 +35,32 @@ let stage: Stage = { objects: new Group(), pieces: [], eye: new Vector3(0, 0.3, 
 let loaded = false;
 const turns = new Map<Piece, number>();
 
-// Frames are drawn when something has changed.
-let asked = false;
-let frames = 0;
-function redraw(): void {
-    if (asked) return;
-    asked = true;
-    requestAnimationFrame(() => {
-        asked = false;
-        if (renderer.getContext().isContextLost()) return;
+const data = document.documentElement.dataset;
+let frameCount = 0;
+const litMaterials = () => stage.pieces.flatMap(materialsOf).filter(({ lit }) => lit).length;
+const frames = new Frames(renderer, {
+    render() {
         renderer.render(scene, camera);
         if (referenceShown.checked) reference.draw();
-        document.documentElement.dataset.frames = String(++frames);
-        document.documentElement.dataset.pose = JSON.stringify({ distance: controls.getDistance(), azimuth: controls.getAzimuthalAngle(), turns: stage.pieces.map((piece) => turns.get(piece) ?? 0) });
-        document.documentElement.dataset.busy = String(!loaded || rowland.busy);
-        document.documentElement.dataset.lit = String(stage.pieces.flatMap(materialsOf).filter(({ lit }) => lit).length);
-    });
+        data.frames = String(++frameCount);
+        data.lit = String(litMaterials());
+        data.pose = JSON.stringify({ distance: controls.getDistance(), azimuth: controls.getAzimuthalAngle(), turns: stage.pieces.map((piece) => turns.get(piece) ?? 0) });
+    },
+    drawn() {
+        mark("picture");
+        if (Number(data.lit) > 0) mark("diffraction");
+        if (!rowland.busy) takeKeyLights();
+        data.busy = String(rowland.busy || lightPending);
+    },
+    changing: () => lightPending || down.size > 0 || (rowland.busy && !referenceShown.checked),
+});
+const redraw = () => loaded && frames.ask();
+
+/** Milliseconds since the navigation began: performance.getEntriesByType("mark"). */
+const marked = new Set<string>();
+function mark(name: string): void {
+    if (!marked.has(name)) performance.mark(name);
+    marked.add(name);
 }
 
 // The ground truth beside the picture begins again when that has changed.
@@ -183,8 +194,14 @@ function filterable(texture: Texture): Texture {
     return halves;
 }
 
-async function light(texture: Texture): Promise<void> {
-    const baked = rowland.setProbe(texture); // beside what follows
+/** What the light still lacks: asked for when a picture shows the whole of it. */
+let takeKeyLights = () => {};
+let lightPending = true;
+/** `keys`: the light's, if they are known. */
+async function light(texture: Texture, keys?: Float32Array): Promise<void> {
+    takeKeyLights = () => {};
+    lightPending = true;
+    const baked = rowland.setProbe(texture, { keyLights: "later" }); // beside what follows
     const pmrem = new PMREMGenerator(renderer);
     environment?.dispose();
     environment = pmrem.fromEquirectangular(filterable(texture)).texture;
@@ -194,15 +211,21 @@ async function light(texture: Texture): Promise<void> {
     scene.backgroundBlurriness = 0.3;
     draw();
     await baked;
+    takeKeyLights = () => {
+        takeKeyLights = () => {};
+        rowland.setKeyLights(keys ?? 16).catch(report).finally(() => (lightPending = false));
+    };
+    if (loaded && frames.idle && !rowland.busy) takeKeyLights();
 }
+const showBuiltIn = (index: number) => light((shownLight = builtInLight(LIGHT_NAMES[index])), (shownKeys = keyLightsOf(LIGHT_NAMES[index])));
 
-let shownLight: Texture = builtInLight(LIGHT_NAMES[wanted.light]);
+let shownLight: Texture;
+let shownKeys: Float32Array | undefined;
 lights.append(...LIGHT_NAMES.map((name) => new Option(name)));
 lights.selectedIndex = wanted.light;
 lights.addEventListener("change", () => {
     message.textContent = "";
-    shownLight = builtInLight(LIGHT_NAMES[lights.selectedIndex]);
-    light(shownLight).catch(report);
+    showBuiltIn(lights.selectedIndex).catch(report);
     writeAddress();
 });
 
@@ -212,7 +235,7 @@ addEventListener("drop", (event) => {
     const file = event.dataTransfer?.files[0];
     if (!file) return;
     message.textContent = "";
-    lightOf(file).then((texture) => light((shownLight = texture))).catch(report);
+    lightOf(file).then((texture) => light((shownLight = texture), (shownKeys = undefined))).catch(report);
 });
 
 const ray = new Raycaster();
@@ -302,6 +325,7 @@ const release = (event: PointerEvent) => {
     down.delete(event.pointerId);
     fingers.delete(event.pointerId);
     if (down.size > 0) return;
+    referenceShown.checked ? draw() : frames.sharpen();
     if (event.pointerType === "touch" && held) compareAfter(event, 0);
     held = undefined;
     controls.enabled = true;
@@ -341,11 +365,10 @@ canvas.addEventListener("keydown", (event) => {
 canvas.addEventListener("webglcontextlost", () => (message.textContent = "The graphics context was lost; waiting for it to come back."));
 canvas.addEventListener("webglcontextrestored", () => {
     message.textContent = "";
-    light(shownLight).catch(report);
+    light(shownLight, shownKeys).catch(report);
 });
 
 function resize(): void {
-    renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     renderer.setSize(innerWidth, innerHeight, false);
     camera.aspect = innerWidth / innerHeight;
     // On a narrow screen as much from left to right as on one of 4 : 3.
@@ -356,9 +379,11 @@ function resize(): void {
 addEventListener("resize", resize);
 scene.background = new Color(0x101114);
 resize();
-light(shownLight).catch(report); // while the cabinet is fetched
+mark("script");
+showBuiltIn(wanted.light).catch(report); // while the cabinet is fetched
 stage = wanted.scene === SAMPLES_SCENE ? samples(rowland, wanted) : await cabinet(rowland);
 loaded = true;
+mark("model");
 scene.add(stage.objects);
 rest = new Rest(stage.objects);
 camera.position.copy(stage.eye);

@@ -25,14 +25,18 @@ export function worldNormal(normal: Vector3, object: Object3D): Vector3 {
     return normal.clone().applyMatrix3(new Matrix3().getNormalMatrix(object.matrixWorld)).normalize();
 }
 
-/** Normals and grating vectors of all vertices in the world, as src/glsl/surface.vert.glsl computes them. */
-export function worldFrames(geometry: BufferGeometry, object: Object3D, grooves: Grooves, turn: number) {
+/**
+ * Normals and grating vectors of all vertices in the world, as src/glsl/surface.vert.glsl computes them. `turnOf`: radians
+ * from the tangent toward the bitangent at a vertex.
+ */
+export function worldFrames(geometry: BufferGeometry, object: Object3D, grooves: Grooves, turnOf: (vertex: number) => number) {
     const count = geometry.getAttribute("position").count;
     const normals = new Float32Array(3 * count);
     const gratings = new Float32Array(3 * count);
     const toWorld = new Matrix3().setFromMatrix4(object.matrixWorld);
     const normalToWorld = new Matrix3().getNormalMatrix(object.matrixWorld);
     const tangents = geometry.getAttribute("tangent");
+    const mirroring = toWorld.determinant() < 0 ? -1 : 1; // inverts the cross product
     const [p, n, g, h] = [new Vector3(), new Vector3(), new Vector3(), new Vector3()];
     for (let i = 0; i < count; ++i) {
         n.fromBufferAttribute(geometry.getAttribute("normal"), i);
@@ -44,7 +48,8 @@ export function worldFrames(geometry: BufferGeometry, object: Object3D, grooves:
         }
         n.applyMatrix3(normalToWorld).normalize();
         g.applyMatrix3(toWorld);
-        h.crossVectors(n, g).multiplyScalar(Math.sin(turn) * (grooves === "tangent" ? tangents.getW(i) : 1));
+        const turn = turnOf(i);
+        h.crossVectors(n, g).multiplyScalar(mirroring * Math.sin(turn) * (tangents ? tangents.getW(i) : 1));
         g.multiplyScalar(Math.cos(turn)).add(h);
         g.addScaledVector(n, -g.dot(n)).normalize();
         n.toArray(normals, 3 * i);
@@ -64,7 +69,7 @@ export function pointFrame({ object, point, face, barycoord }: Intersection<Mesh
             sum.addScaledVector(new Vector4().fromBufferAttribute(attribute, index), weight);
         vertex.setAttribute(name, new Float32BufferAttribute(sum.toArray().slice(0, size), size));
     }
-    const { normals, gratings } = worldFrames(vertex, object, grooves, turn);
+    const { normals, gratings } = worldFrames(vertex, object, grooves, () => turn);
     const view = new Vector3().setFromMatrixPosition(camera.matrixWorld).sub(point).normalize();
     return Float32Array.of(...view.toArray(), ...normals, ...gratings);
 }

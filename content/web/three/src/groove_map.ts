@@ -1,4 +1,7 @@
-import { DataTexture, DataUtils, HalfFloatType, LinearFilter, LinearMipmapLinearFilter, NearestFilter, RGBAFormat, type Texture } from "three";
+import {
+    ClampToEdgeWrapping, DataTexture, DataUtils, HalfFloatType, LinearFilter, LinearMipmapLinearFilter, MirroredRepeatWrapping,
+    NearestFilter, RGBAFormat, Vector2, type BufferGeometry, type Texture, type Wrapping,
+} from "three";
 import { toHalf } from "./half.js";
 
 /**
@@ -12,6 +15,8 @@ export interface GrooveMap {
     readonly smallest: number;
     readonly largest: number;
     readonly gaps: boolean;
+    /** Radians at texture coordinates, of the texture's largest level. */
+    rotation(u: number, v: number): number;
 }
 
 interface Level {
@@ -92,6 +97,37 @@ function texture(levels: Level[], texel: (value: number) => number, nearest: boo
     return result;
 }
 
+/** The column or row of an image after wrapping. */
+function wrapped(index: number, size: number, wrap: Wrapping): number {
+    if (wrap === ClampToEdgeWrapping) return Math.min(Math.max(index, 0), size - 1);
+    const period = wrap === MirroredRepeatWrapping ? 2 * size : size;
+    const within = ((index % period) + period) % period;
+    return within < size ? within : period - 1 - within;
+}
+
+function rotationAt({ bytes, width, height, nearest, like }: { bytes: ArrayLike<number>; width: number; height: number; nearest: boolean; like: Texture },
+    u: number, v: number): number {
+    const red = (column: number, row: number) =>
+        (Math.PI / 255) * bytes[4 * (wrapped(row, height, like.wrapT) * width + wrapped(column, width, like.wrapS))];
+    if (nearest) return red(Math.floor(u * width), Math.floor(v * height));
+    const [x, y] = [u * width - 0.5, v * height - 0.5];
+    const [column, row] = [Math.floor(x), Math.floor(y)];
+    const inRow = (at: number) => red(column, at) + (x - column) * (red(column + 1, at) - red(column, at));
+    return inRow(row) + (y - row) * (inRow(row + 1) - inRow(row));
+}
+
+/** The rotation of a groove texture at each vertex. `texture`: whose coordinates and transform it has. */
+export function rotationsOf({ rotation }: GrooveMap, texture: Texture, geometry: BufferGeometry): number[] {
+    const coordinates = geometry.getAttribute(texture.channel === 0 ? "uv" : "uv1");
+    const at = new Vector2();
+    texture.updateMatrix();
+    return Array.from({ length: geometry.getAttribute("position").count }, (_, vertex) => {
+        if (coordinates) at.fromBufferAttribute(coordinates as never, vertex);
+        at.applyMatrix3(texture.matrix);
+        return rotation(at.x, at.y);
+    });
+}
+
 /** `even`: whether the material's kernel is; `sparkle`: a pixel shows the grooves of one texel. */
 export function grooveMap(from: Texture, even: boolean, sparkle: boolean): GrooveMap {
     const { data: bytes, width, height } = bytesOf(from);
@@ -109,5 +145,6 @@ export function grooveMap(from: Texture, even: boolean, sparkle: boolean): Groov
         smallest,
         largest,
         gaps,
+        rotation: (u, v) => rotationAt({ bytes, width, height, nearest: from.magFilter === NearestFilter, like: from }, u, v),
     };
 }

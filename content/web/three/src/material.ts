@@ -5,7 +5,7 @@ import {
 } from "three";
 import { flatNormal, groovesOf, pointFrame, worldFrames, worldNormal, type Grooves } from "./frames.js";
 import { FRAGMENT, VERTEX } from "./generated/shaders.js";
-import { grooveMap, type GrooveMap } from "./groove_map.js";
+import { grooveMap, rotationsOf, type GrooveMap } from "./groove_map.js";
 import type { Rowland } from "./rowland.js";
 import type { MaterialTables, Pitches, PlaneMap } from "./tasks.js";
 import { arrayTexture, planeTexture, storageTexture, volumeTexture } from "./textures.js";
@@ -28,6 +28,8 @@ export interface GratingParameters extends MeshPhysicalMaterialParameters {
 const BANDS = 5;
 /** A plane that tilts by less keeps its map. */
 const STEADY = 1e-3;
+/** For so many key lights a program has room; it is compiled again for more. */
+const KEY_LIGHTS = 16;
 /** Smaller relative differences of the pitch are ignored, as by runtime/groove_map.cpp. */
 const SAME_PITCH = 0.01;
 
@@ -41,8 +43,8 @@ let materials = 0;
 
 /**
  * MeshPhysicalMaterial under a diffraction grating. The physical material is the layer beneath it. Under `rowland`'s
- * probe and three's lights; until the first tables arrive it draws the layer alone. One material for each mesh: its map
- * follows the mesh.
+ * probe and three's lights; until its first map or table arrives it draws the layer alone. One material for
+ * each mesh: its map follows the mesh.
  */
 export class GratingMaterial extends MeshPhysicalMaterial {
     readonly isGratingMaterial = true;
@@ -65,8 +67,11 @@ export class GratingMaterial extends MeshPhysicalMaterial {
     private mapped = false; // the light of the probe is in the picture, coarsely at least
     private normalShown?: Vector3;
     private frameShown?: Float32Array;
+    private seen?: { geometry: BufferGeometry; object: Object3D }; // as it was last drawn
     private busy = false;
+    private leave?: () => void;
     private readonly uniforms: Record<string, IUniform> = {};
+    private readonly wanted = new Map<string, string | undefined>(); // defines, from when ROWLAND is one of them
 
     constructor({ rowland, grating, grooves, representation, grooveTexture, ...physical }: GratingParameters = {}) {
         super({ color: 0x000000, roughness: 0.3, ...physical });
@@ -89,6 +94,9 @@ export class GratingMaterial extends MeshPhysicalMaterial {
         this.grating = grating;
         this.ready = rowland.material(this.number, grating).then((tables) => this.setKernel(tables));
         this.ready.catch((error: Error) => rowland.onError(error));
+        if (this.leave) return;
+        this.leave = rowland.follow(() => this.follow());
+        this.addEventListener("dispose", this.leave);
     }
 
     private set(name: string, value: unknown): void {
@@ -103,10 +111,13 @@ export class GratingMaterial extends MeshPhysicalMaterial {
     }
 
     private define(name: string, value: string | undefined): void {
-        const defines = (this.defines ??= {});
-        if (defines[name] === value) return;
-        if (value === undefined) delete defines[name];
-        else defines[name] = value;
+        const { wanted, defines = {} } = this;
+        if (wanted.get(name) === value) return;
+        wanted.set(name, value);
+        if (!wanted.get("ROWLAND")) return; // each change compiles a program
+        for (const [key, word] of wanted)
+            if (word === undefined) delete defines[key];
+            else defines[key] = word;
         this.needsUpdate = true;
     }
 
@@ -147,10 +158,11 @@ export class GratingMaterial extends MeshPhysicalMaterial {
         this.flag("LOBE_PITS", facts[FACT.lobe] === 2);
         this.flag("COVER", facts[FACT.ior] > 0);
         this.flag("ZERO_ORDER", facts.subarray(FACT.zeroOrder, FACT.zeroOrder + 9).some((x) => x !== 0));
-        this.flag("NO_KEY_LIGHTS", true);
-        this.flag("ROWLAND", true);
+        if (!this.uniforms.key_lobes) this.setLight(new Float32Array());
         if (this.grooveTexture) this.setGrooveMap(this.grooveTexture, facts[FACT.even] === 1);
-        this.rowland!.onUpdate();
+        if (!this.rowland!.hasLight) this.flag("ROWLAND", true); // else with the first map or table
+        this.follow();
+        if (this.wanted.get("ROWLAND")) this.rowland!.onUpdate();
     }
 
     private setGrooveMap(texture: Texture, even: boolean): void {
@@ -181,13 +193,12 @@ export class GratingMaterial extends MeshPhysicalMaterial {
 
     private setLight(keyLobes: Float32Array): void {
         const count = keyLobes.length / 28;
-        this.flag("NO_KEY_LIGHTS", count === 0);
-        if (count === 0) return;
-        this.define("ROWLAND_MAXIMUM_KEY_LOBES", String(count));
+        const room = Math.max(count, KEY_LIGHTS);
+        this.define("ROWLAND_MAXIMUM_KEY_LOBES", String(room));
         const names = ["direction", "flux", "moments", "turns", "mean", "variance", "height"];
         this.set("key_lobe_count", new Vector4(count));
-        this.set("key_lobes", Array.from({ length: count }, (_, light) =>
-            Object.fromEntries(names.map((name, i) => [name, new Vector4().fromArray(keyLobes, 28 * light + 4 * i)]))));
+        this.set("key_lobes", Array.from({ length: room }, (_, light) => Object.fromEntries(names.map((name, i) =>
+            [name, light < count ? new Vector4().fromArray(keyLobes, 28 * light + 4 * i) : new Vector4()]))));
     }
 
     private setPlane({ e1, e2, axes, halfTurn, pitch, table }: PlaneMap): void {
@@ -212,72 +223,94 @@ export class GratingMaterial extends MeshPhysicalMaterial {
         return this.tables!.facts[FACT.lobe] === 0;
     }
 
-    private async showPlane(normal: Vector3): Promise<void> {
+    /** `show`: what goes with the first map. */
+    private async showPlane(normal: Vector3, show: () => void): Promise<void> {
         const rowland = this.rowland!;
         this.normalShown = normal;
         const details = rowland.preview ? (["coarse"] as const) : (["coarse", "full"] as const);
         for (const detail of details) {
-            this.setPlane(await rowland.plane(this.number, normal.toArray(), this.flatLobe, this.pitches, detail));
-            this.mapped = true;
+            const map = await rowland.plane(this.number, normal.toArray(), this.flatLobe, this.pitches, detail);
+            if (detail === "coarse") show();
+            this.setPlane(map);
             rowland.onUpdate();
         }
     }
 
-    private async showArc(geometry: BufferGeometry, object: Object3D): Promise<void> {
+    private async showArc(geometry: BufferGeometry, object: Object3D, show: () => void): Promise<void> {
         const rowland = this.rowland!;
+        const pitches = this.pitches;
         this.frameShown = Float32Array.from(object.matrixWorld.elements);
         const turn = this.tables!.facts[FACT.rotation];
-        const { normals, gratings } = worldFrames(geometry, object, this.grooves ?? groovesOf(geometry), turn);
+        const turns = this.grooveMap && rotationsOf(this.grooveMap, this.grooveTexture!, geometry);
+        const { normals, gratings } = worldFrames(geometry, object, this.grooves ?? groovesOf(geometry), (i) => turn + (turns?.[i] ?? 0));
         if (!this.hasArcTable) {
-            const arc = await rowland.arc(this.number, BANDS);
+            const arc = await rowland.arc(this.number, BANDS, pitches);
             this.hasArcTable = true;
             this.set("packed_table", arrayTexture(arc.weights, arc.mapping === 0));
             this.set("table_range", storageTexture(Float32Array.from({ length: 8 * arc.layers }, (_, i) => (i % 8 < 4 ? 1 : 0))));
+            if (pitches) this.set("pitch_scale_bias", new Vector2(...arc.pitch));
             this.define("VIEW_MAPPING", String(arc.mapping));
             this.define("TABLE_COLUMNS", String(arc.weights.width));
             this.define("TABLE_ROWS", String(arc.weights.height));
             this.define("LAYERS", String(arc.layers));
         }
-        this.set("vertex_products", storageTexture(await rowland.products(this.number, BANDS, normals, gratings)));
+        const products = await rowland.products(this.number, BANDS, pitches, normals, gratings);
+        show();
+        this.set("vertex_products", storageTexture(products));
+        this.flag("PITCH_AXIS", pitches !== null);
         this.flag("ROWLAND_ARC", true);
-        this.mapped = true;
         rowland.onUpdate();
     }
 
-    /** Brings the tables up to the light and to where the object is. */
+    /** Brings the tables up to the light and to where the object is. Key lights change together with the map or table. */
     private async settle(geometry: BufferGeometry, object: Object3D): Promise<void> {
         const rowland = this.rowland!;
+        let keyLobes: Float32Array | undefined;
         if (this.lightShown !== rowland.lightVersion) {
             this.lightShown = rowland.lightVersion;
             this.mapped = false;
             this.normalShown = this.frameShown = undefined;
-            this.setLight(await rowland.keyLobes());
+            keyLobes = await rowland.keyLobes();
         }
+        const show = () => {
+            if (keyLobes) this.setLight(keyLobes);
+            this.flag("ROWLAND", true);
+            this.mapped = true;
+        };
         const flat = flatNormal(geometry);
-        // Tables of vertices do not follow a texture.
-        const kind = this.representation ?? (flat ? "planar" : this.grooveMap ? "direct" : "arc");
-        if (kind === "planar" && flat) await this.showPlane(worldNormal(flat, object));
-        if (kind === "arc" && !rowland.preview) await this.showArc(geometry, object);
-        this.mapped = true;
+        // A flat mesh that follows a texture has a map; its table would be of vertices.
+        const kind = this.representation ?? (flat ? "planar" : "arc");
+        if (kind === "planar" && flat) return this.showPlane(worldNormal(flat, object), show);
+        if (kind !== "direct" && rowland.preview) return; // a table is made of the light's final parts
+        if (kind !== "direct") return this.showArc(geometry, object, show);
+        show();
         rowland.onUpdate();
     }
 
-    private isSettled(geometry: BufferGeometry, object: Object3D): boolean {
+    private isSettled({ geometry, object }: { geometry: BufferGeometry; object: Object3D }): boolean {
         if (this.lightShown !== this.rowland!.lightVersion) return false;
         if (this.normalShown) return worldNormal(flatNormal(geometry)!, object).distanceTo(this.normalShown) < STEADY;
         if (this.frameShown) return this.frameShown.every((x, i) => Math.abs(x - object.matrixWorld.elements[i]) < STEADY);
         return true;
     }
 
+    /** Asks for what the picture lacks, once the material has been drawn. */
+    private follow(): void {
+        if (!this.tables || !this.seen || this.busy || this.rowland!.lightVersion === 0 || this.isSettled(this.seen)) return;
+        this.busy = true;
+        const failed = (error: Error) => this.rowland!.onError(error);
+        this.settled = this.settle(this.seen.geometry, this.seen.object).catch(failed).finally(() => {
+            this.busy = false;
+            this.follow();
+        });
+    }
+
     override onBeforeRender(_: WebGLRenderer, scene: Scene, __: Camera, geometry: BufferGeometry, object: Object3D): void {
+        this.seen = { geometry, object };
         if (!this.tables || !this.rowland) return;
         this.uniforms.light_scale.value = scene.environmentIntensity;
         this.flag("ROWLAND_RADIAL", (this.grooves ?? groovesOf(geometry)) === "radial");
-        if (this.busy || this.rowland.lightVersion === 0 || this.isSettled(geometry, object)) return;
-        this.busy = true;
-        this.settled = this.settle(geometry, object)
-            .catch((error: Error) => this.rowland!.onError(error))
-            .finally(() => (this.busy = false));
+        this.follow();
     }
 
     /** Whether reference() shows its grooves: not those of a texture, which vary within a pixel. */
@@ -292,7 +325,7 @@ export class GratingMaterial extends MeshPhysicalMaterial {
 
     /** Draws the light that the grooves diffract, alone: to compare it with reference(). */
     get diffractionOnly(): boolean {
-        return this.defines?.ROWLAND_DIFFRACTION_ONLY !== undefined;
+        return this.wanted.get("ROWLAND_DIFFRACTION_ONLY") !== undefined;
     }
     set diffractionOnly(on: boolean) {
         this.flag("ROWLAND_DIFFRACTION_ONLY", on);
@@ -314,7 +347,7 @@ export class GratingMaterial extends MeshPhysicalMaterial {
 
     /** Texture look-ups a pixel: for the light of the probe without its key lights. */
     get price(): { map: number } {
-        return { map: this.defines?.ROWLAND_ARC ? Number(this.defines.LAYERS) : this.representation === "direct" ? 0 : 1 };
+        return { map: this.wanted.get("ROWLAND_ARC") ? Number(this.wanted.get("LAYERS")) : this.representation === "direct" ? 0 : 1 };
     }
 
     override customProgramCacheKey(): string {

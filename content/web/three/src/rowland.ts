@@ -20,17 +20,15 @@ export function texelsOf(texture: Texture): { texels: Float32Array; width: numbe
     return { texels, width, height };
 }
 
-/** In which a page asks for the coarse maps of a light, before its bright parts are looked for. */
-const PREVIEW_MS = 100;
-
-/** What has a worker of its own, so that the tables of curved meshes, of seconds, hold up neither maps nor the ground truth. */
-type Work = "maps" | "tables" | "truth";
+/** What has a worker of its own: what takes seconds holds up no maps. */
+type Work = "maps" | "keys" | "tables" | "truth";
 
 /** The workers that bake materials and light. One Rowland for a page. */
 export class Rowland {
     private readonly workers = new Map<Work, TaskWorker>();
     private readonly json = new Map<number, string>();
     private rest?: { light: number; sh: Promise<Float32Array> }; // without the key lights
+    private keys: Float32Array = new Float32Array();
     private referenceImage?: { light: number; sent: Promise<void> };
     /** Called when a picture would be another than before: draw. */
     onUpdate: () => void = () => {};
@@ -41,6 +39,7 @@ export class Rowland {
     /** Whether its bright parts are still to be found. */
     preview = false;
     private newestLight = 0;
+    private readonly materials = new Set<() => void>();
 
     constructor(private readonly startWorker = () => new Worker(new URL("./worker.js", import.meta.url), { type: "module" })) {
         this.worker("maps"); // while the page loads its light
@@ -54,24 +53,51 @@ export class Rowland {
 
     /**
      * Sets the light: an equirectangular texture of floats or halves. Its bright parts become `keyLights` sharp lights;
-     * until they are found, a second later, it is seen as a whole in coarse maps.
+     * until they are found, a second later, it is seen as a whole in coarse maps. "later": until setKeyLights().
      */
-    async setProbe(texture: Texture, { keyLights = 16 }: { keyLights?: number } = {}): Promise<void> {
+    async setProbe(texture: Texture, { keyLights = 16 }: { keyLights?: number | "later" } = {}): Promise<void> {
         const { texels, width, height } = texelsOf(texture);
         const light = ++this.newestLight;
         await this.worker("maps").run("light", [texels, width, height], [texels]);
-        this.show(keyLights > 0);
-        if (keyLights === 0) return;
-        await new Promise((resolve) => setTimeout(resolve, PREVIEW_MS));
         if (light !== this.newestLight) return;
-        await this.worker("maps").run("findKeyLights", [keyLights]);
-        this.show(false);
+        this.show(new Float32Array(), keyLights !== 0);
+        if (typeof keyLights === "number" && keyLights > 0) await this.setKeyLights(keyLights);
     }
 
-    private show(preview: boolean): void {
+    /**
+     * Takes the bright parts out of the light: so many of them, which takes a second, or those of an earlier
+     * fitKeyLights() under the same light.
+     */
+    async setKeyLights(keyLights: number | Float32Array): Promise<void> {
+        const light = this.newestLight;
+        const keys = typeof keyLights === "number" ? await this.fitKeyLights(keyLights) : keyLights;
+        if (light !== this.newestLight) return;
+        await this.worker("maps").run("useKeyLights", [keys]);
+        if (light === this.newestLight) this.show(keys, false);
+    }
+
+    /** At most `count` sharp lights in the probe: seven numbers each, to be kept beside a panorama. */
+    async fitKeyLights(count: number): Promise<Float32Array> {
+        const probe = await this.worker("maps").run<Float32Array>("probeTexels", []);
+        return this.worker("keys").run("fitKeyLights", [probe, count], [probe]);
+    }
+
+    private show(keys: Float32Array, preview: boolean): void {
+        this.keys = keys;
         this.preview = preview;
         this.lightVersion += 1;
-        this.onUpdate();
+        for (const follow of this.materials) follow();
+    }
+
+    /** Whether a light has been set, or is on its way. */
+    get hasLight(): boolean {
+        return this.newestLight > 0;
+    }
+
+    /** @internal What a change of the light calls, until the returned function is. */
+    follow(change: () => void): () => void {
+        this.materials.add(change);
+        return () => this.materials.delete(change);
     }
 
     /** Whether the workers have tasks left. */
@@ -95,20 +121,20 @@ export class Rowland {
     }
 
     /** @internal */
-    arc(id: number, bands: number): Promise<ArcTables> {
-        return this.worker("tables").run("arc", [id, this.json.get(id), bands]);
+    arc(id: number, bands: number, pitches: Pitches | null): Promise<ArcTables> {
+        return this.worker("tables").run("arc", [id, this.json.get(id), bands, pitches]);
     }
     /** @internal */
-    async products(id: number, bands: number, normals: Float32Array, gratings: Float32Array): Promise<Float32Array> {
+    async products(id: number, bands: number, pitches: Pitches | null, normals: Float32Array, gratings: Float32Array): Promise<Float32Array> {
         if (this.rest?.light !== this.lightVersion) this.rest = { light: this.lightVersion, sh: this.restSh(bands) };
         const sh = await this.rest.sh;
-        return this.worker("tables").run("products", [id, this.json.get(id), bands, sh, normals, gratings], [normals, gratings]);
+        return this.worker("tables").run("products", [id, this.json.get(id), bands, pitches, sh, normals, gratings], [normals, gratings]);
     }
 
     private async restSh(bands: number): Promise<Float32Array> {
+        const keys = this.keys;
         const probe = await this.worker("maps").run<Float32Array>("probeTexels", []);
-        const keys = await this.worker("maps").run<Float32Array>("keyLights", []);
-        return this.worker("tables").run("restSh", [probe, keys, bands], [probe, keys]);
+        return this.worker("tables").run("restSh", [probe, keys, bands], [probe]);
     }
     /** @internal */
     async reference(id: number, points: Float32Array): Promise<Float32Array> {

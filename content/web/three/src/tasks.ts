@@ -29,6 +29,7 @@ export interface ArcTables {
     readonly mapping: number;
     readonly weights: Table;
     readonly layers: number;
+    readonly pitch: number[]; // scale and bias of a table over pitches
 }
 
 /** Map sizes: what is shown first, then in full. */
@@ -42,6 +43,12 @@ const SIZES = {
     coarse: { flat: 64, azimuths: 64, g: 64, h: 32, pitched: 32, step: 1.1 },
     full: { flat: 256, azimuths: 176, g: 64, h: 64, pitched: 128, step: 1.03 }, // step: of pitches
 };
+const TABLE_STEP = 1.045; // of pitches: runtime/groove_map.cpp
+const RANK = 12;
+/** Key lights: direction, flux, concentration. */
+export const KEY_LIGHT_NUMBERS = 7;
+
+const nodesOf = ([smallest, largest]: Pitches, step: number) => 2 + Math.floor(Math.log(largest / smallest) / Math.log(step));
 
 function table(width: number, height: number, depth: number, rgb: Float32Array): Table {
     return { width, height, depth, ...packRgb(rgb) };
@@ -54,7 +61,7 @@ export type Fetch = (name: ModuleName) => Promise<BufferSource>;
 export class Tasks {
     private readonly modules = new Map<string, Promise<BakeModule>>();
     private readonly baked = new Map<number, number>();
-    private readonly arcs = new Map<number, { json: string; arc: number }>();
+    private readonly arcs = new Map<number, { of: string; arc: number }>();
     private probe = 0;
     private image = 0; // the probe's, in the module of the reference
 
@@ -94,19 +101,23 @@ export class Tasks {
         this.probe = bake.call("read_probe", bake.putFloats(texels), width, height);
     }
 
-    /** Takes the brightest parts out of the probe's light. A second. */
-    async findKeyLights(count: number): Promise<void> {
-        (await this.module("bake")).call("find_key_lights", this.probe, count);
+    /** The brightest parts of an image: probeTexels(). A second. */
+    async fitKeyLights(probe: Float32Array, count: number): Promise<Float32Array> {
+        const bake = await this.module("bake");
+        return bake.numbers("fit_key_lights", bake.putFloats(probe.subarray(2)), probe[0], probe[1], count);
+    }
+
+    /** Takes them out of the probe's light. */
+    async useKeyLights(keys: Float32Array): Promise<void> {
+        const bake = await this.module("bake");
+        const address = bake.putFloats(keys);
+        bake.call("use_key_lights", this.probe, address, keys.length / KEY_LIGHT_NUMBERS);
+        bake.call("give_back", address);
     }
 
     /** The numbers of the key lights: KeyLobe of shaders/key_lobe_block.h. */
     async keyLobes(): Promise<Float32Array> {
         return (await this.module("bake")).numbers("key_lobes", this.probe);
-    }
-
-    /** Their directions, fluxes and concentrations: seven numbers each. */
-    async keyLights(): Promise<Float32Array> {
-        return (await this.module("bake")).numbers("key_lights", this.probe);
     }
 
     /** Width, height, then the probe's RGB texels. */
@@ -123,7 +134,7 @@ export class Tasks {
         if (flatLobe) {
             const views = pitches ? size.pitched : size.flat;
             const [smallest, largest] = pitches ?? [1, 1];
-            const depth = pitches ? 2 + Math.floor(Math.log(largest / smallest) / Math.log(size.step)) : 1;
+            const depth = pitches ? nodesOf(pitches, size.step) : 1;
             const map = bake.numbers("planar_map", material, this.probe, x, y, z, views, smallest, largest, depth);
             return {
                 e1: [...map.subarray(0, 3)],
@@ -145,27 +156,30 @@ export class Tasks {
         };
     }
 
-    private async arcOf(id: number, json: string, bands: number): Promise<[BakeModule, number]> {
+    private async arcOf(id: number, json: string, bands: number, pitches: Pitches | null): Promise<[BakeModule, number]> {
         const module = await this.module("arc");
         const kept = this.arcs.get(id);
-        if (kept?.json === json) return [module, kept.arc];
+        const of = json + pitches;
+        if (kept?.of === of) return [module, kept.arc];
         if (kept) module.call("release_arc", kept.arc);
         this.arcs.delete(id);
         const material = Tasks.read(module, json);
-        const arc = module.call("bake_arc", material, bands, 12);
+        const [smallest, largest] = pitches ?? [1, 1];
+        const arc = module.call("bake_arc", material, bands, RANK, smallest, largest, pitches ? nodesOf(pitches, TABLE_STEP) : 1);
         module.call("release_material", material);
-        this.arcs.set(id, { json, arc });
+        this.arcs.set(id, { of, arc });
         return [module, arc];
     }
 
-    async arc(id: number, json: string, bands: number): Promise<ArcTables> {
-        const [module, arc] = await this.arcOf(id, json, bands);
+    async arc(id: number, json: string, bands: number, pitches: Pitches | null): Promise<ArcTables> {
+        const [module, arc] = await this.arcOf(id, json, bands, pitches);
         const numbers = module.numbers("arc_weights", arc);
         const [mapping, width, height, layers] = numbers;
-        const weights = numbers.subarray(4);
+        const weights = numbers.subarray(6);
         return {
             mapping,
             layers,
+            pitch: [...numbers.subarray(4, 6)],
             weights: { width, height, depth: layers, texels: Uint16Array.from(weights, toHalf), scale: 1 },
         };
     }
@@ -174,14 +188,16 @@ export class Tasks {
     async restSh(probe: Float32Array, keys: Float32Array, bands: number): Promise<Float32Array> {
         const module = await this.module("arc");
         const address = module.putFloats(keys);
-        const sh = module.numbers("rest_sh", module.putFloats(probe.subarray(2)), probe[0], probe[1], address, keys.length / 7, bands);
+        const sh = module.numbers("rest_sh", module.putFloats(probe.subarray(2)), probe[0], probe[1], address, keys.length / KEY_LIGHT_NUMBERS, bands);
         module.call("give_back", address);
         return sh;
     }
 
     /** 3 · layers vectors for each vertex. `sh`: restSh(). */
-    async products(id: number, json: string, bands: number, sh: Float32Array, normals: Float32Array, gratings: Float32Array): Promise<Float32Array> {
-        const [module, arc] = await this.arcOf(id, json, bands);
+    async products(
+        id: number, json: string, bands: number, pitches: Pitches | null, sh: Float32Array, normals: Float32Array, gratings: Float32Array,
+    ): Promise<Float32Array> {
+        const [module, arc] = await this.arcOf(id, json, bands, pitches);
         const inputs = [sh, normals, gratings].map((floats) => module.putFloats(floats));
         const products = module.numbers("arc_products", arc, ...inputs, normals.length / 3);
         for (const input of inputs) module.call("give_back", input);

@@ -46,7 +46,7 @@ function serve(task, files, folder, onResult, onCommand) {
 }
 
 /** What the page posts to /result. */
-export async function resultOf(page, task, { files = {}, folder = packageFolder, seconds = 240 } = {}) {
+export async function resultOf(page, task, { files = {}, folder = packageFolder, seconds = 240, size = "800,600" } = {}) {
     let server, browser, tools, timer;
     const profile = mkdtempSync(join(tmpdir(), "rowland-chromium-"));
     try {
@@ -54,7 +54,7 @@ export async function resultOf(page, task, { files = {}, folder = packageFolder,
             server = await serve(task, files, folder, resolve, (command) => tools.command(command));
             timer = setTimeout(() => reject(new Error(`no result of ${page} in ${seconds} s`)), 1000 * seconds);
             browser = spawn(chromium(), ["--headless=new", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader",
-                "--enable-unsafe-swiftshader", "--remote-debugging-pipe", `--user-data-dir=${profile}`,
+                "--enable-unsafe-swiftshader", "--remote-debugging-pipe", `--window-size=${size}`, `--user-data-dir=${profile}`,
                 `http://127.0.0.1:${server.address().port}/${page}`], { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"] });
             tools = new DevTools(browser);
             browser.on("error", reject);

@@ -36,8 +36,9 @@ export class DevTools {
         return (await this.#send("Target.attachToTarget", { targetId, flatten: true })).sessionId;
     }
 
-    /** Sends a command to the page: what it gives back. */
+    /** Sends a command to the page, or of the system to the browser: what it gives back. */
     async command({ method, params }) {
+        if (method.startsWith("SystemInfo.")) return this.#send(method, params);
         this.#page ??= this.#attach();
         return this.#send(method, params, await this.#page);
     }

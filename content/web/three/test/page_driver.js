@@ -31,6 +31,11 @@ if (limits.has("small")) {
         };
     }
 }
+// So that a picture can be read at any time.
+const getContext = HTMLCanvasElement.prototype.getContext;
+HTMLCanvasElement.prototype.getContext = function (kind, settings) {
+    return getContext.call(this, kind, { ...settings, preserveDrawingBuffer: true });
+};
 addEventListener("error", (event) => errors.push(event.message));
 
 const post = (value) => fetch("/result", { method: "POST", body: JSON.stringify(value) });
@@ -58,10 +63,8 @@ async function picture() {
     const canvas = document.getElementById("view");
     const drawn = frames();
     dispatchEvent(new Event("resize")); // draws
-    const url = await new Promise((resolve) => {
-        const take = () => (frames() > drawn ? resolve(canvas.toDataURL("image/png")) : requestAnimationFrame(take));
-        requestAnimationFrame(take);
-    });
+    await until("a frame", () => frames() > drawn);
+    const url = canvas.toDataURL("image/png");
     const image = await createImageBitmap(await (await fetch(url)).blob());
     const flat = Object.assign(document.createElement("canvas"), { width: 320, height: 180 }).getContext("2d");
     flat.drawImage(image, 0, 0, 320, 180);
@@ -117,14 +120,32 @@ async function turnedRecord() {
     return { pieces: [...document.getElementById("sample").options].map(({ text }) => text), before, after: pose() };
 }
 
+/** The context is lost and comes back: what the page says meanwhile. */
+async function lose() {
+    const loss = document.getElementById("view").getContext("webgl2").getExtension("WEBGL_lose_context");
+    loss.loseContext();
+    await until("word of the loss", () => said() !== "");
+    const lost = said();
+    loss.restoreContext();
+    await until("the context", () => said() === "");
+    await settled();
+    return lost;
+}
+
+async function pixelAt(x, y) {
+    pointer("pointermove", innerWidth * x, innerHeight * y);
+    await until("the pixel's error", () => document.getElementById("pixel").textContent.includes("Difference"));
+    return document.getElementById("pixel").textContent;
+}
+
 async function visit() {
     const result = { errors, pictures: {} };
     const show = async (name) => (result.pictures[name] = await picture());
-    await until("the first frame", () => frames() > 0);
-    result.firstFrame = performance.now();
     // Every flat sample; the ball's table takes seconds.
     await until("the first light", () => Number(document.documentElement.dataset.lit) >= 4);
-    result.firstLight = performance.now();
+    const { processInfo } = await devtools("SystemInfo.getProcessInfo");
+    result.seconds = Object.fromEntries(processInfo.filter(({ cpuTime }) => cpuTime > 0.1).map(({ type, id, cpuTime }) => [type + id, cpuTime]));
+    result.marks = Object.fromEntries(performance.getEntriesByType("mark").map(({ name, startTime }) => [name, Math.round(startTime)]));
     if (limits.has("cabinet")) return post({ ...result, ...(await turnedRecord()) });
     if (limits.has("touch")) return post({ ...result, touches: await touches() });
     await settled();
@@ -134,23 +155,14 @@ async function visit() {
     result.framesAtRest = frames() - before;
     await show("first");
     if (limits.has("visit")) {
-        const context = document.getElementById("view").getContext("webgl2");
-        const loss = context.getExtension("WEBGL_lose_context");
-        loss.loseContext();
-        await until("word of the loss", () => said() !== "");
-        result.lost = said();
-        loss.restoreContext();
-        await until("the context", () => said() === "");
-        await settled();
+        result.lost = await lose();
         await show("restored");
         const dropped = new DataTransfer();
         dropped.items.add(new File(["#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 64 +X 128\n"], "broken.hdr"));
         dispatchEvent(new DragEvent("drop", { dataTransfer: dropped }));
         await until("word of the broken file", () => said() !== "");
         result.broken = said();
-        pointer("pointermove", innerWidth * 0.15, innerHeight * 0.64);
-        await until("the pixel's error", () => document.getElementById("pixel").textContent.includes("Difference"));
-        result.pixel = document.getElementById("pixel").textContent;
+        result.pixel = await pixelAt(0.15, 0.64);
         document.getElementById("reference").click();
         await wait(Number(limits.get("visit")));
         await show("reference");

@@ -15,16 +15,18 @@ class PointMaterial extends GratingMaterial {
     }
 }
 
-/** A quad for each frame, seen from the origin. */
-function geometry(frames) {
+/** A quad for each frame, seen from the origin; mirrored in x. */
+function geometry(frames, mirrored) {
+    const x = mirrored ? -1 : 1;
     const arrays = { position: [], normal: [], tangent: [], place: [], uv: [] };
     const count = frames.length;
     frames.forEach(({ view, normal, grating }, i) => {
-        for (const [x, y] of [[0, -1], [1, -1], [1, 1], [0, -1], [1, 1], [0, 1]]) {
-            arrays.position.push(...view.map((c) => -c));
-            arrays.normal.push(...normal);
-            arrays.tangent.push(...grating, 1);
-            arrays.place.push((2 * (i + x)) / count - 1, y);
+        const given = ([a, b, c]) => [x * a, b, c];
+        for (const [right, up] of [[0, -1], [1, -1], [1, 1], [0, -1], [1, 1], [0, 1]]) {
+            arrays.position.push(...given(view.map((c) => -c)));
+            arrays.normal.push(...given(normal));
+            arrays.tangent.push(...given(grating), 1);
+            arrays.place.push((2 * (i + right)) / count - 1, up);
             arrays.uv.push((i + 0.5) / count, 0.5);
         }
     });
@@ -50,7 +52,7 @@ function grooveTexture(texels) {
     return texture;
 }
 
-async function radiance(renderer, rowland, { grating, representation, frames, lamp, texels }) {
+async function radiance(renderer, rowland, { grating, representation, frames, lamp, texels, mirrored }) {
     const scene = new THREE.Scene();
     const camera = new THREE.PerspectiveCamera();
     const material = new PointMaterial({ rowland, grating, representation, grooveTexture: texels && grooveTexture(texels),
@@ -61,7 +63,8 @@ async function radiance(renderer, rowland, { grating, representation, frames, la
         light.position.set(...lamp.direction);
         scene.add(light);
     }
-    const mesh = new THREE.Mesh(geometry(frames), material);
+    const mesh = new THREE.Mesh(geometry(frames, mirrored), material);
+    if (mirrored) mesh.scale.x = -1;
     mesh.frustumCulled = false;
     scene.add(mesh);
     const target = new THREE.WebGLRenderTarget(2 * frames.length, 2, { type: THREE.FloatType });

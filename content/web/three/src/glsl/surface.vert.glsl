@@ -22,12 +22,15 @@ void pass_grooves(vec3 position, vec3 normal, vec4 tangent, vec3 normal_in_view)
 #else
     vec3 across = tangent.xyz;
 #endif
-    vec3 g = mat3(modelMatrix) * across;
-    vec3 h = cross(world_normal, g) * tangent.w;
+    mat3 linear = mat3(modelMatrix);
+    // A mirroring transform inverts the cross product.
+    float hand = determinant(linear) < 0.0 ? -tangent.w : tangent.w;
+    vec3 g = linear * across;
+    vec3 h = cross(world_normal, g) * hand;
     world_grating = groove_turn.x * g + groove_turn.y * h;
 #ifdef ROWLAND_GROOVE_UV
     groove_uv = ROWLAND_GROOVE_UV;
-    groove_hand = tangent.w;
+    groove_hand = hand;
 #endif
 #ifdef ROWLAND_ARC
     for (int i = 0; i < 3 * LAYERS; ++i) arc_products[i] = STORED_VEC4(vertex_products, gl_VertexID * 3 * LAYERS + i);
