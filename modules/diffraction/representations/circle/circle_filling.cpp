@@ -57,24 +57,42 @@ std::vector<float> unchanged_terms() {
     return rows;
 }
 
-/// Values at angles as functions of the terms of the rest: row j holds what function j takes of each term. Their linear
-/// interpolation is best in the mean over the angle.
+/// Values on the axis of the angle as functions of the terms of the rest: row j holds what function j takes of each
+/// term. Their linear interpolation is best in the mean over the angle, by least squares: a tridiagonal cyclic matrix,
+/// of which three sweeps of Gauss and Seidel's give a digit.
 std::vector<float> functions_of_terms(const Multiples& multiples, int angles, double period) {
-    std::vector<float> rows;
-    const auto hat = [](double x) {
-        const double half = std::numbers::pi * x;
-        return half == 0.0 ? 1.0 : std::pow(std::sin(half) / half, 2);
-    };
-    for (int j = 0; j < angles; ++j)
-        for (int term = 0; term < multiples.terms; ++term) {
-            const int k = multiples.of_term(term);
-            const double cycles = k * period / (2.0 * std::numbers::pi * angles);  // per step of the angle
-            double power = 0.0;
-            for (int alias = -8; alias <= 8; ++alias) power += std::pow(hat(cycles + alias), 2);
-            const double t = k * period * j / angles;
-            rows.push_back(static_cast<float>(hat(cycles) / power * (term % 2 == 0 ? std::cos(t) : std::sin(t))));
+    constexpr int kStepsPerAngle = 64;
+    constexpr int kSweeps = 40;
+    const auto n = static_cast<std::size_t>(angles);
+    const auto terms = static_cast<std::size_t>(multiples.terms);
+    std::vector<double> here(n, 0.0);  // of the hats' inner products, each with itself
+    std::vector<double> next(n, 0.0);  // and with the following
+    std::vector<double> right(n * terms, 0.0);
+    for (int i = 0; i < angles * kStepsPerAngle; ++i) {
+        const double turn = (i + 0.5) / (angles * kStepsPerAngle);
+        const double position =
+            circle_turn(std::cos(2.0 * std::numbers::pi * turn), std::sin(2.0 * std::numbers::pi * turn)) * angles;
+        const auto low = static_cast<std::size_t>(std::floor(position) + angles) % n;
+        const double second = position - std::floor(position);
+        here[low] += (1.0 - second) * (1.0 - second);
+        here[(low + 1) % n] += second * second;
+        next[low] += second * (1.0 - second);
+        for (std::size_t term = 0; term < terms; ++term) {
+            const double t = multiples.of_term(static_cast<int>(term)) * period * turn;
+            const double value = term % 2 == 0 ? std::cos(t) : std::sin(t);
+            right[low * terms + term] += (1.0 - second) * value;
+            right[(low + 1) % n * terms + term] += second * value;
         }
-    return rows;
+    }
+    std::vector<double> rows(n * terms, 0.0);
+    for (int sweep = 0; sweep < kSweeps; ++sweep)
+        for (std::size_t j = 0; j < n; ++j)
+            for (std::size_t term = 0; term < terms; ++term) {
+                const double before = next[(j + n - 1) % n] * rows[(j + n - 1) % n * terms + term];
+                const double after = next[j] * rows[(j + 1) % n * terms + term];
+                rows[j * terms + term] = (right[j * terms + term] - before - after) / here[j];
+            }
+    return {rows.begin(), rows.end()};
 }
 
 /// (r cos, r sin) of multiples of the angle of a direction around g, where r² = 1 − a².
