@@ -10,7 +10,6 @@
 #include <span>
 #include <utility>
 
-#include "engine/colour/working_space.h"
 #include "engine/core/check.h"
 #include "engine/core/parallel.h"
 #include "engine/lighting/cube_tree.h"
@@ -112,6 +111,28 @@ class Fit {
         if (!(changed.gain_ > gain_)) return false;
         *this = std::move(changed);
         return true;
+    }
+
+    /// The order that leaving out, one by one, the lobe without which the others, with their fluxes, leave the least
+    /// squared error gives, the last first.
+    std::vector<std::size_t> most_useful_first() const {
+        Eigen::MatrixX3d rest = right_ - matrix_ * fluxes_;
+        std::vector<std::size_t> order;
+        std::vector<std::size_t> left(lobes_.size());
+        std::iota(left.begin(), left.end(), std::size_t{0});
+        const auto loss = [&](std::size_t k) {
+            const auto row = static_cast<Eigen::Index>(k);
+            return fluxes_.row(row).dot(2.0 * rest.row(row) + matrix_(row, row) * fluxes_.row(row));
+        };
+        while (!left.empty()) {
+            const auto least = std::ranges::min_element(left, {}, loss);
+            const auto row = static_cast<Eigen::Index>(*least);
+            rest += matrix_.col(row) * fluxes_.row(row);
+            order.push_back(*least);
+            left.erase(least);
+        }
+        std::ranges::reverse(order);
+        return order;
     }
 
     /// Removes the lobe without which the gain, at fluxes of either sign, is largest.
@@ -283,19 +304,14 @@ void refine(Fit& fit, std::size_t k, double step, double narrowest, const KeyLig
     if (!fit.try_replace(k, scaled(factor))) fit.try_replace(k, scaled(1.0 / factor));
 }
 
-std::vector<KeyLight> brightest_first(const Fit& fit) {
+std::vector<KeyLight> most_useful_first(const Fit& fit) {
     std::vector<KeyLight> keys;
-    std::vector<double> luminances;
-    for (std::size_t k = 0; k < fit.lobes().size(); ++k) {
+    for (const std::size_t k : fit.most_useful_first()) {
         const Eigen::RowVector3d flux = fit.fluxes().row(static_cast<Eigen::Index>(k));
         const LobeShape& shape = fit.lobes()[k].shape;
-        if (!flux.any()) continue;
-        keys.push_back({shape.direction, {flux[0], flux[1], flux[2]}, shape.concentration});
-        luminances.push_back(colour::luminance(keys.back().flux));
+        if (flux.any()) keys.push_back({shape.direction, {flux[0], flux[1], flux[2]}, shape.concentration});
     }
-    std::vector<KeyLight> sorted;
-    for (const std::size_t i : descending(luminances)) sorted.push_back(keys[i]);
-    return sorted;
+    return keys;
 }
 
 }  // namespace
@@ -327,7 +343,7 @@ std::vector<KeyLight> fit_key_lights(const ProbeImage& probe, int count, const K
         if (fit.lobes().size() % 4 == 0) refine_all(0.2);
     }
     for (const double step : {0.5, 0.3, 0.2, 0.1, 0.05, 0.02, 0.01}) refine_all(step);
-    return brightest_first(fit);
+    return most_useful_first(fit);
 }
 
 }  // namespace rowland::lighting

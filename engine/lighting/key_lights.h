@@ -37,11 +37,12 @@ struct KeyLightFit {
     int exact_bands = 5;
 };
 
-/// Up to `count` (0 to 64) lobes for the bright parts of a probe, brightest first; fewer where more do not help. Greedy
-/// selection of half as many again, removal of those that matter least, and refinement of each lobe against the
-/// residual of the others. Fluxes are those of least squares, never negative, so the residual is small on either side
-/// of 0. No lobe is narrower than a texel or kNarrowestConcentration, or wider than kWidestConcentration. Does not
-/// depend on the number of threads.
+/// Up to `count` (0 to 64) lobes for the bright parts of a probe; fewer where more do not help. Greedy selection of
+/// half as many again, removal of those that matter least, and refinement of each lobe against the residual of the
+/// others. In the order that leaving out, one by one, the lobe that matters least gives, the last first: who uses the
+/// first few alone has those that belong together. Fluxes are those of least squares, never negative, so the residual
+/// is small on either side of 0. No lobe is narrower than a texel or kNarrowestConcentration, or wider than
+/// kWidestConcentration. Does not depend on the number of threads.
 std::vector<KeyLight> fit_key_lights(const ProbeImage& probe, int count, const KeyLightFit& settings = {});
 
 /// The widest and the narrowest lobe that fit_key_lights() gives.

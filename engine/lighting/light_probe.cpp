@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -187,7 +188,8 @@ std::string describe_key_lights(const LightProbe& probe) {
     double flux = 0.0;
     for (const KeyLight& key : probe.key_lights) flux += colour::luminance(key.flux);
     const double whole = colour::luminance(probe.sh.coefficients[0]) * std::sqrt(4 * std::numbers::pi);
-    const KeyLight& first = probe.key_lights.front();
+    const KeyLight& first = *std::ranges::max_element(probe.key_lights, {},
+                                                      [](const KeyLight& key) { return colour::luminance(key.flux); });
     return fmt::format(
         "key lights: {}, {:.3g} % of the flux\n"
         "strongest key light: direction {:.4f} {:.4f} {:.4f}, flux {:.6g} {:.6g} {:.6g}, concentration {:.4g}\n",

@@ -40,7 +40,7 @@ struct LightProbe {
     ShLight sh;                                     ///< raw radiance
     colour::Illuminant illuminant = colour::d65();  ///< the spectrum of its white
     AmbientLight ambient;                           ///< derived from sh, never stored
-    std::vector<KeyLight> key_lights;  ///< brightest first. residual() and unpack() give the light without them
+    std::vector<KeyLight> key_lights;  ///< in fit_key_lights()' order. residual(), unpack() are without them
     PackedLight light;                 ///< at full resolution, with the key lights
     PackedEnvironmentMap environment;  ///< prefiltered for glossy reflection
     std::optional<CaptureDome> dome;   ///< none: what is seen of it is infinitely far away

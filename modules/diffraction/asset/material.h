@@ -38,8 +38,8 @@ struct Quality {
     std::vector<MeasuredProbe> probes;          ///< that max_error is for; none: the built-in clear sky
     SurfaceShape surface = SurfaceShape::Flat;  ///< that max_error is for
     std::optional<Representation> pinned;
-    /// At most so many of the probe's key lights are shaded one by one, at full sharpness: the
-    /// brightest. The others remain in the probe. 0 to lighting::kMaximumKeyLights, which is all.
+    /// At most so many of the probe's key lights are shaded one by one, at full sharpness: those that
+    /// matter most. The others remain in the probe. 0 to lighting::kMaximumKeyLights, which is all.
     int key_lights = 0;
     /// Key lights and directional lights are shaded per vertex, for dense meshes, instead of per pixel.
     bool lights_at_vertices = false;

@@ -55,40 +55,42 @@ KernelCells::Range KernelCells::range(int view) const {
     return {std::clamp(first_ - 2 * view, 0, cells_), std::clamp(end_ - 2 * view, 0, cells_)};
 }
 
-void KernelCells::sharpen(std::span<float> xyz, std::size_t floats) const {
-    std::vector<float> before(xyz.begin(), xyz.begin() + static_cast<std::ptrdiff_t>(floats));
-    for (std::size_t i = floats; i + floats < xyz.size(); ++i) {
-        const float here = xyz[i];
-        float& left = before[i % floats];
-        xyz[i] -= kBestView * (left - 2.0F * here + xyz[i + floats]);
+template <typename Value>
+void KernelCells::sharpen(std::span<Value> xyz, std::size_t count) const {
+    std::vector<Value> before(xyz.begin(), xyz.begin() + static_cast<std::ptrdiff_t>(count));
+    for (std::size_t i = count; i + count < xyz.size(); ++i) {
+        const Value here = xyz[i];
+        Value& left = before[i % count];
+        xyz[i] -= kBestView * (left - 2.0F * here + xyz[i + count]);
         left = here;
     }
 }
 
-template <int kLanes>
-void KernelCells::correlate(std::span<const float> light, std::span<float> xyz) const {
+template <int kFours>
+void KernelCells::correlate(std::span<const Four> light, std::span<Four> xyz) const {
+    constexpr std::size_t kSums = kFours % 10 == 0 ? 10 : 12;  // as many as registers hold
+    static_assert(kFours % kSums == 0);
     for (int view = 0; view < views_; ++view) {
         const Range reached = range(view);
-        for (std::size_t o = 0; o < 3; ++o) {
+        for (std::size_t i = 0; i < 3 * kFours; i += kSums) {
             const float* weight =
-                weights_.data() + static_cast<std::size_t>(reached.begin + 2 * view) * kWeightFloats + o;
-            const float* from = light.data() + static_cast<std::size_t>(reached.begin) * 3 * kLanes;
-            std::array<float, kLanes> sum{};
+                weights_.data() + static_cast<std::size_t>(reached.begin + 2 * view) * kWeightFloats + i / kFours;
+            const Four* from = light.data() + static_cast<std::size_t>(reached.begin) * 3 * kFours + i % kFours;
+            std::array<Four, kSums> sum{};
             for (int cell = reached.begin; cell < reached.end;
-                 ++cell, weight += kWeightFloats, from += std::ptrdiff_t{3} * kLanes)
-                for (std::size_t lane = 0; lane < kLanes; ++lane)
-                    sum[lane] +=
-                        weight[0] * from[lane] + weight[4] * from[kLanes + lane] + weight[8] * from[2 * kLanes + lane];
+                 ++cell, weight += kWeightFloats, from += std::ptrdiff_t{3} * kFours)
+                for (std::size_t k = 0; k < kSums; ++k)
+                    sum[k] += weight[0] * from[k] + weight[4] * from[kFours + k] + weight[8] * from[2 * kFours + k];
             std::copy(sum.begin(), sum.end(),
-                      xyz.begin() + (static_cast<std::ptrdiff_t>(view) * 3 + static_cast<std::ptrdiff_t>(o)) * kLanes);
+                      xyz.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(view) * 3 * kFours + i));
         }
     }
-    sharpen(xyz, std::size_t{3} * kLanes);
+    sharpen(xyz, std::size_t{3} * kFours);
 }
 
-template void KernelCells::correlate<20>(std::span<const float> light, std::span<float> xyz) const;
-template void KernelCells::correlate<40>(std::span<const float> light, std::span<float> xyz) const;
-template void KernelCells::correlate<48>(std::span<const float> light, std::span<float> xyz) const;
+template void KernelCells::correlate<10>(std::span<const Four> light, std::span<Four> xyz) const;
+template void KernelCells::correlate<20>(std::span<const Four> light, std::span<Four> xyz) const;
+template void KernelCells::correlate<24>(std::span<const Four> light, std::span<Four> xyz) const;
 
 void KernelCells::correlate_rgb(std::span<const float> light, std::span<float> xyz) const {
     for (int view = 0; view < views_; ++view) {

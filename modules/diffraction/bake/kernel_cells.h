@@ -17,6 +17,9 @@ inline constexpr float kBestLinear = 1.0F / 12.0F;
 /// of h²/24, divided linearly among two) and the kernel's mean over them (h²/48).
 inline constexpr float kBestView = kBestLinear + 1.0F / 32.0F;
 
+/// Four numbers that are calculated with at once.
+using Four = float __attribute__((vector_size(4 * sizeof(float))));
+
 /// A colour kernel over equal cells, for correlation with arc profiles: 2(views − 1) cells of a ∈ [−1, 1] and views at
 /// v_g = 2j/(views−1) − 1, so that a weight depends on the sum a + v_g alone. It is the kernel's mean over the cell.
 class KernelCells {
@@ -25,17 +28,18 @@ class KernelCells {
 
     int cells() const { return cells_; }
 
-    /// `light`: ½ flux · s_n in cells of a, 3·kLanes floats per cell: red of kLanes independent profiles, then green,
-    /// then blue. `xyz` gets 3·kLanes floats per view, likewise, for linear interpolation. kLanes is 20, 40 or 48.
-    template <int kLanes>
-    void correlate(std::span<const float> light, std::span<float> xyz) const;
+    /// `light`: ½ flux · s_n in cells of a, 3·kFours per cell: red of 4·kFours independent profiles, then green, then
+    /// blue. `xyz` gets 3·kFours per view, likewise, for linear interpolation. kFours is 10, 20 or 24.
+    template <int kFours>
+    void correlate(std::span<const Four> light, std::span<Four> xyz) const;
 
     /// One profile: four floats (r, g, b, –) per cell, four (X, Y, Z, –) per view.
     void correlate_rgb(std::span<const float> light, std::span<float> xyz) const;
 
  private:
-    /// Lowers the inner views by kBestView of their second difference. `floats` per view.
-    void sharpen(std::span<float> xyz, std::size_t floats) const;
+    /// Lowers the inner views by kBestView of their second difference. `count` values per view.
+    template <typename Value>
+    void sharpen(std::span<Value> xyz, std::size_t count) const;
 
     /// Cells that the kernel's weights reach from a view.
     struct Range {

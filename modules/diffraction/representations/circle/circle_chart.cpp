@@ -25,6 +25,15 @@ glm::dvec2 chart_point(const glm::dvec3& g, int chart) {
     return glm::dvec2(up.x, up.z) / (1.0 + up.y);
 }
 
+AngleImage angle_image(std::size_t image) {
+    AngleImage angle{1, 0};
+    const auto reflect = [&](int quarters) { angle = {-angle.sign, quarters - angle.quarters}; };
+    if ((image & 4) != 0) reflect(1);
+    if ((image & 1) != 0) reflect(2);
+    if ((image & 2) != 0) reflect(0);
+    return angle;
+}
+
 glm::dvec3 grating_vector(const glm::dvec2& p, int chart) {
     const double square = glm::dot(p, p);
     return mirrored(glm::dvec3(2.0 * p.x, 1.0 - square, 2.0 * p.y) / (1.0 + square), chart);

@@ -21,9 +21,6 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// Nodes of a row that are correlated together: five terms of four nodes fill vector registers.
-constexpr int kJoinedNodes = 4;
-
 /// Cells of a cube's face that the light of the rest is divided among: its nodes are further apart. 40 would lose a
 /// fifth of the accuracy under a probe with one small lamp.
 constexpr int kRestLightCells = 56;
@@ -53,24 +50,49 @@ std::vector<float> coefficients(const std::optional<Cover>& cover, int cells, co
     return factors;
 }
 
-/// Functions of a grid from moments' terms: row j holds what function j takes of each term. The terms themselves, or
-/// values at angles whose linear interpolation is best in the mean over the angle.
-std::vector<float> functions_of_terms(const Multiples& multiples, int angles, double period) {
-    std::vector<float> rows;
-    const auto hat = [](double x) {
-        const double half = std::numbers::pi * x;
-        return half == 0.0 ? 1.0 : std::pow(std::sin(half) / half, 2);
-    };
-    for (int j = 0; j < angles; ++j)
-        for (int term = 0; term < multiples.terms; ++term) {
-            const int k = multiples.of_term(term);
-            const double cycles = k * period / (2.0 * std::numbers::pi * angles);  // per step of the angle
-            double power = 0.0;
-            for (int alias = -8; alias <= 8; ++alias) power += std::pow(hat(cycles + alias), 2);
-            const double t = k * period * j / angles;
-            rows.push_back(static_cast<float>(hat(cycles) / power * (term % 2 == 0 ? std::cos(t) : std::sin(t))));
-        }
+/// The terms as functions of themselves.
+std::vector<float> unchanged_terms() {
+    std::vector<float> rows(kCircleTerms * kCircleTerms, 0.0F);
+    for (std::size_t term = 0; term < kCircleTerms; ++term) rows[term * (kCircleTerms + 1)] = 1.0F;
     return rows;
+}
+
+/// Values on the axis of the angle as functions of the terms of the rest: row j holds what function j takes of each
+/// term. Their linear interpolation is best in the mean over the angle, by least squares: a tridiagonal cyclic matrix,
+/// of which three sweeps of Gauss and Seidel's give a digit.
+std::vector<float> functions_of_terms(const Multiples& multiples, int angles, double period) {
+    constexpr int kStepsPerAngle = 64;
+    constexpr int kSweeps = 40;
+    const auto n = static_cast<std::size_t>(angles);
+    const auto terms = static_cast<std::size_t>(multiples.terms);
+    std::vector<double> here(n, 0.0);  // of the hats' inner products, each with itself
+    std::vector<double> next(n, 0.0);  // and with the following
+    std::vector<double> right(n * terms, 0.0);
+    for (int i = 0; i < angles * kStepsPerAngle; ++i) {
+        const double turn = (i + 0.5) / (angles * kStepsPerAngle);
+        const double position =
+            circle_turn(std::cos(2.0 * std::numbers::pi * turn), std::sin(2.0 * std::numbers::pi * turn)) * angles;
+        const auto low = static_cast<std::size_t>(std::floor(position) + angles) % n;
+        const double second = position - std::floor(position);
+        here[low] += (1.0 - second) * (1.0 - second);
+        here[(low + 1) % n] += second * second;
+        next[low] += second * (1.0 - second);
+        for (std::size_t term = 0; term < terms; ++term) {
+            const double t = multiples.of_term(static_cast<int>(term)) * period * turn;
+            const double value = term % 2 == 0 ? std::cos(t) : std::sin(t);
+            right[low * terms + term] += (1.0 - second) * value;
+            right[(low + 1) % n * terms + term] += second * value;
+        }
+    }
+    std::vector<double> rows(n * terms, 0.0);
+    for (int sweep = 0; sweep < kSweeps; ++sweep)
+        for (std::size_t j = 0; j < n; ++j)
+            for (std::size_t term = 0; term < terms; ++term) {
+                const double before = next[(j + n - 1) % n] * rows[(j + n - 1) % n * terms + term];
+                const double after = next[j] * rows[(j + 1) % n * terms + term];
+                rows[j * terms + term] = (right[j * terms + term] - before - after) / here[j];
+            }
+    return {rows.begin(), rows.end()};
 }
 
 /// (r cos, r sin) of multiples of the angle of a direction around g, where r² = 1 − a².
@@ -107,67 +129,75 @@ std::array<float, kMultiples.terms> weights_at(const Angle& t) {
     }
 }
 
-/// Light from a direction: red, green, blue and 0, which are read as one vector.
-struct Lamp {
-    glm::vec3 direction;
-    alignas(16) std::array<float, 4> flux;
-};
-
-std::vector<Lamp> lamps_of(const lighting::LightSamples& samples) {
-    std::vector<Lamp> lamps(samples.size());
-    for (std::size_t i = 0; i < samples.size(); ++i)
-        lamps[i] = {{samples.x[i], samples.y[i], samples.z[i]},
-                    {samples.red[i], samples.green[i], samples.blue[i], 0.0F}};
-    return lamps;
-}
-
-/// Adds the moments of light around one g in cells of a. Per cell: red, green, blue and 0 of each term.
+/// Adds the moments of light around one g, and around its images, in cells of a. Per cell, colour and term: two fours,
+/// of the images.
 template <const Multiples& kMultiples>
-void add_moments(std::span<const Lamp> lamps, const CircleFrame& frame, int cells, std::vector<float>& moments) {
-    constexpr std::size_t kTerms = kMultiples.terms;
+void add_moments(std::span<const ImageLight> light, const CircleFrame& frame, int cells, std::vector<Four>& moments) {
+    constexpr std::size_t kColour = 2 * kMultiples.terms;
     const glm::vec3 g(frame.g);
     const glm::vec3 e1(frame.e1);
     const glm::vec3 e2(frame.e2);
     const float scale = 0.5F * static_cast<float>(cells);
     const float last = static_cast<float>(cells - 1);
-    for (const Lamp& lamp : lamps) {
-        const glm::vec3& s = lamp.direction;
-        const std::array<float, kTerms> weights =
-            weights_at<kMultiples>({s.x * e1.x + s.y * e1.y + s.z * e1.z, s.x * e2.x + s.y * e2.y + s.z * e2.z});
-        const float position = std::clamp((s.x * g.x + s.y * g.y + s.z * g.z + 1.0F) * scale - 0.5F, 0.0F, last);
+    for (const ImageLight& from : light) {
+        const glm::vec3 s = from.direction;
+        const auto weights = weights_at<kMultiples>({glm::dot(s, e1), glm::dot(s, e2)});
+        const float position = std::clamp((glm::dot(s, g) + 1.0F) * scale - 0.5F, 0.0F, last);
         const int low = std::min(static_cast<int>(position), cells - 2);
         const float second = position - static_cast<float>(low);
-        float* to = moments.data() + static_cast<std::size_t>(low) * 4 * kTerms;
-        std::array<float, 4 * kTerms> light;
-        for (std::size_t term = 0; term < kTerms; ++term)
-            for (std::size_t c = 0; c < 4; ++c) light[4 * term + c] = weights[term] * lamp.flux[c];
-        for (std::size_t k = 0; k < light.size(); ++k) to[k] += (1.0F - second) * light[k];
-        to += light.size();
-        for (std::size_t k = 0; k < light.size(); ++k) to[k] += second * light[k];
+        Four* const cell = moments.data() + static_cast<std::size_t>(low) * 3 * kColour;
+        const std::array<Four, 6> flux = from.flux;  // in registers
+        for (std::size_t term = 0; term < weights.size(); ++term) {
+            const float far = second * weights[term];
+            const float near = weights[term] - far;
+            for (std::size_t i = 0; i < flux.size(); ++i) {
+                Four* const to = cell + i / 2 * kColour + 2 * term + i % 2;
+                to[0] += near * flux[i];
+                to[3 * kColour] += far * flux[i];
+            }
+        }
     }
+}
+
+/// The functions of an image's node from image 0's moments: those of an image are at other angles.
+std::vector<float> functions_of_image(const Multiples& multiples, const std::vector<float>& functions,
+                                      std::size_t image) {
+    const AngleImage angle = angle_image(image);
+    std::vector<float> rows = functions;
+    const auto terms = static_cast<std::size_t>(multiples.terms);
+    for (std::size_t row = 0; row < rows.size(); row += terms)
+        for (std::size_t term = multiples.first == 0 ? 1 : 0; term < terms; term += 2) {
+            const double turn = 0.5 * std::numbers::pi * angle.quarters * multiples.of_term(static_cast<int>(term));
+            const auto c = static_cast<float>(std::round(std::cos(turn)));
+            const auto s = static_cast<float>(std::round(std::sin(turn)));
+            const float of_cosine = functions[row + term];
+            const float of_sine = functions[row + term + 1];
+            rows[row + term] = c * of_cosine + s * of_sine;
+            rows[row + term + 1] = static_cast<float>(angle.sign) * (c * of_sine - s * of_cosine);
+        }
+    return rows;
 }
 
 /// Fills one grid of a map.
 template <const Multiples& kMultiples>
 class GridFilling {
  public:
-    /// `functions`: functions_of_terms(), or empty for the terms.
+    /// `functions`: of the terms, a row for each of the grid's functions.
     GridFilling(const lighting::LightSamples& texels, int light_cells, const KernelCells& kernel,
-                const std::optional<Cover>& cover, std::vector<float> functions, CircleGrid& grid)
-        : lamps_(lamps_of(circle_light(texels, light_cells))),
+                const std::optional<Cover>& cover, const std::vector<float>& functions, CircleGrid& grid)
+        : light_(circle_light(texels, light_cells)),
           light_variance_(circle_light_variance(light_cells)),
           kernel_(kernel),
           coefficients_(coefficients(cover, kernel.cells(), kMultiples)),
-          functions_(std::move(functions)),
-          grid_(grid) {}
+          grid_(grid) {
+        for (std::size_t image = 0; image < kCircleImages; ++image)
+            functions_[image] = functions_of_image(kMultiples, functions, image);
+    }
 
     void fill(int charts, const std::stop_token& stop) {
-        const auto rows = static_cast<std::size_t>(grid_.side);
-        const std::size_t in_row = (rows + kJoinedNodes - 1) / kJoinedNodes;
-        parallel_for(static_cast<std::size_t>(charts) * rows * in_row, [&](std::size_t i) {
-            if (stop.stop_requested()) return;
-            fill_nodes(static_cast<int>(i / (rows * in_row)), static_cast<int>(i / in_row % rows),
-                       static_cast<int>(i % in_row) * kJoinedNodes);
+        const std::vector<glm::ivec2> nodes = first_nodes();
+        parallel_for(nodes.size(), [&](std::size_t i) {
+            if (!stop.stop_requested()) fill_images(nodes[i], charts);
         });
         if (stop.stop_requested()) return;
         const auto slices = static_cast<std::size_t>(grid_.functions * grid_.views);
@@ -175,58 +205,67 @@ class GridFilling {
     }
 
  private:
-    static constexpr int kTerms = kMultiples.terms;
+    static constexpr std::size_t kTerms = kMultiples.terms;
+    static constexpr std::size_t kFours = kTerms * kCircleImages / 4;
+
     /// No look-up reaches the corners.
     bool is_read(const glm::dvec2& p) const { return glm::length(p) <= 1.0 + 3.0 / (grid_.side * grid_.scale()); }
 
-    glm::dvec2 point_of(int row, int column) const {
-        const glm::dvec2 at(column + 0.5, row + 0.5);
-        return (at / static_cast<double>(grid_.side) - 0.5) / grid_.scale();
+    glm::dvec2 point_of(const glm::ivec2& node) const {
+        return ((glm::dvec2(node) + 0.5) / static_cast<double>(grid_.side) - 0.5) / grid_.scale();
     }
 
-    /// A node's moments, for each cell and colour beside those of the other nodes.
-    void add_node(const glm::dvec2& p, int chart, std::size_t node, std::vector<float>& light) const {
-        const auto cells = static_cast<std::size_t>(kernel_.cells());
-        std::vector<float> moments(cells * 4 * kTerms, 0.0F);
-        add_moments<kMultiples>(lamps_, frame_at(grating_vector(p, chart), chart), kernel_.cells(), moments);
-        for (std::size_t i = 0; i < cells * kTerms; ++i)
-            for (std::size_t c = 0; c < 3; ++c)
-                light[((i / kTerms * 3 + c) * kJoinedNodes + node) * kTerms + i % kTerms] =
-                    coefficients_[i] * moments[i * 4 + c];
+    /// Column and row of the nodes whose images are all nodes.
+    std::vector<glm::ivec2> first_nodes() const {
+        std::vector<glm::ivec2> nodes;
+        for (int row = grid_.side / 2; row < grid_.side; ++row)
+            for (int column = row; column < grid_.side; ++column)
+                if (is_read(point_of({column, row}))) nodes.emplace_back(column, row);
+        return nodes;
     }
 
-    void fill_nodes(int chart, int row, int first) {
-        constexpr int kLanes = kJoinedNodes * kTerms;
-        const int count = std::min(kJoinedNodes, grid_.side - first);
-        std::vector<float> light;
-        for (int node = 0; node < count; ++node) {
-            const glm::dvec2 p = point_of(row, first + node);
-            if (!is_read(p)) continue;
-            light.resize(static_cast<std::size_t>(kernel_.cells()) * 3 * kLanes, 0.0F);
-            add_node(p, chart, static_cast<std::size_t>(node), light);
+    void fill_images(const glm::ivec2& node, int charts) {
+        const int cells = kernel_.cells();
+        std::vector<Four> light(static_cast<std::size_t>(cells) * 3 * kFours, Four{});
+        add_moments<kMultiples>(light_, frame_at(grating_vector(point_of(node), 0), 0), cells, light);
+        for (std::size_t i = 0; i < light.size(); ++i)
+            light[i] *= coefficients_[i / (3 * kFours) * kTerms + i % kFours / 2];
+        std::vector<Four> xyz(static_cast<std::size_t>(grid_.views) * 3 * kFours);
+        kernel_.correlate<kFours>(light, xyz);
+        set_images(node, 0, xyz);
+        if (charts == 1) return;
+        // g of chart 1 at p is −g of chart 0 at −p, with the same angles: its cells of a are those in reverse.
+        for (auto [low, high] = std::pair(light.begin(), light.end()); low < high - 3 * kFours; low += 3 * kFours) {
+            high -= 3 * kFours;
+            std::swap_ranges(low, low + 3 * kFours, high);
         }
-        if (light.empty()) return;
-        std::vector<float> xyz(static_cast<std::size_t>(grid_.views) * 3 * kLanes);
-        kernel_.correlate<kLanes>(light, xyz);
-        for (int view = 0; view < grid_.views; ++view)
-            for (int node = 0; node < count; ++node) {
-                const float* from = xyz.data() + static_cast<std::ptrdiff_t>(view) * 3 * kLanes +
-                                    static_cast<std::ptrdiff_t>(node) * kTerms;
-                for (int function = 0; function < grid_.functions; ++function)
-                    grid_.xyz[grid_.index(chart, function, view, row, first + node)] = {
-                        value(function, from), value(function, from + kLanes), value(function, from + 2 * kLanes)};
-            }
+        kernel_.correlate<kFours>(light, xyz);
+        set_images(node, 1, xyz);
     }
 
-    float value(int function, const float* terms) const {
-        if (functions_.empty()) return terms[function];
-        const float* row = functions_.data() + static_cast<std::ptrdiff_t>(function) * kTerms;
-        return std::inner_product(row, row + kTerms, terms, 0.0F);
+    /// Sets a chart's nodes from a node's terms and those of its images: XYZ for each view.
+    void set_images(const glm::ivec2& node, int chart, const std::vector<Four>& xyz) {
+        for (std::size_t image = 0; image < kCircleImages; ++image) {
+            // In half steps from the middle, where the images are symmetric.
+            glm::ivec3 at(2 * node.x + 1 - grid_.side, 0, 2 * node.y + 1 - grid_.side);
+            at = (circle_image(at, image) * (chart == 0 ? 1 : -1) + grid_.side - 1) / 2;
+            for (int view = 0; view < grid_.views; ++view) {
+                const Four* from = xyz.data() + static_cast<std::size_t>(view) * 3 * kFours + image / 4;
+                for (int function = 0; function < grid_.functions; ++function) {
+                    const float* row = functions_[image].data() + static_cast<std::size_t>(function) * kTerms;
+                    glm::vec3& value = grid_.xyz[grid_.index(chart, function, view, at.z, at.x)];
+                    value = glm::vec3(0.0F);
+                    for (std::size_t term = 0; term < kTerms; ++term)
+                        for (int c = 0; c < 3; ++c)
+                            value[c] += row[term] * from[static_cast<std::size_t>(c) * kFours + 2 * term][image % 4];
+                }
+            }
+        }
     }
 
     /// By how much values are lowered, of their second difference: for linear interpolation, and for the light's blur.
-    float sharpening_at(std::size_t row, std::size_t column) const {
-        const glm::dvec2 p = point_of(static_cast<int>(row), static_cast<int>(column));
+    float sharpening_at(int row, int column) const {
+        const glm::dvec2 p = point_of({column, row});
         const double step = 2.0 / (grid_.side * grid_.scale() * (1.0 + glm::dot(p, p)));  // of g
         return kBestLinear + static_cast<float>(0.5 * light_variance_ / (step * step));
     }
@@ -239,16 +278,16 @@ class GridFilling {
         for (std::size_t row = 1; row + 1 < side; ++row)
             for (std::size_t column = 1; column + 1 < side; ++column) {
                 const std::size_t i = row * side + column;
-                slice[i] -= sharpening_at(row, column) *
+                slice[i] -= sharpening_at(static_cast<int>(row), static_cast<int>(column)) *
                             (values[i - 1] + values[i + 1] + values[i - side] + values[i + side] - 4.0F * values[i]);
             }
     }
 
-    std::vector<Lamp> lamps_;
+    std::vector<ImageLight> light_;
     double light_variance_;
     const KernelCells& kernel_;
     std::vector<float> coefficients_;
-    std::vector<float> functions_;
+    std::array<std::vector<float>, kCircleImages> functions_;  ///< by image
     CircleGrid& grid_;
 };
 
@@ -272,18 +311,19 @@ CircleMap fill_circle_map(const lighting::LightSamples& texels, const KernelTabl
                   .covered = cover.has_value(),
                   .terms = empty_grid(charts, kCircleTerms, size.views, size.side),
                   .rest = empty_grid(charts, angles, rest_views(size.views), rest_side(size.side))};
-    const auto fill = [&]<const Multiples & kMultiples>(CircleGrid& grid, int light_cells, int functions) {
+    const auto fill = [&]<const Multiples & kMultiples>(CircleGrid& grid, int light_cells,
+                                                        const std::vector<float>& functions) {
         const KernelCells cells(kernel, pitch_nm, grid.views, zero_order_xyz);
-        GridFilling<kMultiples>(texels, light_cells, cells, cover,
-                                functions_of_terms(kMultiples, functions, map.period()), grid)
-            .fill(charts, stop);
+        GridFilling<kMultiples>(texels, light_cells, cells, cover, functions, grid).fill(charts, stop);
     };
-    fill.operator()<kOfTerms>(map.terms, kCircleLightCells, 0);
+    fill.operator()<kOfTerms>(map.terms, kCircleLightCells, unchanged_terms());
     if (angles == 0) return map;
+    const Multiples& of_rest = cover ? kOfCoveredRest : kOfRest;
+    const std::vector<float> functions = functions_of_terms(of_rest, angles, map.period());
     if (cover)
-        fill.operator()<kOfCoveredRest>(map.rest, kRestLightCells, angles);
+        fill.operator()<kOfCoveredRest>(map.rest, kRestLightCells, functions);
     else
-        fill.operator()<kOfRest>(map.rest, kRestLightCells, angles);
+        fill.operator()<kOfRest>(map.rest, kRestLightCells, functions);
     return map;
 }
 

@@ -1,8 +1,13 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <glm/vec3.hpp>
 #include <numbers>
+#include <vector>
 
 #include "engine/lighting/light_samples.h"
+#include "modules/diffraction/bake/kernel_cells.h"
 
 namespace rowland::diffraction {
 
@@ -15,10 +20,16 @@ constexpr double circle_light_variance(int cells) {
     return angle * angle / 6.0;
 }
 
-/// A probe as a circle map is filled from it: samples on the faces of a cube, 26 000 of 64 cells a side. Each texel is
-/// divided linearly among the four samples around it, so that its mean direction is kept. This blurs all light alike,
+/// Light from the eight images of a direction (circle_image()).
+struct ImageLight {
+    glm::vec3 direction{0.0F};   ///< image 0
+    std::array<Four, 6> flux{};  ///< images 0 to 3 and 4 to 7 of red, green, blue
+};
+
+/// A probe as a circle map is filled from it: on the faces of a cube, 26 000 directions of 64 cells a side. Each texel
+/// is divided linearly among the four cells around it, so that its mean direction is kept. This blurs all light alike,
 /// by less than a map's nodes resolve, and the filling restores what is lost. Detail that the nodes do not resolve,
 /// such as what remains of a lamp beside its key light, is averaged; it would show as the nodes' pattern.
-lighting::LightSamples circle_light(const lighting::LightSamples& texels, int cells = kCircleLightCells);
+std::vector<ImageLight> circle_light(const lighting::LightSamples& texels, int cells = kCircleLightCells);
 
 }  // namespace rowland::diffraction

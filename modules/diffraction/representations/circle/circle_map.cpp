@@ -42,10 +42,10 @@ glm::dvec3 value_at(const CircleGrid& grid, int function, const CirclePosition& 
 }
 
 /// The rest of the series at the normal's angle, linear between two functions.
-glm::dvec3 rest_at(const CircleMap& map, double angle, const CirclePosition& look_up) {
+glm::dvec3 rest_at(const CircleMap& map, double c, double s, const CirclePosition& look_up) {
     const int count = map.rest.functions;
     if (count == 0) return glm::dvec3(0.0);
-    const double turns = angle / map.period();
+    const double turns = map.covered ? circle_turn(c, s) : circle_turn(c * c - s * s, 2.0 * s * c);
     const double position = (turns - std::floor(turns)) * count;
     const int low = std::min(static_cast<int>(position), count - 1);
     const double second = position - low;
@@ -89,6 +89,13 @@ std::array<double, kCircleMultiples> clamped_cosine(const std::optional<Cover>& 
     return series;
 }
 
+double circle_turn(double c, double s) {
+    const double y = (std::abs(c) - std::abs(s)) / (std::abs(c) + std::abs(s));
+    const double from_axis = 0.125 + 0.125 * y * (1.2 - 0.2 * y * y);  // the axis where c is 0
+    const double turn = c < 0.0 ? 0.25 + from_axis : 0.25 - from_axis;
+    return s < 0.0 ? -turn : turn;
+}
+
 int chart_count(const KernelTable& kernel) {
     return is_even(kernel) ? 1 : 2;
 }
@@ -106,7 +113,7 @@ glm::dvec3 sample(const CircleMap& map, const ShadingPoint& frame) {
     const double c = glm::dot(to_world[2], at.e1);
     const double s = glm::dot(to_world[2], at.e2);
     const std::array<double, kCircleTerms> factors{1.0, c, s, c * c - s * s, 2.0 * s * c};
-    glm::dvec3 sum = rest_at(map, std::atan2(s, c), look_up);
+    glm::dvec3 sum = rest_at(map, c, s, look_up);
     for (int term = 0; term < kCircleTerms; ++term)
         sum += factors[static_cast<std::size_t>(term)] * value_at(map.terms, term, look_up);
     return sum;

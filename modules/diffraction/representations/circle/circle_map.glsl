@@ -36,17 +36,21 @@ const int REST_ANGLES = 2 * ANGLES;
 const int REST_ANGLES = ANGLES;  // the period is half a turn
 #endif
 
+// `t`: cosine and sine of the angle whose period the rest has. Angles lie side by side, and the texture repeats.
 vec3 circle_rest_at(float chart, vec2 p, float v_g, vec2 t) {
-    float position = atan(t.y, t.x) * (float(ANGLES) / 3.14159265);
-    float node = floor(position);
-    float low = floor(mod(node + 0.5, float(REST_ANGLES)));
-    float high = low < float(REST_ANGLES) - 1.5 ? low + 1.0 : 0.0;
+    vec2 size = abs(t);
+    float y = (size.x - size.y) / (size.x + size.y);
+    float from_axis = 0.5 + y * (0.6 - 0.1 * y * y);  // circle_map.h: circle_turn(), here in quarters
+    float turn = t.x < 0.0 ? 1.0 + from_axis : 1.0 - from_axis;
+    float position = (t.y < 0.0 ? -turn : turn) * (float(REST_ANGLES) / 4.0);
+    float low = floor(position);
     vec2 st = 0.5 + p * circle_map_scales.y;
-    float y = (st.y + chart) / float(CHARTS);
-    float r = 0.5 + v_g * (0.5 - 0.5 / float(REST_VIEWS));
-    vec3 first = textureLod(circle_rest, vec3((st.x + low) / float(REST_ANGLES), y, r), 0.0).rgb;
-    vec3 second = textureLod(circle_rest, vec3((st.x + high) / float(REST_ANGLES), y, r), 0.0).rgb;
-    return second_map_scale * (2.0 * mix(first, second, position - node) - 1.0);
+    vec3 at = vec3((st.x + low) / float(REST_ANGLES), (st.y + chart) / float(CHARTS),
+                   0.5 + v_g * (0.5 - 0.5 / float(REST_VIEWS)));
+    vec3 first = textureLod(circle_rest, at, 0.0).rgb;
+    at.x += 1.0 / float(REST_ANGLES);
+    vec3 second = textureLod(circle_rest, at, 0.0).rgb;
+    return second_map_scale * (2.0 * mix(first, second, position - low) - 1.0);
 }
 #endif
 
@@ -66,9 +70,14 @@ vec3 map_radiance(float v_g, vec3 g, vec3 n) {
 #endif
     vec2 p = g.xz / (1.0 + up * g.y);
     vec2 t = n.xz - up * n.y * p;  // n·e1 and n·e2, as n·g = 0
-    vec3 sum = circle_terms(chart, p, v_g, float[5](1.0, t.x, t.y, t.x * t.x - t.y * t.y, 2.0 * t.x * t.y));
+    vec2 t2 = vec2(t.x * t.x - t.y * t.y, 2.0 * t.x * t.y);  // of twice the angle
+    vec3 sum = circle_terms(chart, p, v_g, float[5](1.0, t.x, t.y, t2.x, t2.y));
 #if ANGLES > 0
+#ifdef COVER
     sum += circle_rest_at(chart, p, v_g, t);
+#else
+    sum += circle_rest_at(chart, p, v_g, t2);
+#endif
 #endif
     return sum;
 }

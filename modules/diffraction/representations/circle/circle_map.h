@@ -48,7 +48,8 @@ inline constexpr int kTermLookUps = (3 * kCircleTerms + 3) / 4;
 ///   values are optimised for linear interpolation (kBestLinear), not the radiance at the nodes
 ///   XYZ = Σ_i term_i · f_i + rest(t), f = 1, cos t, sin t, cos 2t, sin 2t
 /// The rest of the series has the period π (2π under a cover, where T(v_n) is left out): function j of `rest` holds it
-/// at t = j period/functions, linear between. It is small, so it has fewer nodes (rest_side(), rest_views()).
+/// where circle_turn() of cos 2t, sin 2t (cos t, sin t) is j/functions, linear between. It is small, so it has fewer
+/// nodes (rest_side(), rest_views()).
 struct CircleMap {
     int charts = 0;  ///< 1 or 2
     bool covered = false;
@@ -83,6 +84,10 @@ inline constexpr int kCircleMultiples = 13;
 /// The Fourier coefficients of T(r cos t) max(0, cos t) on cos kt, k < kCircleMultiples, PHYSICS (28); without a cover
 /// T = 1, and r does not matter.
 std::array<double, kCircleMultiples> clamped_cosine(const std::optional<Cover>& cover, double r);
+
+/// Where the direction (c, s) lies on an axis that stands for its angle: −½ to ½ of a turn, as steep as the angle within
+/// 6 %. With y = (|c| − |s|)/(|c| + |s|) it is ⅛ − ⅛ y (1.2 − .2 y²) in the first quadrant.
+double circle_turn(double c, double s);
 
 /// The number of charts of a map under this kernel.
 int chart_count(const KernelTable& kernel);

@@ -63,7 +63,7 @@ std::optional<MapTexels> rest_in_layout(const CircleGrid& grid, int charts) {
                           .width = grid.side * grid.functions,
                           .height = grid.side * charts,
                           .depth = grid.views},
-                         {.filter = gpu::Filter::Linear});
+                         {.filter = gpu::Filter::Linear, .wrap_s = gpu::Wrap::Repeat});
 }
 
 struct Filling {

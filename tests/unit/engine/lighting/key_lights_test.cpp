@@ -144,6 +144,24 @@ TEST(FitKeyLights, FindsTheLobesAProbeIsMadeOf) {
     EXPECT_NEAR(keys[1].concentration, 600.0, 150.0);
 }
 
+/// A broad glow shows in the exact bands, a dimmer lamp does not.
+TEST(FitKeyLights, WhatMattersMostComesFirst) {
+    image::Image image{.width = 128, .height = 64, .texels = {}};
+    image.texels.resize(std::size_t{128} * 64, glm::vec3(0.1F));
+    const ProbeImage empty(image, Mapping::Equirectangular);
+    const KeyLight lobes[] = {{kDirection, glm::dvec3(4.0), 42.0},
+                              {glm::normalize(glm::dvec3(-0.9, 0.2, 0.3)), glm::dvec3(3.5), 500.0}};
+    for (int row = 0; row < image.height; ++row)
+        for (int column = 0; column < image.width; ++column)
+            for (const KeyLight& lobe : lobes)
+                image.at(column, row) +=
+                    glm::vec3(lobe_density(lobe, empty.direction(column + 0.5, row + 0.5)) * lobe.flux);
+    const std::vector<KeyLight> keys = fit_key_lights(ProbeImage(image, Mapping::Equirectangular), 2);
+    ASSERT_EQ(keys.size(), 2U);
+    EXPECT_GT(glm::dot(keys[0].direction, lobes[1].direction), 0.99);
+    EXPECT_LT(keys[0].flux.x, keys[1].flux.x);
+}
+
 /// Lamps of one texel, .012 rad, before a dim wall: each is one light, no wider than its texel.
 TEST(FitKeyLights, LampsOfATexelStayLampsOfATexel) {
     constexpr int kWidth = 512;

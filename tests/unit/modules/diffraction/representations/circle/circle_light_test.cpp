@@ -2,11 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
+#include <map>
+#include <vector>
 
 #include "engine/lighting/environment_map.h"
+#include "modules/diffraction/representations/circle/circle_chart.h"
 
 namespace rowland::diffraction {
 namespace {
@@ -23,10 +27,10 @@ lighting::LightSamples uniform_light(int face_size) {
     return samples;
 }
 
-glm::dvec3 flux_of(const lighting::LightSamples& samples) {
-    glm::dvec3 sum(0.0);
-    for (std::size_t i = 0; i < samples.size(); ++i) sum += samples.flux(i);
-    return sum;
+glm::dvec3 flux_of(const ImageLight& light, std::size_t image) {
+    glm::dvec3 flux;
+    for (int c = 0; c < 3; ++c) flux[c] = light.flux[2 * static_cast<std::size_t>(c) + image / 4][image % 4];
+    return flux;
 }
 
 TEST(CircleLight, LightOfAnyResolutionIsOneSampleForEachCell) {
@@ -49,13 +53,12 @@ TEST(CircleLight, LampsKeepTheirMeanDirectionAndSpreadAlike) {
         const glm::dvec3 lamp(r * std::cos(2.4 * i), y, r * std::sin(2.4 * i));
         lighting::LightSamples light;
         light.push_back(lamp, glm::dvec3(1.0));
-        const lighting::LightSamples samples = circle_light(light);
         glm::dvec3 mean(0.0);
         double spread = 0.0;
-        for (std::size_t k = 0; k < samples.size(); ++k) {
-            const glm::dvec3 off = samples.direction(k) - lamp;
-            mean += samples.flux(k).x * samples.direction(k);
-            spread += samples.flux(k).x * glm::dot(off, off);
+        for (const ImageLight& cell : circle_light(light)) {
+            const glm::dvec3 s(cell.direction);
+            mean += flux_of(cell, 0).x * s;
+            spread += flux_of(cell, 0).x * glm::dot(s - lamp, s - lamp);
         }
         EXPECT_LT(glm::distance(glm::normalize(mean), lamp), 2e-4) << i;
         EXPECT_LT(spread, 3.2 * largest) << i;  // a tent between two cells: up to ¼ h² = 1.5 times its mean, h²/6
@@ -68,7 +71,28 @@ TEST(CircleLight, LampsKeepTheirMeanDirectionAndSpreadAlike) {
 TEST(CircleLight, NegativeFluxIsKept) {
     lighting::LightSamples light = uniform_light(256);
     light.push_back(glm::dvec3(0.0, 1.0, 0.0), glm::dvec3(-3.0));
-    EXPECT_LT(glm::distance(flux_of(circle_light(light)), flux_of(light)), 1e-4);
+    glm::dvec3 sum(0.0);
+    glm::dvec3 of_cells(0.0);
+    for (std::size_t i = 0; i < light.size(); ++i) sum += light.flux(i);
+    for (const ImageLight& cell : circle_light(light)) of_cells += flux_of(cell, 0);
+    EXPECT_LT(glm::distance(of_cells, sum), 1e-4);
+}
+
+/// Each direction holds what comes from its images, which are directions themselves.
+TEST(CircleLight, ImagesAreTheLightFromTurnedDirections) {
+    lighting::LightSamples light;
+    light.push_back(glm::normalize(glm::dvec3(0.3, 0.5, -0.8)), glm::dvec3(1.0, 2.0, 4.0));
+    light.push_back(glm::normalize(glm::dvec3(-0.9, 0.1, 0.2)), glm::dvec3(3.0, 2.0, 1.0));
+    const std::vector<ImageLight> cells = circle_light(light);
+    const auto key_of = [](const glm::dvec3& s) {
+        return std::array{std::lround(1e4 * s.x), std::lround(1e4 * s.y), std::lround(1e4 * s.z)};
+    };
+    std::map<std::array<long, 3>, glm::dvec3> by_direction;
+    for (const ImageLight& cell : cells) by_direction[key_of(cell.direction)] = flux_of(cell, 0);
+    EXPECT_EQ(by_direction.size(), cells.size());
+    for (const ImageLight& cell : cells)
+        for (std::size_t image = 0; image < kCircleImages; ++image)
+            EXPECT_EQ(flux_of(cell, image), by_direction[key_of(circle_image(cell.direction, image))]) << image;
 }
 
 }  // namespace
