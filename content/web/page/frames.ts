@@ -58,6 +58,5 @@ export class Frames {
         this.slow = milliseconds > (this.coarse ? SLOW_MS / 4 : SLOW_MS);
         if (this.again) return this.ask();
         this.picture.drawn();
-        this.sharpen();
     }
 }

@@ -1,4 +1,6 @@
-import { DataTexture, EquirectangularReflectionMapping, FloatType, LinearFilter, RGBAFormat, type Texture } from "three";
+import {
+    DataTexture, DataUtils, EquirectangularReflectionMapping, FloatType, HalfFloatType, LinearFilter, RGBAFormat, type Texture, type WebGLRenderer,
+} from "three";
 import { EXRLoader } from "three/examples/jsm/loaders/EXRLoader.js";
 import { RGBELoader } from "three/examples/jsm/loaders/RGBELoader.js";
 
@@ -85,4 +87,17 @@ export async function lightOf(file: File): Promise<Texture> {
     texture.minFilter = texture.magFilter = LinearFilter;
     texture.needsUpdate = true;
     return texture;
+}
+
+/** Halves are filtered on every GPU; floats are not. */
+export function filterable(texture: Texture, renderer: WebGLRenderer): Texture {
+    const image = texture.image as { data: Float32Array; width: number; height: number };
+    if (renderer.extensions.has("OES_texture_float_linear") || !(image.data instanceof Float32Array)) return texture;
+    const data = Uint16Array.from(image.data, (x) => DataUtils.toHalfFloat(Math.min(x, 65504)));
+    const halves = new DataTexture(data, image.width, image.height, RGBAFormat, HalfFloatType);
+    halves.mapping = texture.mapping;
+    halves.flipY = texture.flipY;
+    halves.minFilter = halves.magFilter = LinearFilter;
+    halves.needsUpdate = true;
+    return halves;
 }

@@ -1,11 +1,10 @@
 import {
-    ACESFilmicToneMapping, Color, DataTexture, DirectionalLight, Group, HalfFloatType, LinearFilter, PerspectiveCamera, PMREMGenerator,
-    Raycaster, RGBAFormat, Scene, Vector2, Vector3, WebGLRenderer, type Intersection, type Material, type Mesh, type Object3D, type Texture,
+    ACESFilmicToneMapping, Color, DirectionalLight, Group, PerspectiveCamera, PMREMGenerator, Raycaster, Scene, Vector2, Vector3,
+    WebGLRenderer, type Intersection, type Material, type Mesh, type Object3D, type Texture,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import { DataUtils } from "three";
 import { Rowland } from "@rowland/three";
-import { builtInLight, keyLightsOf, LIGHT_NAMES, lightOf } from "./lights.js";
+import { builtInLight, filterable, keyLightsOf, LIGHT_NAMES, lightOf } from "./lights.js";
 import { addressOf, SCENE_NAMES, settingsOf, type Settings } from "./address.js";
 import { Frames } from "./frames.js";
 import { PixelComparer } from "./pixel.js";
@@ -49,12 +48,19 @@ const frames = new Frames(renderer, {
     drawn() {
         mark("picture");
         if (Number(data.lit) > 0) mark("diffraction");
-        if (!rowland.busy) takeKeyLights();
-        data.busy = String(rowland.busy || lightPending);
+        rest();
     },
     changing: () => lightPending || down.size > 0 || (rowland.busy && !referenceShown.checked),
 });
 const redraw = () => loaded && frames.ask();
+/** When neither the GPU nor a worker has anything left: what the picture still lacks. */
+function rest(): void {
+    if (!loaded || !frames.idle) return;
+    if (!rowland.busy) takeKeyLights();
+    data.busy = String(rowland.busy || lightPending);
+    frames.sharpen();
+}
+rowland.onIdle = rest;
 
 /** Milliseconds since the navigation began: performance.getEntriesByType("mark"). */
 const marked = new Set<string>();
@@ -168,11 +174,11 @@ bind("lamp", (value) => (lamp.intensity = value));
 bind("exposure", (value) => (renderer.toneMappingExposure = 2 ** value));
 
 // Both sides show the light that the grooves diffract of the panorama, and nothing else.
-let rest = new Rest(stage.objects);
+let others = new Rest(stage.objects);
 referenceShown.addEventListener("change", () => {
     const on = referenceShown.checked;
     for (const material of stage.pieces.flatMap(materialsOf)) material.diffractionOnly = on;
-    rest.show(on);
+    others.show(on);
     lamp.visible = !on;
     scene.background = on ? new Color(0) : environment ?? null;
     draw();
@@ -181,19 +187,6 @@ bind("line", (value) => (reference.line = value), redraw);
 
 // Light.
 let environment: Texture | undefined;
-/** Halves are filtered on every GPU; floats are not. */
-function filterable(texture: Texture): Texture {
-    const image = texture.image as { data: Float32Array; width: number; height: number };
-    if (renderer.extensions.has("OES_texture_float_linear") || !(image.data instanceof Float32Array)) return texture;
-    const data = Uint16Array.from(image.data, (x) => DataUtils.toHalfFloat(Math.min(x, 65504)));
-    const halves = new DataTexture(data, image.width, image.height, RGBAFormat, HalfFloatType);
-    halves.mapping = texture.mapping;
-    halves.flipY = texture.flipY;
-    halves.minFilter = halves.magFilter = LinearFilter;
-    halves.needsUpdate = true;
-    return halves;
-}
-
 /** What the light still lacks: asked for when a picture shows the whole of it. */
 let takeKeyLights = () => {};
 let lightPending = true;
@@ -201,10 +194,11 @@ let lightPending = true;
 async function light(texture: Texture, keys?: Float32Array): Promise<void> {
     takeKeyLights = () => {};
     lightPending = true;
+    data.busy = "true";
     const baked = rowland.setProbe(texture, { keyLights: "later" }); // beside what follows
     const pmrem = new PMREMGenerator(renderer);
     environment?.dispose();
-    environment = pmrem.fromEquirectangular(filterable(texture)).texture;
+    environment = pmrem.fromEquirectangular(filterable(texture, renderer)).texture;
     pmrem.dispose();
     scene.environment = environment;
     if (!referenceShown.checked) scene.background = environment;
@@ -213,9 +207,12 @@ async function light(texture: Texture, keys?: Float32Array): Promise<void> {
     await baked;
     takeKeyLights = () => {
         takeKeyLights = () => {};
-        rowland.setKeyLights(keys ?? 16).catch(report).finally(() => (lightPending = false));
+        rowland.setKeyLights(keys ?? 16).catch(report).finally(() => {
+            lightPending = false;
+            rest();
+        });
     };
-    if (loaded && frames.idle && !rowland.busy) takeKeyLights();
+    rest();
 }
 const showBuiltIn = (index: number) => light((shownLight = builtInLight(LIGHT_NAMES[index])), (shownKeys = keyLightsOf(LIGHT_NAMES[index])));
 
@@ -385,7 +382,7 @@ stage = wanted.scene === SAMPLES_SCENE ? samples(rowland, wanted) : await cabine
 loaded = true;
 mark("model");
 scene.add(stage.objects);
-rest = new Rest(stage.objects);
+others = new Rest(stage.objects);
 camera.position.copy(stage.eye);
 controls.target.copy(stage.target);
 controls.minDistance = stage.nearest;

@@ -43,6 +43,8 @@ export class ReferenceView {
     /** Fills in what the camera sees now; stop() or another start() ends it. */
     async start(hitAt: HitAt, camera: PerspectiveCamera): Promise<void> {
         const run = ++this.run;
+        const { dataset } = document.documentElement;
+        dataset.reference = "";
         const { width, height } = this.renderer.domElement;
         const finest = SIDES[SIDES.length - 1];
         const [columns, rows] = [Math.ceil(width / finest), Math.ceil(height / finest)];
@@ -66,6 +68,7 @@ export class ReferenceView {
                 texture.needsUpdate = true;
                 this.onUpdate();
             }
+            dataset.reference = String(side);
         }
     }
 }

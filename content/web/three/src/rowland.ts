@@ -32,6 +32,8 @@ export class Rowland {
     private referenceImage?: { light: number; sent: Promise<void> };
     /** Called when a picture would be another than before: draw. */
     onUpdate: () => void = () => {};
+    /** Called when the workers have no tasks left. */
+    onIdle: () => void = () => {};
     /** Called with what a material or its light could not be baked for. */
     onError: (error: Error) => void = (error) => console.error(error);
     /** Rises when the light is another. */
@@ -46,7 +48,7 @@ export class Rowland {
     }
 
     private worker(work: Work): TaskWorker {
-        const worker = this.workers.get(work) ?? new TaskWorker(this.startWorker());
+        const worker = this.workers.get(work) ?? new TaskWorker(this.startWorker(), () => this.busy || this.onIdle());
         this.workers.set(work, worker);
         return worker;
     }

@@ -3,12 +3,14 @@ export class TaskWorker {
     private readonly waiting = new Map<number, { resolve: (result: never) => void; reject: (error: Error) => void }>();
     private next = 1;
 
-    constructor(private readonly worker: Worker) {
+    /** `onIdle`: when no call is left, and none was made of the last's result. */
+    constructor(private readonly worker: Worker, onIdle: () => void) {
         worker.onmessage = ({ data }) => {
             const waiting = this.waiting.get(data.id);
             this.waiting.delete(data.id);
             if (data.error === undefined) waiting?.resolve(data.result as never);
             else waiting?.reject(new Error(data.error));
+            if (!this.busy) setTimeout(() => this.busy || onIdle());
         };
         worker.onerror = (event) => {
             const error = new Error(event.message || "the worker of @rowland/three did not start");

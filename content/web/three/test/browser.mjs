@@ -55,17 +55,19 @@ export async function resultOf(page, task, { files = {}, folder = packageFolder,
             timer = setTimeout(() => reject(new Error(`no result of ${page} in ${seconds} s`)), 1000 * seconds);
             browser = spawn(chromium(), ["--headless=new", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader",
                 "--enable-unsafe-swiftshader", "--remote-debugging-pipe", `--window-size=${size}`, `--user-data-dir=${profile}`,
-                `http://127.0.0.1:${server.address().port}/${page}`], { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"] });
+                `http://127.0.0.1:${server.address().port}/${page}`], { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"], detached: true });
             tools = new DevTools(browser);
             browser.on("error", reject);
         });
     } finally {
         clearTimeout(timer);
-        const ended = new Promise((resolve) => (browser ? browser.once("exit", resolve) : resolve()));
-        browser?.kill("SIGKILL");
-        await ended;
+        if (browser?.pid && browser.exitCode === null) {
+            const ended = new Promise((resolve) => browser.once("exit", resolve));
+            process.kill(-browser.pid, "SIGKILL"); // its helper processes write into the profile
+            await ended;
+        }
         server?.close();
         server?.closeAllConnections();
-        rmSync(profile, { recursive: true, force: true, maxRetries: 5 });
+        rmSync(profile, { recursive: true, force: true, maxRetries: 10 });
     }
 }

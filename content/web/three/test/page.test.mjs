@@ -37,7 +37,7 @@ test("the page with the cabinet needs at most 2 MB", { skip: missing }, (t) => {
     assert.ok(bytes <= 2e6, String(bytes));
 });
 
-test("the cabinet is shown, and its record turns", { skip: missing }, async (t) => {
+test("the cabinet is shown, turns, compares with the reference and outlives a lost context", { skip: missing }, async (t) => {
     const result = await visit("cabinet", "scene=cabinet", "480,417"); // small, as software draws it
     // Of a process: all since the browser began, at the first diffraction.
     t.diagnostic(`${JSON.stringify(result.marks)} ms, in software; processor seconds ${JSON.stringify(result.seconds)}`);
@@ -45,6 +45,12 @@ test("the cabinet is shown, and its record turns", { skip: missing }, async (t) 
     const { before, after } = result;
     assert.ok(Math.abs(after.turns[0] - before.turns[0] - 0.5) < 0.01, "a piece turns .01 rad for each pixel");
     assert.equal(after.azimuth, before.azimuth);
+    t.diagnostic(`${result.pixel} | of the whole picture ${JSON.stringify(result.wipe)} | ${result.lost}`);
+    assert.match(result.pixel, /Difference: \d/);
+    const { part, drawn, reference } = result.wipe;
+    assert.ok(part > 0.005, "the reference is not black");
+    assert.ok(Math.abs(drawn - reference) < 0.5 * reference, `a mean of ${drawn}, of the reference ${reference}`);
+    assert.match(result.lost, /context was lost/);
 });
 
 let colour; // of the picture without limits

@@ -38,7 +38,7 @@ HTMLCanvasElement.prototype.getContext = function (kind, settings) {
 };
 addEventListener("error", (event) => errors.push(event.message));
 
-const post = (value) => fetch("/result", { method: "POST", body: JSON.stringify(value) });
+const post = (value) => fetch("/result", { method: "POST", body: JSON.stringify(value, (name, part) => (name === "data" ? undefined : part)) });
 const wait = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds));
 const frames = () => Number(document.documentElement.dataset.frames ?? 0);
 const said = () => document.getElementById("message").textContent;
@@ -58,13 +58,10 @@ async function settled() {
     }
 }
 
-/** The picture as a PNG, and how colourful it is: the mean difference of the largest and smallest of red, green and blue. */
-async function picture() {
-    const canvas = document.getElementById("view");
-    const drawn = frames();
-    dispatchEvent(new Event("resize")); // draws
-    await until("a frame", () => frames() > drawn);
-    const url = canvas.toDataURL("image/png");
+/** The canvas as a PNG, 320 x 180 of its pixels, and how colourful it is: the mean difference of the largest and smallest of red,
+ * green and blue. */
+async function look() {
+    const url = document.getElementById("view").toDataURL("image/png");
     const image = await createImageBitmap(await (await fetch(url)).blob());
     const flat = Object.assign(document.createElement("canvas"), { width: 320, height: 180 }).getContext("2d");
     flat.drawImage(image, 0, 0, 320, 180);
@@ -72,7 +69,15 @@ async function picture() {
     let colour = 0;
     for (let i = 0; i < data.length; i += 4)
         colour += Math.max(data[i], data[i + 1], data[i + 2]) - Math.min(data[i], data[i + 1], data[i + 2]);
-    return { url, colour: colour / (data.length / 4) };
+    return { url, data, colour: colour / (data.length / 4) };
+}
+
+/** The picture drawn anew; the reference begins again. */
+async function picture() {
+    const drawn = frames();
+    dispatchEvent(new Event("resize"));
+    await until("a frame", () => frames() > drawn);
+    return look();
 }
 
 function pointer(type, x, y, buttons = 0) {
@@ -138,6 +143,27 @@ async function pixelAt(x, y) {
     return document.getElementById("pixel").textContent;
 }
 
+/** The whole picture as it is drawn and as the reference's largest blocks have it: means of a component where neither is black. */
+async function wiped() {
+    const line = document.getElementById("line");
+    const upTo = async (part) => {
+        const drawn = frames();
+        line.value = part;
+        line.dispatchEvent(new Event("input"));
+        await until("a frame with the line elsewhere", () => frames() > drawn);
+    };
+    document.getElementById("reference").click();
+    await until("the reference", () => Number(document.documentElement.dataset.reference) > 0);
+    await upTo(1);
+    const drawn = await look();
+    await upTo(0);
+    const reference = await look();
+    document.getElementById("reference").click();
+    const seen = [...reference.data.keys()].filter((i) => i % 4 < 3 && Math.min(reference.data[i], drawn.data[i]) > 8);
+    const mean = ({ data }) => seen.reduce((sum, i) => sum + data[i], 0) / seen.length;
+    return { pictures: { drawn, reference }, part: seen.length / reference.data.length, drawn: mean(drawn), reference: mean(reference) };
+}
+
 async function visit() {
     const result = { errors, pictures: {} };
     const show = async (name) => (result.pictures[name] = await picture());
@@ -146,7 +172,17 @@ async function visit() {
     const { processInfo } = await devtools("SystemInfo.getProcessInfo");
     result.seconds = Object.fromEntries(processInfo.filter(({ cpuTime }) => cpuTime > 0.1).map(({ type, id, cpuTime }) => [type + id, cpuTime]));
     result.marks = Object.fromEntries(performance.getEntriesByType("mark").map(({ name, startTime }) => [name, Math.round(startTime)]));
-    if (limits.has("cabinet")) return post({ ...result, ...(await turnedRecord()) });
+    if (limits.has("cabinet")) {
+        Object.assign(result, await turnedRecord());
+        await settled();
+        result.pixel = await pixelAt(0.31, 0.4);
+        const { pictures, ...wipe } = await wiped();
+        Object.assign(result.pictures, pictures);
+        result.wipe = wipe;
+        result.lost = await lose();
+        await show("restored");
+        return post(result);
+    }
     if (limits.has("touch")) return post({ ...result, touches: await touches() });
     await settled();
     result.settled = performance.now() - 1000;
