@@ -125,13 +125,14 @@ class Fit {
             return fluxes_.row(row).dot(2.0 * rest.row(row) + matrix_(row, row) * fluxes_.row(row));
         };
         while (!left.empty()) {
-            const auto least = std::ranges::min_element(left, {}, loss);
+            const auto least = std::min_element(left.begin(), left.end(),
+                                                [&](std::size_t a, std::size_t b) { return loss(a) < loss(b); });
             const auto row = static_cast<Eigen::Index>(*least);
             rest += matrix_.col(row) * fluxes_.row(row);
             order.push_back(*least);
             left.erase(least);
         }
-        std::ranges::reverse(order);
+        std::reverse(order.begin(), order.end());
         return order;
     }
 

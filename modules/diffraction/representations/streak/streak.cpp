@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/matrix.hpp>
+#include <numbers>
 #include <type_traits>
 
 #include "engine/core/check.h"
