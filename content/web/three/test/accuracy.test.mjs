@@ -66,6 +66,8 @@ function turned({ view, normal, grating }, [red], hand) {
 }
 // Tables over pitches are linear between these and share their ranks: 1.3 % measured.
 const PITCHED = 2e-2;
+// The worst point of this set is 4.8e-3 off under Venice's key lights; with grooves of the other hand .79.
+const MIRRORED = 1e-2;
 const CASES = [
     { name: "planar", grating: CD, representation: "planar", frames: frames(1, TILTED), method: "planar/map_resolution=256" },
     { name: "arc", grating: CD, representation: "arc", frames: frames(2), method: "arc/bands=5/rank=12/storage=fp32" },
@@ -76,7 +78,7 @@ const CASES = [
         method: "planar/map_resolution=128" },
     { name: "direct, groove texture", grating: BLAZED, representation: "direct", frames: frames(8), grooves: true, method: "direct" },
     { name: "direct, groove texture, mirrored mesh", grating: CD, representation: "direct", frames: frames(9), grooves: true,
-        mirrored: true, method: "direct" },
+        mirrored: true, method: "direct", tolerance: MIRRORED },
     { name: "arc, groove texture", grating: CD, representation: "arc", frames: frames(10), grooves: true, pitches: [128],
         method: "arc/bands=5/rank=12/storage=fp32", tabled: true },
     { name: "arc, groove texture of pitches", grating: CD, representation: "arc", frames: frames(11), grooves: true,
