@@ -52,6 +52,7 @@ render::Effects effects(const Options& options) {
     if (options.soft_shadows) effects.soft_shadows = render::SoftShadowSettings{};
     effects.local_reflections = options.local_reflections;
     effects.object_reflections = options.local_reflections;
+    effects.rough_reflections = options.rough_reflections;
     return effects;
 }
 

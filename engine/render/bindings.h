@@ -13,6 +13,7 @@ inline constexpr unsigned kPlaneMapUnit = 17;
 inline constexpr unsigned kMirrorUnit = 18;
 inline constexpr unsigned kSurroundingLightUnit = 19;
 inline constexpr unsigned kSurroundingNearnessUnit = 20;
+inline constexpr unsigned kLobeNodesUnit = 21;
 
 inline constexpr unsigned kFrameBinding = 0;
 inline constexpr unsigned kObjectBinding = 1;

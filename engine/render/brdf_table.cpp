@@ -9,6 +9,7 @@
 #include <span>
 
 #include "engine/core/parallel.h"
+#include "engine/lighting/lobe_nodes.h"
 
 namespace rowland::render {
 
@@ -77,6 +78,16 @@ gpu::Texture brdf_texture() {
     gpu::Texture texture({.format = gpu::Format::RG16F, .width = kSize, .height = kSize});
     const std::vector<glm::vec2> table = bake_brdf_table(kSize);
     texture.upload(std::span<const float>(&table[0].x, 2 * table.size()));
+    return texture;
+}
+
+gpu::Texture lobe_nodes_texture() {
+    using lighting::LobeNodeTable;
+    gpu::Texture texture({.kind = gpu::TextureKind::Plane,
+                          .format = gpu::Format::RGBA32F,
+                          .width = LobeNodeTable::kColumns,
+                          .height = LobeNodeTable::kPlanes * LobeNodeTable::kRows});
+    texture.upload(std::span<const glm::vec4>(lighting::lobe_node_table().texels));
     return texture;
 }
 

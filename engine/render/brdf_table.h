@@ -15,4 +15,7 @@ std::vector<glm::vec2> bake_brdf_table(int size);
 /// The table as shaders read it.
 gpu::Texture brdf_texture();
 
+/// lighting::lobe_node_table() as shaders read it, its planes one upon another.
+gpu::Texture lobe_nodes_texture();
+
 }  // namespace rowland::render

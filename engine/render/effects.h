@@ -26,6 +26,7 @@ struct Effects {
     std::optional<SoftShadowSettings> soft_shadows = std::nullopt;
     bool local_reflections = false;   ///< mirrors show what has a ReflectedTop
     bool object_reflections = false;  ///< what has ReflectsObjects mirrors the objects around it
+    bool rough_reflections = false;   ///< a rough surface looks the environment up in four directions, not in one
 
     friend bool operator==(const Effects&, const Effects&) = default;
 };

@@ -54,7 +54,8 @@ glm::vec3 centre_of(const scene::Bounds& box) {
 Renderer::Renderer(const glm::dmat3& xyz_to_working)
     : xyz_to_working_(xyz_to_working),
       rec709_to_working_(xyz_to_working * colour::rec709_to_xyz()),
-      brdf_table_(brdf_texture()) {
+      brdf_table_(brdf_texture()),
+      lobe_nodes_(lobe_nodes_texture()) {
     programs_.library().add_embedded(shader_files());
     // Filtering across cube faces is off by default in OpenGL and shows as seams.
     glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
@@ -180,6 +181,7 @@ SurfaceFeatures Renderer::light_features(const Frame& frame) const {
     if (lights_.shadow_light && effects_.soft_shadows) features |= feature::kSoftShadows;
     if (reflection_) features |= feature::kLocalReflections;
     if (effects_.object_reflections) features |= feature::kObjectReflections;
+    if (effects_.rough_reflections) features |= feature::kRoughReflections;
     return features;
 }
 
@@ -285,6 +287,7 @@ void Renderer::bind_frame(const Frame& frame) const {
     environment_->map.bind(kEnvironmentUnit);
     mirror_.bind(kMirrorUnit);
     brdf_table_.bind(kBrdfUnit);
+    lobe_nodes_.bind(kLobeNodesUnit);
 }
 
 void Renderer::draw_shadow_map(Frame& frame) {

@@ -127,6 +127,7 @@ class Renderer {
     std::vector<std::byte> staging_;  ///< of frame_data_
     gpu::StreamBuffer frame_data_;    ///< FrameBlock, LightBlock, ObjectBlocks and joint matrices
     gpu::Texture brdf_table_;
+    gpu::Texture lobe_nodes_;
     std::optional<LightMap> environment_;
     gpu::Texture mirror_;                     ///< in units of environment_'s scale
     std::optional<LightMap> key_irradiance_;  ///< none without key lights

@@ -8,7 +8,7 @@ namespace rowland::render {
 
 namespace {
 
-constexpr std::array<std::pair<SurfaceFeatures, const char*>, 18> kSwitches = {
+constexpr std::array<std::pair<SurfaceFeatures, const char*>, 19> kSwitches = {
     {{feature::kColours, "HAS_COLOURS"},
      {feature::kSkinned, "SKINNED"},
      {feature::kTextureTransform, "TEXTURE_TRANSFORM"},
@@ -26,6 +26,7 @@ constexpr std::array<std::pair<SurfaceFeatures, const char*>, 18> kSwitches = {
      {feature::kSoftShadows, "SOFT_SHADOWS"},
      {feature::kLocalReflections, "LOCAL_REFLECTIONS"},
      {feature::kObjectReflections, "OBJECT_REFLECTIONS"},
+     {feature::kRoughReflections, "ROUGH_REFLECTIONS"},
      {feature::kFromEye, "FROM_EYE"}}};
 
 bool is_identity(const scene::TextureTransform& transform) {
@@ -65,6 +66,7 @@ SurfaceFeatures features_of(const StandardMaterial& material, const GpuMesh& mes
     if (skinned) features |= feature::kSkinned;
     if (material.double_sided) features |= feature::kDoubleSided;
     if (material.clear_coat > 0.0F) features |= feature::kClearCoat;
+    if (material.roughness == 0.0F) features &= ~feature::kRoughReflections;
     if (material.alpha_mode == scene::AlphaMode::Mask) features |= feature::kAlphaMask;
     // What blends is not in the depth that occlusion is computed from.
     if (material.passes_light) features |= feature::kPassesLight;

@@ -22,6 +22,7 @@ inline constexpr SurfaceFeatures kNormalMap = 1U << 4U;
 inline constexpr SurfaceFeatures kOcclusionMap = 1U << 5U;
 inline constexpr SurfaceFeatures kEmissiveMap = 1U << 6U;
 inline constexpr SurfaceFeatures kPassesLight = 1U << 7U;
+inline constexpr SurfaceFeatures kRoughReflections = 1U << 8U;
 inline constexpr unsigned kSecondUvShift = 8;  ///< a map's bit shifted left by this: the map uses the second UV set
 inline constexpr SurfaceFeatures kTextureTransform = 1U << 16U;
 inline constexpr SurfaceFeatures kDoubleSided = 1U << 17U;
@@ -39,7 +40,8 @@ inline constexpr SurfaceFeatures kSoftShadows = 1U << 28U;
 inline constexpr SurfaceFeatures kLocalReflections = 1U << 29U;
 inline constexpr SurfaceFeatures kFromEye = 1U << 30U;  ///< of a surface's outline: as the camera sees it
 inline constexpr SurfaceFeatures kObjectReflections = 1U << 31U;
-inline constexpr SurfaceFeatures kEffects = kAmbientOcclusion | kSoftShadows | kLocalReflections | kObjectReflections;
+inline constexpr SurfaceFeatures kEffects =
+    kAmbientOcclusion | kSoftShadows | kLocalReflections | kObjectReflections | kRoughReflections;
 inline constexpr SurfaceFeatures kLights =
     kDirectionalLights | kSeveralDirectionalLights | kPunctualLights | kShadows | kKeyLights | kEffects;
 }  // namespace feature

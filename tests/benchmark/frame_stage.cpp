@@ -69,6 +69,7 @@ render::Effects effects_of(Effect effect) {
     if (effect == Effect::AmbientOcclusion) effects.ambient_occlusion = render::AmbientOcclusionSettings{};
     if (effect == Effect::SoftShadow) effects.soft_shadows = render::SoftShadowSettings{};
     effects.local_reflections = effect == Effect::LocalReflection;
+    effects.rough_reflections = effect == Effect::RoughReflection;
     return effects;
 }
 

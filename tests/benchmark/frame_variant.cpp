@@ -111,8 +111,10 @@ void add_plain(std::vector<FrameVariant>& variants) {
     film.material = {{"film", {{"ior", 1.33}, {"thickness_nm", 400}}}, {"base", {{"ior", 1.5}}}, {"roughness", 0.3}};
     variants.push_back(film);
     variants.push_back(with_thickness_map(film));
+    variants.push_back(with_effect(film, "/rough-reflections", Effect::RoughReflection));
     variants.push_back(with_effect(shadow, "/soft", Effect::SoftShadow));
     variants.push_back(with_effect(plain, "/local-reflection", Effect::LocalReflection));
+    variants.push_back(with_effect(plain, "/rough-reflections", Effect::RoughReflection));
 }
 
 void add_representation(const TimedRepresentation& drawn, std::vector<FrameVariant>& variants) {

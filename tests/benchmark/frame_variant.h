@@ -35,6 +35,7 @@ enum class Effect {
     AmbientOcclusion,  ///< with contact shadows, where the sun casts a shadow
     SoftShadow,
     LocalReflection,  ///< of a plane that faces the disc
+    RoughReflection,
 };
 
 /// A frame that is timed.

@@ -7,7 +7,7 @@
 #include "engine/colour/working_space.h"
 #include "modules/diffraction/evaluate/radiance_error.h"
 #include "modules/thin_film/bake/film_table.h"
-#include "modules/thin_film/bake/lobe_angles.h"
+#include "engine/lighting/lobe_angles.h"
 #include "modules/thin_film/bake/rough_film.h"
 #include "modules/thin_film/reference/gltf_formula.h"
 
@@ -38,7 +38,7 @@ class FilmModels {
         const glm::dvec3 white(1.0);
         if (rough_) {
             const std::vector<double> angles =
-                thin_film::lobe_angles(cosine, inputs_.roughness, thin_film::RoughFilm::kAngleSteps);
+                lighting::lobe_angles(cosine, inputs_.roughness, thin_film::RoughFilm::kAngleSteps);
             for (const double nm : thicknesses_nm) result.push_back(rough_->average(angles, nm) * white);
         } else {
             const thin_film::FilmColour::AtAngle at = colour_.at(cosine);

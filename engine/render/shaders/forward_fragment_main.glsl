@@ -24,6 +24,12 @@ vec3 lobe_direction(vec3 n, vec3 v, float roughness) {
     return mix(reflect(-v, n), n, roughness * roughness * roughness);
 }
 
+// Between the mirror's level and the first rough one by the lobe's width, which goes with roughness squared.
+float environment_level(float roughness) {
+    float level = roughness * environment.x;
+    return level * min(level, 1.0);
+}
+
 #ifdef LOCAL_REFLECTIONS
 #include "engine/render/shaders/local_reflection.glsl"
 #endif
@@ -46,7 +52,7 @@ vec3 with_surroundings(vec3 light, vec3 direction, float roughness) {
 }
 
 vec3 environment_light(vec3 direction, float roughness) {
-    vec3 light = textureLod(environment_map, direction, roughness * environment.x).rgb * environment.y;
+    vec3 light = textureLod(environment_map, direction, environment_level(roughness)).rgb * environment.y;
     return with_surroundings(light, normalize(direction), roughness);
 }
 
@@ -66,6 +72,30 @@ vec3 mirrored_light(vec3 direction) { return environment_light(direction, 0.0); 
 
 // A GGX lobe's albedo for reflectance 1 - (1 - cosine)^5 and for (1 - cosine)^5.
 vec2 lobe_albedo(float n_v, float roughness) { return texture(brdf_table, vec2(n_v, roughness)).rg; }
+
+#ifdef ROUGH_REFLECTIONS
+#include "engine/render/shaders/lobe_nodes.glsl"
+
+// What the lobe reflects of the environment: the light of each part of it, as microfacets at that part's angle do.
+vec3 lobe_reflection(vec3 n, vec3 v, vec3 f0, float n_v, float roughness, vec2 split) {
+    vec2 place = lobe_place(n_v, roughness);
+    vec4 cosines = lobe_cosines(place, n_v, roughness);
+    vec4 weights = lobe_weights(place);
+    vec4 leans = lobe_leans(place, roughness);
+    vec4 roughnesses = lobe_roughnesses(place, roughness);
+    vec3 mirrored = reflect(-v, n);
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < 4; ++i) {
+        vec3 light = environment_light(mix(mirrored, n, leans[i]), roughnesses[i]);
+#ifdef MATERIAL_SPECULAR
+        sum += weights[i] * reflect_specular(light, f0, cosines[i]);
+#else
+        sum += weights[i] * light * schlick_reflectance(f0, cosines[i]);
+#endif
+    }
+    return sum * (split.x + split.y);
+}
+#endif
 
 // `split`: lobe_albedo().
 vec3 environment_reflection(vec3 light, vec3 f0, float n_v, float roughness, vec2 split) {
@@ -110,8 +140,12 @@ vec3 base_radiance(inout vec4 base_alpha, vec3 n, vec3 v, inout vec3 added) {
     diffuse *= under_transmittance(n_v, roughness, base_alpha.a);
 #endif
     vec2 split = lobe_albedo(n_v, roughness);
+#ifdef ROUGH_REFLECTIONS
+    vec3 reflected = lobe_reflection(n, v, f0, n_v, roughness, split);
+#else
     vec3 from_lobe = environment_light(lobe_direction(n, v, roughness), roughness);
     vec3 reflected = environment_reflection(from_lobe, f0, n_v, roughness, split);
+#endif
 #ifdef AMBIENT_AT_VERTICES
     vec3 from_all_sides = ambient_at_vertex;
 #else

@@ -45,7 +45,7 @@ vec3 plane_gloss(vec3 direction, float visibility) {
     float roughness = plane_normal.w;
     vec2 split = textureLod(brdf_table, vec2(-dot(direction, plane_normal.xyz), roughness), 0.0).rg;
     vec3 seen = lobe_direction(plane_normal.xyz, -direction, roughness);
-    vec3 light = textureLod(environment_map, seen, roughness * environment.x).rgb * environment.y;
+    vec3 light = textureLod(environment_map, seen, environment_level(roughness)).rgb * environment.y;
     return light * ((0.04 * split.x + split.y) * visibility);
 }
 

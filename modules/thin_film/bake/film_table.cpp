@@ -9,7 +9,7 @@
 
 #include "engine/core/check.h"
 #include "engine/core/parallel.h"
-#include "modules/thin_film/bake/lobe_angles.h"
+#include "engine/lighting/lobe_angles.h"
 #include "modules/thin_film/bake/rough_film.h"
 
 namespace rowland::thin_film {
@@ -70,7 +70,7 @@ class Averages {
             const FilmColour::AtAngle smooth = colour_.at(cosine);
             for (const double thickness_nm : thicknesses_nm) result.push_back(smooth(thickness_nm));
         } else {
-            const std::vector<double> angles = lobe_angles(cosine, roughness, RoughFilm::kAngleSteps);
+            const std::vector<double> angles = lighting::lobe_angles(cosine, roughness, RoughFilm::kAngleSteps);
             for (const double thickness_nm : thicknesses_nm) result.push_back(rough_->average(angles, thickness_nm));
         }
         return result;
@@ -125,7 +125,7 @@ std::vector<double> measured_roughnesses(const FilmTable& table, const TableRang
         if (const double roughness = table.roughness(0.5 * half_layer); roughness >= range.smoothest)
             result.push_back(roughness);
     constexpr int kSteps = 8;
-    for (int step = 1; !table.lobe.empty() && step <= kSteps; ++step)
+    for (int step = 1; table.by_lobe_nodes && step <= kSteps; ++step)
         result.push_back(range.smoothest + (range.roughest - range.smoothest) * step / kSteps);
     return result;
 }
@@ -139,7 +139,7 @@ TableError measure(const Averages& averages, const FilmTable& table, const Table
         const double cosine = square(root + (1.0 - root) * (step + 0.5) / kMeasuredCosines);
         const double roughness = roughnesses[i / kMeasuredCosines];
         std::vector<double> thicknesses_nm;
-        const bool smoothed = !table.lobe.empty() && roughness > 0.0;  // needs fewer steps, which take time
+        const bool smoothed = table.by_lobe_nodes && roughness > 0.0;  // needs fewer steps, which take time
         const int steps = range.thickest_nm > range.thinnest_nm ? (smoothed ? 1 : 3) * table.rows : 0;
         for (int j = 0; j <= steps; ++j)
             thicknesses_nm.push_back(range.thinnest_nm +
@@ -182,10 +182,10 @@ glm::mat3 to_stored(const glm::mat3& matrix) {
 
 glm::dmat3 FilmTable::at(double cosine, double thickness_nm, double roughness) const {
     const double clamped = std::clamp(cosine, 0.0, 1.0);
-    if (roughness == 0.0 || lobe.empty()) return interpolated(column_coordinate(clamped), thickness_nm, roughness);
+    if (roughness == 0.0 || !by_lobe_nodes) return interpolated(column_coordinate(clamped), thickness_nm, roughness);
     glm::dmat3 sum(0.0);
-    for (const LobeNode& node : lobe.at(clamped, roughness))
-        sum += node.weight * interpolated(node.root, thickness_nm, 0.0);
+    for (const lighting::LobeNode& node : lighting::lobe_node_table().at(clamped, roughness))
+        sum += node.weight * interpolated(column_coordinate(node.cosine), thickness_nm, 0.0);
     return sum;
 }
 
@@ -254,7 +254,7 @@ FilmTable empty_table(const Film& film, const TableRange& range, const TableSize
 FilmTable bake_table(const FilmColour& colour, const TableRange& range, const TableSize& size) {
     FilmTable table = empty_table(colour.film(), range, size);
     const bool rough = range.roughest > 0.0;
-    if (rough && table.layers == 1) table.lobe = bake_lobe_nodes();
+    table.by_lobe_nodes = rough && table.layers == 1;
     // What a node of another angle but the same path difference needs.
     const double spread =
         path_difference(table.index, 1.0, 1.0) / std::max(path_difference(table.index, 1.0, 0.0), 1e-9);

@@ -4,7 +4,7 @@
 #include <glm/mat3x3.hpp>
 #include <vector>
 
-#include "modules/thin_film/bake/lobe_nodes.h"
+#include "engine/lighting/lobe_nodes.h"
 #include "modules/thin_film/model/film_colour.h"
 
 namespace rowland::thin_film {
@@ -25,7 +25,7 @@ struct TableError {
 /// M averaged over the microfacets that a view sees, at nodes. PHYSICS (4), (5). Axes: √(c + kCosineOffset) of the
 /// view's cosine c; the path difference x in the outermost layer at the lobe's mean_square_cosine(), along which
 /// fringes of all angles lie alike, in equal steps of log(x + kPathOffset_nm); roughness, of which the first node is 0.
-/// Where thickness and roughness vary, the table is the mirror's, and a lobe is the mean of it at `lobe`'s angles.
+/// Where thickness and roughness vary, the table is the mirror's, and a lobe is the mean of it at four angles.
 struct FilmTable {
     int columns = 0;
     int rows = 0;
@@ -34,7 +34,7 @@ struct FilmTable {
     double begin = 0.0;               ///< log₂(x + kPathOffset_nm) of the first row
     double end = 0.0;                 ///< of the last row
     double roughest = 0.0;            ///< of the last layer; 0 with one layer
-    LobeNodeTable lobe{};             ///< empty unless thickness and roughness vary
+    bool by_lobe_nodes = false;       ///< whether thickness and roughness vary
     double only_thickness_nm = 0.0;   ///< with one row
     std::vector<glm::mat3> values{};  ///< linear Rec.709 → XYZ; columns fastest, layers slowest
     TableError error{};               ///< measured between nodes, of the table with its storage's rounding
@@ -45,13 +45,13 @@ struct FilmTable {
     double cosine(int column) const;
     double thickness_nm(int row, double cosine, double roughness) const;
     double roughness(double layer) const;
-    std::size_t bytes() const { return values.size() * kBytesPerNode + lobe.bytes(); }
+    std::size_t bytes() const { return values.size() * kBytesPerNode; }
 
     /// Between the nodes, of the layer or the layers on both sides of a roughness. `root`: √(cosine + kCosineOffset).
     glm::dmat3 interpolated(double root, double thickness_nm, double roughness) const;
 
     static constexpr std::size_t kBytesPerNode = 12;  ///< nine bits a component and an exponent, for each column
-    static constexpr double kCosineOffset = 0.02;
+    static constexpr double kCosineOffset = lighting::kLobeCosineOffset;
     static constexpr double kPathOffset_nm = 250.0;
 };
 

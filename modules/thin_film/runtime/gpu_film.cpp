@@ -46,15 +46,6 @@ gpu::Texture upload(const FilmTable& table, const glm::dmat3& xyz_to_working) {
     return texture;
 }
 
-gpu::Texture upload(const LobeNodeTable& nodes) {
-    gpu::Texture texture({.kind = gpu::TextureKind::Plane,
-                          .format = gpu::Format::RGBA32F,
-                          .width = LobeNodeTable::kColumns,
-                          .height = 2 * LobeNodeTable::kRows});
-    texture.upload(std::span<const glm::vec4>(nodes.texels));
-    return texture;
-}
-
 /// Scale and bias from [begin, end] to the centres of the first and the last of `nodes` texels.
 glm::vec2 to_texels(double begin, double end, int nodes) {
     const double scale = end > begin ? (nodes - 1) / ((end - begin) * nodes) : 0.0;
@@ -85,7 +76,7 @@ Axes axes(const FilmTable& table) {
 std::vector<gpu::Define> defines_for(const FilmTable& table) {
     if (is_line(table)) return {{"FILM_LINE", "1"}};
     if (has_roughnesses(table)) return {{"FILM_ROUGHNESSES", "1"}};
-    if (!table.lobe.empty()) return {{"FILM_LOBE_NODES", "1"}};
+    if (table.by_lobe_nodes) return {{"FILM_LOBE_NODES", "1"}};
     return {};
 }
 
@@ -93,7 +84,6 @@ std::vector<gpu::Define> defines_for(const FilmTable& table) {
 
 GpuFilm::GpuFilm(const FilmTable& table, const glm::dmat3& xyz_to_working, std::string illuminant)
     : texture_(upload(table, xyz_to_working)), defines_(defines_for(table)), illuminant_(std::move(illuminant)) {
-    if (!table.lobe.empty()) lobe_nodes_ = upload(table.lobe);
     const Axes of_table = axes(table);
     path_ = of_table.path;
     axes_ = of_table.axes;
@@ -101,7 +91,6 @@ GpuFilm::GpuFilm(const FilmTable& table, const glm::dmat3& xyz_to_working, std::
 
 void GpuFilm::bind(const gpu::Program& program) const {
     texture_.bind(kFilmTableUnit);
-    if (lobe_nodes_) lobe_nodes_->bind(kLobeNodesUnit);
     program.set("film_path", path_);
     program.set("film_axes", axes_);
 }

@@ -2,7 +2,6 @@
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec4.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +15,6 @@ namespace rowland::thin_film {
 inline constexpr unsigned kFilmTableUnit = 8;
 inline constexpr unsigned kFactorMapUnit = 9;
 inline constexpr unsigned kThicknessMapUnit = 10;
-inline constexpr unsigned kLobeNodesUnit = 11;
 
 /// A film's table on the GPU, in the working space.
 class GpuFilm {
@@ -31,7 +29,6 @@ class GpuFilm {
 
  private:
     gpu::Texture texture_;
-    std::optional<gpu::Texture> lobe_nodes_;
     std::vector<gpu::Define> defines_;
     glm::vec4 path_;
     glm::vec4 axes_;

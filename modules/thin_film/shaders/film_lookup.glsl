@@ -6,9 +6,7 @@ TEXTURE_UNIT(8) uniform SAMPLER_LINE film_table;
 #else
 TEXTURE_UNIT(8) uniform sampler2D film_table;
 #endif
-#ifdef FILM_LOBE_NODES
-TEXTURE_UNIT(11) uniform sampler2D lobe_nodes;  // modules/thin_film/bake/lobe_nodes.h
-#endif
+#include "engine/render/shaders/lobe_nodes.glsl"
 uniform vec4 film_path;  // x: n^2 - 1 of the outermost layer; y, z: scale and bias from the logarithm of the path
                          // difference, or from the roughness, to rows; w: the greatest roughness
 uniform vec4 film_axes;  // x, y: scale and bias from the root of the cosine to columns; z: from the mirror's layer to the rough
@@ -42,13 +40,9 @@ mat3x4 film_matrix(float cosine, float thickness_nm, float roughness) {
 // M averaged over the lobe that a view sees.
 mat3x4 film_lobe(float n_v, float thickness_nm, float roughness) {
 #ifdef FILM_LOBE_NODES
-    const vec2 size = vec2(32.0, 24.0);
-    float root = sqrt(n_v + 0.02);
-    float along = 0.5 * ((root - 0.141421) / (1.009950 - 0.141421) + 1.0 - sqrt(max(1.0 - n_v, 0.0)));
-    vec2 at = (vec2(along, sqrt(roughness)) * (size - 1.0) + 0.5) / vec2(size.x, 2.0 * size.y);
-    vec4 roots = root + roughness * roughness * textureLod(lobe_nodes, at, 0.0);
-    vec4 weights = textureLod(lobe_nodes, at + vec2(0.0, 0.5), 0.0);
-    vec4 cosines = max(roots * roots - 0.02, 0.0);
+    vec2 place = lobe_place(n_v, roughness);
+    vec4 cosines = lobe_cosines(place, n_v, roughness);
+    vec4 weights = lobe_weights(place);
     mat3x4 sum = weights.x * film_matrix(cosines.x, thickness_nm, 0.0);
     sum += weights.y * film_matrix(cosines.y, thickness_nm, 0.0);
     sum += weights.z * film_matrix(cosines.z, thickness_nm, 0.0);

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "modules/thin_film/bake/lobe_angles.h"
+#include "engine/lighting/lobe_angles.h"
 #include "tests/support/csv.h"
 #include "tests/support/test_data.h"
 
@@ -88,7 +88,7 @@ TEST(FilmTable, OfARoughSurfaceIsTheMeanOverTheLobesMicrofacets) {
         glm::dmat3 sum(0.0);
         double weights = 0.0;
         int i = 0;
-        sample_lobe(cosine, 0.5, [&](double on_facet, double weight) {
+        lighting::sample_lobe(cosine, 0.5, [&](double on_facet, double weight) {
             if (i++ % 5 != 0) return;
             sum += weight * colour(on_facet);
             weights += weight;
@@ -103,7 +103,7 @@ TEST(FilmTable, RowsFollowTheMeanSquareCosineOfTheLobe) {
         for (const double cosine : {0.05, 0.2, 0.5, 0.8, 1.0}) {
             double sum = 0.0;
             double weights = 0.0;
-            sample_lobe(cosine, roughness, [&](double on_facet, double weight) {
+            lighting::sample_lobe(cosine, roughness, [&](double on_facet, double weight) {
                 sum += weight * on_facet * on_facet;
                 weights += weight;
             });
@@ -124,7 +124,7 @@ TEST(FilmTable, StoresEachColumnToTwoThousandthsOfItsLargest) {
 }
 
 TEST(FilmTable, OfASmoothLobeIsTheMirrors) {
-    const std::vector<double> angles = lobe_angles(0.49, 0.01, 100);
+    const std::vector<double> angles = lighting::lobe_angles(0.49, 0.01, 100);
     EXPECT_GT(angles[70], 0.9);
 }
 

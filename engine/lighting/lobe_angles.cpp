@@ -1,10 +1,10 @@
-#include "modules/thin_film/bake/lobe_angles.h"
+#include "engine/lighting/lobe_angles.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace rowland::thin_film {
+namespace rowland::lighting {
 
 namespace {
 
@@ -53,4 +53,4 @@ std::vector<double> lobe_angles(double view_cosine, double roughness, int steps)
     return weights;
 }
 
-}  // namespace rowland::thin_film
+}  // namespace rowland::lighting

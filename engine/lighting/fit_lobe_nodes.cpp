@@ -1,0 +1,432 @@
+#include "engine/lighting/fit_lobe_nodes.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <limits>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include "engine/core/parallel.h"
+#include "engine/lighting/lobe_angles.h"
+
+namespace rowland::lighting {
+
+namespace {
+
+using std::numbers::pi;
+
+/// Of the powers .5 to .9 the one with the least error over six thin films.
+constexpr double kPower = 0.7;
+
+/// The monic polynomials that are orthogonal over weighted points: p_{k+1} = (x − mean_k) p_k − ratio_k p_{k−1}.
+struct Orthogonal {
+    std::array<double, kLobeNodes> mean{};
+    std::array<double, kLobeNodes> ratio{};
+    std::array<double, kLobeNodes> norm{};  ///< Σ weight p_k²
+
+    /// p_0 to p_degree.
+    std::array<double, kLobeNodes + 1> values(double x, int degree) const {
+        std::array<double, kLobeNodes + 1> p{1.0};
+        for (std::size_t k = 0; k < static_cast<std::size_t>(degree); ++k)
+            p.at(k + 1) = (x - mean.at(k)) * p.at(k) - (k > 0 ? ratio.at(k) * p.at(k - 1) : 0.0);
+        return p;
+    }
+};
+
+struct Point {
+    double x;
+    double weight;
+};
+
+/// Stieltjes' procedure.
+Orthogonal orthogonal_over(std::span<const Point> points) {
+    Orthogonal result;
+    for (int degree = 0; degree < kLobeNodes; ++degree) {
+        const auto k = static_cast<std::size_t>(degree);
+        double norm = 0.0;
+        double moment = 0.0;
+        for (const Point& point : points) {
+            const double p = result.values(point.x, degree).at(k);
+            norm += point.weight * p * p;
+            moment += point.weight * point.x * p * p;
+        }
+        result.norm.at(k) = norm;
+        result.mean.at(k) = moment / norm;
+        result.ratio.at(k) = k > 0 ? norm / result.norm.at(k - 1) : 0.0;
+    }
+    return result;
+}
+
+/// The zeros of p_kLobeNodes. Those of each polynomial lie between those of the next.
+std::array<double, kLobeNodes> zeros(const Orthogonal& polynomials, double least, double greatest) {
+    std::vector<double> bounds = {least, greatest};
+    for (int degree = 1; degree <= kLobeNodes; ++degree) {
+        std::vector<double> next = {least};
+        for (std::size_t i = 0; i + 1 < bounds.size(); ++i) {
+            double below = bounds[i];
+            double above = bounds[i + 1];
+            const auto p = [&](double x) { return polynomials.values(x, degree).at(static_cast<std::size_t>(degree)); };
+            const bool rises = p(above) > p(below);
+            for (int halving = 0; halving < 60; ++halving) {
+                const double middle = 0.5 * (below + above);
+                ((p(middle) > 0.0) == rises ? above : below) = middle;
+            }
+            next.push_back(0.5 * (below + above));
+        }
+        next.push_back(greatest);
+        bounds = std::move(next);
+    }
+    std::array<double, kLobeNodes> result{};
+    std::copy(bounds.begin() + 1, bounds.end() - 1, result.begin());
+    return result;
+}
+
+
+Orthogonal gauss_polynomials(double view_cosine, double roughness, double& least, double& greatest) {
+    std::vector<Point> points;
+    double sum = 0.0;
+    least = std::numeric_limits<double>::max();
+    greatest = 0.0;
+    sample_lobe(view_cosine, std::max(roughness, LobeNodeTable::kNarrowestRoughness),
+                [&](double cosine, double weight) {
+                    points.push_back({std::pow(cosine, kPower), weight});
+                    sum += weight;
+                    least = std::min(least, points.back().x);
+                    greatest = std::max(greatest, points.back().x);
+                });
+    for (Point& point : points) point.weight /= sum;
+    return orthogonal_over(points);
+}
+
+/// Of what is fitted: the lobe itself, and its products with polynomials of degrees 1 to 3.
+constexpr int kProducts = 4;
+/// A product's weight beside the lobe's own. With .5 the lobe of a white metal is worse, with none that of glass.
+constexpr double kProductWeight = 0.25;
+/// What holds leans and logarithms of roughnesses, over their units, to those of the mirror in a first fit, and to the
+/// mean of the texels beside in later ones. Near normal incidence leans hardly matter, and nodes may take each other's
+/// part: they would jump, and the reflection of a lamp on a sphere would have edges.
+constexpr double kHold = 0.01;
+constexpr double kHoldToNeighbours = 0.3;
+constexpr int kSweeps = 8;
+/// Node's lean and logarithm of its roughness over the surface's.
+constexpr int kParameters = 2 * kLobeNodes;
+using Parameters = Eigen::Matrix<double, kParameters, 1>;
+
+constexpr double kLargestLean = 2.0;
+constexpr double kLeastRatio = 0.2;
+constexpr double kLargestRatio = 1.4;
+
+/// The shape of an EnvironmentMap's lobe about its axis, 1/sr: D(h) cos θ with view = normal = axis, normalised.
+class LevelLobe {
+ public:
+    explicit LevelLobe(double roughness) {
+        const double alpha = std::clamp(roughness * roughness, 1e-5, 1.0 - 1e-6);
+        slope_ = 0.5 * (alpha * alpha - 1.0);
+        const double begin = 1.0 + slope_;
+        const double end = begin + slope_;
+        norm_ = slope_ * slope_ / (2.0 * pi * (std::log(end / begin) + begin / end - 1.0));
+    }
+    double operator()(double cosine) const {
+        if (cosine <= 0.0) return 0.0;
+        const double root = 1.0 + slope_ + slope_ * cosine;
+        return norm_ * cosine / (root * root);
+    }
+
+ private:
+    double slope_;
+    double norm_;
+};
+
+/// A surface's GGX lobe for one view, as points that are spread as the lobe and a wider one are. The view lies in the
+/// x-z plane, the normal along z.
+class Lobe {
+ public:
+    Lobe(double view_cosine, double roughness) : roughness_(roughness) {
+        const double cosine = std::clamp(view_cosine, 1e-3, 1.0 - 1e-6);
+        view_ = {std::sqrt(1.0 - cosine * cosine), 0.0, cosine};
+        double least = 0.0;
+        double greatest = 0.0;
+        polynomials_ = gauss_polynomials(cosine, roughness, least, greatest);
+        const double alpha = roughness * roughness;
+        const double wide = std::min(2.5 * alpha, 1.0);
+        add_points(alpha, alpha, wide);
+        add_points(wide, alpha, wide);
+        double sum = 0.0;
+        for (const Direction& point : points_) sum += point.lobe * point.weight;
+        for (Direction& point : points_) {
+            point.lobe /= sum;
+            square_ += point.lobe * point.lobe * point.weight;
+        }
+    }
+
+    /// The differences at every point, one product after another, whose squared norm is the squared misfit.
+    Eigen::VectorXd residual(const Parameters& parameters, const LobeNodes& nodes) const {
+        std::vector<LevelLobe> lobes;
+        std::array<glm::dvec3, kLobeNodes> axes{};
+        std::array<std::array<double, kProducts>, kLobeNodes> factors{};
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+            const auto k = static_cast<Eigen::Index>(i);
+            lobes.emplace_back(std::min(roughness_ * std::exp(parameters[kLobeNodes + k]), 1.0));
+            axes.at(i) = axis(parameters[k]);
+            factors.at(i) = products(nodes.at(i).cosine);
+        }
+        Eigen::VectorXd result(static_cast<Eigen::Index>(points_.size() * kProducts));
+        for (std::size_t p = 0; p < points_.size(); ++p) {
+            const Direction& point = points_[p];
+            std::array<double, kProducts> found{};
+            for (std::size_t i = 0; i < nodes.size(); ++i) {
+                const double part = nodes.at(i).weight * lobes[i](glm::dot(point.direction, axes.at(i)));
+                for (std::size_t k = 0; k < kProducts; ++k) found.at(k) += part * factors.at(i).at(k);
+            }
+            const double root = std::sqrt(point.weight / square_);
+            for (std::size_t k = 0; k < kProducts; ++k)
+                result[static_cast<Eigen::Index>(p * kProducts + k)] = (k > 0 ? kProductWeight : 1.0) * root *
+                                                                       (found.at(k) - point.lobe * point.products.at(k));
+        }
+        return result;
+    }
+
+    double roughness() const { return roughness_; }
+
+ private:
+    struct Direction {
+        glm::dvec3 direction;
+        double lobe;    ///< 1/sr; it integrates to 1
+        double weight;  ///< sr
+        std::array<double, kProducts> products;
+    };
+
+    glm::dvec3 axis(double lean) const {
+        return glm::normalize((1.0 - lean) * glm::dvec3(-view_.x, 0.0, view_.z) + glm::dvec3(0.0, 0.0, lean));
+    }
+
+    /// The normalised polynomials at the angle of a microfacet.
+    std::array<double, kProducts> products(double cosine) const {
+        const auto p = polynomials_.values(std::pow(cosine, kPower), kProducts - 1);
+        std::array<double, kProducts> result{};
+        for (std::size_t k = 0; k < result.size(); ++k) result.at(k) = p.at(k) / std::sqrt(polynomials_.norm.at(k));
+        return result;
+    }
+
+    /// D of a half vector.
+    static double distribution(double cosine, double alpha) {
+        const double root = cosine * cosine * (alpha * alpha - 1.0) + 1.0;
+        return alpha * alpha / (pi * root * root);
+    }
+    static double smith_root(double cosine, double alpha) {
+        return std::sqrt(alpha * alpha + (1.0 - alpha * alpha) * cosine * cosine);
+    }
+    /// Of directions reflected by visible microfacets, 1/sr.
+    double density(double half_cosine, double alpha) const {
+        return distribution(half_cosine, alpha) / (2.0 * (view_.z + smith_root(view_.z, alpha)));
+    }
+
+    /// Directions that visible microfacets of roughness √`spread` reflect [Dupuy & Benyoub 2023], half a lobe.
+    void add_points(double spread, double alpha, double wide) {
+        constexpr int kCount = 600;
+        const glm::dvec3 stretched = glm::normalize(glm::dvec3(spread * view_.x, 0.0, view_.z));
+        for (int i = 0; i < kCount; ++i) {
+            const double turn = pi * std::fmod(i * (std::numbers::phi - 1.0), 1.0);
+            const double z = 1.0 - (i + 0.5) / kCount * (1.0 + stretched.z);
+            const double side = std::sqrt(std::max(1.0 - z * z, 0.0));
+            const glm::dvec3 cap = glm::dvec3(side * std::cos(turn), side * std::sin(turn), z) + stretched;
+            const glm::dvec3 half = glm::normalize(glm::dvec3(spread * cap.x, spread * cap.y, cap.z));
+            const double cosine = glm::dot(view_, half);
+            const glm::dvec3 light = 2.0 * cosine * half - view_;
+            // Below the horizon the nodes' lobes must vanish too, as far as they reach.
+            if (light.z < -0.3 || cosine <= 0.0) continue;
+            double lobe = 0.0;
+            if (light.z > 0.0)
+                lobe = distribution(half.z, alpha) * light.z /
+                       (2.0 * (light.z * smith_root(view_.z, alpha) + view_.z * smith_root(light.z, alpha)));
+            points_.push_back({.direction = light,
+                               .lobe = lobe,
+                               .weight = 1.0 / (kCount * (density(half.z, alpha) + density(half.z, wide))),
+                               .products = products(cosine)});
+        }
+    }
+
+    double roughness_;
+    glm::dvec3 view_{0.0};
+    Orthogonal polynomials_;
+    std::vector<Direction> points_;
+    double square_ = 0.0;
+};
+
+Parameters parameters_of(const LobeNodes& nodes, double roughness) {
+    Parameters result;
+    for (int i = 0; i < kLobeNodes; ++i) {
+        const LobeNode& node = nodes.at(static_cast<std::size_t>(i));
+        result[i] = std::clamp(node.lean, -kLargestLean, kLargestLean);
+        result[kLobeNodes + i] = std::log(std::clamp(node.roughness / roughness, kLeastRatio, kLargestRatio));
+    }
+    return result;
+}
+
+LobeNodes with_parameters(LobeNodes nodes, const Parameters& parameters, double roughness) {
+    for (int i = 0; i < kLobeNodes; ++i) {
+        LobeNode& node = nodes.at(static_cast<std::size_t>(i));
+        node.lean = parameters[i];
+        node.roughness = roughness * std::exp(parameters[kLobeNodes + i]);
+    }
+    return nodes;
+}
+
+/// Levenberg and Marquardt's method, held to `held_to`.
+Parameters least_squares(const Lobe& lobe, const LobeNodes& nodes, const Parameters& start, const Parameters& held_to,
+                         double hold) {
+    const double scale = std::max(lobe.roughness() * lobe.roughness(), 0.01);  // of leans
+    Parameters unit = Parameters::Ones();
+    unit.head<kLobeNodes>().setConstant(scale);
+    const auto residual = [&](const Parameters& at) {
+        const Eigen::VectorXd misfit = lobe.residual(at, nodes);
+        Eigen::VectorXd result(misfit.size() + kParameters);
+        result << misfit, hold * (at - held_to).cwiseQuotient(unit);
+        return result;
+    };
+    Parameters best = start;
+    Eigen::VectorXd at_best = residual(best);
+    double damping = 1e-2;
+    for (int step = 0; step < 60; ++step) {
+        Eigen::MatrixXd slopes(at_best.size(), kParameters);
+        for (int i = 0; i < kParameters; ++i) {
+            constexpr double kStep = 1e-4;
+            Parameters moved = best;
+            moved[i] += kStep * unit[i];
+            slopes.col(i) = (residual(moved) - at_best) / (kStep * unit[i]);
+        }
+        const Eigen::MatrixXd normal = slopes.transpose() * slopes;
+        const Eigen::VectorXd gradient = slopes.transpose() * at_best;
+        bool goes_on = false;
+        for (int attempt = 0; attempt < 8; ++attempt, damping *= 4.0) {
+            Eigen::MatrixXd damped = normal;
+            damped.diagonal() *= 1.0 + damping;
+            Parameters next = best - damped.ldlt().solve(gradient);
+            for (int i = 0; i < kLobeNodes; ++i) {
+                next[i] = std::clamp(next[i], -kLargestLean, kLargestLean);
+                next[kLobeNodes + i] =
+                    std::clamp(next[kLobeNodes + i], std::log(kLeastRatio), std::log(kLargestRatio));
+            }
+            const Eigen::VectorXd at_next = residual(next);
+            const double before = at_best.squaredNorm();
+            if (at_next.squaredNorm() >= before) continue;
+            goes_on = before - at_next.squaredNorm() > 1e-5 * before;
+            best = next;
+            at_best = at_next;
+            damping *= 0.3;
+            break;
+        }
+        if (!goes_on) break;
+    }
+    return best;
+}
+
+/// Fits a texel from the values of one beside it.
+void fit_texel(int column, int row, int from_column, int from_row, LobeNodeTable& table) {
+    const double view_cosine = LobeNodeTable::view_cosine(column);
+    const double roughness = LobeNodeTable::roughness(row);
+    const double before = LobeNodeTable::roughness(from_row);
+    const LobeNodes beside = table.get(from_column, from_row);
+    LobeNodes nodes = gauss_nodes(view_cosine, roughness);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        nodes.at(i).lean = beside.at(i).lean * std::pow(roughness / before, 2.0);
+        nodes.at(i).roughness = beside.at(i).roughness * roughness / before;
+    }
+    table.set(column, row, refine_nodes(view_cosine, roughness, nodes));
+}
+
+/// Mean of the parameters of the texels beside one, as this one has them.
+Parameters beside(int column, int row, const LobeNodeTable& table) {
+    const double roughness = LobeNodeTable::roughness(row);
+    Parameters sum = Parameters::Zero();
+    int count = 0;
+    const auto add = [&](int c, int r) {
+        if (c < 0 || c >= LobeNodeTable::kColumns || r < 0 || r >= LobeNodeTable::kRows) return;
+        const double other = LobeNodeTable::roughness(r);
+        Parameters parameters = parameters_of(table.get(c, r), other);
+        parameters.head<kLobeNodes>() *= std::pow(roughness / other, 2.0);
+        sum += parameters;
+        ++count;
+    };
+    add(column - 1, row);
+    add(column + 1, row);
+    add(column, row - 1);
+    add(column, row + 1);
+    return sum / count;
+}
+
+/// Fits every texel again, held to those beside it.
+void sweep(LobeNodeTable& table) {
+    const LobeNodeTable before = table;
+    parallel_for(std::size_t{LobeNodeTable::kColumns} * LobeNodeTable::kRows, [&](std::size_t i) {
+        const auto column = static_cast<int>(i % LobeNodeTable::kColumns);
+        const auto row = static_cast<int>(i / LobeNodeTable::kColumns);
+        const double roughness = LobeNodeTable::roughness(row);
+        const double view_cosine = LobeNodeTable::view_cosine(column);
+        const LobeNodes nodes = gauss_nodes(view_cosine, roughness);
+        const Parameters mean = beside(column, row, before);
+        const Parameters fitted =
+            least_squares(Lobe(view_cosine, roughness), nodes, mean, mean, kHoldToNeighbours);
+        table.set(column, row, with_parameters(nodes, fitted, roughness));
+    });
+}
+
+}  // namespace
+
+LobeNodes gauss_nodes(double view_cosine, double roughness) {
+    double least = 0.0;
+    double greatest = 0.0;
+    const Orthogonal polynomials = gauss_polynomials(view_cosine, roughness, least, greatest);
+    const std::array<double, kLobeNodes> x = zeros(polynomials, least, greatest);
+    LobeNodes nodes;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const std::array<double, kLobeNodes + 1> p = polynomials.values(x.at(i), kLobeNodes - 1);
+        double inverse_weight = 0.0;
+        for (std::size_t k = 0; k < nodes.size(); ++k) inverse_weight += p.at(k) * p.at(k) / polynomials.norm.at(k);
+        nodes.at(i) = {.cosine = std::clamp(std::pow(x.at(i), 1.0 / kPower), 0.0, 1.0),
+                       .weight = 1.0 / inverse_weight,
+                       .lean = 0.0,
+                       .roughness = roughness};
+    }
+    return nodes;
+}
+
+double lobe_misfit(double view_cosine, double roughness, const LobeNodes& nodes) {
+    return Lobe(view_cosine, roughness).residual(parameters_of(nodes, roughness), nodes).norm();
+}
+
+LobeNodes refine_nodes(double view_cosine, double roughness, const LobeNodes& nodes) {
+    const Lobe lobe(view_cosine, roughness);
+    const Parameters start = parameters_of(nodes, roughness);
+    return with_parameters(nodes, least_squares(lobe, nodes, start, Parameters::Zero(), kHold), roughness);
+}
+
+LobeNodeTable fit_lobe_nodes() {
+    constexpr int kColumns = LobeNodeTable::kColumns;
+    constexpr int kRows = LobeNodeTable::kRows;
+    LobeNodeTable table{.texels = std::vector<glm::vec4>(std::size_t{LobeNodeTable::kPlanes} * kColumns * kRows)};
+    constexpr int kFirstColumn = kColumns / 2;
+    constexpr int kFirstRow = kRows * 2 / 3;
+    const double view_cosine = LobeNodeTable::view_cosine(kFirstColumn);
+    LobeNodes nodes = gauss_nodes(view_cosine, LobeNodeTable::roughness(kFirstRow));
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        nodes.at(i).lean = 0.5 * static_cast<double>(i) - 0.5;
+        nodes.at(i).roughness *= 0.75;
+    }
+    table.set(kFirstColumn, kFirstRow, refine_nodes(view_cosine, LobeNodeTable::roughness(kFirstRow), nodes));
+    for (int row = kFirstRow; row + 1 < kRows; ++row) fit_texel(kFirstColumn, row + 1, kFirstColumn, row, table);
+    for (int row = kFirstRow; row > 0; --row) fit_texel(kFirstColumn, row - 1, kFirstColumn, row, table);
+    parallel_for(kRows, [&](std::size_t i) {
+        const int row = static_cast<int>(i);
+        for (int column = kFirstColumn; column + 1 < kColumns; ++column) fit_texel(column + 1, row, column, row, table);
+        for (int column = kFirstColumn; column > 0; --column) fit_texel(column - 1, row, column, row, table);
+    });
+    for (int i = 0; i < kSweeps; ++i) sweep(table);
+    return table;
+}
+
+}  // namespace rowland::lighting

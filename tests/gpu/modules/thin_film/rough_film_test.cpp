@@ -1,0 +1,137 @@
+// Pixels of rough films under captured light against the sum over every microfacet, each with its own light and the exact
+// sum over wavelengths: all that a frame leaves out, the engine's prefiltered environment and the split sum included.
+#include <array>
+#include <random>
+
+#include "engine/lighting/light_samples.h"
+#include "modules/thin_film/module.h"
+#include "modules/thin_film/reference/rough_reference.h"
+#include "modules/thin_film/runtime/film_surface.h"
+#include "tests/gpu/render_test.h"
+#include "tests/support/test_data.h"
+
+namespace rowland::thin_film {
+namespace {
+
+struct Facing {
+    glm::dvec3 n;
+    glm::dvec3 v;
+};
+
+/// Normals everywhere, seen at up to 70 degrees.
+std::vector<Facing> random_facings(int count) {
+    std::mt19937 generator(1);
+    std::normal_distribution<double> normal;
+    const auto direction = [&] {
+        return glm::normalize(glm::dvec3(normal(generator), normal(generator), normal(generator)));
+    };
+    std::vector<Facing> facings;
+    while (facings.size() < static_cast<std::size_t>(count)) {
+        const Facing facing{direction(), direction()};
+        if (glm::dot(facing.n, facing.v) > 0.34) facings.push_back(facing);
+    }
+    return facings;
+}
+
+constexpr int kFacings = 24;
+
+class RoughFilmPixel : public rowland::test::RenderTest {
+ protected:
+    RoughFilmPixel() { register_module(renderer_); }
+
+    void light_by(const std::filesystem::path& path) {
+        const lighting::ProbeImage image = lighting::load_probe_image(path, lighting::Mapping::Auto);
+        samples_ = lighting::light_samples(image);
+        lighting::LightProbeSettings settings;
+        settings.key_lights = 0;
+        renderer_.set_probe(lighting::build_light_probe(image, settings));
+    }
+
+    /// Relative RMS error over the facings of a surface of one look-up, and of one of four.
+    struct Errors {
+        double one;
+        double four;
+    };
+    Errors errors(nlohmann::json material, double roughness) {
+        material["roughness"] = roughness;
+        const CookedFilm film = cook_film(material, "film.json");
+        const RoughReference reference(film.material.film, colour::LightSpectra{});
+        const ecs::Entity entity = add(square(), {.base_colour = glm::vec3(0.0F)});
+        add_film(world_, entity, film, glm::inverse(colour::rec709_to_xyz()));
+        Errors off{};
+        double whole = 0.0;
+        for (const Facing& facing : random_facings(kFacings)) {
+            const glm::dvec3 expected =
+                glm::inverse(colour::rec709_to_xyz()) *
+                reference.reflected(samples_, facing.n, facing.v, roughness).xyz;
+            turn(entity, facing);
+            for (const bool four : {false, true}) {
+                renderer_.set_effects({.rough_reflections = four});
+                const glm::dvec3 difference = glm::dvec3(draw()[kSize / 2 * kSize + kSize / 2]) - expected;
+                (four ? off.four : off.one) += glm::dot(difference, difference);
+            }
+            whole += glm::dot(expected, expected);
+        }
+        world_.destroy(entity);
+        return {std::sqrt(off.one / whole), std::sqrt(off.four / whole)};
+    }
+
+    static nlohmann::json anodised_titanium() {
+        return {{"film", {{"ior", 2.4}, {"thickness_nm", 110}}}, {"base", {{"ior", 2.5}, {"k", 3.3}}}};
+    }
+    static nlohmann::json soap_on_glass() {
+        return {{"film", {{"ior", 1.33}, {"thickness_nm", 400}}}, {"base", {{"ior", 1.5}}}};
+    }
+
+ private:
+    /// The square's normal and the camera, which looks at its centre.
+    void turn(ecs::Entity entity, const Facing& facing) {
+        const glm::dvec3 tangent = glm::normalize(glm::cross(facing.n, facing.v));
+        world_.get<scene::WorldMatrix>(entity).matrix =
+            glm::mat4(glm::mat3(glm::dmat3(tangent, glm::cross(facing.n, tangent), facing.n)));
+        camera_.eye = glm::vec3(facing.v * double{kEye});
+    }
+
+    lighting::LightSamples samples_;
+};
+
+TEST_F(RoughFilmPixel, OfFourLookUpsIsNearerToTheSumOverMicrofacets) {
+    ROWLAND_TEST_DATA(path, "probes/ennis_probulator.hdr");
+    light_by(path);
+    const Errors titanium = errors(anodised_titanium(), 0.6);
+    EXPECT_LE(titanium.four, 0.08);
+    EXPECT_LE(titanium.four, 0.6 * titanium.one);
+    const Errors soap = errors(soap_on_glass(), 0.4);
+    EXPECT_LE(soap.four, 0.04);
+    EXPECT_LE(soap.four, 0.3 * soap.one);
+}
+
+TEST_F(RoughFilmPixel, UnderFourCapturedProbesIsAsFarOffAsThePageSays) {
+    struct Row {
+        const char* probe;
+        std::array<double, 6> titanium;  ///< four look-ups, at roughness .1 to .6
+        std::array<double, 6> soap;
+    };
+    const std::array<Row, 4> measured = {
+        {{"grace_probe.hdr", {0.07, 0.10, 0.11, 0.09, 0.10, 0.09}, {0.20, 0.42, 0.40, 0.29, 0.20, 0.15}},
+         {"ennis_probulator.hdr", {0.02, 0.05, 0.06, 0.06, 0.06, 0.07}, {0.02, 0.05, 0.05, 0.03, 0.05, 0.08}},
+         {"royal_esplanade_1k.hdr", {0.11, 0.07, 0.09, 0.12, 0.11, 0.09}, {0.06, 0.08, 0.07, 0.12, 0.09, 0.08}},
+         {"blender_sunset.exr", {0.02, 0.03, 0.05, 0.06, 0.06, 0.06}, {0.03, 0.04, 0.03, 0.04, 0.05, 0.08}}}};
+    for (const Row& row : measured) {
+        ROWLAND_TEST_DATA(path, std::string("probes/") + row.probe);
+        light_by(path);
+        for (std::size_t i = 0; i < 6; ++i) {
+            const double roughness = 0.1 * static_cast<double>(i + 1);
+            const Errors titanium = errors(anodised_titanium(), roughness);
+            const Errors soap = errors(soap_on_glass(), roughness);
+            EXPECT_LE(titanium.four, row.titanium.at(i) + 0.01) << row.probe << " " << roughness;
+            EXPECT_LE(soap.four, row.soap.at(i) + 0.01) << row.probe << " " << roughness;
+            // At small roughness the lobe's shape matters little.
+            EXPECT_LE(titanium.four, roughness < 0.35 ? titanium.one + 0.01 : 0.8 * titanium.one) << row.probe;
+            EXPECT_LE(soap.four, roughness < 0.15 ? soap.one + 0.01 : 0.95 * soap.one) << row.probe << " " << roughness;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace rowland::thin_film
