@@ -15,6 +15,7 @@
 #include "tests/support/csv.h"
 #include "tests/support/test_data.h"
 #include "tests/unit/modules/diffraction/representations/baked_views.h"
+#include "tests/unit/modules/diffraction/representations/streak/even_streak_map.h"
 
 namespace rowland::diffraction {
 namespace {
@@ -30,14 +31,6 @@ Grating oblique_foil() {
                 .profile = CrossedProfile{.along_a = BlazedProfile{200.0}, .along_b = SinusoidalProfile{110.0}},
                 .orders = 2};
     return grating;
-}
-
-/// Radiance 1 everywhere.
-StreakMap even_streak_map(const StreakMapSize& size) {
-    StreakMap map{.size = size, .levels = {}};
-    for (int level = 0; level < kStreakLevels; ++level)
-        map.levels[static_cast<std::size_t>(level)].assign(map.index(level, map.slices(level), 0, 0), glm::vec3(1.0F));
-    return map;
 }
 
 glm::dvec3 shaded_by(const LatticeStreak& streak, const StreakMap& map, const Grating& grating,
@@ -66,7 +59,7 @@ TEST(LatticeStreak, UnderEvenLightIsWhatIsAboveTheHorizon) {
         Grating grating = oblique_foil();
         if (covered) grating.cover = Cover{.ior = 1.5};
         const LatticeStreak streak = make_lattice_streak(grating, {});
-        const StreakMap map = even_streak_map(lattice_map_size(16));
+        const StreakMap map = test::even_streak_map(lattice_map_size(16));
         std::vector<ShadingPoint> frames;
         for (const glm::dvec3& v : {glm::dvec3(0.1, 0.2, 0.9), glm::dvec3(0.8, -0.1, 0.6), glm::dvec3(-0.3, 0.93, 0.2)})
             frames.push_back({.view = v, .normal = {0, 0, 1}, .grating = {1, 0, 0}});
