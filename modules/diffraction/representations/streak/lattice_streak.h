@@ -31,8 +31,8 @@ struct LatticeStreak {
     std::vector<RaySegment> segments;
 };
 
-/// The brightest rays, as many as hold 99 % of the light or kMostStreakSegments segments; their weights then stand for
-/// all.
+/// The brightest rays, as many as hold 99 % of the light or kMostStreakSegments segments; their weights are scaled
+/// to the light of all.
 LatticeStreak make_lattice_streak(const Grating& grating, const StreakSettings& settings);
 
 /// The map that its nodes look up.
