@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <limits>
 #include <numbers>
 
 #include "engine/image/load.h"
@@ -94,6 +96,30 @@ TEST(LatticeStreak, MatchesTheReferenceUnderARealProbe) {
 
 TEST(LatticeStreak, BytesAreSound) {
     test::expect_sound_bytes(make_lattice_streak(oblique_foil(), {.map_resolution = 128}), read_lattice_streak);
+}
+
+TEST(LatticeStreak, InvalidNumbersAreRefused) {
+    const LatticeStreak streak = make_lattice_streak(oblique_foil(), {.map_resolution = 128});
+    const auto read_again = [](const LatticeStreak& one) {
+        ByteWriter writer;
+        write(one, writer);
+        ByteReader reader(writer.data(), "table");
+        return read_lattice_streak(reader);
+    };
+    EXPECT_EQ(read_again(streak).segments.size(), streak.segments.size());
+    const auto refused = [&](const std::function<void(LatticeStreak&)>& damage) {
+        LatticeStreak damaged = streak;
+        damage(damaged);
+        EXPECT_THROW(read_again(damaged), Error);
+    };
+    constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+    refused([](LatticeStreak& one) { one.pitch_nm = 0.0; });
+    refused([](LatticeStreak& one) { one.deviation = std::numeric_limits<double>::infinity(); });
+    refused([](LatticeStreak& one) { one.segments.back().nodes.first_nm = kNaN; });
+    refused([](LatticeStreak& one) { one.segments.back().nodes.step_nm = -1.0F; });
+    refused([](LatticeStreak& one) { one.segments.back().nodes.weights.back()[2][2] = kNaN; });
+    refused([](LatticeStreak& one) { one.segments.back().direction *= 2.0F; });
+    refused([](LatticeStreak& one) { one.segments.resize(kMostStreakSegments + 1, one.segments[0]); });
 }
 
 }  // namespace
