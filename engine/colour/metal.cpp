@@ -24,6 +24,10 @@ RefractiveIndex load_index(Metal metal) {
 
 }  // namespace
 
+std::vector<std::string> metal_names() {
+    return {kNames.begin(), kNames.end()};
+}
+
 std::optional<Metal> parse_metal(const std::string& name) {
     for (std::size_t i = 0; i < kNames.size(); ++i)
         if (name == kNames[i]) return static_cast<Metal>(i);

@@ -3,12 +3,16 @@
 #include <complex>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace rowland::colour {
 
 enum class Metal { Al, Ag, Au, Cu };
 
-/// "Al", "Ag", "Au" or "Cu"; nothing for another name.
+/// "Al", "Ag", "Au", "Cu".
+std::vector<std::string> metal_names();
+
+/// One of metal_names(); nothing for another name.
 std::optional<Metal> parse_metal(const std::string& name);
 std::string metal_name(Metal metal);
 

@@ -1,9 +1,12 @@
 #include "engine/render/surface_textures.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <span>
 
 #include "engine/core/check.h"
+#include "engine/core/error.h"
 
 namespace rowland::render {
 
@@ -47,6 +50,14 @@ gpu::Sampling sampling_of(const scene::ImportedTexture& texture) {
         sampling.anisotropy = std::min(kAnisotropy, gpu::max_anisotropy());
     }
     return sampling;
+}
+
+void require_texture(const scene::ImportedScene& scene, std::size_t index, const std::string& file,
+                     const std::string& pointer) {
+    const std::size_t count = scene.textures.size();
+    if (index >= count)
+        refuse_input(file, pointer + "/index", fmt::format("{}", index),
+                     fmt::format("one of the file's {} textures, counted from 0", count));
 }
 
 SurfaceTexture SurfaceTextures::get(const scene::TextureUse& use, TexelMeaning meaning) {

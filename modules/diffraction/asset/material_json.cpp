@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/colour/colour_json.h"
 #include "engine/core/file.h"
 #include "engine/core/json_reader.h"
 #include "modules/diffraction/asset/lattice_json.h"
@@ -183,7 +184,7 @@ Material parse_material_parts(JsonReader& reader, const ReadNamed& read) {
         if (std::holds_alternative<EfficiencyTable>(material.grating.profile))
             reader.fail("metal", "a metal beside a table of efficiencies", "no metal",
                         "the table's efficiencies are those of its metal already");
-        material.grating.metal = colour::parse_metal(reader.choice("metal", {"Al", "Ag", "Au", "Cu"}));
+        material.grating.metal = colour::read_metal(reader);
     }
     if (reader.has("cover")) material.grating.cover = parse_cover(reader.object("cover"), material.grating.profile);
     if (reader.has("transmission")) {

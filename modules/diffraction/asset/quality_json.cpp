@@ -1,13 +1,12 @@
 #include "modules/diffraction/asset/quality_json.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "engine/colour/colour_json.h"
 #include "engine/lighting/key_lights.h"
 #include "modules/diffraction/asset/budget_record.h"
 
@@ -24,12 +23,9 @@ bool at_vertices(JsonReader& json, const char* key) {
 
 /// A built-in illuminant, or one from a file, named as in the material.
 colour::Illuminant parse_illuminant(JsonReader& json, const ReadNamed& read) {
-    const std::string name = json.text("illuminant");
-    const std::vector<std::string> names = colour::illuminant_names();
-    if (std::find(names.begin(), names.end(), name) != names.end()) return colour::illuminant(name);
-    if (!name.ends_with(".csv"))
-        json.fail("illuminant", fmt::format("\"{:.40}\"", name),
-                  fmt::format("one of {}, or a .csv file beside the material", fmt::join(names, ", ")));
+    std::variant<colour::Illuminant, std::string> named = colour::read_illuminant(json, "the material");
+    if (auto* builtin = std::get_if<colour::Illuminant>(&named)) return std::move(*builtin);
+    const auto& name = std::get<std::string>(named);
     const NamedText file = read(name);
     colour::Illuminant illuminant = colour::parse_illuminant(file.text, file.file);
     illuminant.name = name;
@@ -119,8 +115,7 @@ std::variant<Quality, Refusal> suited_quality(const nlohmann::json& settings, co
 
 Quality parse_quality(JsonReader json, const Grating& grating, const ReadNamed& read) {
     Quality quality;
-    colour::Illuminant illuminant = quality.illuminant;
-    if (json.has("illuminant")) illuminant = parse_illuminant(json, read);
+    colour::Illuminant illuminant = parse_illuminant(json, read);
     if (json.has("representation")) {
         const ReadSettings settings = read_settings(json);
         if (const auto refused = refusal(settings.info, settings.values, grating))

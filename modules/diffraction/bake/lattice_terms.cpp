@@ -68,7 +68,7 @@ LatticeTerms::LatticeTerms(const Grating& grating, const colour::LightSpectra& s
         observed_.push_back((j == 0 || j + 1 == kWavelengths ? 0.5 : 1.0) *
                             observed_spectra(spectra, colour::kVisibleMin + static_cast<double>(j)));
     if (orders_.size() <= kFewOrders) return;
-    // Shared linearly by the four nodes of a grid around a point, which keeps each colour's mean direction.
+    // Divided linearly among the four nodes of a grid around a point, which keeps each colour's mean direction.
     std::map<std::pair<int, int>, glm::dmat3> grid;
     for (const LatticeOrder& order : orders_)
         for (std::size_t j = 0; j < kWavelengths; ++j) {

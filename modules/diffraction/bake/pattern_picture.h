@@ -54,8 +54,8 @@ PatternPicture pattern_picture(const Grating& grating, const colour::LightSpectr
 /// The half-width of a picture: twice the pattern's, so that little of it is blurred over the border.
 double picture_half_width(const Grating& grating, const colour::LightSpectra& spectra);
 
-/// The pattern of light of one colour, blurred by `variance` or as narrow as its texels show. The second level has twice
-/// the variance, or more where its texels show no less.
+/// The pattern of light of one colour, blurred by `variance` or as narrow as its texels show. The second level has
+/// twice the variance, or more where its texels show no less.
 LightPicture light_picture(const DiffractionPattern& pattern, double half_width, const glm::vec3& flux, double variance,
                            int size);
 

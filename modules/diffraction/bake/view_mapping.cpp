@@ -156,11 +156,11 @@ void for_each_view(const char* title, const ViewGrid& grid, const Grating& grati
 }
 
 double filtered(const PackedTexels& packed, std::size_t layer, std::size_t texels_per_layer, std::size_t component,
-                const BilinearLookup& place) {
+                const BilinearLookup& lookup) {
     double sum = 0.0;
-    for (std::size_t i = 0; i < place.texel.size(); ++i)
-        if (place.weight[i] != 0.0)
-            sum += place.weight[i] * packed.value(layer, layer * texels_per_layer + place.texel[i], component);
+    for (std::size_t i = 0; i < lookup.texel.size(); ++i)
+        if (lookup.weight[i] != 0.0)
+            sum += lookup.weight[i] * packed.value(layer, layer * texels_per_layer + lookup.texel[i], component);
     return sum;
 }
 

@@ -75,7 +75,7 @@ void for_each_view(const char* title, const ViewGrid& grid, const Grating& grati
 
 /// A component of a layer as GL_LINEAR filters it.
 double filtered(const PackedTexels& packed, std::size_t layer, std::size_t texels_per_layer, std::size_t component,
-                const BilinearLookup& place);
+                const BilinearLookup& lookup);
 
 /// The two nodes next to a position on one axis, and the second one's weight.
 struct AxisLookup {

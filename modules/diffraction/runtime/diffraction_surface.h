@@ -49,7 +49,7 @@ class DiffractionSurfaceType final : public render::MaterialType {
 
     std::string name() const override { return "diffraction"; }
     std::string gltf_extension() const override;
-    /// Bakes the grating now. Equal gratings share their tables.
+    /// Bakes the grating now. Equal gratings use the same tables.
     void attach(ecs::World& world, ecs::Entity entity, const nlohmann::json& extension,
                 render::SurfaceTextures& textures, const std::string& file, const std::string& pointer) override;
 
@@ -66,7 +66,7 @@ class DiffractionSurfaceType final : public render::MaterialType {
 
  private:
     void warn_of_other_white(const std::string& baked_for, const std::string& lit_by);
-    /// Objects with the same one share it. `key`: its JSON.
+    /// One for all objects with the same `key`, its JSON.
     std::shared_ptr<const GrooveMap> groove_map(const std::string& key, const GrooveTexture& use,
                                                 render::SurfaceTextures& textures, const std::string& file,
                                                 const std::string& pointer);

@@ -28,13 +28,12 @@ constexpr double kSamePitch = 0.01;
 
 scene::TextureUse texture_use(const GrooveTexture& use, const scene::ImportedScene& scene, const std::string& file,
                               const std::string& pointer) {
-    if (static_cast<std::size_t>(use.index) >= scene.textures.size())
-        refuse_input(file, pointer + "/index", fmt::format("{}", use.index),
-                     fmt::format("one of the file's {} textures, counted from 0", scene.textures.size()));
+    const auto index = static_cast<std::size_t>(use.index);
+    render::require_texture(scene, index, file, pointer);
     if (use.tex_coord > 1)
         refuse_input(file, pointer + "/texCoord", fmt::format("{}", use.tex_coord),
                      "0 or 1: only two sets of texture coordinates are supported");
-    return {.texture = static_cast<std::size_t>(use.index),
+    return {.texture = index,
             .uv_set = use.tex_coord,
             .transform = {.offset = glm::vec2(use.offset),
                           .rotation = static_cast<float>(use.rotation),

@@ -4,6 +4,8 @@
 
 #include <vector>
 
+#include "engine/colour/colour_json.h"
+
 namespace rowland::thin_film {
 
 namespace {
@@ -36,7 +38,7 @@ std::vector<Layer> parse_layers(JsonReader& json) {
 Base parse_base(JsonReader& json) {
     if (json.has("metal") && json.has("base"))
         json.fail("metal", "a metal and a base", "one of them", "remove \"metal\" or \"base\"");
-    if (json.has("metal")) return *colour::parse_metal(json.choice("metal", {"Al", "Ag", "Au", "Cu"}));
+    if (json.has("metal")) return colour::read_metal(json);
     JsonReader base = json.object("base");
     const double ior = base.number("ior", kBaseIndex);
     const std::complex<double> index(ior, base.number_or("k", 0.0, kExtinction));
@@ -44,17 +46,11 @@ Base parse_base(JsonReader& json) {
     return index;
 }
 
-colour::Illuminant parse_illuminant(JsonReader& json) {
-    const std::vector<std::string> names = colour::illuminant_names();
-    const std::vector<std::string_view> choices(names.begin(), names.end());
-    return colour::illuminant(json.choice_or("illuminant", colour::d65().name, choices));
-}
-
 FilmMaterial parse_film_material(const nlohmann::json& json, const std::string& file, const std::string& pointer) {
     JsonReader reader(json, file, pointer);
     FilmMaterial material{.film = {.layers = parse_layers(reader), .base = parse_base(reader)},
                           .range = {},
-                          .illuminant = parse_illuminant(reader)};
+                          .illuminant = colour::read_builtin_illuminant(reader)};
     const double roughness = reader.number_or("roughness", 0.0, kUnit);
     const double thickness_nm = material.film.layers.front().thickness_nm;
     material.range = {

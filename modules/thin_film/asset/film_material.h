@@ -23,8 +23,6 @@ FilmMaterial parse_film_material(const nlohmann::json& json, const std::string& 
 
 /// "metal", or "base" with its index, of an object that has one of them. Throws Error (input).
 Base parse_base(JsonReader& json);
-/// "illuminant", a built-in one; D65 without it. Throws Error (input).
-colour::Illuminant parse_illuminant(JsonReader& json);
 
 inline constexpr NumberRange kFilmIndex{.minimum = 1.0, .maximum = 10.0};
 inline constexpr NumberRange kThickness_nm{.minimum = 0.0, .maximum = 1e5};

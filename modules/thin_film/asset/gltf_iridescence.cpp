@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "engine/colour/colour_json.h"
 #include "engine/core/json_reader.h"
 #include "engine/core/json_vector.h"
 #include "modules/thin_film/asset/film_material.h"
@@ -56,7 +57,7 @@ GltfIridescence parse_gltf_iridescence(const nlohmann::json& json, const std::st
     if (reader.has("extras") && reader.raw("extras").is_object()) {
         JsonReader extras = reader.object("extras");
         if (extras.has("metal") || extras.has("base")) read.base = parse_base(extras);
-        read.illuminant = parse_illuminant(extras);
+        read.illuminant = colour::read_builtin_illuminant(extras);
     }
     allow_foreign(reader);
     reader.finish();

@@ -10,7 +10,6 @@
 #include <span>
 #include <utility>
 
-#include "engine/core/error.h"
 #include "engine/core/log.h"
 #include "engine/render/draw_list.h"
 #include "engine/render/surface_textures.h"
@@ -35,10 +34,7 @@ double dielectric_ior(ecs::World& world, ecs::Entity entity, const std::string& 
 render::SurfaceTexture texture(const std::optional<scene::TextureUse>& use, render::SurfaceTextures& textures,
                                const std::string& file, const std::string& pointer) {
     if (!use) return {};
-    const std::size_t count = textures.scene().textures.size();
-    if (use->texture >= count)
-        refuse_input(file, pointer + "/index", fmt::format("{}", use->texture),
-                     fmt::format("one of the file's {} textures, counted from 0", count));
+    render::require_texture(textures.scene(), use->texture, file, pointer);
     return textures.get(*use, render::TexelMeaning::Linear);
 }
 

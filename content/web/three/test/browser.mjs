@@ -21,6 +21,15 @@ async function bodyOf(request) {
     return JSON.parse(Buffer.concat(parts).toString());
 }
 
+/** A page's text with scripts of this folder before its own, and the paths that the text fetches them from. */
+export function withDrivers(text, ...drivers) {
+    const tags = drivers.map((name) => `<script src="${name}"></script>\n`).join("");
+    return {
+        text: text.replace('<script type="module"', tags + "$&"),
+        files: Object.fromEntries(drivers.map((name) => ["/" + name, packageFolder + "test/" + name])),
+    };
+}
+
 /**
  * Starts a server; `task` is what the page fetches, `files` maps further paths to files. A page posts its result to
  * /result, and to /devtools what a hand would do, as commands of the DevTools protocol.

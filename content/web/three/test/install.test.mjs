@@ -5,7 +5,7 @@ import { copyFileSync, existsSync, mkdtempSync, readFileSync, rmSync, writeFileS
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import test from "node:test";
-import { chromium, packageFolder, resultOf } from "./browser.mjs";
+import { chromium, packageFolder, resultOf, withDrivers } from "./browser.mjs";
 
 const missing = !chromium() ? "needs Chromium" : !existsSync(packageFolder + "dist/bake.wasm") ? "needs dist: npm run build" : false;
 
@@ -23,9 +23,9 @@ test("the packed file, installed in a fresh folder, shows a disc", { skip: missi
         // three is the copy beside the package, so that no network is needed.
         npm(folder, "install", "--offline", "--no-audit", "--install-links", packageFolder + "node_modules/three", "./" + filename);
         for (const name of ["disc.html", "disc.js"]) copyFileSync(packageFolder + "examples/" + name, join(folder, name));
-        writeFileSync(join(folder, "watched.html"), readFileSync(join(folder, "disc.html"), "utf8")
-            .replace('<script type="module"', '<script src="watch.js"></script>\n$&'));
-        const result = await resultOf("watched.html", {}, { folder, files: { "/watch.js": packageFolder + "test/disc_driver.js" } });
+        const { text, files } = withDrivers(readFileSync(join(folder, "disc.html"), "utf8"), "picture_driver.js", "disc_driver.js");
+        writeFileSync(join(folder, "watched.html"), text);
+        const result = await resultOf("watched.html", {}, { folder, files });
         if (process.env.PICTURES) writeFileSync(join(process.env.PICTURES, "disc.png"), Buffer.from(result.url.split(",")[1], "base64"));
         t.diagnostic(`${size} bytes packed; colours of ${result.colour}`);
         assert.deepEqual(result.errors, []);

@@ -5,7 +5,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import test from "node:test";
 import { gzipSync } from "node:zlib";
-import { chromium, packageFolder, resultOf } from "./browser.mjs";
+import { chromium, packageFolder, resultOf, withDrivers } from "./browser.mjs";
 
 const site = process.env.SITE ?? packageFolder + "../site";
 const missing = !chromium() ? "needs Chromium" : existsSync(join(site, "index.html")) ? false : `needs the page in ${site}`;
@@ -17,9 +17,9 @@ async function visit(query, address = "scene=samples", size = undefined) {
     const folder = mkdtempSync(join(tmpdir(), "rowland-page-"));
     try {
         const page = join(folder, "index.html");
-        writeFileSync(page, readFileSync(join(site, "index.html"), "utf8")
-            .replace('<script type="module"', '<script src="driver.js"></script>\n$&'));
-        const files = { "/index.html": page, "/driver.js": packageFolder + "test/page_driver.js" };
+        const { text, files } = withDrivers(readFileSync(join(site, "index.html"), "utf8"), "picture_driver.js", "page_driver.js");
+        writeFileSync(page, text);
+        files["/index.html"] = page;
         const result = await resultOf(`index.html?${query}#${address}`, {}, { folder: site, files, seconds: 400, size });
         assert.deepEqual(result.errors, []);
         if (process.env.PICTURES)

@@ -3,7 +3,6 @@ const limits = new URLSearchParams(location.search);
 const gl = WebGL2RenderingContext.prototype;
 const getExtension = gl.getExtension;
 const getParameter = gl.getParameter;
-const errors = [];
 if (limits.has("halves")) {
     gl.getExtension = function (name) {
         return name === "OES_texture_float_linear" ? null : getExtension.call(this, name);
@@ -31,12 +30,6 @@ if (limits.has("small")) {
         };
     }
 }
-// So that a picture can be read at any time.
-const getContext = HTMLCanvasElement.prototype.getContext;
-HTMLCanvasElement.prototype.getContext = function (kind, settings) {
-    return getContext.call(this, kind, { ...settings, preserveDrawingBuffer: true });
-};
-addEventListener("error", (event) => errors.push(event.message));
 
 const post = (value) => fetch("/result", { method: "POST", body: JSON.stringify(value, (name, part) => (name === "data" ? undefined : part)) });
 const wait = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds));
@@ -58,18 +51,12 @@ async function settled() {
     }
 }
 
-/** The canvas as a PNG, 320 x 180 of its pixels, and how colourful it is: the mean difference of the largest and smallest of red,
- * green and blue. */
+/** The canvas as a PNG, 320 x 180 of its pixels, and how colourful it is. */
 async function look() {
     const url = document.getElementById("view").toDataURL("image/png");
     const image = await createImageBitmap(await (await fetch(url)).blob());
-    const flat = Object.assign(document.createElement("canvas"), { width: 320, height: 180 }).getContext("2d");
-    flat.drawImage(image, 0, 0, 320, 180);
-    const { data } = flat.getImageData(0, 0, 320, 180);
-    let colour = 0;
-    for (let i = 0; i < data.length; i += 4)
-        colour += Math.max(data[i], data[i + 1], data[i + 2]) - Math.min(data[i], data[i + 1], data[i + 2]);
-    return { url, data, colour: colour / (data.length / 4) };
+    const data = pixelsOf(image, 320, 180);
+    return { url, data, colour: colourOf(data) };
 }
 
 /** The picture drawn anew; the reference begins again. */

@@ -192,16 +192,16 @@ glm::dvec3 shade(const ArcTable& table, std::span<const glm::dvec3> products, co
     glm::dvec3 xyz(0.0);
     if (!(view.z > 0.0)) return xyz;
     const auto columns = static_cast<std::size_t>(table.grid.columns);
-    BilinearLookup place = look_up(table.grid, view.x, view.y, view.z);
+    BilinearLookup lookup = look_up(table.grid, view.x, view.y, view.z);
     if (table.pitch) {
-        place =
+        lookup =
             combine(look_up_axis(0.5 + 0.5 * view.x, columns),
                     look_up_axis(table.pitch->position_of(pitch_factor), static_cast<std::size_t>(table.pitch->nodes)),
                     columns);
     }
     const std::size_t texels = columns * static_cast<std::size_t>(table.rows());
     for (std::size_t r = 0; r < products.size(); ++r)
-        xyz += filtered(table, r / kTexelComponents, texels, r % kTexelComponents, place) * products[r];
+        xyz += filtered(table, r / kTexelComponents, texels, r % kTexelComponents, lookup) * products[r];
     return xyz;
 }
 

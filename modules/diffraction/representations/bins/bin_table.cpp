@@ -95,15 +95,15 @@ BinTable bake(const Grating& grating, const BinSettings& settings) {
 glm::dvec3 evaluate(const BinTable& table, const lighting::ShLight& tangent_light, const glm::dvec3& view) {
     glm::dvec3 xyz(0.0);
     if (!(view.z > 0.0)) return xyz;
-    const BilinearLookup place = look_up(table.grid, view.x, view.y, view.z);
+    const BilinearLookup lookup = look_up(table.grid, view.x, view.y, view.z);
     const auto blocks = static_cast<std::size_t>(harmonic_layers(table.bands));
     const std::size_t common =
         std::min(static_cast<std::size_t>(math::sh_count(table.bands)), tangent_light.coefficients.size());
     for (std::size_t b = 0; b < table.colours.size(); ++b) {
         glm::dvec3 rgb(0.0);
         for (std::size_t i = 0; i < common; ++i)
-            rgb += tangent_light.coefficients[i] *
-                   filtered(table, b * blocks + i / kTexelComponents, table.grid.texels(), i % kTexelComponents, place);
+            rgb += tangent_light.coefficients[i] * filtered(table, b * blocks + i / kTexelComponents,
+                                                            table.grid.texels(), i % kTexelComponents, lookup);
         xyz += glm::dmat3(table.colours[b]) * rgb;
     }
     return xyz;

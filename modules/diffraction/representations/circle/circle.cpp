@@ -21,6 +21,11 @@ SettingInfo angles_setting() {
             .sweep = {0, 8, 20}};
 }
 
+/// Counted in circle_map.glsl, without signs and selections: p, t and t2 10, coordinates of the terms 8, scale 3.
+constexpr int kPositionMultiplyAdds = 21;
+/// Likewise, of the series' rest: the position on its axis 9, coordinates 7, mix 6, scale and sum 6.
+constexpr int kRestMultiplyAdds = 28;
+
 /// The kernel needs about 128 views, however soft the light; more where g is resolved as finely.
 int views_of(int side) {
     return std::max(std::min(2 * side, 128), 5 * side / 4);
@@ -80,7 +85,7 @@ ShadingCost cost(const CircleTables& tables) {
     const CircleMapSize& size = tables.size;
     const auto angles = static_cast<std::size_t>(rest_angles(size.angles, tables.covered));
     return {.fetches_per_pixel = kTermLookUps + (angles > 0 ? 2 : 0),
-            .multiply_adds_per_pixel = 3 * kCircleTerms + (angles > 0 ? 60 : 30),
+            .multiply_adds_per_pixel = 3 * kCircleTerms + kPositionMultiplyAdds + (angles > 0 ? kRestMultiplyAdds : 0),
             .table_bytes = nodes(size.side, size.views) * kTermLookUps * kHalfTexel +
                            nodes(rest_side(size.side), rest_views(size.views)) * angles * kRestTexel};
 }

@@ -21,8 +21,8 @@ CircleFrame frame_at(const glm::dvec3& g, int chart);
 glm::dvec2 chart_point(const glm::dvec3& g, int chart);
 glm::dvec3 grating_vector(const glm::dvec2& p, int chart);
 
-/// The symmetries of a cube that keep +Y. Circle maps' nodes and light have them: the images of a node see the images
-/// of a direction at one s_g and, but for angle_image(), at one angle, so they share the work.
+/// The symmetries of a cube that keep +Y, which the nodes and the light of circle maps have. s_g of a node and a
+/// direction is that of their images, and so is the angle but for angle_image(): both are computed once for all images.
 inline constexpr std::size_t kCircleImages = 8;
 
 /// Image 0 is the vector itself; 4 exchanges x and z, then 1 reverses x and 2 reverses z.

@@ -50,23 +50,23 @@ std::vector<float> coefficients(const std::optional<Cover>& cover, int cells, co
     return factors;
 }
 
-/// The terms as functions of themselves.
+/// The identity, in the layout of functions_of_terms().
 std::vector<float> unchanged_terms() {
     std::vector<float> rows(kCircleTerms * kCircleTerms, 0.0F);
     for (std::size_t term = 0; term < kCircleTerms; ++term) rows[term * (kCircleTerms + 1)] = 1.0F;
     return rows;
 }
 
-/// Values on the axis of the angle as functions of the terms of the rest: row j holds what function j takes of each
-/// term. Their linear interpolation is best in the mean over the angle, by least squares: a tridiagonal cyclic matrix,
-/// of which three sweeps of Gauss and Seidel's give a digit.
+/// Values on the axis of the angle as functions of the terms of the rest: row j holds function j's coefficients of the
+/// terms. Least squares of their linear interpolation over the angle: a tridiagonal cyclic matrix; three Gauss-Seidel
+/// sweeps give a digit.
 std::vector<float> functions_of_terms(const Multiples& multiples, int angles, double period) {
     constexpr int kStepsPerAngle = 64;
     constexpr int kSweeps = 40;
     const auto n = static_cast<std::size_t>(angles);
     const auto terms = static_cast<std::size_t>(multiples.terms);
-    std::vector<double> here(n, 0.0);  // of the hats' inner products, each with itself
-    std::vector<double> next(n, 0.0);  // and with the following
+    std::vector<double> here(n, 0.0);  // inner products of each hat function with itself
+    std::vector<double> next(n, 0.0);  // and with the next
     std::vector<double> right(n * terms, 0.0);
     for (int i = 0; i < angles * kStepsPerAngle; ++i) {
         const double turn = (i + 0.5) / (angles * kStepsPerAngle);
@@ -129,8 +129,8 @@ std::array<float, kMultiples.terms> weights_at(const Angle& t) {
     }
 }
 
-/// Adds the moments of light around one g, and around its images, in cells of a. Per cell, colour and term: two fours,
-/// of the images.
+/// Adds the moments of light around one g, and around its images, in cells of a. Per cell, colour and term: two
+/// vectors of four images each.
 template <const Multiples& kMultiples>
 void add_moments(std::span<const ImageLight> light, const CircleFrame& frame, int cells, std::vector<Four>& moments) {
     constexpr std::size_t kColour = 2 * kMultiples.terms;

@@ -85,7 +85,7 @@ inline constexpr int kCircleMultiples = 13;
 /// T = 1, and r does not matter.
 std::array<double, kCircleMultiples> clamped_cosine(const std::optional<Cover>& cover, double r);
 
-/// Where the direction (c, s) lies on an axis that stands for its angle: −½ to ½ of a turn, as steep as the angle within
+/// Where the direction (c, s) lies on an axis that replaces its angle: −½ to ½ of a turn, as steep as the angle within
 /// 6 %. With y = (|c| − |s|)/(|c| + |s|) it is ⅛ − ⅛ y (1.2 − .2 y²) in the first quadrant.
 double circle_turn(double c, double s);
 

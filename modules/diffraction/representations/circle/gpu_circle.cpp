@@ -27,7 +27,7 @@ void append(const CircleGrid& grid, int chart, int view, int row, int look_up, s
 }
 
 /// Four components of the terms' values per texel: circle_map.glsl. A pixel's look-ups lie within a row of the volume:
-/// below each other they would share sets of a processor's cache.
+/// in separate rows they would evict each other from a processor's cache, as their addresses map to the same sets.
 MapTexels terms_in_layout(const CircleGrid& grid, int charts) {
     std::array<std::vector<glm::vec4>, 1> texels;
     texels[0].reserve(static_cast<std::size_t>(grid.views * charts * grid.side) *

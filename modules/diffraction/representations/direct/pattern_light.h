@@ -26,8 +26,8 @@ PatternLight pattern_light(const DirectLight& light, const std::optional<Cover>&
 glm::dvec3 pattern_radiance(const PatternPicture& picture, const PatternLight& light, const glm::dvec2& v_p,
                             double footprint = 0.0);
 
-/// The part of a key light's variance that its picture's finest level is blurred by: its narrowest in the plane up to 45°
-/// from the normal. The next level has the light's whole variance.
+/// The part of a key light's variance that its picture's finest level is blurred by: its narrowest in the plane up to
+/// 45° from the normal. The next level has the light's whole variance.
 inline constexpr double kPictureVariance = 0.5;
 
 /// A picture for each key light, of one size. `space`: of the values, from XYZ. A texture of 45 MB or less in halves.

@@ -68,11 +68,11 @@ SpikeTable bake(const Grating& grating, const SpikeTableSettings& settings) {
 }
 
 SpikeSet sample(const SpikeTable& table, double v_g, double v_h, double v_n) {
-    const BilinearLookup place = look_up(table.grid(), v_g, v_h, v_n);
+    const BilinearLookup lookup = look_up(table.grid(), v_g, v_h, v_n);
     const std::size_t texels_per_layer = table.grid().texels();
     const auto entry = [&](std::size_t spike, std::size_t i) {
         const std::size_t layer = spike * static_cast<std::size_t>(table.layers_per_spike) + i / kTexelComponents;
-        return filtered(table, layer, texels_per_layer, i % kTexelComponents, place);
+        return filtered(table, layer, texels_per_layer, i % kTexelComponents, lookup);
     };
 
     const auto count = static_cast<std::size_t>(math::sh_count(table.bands));

@@ -1,19 +1,17 @@
 #include "modules/diffraction/representations/streak/lattice_streak.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
 #include <map>
 #include <span>
-#include <type_traits>
 
 #include "modules/diffraction/bake/lattice_orders.h"
 #include "modules/diffraction/bake/view_spectrum.h"
 #include "modules/diffraction/model/efficiency.h"
 #include "modules/diffraction/representations/streak/streak_fit.h"
+#include "modules/diffraction/representations/streak/streak_path.h"
 
 namespace rowland::diffraction {
 
@@ -25,8 +23,7 @@ constexpr double kKeptPower = 0.99;
 /// Of the raster of |u|.
 constexpr double kRasterStep = 0.002;
 constexpr std::size_t kRasterIntervals = 1001;
-constexpr double kLeastSquare_n = 1e-4;  ///< of s_n²
-constexpr double kLeastStep = 1e-6;      ///< in u
+constexpr double kLeastStep = 1e-6;  ///< in u
 
 struct Ray {
     glm::dvec2 direction{1.0, 0.0};
@@ -83,16 +80,14 @@ struct LatticeView {
     }
 };
 
-/// Where the light at u = r · ray is in the map. `chart`: −1 chooses it.
-StreakPosition ray_position(const LatticeView& at, const glm::dvec2& ray, double r, int& chart) {
+/// The light at u = r · ray.
+LobePoint lobe_point(const LatticeView& at, const glm::dvec2& ray, double r) {
     const glm::dvec2 s_p = r * ray - at.v_p;
-    const double s_n = std::sqrt(std::max(1.0 - glm::dot(s_p, s_p), kLeastSquare_n));
-    const glm::dvec3 direction = at.axes * glm::dvec3(s_p, s_n);
+    const double s_n = std::sqrt(std::max(1.0 - glm::dot(s_p, s_p), kLeastSquare));
     const double along = glm::dot(ray, s_p);
-    if (chart < 0) chart = direction.y < 0.0 ? 1 : 0;
-    StreakPosition position = streak_position(direction, at.axes * glm::dvec3(s_n * ray, -along), chart);
-    position.level = std::log2(at.length_scale * std::sqrt(s_n * s_n + along * along) / s_n);
-    return position;
+    return {.direction = at.axes * glm::dvec3(s_p, s_n),
+            .along = at.axes * glm::dvec3(s_n * ray, -along),
+            .level = std::log2(at.length_scale * std::sqrt(s_n * s_n + along * along) / s_n)};
 }
 
 glm::dvec3 segment_radiance(const RaySegment& segment, double pitch_nm, const StreakMap& map, const LatticeView& at,
@@ -104,42 +99,21 @@ glm::dvec3 segment_radiance(const RaySegment& segment, double pitch_nm, const St
     if (first > horizon + 0.5 * step) return glm::dvec3(0.0);
     const double low = std::min(first, horizon);
     const double high = std::min(first + (kSegmentNodes - 1) * step, horizon);
-    const double middle = 0.5 * (low + high);
-    int chart = -1;
-    const StreakPosition centre = ray_position(at, ray, middle, chart);
-    const StreakPosition before = ray_position(at, ray, low, chart);
-    StreakPosition after = ray_position(at, ray, high, chart);
-    after.texture.z -= std::round(after.texture.z - before.texture.z);
-    const StreakPosition slope = 0.5 * (after + -1.0 * before);
-    const StreakPosition mean = 0.5 * (after + before);
-    const glm::dvec3 bend(glm::dvec2(mean.texture - centre.texture), 0.0);
-    const double scale = 2.0 / std::max(high - low, kLeastStep);
+    const StreakPath path(low, high, lobe_point(at, ray, low), lobe_point(at, ray, 0.5 * (low + high)),
+                          lobe_point(at, ray, high));
     glm::dvec3 xyz(0.0);
     for (int j = 0; j < kSegmentNodes; ++j) {
         const double distance = first + j * step;
         const double fraction = std::clamp((horizon - distance) / step + 0.5, 0.0, 1.0);
         if (fraction == 0.0) continue;
         const double r = std::min(distance, high);
-        const double t = scale * (r - middle);
-        StreakPosition position = mean + t * slope;
-        position.level = centre.level;
-        position.texture += (t * t - 1.0) * bend;
         const glm::dvec2 s_p = r * ray - at.v_p;
-        const double passed = transmittance(cover, std::sqrt(std::max(1.0 - glm::dot(s_p, s_p), kLeastSquare_n)));
+        const double passed = transmittance(cover, std::sqrt(std::max(1.0 - glm::dot(s_p, s_p), kLeastSquare)));
         xyz += fraction * passed *
-               (glm::dmat3(segment.nodes.weights[static_cast<std::size_t>(j)]) * sample(map, position));
+               (glm::dmat3(segment.nodes.weights[static_cast<std::size_t>(j)]) * sample(map, path.at(r)));
     }
     return xyz;
 }
-
-/// A segment in a file.
-struct StoredRaySegment {
-    float direction[2];
-    float first_nm, step_nm;
-    float weights[9 * kSegmentNodes];
-};
-static_assert(sizeof(StoredRaySegment) == 4 * (4 + 9 * kSegmentNodes) &&
-              std::is_trivially_copyable_v<StoredRaySegment>);
 
 }  // namespace
 
@@ -165,7 +139,7 @@ LatticeStreak make_lattice_streak(const Grating& grating, const StreakSettings& 
         if (streak.segments.size() + segments.size() > kMostStreakSegments) break;
         fit_weights(std::span(&ray.raster, 1), deviation_nm, segments);
         for (const StreakSegment& nodes : segments)
-            streak.segments.push_back({.nodes = nodes, .direction = glm::vec2(ray.direction)});
+            streak.segments.push_back({.direction = glm::vec2(ray.direction), .nodes = nodes});
         kept += ray.power;
     }
     for (RaySegment& segment : streak.segments)
@@ -182,45 +156,21 @@ glm::dvec3 evaluate(const LatticeStreak& streak, const StreakMap& map, const glm
     return xyz;
 }
 
+bool is_valid(const RaySegment& segment) {
+    return is_valid(segment.nodes) && std::abs(glm::length(segment.direction) - 1.0F) < 1e-3F;
+}
+
 void write(const LatticeStreak& streak, ByteWriter& writer) {
     writer.value(streak.pitch_nm);
     writer.value(streak.deviation);
-    std::vector<StoredRaySegment> segments;
-    for (const RaySegment& segment : streak.segments) {
-        StoredRaySegment stored{.direction = {segment.direction.x, segment.direction.y},
-                                .first_nm = segment.nodes.first_nm,
-                                .step_nm = segment.nodes.step_nm,
-                                .weights = {}};
-        for (int i = 0; i < 9 * kSegmentNodes; ++i)
-            stored.weights[i] = segment.nodes.weights[static_cast<std::size_t>(i / 9)][i % 9 / 3][i % 3];
-        segments.push_back(stored);
-    }
-    writer.array(std::span<const StoredRaySegment>(segments));
+    writer.array(std::span<const RaySegment>(streak.segments));
 }
 
 LatticeStreak read_lattice_streak(ByteReader& reader) {
     LatticeStreak streak;
-    streak.pitch_nm = reader.value<double>();
-    streak.deviation = reader.value<double>();
-    const auto positive = [](double x) { return std::isfinite(x) && x > 0.0; };
-    if (!positive(streak.pitch_nm) || !positive(streak.deviation))
-        reader.fail(fmt::format("pitch {}, deviation {}", streak.pitch_nm, streak.deviation), "numbers above 0");
-    const auto segments = reader.array<StoredRaySegment>();
-    if (segments.size() > kMostStreakSegments)
-        reader.fail(fmt::format("{} segments", segments.size()), fmt::format("at most {}", kMostStreakSegments));
-    for (const StoredRaySegment& stored : segments) {
-        RaySegment segment{.nodes = {stored.first_nm, stored.step_nm, {}},
-                           .direction = {stored.direction[0], stored.direction[1]}};
-        const float length = glm::length(segment.direction);
-        bool sound = std::isfinite(stored.first_nm) && std::isfinite(stored.step_nm) && stored.step_nm >= 0.0F &&
-                     std::abs(length - 1.0F) < 1e-3F;
-        for (int i = 0; i < 9 * kSegmentNodes; ++i) {
-            segment.nodes.weights[static_cast<std::size_t>(i / 9)][i % 9 / 3][i % 3] = stored.weights[i];
-            sound = sound && std::isfinite(stored.weights[i]);
-        }
-        if (!sound) reader.fail("a segment with a bad number", "finite numbers, a unit direction, a step of 0 or more");
-        streak.segments.push_back(segment);
-    }
+    streak.pitch_nm = read_positive(reader, "pitch");
+    streak.deviation = read_positive(reader, "deviation");
+    streak.segments = read_segments<RaySegment>(reader, "finite numbers, a unit direction, a step of 0 or more");
     return streak;
 }
 

@@ -4,6 +4,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
 #include "engine/core/byte_stream.h"
@@ -12,11 +13,15 @@
 
 namespace rowland::diffraction {
 
-/// Nodes of a lattice's pattern on a ray, at u = path/pitch · direction.
+/// Nodes of a lattice's pattern on a ray, at u = path/pitch · direction. Stored as it is in memory.
 struct RaySegment {
-    StreakSegment nodes;
     glm::vec2 direction{1.0F, 0.0F};  ///< unit, (g, h)
+    StreakSegment nodes;
 };
+static_assert(sizeof(RaySegment) == sizeof(StreakSegment) + 8 && std::is_trivially_copyable_v<RaySegment>);
+
+/// Whether all numbers are finite, the step is 0 or more, and the direction of length 1.
+bool is_valid(const RaySegment& segment);
 
 /// A lattice's orders as rays of nodes, PHYSICS §13 "streak": the orders (m, k), 2 (m, k) … of one direction are a
 /// straight grating's. A node sees the light around s_p = u − v_p, blurred along the ray.
@@ -26,8 +31,8 @@ struct LatticeStreak {
     std::vector<RaySegment> segments;
 };
 
-/// The brightest rays, as many as hold 99 % of the light or kMostStreakSegments segments; their weights then stand for
-/// all.
+/// The brightest rays, as many as hold 99 % of the light or kMostStreakSegments segments; their weights are scaled
+/// to the light of all.
 LatticeStreak make_lattice_streak(const Grating& grating, const StreakSettings& settings);
 
 /// The map that its nodes look up.

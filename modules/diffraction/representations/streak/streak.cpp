@@ -7,13 +7,14 @@
 #include <cstddef>
 #include <glm/matrix.hpp>
 #include <numbers>
-#include <type_traits>
+#include <span>
 
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "modules/diffraction/bake/view_spectrum.h"
 #include "modules/diffraction/model/colour_kernel.h"
 #include "modules/diffraction/representations/streak/streak_fit.h"
+#include "modules/diffraction/representations/streak/streak_path.h"
 
 namespace rowland::diffraction {
 
@@ -56,8 +57,6 @@ KernelRaster raster_of(const ColourKernel& kernel, double pitch_nm, bool positiv
     return raster;
 }
 
-constexpr double kLeastSquare = 1e-4;  ///< of s_n²
-
 /// The same for all points of a view.
 struct StreakView {
     const Streak& streak;
@@ -78,15 +77,13 @@ double lobe_middle(const StreakView& at, double s_g) {
     return (at.view.y > 0.0 ? -1.0 : 1.0) * (at.side() + 0.5 * std::min(r - at.all(), 0.0));
 }
 
-/// Where the light at (s_g, s_h) is in the map. `chart`: −1 chooses it.
-StreakPosition position_at(const StreakView& at, double s_g, double s_h, int& chart) {
+/// The light at (s_g, s_h).
+LobePoint lobe_point(const StreakView& at, double s_g, double s_h) {
     const double square = std::max(1.0 - s_g * s_g, 1e-6);
     const double s_n = std::sqrt(std::max(square - s_h * s_h, kLeastSquare));
-    const glm::dvec3 direction = at.axes * glm::dvec3(s_g, s_h, s_n);
-    if (chart < 0) chart = direction.y < 0.0 ? 1 : 0;
-    StreakPosition position = streak_position(direction, at.axes * glm::dvec3(0.0, s_n, -s_h), chart);
-    position.level = std::log2(at.length_scale * std::sqrt(square) / s_n);
-    return position;
+    return {.direction = at.axes * glm::dvec3(s_g, s_h, s_n),
+            .along = at.axes * glm::dvec3(0.0, s_n, -s_h),
+            .level = std::log2(at.length_scale * std::sqrt(square) / s_n)};
 }
 
 glm::dvec3 segment_xyz(const StreakSegment& segment, const StreakMap& map, const StreakView& at) {
@@ -98,15 +95,7 @@ glm::dvec3 segment_xyz(const StreakSegment& segment, const StreakMap& map, const
     if (low > high) return glm::dvec3(0.0);
     const double middle = 0.5 * (low + high);
     const double s_h = lobe_middle(at, middle);
-    int chart = -1;
-    const StreakPosition centre = position_at(at, middle, s_h, chart);
-    const StreakPosition before = position_at(at, low, s_h, chart);
-    StreakPosition after = position_at(at, high, s_h, chart);
-    after.texture.z -= std::round(after.texture.z - before.texture.z);
-    const StreakPosition slope = 0.5 * (after + -1.0 * before);
-    const StreakPosition mean = 0.5 * (after + before);
-    const glm::dvec3 bend(glm::dvec2(mean.texture - centre.texture), 0.0);
-    const double scale = 2.0 / std::max(high - low, 1e-6);
+    const StreakPath path(low, high, lobe_point(at, low, s_h), lobe_point(at, middle, s_h), lobe_point(at, high, s_h));
     glm::dvec3 xyz(0.0);
     for (int j = 0; j < kSegmentNodes; ++j) {
         const double s_g = first + j * step;
@@ -114,12 +103,9 @@ glm::dvec3 segment_xyz(const StreakSegment& segment, const StreakMap& map, const
         const double fraction = std::clamp(
             (1.0 - s_g * s_g - at.some() * at.some()) / (at.all() * at.all() - at.some() * at.some()), 0.0, 1.0);
         if (fraction == 0.0) continue;
-        const double t = scale * (s_g - middle);
-        StreakPosition position = mean + t * slope;
-        position.level = centre.level;
-        position.texture += (t * t - 1.0) * bend;
         const double passed = transmittance(at.cover, std::sqrt(std::max(1.0 - s_g * s_g - s_h * s_h, kLeastSquare)));
-        xyz += fraction * passed * (glm::dmat3(segment.weights[static_cast<std::size_t>(j)]) * sample(map, position));
+        xyz +=
+            fraction * passed * (glm::dmat3(segment.weights[static_cast<std::size_t>(j)]) * sample(map, path.at(s_g)));
     }
     return xyz;
 }
@@ -183,53 +169,20 @@ int most_seen_nodes(const Streak& streak) {
     return static_cast<int>(most);
 }
 
-namespace {
-
-/// A segment in a file.
-struct StoredSegment {
-    float first_nm, step_nm;
-    float weights[9 * kSegmentNodes];
-};
-static_assert(sizeof(StoredSegment) == 4 * (2 + 9 * kSegmentNodes) && std::is_trivially_copyable_v<StoredSegment>);
-
-}  // namespace
-
 void write(const Streak& streak, ByteWriter& writer) {
     writer.value(streak.pitch_nm);
     writer.value(streak.sigma);
     writer.value(streak.power);
-    std::vector<StoredSegment> segments;
-    for (const StreakSegment& segment : streak.segments) {
-        StoredSegment stored{segment.first_nm, segment.step_nm, {}};
-        for (int i = 0; i < 9 * kSegmentNodes; ++i)
-            stored.weights[i] = segment.weights[static_cast<std::size_t>(i / 9)][i % 9 / 3][i % 3];
-        segments.push_back(stored);
-    }
-    writer.array(std::span<const StoredSegment>(segments));
+    writer.array(std::span<const StreakSegment>(streak.segments));
 }
 
 Streak read_streak(ByteReader& reader) {
     Streak streak;
-    streak.pitch_nm = reader.value<double>();
-    streak.sigma = reader.value<double>();
+    streak.pitch_nm = read_positive(reader, "pitch");
+    streak.sigma = read_positive(reader, "sigma");
     streak.power = reader.value<double>();
-    const auto positive = [](double x) { return std::isfinite(x) && x > 0.0; };
-    if (!positive(streak.pitch_nm) || !positive(streak.sigma) || !(streak.power >= 0.0 && streak.power <= 1.0))
-        reader.fail(fmt::format("pitch {}, sigma {}, power {}", streak.pitch_nm, streak.sigma, streak.power),
-                    "a pitch and a sigma above 0, a power of 0 to 1");
-    const auto segments = reader.array<StoredSegment>();
-    if (segments.size() > kMostStreakSegments)
-        reader.fail(fmt::format("{} segments", segments.size()), fmt::format("at most {}", kMostStreakSegments));
-    for (const StoredSegment& stored : segments) {
-        StreakSegment segment{stored.first_nm, stored.step_nm, {}};
-        bool sound = std::isfinite(segment.first_nm) && std::isfinite(segment.step_nm) && segment.step_nm >= 0.0F;
-        for (int i = 0; i < 9 * kSegmentNodes; ++i) {
-            segment.weights[static_cast<std::size_t>(i / 9)][i % 9 / 3][i % 3] = stored.weights[i];
-            sound = sound && std::isfinite(stored.weights[i]);
-        }
-        if (!sound) reader.fail("a segment with a number that is not finite or a step below 0", "finite numbers");
-        streak.segments.push_back(segment);
-    }
+    if (!(streak.power >= 0.0 && streak.power <= 1.0)) reader.fail(fmt::format("power {}", streak.power), "0 to 1");
+    streak.segments = read_segments<StreakSegment>(reader, "finite numbers, a step of 0 or more");
     return streak;
 }
 

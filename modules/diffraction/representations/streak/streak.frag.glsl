@@ -2,6 +2,7 @@
 // A narrow lobe mirrors the probe along the grooves and disperses it across them: streak.h, evaluate(). The program
 // defines NODES, those of a segment, and REST where an arc table shades the incoherent rest of Stam's pits.
 #include "modules/diffraction/shaders/surface.glsl"
+#include "modules/diffraction/representations/streak/streak_path.glsl"
 #ifdef REST
 #include "modules/diffraction/representations/arc/arc_sum.glsl"
 #endif
@@ -23,15 +24,9 @@ layout(std430, binding = 6) readonly buffer StreakSegments { StreakSegment strea
 vec4 segment_first_step(int i) { return streak_segments[i].first_step; }
 vec4 segment_weight(int i, int k) { return streak_segments[i].weights[k]; }
 #endif
-TEXTURE_UNIT(11) uniform sampler3D streak_map;  // streak_map.h
-uniform float map_scale;                            // of the stored values
-uniform float streak_reach;                         // streak.h
-uniform float streak_level;                         // log2 of the lobe's deviation over the map's
+uniform float streak_reach;  // streak.h
 uniform float streak_power;
 uniform float rest_weight;
-
-const float CHART_SCALE = 0.5 / 1.1;
-const float RIM = 0.905;
 
 // The same for all nodes of a view. Radii sqrt(1 - s_g^2) from which on some and all of the lobe is above the horizon.
 struct StreakView {
@@ -53,17 +48,10 @@ StreakView streak_view(GrooveView view) {
 // s_n^2 of the direction (s_g, s_h).
 float square_n(float s_g, float s_h) { return max(1.0 - s_g * s_g - s_h * s_h, 1e-4); }
 
-// Half a sphere of directions.
-vec2 chart_position(vec3 s, float up) { return s.xz / max(1.0 + up * s.y, RIM); }
-
-// Position in the chart; direction of the lobe there as a texture coordinate.
-vec3 streak_position(float s_g, float s_h, float up, mat3 axes) {
+// Of the light at (s_g, s_h).
+vec3 lobe_position(float s_g, float s_h, float up, mat3 axes) {
     float s_n = sqrt(square_n(s_g, s_h));
-    vec2 p = chart_position(axes * vec3(s_g, s_h, s_n), up);
-    vec3 along = axes[1] * s_n - axes[2] * s_h;
-    vec2 image = along.xz - up * along.y * p;
-    float turn = image.x / (abs(image.x) + abs(image.y));
-    return vec3(p, 0.5 + 0.5 * (image.y < 0.0 ? turn : -turn));
+    return streak_position(axes * vec3(s_g, s_h, s_n), axes[1] * s_n - axes[2] * s_h, up);
 }
 
 vec3 segment_radiance(int i, StreakView at, GrooveView view) {
@@ -81,18 +69,8 @@ vec3 segment_radiance(int i, StreakView at, GrooveView view) {
         vec3 centre = view.axes * vec3(middle, s_h, sqrt(square));
         float level = 0.5 * log2(square_r / square) + streak_level;
         float up = centre.y < 0.0 ? -1.0 : 1.0;
-        vec3 before = streak_position(low, s_h, up, view.axes);
-        vec3 after = streak_position(high, s_h, up, view.axes);
-        after.z -= round(after.z - before.z);
-        // A parabola in the chart; the lobe's direction is linear.
-        vec3 mean = 0.5 * (after + before);
-        vec3 slope = 0.5 * (after - before);
-        vec2 bend = mean.xy - chart_position(centre, up);
-        mean.xy -= bend;
-        vec2 chart = vec2(0.5 * CHART_SCALE, CHART_SCALE);
-        mean.xy = vec2(0.5 - 0.25 * up, 0.5) + chart * mean.xy;
-        slope.xy *= chart;
-        bend *= chart;
+        StreakPath path = streak_path(lobe_position(low, s_h, up, view.axes), centre,
+                                      lobe_position(high, s_h, up, view.axes), up);
         float extent = max(0.5 * (high - low), 5e-7);
         float first_t = (first - middle) / extent;
         float step_t = step_g / extent;
@@ -103,8 +81,7 @@ vec3 segment_radiance(int i, StreakView at, GrooveView view) {
             float t = first_t + float(j) * step_t;
             float fraction = clamp(above.x + t * (above.y + t * above.z), 0.0, 1.0) *
                              cover_transmittance(sqrt(square_n(middle + t * extent, s_h)));
-            vec2 chart_at = mean.xy + t * (slope.xy + t * bend);
-            vec3 rgb = fraction * textureLod(streak_map, vec3(chart_at, mean.z + t * slope.z), level).rgb;
+            vec3 rgb = fraction * streak_light(path, t, level);
             for (int c = 0; c < 3; ++c) sum += segment_weight(i, 3 * j + c).xyz * rgb[c];
         }
     }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -11,20 +10,9 @@
 #include "modules/diffraction/model/cover.h"
 #include "modules/diffraction/model/grating.h"
 #include "modules/diffraction/representations/streak/streak_map.h"
+#include "modules/diffraction/representations/streak/streak_segment.h"
 
 namespace rowland::diffraction {
-
-/// Nodes of a segment.
-inline constexpr int kSegmentNodes = 7;
-
-/// Equidistant nodes over an interval of path differences: node j sees the light about s_g = x_j/d − v_g.
-struct StreakSegment {
-    float first_nm = 0.0F;
-    float step_nm = 0.0F;
-    std::array<glm::mat3, kSegmentNodes> weights{};  ///< RGB in, XYZ out, per radiance that a node sees
-
-    float path_nm(int node) const { return first_nm + static_cast<float>(node) * step_nm; }
-};
 
 /// A narrow lobe: the grating mirrors along the grooves and disperses across them (PHYSICS §6 "streak"). The nodes
 /// replace the colour kernel of all orders: Σ_j weight_j N(u − u_j; width) is the closest to d k(d u).
@@ -37,9 +25,6 @@ struct Streak {
     /// Half the interval of s_h over which the horizon cuts the lobe: its fraction above is linear there.
     double reach() const { return 1.7320508 * sigma; }
 };
-
-/// Every pixel loops over all segments.
-inline constexpr int kMostStreakSegments = 64;
 
 struct StreakSettings {
     int map_resolution = 320;  ///< sets the width of the nodes too

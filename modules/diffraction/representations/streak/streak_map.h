@@ -53,13 +53,6 @@ inline constexpr double kStreakRim = 0.905;
 struct StreakPosition {
     glm::dvec3 texture{0.0};
     double level = 0.0;
-
-    friend StreakPosition operator+(const StreakPosition& a, const StreakPosition& b) {
-        return {a.texture + b.texture, a.level + b.level};
-    }
-    friend StreakPosition operator*(double factor, const StreakPosition& a) {
-        return {factor * a.texture, factor * a.level};
-    }
 };
 
 /// `direction`: of unit length; `along`: a tangent there, of any length. `chart`: 0 or 1. World axes.

@@ -48,15 +48,15 @@ TransferTable bake(const Grating& grating, const TransferSettings& settings) {
 glm::dvec3 evaluate(const TransferTable& table, const lighting::ShLight& tangent_light, const glm::dvec3& view) {
     glm::dvec3 xyz(0.0);
     if (!(view.z > 0.0)) return xyz;
-    const BilinearLookup place = look_up(table.grid, view.x, view.y, view.z);
+    const BilinearLookup lookup = look_up(table.grid, view.x, view.y, view.z);
     const auto blocks = static_cast<std::size_t>(harmonic_layers(table.bands));
     const std::size_t common =
         std::min(static_cast<std::size_t>(math::sh_count(table.bands)), tangent_light.coefficients.size());
     for (std::size_t pair = 0; pair < kColours; ++pair)
         for (std::size_t i = 0; i < common; ++i)
-            xyz[static_cast<int>(pair % 3)] +=
-                tangent_light.coefficients[i][static_cast<int>(pair / 3)] *
-                filtered(table, pair * blocks + i / kTexelComponents, table.grid.texels(), i % kTexelComponents, place);
+            xyz[static_cast<int>(pair % 3)] += tangent_light.coefficients[i][static_cast<int>(pair / 3)] *
+                                               filtered(table, pair * blocks + i / kTexelComponents,
+                                                        table.grid.texels(), i % kTexelComponents, lookup);
     return xyz;
 }
 

@@ -6,12 +6,12 @@
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
 
+#include "engine/colour/srgb.h"
 #include "engine/colour/working_space.h"
 #include "engine/post/agx.h"
 #include "engine/post/display_transform.h"
 #include "engine/post/false_colour.h"
 #include "engine/post/working_space.h"
-#include "tests/unit/engine/post/srgb_curve.h"
 
 namespace rowland::post {
 
@@ -45,7 +45,7 @@ TEST(ComputedViews, AgxMixesWithinTheInsetThenAppliesTheCurve) {
         value = glm::inverse(agx_inset()) * value;
         const glm::dvec3 shown = shown_by("AgX", rgb);
         // OpenColorIO's fast powers are good to 1e-4, its two matrices of Rec.709 agree to about the same.
-        for (int c = 0; c < 3; ++c) EXPECT_NEAR(shown[c], test::srgb_of_linear(std::pow(value[c], agx_gamma)), 1e-3);
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(shown[c], colour::srgb_encoded(std::pow(value[c], agx_gamma)), 1e-3);
     }
 }
 
@@ -56,7 +56,7 @@ TEST(ComputedViews, FalseColourHasOneColourForEachStop) {
         const double luminance = 0.18 * std::exp2(stops);
         for (const glm::dvec3& rgb : {glm::dvec3(luminance), luminance * glm::dvec3(1.0, 0.0, 0.0) / 0.2126}) {
             const glm::dvec3 shown = shown_by("False Colour", rgb);
-            for (int c = 0; c < 3; ++c) EXPECT_NEAR(shown[c], test::srgb_of_linear(expected[c]), 2e-3) << stops;
+            for (int c = 0; c < 3; ++c) EXPECT_NEAR(shown[c], colour::srgb_encoded(expected[c]), 2e-3) << stops;
         }
     }
     EXPECT_NE(false_colour(0.6), false_colour(0.4));

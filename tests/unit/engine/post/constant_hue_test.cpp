@@ -11,10 +11,10 @@
 
 #include "engine/colour/observer.h"
 #include "engine/colour/oklab.h"
+#include "engine/colour/srgb.h"
 #include "engine/colour/working_space.h"
 #include "engine/post/display_transform.h"
 #include "engine/post/working_space.h"
-#include "tests/unit/engine/post/srgb_curve.h"
 
 namespace rowland::post {
 
@@ -37,7 +37,7 @@ void for_each_light_of_a_spectrum(const DisplayTransform& view, double most_ligh
             glm::vec3 pixel(to_working * light);
             view.apply_cpu({&pixel, 1});
             const glm::dvec3 shown = oklab_of_rec709(
-                {test::linear_of_srgb(pixel.r), test::linear_of_srgb(pixel.g), test::linear_of_srgb(pixel.b)});
+                {colour::srgb_linear(pixel.r), colour::srgb_linear(pixel.g), colour::srgb_linear(pixel.b)});
             if (shown.x > most_lightness) break;
             check(wavelength_nm, stops, oklab_of_rec709(to_rec709 * light), shown);
         }
@@ -119,7 +119,7 @@ TEST(ConstantHue, TableOfTheViewIsTheFormula) {
         view.apply_cpu({&pixel, 1});
         const glm::dvec3 exact = constant_hue(colour::rec709_to_oklab_lms() * rgb);
         for (int c = 0; c < 3; ++c) {
-            const double off = std::abs(pixel[c] - test::srgb_of_linear(exact[c]));
+            const double off = std::abs(pixel[c] - colour::srgb_encoded(exact[c]));
             worst = std::max(worst, off);
             sum += off;
             ++count;

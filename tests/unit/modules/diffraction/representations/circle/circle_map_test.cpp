@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "engine/core/parallel.h"
+#include "modules/diffraction/representations/circle/circle.h"
 #include "modules/diffraction/representations/planar/planar_map.h"
 #include "tests/support/csv.h"
 #include "tests/support/test_data.h"
@@ -151,6 +152,16 @@ TEST(CircleMap, ViewBelowTheHorizonIsBlack) {
         broad_light(), tabulate(ColourKernel(test::compact_disc(), colour::LightSpectra())), 1600.0, {8, 8, 14});
     EXPECT_EQ(sample(map, {{0.1, -0.5, 0.1}, {0, 1, 0}, {1, 0, 0}}), glm::dvec3(0.0));
     EXPECT_NE(sample(map, {{0.1, 0.5, 0.1}, {0, 1, 0}, {1, 0, 0}}), glm::dvec3(0.0));
+}
+
+/// The counts of circle_map.glsl.
+TEST(CircleMap, CostsWhatItsShaderReadsAndComputes) {
+    const ShadingCost series = cost(CircleTables{.size = {.angles = 0}, .charts = 1});
+    EXPECT_EQ(series.fetches_per_pixel, 4);
+    EXPECT_EQ(series.multiply_adds_per_pixel, 36);
+    const ShadingCost with_rest = cost(CircleTables{.size = {.angles = 14}, .charts = 1});
+    EXPECT_EQ(with_rest.fetches_per_pixel, 6);
+    EXPECT_EQ(with_rest.multiply_adds_per_pixel, 64);
 }
 
 TEST(CircleMap, DoesNotDependOnTheThreads) {

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <limits>
 #include <numbers>
 
 #include "engine/image/load.h"
@@ -15,6 +17,7 @@
 #include "tests/support/csv.h"
 #include "tests/support/test_data.h"
 #include "tests/unit/modules/diffraction/representations/baked_views.h"
+#include "tests/unit/modules/diffraction/representations/streak/even_streak_map.h"
 
 namespace rowland::diffraction {
 namespace {
@@ -30,14 +33,6 @@ Grating oblique_foil() {
                 .profile = CrossedProfile{.along_a = BlazedProfile{200.0}, .along_b = SinusoidalProfile{110.0}},
                 .orders = 2};
     return grating;
-}
-
-/// Radiance 1 everywhere.
-StreakMap even_streak_map(const StreakMapSize& size) {
-    StreakMap map{.size = size, .levels = {}};
-    for (int level = 0; level < kStreakLevels; ++level)
-        map.levels[static_cast<std::size_t>(level)].assign(map.index(level, map.slices(level), 0, 0), glm::vec3(1.0F));
-    return map;
 }
 
 glm::dvec3 shaded_by(const LatticeStreak& streak, const StreakMap& map, const Grating& grating,
@@ -66,7 +61,7 @@ TEST(LatticeStreak, UnderEvenLightIsWhatIsAboveTheHorizon) {
         Grating grating = oblique_foil();
         if (covered) grating.cover = Cover{.ior = 1.5};
         const LatticeStreak streak = make_lattice_streak(grating, {});
-        const StreakMap map = even_streak_map(lattice_map_size(16));
+        const StreakMap map = test::even_streak_map(lattice_map_size(16));
         std::vector<ShadingPoint> frames;
         for (const glm::dvec3& v : {glm::dvec3(0.1, 0.2, 0.9), glm::dvec3(0.8, -0.1, 0.6), glm::dvec3(-0.3, 0.93, 0.2)})
             frames.push_back({.view = v, .normal = {0, 0, 1}, .grating = {1, 0, 0}});
@@ -101,6 +96,30 @@ TEST(LatticeStreak, MatchesTheReferenceUnderARealProbe) {
 
 TEST(LatticeStreak, BytesAreSound) {
     test::expect_sound_bytes(make_lattice_streak(oblique_foil(), {.map_resolution = 128}), read_lattice_streak);
+}
+
+TEST(LatticeStreak, InvalidNumbersAreRefused) {
+    const LatticeStreak streak = make_lattice_streak(oblique_foil(), {.map_resolution = 128});
+    const auto read_again = [](const LatticeStreak& one) {
+        ByteWriter writer;
+        write(one, writer);
+        ByteReader reader(writer.data(), "table");
+        return read_lattice_streak(reader);
+    };
+    EXPECT_EQ(read_again(streak).segments.size(), streak.segments.size());
+    const auto refused = [&](const std::function<void(LatticeStreak&)>& damage) {
+        LatticeStreak damaged = streak;
+        damage(damaged);
+        EXPECT_THROW(read_again(damaged), Error);
+    };
+    constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+    refused([](LatticeStreak& one) { one.pitch_nm = 0.0; });
+    refused([](LatticeStreak& one) { one.deviation = std::numeric_limits<double>::infinity(); });
+    refused([](LatticeStreak& one) { one.segments.back().nodes.first_nm = kNaN; });
+    refused([](LatticeStreak& one) { one.segments.back().nodes.step_nm = -1.0F; });
+    refused([](LatticeStreak& one) { one.segments.back().nodes.weights.back()[2][2] = kNaN; });
+    refused([](LatticeStreak& one) { one.segments.back().direction *= 2.0F; });
+    refused([](LatticeStreak& one) { one.segments.resize(kMostStreakSegments + 1, one.segments[0]); });
 }
 
 }  // namespace

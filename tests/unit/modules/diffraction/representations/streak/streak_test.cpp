@@ -16,6 +16,7 @@
 #include "tests/support/csv.h"
 #include "tests/support/test_data.h"
 #include "tests/unit/modules/diffraction/representations/baked_views.h"
+#include "tests/unit/modules/diffraction/representations/streak/even_streak_map.h"
 
 namespace rowland::diffraction {
 namespace {
@@ -41,14 +42,6 @@ lighting::LightSamples even_light() {
                                                                         (2.0 * row + 1.0) / kFace - 1.0)),
                                 glm::dvec3(lighting::cube_solid_angle(kFace, column, row)));
     return light;
-}
-
-/// A map that gives 1 everywhere.
-StreakMap even_map(const StreakMapSize& size) {
-    StreakMap map{.size = size, .levels = {}};
-    for (int level = 0; level < kStreakLevels; ++level)
-        map.levels[static_cast<std::size_t>(level)].assign(map.index(level, map.slices(level), 0, 0), glm::vec3(1.0F));
-    return map;
 }
 
 const glm::dmat3 kWorldAxes(1.0);
@@ -94,7 +87,7 @@ TEST(Streak, UnderEvenLightIsWhatIsAboveTheHorizon) {
             const Grating grating = narrow_disc(sigma);
             const auto expected = reference_radiance(grating, light, colour::LightSpectra(), std::span(&frame, 1));
             const Streak streak = make_streak(grating, {});
-            const StreakMap map = even_map(map_size(streak, 16));
+            const StreakMap map = test::even_streak_map(map_size(streak, 16));
             const auto found = evaluate(streak, map, kWorldAxes, glm::normalize(v));
             EXPECT_LT(relative_rms({found}, expected), v.z > 0.5 ? 0.01 : 0.15) << v.x << " " << sigma;
         }
@@ -146,7 +139,7 @@ TEST(Streak, PitsAreAStreakAndASmoothRest) {
     const auto one = std::span(&frame, 1);
     const glm::dvec3 whole = reference_radiance(grating, light, colour::LightSpectra(), one)[0];
     const glm::dvec3 smooth = reference_radiance(*rest, light, colour::LightSpectra(), one)[0];
-    const StreakMap map = even_map(map_size(streak, 16));
+    const StreakMap map = test::even_streak_map(map_size(streak, 16));
     const glm::dvec3 found = evaluate(streak, map, kWorldAxes, glm::normalize(frame.view)) + 0.7 * smooth;
     EXPECT_LT(relative_rms({found}, {whole}), 5e-3);
     EXPECT_FALSE(incoherent_rest(narrow_disc(0.1)).has_value());
@@ -178,14 +171,14 @@ TEST(Streak, ZeroOrderIsTheMirror) {
     const double mirror = lit({-v.x, -v.y, v.z});
     EXPECT_GT(mirror, 20.0 * lit(glm::normalize(glm::dvec3(-v.x - 0.25, -v.y, v.z))));
     EXPECT_GT(lit(glm::normalize(glm::dvec3(-v.x, -v.y + 0.04, v.z))), 0.5 * mirror);  // along the grooves: the lobe
-    const glm::dvec3 even = evaluate(streak, even_map(map_size(streak, 16)), kWorldAxes, v);
+    const glm::dvec3 even = evaluate(streak, test::even_streak_map(map_size(streak, 16)), kWorldAxes, v);
     const glm::dmat3 weight = ColourKernel(grating, colour::LightSpectra()).zero_order_xyz();
     EXPECT_NEAR(even.y, (weight * glm::dvec3(1.0)).y, 1e-5 * even.y);
 }
 
 TEST(Streak, GrazingAndBelowTheHorizonStayFinite) {
     const Streak streak = make_streak(narrow_disc(0.05), {});
-    const StreakMap map = even_map(map_size(streak, 16));
+    const StreakMap map = test::even_streak_map(map_size(streak, 16));
     for (const glm::dvec3& v : {glm::dvec3(1.0, 0.0, 1e-12), glm::dvec3(0.0, 1.0, 1e-12), glm::dvec3(0.0, 0.0, 1.0)})
         EXPECT_TRUE(std::isfinite(evaluate(streak, map, kWorldAxes, v).y));
     EXPECT_EQ(evaluate(streak, map, kWorldAxes, {0.6, 0.0, -0.8}), glm::dvec3(0.0));
