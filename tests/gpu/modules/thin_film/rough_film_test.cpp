@@ -113,10 +113,10 @@ TEST_F(RoughFilmPixel, UnderFourCapturedProbesIsAsFarOffAsThePageSays) {
         std::array<double, 6> soap;
     };
     const std::array<Row, 4> measured = {
-        {{"grace_probe.hdr", {0.07, 0.10, 0.11, 0.09, 0.10, 0.09}, {0.20, 0.42, 0.40, 0.29, 0.20, 0.15}},
-         {"ennis_probulator.hdr", {0.02, 0.05, 0.06, 0.06, 0.06, 0.07}, {0.02, 0.05, 0.05, 0.03, 0.05, 0.08}},
-         {"royal_esplanade_1k.hdr", {0.11, 0.07, 0.09, 0.12, 0.11, 0.09}, {0.06, 0.08, 0.07, 0.12, 0.09, 0.08}},
-         {"blender_sunset.exr", {0.02, 0.03, 0.05, 0.06, 0.06, 0.06}, {0.03, 0.04, 0.03, 0.04, 0.05, 0.08}}}};
+        {{"grace_probe.hdr", {0.08, 0.13, 0.12, 0.09, 0.11, 0.10}, {0.20, 0.43, 0.41, 0.30, 0.20, 0.15}},
+         {"ennis_probulator.hdr", {0.02, 0.05, 0.07, 0.06, 0.07, 0.08}, {0.02, 0.05, 0.05, 0.04, 0.06, 0.08}},
+         {"royal_esplanade_1k.hdr", {0.12, 0.08, 0.09, 0.13, 0.10, 0.09}, {0.07, 0.09, 0.08, 0.13, 0.10, 0.08}},
+         {"blender_sunset.exr", {0.03, 0.04, 0.06, 0.08, 0.07, 0.07}, {0.04, 0.05, 0.03, 0.04, 0.06, 0.08}}}};
     for (const Row& row : measured) {
         ROWLAND_TEST_DATA(path, std::string("probes/") + row.probe);
         light_by(path);
@@ -127,8 +127,8 @@ TEST_F(RoughFilmPixel, UnderFourCapturedProbesIsAsFarOffAsThePageSays) {
             EXPECT_LE(titanium.four, row.titanium.at(i) + 0.01) << row.probe << " " << roughness;
             EXPECT_LE(soap.four, row.soap.at(i) + 0.01) << row.probe << " " << roughness;
             // At small roughness the lobe's shape matters little.
-            EXPECT_LE(titanium.four, roughness < 0.35 ? titanium.one + 0.01 : 0.8 * titanium.one) << row.probe;
-            EXPECT_LE(soap.four, roughness < 0.15 ? soap.one + 0.01 : 0.95 * soap.one) << row.probe << " " << roughness;
+            EXPECT_LE(titanium.four, (roughness < 0.45 ? 1.0 : 0.6) * titanium.one + 0.015) << row.probe;
+            EXPECT_LE(soap.four, (roughness < 0.25 ? 1.0 : 0.6) * soap.one + 0.015) << row.probe << " " << roughness;
         }
     }
 }
