@@ -27,9 +27,9 @@ struct Options : app::CommonOptions {
     bool dither = false;
     bool ambient_occlusion = true;  ///< and contact shadows
     bool soft_shadows = true;
-    bool local_reflections = true;  ///< of the table and of objects
+    bool local_reflections = true;   ///< of the table and of objects
     bool rough_reflections = false;  ///< rough surfaces look the probe up in four directions
-    bool sun = false;               ///< a lamp that casts shadows
+    bool sun = false;                ///< a lamp that casts shadows
     bool list_views = false;
     std::optional<std::filesystem::path> capture_linear;
     std::optional<std::filesystem::path> benchmark;

@@ -102,7 +102,9 @@ CLI::App* EvaluateCommand::declare(CLI::App& program) {
         "--bands 5 is another way to write the setting bands=5, and so on; a method ignores flags that it has no\n"
         "setting for. Settings that are not given are the material's where it pins the same method, else the "
         "defaults.\n"
-        "A film's material takes the methods reference and table: what it reflects of the probe.\n"
+        "A film's material takes the methods reference; table, which is given the light of the lobe without error; "
+        "and\n"
+        "drawn and drawn/rough-reflections, as a frame shows it without and with that effect.\n"
         "Example:\n"
         "  rowland-trade evaluate --material cd.json --probe sunset.hdr --method reference --frames frames.csv");
     command->add_option("--material", material, "Material, JSON")->type_name("FILE");

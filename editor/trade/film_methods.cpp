@@ -9,9 +9,11 @@
 #include "engine/colour/light_spectra.h"
 #include "engine/colour/working_space.h"
 #include "engine/lighting/light_samples.h"
+#include "engine/lighting/prefilter.h"
 #include "engine/math/sh_basis.h"
 #include "modules/diffraction/evaluate/radiance_error.h"
 #include "modules/thin_film/bake/film_table.h"
+#include "modules/thin_film/evaluate/drawn_film.h"
 #include "modules/thin_film/model/reflectance.h"
 #include "modules/thin_film/reference/gltf_formula.h"
 #include "modules/thin_film/reference/rough_reference.h"
@@ -86,6 +88,13 @@ std::vector<MethodValues> methods(const thin_film::FilmTable& table) {
     constexpr int kRotation = 3 * (9 + 25);  // of the light into the surface's axes, bands 1 and 2
     const std::size_t sh_bytes = static_cast<std::size_t>(table.columns) * kNumbers * 2;
     return {{{.method = "table", .table_bytes = table.bytes(), .fetches = 3, .multiply_adds = 9, .functions = 1}},
+            {{.method = "drawn", .table_bytes = table.bytes(), .fetches = 3, .multiply_adds = 9, .functions = 1}},
+            // Four of each, and as many reads of the lobe's nodes; three more of the environment.
+            {{.method = "drawn, rough reflections",
+              .table_bytes = table.bytes(),
+              .fetches = 19,
+              .multiply_adds = 80,
+              .functions = 7}},
             {{.method = "spherical harmonics, 3 bands",
               .table_bytes = sh_bytes,
               .fetches = (kNumbers + 3) / 4,
@@ -98,6 +107,7 @@ std::vector<MethodValues> methods(const thin_film::FilmTable& table) {
 struct Light {
     lighting::LightSamples whole;
     lighting::LightSamples limited;
+    lighting::EnvironmentMap environment;
 };
 
 void add_rows(const FilmSubject& subject, double roughness, const Light& light, std::vector<FilmRow>& rows) {
@@ -115,10 +125,14 @@ void add_rows(const FilmSubject& subject, double roughness, const Light& light, 
         const glm::dvec3 lobe = reflected.without_fresnel;
         exact.push_back(reflected.xyz);
         all[0].xyz.push_back(table.at(at.cosine, kThickness_nm, roughness) * lobe);
-        all[1].xyz.push_back(reference.reflected(light.limited, at.normal, at.view, roughness).xyz);
-        all[2].xyz.push_back(colour::rec709_to_xyz() *
+        for (const auto& [method, reflections] :
+             {std::pair(1, thin_film::Reflections::OneLookUp), std::pair(2, thin_film::Reflections::FourLookUps)})
+            all[method].xyz.push_back(thin_film::drawn_radiance(table, kThickness_nm, roughness, light.environment,
+                                                                at.normal, at.view, reflections));
+        all[3].xyz.push_back(reference.reflected(light.limited, at.normal, at.view, roughness).xyz);
+        all[4].xyz.push_back(colour::rec709_to_xyz() *
                              (thin_film::gltf_formula(subject.film_ior, kThickness_nm, base_f0, at.cosine) * lobe));
-        all[3].xyz.push_back(colour::rec709_to_xyz() * (three_wavelengths(film, at.cosine) * lobe));
+        all[5].xyz.push_back(colour::rec709_to_xyz() * (three_wavelengths(film, at.cosine) * lobe));
     }
     for (MethodValues& values : all) {
         values.row.film = subject.name;
@@ -147,7 +161,9 @@ glm::dvec3 three_wavelengths(const thin_film::Film& film, double cosine) {
 }
 
 std::vector<FilmRow> film_rows(const lighting::ProbeImage& probe) {
-    Light light{.whole = lighting::gather_texels(lighting::light_samples(probe), kGatheredFace), .limited = {}};
+    Light light{.whole = lighting::gather_texels(lighting::light_samples(probe), kGatheredFace),
+                .limited = {},
+                .environment = lighting::prefilter(probe)};
     light.limited = band_limited(light.whole);
     std::vector<FilmRow> rows;
     for (const FilmSubject& subject : film_subjects())

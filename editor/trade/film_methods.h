@@ -38,8 +38,8 @@ struct FilmRow {
     int functions = 0;      ///< sines, cosines, exponentials and roots
 };
 
-/// Rows for every subject at 400 nm, two roughnesses and four methods. All but spherical harmonics are given the light
-/// of the lobe without error: it is the environment's method that decides that.
+/// Rows for every subject at 400 nm, two roughnesses and six methods. Those that are drawn have the engine's
+/// prefiltered environment; all others but spherical harmonics are given the light of the lobe without error.
 std::vector<FilmRow> film_rows(const lighting::ProbeImage& probe);
 
 }  // namespace rowland::trade

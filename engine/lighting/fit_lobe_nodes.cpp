@@ -85,7 +85,6 @@ std::array<double, kLobeNodes> zeros(const Orthogonal& polynomials, double least
     return result;
 }
 
-
 Orthogonal gauss_polynomials(double view_cosine, double roughness, double& least, double& greatest) {
     std::vector<Point> points;
     double sum = 0.0;
@@ -184,8 +183,8 @@ class Lobe {
             }
             const double root = std::sqrt(point.weight / square_);
             for (std::size_t k = 0; k < kProducts; ++k)
-                result[static_cast<Eigen::Index>(p * kProducts + k)] = (k > 0 ? kProductWeight : 1.0) * root *
-                                                                       (found.at(k) - point.lobe * point.products.at(k));
+                result[static_cast<Eigen::Index>(p * kProducts + k)] =
+                    (k > 0 ? kProductWeight : 1.0) * root * (found.at(k) - point.lobe * point.products.at(k));
         }
         return result;
     }
@@ -308,8 +307,7 @@ Parameters least_squares(const Lobe& lobe, const LobeNodes& nodes, const Paramet
             Parameters next = best - damped.ldlt().solve(gradient);
             for (int i = 0; i < kLobeNodes; ++i) {
                 next[i] = std::clamp(next[i], -kLargestLean, kLargestLean);
-                next[kLobeNodes + i] =
-                    std::clamp(next[kLobeNodes + i], std::log(kLeastRatio), std::log(kLargestRatio));
+                next[kLobeNodes + i] = std::clamp(next[kLobeNodes + i], std::log(kLeastRatio), std::log(kLargestRatio));
             }
             const Eigen::VectorXd at_next = residual(next);
             const double before = at_best.squaredNorm();
@@ -369,8 +367,7 @@ void sweep(LobeNodeTable& table) {
         const double view_cosine = LobeNodeTable::view_cosine(column);
         const LobeNodes nodes = gauss_nodes(view_cosine, roughness);
         const Parameters mean = beside(column, row, before);
-        const Parameters fitted =
-            least_squares(Lobe(view_cosine, roughness), nodes, mean, mean, kHoldToNeighbours);
+        const Parameters fitted = least_squares(Lobe(view_cosine, roughness), nodes, mean, mean, kHoldToNeighbours);
         table.set(column, row, with_parameters(nodes, fitted, roughness));
     });
 }

@@ -38,6 +38,12 @@ void sample_lobe(double view_cosine, double roughness, const std::function<void(
     }
 }
 
+double lobe_albedo(double view_cosine, double roughness) {
+    double sum = 0.0;
+    sample_lobe(view_cosine, roughness, [&](double, double weight) { sum += weight; });
+    return sum;
+}
+
 std::vector<double> lobe_angles(double view_cosine, double roughness, int steps) {
     std::vector<double> weights(static_cast<std::size_t>(steps) + 1, 0.0);
     double sum = 0.0;

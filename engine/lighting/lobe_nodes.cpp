@@ -50,8 +50,9 @@ LobeNodeTable read_table() {
     LobeNodeTable table{.texels = std::vector<glm::vec4>(LobeNodeTable::kPlanes * kTexels)};
     for (const std::vector<double>& row : numbers.rows)
         for (std::size_t i = 0; i + 2 < row.size(); ++i)
-            table.texels.at(texel(static_cast<int>(i) / kLobeNodes, static_cast<int>(row[0]), static_cast<int>(row[1])))
-                [static_cast<int>(i) % kLobeNodes] = static_cast<float>(row[i + 2]);
+            table.texels.at(texel(static_cast<int>(i) / kLobeNodes, static_cast<int>(row[0]),
+                                  static_cast<int>(row[1])))[static_cast<int>(i) % kLobeNodes] =
+                static_cast<float>(row[i + 2]);
     return table;
 }
 

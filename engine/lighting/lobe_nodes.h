@@ -9,9 +9,9 @@ namespace rowland::lighting {
 
 inline constexpr int kLobeNodes = 4;
 
-/// A part of a rough surface's microfacets, for one view: the angle at which they are met, and where the light that they
-/// reflect is looked up in an EnvironmentMap. Along (1 − lean) · the mirror's direction + lean · the normal, the lobe of
-/// a roughness of its own.
+/// A part of a rough surface's microfacets, for one view: the angle at which they are met, and where the light that
+/// they reflect is looked up in an EnvironmentMap. Along (1 − lean) · the mirror's direction + lean · the normal, the
+/// lobe of a roughness of its own.
 struct LobeNode {
     double cosine = 1.0;
     double weight = 0.0;  ///< of a lobe's nodes they sum to 1

@@ -5,9 +5,9 @@
 
 #include "engine/colour/observer.h"
 #include "engine/colour/working_space.h"
+#include "engine/lighting/lobe_angles.h"
 #include "modules/diffraction/evaluate/radiance_error.h"
 #include "modules/thin_film/bake/film_table.h"
-#include "engine/lighting/lobe_angles.h"
 #include "modules/thin_film/bake/rough_film.h"
 #include "modules/thin_film/reference/gltf_formula.h"
 

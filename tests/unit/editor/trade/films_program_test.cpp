@@ -59,7 +59,7 @@ TEST_F(FilmsProgram, PutsTheMethodsInTheirOrderUnderAProbe) {
         const std::size_t at = run.output.find(row);
         return at == std::string::npos ? -1.0 : std::stod(run.output.substr(at + row.size()));
     };
-    for (const char* method : {"table", "spherical harmonics, 3 bands"}) {
+    for (const char* method : {"table", "drawn", "drawn, rough reflections", "spherical harmonics, 3 bands"}) {
         EXPECT_GE(error(method), 0.0) << run.output;
         EXPECT_LE(error(method), 1.0) << method;
     }
@@ -67,16 +67,20 @@ TEST_F(FilmsProgram, PutsTheMethodsInTheirOrderUnderAProbe) {
     EXPECT_GT(error("three wavelengths"), 2.0);
 }
 
-TEST_F(FilmsProgram, EvaluateGivesTheReferenceAndTheTableOfAFilm) {
+TEST_F(FilmsProgram, EvaluateGivesTheReferenceAndTheMethodsOfAFilm) {
     for (const char* roughness : {"0", "0.4"}) {
         write_film(roughness);
         const test::Csv reference = evaluated("reference");
         const test::Csv table = evaluated("table");
+        const test::Csv drawn = evaluated("drawn");
+        const test::Csv rough = evaluated("drawn/rough-reflections");
         ASSERT_EQ(reference.rows.size(), 3U);
         for (std::size_t row = 0; row < 2; ++row) {
             EXPECT_GT(reference.number(row, "Y"), 0.6) << "silver";
             for (const char* axis : {"X", "Y", "Z"})
-                EXPECT_NEAR(table.number(row, axis), reference.number(row, axis), 5e-3) << roughness << " " << row;
+                for (const test::Csv* method : {&table, &drawn, &rough})
+                    EXPECT_NEAR(method->number(row, axis), reference.number(row, axis), 5e-3)
+                        << roughness << " " << row;
         }
         EXPECT_EQ(reference.number(2, "Y"), 0.0) << "seen from behind";
     }
@@ -87,7 +91,8 @@ TEST_F(FilmsProgram, EvaluateRefusesAGratingsMethodForAFilm) {
     const test::TradeRun run = test::run_trade(
         folder_.path(), "evaluate --material film.json --probe even.hdr --frames frames.csv --method spikes");
     EXPECT_EQ(run.exit_code, 2);
-    EXPECT_THAT(run.messages, AllOf(HasSubstr("spikes"), HasSubstr("reference or table")));
+    EXPECT_THAT(run.messages,
+                AllOf(HasSubstr("spikes"), HasSubstr("reference, table, drawn or drawn/rough-reflections")));
 }
 
 }  // namespace

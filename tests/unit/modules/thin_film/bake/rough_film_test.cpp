@@ -5,36 +5,19 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
-#include <random>
 #include <vector>
 
 #include "engine/lighting/light_samples.h"
 #include "modules/thin_film/bake/film_table.h"
 #include "modules/thin_film/reference/rough_reference.h"
+#include "tests/support/facings.h"
 #include "tests/support/test_data.h"
 
 namespace rowland::thin_film {
 namespace {
 
-struct Facing {
-    glm::dvec3 n;
-    glm::dvec3 v;
-};
-
-/// Normals everywhere, seen at up to 70 degrees.
-std::vector<Facing> random_facings(int count) {
-    std::mt19937 generator(1);
-    std::normal_distribution<double> normal;
-    const auto direction = [&] {
-        return glm::normalize(glm::dvec3(normal(generator), normal(generator), normal(generator)));
-    };
-    std::vector<Facing> facings;
-    while (facings.size() < static_cast<std::size_t>(count)) {
-        const Facing facing{direction(), direction()};
-        if (glm::dot(facing.n, facing.v) > 0.34) facings.push_back(facing);
-    }
-    return facings;
-}
+using rowland::test::Facing;
+using rowland::test::random_facings;
 
 FilmTable table_of(const Film& film, const TableRange& range) {
     return bake_table(FilmColour(film, colour::LightSpectra{}), range, table_size(range));
