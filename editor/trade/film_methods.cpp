@@ -29,7 +29,7 @@ constexpr int kViews = 24;
 constexpr int kBands = 3;
 constexpr int kCoefficients = kBands * kBands;
 constexpr int kDirections = 40000;  ///< of band-limited light: 1 degree apart, finer than the lobes
-constexpr int kGatheredFace = 64;   ///< cells of the probe, likewise
+constexpr int kGatheredFace = 256;  ///< cells of the probe: a quarter of the width of the narrowest lobe
 
 /// Points on the sphere, evenly spread [Fibonacci].
 glm::dvec3 spread(int i, int count) {

@@ -19,7 +19,7 @@ double lobe_misfit(double view_cosine, double roughness, const LobeNodes& nodes)
 LobeNodes refine_nodes(double view_cosine, double roughness, const LobeNodes& nodes);
 
 /// The whole table, in a quarter of a minute on two processors. Texels beside each other have nodes that are alike, so
-/// that values between them hold too.
+/// that values between them hold also.
 LobeNodeTable fit_lobe_nodes();
 
 }  // namespace rowland::lighting

@@ -78,11 +78,12 @@ vec2 lobe_albedo(float n_v, float roughness) { return texture(brdf_table, vec2(n
 
 // What the lobe reflects of the environment: the light of each part of it, as microfacets at that part's angle do.
 vec3 lobe_reflection(vec3 n, vec3 v, vec3 f0, float n_v, float roughness, vec2 split) {
-    vec2 place = lobe_place(n_v, roughness);
-    vec4 cosines = lobe_cosines(place, n_v, roughness);
-    vec4 weights = lobe_weights(place);
-    vec4 leans = lobe_leans(place, roughness);
-    vec4 roughnesses = lobe_roughnesses(place, roughness);
+    vec2 position = lobe_position(n_v, roughness);
+    vec4 cosines = lobe_cosines(position, n_v, roughness);
+    vec4 weights = lobe_weights(position);
+    vec4 leans = lobe_leans(position, roughness);
+    // Narrower than the first rough level they would show the mirror's sharp lamps.
+    vec4 roughnesses = max(lobe_roughnesses(position, roughness), min(roughness, 1.0 / environment.x));
     vec3 mirrored = reflect(-v, n);
     vec3 sum = vec3(0.0);
     for (int i = 0; i < 4; ++i) {

@@ -1,8 +1,8 @@
 // The four angles and look-ups that stand for a GGX lobe: engine/lighting/lobe_nodes.h.
 TEXTURE_UNIT(21) uniform sampler2D lobe_nodes;
 
-// Where the table has a lobe.
-vec2 lobe_place(float n_v, float roughness) {
+// Of a lobe in the table.
+vec2 lobe_position(float n_v, float roughness) {
     const float offset = 0.02;  // kLobeCosineOffset
     float root = (sqrt(n_v + offset) - sqrt(offset)) / (sqrt(1.0 + offset) - sqrt(offset));
     float column = 0.5 * (root + 1.0 - sqrt(max(1.0 - n_v, 0.0)));
@@ -10,17 +10,17 @@ vec2 lobe_place(float n_v, float roughness) {
     return (vec2(column, sqrt(roughness)) * (size - 1.0) + 0.5) / (size * vec2(1.0, 4.0));
 }
 
-vec4 lobe_plane(vec2 place, float plane) { return textureLod(lobe_nodes, place + vec2(0.0, 0.25 * plane), 0.0); }
+vec4 lobe_plane(vec2 position, float plane) { return textureLod(lobe_nodes, position + vec2(0.0, 0.25 * plane), 0.0); }
 
 // Of the microfacets.
-vec4 lobe_cosines(vec2 place, float n_v, float roughness) {
-    vec4 roots = sqrt(n_v + 0.02) + roughness * roughness * lobe_plane(place, 0.0);
+vec4 lobe_cosines(vec2 position, float n_v, float roughness) {
+    vec4 roots = sqrt(n_v + 0.02) + roughness * roughness * lobe_plane(position, 0.0);
     return clamp(roots * roots - 0.02, 0.0, 1.0);
 }
 
-vec4 lobe_weights(vec2 place) { return lobe_plane(place, 1.0); }
+vec4 lobe_weights(vec2 position) { return lobe_plane(position, 1.0); }
 
 // Light is looked up along mix(mirror's direction, normal, lean).
-vec4 lobe_leans(vec2 place, float roughness) { return roughness * roughness * lobe_plane(place, 2.0); }
+vec4 lobe_leans(vec2 position, float roughness) { return roughness * roughness * lobe_plane(position, 2.0); }
 
-vec4 lobe_roughnesses(vec2 place, float roughness) { return min(roughness * lobe_plane(place, 3.0), 1.0); }
+vec4 lobe_roughnesses(vec2 position, float roughness) { return min(roughness * lobe_plane(position, 3.0), 1.0); }

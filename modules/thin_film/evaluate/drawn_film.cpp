@@ -1,5 +1,6 @@
 #include "modules/thin_film/evaluate/drawn_film.h"
 
+#include <algorithm>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -19,10 +20,12 @@ glm::dvec3 drawn_radiance(const FilmTable& table, double thickness_nm, double ro
               lighting::environment_light(environment, lighting::lobe_direction(n, v, roughness), roughness);
     } else {
         const glm::dvec3 mirrored = glm::reflect(-v, n);
+        const double first_rough = 1.0 / std::max(environment.layout.levels - 1, 1);
         for (const lighting::LobeNode& node : lighting::lobe_node_table().at(n_v, roughness))
-            sum += node.weight *
-                   (table.at(node.cosine, thickness_nm, 0.0) *
-                    lighting::environment_light(environment, glm::mix(mirrored, n, node.lean), node.roughness));
+            sum +=
+                node.weight * (table.at(node.cosine, thickness_nm, 0.0) *
+                               lighting::environment_light(environment, glm::mix(mirrored, n, node.lean),
+                                                           std::max(node.roughness, std::min(roughness, first_rough))));
     }
     return lighting::lobe_albedo(n_v, roughness) * sum;
 }

@@ -40,9 +40,9 @@ mat3x4 film_matrix(float cosine, float thickness_nm, float roughness) {
 // M averaged over the lobe that a view sees.
 mat3x4 film_lobe(float n_v, float thickness_nm, float roughness) {
 #ifdef FILM_LOBE_NODES
-    vec2 place = lobe_place(n_v, roughness);
-    vec4 cosines = lobe_cosines(place, n_v, roughness);
-    vec4 weights = lobe_weights(place);
+    vec2 position = lobe_position(n_v, roughness);
+    vec4 cosines = lobe_cosines(position, n_v, roughness);
+    vec4 weights = lobe_weights(position);
     mat3x4 sum = weights.x * film_matrix(cosines.x, thickness_nm, 0.0);
     sum += weights.y * film_matrix(cosines.y, thickness_nm, 0.0);
     sum += weights.z * film_matrix(cosines.z, thickness_nm, 0.0);

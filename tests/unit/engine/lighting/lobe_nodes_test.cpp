@@ -90,7 +90,7 @@ void write(const LobeNodeTable& table, const std::string& path) {
     }
 }
 
-/// `./rowland update-lobe-nodes` writes the file anew.
+/// `./rowland update-lobe-nodes` writes the file again.
 TEST(LobeNodesOfTheFile, AreThoseOfAFit) {
     if (const char* path = std::getenv("ROWLAND_UPDATE_LOBE_NODES")) {
         write(fit_lobe_nodes(), path);
