@@ -55,7 +55,7 @@ void add_options(CLI::App& app, Options& options) {
     app.add_flag("--no-soft-shadows{false}", options.soft_shadows, "Give shadows sharp edges");
     app.add_flag("--no-local-reflections{false}", options.local_reflections, "Let mirrors show only the probe");
     app.add_flag("--rough-reflections", options.rough_reflections,
-                 "Sum what rough surfaces reflect over four directions in place of one");
+                 "Sum what rough surfaces reflect over four directions, not one");
     app.add_flag("--sun", options.sun, "Add a lamp that casts shadows");
     app.add_flag("--list-views", options.list_views, "List the views of the display and stop");
     app.add_option("--capture-linear", options.capture_linear, "Write the scene-linear picture as OpenEXR");

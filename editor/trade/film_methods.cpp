@@ -125,10 +125,12 @@ void add_rows(const FilmSubject& subject, double roughness, const Light& light, 
         const glm::dvec3 lobe = reflected.without_fresnel;
         exact.push_back(reflected.xyz);
         all[0].xyz.push_back(table.at(at.cosine, kThickness_nm, roughness) * lobe);
-        for (const auto& [method, reflections] :
-             {std::pair(1, thin_film::Reflections::OneLookUp), std::pair(2, thin_film::Reflections::FourLookUps)})
-            all[method].xyz.push_back(thin_film::drawn_radiance(table, kThickness_nm, roughness, light.environment,
-                                                                at.normal, at.view, reflections));
+        const auto drawn = [&](thin_film::Reflections reflections) {
+            return thin_film::drawn_radiance(table, kThickness_nm, roughness, light.environment, at.normal, at.view,
+                                             reflections);
+        };
+        all[1].xyz.push_back(drawn(thin_film::Reflections::OneLookUp));
+        all[2].xyz.push_back(drawn(thin_film::Reflections::FourLookUps));
         all[3].xyz.push_back(reference.reflected(light.limited, at.normal, at.view, roughness).xyz);
         all[4].xyz.push_back(colour::rec709_to_xyz() *
                              (thin_film::gltf_formula(subject.film_ior, kThickness_nm, base_f0, at.cosine) * lobe));

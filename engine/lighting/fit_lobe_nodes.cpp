@@ -5,101 +5,17 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
-#include <limits>
 #include <numbers>
-#include <span>
 #include <vector>
 
 #include "engine/core/parallel.h"
-#include "engine/lighting/lobe_angles.h"
+#include "engine/lighting/gauss_nodes.h"
 
 namespace rowland::lighting {
 
 namespace {
 
 using std::numbers::pi;
-
-/// Of the powers .5 to .9 the one with the least error over six thin films.
-constexpr double kPower = 0.7;
-
-/// The monic polynomials that are orthogonal over weighted points: p_{k+1} = (x − mean_k) p_k − ratio_k p_{k−1}.
-struct Orthogonal {
-    std::array<double, kLobeNodes> mean{};
-    std::array<double, kLobeNodes> ratio{};
-    std::array<double, kLobeNodes> norm{};  ///< Σ weight p_k²
-
-    /// p_0 to p_degree.
-    std::array<double, kLobeNodes + 1> values(double x, int degree) const {
-        std::array<double, kLobeNodes + 1> p{1.0};
-        for (std::size_t k = 0; k < static_cast<std::size_t>(degree); ++k)
-            p.at(k + 1) = (x - mean.at(k)) * p.at(k) - (k > 0 ? ratio.at(k) * p.at(k - 1) : 0.0);
-        return p;
-    }
-};
-
-struct Point {
-    double x;
-    double weight;
-};
-
-/// Stieltjes' procedure.
-Orthogonal orthogonal_over(std::span<const Point> points) {
-    Orthogonal result;
-    for (int degree = 0; degree < kLobeNodes; ++degree) {
-        const auto k = static_cast<std::size_t>(degree);
-        double norm = 0.0;
-        double moment = 0.0;
-        for (const Point& point : points) {
-            const double p = result.values(point.x, degree).at(k);
-            norm += point.weight * p * p;
-            moment += point.weight * point.x * p * p;
-        }
-        result.norm.at(k) = norm;
-        result.mean.at(k) = moment / norm;
-        result.ratio.at(k) = k > 0 ? norm / result.norm.at(k - 1) : 0.0;
-    }
-    return result;
-}
-
-/// The zeros of p_kLobeNodes. Those of each polynomial lie between those of the next.
-std::array<double, kLobeNodes> zeros(const Orthogonal& polynomials, double least, double greatest) {
-    std::vector<double> bounds = {least, greatest};
-    for (int degree = 1; degree <= kLobeNodes; ++degree) {
-        std::vector<double> next = {least};
-        for (std::size_t i = 0; i + 1 < bounds.size(); ++i) {
-            double below = bounds[i];
-            double above = bounds[i + 1];
-            const auto p = [&](double x) { return polynomials.values(x, degree).at(static_cast<std::size_t>(degree)); };
-            const bool rises = p(above) > p(below);
-            for (int halving = 0; halving < 60; ++halving) {
-                const double middle = 0.5 * (below + above);
-                ((p(middle) > 0.0) == rises ? above : below) = middle;
-            }
-            next.push_back(0.5 * (below + above));
-        }
-        next.push_back(greatest);
-        bounds = std::move(next);
-    }
-    std::array<double, kLobeNodes> result{};
-    std::copy(bounds.begin() + 1, bounds.end() - 1, result.begin());
-    return result;
-}
-
-Orthogonal gauss_polynomials(double view_cosine, double roughness, double& least, double& greatest) {
-    std::vector<Point> points;
-    double sum = 0.0;
-    least = std::numeric_limits<double>::max();
-    greatest = 0.0;
-    sample_lobe(view_cosine, std::max(roughness, LobeNodeTable::kNarrowestRoughness),
-                [&](double cosine, double weight) {
-                    points.push_back({std::pow(cosine, kPower), weight});
-                    sum += weight;
-                    least = std::min(least, points.back().x);
-                    greatest = std::max(greatest, points.back().x);
-                });
-    for (Point& point : points) point.weight /= sum;
-    return orthogonal_over(points);
-}
 
 /// Of what is fitted: the lobe itself, and its products with polynomials of degrees 1 to 3.
 constexpr int kProducts = 4;
@@ -147,9 +63,7 @@ class Lobe {
     Lobe(double view_cosine, double roughness) : roughness_(roughness) {
         const double cosine = std::clamp(view_cosine, 1e-3, 1.0 - 1e-6);
         view_ = {std::sqrt(1.0 - cosine * cosine), 0.0, cosine};
-        double least = 0.0;
-        double greatest = 0.0;
-        polynomials_ = gauss_polynomials(cosine, roughness, least, greatest);
+        polynomials_ = lobe_polynomials(cosine, roughness);
         const double alpha = roughness * roughness;
         const double wide = std::min(2.5 * alpha, 1.0);
         add_points(alpha, alpha, wide);
@@ -205,7 +119,7 @@ class Lobe {
 
     /// The normalised polynomials at the angle of a microfacet.
     std::array<double, kProducts> products(double cosine) const {
-        const auto p = polynomials_.values(std::pow(cosine, kPower), kProducts - 1);
+        const auto p = polynomials_.values(lobe_coordinate(cosine), kProducts - 1);
         std::array<double, kProducts> result{};
         for (std::size_t k = 0; k < result.size(); ++k) result.at(k) = p.at(k) / std::sqrt(polynomials_.norm.at(k));
         return result;
@@ -251,7 +165,7 @@ class Lobe {
 
     double roughness_;
     glm::dvec3 view_{0.0};
-    Orthogonal polynomials_;
+    LobePolynomials polynomials_;
     std::vector<Direction> points_;
     double square_ = 0.0;
 };
@@ -373,24 +287,6 @@ void sweep(LobeNodeTable& table) {
 }
 
 }  // namespace
-
-LobeNodes gauss_nodes(double view_cosine, double roughness) {
-    double least = 0.0;
-    double greatest = 0.0;
-    const Orthogonal polynomials = gauss_polynomials(view_cosine, roughness, least, greatest);
-    const std::array<double, kLobeNodes> x = zeros(polynomials, least, greatest);
-    LobeNodes nodes;
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-        const std::array<double, kLobeNodes + 1> p = polynomials.values(x.at(i), kLobeNodes - 1);
-        double inverse_weight = 0.0;
-        for (std::size_t k = 0; k < nodes.size(); ++k) inverse_weight += p.at(k) * p.at(k) / polynomials.norm.at(k);
-        nodes.at(i) = {.cosine = std::clamp(std::pow(x.at(i), 1.0 / kPower), 0.0, 1.0),
-                       .weight = 1.0 / inverse_weight,
-                       .lean = 0.0,
-                       .roughness = roughness};
-    }
-    return nodes;
-}
 
 double lobe_misfit(double view_cosine, double roughness, const LobeNodes& nodes) {
     return Lobe(view_cosine, roughness).residual(parameters_of(nodes, roughness), nodes).norm();

@@ -1,14 +1,8 @@
 #pragma once
 
-#include <array>
-
 #include "engine/lighting/lobe_nodes.h"
 
 namespace rowland::lighting {
-
-/// Gauss's angles and weights for means over a lobe: exact for polynomials of degree 7 in cos^0.7. `lean` and
-/// `roughness` are those of the mirror.
-LobeNodes gauss_nodes(double view_cosine, double roughness);
 
 /// How far the lobes of the nodes' look-ups, weighted, are from the surface's lobe, the first by the angles at which
 /// they are met: relative RMS over directions, of the lobe and of its products with the first three polynomials in

@@ -10,6 +10,7 @@
 #include "engine/core/check.h"
 #include "engine/core/parallel.h"
 #include "engine/lighting/lobe_angles.h"
+#include "engine/lighting/lobe_nodes.h"
 #include "modules/thin_film/bake/rough_film.h"
 
 namespace rowland::thin_film {

@@ -4,7 +4,6 @@
 #include <glm/mat3x3.hpp>
 #include <vector>
 
-#include "engine/lighting/lobe_nodes.h"
 #include "modules/thin_film/model/film_colour.h"
 
 namespace rowland::thin_film {
@@ -51,7 +50,7 @@ struct FilmTable {
     glm::dmat3 interpolated(double root, double thickness_nm, double roughness) const;
 
     static constexpr std::size_t kBytesPerNode = 12;  ///< nine bits a component and an exponent, for each column
-    static constexpr double kCosineOffset = lighting::kLobeCosineOffset;
+    static constexpr double kCosineOffset = 0.02;
     static constexpr double kPathOffset_nm = 250.0;
 };
 

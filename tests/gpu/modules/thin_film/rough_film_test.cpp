@@ -2,6 +2,7 @@
 // exact sum over wavelengths: all that a frame leaves out, the engine's prefiltered environment and the split sum
 // included.
 #include <array>
+#include <utility>
 
 #include "engine/lighting/light_samples.h"
 #include "engine/lighting/prefilter.h"
@@ -40,11 +41,8 @@ class RoughFilmPixel : public rowland::test::RenderTest {
         double four;
     };
     Errors errors(nlohmann::json material, double roughness) {
-        material["roughness"] = roughness;
-        const CookedFilm film = cook_film(material, "film.json");
+        const auto [film, entity] = add_rough(std::move(material), roughness);
         const RoughReference reference(film.material.film, colour::LightSpectra{});
-        const ecs::Entity entity = add(square(), {.base_colour = glm::vec3(0.0F)});
-        add_film(world_, entity, film, glm::inverse(colour::rec709_to_xyz()));
         Errors off{};
         double whole = 0.0;
         for (const Facing& facing : random_facings(kFacings)) {
@@ -52,8 +50,7 @@ class RoughFilmPixel : public rowland::test::RenderTest {
                                         reference.reflected(samples_, facing.n, facing.v, roughness).xyz;
             turn(entity, facing);
             for (const bool four : {false, true}) {
-                renderer_.set_effects({.rough_reflections = four});
-                const glm::dvec3 difference = glm::dvec3(draw()[kSize / 2 * kSize + kSize / 2]) - expected;
+                const glm::dvec3 difference = pixel(four) - expected;
                 (four ? off.four : off.one) += glm::dot(difference, difference);
             }
             whole += glm::dot(expected, expected);
@@ -71,21 +68,16 @@ class RoughFilmPixel : public rowland::test::RenderTest {
 
     /// Relative RMS of the pixels' distance from drawn_radiance().
     double distance_from_formula(double roughness) {
-        nlohmann::json material = soap_on_glass();
-        material["roughness"] = roughness;
-        const CookedFilm film = cook_film(material, "film.json");
-        const ecs::Entity entity = add(square(), {.base_colour = glm::vec3(0.0F)});
-        add_film(world_, entity, film, glm::inverse(colour::rec709_to_xyz()));
+        const auto [film, entity] = add_rough(soap_on_glass(), roughness);
         double off = 0.0;
         double whole = 0.0;
         for (const Facing& facing : random_facings(6)) {
             turn(entity, facing);
             for (const Reflections reflections : {Reflections::OneLookUp, Reflections::FourLookUps}) {
-                renderer_.set_effects({.rough_reflections = reflections == Reflections::FourLookUps});
                 const glm::dvec3 expected = glm::inverse(colour::rec709_to_xyz()) *
                                             drawn_radiance(film.table, film.material.range.thickest_nm, roughness,
                                                            environment_, facing.n, facing.v, reflections);
-                const glm::dvec3 difference = glm::dvec3(draw()[kSize / 2 * kSize + kSize / 2]) - expected;
+                const glm::dvec3 difference = pixel(reflections == Reflections::FourLookUps) - expected;
                 off += glm::dot(difference, difference);
                 whole += glm::dot(expected, expected);
             }
@@ -95,6 +87,20 @@ class RoughFilmPixel : public rowland::test::RenderTest {
     }
 
  private:
+    std::pair<CookedFilm, ecs::Entity> add_rough(nlohmann::json material, double roughness) {
+        material["roughness"] = roughness;
+        CookedFilm film = cook_film(material, "film.json");
+        const ecs::Entity entity = add(square(), {.base_colour = glm::vec3(0.0F)});
+        add_film(world_, entity, film, glm::inverse(colour::rec709_to_xyz()));
+        return {std::move(film), entity};
+    }
+
+    /// At the square's centre.
+    glm::dvec3 pixel(bool rough_reflections) {
+        renderer_.set_effects({.rough_reflections = rough_reflections});
+        return glm::dvec3(draw()[kSize / 2 * kSize + kSize / 2]);
+    }
+
     /// The square's normal and the camera, which looks at its centre.
     void turn(ecs::Entity entity, const Facing& facing) {
         const glm::dvec3 tangent = glm::normalize(glm::cross(facing.n, facing.v));

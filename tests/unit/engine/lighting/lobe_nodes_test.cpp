@@ -10,6 +10,7 @@
 #include <string>
 
 #include "engine/lighting/fit_lobe_nodes.h"
+#include "engine/lighting/gauss_nodes.h"
 #include "engine/lighting/lobe_angles.h"
 
 namespace rowland::lighting {
