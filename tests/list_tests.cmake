@@ -1,5 +1,5 @@
 # Read by CTest before it runs tests, once per test program (tests/CMakeLists.txt): declares the tests of `program`.
-# In: program, timeout (s), slow (regex of full test names, or empty), apart (each test is a test of CTest).
+# In: program, timeout (s), cost (s), slow (regex of full test names, or empty), apart (each test is a test of CTest).
 get_filename_component(program_name ${program} NAME)
 if(NOT EXISTS ${program})
   add_test(${program_name}_NOT_BUILT ${program_name}_NOT_BUILT)
@@ -15,11 +15,11 @@ macro(declare name filter label)
   add_test(${name} ${program} --gtest_filter=${filter})
   set_tests_properties(${name} PROPERTIES TIMEOUT ${timeout} LABELS "${label};${program_name}")
 endmacro()
-# Tests that take seconds each; COST: they start first. A single test may be reported as skipped; a suite may not, as
+# Tests that take seconds each start first. A single test may be reported as skipped; a suite may not, as
 # another test of it may have failed.
 macro(declare_single name label)
   declare(${name} ${name} ${label})
-  set_tests_properties(${name} PROPERTIES COST 10 SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]")
+  set_tests_properties(${name} PROPERTIES COST ${cost} SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]")
 endmacro()
 macro(declare_suite)
   if(quick_tests AND all_tests STREQUAL quick_tests)

@@ -1,6 +1,7 @@
 #include "content/demo/assets.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <array>
 
@@ -16,7 +17,7 @@ std::vector<cook::Recooker::Job> shipped_jobs(const Options& options) {
                                                                      {"probes/clear_sky.json", "clear_sky.probe"},
                                                                      {"probes/night.json", "night.probe"},
                                                                      {"probes/studio.json", "studio.probe"},
-                                                                     {"scenes/cabinet.json", "cabinet.glb"}}};
+                                                                     {"scenes/cabinet.glb", "cabinet.scene"}}};
     std::vector<cook::Recooker::Job> jobs;
     for (const auto& [source, cooked] : kShipped)
         if (const auto path = options.content_folder / source; std::filesystem::exists(path))
@@ -24,9 +25,22 @@ std::vector<cook::Recooker::Job> shipped_jobs(const Options& options) {
     return jobs;
 }
 
+namespace {
+
+/// Beside the cooked assets where these can be written, else the user's.
+std::filesystem::path cache_folder(const Options& options) {
+    const bool writable = ::access(options.cooked_folder.c_str(), W_OK) == 0;
+    return writable ? options.cooked_folder : live::default_cache_folder();
+}
+
+}  // namespace
+
 LiveAssets open_assets(const Options& options) {
     return {modules::asset_types(),
-            {.probe_mapping = options.probe_mapping, .watch = options.watch, .follow_also = shipped_jobs(options)}};
+            {.probe_mapping = options.probe_mapping,
+             .watch = options.watch,
+             .follow_also = shipped_jobs(options),
+             .cache_folder = cache_folder(options)}};
 }
 
 std::vector<std::filesystem::path> probe_paths(const Options& options) {

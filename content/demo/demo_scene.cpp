@@ -6,23 +6,26 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
 #include <utility>
 
-#include "content/demo/play/hierarchy.h"
-#include "content/demo/scene_views.h"
+#include "content/demo/camera_path.h"
+#include "content/demo/play/body.h"
 #include "content/demo/toys_of_scene.h"
 #include "engine/core/error.h"
 #include "engine/core/log.h"
 #include "engine/render/gpu_mesh.h"
 #include "engine/render/material.h"
-#include "engine/render/world_bounds.h"
-#include "engine/scene/directional_light.h"
+#include "engine/render/scene_lights.h"
 #include "engine/scene/gltf_import.h"
-#include "engine/scene/node_label.h"
+#include "engine/scene/light.h"
 #include "engine/scene/transform.h"
+#include "modules/diffraction/asset/gltf_extension.h"
+#include "modules/diffraction/asset/material.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
+#include "modules/diffraction/runtime/glare_pattern.h"
 
 namespace rowland::demo {
 
@@ -78,7 +81,7 @@ DemoScene::DemoScene(const Options& options, LiveAssets& assets, render::Rendere
         if (own_view_) camera_ = views().front();
         add_part(scene_, [this, file = options.scene->string()](const auto& scene) { show_scene(scene, file); });
     } else {
-        add_part(assets.scene(options.mesh.value_or(options.cooked_folder / "cd.glb")),
+        add_part(assets.mesh(options.mesh.value_or(options.cooked_folder / "cd.glb")),
                  [this](const auto& mesh) { show_grating_mesh(mesh); });
         add_part(assets.load<diffraction::CookedMaterial>(
                      options.material.value_or(options.cooked_folder / "cd.material"), diffraction::kMaterialAssetType,
@@ -112,16 +115,15 @@ void DemoScene::add_surroundings(const Options& options, LiveAssets& assets) {
                           .base_colour = glm::vec3(0.95F, 0.93F, 0.88F), .metallic = 1.0F, .roughness = 0.12F});
     const ecs::Entity ground = add_under(root_);
     world_.add(ground, render::StandardMaterial{.base_colour = glm::vec3(0.18F), .metallic = 0.0F, .roughness = 0.6F});
-    add_part(assets.scene(options.cooked_folder / "sphere.glb"), [this, diffuse, metal](const auto& imported) {
-        scene::Mesh sphere = scene::merge_instances(imported);
+    add_part(assets.mesh(options.cooked_folder / "sphere.glb"), [this, diffuse, metal](scene::Mesh sphere) {
         fit_to_box(sphere, 2.0F * kSphereRadius);
         const render::MeshInstance instance = render::make_mesh_instance(std::move(sphere));
         world_.add(diffuse, instance);
         world_.add(metal, instance);
         meshes_changed_ = true;
     });
-    add_part(assets.scene(options.cooked_folder / "ground.glb"), [this, ground](const auto& imported) {
-        world_.add(ground, render::make_mesh_instance(scene::merge_instances(imported)));
+    add_part(assets.mesh(options.cooked_folder / "ground.glb"), [this, ground](const scene::Mesh& mesh) {
+        world_.add(ground, render::make_mesh_instance(scene::Mesh(mesh)));
         meshes_changed_ = true;
     });
 }
@@ -156,8 +158,7 @@ void DemoScene::show_scene(const scene::ImportedScene& imported, const std::stri
     world_.get<scene::Transform>(grating_) = fit;
 }
 
-void DemoScene::show_grating_mesh(const scene::ImportedScene& imported) {
-    scene::Mesh mesh = scene::merge_instances(imported);
+void DemoScene::show_grating_mesh(scene::Mesh mesh) {
     if (!disc_) fit_to_box(mesh, kOwnMeshSize);
     world_.add(grating_, render::make_mesh_instance(std::move(mesh)));
     meshes_changed_ = true;
@@ -260,6 +261,37 @@ const nlohmann::json* DemoScene::sheet() const {
 std::vector<scene::Camera> DemoScene::views() const {
     if (!own_view_) return {camera_};
     return all_views(*scene_, scene::merge_instances(*scene_));
+}
+
+namespace {
+
+diffraction::GltfGrating grating_of(const Sheet& sheet, const DemoScene& scene) {
+    if (!sheet.file.empty())
+        return diffraction::parse_gltf_extension(diffraction::load_material_json(sheet.file), sheet.file.string(),
+                                                 sheet.file.parent_path());
+    const nlohmann::json* json = scene.sheet();
+    return diffraction::parse_gltf_extension(json != nullptr ? *json : nlohmann::json(), sheet.name,
+                                             std::filesystem::path(), "/extras/glare");
+}
+
+}  // namespace
+
+std::vector<Sheet> sheets(const Options& options, const DemoScene& scene) {
+    if (options.glare) return {{options.glare->stem().string(), *options.glare}};
+    std::vector<Sheet> all;
+    if (scene.sheet() != nullptr) all.push_back({options.scene->filename().string() + "'s camera", {}});
+    for (const char* name : {"diffraction_glasses", "feather", "screen_door", "camera_under_display"})
+        if (const auto file = options.content_folder / "materials" / (std::string(name) + ".json");
+            std::filesystem::exists(file))
+            all.push_back({name, file});
+    return all;
+}
+
+post::GlareSettings glare_of(const Sheet& sheet, const DemoScene& scene, const glm::dmat3& xyz_to_working) {
+    const diffraction::GltfGrating grating = grating_of(sheet, scene);
+    return {.pattern = std::make_shared<post::GlarePattern>(
+                diffraction::glare_pattern(grating.material.grating, xyz_to_working)),
+            .angle = static_cast<float>(grating.groove_rotation)};
 }
 
 }  // namespace rowland::demo

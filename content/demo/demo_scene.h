@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -14,6 +15,7 @@
 #include "content/demo/options.h"
 #include "content/demo/play/play.h"
 #include "engine/ecs/world.h"
+#include "engine/post/glare.h"
 #include "engine/render/renderer.h"
 #include "engine/render/scene_instance.h"
 #include "engine/scene/camera.h"
@@ -70,7 +72,7 @@ class DemoScene {
     ecs::Entity add_under(ecs::Entity parent, const glm::vec3& position = glm::vec3(0.0F));
     void add_surroundings(const Options& options, LiveAssets& assets);
     void show_scene(const scene::ImportedScene& imported, const std::string& file);
-    void show_grating_mesh(const scene::ImportedScene& imported);
+    void show_grating_mesh(scene::Mesh mesh);
     void show_grating_material(const diffraction::CookedMaterial& cooked);
     void pose_stand();
 
@@ -94,5 +96,17 @@ class DemoScene {
     double stand_s_ = 0.0;  ///< for which the stand has moved
     scene::Camera camera_;
 };
+
+/// A sheet of glasses or a screen that one may look through.
+struct Sheet {
+    std::string name;
+    std::filesystem::path file;  ///< a material; empty: the scene's own
+};
+
+/// That of the command line, or the scene's own and the shipped ones.
+std::vector<Sheet> sheets(const Options& options, const DemoScene& scene);
+
+/// Reads a sheet. Throws Error (input).
+post::GlareSettings glare_of(const Sheet& sheet, const DemoScene& scene, const glm::dmat3& xyz_to_working);
 
 }  // namespace rowland::demo

@@ -5,8 +5,8 @@
 #include "content/demo/assets.h"
 #include "content/demo/play/action.h"
 #include "engine/command_line/command_line.h"
-#include "engine/core/outputs.h"
-#include "engine/view/capture.h"
+#include "engine/core/file.h"
+#include "engine/view/picture.h"
 
 namespace rowland::demo {
 
@@ -26,9 +26,10 @@ constexpr const char* kFooter =
 void add_options(CLI::App& app, Options& options) {
     app::add_common_options(app, options, "Write the picture as PNG");
     app.add_flag("--headless", options.headless, "Render without a window");
-    app.add_option("--scene", options.scene,
-                   "glTF or GLB file to show, with its own materials, in place of the cabinet. One with a camera is\n"
-                   "shown alone and unscaled");
+    app.add_option(
+        "--scene", options.scene,
+        "glTF, GLB or cooked .scene file to show in place of the cabinet. glTF and GLB are cooked first, once\n"
+        "for each content. A scene with a camera is shown alone and unscaled");
     app.add_flag("--disc", options.disc, "Show one CD between two spheres in place of the cabinet");
     app.add_option("--mesh", options.mesh, "glTF or GLB file to show as a grating in place of that CD");
     app.add_option("--material", options.material, "Material of that CD or mesh: .json, or a cooked .material");
@@ -106,7 +107,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
     if (!parse_command_line(app, argc, argv)) return std::nullopt;
     if (options.cooked_folder.empty()) options.cooked_folder = default_cooked_folder();
     if (!options.scene && !options.mesh && !options.material && !options.disc)
-        options.scene = options.cooked_folder / "cabinet.glb";
+        options.scene = options.cooked_folder / "cabinet.scene";
     return options;
 }
 

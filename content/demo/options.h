@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/app/options.h"
+#include "engine/app/drawing_program.h"
 
 namespace rowland::demo {
 

@@ -1,16 +1,17 @@
 #include "content/demo/session.h"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
 
-#include "content/demo/play/hierarchy.h"
-#include "engine/app/unused_file.h"
+#include "content/demo/play/body.h"
+#include "content/demo/play/play.h"
+#include "engine/app/drawing_program.h"
 #include "engine/core/error.h"
 #include "engine/core/log.h"
+#include "engine/core/text.h"
 #include "engine/scene/transform.h"
-#include "engine/view/capture.h"
+#include "engine/view/picture.h"
 #include "modules/material_types.h"
 
 namespace rowland::demo {
@@ -290,6 +291,27 @@ std::string Session::failure() const {
     if (!shader_failure_.empty()) return shader_failure_;
     if (const auto failures = assets_.failures(); !failures.empty()) return failures.front();
     return scene_.failures().empty() ? std::string() : scene_.failures().front();
+}
+
+std::string scene_name(const Options& options) {
+    const auto& file = options.scene ? options.scene : options.mesh;
+    return file ? valid_utf8(file->filename().string()) : "disc";
+}
+
+std::optional<Recording> recording_for(const Options& options) {
+    if (!options.play) return std::nullopt;
+    Recording recording = load_recording(*options.play);
+    // A scene is the same as a glTF and cooked.
+    const auto stem = [](const std::string& name) { return std::filesystem::path(name).stem(); };
+    if (const std::string shown = scene_name(options); stem(recording.head.scene) != stem(shown))
+        refuse_input(options.play->string(), "line 1",
+                     fmt::format("a recording with the scene {}", recording.head.scene),
+                     fmt::format("one with {}", shown), "name that scene with --scene, --mesh or --disc");
+    return recording;
+}
+
+void log_state(const Play& play) {
+    log_info("played {} steps, state {}", play.steps(), play.fingerprint());
 }
 
 }  // namespace rowland::demo

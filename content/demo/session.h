@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <glm/vec2.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,9 +14,9 @@
 #include "content/demo/looks/comparison.h"
 #include "content/demo/options.h"
 #include "content/demo/play/play.h"
-#include "content/demo/sheets.h"
+#include "content/demo/play/recording.h"
 #include "engine/asset/file_watch.h"
-#include "engine/core/messages.h"
+#include "engine/core/log.h"
 #include "engine/post/ocio_config.h"
 #include "engine/view/picture.h"
 
@@ -104,5 +105,17 @@ class Session {
     std::size_t sheet_ = 0;  ///< that one looks through: one more than its index; 0: none
     std::vector<Action> screenshots_;
 };
+
+class Play;
+
+/// What the options show, by the name that a recording stores.
+std::string scene_name(const Options& options);
+
+/// The recording that the options name, if they name one. Throws Error (input) if it is damaged or was made with
+/// another scene.
+std::optional<Recording> recording_for(const Options& options);
+
+/// Logs the step count and fingerprint of a play. A recording and its playback end with the same line.
+void log_state(const Play& play);
 
 }  // namespace rowland::demo

@@ -10,9 +10,9 @@
 #include <numbers>
 #include <optional>
 
-#include "content/demo/play/hierarchy.h"
+#include "content/demo/play/body.h"
 #include "engine/render/gpu_mesh.h"
-#include "engine/scene/node_label.h"
+#include "engine/scene/transform.h"
 
 namespace rowland::demo {
 

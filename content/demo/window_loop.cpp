@@ -10,8 +10,7 @@
 #include <vector>
 
 #include "content/demo/hud/hud.h"
-#include "content/demo/play/play_clock.h"
-#include "content/demo/replay.h"
+#include "content/demo/play/recording.h"
 #include "content/demo/session.h"
 #include "engine/app/window_loop.h"
 #include "engine/core/parallel.h"

@@ -11,7 +11,7 @@ set(shaders_folder ${CMAKE_INSTALL_DATADIR}/rowland/shaders)
 
 # rowland_export(<component> [<target> <name>]...)
 # Installs the targets and the headers of their folders; outside they are called Rowland::<name>. Headers keep their
-# paths, so that #include <engine/math/sh_basis.h> is the same inside and outside.
+# paths, so that #include <engine/math/spherical_harmonics.h> is the same inside and outside.
 function(rowland_export component)
   set(pairs ${ARGN})
   while(pairs)
@@ -55,30 +55,39 @@ install(DIRECTORY modules/diffraction/representations DESTINATION ${shaders_fold
         COMPONENT library FILES_MATCHING PATTERN "*.glsl")
 foreach(folder IN ITEMS engine/gpu engine/render modules/diffraction modules/thin_film)
   install(DIRECTORY ${folder}/shaders DESTINATION ${shaders_folder}/${folder} COMPONENT library
-          FILES_MATCHING PATTERN "*.glsl" PATTERN "*_block.h")
+          FILES_MATCHING PATTERN "*.glsl" PATTERN "*_blocks.h")
 endforeach()
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT library)
 
 rowland_export(runtime
   rowland_ecs Ecs
+  rowland_cook Cook
   rowland_scene Scene
+  rowland_scene_cook SceneCook
+  rowland_lighting_cook LightingCook
+  rowland_module Module
+  rowland_live Live
   rowland_platform Platform
   rowland_gpu Gpu
   rowland_post Post
   rowland_render Render
   rowland_view View
+  rowland_diffraction_reference DiffractionReference
+  rowland_diffraction_evaluate DiffractionEvaluate
+  rowland_diffraction_cook DiffractionCook
   rowland_diffraction Diffraction
   rowland_thin_film_asset ThinFilmAsset
+  rowland_thin_film_cook ThinFilmCook
   rowland_thin_film ThinFilm)
 rowland_install_headers(runtime
   ${PROJECT_SOURCE_DIR}/engine/render/shaders ${PROJECT_SOURCE_DIR}/modules/diffraction/shaders
   ${PROJECT_SOURCE_DIR}/modules/thin_film/shaders)
 foreach(module IN ITEMS diffraction thin_film)
-  install(FILES modules/${module}/module.h DESTINATION ${headers_folder}/modules/${module} COMPONENT runtime)
+  install(FILES modules/${module}/cook.h modules/${module}/module.h DESTINATION ${headers_folder}/modules/${module} COMPONENT runtime)
 endforeach()
 
 install(TARGETS rowland-cook rowland-trade RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT tools)
-# What Scene and the tools run beside them; engine/core/child_process.h says where it is looked for.
+# What Scene and the tools run beside them; engine/core/program.h says where it is looked for.
 foreach(component IN ITEMS runtime tools)
   install(TARGETS rowland-decode-draco RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/rowland COMPONENT ${component})
 endforeach()

@@ -1,12 +1,10 @@
 #!/usr/bin/env bash
 # web.sh [--out FOLDER] [--port N]: builds the package @rowland/three and the page over it, and serves the page on this
-# machine alone, or writes it into a folder. `./rowland web` installs what it needs before, and builds rowland-cook, which
-# ROWLAND_COOK names.
+# machine alone, or writes it into a folder. `./rowland web` installs what it needs before.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 build="$here/../../build/web"
 site="$build/site" port=8080 serve=1
-cook=${ROWLAND_COOK:-$here/../../build/release/bin/rowland-cook}
 
 say() { printf '%s\n' "$*" >&2; }
 refuse() { say "error: web takes --out FOLDER and --port N, found '$1'"; exit 2; }
@@ -21,7 +19,6 @@ while [ $# -gt 0 ]; do
     shift 2
 done
 
-[ -x "$cook" ] || { say "error: no $cook, which cooks the cabinet; ./rowland web builds it"; exit 1; }
 mkdir -p "$build/three"
 build=$(realpath "$build")
 say "building the page for browsers"
@@ -32,8 +29,7 @@ say "building the page for browsers"
         cmake --build "$build/bake" &&
         cp -RT "$here/three" "$build/three" && cd "$build/three" &&
         npm ci --ignore-scripts && npm run build &&
-        node "$here/page/cabinet.mjs" "$build/cabinet.json" && "$cook" cook "$build/cabinet.json" -o "$build/cabinet.glb" &&
-        node "$here/page/build.mjs" "$site" "$build/three" "$build/cabinet.glb"
+        node "$here/page/build.mjs" "$site" "$build/three"
 } >"$build/build.log" 2>&1 || { cat "$build/build.log" >&2; exit 1; }
 
 if [ $serve -eq 0 ]; then

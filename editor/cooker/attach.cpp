@@ -7,14 +7,13 @@
 #include <charconv>
 #include <numbers>
 
-#include "engine/cook/depfile.h"
-#include "engine/cook/foreign_failure.h"
+#include "engine/cook/cook_source.h"
+#include "engine/cook/source_file.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/core/json_reader.h"
 #include "engine/core/log.h"
-#include "engine/core/outputs.h"
-#include "engine/core/utf8.h"
+#include "engine/core/text.h"
 #include "engine/scene/editable_gltf.h"
 
 namespace rowland::editor {

@@ -21,9 +21,9 @@ struct AttachOptions {
     std::optional<std::filesystem::path> depfile;
 };
 
-/// Sets extensions of a glTF's materials; all else stays byte for byte. Materials are named, or "#" and the number from
-/// 0. All is checked as the engine would before anything is written. Throws Error (input), for a name that no material
-/// or more than one has as well, and Error (system) as EditableGltf::save() does.
+/// Sets extensions of a glTF's materials; all else keeps its value and order. Materials are named, or "#" and the
+/// number from 0. All is checked as the engine would before anything is written. Throws Error (input), for a name that
+/// no material or more than one has as well, and Error (system) as EditableGltf::save() does.
 void attach(const cook::Registry& registry, const AttachOptions& options);
 
 /// A line for each material: its number, its name, what is attached, the meshes that use it; separated by tabs. What is

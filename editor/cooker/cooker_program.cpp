@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -30,7 +31,7 @@ void add_cook_command(CLI::App& program, const cook::Registry& registry) {
         unsigned threads = 0;
     };
     const auto options = std::make_shared<Options>();
-    CLI::App* command = program.add_subcommand("cook", "Cook a source: material, probe recipe, mesh recipe");
+    CLI::App* command = program.add_subcommand("cook", "Cook a source: material, probe or mesh recipe, glTF scene");
     command->add_option("SOURCE", options->source, "The source file")->required();
     command->add_option("-o,--output", options->output, "The cooked file; its folder is created")->required();
     command->add_option("--depfile", options->settings.depfile, "Write the files that were read, in Makefile syntax");
@@ -80,6 +81,23 @@ void add_info_command(CLI::App& program, const cook::Registry& registry) {
     });
 }
 
+void add_schema_command(CLI::App& program, const cook::Registry& registry) {
+    std::map<std::string, std::function<nlohmann::ordered_json()>> schemas;
+    for (const cook::AssetType& type : registry.types())
+        if (type.schema) schemas[type.name] = type.schema;
+    for (const cook::GltfExtension& extension : registry.gltf_extensions())
+        if (extension.schema) schemas[extension.name] = extension.schema;
+    std::vector<std::string> names;
+    for (const auto& [known, schema] : schemas) names.push_back(known);
+    const auto name = std::make_shared<std::string>();
+    CLI::App* command = program.add_subcommand("schema", "Print the JSON Schema of a kind of source, for editors");
+    command->add_option("TYPE", *name, "What the sources are cooked to, or a glTF extension")
+        ->required()
+        ->check(CLI::IsMember(names));
+    command->footer("Example: rowland-cook schema material > material.schema.json");
+    command->callback([name, schemas] { fmt::print("{}\n", schemas.at(*name)().dump(2)); });
+}
+
 }  // namespace
 
 int run_cooker(int argc, const char* const* argv, const cook::Registry& registry,
@@ -95,6 +113,7 @@ int run_cooker(int argc, const char* const* argv, const cook::Registry& registry
         add_cook_command(program, registry);
         add_check_command(program, registry, exit_code);
         add_info_command(program, registry);
+        add_schema_command(program, registry);
         add_attach_commands(program, registry, exit_code);
         add_farm_commands(program, registry, exit_code);
         for (const AddCommand add : more) add(program);

@@ -12,13 +12,11 @@
 
 #include "engine/core/error.h"
 #include "engine/core/file.h"
-#include "engine/core/outputs.h"
 #include "engine/lighting/probe_image.h"
-#include "engine/math/sh_basis.h"
+#include "engine/math/spherical_harmonics.h"
 #include "modules/diffraction/asset/cooked_material.h"
-#include "modules/diffraction/asset/material_json.h"
-#include "modules/diffraction/portable/portable_material.h"
-#include "modules/diffraction/portable/portable_probe.h"
+#include "modules/diffraction/asset/material.h"
+#include "modules/diffraction/portable/portable.h"
 
 namespace rowland::editor {
 

@@ -17,7 +17,6 @@
 #include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/core/log.h"
-#include "engine/core/outputs.h"
 #include "engine/core/parallel.h"
 
 namespace rowland::editor {

@@ -10,9 +10,9 @@
 
 #include "engine/cook/source_file.h"
 #include "engine/core/error.h"
-#include "engine/core/hash.h"
+#include "engine/core/file.h"
 #include "engine/core/json_reader.h"
-#include "engine/core/utf8.h"
+#include "engine/core/text.h"
 
 namespace rowland::editor {
 
@@ -86,7 +86,7 @@ std::vector<Job> plan_jobs(const cook::Registry& registry, std::span<const std::
     }
     if (jobs.empty())
         refuse_input(sources.empty() ? "" : sources.front().string(), {}, "nothing that can be cooked",
-                     "materials, probe, mesh or scene recipes");
+                     "materials, probe or mesh recipes, glTF scenes");
     sort_jobs(jobs);
     return jobs;
 }

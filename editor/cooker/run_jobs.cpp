@@ -9,13 +9,12 @@
 #include <utility>
 #include <vector>
 
-#include "editor/cooker/job_record.h"
+#include "engine/cook/cook_record.h"
 #include "engine/cook/cook_source.h"
 #include "engine/cook/source_file.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
-#include "engine/core/file_lock.h"
-#include "engine/core/progress.h"
+#include "engine/core/log.h"
 
 namespace rowland::editor {
 
@@ -46,10 +45,10 @@ class Worker {
         if (!lock) return std::nullopt;
         if (is_done(job)) return JobResult::UpToDate;  // the lock's last owner did it
         const cook::BakedAsset baked = cook::cook_source(registry_, job.source, job.output);
-        write_job_record(record_file(job), {.cooker = cooker_,
-                                            .dependencies = baked.dependencies,
-                                            .content_hash = baked.asset.header.content_hash.hex(),
-                                            .output_hash = hex(cook::hash_file(job.output))});
+        cook::write_cook_record(record_file(job), {.cooker = cooker_,
+                                                   .dependencies = baked.dependencies,
+                                                   .content_hash = baked.asset.header.content_hash.hex(),
+                                                   .output_hash = hex(cook::hash_file(job.output))});
         return JobResult::Cooked;
     }
 
@@ -57,7 +56,7 @@ class Worker {
     std::filesystem::path record_file(const Job& job) const { return state_folder_ / (job.id + ".json"); }
 
     bool is_done(const Job& job) {
-        const std::optional<JobRecord> record = read_job_record(record_file(job));
+        const std::optional<cook::CookRecord> record = cook::read_cook_record(record_file(job));
         const cook::AssetType* type = registry_.find(job.kind);
         if (!record || type == nullptr || record->cooker != cooker_) return false;
         if (record->dependencies.empty() || record->dependencies.front() != job.source) return false;

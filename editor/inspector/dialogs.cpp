@@ -4,12 +4,38 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <cstdlib>
 #include <cstring>
+#include <system_error>
 #include <utility>
 
 namespace rowland::inspector {
 
 namespace {
+
+/// ASCII letters in lower case; other bytes as they are.
+std::string lower(std::string text) {
+    std::ranges::transform(text, text.begin(),
+                           [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+    return text;
+}
+
+/// Whether file_kind_name() lists the extension.
+bool lists_extension(FileKind kind, const std::string& extension) {
+    const std::string name = file_kind_name(kind);
+    return !extension.empty() &&
+           (name.find(extension + ",") != std::string::npos || name.find(extension + ")") != std::string::npos);
+}
+
+/// The longest common beginning of all names.
+std::string common_beginning(const std::vector<ListedFile>& files) {
+    if (files.empty()) return {};
+    std::string common = files.front().name;
+    for (const ListedFile& file : files)
+        common.resize(static_cast<std::size_t>(std::ranges::mismatch(common, file.name).in1 - common.begin()));
+    return common;
+}
 
 bool named_button(const char* name, ControlMap& controls) {
     const bool pressed = ImGui::Button(name);
@@ -21,7 +47,7 @@ bool escape_pressed() {
     return ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
 }
 
-/// Tab in the path's field: types as much as all listed names have in common.
+/// Tab in the path's field: completes the longest common beginning of all listed names.
 int complete_path(ImGuiInputTextCallbackData* field) {
     const auto& completed = *static_cast<const std::string*>(field->UserData);
     field->DeleteChars(0, field->BufTextLen);
@@ -40,12 +66,58 @@ std::string with_slash(const std::filesystem::path& folder) {
 
 }  // namespace
 
+const char* file_kind_name(FileKind kind) {
+    constexpr std::array kNames = {"all kinds",
+                                   "materials (.json)",
+                                   "models (.gltf, .glb)",
+                                   "lights (.hdr, .exr, .pic, .json)",
+                                   "tables of efficiencies (.csv)",
+                                   "pictures of grooves (.png, .jpg, .jpeg)"};
+    return kNames.at(static_cast<std::size_t>(kind));
+}
+
+bool is_of_kind(const std::filesystem::path& file, FileKind kind) {
+    const std::string extension = lower(file.extension().string());
+    if (kind != FileKind::All) return lists_extension(kind, extension);
+    return std::ranges::any_of(kFileKinds, [&](FileKind each) { return lists_extension(each, extension); });
+}
+
+std::filesystem::path resolved(const std::string& typed, const std::filesystem::path& folder) {
+    const char* home = std::getenv("HOME");
+    if (home != nullptr && typed.starts_with("~/")) return std::filesystem::path(home) / typed.substr(2);
+    return folder / typed;
+}
+
+FileList list_files(const std::string& typed, const std::filesystem::path& folder, FileKind kind) {
+    const std::filesystem::path path = resolved(typed, folder);
+    const std::string beginning = path.filename().string();
+    FileList list{.folder = path.parent_path(), .files = {}, .completed = typed};
+    std::error_code failure;
+    std::filesystem::directory_iterator entry(list.folder, failure);
+    for (; !failure && entry != std::filesystem::directory_iterator(); entry.increment(failure)) {
+        const std::string name = entry->path().filename().string();
+        if (!lower(name).starts_with(lower(beginning)) || (name.starts_with('.') && !beginning.starts_with('.')))
+            continue;
+        std::error_code unknown;
+        const bool is_folder = entry->is_directory(unknown);
+        if (is_folder || is_of_kind(name, kind)) list.files.push_back({name, is_folder});
+    }
+    std::ranges::sort(list.files, [](const ListedFile& a, const ListedFile& b) {
+        return a.folder != b.folder ? a.folder : std::pair(lower(a.name), a.name) < std::pair(lower(b.name), b.name);
+    });
+    const std::string common = common_beginning(list.files);
+    if (common.size() >= beginning.size() && !list.files.empty())
+        list.completed = typed.substr(0, typed.size() - beginning.size()) + common +
+                         (list.files.size() == 1 && list.files.front().folder ? "/" : "");
+    return list;
+}
+
 void Dialogs::ask(Kind kind, std::string path) {
     kind_ = kind;
     path_ = std::move(path);
     folder_ = std::filesystem::current_path();
     replaced_.clear();
-    asked_ = type_ = true;
+    asked_ = focus_path_ = true;
 }
 
 void Dialogs::ask_open() {
@@ -57,7 +129,7 @@ void Dialogs::ask_open() {
 }
 
 void Dialogs::ask_save_as(std::function<void()> after) {
-    const Document& document = session_.document();
+    const Document& document = session_.opened.document();
     after_ = std::move(after);
     shown_ = document.is_scene() ? FileKind::Models : FileKind::Materials;
     ask(Kind::SaveAs, document.path().empty()
@@ -68,30 +140,31 @@ void Dialogs::ask_save_as(std::function<void()> after) {
 void Dialogs::open(const std::filesystem::path& path) {
     const auto now = [this, path] {
         const auto last_refusal = [this] {
-            const Message* last = session_.messages().empty() ? nullptr : &session_.messages().back();
+            const Message* last = session_.messages.all().empty() ? nullptr : &session_.messages.all().back();
             return last != nullptr && last->failure ? std::optional(last->number) : std::nullopt;
         };
         const auto before = last_refusal();
         session_.open(path);
         if (last_refusal() == before) remember(layout_, path);
     };
-    session_.replaces_document(path) ? unless_lost(now) : now();
+    session_.opened.is_replaced_by(path) ? ask_unsaved(now) : now();
 }
 
 void Dialogs::save(std::function<void()> after) {
-    if (session_.document().path().empty()) return ask_save_as(std::move(after));
-    session_.save();
-    if (after && !session_.document().dirty()) after();
+    if (session_.opened.document().path().empty()) return ask_save_as(std::move(after));
+    session_.opened.save();
+    if (after && !session_.opened.document().dirty()) after();
 }
 
-void Dialogs::unless_lost(std::function<void()> action) {
-    const Document& document = session_.document();
+void Dialogs::ask_unsaved(std::function<void()> action) {
+    const Document& document = session_.opened.document();
     if (!document.dirty() || !document.can_undo()) return action();
     after_ = std::move(action);
     ask(Kind::Unsaved, {});
 }
 
 void Dialogs::draw(ControlMap& controls) {
+    draw_overwrite(controls);
     const char* title = kind_ == Kind::Open ? "Open" : kind_ == Kind::SaveAs ? "Save as" : "Unsaved edits";
     if (std::exchange(asked_, false)) ImGui::OpenPopup(title);
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
@@ -107,8 +180,8 @@ void Dialogs::draw_file(ControlMap& controls) {
     const FileList list = list_files(path_, folder_, shown_);
     ImGui::TextUnformatted(
         opens ? "Type a path (Tab completes it) or choose a file. Files may be dropped onto the window."
-        : session_.document().is_scene() ? "A glTF file (.gltf, .glb)."
-                                         : "A material file (.json).");
+        : session_.opened.document().is_scene() ? "A glTF file (.gltf, .glb)."
+                                                : "A material file (.json).");
     const bool entered = draw_path(list, controls);
     draw_list(list, controls);
     if (opens && !layout_.recent.empty()) {
@@ -131,7 +204,7 @@ bool Dialogs::draw_path(const FileList& list, ControlMap& controls) {
     std::array<char, 4096> buffer{};
     std::strncpy(buffer.data(), path_.c_str(), buffer.size() - 1);
     ImGui::SetNextItemWidth(44.0F * ImGui::GetFontSize());
-    if (std::exchange(type_, false)) ImGui::SetKeyboardFocusHere();
+    if (std::exchange(focus_path_, false)) ImGui::SetKeyboardFocusHere();
     std::string completed = list.completed;
     const bool entered = ImGui::InputText("##path", buffer.data(), buffer.size(),
                                           ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll |
@@ -150,8 +223,8 @@ void Dialogs::draw_list(const FileList& list, ControlMap& controls) {
     const auto row = [&](const std::string& name, const std::string& path) {
         if (ImGui::Selectable(name.c_str(), false, ImGuiSelectableFlags_DontClosePopups)) {
             path_ = path;
-            type_ = name.ends_with('/');
-            if (!type_ && kind_ == Kind::Open) choose(path_);
+            focus_path_ = name.ends_with('/');
+            if (!focus_path_ && kind_ == Kind::Open) choose(path_);
         }
         controls.mark("file " + name);
     };
@@ -191,26 +264,26 @@ void Dialogs::draw_recent(ControlMap& controls) {
 void Dialogs::choose(const std::filesystem::path& path) {
     if (is_folder(path)) {
         path_ = with_slash(path);
-        type_ = true;
+        focus_path_ = true;
         return;
     }
     std::error_code ignored;
-    const bool own = std::filesystem::equivalent(path, session_.document().path(), ignored);
+    const bool own = std::filesystem::equivalent(path, session_.opened.document().path(), ignored);
     if (kind_ == Kind::SaveAs && !own && replaced_ != path && std::filesystem::exists(path, ignored)) {
         replaced_ = path;
-        type_ = true;
+        focus_path_ = true;
         return;
     }
     ImGui::CloseCurrentPopup();
     if (kind_ == Kind::Open) return open(path);
-    session_.save_as(path);
-    if (session_.document().dirty()) return;
+    session_.opened.save_as(path);
+    if (session_.opened.document().dirty()) return;
     remember(layout_, path);
     if (const auto after = std::exchange(after_, nullptr)) after();
 }
 
 void Dialogs::draw_unsaved(ControlMap& controls) {
-    ImGui::Text("%s has unsaved edits.", session_.document().name().c_str());
+    ImGui::Text("%s has unsaved edits.", session_.opened.document().name().c_str());
     const bool saves = named_button("Save", controls);
     ImGui::SameLine();
     const bool discards = named_button("Discard", controls);
@@ -221,6 +294,24 @@ void Dialogs::draw_unsaved(ControlMap& controls) {
     auto action = std::exchange(after_, nullptr);
     if (stays) return;
     saves ? save(std::move(action)) : action();
+}
+
+void Dialogs::draw_overwrite(ControlMap& controls) {
+    constexpr const char* kTitle = "Changed by another program";
+    if (session_.opened.asks_to_overwrite && !ImGui::IsPopupOpen(kTitle)) ImGui::OpenPopup(kTitle);
+    if (!ImGui::BeginPopupModal(kTitle, nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings))
+        return;
+    ImGui::Text("%s was changed since it was opened here.", session_.opened.document().name().c_str());
+    ImGui::TextDisabled("Overwriting loses those changes. To keep both, save under another name.");
+    const bool overwrite = named_button("Overwrite", controls);
+    ImGui::SameLine();
+    const bool keep = named_button("Keep editing", controls);
+    if (overwrite || keep) {
+        session_.opened.asks_to_overwrite = false;
+        ImGui::CloseCurrentPopup();
+    }
+    if (overwrite) session_.opened.save(true);
+    ImGui::EndPopup();
 }
 
 }  // namespace rowland::inspector

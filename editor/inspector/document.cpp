@@ -7,6 +7,9 @@
 
 #include "engine/core/error.h"
 #include "engine/core/file.h"
+#include "engine/core/text.h"
+#include "modules/diffraction/asset/gltf_extension.h"
+#include "modules/diffraction/asset/material.h"
 
 namespace rowland::inspector {
 
@@ -32,10 +35,45 @@ std::filesystem::path unsaved_file(const std::filesystem::path& folder, const st
 
 }  // namespace
 
+std::shared_ptr<const MaterialSource> accept_material(const Json& material, const std::string& file,
+                                                      const std::filesystem::path& folder) {
+    diffraction::Material parsed =
+        diffraction::parse_material(nlohmann::json(material), file, diffraction::read_beside(folder));
+    diffraction::GltfGrating alone;
+    alone.material = parsed;
+    alone.has_base = true;
+    return std::make_shared<const MaterialSource>(MaterialSource{material, std::move(parsed), file, std::move(alone)});
+}
+
+std::shared_ptr<const MaterialSource> accept_extension(const Json& extension, const std::string& file,
+                                                       const std::filesystem::path& folder, const std::string& pointer,
+                                                       const NewTextures* textures) {
+    diffraction::GltfGrating parsed =
+        diffraction::parse_gltf_extension(nlohmann::json(extension), file, folder, pointer);
+    MaterialSource source{extension, parsed.material, file, std::move(parsed)};
+    if (textures != nullptr && source.gltf.groove_texture)
+        source.groove_picture = textures->find(static_cast<std::size_t>(source.gltf.groove_texture->index));
+    return std::make_shared<const MaterialSource>(std::move(source));
+}
+
+Json moved(Json material, const std::filesystem::path& from, const std::filesystem::path& to) {
+    if (from == to) return material;
+    diffraction::move_named_files(material, from, to);
+    if (!material.is_object() || !material.contains("quality") || !material["quality"].contains("probes"))
+        return material;
+    for (Json& probe : material["quality"]["probes"]) {
+        Json& name = probe.is_object() ? probe["image"] : probe;
+        if (name.is_string())
+            name = require_utf8(std::filesystem::proximate(from / name.get<std::string>(), to),
+                                "rename it, or save elsewhere");
+    }
+    return material;
+}
+
 Document Document::open(const std::filesystem::path& path) {
     Document document = open_as_new(path);
     document.path_ = path;
-    document.note_saved();
+    document.mark_saved();
     return document;
 }
 
@@ -68,7 +106,7 @@ Document Document::open_scene(scene::EditableGltf file, std::span<const scene::P
     const auto first = std::ranges::find_if(document.slots_, [](const Slot& slot) { return !slot.json.is_null(); });
     if (first != document.slots_.end()) document.chosen_ = static_cast<std::size_t>(first - document.slots_.begin());
     document.file_ = std::move(file);
-    document.note_saved();
+    document.mark_saved();
     return document;
 }
 
@@ -148,7 +186,7 @@ void Document::reparse(Slot& slot) const {
                                    : accept_material(slot.json, name_, folder_);
     } catch (const Error& error) {
         const Field* field = field_of_refusal(error.info().location, slot.json);
-        // The parser names the table's or the height map's file, not the material's, if its content is wrong.
+        // For wrong content of a table or a height map the parser names that file instead of the material's.
         if (field == nullptr && error.info().file != name_) field = shown_field("/grating/profile/file", slot.json);
         slot.refusal = Refusal{field, error.what()};
     }
@@ -165,7 +203,7 @@ void Document::require_accepted() const {
                          "nothing was written; correct the field or undo");
 }
 
-void Document::note_saved() {
+void Document::mark_saved() {
     for (Slot& slot : slots_) {
         slot.in_file = slot.json;
         slot.saved = slot.json.is_null() ? nullptr : slot.accepted;
@@ -209,7 +247,7 @@ void Document::save(bool over_changes) {
         refuse_input(name_, {}, "a new material", "a file to save it to", "save it under a name");
     }
     write(path_, over_changes);
-    note_saved();
+    mark_saved();
 }
 
 void Document::save_as(const std::filesystem::path& path) {
@@ -226,7 +264,7 @@ void Document::save_as(const std::filesystem::path& path) {
         slots_[i].json = there;
         reparse(slots_[i]);
     }
-    note_saved();
+    mark_saved();
 }
 
 void Document::write_copy(const std::filesystem::path& path, const std::filesystem::path& folder) const {

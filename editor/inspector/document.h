@@ -9,33 +9,81 @@
 #include <vector>
 
 #include "editor/inspector/field.h"
-#include "editor/inspector/material_source.h"
-#include "editor/inspector/new_textures.h"
-#include "editor/inspector/ordered_json.h"
+#include "engine/image/byte_image.h"
 #include "engine/scene/editable_gltf.h"
+#include "modules/diffraction/asset/gltf_extension.h"
+#include "modules/diffraction/asset/material.h"
 
 namespace rowland::inspector {
 
-/// Why the material as edited is refused.
+/// A picture that a scene file does not hold yet.
+struct NewTexture {
+    std::string name;                                 ///< of the file it becomes
+    std::vector<std::byte> bytes;                     ///< PNG or JPEG
+    std::shared_ptr<const image::ByteImage> picture;  ///< decoded
+};
+
+/// Pictures that materials of a scene use before they are saved. Their texture indices are above those of any file.
+class NewTextures {
+ public:
+    static constexpr std::size_t kFirst = 1'000'000;
+
+    /// Adds a PNG or JPEG; returns its index, kFirst or above. Throws Error (input) naming `name` if it cannot be read.
+    std::size_t add(std::vector<std::byte> bytes, const std::string& name) {
+        auto picture = std::make_shared<const image::ByteImage>(image::decode_byte_image(bytes, name));
+        all_.push_back(std::make_shared<const NewTexture>(NewTexture{name, std::move(bytes), std::move(picture)}));
+        return kFirst + all_.size() - 1;
+    }
+    /// The texture with that index; null if there is none.
+    std::shared_ptr<const NewTexture> find(std::size_t index) const {
+        return index >= kFirst && index - kFirst < all_.size() ? all_[index - kFirst] : nullptr;
+    }
+
+ private:
+    std::vector<std::shared_ptr<const NewTexture>> all_;
+};
+
+/// A material that the module's parser accepted, with its source. Never changes, so the pointer to it is its identity.
+struct MaterialSource {
+    Json json;
+    diffraction::Material material;
+    std::string name;                                       ///< of the file, for messages
+    diffraction::GltfGrating gltf = {};                     ///< `material` and, of a scene's, its grooves on the mesh
+    std::shared_ptr<const NewTexture> groove_picture = {};  ///< null: a texture of the file, or none
+};
+
+/// Parses a material file's object, or a scene material's extension, whose texture may be one of `textures`. Named
+/// files are relative to `folder`. Throws Error (input) naming `file` and a location below `pointer`.
+std::shared_ptr<const MaterialSource> accept_material(const Json& material, const std::string& file,
+                                                      const std::filesystem::path& folder);
+std::shared_ptr<const MaterialSource> accept_extension(const Json& extension, const std::string& file,
+                                                       const std::filesystem::path& folder,
+                                                       const std::string& pointer = "",
+                                                       const NewTextures* textures = nullptr);
+
+/// The material with its file names, which are relative to `from`, relative to `to`.
+Json moved(Json material, const std::filesystem::path& from, const std::filesystem::path& to);
+
+/// Why the edited material is refused.
 struct Refusal {
-    const Field* field = nullptr;  ///< null: it is about no field
+    const Field* field = nullptr;  ///< null: no single field
     std::string message;
 };
 
-/// What the editor edits, with its history for undo and redo: a material file, or the gratings of all materials of a
-/// scene file, one of which is chosen. A value that the module's parser refuses stays in json(); accepted() is then
-/// still the last material without such a value.
+/// The edited material file, or the gratings of all materials of a scene file, one of which is chosen; with the history
+/// for undo and redo. json() may contain values that the module's parser refuses; accepted() is the last material
+/// without such a value.
 class Document {
  public:
     /// Opens a material file. Throws Error (input) if it is refused; nothing is written.
     static Document open(const std::filesystem::path& path);
-    /// Opens a file as the start of a new material, which save() does not write over. Throws Error (input).
+    /// Opens a file as the start of a new material; save() never overwrites the file. Throws Error (input).
     static Document open_as_new(const std::filesystem::path& path);
     /// A new material. Files that it names are relative to `folder`. Throws Error (input) naming `name`.
     static Document make_new(Json material, std::string name, std::filesystem::path folder);
-    /// The gratings of a scene: of its materials, then of primitives without one (`without_material`), which get a
-    /// material when they are saved with a grating. The first grating is chosen, else the first material. Throws Error
-    /// (input) if one of them is refused.
+    /// The gratings of a scene: of its materials, then of the primitives `without_material`, which get a material when
+    /// they are saved with a grating. Chooses the first material with a grating, else the first. Throws Error (input)
+    /// if a grating is refused.
     static Document open_scene(scene::EditableGltf file, std::span<const scene::PrimitiveId> without_material = {});
 
     bool is_scene() const { return file_.has_value(); }
@@ -48,7 +96,7 @@ class Document {
     const Json& json() const { return json(chosen_); }
     const Json& json(std::size_t material) const { return slots_.at(material).json; }
     bool has_grating() const { return accepted() != nullptr; }
-    /// The last material that was not refused; another pointer whenever it changes. Null: no grating.
+    /// The last accepted material; a new pointer whenever it changes. Null: no grating.
     const std::shared_ptr<const MaterialSource>& accepted() const { return accepted(chosen_); }
     const std::shared_ptr<const MaterialSource>& accepted(std::size_t material) const;
     /// The chosen material must have a grating.
@@ -61,41 +109,41 @@ class Document {
     void revert(const Field& field);
     /// Replaces all members of the quality in one step.
     void replace_quality(const Json& quality);
-    /// Gives the chosen material of a scene a grating, the extension's object, in place of the one it has; null removes
-    /// it. Throws Error (input) naming `name` if it is refused.
+    /// Sets the grating of the chosen material of a scene, the extension's object; null removes it. Throws Error
+    /// (input) naming `name` if it is refused.
     void set_grating(const Json& grating, const std::string& name);
     void finish_edit() { editing_ = nullptr; }
 
     bool can_undo() const { return at_ > 0; }
     bool can_redo() const { return at_ < steps_.size(); }
-    /// Both choose the material that they change.
+    /// Both choose the changed material.
     void undo();
     void redo();
 
     /// Whether a material differs from the file, or there is no file.
     bool dirty() const;
-    /// Whether one material of the scene does.
+    /// Whether that material differs from the file.
     bool edited(std::size_t material) const { return slots_[material].json != slots_[material].in_file; }
-    /// The chosen material in the file; null if there is none.
+    /// The chosen material as saved; null if it is not in the file.
     const std::shared_ptr<const MaterialSource>& saved() const { return slots_[chosen_].saved; }
     /// Where save() writes; empty for a new material.
     const std::filesystem::path& path() const { return path_; }
-    /// The file's name, or that of the file a new material started from.
+    /// The name of the file, or of the file from which a new material started.
     const std::string& name() const { return name_; }
-    /// That of the files that a material names.
+    /// The folder of the files that a material names.
     const std::filesystem::path& folder() const { return folder_; }
-    /// Whether save() would write over a scene file that another program changed since it was opened.
+    /// Whether another program changed the scene file since it was opened.
     bool changed_outside() const { return file_ && file_->changed_on_disk(); }
 
-    /// Pictures for groove textures that the scene file does not hold yet; saving adds those that a material uses.
+    /// Pictures for groove textures that are not in the scene file yet; saving adds those that a material uses.
     const NewTextures& new_textures() const { return new_textures_; }
     NewTextures& new_textures() { return new_textures_; }
 
     /// Writes the file completely or not at all. Throws Error: (input) if json() is refused or there is no path;
-    /// (system) if the file cannot be written. The document is unchanged then. `over_changes`: of another program, to a
-    /// scene file; without it they are an Error (input).
+    /// (system) if the file cannot be written. The document is unchanged then. `over_changes`: overwrites
+    /// the changes of another program to a scene file, which are an Error (input) otherwise.
     void save(bool over_changes = false);
-    /// Writes another file. Files that the material names stay where they are; their relative names are adapted.
+    /// Writes another file. Adapts the relative names of the files that the material names.
     void save_as(const std::filesystem::path& path);
     /// Writes unsaved edits, refused or not, to a new file when the program must end: cd.unsaved.json beside cd.json;
     /// for a new material into the current folder; into the temporary folder if that fails. Returns nullopt if there
@@ -105,7 +153,7 @@ class Document {
  private:
     /// A material and its state.
     struct Slot {
-        std::optional<scene::PrimitiveId> primitive = {};  ///< one without a material
+        std::optional<scene::PrimitiveId> primitive = {};  ///< for a primitive without a material
         Json json = {};
         Json in_file = {};  ///< null: no grating
         std::shared_ptr<const MaterialSource> accepted = {};
@@ -123,7 +171,7 @@ class Document {
     void set(std::size_t material, const Json& json);
     void reparse(Slot& slot) const;
     void require_accepted() const;
-    void note_saved();
+    void mark_saved();
     /// The scene file with the gratings as edited, for a folder.
     scene::EditableGltf edited_file(const std::filesystem::path& folder) const;
     void write(const std::filesystem::path& path, bool over_changes);

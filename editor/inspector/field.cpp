@@ -6,13 +6,55 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 #include "engine/core/check.h"
+#include "engine/core/json_reader.h"
 
 namespace rowland::inspector {
 
 namespace {
+
+constexpr std::size_t kColumns = 100;
+
+/// The value on one line: `{ "a": 1 }`, `[1, 2]`.
+std::string on_one_line(const Json& value) {
+    if (!value.is_structured() || value.empty()) return value.dump();
+    std::string text = value.is_object() ? "{ " : "[";
+    bool first = true;
+    for (const auto& [key, member] : value.items()) {
+        if (!first) text += ", ";
+        if (value.is_object()) text += Json(key).dump() + ": ";
+        text += on_one_line(member);
+        first = false;
+    }
+    return text + (value.is_object() ? " }" : "]");
+}
+
+/// `used`: the columns before the value, and one for the comma after it.
+void write_json(const Json& value, std::size_t level, std::size_t used, std::string& text) {
+    const std::string line = on_one_line(value);
+    if (!value.is_structured() || value.empty() || (level > 0 && used + line.size() <= kColumns)) {
+        text += line;
+        return;
+    }
+    const std::string indent(2 * (level + 1), ' ');
+    text += value.is_object() ? "{" : "[";
+    bool first = true;
+    for (const auto& [key, member] : value.items()) {
+        if (!first) text += ",";
+        text += '\n';
+        text += indent;
+        const std::string name = value.is_object() ? Json(key).dump() + ": " : "";
+        text += name;
+        write_json(member, level + 1, indent.size() + name.size() + 1, text);
+        first = false;
+    }
+    text += '\n';
+    text.append(2 * level, ' ');
+    text += value.is_object() ? '}' : ']';
+}
 
 /// Members in the order of files. Others go to the end of their object.
 constexpr std::array kFileOrder = {"grating",       "pitch_nm",       "grooves",      "profile", "orders",
@@ -48,7 +90,7 @@ bool is_choice(const Json& value, const Choice& choice, const std::string& discr
                        [&](const auto& member) { return value.contains(member.key()); });
 }
 
-/// The value of another choice, with those members of `from` that it also has.
+/// The value of the choice `to`. Members that `from` also has keep their values.
 Json carried_over(const Json& from, const Choice& to, const std::string& discriminator) {
     Json result = to.value;
     if (!from.is_object() || !result.is_object()) return result;
@@ -72,6 +114,25 @@ Json plain(const Json& value) {
 }
 
 }  // namespace
+
+Json parse_ordered(std::string_view text, const std::string& file) {
+    parse_json(text, file);  // throws an Error with line and column
+    return Json::parse(text);
+}
+
+std::string format_json(const Json& value) {
+    std::string text;
+    write_json(value, 0, 0, text);
+    return text + "\n";
+}
+
+std::vector<Field> shown_for(const std::string& other, const std::string& choice, std::vector<Field> fields) {
+    for (Field& field : fields) {
+        field.only_with = other;
+        field.only_for = {choice};
+    }
+    return fields;
+}
 
 const Field& field_at(std::string_view pointer) {
     for (const auto all : {fields(), groove_fields()}) {
@@ -128,14 +189,14 @@ std::string choice_of(const Field& field, const Json& material) {
 Json with_value(const Json& material, const Field& field, const Json& value) {
     Json result = material;
     Json* at = &result;
-    std::string_view rest = field.pointer;
+    std::string_view path = field.pointer;
     for (;;) {
-        rest.remove_prefix(1);
-        const std::size_t end = std::min(rest.find('/'), rest.size());
-        const std::string key(rest.substr(0, end));
-        rest.remove_prefix(end);
+        path.remove_prefix(1);
+        const std::size_t end = std::min(path.find('/'), path.size());
+        const std::string key(path.substr(0, end));
+        path.remove_prefix(end);
         if (!at->is_object()) *at = Json::object();
-        if (rest.empty() && value.is_null()) {
+        if (path.empty() && value.is_null()) {
             at->erase(key);
             return result;
         }
@@ -144,7 +205,7 @@ Json with_value(const Json& material, const Field& field, const Json& value) {
             insert(*at, key, Json::object());
         }
         at = &(*at)[key];
-        if (rest.empty()) break;
+        if (path.empty()) break;
     }
     *at = plain(value);
     return result;
@@ -166,10 +227,10 @@ Json with_choice(const Json& material, const Field& field, const std::string& na
     const auto found = std::find_if(field.choices.begin(), field.choices.end(),
                                     [&](const Choice& choice) { return choice.name == name; });
     ROWLAND_CHECK(found != field.choices.end(), fmt::format("{} has no choice {}", field.pointer, name));
-    // A profile of grooves is none of a lattice.
+    // No profile suits both grooves and lattices.
     Json value = field.pointer == "/grating" ? found->value
                                              : carried_over(value_of(field, material), *found, field.discriminator);
-    // Every quality has an illuminant.
+    // The illuminant does not depend on the choice.
     const Json* illuminant = find(material, "/quality/illuminant");
     if (field.pointer == "/quality" && illuminant != nullptr) value["illuminant"] = *illuminant;
     return with_value(material, field, value);

@@ -1,14 +1,22 @@
 #pragma once
 
-#include <optional>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "editor/inspector/ordered_json.h"
-
 namespace rowland::inspector {
+
+/// JSON whose members keep the order of the file.
+using Json = nlohmann::ordered_json;
+
+/// Parses untrusted text. Throws Error (input) as parse_json() does.
+Json parse_ordered(std::string_view text, const std::string& file);
+
+/// Formats as in content/materials: indented by two spaces, one line per member of the outermost object; inner arrays
+/// and objects on one line if that is at most 100 columns wide. Ends with a line break.
+std::string format_json(const Json& value);
 
 enum class FieldKind {
     Number,
@@ -20,47 +28,52 @@ enum class FieldKind {
     Pair,    ///< two numbers
 };
 
-/// A value that a field is set to by name. An object holds the members that the choice starts with.
+/// A named value of a field. An object holds the initial members of the choice.
 struct Choice {
     std::string name;
     Json value;  ///< null: the member is left out
 };
 
-/// One field of a material file: the editor's control, its range, its tooltip and its reset value. A pointer may have
-/// several fields, of which a material shows one at most.
+/// One field of a material file: label, range, tooltip and reset value of its control. Several fields may have the same
+/// pointer; a material shows at most one of them.
 struct Field {
     std::string pointer;  ///< JSON pointer, as in the refusals of the module's parser
     std::string label;
     std::string unit{};  ///< empty: none
     FieldKind kind = FieldKind::Number;
-    double minimum = 0.0;  ///< ends of the slider; only the parser decides what is allowed
+    double minimum = 0.0;  ///< ends of the slider; the parser decides which values are valid
     double maximum = 1.0;
     bool logarithmic = false;  ///< the slider
     Json default_value{};      ///< of an absent member
-    /// Reverting sets `default_value` instead of removing the member; if that is null, there is no reverting.
+    /// Reverting sets `default_value` instead of removing the member; if that is null, the field cannot be reverted.
     bool required = false;
     std::vector<Choice> choices{};
     /// The member whose value identifies a choice that is an object; empty: the names of its members identify it.
     std::string discriminator{};
-    /// Shown only if the field `only_with` (a pointer) is, and its choice is one of `only_for`; empty: always.
-    std::string only_with{};
-    std::vector<std::string> only_for{};
-    /// Values of an absent member that depend on the choice of `only_with`; others have `default_value`.
-    std::vector<Choice> defaults_by_choice{};
     std::string help{};    ///< the effect and the allowed values
     std::string source{};  ///< of the formula
+    /// The field is shown if the field at the pointer `only_with` is shown and its choice is one of `only_for`. Empty:
+    /// always.
+    std::string only_with{};
+    std::vector<std::string> only_for{};
+    /// Defaults by the choice of `only_with`; for other choices `default_value`.
+    std::vector<Choice> defaults_by_choice{};
 };
 
-/// All fields of a material file, in the order they are shown.
-std::span<const Field> fields();
+/// Restricts fields to one choice of the field at the pointer `other`.
+std::vector<Field> shown_for(const std::string& other, const std::string& choice, std::vector<Field> fields);
 
-/// The fields that only a scene's material has: its grooves on the mesh.
+/// All fields of a material file, in the order of display.
+std::span<const Field> fields();
+/// The part of fields() that edits "grating".
+std::vector<Field> grating_fields();
+/// The additional fields of a scene's material: its grooves on the mesh.
 std::span<const Field> groove_fields();
 
 /// The first field at a JSON pointer, which must exist.
 const Field& field_at(std::string_view pointer);
 
-/// Whether the field has a meaning for the material.
+/// Whether the field applies to the material.
 bool is_shown(const Field& field, const Json& material);
 
 /// The material's field at a JSON pointer; null: none.
@@ -75,21 +88,21 @@ Json value_of(const Field& field, const Json& material);
 /// Whether reverting would change the material.
 bool can_revert(const Field& field, const Json& material);
 
-/// Name of the present choice; empty if the value is none of them.
+/// The name of the current choice; empty if the value matches none.
 std::string choice_of(const Field& field, const Json& material);
 
 // Edits return the changed material.
 
-/// Sets a field; null removes the member. A new member is inserted where files usually have it.
+/// Sets a field; null removes the member. A new member is inserted in the order of other files.
 Json with_value(const Json& material, const Field& field, const Json& value);
-/// Sets the pitch. The width of a slit stays the same fraction of it.
+/// Sets the pitch and scales the width of a slit with it.
 Json with_pitch(const Json& material, double pitch_nm);
-/// Makes another choice. Members that both choices have keep their values.
+/// Selects a choice. Members that both choices have keep their values.
 Json with_choice(const Json& material, const Field& field, const std::string& name);
 /// Sets the field to its default.
 Json reverted(const Json& material, const Field& field);
 
-/// "-2 -1, 1 2" or "all" as the value of an Orders field; other text is returned unchanged, for the parser to refuse.
+/// "-2 -1, 1 2" or "all" as the value of an Orders field; other text is returned unchanged; the parser refuses it.
 Json parse_orders(std::string_view text);
 std::string format_orders(const Json& orders);
 

@@ -1,5 +1,3 @@
-#include "editor/inspector/film_panel.h"
-
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -8,8 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "editor/inspector/plot.h"
-#include "editor/inspector/screen_colour.h"
+#include "editor/inspector/panels.h"
 
 namespace rowland::inspector {
 
@@ -127,7 +124,7 @@ void FilmPanel::draw_curves(const FilmCurves& curves, ControlMap& controls) cons
         draw_swatch(curves, inputs_.thickness_nm);
     const std::string table = curves.complete ? fmt::format("{:.2f} %", 100.0 * curves.table_error) : "computing";
     const std::string formula = fmt::format("{:.1f} %", 100.0 * curves.formula_error);
-    ImGui::TextWrapped("Off the exact sum, RMS over thickness: table %s, glTF's formula %s.", table.c_str(),
+    ImGui::TextWrapped("Error against the exact sum, RMS over thickness: table %s, glTF's formula %s.", table.c_str(),
                        formula.c_str());
     controls.note("film table error", table);
     controls.note("film formula error", formula);

@@ -13,7 +13,7 @@ uniform float cell;        // pixels
 uniform float step_length;  // along the surface, for the direction in the picture
 uniform float groove_rotation;
 uniform bool mapped;
-layout(binding = 13) uniform sampler2D groove_map;  // moments for even kernels (groove_moments.h)
+layout(binding = 13) uniform sampler2D groove_map;  // moments for even kernels (groove_map.h)
 uniform vec4 groove_uv_linear;
 uniform vec2 groove_uv_offset;
 

@@ -2,87 +2,121 @@
 
 #include <cmath>
 #include <cstdint>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <limits>
 #include <numbers>
 
 #include "engine/core/check.h"
 #include "engine/image/byte_image.h"
-#include "engine/image/png.h"
-#include "engine/scene/texture_recipe.h"
 
 namespace rowland::inspector {
 
 namespace {
 
-using scene::ChannelRecipe;
-using scene::LayerRecipe;
-
 constexpr std::uint8_t kOwnPitch = 128;  ///< G where the pitch is the material's, of 255
-constexpr int kSize = 512;               ///< texels
+constexpr int kSize = 512;               ///< texels of a pattern's height
 
-/// Paints R; G is the material's own pitch.
-LayerRecipe layer_of(LayerRecipe::Pattern pattern, const ChannelRecipe& rotation) {
-    LayerRecipe layer;
-    layer.pattern = pattern;
-    layer.channels[0] = rotation;
-    layer.channels[1] = ChannelRecipe{.from = kOwnPitch / 255.0, .to = kOwnPitch / 255.0};
-    return layer;
+double fraction(double x) {
+    return x - std::floor(x);
 }
 
-constexpr ChannelRecipe kOfCell{.from = 0.0, .to = 1.0, .by = ChannelRecipe::By::Cell};
-/// Grooves have no sense of direction, so the rotation runs from 0 to π twice around the middle.
-constexpr ChannelRecipe kOutward{.from = 0.0, .to = 1.0, .by = ChannelRecipe::By::Angle, .repeat = 2.0};
-
-scene::TextureRecipe hexagons() {
-    // Two rows of hexagons are √3 widths high, so the picture repeats without a seam if it is that often as high.
-    constexpr double kWidth = 1.0 / (4.0 * std::numbers::sqrt3);
-    constexpr int kAcross = 7;
-    LayerRecipe layer = layer_of(LayerRecipe::Pattern::Hexagons, kOfCell);
-    layer.size = glm::dvec2(kWidth, 0.0);
-    return {.width = static_cast<int>(std::lround(kAcross * kWidth * kSize)), .height = kSize, .layers = {layer}};
+/// The groove rotation / π of cell (i, j), evenly spread over [0, 1) for neighbouring cells (the R2 sequence: Roberts,
+/// The Unreasonable Effectiveness of Quasirandom Sequences, 2018).
+double rotation_of_cell(double i, double j) {
+    return fraction(0.5 + i * 0.7548776662466927 + j * 0.5698402909980532);
 }
 
-scene::TextureRecipe tiles() {
-    LayerRecipe layer = layer_of(LayerRecipe::Pattern::Tiles, kOfCell);
-    layer.size = glm::dvec2(0.125);
-    return {.width = kSize, .height = kSize, .layers = {layer}};
+/// Angle of a direction / 2π.
+double angle_of(const glm::dvec2& direction) {
+    return fraction(std::atan2(direction.y, direction.x) / (2.0 * std::numbers::pi));
 }
 
-LayerRecipe rosette(const glm::dvec2& centre, double radius, int petals) {
-    LayerRecipe layer = layer_of(LayerRecipe::Pattern::Rosette, kOutward);
-    layer.centre = centre;
-    layer.radius = radius;
-    layer.petals = petals;
-    layer.rings = 6;
-    layer.gap = 0.2;
-    return layer;
+/// Grating vectors that point away from a centre, as a rotation / π: grooves have no sense of direction, so it runs
+/// from 0 to 1 twice around the centre.
+double outward(const glm::dvec2& from_centre) {
+    return fraction(2.0 * angle_of(from_centre));
 }
 
-scene::TextureRecipe rosettes() {
-    return {
-        .width = kSize,
-        .height = kSize,
-        .layers = {layer_of(LayerRecipe::Pattern::All, {}), rosette({0.5, 0.5}, 0.3, 8), rosette({0.15, 0.15}, 0.14, 5),
-                   rosette({0.85, 0.15}, 0.14, 5), rosette({0.15, 0.85}, 0.14, 5), rosette({0.85, 0.85}, 0.14, 5)}};
+// The width of a hexagon. Two rows of hexagons are √3 widths high, so the pattern repeats without a seam.
+constexpr double kHexagon = 1.0 / (4.0 * std::numbers::sqrt3);
+constexpr int kHexagonsAcross = 7;
+
+/// Of the nearest hexagon's centre. Two corners point up and down.
+double hexagon_rotation(const glm::dvec2& at) {
+    const double row_height = kHexagon * std::sqrt(3.0) / 2.0;
+    glm::dvec2 index(0.0);
+    double least = std::numeric_limits<double>::max();
+    for (const double row : {std::floor(at.y / row_height), std::floor(at.y / row_height) + 1.0}) {
+        const double shift = fraction(row / 2.0);
+        const double column = std::round(at.x / kHexagon - shift);
+        const double distance = glm::length(at - glm::dvec2((column + shift) * kHexagon, row * row_height));
+        if (distance >= least) continue;
+        least = distance;
+        index = {column, row};
+    }
+    return rotation_of_cell(index.x, index.y);
 }
 
-scene::TextureRecipe radial() {
-    return {.width = kSize, .height = kSize, .layers = {layer_of(LayerRecipe::Pattern::All, kOutward)}};
+double tile_rotation(const glm::dvec2& at) {
+    const glm::dvec2 index = glm::floor(at / 0.125);
+    return rotation_of_cell(index.x, index.y);
 }
 
-scene::TextureRecipe recipe_of(std::string_view name) {
-    if (name == "hexagons") return hexagons();
-    if (name == "tiles") return tiles();
-    if (name == "rosettes") return rosettes();
+/// Flowers of six rings with gaps between them; outside of them rotation 0.
+double rosette_rotation(const glm::dvec2& at) {
+    struct Flower {
+        glm::dvec2 centre;
+        double radius;  ///< out to the petals' tips
+        int petals;
+    };
+    constexpr double kNotch = 0.3;  ///< depth between petals, as a fraction of the radius
+    constexpr int kRings = 6;
+    constexpr double kGap = 0.2;  ///< fraction of a ring's width
+    double rotation = 0.0;
+    for (const Flower& flower :
+         {Flower{{0.5, 0.5}, 0.3, 8}, Flower{{0.15, 0.15}, 0.14, 5}, Flower{{0.85, 0.15}, 0.14, 5},
+          Flower{{0.15, 0.85}, 0.14, 5}, Flower{{0.85, 0.85}, 0.14, 5}}) {
+        const glm::dvec2 from_centre = at - flower.centre;
+        const double petal_phase = 2.0 * std::numbers::pi * flower.petals * angle_of(from_centre);
+        const double edge = flower.radius * (1.0 - kNotch * 0.5 * (1.0 - std::cos(petal_phase)));
+        const double radius = glm::length(from_centre) / edge;
+        if (radius >= 1.0 || fraction(radius * kRings) > 1.0 - kGap) continue;
+        rotation = outward(from_centre);
+    }
+    return rotation;
+}
+
+double radial_rotation(const glm::dvec2& at) {
+    return outward(at - 0.5);
+}
+
+struct FoilPattern {
+    double (*rotation)(const glm::dvec2& at);  ///< / π, at a position in heights from the lower left corner
+    int width = kSize;                         ///< texels
+};
+
+FoilPattern pattern_of(std::string_view name) {
+    if (name == "hexagons")
+        return {hexagon_rotation, static_cast<int>(std::lround(kHexagonsAcross * kHexagon * kSize))};
+    if (name == "tiles") return {tile_rotation};
+    if (name == "rosettes") return {rosette_rotation};
     ROWLAND_CHECK(name == "radial", "no such foil pattern");
-    return radial();
+    return {radial_rotation};
 }
 
 }  // namespace
 
 std::vector<std::byte> foil_pattern(std::string_view name) {
-    const scene::TextureRecipe recipe = recipe_of(name);
-    const scene::PaintedTexture painted = scene::paint(recipe);
-    return image::encode_png(recipe.width, recipe.height, painted.channels, painted.texels);
+    const FoilPattern pattern = pattern_of(name);
+    std::vector<std::uint8_t> rgb;
+    for (int row = 0; row < kSize; ++row)
+        for (int column = 0; column < pattern.width; ++column) {
+            const glm::dvec2 at((column + 0.5) / kSize, 1.0 - (row + 0.5) / kSize);
+            rgb.insert(rgb.end(), {static_cast<std::uint8_t>(std::lround(255.0 * pattern.rotation(at))), kOwnPitch, 0});
+        }
+    return image::encode_png(pattern.width, kSize, 3, rgb);
 }
 
 std::vector<std::byte> as_groove_picture(std::vector<std::byte> picture, const std::string& name) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "editor/inspector/preview.h"
+#include "editor/inspector/preview_object.h"
 
 namespace rowland::inspector {
 
@@ -18,7 +18,7 @@ struct Layout {
     float physics_width = 26;
     float price_height = 17;
     std::string shape = "disc";
-    std::vector<std::string> recent{};  ///< absolute paths of files that were opened or saved, the last one first
+    std::vector<std::string> recent{};  ///< absolute paths of files that were opened or saved, newest first
     std::string light;                  ///< path of the last probe; empty: the first shipped one
     Stage stage{};
 };
@@ -26,8 +26,8 @@ struct Layout {
 /// Puts a file first among the recent ones, of which ten are kept.
 void remember(Layout& layout, const std::filesystem::path& path);
 
-/// The file's layout. Missing members have their defaults, and numbers are clamped to their ranges. A missing or broken
-/// file gives the default layout, since a layout is not worth a refusal.
+/// Reads a layout. Missing members have their defaults, and numbers are clamped to their ranges. A missing or broken
+/// file gives the default layout and a warning.
 Layout load_layout(const std::filesystem::path& path);
 
 /// Throws Error (system).

@@ -1,12 +1,15 @@
-#include "editor/inspector/material_panel.h"
-
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <imgui.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <string>
+
+#include "editor/inspector/groove_picture.h"
+#include "editor/inspector/panels.h"
 
 namespace rowland::inspector {
 
@@ -93,7 +96,7 @@ void draw_colour(Document& document, const Field& field) {
     const Json value = value_of(field, document.json());
     for (std::size_t i = 0; i < 3 && value.is_array() && i < value.size(); ++i)
         rgb[i] = static_cast<float>(number_of(value[i]));
-    // Its numbers need room; without them a click on the patch opens them.
+    // A narrow control has no room for the numbers; a click on the patch opens them.
     const bool narrow = ImGui::CalcItemWidth() < 10.5F * ImGui::GetFontSize();
     if (!ImGui::ColorEdit3("##value", rgb.data(),
                            ImGuiColorEditFlags_Float | (narrow ? ImGuiColorEditFlags_NoInputs : 0)))
@@ -132,6 +135,103 @@ void draw_lines_per_mm(Document& document, ControlMap& controls) {
         document.set_value(pitch, pitch_of_lines(lines));
         document.finish_edit();
     }
+}
+
+/// "1600 nm slit"; "–": none.
+std::string summary_of(const Document& document, std::size_t material) {
+    const auto& source = document.accepted(material);
+    if (!source) return "–";
+    const Field* profile = shown_field("/grating/profile", source->json);
+    return fmt::format("{:g} nm {}", source->material.grating.pitch_nm,
+                       profile != nullptr ? choice_of(*profile, source->json) : "");
+}
+
+const char* origin_of(scene::TangentSource tangents) {
+    switch (tangents) {
+        case scene::TangentSource::File:
+            return "";
+        case scene::TangentSource::Uvs:
+            return "Meshes without tangents: the grating vector follows u of their texture coordinates.";
+        case scene::TangentSource::Arbitrary:
+            return "Meshes without tangents and texture coordinates: the grating vector is arbitrary; give them UVs.";
+    }
+    return "";
+}
+
+/// "3 meshes: a, b, c"
+std::string meshes_text(const SceneMaterial& material) {
+    constexpr std::size_t kNamed = 40;
+    if (material.meshes.empty()) return "No mesh uses it.";
+    const std::size_t named = std::min(kNamed, material.meshes.size());
+    const std::span<const std::string> names(material.meshes.data(), named);
+    return fmt::format("{} mesh{}: {}{}", material.meshes.size(), material.meshes.size() == 1 ? "" : "es",
+                       fmt::join(names, ", "), named < material.meshes.size() ? ", …" : "");
+}
+
+void draw_wrapped(const std::string& text) {
+    ImGui::PushTextWrapPos();
+    ImGui::TextDisabled("%s", text.c_str());
+    ImGui::PopTextWrapPos();
+}
+
+bool enabled_button(const char* label, const char* name, bool enabled, ControlMap& controls) {
+    if (!enabled) ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 0.4F);
+    const bool pressed = ImGui::Button(label) && enabled;
+    controls.mark(name);
+    if (!enabled) ImGui::PopStyleVar();
+    return pressed;
+}
+
+void draw_opening(OpenDocument& opened, ControlMap& controls) {
+    ImGui::Text("Opening %s…", opened.opening().filename().string().c_str());
+    ImGui::SameLine();
+    if (ImGui::SmallButton("Cancel")) opened.cancel_opening();
+    controls.mark("cancel opening");
+    ImGui::ProgressBar(-0.5F * static_cast<float>(ImGui::GetTime()), {-1.0F, 0.0F}, "");
+}
+
+void draw_attach(OpenDocument& opened, const char* label, ControlMap& controls) {
+    ImGui::SetNextItemWidth(7.0F * ImGui::GetFontSize());
+    if (ImGui::BeginCombo("##attach", label, ImGuiComboFlags_HeightLargest)) {
+        for (const char* preset : OpenDocument::presets()) {
+            if (ImGui::Selectable(preset)) opened.open_preset(preset);
+            controls.mark(std::string("attach=") + preset);
+        }
+        ImGui::EndCombo();
+    }
+    controls.mark("attach");
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("Gives the chosen material a grating. Or open or drop a material file.");
+}
+
+void draw_patterns(OpenDocument& opened, ControlMap& controls) {
+    ImGui::SetNextItemWidth(9.0F * ImGui::GetFontSize());
+    if (ImGui::BeginCombo("##pattern", "Foil pattern…", ImGuiComboFlags_HeightLargest)) {
+        for (const char* pattern : kFoilPatterns) {
+            if (ImGui::Selectable(pattern)) opened.set_foil_pattern(pattern);
+            controls.mark(std::string("pattern=") + pattern);
+        }
+        ImGui::TextDisabled("or drop a picture");
+        ImGui::EndCombo();
+    }
+    controls.mark("pattern");
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("A groove texture. The brightness of a dropped picture rotates the grooves.");
+}
+
+void draw_actions(OpenDocument& opened, ControlMap& controls) {
+    const Document& document = opened.document();
+    const bool has = document.has_grating();
+    draw_attach(opened, has ? "Replace…" : "Attach…", controls);
+    ImGui::SameLine();
+    if (enabled_button("Copy", "copy grating", has, controls))
+        ImGui::SetClipboardText(format_json(document.json()).c_str());
+    ImGui::SameLine();
+    const char* clipboard = ImGui::GetClipboardText();
+    const bool pasteable = clipboard != nullptr && std::string_view(clipboard).starts_with('{');
+    if (enabled_button("Paste", "paste grating", pasteable, controls)) opened.paste_grating(clipboard);
+    ImGui::SameLine();
+    if (enabled_button("Remove", "remove grating", has, controls)) opened.remove_grating();
 }
 
 }  // namespace
@@ -220,6 +320,64 @@ void MaterialPanel::draw_text(Document& document, const Field& field) {
         document.finish_edit();
         texts_.erase(found);
     }
+}
+
+void ScenePanel::draw(OpenDocument& opened, View& view, ControlMap& controls) {
+    if (!opened.opening().empty()) draw_opening(opened, controls);
+    const SceneObject* scene = opened.scene();
+    if (scene == nullptr) return;
+    const bool has_grating = opened.document().has_grating();
+    if (scene->materials.empty()) return draw_wrapped("No mesh of the scene can have a grating.");
+    draw_list(opened, controls);
+    const SceneMaterial& chosen = scene->materials[opened.document().chosen()];
+    ImGui::TextUnformatted(chosen.name.c_str());
+    draw_wrapped(meshes_text(chosen));
+    if (const char* origin = origin_of(chosen.tangents); *origin != '\0') draw_wrapped(origin);
+    draw_actions(opened, controls);
+    if (has_grating) {
+        draw_patterns(opened, controls);
+        ImGui::SameLine();
+    }
+    ImGui::Checkbox("Show grooves", &view.shows_grooves);
+    controls.mark("show grooves");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Strokes along the grooves. Drag the yellow handle to rotate them.");
+    controls.note("chosen material", chosen.name);
+    controls.note("tangents", origin_of(chosen.tangents));
+    if (!has_grating) draw_wrapped("No grating. Attach a preset, paste a copied grating, or drop a material file.");
+}
+
+void ScenePanel::draw_list(OpenDocument& opened, ControlMap& controls) {
+    const SceneObject& scene = *opened.scene();
+    Document& document = opened.document();
+    constexpr std::size_t kRows = 9;
+    const float row = ImGui::GetTextLineHeightWithSpacing();
+    const auto rows = static_cast<float>(std::min(kRows, scene.materials.size()));
+    ImGui::BeginChild("materials", {0.0F, (rows + 0.6F) * row}, true);
+    const float grating_column = ImGui::GetContentRegionAvail().x - 6.5F * ImGui::GetFontSize();
+    if (listed_ != document.chosen())
+        ImGui::SetScrollY(std::max(0.0F, row * (static_cast<float>(document.chosen()) - 0.5F * rows)));
+    listed_ = document.chosen();
+    ImGuiListClipper clipper;
+    clipper.Begin(static_cast<int>(scene.materials.size()), row);
+    while (clipper.Step())
+        for (int line = clipper.DisplayStart; line < clipper.DisplayEnd; ++line) {
+            const auto i = static_cast<std::size_t>(line);
+            ImGui::PushID(line);
+            const std::string name = scene.materials[i].name + (document.edited(i) ? " •" : "");
+            if (ImGui::Selectable("##row", i == document.chosen())) document.choose(i);
+            controls.mark("material " + scene.materials[i].name);
+            if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", meshes_text(scene.materials[i]).c_str());
+            ImGui::SameLine(0.0F, 0.0F);
+            const ImVec2 at = ImGui::GetCursorScreenPos();
+            ImGui::PushClipRect(at, {at.x + grating_column - 0.4F * ImGui::GetFontSize(), at.y + row}, true);
+            ImGui::TextUnformatted(name.c_str());
+            ImGui::PopClipRect();
+            ImGui::SameLine(grating_column);
+            ImGui::TextDisabled("%s", summary_of(document, i).c_str());
+            ImGui::PopID();
+        }
+    ImGui::EndChild();
+    controls.mark("materials");
 }
 
 }  // namespace rowland::inspector

@@ -1,20 +1,28 @@
-#include "editor/inspector/physics_panel.h"
-
 #include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <span>
+#include <utility>
+#include <vector>
 
-#include "editor/inspector/physics/order_panes.h"
-#include "editor/inspector/plot.h"
-#include "editor/inspector/screen_colour.h"
+#include "editor/inspector/panels.h"
 
 namespace rowland::inspector {
 
 namespace {
+
+/// Half the width, and the position of the brightest texel.
+std::string numbers_of_pattern(const PatternFigure& figure) {
+    const auto found = std::ranges::max_element(figure.xyz, {}, &glm::dvec3::y);
+    const auto index = static_cast<int>(found - figure.xyz.begin());
+    const auto u = [&](int texel) { return ((2.0 * texel + 1.0) / figure.size - 1.0) * figure.half_width; };
+    return fmt::format("{:.4f} of {:.4f} {:.4f}", figure.half_width, u(index % figure.size), u(index / figure.size));
+}
 
 float plot_height() {
     return 11.0F * ImGui::GetFontSize();
@@ -32,13 +40,7 @@ std::string numbers_of(const glm::dvec3& value) {
     return fmt::format("{:.5g}  {:.5g}  {:.5g}", value.x, value.y, value.z);
 }
 
-void row(const char* name, const std::string& value) {
-    ImGui::TextDisabled("%s", name);
-    ImGui::SameLine(8.0F * ImGui::GetFontSize());
-    ImGui::TextUnformatted(value.c_str());
-}
-
-/// The highest point of each of `columns` columns a unit of x.
+/// The highest point in each interval of x; `columns` intervals per unit.
 std::vector<glm::dvec2> thinned(const std::vector<glm::dvec2>& points, double columns) {
     std::vector<glm::dvec2> result;
     for (const glm::dvec2& point : points) {
@@ -70,7 +72,7 @@ void draw_light_controls(PaneLight& light, ControlMap& controls) {
     };
     slider("Wavelength", light.wavelength_nm, 380.0, 780.0, "%.0f nm");
     slider("Light from", light.incidence_deg, -85.0, 85.0, "%.0f°");
-    slider("Light turned", light.azimuth_deg, -90.0, 90.0, "%.0f° from across");
+    slider("Light azimuth", light.azimuth_deg, -90.0, 90.0, "%.0f° from across");
 }
 
 void draw_angles(const diffraction::Grating& grating, const PaneLight& light) {
@@ -142,8 +144,8 @@ void draw_kernel(const diffraction::CookedMaterial& cooked) {
 
 void draw_directions(const diffraction::Grating& grating, const PaneLight& light) {
     const double polar = light.incidence_deg * std::numbers::pi / 180.0;
-    const double turn = light.azimuth_deg * std::numbers::pi / 180.0;
-    const glm::dvec3 s(std::sin(polar) * std::cos(turn), std::sin(polar) * std::sin(turn), std::cos(polar));
+    const double azimuth = light.azimuth_deg * std::numbers::pi / 180.0;
+    const glm::dvec3 s(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar));
     const float font = ImGui::GetFontSize();
     const float width = ImGui::GetContentRegionAvail().x;
     const float size = std::min(width, 17.0F * font);
@@ -215,7 +217,7 @@ void draw_energy(const diffraction::Grating& grating, const PaneLight& light, Co
                                                                   {"zero order", balance.zero},
                                                                   {"absorbed", balance.absorbed},
                                                                   {"evanescent", balance.evanescent},
-                                                                  {"to the base", balance.rest}}};
+                                                                  {"to the base", balance.residual}}};
     const float font = ImGui::GetFontSize();
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const float width = ImGui::GetContentRegionAvail().x;
@@ -239,48 +241,82 @@ void draw_energy(const diffraction::Grating& grating, const PaneLight& light, Co
 
 }  // namespace
 
-void PhysicsPanel::draw(const Session& session, ControlMap& controls) {
-    const diffraction::Grating& grating = session.document().material().grating;
+void PatternPane::paint(const View& view, const post::DisplayTransform& display) {
+    exposure_stops_ = view.stage.exposure_stops;
+    const glm::dmat3& to_working = view.preview().xyz_to_working();
+    std::vector<glm::vec3> pixels;
+    for (const glm::dvec3& xyz : shown_->xyz) pixels.emplace_back(to_working * xyz);
+    display.apply_cpu(pixels, exposure_stops_);
+    if (texture_.size().x != shown_->size)
+        texture_ = gpu::Texture({.format = gpu::Format::RGBA8, .width = shown_->size, .height = shown_->size});
+    texture_.upload(std::span<const glm::vec3>(pixels));
+}
+
+void PatternPane::draw(const View& view, std::shared_ptr<const PatternFigure> pattern,
+                       const post::DisplayTransform& display, ControlMap& controls) {
+    if (!pattern) return ImGui::TextDisabled("Computing…");
+    if (pattern->size == 0) return ImGui::TextDisabled("No listed order has light.");
+    if (std::exchange(shown_, pattern) != pattern || exposure_stops_ != view.stage.exposure_stops) paint(view, display);
+    const double end = shown_->half_width;
+    // Its axes take as much of the width as of the height.
+    const Plot plot("##pattern", ImGui::GetContentRegionAvail().x + 0.2F * ImGui::GetFontSize(), {-end, end, "u_g"},
+                    {-end, end, "u_h"});
+    const auto id = reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(texture_.id()));
+    plot.draw().AddImage(id, plot.minimum(), plot.maximum(), {0.0F, 1.0F}, {1.0F, 0.0F});
+    ImGui::PushTextWrapPos();
+    ImGui::TextDisabled(
+        "Directions of white light: u = s + v. The mirror image of a lamp lies in the middle. With the exposure of "
+        "the view.");
+    ImGui::PopTextWrapPos();
+    controls.note("pattern", numbers_of_pattern(*shown_));
+}
+
+void PhysicsPanel::draw(const OpenDocument& opened, const View& view, const Measurement& measurement,
+                        ControlMap& controls) {
+    const diffraction::Grating& grating = opened.document().material().grating;
     if (!grating.lattice) draw_light_controls(light_, controls);
-    const PointNumbers* numbers = session.point_numbers();
+    const PointNumbers* numbers = measurement.point_numbers();
     if (pane(grating.lattice ? "Point: colour" : "Point: spectrum and colour"))
-        numbers != nullptr ? draw_point(session, *numbers, controls) : ImGui::TextDisabled("Computing…");
+        numbers != nullptr ? draw_point(view, measurement, !grating.lattice, controls)
+                           : ImGui::TextDisabled("Computing…");
     if (grating.lattice) {
-        if (pane("Diffraction pattern")) pattern_.draw(session, display_, controls);
+        if (pane("Diffraction pattern")) pattern_.draw(view, measurement.pattern(), display_, controls);
         return;
     }
     if (pane("Diffraction over angle")) draw_angles(grating, light_);
-    if (pane("Where the power goes")) draw_energy(grating, light_, controls);
-    if (pane("Where orders go, from above")) draw_directions(grating, light_);
-    if (pane("Efficiency over wavelength")) draw_efficiencies(grating, session.compared());
-    if (pane("Colour over path difference") && session.cooked()) draw_kernel(*session.cooked());
+    if (pane("Distribution of power")) draw_energy(grating, light_, controls);
+    if (pane("Directions of orders, from above")) draw_directions(grating, light_);
+    if (pane("Efficiency over wavelength")) draw_efficiencies(grating, opened.compared());
+    if (pane("Colour over path difference") && opened.cooked()) draw_kernel(*opened.cooked());
     if (pane("Luminance over view, against the reference"))
         numbers != nullptr ? draw_sweep(numbers->sweep) : ImGui::TextDisabled("Computing…");
 }
 
-void PhysicsPanel::draw_point(const Session& session, const PointNumbers& numbers, ControlMap& controls) const {
-    if (!session.document().material().grating.lattice) draw_spectrum_at_point(numbers.radiance.spectrum);
-    const glm::dvec3 working = session.preview().xyz_to_working() * numbers.radiance.reference;
+void PhysicsPanel::draw_point(const View& view, const Measurement& measurement, bool with_spectrum,
+                              ControlMap& controls) const {
+    const PointNumbers& numbers = *measurement.point_numbers();
+    if (with_spectrum) draw_spectrum_at_point(numbers.radiance.spectrum);
+    const glm::dvec3 working = view.preview().xyz_to_working() * numbers.radiance.reference;
     glm::vec3 display(working);
-    display_.apply_cpu(std::span(&display, 1), session.stage.exposure_stops);
-    row("XYZ, reference", numbers_of(numbers.radiance.reference));
-    row("XYZ, as drawn", numbers_of(numbers.radiance.drawn));
-    row("Working RGB", numbers_of(working));
-    row("Display value", numbers_of(glm::dvec3(display)));
+    display_.apply_cpu(std::span(&display, 1), view.stage.exposure_stops);
+    draw_row("XYZ, reference", numbers_of(numbers.radiance.reference));
+    draw_row("XYZ, as drawn", numbers_of(numbers.radiance.drawn));
+    draw_row("Working RGB", numbers_of(working));
+    draw_row("Display value", numbers_of(glm::dvec3(display)));
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float font = ImGui::GetFontSize();
     const glm::vec3 shown = glm::clamp(display, 0.0F, 1.0F);
     ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + ImGui::GetContentRegionAvail().x, at.y + font},
                                               ImGui::ColorConvertFloat4ToU32({shown.r, shown.g, shown.b, 1.0F}));
     ImGui::Dummy({0.0F, font});
-    if (const auto& picked = session.picked()) {
-        row("Pixel, working", numbers_of(glm::dvec3(picked->working)));
-        row("Pixel, display", fmt::format("{}  {}  {}", picked->display.r, picked->display.g, picked->display.b));
+    if (const auto& picked = view.picked()) {
+        draw_row("Pixel, working", numbers_of(glm::dvec3(picked->working)));
+        draw_row("Pixel, display", fmt::format("{}  {}  {}", picked->display.r, picked->display.g, picked->display.b));
         controls.note("picked", fmt::format("{} {} {}", picked->display.r, picked->display.g, picked->display.b));
     } else {
         ImGui::TextDisabled("Click the picture to pick another point.");
     }
-    if (!session.point_numbers_are_current()) ImGui::TextDisabled("Updating…");
+    if (!measurement.point_numbers_are_current()) ImGui::TextDisabled("Updating…");
     controls.note("point", numbers_of(numbers.radiance.reference));
 }
 

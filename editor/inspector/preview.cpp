@@ -2,13 +2,18 @@
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/matrix.hpp>
 #include <memory>
+#include <span>
 #include <utility>
 
 #include "engine/core/check.h"
+#include "engine/core/text.h"
+#include "engine/gpu/pipeline_state.h"
+#include "engine/gpu/shader_library.h"
+#include "engine/render/scene_lights.h"
 #include "engine/render/surface_textures.h"
-#include "engine/render/world_bounds.h"
-#include "engine/scene/directional_light.h"
+#include "engine/scene/light.h"
 #include "engine/scene/transform.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
 #include "modules/diffraction/runtime/glare_pattern.h"
@@ -18,26 +23,45 @@ namespace rowland::inspector {
 
 namespace {
 
+constexpr float kStrokeCell = 16.0F;  ///< pixels between strokes
+constexpr float kStrokeStep = 1e-4F;  ///< metres; small against an object of 0.1 m
+constexpr bool kEvenMoments = true;   ///< grooves are undirected
+
+}  // namespace
+
+/// groove_overlay.vert.glsl and groove_overlay.frag.glsl.
+std::span<const EmbeddedFile> overlay_shaders();
+
+namespace {
+
+gpu::Program overlay_program() {
+    gpu::ShaderLibrary library;
+    library.add_embedded(overlay_shaders());
+    return {library,
+            {.vertex = "editor/inspector/groove_overlay.vert.glsl",
+             .fragment = "editor/inspector/groove_overlay.frag.glsl"}};
+}
+
 constexpr glm::vec3 kUp(0.0F, 1.0F, 0.0F);
 constexpr glm::vec3 kPosition(0.0F, 0.052F, 0.0F);  ///< of the object, metres
 
-/// How far each shape leans back, so that it shows its colours.
-float lean_deg(PreviewShape shape) {
+/// The backward tilt at which each shape shows its colours.
+float tilt_deg(PreviewShape shape) {
     if (shape == PreviewShape::Disc) return 52.0F;
     return shape == PreviewShape::Card || shape == PreviewShape::Sheet ? -28.0F : 0.0F;
 }
 
 constexpr int kFramesToFill = 90;  ///< upper bound of the frames that maps take to fill
 
-/// The probe's axes are kept; everything else turns the other way, which gives the same picture.
-glm::mat4 turn_of(const Stage& stage) {
+/// The probe keeps its axes; everything else is rotated in the opposite direction, which gives the same picture.
+glm::mat4 stage_rotation(const Stage& stage) {
     return glm::rotate(glm::mat4(1.0F), -glm::radians(stage.rotation_deg), kUp);
 }
 
-/// Sets the transform of the object's root.
-scene::Transform placement(const PreviewInputs& inputs) {
-    const glm::mat4 to_world = glm::rotate(glm::translate(turn_of(inputs.stage), kPosition),
-                                           glm::radians(lean_deg(inputs.object->shape)), {1.0F, 0.0F, 0.0F});
+/// The transform of the object's root.
+scene::Transform root_transform(const PreviewInputs& inputs) {
+    const glm::mat4 to_world = glm::rotate(glm::translate(stage_rotation(inputs.stage), kPosition),
+                                           glm::radians(tilt_deg(inputs.object->shape)), {1.0F, 0.0F, 0.0F});
     scene::Transform at{.translation = glm::vec3(to_world[3]), .rotation = glm::quat_cast(glm::mat3(to_world))};
     if (!inputs.object->scene) return at;
     const scene::Transform& fit = inputs.object->scene->fit;
@@ -46,20 +70,50 @@ scene::Transform placement(const PreviewInputs& inputs) {
     return at;
 }
 
-scene::Camera turned_camera(const PreviewInputs& inputs) {
-    const glm::mat4 turn = turn_of(inputs.stage);
+scene::Camera rotated_camera(const PreviewInputs& inputs) {
+    const glm::mat4 rotation = stage_rotation(inputs.stage);
     scene::Camera camera = opening_camera();
-    camera.eye = glm::vec3(turn * glm::vec4(inputs.eye, 1.0F));
-    camera.target = glm::vec3(turn * glm::vec4(inputs.target, 1.0F));
+    camera.eye = glm::vec3(rotation * glm::vec4(inputs.eye, 1.0F));
+    camera.target = glm::vec3(rotation * glm::vec4(inputs.target, 1.0F));
     return camera;
 }
 
 }  // namespace
 
-glm::vec3 lamp_direction(const Stage& stage) {
-    const float azimuth = glm::radians(stage.lamp_azimuth_deg);
-    const float elevation = glm::radians(stage.lamp_elevation_deg);
-    return {std::cos(elevation) * std::sin(azimuth), std::sin(elevation), std::cos(elevation) * std::cos(azimuth)};
+GrooveOverlay::GrooveOverlay() : program_(overlay_program()) {}
+
+void GrooveOverlay::begin(glm::ivec2 size, const glm::mat4& world_to_clip) {
+    if (!target_ || target_->size() != size)
+        target_.emplace(
+            gpu::FramebufferDesc{.width = size.x, .height = size.y, .colours = {gpu::Format::RGBA8}, .depth = true});
+    target_->bind();
+    gpu::apply({.depth_test = gpu::DepthTest::Less, .depth_write = true, .cull = gpu::Cull::None});
+    target_->clear(glm::vec4(0.0F));
+    target_->clear_depth();
+    program_.use();
+    program_.set("world_to_clip", world_to_clip);
+    program_.set("size", glm::vec2(size));
+    program_.set("cell", kStrokeCell);
+    program_.set("step_length", kStrokeStep);
+}
+
+void GrooveOverlay::draw(const render::GpuMesh& mesh, const glm::mat4& object_to_world, const CookedGrating* grating) {
+    const glm::mat3 linear(object_to_world);
+    const float determinant = glm::determinant(linear);
+    if (determinant == 0.0F) return;
+    program_.set("object_to_world", object_to_world);
+    program_.set("normal_to_world", glm::transpose(glm::inverse(linear)));
+    program_.set("mirroring", determinant < 0.0F ? -1.0F : 1.0F);
+    program_.set("chosen", grating != nullptr ? 1 : 0);
+    if (grating != nullptr) {
+        program_.set("groove_rotation", static_cast<float>(grating->groove_rotation));
+        program_.set("mapped", grating->grooves ? 1 : 0);
+        if (grating->grooves) {
+            program_.set("uv_set", grating->grooves->uv_set());
+            grating->grooves->bind(kEvenMoments, program_);
+        }
+    }
+    mesh.draw();
 }
 
 scene::Camera opening_camera() {
@@ -93,7 +147,7 @@ void Preview::Side::show(const PreviewInputs& inputs, const Gratings& wanted) {
     gratings.resize(wanted.size());
     for (std::size_t i = 0; i < wanted.size(); ++i)
         if (std::exchange(gratings[i], wanted[i]) != wanted[i]) show_grating(i);
-    look_through(inputs.glare_of && *inputs.glare_of < wanted.size() ? wanted[*inputs.glare_of] : nullptr);
+    set_glare(inputs.glare_of && *inputs.glare_of < wanted.size() ? wanted[*inputs.glare_of] : nullptr);
 }
 
 ecs::Entity Preview::Side::add(ecs::Entity parent, const scene::Transform& local) {
@@ -151,7 +205,7 @@ void Preview::Side::show_grating(std::size_t material) {
     }
 }
 
-void Preview::Side::look_through(std::shared_ptr<const CookedGrating> grating) {
+void Preview::Side::set_glare(std::shared_ptr<const CookedGrating> grating) {
     if (std::exchange(sheet, grating) == grating) return;
     auto& glare = picture.post_settings().glare;
     glare.reset();
@@ -163,11 +217,11 @@ void Preview::Side::look_through(std::shared_ptr<const CookedGrating> grating) {
 
 void Preview::Side::draw(const PreviewInputs& inputs, float seconds) {
     const Stage& stage = inputs.stage;
-    world.get<scene::Transform>(root) = placement(inputs);
+    world.get<scene::Transform>(root) = root_transform(inputs);
     if (stage.lamp) {
         if (!world.alive(lamp)) lamp = world.create();
         world.add(lamp, scene::DirectionalLight{
-                            .direction = glm::normalize(glm::mat3(turn_of(stage)) * lamp_direction(stage)),
+                            .direction = glm::normalize(glm::mat3(stage_rotation(stage)) * lamp_direction(stage)),
                             .irradiance = glm::vec3(stage.lamp_irradiance),
                             .casts_shadow = false});
     } else if (world.alive(lamp)) {
@@ -176,7 +230,7 @@ void Preview::Side::draw(const PreviewInputs& inputs, float seconds) {
     scene::update_world_matrices(world);
     picture.post_settings().exposure_stops = stage.exposure_stops;
     picture.resize(inputs.size);
-    picture.draw(world, turned_camera(inputs), seconds);
+    picture.draw(world, rotated_camera(inputs), seconds);
 }
 
 void Preview::show(const PreviewInputs& inputs) {
@@ -212,11 +266,11 @@ float Preview::aspect() const {
 }
 
 Ray Preview::ray(const glm::vec2& at) const {
-    return ray_through(turned_camera(inputs_), aspect(), at);
+    return ray_through(rotated_camera(inputs_), aspect(), at);
 }
 
 glm::vec2 Preview::project(const glm::vec3& position) const {
-    const scene::Camera camera = turned_camera(inputs_);
+    const scene::Camera camera = rotated_camera(inputs_);
     const glm::vec4 clip = camera.projection(aspect()) * camera.view() * glm::vec4(position, 1.0F);
     if (clip.w <= 0.0F) return glm::vec2(-1.0F);
     return {0.5F + 0.5F * clip.x / clip.w, 0.5F - 0.5F * clip.y / clip.w};
@@ -224,7 +278,7 @@ glm::vec2 Preview::project(const glm::vec3& position) const {
 
 void Preview::draw_grooves() {
     if (!overlay_) overlay_.emplace();
-    const scene::Camera camera = turned_camera(inputs_);
+    const scene::Camera camera = rotated_camera(inputs_);
     overlay_->begin(inputs_.size, camera.projection(aspect()) * camera.view());
     const Gratings& gratings = now_.gratings;
     for (const Drawn& part : now_.drawn) {
@@ -235,14 +289,14 @@ void Preview::draw_grooves() {
     }
 }
 
-PickedSurface Preview::as_placed_now(const PickedSurface& surface) const {
+PickedSurface Preview::under_current_rotation(const PickedSurface& surface) const {
     PickedSurface now = surface;
     const float angle = glm::radians(surface.stage_rotation_deg - inputs_.stage.rotation_deg);
-    const glm::mat3 turn(glm::rotate(glm::mat4(1.0F), angle, kUp));
-    now.point.position = turn * now.point.position;
+    const glm::mat3 rotation(glm::rotate(glm::mat4(1.0F), angle, kUp));
+    now.point.position = rotation * now.point.position;
     for (glm::dvec3* vector : {&now.point.frame.normal, &now.point.frame.grating, &now.point.bitangent,
                                &now.frame.normal, &now.frame.grating})
-        *vector = glm::dmat3(turn) * *vector;
+        *vector = glm::dmat3(rotation) * *vector;
     return now;
 }
 
@@ -263,11 +317,11 @@ std::optional<PickedSurface> Preview::pick(const glm::vec2& at) {
                                 .stage_rotation_deg = inputs_.stage.rotation_deg,
                                 .mesh = part.name};
     }
-    if (nearest) add_grooves(*nearest);
+    if (nearest) set_grating_vector(*nearest);
     return nearest;
 }
 
-void Preview::add_grooves(PickedSurface& surface) const {
+void Preview::set_grating_vector(PickedSurface& surface) const {
     double rotation = 0.0;
     if (surface.material && *surface.material < now_.gratings.size() && now_.gratings[*surface.material]) {
         const CookedGrating& grating = *now_.gratings[*surface.material];
@@ -276,7 +330,7 @@ void Preview::add_grooves(PickedSurface& surface) const {
                 grating.grooves->rotation(grating.grooves->uv_set() == 1 ? surface.point.uv1 : surface.point.uv);
         rotation = grating.groove_rotation + surface.map_rotation;
     }
-    surface.frame = turned(surface.point, rotation);
+    surface.frame = with_grating_rotated(surface.point, rotation);
 }
 
 std::vector<glm::vec2> Preview::middles_of(std::size_t material) {

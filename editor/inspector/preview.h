@@ -7,59 +7,51 @@
 #include <string>
 #include <vector>
 
-#include "editor/inspector/cook_grating.h"
-#include "editor/inspector/groove_overlay.h"
-#include "editor/inspector/inspected_light.h"
+#include "editor/inspector/cooked_gratings.h"
+#include "editor/inspector/light.h"
 #include "editor/inspector/pick_point.h"
-#include "editor/inspector/preview_shape.h"
+#include "editor/inspector/preview_object.h"
 #include "engine/ecs/world.h"
 #include "engine/gpu/framebuffer.h"
+#include "engine/gpu/program.h"
 #include "engine/post/ocio_config.h"
 #include "engine/render/gpu_mesh.h"
 #include "engine/scene/camera.h"
 #include "engine/view/picture.h"
 #include "modules/diffraction/asset/cooked_material.h"
-#include "modules/diffraction/model/shading_point.h"
+#include "modules/diffraction/model/grating.h"
 
 namespace rowland::inspector {
 
-/// Settings of light and exposure.
-struct Stage {
-    float rotation_deg = 0.0F;  ///< of the probe about the vertical axis
-    float exposure_stops = 0.0F;
-    bool lamp = false;  ///< a distant lamp in addition to the probe; it does not turn with the probe
-    float lamp_azimuth_deg = 35.0F;
-    float lamp_elevation_deg = 50.0F;
-    float lamp_irradiance = 3.0F;
+/// An overlay of groove directions on the picture of the same camera: strokes along the visible grooves. Needs a
+/// current context.
+class GrooveOverlay {
+ public:
+    GrooveOverlay();
 
-    friend bool operator==(const Stage&, const Stage&) = default;
+    /// Clears the picture.
+    void begin(glm::ivec2 size, const glm::mat4& world_to_clip);
+    /// Adds a mesh with the grooves of `grating`; null: the mesh only hides others.
+    void draw(const render::GpuMesh& mesh, const glm::mat4& object_to_world, const CookedGrating* grating);
+
+    const gpu::Framebuffer& picture() const { return *target_; }
+
+ private:
+    gpu::Program program_;
+    std::optional<gpu::Framebuffer> target_;
 };
-
-/// Toward the lamp, of a picture whose probe is not turned.
-glm::vec3 lamp_direction(const Stage& stage);
-
-/// What is shown: a shape, which has the one material 0, or a scene with its own. Never changes, so the pointer to it
-/// is its identity.
-struct PreviewObject {
-    PreviewShape shape = PreviewShape::Disc;
-    SceneUpload parts;                         ///< a shape's: its mesh, no materials
-    std::shared_ptr<const SceneObject> scene;  ///< null: a shape
-};
-
-/// What each material of the object has; null where it has no grating, or none yet.
-using Gratings = std::vector<std::shared_ptr<const CookedGrating>>;
 
 /// A point of the object in the last frame.
 struct PickedSurface {
-    PickedPoint point;                    ///< in the axes of the preview's world, which turns with the object
+    PickedPoint point;                    ///< in the axes of the preview's world, which rotates with the object
     diffraction::ShadingPoint frame;      ///< in the probe's axes, with the grating vector of the material's grooves
     std::optional<std::size_t> material;  ///< nullopt: a mesh without one
-    double map_rotation = 0.0;            ///< radians by which the groove texture turns them here
-    float stage_rotation_deg = 0.0F;      ///< of the frame that it was picked in
+    double map_rotation = 0.0;            ///< rotation by the groove texture at this point, radians
+    float stage_rotation_deg = 0.0F;      ///< when it was picked
     std::string mesh;                     ///< of a scene
 };
 
-/// All that the picture depends on.
+/// All inputs of the picture.
 struct PreviewInputs {
     glm::ivec2 size{0};
     glm::vec3 eye{0.0F};     ///< of the user's camera, whose lens is opening_camera()'s
@@ -81,9 +73,9 @@ class Preview {
     /// `still`, for captures: maps are complete in the second frame; otherwise they fill over many frames.
     Preview(const post::OcioConfig& config, bool still) : config_(config), still_(still), now_(config, still) {}
 
-    /// States the inputs, once a frame; object and light must be there, and a shape's grating. Uploads what changed.
-    /// Throws Error if the GPU refuses the light or a material; it is not tried again, and the last one stays in the
-    /// picture.
+    /// Sets the inputs; call it every frame. Object and light must exist, and the grating of a shape. Uploads changed
+    /// inputs. Throws Error if the GPU refuses the light or a material; the upload is not repeated, and the last one
+    /// stays in the picture.
     void show(const PreviewInputs& inputs);
     /// Draws a frame, `seconds` after the last, until the picture of the inputs no longer changes.
     void draw(float seconds);
@@ -103,12 +95,12 @@ class Preview {
     /// The surface at a point of the last frame, given from its upper left corner in [0, 1]; nullopt where the object
     /// is not.
     std::optional<PickedSurface> pick(const glm::vec2& at);
-    /// Points of the last frame, as pick() takes them, where a material may be seen: the middles of its meshes.
+    /// Points of the last frame, as pick() takes them, where a material may be visible: the middles of its meshes.
     std::vector<glm::vec2> middles_of(std::size_t material);
     /// From the preview's world to its picture, as pick() takes points.
     glm::vec2 project(const glm::vec3& position) const;
-    /// The same surface where the stage's rotation has moved it since.
-    PickedSurface as_placed_now(const PickedSurface& surface) const;
+    /// A surface that was picked earlier, under the current rotation of the stage.
+    PickedSurface under_current_rotation(const PickedSurface& surface) const;
     /// The ray through a point of the last frame.
     Ray ray(const glm::vec2& at) const;
 
@@ -119,7 +111,7 @@ class Preview {
         std::optional<std::size_t> material;
         std::string name;
     };
-    /// A world with one object in it, and what draws it.
+    /// A world with one object, and its renderer.
     struct Side {
         Side(const post::OcioConfig& config, bool still);
         void show(const PreviewInputs& inputs, const Gratings& wanted);
@@ -129,7 +121,7 @@ class Preview {
         void add_scene();
         void set_own_material(const Drawn& part);
         void show_grating(std::size_t material);
-        void look_through(std::shared_ptr<const CookedGrating> grating);
+        void set_glare(std::shared_ptr<const CookedGrating> grating);
 
         view::Picture picture;
         ecs::World world;
@@ -144,7 +136,7 @@ class Preview {
     };
 
     float aspect() const;
-    void add_grooves(PickedSurface& surface) const;
+    void set_grating_vector(PickedSurface& surface) const;
     void draw_grooves();
 
     const post::OcioConfig& config_;
@@ -157,7 +149,7 @@ class Preview {
     bool drawn_ = false;
 };
 
-/// The camera at the start, as the demo sees its disc.
+/// The initial camera, that of the demo's disc.
 scene::Camera opening_camera();
 
 }  // namespace rowland::inspector

@@ -1,19 +1,52 @@
-#include "editor/inspector/preview_panel.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
+#include <numbers>
+#include <optional>
 #include <string>
 
-#include "editor/inspector/groove_handle.h"
-#include "editor/inspector/lamp_handle.h"
+#include "editor/inspector/panels.h"
 
 namespace rowland::inspector {
 
 namespace {
+
+/// A handle on the surface of a scene that points along the grooves, in screen coordinates.
+struct Knob {
+    ImVec2 middle;
+    ImVec2 end;
+};
+
+ImVec2 on_screen(const glm::vec2& at, const ImVec2& corner, const ImVec2& size) {
+    return {corner.x + at.x * size.x, corner.y + at.y * size.y};
+}
+
+/// `corner`, `size`: of the picture.
+std::optional<Knob> knob_of(const Document& document, const View& view, const ImVec2& corner, const ImVec2& size) {
+    if (!view.shows_grooves || view.shape() != PreviewShape::Model || !view.surface() || !document.has_grating())
+        return std::nullopt;
+    const Preview& preview = view.preview();
+    const PickedSurface surface = preview.under_current_rotation(*view.surface());
+    const glm::vec3 along(glm::cross(surface.frame.normal, surface.frame.grating));
+    constexpr float kStep = 1e-3F;  // metres
+    const ImVec2 middle = on_screen(preview.project(surface.point.position), corner, size);
+    const ImVec2 ahead = on_screen(preview.project(surface.point.position + kStep * along), corner, size);
+    const glm::vec2 direction(ahead.x - middle.x, ahead.y - middle.y);
+    const float length = glm::length(direction);
+    if (!(length > 0.0F)) return std::nullopt;
+    const glm::vec2 arm = 4.0F * ImGui::GetFontSize() / length * direction;
+    return Knob{middle, {middle.x + arm.x, middle.y + arm.y}};
+}
+
+/// The angle of the same undirected groove nearest to `reference`, in [−π, π].
+double nearest_rotation(double angle, double reference) {
+    constexpr double kPi = std::numbers::pi;
+    angle += kPi * std::round((reference - angle) / kPi);
+    return angle > kPi ? angle - kPi : angle < -kPi ? angle + kPi : angle;
+}
 
 constexpr ImU32 kBright = IM_COL32(240, 240, 240, 255);
 constexpr ImU32 kBlack = IM_COL32(0, 0, 0, 255);
@@ -31,7 +64,7 @@ struct Slider {
     const char* format;
     float width;  ///< in letters
 };
-constexpr Slider kTurn{"turn", &Stage::rotation_deg, -180.0F, 180.0F, "turned %.0f°", 6.2F};
+constexpr Slider kRotation{"turn", &Stage::rotation_deg, -180.0F, 180.0F, "rotated %.0f°", 6.6F};
 constexpr Slider kExposure{"exposure", &Stage::exposure_stops, -8.0F, 8.0F, "%+.2f stops", 5.6F};
 constexpr Slider kLamp[] = {
     {"lamp azimuth", &Stage::lamp_azimuth_deg, -180.0F, 180.0F, "azimuth %.0f°", 8.0F},
@@ -46,19 +79,19 @@ void draw_slider(const Slider& slider, Stage& stage, ControlMap& controls) {
     controls.mark(slider.name);
 }
 
-/// Stays on the line of the last control if that many letters fit; a narrow preview has several lines of tools.
+/// Continues the line of the last control if `letters` more fit; a narrow preview has several lines of tools.
 void continue_line(float letters) {
     const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
     const float end = ImGui::GetItemRectMax().x + ImGui::GetStyle().ItemSpacing.x + letters * ImGui::GetFontSize();
     if (end <= right) ImGui::SameLine();
 }
 
-void draw_shape_picker(Session& session, ControlMap& controls) {
+void draw_shape_picker(View& view, bool has_scene, ControlMap& controls) {
     ImGui::SetNextItemWidth(5.2F * ImGui::GetFontSize());
-    if (ImGui::BeginCombo("##shape", preview_shape_name(session.shape()))) {
+    if (ImGui::BeginCombo("##shape", preview_shape_name(view.shape()))) {
         for (const PreviewShape shape : kPreviewShapes) {
-            if (shape == PreviewShape::Model && !session.has_model()) continue;
-            if (ImGui::Selectable(preview_shape_name(shape), shape == session.shape())) session.choose_shape(shape);
+            if (shape == PreviewShape::Model && !has_scene) continue;
+            if (ImGui::Selectable(preview_shape_name(shape), shape == view.shape())) view.choose_shape(shape);
             controls.mark(std::string("shape=") + preview_shape_name(shape));
         }
         ImGui::EndCombo();
@@ -66,18 +99,18 @@ void draw_shape_picker(Session& session, ControlMap& controls) {
     controls.mark("shape");
 }
 
-void draw_light_picker(Session& session, ControlMap& controls) {
+void draw_light_picker(LightChoice& light, ControlMap& controls) {
     ImGui::SetNextItemWidth(7.6F * ImGui::GetFontSize());
-    const std::string present = session.light() ? session.light()->path.stem().string() : "loading…";
+    const std::string present = light.current() ? light.current()->path.stem().string() : "loading…";
     if (ImGui::BeginCombo("##light", present.c_str())) {
-        for (const std::filesystem::path& path : session.shipped_lights()) {
+        for (const std::filesystem::path& path : light.shipped()) {
             const std::string name = path.stem().string();
-            if (ImGui::Selectable(name.c_str())) session.choose_light(path);
+            if (ImGui::Selectable(name.c_str())) light.choose(path);
             controls.mark("light=" + name);
         }
         ImGui::TextDisabled("or drop an .hdr or .exr, of the mapping");
         for (const char* mapping : {"auto", "equirect", "angular"}) {
-            if (ImGui::Selectable(mapping, session.mapping() == mapping)) session.choose_mapping(mapping);
+            if (ImGui::Selectable(mapping, light.mapping() == mapping)) light.choose_mapping(mapping);
             controls.mark(std::string("mapping=") + mapping);
         }
         ImGui::EndCombo();
@@ -85,84 +118,130 @@ void draw_light_picker(Session& session, ControlMap& controls) {
     controls.mark("light picker");
 }
 
+bool is_on_knob(const Document& document, const View& view, const ImVec2& corner, const ImVec2& size,
+                const ImVec2& at) {
+    const auto knob = knob_of(document, view, corner, size);
+    return knob && std::hypot(at.x - knob->end.x, at.y - knob->end.y) < 0.8F * ImGui::GetFontSize();
+}
+
+/// Rotates the grooves so that the knob points to `at`, a point as Preview::pick() takes it.
+void drag_knob(Document& document, const View& view, const glm::vec2& at) {
+    if (!view.surface()) return;
+    const PickedSurface surface = view.preview().under_current_rotation(*view.surface());
+    const glm::dvec3 normal = surface.frame.normal;
+    const Ray ray = view.preview().ray(at);
+    const glm::dvec3 middle(surface.point.position);
+    const double slope = glm::dot(normal, glm::dvec3(ray.direction));
+    if (std::abs(slope) < 0.05) return;  // the surface is seen edge-on
+    const double distance = glm::dot(normal, middle - glm::dvec3(ray.origin)) / slope;
+    const glm::dvec3 along = glm::dvec3(ray.origin) + distance * glm::dvec3(ray.direction) - middle;
+    const glm::dvec3 grating = glm::cross(along, normal);
+    const Field& field = field_at("/grooveRotation");
+    const Json before = value_of(field, document.json());
+    const double angle =
+        std::atan2(glm::dot(grating, surface.point.bitangent), glm::dot(grating, surface.point.frame.grating)) -
+        surface.map_rotation;
+    const double rotation = nearest_rotation(angle, before.is_number() ? before.get<double>() : 0.0);
+    document.set_value(field, std::round(rotation * 1e3) / 1e3);
+}
+
+void draw_knob(const Document& document, const View& view, const ImVec2& corner, const ImVec2& size,
+               ControlMap& controls) {
+    const auto knob = knob_of(document, view, corner, size);
+    if (!knob) return;
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const float font = ImGui::GetFontSize();
+    constexpr ImU32 kDark = IM_COL32(0, 0, 0, 200);
+    constexpr ImU32 kKnob = IM_COL32(255, 210, 60, 255);
+    draw.AddLine(knob->middle, knob->end, kDark, 5.0F);
+    draw.AddLine(knob->middle, knob->end, kKnob, 2.5F);
+    draw.AddCircleFilled(knob->end, 0.5F * font, kDark);
+    draw.AddCircleFilled(knob->end, 0.4F * font, kKnob);
+    controls.note("groove handle", fmt::format("{:.0f} {:.0f} {:.0f} {:.0f}", knob->end.x - 2.0F, knob->end.y - 2.0F,
+                                               knob->end.x + 2.0F, knob->end.y + 2.0F));
+}
+
 }  // namespace
 
 PreviewPanel::PreviewPanel() : camera_(opening_camera(), {.minimum_distance = 0.08F, .maximum_distance = 5.0F}) {}
 
-void PreviewPanel::draw_tools(Session& session, ControlMap& controls) {
-    draw_shape_picker(session, controls);
+void PreviewPanel::draw_tools(bool has_scene, bool has_saved, LightChoice& light, View& view, ControlMap& controls) {
+    draw_shape_picker(view, has_scene, controls);
     continue_line(7.6F);
-    draw_light_picker(session, controls);
-    for (const Slider* slider : {&kTurn, &kExposure}) {
+    draw_light_picker(light, controls);
+    for (const Slider* slider : {&kRotation, &kExposure}) {
         continue_line(slider->width);
-        draw_slider(*slider, session.stage, controls);
+        draw_slider(*slider, view.stage, controls);
     }
     continue_line(4.5F);
-    ImGui::Checkbox("Lamp", &session.stage.lamp);
+    ImGui::Checkbox("Lamp", &view.stage.lamp);
     controls.mark("lamp");
     continue_line(7.5F);
-    ImGui::Checkbox("Look through", &session.looks_through);
+    ImGui::Checkbox("Look through", &view.looks_through);
     controls.mark("look through");
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Hold the material before the camera: what it does to bright lights");
-    if (session.saved()) {
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("Hold the material before the camera: its glare around bright lights");
+    if (has_saved) {
         continue_line(4.0F);
         ImGui::Checkbox("A/B", &comparing);
         controls.mark("compare");
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("Left of the line: as saved. Drag the line.");
     }
-    if (!session.stage.lamp) return;
+    if (!view.stage.lamp) return;
     for (const Slider& slider : kLamp) {
         if (&slider != kLamp) ImGui::SameLine();
-        draw_slider(slider, session.stage, controls);
+        draw_slider(slider, view.stage, controls);
     }
 }
 
-void PreviewPanel::draw(Session& session, const platform::InputState& input, float pixels_per_unit, float seconds,
-                        ControlMap& controls) {
-    draw_tools(session, controls);
+void PreviewPanel::draw(OpenDocument& opened, LightChoice& light, View& view, const platform::InputState& input,
+                        float pixels_per_unit, float seconds, ControlMap& controls) {
+    has_saved_ = opened.saved() != nullptr;
+    draw_tools(opened.scene() != nullptr, has_saved_, light, view, controls);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ImVec2 size = ImGui::GetContentRegionAvail();
     if (size.x < 8.0F || size.y < 8.0F) return;
     ImGui::InvisibleButton("picture", size);
     controls.mark("picture");
-    use_mouse(session, input, corner, size);
-    if (!session.ready()) {
+    use_mouse(opened.document(), view, input, corner, size);
+    if (!view.ready()) {
         const char* words = "Preparing material and light…";
         const ImVec2 extent = ImGui::CalcTextSize(words);
         ImGui::GetWindowDrawList()->AddText(
             {corner.x + (size.x - extent.x) / 2.0F, corner.y + (size.y - extent.y) / 2.0F}, kBright, words);
         return;
     }
-    session.draw(glm::ivec2(pixels_per_unit * glm::vec2(size.x, size.y)), camera_.camera(), comparing, seconds);
-    draw_picture(session, corner, size);
-    GrooveHandle::draw(session, corner, size, controls);
-    if (session.stage.lamp) draw_lamp(session.stage, corner, size, controls);
+    view.draw(glm::ivec2(pixels_per_unit * glm::vec2(size.x, size.y)), camera_.camera(), comparing, seconds);
+    draw_picture(view, corner, size);
+    if (opened.cooking() || light.loading())
+        ImGui::GetWindowDrawList()->AddText(
+            {corner.x + 0.6F * ImGui::GetFontSize(), corner.y + size.y - 1.6F * ImGui::GetFontSize()}, kBright,
+            light.loading() ? "loading the light…" : "cooking…");
+    draw_knob(opened.document(), view, corner, size, controls);
+    if (view.stage.lamp) draw_lamp(view.stage, corner, size, controls);
 }
 
-void PreviewPanel::draw_picture(const Session& session, const ImVec2& corner, const ImVec2& size) const {
+void PreviewPanel::draw_picture(const View& view, const ImVec2& corner, const ImVec2& size) const {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const float font = ImGui::GetFontSize();
     const ImVec2 end(corner.x + size.x, corner.y + size.y);
     // The first row of a framebuffer is its lowest.
-    draw.AddImage(texture_of(session.preview().display()), corner, end, {0.0F, 1.0F}, {1.0F, 0.0F});
-    if (comparing && session.saved()) draw_saved(session, corner, end);
-    if (const gpu::Framebuffer* grooves = session.preview().grooves())
+    draw.AddImage(texture_of(view.preview().display()), corner, end, {0.0F, 1.0F}, {1.0F, 0.0F});
+    if (comparing && has_saved_) draw_saved(view, corner, end);
+    if (const gpu::Framebuffer* grooves = view.preview().grooves())
         draw.AddImage(texture_of(*grooves), corner, end, {0.0F, 1.0F}, {1.0F, 0.0F});
-    if (const auto& picked = session.picked()) {
-        const ImVec2 at(corner.x + picked->at.x * size.x, corner.y + picked->at.y * size.y);
+    if (const auto& picked = view.picked()) {
+        const ImVec2 at(corner.x + picked->position.x * size.x, corner.y + picked->position.y * size.y);
         draw.AddCircle(at, 0.45F * font, kBlack, 0, 3.5F);
         draw.AddCircle(at, 0.45F * font, IM_COL32_WHITE, 0, 1.5F);
     }
-    if (session.cooking() || session.loading_light())
-        draw.AddText({corner.x + 0.6F * font, end.y - 1.6F * font}, kBright,
-                     session.loading_light() ? "loading the light…" : "cooking…");
 }
 
-void PreviewPanel::draw_saved(const Session& session, const ImVec2& corner, const ImVec2& end) const {
+void PreviewPanel::draw_saved(const View& view, const ImVec2& corner, const ImVec2& end) const {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const float font = ImGui::GetFontSize();
     const float x = corner.x + line_ * (end.x - corner.x);
-    draw.AddImage(texture_of(session.preview().saved_display()), corner, {x, end.y}, {0.0F, 1.0F}, {line_, 0.0F});
+    draw.AddImage(texture_of(view.preview().saved_display()), corner, {x, end.y}, {0.0F, 1.0F}, {line_, 0.0F});
     draw.AddLine({x, corner.y}, {x, end.y}, IM_COL32(0, 0, 0, 160), 4.0F);
     draw.AddLine({x, corner.y}, {x, end.y}, IM_COL32(255, 255, 255, 230), 2.0F);
     const auto label = [&](float left, const char* words) {
@@ -181,7 +260,7 @@ void PreviewPanel::draw_lamp(const Stage& stage, const ImVec2& corner, const ImV
     const auto in_window = [&](const glm::vec2& at) {
         return ImVec2(corner.x + at.x * size.x, corner.y + at.y * size.y);
     };
-    const ImVec2 at = in_window(handle.at);
+    const ImVec2 at = in_window(handle.position);
     const float radius = 0.45F * ImGui::GetFontSize();
     const int alpha = handle.behind ? 90 : 220;
     ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -195,36 +274,37 @@ void PreviewPanel::draw_lamp(const Stage& stage, const ImVec2& corner, const ImV
 
 bool PreviewPanel::near_lamp(const Stage& stage, const glm::vec2& at, const ImVec2& size) const {
     if (!stage.lamp) return false;
-    const glm::vec2 apart = (lamp_handle(camera_.camera(), size.x / size.y, stage).at - at) * glm::vec2(size.x, size.y);
+    const glm::vec2 apart =
+        (lamp_handle(camera_.camera(), size.x / size.y, stage).position - at) * glm::vec2(size.x, size.y);
     return glm::length(apart) < 0.8F * ImGui::GetFontSize();
 }
 
-void PreviewPanel::use_mouse(Session& session, const platform::InputState& input, const ImVec2& corner,
+void PreviewPanel::use_mouse(Document& document, View& view, const platform::InputState& input, const ImVec2& corner,
                              const ImVec2& size) {
     const ImGuiIO& io = ImGui::GetIO();
     const glm::vec2 at((io.MousePos.x - corner.x) / size.x, (io.MousePos.y - corner.y) / size.y);
-    const bool near_line = comparing && session.saved() && std::abs(at.x - line_) < 6.0F / size.x;
-    const bool on_lamp = near_lamp(session.stage, at, size);
+    const bool near_line = comparing && has_saved_ && std::abs(at.x - line_) < 6.0F / size.x;
+    const bool on_lamp = near_lamp(view.stage, at, size);
     if (ImGui::IsItemActivated()) {
-        drag_ = on_lamp                                                   ? Drag::Lamp
-                : near_line                                               ? Drag::Line
-                : GrooveHandle::grabs(session, corner, size, io.MousePos) ? Drag::Grooves
-                                                                          : Drag::None;
-        if (on_lamp) lamp_behind_ = lamp_handle(camera_.camera(), size.x / size.y, session.stage).behind;
+        drag_ = on_lamp                                                 ? Drag::Lamp
+                : near_line                                             ? Drag::Line
+                : is_on_knob(document, view, corner, size, io.MousePos) ? Drag::Grooves
+                                                                        : Drag::None;
+        if (on_lamp) lamp_behind_ = lamp_handle(camera_.camera(), size.x / size.y, view.stage).behind;
     }
     scene::OrbitInput orbit;
     if (ImGui::IsItemActive()) {
         if (drag_ == Drag::None && ImGui::IsMouseDragging(ImGuiMouseButton_Left, 4.0F)) drag_ = Drag::Orbit;
         if (drag_ == Drag::Line) line_ = std::clamp(at.x, 0.0F, 1.0F);
-        if (drag_ == Drag::Grooves) GrooveHandle::drag(session, at);
+        if (drag_ == Drag::Grooves) drag_knob(document, view, at);
         if (drag_ == Drag::Lamp && (io.MouseDelta.x != 0.0F || io.MouseDelta.y != 0.0F))
-            drag_lamp(session.stage, camera_.camera(), size.x / size.y, at, lamp_behind_);
+            drag_lamp(view.stage, camera_.camera(), size.x / size.y, at, lamp_behind_);
         if (drag_ == Drag::Orbit) orbit.drag = {io.MouseDelta.x, io.MouseDelta.y};
     }
     if (ImGui::IsItemHovered()) orbit.scroll = static_cast<float>(input.scroll().y);
     camera_.update(orbit);
-    if (ImGui::IsItemDeactivated() && drag_ == Drag::None) session.pick(at);
-    if (ImGui::IsItemDeactivated() && drag_ == Drag::Grooves) session.document().finish_edit();
+    if (ImGui::IsItemDeactivated() && drag_ == Drag::None) view.pick(at);
+    if (ImGui::IsItemDeactivated() && drag_ == Drag::Grooves) document.finish_edit();
     if (ImGui::IsItemHovered() && on_lamp) ImGui::SetTooltip("Drag: move the lamp");
     if (ImGui::IsItemHovered() && near_line) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
 }

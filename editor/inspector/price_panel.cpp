@@ -1,5 +1,3 @@
-#include "editor/inspector/price_panel.h"
-
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -7,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "editor/inspector/plot.h"
+#include "editor/inspector/panels.h"
 
 namespace rowland::inspector {
 
@@ -16,7 +14,7 @@ namespace {
 constexpr std::size_t kFrontSeries = 0;
 constexpr std::size_t kPresentSeries = 1;
 
-/// The unbeaten choices, the cheapest first.
+/// The choices on the front, sorted by price.
 std::vector<PricedChoice> front(const PriceList& list) {
     std::vector<PricedChoice> result;
     for (const PricedChoice& choice : list.choices)
@@ -46,27 +44,25 @@ std::string byte_count(std::size_t bytes) {
                                   : fmt::format("{:.1f} MiB", size / 1024.0 / 1024.0);
 }
 
-void draw_numbers(const PriceList& list, const Session& session, double frame_ms) {
-    const auto cooked = session.cooked();
+void draw_numbers(const PriceList& list, bool is_current, const OpenDocument& opened, double frame_ms) {
+    const auto cooked = opened.cooked();
     if (!cooked) return;
     const diffraction::ShadingCost cost = diffraction::shading_cost(cooked->tables);
     const auto present = std::ranges::find(list.choices, true, &PricedChoice::present);
-    const bool measured = present != list.choices.end() && session.prices_are_current();
-    const std::string waiting = session.document().material().quality.pinned ? "measuring…" : "chosen by the cooker";
-    const auto row = [](const char* name, const std::string& value) {
-        ImGui::TextDisabled("%s", name);
-        ImGui::SameLine(8.0F * ImGui::GetFontSize());
-        ImGui::TextUnformatted(value.c_str());
-    };
-    row("Representation", info(cooked->tables).name);
-    row("Measured error", measured ? fmt::format("{:.4g} {}", present->error, measure_label(list.measure)) : waiting);
-    row("Price", measured ? fmt::format("{:.4g} fetches per pixel", present->price) : waiting);
-    row("Tables", fmt::format("{} ({} B)", byte_count(cost.table_bytes), cost.table_bytes));
-    row("Per pixel", fmt::format("{} fetches, {} multiply-adds", cost.fetches_per_pixel, cost.multiply_adds_per_pixel));
-    row("Per vertex",
-        fmt::format("{} fetches, {} multiply-adds", cost.fetches_per_vertex, cost.multiply_adds_per_vertex));
-    row("Per light", fmt::format("{} fetches, {} multiply-adds", cost.fetches_per_light, cost.multiply_adds_per_light));
-    if (frame_ms > 0.0) row("Frame time", fmt::format("{:.1f} ms, the median", frame_ms));
+    const bool measured = present != list.choices.end() && is_current;
+    const std::string waiting = opened.document().material().quality.pinned ? "measuring…" : "chosen by the cooker";
+    draw_row("Representation", info(cooked->tables).name);
+    draw_row("Measured error",
+             measured ? fmt::format("{:.4g} {}", present->error, measure_label(list.measure)) : waiting);
+    draw_row("Price", measured ? fmt::format("{:.4g} fetches per pixel", present->price) : waiting);
+    draw_row("Tables", fmt::format("{} ({} B)", byte_count(cost.table_bytes), cost.table_bytes));
+    draw_row("Per pixel",
+             fmt::format("{} fetches, {} multiply-adds", cost.fetches_per_pixel, cost.multiply_adds_per_pixel));
+    draw_row("Per vertex",
+             fmt::format("{} fetches, {} multiply-adds", cost.fetches_per_vertex, cost.multiply_adds_per_vertex));
+    draw_row("Per light",
+             fmt::format("{} fetches, {} multiply-adds", cost.fetches_per_light, cost.multiply_adds_per_light));
+    if (frame_ms > 0.0) draw_row("Frame time", fmt::format("{:.1f} ms, the median", frame_ms));
 }
 
 void draw_plot(const PriceList& list, float height) {
@@ -103,11 +99,11 @@ void draw_plot(const PriceList& list, float height) {
             ImGui::SetTooltip("%s\nerror %.4f, %.4g fetches per pixel, %s", description_of(choice).c_str(),
                               choice.error, choice.price, byte_count(choice.cost.table_bytes).c_str());
     }
-    plot.legend("unbeaten", kFrontSeries);
+    plot.legend("front", kFrontSeries);
     plot.legend("present", kPresentSeries);
 }
 
-/// The index of the material's own setting among the choices; -1 if it is none of them.
+/// The index of the choice that the material pins; -1 if it pins none of them.
 int present_index(const std::vector<PricedChoice>& choices, const Document& document) {
     nlohmann::json pinned = nlohmann::json::object();
     if (document.json().contains("quality")) pinned = nlohmann::json::parse(document.json()["quality"].dump());
@@ -117,10 +113,10 @@ int present_index(const std::vector<PricedChoice>& choices, const Document& docu
     return -1;
 }
 
-void draw_slider(Session& session, const PriceList& list, ControlMap& controls) {
+void draw_slider(Measurement& measurement, const Document& document, const PriceList& list, ControlMap& controls) {
     const std::vector<PricedChoice> choices = front(list);
     if (choices.empty()) return;
-    int index = present_index(choices, session.document());
+    int index = present_index(choices, document);
     const std::string name =
         index < 0 ? "as the material says" : description_of(choices[static_cast<std::size_t>(index)]);
     ImGui::TextDisabled("cheaper");
@@ -130,7 +126,7 @@ void draw_slider(Session& session, const PriceList& list, ControlMap& controls) 
     int wanted = std::max(index, 0);
     if (ImGui::SliderInt("##front", &wanted, 0, static_cast<int>(choices.size()) - 1, "", ImGuiSliderFlags_NoInput) &&
         wanted != index)
-        session.choose_priced(choices[static_cast<std::size_t>(wanted)]);
+        measurement.choose(choices[static_cast<std::size_t>(wanted)]);
     controls.mark("cheaper or more accurate");
     ImGui::SameLine();
     ImGui::TextDisabled("more accurate");
@@ -141,17 +137,18 @@ void draw_slider(Session& session, const PriceList& list, ControlMap& controls) 
 
 }  // namespace
 
-void PricePanel::draw(Session& session, double frame_ms, ControlMap& controls) {
-    const PriceList list = session.prices();
+void PricePanel::draw(Measurement& measurement, const OpenDocument& opened, double frame_ms, ControlMap& controls) {
+    const PriceList list = measurement.prices();
+    const bool is_current = measurement.prices_are_current();
     const float font = ImGui::GetFontSize();
-    if (session.pricing()) {
-        if (ImGui::Button("Stop")) session.stop_pricing();
+    if (measurement.pricing()) {
+        if (ImGui::Button("Stop")) measurement.stop_pricing();
         ImGui::SameLine();
         const float done = list.total == 0 ? 0.0F : static_cast<float>(list.done) / static_cast<float>(list.total);
         ImGui::ProgressBar(done, {-1.0F, 0.0F},
                            list.total == 0 ? "the reference" : fmt::format("{} of {}", list.done, list.total).c_str());
     } else {
-        if (ImGui::Button("Measure all choices")) session.price();
+        if (ImGui::Button("Measure all choices")) measurement.measure_all();
         controls.mark("measure");
         ImGui::SameLine();
         ImGui::SetNextItemWidth(7.0F * font);
@@ -159,20 +156,19 @@ void PricePanel::draw(Session& session, double frame_ms, ControlMap& controls) {
         controls.mark("budget");
         const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
         if (ImGui::GetItemRectMax().x + 8.5F * font <= right) ImGui::SameLine();
-        if (ImGui::Button("Cook to budget")) session.cook_to_budget(static_cast<double>(budget_));
+        if (ImGui::Button("Cook to budget")) measurement.cook_to_budget(static_cast<double>(budget_));
         controls.mark("cook to budget");
     }
-    if (!list.choices.empty() && !session.prices_are_current())
-        ImGui::TextDisabled("Measured before the last edit; measure again.");
+    if (!list.choices.empty() && !is_current) ImGui::TextDisabled("Measured before the last edit; measure again.");
     const bool wide = ImGui::GetContentRegionAvail().x > 32.0F * font;
     if (wide) {
         ImGui::Columns(2, "##price", false);
         ImGui::SetColumnWidth(0, 20.0F * font);
     }
-    draw_numbers(list, session, frame_ms);
+    draw_numbers(list, is_current, opened, frame_ms);
     if (wide) ImGui::NextColumn();
     draw_plot(list, std::max(7.0F * font, ImGui::GetContentRegionAvail().y - 3.6F * font));
-    draw_slider(session, list, controls);
+    draw_slider(measurement, opened.document(), list, controls);
     ImGui::Columns(1);
 }
 

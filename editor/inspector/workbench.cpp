@@ -6,11 +6,39 @@
 #include <algorithm>
 #include <utility>
 
-#include "editor/inspector/overwrite_question.h"
-
 namespace rowland::inspector {
 
 namespace {
+
+constexpr std::pair<const char*, const char*> kPreview[] = {
+    {"Drag", "orbit"},
+    {"Drag the lamp's handle", "move the lamp"},
+    {"Drag the line of A/B", "show more or less of the saved version"},
+    {"Wheel", "zoom"},
+    {"Click", "pick the point for the physics panes"},
+};
+constexpr std::pair<const char*, const char*> kFields[] = {
+    {"Drag a number", "change it"},
+    {"Ctrl+click a number", "type it"},
+    {"Hover", "meaning, range and source of the formula"},
+    {"Tab, arrows", "move through all controls"},
+    {"Space, Enter", "use a control"},
+    {"Ctrl+Tab", "the next panel"},
+};
+
+void help_heading(const char* name) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextDisabled("%s", name);
+}
+
+void help_row(const char* keys, const char* what) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(keys);
+    ImGui::TableNextColumn();
+    ImGui::TextWrapped("%s", what);
+}
 
 constexpr ImGuiWindowFlags kTile = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
                                    ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoSavedSettings;
@@ -19,6 +47,71 @@ bool begin_tile(const char* name, const ImVec2& corner, const ImVec2& size, ImGu
     ImGui::SetNextWindowPos(corner);
     ImGui::SetNextWindowSize(size);
     return ImGui::Begin(name, nullptr, kTile | more);
+}
+
+/// Runs the enabled commands whose keys were pressed in this frame.
+void run_pressed(std::span<const Command> commands, const platform::InputState& input) {
+    using platform::Key;
+    // A long frame may hold both the press and the release of a modifier.
+    const auto held = [&](Key left, Key right) {
+        return input.key(left).down || input.key(left).released || input.key(right).down || input.key(right).released;
+    };
+    const bool control = held(Key::LeftControl, Key::RightControl);
+    const bool shift = held(Key::LeftShift, Key::RightShift);
+    for (const Command& command : commands)
+        if (command.enabled && command.key && input.key(*command.key).pressed &&
+            control == command.keys.starts_with("Ctrl+") && shift == (command.keys.find("Shift+") != std::string::npos))
+            command.run();
+}
+
+void draw_menu_bar(std::span<const Command> commands, ControlMap& controls) {
+    if (!ImGui::BeginMainMenuBar()) return;
+    for (auto menu = commands.begin(); menu != commands.end();) {
+        const auto end =
+            std::find_if(menu, commands.end(), [&](const Command& other) { return other.menu != menu->menu; });
+        if (!menu->menu.empty() && ImGui::BeginMenu(menu->menu.c_str())) {
+            for (const Command& command : std::span(menu, end)) {
+                if (command.name.empty()) {
+                    ImGui::Separator();
+                    continue;
+                }
+                if (ImGui::MenuItem(command.name.c_str(), command.keys.c_str(), command.checked, command.enabled))
+                    command.run();
+                controls.mark("menu " + command.name);
+            }
+            ImGui::EndMenu();
+        } else if (!menu->menu.empty()) {
+            controls.mark("menu " + menu->menu);
+        }
+        menu = end;
+    }
+    ImGui::EndMainMenuBar();
+}
+
+/// A window that lists the mouse and keys of the preview, of the fields, and of each menu.
+void draw_help(std::span<const Command> commands, bool& open, ControlMap& controls) {
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    const float font = ImGui::GetFontSize();
+    ImGui::SetNextWindowPos({screen.x / 2.0F, screen.y / 2.0F}, ImGuiCond_Appearing, {0.5F, 0.5F});
+    ImGui::SetNextWindowSize({std::min(34.0F * font, screen.x), std::min(36.0F * font, screen.y - 4.0F * font)},
+                             ImGuiCond_Appearing);
+    if (ImGui::Begin("Keys", &open, ImGuiWindowFlags_NoSavedSettings) && ImGui::BeginTable("keys", 2)) {
+        ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed, 13.0F * font);
+        ImGui::TableSetupColumn("what");
+        help_heading("Preview");
+        for (const auto& [keys, what] : kPreview) help_row(keys, what);
+        help_heading("Fields");
+        for (const auto& [keys, what] : kFields) help_row(keys, what);
+        std::string menu;
+        for (const Command& command : commands) {
+            if (command.menu.empty() || command.keys.empty()) continue;
+            if (menu != command.menu) help_heading((menu = command.menu).c_str());
+            help_row(command.keys.c_str(), command.name.c_str());
+        }
+        ImGui::EndTable();
+    }
+    controls.note("help", "open");
+    ImGui::End();
 }
 
 }  // namespace
@@ -32,29 +125,28 @@ void Workbench::draw(const platform::InputState& input, bool keys_are_ours, cons
     if (help_) draw_help(present, help_, controls_);
     const float font = ImGui::GetFontSize();
     if (frame.in_window)
-        messages_.draw(session_.messages(), frame.size.x - 0.5F * font, frame.size.y - 2.4F * font,
+        messages_.draw(session_.messages.all(), frame.size.x - 0.5F * font, frame.size.y - 2.4F * font,
                        std::min(30.0F * font, frame.size.x - font));
     controls_.note("unread", std::to_string(messages_.shown()));
     dialogs_.draw(controls_);
-    draw_overwrite_question(session_, controls_);
     note_facts();
     controls_.end_frame();
 }
 
 void Workbench::note_facts() {
-    const Document& document = session_.document();
+    const Document& document = session_.opened.document();
     controls_.note("document", document.name() + (document.dirty() ? " *" : ""));
     controls_.note("refused", document.refusal() ? document.refusal()->message : "no");
     controls_.note("material", document.json().dump());
-    controls_.note("shape is", preview_shape_name(session_.shape()));
+    controls_.note("shape is", preview_shape_name(session_.view.shape()));
     controls_.note("busy", session_.busy() ? "yes" : "no");
-    controls_.note("light", session_.light() ? session_.light()->path.filename().string() : "none");
-    if (!session_.messages().empty()) controls_.note("message", session_.messages().back().text);
+    controls_.note("light", session_.light.current() ? session_.light.current()->path.filename().string() : "none");
+    if (!session_.messages.all().empty()) controls_.note("message", session_.messages.all().back().text);
 }
 
 std::vector<Command> Workbench::commands() {
     using platform::Key;
-    Document& document = session_.document();
+    Document& document = session_.opened.document();
     const auto scale_by = [this](float step) {
         return [this, step] { layout_.scale = std::clamp(layout_.scale + step, 0.5F, 4.0F); };
     };
@@ -66,31 +158,32 @@ std::vector<Command> Workbench::commands() {
          "Close scene",
          {},
          {},
-         [this] { dialogs_.unless_lost([this] { session_.close_scene(); }); },
-         session_.document().is_scene()},
+         [this] { dialogs_.ask_unsaved([this] { session_.opened.close_scene(); }); },
+         session_.opened.document().is_scene()},
         {"File", ""},
         {"File", "Quit", "Ctrl+Q", Key::Q, [this] { ask_to_close(); }},
         {"Edit", "Undo", "Ctrl+Z", Key::Z, [&document] { document.undo(); }, document.can_undo()},
         {"Edit", "Redo", "Ctrl+Shift+Z", Key::Z, [&document] { document.redo(); }, document.can_redo()},
     };
-    for (const char* preset : Session::presets())
+    for (const char* preset : OpenDocument::presets())
         result.push_back({"Presets", preset, {}, {}, [this, preset] {
                               const auto open = [this, preset] { session_.open_preset(preset); };
-                              session_.document().is_scene() ? open() : dialogs_.unless_lost(open);
+                              session_.opened.document().is_scene() ? open() : dialogs_.ask_unsaved(open);
                           }});
     for (std::size_t i = 0; i < kPreviewShapes.size(); ++i) {
         const PreviewShape shape = kPreviewShapes[i];
         result.push_back({"View", preview_shape_name(shape), fmt::format("Ctrl+{}", i + 1),
                           static_cast<Key>(static_cast<std::size_t>(Key::Digit1) + i),
-                          [this, shape] { session_.choose_shape(shape); },
-                          shape != PreviewShape::Model || session_.has_model(), shape == session_.shape()});
+                          [this, shape] { session_.view.choose_shape(shape); },
+                          shape != PreviewShape::Model || session_.opened.scene() != nullptr,
+                          shape == session_.view.shape()});
     }
-    const std::vector<Command> rest = {
+    const std::vector<Command> view_and_help = {
         {"View", ""},
         {"View", "Compare with saved", "F6", Key::F6, [this] { preview_.comparing = !preview_.comparing; },
-         session_.saved() != nullptr, preview_.comparing},
-        {"View", "Show grooves", "G", Key::G, [this] { session_.shows_grooves = !session_.shows_grooves; }, true,
-         session_.shows_grooves},
+         session_.opened.saved() != nullptr, preview_.comparing},
+        {"View", "Show grooves", "G", Key::G, [this] { session_.view.shows_grooves = !session_.view.shows_grooves; },
+         true, session_.view.shows_grooves},
         {"View", "Thin film", "F7", Key::F7, [this] { film_.open = !film_.open; }, true, film_.open},
         {"View", "Screenshot", "F12", Key::F12, [this] { screenshot_ = true; }},
         {"View", "Larger text", "Ctrl+=", Key::Equal, scale_by(0.1F)},
@@ -99,7 +192,7 @@ std::vector<Command> Workbench::commands() {
         {"", "Redo", "Ctrl+Y", Key::Y, [&document] { document.redo(); }},
         {"", "Larger text", "Ctrl+Shift+=", Key::Equal, scale_by(0.1F)},
     };
-    result.insert(result.end(), rest.begin(), rest.end());
+    result.insert(result.end(), view_and_help.begin(), view_and_help.end());
     return result;
 }
 
@@ -137,44 +230,45 @@ void Workbench::draw_tiles(const platform::InputState& input, const WorkbenchFra
     const float middle = frame.size.x - left - right - 2.0F * gap;
 
     if (begin_tile("Material", {0.0F, top}, {left, height})) {
-        scene_.draw(session_, controls_);
-        if (session_.document().has_grating()) material_.draw(session_.document(), controls_);
+        scene_.draw(session_.opened, session_.view, controls_);
+        if (session_.opened.document().has_grating()) material_.draw(session_.opened.document(), controls_);
     }
     ImGui::End();
     const auto draw_if_grating = [this](const auto& draw) {
-        session_.document().has_grating() ? draw() : ImGui::TextDisabled("The chosen material has no grating.");
+        session_.opened.document().has_grating() ? draw() : ImGui::TextDisabled("The chosen material has no grating.");
     };
     if (begin_tile("Physics", {frame.size.x - right, top}, {right, height}))
-        draw_if_grating([&] { physics_.draw(session_, controls_); });
+        draw_if_grating([&] { physics_.draw(session_.opened, session_.view, session_.measurement, controls_); });
     ImGui::End();
     if (begin_tile("Price", {left + gap, top + height - below}, {middle, below}))
-        draw_if_grating([&] { price_.draw(session_, frame.frame_ms, controls_); });
+        draw_if_grating([&] { price_.draw(session_.measurement, session_.opened, frame.frame_ms, controls_); });
     ImGui::End();
     if (begin_tile("Preview", {left + gap, top}, {middle, height - below - gap},
                    ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse))
-        preview_.draw(session_, input, frame.pixels_per_unit, frame.seconds, controls_);
+        preview_.draw(session_.opened, session_.light, session_.view, input, frame.pixels_per_unit, frame.seconds,
+                      controls_);
     ImGui::End();
     splitter("left splitter", {left, top}, {gap, height}, layout_.material_width, 1.0F);
     splitter("right splitter", {frame.size.x - right - gap, top}, {gap, height}, layout_.physics_width, -1.0F);
     splitter("lower splitter", {left + gap, top + height - below - gap}, {middle, gap}, layout_.price_height, -1.0F);
     draw_status(top + height, frame.size.x, status, frame.frame_ms);
     // The first Tab goes to the first field. A window takes the focus when it appears.
-    if (!std::exchange(begun_, true)) ImGui::SetWindowFocus("Material");
+    if (!std::exchange(focused_, true)) ImGui::SetWindowFocus("Material");
 }
 
 void Workbench::draw_status(float top, float width, float height, double frame_ms) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1.0F, 1.0F});
     begin_tile("##status", {0.0F, top}, {width, height},
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoScrollbar);
-    const Document& document = session_.document();
+    const Document& document = session_.opened.document();
     ImGui::TextUnformatted((document.name() + (document.dirty() ? " •" : "")).c_str());
     if (document.dirty() && ImGui::IsItemHovered()) ImGui::SetTooltip("Not saved");
     if (frame_ms > 0.0) {
         ImGui::SameLine();
         ImGui::TextDisabled("%.1f ms", frame_ms);
     }
-    if (!session_.messages().empty()) {
-        const Message& last = session_.messages().back();
+    if (!session_.messages.all().empty()) {
+        const Message& last = session_.messages.all().back();
         ImGui::SameLine();
         if (last.failure)
             ImGui::TextColored({0.95F, 0.60F, 0.15F, 1.0F}, "%s", last.text.c_str());

@@ -1,24 +1,34 @@
 #pragma once
 
+#include <chrono>
+#include <functional>
 #include <glm/vec2.hpp>
+#include <optional>
+#include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
-#include "editor/inspector/command.h"
-#include "editor/inspector/control_map.h"
 #include "editor/inspector/dialogs.h"
-#include "editor/inspector/film_panel.h"
 #include "editor/inspector/layout.h"
-#include "editor/inspector/material_panel.h"
-#include "editor/inspector/physics_panel.h"
-#include "editor/inspector/preview_panel.h"
-#include "editor/inspector/price_panel.h"
-#include "editor/inspector/scene_panel.h"
+#include "editor/inspector/panels.h"
 #include "editor/inspector/session.h"
+#include "engine/app/window_loop.h"
 #include "engine/platform/input.h"
 #include "engine/ui/message_list.h"
 
 namespace rowland::inspector {
+
+/// An action with a menu item, a key, or both.
+struct Command {
+    std::string menu;    ///< commands of one menu are contiguous; empty: in no menu
+    std::string name;    ///< empty: a separator
+    std::string keys{};  ///< "Ctrl+Shift+S"; modifiers that are not named must be up
+    std::optional<platform::Key> key{};
+    std::function<void()> run{};
+    bool enabled = true;
+    bool checked = false;
+};
 
 struct WorkbenchFrame {
     glm::vec2 size{0.0F};       ///< screen coordinates
@@ -37,16 +47,16 @@ class Workbench {
 
     void draw(const platform::InputState& input, bool keys_are_ours, const WorkbenchFrame& frame);
 
-    /// Opens a file; asks first if edits would be lost.
+    /// Opens a file; asks first if unsaved edits would be lost.
     void open(const std::filesystem::path& file) { dialogs_.open(file); }
-    /// Closes; asks first if edits would be lost.
+    /// Closes; asks first if unsaved edits would be lost.
     void ask_to_close() {
-        dialogs_.unless_lost([this] { closed_ = true; });
+        dialogs_.ask_unsaved([this] { closed_ = true; });
     }
     bool closed() const { return closed_; }
-    /// Whether the user asked for a screenshot since the last call.
+    /// Whether the user requested a screenshot since the last call.
     bool take_screenshot() { return std::exchange(screenshot_, false); }
-    /// Whether a message disappears with the next frame, or the film's curves may change.
+    /// Whether the next frame differs without input: a message disappears, or the film's curves are being computed.
     bool due() const { return messages_.due() || film_.busy(); }
 
  private:
@@ -67,10 +77,37 @@ class Workbench {
     FilmPanel film_;
     Dialogs dialogs_;
     ui::MessageList messages_;
-    bool begun_ = false;  ///< a frame was drawn
+    bool focused_ = false;  ///< the first frame gave the focus to the first panel
     bool help_ = false;
     bool screenshot_ = false;
     bool closed_ = false;
+};
+
+/// Decides when the window is drawn: while something changes, and shortly afterwards.
+class Redraw {
+ public:
+    using Clock = std::chrono::steady_clock;
+
+    /// The next step of the loop. `changed`: the contents of the window may have changed since the last call;
+    /// `working`: background work is not complete.
+    app::Next next(bool changed, bool working, Clock::time_point now) {
+        if (changed) {
+            frames_ = kFrames;
+            until_ = now + kAfterwards;
+        }
+        if (frames_ > 0) --frames_;
+        if (frames_ > 0 || now < until_) return app::Next::Frame;
+        return working ? app::Next::Watch : app::Next::Wait;
+    }
+
+ private:
+    /// ImGui places a new window in its second frame, and ui::InputFeed passes a fast drag in three.
+    static constexpr int kFrames = 7;
+    /// A modal dialog fades in.
+    static constexpr std::chrono::milliseconds kAfterwards{250};
+
+    int frames_ = 0;
+    Clock::time_point until_{};
 };
 
 }  // namespace rowland::inspector

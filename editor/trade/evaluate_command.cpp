@@ -1,26 +1,115 @@
-#include "editor/trade/evaluate_command.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 #include <iterator>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
-#include "editor/trade/evaluate_film.h"
+#include "editor/trade/commands.h"
 #include "editor/trade/inputs.h"
-#include "editor/trade/results.h"
+#include "engine/colour/illuminant.h"
 #include "engine/core/error.h"
+#include "engine/lighting/environment_map.h"
 #include "engine/lighting/light_probe.h"
-#include "engine/math/sh_window.h"
+#include "engine/lighting/light_samples.h"
+#include "engine/lighting/probe_image.h"
+#include "engine/math/spherical_harmonics.h"
 #include "modules/diffraction/asset/cooked_material.h"
-#include "modules/diffraction/asset/material_json.h"
+#include "modules/diffraction/asset/material.h"
 #include "modules/diffraction/evaluate/point_shader.h"
+#include "modules/diffraction/model/grating.h"
+#include "modules/diffraction/reference/reference.h"
+#include "modules/diffraction/representations/point_shader.h"
+#include "modules/thin_film/asset/film_material.h"
+#include "modules/thin_film/evaluate/drawn_film.h"
+#include "modules/thin_film/reference/film_reference.h"
 
 namespace rowland::trade {
 
 namespace {
+
+/// Smoother lobes lie between the samples of the light: the film is then a mirror.
+constexpr double kSmoothest = 0.08;
+
+constexpr std::string_view kReference = "reference";
+constexpr std::string_view kTable = "table";  ///< given the light of the lobe without error
+constexpr std::string_view kDrawn = "drawn";
+constexpr std::string_view kDrawnRough = "drawn/rough-reflections";
+
+/// XYZ toward v of a surface of normal n; both unit, n·v > 0.
+using Radiance = std::function<glm::dvec3(const glm::dvec3& n, const glm::dvec3& v)>;
+
+Radiance as_drawn(const thin_film::FilmMaterial& film, const lighting::ProbeImage& probe,
+                  thin_film::Reflections reflections) {
+    return [film, reflections, table = thin_film::bake_film(film), environment = lighting::prefilter(probe)](
+               const glm::dvec3& n, const glm::dvec3& v) {
+        return thin_film::drawn_radiance(table, film.range.thickest_nm, film.range.roughest, environment, n, v,
+                                         reflections);
+    };
+}
+
+/// The sum over microfacets, each with its own light; or, with a table, its M̄ times the light of the lobe.
+Radiance as_summed(const thin_film::FilmMaterial& film, const lighting::ProbeImage& probe,
+                   std::optional<thin_film::FilmTable> table) {
+    const bool smooth = film.range.roughest < kSmoothest;
+    return [film, smooth, &probe, table = std::move(table),
+            reference = thin_film::RoughReference(film.film, colour::LightSpectra(film.illuminant)),
+            light = smooth ? lighting::LightSamples{} : lighting::light_samples(probe)](const glm::dvec3& n,
+                                                                                        const glm::dvec3& v) {
+        const double n_v = glm::dot(n, v);
+        thin_film::RoughReference::Reflected reflected;
+        if (smooth) {
+            reflected.without_fresnel = probe.radiance(2.0 * n_v * n - v);
+            reflected.xyz = reference.at(n_v) * reflected.without_fresnel;
+        } else {
+            reflected = reference.reflected(light, n, v, film.range.roughest);
+        }
+        return table ? table->at(n_v, film.range.thickest_nm, film.range.roughest) * reflected.without_fresnel
+                     : reflected.xyz;
+    };
+}
+
+Radiance radiance_by(std::string_view method, const thin_film::FilmMaterial& film, const lighting::ProbeImage& probe) {
+    if (method == kReference) return as_summed(film, probe, {});
+    if (method == kTable) return as_summed(film, probe, thin_film::bake_film(film));
+    return as_drawn(film, probe,
+                    method == kDrawn ? thin_film::Reflections::OneLookUp : thin_film::Reflections::FourLookUps);
+}
+
+bool is_film(const nlohmann::json& material) {
+    return material.is_object() && material.contains("film");
+}
+
+std::vector<glm::dvec3> film_radiance(const nlohmann::json& material, const std::string& file,
+                                      const std::string& method, const lighting::ProbeImage& probe,
+                                      const std::vector<diffraction::ShadingPoint>& points) {
+    if (method != kReference && method != kTable && method != kDrawn && method != kDrawnRough)
+        refuse_input("--method", {}, method.empty() ? "none" : method,
+                     fmt::format("{}, {}, {} or {}: the material is a film", kReference, kTable, kDrawn, kDrawnRough),
+                     "see rowland-trade evaluate --help");
+    const thin_film::FilmMaterial film = thin_film::parse_film_material(material, file);
+    const Radiance radiance = radiance_by(method, film, probe);
+    std::vector<glm::dvec3> result;
+    for (const diffraction::ShadingPoint& point : points) {
+        const glm::dvec3 n = glm::normalize(point.normal);
+        const glm::dvec3 v = glm::normalize(point.view);
+        result.push_back(glm::dot(n, v) > 0.0 ? radiance(n, v) : glm::dvec3(0.0));
+    }
+    return result;
+}
 
 std::vector<std::string> method_names() {
     std::vector<std::string> names{"reference"};
@@ -43,7 +132,6 @@ const std::vector<SettingFlag>& setting_flags() {
     static const std::vector<SettingFlag> flags{
         {"--bands", {"bands"}, "Bands of the light and of the material"},
         {"--spikes", {"spikes"}, "Spikes for each view"},
-        {"--bins", {"bins"}, "Wavelength bins of the method bins"},
         {"--rank", {"rank"}, "Rank of the arc table"},
         {"--resolution",
          {"map_resolution", "view_resolution"},
@@ -90,7 +178,34 @@ std::string format_row(const glm::dvec3& xyz) {
     return fmt::format("{:.9g},{:.9g},{:.9g}", xyz.x, xyz.y, xyz.z);
 }
 
-}  // namespace
+/// `rowland-trade evaluate`: XYZ of a material's diffraction term at given frames, by any method, on standard output.
+struct EvaluateCommand {
+    std::optional<std::filesystem::path> material;
+    std::optional<std::filesystem::path> cooked;
+    std::optional<std::filesystem::path> probe;
+    std::optional<std::filesystem::path> probe_sh;
+    std::optional<std::filesystem::path> illuminant;
+    std::filesystem::path frames;
+    std::string mapping = "auto";
+    std::string method;
+    /// Settings of the method, as its text would have them after a slash.
+    std::map<std::string, std::string> settings;
+    bool error = false;
+
+    /// Adds the subcommand, whose options fill this object.
+    CLI::App* declare(CLI::App& program);
+    void run() const;
+
+ private:
+    void check_usage() const;
+    void run_film() const;
+    diffraction::Method asked_method() const;
+    diffraction::EvaluationLight light(int key_lights, math::SphericalWindow window) const;
+    std::vector<diffraction::CheckedRadiance> by_reference(const colour::LightSpectra& spectra,
+                                                           const std::vector<diffraction::ShadingPoint>& points) const;
+    std::vector<glm::dvec3> by_representation(const colour::Illuminant& illuminant,
+                                              const std::vector<diffraction::ShadingPoint>& points) const;
+};
 
 CLI::App* EvaluateCommand::declare(CLI::App& program) {
     CLI::App* command =
@@ -110,11 +225,7 @@ CLI::App* EvaluateCommand::declare(CLI::App& program) {
     command->add_option("--material", material, "Material, JSON")->type_name("FILE");
     command->add_option("--cooked", cooked, "Cooked material, in place of --material and --method")->type_name("FILE");
     command->add_option("--probe", probe, "Light probe, Radiance .hdr or OpenEXR")->type_name("FILE");
-    command
-        ->add_option("--probe-mapping", mapping,
-                     "How the image covers the sphere: equirect, angular, or auto (recognised)")
-        ->check(CLI::IsMember({"auto", "equirect", "angular"}))
-        ->capture_default_str();
+    add_probe_mapping(*command, mapping);
     command->add_option("--probe-sh", probe_sh, "In place of --probe: CSV l,m,r,g,b, which is the light itself")
         ->type_name("FILE");
     command->add_option("--illuminant", illuminant, "CSV wavelength_nm,relative_power of the light; D65 if not given")
@@ -203,8 +314,8 @@ std::vector<glm::dvec3> EvaluateCommand::by_representation(const colour::Illumin
     shaded.quality.illuminant = white;
     const diffraction::EvaluationLight lit = light(asked.key_lights, asked.window);
     const auto* spikes = std::get_if<diffraction::SpikeTableSettings>(&*shaded.quality.pinned);
-    const bool has_own_settings = method != info(asked).name;  // means then what it means everywhere
-    if (spikes == nullptr || has_own_settings || asked.quality.contains("view_resolution") ||
+    const bool has_settings = method != info(asked).name;
+    if (spikes == nullptr || has_settings || asked.quality.contains("view_resolution") ||
         asked.quality.contains("view_mapping"))
         return evaluate_baked(bake_material(shaded), lit, points);
     diffraction::CookedMaterial kernel = diffraction::bake_kernel(shaded);
@@ -244,6 +355,13 @@ void EvaluateCommand::run() const {
         for (const glm::dvec3& xyz : by_representation(spectra.illuminant(), points)) text += format_row(xyz) + '\n';
     }
     write_results(text);
+}
+
+}  // namespace
+
+void add_evaluate_command(CLI::App& program) {
+    const auto command = std::make_shared<EvaluateCommand>();
+    command->declare(program)->callback([command] { command->run(); });
 }
 
 }  // namespace rowland::trade

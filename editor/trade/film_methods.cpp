@@ -6,17 +6,16 @@
 #include <numbers>
 #include <span>
 
-#include "engine/colour/light_spectra.h"
-#include "engine/colour/working_space.h"
+#include "engine/colour/colour_space.h"
+#include "engine/colour/illuminant.h"
+#include "engine/lighting/environment_map.h"
 #include "engine/lighting/light_samples.h"
-#include "engine/lighting/prefilter.h"
-#include "engine/math/sh_basis.h"
-#include "modules/diffraction/evaluate/radiance_error.h"
+#include "engine/math/spherical_harmonics.h"
+#include "modules/diffraction/evaluate/error_measure.h"
 #include "modules/thin_film/bake/film_table.h"
 #include "modules/thin_film/evaluate/drawn_film.h"
-#include "modules/thin_film/model/reflectance.h"
-#include "modules/thin_film/reference/gltf_formula.h"
-#include "modules/thin_film/reference/rough_reference.h"
+#include "modules/thin_film/model/film.h"
+#include "modules/thin_film/reference/film_reference.h"
 
 namespace rowland::trade {
 

@@ -26,7 +26,7 @@ const std::array<FilmSubject, 6>& film_subjects();
 /// Linear Rec.709 by Airy's sum at 650, 550 and 450 nm.
 glm::dvec3 three_wavelengths(const thin_film::Film& film, double cosine);
 
-/// A method's error on a rough film under a probe, and what it costs, counted in its formulas.
+/// A method's error on a rough film under a probe, and its cost, counted in its formulas.
 struct FilmRow {
     std::string film{};
     double roughness = 0.0;
@@ -38,8 +38,8 @@ struct FilmRow {
     int functions = 0;      ///< sines, cosines, exponentials and roots
 };
 
-/// Rows for every subject at 400 nm, two roughnesses and six methods. Those that are drawn have the engine's
-/// prefiltered environment; all others but spherical harmonics are given the light of the lobe without error.
+/// Rows for every subject at 400 nm, two roughnesses and six methods. The methods "drawn" use the engine's prefiltered
+/// environment; all others but spherical harmonics are given the light of the lobe without error.
 std::vector<FilmRow> film_rows(const lighting::ProbeImage& probe);
 
 }  // namespace rowland::trade

@@ -14,14 +14,12 @@
 #include "editor/trade/commands.h"
 #include "editor/trade/film_methods.h"
 #include "editor/trade/inputs.h"
-#include "editor/trade/results.h"
 #include "editor/trade/sweep.h"
-#include "engine/colour/primaries.h"
-#include "engine/colour/srgb.h"
-#include "engine/image/png.h"
-#include "modules/diffraction/evaluate/radiance_error.h"
-#include "modules/thin_film/model/film_colour.h"
-#include "modules/thin_film/reference/gltf_formula.h"
+#include "engine/colour/colour_space.h"
+#include "engine/image/byte_image.h"
+#include "modules/diffraction/evaluate/error_measure.h"
+#include "modules/thin_film/model/film.h"
+#include "modules/thin_film/reference/film_reference.h"
 
 namespace rowland::trade {
 
@@ -53,7 +51,7 @@ Colours exact(const FilmSubject& subject) {
     return colours;
 }
 
-/// As a renderer has it that knows the base by its colour at normal incidence.
+/// By glTF's formula, which represents the base by its colour at normal incidence.
 Colours by_formula(const FilmSubject& subject) {
     const glm::dvec3 f0 = thin_film::normal_colour(subject.base);
     Colours colours;
@@ -103,7 +101,7 @@ class Page {
     std::vector<std::uint8_t> rgb_;
 };
 
-/// A table of how far off the formulas are.
+/// Writes the picture; returns a table of the errors of the formulas.
 std::string swatches(const std::filesystem::path& picture) {
     Page page;
     std::string table = "| film | glTF's formula | three wavelengths |\n| --- | --- | --- |\n";
@@ -154,9 +152,9 @@ void add_films_command(CLI::App& program) {
     CLI::App* command = program.add_subcommand("films", "Colours of thin films, exact and by common formulas");
     command->footer(
         "Writes a picture: a row for each of six bases; in it the exact colours, those of glTF's formula and of three\n"
-        "wavelengths; from left to right 0 to 1000 nm, from the top down 0 to 85 degrees. Standard output: how far "
-        "off\n"
-        "the formulas are, relative RMS; under each probe, what the table, spherical harmonics and the formulas make "
+        "wavelengths; from left to right 0 to 1000 nm, from the top down 0 to 85 degrees. Standard output: the errors "
+        "of\n"
+        "the formulas, relative RMS; under each probe, what the table, spherical harmonics and the formulas make "
         "of rough films.\n"
         "Example:\n  rowland-trade films swatches.png");
     const auto options = std::make_shared<FilmsOptions>();

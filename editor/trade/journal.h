@@ -5,9 +5,15 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "engine/core/file_lock.h"
+#include "engine/core/file.h"
 
 namespace rowland::trade {
+
+/// Hashes of the sources that results depend on, computed when the tool is built. Results of other sources are not
+/// reused.
+std::string reference_version();  ///< of the reference and the libraries it uses
+std::string method_version();     ///< of all code that shades, on the CPU or the GPU
+std::string release_version();    ///< Rowland's version number
 
 /// Results that survive the program: a file of JSON lines, each written as soon as it is known. If the program is
 /// killed, at most the last line is incomplete; it is cut off when the file is opened again.

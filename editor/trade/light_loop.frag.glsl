@@ -1,8 +1,10 @@
 #version 450 core
 // Shades each light and each order separately: the slow method of the paper's fig. 3.
 #define MATERIAL_HAS_MIRROR
-#include "engine/render/shaders/forward_fragment_interface.glsl"
-#include "modules/diffraction/shaders/groove_view.glsl"
+#include "engine/render/shaders/surface.glsl"
+#include "engine/render/shaders/environment.glsl"
+#include "modules/diffraction/shaders/grooves.glsl"
+#include "engine/render/shaders/shading.glsl"
 
 struct LoopLight {
     vec4 direction;   // xyz: unit, world, toward the light
@@ -27,7 +29,8 @@ vec3 order_xyz(int i, float path_nm, vec3 rgb) {
     return xyz;
 }
 
-MaterialTerms material_terms() {
+void main() {
+    read_screen_visibility();
     GrooveView view = groove_view();
     vec3 xyz = vec3(0.0);
     if (view.direction.z > 0.0)
@@ -37,7 +40,5 @@ MaterialTerms material_terms() {
             for (int o = 0; o < order_count; ++o)
                 xyz += s.z * order_xyz(o, pitch_nm * (s.x + view.direction.x), loop_lights[i].irradiance.rgb);
         }
-    return MaterialTerms(base_weight, mirror_weight, mat3(xyz_to_working) * xyz);
+    write_surface(MaterialTerms(base_weight, mirror_weight, mat3(xyz_to_working) * xyz));
 }
-
-#include "engine/render/shaders/forward_fragment_main.glsl"

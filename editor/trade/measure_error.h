@@ -1,16 +1,17 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
-#include "editor/trade/frame_sets.h"
-#include "editor/trade/picture_scene.h"
+#include "editor/trade/inputs.h"
 #include "modules/diffraction/asset/cooked_material.h"
-#include "modules/diffraction/representations/evaluation_light.h"
+#include "modules/diffraction/representations/point_shader.h"
 
 namespace rowland::trade {
 
@@ -44,7 +45,7 @@ inline constexpr double kDark = 0.2;
 /// The spans are of one length, one value per point.
 MethodError compare(std::span<const glm::dvec3> radiance, std::span<const glm::dvec3> reference);
 
-/// The same of a picture, with "flip".
+/// compare() of a picture, with "flip".
 MethodError compare_pictures(const PictureFrames& frames, std::span<const glm::dvec3> radiance,
                              std::span<const glm::dvec3> reference);
 
@@ -53,5 +54,26 @@ std::vector<glm::vec3> displayed(std::span<const glm::dvec3> xyz, float exposure
 
 /// CIEDE2000 between the display values of each pair.
 std::vector<double> display_differences(std::span<const glm::vec3> a, std::span<const glm::vec3> b);
+
+/// 8-bit RGB, rows from the top.
+struct RgbPicture {
+    int width = 0;
+    int height = 0;
+    std::vector<std::uint8_t> rgb;
+};
+
+/// The picture as a PNG in a data URL.
+std::string data_url(const RgbPicture& picture);
+
+/// ΔE2000 at the end of the colour scale.
+inline constexpr double kFullDifference = 20.0;
+
+/// Two pictures of XYZ on the display, both exposed for the second, and their difference, side by side: ΔE2000 from
+/// black (0) over violet and green to yellow (kFullDifference or more). Each pixel is magnified by `magnified`.
+RgbPicture difference_image(std::span<const glm::dvec3> a, std::span<const glm::dvec3> b, int width, int height,
+                            int magnified);
+
+/// The colour scale at a fraction of kFullDifference, 0 to 1.
+glm::vec3 difference_colour(double fraction);
 
 }  // namespace rowland::trade

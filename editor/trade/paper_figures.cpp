@@ -10,15 +10,15 @@
 #include <utility>
 #include <variant>
 
-#include "editor/trade/difference_image.h"
-#include "editor/trade/picture_scene.h"
+#include "editor/trade/inputs.h"
+#include "editor/trade/measure_error.h"
 #include "editor/trade/stage.h"
-#include "engine/core/progress.h"
-#include "engine/platform/headless_context.h"
+#include "engine/core/log.h"
+#include "engine/platform/gl_context.h"
 #include "engine/render/scene_lights.h"
-#include "modules/diffraction/model/fejer.h"
+#include "modules/diffraction/model/brdf.h"
 #include "modules/diffraction/model/profile.h"
-#include "modules/diffraction/runtime/light_parts.h"
+#include "modules/diffraction/runtime/surface_light.h"
 
 namespace rowland::trade {
 

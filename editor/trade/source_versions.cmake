@@ -1,4 +1,4 @@
-# Writes ${OUTPUT}, which defines source_versions.h. REFERENCE and METHODS: files that hold a path a line;
+# Writes ${OUTPUT}, which defines the versions of journal.h. REFERENCE and METHODS: files that hold a path a line;
 # RELEASE: the version number.
 function(hash_of list result)
   file(STRINGS ${list} paths)
@@ -15,7 +15,7 @@ endfunction()
 hash_of(${REFERENCE} reference)
 hash_of(${METHODS} methods)
 file(CONFIGURE OUTPUT ${OUTPUT} CONTENT [[
-#include "editor/trade/source_versions.h"
+#include "editor/trade/journal.h"
 
 namespace rowland::trade {
 

@@ -2,21 +2,68 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
+#include <cmath>
+#include <glm/vec4.hpp>
+#include <iterator>
+#include <string>
 #include <utility>
 
-#include "editor/trade/picture_scene.h"
-#include "engine/gpu/lost_context.h"
-#include "engine/post/shader_files.h"
-#include "engine/post/working_space.h"
+#include "editor/trade/inputs.h"
+#include "engine/colour/spectrum.h"
+#include "engine/core/error.h"
+#include "engine/core/text.h"
+#include "engine/gpu/context.h"
+#include "engine/post/ocio_config.h"
+#include "engine/post/post_stack.h"
 #include "engine/render/gpu_mesh.h"
-#include "engine/scene/directional_light.h"
+#include "engine/scene/light.h"
 #include "engine/scene/transform.h"
+#include "modules/diffraction/asset/material.h"
+#include "modules/diffraction/model/grating.h"
+#include "modules/diffraction/shaders/shader_files.h"
 #include "modules/material_types.h"
 
 namespace rowland::trade {
 
+/// light_loop.frag.glsl.
+std::span<const EmbeddedFile> light_loop_files();
+
 namespace {
+
+constexpr unsigned kLightBinding = 4;
+constexpr unsigned kColourUnit = 8;
+constexpr int kWavelengths = colour::kVisibleMax - colour::kVisibleMin + 1;
+constexpr std::size_t kMostOrders = 64;  ///< as in light_loop.frag.glsl
+
+std::vector<float> orders_other_than_0(const diffraction::Grating& grating) {
+    std::vector<float> orders;
+    for (const int order : grating.orders)
+        if (order != 0) orders.push_back(static_cast<float>(order));
+    return orders;
+}
+
+/// ½ d/|m| η_m cmf E: the XYZ that a light of irradiance 1, normal to the surface, adds (PHYSICS §4).
+gpu::Texture colour_rows(const diffraction::Grating& grating, std::span<const float> orders,
+                         const colour::LightSpectra& spectra) {
+    std::vector<glm::vec4> texels;
+    for (const float order : orders)
+        for (int c = 0; c < 3; ++c)
+            for (int i = 0; i < kWavelengths; ++i) {
+                const double wavelength_nm = colour::kVisibleMin + i;
+                const double weight = 0.5 * grating.pitch_nm / std::abs(order) *
+                                      diffraction::order_efficiency(grating, static_cast<int>(order), wavelength_nm) *
+                                      spectra(wavelength_nm)[c];
+                texels.emplace_back(glm::vec3(weight * colour::cie_xyz(wavelength_nm)), 0.0F);
+            }
+    gpu::Texture texture({.format = gpu::Format::RGBA32F,
+                          .width = kWavelengths,
+                          .height = std::max(1, 3 * static_cast<int>(orders.size()))});
+    if (!texels.empty()) texture.upload(std::span<const glm::vec4>(texels));
+    return texture;
+}
 
 using Clock = std::chrono::steady_clock;
 
@@ -35,7 +82,75 @@ post::PostSettings all_effects(const scene::Camera& camera) {
             .dither = post::DitherSettings{}};
 }
 
+constexpr int kRounds = 3;
+constexpr int kFramesPerRound = 2;
+constexpr double kSlow_ms = 250.0;  ///< longer frames are timed once
+constexpr int kWarmUpFrames = 2;    ///< not timed: they link programs, divide the light and fill maps
+
+/// Key lights are fitted when a setting asks for them.
+lighting::LightProbe without_key_lights(const lighting::ProbeImage& image) {
+    lighting::LightProbeSettings settings;
+    settings.key_lights = 0;
+    return lighting::build_light_probe(image, settings);
+}
+
 }  // namespace
+
+LightLoop::LightLoop(const diffraction::Grating& grating, const colour::LightSpectra& spectra,
+                     const glm::dmat3& xyz_to_working)
+    : pitch_nm_(grating.pitch_nm), orders_(orders_other_than_0(grating)) {
+    if (grating.lattice || !is_flat(grating.lobe) || grating.cover || grating.transmission ||
+        grating.grooves < diffraction::kManyGrooves || orders_.size() > kMostOrders)
+        refuse_input("light loop", {}, "another grating",
+                     "a flat groove_lobe without a cover or a transmission, sharp orders (50 grooves or more), at most "
+                     "64 of them");
+    const diffraction::LayerWeights weights = diffraction::layer_weights(grating);
+    mirror_weight_ = glm::vec3(xyz_to_working * weights.mirror);
+    base_weight_ = glm::vec3(xyz_to_working * weights.base);
+    colours_ = colour_rows(grating, orders_, spectra);
+    set_lights({});
+}
+
+void LightLoop::set_lights(std::span<const render::DistantLight> lights) {
+    std::vector<glm::vec4> values;
+    for (const render::DistantLight& light : lights) {
+        values.emplace_back(light.direction, 0.0F);
+        values.emplace_back(light.irradiance, 0.0F);
+    }
+    light_count_ = static_cast<int>(lights.size());
+    if (values.empty()) values.resize(2);
+    lights_ = gpu::Buffer::of(std::span<const glm::vec4>(values));
+}
+
+void LightLoop::bind(const gpu::Program& program) const {
+    colours_.bind(kColourUnit);
+    lights_.bind_storage(kLightBinding);
+    program.set("light_count", light_count_);
+    program.set("order_count", orders());
+    program.set("orders", std::span<const float>(orders_));
+    program.set("pitch_nm", static_cast<float>(pitch_nm_));
+    program.set("groove_turn", glm::vec2(1.0F, 0.0F));
+    program.set("mirror_weight", mirror_weight_);
+    program.set("base_weight", base_weight_);
+}
+
+void LightLoopType::add_shaders(gpu::ShaderLibrary& library) const {
+    library.add_embedded(diffraction::shader_files());
+    library.add_embedded(light_loop_files());
+}
+
+bool LightLoopType::owns(ecs::World& world, ecs::Entity entity) const {
+    return world.find<LightLoopSurface>(entity) != nullptr;
+}
+
+gpu::ProgramDesc LightLoopType::program(ecs::World& /*world*/, ecs::Entity /*entity*/) const {
+    return {.vertex = "modules/diffraction/shaders/grating.vert.glsl",
+            .fragment = "editor/trade/light_loop.frag.glsl"};
+}
+
+void LightLoopType::bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const {
+    world.get<LightLoopSurface>(entity).loop->bind(program);
+}
 
 Stage::Stage(glm::ivec2 size, const scene::Camera& camera, bool directional_light)
     : camera_(camera),
@@ -111,13 +226,51 @@ double Stage::draw(bool effects) {
 
 std::vector<std::uint8_t> Stage::picture(float exposure_stops) {
     render();
-    render();  // fills the maps of an object that has just come to rest
+    render();  // fills the maps, which begins in the second frame without motion
     draw_effects({.exposure_stops = exposure_stops});
     const std::vector<std::uint8_t> rgba = encoded_.read_rgba8();
     gpu::require_context();
     std::vector<std::uint8_t> rgb;
     for (std::size_t i = 0; i < rgba.size(); i += 4) rgb.insert(rgb.end(), {rgba[i], rgba[i + 1], rgba[i + 2]});
     return rgb;
+}
+
+FrameTimer::FrameTimer(const lighting::ProbeImage& probe, glm::ivec2 size)
+    : context_({.debug = false}),
+      image_(&probe),
+      probe_(without_key_lights(probe)),
+      stage_(size, close_camera(), true) {}
+
+void FrameTimer::light_by(int key_lights) {
+    if (lit_by_ == key_lights) return;
+    if (!fitted_.contains(key_lights)) fitted_[key_lights] = lighting::fit_key_lights(*image_, key_lights);
+    probe_.key_lights = fitted_[key_lights];
+    stage_.set_probe(probe_);
+    lit_by_ = key_lights;
+}
+
+template <typename Show>
+std::vector<double> FrameTimer::times(Show&& show) {
+    show();
+    std::vector<double> ms;
+    for (int i = 0; i < kWarmUpFrames; ++i) stage_.draw();
+    while (ms.size() < kFramesPerRound && (ms.empty() || ms.back() <= kSlow_ms)) ms.push_back(stage_.draw());
+    return ms;
+}
+
+FrameTime FrameTimer::time(const diffraction::CookedMaterial& material, int key_lights) {
+    light_by(key_lights);
+    const auto grating = stage_.upload(material);
+    std::vector<double> plain;
+    std::vector<double> ms;
+    for (int round = 0; round < kRounds && (ms.empty() || std::ranges::min(ms) <= kSlow_ms); ++round) {
+        std::ranges::copy(times([&] { stage_.show_plain(); }), std::back_inserter(plain));
+        std::ranges::copy(times([&] { stage_.show_grating(grating); }), std::back_inserter(ms));
+    }
+    std::ranges::sort(ms);
+    FrameTime result{.ms = ms.front(), .plain_ms = std::ranges::min(plain)};
+    if (ms.size() > 1) result.spread = ms[ms.size() / 2] / ms.front() - 1.0;
+    return result;
 }
 
 }  // namespace rowland::trade

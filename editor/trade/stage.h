@@ -2,21 +2,72 @@
 
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <map>
 #include <memory>
+#include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
-#include "editor/trade/light_loop.h"
+#include "engine/colour/illuminant.h"
 #include "engine/ecs/world.h"
+#include "engine/gpu/buffer.h"
 #include "engine/gpu/framebuffer.h"
+#include "engine/gpu/texture.h"
 #include "engine/lighting/light_probe.h"
+#include "engine/lighting/probe_image.h"
+#include "engine/platform/gl_context.h"
 #include "engine/post/display_pass.h"
 #include "engine/post/post_stack.h"
+#include "engine/render/material.h"
 #include "engine/render/renderer.h"
 #include "engine/scene/camera.h"
 #include "modules/diffraction/asset/cooked_material.h"
+#include "modules/diffraction/model/grating.h"
 #include "modules/diffraction/runtime/gpu_material.h"
 
 namespace rowland::trade {
+
+/// Shades a grating light by light and order by order, without SH: the comparison of Lindsay & Agu 2006, fig. 3. For
+/// each light and order m, a pixel looks up the colour of the wavelength d u/m.
+class LightLoop {
+ public:
+    /// Needs a current context. `xyz_to_working`: the renderer's. Throws Error (input) for a lobe that is not flat, and
+    /// for fewer than kManyGrooves grooves.
+    LightLoop(const diffraction::Grating& grating, const colour::LightSpectra& spectra,
+              const glm::dmat3& xyz_to_working);
+
+    /// Replaces the lights, of any number. Linear Rec.709.
+    void set_lights(std::span<const render::DistantLight> lights);
+
+    void bind(const gpu::Program& program) const;
+    int orders() const { return static_cast<int>(orders_.size()); }
+
+ private:
+    double pitch_nm_;
+    glm::vec3 mirror_weight_;  ///< of the layers that the engine shades, working space
+    glm::vec3 base_weight_;
+    std::vector<float> orders_;  ///< without 0
+    gpu::Texture colours_;       ///< row 3 i + c: light of colour c in order i, one texel per nanometre from 380 to 780
+    gpu::Buffer lights_;
+    int light_count_ = 0;
+};
+
+/// Component: a surface that a light loop shades.
+struct LightLoopSurface {
+    std::shared_ptr<const LightLoop> loop;
+};
+
+/// Draws entities that have a LightLoopSurface; their StandardMaterial is the grating's base.
+class LightLoopType final : public render::MaterialType {
+ public:
+    std::string name() const override { return "light loop"; }
+    void add_shaders(gpu::ShaderLibrary& library) const override;
+    bool owns(ecs::World& world, ecs::Entity entity) const override;
+    gpu::ProgramDesc program(ecs::World& world, ecs::Entity entity) const override;
+    void update(ecs::World&, const render::FrameLight&) override {}
+    void bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const override;
+};
 
 /// The disc of picture_scene.h on the GPU, lit by a probe. Needs a current context.
 class Stage {
@@ -24,7 +75,7 @@ class Stage {
     /// `directional_light`: one lamp besides the probe.
     Stage(glm::ivec2 size, const scene::Camera& camera, bool directional_light);
 
-    /// Gratings that take key lights apart are lit by the probe's, where it has some.
+    /// Gratings that shade key lights one by one use the probe's.
     void set_probe(const lighting::LightProbe& probe);
     void set_camera(const scene::Camera& camera) { camera_ = camera; }
 
@@ -61,6 +112,37 @@ class Stage {
     ecs::Entity disc_;
     bool has_key_lights_ = false;
     std::uint32_t frame_ = 0;
+};
+
+/// A frame's time on this device: the minimum over rounds that alternate with the plain material.
+struct FrameTime {
+    double ms = 0.0;
+    double plain_ms = 0.0;  ///< of the plain material without separate key lights; same mesh, camera and rounds
+    std::optional<double> spread{};  ///< (median - minimum) / minimum of its frames; of two or more
+
+    double ratio() const { return ms / plain_ms; }
+};
+
+/// Times frames of the stage's disc under one probe, in its own headless context.
+class FrameTimer {
+ public:
+    FrameTimer(const lighting::ProbeImage& probe, glm::ivec2 size);
+
+    FrameTime time(const diffraction::CookedMaterial& material, int key_lights);
+    const std::string& device() const { return context_.renderer(); }
+
+ private:
+    void light_by(int key_lights);
+    /// Milliseconds of frames after the warm-up.
+    template <typename Show>
+    std::vector<double> times(Show&& show);
+
+    platform::HeadlessContext context_;
+    const lighting::ProbeImage* image_;
+    lighting::LightProbe probe_;
+    std::map<int, std::vector<lighting::KeyLight>> fitted_;
+    std::optional<int> lit_by_;
+    Stage stage_;
 };
 
 }  // namespace rowland::trade

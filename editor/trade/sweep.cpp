@@ -9,24 +9,18 @@
 #include <utility>
 #include <variant>
 
-#include "editor/trade/inputs.h"
-#include "editor/trade/other_load.h"
-#include "editor/trade/source_versions.h"
 #include "editor/trade/sweep_plan.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
-#include "engine/core/hash.h"
 #include "engine/core/json_reader.h"
 #include "engine/core/log.h"
-#include "engine/core/progress.h"
-#include "engine/core/utf8.h"
+#include "engine/core/text.h"
 #include "modules/diffraction/reference/reference.h"
 
 namespace rowland::trade {
 
 namespace {
 
-constexpr std::uint64_t kLargestMaterial = 1 << 20;
 constexpr std::uint64_t kLargestProbe = std::uint64_t{1} << 31;
 constexpr int kProjectedBands = 16;         ///< the most that a setting takes
 constexpr std::size_t kReferencePart = 60;  ///< points that are lost if the program is killed
@@ -35,20 +29,7 @@ std::string hash_of_file(const std::filesystem::path& path, std::uint64_t larges
     return Hasher().bytes(read_file(path, largest)).text(with).digest().hex();
 }
 
-void add_named_files(const nlohmann::json& json, const std::filesystem::path& folder,
-                     std::vector<std::filesystem::path>& files) {
-    if (json.is_structured()) {
-        for (const nlohmann::json& value : json) add_named_files(value, folder, files);
-    } else if (json.is_string() && json.get<std::string>().ends_with(".csv")) {
-        files.push_back(folder / json.get<std::string>());
-    }
-}
-
-nlohmann::json read_material_json(const std::filesystem::path& path) {
-    return parse_json(read_text_file(path, kLargestMaterial), path.string());
-}
-
-/// Without "quality", which the setting replaces, but with its illuminant, and with the files that the rest names.
+/// Of the material without "quality", which the setting replaces; of its illuminant; and of the files that it names.
 std::string material_hash(nlohmann::json json, const std::filesystem::path& path) {
     std::string illuminant;
     if (json.contains("quality")) illuminant = json["quality"].value("illuminant", "");
@@ -105,31 +86,19 @@ std::vector<std::string> stems(const std::vector<std::filesystem::path>& paths) 
     return names;
 }
 
-/// On a curved surface a planar map's stand-in shades, which is measured as a setting itself.
+/// A planar map is measured on flat surfaces only: on curved ones its stand-in shades, which is another setting.
 bool applies(const diffraction::Method& setting, const FrameSet& set) {
     return !info(setting).needs_flat_surface ||
            std::ranges::any_of(set.surfaces, [](const auto& surface) { return is_flat(surface); });
 }
 
-/// A window does not change a frame's time: settings that differ in nothing else are timed once.
+/// Key of times: a window does not change the time of a frame.
 diffraction::Method without_window(diffraction::Method setting) {
     setting.window = math::SphericalWindow::None;
     return setting;
 }
 
 }  // namespace
-
-ProbeFile parse_probe_file(const std::string& text, const std::string& mapping) {
-    for (const std::string known : {"angular", "equirect"})
-        if (text.ends_with(":" + known)) return {text.substr(0, text.size() - known.size() - 1), known};
-    return {text, mapping};
-}
-
-std::vector<std::filesystem::path> files_named_in(const std::filesystem::path& material) {
-    std::vector<std::filesystem::path> files;
-    add_named_files(read_material_json(material), material.parent_path(), files);
-    return files;
-}
 
 Sweep::Sweep(SweepInputs inputs)
     : inputs_(std::move(inputs)),
@@ -260,7 +229,6 @@ void Sweep::measure_times(SweepResults& results) {
                                     {"plain_ms", time.plain_ms},
                                     {"of", {results.materials[material], method_name(setting)}}};
             add_if_known("spread", time.spread, entry);
-            add_if_known("other_load", time.other_load, entry);
             results_.add(key, std::move(entry));
         }
         progress.advance();
@@ -276,10 +244,8 @@ void Sweep::collect(SweepResults& results) {
                 .material = m, .setting = s, .cost = diffraction::shading_cost(cooked.tables), .time = std::nullopt};
             if (!results.device.empty()) {
                 const nlohmann::json& time = *results_.find(time_key(m, setting, results.device));
-                cost.time = FrameTime{.ms = time.at("ms"),
-                                      .plain_ms = time.at("plain_ms"),
-                                      .spread = known_in(time, "spread"),
-                                      .other_load = known_in(time, "other_load")};
+                cost.time =
+                    FrameTime{.ms = time.at("ms"), .plain_ms = time.at("plain_ms"), .spread = known_in(time, "spread")};
             }
             results.costs.push_back(cost);
         }
@@ -289,23 +255,6 @@ void Sweep::collect(SweepResults& results) {
         for (const auto& [name, value] : kErrorQuantities) row.error.*value = entry.at(name);
         row.error.flip = known_in(entry, "hdr_flip");
     }
-}
-
-std::size_t SweepResults::loaded_times() const {
-    return static_cast<std::size_t>(std::ranges::count_if(
-        costs, [](const CostRow& cost) { return cost.time && cost.time->other_load.value_or(0.0) > kLoaded; }));
-}
-
-std::vector<ProbeStatistics> Sweep::probe_statistics() const {
-    std::vector<ProbeStatistics> result;
-    for (const ProbeSource& probe : probes_) result.push_back(statistics_of(probe.image));
-    return result;
-}
-
-std::vector<std::vector<FilmRow>> Sweep::film_rows() const {
-    std::vector<std::vector<FilmRow>> result;
-    for (const ProbeSource& probe : probes_) result.push_back(trade::film_rows(probe.image));
-    return result;
 }
 
 SweepResults Sweep::run() {
@@ -318,11 +267,6 @@ SweepResults Sweep::run() {
     measure_times(results);
     measure_errors(results);
     collect(results);
-    if (const std::size_t doubtful = results.loaded_times(); doubtful > 0)
-        log_warning(
-            "{} of {} frame times were taken while other programs used more than {:.0f} % of the processors; for "
-            "better ones, remove {} and run again when the machine is idle",
-            doubtful, results.costs.size(), 100.0 * kLoaded, (inputs_.folder / "journal.jsonl").string());
     return results;
 }
 

@@ -10,28 +10,17 @@
 #include <tuple>
 #include <vector>
 
-#include "editor/trade/film_methods.h"
-#include "editor/trade/frame_sets.h"
+#include "editor/trade/inputs.h"
 #include "editor/trade/journal.h"
 #include "editor/trade/measure_error.h"
-#include "editor/trade/measure_frame.h"
-#include "editor/trade/picture_scene.h"
-#include "editor/trade/probe_statistics.h"
+#include "editor/trade/stage.h"
 #include "engine/lighting/probe_image.h"
-#include "modules/diffraction/asset/method.h"
-#include "modules/diffraction/evaluate/measured_scene.h"
+#include "modules/diffraction/asset/cooked_material.h"
+#include "modules/diffraction/asset/quality.h"
+#include "modules/diffraction/evaluate/search.h"
 #include "modules/diffraction/representations/representation.h"
 
 namespace rowland::trade {
-
-/// A probe's file and how it covers the sphere.
-struct ProbeFile {
-    std::filesystem::path path;
-    std::string mapping = "auto";
-};
-
-/// "FILE" or "FILE:angular" or "FILE:equirect"; without a suffix, `mapping`.
-ProbeFile parse_probe_file(const std::string& text, const std::string& mapping);
 
 struct SweepInputs {
     std::vector<std::filesystem::path> materials;
@@ -53,7 +42,7 @@ struct ErrorRow {
     MethodError error{};
 };
 
-/// What a setting costs with one material, whatever the probe.
+/// The cost of a setting with one material; it does not depend on the probe.
 struct CostRow {
     std::size_t material = 0;
     std::size_t setting = 0;
@@ -68,13 +57,10 @@ struct SweepResults {
     std::vector<ErrorRow> errors;
     std::vector<CostRow> costs;
     std::string device;  ///< that frames were timed on; empty: none was
-
-    /// How many frame times were taken while other programs used more than kLoaded of the processors.
-    std::size_t loaded_times() const;
 };
 
-/// Measures every setting with every material and probe. Each result is written to a journal in the folder at once, so
-/// that the next run in the same folder continues where this one stopped.
+/// Measures every setting with every material and probe. Writes each result to a journal in the folder at once; the
+/// next run in the same folder continues from there.
 class Sweep {
  public:
     /// Loads materials and probes and checks the settings. Throws Error (input).
@@ -86,9 +72,7 @@ class Sweep {
     const diffraction::MeasuredScene& scene(std::size_t material, std::size_t probe, const FrameSet& set);
     diffraction::CookedMaterial cook(std::size_t material, const diffraction::Method& setting) const;
     const PictureFrames& picture_frames() const { return picture_; }
-    std::vector<ProbeStatistics> probe_statistics() const;
-    /// The methods for thin films, under each probe.
-    std::vector<std::vector<FilmRow>> film_rows() const;
+    const lighting::ProbeImage& probe(std::size_t i) const { return probes_.at(i).image; }
     const SweepInputs& inputs() const { return inputs_; }
 
  private:
@@ -123,8 +107,5 @@ class Sweep {
     Journal results_;
     std::map<std::tuple<std::size_t, std::size_t, std::string>, diffraction::MeasuredScene> scenes_;
 };
-
-/// The CSV files that a material file names. Throws Error (input).
-std::vector<std::filesystem::path> files_named_in(const std::filesystem::path& material);
 
 }  // namespace rowland::trade

@@ -7,17 +7,15 @@
 #include <memory>
 
 #include "editor/trade/commands.h"
+#include "editor/trade/inputs.h"
 #include "editor/trade/paper_figures.h"
 #include "editor/trade/report.h"
-#include "editor/trade/results.h"
 #include "editor/trade/sweep.h"
 #include "editor/trade/sweep_plan.h"
-#include "editor/trade/sweep_tables.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
-#include "engine/core/outputs.h"
-#include "engine/core/utf8.h"
+#include "engine/core/text.h"
 
 namespace rowland::trade {
 
@@ -48,9 +46,7 @@ void add_options(CLI::App& command, SweepOptions& options) {
             "name its mapping. The first one lights the timed frames")
         ->required()
         ->type_name("FILE[:MAPPING]");
-    command.add_option("--probe-mapping", options.mapping, "The mapping of probes that name none")
-        ->check(CLI::IsMember({"auto", "equirect", "angular"}))
-        ->capture_default_str();
+    add_probe_mapping(command, options.mapping);
     command
         .add_option("--frames", options.frames,
                     "A further set of frames, CSV vx,vy,vz,nx,ny,nz,gx,gy,gz; may be given several times. One named\n"
@@ -70,9 +66,7 @@ void add_options(CLI::App& command, SweepOptions& options) {
         ->check(CLI::Range(8, 8192))
         ->capture_default_str();
     command.add_flag("--no-times", options.no_times, "Times no frames; needs no OpenGL");
-    command
-        .add_option("--output", options.output,
-                    "Folder of the results. A sweep that was stopped continues in its folder")
+    command.add_option("--output", options.output, "Folder of the results. A stopped sweep continues in its folder")
         ->required()
         ->type_name("FOLDER");
 }
@@ -173,8 +167,12 @@ void run_report(const SweepOptions& options, const std::string& command_line) {
     const SweepResults results = run_and_write(sweep);
     const auto differences = difference_pictures(sweep, results);
     const auto paper = paper_evidence(sweep.cook(0, paper_setting()), sweep.inputs().frame_size, sweep.inputs().times);
-    const auto data = report_data(results, sweep.inputs(), differences, paper,
-                                  {now(), command_line, sweep.probe_statistics(), sweep.film_rows()});
+    ReportOrigin origin{.date = now(), .command = command_line};
+    for (std::size_t i = 0; i < results.probes.size(); ++i) {
+        origin.probes.push_back(statistics_of(sweep.probe(i)));
+        origin.films.push_back(film_rows(sweep.probe(i)));
+    }
+    const auto data = report_data(results, sweep.inputs(), differences, paper, origin);
     write_file_atomic(options.output / "report.html", report_html(data));
     write_results(fmt::format("file\n{}\n", (options.output / "report.html").string()));
 }
@@ -188,7 +186,7 @@ void add_sweep_commands(CLI::App& program, const std::string& command_line) {
     sweep->footer(
         "Writes sweep.csv and sweep.jsonl into the output folder: a row for each material, probe, set of frames and\n"
         "setting. Errors are against the reference; times are of a frame on this machine's OpenGL device; the others\n"
-        "are fixed counts. Each result is kept at once: start a sweep that was stopped again and it continues.\n"
+        "are fixed counts. Each result is kept at once: start a stopped sweep again and it continues.\n"
         "Example:\n"
         "  rowland-trade sweep --material cd.json --probe sunset.hdr --probe church.hdr:angular --output results");
     add_options(*sweep, *options);

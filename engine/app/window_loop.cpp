@@ -3,7 +3,7 @@
 #include <thread>
 #include <utility>
 
-#include "engine/gpu/debug.h"
+#include "engine/gpu/context.h"
 
 namespace rowland::app {
 

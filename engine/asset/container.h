@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/hash.h"
+#include "engine/core/file.h"
 
 namespace rowland::asset {
 

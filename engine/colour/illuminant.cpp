@@ -3,14 +3,19 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <iterator>
 #include <map>
+#include <string_view>
+#include <vector>
 
-#include "engine/colour/observer.h"
-#include "engine/colour/spectrum_csv.h"
+#include "engine/colour/spectrum.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
+#include "engine/core/json_reader.h"
 
 namespace rowland::colour {
 
@@ -86,6 +91,50 @@ bool is_visible(const Illuminant& illuminant) {
 double luminous_power(const Illuminant& illuminant) {
     return integrate_visible<double>(
         [&](double wavelength_nm) { return illuminant.power(wavelength_nm) * cie_xyz(wavelength_nm).y; });
+}
+
+namespace {
+
+std::array<SampledSpectrum, 3> load_basis() {
+    const SpectrumTable table = builtin_table("mallett2019_srgb_basis_5nm.csv", "wavelength_nm,r,g,b");
+    return {spectrum(table, 0, Outside::Clamp), spectrum(table, 1, Outside::Clamp), spectrum(table, 2, Outside::Clamp)};
+}
+
+}  // namespace
+
+glm::dvec3 rgb_basis(double wavelength_nm) {
+    static const std::array<SampledSpectrum, 3> basis = load_basis();
+    return {basis[0](wavelength_nm), basis[1](wavelength_nm), basis[2](wavelength_nm)};
+}
+
+LightSpectra::LightSpectra(Illuminant illuminant)
+    : illuminant_(std::move(illuminant)), scale_(1.0 / luminous_power(illuminant_)) {}
+
+glm::dvec3 LightSpectra::operator()(double wavelength_nm) const {
+    return scale_ * illuminant_.power(wavelength_nm) * rgb_basis(wavelength_nm);
+}
+
+glm::dvec3 rgb_to_xyz(const LightSpectra& spectra, const glm::dvec3& rgb) {
+    return integrate_visible<glm::dvec3>(
+        [&](double wavelength_nm) { return glm::dot(spectra(wavelength_nm), rgb) * cie_xyz(wavelength_nm); });
+}
+
+Illuminant read_builtin_illuminant(JsonReader& json) {
+    const std::vector<std::string> names = illuminant_names();
+    return illuminant(json.choice_or("illuminant", d65().name, {names.begin(), names.end()}));
+}
+
+std::variant<Illuminant, std::string> read_illuminant(JsonReader& json, const std::string& owner) {
+    const std::string name = json.text_or("illuminant", d65().name);
+    json.annotate("illuminant", R"({"minLength": 1})");
+    if (json.records()) return d65();
+    const std::vector<std::string> names = illuminant_names();
+    if (std::find(names.begin(), names.end(), name) != names.end()) return illuminant(name);
+    if (name.ends_with(".csv")) return name;
+    const auto near = nearest_word(name, names);
+    json.fail("illuminant", fmt::format("\"{}\"", name),
+              fmt::format("one of {}, or a .csv file beside {}", fmt::join(names, ", "), owner),
+              near ? fmt::format("is \"{}\" meant?", *near) : "");
 }
 
 }  // namespace rowland::colour

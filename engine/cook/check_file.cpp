@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "engine/asset/container.h"
-#include "engine/cook/foreign_failure.h"
 #include "engine/cook/source_file.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
@@ -59,6 +58,10 @@ std::string describe_file(const Registry& registry, const std::filesystem::path&
                                described.description);
         }
         const AssetType& type = registry.type_of_source(path);
+        if (type.describe_source) {
+            Context context(path);
+            return fmt::format("type: {} source\n{}", type.name, type.describe_source(context));
+        }
         if (type.in_container || !type.describe)
             refuse_input(path.string(), {}, fmt::format("a {} source", type.name), "a cooked asset",
                          fmt::format("cook it first: rowland-cook cook {} -o OUTPUT", path.string()));

@@ -2,16 +2,34 @@
 
 #include <fmt/format.h>
 
-#include "engine/cook/depfile.h"
-#include "engine/cook/foreign_failure.h"
+#include <atomic>
+
 #include "engine/cook/source_file.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
-#include "engine/core/outputs.h"
 
 namespace rowland::cook {
 
 namespace {
+
+std::atomic<std::uint64_t> baked_sources{0};
+
+/// As gcc writes names: spaces and # behind a backslash, backslashes before them doubled, $ doubled.
+std::string escaped(const std::filesystem::path& path) {
+    std::string text;
+    std::size_t backslashes = 0;
+    for (const char c : path.string()) {
+        if (c == '\n' || c == '\r' || c == '\0')
+            refuse_input(path.string(), "name", "a line break", "a name that a dependency file can hold",
+                         "rename the file");
+        if (c == ' ' || c == '\t') text.append(backslashes, '\\');
+        if (c == ' ' || c == '\t' || c == '#') text += '\\';
+        if (c == '$') text += '$';
+        backslashes = c == '\\' ? backslashes + 1 : 0;
+        text += c;
+    }
+    return text;
+}
 
 /// Throws if a file has changed since the bake first read it.
 Hash128 content_hash(const Context& context, const AssetType& type) {
@@ -30,8 +48,19 @@ Hash128 content_hash(const Context& context, const AssetType& type) {
 
 }  // namespace
 
+std::string depfile_text(const std::filesystem::path& output, const std::vector<std::filesystem::path>& dependencies) {
+    std::string text = escaped(output) + ":";
+    for (const std::filesystem::path& dependency : dependencies)
+        text += " \\\n  " + escaped(std::filesystem::absolute(dependency));
+    return text + "\n";
+}
+
 std::string_view tool_version() {
     return ROWLAND_VERSION;
+}
+
+std::uint64_t sources_baked() {
+    return baked_sources;
 }
 
 Hash128 content_hash(const AssetType& type, std::span<const Hash128> dependencies) {
@@ -49,6 +78,7 @@ BakedAsset bake_source(const Registry& registry, const std::filesystem::path& so
         refuse_input(source.string(), {}, fmt::format("a {}, which is only checked, never cooked", type.name),
                      "a source that is cooked");
     Context context(source);
+    ++baked_sources;
     BakedAsset baked;
     baked.asset.payload = as_refusal_of(source, [&] { return type.cook(context); });
     baked.asset.header = {type.name, type.version, content_hash(context, type)};

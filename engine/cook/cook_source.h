@@ -17,6 +17,11 @@ namespace rowland::cook {
 /// Version of the cooker, a part of every content hash.
 std::string_view tool_version();
 
+/// The text of a Makefile-syntax dependency file as make, ninja and CMake read it: `output: dependency...`.
+/// `output` is written unchanged, since the build system knows it by that name; dependencies are made absolute.
+/// Throws Error (input) for a name with a line break, which the syntax cannot express.
+std::string depfile_text(const std::filesystem::path& output, const std::vector<std::filesystem::path>& dependencies);
+
 /// A source baked in memory.
 struct BakedAsset {
     asset::CookedAsset asset;
@@ -31,6 +36,9 @@ Hash128 content_hash(const AssetType& type, std::span<const Hash128> dependencie
 /// read, in the order they were first mentioned; paths are no part of it, so that it is the same on every machine.
 /// Throws Error (input) if the source is refused, Error (system) if a file changed while it was being read.
 BakedAsset bake_source(const Registry& registry, const std::filesystem::path& source);
+
+/// How many sources this process has begun to bake.
+std::uint64_t sources_baked();
 
 struct CookSettings {
     std::optional<std::filesystem::path> depfile;  ///< Makefile-syntax list of everything the output was made from

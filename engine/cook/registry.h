@@ -10,7 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/hash.h"
+#include "engine/core/file.h"
+
+namespace rowland::scene {
+struct ImportedScene;
+}
 
 namespace rowland::cook {
 
@@ -56,17 +60,37 @@ struct AssetType {
     std::function<std::vector<std::byte>(Context&)> cook;
     /// Loads a source as the engine would; throws Error (input) if it is refused.
     std::function<void(Context&)> check;
+    /// The JSON Schema of its JSON sources; empty if it has none.
+    std::function<nlohmann::ordered_json()> schema = {};
     /// Parses a cooked payload fully and describes it, a "name: value" line each. Throws Error (input).
     /// Empty only where `cook` is.
     std::function<std::string(std::span<const std::byte> payload, const std::string& file)> describe;
+    /// Describes a source in the same form. Throws Error (input). Empty: cooked files only are described.
+    std::function<std::string(Context&)> describe_source = {};
+};
+
+/// A material extension in a scene that is cooked; the scene's file is Context::source().
+struct SceneExtension {
+    const nlohmann::json& object;
+    std::string pointer;  ///< JSON pointer of the object
+    const scene::ImportedScene& scene;
+    std::size_t material;  ///< of the scene
 };
 
 /// A glTF material extension that a module reads. All functions throw Error (input) for what the module refuses.
 struct GltfExtension {
     std::string name;
+    /// The JSON Schema of its objects; empty if none is offered.
+    std::function<nlohmann::ordered_json()> schema = {};
     /// A line about an object of the extension in a glTF `file`, at a JSON pointer. Reads it as the engine would.
     std::function<std::string(const nlohmann::json& object, const std::string& file, const std::string& pointer)>
         describe;
+
+    std::uint32_t version = 0;  ///< raise it whenever the tables' layout or the bake's result changes
+    /// The tables that drawing an extension takes. Deterministic like AssetType::cook. Empty function: it takes none.
+    std::function<std::vector<std::byte>(Context&, const SceneExtension&)> cook;
+    /// Describes such tables, a "name: value" line each. Throws Error (input). Empty only where `cook` is.
+    std::function<std::string(std::span<const std::byte> tables, const std::string& file)> describe_tables;
 
     // For `rowland-cook attach`; empty if no source becomes such an object.
     std::string source_type;  ///< the AssetType of those sources

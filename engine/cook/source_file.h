@@ -2,11 +2,16 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <filesystem>
+#include <new>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
-#include "engine/core/hash.h"
+#include "engine/core/error.h"
+#include "engine/core/file.h"
 
 namespace rowland::cook {
 
@@ -22,5 +27,26 @@ std::optional<Hash128> hash_file(const std::filesystem::path& path);
 /// The first `size` bytes of a file, or all of a shorter one. Throws Error (input) for inputs that no loader accepts:
 /// an empty file, a folder, a pipe, a device, a file that cannot be read.
 std::vector<std::byte> read_beginning(const std::filesystem::path& path, std::size_t size);
+
+/// Runs a loader on `file`. Exceptions of the libraries it uses become an Error (input).
+template <typename Loader>
+decltype(auto) as_refusal_of(const std::filesystem::path& file, const Loader& loader) {
+    const auto refuse = [&file](std::string reason) {
+        return Error({.file = file.string(),
+                      .location = {},
+                      .found = std::move(reason),
+                      .expected = "a sane file",
+                      .remedy = {}});
+    };
+    try {
+        return loader();
+    } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw refuse("needs more memory than there is");
+    } catch (const std::exception& error) {
+        throw refuse(error.what());
+    }
+}
 
 }  // namespace rowland::cook

@@ -2,12 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
+#include <cstdlib>
 #include <string_view>
 
 namespace rowland {
 
-/// Prints the failed contract and aborts. Used by the macros below.
-[[noreturn]] void check_failed(const char* file, int line, std::string_view message);
+/// Prints the violated contract and aborts.
+[[noreturn]] inline void check_failed(const char* file, int line, std::string_view message) {
+    fmt::print(stderr, "{}:{}: contract violated: {}\n", file, line, message);
+    std::abort();
+}
 
 }  // namespace rowland
 

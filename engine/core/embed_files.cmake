@@ -6,7 +6,7 @@ string(REGEX REPLACE "::[^:]*$" "" namespace "${FUNCTION}")
 string(REGEX REPLACE "^.*::" "" name "${FUNCTION}")
 
 set(text "// Generated from the files it holds.\n#include <array>\n#include <span>\n\n")
-string(APPEND text "#include \"engine/core/embedded_file.h\"\n\n")
+string(APPEND text "#include \"engine/core/text.h\"\n\n")
 string(APPEND text "namespace ${namespace} {\n\n")
 string(APPEND text "std::span<const ::rowland::EmbeddedFile> ${name}() {\n")
 string(APPEND text "    static constexpr std::array<::rowland::EmbeddedFile, ${count}> files{{\n")

@@ -1,20 +1,52 @@
 #include "engine/core/file.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <xxhash.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <map>
+#include <new>
 #include <random>
+#include <string>
 #include <system_error>
-
-#include <fmt/format.h>
+#include <vector>
 
 #include "engine/core/error.h"
 
 namespace rowland {
+
+std::string Hash128::hex() const {
+    return fmt::format("{:016x}{:016x}", high, low);
+}
+
+Hasher::Hasher() : state_(XXH3_createState(), [](XXH3_state_s* state) { XXH3_freeState(state); }) {
+    if (state_ == nullptr) throw std::bad_alloc();
+    XXH3_128bits_reset(state_.get());
+}
+
+Hasher& Hasher::bytes(std::span<const std::byte> data) {
+    XXH3_128bits_update(state_.get(), data.data(), data.size());
+    return *this;
+}
+
+Hasher& Hasher::text(std::string_view data) {
+    const std::uint64_t size = data.size();
+    XXH3_128bits_update(state_.get(), &size, sizeof size);
+    XXH3_128bits_update(state_.get(), data.data(), data.size());
+    return *this;
+}
+
+Hash128 Hasher::digest() const {
+    const XXH128_hash_t value = XXH3_128bits_digest(state_.get());
+    return {value.low64, value.high64};
+}
 
 namespace {
 
@@ -184,6 +216,63 @@ void write_file_atomic(const std::filesystem::path& path, std::span<const std::b
 
 void write_file_atomic(const std::filesystem::path& path, std::string_view text) {
     write_file_atomic(path, std::as_bytes(std::span(text.data(), text.size())));
+}
+
+std::optional<FileLock> FileLock::try_take(const std::filesystem::path& file) {
+    FileLock lock(::open(file.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
+    if (lock.descriptor_ < 0)
+        fail_system(file.string(), std::string("opening failed: ") + std::strerror(errno),
+                    "check permissions and free space");
+    while (::flock(lock.descriptor_, LOCK_EX | LOCK_NB) != 0) {
+        if (errno == EWOULDBLOCK) return std::nullopt;
+        if (errno != EINTR) break;
+    }
+    return lock;
+}
+
+FileLock::~FileLock() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+namespace {
+
+/// Two paths lead to one file exactly if they have a key in common: the path without links, or the inode.
+std::vector<std::string> keys_of(const std::filesystem::path& path) {
+    std::error_code code;
+    const std::filesystem::path canonical = std::filesystem::weakly_canonical(std::filesystem::absolute(path), code);
+    std::vector<std::string> keys{code ? path.string() : canonical.string()};
+    struct stat status = {};
+    if (::stat(path.c_str(), &status) == 0) keys.push_back(fmt::format("{}:{}", status.st_dev, status.st_ino));
+    return keys;
+}
+
+std::string lower_case(std::string text) {
+    std::ranges::transform(text, text.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+    return text;
+}
+
+}  // namespace
+
+void check_outputs(std::span<const std::filesystem::path> inputs, std::span<const Output> outputs) {
+    std::map<std::string, std::string> users;  // of each key
+    for (const std::filesystem::path& input : inputs)
+        for (const std::string& key : keys_of(input)) users.emplace(key, "an input");
+    for (const auto& [option, path, extension] : outputs) {
+        const std::string file = fmt::format("{} {}", option, path.string());
+        if (!extension.empty() && lower_case(path.extension().string()) != lower_case(extension))
+            refuse_input(file, {}, fmt::format("the extension \"{}\"", path.extension().string()), extension,
+                         "name the file by its format");
+        const std::vector<std::string> keys = keys_of(path);
+        for (const std::string& key : keys)
+            if (const auto user = users.find(key); user != users.end())
+                refuse_input(file, {}, "the same file as " + user->second, "a file of its own", "name another file");
+        for (const std::string& key : keys) users.emplace(key, "the output of " + option);
+        try {
+            require_writable(path);
+        } catch (const Error& error) {
+            refuse_input(file, {}, error.info().found, "a file that can be written", "name another file");
+        }
+    }
 }
 
 }  // namespace rowland

@@ -3,12 +3,39 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+struct XXH3_state_s;  // of xxhash.h
+
 namespace rowland {
+
+/// 128-bit content hash (XXH3).
+struct Hash128 {
+    std::uint64_t low = 0;
+    std::uint64_t high = 0;
+
+    friend bool operator==(const Hash128&, const Hash128&) = default;
+    std::string hex() const;  ///< 32 lower-case digits
+};
+
+/// Incremental content hash. Strings are hashed with their length, so ("ab","c") differs from ("a","bc").
+class Hasher {
+ public:
+    Hasher();
+
+    Hasher& bytes(std::span<const std::byte> data);
+    Hasher& text(std::string_view data);
+    Hash128 digest() const;
+
+ private:
+    std::unique_ptr<XXH3_state_s, void (*)(XXH3_state_s*)> state_;
+};
 
 /// Reads a whole file. Throws Error (input) if it is missing, not a regular file, unreadable or larger than
 /// `max_bytes`.
@@ -29,5 +56,39 @@ void write_file_atomic(const std::filesystem::path& path, std::span<const std::s
 /// Throws the Error that write_file_atomic(path, ...) would throw before it writes: tries a file in the nearest folder
 /// that exists, and leaves nothing of it.
 void require_writable(const std::filesystem::path& path);
+
+/// An open file that one process at a time holds (flock), on folders that are shared by network as well. The system
+/// releases it when its owner ends in any way.
+class FileLock {
+ public:
+    /// nullopt if another process, or another lock of this one, holds it. Every caller gets it where the file system
+    /// knows no locks. Creates the file, which stays. Throws Error (system) if that fails.
+    static std::optional<FileLock> try_take(const std::filesystem::path& file);
+
+    FileLock(FileLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+    FileLock& operator=(FileLock&&) = delete;
+    ~FileLock();
+
+    /// For reading, and for writing at the end.
+    int descriptor() const { return descriptor_; }
+
+ private:
+    explicit FileLock(int descriptor) : descriptor_(descriptor) {}
+    int descriptor_;
+};
+
+/// A file that a program is to write.
+struct Output {
+    std::string option;  ///< that names it, as "--capture"
+    std::filesystem::path path;
+    std::string extension = {};  ///< of its format, as ".png", in either case; empty: any
+};
+
+/// To be called before work begins. Throws Error (input) for an output that
+/// - has another extension than its format,
+/// - is one of the inputs or another output, whatever name or link leads to it,
+/// - cannot be written: it is a folder or a device, or its folder takes no files and cannot be created.
+/// Leaves nothing on the disk. Folders that are missing are created later, by write_file_atomic().
+void check_outputs(std::span<const std::filesystem::path> inputs, std::span<const Output> outputs);
 
 }  // namespace rowland

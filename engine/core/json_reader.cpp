@@ -128,6 +128,13 @@ std::string find_repeated_key(std::string_view text) {
     return repeated;
 }
 
+/// A value within the limits.
+double typical(const NumberRange& range) {
+    if (inside(1.0, range)) return 1.0;
+    return std::isfinite(range.minimum) && std::isfinite(range.maximum) ? 0.5 * (range.minimum + range.maximum)
+                                                                        : std::max(range.minimum, range.maximum);
+}
+
 }  // namespace
 
 nlohmann::json parse_json(std::string_view text, const std::string& file) {
@@ -161,9 +168,26 @@ JsonReader::JsonReader(const nlohmann::json& value, std::string file, std::strin
     if (!value.is_object()) refuse_input(file_, pointer_.empty() ? "/" : pointer_, describe(value), "an object");
 }
 
+using Kind = JsonShape::Kind;
+
+bool JsonReader::recorded(const std::string& key, const JsonShape& shape) {
+    if (recorder_) recorder_->record(key, !known_.contains(key), shape);
+    return recorder_ != nullptr;
+}
+
 bool JsonReader::has(const std::string& key) {
     known_.insert(key);
-    return value_->contains(key);
+    return recorder_ != nullptr || value_->contains(key);
+}
+
+void JsonReader::refuse_if_there(const std::string& key, const std::string& found, const std::string& expected,
+                                 const std::string& remedy) {
+    if (!recorder_ && has(key)) fail(key, found, expected, remedy);
+}
+
+void JsonReader::ignore(const std::string& key) {
+    has(key);
+    recorded(key, {});
 }
 
 const nlohmann::json& JsonReader::require(const std::string& key) {
@@ -178,6 +202,7 @@ const nlohmann::json& JsonReader::require(const std::string& key) {
 }
 
 double JsonReader::number(const std::string& key, NumberRange range) {
+    if (recorded(key, {.kind = Kind::Number, .range = range})) return typical(range);
     const nlohmann::json& value = require(key);
     if (!value.is_number() || !inside(value.get<double>(), range)) fail(key, describe(value), describe(range));
     return value.get<double>();
@@ -188,6 +213,8 @@ double JsonReader::number_or(const std::string& key, double fallback, NumberRang
 }
 
 std::int64_t JsonReader::integer(const std::string& key, std::int64_t minimum, std::int64_t maximum) {
+    const NumberRange range{.minimum = static_cast<double>(minimum), .maximum = static_cast<double>(maximum)};
+    if (recorded(key, {.kind = Kind::Integer, .range = range})) return std::clamp<std::int64_t>(1, minimum, maximum);
     const nlohmann::json& value = require(key);
     const std::string expected = fmt::format("a whole number in [{}, {}]", minimum, maximum);
     if (value.is_number_unsigned()) {
@@ -206,6 +233,7 @@ std::int64_t JsonReader::integer_or(const std::string& key, std::int64_t fallbac
 }
 
 std::string JsonReader::text(const std::string& key) {
+    if (recorded(key, {.kind = Kind::Text})) return "text";
     const nlohmann::json& value = require(key);
     if (!value.is_string()) fail(key, describe(value), "a string");
     return value.get<std::string>();
@@ -215,14 +243,23 @@ std::string JsonReader::text_or(const std::string& key, std::string fallback) {
     return has(key) ? text(key) : std::move(fallback);
 }
 
+std::string JsonReader::file_name(const std::string& key, const std::string& what) {
+    if (recorded(key, {.kind = Kind::Text, .least = 1})) return "file";
+    std::string name = text(key);
+    if (name.empty()) fail(key, "an empty name", what);
+    return name;
+}
+
 bool JsonReader::boolean_or(const std::string& key, bool fallback) {
-    if (!has(key)) return fallback;
+    if (!has(key) || recorded(key, {.kind = Kind::Boolean})) return fallback;
     const nlohmann::json& value = require(key);
     if (!value.is_boolean()) fail(key, describe(value), "true or false");
     return value.get<bool>();
 }
 
 std::vector<double> JsonReader::numbers(const std::string& key, std::size_t count, NumberRange range) {
+    if (recorded(key, {.kind = Kind::Numbers, .range = range, .least = count, .most = count}))
+        return std::vector<double>(count, typical(range));
     const nlohmann::json& value = require(key);
     if (!value.is_array() || value.size() != count) fail(key, describe(value), fmt::format("{} numbers", count));
     std::vector<double> result;
@@ -239,6 +276,7 @@ std::vector<double> JsonReader::numbers_or(const std::string& key, std::vector<d
 }
 
 std::ptrdiff_t JsonReader::choice_index(const std::string& key, const std::vector<std::string_view>& choices) {
+    if (recorded(key, {.kind = Kind::Choice, .choices = choices})) return 0;
     const std::string word = text(key);
     const auto found = std::find(choices.begin(), choices.end(), word);
     if (found != choices.end()) return found - choices.begin();
@@ -257,6 +295,7 @@ std::string JsonReader::choice_or(const std::string& key, std::string fallback,
 }
 
 JsonReader JsonReader::object(const std::string& key) {
+    if (recorded(key, {.kind = Kind::Object})) return JsonReader(recorder_->child(key));
     return {require(key), file_, pointer_to(key)};
 }
 
@@ -265,10 +304,11 @@ std::optional<JsonReader> JsonReader::object_if_there(const std::string& key) {
 }
 
 const nlohmann::json& JsonReader::raw(const std::string& key) {
-    return require(key);
+    static const nlohmann::json recorded_value;
+    return recorded(key, {}) ? recorded_value : require(key);
 }
 
-std::vector<JsonReader> JsonReader::objects(const std::string& key) {
+std::vector<JsonReader> JsonReader::read_array(const std::string& key) {
     const nlohmann::json& value = require(key);
     if (!value.is_array()) fail(key, describe(value), "an array of objects");
     std::vector<JsonReader> result;
@@ -277,11 +317,57 @@ std::vector<JsonReader> JsonReader::objects(const std::string& key) {
     return result;
 }
 
+std::vector<JsonReader> JsonReader::objects(const std::string& key, std::size_t least, std::size_t most) {
+    if (recorded(key, {.kind = Kind::Objects, .least = least, .most = most}))
+        return {JsonReader(recorder_->child(key))};
+    std::vector<JsonReader> result = read_array(key);
+    if (result.size() < least || (most > 0 && result.size() > most))
+        fail(key, fmt::format("{} objects", result.size()), fmt::format("{} to {} objects", least, most));
+    return result;
+}
+
 std::vector<JsonReader> JsonReader::objects_if_there(const std::string& key) {
     return has(key) ? objects(key) : std::vector<JsonReader>();
 }
 
+std::vector<JsonReader> JsonReader::object_or_objects(const std::string& key, std::size_t most) {
+    if (recorded(key, {.kind = Kind::ObjectOrObjects, .least = 1, .most = most}))
+        return {JsonReader(recorder_->child(key))};
+    if (require(key).is_array()) return objects(key, 1, most);
+    return {object(key)};
+}
+
+void JsonReader::variant(const std::string& key, const std::vector<std::string_view>& words,
+                         const std::function<void(JsonReader&, std::size_t)>& read) {
+    if (!recorder_) return read(*this, static_cast<std::size_t>(choice_index(key, words)));
+    const auto parts = recorder_->split(words.size());
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        JsonReader part(parts[i]);
+        part.choice(key, {words[i]});
+        read(part, i);
+    }
+}
+
+void JsonReader::alternatives(const std::string& key, const std::function<void(JsonReader&)>& with,
+                              const std::function<void(JsonReader&)>& without) {
+    if (!recorder_) return has(key) ? with(*this) : without(*this);
+    const auto parts = recorder_->split(2);
+    JsonReader first(parts[0]);
+    with(first);
+    JsonReader second(parts[1]);
+    without(second);
+}
+
+void JsonReader::annotate(const std::string& key, std::string_view keywords) {
+    if (recorder_) recorder_->annotate(key, keywords);
+}
+
+void JsonReader::also_allows(const std::string& key, std::string_view schema) {
+    if (recorder_) recorder_->also_allows(key, schema);
+}
+
 void JsonReader::finish() const {
+    if (recorder_) return recorder_->close();
     for (const auto& [key, ignored] : value_->items()) {
         if (known_.contains(key)) continue;
         const std::vector<std::string> valid(known_.begin(), known_.end());

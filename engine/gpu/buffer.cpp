@@ -1,14 +1,34 @@
 #include "engine/gpu/buffer.h"
 
 #include <fmt/format.h>
-
+#include <algorithm>
+#include <cstring>
+#include <utility>
 #include <vector>
 
 #include "engine/core/check.h"
 #include "engine/core/error.h"
-#include "engine/gpu/bound_state.h"
+#include "engine/gpu/pipeline_state.h"
 
 namespace rowland::gpu {
+
+void Fence::Release::operator()(GLsync sync) const {
+    glDeleteSync(sync);
+}
+
+Fence::Fence() : sync_(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0)) {}
+
+bool Fence::passed() const {
+    GLint status = GL_SIGNALED;
+    glGetSynciv(sync_.get(), GL_SYNC_STATUS, 1, nullptr, &status);
+    return status == GL_SIGNALED;
+}
+
+void Fence::wait() const {
+    constexpr GLuint64 kSecond_ns = 1'000'000'000;
+    while (glClientWaitSync(sync_.get(), GL_SYNC_FLUSH_COMMANDS_BIT, kSecond_ns) == GL_TIMEOUT_EXPIRED) {
+    }
+}
 
 void Buffer::Release::operator()(GLuint name) const {
     glDeleteBuffers(1, &name);
@@ -70,6 +90,111 @@ void Buffer::bind_uniform(unsigned binding, std::size_t offset, std::size_t byte
 
 void Buffer::bind_storage(unsigned binding, std::size_t offset, std::size_t bytes) const {
     bind(GL_SHADER_STORAGE_BUFFER, binding, offset, bytes);
+}
+
+void StreamBuffer::allocate(std::size_t copy_bytes, std::size_t copies) {
+    stride_ = aligned(copy_bytes);
+    read_ = {};
+    copy_ = 0;
+    buffer_ = Buffer::mapped(copies * stride_, GL_MAP_WRITE_BIT);
+    mapped_ = buffer_.mapping();
+}
+
+void StreamBuffer::next_copy() {
+    read_[copy_].emplace();
+    copy_ = (copy_ + 1) % kCopies;
+    if (read_[copy_] && !read_[copy_]->passed()) read_[copy_]->wait();
+    read_[copy_].reset();
+}
+
+void StreamBuffer::write(std::span<const std::byte> data) {
+    ROWLAND_CHECK_OP(data.size(), >, std::size_t{0});
+    if (writes_ == 0)
+        allocate(data.size(), 1);
+    else if (data.size() > stride_)
+        allocate(std::max(data.size(), stride_ + stride_ / 2), kCopies);
+    else if (writes_ == 1)
+        allocate(stride_, kCopies);
+    else
+        next_copy();
+    std::memcpy(&mapped_[copy_ * stride_], data.data(), data.size());
+    size_ = data.size();
+    ++writes_;
+}
+
+void StreamBuffer::bind_uniform(unsigned binding, std::size_t offset, std::size_t bytes) const {
+    ROWLAND_CHECK_OP(offset + bytes, <=, size_);
+    buffer_.bind_uniform(binding, copy_ * stride_ + offset, bytes);
+}
+
+void StreamBuffer::bind_storage(unsigned binding, std::size_t offset, std::size_t bytes) const {
+    ROWLAND_CHECK_OP(offset + bytes, <=, size_);
+    buffer_.bind_storage(binding, copy_ * stride_ + offset, bytes);
+}
+
+void StreamBuffer::ReleaseTexture::operator()(GLuint name) const {
+    glDeleteTextures(1, &name);
+    bound_state().forget(BoundState::Slot::Texture, name);
+}
+
+void StreamBuffer::bind_texels(unsigned unit) const {
+    if (texels_.get() == 0) {
+        GLuint name = 0;
+        glCreateTextures(GL_TEXTURE_BUFFER, 1, &name);
+        texels_ = Handle<ReleaseTexture>(name);
+    }
+    if (std::exchange(texels_write_, writes_) != writes_)
+        glTextureBufferRange(texels_.get(), GL_RGB32F, buffer_.id(), static_cast<GLintptr>(copy_ * stride_),
+                             static_cast<GLsizeiptr>(size_));
+    if (bound_state().changes(BoundState::Slot::Texture, unit, {texels_.get()})) glBindTextureUnit(unit, texels_.get());
+}
+
+void VertexArray::Release::operator()(GLuint name) const {
+    glDeleteVertexArrays(1, &name);
+    bound_state().forget(BoundState::Slot::VertexArray, name);
+}
+
+VertexArray::VertexArray() {
+    GLuint name = 0;
+    glCreateVertexArrays(1, &name);
+    handle_ = Handle<Release>(name);
+}
+
+void VertexArray::attach(const Buffer& buffer, int stride, std::initializer_list<VertexAttribute> attributes) {
+    const unsigned binding = bindings_++;
+    glVertexArrayVertexBuffer(id(), binding, buffer.id(), 0, stride);
+    for (const VertexAttribute& attribute : attributes) {
+        glEnableVertexArrayAttrib(id(), attribute.location);
+        if (attribute.number == VertexNumber::UInt16) {
+            glVertexArrayAttribIFormat(id(), attribute.location, attribute.components, GL_UNSIGNED_SHORT,
+                                       attribute.offset);
+        } else {
+            glVertexArrayAttribFormat(id(), attribute.location, attribute.components, GL_FLOAT, GL_FALSE,
+                                      attribute.offset);
+        }
+        glVertexArrayAttribBinding(id(), attribute.location, binding);
+    }
+}
+
+void VertexArray::attach_indices(const Buffer& buffer) {
+    glVertexArrayElementBuffer(id(), buffer.id());
+    indices_ = buffer.size() / sizeof(std::uint32_t);
+}
+
+void VertexArray::bind() const {
+    if (bound_state().changes(BoundState::Slot::VertexArray, 0, {id()})) glBindVertexArray(id());
+}
+
+void VertexArray::draw(int count, int instances) const {
+    bind();
+    glDrawArraysInstanced(GL_TRIANGLES, 0, count, instances);
+}
+
+void VertexArray::draw_indexed(int count) const {
+    ROWLAND_CHECK_OP(count, >=, 0);
+    ROWLAND_CHECK_OP(static_cast<std::size_t>(count), <=, indices_);
+    bind();
+    glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, nullptr);
 }
 
 }  // namespace rowland::gpu

@@ -1,11 +1,35 @@
 #pragma once
 
+#include <epoxy/gl.h>
+#include <array>
 #include <cstddef>
+#include <initializer_list>
+#include <memory>
+#include <optional>
 #include <span>
+#include <type_traits>
+#include <vector>
 
 #include "engine/gpu/handle.h"
 
 namespace rowland::gpu {
+
+/// A point in the GPU's work: after all commands so far.
+class Fence {
+ public:
+    Fence();
+
+    /// Whether the GPU is past it. Does not wait.
+    bool passed() const;
+    /// Waits until the GPU is past it.
+    void wait() const;
+
+ private:
+    struct Release {
+        void operator()(GLsync sync) const;
+    };
+    std::unique_ptr<std::remove_pointer_t<GLsync>, Release> sync_;
+};
 
 /// Whether a buffer's content may change after it is made.
 enum class BufferUse { Static, Dynamic };
@@ -65,6 +89,94 @@ class Buffer {
     std::byte* mapping_ = nullptr;
     std::size_t size_ = 0;
     BufferUse use_ = BufferUse::Static;
+};
+
+/// GPU memory whose content is replaced up to once a frame, as a whole. Draws read what was last written before them.
+/// The first content is kept once. From the second write on there are three copies, written in turn, so that the GPU
+/// may be two writes late. They are replaced only if the content does not fit.
+class StreamBuffer {
+ public:
+    /// Waits only if the GPU is more than two writes late. Throws Error (system) if there is no memory.
+    void write(std::span<const std::byte> data);
+    template <typename T>
+    void write_values(std::span<const T> values) {
+        write(std::as_bytes(values));
+    }
+
+    /// Binds `bytes` from `offset` on, a multiple of kBufferAlignment.
+    void bind_uniform(unsigned binding, std::size_t offset, std::size_t bytes) const;
+    void bind_storage(unsigned binding, std::size_t offset, std::size_t bytes) const;
+    /// Binds all of it.
+    void bind_uniform(unsigned binding) const { bind_uniform(binding, 0, size_); }
+    void bind_storage(unsigned binding) const { bind_storage(binding, 0, size_); }
+
+    /// Binds all of it to a texture unit, as texels of three floats for a samplerBuffer.
+    void bind_texels(unsigned unit) const;
+
+    /// Of the content, bytes.
+    std::size_t size() const { return size_; }
+    /// How often content was written.
+    int writes() const { return writes_; }
+
+ private:
+    static constexpr std::size_t kCopies = 3;
+    struct ReleaseTexture {
+        void operator()(GLuint name) const;
+    };
+    void allocate(std::size_t copy_bytes, std::size_t copies);
+    void next_copy();
+
+    Buffer buffer_;
+    std::span<std::byte> mapped_;
+    std::size_t stride_ = 0;                          ///< of the copies
+    std::size_t copy_ = 0;                            ///< the last one written
+    std::array<std::optional<Fence>, kCopies> read_;  ///< after the draws that read a copy
+    std::size_t size_ = 0;
+    int writes_ = 0;
+    mutable Handle<ReleaseTexture> texels_;  ///< made when first bound
+    mutable int texels_write_ = 0;           ///< which write it shows; 0: none
+};
+
+enum class VertexNumber {
+    Float,
+    UInt16,  ///< an integer in GLSL: uvec4 and so on
+};
+
+/// One attribute of a vertex: `layout(location = location)` in GLSL.
+struct VertexAttribute {
+    unsigned location = 0;
+    int components = 3;   ///< 1 to 4
+    unsigned offset = 0;  ///< bytes from the start of the vertex
+    VertexNumber number = VertexNumber::Float;
+};
+
+/// How vertices are read from buffers. The buffers must outlive it.
+class VertexArray {
+ public:
+    /// With nothing attached it draws vertices made from gl_VertexID alone.
+    VertexArray();
+
+    /// Reads the attributes from `buffer`, one vertex every `stride` bytes.
+    void attach(const Buffer& buffer, int stride, std::initializer_list<VertexAttribute> attributes);
+    /// 32-bit indices.
+    void attach_indices(const Buffer& buffer);
+
+    /// Triangles from `count` vertices.
+    void draw(int count, int instances = 1) const;
+    /// Triangles from the first `count` indices.
+    void draw_indexed(int count) const;
+
+    GLuint id() const { return handle_.get(); }
+
+ private:
+    struct Release {
+        void operator()(GLuint name) const;
+    };
+    void bind() const;
+
+    Handle<Release> handle_;
+    unsigned bindings_ = 0;
+    std::size_t indices_ = 0;
 };
 
 }  // namespace rowland::gpu

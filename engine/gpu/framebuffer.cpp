@@ -6,8 +6,7 @@
 
 #include "engine/core/check.h"
 #include "engine/core/error.h"
-#include "engine/gpu/bound_state.h"
-#include "engine/gpu/limits.h"
+#include "engine/gpu/context.h"
 #include "engine/gpu/pipeline_state.h"
 
 namespace rowland::gpu {
@@ -179,6 +178,17 @@ std::vector<std::uint8_t> Framebuffer::read_rgba8(unsigned attachment) const {
     read(attachment, GL_UNSIGNED_BYTE, pixels.data());
     flip_rows(pixels, size_.y);
     return pixels;
+}
+
+void FullScreenTriangle::draw(const Program& program, const Framebuffer& target) const {
+    target.bind();
+    draw(program);
+}
+
+void FullScreenTriangle::draw(const Program& program) const {
+    apply(PipelineState{.depth_test = DepthTest::Off, .depth_write = false, .cull = Cull::None, .blend = Blend::Off});
+    program.use();
+    vertices_.draw(3);
 }
 
 }  // namespace rowland::gpu

@@ -3,8 +3,11 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
+#include <string>
 #include <vector>
 
+#include "engine/gpu/buffer.h"
+#include "engine/gpu/program.h"
 #include "engine/gpu/texture.h"
 
 namespace rowland::gpu {
@@ -51,7 +54,7 @@ class Framebuffer {
     /// The same as 8-bit RGBA bytes, clamped to [0, 1] first.
     std::vector<std::uint8_t> read_rgba8(unsigned attachment = 0) const;
 
-    /// Whether the first colour holds half floats, which a shader rounds to (half_float.glsl).
+    /// Whether the first colour holds half floats, which a shader rounds to (dialect.glsl).
     bool holds_halves() const { return holds_halves_; }
 
     glm::ivec2 size() const { return size_; }
@@ -75,6 +78,22 @@ class Framebuffer {
     std::vector<Texture> depth_;  ///< one or none
     std::vector<Handle<ReleaseRenderbuffer>> multisampled_;
     std::size_t colour_count_ = 1;
+};
+
+/// The vertex stage of a full-screen pass: `layout(location = 0) out vec2 uv`, (0,0) at the lower left.
+inline constexpr const char* full_screen_vertex_shader = "engine/gpu/shaders/full_screen_triangle.vert.glsl";
+
+/// One triangle that covers the target.
+class FullScreenTriangle {
+ public:
+    /// Runs `program` once for every pixel of `target`: no depth, no blending. Textures and uniforms are set by the
+    /// caller.
+    void draw(const Program& program, const Framebuffer& target) const;
+    /// The same onto the bound framebuffer.
+    void draw(const Program& program) const;
+
+ private:
+    VertexArray vertices_;
 };
 
 }  // namespace rowland::gpu

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/gpu/software_renderer.h"
+#include "engine/gpu/context.h"
 
 namespace rowland::gpu {
 

@@ -26,10 +26,17 @@ constexpr std::uint64_t max_shader_bytes = 1 << 20;
                  .fault = Fault::System});
 }
 
-/// Matches `#include "name"`.
+/// Matches `#include "name"` and `#include DEFINE`.
 const std::regex& include_pattern() {
-    static const std::regex pattern(R"re([ \t]*#[ \t]*include[ \t]*"([^"]*)")re");
+    static const std::regex pattern(R"re([ \t]*#[ \t]*include[ \t]*(?:"([^"]*)"|(\w+)))re");
     return pattern;
+}
+
+/// The file that a define names, or nothing.
+std::string named_file(std::span<const Define> defines, const std::string& define) {
+    for (const auto& [name, value] : defines)
+        if (name == define && value.starts_with('"')) return value.substr(1, value.size() - 2);
+    return "";
 }
 
 bool is_version(const std::string& line) {
@@ -68,7 +75,8 @@ class CppLines {
 
 std::string defines_text(std::span<const Define> defines) {
     std::string text;
-    for (const auto& [name, value] : defines) text += fmt::format("#define {} {}\n", name, value);
+    for (const auto& [name, value] : defines)
+        text += fmt::format("#define {} {}\n", name, value.starts_with('"') ? "" : value);
     return text;
 }
 
@@ -150,7 +158,12 @@ void ShaderLibrary::paste(const std::string& name, std::span<const Define> defin
             continue;
         }
         if (is_root && !versioned) fail(name, line_number, line, "#version as the first directive");
-        const std::string included = resolve_include(include[1].str(), name, line_number);
+        const std::string file = include[1].matched ? include[1].str() : named_file(defines, include[2].str());
+        if (file.empty() && !include[1].matched) {
+            result.text += '\n';
+            continue;
+        }
+        const std::string included = resolve_include(file, name, line_number);
         const bool is_new = std::find(result.files.begin(), result.files.end(), included) == result.files.end();
         if (is_new) paste(included, {}, result);
         result.text += line_directive(index, line_number + 1);

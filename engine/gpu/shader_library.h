@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/core/embedded_file.h"
+#include "engine/core/text.h"
 
 namespace rowland::gpu {
 
@@ -36,7 +36,7 @@ enum class Dialect {
 /// `#line` so that the line below it counts as line `line` of files[file].
 std::string line_directive(std::size_t file, std::size_t line);
 
-/// The shader files of this part: dialect.glsl, full_screen_triangle.vert.glsl and half_float.glsl. Every ShaderLibrary
+/// The shader files of this part: dialect.glsl and full_screen_triangle.vert.glsl. Every ShaderLibrary
 /// holds them.
 std::span<const EmbeddedFile> shader_files();
 
@@ -58,7 +58,9 @@ class ShaderLibrary {
     std::string read(const std::string& name) const;
 
     /// A stage's whole text. `#include "name"` is looked up beside the including file, then from the top; a file is
-    /// pasted once however often it is included. In headers that C++ reads as well, its lines are blank: from
+    /// pasted once however often it is included. In the stage's own file, `#include NAME` pastes the file that the
+    /// define NAME gives in quotes, or nothing if there is none; for the compiler such a define has no value. In
+    /// headers that C++ reads as well, its lines are blank: from
     /// `#ifdef __cplusplus` to the `#else` or `#endif`. The defines go below the file's own `#version`, which must be
     /// its first directive. Throws Error (system) that names the file and the line of a bad include.
     ShaderText assemble(const std::string& name, std::span<const Define> defines = {},

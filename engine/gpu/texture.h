@@ -1,5 +1,6 @@
 #pragma once
 
+#include <epoxy/gl.h>
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -8,10 +9,29 @@
 #include <span>
 #include <vector>
 
-#include "engine/gpu/format.h"
 #include "engine/gpu/handle.h"
 
 namespace rowland::gpu {
+
+/// Texel formats of textures and framebuffers. 8, 10 and 16 without a suffix are unsigned normalised.
+enum class Format {
+    RGBA8,
+    SRGB8_A8,
+    RGB10_A2,
+    RGBA16,
+    RG16F,
+    RGBA16F,
+    R32F,
+    RG32F,
+    RGB32F,
+    RGBA32F,
+    Depth32F,
+};
+
+GLenum internal_format(Format format);
+int bytes_per_texel(Format format);
+/// Then 16-bit uploads are the bits of half floats.
+bool is_half_float(Format format);
 
 enum class TextureKind { Line, Plane, PlaneArray, Volume, CubeMap };  ///< GLSL: sampler1D, 2D, 2DArray, 3D, Cube
 
@@ -53,7 +73,7 @@ class Texture {
  public:
     Texture() = default;
     /// It is a logic error if a size is below 1 or does not suit the kind. Throws Error (system) for one that is more
-    /// than the GPU's limit (limits.h).
+    /// than the GPU's limit (context.h).
     explicit Texture(const TextureDesc& desc, const Sampling& sampling = {});
 
     /// Writes whole slices. The data's length gives the components per texel (1 to 4, independent of the format;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,13 +21,33 @@ struct ByteImageSize {
     int height = 0;
 };
 
-/// The size in a PNG's or JPEG's header. Throws Error (input), also above the limits of image/limits.h.
+/// The size in a PNG's or JPEG's header. Throws Error (input), also above the limits of image/image.h.
 ByteImageSize byte_image_size(std::span<const std::byte> bytes, const std::string& file);
 
 /// Decodes a PNG or a JPEG, whichever the first bytes say. Grey and palette become RGB, missing alpha 255, 16 bits 8.
 /// Colour profiles and gamma are ignored, as glTF 2.0, 3.8.3 requires. `file` names the bytes in messages. Throws Error
-/// (input), also for pictures above the limits of image/limits.h, before anything is allocated for them, and for cut
+/// (input), also for pictures above the limits of image/image.h, before anything is allocated for them, and for cut
 /// ones.
 ByteImage decode_byte_image(std::span<const std::byte> bytes, const std::string& file);
+
+bool is_png(std::span<const std::byte> bytes);
+
+/// See byte_image_size and decode_byte_image; `bytes` must be a PNG's.
+ByteImageSize png_size(std::span<const std::byte> bytes, const std::string& file);
+ByteImage decode_png(std::span<const std::byte> bytes, const std::string& file);
+
+bool is_jpeg(std::span<const std::byte> bytes);
+
+/// See byte_image_size and decode_byte_image; `bytes` must be a JPEG's.
+ByteImageSize jpeg_size(std::span<const std::byte> bytes, const std::string& file);
+ByteImage decode_jpeg(std::span<const std::byte> bytes, const std::string& file);
+
+/// An 8-bit PNG of `channels` 3 (RGB) or 4 (RGBA, straight alpha), width·height·channels bytes, row by row from the
+/// top. The same picture gives the same bytes. Throws Error (system) if encoding fails.
+std::vector<std::byte> encode_png(int width, int height, int channels, std::span<const std::uint8_t> pixels);
+
+/// Writes an 8-bit RGB image (width·height·3 bytes, row by row from the top), atomically. Values are not encoded for
+/// the display here. Throws Error (system) if writing fails.
+void write_png(const std::filesystem::path& path, int width, int height, std::span<const std::uint8_t> rgb);
 
 }  // namespace rowland::image

@@ -20,12 +20,11 @@
 #include <optional>
 #include <stdexcept>
 
-#include "engine/colour/primaries.h"
+#include "engine/colour/colour_space.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
-#include "engine/image/exr_header.h"
-#include "engine/image/limits.h"
+#include "engine/image/image.h"
 
 namespace rowland::image {
 

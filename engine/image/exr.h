@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <glm/vec4.hpp>
 #include <span>
@@ -14,7 +15,7 @@ namespace rowland::image {
 /// has them), CIE X, Y, Z, or Y alone; scanlines or tiles, any compression OpenEXR knows. Alpha is ignored. X, Y, Z and
 /// chromaticities other than Rec.709's are converted to it. Throws Error (input) for anything else: deep data,
 /// luminance/chroma, subsampled or integer channels, cube maps, a data window that is not the display window, and sizes
-/// over limits.h (checked before allocating).
+/// over image.h (checked before allocating).
 Image read_exr(std::span<const std::byte> bytes, const std::string& file);
 Image read_exr(const std::filesystem::path& path);
 
@@ -25,5 +26,11 @@ bool is_exr(std::span<const std::byte> bytes);
 /// texels give the same bytes. Throws Error (system) if writing fails.
 void write_exr(const std::filesystem::path& path, const Image& image);
 void write_exr(const std::filesystem::path& path, int width, int height, std::span<const glm::vec4> texels);
+
+/// Checks the headers of all parts of an OpenEXR file before OpenEXR reads them. Throws Error (input) naming `file` and
+/// the byte where the library would allocate more than the file can hold: attributes longer than the file, images over
+/// image.h, offset tables that do not fit, oversized tiles and chunks, too many channels or parts. Deep data is
+/// refused as well.
+void check_exr_header(std::span<const std::byte> bytes, const std::string& file);
 
 }  // namespace rowland::image

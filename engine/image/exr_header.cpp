@@ -1,4 +1,4 @@
-#include "engine/image/exr_header.h"
+#include "engine/image/exr.h"
 
 #include <fmt/format.h>
 
@@ -14,7 +14,6 @@
 #include "engine/core/byte_stream.h"
 #include "engine/core/error.h"
 #include "engine/image/image.h"
-#include "engine/image/limits.h"
 
 // Layout: "OpenEXR File Layout", openexr.com, versions 2.0 to 3.1.
 

@@ -1,8 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <filesystem>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <span>
+#include <string>
 #include <vector>
 
 namespace rowland::image {
@@ -30,5 +34,34 @@ inline Image make_image(int width, int height) {
 inline void transform_colours(Image& image, const glm::dmat3& matrix) {
     for (glm::vec3& texel : image.texels) texel = glm::vec3(matrix * glm::dvec3(texel));
 }
+
+/// What an image file may claim: 16384 × 8192 texels are the largest panoramas in use, 1.5 GiB as Image.
+inline constexpr int kMaximumSide = 32768;
+inline constexpr std::uint64_t kMaximumTexels = std::uint64_t{16384} * 8192;
+/// Largest image file read (an uncompressed float image of kMaximumTexels and some room).
+inline constexpr std::uint64_t kMaximumFileBytes = std::uint64_t{2} << 30;
+
+/// Throws Error (input) naming `file` and `location` if a side is not in [1, kMaximumSide] or there are more than
+/// kMaximumTexels texels.
+void check_image_size(std::int64_t width, std::int64_t height, const std::string& file, const std::string& location);
+
+/// Memory in bytes that images of `file_bytes` bytes may be decoded to: 192 bytes for each byte (16 texels of an
+/// Image), and at least 400 MiB. The environment variable ROWLAND_IMAGE_MEMORY, in MiB, raises the latter.
+std::uint64_t decoded_limit(std::uint64_t file_bytes);
+
+/// Throws Error (input) if decoding an image takes more than decoded_limit(): a highly compressed file would use memory
+/// out of proportion to its size. `decoded_bytes` is all that decoding allocates.
+void check_decoded_bytes(std::int64_t width, std::int64_t height, std::uint64_t decoded_bytes, std::size_t file_bytes,
+                         const std::string& file);
+
+/// Throws Error (input) if each of `file_bytes` bytes would have to give more than `texels_per_byte` texels, which is
+/// more than the format can compress.
+void check_compression(std::int64_t width, std::int64_t height, std::size_t file_bytes, std::uint64_t texels_per_byte,
+                       const std::string& file);
+
+/// Reads a Radiance or OpenEXR image, whichever the first bytes say. Throws Error (input).
+Image load_image(const std::filesystem::path& path);
+/// The same for bytes in memory; `file` names them in messages.
+Image decode_image(std::span<const std::byte> bytes, const std::string& file);
 
 }  // namespace rowland::image

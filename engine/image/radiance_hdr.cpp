@@ -12,11 +12,11 @@
 #include <sstream>
 #include <string_view>
 
-#include "engine/colour/primaries.h"
+#include "engine/colour/colour_space.h"
 #include "engine/core/byte_stream.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
-#include "engine/image/limits.h"
+#include "engine/image/image.h"
 
 // Format: Ward, "Real pixels", Graphics Gems II, 1991, and the Radiance source's color.c.
 

@@ -13,7 +13,7 @@ namespace rowland::image {
 /// A texel is mantissa · 2^(exponent − 136), 0 where the exponent is 0 (Radiance itself adds ½ to the mantissa; other
 /// programs, and the reference radiances of the tests, do not); values are divided by the header's EXPOSURE and
 /// COLORCORR lines and converted from its PRIMARIES, if any, to Rec.709. Throws Error (input) for anything malformed
-/// and for sizes over limits.h (checked before allocating); `file` names the bytes in messages.
+/// and for sizes over image.h (checked before allocating); `file` names the bytes in messages.
 Image read_radiance_hdr(std::span<const std::byte> bytes, const std::string& file);
 Image read_radiance_hdr(const std::filesystem::path& path);
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "engine/image/limits.h"
-#include "engine/image/load.h"
+#include "engine/core/json_schema.h"
+#include "engine/image/image.h"
 #include "engine/lighting/light_probe.h"
 #include "engine/lighting/probe_recipe.h"
 
@@ -53,6 +53,9 @@ cook::AssetType probe_type() {
         return serialise(build_light_probe(probe, recipe.settings));
     };
     type.check = [](cook::Context& context) { make_probe(context); };
+    type.schema = [] {
+        return json_schema("Rowland light probe recipe", [](JsonReader& json) { parse_probe_recipe(json); });
+    };
     type.describe = [](std::span<const std::byte> payload, const std::string& file) {
         return describe(deserialise(payload, file));
     };

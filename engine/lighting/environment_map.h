@@ -6,6 +6,8 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "engine/lighting/probe_image.h"
+
 namespace rowland::lighting {
 
 /// A cube map with levels. Faces in OpenGL's order +X, −X, +Y, −Y, +Z, −Z and orientation: with s, t in [−1, 1] growing
@@ -53,8 +55,37 @@ struct PackedEnvironmentMap {
     std::vector<std::uint16_t> halves;  ///< 3 · layout.offset(layout.levels)
 };
 
+/// The power of two by which `largest` ≥ 0 is in [16384, 32768): as far from underflow as possible without overflow.
+float half_scale(double largest);
+std::uint16_t to_half(double value, float scale);
+float from_half(std::uint16_t bits);
+/// Half floats from here on are infinite, NaN or negative.
+inline constexpr std::uint16_t kFirstInvalidHalf = 0x7c00;
+
 /// Rounds to halves. Values must be finite and ≥ 0; the largest may be any float.
 PackedEnvironmentMap pack(const EnvironmentMap& map);
 EnvironmentMap unpack(const PackedEnvironmentMap& map);
+
+struct PrefilterSettings {
+    int face_size = 256;  ///< power of two in [16, 1024]; lowered to the probe's resolution
+};
+
+/// The cube map a probe is prefiltered into: faces of about half an equirectangular image's height (a quarter of an
+/// angular map's) and at most 5/4 of that, a power of two, at least 16; levels down to faces of 4 texels.
+CubeLayout environment_layout(const ProbeImage& probe, const PrefilterSettings& settings);
+
+/// Level 0: the probe's mean over each texel. Level k: radiance under the GGX lobe of that level's roughness, with view
+/// = normal = reflection [Karis 2013, split sum], weights normalised so that a constant probe stays constant. Does
+/// not depend on the number of threads.
+EnvironmentMap prefilter(const ProbeImage& probe, const PrefilterSettings& settings = {});
+
+// CPU reference of the environment look-ups in engine/render/shaders/environment.glsl.
+
+/// Linear Rec.709 radiance along `direction`, of any length, under the lobe of a perceptual roughness: linear between
+/// texels, over the edges of faces, and between levels.
+glm::dvec3 environment_light(const EnvironmentMap& map, const glm::dvec3& direction, double roughness);
+
+/// Look-up direction for the whole lobe of a surface. n and v are unit; the result is not.
+glm::dvec3 lobe_direction(const glm::dvec3& n, const glm::dvec3& v, double roughness);
 
 }  // namespace rowland::lighting

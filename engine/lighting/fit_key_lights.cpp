@@ -12,7 +12,6 @@
 
 #include "engine/core/check.h"
 #include "engine/core/parallel.h"
-#include "engine/lighting/cube_tree.h"
 #include "engine/lighting/key_lights.h"
 #include "engine/lighting/light_metric.h"
 #include "engine/lighting/light_samples.h"
@@ -67,7 +66,7 @@ std::vector<std::size_t> descending(std::span<const double> values) {
     return indices;
 }
 
-/// Least squares with fluxes ≥ 0: while a flux is negative, its lobe is left out and the others are solved again.
+/// Least squares with fluxes ≥ 0: drops the lobes of negative flux and solves for the others, until none is negative.
 Eigen::VectorXd solve_non_negative(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right) {
     std::vector<Eigen::Index> used(static_cast<std::size_t>(right.size()));
     std::iota(used.begin(), used.end(), Eigen::Index{0});
@@ -113,22 +112,22 @@ class Fit {
         return true;
     }
 
-    /// The order that leaving out, one by one, the lobe without which the others, with their fluxes, leave the least
-    /// squared error gives, the last first.
-    std::vector<std::size_t> most_useful_first() const {
-        Eigen::MatrixX3d rest = right_ - matrix_ * fluxes_;
+    /// Indices sorted by importance: repeatedly removes the lobe whose removal, at fixed fluxes of the others, raises
+    /// the squared error least. The last one removed comes first.
+    std::vector<std::size_t> by_importance() const {
+        Eigen::MatrixX3d residual = right_ - matrix_ * fluxes_;
         std::vector<std::size_t> order;
         std::vector<std::size_t> left(lobes_.size());
         std::iota(left.begin(), left.end(), std::size_t{0});
         const auto loss = [&](std::size_t k) {
             const auto row = static_cast<Eigen::Index>(k);
-            return fluxes_.row(row).dot(2.0 * rest.row(row) + matrix_(row, row) * fluxes_.row(row));
+            return fluxes_.row(row).dot(2.0 * residual.row(row) + matrix_(row, row) * fluxes_.row(row));
         };
         while (!left.empty()) {
             const auto least = std::min_element(left.begin(), left.end(),
                                                 [&](std::size_t a, std::size_t b) { return loss(a) < loss(b); });
             const auto row = static_cast<Eigen::Index>(*least);
-            rest += matrix_.col(row) * fluxes_.row(row);
+            residual += matrix_.col(row) * fluxes_.row(row);
             order.push_back(*least);
             left.erase(least);
         }
@@ -136,7 +135,7 @@ class Fit {
         return order;
     }
 
-    /// Removes the lobe without which the gain, at fluxes of either sign, is largest.
+    /// Removes the lobe that costs the least gain, if fluxes of either sign are allowed.
     void remove_least() {
         const Factors factors(matrix_);
         Eigen::VectorXd losses(matrix_.rows());
@@ -232,7 +231,7 @@ class Candidates {
         });
     }
 
-    /// The one that reduces the residual of a fit most. The fit has one lobe more than at the call before.
+    /// The candidate that reduces a fit's residual most. The fit must have one lobe more than at the previous call.
     LobeShape best(const Fit& fit) {
         if (!fit.lobes().empty()) add_column(fit.lobes().back());
         std::size_t best = 0;
@@ -285,17 +284,17 @@ class Candidates {
 
 /// Line search by one step: along two tangents, then in width.
 void refine(Fit& fit, std::size_t k, double step, double narrowest, const KeyLightFit& settings) {
-    const auto turned = [&](int way) {
+    const auto moved = [&](int side) {
         const LobeShape lobe = fit.lobes()[k].shape;
         const glm::dvec3 axis = std::abs(lobe.direction.y) < 0.7 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
         const glm::dvec3 first = glm::normalize(glm::cross(axis, lobe.direction));
-        const glm::dvec3 tangent = way < 2 ? first : glm::cross(lobe.direction, first);
+        const glm::dvec3 tangent = side < 2 ? first : glm::cross(lobe.direction, first);
         const double width = step * std::sqrt(1.0 / lobe.concentration + 2.0 / settings.smoothing);
-        return LobeShape{glm::normalize(lobe.direction + (way % 2 == 0 ? width : -width) * tangent),
+        return LobeShape{glm::normalize(lobe.direction + (side % 2 == 0 ? width : -width) * tangent),
                          lobe.concentration};
     };
-    for (const int way : {0, 2})
-        if (!fit.try_replace(k, turned(way))) fit.try_replace(k, turned(way + 1));
+    for (const int side : {0, 2})
+        if (!fit.try_replace(k, moved(side))) fit.try_replace(k, moved(side + 1));
     const auto scaled = [&](double factor) {
         LobeShape lobe = fit.lobes()[k].shape;
         lobe.concentration = std::clamp(lobe.concentration * factor, kWidestConcentration, narrowest);
@@ -305,9 +304,9 @@ void refine(Fit& fit, std::size_t k, double step, double narrowest, const KeyLig
     if (!fit.try_replace(k, scaled(factor))) fit.try_replace(k, scaled(1.0 / factor));
 }
 
-std::vector<KeyLight> most_useful_first(const Fit& fit) {
+std::vector<KeyLight> by_importance(const Fit& fit) {
     std::vector<KeyLight> keys;
-    for (const std::size_t k : fit.most_useful_first()) {
+    for (const std::size_t k : fit.by_importance()) {
         const Eigen::RowVector3d flux = fit.fluxes().row(static_cast<Eigen::Index>(k));
         const LobeShape& shape = fit.lobes()[k].shape;
         if (flux.any()) keys.push_back({shape.direction, {flux[0], flux[1], flux[2]}, shape.concentration});
@@ -344,7 +343,7 @@ std::vector<KeyLight> fit_key_lights(const ProbeImage& probe, int count, const K
         if (fit.lobes().size() % 4 == 0) refine_all(0.2);
     }
     for (const double step : {0.5, 0.3, 0.2, 0.1, 0.05, 0.02, 0.01}) refine_all(step);
-    return most_useful_first(fit);
+    return by_importance(fit);
 }
 
 }  // namespace rowland::lighting

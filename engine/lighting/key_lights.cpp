@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "engine/core/check.h"
-#include "engine/math/sh_basis.h"
+#include "engine/math/spherical_harmonics.h"
 
 namespace rowland::lighting {
 

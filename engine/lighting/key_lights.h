@@ -16,7 +16,7 @@ struct KeyLight {
     double concentration = 100.0;         ///< κ > 0; about 1/κ is the variance of the angle along each axis
 };
 
-/// Shaders loop over at most so many.
+/// Most key lights that shaders take.
 inline constexpr int kMaximumKeyLights = 64;
 
 /// κ/(4π sinh κ) exp(κ s·direction), 1/sr; it integrates to 1. Stable for κ in [1e-3, 1e5] and beyond.
@@ -26,23 +26,23 @@ double lobe_density(const KeyLight& key, const glm::dvec3& s);
 /// I_{l+½}(κ)/I_½(κ), to 1e-10.
 std::vector<double> lobe_band_factors(double concentration, int bands);
 
-/// What the fit of key lights minimises: the squared error that remains when the lowest bands of the residual() are
-/// shown as SH, smoothed, relative to what surfaces see (DirectionWeight). Band l counts by about 1/l, as in the mean
-/// over all circles of the light's integral along them.
+/// Objective of the fit of key lights: the squared error of the lobes plus the residual() in exact_bands as SH,
+/// smoothed and weighted by direction (DirectionWeight). Band l has weight ≈ 1/l, as in the mean over all circles of
+/// the light's line integral.
 struct KeyLightFit {
-    /// Concentration of the lobe that smooths: detail below 1/√smoothing rad, .02 by default, does not count. That of
-    /// an order's colours on a compact disc is .026.
+    /// Concentration of the smoothing lobe: detail finer than 1/√smoothing rad, .02 by default, is ignored. An order's
+    /// colours on a compact disc are .026 rad wide.
     double smoothing = 2500.0;
-    /// Who uses the residual() has these bands exactly, as SH. 1 to 32.
+    /// residual() is exact in these bands. 1 to 32.
     int exact_bands = 5;
 };
 
-/// Up to `count` (0 to 64) lobes for the bright parts of a probe; fewer where more do not help. Greedy selection of
-/// half as many again, removal of those that matter least, and refinement of each lobe against the residual of the
-/// others. In the order that leaving out, one by one, the lobe that matters least gives, the last first: who uses the
-/// first few alone has those that belong together. Fluxes are those of least squares, never negative, so the residual
-/// is small on either side of 0. No lobe is narrower than a texel or kNarrowestConcentration, or wider than
-/// kWidestConcentration. Does not depend on the number of threads.
+/// Up to `count` (0 to 64) lobes for the bright parts of a probe; fewer where more do not reduce the error. Greedy
+/// selection of 3/2 · count lobes, removal of the least important ones, and refinement of each lobe against the
+/// residual of the others. Sorted by importance: repeatedly remove the least important lobe; the one removed last comes
+/// first. Fluxes solve least squares under flux ≥ 0, so the residual is small on either side of 0. No lobe is narrower
+/// than a texel or kNarrowestConcentration, or wider than kWidestConcentration. Does not depend on the number of
+/// threads.
 std::vector<KeyLight> fit_key_lights(const ProbeImage& probe, int count, const KeyLightFit& settings = {});
 
 /// The widest and the narrowest lobe that fit_key_lights() gives.
@@ -52,8 +52,7 @@ inline constexpr double kNarrowestConcentration = 1e6;
 /// Raw radiance SH of the lobes, in closed form; 1 ≤ bands ≤ 32.
 ShLight project(std::span<const KeyLight> keys, int bands);
 
-/// SH(probe) − SH(lobes) in exactly `bands` bands. Its sum with the lobes has the probe's low bands, however crude the
-/// lobes are.
+/// SH(probe) − SH(lobes) in exactly `bands` bands. Its sum with the lobes has the probe's low bands exactly.
 ShLight residual(const ShLight& probe, std::span<const KeyLight> keys, int bands);
 
 /// Means over a lobe: A₁(κ) = mean of s·direction, and the variances of s along the direction and across it.

@@ -1,15 +1,185 @@
 #include "engine/lighting/light_metric.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/glm.hpp>
 #include <numbers>
+#include <utility>
 #include <vector>
 
+#include "engine/core/check.h"
 #include "engine/core/parallel.h"
-#include "engine/math/sh_basis.h"
+#include "engine/lighting/environment_map.h"
+#include "engine/math/spherical_harmonics.h"
 
 namespace rowland::lighting {
+
+namespace {
+
+using Node = CubeTree::Node;
+
+float luminance(const glm::vec3& rgb) {
+    return glm::dot(rgb, glm::vec3(0.2126f, 0.7152f, 0.0722f));
+}
+
+std::size_t node_index(int side, int face, int column, int row) {
+    const auto n = static_cast<std::size_t>(side);
+    return (static_cast<std::size_t>(face) * n + static_cast<std::size_t>(row)) * n + static_cast<std::size_t>(column);
+}
+
+/// Leaves without light.
+std::vector<Node> make_leaves(int side, std::size_t count) {
+    ROWLAND_CHECK(std::has_single_bit(static_cast<unsigned>(side)) && side >= CubeTree::kRootSide,
+                  "a cube tree's faces are powers of two of at least four texels");
+    ROWLAND_CHECK_OP(count, ==, std::size_t{6} * static_cast<std::size_t>(side * side));
+    std::vector<Node> leaves(count);
+    for (int row = 0; row < side; ++row)
+        for (int column = 0; column < side; ++column) {
+            const double solid_angle = cube_solid_angle(side, column, row);
+            for (int face = 0; face < 6; ++face) {
+                const std::size_t i = node_index(side, face, column, row);
+                Node& leaf = leaves[i];
+                leaf.solid_angle = static_cast<float>(solid_angle);
+                leaf.size = static_cast<float>(std::sqrt(solid_angle));
+                leaf.centre = glm::vec3(
+                    glm::normalize(cube_direction(face, (2 * column + 1.0) / side - 1, (2 * row + 1.0) / side - 1)));
+                leaf.source = leaf.centre;
+            }
+        }
+    return leaves;
+}
+
+Node join(const Node* const (&children)[4]) {
+    Node node;
+    glm::vec3 source(0.0f);
+    glm::vec3 centre(0.0f);
+    for (const Node* child : children) {
+        node.flux += child->flux;
+        node.solid_angle += child->solid_angle;
+        source += luminance(child->flux) * child->source;
+        centre += child->solid_angle * child->centre;
+    }
+    node.size = std::sqrt(node.solid_angle);
+    node.centre = glm::normalize(centre);
+    const float length = glm::length(source);
+    node.source = length > 0 && std::isfinite(length) ? source / length : node.centre;
+    return node;
+}
+
+}  // namespace
+
+CubeTree::CubeTree(std::span<const glm::vec3> texels, int face_size) {
+    std::vector<Node> leaves = make_leaves(face_size, texels.size());
+    for (std::size_t i = 0; i < leaves.size(); ++i) leaves[i].flux = texels[i] * leaves[i].solid_angle;
+    join_levels(std::move(leaves), face_size);
+}
+
+CubeTree::CubeTree(std::span<const CubeCell> cells, int face_size) {
+    std::vector<Node> leaves = make_leaves(face_size, cells.size());
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+        leaves[i].flux = glm::vec3(cells[i].flux);
+        if (cells[i].direction != glm::dvec3(0.0)) leaves[i].source = glm::vec3(glm::normalize(cells[i].direction));
+    }
+    join_levels(std::move(leaves), face_size);
+}
+
+void CubeTree::join_levels(std::vector<Node> leaves, int face_size) {
+    levels_.push_back(std::move(leaves));
+    for (int side = face_size / 2; side >= kRootSide; side /= 2) {
+        const std::vector<Node>& finer = levels_.back();
+        std::vector<Node> level(finer.size() / 4);
+        for (int face = 0; face < 6; ++face)
+            for (int row = 0; row < side; ++row)
+                for (int column = 0; column < side; ++column) {
+                    const auto child = [&](int i, int j) {
+                        return &finer[node_index(2 * side, face, 2 * column + i, 2 * row + j)];
+                    };
+                    level[node_index(side, face, column, row)] =
+                        join({child(0, 0), child(1, 0), child(0, 1), child(1, 1)});
+                }
+        levels_.push_back(std::move(level));
+    }
+    std::reverse(levels_.begin(), levels_.end());
+}
+
+namespace {
+
+/// Cells a side of a cube face, for normals and for directions.
+constexpr int kNormalSide = 6;
+constexpr int kWeightSide = 32;
+constexpr std::size_t kCorners = kWeightSide + 1;
+
+/// Least squared signal of a surface, as a fraction of the mean.
+constexpr double kLeastSignal = 4e-4;
+
+struct Facing {
+    glm::dvec3 normal;
+    double weight;  ///< of max(0, n·s)²
+};
+
+double clamped_square(const glm::dvec3& normal, const glm::dvec3& s) {
+    const double cosine = std::max(0.0, glm::dot(normal, s));
+    return cosine * cosine;
+}
+
+std::vector<Facing> facings(std::span<const DirectionWeight::Signal> signals) {
+    std::vector<Facing> result;
+    std::vector<double> squares;
+    double mean = 0.0;
+    for (int face = 0; face < 6; ++face)
+        for (int row = 0; row < kNormalSide; ++row)
+            for (int column = 0; column < kNormalSide; ++column) {
+                const glm::dvec3 normal = glm::normalize(
+                    cube_direction(face, (2 * column + 1.0) / kNormalSide - 1, (2 * row + 1.0) / kNormalSide - 1));
+                const double up = 0.5 + 0.5 * normal.y;
+                result.push_back({normal, up * up * cube_solid_angle(kNormalSide, column, row)});
+                double square = 0.0;
+                for (const DirectionWeight::Signal& signal : signals)
+                    square += clamped_square(normal, signal.direction) * signal.square;
+                squares.push_back(square);
+                mean += square / (6 * kNormalSide * kNormalSide);
+            }
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        const double square = std::max(0.0, squares[i]) + kLeastSignal * mean;
+        result[i].weight /= square > 0.0 ? square : 1.0;
+    }
+    return result;
+}
+
+}  // namespace
+
+DirectionWeight::DirectionWeight(std::span<const Signal> signals) {
+    const std::vector<Facing> all = facings(signals);
+    double mean = 0.0;
+    for (int face = 0; face < 6; ++face)
+        for (std::size_t row = 0; row < kCorners; ++row)
+            for (std::size_t column = 0; column < kCorners; ++column) {
+                const glm::dvec3 s =
+                    glm::normalize(cube_direction(face, 2.0 * static_cast<double>(column) / kWeightSide - 1,
+                                                  2.0 * static_cast<double>(row) / kWeightSide - 1));
+                double weight = 0.0;
+                for (const Facing& facing : all) weight += facing.weight * clamped_square(facing.normal, s);
+                roots_.push_back(std::sqrt(weight));
+                mean += roots_.back() / (6.0 * kCorners * kCorners);
+            }
+    for (double& root : roots_) root /= mean;
+}
+
+double DirectionWeight::root(const glm::dvec3& direction) const {
+    const CubePoint at = cube_point(direction);
+    const double x = std::clamp(0.5 * (at.s + 1.0), 0.0, 1.0) * kWeightSide;
+    const double y = std::clamp(0.5 * (at.t + 1.0), 0.0, 1.0) * kWeightSide;
+    const int column = std::min(static_cast<int>(x), kWeightSide - 1);
+    const int row = std::min(static_cast<int>(y), kWeightSide - 1);
+    const double* corner =
+        &roots_[(static_cast<std::size_t>(at.face) * kCorners + static_cast<std::size_t>(row)) * kCorners +
+                static_cast<std::size_t>(column)];
+    const double along = x - column;
+    return std::lerp(std::lerp(corner[0], corner[1], along), std::lerp(corner[kCorners], corner[kCorners + 1], along),
+                     y - row);
+}
 
 namespace {
 
@@ -18,15 +188,15 @@ namespace {
 // scales: from the finest detail that counts to the exact bands.
 constexpr double kScaleRatio = 4.0;
 
-/// Nodes of a tree are opened until they are smaller than this fraction of a scale's deviation; at a distance of d
-/// deviations, 1 + d²/kFarther times as large, for less light of theirs counts.
+/// A node is subdivided until its size is below this fraction of a scale's deviation. At a distance of d deviations,
+/// where light contributes less, the limit is 1 + d²/kFarther times as large.
 constexpr double kOpening = 1.0 / 4.0;
 constexpr float kFarther = 4.0F;
 
-/// exp(−this) of a peak is left out of sums.
+/// Contributions below exp(−this) of the peak are omitted.
 constexpr double kMetricReach = 12.0;
 
-/// The weight varies slowly, so the weighted light of the exact bands lies in these and so many more.
+/// The weight varies slowly: the weighted light of n exact bands lies in n + kFurtherBands bands.
 constexpr int kFurtherBands = 3;
 
 /// Nodes a side of a cube face that bands are summed in, and the signal of light: .05 and .1 rad.
@@ -113,7 +283,7 @@ CubeTree weighted_tree(std::span<const CubeCell> cells, int face_size, const Dir
     return {weighted, face_size};
 }
 
-/// Square root of how much each coefficient counts, by its band.
+/// Square roots of the coefficients' weights, by band.
 Eigen::VectorXd band_roots(int bands, const KeyLightFit& settings) {
     std::vector<double> weights(static_cast<std::size_t>(bands), 0.0);
     double smoothed = 2.0 / settings.smoothing;

@@ -2,15 +2,71 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <glm/vec3.hpp>
 #include <span>
+#include <vector>
 
-#include "engine/lighting/cube_tree.h"
-#include "engine/lighting/direction_weight.h"
 #include "engine/lighting/key_lights.h"
 #include "engine/lighting/light_samples.h"
 
 namespace rowland::lighting {
+
+/// The light of a cube map as a quadtree on each face. A sum over any cut through the tree counts each texel once, so
+/// it has neither gaps nor noise, however few and bright the lamps.
+class CubeTree {
+ public:
+    struct Node {
+        glm::vec3 flux{0.0f};    ///< radiance · solid angle of all its texels
+        float solid_angle = 0;   ///< steradians
+        glm::vec3 source{0.0f};  ///< unit vector to the light's centroid, by luminance
+        float size = 0;          ///< side as an angle, about: √solid_angle
+        glm::vec3 centre{0.0f};  ///< unit vector to the centroid of its solid angle
+    };
+
+    /// `texels`: 6·face_size² of radiance in CubeLayout's order; face_size a power of two ≥ 4.
+    CubeTree(std::span<const glm::vec3> texels, int face_size);
+    /// The same of light that was gathered in cells: a leaf's source is its cell's weighted mean direction.
+    CubeTree(std::span<const CubeCell> cells, int face_size);
+
+    /// Depth of the leaves, whose nodes are the texels; the roots (depth 0) are faces cut in 4 × 4.
+    int leaf_depth() const { return static_cast<int>(levels_.size()) - 1; }
+    /// Nodes a side of a face.
+    int side(int depth) const { return kRootSide << depth; }
+    const Node& node(int depth, int face, int column, int row) const {
+        const auto n = static_cast<std::size_t>(side(depth));
+        return levels_[static_cast<std::size_t>(depth)]
+                      [(static_cast<std::size_t>(face) * n + static_cast<std::size_t>(row)) * n +
+                       static_cast<std::size_t>(column)];
+    }
+
+    static constexpr int kRootSide = 4;
+
+ private:
+    void join_levels(std::vector<Node> leaves, int face_size);
+
+    std::vector<std::vector<Node>> levels_;  ///< by depth; faces, rows, columns
+};
+
+/// Weight of an error of a probe's light from direction s: the mean over surface normals n of max(0, n·s)²/S²(n), where
+/// S²(n) is the squared signal that such a surface receives. Errors are relative to the other light on a surface: dim
+/// light counts where the lamps are below the horizon. A normal has weight (1 + n_y)²/4: surfaces face up more often
+/// than down.
+class DirectionWeight {
+ public:
+    /// Light from one direction. Its squared signal on a surface is max(0, n·direction)² times `square`.
+    struct Signal {
+        glm::dvec3 direction{0.0, 1.0, 0.0};  ///< unit
+        double square = 0.0;
+    };
+    explicit DirectionWeight(std::span<const Signal> signals);
+
+    /// Square root of the weight, continuous; its mean over the sphere is about 1.
+    double root(const glm::dvec3& direction) const;
+
+ private:
+    std::vector<double> roots_;  ///< at the corners of cells: faces, rows, columns
+};
 
 /// A lobe of flux 1.
 struct LobeShape {
@@ -18,8 +74,8 @@ struct LobeShape {
     double concentration = 100.0;
 };
 
-/// Inner product of two lobes of flux 1 over the cosine between them, as KeyLightFit says: smoothed and weighted by
-/// band, all bands, equal weights of all directions. Variances of narrow lobes add; the error is of order 1/κ².
+/// Inner product of two lobes of flux 1 as a function of the cosine between them, under KeyLightFit's smoothing and
+/// band weights, with equal weights of all directions. Variances of narrow lobes add; the error is of order 1/κ².
 class LobeProduct {
  public:
     /// `variance`: the sum of both lobes' 1/κ.
@@ -43,13 +99,13 @@ class LobeProduct {
 struct MeasuredLobe {
     LobeShape shape;
     double root = 1.0;      ///< DirectionWeight::root()
-    Eigen::VectorXd bands;  ///< of the weighted light, the low bands
-    Eigen::VectorXd error;  ///< the same of the weighted error: without what the exact bands show
+    Eigen::VectorXd bands;  ///< weighted light in the low bands
+    Eigen::VectorXd error;  ///< weighted error (light − SH of the exact bands) in the low bands
 };
 
-/// Compares a probe with lobes. What counts is the error that the exact bands leave, light − SH(light), times the
-/// DirectionWeight's root: where SH(light) of a lamp shows far from the lamp, it counts as what is seen there. Light
-/// near a lobe is summed in small nodes of a tree, light far off in large ones.
+/// Compares a probe with lobes under KeyLightFit's objective: the error light − SH(light) of the exact bands times
+/// DirectionWeight::root(). So ringing of SH(light) far from a lamp is weighted by the light seen there. Light near a
+/// lobe is summed in small nodes of a tree, distant light in large ones.
 class MeasuredProbe {
  public:
     /// `cells`: of gather_cells() with `face_size`.
@@ -72,9 +128,9 @@ class MeasuredProbe {
     int low_bands_;
     DirectionWeight weight_;
     CubeTree tree_;
-    Eigen::VectorXd band_roots_;  ///< square root of each coefficient's weight
+    Eigen::VectorXd band_roots_;  ///< square roots of the coefficients' weights
     Eigen::MatrixXd shown_;       ///< from SH in the exact bands to their weighted light in the low bands
-    Eigen::MatrixX3d bands_;      ///< of the probe, as MeasuredLobe's
+    Eigen::MatrixX3d bands_;      ///< MeasuredLobe's quantities for the probe
     Eigen::MatrixX3d error_;
 };
 

@@ -1,24 +1,44 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "engine/colour/illuminant.h"
-#include "engine/lighting/ambient.h"
 #include "engine/lighting/environment_map.h"
 #include "engine/lighting/key_lights.h"
-#include "engine/lighting/packed_light.h"
-#include "engine/lighting/prefilter.h"
+#include "engine/lighting/light_samples.h"
 #include "engine/lighting/probe_image.h"
 #include "engine/lighting/sh_light.h"
+#include "engine/math/spherical_harmonics.h"
 
 namespace rowland::lighting {
 
-/// The room that a capture is shown as: a floor, and a sphere about the camera that took it.
+/// Band factors that keep irradiance non-negative.
+struct AmbientWindow {
+    math::SphericalWindow window = math::SphericalWindow::None;
+    double damping = 0;  ///< if > 0: exp(−damping·l(l+1)) in place of `window`
+};
+
+/// 9 SH coefficients of E(n)/π, the radiance that a white diffuse surface of normal n reflects. Linear Rec.709 RGB,
+/// world axes, index l(l+1)+m.
+struct AmbientLight {
+    std::array<glm::dvec3, 9> coefficients = {};
+    AmbientWindow window;
+};
+
+/// The first three bands convolved with the clamped cosine, under the weakest window (none, Lanczos or Hann over three
+/// bands, then exponentials of increasing damping) that keeps E non-negative in a dense set of directions. Missing
+/// bands count as zeros. `keys`: lobes whose irradiance() is added to that of `light`. Only the sum must be
+/// non-negative: `light` may be a residual().
+AmbientLight ambient_coefficients(const ShLight& light, std::span<const KeyLight> keys = {});
+
+/// The room that a capture is drawn in: a floor, and a sphere about the camera that took it.
 struct CaptureDome {
     double height_m = 1.6;  ///< of that camera above the floor
     double radius_m = 0.0;  ///< of the sphere, larger than the height
@@ -40,11 +60,11 @@ struct LightProbe {
     ShLight sh;                                     ///< raw radiance
     colour::Illuminant illuminant = colour::d65();  ///< the spectrum of its white
     AmbientLight ambient;                           ///< derived from sh, never stored
-    std::vector<KeyLight> key_lights;  ///< in fit_key_lights()' order. residual(), unpack() are without them
-    PackedLight light;                 ///< at full resolution, with the key lights
-    PackedEnvironmentMap environment;  ///< prefiltered for glossy reflection
-    std::optional<CaptureDome> dome;   ///< none: what is seen of it is infinitely far away
-    TexelReport report;                ///< texels of the source image that were taken as black
+    std::vector<KeyLight> key_lights;               ///< sorted by importance; residual() and unpack() subtract them
+    PackedLight light;                              ///< at full resolution, with the key lights
+    PackedEnvironmentMap environment;               ///< prefiltered for glossy reflection
+    std::optional<CaptureDome> dome;                ///< none: the environment is infinitely far away
+    TexelReport report;                             ///< texels of the source image that were taken as black
 };
 
 /// Version of serialise()'s layout and of build_light_probe()'s results; part of the cooked header.

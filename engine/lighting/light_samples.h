@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <span>
@@ -11,8 +12,7 @@
 
 namespace rowland::lighting {
 
-/// A probe as point samples, one array a component, all of one length: for sums over directions that count all of the
-/// sphere once.
+/// A probe as point samples, one array per component, all of one length. They cover the whole sphere once.
 struct LightSamples {
     std::vector<float> x, y, z;           ///< unit directions, world axes
     std::vector<float> red, green, blue;  ///< flux: radiance × solid angle. May be negative (see light_samples())
@@ -56,8 +56,8 @@ struct LobeFractions {
     std::vector<double> fractions;
 };
 
-/// Whether lobe_fractions() holds for directions whose cells have sides of at most `side` radians: the midpoint rule
-/// needs a deviation of a side.
+/// Whether the midpoint rule of lobe_fractions() holds for cells with sides of at most `side` radians: the lobe's
+/// deviation is at least a side.
 inline bool is_resolved(const KeyLight& key, double side) {
     return key.concentration * side * side < 1.0;
 }
@@ -82,7 +82,30 @@ LobeFractions lobe_fractions(const KeyLight& key, std::size_t count, const Direc
     return result;
 }
 
-/// Appends samples of the negative flux of a lobe of κ ≥ 100, whose low moments they have: three circles of eight.
+/// Appends three circles of eight samples whose negative flux has the low moments of a lobe of κ ≥ 100.
 void subtract_narrow_lobe(const KeyLight& key, LightSamples& samples);
+
+/// A probe's whole light for storage: a sample in each cell of a cube map (CubeLayout's order), 8 bytes each. It has
+/// the cell's flux and a position within the cell, so a compact lamp keeps its flux and its direction.
+struct PackedLight {
+    int face_size = 0;                    ///< cells a side of a face; 0: no light
+    float scale = 1.0F;                   ///< flux per stored unit, a power of two
+    std::vector<std::uint16_t> halves;    ///< flux: all red, all green, all blue; half floats ≥ 0, 18·face_size²
+    std::vector<std::uint8_t> positions;  ///< of the samples in their cells: all along s, then all along t, in 256ths
+                                          ///< of a side; 12·face_size²
+
+    std::size_t bytes() const { return 2 * halves.size() + positions.size(); }
+};
+
+inline constexpr int kMaximumLightFace = 1024;
+
+/// The light of a probe: flux ≥ 0, none of it subnormal when summed. 1 ≤ face_size ≤ kMaximumLightFace. Flux is rounded
+/// to 1/2048 of itself, positions to 1/512 of a cell's side.
+PackedLight pack(std::span<const CubeCell> cells, int face_size);
+PackedLight pack(const LightSamples& texels, int face_size);
+
+/// The samples, then the lobes of `keys` as samples of negative flux: lobes and samples together have the whole flux,
+/// for any lobes. Black samples are omitted. Does not depend on the number of threads.
+LightSamples unpack(const PackedLight& light, std::span<const KeyLight> keys = {});
 
 }  // namespace rowland::lighting

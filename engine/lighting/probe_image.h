@@ -8,10 +8,24 @@
 #include <vector>
 
 #include "engine/image/image.h"
-#include "engine/lighting/mapping.h"
-#include "engine/lighting/sh_light.h"
 
 namespace rowland::lighting {
+
+/// How a probe image covers the sphere.
+enum class Mapping {
+    Equirectangular,  ///< top row +Y, centre −Z, right +X
+    Angular,  ///< Debevec's light probe: square, centre −Z, radius = angle/π; texels beyond radius 1 are no light
+    Auto,     ///< as recognised_mapping() finds; no probe has it
+};
+
+/// "equirect", "angular" or "auto". Throws Error (input) otherwise.
+Mapping parse_mapping(const std::string& name);
+const char* mapping_name(Mapping mapping);
+
+/// The mapping of an image. One that is not square is equirectangular. A square one is an angular map if it is black
+/// outside its inscribed circle; a tenth of that part may be bright, for captions. Throws Error (input) for another
+/// square image, of more than one texel, which may be either; `file` names it.
+Mapping recognised_mapping(const image::Image& image, const std::string& file);
 
 /// Texels that were counted and set to 0 when the probe was made.
 struct TexelReport {
@@ -66,9 +80,5 @@ void warn_about(const ProbeImage& probe, const std::string& file);
 /// as long as wide on the equator, and it has at most max(2 · width · height, 2²⁰) texels. The long side is divided; if
 /// that makes too many texels, the short one is averaged.
 glm::ivec2 probe_shape(int width, int height);
-
-/// Raw radiance SH coefficients of a probe, in double, weighted by solid angles that are normalised to sum to 4π;
-/// 1 ≤ bands ≤ 32. Does not depend on the number of threads.
-ShLight project(const ProbeImage& probe, int bands);
 
 }  // namespace rowland::lighting

@@ -9,8 +9,9 @@
 #include <utility>
 
 #include "engine/colour/illuminant.h"
+#include "engine/colour/spectrum.h"
 #include "engine/core/json_reader.h"
-#include "engine/math/sh_basis.h"
+#include "engine/math/spherical_harmonics.h"
 
 namespace rowland::lighting {
 
@@ -43,11 +44,8 @@ StudioRecipe parse_studio(JsonReader& reader) {
     studio.ceiling = read_rgb(reader, "ceiling", kRadiance);
     studio.wall = read_rgb(reader, "wall", kRadiance);
     studio.floor = read_rgb(reader, "floor", kRadiance);
-    for (JsonReader& box : reader.objects("boxes")) {
-        studio.boxes.push_back(parse_box(box));
-        constexpr std::size_t kMaximumBoxes = 256;
-        if (studio.boxes.size() > kMaximumBoxes) reader.fail("boxes", "too many soft boxes", "at most 256");
-    }
+    constexpr std::size_t kMaximumBoxes = 256;
+    for (JsonReader& box : reader.objects("boxes", 0, kMaximumBoxes)) studio.boxes.push_back(parse_box(box));
     return studio;
 }
 
@@ -58,15 +56,13 @@ ClearSkyRecipe parse_clear_sky(JsonReader& reader) {
     sky.sun_angular_diameter_deg =
         reader.number_or("sun_angular_diameter_deg", sky.sun_angular_diameter_deg, {.minimum = 0.2, .maximum = 20});
     sky.turbidity = reader.number_or("turbidity", sky.turbidity, {.minimum = 2, .maximum = 6});
-    if (reader.has("ground_albedo"))
-        sky.ground_albedo = read_rgb(reader, "ground_albedo", {.minimum = 0, .maximum = 1});
+    if (reader.has("ground_albedo")) sky.ground_albedo = read_rgb(reader, "ground_albedo", kFraction);
     return sky;
 }
 
 ImageRecipe parse_image(JsonReader& reader) {
     ImageRecipe recipe;
-    recipe.file = reader.text("file");
-    if (recipe.file.empty()) reader.fail("file", "an empty name", "a .hdr or .exr file beside the recipe");
+    recipe.file = reader.file_name("file", "a .hdr or .exr file beside the recipe");
     recipe.mapping = parse_mapping(reader.choice_or("mapping", "equirect", {"equirect", "angular"}));
     return recipe;
 }
@@ -76,15 +72,16 @@ std::optional<CaptureDome> parse_dome(JsonReader& reader) {
     JsonReader object = reader.object("dome");
     CaptureDome dome;
     dome.height_m = object.number("height_m", {.minimum = 0, .maximum = kLargestDome_m, .minimum_open = true});
-    dome.radius_m =
-        object.number("radius_m", {.minimum = dome.height_m, .maximum = kLargestDome_m, .minimum_open = true});
+    const double least = object.records() ? 0.0 : dome.height_m;
+    dome.radius_m = object.number("radius_m", {.minimum = least, .maximum = kLargestDome_m, .minimum_open = true});
     object.finish();
     return dome;
 }
 
 int parse_width(JsonReader& reader, int fallback) {
     const auto width = static_cast<int>(reader.integer_or("width", fallback, 64, 8192));
-    if (width % 4 != 0) reader.fail("width", std::to_string(width), "a multiple of 4");
+    reader.annotate("width", R"({"multipleOf": 4})");
+    if (width % 4 != 0 && !reader.records()) reader.fail("width", std::to_string(width), "a multiple of 4");
     return width;
 }
 
@@ -94,6 +91,7 @@ LightProbeSettings parse_settings(JsonReader& reader) {
     settings.key_lights = static_cast<int>(reader.integer_or("key_lights", settings.key_lights, 0, kMaximumKeyLights));
     auto& size = settings.prefilter.face_size;
     size = static_cast<int>(reader.integer_or("face_size", size, 16, 1024));
+    reader.annotate("face_size", R"({"enum": [16, 32, 64, 128, 256, 512, 1024]})");
     if (!std::has_single_bit(static_cast<unsigned>(size)))
         reader.fail("face_size", std::to_string(size), "a power of two");
     return settings;
@@ -102,16 +100,11 @@ LightProbeSettings parse_settings(JsonReader& reader) {
 /// A built-in illuminant, or the name of a file that holds one.
 void parse_illuminant(JsonReader& reader, ProbeRecipe& recipe) {
     if (!reader.has("illuminant")) return;
-    const std::string name = reader.text("illuminant");
-    const std::vector<std::string> known = colour::illuminant_names();
-    if (std::find(known.begin(), known.end(), name) != known.end()) {
-        recipe.settings.illuminant = colour::illuminant(name);
-        return;
-    }
-    if (!name.ends_with(".csv"))
-        reader.fail("illuminant", fmt::format("\"{}\"", name),
-                    fmt::format("one of {}, or a .csv file beside the recipe", fmt::join(known, ", ")));
-    recipe.illuminant_file = name;
+    const std::variant<colour::Illuminant, std::string> named = colour::read_illuminant(reader, "the recipe");
+    if (const auto* builtin = std::get_if<colour::Illuminant>(&named))
+        recipe.settings.illuminant = *builtin;
+    else
+        recipe.illuminant_file = std::get<std::string>(named);
 }
 
 image::Image load_scaled(const ProbeRecipe& recipe, const std::function<image::Image(const std::string&)>& load) {
@@ -122,25 +115,34 @@ image::Image load_scaled(const ProbeRecipe& recipe, const std::function<image::I
 
 }  // namespace
 
-ProbeRecipe parse_probe_recipe(const nlohmann::json& json, const std::string& file) {
-    JsonReader document(json, file);
+ProbeRecipe parse_probe_recipe(JsonReader& document) {
     JsonReader reader = document.object("probe");
     document.finish();
     ProbeRecipe recipe;
-    const std::string type = reader.choice("type", {"studio", "clear_sky", "image"});
-    if (type == "studio")
-        recipe.source = parse_studio(reader);
-    else if (type == "clear_sky")
-        recipe.source = parse_clear_sky(reader);
-    else
-        recipe.source = parse_image(reader);
-    if (type != "image") recipe.width = parse_width(reader, recipe.width);
+    std::optional<CaptureDome> dome;
+    reader.variant("type", {"studio", "clear_sky", "image"}, [&](JsonReader& json, std::size_t type) {
+        if (type == 2) {
+            recipe.source = parse_image(json);
+            dome = parse_dome(json);
+            return;
+        }
+        if (type == 0)
+            recipe.source = parse_studio(json);
+        else
+            recipe.source = parse_clear_sky(json);
+        recipe.width = parse_width(json, recipe.width);
+    });
     recipe.intensity = reader.number_or("intensity", 1, {.minimum = 1e-6, .maximum = 1e6});
     recipe.settings = parse_settings(reader);
-    if (type == "image") recipe.settings.dome = parse_dome(reader);
+    recipe.settings.dome = dome;
     parse_illuminant(reader, recipe);
     reader.finish();
     return recipe;
+}
+
+ProbeRecipe parse_probe_recipe(const nlohmann::json& json, const std::string& file) {
+    JsonReader document(json, file);
+    return parse_probe_recipe(document);
 }
 
 void load_illuminant(ProbeRecipe& recipe, const std::function<std::string(const std::string&)>& load_text) {

@@ -7,10 +7,10 @@
 #include <variant>
 #include <vector>
 
-#include "engine/lighting/clear_sky.h"
+#include "engine/core/json_reader.h"
 #include "engine/lighting/light_probe.h"
 #include "engine/lighting/probe_image.h"
-#include "engine/lighting/studio.h"
+#include "engine/lighting/procedural_probe.h"
 
 namespace rowland::lighting {
 
@@ -40,6 +40,7 @@ struct ProbeRecipe {
 
 /// Parses strictly: an unknown key, a wrong type or a number out of range is an Error (input) that names it.
 ProbeRecipe parse_probe_recipe(const nlohmann::json& json, const std::string& file);
+ProbeRecipe parse_probe_recipe(JsonReader& document);
 
 /// Puts the illuminant of a recipe that names a file into its settings. `load_text` is called with illuminant_file and
 /// returns its text. Leaves other recipes unchanged. Throws Error (input) as parse_illuminant() does.

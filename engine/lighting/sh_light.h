@@ -3,9 +3,11 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "engine/math/sh_window.h"
+#include "engine/math/spherical_harmonics.h"
 
 namespace rowland::lighting {
+
+class ProbeImage;
 
 /// Light from all directions as raw radiance SH coefficients: linear Rec.709/D65 RGB, world axes, no window, no cosine,
 /// no 1/π. Everything else (irradiance, windowed or rotated light) is derived from this.
@@ -16,5 +18,9 @@ struct ShLight {
 
 /// The light in exactly `bands` ≥ 1 bands, under a window over those it has: more are dropped, missing ones are 0.
 ShLight limit_bands(const ShLight& light, int bands, math::SphericalWindow window = math::SphericalWindow::None);
+
+/// Raw radiance SH coefficients of a probe, in double, weighted by solid angles that are normalised to sum to 4π;
+/// 1 ≤ bands ≤ 32. Does not depend on the number of threads.
+ShLight project(const ProbeImage& probe, int bands);
 
 }  // namespace rowland::lighting

@@ -1,11 +1,14 @@
 #include "engine/live/live_assets.h"
 
+#include <cstdlib>
 #include <utility>
 
 #include "engine/asset/container.h"
+#include "engine/cook/cook_record.h"
 #include "engine/cook/cook_source.h"
 #include "engine/core/check.h"
 #include "engine/core/log.h"
+#include "engine/scene/cooked_scene.h"
 #include "engine/scene/gltf_import.h"
 
 namespace rowland::live {
@@ -22,6 +25,13 @@ std::vector<std::byte> LiveAssets::payload(const cook::Registry& registry, const
     return std::move(baked.asset.payload);
 }
 
+std::filesystem::path default_cache_folder() {
+    for (const auto& [variable, below] : {std::pair("XDG_CACHE_HOME", "rowland"), std::pair("HOME", ".cache/rowland")})
+        if (const char* folder = std::getenv(variable); folder != nullptr && *folder != '\0')
+            return std::filesystem::path(folder) / below;
+    return std::filesystem::temp_directory_path() / "rowland";
+}
+
 lighting::LightProbe load_probe(const cook::Registry& registry, const std::filesystem::path& path,
                                 const std::string& mapping, std::vector<std::filesystem::path>& read_files) {
     if (path.extension() == ".json" || path.extension() == ".probe")
@@ -31,7 +41,9 @@ lighting::LightProbe load_probe(const cook::Registry& registry, const std::files
 }
 
 LiveAssets::LiveAssets(std::shared_ptr<const cook::Registry> registry, LiveAssetSettings settings)
-    : probe_mapping_(std::move(settings.probe_mapping)), registry_(std::move(registry)) {
+    : probe_mapping_(std::move(settings.probe_mapping)),
+      cache_folder_(settings.cache_folder.empty() ? default_cache_folder() : std::move(settings.cache_folder)),
+      registry_(std::move(registry)) {
     if (settings.watch) recooker_.emplace(*registry_, std::move(settings.follow_also));
 }
 
@@ -42,12 +54,33 @@ asset::Handle<lighting::LightProbe> LiveAssets::probe(const std::filesystem::pat
                                              });
 }
 
+scene::ImportedScene load_scene(const cook::Registry& registry, const std::filesystem::path& path,
+                                const std::filesystem::path& cache_folder,
+                                std::vector<std::filesystem::path>& read_files) {
+    const bool cooked = path.extension() == ".scene";
+    const std::filesystem::path file =
+        cooked ? path : cook::cook_once(registry, path, cache_folder / "scenes", read_files);
+    if (cooked) read_files.push_back(path);
+    const cook::AssetType* type = registry.find(scene::kSceneAssetType);
+    ROWLAND_CHECK(type != nullptr, "scenes are loaded with their type");
+    const std::vector<std::byte> payload = asset::load(file, type->name, type->version).payload;
+    scene::ImportedScene imported = scene::read_cooked_scene(payload, path.string(), registry.gltf_extension_names());
+    for (const std::string& warning : imported.warnings) log_warning("{}: {}", path.string(), warning);
+    return imported;
+}
+
 asset::Handle<scene::ImportedScene> LiveAssets::scene(const std::filesystem::path& path) {
-    return store_.load<scene::ImportedScene>(path.string(), [registry = registry_, path](Files& files) {
-        files.push_back(path);
-        scene::ImportedScene imported = scene::load_gltf(path, registry->gltf_extension_names(), &files);
+    return store_.load<scene::ImportedScene>(path.string(),
+                                             [registry = registry_, cache = cache_folder_, path](Files& files) {
+                                                 return load_scene(*registry, path, cache, files);
+                                             });
+}
+
+asset::Handle<scene::Mesh> LiveAssets::mesh(const std::filesystem::path& path) {
+    return store_.load<scene::Mesh>(path.string(), [registry = registry_, path](Files& files) {
+        const scene::ImportedScene imported = scene::load_gltf(path, registry->gltf_extension_names(), &files);
         for (const std::string& warning : imported.warnings) log_warning("{}: {}", path.string(), warning);
-        return imported;
+        return scene::merge_instances(imported);
     });
 }
 

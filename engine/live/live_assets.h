@@ -21,7 +21,12 @@ struct LiveAssetSettings {
     std::string probe_mapping = "auto";              ///< of probe images
     bool watch = true;                               ///< cooked assets follow their sources
     std::vector<cook::Recooker::Job> follow_also{};  ///< cooks these when they change, if `watch`
+    /// Of scenes that are cooked on loading; empty: default_cache_folder().
+    std::filesystem::path cache_folder{};
 };
+
+/// $XDG_CACHE_HOME/rowland, or ~/.cache/rowland.
+std::filesystem::path default_cache_folder();
 
 /// The assets of a running program, from cooked files or from sources that are baked on loading. They follow their
 /// files while poll() is called.
@@ -32,8 +37,10 @@ class LiveAssets {
     /// A cooked probe, a probe recipe, or an image with the mapping of the settings. Like all below it throws Error
     /// (input).
     asset::Handle<lighting::LightProbe> probe(const std::filesystem::path& path);
-    /// A glTF file.
+    /// A cooked scene, or a glTF file (load_scene()).
     asset::Handle<scene::ImportedScene> scene(const std::filesystem::path& path);
+    /// All triangles of a glTF file.
+    asset::Handle<scene::Mesh> mesh(const std::filesystem::path& path);
     /// An asset of a registered type, cooked or as its source; `read` parses the cooked payload (`file` is for
     /// messages).
     template <typename T>
@@ -59,6 +66,7 @@ class LiveAssets {
                                            const std::string& mapping, Files& read_files);
 
     std::string probe_mapping_;
+    std::filesystem::path cache_folder_;
     std::shared_ptr<const cook::Registry> registry_;
     asset::Store store_;
     std::optional<cook::Recooker> recooker_;
@@ -68,5 +76,12 @@ class LiveAssets {
 /// (input).
 lighting::LightProbe load_probe(const cook::Registry& registry, const std::filesystem::path& path,
                                 const std::string& mapping, std::vector<std::filesystem::path>& read_files);
+
+/// What LiveAssets::scene() loads: a cooked .scene, or a .gltf or .glb, which is cooked first unless `cache_folder` has
+/// it cooked from the same content. Adds the files it read, or whose content is in the cooked file, to `read_files`.
+/// May be called from any thread. Throws Error (input).
+scene::ImportedScene load_scene(const cook::Registry& registry, const std::filesystem::path& path,
+                                const std::filesystem::path& cache_folder,
+                                std::vector<std::filesystem::path>& read_files);
 
 }  // namespace rowland::live

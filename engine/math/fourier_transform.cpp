@@ -20,14 +20,14 @@ struct Butterfly {
     float sine;
     void operator()(const float* __restrict ar, const float* __restrict ai, const float* __restrict br,
                     const float* __restrict bi, float* __restrict sum_r, float* __restrict sum_i,
-                    float* __restrict turned_r, float* __restrict turned_i) const {
+                    float* __restrict rotated_r, float* __restrict rotated_i) const {
         for (std::size_t l = 0; l < kFourierLanes; ++l) {
             const float dr = ar[l] - br[l];
             const float di = ai[l] - bi[l];
             sum_r[l] = ar[l] + br[l];
             sum_i[l] = ai[l] + bi[l];
-            turned_r[l] = dr * cosine - di * sine;
-            turned_i[l] = dr * sine + di * cosine;
+            rotated_r[l] = dr * cosine - di * sine;
+            rotated_i[l] = dr * sine + di * cosine;
         }
     }
 };
@@ -58,10 +58,10 @@ void FourierTransform::operator()(Parts data, Parts work) const {
                 const std::size_t a = kLanes * (q + stride * p);
                 const std::size_t b = kLanes * (q + stride * (p + half));
                 const std::size_t sum = kLanes * (q + stride * 2 * p);
-                const std::size_t turned = sum + kLanes * stride;
+                const std::size_t rotated = sum + kLanes * stride;
                 butterfly(from.real.data() + a, from.imaginary.data() + a, from.real.data() + b,
                           from.imaginary.data() + b, to.real.data() + sum, to.imaginary.data() + sum,
-                          to.real.data() + turned, to.imaginary.data() + turned);
+                          to.real.data() + rotated, to.imaginary.data() + rotated);
             }
         }
         std::swap(from, to);

@@ -7,14 +7,37 @@
 
 #include "engine/core/check.h"
 #include "engine/core/parallel.h"
-#include "engine/math/sh_basis.h"
-#include "engine/math/sh_rotation.h"
-#include "engine/math/simd/dispatch.h"
-#include "engine/math/simd/exchange_rule.h"
+#include "engine/math/frame_rotation_kernels.h"
+#include "engine/math/spherical_harmonics.h"
 
 namespace rowland::math {
 
+const char* instruction_set_name(InstructionSet set) {
+    return set == InstructionSet::Avx2 ? "avx2" : "baseline";
+}
+
+bool is_supported(InstructionSet set) {
+    if (set == InstructionSet::Baseline) return true;
+#ifdef ROWLAND_MATH_AVX2
+    return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0;
+#else
+    return false;
+#endif
+}
+
+InstructionSet best_instruction_set() {
+    return is_supported(InstructionSet::Avx2) ? InstructionSet::Avx2 : InstructionSet::Baseline;
+}
+
 namespace {
+
+simd::Kernels kernels_of(InstructionSet set) {
+    ROWLAND_CHECK(is_supported(set), "this processor or this build lacks the instruction set asked for");
+#ifdef ROWLAND_MATH_AVX2
+    if (set == InstructionSet::Avx2) return simd::avx2_kernels();
+#endif
+    return {simd::rotate, simd::project};
+}
 
 constexpr std::size_t kFramesPerTask = 512;  // a multiple of every set's lanes
 constexpr std::size_t kChannels = 3;
@@ -87,7 +110,7 @@ void rotate_to_frames(std::span<const glm::dvec3> light, int bands, const FrameA
     const FloatLight source(light, bands);
     const std::size_t per_frame = light.size() * kChannels;
     ROWLAND_CHECK_OP(out.size(), >=, frames.size() * per_frame);
-    const simd::Kernels kernels = simd::kernels(set);
+    const simd::Kernels kernels = kernels_of(set);
     for_each_block(frames, [&](const simd::Frames& block, std::size_t first) {
         kernels.rotate(source.view(), block, out.data() + first * per_frame);
     });
@@ -119,7 +142,7 @@ void rotate_and_project(std::span<const glm::dvec3> light, const FrameArrays& fr
     ROWLAND_CHECK_OP(out.size(), >=, frames.size() * per_frame);
     const simd::SparseMatrix matrix{projection.rows(), projection.first().data(), projection.column().data(),
                                     projection.weight().data()};
-    const simd::Kernels kernels = simd::kernels(set);
+    const simd::Kernels kernels = kernels_of(set);
     for_each_block(frames, [&](const simd::Frames& block, std::size_t first) {
         kernels.project(source.view(), block, matrix, out.data() + first * per_frame);
     });

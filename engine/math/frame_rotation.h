@@ -6,11 +6,25 @@
 #include <span>
 #include <vector>
 
-#include "engine/math/instruction_set.h"
-
 namespace rowland::math {
 
-/// The single-precision paths take up to so many bands.
+/// Instruction sets that the fast single-precision paths are compiled for. Bake code never uses them: cooked bytes must
+/// not depend on the machine.
+enum class InstructionSet {
+    Baseline,  ///< what every processor of the target architecture has; on x86-64 that is SSE2, four lanes
+    Avx2,      ///< x86-64 with AVX2 and FMA, eight lanes
+};
+
+/// "baseline" or "avx2".
+const char* instruction_set_name(InstructionSet set);
+
+/// Whether this build has the path and this processor and operating system can run it.
+bool is_supported(InstructionSet set);
+
+/// The widest supported set.
+InstructionSet best_instruction_set();
+
+/// Most bands of the single-precision paths.
 inline constexpr int kMaximumFastBands = 16;
 
 /// Tangent frames (g, h, n), one array per component: n is `normal`, g is `tangent` less its part along n, h = n × g.
@@ -22,10 +36,10 @@ struct FrameArrays {
     std::size_t size() const { return normal[0].size(); }
 };
 
-/// Turns band-limited RGB light into many tangent frames, in single precision and on all cores: the frame change as
-/// turns about z, y and z [Pinchon & Hoggan 2007, "Rotation matrices for real spherical harmonics"], the one about y by
-/// exchanging y and z, which is a fixed sparse matrix. No angle is computed and the last turn is read off the tangent
-/// after the other two, so no frame is singular. Error ≤ 2e-6 of the light's norm √Σ‖c‖², compared with ShRotation.
+/// Rotates band-limited RGB light into many tangent frames, in single precision and on all cores: rotations about z, y
+/// and z [Pinchon & Hoggan 2007, "Rotation matrices for real spherical harmonics"], the one about y by exchanging y and
+/// z, which is a fixed sparse matrix. No angle is computed, and the last rotation follows from the tangent after the
+/// other two, so no frame is singular. Error ≤ 2e-6 of the light's norm √Σ‖c‖², compared with ShRotation.
 ///
 /// For each frame writes bands² × 3 floats, RGB innermost. `light` holds bands² coefficients in the axes the frames are
 /// given in, 1 ≤ bands ≤ 16. out.size() ≥ frames.size() · bands² · 3.

@@ -3,7 +3,9 @@
 #include <array>
 #include <cstddef>
 #include <glm/vec2.hpp>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 
 namespace rowland::platform {
@@ -75,7 +77,7 @@ struct CharEvent {
 using InputEvent = std::variant<KeyEvent, MouseButtonEvent, MouseMoveEvent, ScrollEvent, FocusEvent, CursorCaptureEvent,
                                 GamepadEvent, CharEvent>;
 
-/// Fraction of a stick's travel that counts as rest; worn sticks rest anywhere inside it.
+/// Fraction of a stick's travel that reads as centred; released worn sticks may stop anywhere inside it.
 constexpr float kStickDeadZone = 0.15F;
 
 /// Removes the dead zone of `stick` (each axis -1 to 1): 0 up to length `zone` (0 <= zone < 1), then growing to length
@@ -154,5 +156,12 @@ class InputState {
     bool position_known_ = false;
     bool focused_ = true;
 };
+
+/// The label of a key, as "W", "F5" or "Left Shift". Unique.
+std::string name_of(Key key);
+std::optional<Key> key_named(std::string_view name);
+
+/// The key of a GLFW number; nullopt for one that Key does not have.
+std::optional<Key> key_of_glfw(int glfw);
 
 }  // namespace rowland::platform

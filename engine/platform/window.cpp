@@ -3,17 +3,42 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <cstdlib>
+#include <glm/common.hpp>
 #include <utility>
 
 #include "engine/core/check.h"
 #include "engine/core/error.h"
-#include "engine/gpu/bound_state.h"
-#include "engine/platform/glfw_events.h"
-#include "engine/platform/glfw_library.h"
-#include "engine/platform/gpu_choice.h"
+#include "engine/gpu/pipeline_state.h"
+#include "engine/platform/gl_context.h"
+#include "engine/platform/glfw.h"
 
 namespace rowland::platform {
+
+namespace {
+
+std::int64_t common_area(const ScreenArea& a, const ScreenArea& b) {
+    const glm::ivec2 low = glm::max(a.position, b.position);
+    const glm::ivec2 high = glm::min(a.position + a.size, b.position + b.size);
+    const glm::ivec2 size = glm::max(high - low, glm::ivec2(0));
+    return std::int64_t{size.x} * size.y;
+}
+
+}  // namespace
+
+std::size_t monitor_showing(const ScreenArea& window, std::span<const ScreenArea> monitors) {
+    std::size_t best = 0;
+    std::int64_t largest = 0;
+    for (std::size_t i = 0; i < monitors.size(); ++i) {
+        const std::int64_t area = common_area(window, monitors[i]);
+        if (area <= largest) continue;
+        largest = area;
+        best = i;
+    }
+    return best;
+}
 
 namespace {
 
@@ -43,7 +68,7 @@ GLFWwindow* open(const WindowOptions& options) {
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, options.debug ? GLFW_TRUE : GLFW_FALSE);
-    // Resets of the GPU are reported (gpu/lost_context.h), where the driver can.
+    // Resets of the GPU are reported (gpu/context.h), where the driver can.
     glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
     // The scene is drawn into framebuffer objects that bring their own.
     glfwWindowHint(GLFW_DEPTH_BITS, 0);

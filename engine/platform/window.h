@@ -1,20 +1,33 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <glm/vec2.hpp>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "engine/platform/debug_build.h"
+#include "engine/platform/gl_context.h"
 #include "engine/platform/input.h"
-#include "engine/platform/screen_layout.h"
 
 struct GLFWwindow;
 
 namespace rowland::platform {
+
+/// A window or a monitor on the desktop, screen coordinates.
+struct ScreenArea {
+    glm::ivec2 position{0};
+    glm::ivec2 size{0};
+
+    friend bool operator==(const ScreenArea&, const ScreenArea&) = default;
+};
+
+/// Index of the monitor that shows the largest part of `window`; the first of equals, 0 (the primary one) if none shows
+/// any.
+std::size_t monitor_showing(const ScreenArea& window, std::span<const ScreenArea> monitors);
 
 /// Whether a Window can open: X11 or Wayland is announced in the environment and answers. Never throws and opens
 /// nothing. Main thread only.
@@ -24,7 +37,7 @@ struct WindowOptions {
     std::string title = "Rowland";
     glm::ivec2 size{1280, 720};  ///< screen coordinates, each >= 1
     bool vsync = true;
-    bool debug = debug_build();  ///< a debug context: the driver reports errors through KHR_debug (see gpu/debug.h)
+    bool debug = debug_build();  ///< a debug context: the driver reports errors through KHR_debug (gpu/context.h)
     std::string gpu{};           ///< as HeadlessOptions'
 };
 

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "engine/gpu/framebuffer.h"
-#include "engine/gpu/full_screen_pass.h"
 #include "engine/gpu/program.h"
 #include "engine/gpu/shader_library.h"
 #include "engine/gpu/texture.h"

@@ -2,17 +2,78 @@
 
 #include <OpenColorIO/OpenColorIO.h>
 
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "engine/gpu/framebuffer.h"
-#include "engine/gpu/full_screen_pass.h"
 #include "engine/gpu/program.h"
 #include "engine/gpu/shader_library.h"
 #include "engine/gpu/texture.h"
-#include "engine/post/display_transform.h"
+#include "engine/post/ocio_config.h"
 
 namespace rowland::post {
+
+/// A display and one of its views; empty names mean the configuration's defaults.
+struct DisplaySelection {
+    std::string display;
+    std::string view;
+};
+
+/// From the working space (the configuration's scene_linear) to the encoded values of a display: exposure, the view's
+/// looks (gamut compression), the view transform, the display's encoding. NaN input becomes 0, and input is clamped
+/// to the half floats' ±65504; output is not clamped. This is the CPU reference, and the source of the code that
+/// DisplayPass runs on the GPU.
+class DisplayTransform {
+ public:
+    /// Throws Error (input) if there is no such display or view (the message lists those there are and names the
+    /// nearest), no scene_linear role, or a file the view needs is missing.
+    explicit DisplayTransform(const OcioConfig& config, const DisplaySelection& selection = {});
+
+    /// Replaces scene-linear pixels by display values. Not for two threads at once on one object.
+    void apply_cpu(std::span<glm::vec3> pixels, float exposure_stops = 0.0F) const;
+
+    const std::string& display() const { return selection_.display; }
+    const std::string& view() const { return selection_.view; }
+    const std::string& config_source() const { return config_source_; }
+    const OCIO_NAMESPACE::ConstProcessorRcPtr& processor() const { return processor_; }
+
+ private:
+    DisplaySelection selection_;
+    std::string config_source_;
+    OCIO_NAMESPACE::ConstProcessorRcPtr processor_;
+    OCIO_NAMESPACE::ConstCPUProcessorRcPtr cpu_;
+};
+
+/// Noise below one step of the screen, so that slow gradients show no bands.
+struct DitherSettings {
+    int bits = 8;  ///< of a channel of the target, 1 to 12
+};
+
+/// The last pass: adds noise to display values, the same in all channels so that greys stay grey. It is evenly
+/// distributed between -½ and ½ (never either) steps of the target, so that the mean of rounded values is the value,
+/// and the same for the same pixel and frame on every machine: the fractional parts of an additive lattice of pixels,
+/// with the 2D golden ratio (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences"), which fills
+/// small areas as evenly as blue noise; frames advance by the golden ratio. 0 and 1 stay as they are.
+class DitherPass {
+ public:
+    /// `library` must hold post::shader_files().
+    explicit DitherPass(const gpu::ShaderLibrary& library);
+
+    /// Writes display values with noise; alpha is kept. The source must be finer than the target: RGBA16 or RGBA32F.
+    /// The target must not be larger than the source.
+    void draw(const gpu::Texture& source, std::uint32_t frame, const DitherSettings& settings,
+              const gpu::Framebuffer& target) const;
+
+ private:
+    gpu::Program program_;
+    gpu::FullScreenTriangle triangle_;
+};
+
+/// The size of a step: 1 / (2^bits - 1). A logic error if the settings are out of range.
+float dither_step(const DitherSettings& settings);
 
 /// A DisplayTransform on the GPU. Exposure is a uniform; a program is built only when the transform's code changes.
 class DisplayPass {

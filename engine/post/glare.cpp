@@ -1,15 +1,92 @@
 #include "engine/post/glare.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstddef>
+#include <glm/common.hpp>
 #include <glm/mat2x2.hpp>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include "engine/core/check.h"
-#include "engine/post/glare_kernel.h"
 
 namespace rowland::post {
+
+namespace {
+
+/// The uniform quadratic B-spline.
+float spline(float distance) {
+    const float d = std::abs(distance);
+    if (d < 0.5F) return 0.75F - d * d;
+    return d < 1.5F ? 0.5F * (1.5F - d) * (1.5F - d) : 0.0F;
+}
+
+void add_point(const glm::vec2& position, const glm::mat3& weight, const GlareGrid& grid,
+               std::vector<glm::mat3>& kernel) {
+    const glm::ivec2 nearest(glm::round(position));
+    for (int y = nearest.y - 1; y <= nearest.y + 1; ++y) {
+        if (std::abs(y) >= grid.cells.y) continue;
+        const float up = spline(position.y - static_cast<float>(y));
+        for (int x = nearest.x - 1; x <= nearest.x + 1; ++x) {
+            if (std::abs(x) >= grid.cells.x) continue;
+            const glm::ivec2 at = (glm::ivec2(x, y) + grid.period) % grid.period;
+            kernel[static_cast<std::size_t>(at.y * grid.period.x + at.x)] +=
+                up * spline(position.x - static_cast<float>(x)) * weight;
+        }
+    }
+}
+
+}  // namespace
+
+glm::vec2 reach_of(const GlarePattern& pattern, const glm::mat2& rotation) {
+    glm::vec2 reach(0.0F);
+    for (const GlarePattern::Point& point : pattern.points) reach = glm::max(reach, glm::abs(rotation * point.offset));
+    return reach;
+}
+
+std::vector<glm::mat3> glare_kernel(const GlarePattern& pattern, const glm::mat2& rotation, const GlareGrid& grid) {
+    std::vector<glm::mat3> kernel(static_cast<std::size_t>(grid.period.x) * static_cast<std::size_t>(grid.period.y),
+                                  glm::mat3(0.0F));
+    for (const GlarePattern::Point& point : pattern.points) {
+        const glm::vec2 position = rotation * point.offset / grid.cell;
+        if (std::abs(position.x) < static_cast<float>(grid.cells.x + 1) &&
+            std::abs(position.y) < static_cast<float>(grid.cells.y + 1))
+            add_point(position, point.weight, grid, kernel);
+    }
+    return kernel;
+}
+
+namespace {
+
+constexpr float kFinestCell = 2.0F;    ///< pixels; finer ones would be sampled unevenly by the pixels
+constexpr float kCoarsestCell = 3.0F;  ///< pixels, as far as the transforms allow
+constexpr int kMargin = 6;             ///< cells: the splines, the picture's edges
+constexpr int kShortestPeriod = 32;
+
+int period_for(float cells, int largest) {
+    const auto needed = static_cast<unsigned>(std::ceil(std::min(cells, static_cast<float>(largest))));
+    return std::clamp(static_cast<int>(std::bit_ceil(needed)), kShortestPeriod, largest);
+}
+
+}  // namespace
+
+GlareGrid glare_grid(glm::ivec2 picture, glm::vec2 tan_half_fov, glm::vec2 reach) {
+    const float pixel = 2.0F * tan_half_fov.y / static_cast<float>(picture.y);
+    GlareGrid grid{.cell = kFinestCell * pixel};
+    glm::vec2 extent;
+    for (int axis = 0; axis < 2; ++axis) {
+        extent[axis] = 2.0F * tan_half_fov[axis] / std::sqrt(1.0F + tan_half_fov[axis] * tan_half_fov[axis]);
+        // Offsets beyond the picture's own size leave it from everywhere.
+        const float filled = extent[axis] + std::min(reach[axis], extent[axis]);
+        grid.period[axis] =
+            period_for(filled / (kCoarsestCell * pixel) + static_cast<float>(kMargin), kLargestGlarePeriod[axis]);
+        grid.cell = std::max(grid.cell, filled / static_cast<float>(grid.period[axis] - kMargin));
+    }
+    for (int axis = 0; axis < 2; ++axis) grid.cells[axis] = static_cast<int>(std::ceil(extent[axis] / grid.cell)) + 2;
+    return grid;
+}
 
 namespace {
 

@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <span>
 
+#include "engine/core/text.h"
 #include "engine/gpu/framebuffer.h"
 #include "engine/gpu/pass_times.h"
 #include "engine/gpu/shader_library.h"
@@ -11,11 +13,13 @@
 #include "engine/post/auto_exposure.h"
 #include "engine/post/bloom.h"
 #include "engine/post/display_pass.h"
-#include "engine/post/dither.h"
 #include "engine/post/glare.h"
 #include "engine/post/vignette.h"
 
 namespace rowland::post {
+
+/// The shaders of the post effects, for gpu::ShaderLibrary::add_embedded.
+std::span<const EmbeddedFile> shader_files();
 
 /// The effects; by default none but the display transform.
 struct PostSettings {

@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "engine/gpu/framebuffer.h"
-#include "engine/gpu/full_screen_pass.h"
 #include "engine/gpu/program.h"
 #include "engine/gpu/shader_library.h"
 #include "engine/gpu/texture.h"

@@ -11,16 +11,23 @@
 #include <vector>
 
 #include "engine/ecs/world.h"
+#include "engine/gpu/pipeline_state.h"
 #include "engine/gpu/program.h"
 #include "engine/render/gpu_mesh.h"
 #include "engine/render/material.h"
-#include "engine/render/object_reflection.h"
-#include "engine/render/picture_columns.h"
-#include "engine/render/shaders/object_block.h"
-#include "engine/render/surface_features.h"
+#include "engine/render/reflections.h"
+#include "engine/render/shaders/scene_blocks.h"
+#include "engine/render/surface_programs.h"
 #include "engine/scene/mesh.h"
 
 namespace rowland::render {
+
+/// Component: limits the entity to these columns of the picture, given as fractions of its width from the left. Two
+/// entities at one position that split the picture cost as many pixels as one.
+struct PictureColumns {
+    float begin = 0.0F;
+    float end = 1.0F;
+};
 
 /// An entity to be drawn in this frame. The pointers are valid until a component storage changes.
 struct Draw {
@@ -67,5 +74,8 @@ ObjectBlock object_block(const Draw& draw, const glm::mat3& rec709_to_working);
 void sort_opaque(std::vector<const Draw*>& draws);
 /// From back to front.
 void sort_blended(std::vector<const Draw*>& draws);
+
+/// The fixed-function state that draws a surface into a target of this size; none if no pixel may change.
+std::optional<gpu::PipelineState> state_of(const Draw& draw, glm::ivec2 size);
 
 }  // namespace rowland::render

@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "engine/gpu/buffer.h"
-#include "engine/gpu/vertex_array.h"
 #include "engine/scene/mesh.h"
 
 namespace rowland::render {

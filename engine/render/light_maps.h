@@ -1,7 +1,9 @@
 #pragma once
 
 #include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
 #include <span>
+#include <vector>
 
 #include "engine/gpu/texture.h"
 #include "engine/lighting/light_probe.h"
@@ -25,5 +27,16 @@ gpu::Texture mirror_map(const lighting::LightProbe& probe, const glm::dmat3& rec
 /// 64² texels per face the error is at most 6e-3 of a point light's irradiance (where its cosine is clamped at the
 /// horizon), and less for wider lobes.
 LightMap key_irradiance_map(std::span<const lighting::KeyLight> keys, const glm::dmat3& rec709_to_working);
+
+/// Split-sum table of the GGX lobe [Karis 2013]: for n·v along columns and perceptual roughness along rows, texel
+/// centres at (i + ½)/size, (scale, bias) such that the directional albedo is f0·scale + bias. Deterministic
+/// quasi-Monte Carlo, error < 5e-3.
+std::vector<glm::vec2> bake_brdf_table(int size);
+
+/// The table as shaders read it.
+gpu::Texture brdf_texture();
+
+/// lighting::lobe_node_table() as shaders read it, its planes one upon another.
+gpu::Texture lobe_nodes_texture();
 
 }  // namespace rowland::render

@@ -6,7 +6,6 @@
 
 #include "engine/core/check.h"
 #include "engine/core/error.h"
-#include "engine/scene/node_label.h"
 #include "engine/scene/transform.h"
 
 namespace rowland::render {
@@ -26,9 +25,17 @@ std::string entity_name(ecs::World& world, ecs::Entity entity) {
 
 }  // namespace
 
-void MaterialType::attach(ecs::World& /*world*/, ecs::Entity /*entity*/, const nlohmann::json& /*extension*/,
-                          SurfaceTextures& /*textures*/, const std::string& /*file*/, const std::string& pointer) {
-    ROWLAND_CHECK(false, "attach() on a material type without a glTF extension, for " + pointer);
+const std::vector<std::byte>& MaterialExtension::tables(const std::string& extension) const {
+    const auto found = material.tables.find(extension);
+    if (found == material.tables.end())
+        refuse_input(file, pointer, "an extension without its tables", "a cooked scene",
+                     "cook the file: rowland-cook cook SCENE.glb -o SCENE.scene");
+    return *found->second;
+}
+
+void MaterialType::attach(ecs::World& /*world*/, ecs::Entity /*entity*/, const MaterialExtension& extension,
+                          SurfaceTextures& /*textures*/) {
+    ROWLAND_CHECK(false, "attach() on a material type without a glTF extension, for " + extension.pointer);
 }
 
 std::optional<gpu::ProgramDesc> MaterialType::coat_program(ecs::World& /*world*/, ecs::Entity /*entity*/) const {

@@ -14,7 +14,7 @@
 #include "engine/gpu/shader_library.h"
 #include "engine/gpu/texture.h"
 #include "engine/lighting/light_probe.h"
-#include "engine/scene/material_description.h"
+#include "engine/scene/imported_scene.h"
 
 namespace rowland::render {
 
@@ -62,27 +62,32 @@ struct FrameLight {
     std::shared_ptr<const lighting::LightProbe> probe;
     /// Whether the renderer shades the probe's key lights as analytic lights (KEY_LIGHTS in shaders): then all other
     /// diffuse light is without them.
-    bool key_lights_apart = false;
+    bool analytic_key_lights = false;
     std::vector<DistantLight> distant_lights = {};  ///< all directional lights of the scene
     std::uint64_t version = 0;                      ///< changes with any member above
-    /// Of lights[] in the shaders (light_block.h), in that order: irradiance or intensity. Not part of `version`.
+    /// Of lights[] in the shaders (scene_blocks.h), in that order: irradiance or intensity. Not part of `version`.
     std::vector<glm::vec3> light_strengths = {};
 
-    /// The probe's key lights that are shaded as analytic lights; empty unless `key_lights_apart`.
+    /// The probe's key lights that are shaded as analytic lights; empty unless `analytic_key_lights`.
     std::span<const lighting::KeyLight> key_lights() const {
-        return key_lights_apart && probe ? std::span(probe->key_lights) : std::span<const lighting::KeyLight>();
+        return analytic_key_lights && probe ? std::span(probe->key_lights) : std::span<const lighting::KeyLight>();
     }
 };
 
 class SurfaceTextures;
 
-/// Component, while attach() runs: the entity's material as its file has it, with all its extensions.
-struct FileMaterial {
-    const scene::MaterialDescription* description;
+/// A material extension of a scene, as attach() is given it.
+struct MaterialExtension {
+    const nlohmann::json& object;
+    const scene::MaterialDescription& material;  ///< whose extension it is
+    const std::string& file;                     ///< for messages
+    std::string pointer;                         ///< JSON pointer of the object, for messages
+
+    /// What the module's cook::GltfExtension::cook baked. Throws Error (input) if the scene has not been cooked.
+    const std::vector<std::byte>& tables(const std::string& extension) const;
 };
 
-/// A kind of surface that a module adds to the engine: see engine/MODULES.md. Its shaders include the engine's forward
-/// interface and define material_vertex and material_terms (engine/render/shaders/forward_*_interface.glsl). Texture
+/// A kind of surface that a module adds to the engine: see engine/MODULES.md. Its shaders include the engine's surface.glsl, environment.glsl and shading.glsl (fragment stage) or vertex.glsl (vertex stage). Texture
 /// units 8 to 14 and buffer bindings from 4 on are its own.
 class MaterialType {
  public:
@@ -95,14 +100,13 @@ class MaterialType {
     virtual std::string name() const = 0;
     /// The glTF material extension that describes such a surface; empty if none does.
     virtual std::string gltf_extension() const { return {}; }
-    /// Other material extensions that attach() reads, from the entity's FileMaterial. A warning says that they are
-    /// ignored where they stand without gltf_extension().
+    /// Other extensions of the material that the surface depends on. A warning says that they are ignored where they
+    /// stand without gltf_extension().
     virtual std::vector<std::string> gltf_extensions_beside() const { return {}; }
-    /// Gives an entity, which already has its MeshInstance and StandardMaterial, the surface that the extension's JSON
-    /// describes. `textures`: those of its file. `file` and `pointer` (JSON) are for messages. Throws Error
-    /// (input).
-    virtual void attach(ecs::World& world, ecs::Entity entity, const nlohmann::json& extension,
-                        SurfaceTextures& textures, const std::string& file, const std::string& pointer);
+    /// Gives an entity, which already has its MeshInstance and StandardMaterial, the surface that the extension and
+    /// its tables describe. `textures`: those of its file. Throws Error (input).
+    virtual void attach(ecs::World& world, ecs::Entity entity, const MaterialExtension& extension,
+                        SurfaceTextures& textures);
 
     /// Adds its shader files. Called once, when it is registered.
     virtual void add_shaders(gpu::ShaderLibrary& library) const = 0;

@@ -7,18 +7,16 @@
 #include <span>
 #include <utility>
 
-#include "engine/colour/working_space.h"
+#include "engine/colour/colour_space.h"
 #include "engine/core/check.h"
 #include "engine/core/log.h"
 #include "engine/gpu/pipeline_state.h"
 #include "engine/lighting/key_lights.h"
-#include "engine/render/bindings.h"
-#include "engine/render/brdf_table.h"
-#include "engine/render/draw_state.h"
+#include "engine/render/draw_list.h"
+#include "engine/render/light_maps.h"
 #include "engine/render/renderer_frame.h"
-#include "engine/render/shader_files.h"
-#include "engine/render/soft_shadow.h"
-#include "engine/render/world_bounds.h"
+#include "engine/render/scene_lights.h"
+#include "engine/render/shader_interface.h"
 
 namespace rowland::render {
 
@@ -26,7 +24,7 @@ namespace {
 
 constexpr const char* kPlainShader = "plain";
 constexpr const char* kShadowShader = "shadow";
-// For surfaces whose slope changes within a texel: there the lift in direct_light.glsl is not enough.
+// For surfaces whose slope changes within a texel: there the lift in surface.glsl is not enough.
 constexpr float kShadowSlopeBias = 1.0F;
 
 gpu::ProgramDesc shader_pair(const std::string& name) {
@@ -83,8 +81,8 @@ void Renderer::set_probe(lighting::LightProbe probe) {
 }
 
 void Renderer::use_key_lights(bool use) {
-    if (use != light_.key_lights_apart) probe_changed_ = true;
-    light_.key_lights_apart = use;
+    if (use != light_.analytic_key_lights) probe_changed_ = true;
+    light_.analytic_key_lights = use;
 }
 
 void Renderer::set_shadow_map_size(int size) {

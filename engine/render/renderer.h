@@ -11,25 +11,20 @@
 #include <vector>
 
 #include "engine/ecs/world.h"
+#include "engine/gpu/buffer.h"
+#include "engine/gpu/context.h"
 #include "engine/gpu/framebuffer.h"
-#include "engine/gpu/limits.h"
 #include "engine/gpu/pass_times.h"
-#include "engine/gpu/stream_buffer.h"
 #include "engine/gpu/texture.h"
-#include "engine/gpu/vertex_array.h"
-#include "engine/lighting/ambient.h"
 #include "engine/lighting/light_probe.h"
-#include "engine/render/ambient_occlusion.h"
 #include "engine/render/draw_list.h"
 #include "engine/render/effects.h"
 #include "engine/render/light_maps.h"
-#include "engine/render/local_reflection.h"
 #include "engine/render/material.h"
-#include "engine/render/object_reflection.h"
-#include "engine/render/program_cache.h"
+#include "engine/render/reflections.h"
 #include "engine/render/scene_lights.h"
-#include "engine/render/shaders/frame_block.h"
-#include "engine/render/shadow_fit.h"
+#include "engine/render/shaders/scene_blocks.h"
+#include "engine/render/surface_programs.h"
 #include "engine/scene/camera.h"
 
 namespace rowland::render {
@@ -66,7 +61,7 @@ class Renderer {
 
     /// Lights the scene with this probe.
     void set_probe(lighting::LightProbe probe);
-    /// Whether the probe's key lights are shaded as analytic lights (FrameLight::key_lights_apart). Off by default:
+    /// Whether the probe's key lights are shaded as analytic lights (FrameLight::analytic_key_lights). Off by default:
     /// diffuse light is the probe's first nine SH terms.
     void use_key_lights(bool use);
     /// Texels along a side of the shadow map, at least 32; 2048 by default.

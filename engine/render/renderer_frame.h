@@ -7,7 +7,7 @@
 
 #include "engine/render/draw_list.h"
 #include "engine/render/renderer.h"
-#include "engine/render/shadow_fit.h"
+#include "engine/render/scene_lights.h"
 #include "engine/scene/camera.h"
 
 namespace rowland::render {

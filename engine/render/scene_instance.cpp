@@ -10,11 +10,10 @@
 #include "engine/core/check.h"
 #include "engine/core/log.h"
 #include "engine/render/gpu_mesh.h"
-#include "engine/render/local_reflection.h"
-#include "engine/render/object_reflection.h"
+#include "engine/render/reflections.h"
 #include "engine/render/surface_textures.h"
-#include "engine/scene/node_label.h"
-#include "engine/scene/skin.h"
+#include "engine/scene/animation.h"
+#include "engine/scene/transform.h"
 
 namespace rowland::render {
 
@@ -99,12 +98,10 @@ class Builder {
 
     void attach_extensions(ecs::Entity entity, const scene::MaterialDescription& material, std::size_t index) {
         const std::string pointer = fmt::format("/materials/{}/extensions", index);
-        world_.add(entity, FileMaterial{&material});
-        for (const auto& [name, json] : material.extensions)
+        for (const auto& [name, object] : material.extensions)
             for (const auto& type : renderer_.material_types())
                 if (type->gltf_extension() == name)
-                    type->attach(world_, entity, json, textures_, file_, pointer + "/" + name);
-        world_.remove<FileMaterial>(entity);
+                    type->attach(world_, entity, {object, material, file_, pointer + "/" + name}, textures_);
         warn_of_extensions_alone(material, pointer);
         owner_of(world_, entity, renderer_.material_types(), file_, pointer);
     }

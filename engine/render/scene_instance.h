@@ -29,8 +29,8 @@ struct SceneInstance {
 
 /// Makes entities of a scene and puts its meshes and textures on the GPU. Primitives and lights are children of their
 /// nodes, skinned primitives have no parent. The renderer's material types attach their surfaces to materials that
-/// have their extensions. `file` is for messages. Throws Error (input) if such an extension's JSON is wrong, or if two
-/// types claim one surface; the world is then as before.
+/// have their extensions. `file` is for messages. Throws Error (input) if such an extension is wrong or its tables are
+/// missing (the scene has not been cooked), or if two types claim one surface; the world is then as before.
 SceneInstance instantiate(ecs::World& world, const scene::ImportedScene& scene, Renderer& renderer,
                           const std::string& file);
 

@@ -2,15 +2,67 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_access.hpp>
+#include <glm/mat3x3.hpp>
 #include <utility>
 #include <vector>
 
-#include "engine/scene/directional_light.h"
-#include "engine/scene/punctual_light.h"
+#include "engine/core/check.h"
+#include "engine/scene/light.h"
+#include "engine/scene/mesh.h"
 #include "engine/scene/transform.h"
 
 namespace rowland::render {
+
+namespace {
+
+scene::Bounds around(const scene::Bounds& a, const scene::Bounds& b) {
+    return {glm::min(a.minimum, b.minimum), glm::max(a.maximum, b.maximum)};
+}
+
+}  // namespace
+
+scene::Bounds transformed(const scene::Bounds& box, const glm::mat4& matrix) {
+    const glm::vec3 centre = 0.5F * (box.minimum + box.maximum);
+    const glm::vec3 half = 0.5F * (box.maximum - box.minimum);
+    const glm::vec3 new_centre = glm::vec3(matrix * glm::vec4(centre, 1.0F));
+    glm::vec3 new_half(0.0F);
+    for (int axis = 0; axis < 3; ++axis) new_half += glm::abs(glm::vec3(matrix[axis])) * half[axis];
+    return {new_centre - new_half, new_centre + new_half};
+}
+
+std::optional<scene::Bounds> united(std::span<const scene::Bounds> boxes) {
+    std::optional<scene::Bounds> all;
+    for (const scene::Bounds& box : boxes) all = all ? around(*all, box) : box;
+    return all;
+}
+
+scene::Bounds posed_bounds(const scene::Bounds& box, std::span<const glm::mat4> joints) {
+    if (joints.empty()) return box;
+    scene::Bounds all = transformed(box, joints.front());
+    for (const glm::mat4& joint : joints.subspan(1)) all = around(all, transformed(box, joint));
+    return all;
+}
+
+Frustum::Frustum(const glm::mat4& view_projection) {
+    const glm::vec4 w = glm::row(view_projection, 3);
+    for (int axis = 0; axis < 3; ++axis) {
+        planes_[static_cast<std::size_t>(2 * axis)] = w + glm::row(view_projection, axis);
+        planes_[static_cast<std::size_t>(2 * axis + 1)] = w - glm::row(view_projection, axis);
+    }
+}
+
+bool Frustum::may_see(const scene::Bounds& box) const {
+    const glm::vec3 centre = 0.5F * (box.minimum + box.maximum);
+    const glm::vec3 half = 0.5F * (box.maximum - box.minimum);
+    for (const glm::vec4& plane : planes_) {
+        const float reach = glm::dot(glm::abs(glm::vec3(plane)), half);
+        if (glm::dot(glm::vec3(plane), centre) + plane.w < -reach) return false;
+    }
+    return true;
+}
 
 namespace {
 
@@ -85,6 +137,81 @@ std::vector<DistantLight> distant_lights(ecs::World& world) {
         lights.push_back({world_direction(world, entity, light), light.irradiance});
     });
     return lights;
+}
+
+namespace {
+
+constexpr float kMarginTexels = 4.0F;  ///< empty border at each edge, for the filter, the lift and the snapping
+
+/// The next step of 2^¼ that is not smaller.
+float in_steps(float length) {
+    return std::exp2(std::ceil(4.0F * std::log2(length)) / 4.0F);
+}
+
+/// World to axes across the light (x, y) and toward it (z).
+glm::mat3 light_axes(const glm::vec3& toward_light) {
+    const glm::vec3 x = scene::any_perpendicular(toward_light);
+    return glm::transpose(glm::mat3(x, glm::cross(toward_light, x), toward_light));
+}
+
+/// The overlap of both across the light, with the casters' depth; `seen` where they do not overlap.
+scene::Bounds shadowed_region(const scene::Bounds& casters, const scene::Bounds& seen) {
+    scene::Bounds region{glm::max(casters.minimum, seen.minimum), glm::min(casters.maximum, seen.maximum)};
+    if (region.minimum.x > region.maximum.x || region.minimum.y > region.maximum.y) region = seen;
+    region.minimum.z = casters.minimum.z;
+    region.maximum.z = casters.maximum.z;
+    return region;
+}
+
+}  // namespace
+
+Sphere around_view(const scene::Camera& camera, float aspect, float far_distance) {
+    const float far = in_steps(std::clamp(far_distance, camera.near_plane * 1.01F, camera.far_plane));
+    const float near = camera.near_plane;
+    const float half_height = std::tan(0.5F * camera.vertical_field_of_view);
+    const float corner2 = half_height * half_height * (1.0F + aspect * aspect);  // (distance from the axis / depth)²
+    const float depth = std::min(far, 0.5F * (near + far) * (1.0F + corner2));
+    const glm::vec3 forward = glm::normalize(camera.target - camera.eye);
+    return {camera.eye + depth * forward, std::sqrt((far - depth) * (far - depth) + corner2 * far * far)};
+}
+
+bool ShadowView::may_see(const scene::Bounds& box) const {
+    const scene::Bounds clip = transformed(box, world_to_clip);
+    return clip.maximum.x >= -1.0F && clip.minimum.x <= 1.0F && clip.maximum.y >= -1.0F && clip.minimum.y <= 1.0F;
+}
+
+ShadowView fit_shadow(const glm::vec3& toward_light, std::span<const scene::Bounds> casters, const Sphere& seen,
+                      int size) {
+    ROWLAND_CHECK(!casters.empty(), "a shadow map needs something that casts a shadow");
+    ROWLAND_CHECK_OP(size, >=, 32);
+    const glm::mat3 axes = light_axes(toward_light);
+    scene::Bounds cast = transformed(casters.front(), glm::mat4(axes));
+    for (const scene::Bounds& caster : casters.subspan(1)) {
+        const scene::Bounds box = transformed(caster, glm::mat4(axes));
+        cast = {glm::min(cast.minimum, box.minimum), glm::max(cast.maximum, box.maximum)};
+    }
+    const glm::vec3 centre = axes * seen.centre;
+    const scene::Bounds region = shadowed_region(cast, {centre - seen.radius, centre + seen.radius});
+
+    const auto texels = static_cast<float>(size);
+    const glm::vec3 extent = region.maximum - region.minimum;
+    const float side = in_steps(std::max({extent.x, extent.y, 1e-4F}) * texels / (texels - 2.0F * kMarginTexels));
+    const float texel = side / texels;
+    const glm::vec2 middle = glm::floor(0.5F * glm::vec2(region.minimum + region.maximum) / texel) * texel;
+    const float slack = texel + 1e-3F * extent.z;  // surfaces that face the light lie at one depth
+    const float top = region.maximum.z + slack;
+    const float depth = extent.z + 2.0F * slack;
+
+    glm::mat4 to_clip(1.0F);
+    to_clip[0][0] = to_clip[1][1] = 2.0F / side;
+    to_clip[2][2] = -2.0F / depth;
+    to_clip[3] = glm::vec4(-2.0F * middle / side, 2.0F * top / depth - 1.0F, 1.0F);
+    return {to_clip * glm::mat4(axes), texel};
+}
+
+float penumbra_over_depth(const ShadowView& view, int size, float angular_radius) {
+    const float depth_m = 2.0F / glm::length(glm::vec3(glm::row(view.world_to_clip, 2)));
+    return std::tan(angular_radius) * depth_m / (view.texel_m * static_cast<float>(size));
 }
 
 }  // namespace rowland::render

@@ -52,14 +52,6 @@ gpu::Sampling sampling_of(const scene::ImportedTexture& texture) {
     return sampling;
 }
 
-void require_texture(const scene::ImportedScene& scene, std::size_t index, const std::string& file,
-                     const std::string& pointer) {
-    const std::size_t count = scene.textures.size();
-    if (index >= count)
-        refuse_input(file, pointer + "/index", fmt::format("{}", index),
-                     fmt::format("one of the file's {} textures, counted from 0", count));
-}
-
 SurfaceTexture SurfaceTextures::get(const scene::TextureUse& use, TexelMeaning meaning) {
     ROWLAND_CHECK_OP(use.texture, <, scene_->textures.size());
     const scene::ImportedTexture& texture = scene_->textures[use.texture];

@@ -21,11 +21,6 @@ enum class TexelMeaning {
 /// How an imported texture is sampled: as its file says, anisotropic where it has levels.
 gpu::Sampling sampling_of(const scene::ImportedTexture& texture);
 
-/// Throws Error (input) at `pointer`/index unless the scene has a texture of this index, as an extension's texture
-/// info names one.
-void require_texture(const scene::ImportedScene& scene, std::size_t index, const std::string& file,
-                     const std::string& pointer);
-
 /// An imported scene's textures on the GPU, uploaded on demand: one for each image, meaning and sampling.
 class SurfaceTextures {
  public:

@@ -4,8 +4,8 @@
 
 namespace rowland::scene {
 
-/// Adds the asset types "mesh" and "scene" (recipes, a .json with that key; each becomes a .glb) and "gltf" (.gltf and
-/// .glb files, only checked, with the material extensions that are registered by now).
+/// Adds the asset types "mesh" (a recipe, a .json with that key, which becomes a .glb) and "scene"
+/// (register_scene_type()).
 void register_cook_types(cook::Registry& registry);
 
 }  // namespace rowland::scene

@@ -5,22 +5,38 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "engine/core/hash.h"
-#include "engine/core/json_text.h"
-#include "engine/scene/gltf_outline.h"
+#include "engine/core/file.h"
+#include "engine/scene/gltf_source.h"
+#include "engine/scene/imported_scene.h"
 
 namespace rowland::scene {
 
-/// A .gltf or .glb whose materials are edited. All that an edit does not name stays byte for byte: the JSON text is
-/// edited in place, and the other chunks of a GLB are copied. Files that it names are not read.
+struct GltfMeshOutline {
+    std::string name;
+    std::vector<std::optional<std::size_t>> materials;  ///< of each primitive
+};
+
+/// The names of a glTF's materials, and the primitives that use them. Names may be empty and may repeat.
+struct GltfOutline {
+    std::vector<std::string> materials;
+    std::vector<GltfMeshOutline> meshes;
+
+    /// How many primitives use a material.
+    std::size_t uses(std::size_t material) const;
+};
+
+/// A .gltf or .glb whose materials are edited. All that an edit does not name keeps its value, and members keep their
+/// order, with extras, extensions that we do not know and the other chunks of a GLB: the document is the file's JSON,
+/// as tinygltf's writer would lose some of these. Files that it names are not read.
 ///
-/// Copies have the binary chunk, and what is known of the file on disk, in common; each holds a JSON text of its own:
-/// undo and redo keep copies from before and after each edit. Indices of materials, meshes and textures that are out of
-/// range are logic errors.
+/// Copies share the JSON until one is edited, the binary chunk, and what is known of the file on disk: undo and redo
+/// keep copies from before and after each edit. Indices of materials, meshes and textures that are out of range are
+/// logic errors.
 class EditableGltf {
  public:
     enum class IfChanged { Refuse, Overwrite };
@@ -31,14 +47,13 @@ class EditableGltf {
     EditableGltf(std::vector<std::byte> bytes, std::filesystem::path path);
 
     /// Where the file was opened from or last saved to.
-    const std::filesystem::path& path() const;
-    /// The names of its materials, and its meshes' primitives with the materials that they use.
+    const std::filesystem::path& path() const { return on_disk_->path; }
     const GltfOutline& outline() const { return outline_; }
 
     /// A member of a material's "extensions"; null if the material does not have it.
     nlohmann::ordered_json material_extension(std::size_t material, const std::string& extension) const;
-    /// Sets it, or removes it if `value` is null. Of an object only the members that differ are written. Keeps
-    /// "extensionsUsed" complete, with the extensions inside of `value`, and free of what is no longer used.
+    /// Sets it, or removes it if `value` is null. Members of an object that are there already keep their position.
+    /// Keeps "extensionsUsed" complete, with the extensions inside of `value`, and free of what is no longer used.
     void set_material_extension(std::size_t material, const std::string& extension,
                                 const nlohmann::ordered_json& value);
 
@@ -53,7 +68,7 @@ class EditableGltf {
     std::size_t add_texture(std::vector<std::byte> image, const std::string& name,
                             const nlohmann::ordered_json& sampler = nullptr);
 
-    /// The file as save() writes it.
+    /// The file as save() writes it: a .gltf in lines if it was so, a .glb without spaces.
     std::vector<std::byte> bytes() const;
 
     /// Whether path() holds something else than what was opened from it or last saved to it.
@@ -78,30 +93,30 @@ class EditableGltf {
         std::shared_ptr<const std::vector<std::byte>> bytes;
     };
     using OrderedJson = nlohmann::ordered_json;
-    using Parts = std::vector<std::span<const std::byte>>;
 
-    void rename_copy(std::size_t material, std::size_t original);
-    void use_extensions(const OrderedJson& before, const OrderedJson& now);
-    OrderedJson array_of(const std::string& name) const;  ///< of the root; empty if it is missing
+    /// The JSON to be edited: the copies' no more.
+    OrderedJson& edit();
+    const OrderedJson& array(const char* name) const;  ///< of the root; empty if it is missing
+    void rename_copy(OrderedJson& copy, const std::string& original);
+    void list_extensions(const std::set<std::string>& before, const std::set<std::string>& now);
+    std::span<const std::byte> appended() const;
+    bool has_binary() const;
+    std::size_t index_of(const char* array, const OrderedJson& object);
     bool file_holds(const std::string& uri, std::span<const std::byte> image) const;
-    std::span<const std::byte> view_of_binary(const OrderedJson& view) const;
     std::optional<std::size_t> find_image(std::span<const std::byte> image) const;
     std::size_t add_image(std::vector<std::byte> image, const std::string& name);
     std::size_t add_to_binary(std::vector<std::byte> image);
     std::string add_file(std::vector<std::byte> image, const std::string& name);
-    std::span<const std::byte> binary() const;
     void require_files_beside(const std::filesystem::path& target) const;
     void write_added_files(const std::filesystem::path& folder) const;
-    /// Adds to `owned` what the parts need besides this object.
-    Parts parts(std::vector<std::byte>& owned) const;
+    /// The file; `owned` gets what the parts need besides this object.
+    std::vector<std::span<const std::byte>> parts(std::vector<std::byte>& owned) const;
 
     std::shared_ptr<OnDisk> on_disk_;  ///< shared by all copies
-    JsonText json_;
+    std::shared_ptr<OrderedJson> json_;
     GltfOutline outline_;
-    bool is_binary_ = false;
-    std::shared_ptr<const std::vector<std::byte>> opened_;  ///< the whole file, if it is a GLB
-    std::size_t binary_begin_ = 0;                          ///< of the data of the BIN chunk in `opened_`; 0: none
-    std::size_t binary_size_ = 0;
+    bool in_lines_ = false;                                   ///< the JSON text
+    std::shared_ptr<const GltfSource> opened_;                ///< without its JSON
     std::shared_ptr<const std::vector<std::byte>> appended_;  ///< to the BIN chunk; null: nothing
     std::vector<AddedFile> added_files_;
 };

@@ -1,283 +1,185 @@
 #include "engine/scene/glb_write.h"
 
+#include <draco/compression/decode.h>
+#include <draco/compression/expert_encode.h>
+#include <draco/mesh/mesh.h>
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <set>
+#include <glm/common.hpp>
+#include <limits>
 #include <span>
-#include <type_traits>
-#include <utility>
+#include <sstream>
 
-#include "engine/core/byte_stream.h"
 #include "engine/core/check.h"
-#include "engine/core/parallel.h"
-#include "engine/scene/gltf_parts.h"
+#include "engine/core/error.h"
+#include "engine/scene/gltf_check.h"
+#include "engine/scene/tinygltf.h"
 
 namespace rowland::scene {
 
 namespace {
 
-/// Keys in the order they are written, so that the bytes are the same every time.
-using Json = nlohmann::ordered_json;
+[[noreturn]] void fail_draco(const std::string& found) {
+    fail_system("Draco", found, "check the mesh");
+}
 
-constexpr const char* kTextureTransform = "KHR_texture_transform";
+void check_mesh(const Mesh& mesh) {
+    ROWLAND_CHECK(!mesh.positions.empty() && !mesh.indices.empty(), "an empty mesh cannot be written");
+    ROWLAND_CHECK_OP(mesh.normals.size(), ==, mesh.positions.size());
+    ROWLAND_CHECK_OP(mesh.tangents.size(), ==, mesh.positions.size());
+    ROWLAND_CHECK_OP(mesh.uvs.size(), ==, mesh.positions.size());
+    ROWLAND_CHECK_OP(mesh.indices.size() % 3, ==, 0U);
+    // Draco's decoders refuse streams with more: such a mesh consists mostly of unused vertices.
+    ROWLAND_CHECK_OP(mesh.positions.size(), <=, mesh.indices.size());
+    for (const std::uint32_t index : mesh.indices) ROWLAND_CHECK_OP(index, <, mesh.positions.size());
+}
+
+template <typename Vector>
+void add_attribute(draco::Mesh& target, draco::GeometryAttribute::Type type, const std::vector<Vector>& values) {
+    constexpr auto kComponents = static_cast<int8_t>(Vector::length());
+    draco::GeometryAttribute attribute;
+    attribute.Init(type, nullptr, static_cast<std::uint8_t>(kComponents), draco::DT_FLOAT32, false, sizeof(Vector), 0);
+    const int id = target.AddAttribute(attribute, true, static_cast<std::uint32_t>(values.size()));
+    for (std::uint32_t i = 0; i < values.size(); ++i)
+        target.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(i), &values[i]);
+}
+
+void fill(const Mesh& mesh, draco::Mesh& target) {
+    target.set_num_points(static_cast<std::uint32_t>(mesh.positions.size()));
+    target.SetNumFaces(mesh.indices.size() / 3);
+    for (std::uint32_t i = 0; i < target.num_faces(); ++i) {
+        const std::uint32_t* corner = &mesh.indices[std::size_t{i} * 3];
+        target.SetFace(draco::FaceIndex(i),
+                       {draco::PointIndex(corner[0]), draco::PointIndex(corner[1]), draco::PointIndex(corner[2])});
+    }
+    // In the order of DracoIds.
+    add_attribute(target, draco::GeometryAttribute::POSITION, mesh.positions);
+    add_attribute(target, draco::GeometryAttribute::NORMAL, mesh.normals);
+    // The bitstream has no type for tangents (KHR_draco_mesh_compression, "Conformance").
+    add_attribute(target, draco::GeometryAttribute::GENERIC, mesh.tangents);
+    add_attribute(target, draco::GeometryAttribute::TEX_COORD, mesh.uvs);
+}
+
+std::vector<char> encode(const Mesh& mesh, const DracoBits& bits) {
+    draco::Mesh source;
+    fill(mesh, source);
+    draco::ExpertEncoder encoder(source);
+    encoder.SetEncodingMethod(draco::MESH_SEQUENTIAL_ENCODING);
+    constexpr int kSpeed = 5;
+    encoder.SetSpeedOptions(kSpeed, kSpeed);
+    encoder.SetAttributeQuantization(DracoIds::kPosition, bits.position);
+    encoder.SetAttributeQuantization(DracoIds::kNormal, bits.normal);
+    encoder.SetAttributeQuantization(DracoIds::kTangent, bits.tangent);
+    encoder.SetAttributeQuantization(DracoIds::kUv, bits.uv);
+    draco::EncoderBuffer buffer;
+    const draco::Status status = encoder.EncodeToBuffer(&buffer);
+    if (!status.ok()) fail_draco(fmt::format("encoding failed: {}", status.error_msg_string()));
+    return {buffer.data(), buffer.data() + buffer.size()};
+}
+
+/// The bounds after quantisation, as readers will decode them.
+Bounds decoded_bounds(std::span<const char> stream, std::size_t vertex_count) {
+    draco::DecoderBuffer buffer;
+    buffer.Init(stream.data(), stream.size());
+    draco::Decoder decoder;
+    auto result = decoder.DecodeMeshFromBuffer(&buffer);
+    if (!result.ok())
+        fail_draco(fmt::format("what it encoded cannot be decoded: {}", result.status().error_msg_string()));
+    const std::unique_ptr<draco::Mesh> mesh = std::move(result).value();
+    if (mesh->num_points() != vertex_count)
+        fail_draco(fmt::format("{} vertices became {}", vertex_count, mesh->num_points()));
+    const draco::PointAttribute* positions = mesh->GetAttributeByUniqueId(DracoIds::kPosition);
+    Bounds box{glm::vec3(std::numeric_limits<float>::max()), glm::vec3(std::numeric_limits<float>::lowest())};
+    for (std::uint32_t i = 0; i < mesh->num_points(); ++i) {
+        glm::vec3 position;
+        positions->GetMappedValue(draco::PointIndex(i), &position);
+        box.minimum = glm::min(box.minimum, position);
+        box.maximum = glm::max(box.maximum, position);
+    }
+    return box;
+}
 
 /// A float with the fewest digits that distinguish it from its neighbours.
 double few_digits(float x) {
     return std::stod(fmt::format("{}", x));
 }
 
-template <typename Vector>
-Json to_json(const Vector& v) {
-    Json array = Json::array();
-    for (int i = 0; i < Vector::length(); ++i) {
-        if constexpr (std::is_same_v<typename Vector::value_type, float>)
-            array.push_back(few_digits(v[i]));
-        else
-            array.push_back(v[i]);
-    }
-    return array;
+std::vector<double> few_digits(const glm::vec3& v) {
+    return {few_digits(v.x), few_digits(v.y), few_digits(v.z)};
 }
 
-class Writing {
- public:
-    Writing(const GlbScene& scene, const DracoBits& bits) : scene_(scene), streams_(encode(scene, bits)) {}
+/// Adds an accessor whose values a Draco stream holds; returns its index.
+int add_accessor(gltf::Model& model, int component_type, int type, std::size_t count) {
+    gltf::Accessor& accessor = model.accessors.emplace_back();
+    accessor.componentType = component_type;
+    accessor.type = type;
+    accessor.count = count;
+    return static_cast<int>(model.accessors.size()) - 1;
+}
 
-    std::vector<std::byte> write() {
-        for (std::size_t i = 0; i < scene_.nodes.size(); ++i) add_node(i);
-        for (const GlbMesh& mesh : scene_.meshes) add_mesh(mesh);
-        for (const GlbMaterial& material : scene_.materials) add_material(material);
-        for (const GlbTexture& texture : scene_.textures) add_texture(texture);
-        for (const GlbCamera& camera : scene_.cameras) add_camera(camera);
-        for (const GlbLight& light : scene_.lights) add_light(light);
-        return pack(finish().dump());
+gltf::Primitive add_primitive(gltf::Model& model, const Mesh& mesh, const DracoStream& stream) {
+    struct Attribute {
+        const char* name;
+        int type;
+        int id;
+    };
+    gltf::Primitive primitive;
+    primitive.mode = TINYGLTF_MODE_TRIANGLES;
+    gltf::Value::Object ids;
+    for (const Attribute& attribute : {Attribute{"POSITION", TINYGLTF_TYPE_VEC3, DracoIds::kPosition},
+                                       Attribute{"NORMAL", TINYGLTF_TYPE_VEC3, DracoIds::kNormal},
+                                       Attribute{"TANGENT", TINYGLTF_TYPE_VEC4, DracoIds::kTangent},
+                                       Attribute{"TEXCOORD_0", TINYGLTF_TYPE_VEC2, DracoIds::kUv}}) {
+        primitive.attributes[attribute.name] =
+            add_accessor(model, TINYGLTF_COMPONENT_TYPE_FLOAT, attribute.type, mesh.positions.size());
+        ids[attribute.name] = gltf::Value(attribute.id);
     }
-
- private:
-    Json& array(const char* key) { return root_[key]; }
-
-    /// The complete JSON. glTF has no empty arrays.
-    Json finish() {
-        for (const std::string& name : used_) array("extensionsUsed").push_back(name);
-        if (used_.contains(kDracoExtension)) array("extensionsRequired").push_back(kDracoExtension);
-        if (!binary_.empty()) array("buffers").push_back({{"byteLength", binary_.size()}});
-        Json json;
-        for (auto& [key, value] : root_.items())
-            if (!value.is_null()) json[key] = std::move(value);
-        return json;
-    }
-
-    void use(const std::string& extension) { used_.insert(extension); }
-
-    void add_node(std::size_t index) {
-        const GlbNode& node = scene_.nodes[index];
-        Json json = {{"name", node.name}};
-        const Transform& at = node.local;
-        if (at.translation != glm::vec3(0.0F)) json["translation"] = to_json(at.translation);
-        if (at.rotation != glm::quat(1.0F, 0.0F, 0.0F, 0.0F))
-            json["rotation"] = to_json(glm::vec4(at.rotation.x, at.rotation.y, at.rotation.z, at.rotation.w));
-        if (at.scale != glm::vec3(1.0F)) json["scale"] = to_json(at.scale);
-        if (node.mesh) json["mesh"] = checked(*node.mesh, scene_.meshes.size());
-        if (node.camera) json["camera"] = checked(*node.camera, scene_.cameras.size());
-        if (node.light) {
-            use(kLightExtension);
-            json["extensions"][kLightExtension]["light"] = checked(*node.light, scene_.lights.size());
-        }
-        if (!node.extras.is_null()) json["extras"] = node.extras;
-        array("nodes").push_back(std::move(json));
-        Json& above = node.parent ? array("nodes")[checked(*node.parent, index)] : array("scenes")[0];
-        above[node.parent ? "children" : "nodes"].push_back(index);
-    }
-
-    /// The streams of all primitives, in order.
-    static std::vector<DracoStream> encode(const GlbScene& scene, const DracoBits& bits) {
-        std::vector<const Mesh*> meshes;
-        for (const GlbMesh& mesh : scene.meshes)
-            for (const GlbPrimitive& primitive : mesh.primitives) meshes.push_back(&primitive.mesh);
-        std::vector<DracoStream> streams(meshes.size());
-        parallel_for(meshes.size(), [&](std::size_t i) { streams[i] = encode_draco(*meshes[i], bits); });
-        return streams;
-    }
-
-    void add_mesh(const GlbMesh& mesh) {
-        Json primitives = Json::array();
-        for (const GlbPrimitive& primitive : mesh.primitives)
-            primitives.push_back(add_primitive(primitive, streams_.at(written_++)));
-        array("meshes").push_back(Json{{"name", mesh.name}, {"primitives", std::move(primitives)}});
-    }
-
-    Json add_primitive(const GlbPrimitive& primitive, const DracoStream& stream) {
-        use(kDracoExtension);
-        constexpr int kFloat = 5126;
-        constexpr int kUint32 = 5125;
-        const std::size_t vertices = primitive.mesh.positions.size();
-        Json attributes;
-        attributes["POSITION"] = add_accessor(kFloat, vertices, "VEC3");
-        array("accessors").back()["min"] = to_json(stream.bounds.minimum);
-        array("accessors").back()["max"] = to_json(stream.bounds.maximum);
-        attributes["NORMAL"] = add_accessor(kFloat, vertices, "VEC3");
-        attributes["TANGENT"] = add_accessor(kFloat, vertices, "VEC4");
-        attributes["TEXCOORD_0"] = add_accessor(kFloat, vertices, "VEC2");
-        const Json ids = {{"POSITION", DracoIds::kPosition},
-                          {"NORMAL", DracoIds::kNormal},
-                          {"TANGENT", DracoIds::kTangent},
-                          {"TEXCOORD_0", DracoIds::kUv}};
-        const std::size_t view = add_view(std::as_bytes(std::span(stream.bytes)));
-        Json json = {{"attributes", std::move(attributes)},
-                     {"indices", add_accessor(kUint32, primitive.mesh.indices.size(), "SCALAR")},
-                     {"extensions", {{kDracoExtension, {{"bufferView", view}, {"attributes", ids}}}}}};
-        if (primitive.material) json["material"] = checked(*primitive.material, scene_.materials.size());
-        return json;
-    }
-
-    void add_material(const GlbMaterial& material) {
-        Json pbr = {{"baseColorFactor", to_json(material.colour)},
-                    {"metallicFactor", material.metallic},
-                    {"roughnessFactor", material.roughness}};
-        if (material.colour_texture) {
-            Json use_of_it = {{"index", checked(material.colour_texture->texture, scene_.textures.size())}};
-            if (material.colour_texture->repeat != glm::dvec2(1.0)) {
-                use(kTextureTransform);
-                use_of_it["extensions"][kTextureTransform]["scale"] = to_json(material.colour_texture->repeat);
-            }
-            pbr["baseColorTexture"] = std::move(use_of_it);
-        }
-        Json json = {{"name", material.name}, {"pbrMetallicRoughness", std::move(pbr)}};
-        if (material.emission != glm::dvec3(0.0)) json["emissiveFactor"] = to_json(material.emission);
-        if (material.blend) json["alphaMode"] = "BLEND";
-        if (material.double_sided) json["doubleSided"] = true;
-        for (const auto& [name, value] : material.extensions.items()) {
-            use(name);
-            json["extensions"][name] = value;
-        }
-        array("materials").push_back(std::move(json));
-    }
-
-    void add_texture(const GlbTexture& texture) {
-        Json json = {{"name", texture.name}, {"source", array("images").size()}};
-        if (texture.clamp_x || texture.clamp_y) {
-            constexpr int kRepeat = 10497;
-            constexpr int kClampToEdge = 33071;
-            json["sampler"] = array("samplers").size();
-            array("samplers")
-                .push_back(Json{{"wrapS", texture.clamp_x ? kClampToEdge : kRepeat},
-                                {"wrapT", texture.clamp_y ? kClampToEdge : kRepeat}});
-        }
-        array("textures").push_back(std::move(json));
-        array("images").push_back(
-            Json{{"name", texture.name}, {"mimeType", "image/png"}, {"bufferView", add_view(texture.png)}});
-    }
-
-    void add_camera(const GlbCamera& camera) {
-        Json lens = {{"yfov", camera.vertical_field_of_view}, {"znear", camera.near_plane}, {"zfar", camera.far_plane}};
-        array("cameras").push_back(
-            Json{{"name", camera.name}, {"type", "perspective"}, {"perspective", std::move(lens)}});
-    }
-
-    void add_light(const GlbLight& light) {
-        use(kLightExtension);
-        Json json = {{"name", light.name}};
-        if (const auto* distant = std::get_if<DirectionalLight>(&light.light)) {
-            json["type"] = "directional";
-            add_strength(distant->irradiance, json);
-        } else {
-            const auto& punctual = std::get<PunctualLight>(light.light);
-            json["type"] = punctual.spot ? "spot" : "point";
-            add_strength(punctual.intensity, json);
-            if (punctual.range_m > 0.0F) json["range"] = few_digits(punctual.range_m);
-            if (punctual.spot)
-                json["spot"] = {{"innerConeAngle", few_digits(punctual.inner_cone)},
-                                {"outerConeAngle", few_digits(punctual.outer_cone)}};
-        }
-        array("extensions")[kLightExtension]["lights"].push_back(std::move(json));
-    }
-
-    /// Colours are at most 1.
-    static void add_strength(const glm::vec3& strength, Json& json) {
-        const float largest = std::max({strength.x, strength.y, strength.z});
-        json["color"] = to_json(largest > 0.0F ? strength / largest : glm::vec3(1.0F));
-        json["intensity"] = few_digits(largest);
-    }
-
-    std::size_t add_accessor(int component, std::size_t count, const char* type) {
-        array("accessors").push_back(Json{{"componentType", component}, {"count", count}, {"type", type}});
-        return array("accessors").size() - 1;
-    }
-
-    std::size_t add_view(std::span<const std::byte> bytes) {
-        binary_.resize((binary_.size() + 3) / 4 * 4);
-        array("bufferViews")
-            .push_back(Json{{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", bytes.size()}});
-        binary_.insert(binary_.end(), bytes.begin(), bytes.end());
-        return array("bufferViews").size() - 1;
-    }
-
-    static std::size_t checked(std::size_t index, std::size_t count) {
-        ROWLAND_CHECK_OP(index, <, count);
-        return index;
-    }
-
-    static void add_chunk(ByteWriter& writer, std::uint32_t type, std::span<const std::byte> data, char padding) {
-        const std::size_t padded = (data.size() + 3) / 4 * 4;
-        writer.value(static_cast<std::uint32_t>(padded));
-        writer.value(type);
-        for (const std::byte byte : data) writer.value(static_cast<std::uint8_t>(byte));
-        for (std::size_t i = data.size(); i < padded; ++i) writer.value(padding);
-    }
-
-    std::vector<std::byte> pack(const std::string& json) const {
-        ByteWriter chunks;
-        add_chunk(chunks, 0x4E4F534A, std::as_bytes(std::span(json)),
-                  ' ');                                // "JSON"
-        add_chunk(chunks, 0x004E4942, binary_, '\0');  // "BIN"
-        ByteWriter file;
-        constexpr std::uint32_t kHeaderSize = 12;
-        file.value<std::uint32_t>(0x46546C67);  // "glTF"
-        file.value<std::uint32_t>(2);
-        file.value(static_cast<std::uint32_t>(kHeaderSize + chunks.data().size()));
-        std::vector<std::byte> bytes = file.take();
-        bytes.insert(bytes.end(), chunks.data().begin(), chunks.data().end());
-        return bytes;
-    }
-
-    const GlbScene& scene_;
-    std::vector<DracoStream> streams_;  ///< of the primitives, in order
-    std::size_t written_ = 0;           ///< number of streams written
-    /// In the order in which the members are written; null: left out.
-    Json root_ = {{"asset", {{"version", "2.0"}, {"generator", "Rowland"}}},
-                  {"extensionsUsed", nullptr},
-                  {"extensionsRequired", nullptr},
-                  {"scene", 0},
-                  {"scenes", Json::array({Json::object()})},
-                  {"nodes", nullptr},
-                  {"meshes", nullptr},
-                  {"materials", nullptr},
-                  {"textures", nullptr},
-                  {"images", nullptr},
-                  {"samplers", nullptr},
-                  {"cameras", nullptr},
-                  {"extensions", nullptr},
-                  {"accessors", nullptr},
-                  {"bufferViews", nullptr},
-                  {"buffers", nullptr}};
-    std::vector<std::byte> binary_;
-    std::set<std::string> used_;
-};
+    gltf::Accessor& positions = model.accessors[static_cast<std::size_t>(primitive.attributes["POSITION"])];
+    positions.minValues = few_digits(stream.bounds.minimum);
+    positions.maxValues = few_digits(stream.bounds.maximum);
+    primitive.indices =
+        add_accessor(model, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR, mesh.indices.size());
+    primitive.extensions[kDracoExtension] =
+        gltf::Value({{"bufferView", gltf::Value(0)}, {"attributes", gltf::Value(std::move(ids))}});
+    return primitive;
+}
 
 }  // namespace
 
-std::vector<std::byte> write_glb(const GlbScene& scene, const DracoBits& bits) {
-    return Writing(scene, bits).write();
+DracoStream encode_draco(const Mesh& mesh, const DracoBits& bits) {
+    check_mesh(mesh);
+    for (const int count : {bits.position, bits.normal, bits.tangent, bits.uv}) {
+        ROWLAND_CHECK_OP(count, >=, 2);
+        ROWLAND_CHECK_OP(count, <=, 30);
+    }
+    DracoStream stream;
+    stream.bytes = encode(mesh, bits);
+    stream.bounds = decoded_bounds(stream.bytes, mesh.positions.size());
+    return stream;
 }
 
 std::vector<std::byte> write_glb(const Mesh& mesh, const std::string& name, const DracoBits& bits) {
-    GlbScene scene;
-    scene.meshes.push_back({.name = name, .primitives = {{.mesh = mesh, .material = std::nullopt}}});
-    GlbNode node;
+    const DracoStream stream = encode_draco(mesh, bits);
+    gltf::Model model;
+    model.asset.generator = "Rowland";
+    model.extensionsUsed = model.extensionsRequired = {kDracoExtension};
+    model.buffers.emplace_back().data.assign(stream.bytes.begin(), stream.bytes.end());
+    gltf::BufferView& view = model.bufferViews.emplace_back();
+    view.buffer = 0;
+    view.byteLength = stream.bytes.size();
+    gltf::Mesh& written = model.meshes.emplace_back();
+    written.name = name;
+    written.primitives.push_back(add_primitive(model, mesh, stream));
+    gltf::Node& node = model.nodes.emplace_back();
     node.name = name;
     node.mesh = 0;
-    scene.nodes.push_back(std::move(node));
-    return write_glb(scene, bits);
+    model.scenes.emplace_back().nodes = {0};
+    model.defaultScene = 0;
+    std::ostringstream file(std::ios::binary);
+    ROWLAND_CHECK(gltf::TinyGLTF().WriteGltfSceneToStream(&model, file, false, true), "tinygltf writes any model");
+    const std::string text = file.str();
+    const auto bytes = std::as_bytes(std::span(text));
+    return {bytes.begin(), bytes.end()};
 }
 
 }  // namespace rowland::scene

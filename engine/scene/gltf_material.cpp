@@ -1,108 +1,225 @@
+// Materials, textures and images of a glTF file.
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <exception>
 #include <glm/common.hpp>
-#include <limits>
 
+#include "engine/core/error.h"
+#include "engine/core/parallel.h"
+#include "engine/image/image.h"
 #include "engine/scene/gltf_parts.h"
 
 namespace rowland::scene {
 
 namespace {
 
-// Exporters round: what is a little over 1 is clamped.
-constexpr NumberRange kFactor{.minimum = 0.0, .maximum = 1.001};
-// Far above any real light; the product of two stays finite.
-constexpr NumberRange kEmission{.minimum = 0.0, .maximum = 1e6};
-constexpr NumberRange kNotNegative{.minimum = 0.0, .maximum = std::numeric_limits<float>::max()};
+// Decoded images have a budget of their own: a dozen of 4096 × 4096 texels.
+constexpr std::uint64_t kMaximumPictureBytes = std::uint64_t{1} << 30;
 
-float factor_or(JsonReader& reader, const std::string& key, double fallback) {
-    return static_cast<float>(std::min(reader.number_or(key, fallback, kFactor), 1.0));
+/// A number of an extension's object.
+double number_or(const gltf::Value& object, const std::string& key, double fallback) {
+    return object.Has(key) ? object.Get(key).GetNumberAsDouble() : fallback;
 }
 
-float factor_or_one(JsonReader& reader, const std::string& key) {
-    return factor_or(reader, key, 1.0);
+glm::vec2 vec2_or(const gltf::Value& object, const std::string& key, const glm::vec2& fallback) {
+    if (!object.Has(key)) return fallback;
+    const gltf::Value& array = object.Get(key);
+    return {array.Get(0).GetNumberAsDouble(), array.Get(1).GetNumberAsDouble()};
 }
 
-struct MaterialReading {
-    const GltfJson& json;
-    std::span<const GltfTexture> textures;
-    JsonReader& material;
-    MaterialDescription to = {};
+/// What is a little over 1 was rounded by the exporter.
+float factor(double x) {
+    return static_cast<float>(std::min(x, 1.0));
+}
 
-    std::optional<TextureUse> texture(JsonReader& owner, const std::string& key) const {
-        return read_texture_use(json, owner, key, textures);
+/// A material's texture, with KHR_texture_transform. nullopt if it is missing, or if it has no image that we read or,
+/// with a warning, uses a set of texture coordinates above the second.
+template <typename Info>
+std::optional<TextureUse> texture_use(const gltf::Model& model, const Info& info, std::vector<std::string>& warnings) {
+    if (info.index < 0) return std::nullopt;
+    TextureUse use;
+    use.texture = static_cast<std::size_t>(info.index);
+    use.uv_set = info.texCoord;
+    if (const auto found = info.extensions.find(kTextureTransform); found != info.extensions.end()) {
+        const gltf::Value& transform = found->second;
+        use.transform = {.offset = vec2_or(transform, "offset", glm::vec2(0.0F)),
+                         .rotation = static_cast<float>(number_or(transform, "rotation", 0.0)),
+                         .scale = vec2_or(transform, "scale", glm::vec2(1.0F))};
+        use.uv_set = static_cast<int>(number_or(transform, "texCoord", use.uv_set));
     }
+    if (model.textures[use.texture].source < 0) return std::nullopt;
+    if (use.uv_set > 1) {
+        warn_once(warnings, "textures that use a third or later set of texture coordinates are ignored");
+        return std::nullopt;
+    }
+    return use;
+}
 
-    void read_metallic_roughness() {
-        if (!material.has("pbrMetallicRoughness")) return;
-        JsonReader pbr = material.object("pbrMetallicRoughness");
-        to.base_colour = glm::min(read_vector_or(pbr, "baseColorFactor", glm::vec4(1.0F), kFactor), glm::vec4(1.0F));
-        to.metallic = factor_or_one(pbr, "metallicFactor");
-        to.roughness = factor_or_one(pbr, "roughnessFactor");
-        to.base_colour_texture = texture(pbr, "baseColorTexture");
-        to.metallic_roughness_texture = texture(pbr, "metallicRoughnessTexture");
+MaterialDescription import_material(const gltf::Model& model, const gltf::Material& from,
+                                    std::vector<std::string>& warnings) {
+    const auto use = [&](const auto& info) { return texture_use(model, info, warnings); };
+    const gltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
+    MaterialDescription to;
+    to.name = from.name;
+    for (int i = 0; i < 4; ++i) to.base_colour[i] = factor(pbr.baseColorFactor[static_cast<std::size_t>(i)]);
+    to.metallic = factor(pbr.metallicFactor);
+    to.roughness = factor(pbr.roughnessFactor);
+    to.base_colour_texture = use(pbr.baseColorTexture);
+    to.metallic_roughness_texture = use(pbr.metallicRoughnessTexture);
+    to.normal_texture = use(from.normalTexture);
+    to.normal_scale = static_cast<float>(from.normalTexture.scale);
+    to.occlusion_texture = use(from.occlusionTexture);
+    to.occlusion_strength = factor(from.occlusionTexture.strength);
+    to.emissive_texture = use(from.emissiveTexture);
+    for (int i = 0; i < 3; ++i) to.emissive[i] = static_cast<float>(from.emissiveFactor[static_cast<std::size_t>(i)]);
+    if (from.alphaMode == "MASK") to.alpha_mode = AlphaMode::Mask;
+    if (from.alphaMode == "BLEND") to.alpha_mode = AlphaMode::Blend;
+    to.alpha_cutoff = static_cast<float>(from.alphaCutoff);
+    to.double_sided = from.doubleSided;
+    to.unlit = from.extensions.contains("KHR_materials_unlit");
+    if (const auto found = from.extensions.find("KHR_materials_emissive_strength"); found != from.extensions.end())
+        to.emissive *= static_cast<float>(number_or(found->second, "emissiveStrength", 1.0));
+    if (const auto found = from.extensions.find("KHR_materials_clearcoat"); found != from.extensions.end()) {
+        to.clear_coat = factor(number_or(found->second, "clearcoatFactor", 0.0));
+        to.clear_coat_roughness = factor(number_or(found->second, "clearcoatRoughnessFactor", 0.0));
     }
+    return to;
+}
 
-    void read_maps() {
-        to.normal_texture = texture(material, "normalTexture");
-        if (auto normal = material.object_if_there("normalTexture"))
-            to.normal_scale = static_cast<float>(normal->number_or("scale", 1.0, kFiniteFloat));
-        to.occlusion_texture = texture(material, "occlusionTexture");
-        if (auto occlusion = material.object_if_there("occlusionTexture"))
-            to.occlusion_strength = factor_or_one(*occlusion, "strength");
-        to.emissive_texture = texture(material, "emissiveTexture");
-        to.emissive = read_vector_or(material, "emissiveFactor", glm::vec3(0.0F), kEmission);
+/// The extensions that are left to their registered handlers, as JSON.
+void keep_other_extensions(const nlohmann::json& material, MaterialDescription& to,
+                           std::vector<std::string>& warnings) {
+    if (!material.contains("extensions")) return;
+    for (const auto& [name, value] : material["extensions"].items()) {
+        if (name == "KHR_materials_clearcoat")
+            for (const char* map : {"clearcoatTexture", "clearcoatRoughnessTexture", "clearcoatNormalTexture"})
+                if (value.contains(map))
+                    warn_once(warnings, fmt::format("a material's {} is not read: its clear coat is even", map));
+        if (name != "KHR_materials_clearcoat" && name != "KHR_materials_unlit" &&
+            name != "KHR_materials_emissive_strength")
+            to.extensions[name] = value;
     }
+}
 
-    void read_alpha() {
-        if (material.has("alphaMode"))
-            to.alpha_mode = material.choice<AlphaMode>(
-                "alphaMode", {{"OPAQUE", AlphaMode::Opaque}, {"MASK", AlphaMode::Mask}, {"BLEND", AlphaMode::Blend}});
-        to.alpha_cutoff = static_cast<float>(material.number_or("alphaCutoff", 0.5, kNotNegative));
-        to.double_sided = material.boolean_or("doubleSided", false);
-    }
+ImportedTexture sampler_settings(const gltf::Model& model, const gltf::Texture& texture) {
+    ImportedTexture settings;
+    if (texture.sampler < 0) return settings;
+    const gltf::Sampler& sampler = model.samplers[static_cast<std::size_t>(texture.sampler)];
+    const auto wrap = [](int mode) {
+        if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return TextureWrap::Clamp;
+        return mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? TextureWrap::Mirror : TextureWrap::Repeat;
+    };
+    settings.wrap_s = wrap(sampler.wrapS);
+    settings.wrap_t = wrap(sampler.wrapT);
+    settings.nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
+    settings.mipmaps = sampler.minFilter < 0 || sampler.minFilter >= TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST;
+    return settings;
+}
 
-    void read_clear_coat(JsonReader coat) {
-        to.clear_coat = factor_or(coat, "clearcoatFactor", 0.0);
-        to.clear_coat_roughness = factor_or(coat, "clearcoatRoughnessFactor", 0.0);
-        for (const char* map : {"clearcoatTexture", "clearcoatRoughnessTexture", "clearcoatNormalTexture"})
-            if (coat.has(map)) json.warn(fmt::format("a material's {} is not read: its clear coat is even", map));
-    }
+using SharedImage = std::shared_ptr<const image::ByteImage>;
 
-    void read_extensions() {
-        if (!material.has("extensions")) return;
-        JsonReader extensions = material.object("extensions");
-        for (const auto& [name, value] : material.raw("extensions").items()) {
-            if (name == "KHR_materials_unlit") {
-                extensions.object(name);
-                to.unlit = true;
-            } else if (name == "KHR_materials_emissive_strength") {
-                to.emissive *=
-                    static_cast<float>(extensions.object(name).number_or("emissiveStrength", 1.0, kEmission));
-            } else if (name == "KHR_materials_clearcoat") {
-                read_clear_coat(extensions.object(name));
-            } else {
-                to.extensions[name] = value;
-            }
-        }
-    }
+/// An image before it is decoded.
+struct Encoded {
+    std::size_t image = 0;
+    GltfBuffer bytes;
 };
+
+/// Calls `read` and adds the file and the image to what it throws.
+template <typename Read>
+auto read_at(const std::string& file, std::size_t image, const Read& read) {
+    try {
+        return read();
+    } catch (const Error& error) {
+        ErrorInfo info = error.info();
+        info.file = file;
+        info.location = fmt::format("/images/{}{}{}", image, info.location.empty() ? "" : ", ", info.location);
+        throw Error(std::move(info));
+    }
+}
+
+/// Throws Error (input) if highly compressed images would use memory out of proportion to the file.
+void check_decoded_total(const std::vector<Encoded>& encoded, const std::string& file) {
+    std::uint64_t decoded = 0;
+    std::uint64_t bytes = 0;
+    for (const Encoded& picture : encoded) {
+        const image::ByteImageSize size = image::byte_image_size(picture.bytes.bytes, file);
+        decoded += 4 * static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height);
+        bytes += picture.bytes.bytes.size();
+    }
+    if (const std::uint64_t limit = image::decoded_limit(bytes); decoded > limit)
+        refuse_input(file, "/images", fmt::format("{} bytes of images that decode to {}", bytes, decoded),
+                     fmt::format("at most {}", limit), "scale the images down");
+}
+
+/// The images that a texture names, their bytes fetched and the memory they take once decoded spent.
+std::vector<Encoded> fetch(const GltfSource& source, const GltfDocument& document, MemoryBudget& budget,
+                           std::vector<std::filesystem::path>* read_files) {
+    const gltf::Model& model = document.model;
+    std::vector<bool> named(model.images.size(), false);
+    for (const gltf::Texture& texture : model.textures)
+        if (texture.source >= 0) named[static_cast<std::size_t>(texture.source)] = true;
+    MemoryBudget pictures(document.file, kMaximumPictureBytes);
+    std::vector<Encoded> encoded;
+    for (std::size_t i = 0; i < model.images.size(); ++i) {
+        if (!named[i]) continue;
+        const gltf::Image& from = model.images[i];
+        const std::string pointer = fmt::format("/images/{}", i);
+        Encoded& added = encoded.emplace_back(Encoded{i, {}});
+        if (from.bufferView >= 0)
+            added.bytes.bytes = document.view_bytes(from.bufferView);
+        else
+            added.bytes = load_uri(source, from.uri, pointer, budget, read_files);
+        const image::ByteImageSize size =
+            read_at(document.file, i, [&] { return image::byte_image_size(added.bytes.bytes, ""); });
+        pictures.spend(static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height), 4, pointer);
+    }
+    check_decoded_total(encoded, document.file);
+    return encoded;
+}
+
+/// Decodes each into its element of `images`, on all cores.
+void decode(const std::vector<Encoded>& encoded, const std::string& file, std::vector<SharedImage>& images) {
+    // The first broken image is named, whichever thread finishes first.
+    std::vector<std::exception_ptr> refusals(encoded.size());
+    parallel_for(encoded.size(), [&](std::size_t i) {
+        try {
+            images[encoded[i].image] = read_at(file, encoded[i].image, [&] {
+                return std::make_shared<const image::ByteImage>(image::decode_byte_image(encoded[i].bytes.bytes, ""));
+            });
+        } catch (const Error&) {
+            refusals[i] = std::current_exception();
+        }
+    });
+    for (const std::exception_ptr& refusal : refusals)
+        if (refusal) std::rethrow_exception(refusal);
+}
 
 }  // namespace
 
-std::vector<MaterialDescription> read_materials(const GltfJson& json, std::span<const GltfTexture> textures) {
+std::vector<MaterialDescription> import_materials(const GltfDocument& document, std::vector<std::string>& warnings) {
     std::vector<MaterialDescription> materials;
-    for (JsonReader& material : json.objects("materials")) {
-        MaterialReading reading{json, textures, material};
-        reading.to.name = material.text_or("name", "");
-        reading.read_metallic_roughness();
-        reading.read_maps();
-        reading.read_alpha();
-        reading.read_extensions();
-        materials.push_back(std::move(reading.to));
+    for (const gltf::Material& material : document.model.materials) {
+        const nlohmann::json& json = document.json.at("materials").at(materials.size());
+        materials.push_back(import_material(document.model, material, warnings));
+        keep_other_extensions(json, materials.back(), warnings);
     }
     return materials;
+}
+
+void import_images(const GltfSource& source, const GltfDocument& document, MemoryBudget& budget,
+                   std::vector<std::filesystem::path>* read_files, ImportedScene& scene) {
+    const auto white = std::make_shared<const image::ByteImage>(image::ByteImage{1, 1, {255, 255, 255, 255}});
+    scene.images.assign(document.model.images.size(), white);
+    decode(fetch(source, document, budget, read_files), document.file, scene.images);
+    for (const gltf::Texture& texture : document.model.textures) {
+        ImportedTexture& added = scene.textures.emplace_back(sampler_settings(document.model, texture));
+        added.image = texture.source >= 0 ? static_cast<std::size_t>(texture.source) : scene.images.size();
+        if (texture.source >= 0) continue;
+        warn_once(scene.warnings, "textures that have no PNG or JPEG image are ignored");
+        scene.images.push_back(white);
+    }
 }
 
 }  // namespace rowland::scene

@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <string_view>
 
 #include "engine/core/byte_stream.h"
 #include "engine/core/error.h"
+#include "engine/core/file.h"
 #include "engine/core/json_reader.h"
+#include "engine/scene/tinygltf.h"
 
 namespace rowland::scene {
 
@@ -18,9 +21,7 @@ namespace {
 constexpr std::size_t kMaximumJsonBytes = 64U << 20;
 constexpr std::ptrdiff_t kMaximumJsonCommas = 4'000'000;
 
-constexpr std::string_view kMagic = "glTF";
-constexpr std::uint32_t kChunkJson = 0x4E4F534A;  // "JSON"
-constexpr std::uint32_t kChunkBinary = 0x004E4942;
+constexpr std::string_view kGlbMagic = "glTF";
 
 nlohmann::json parse_text(std::span<const std::byte> bytes, const std::string& file) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -48,7 +49,7 @@ Chunk read_chunk(ByteReader& reader) {
 /// Reads the GLB structure (glTF 2.0, 4.4). Bytes after the header's length are padding and ignored.
 void split_binary(GltfSource& source) {
     ByteReader header(source.bytes, source.file);
-    header.take(kMagic.size());
+    header.take(kGlbMagic.size());
     const auto version = header.value<std::uint32_t>();
     if (version != 2) header.fail(fmt::format("GLB version {}", version), "2");
     const auto length = header.value<std::uint32_t>();
@@ -58,22 +59,116 @@ void split_binary(GltfSource& source) {
     const std::size_t header_size = header.offset();
     if (length < header_size) header.fail(fmt::format("total length {}", length), "at least the header's");
 
+    source.glb_size = length;
+
     ByteReader reader(std::span(source.bytes).first(length), source.file);
     reader.take(header_size);
     const Chunk json = read_chunk(reader);
-    if (json.type != kChunkJson) reader.fail("a first chunk that is not JSON", "a JSON chunk");
+    if (json.type != GltfSource::kJsonChunk) reader.fail("a first chunk that is not JSON", "a JSON chunk");
     source.json_size = json.data.size();
     source.json_offset = reader.offset() - json.data.size();
     // Chunks of other types are for extensions and skipped; BIN, if there is one, comes right after JSON.
     constexpr std::size_t kChunkHeader = 8;
     if (reader.remaining() < kChunkHeader) return;
     const Chunk second = read_chunk(reader);
-    if (second.type != kChunkBinary) return;
+    if (second.type != GltfSource::kBinaryChunk) return;
     source.binary_size = second.data.size();
     source.binary_offset = reader.offset() - second.data.size();
 }
 
+constexpr const char* kFileRemedy = "put it beside the glTF file";
+
+std::string percent_decode(const std::string& uri) {
+    std::string text;
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        text += uri[i];
+        if (uri[i] != '%' || i + 2 >= uri.size()) continue;
+        const char* const end = uri.data() + i + 3;
+        unsigned code = 0;
+        if (std::from_chars(uri.data() + i + 1, end, code, 16).ptr != end) continue;
+        text.back() = static_cast<char>(code);
+        i += 2;
+    }
+    return text;
+}
+
+/// The path of the file that a URI names. Throws if it is not in the glTF's folder or below it: a hostile glTF must not
+/// read other files, nor probe for them by the error messages.
+std::filesystem::path resolve(const GltfSource& source, const std::string& uri, const std::string& pointer) {
+    const std::string expected = "the name of a file in the glTF's folder, or base64 data";
+    if (!source.folder)
+        refuse_input(source.file, pointer, fmt::format("an external file \"{:.60}\"", uri), "embedded data");
+    const std::string name = percent_decode(uri);
+    if (name.empty() || name.find('\0') != std::string::npos || name.find(':') != std::string::npos ||
+        name.find('\\') != std::string::npos)
+        refuse_input(source.file, pointer, fmt::format("URI \"{:.60}\"", uri), expected, kFileRemedy);
+    const std::filesystem::path path = std::filesystem::path(name).lexically_normal();
+    if (path.is_absolute() || *path.begin() == "..")
+        refuse_input(source.file, pointer, fmt::format("URI \"{:.60}\", outside the glTF's folder", uri), expected,
+                     kFileRemedy);
+    return *source.folder / path;
+}
+
+std::vector<std::byte> decode_base64(std::string_view base64) {
+    // tinygltf decodes data URIs of a few media types only, so the real type is replaced by a known one.
+    std::vector<unsigned char> data;
+    std::string media_type;
+    const std::string known = "data:application/octet-stream;base64," + std::string(base64);
+    if (!gltf::DecodeDataURI(&data, media_type, known, 0, false)) return {};
+    const auto bytes = std::as_bytes(std::span(data));
+    return {bytes.begin(), bytes.end()};
+}
+
+/// data:<media type>;base64,<data>
+GltfBuffer load_data_uri(const GltfSource& source, const std::string& uri, const std::string& pointer,
+                         MemoryBudget& budget) {
+    budget.spend(uri.size() / 4 + 1, 3, pointer);
+    const std::size_t comma = std::min(uri.find(','), uri.size());
+    GltfBuffer buffer;
+    if (uri.substr(0, comma).ends_with(";base64") && comma < uri.size())
+        buffer.owned = decode_base64(std::string_view(uri).substr(comma + 1));
+    if (buffer.owned.empty()) refuse_input(source.file, pointer, "a data URI without base64 data", "data:…;base64,…");
+    buffer.bytes = buffer.owned;
+    return buffer;
+}
+
+GltfBuffer load_file(const GltfSource& source, const std::string& uri, const std::string& pointer, MemoryBudget& budget,
+                     std::vector<std::filesystem::path>* read_files) {
+    const std::filesystem::path path = resolve(source, uri, pointer);
+    if (read_files) read_files->push_back(path);
+    GltfBuffer buffer;
+    try {
+        buffer.owned = read_file(path, MemoryBudget::kDefaultLimit);
+    } catch (const Error& error) {
+        // The message names the glTF, which is the file that the user named.
+        ErrorInfo info = error.info();
+        info.file = source.file;
+        info.location = pointer;
+        info.found = fmt::format("{:.200} {}", uri, info.found);
+        info.remedy = kFileRemedy;
+        throw Error(std::move(info));
+    }
+    budget.spend(buffer.owned.size(), 1, pointer);
+    buffer.bytes = buffer.owned;
+    return buffer;
+}
+
 }  // namespace
+
+MemoryBudget::MemoryBudget(std::string file, std::uint64_t limit_bytes)
+    : file_(std::move(file)), limit_(limit_bytes), left_(limit_bytes) {}
+
+void MemoryBudget::spend(std::uint64_t count, std::uint64_t element_bytes, const std::string& pointer) {
+    require_left(count, element_bytes, pointer);
+    left_ -= count * element_bytes;
+}
+
+void MemoryBudget::require_left(std::uint64_t count, std::uint64_t element_bytes, const std::string& pointer) const {
+    if (element_bytes != 0 && count > left_ / element_bytes)
+        refuse_input(file_, pointer, fmt::format("{} elements of {} bytes", count, element_bytes),
+                     fmt::format("at most {} bytes in the whole scene", limit_),
+                     "split the scene, or correct the count");
+}
 
 GltfSource split_gltf(std::vector<std::byte> bytes, std::string file, std::optional<std::filesystem::path> folder) {
     GltfSource source;
@@ -81,13 +176,19 @@ GltfSource split_gltf(std::vector<std::byte> bytes, std::string file, std::optio
     source.folder = std::move(folder);
     source.bytes = std::move(bytes);
     const std::string_view start(reinterpret_cast<const char*>(source.bytes.data()),
-                                 std::min(source.bytes.size(), kMagic.size()));
-    if (start == kMagic)
+                                 std::min(source.bytes.size(), kGlbMagic.size()));
+    if (start == kGlbMagic)
         split_binary(source);
     else
         source.json_size = source.bytes.size();
     source.json = parse_text(source.json_text(), source.file);
     return source;
+}
+
+GltfBuffer load_uri(const GltfSource& source, const std::string& uri, const std::string& pointer, MemoryBudget& budget,
+                    std::vector<std::filesystem::path>* read_files) {
+    return uri.starts_with("data:") ? load_data_uri(source, uri, pointer, budget)
+                                    : load_file(source, uri, pointer, budget, read_files);
 }
 
 }  // namespace rowland::scene

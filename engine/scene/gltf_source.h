@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -10,8 +11,31 @@
 
 namespace rowland::scene {
 
+/// Limits the memory that one file may make us use. Every size that a file names is spent here before it is allocated,
+/// so a small file cannot ask for gigabytes, neither at once nor by naming the same data a thousand times.
+class MemoryBudget {
+ public:
+    static constexpr std::uint64_t kDefaultLimit = 512ULL << 20;
+
+    explicit MemoryBudget(std::string file, std::uint64_t limit_bytes = kDefaultLimit);
+
+    /// Takes `count` elements of `element_bytes`. Throws Error (input) at `pointer` if that is more than is left.
+    void spend(std::uint64_t count, std::uint64_t element_bytes, const std::string& pointer);
+    /// The same check for what is freed again before anything else is spent: nothing is taken.
+    void require_left(std::uint64_t count, std::uint64_t element_bytes, const std::string& pointer) const;
+
+ private:
+    std::string file_;
+    std::uint64_t limit_;
+    std::uint64_t left_;
+};
+
 /// The JSON of a glTF file and, of a GLB, its binary chunk.
 struct GltfSource {
+    static constexpr std::uint32_t kMagic = 0x46546C67;        ///< "glTF"
+    static constexpr std::uint32_t kJsonChunk = 0x4E4F534A;    ///< "JSON"
+    static constexpr std::uint32_t kBinaryChunk = 0x004E4942;  ///< "BIN"
+
     std::string file;                             ///< as the user named it, for messages
     std::optional<std::filesystem::path> folder;  ///< of the files it names; nullopt: it may name none
     nlohmann::json json;
@@ -20,14 +44,31 @@ struct GltfSource {
     std::size_t json_size = 0;      ///< bytes
     std::size_t binary_offset = 0;  ///< of the BIN chunk's data within `bytes`
     std::size_t binary_size = 0;    ///< 0 if there is none
+    std::size_t glb_size = 0;       ///< bytes that the header of a GLB counts
 
     bool is_glb() const { return json_offset > 0; }
     std::span<const std::byte> json_text() const { return std::span(bytes).subspan(json_offset, json_size); }
     std::span<const std::byte> binary() const { return std::span(bytes).subspan(binary_offset, binary_size); }
+    /// Of a GLB, behind JSON and BIN.
+    std::span<const std::byte> other_chunks() const {
+        const std::size_t begin = binary_offset > 0 ? binary_offset + binary_size : json_offset + json_size;
+        return is_glb() ? std::span(bytes).subspan(begin, glb_size - begin) : std::span<const std::byte>();
+    }
 };
 
 /// Splits the bytes of a .gltf or .glb. Checks the GLB header and chunk lengths, and the JSON's size and depth before
 /// it is parsed. Throws Error (input).
 GltfSource split_gltf(std::vector<std::byte> bytes, std::string file, std::optional<std::filesystem::path> folder);
+
+/// Owned unless it is a part of the file.
+struct GltfBuffer {
+    std::vector<std::byte> owned;
+    std::span<const std::byte> bytes;
+};
+
+/// The bytes that a URI of the file names: a data URI, or a file in the glTF's folder or below it, nothing else.
+/// `pointer` is the URI's owner. `read_files`, if given, receives the file. Throws Error (input).
+GltfBuffer load_uri(const GltfSource& source, const std::string& uri, const std::string& pointer, MemoryBudget& budget,
+                    std::vector<std::filesystem::path>* read_files);
 
 }  // namespace rowland::scene

@@ -6,10 +6,10 @@
 
 #include "engine/core/check.h"
 #include "engine/core/error.h"
+#include "engine/scene/animation.h"
 #include "engine/scene/gltf_import.h"
-#include "engine/scene/memory_budget.h"
-#include "engine/scene/skin.h"
-#include "engine/scene/tangents.h"
+#include "engine/scene/gltf_source.h"
+#include "engine/scene/mesh.h"
 
 namespace rowland::scene {
 

@@ -5,8 +5,6 @@
 #include <variant>
 
 #include "engine/core/json_reader.h"
-#include "engine/scene/box.h"
-#include "engine/scene/lathe.h"
 #include "engine/scene/mesh.h"
 
 namespace rowland::scene {
@@ -21,6 +19,14 @@ struct DiscRecipe {
     int segments = 249;         ///< sectors, 3 … 2048; the seam's vertices are doubled, with v = 0 and v = 1
 };
 
+/// Sphere around the origin, poles on ±Y. The tangent points along growing longitude (+X towards −Z); u = longitude /
+/// 2π, v grows linearly with latitude from the south to the north pole.
+struct SphereRecipe {
+    double radius = 0.0;  ///< metres, > 0
+    int rings = 64;       ///< bands of latitude, 2 … 2048
+    int segments = 128;   ///< sectors of longitude, 3 … 2048
+};
+
 /// Rectangle around the origin in the XZ plane, normal +Y, tangent +X, v towards −Z.
 struct PlaneRecipe {
     double width = 0.0;    ///< metres along X, > 0
@@ -28,17 +34,17 @@ struct PlaneRecipe {
     int subdivisions = 1;  ///< quads along either side, 1 … 2048
 };
 
-using MeshRecipe = std::variant<DiscRecipe, SphereRecipe, PlaneRecipe, LatheRecipe, BoxRecipe>;
+using MeshRecipe = std::variant<DiscRecipe, SphereRecipe, PlaneRecipe>;
 
 /// Whether a JSON document is a mesh recipe: an object with the key "mesh".
 bool is_mesh_recipe(const nlohmann::json& document);
 
-/// Reads `{"mesh": {"type": "disc", …}}`, the format of mesh_recipe.schema.json. Throws Error (input).
+/// Reads `{"mesh": {"type": "disc", …}}`. Throws Error (input).
 MeshRecipe parse_mesh_recipe(const nlohmann::json& document, const std::string& file);
-/// Reads the object under "mesh". Throws Error (input).
-MeshRecipe parse_shape(JsonReader reader);
+MeshRecipe parse_mesh_recipe(JsonReader& root);
 
-/// The mesh of a recipe, counter-clockwise from outside (from +Y where it is flat).
+/// The mesh of a recipe, counter-clockwise from outside (from +Y where it is flat). v grows along cross(normal,
+/// tangent), so the tangent's w is −1.
 Mesh build_mesh(const MeshRecipe& recipe);
 
 }  // namespace rowland::scene

@@ -1,9 +1,14 @@
 #include "engine/scene/transform.h"
 
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/mat3x3.hpp>
 #include <vector>
 
 #include "engine/core/check.h"
+#include "engine/scene/mesh.h"
 
 namespace rowland::scene {
 
@@ -65,6 +70,68 @@ glm::mat4 Transform::matrix() const {
 void update_world_matrices(ecs::World& world) {
     Placement placement(world);
     world.view<Transform>().each([&placement](ecs::Entity entity, Transform&) { placement.update(entity); });
+}
+
+namespace {
+
+// Relative to the largest axis. Files hold floats, some written with six digits.
+constexpr double kRounding = 1e-5;
+
+/// The unit vector along the part of `axis` perpendicular to `x` and `y`, which are unit or zero; zero if there is
+/// none.
+glm::dvec3 perpendicular_part(glm::dvec3 axis, const glm::dvec3& x, const glm::dvec3& y) {
+    const double length = glm::length(axis);
+    if (!(length > 0.0)) return glm::dvec3(0.0);
+    axis /= length;
+    axis -= glm::dot(axis, x) * x;
+    axis -= glm::dot(axis, y) * y;
+    const double left = glm::length(axis);
+    return left > kRounding ? axis / left : glm::dvec3(0.0);
+}
+
+bool is_zero(const glm::dvec3& v) {
+    return v == glm::dvec3(0.0);
+}
+
+/// A right-handed rotation along those of the matrix's axes that have a direction.
+glm::dmat3 rotation_along(const glm::dmat3& linear) {
+    const glm::dvec3 none(0.0);
+    glm::dvec3 x = perpendicular_part(linear[0], none, none);
+    glm::dvec3 y = perpendicular_part(linear[1], x, none);
+    glm::dvec3 z = perpendicular_part(linear[2], x, y);
+    // One missing axis follows from the other two; the first of two missing ones is any perpendicular vector.
+    if (is_zero(x) && is_zero(y) && is_zero(z)) return glm::dmat3(1.0);
+    const auto any = [](const glm::dvec3& a) { return glm::dvec3(any_perpendicular(glm::vec3(a))); };
+    if (is_zero(x) && is_zero(y)) x = perpendicular_part(any(z), z, none);
+    if (is_zero(x) && is_zero(z)) x = perpendicular_part(any(y), y, none);
+    if (is_zero(y) && is_zero(z)) y = perpendicular_part(any(x), x, none);
+    if (is_zero(x)) x = glm::cross(y, z);
+    if (is_zero(y)) y = glm::cross(z, x);
+    if (is_zero(z)) z = glm::cross(x, y);
+    if (glm::dot(glm::cross(x, y), z) < 0.0) x = -x;
+    return {x, y, z};
+}
+
+}  // namespace
+
+Decomposition decompose(const glm::dmat4& matrix) {
+    const glm::dmat3 linear(matrix);
+    const glm::dmat3 rotation = rotation_along(linear);
+    glm::dvec3 scale;
+    double largest = 0.0;
+    double error = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double length = glm::length(linear[axis]);
+        scale[axis] = glm::dot(linear[axis], rotation[axis]) < 0.0 ? -length : length;
+        largest = std::max(largest, length);
+        error = std::max(error, glm::length(linear[axis] - rotation[axis] * scale[axis]));
+    }
+    Decomposition parts;
+    parts.transform.translation = glm::vec3(matrix[3]);
+    parts.transform.rotation = glm::quat(glm::quat_cast(rotation));
+    parts.transform.scale = glm::vec3(scale);
+    parts.sheared = error > kRounding * largest;
+    return parts;
 }
 
 }  // namespace rowland::scene

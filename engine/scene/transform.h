@@ -3,6 +3,8 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
 
 #include "engine/ecs/world.h"
 
@@ -30,5 +32,25 @@ struct WorldMatrix {
 /// System: gives every entity with a Transform its WorldMatrix. A dead parent counts as none; a cycle of parents is a
 /// contract violation.
 void update_world_matrices(ecs::World& world);
+
+struct Decomposition {
+    Transform transform;
+    bool sheared = false;  ///< the transform's matrix differs by more than rounding
+};
+
+/// The translation, rotation and scale of a finite affine matrix. A mirroring matrix gets a negative x scale; axes of
+/// length zero get scale 0 and any direction. Shear is lost: the axes are made perpendicular, starting from x.
+Decomposition decompose(const glm::dmat4& matrix);
+
+/// Component: the name and the extras of a node in a scene file.
+struct NodeLabel {
+    std::string name;       ///< not always unique; may be empty
+    nlohmann::json extras;  ///< as written; null: none
+};
+
+/// Whether extras say `"key": true`.
+inline bool is_marked(const nlohmann::json& extras, const char* key) {
+    return extras.is_object() && extras.contains(key) && extras[key] == true;
+}
 
 }  // namespace rowland::scene

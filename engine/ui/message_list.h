@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/core/messages.h"
+#include "engine/core/log.h"
 
 namespace rowland::ui {
 

@@ -4,12 +4,172 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <limits>
 
 #include "engine/core/check.h"
-#include "engine/ui/feed_input.h"
-#include "engine/ui/style.h"
+#include "engine/core/log.h"
 
 namespace rowland::ui {
+
+namespace {
+
+using platform::Key;
+using platform::MouseButton;
+
+struct EditingKey {
+    int imgui;
+    Key key;
+};
+
+constexpr std::array kEditingKeys{
+    EditingKey{ImGuiKey_Tab, Key::Tab},
+    EditingKey{ImGuiKey_LeftArrow, Key::Left},
+    EditingKey{ImGuiKey_RightArrow, Key::Right},
+    EditingKey{ImGuiKey_UpArrow, Key::Up},
+    EditingKey{ImGuiKey_DownArrow, Key::Down},
+    EditingKey{ImGuiKey_PageUp, Key::PageUp},
+    EditingKey{ImGuiKey_PageDown, Key::PageDown},
+    EditingKey{ImGuiKey_Home, Key::Home},
+    EditingKey{ImGuiKey_End, Key::End},
+    EditingKey{ImGuiKey_Insert, Key::Insert},
+    EditingKey{ImGuiKey_Delete, Key::Delete},
+    EditingKey{ImGuiKey_Backspace, Key::Backspace},
+    EditingKey{ImGuiKey_Space, Key::Space},
+    EditingKey{ImGuiKey_Enter, Key::Enter},
+    EditingKey{ImGuiKey_Escape, Key::Escape},
+    EditingKey{ImGuiKey_A, Key::A},
+    EditingKey{ImGuiKey_C, Key::C},
+    EditingKey{ImGuiKey_V, Key::V},
+    EditingKey{ImGuiKey_X, Key::X},
+    EditingKey{ImGuiKey_Y, Key::Y},
+    EditingKey{ImGuiKey_Z, Key::Z},
+};
+
+/// In the order of ImGui's mouse buttons.
+constexpr std::array kMouseButtons{MouseButton::Left, MouseButton::Right, MouseButton::Middle};
+
+bool was_down(const platform::ButtonState& button) {
+    return button.down || button.pressed;
+}
+
+bool either_down(const platform::InputState& input, Key left, Key right) {
+    return was_down(input.key(left)) || was_down(input.key(right));
+}
+
+}  // namespace
+
+void map_keys(ImGuiIO& io) {
+    for (const EditingKey& editing : kEditingKeys) io.KeyMap[editing.imgui] = static_cast<int>(editing.key);
+}
+
+void InputFeed::feed(const platform::InputState& input, ImGuiIO& io) {
+    for (int key = 0; key < static_cast<int>(Key::Count); ++key)
+        io.KeysDown[key] = was_down(input.key(static_cast<Key>(key)));
+    io.KeyCtrl = either_down(input, Key::LeftControl, Key::RightControl);
+    io.KeyShift = either_down(input, Key::LeftShift, Key::RightShift);
+    io.KeyAlt = either_down(input, Key::LeftAlt, Key::RightAlt);
+    for (const char32_t c : input.typed()) io.AddInputCharacter(static_cast<unsigned>(c));
+    feed_mouse(input, io);
+    io.MouseWheelH += static_cast<float>(input.scroll().x);
+    io.MouseWheel += static_cast<float>(input.scroll().y);
+}
+
+void InputFeed::feed_mouse(const platform::InputState& input, ImGuiIO& io) {
+    glm::dvec2 position = input.mouse_position();
+    for (const MouseButton button : kMouseButtons)
+        if (input.mouse_button(button).pressed) position = input.press_position(button);
+    for (std::size_t i = 0; i < kMouseButtons.size(); ++i) {
+        const bool moves_first = down_[i] && position != seen_;
+        down_[i] = was_down(input.mouse_button(kMouseButtons[i])) || moves_first;
+        io.MouseDown[i] = down_[i];
+    }
+    seen_ = position;
+    // ImGui's word for "no mouse".
+    constexpr float kNowhere = -std::numeric_limits<float>::max();
+    const glm::vec2 shown(position);
+    io.MousePos = input.focused() ? ImVec2(shown.x, shown.y) : ImVec2(kNowhere, kNowhere);
+}
+
+namespace {
+
+constexpr float kFontSize = 15.0F;         ///< pixels at scale 1
+constexpr float kBuiltInFontSize = 13.0F;  ///< of ImGui's own font
+
+/// First and last of each range, then 0: Latin, Greek, general punctuation, super- and subscripts, arrows, mathematics,
+/// geometric shapes.
+constexpr std::array<ImWchar, 15> kGlyphs = {0x0020, 0x017F, 0x0370, 0x03FF, 0x2010, 0x2044, 0x2070, 0x209F,
+                                             0x2190, 0x21FF, 0x2200, 0x22FF, 0x25A0, 0x25FF, 0};
+
+ImVec4 grey(float value, float alpha = 1.0F) {
+    return {value, value, value, alpha};
+}
+
+/// A blue that is distinguishable with all kinds of colour vision.
+ImVec4 accent(float alpha) {
+    return {0.26F, 0.55F, 0.85F, alpha};
+}
+
+void set_colours(ImGuiStyle& style) {
+    ImGui::StyleColorsDark(&style);
+    const auto set = [&style](ImGuiCol which, const ImVec4& colour) { style.Colors[which] = colour; };
+    set(ImGuiCol_Text, grey(0.93F));
+    set(ImGuiCol_TextDisabled, grey(0.60F));
+    set(ImGuiCol_WindowBg, grey(0.08F, 0.86F));
+    set(ImGuiCol_PopupBg, grey(0.10F, 0.96F));
+    set(ImGuiCol_Border, grey(1.0F, 0.10F));
+    set(ImGuiCol_TitleBg, grey(0.12F, 0.92F));
+    set(ImGuiCol_TitleBgActive, grey(0.18F, 0.96F));
+    set(ImGuiCol_TitleBgCollapsed, grey(0.12F, 0.70F));
+    set(ImGuiCol_FrameBg, grey(1.0F, 0.09F));
+    set(ImGuiCol_FrameBgHovered, grey(1.0F, 0.15F));
+    set(ImGuiCol_FrameBgActive, grey(1.0F, 0.20F));
+    set(ImGuiCol_Button, grey(1.0F, 0.12F));
+    set(ImGuiCol_ButtonHovered, accent(0.60F));
+    set(ImGuiCol_ButtonActive, accent(0.90F));
+    set(ImGuiCol_Header, grey(1.0F, 0.10F));
+    set(ImGuiCol_HeaderHovered, accent(0.45F));
+    set(ImGuiCol_HeaderActive, accent(0.70F));
+    set(ImGuiCol_CheckMark, accent(1.0F));
+    set(ImGuiCol_SliderGrab, accent(0.85F));
+    set(ImGuiCol_SliderGrabActive, accent(1.0F));
+    set(ImGuiCol_PlotLines, accent(1.0F));
+    set(ImGuiCol_PlotHistogram, accent(0.85F));
+    set(ImGuiCol_NavHighlight, accent(1.0F));
+}
+
+}  // namespace
+
+ImGuiStyle make_style(float scale) {
+    ImGuiStyle style;
+    set_colours(style);
+    style.WindowRounding = 5.0F;
+    style.FrameRounding = 3.0F;
+    style.GrabRounding = 3.0F;
+    style.PopupRounding = 4.0F;
+    style.ScrollbarRounding = 4.0F;
+    style.WindowPadding = {10.0F, 8.0F};
+    style.FramePadding = {6.0F, 3.0F};
+    style.ItemSpacing = {7.0F, 4.0F};
+    style.ScaleAllSizes(scale);
+    return style;
+}
+
+void load_font(ImGuiIO& io, float scale) {
+    io.Fonts->Clear();
+    // Checked first, since ImGui asserts that the file exists.
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(ROWLAND_UI_FONT, ignored) &&
+        io.Fonts->AddFontFromFileTTF(ROWLAND_UI_FONT, std::round(kFontSize * scale), nullptr, kGlyphs.data()) !=
+            nullptr)
+        return;
+    log_warning("{} is missing: text of the user interface has Latin letters only", ROWLAND_UI_FONT);
+    ImFontConfig config;
+    config.SizePixels = std::round(kBuiltInFontSize * scale);
+    io.Fonts->AddFontDefault(&config);
+}
 
 namespace {
 

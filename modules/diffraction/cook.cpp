@@ -1,13 +1,20 @@
 #include "modules/diffraction/cook.h"
 
-#include "engine/image/limits.h"
-#include "engine/image/load.h"
-#include "engine/lighting/clear_sky.h"
+#include <algorithm>
+#include <cstddef>
+#include <glm/geometric.hpp>
+#include <optional>
+#include <utility>
+#include <vector>
+#include "engine/core/json_schema.h"
+#include "engine/image/image.h"
 #include "engine/lighting/probe_recipe.h"
+#include "engine/lighting/procedural_probe.h"
+#include "engine/scene/imported_scene.h"
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/asset/gltf_extension.h"
-#include "modules/diffraction/asset/gltf_object.h"
-#include "modules/diffraction/asset/material_json.h"
+#include "modules/diffraction/asset/groove_pitches.h"
+#include "modules/diffraction/asset/material.h"
 #include "modules/diffraction/evaluate/budget.h"
 #include "modules/diffraction/evaluate/error_measure.h"
 
@@ -22,6 +29,11 @@ ReadNamed read_through(cook::Context& context) {
         const std::vector<std::byte> bytes = context.read(path, kMaximumNamedFileSize);
         return NamedText{.text = {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, .file = path.string()};
     };
+}
+
+/// For schemas: files are named, not read.
+NamedText read_nothing(const std::string& name) {
+    return {.text = {}, .file = name};
 }
 
 image::Image read_image(cook::Context& context, const std::filesystem::path& path) {
@@ -58,27 +70,107 @@ std::vector<BudgetProbe> read_probes(cook::Context& context, const Quality& qual
     return probes;
 }
 
-/// Chooses the cheapest settings within the material's max_error, and pins them in `json`.
-CookedMaterial choose(cook::Context& context, const Material& material, nlohmann::json& json) {
+/// A material in a source: its JSON as a material file has it, at `pointer` of the source.
+struct MaterialSource {
+    nlohmann::json json;
+    Material material;
+    std::string pointer = "";
+};
+
+/// Pins the chosen settings in the material's JSON.
+void pin(const nlohmann::json& settings, MaterialSource& source) {
+    const nlohmann::json asked = source.json.value("quality", nlohmann::json::object());
+    nlohmann::json& quality = source.json["quality"];
+    quality = settings;
+    quality["max_error"] = source.material.quality.max_error;
+    if (asked.contains("illuminant")) quality["illuminant"] = asked["illuminant"];
+}
+
+/// Chooses the cheapest settings within the material's max_error, and pins them.
+CookedMaterial choose(cook::Context& context, MaterialSource& source, const ChoiceRules& rules) {
     const std::string file = context.source().string();
-    require_baked_grooves(material.grating, file);
-    const std::vector<BudgetProbe> probes = read_probes(context, material.quality);
-    const std::vector<ShadingPoint> frames = measured_points(material.quality.measure, material.quality.surface);
-    BudgetChoice choice = choose_representation(material, probes, frames, file);
-    const nlohmann::json asked = json.value("quality", nlohmann::json::object());
-    json["quality"] = choice.settings;
-    json["quality"]["max_error"] = material.quality.max_error;
-    if (asked.contains("illuminant")) json["quality"]["illuminant"] = asked["illuminant"];
+    const Quality& quality = source.material.quality;
+    BudgetChoice choice = choose_representation(source.material, read_probes(context, quality),
+                                                measured_points(quality.measure, quality.surface), file, rules);
+    pin(choice.settings, source);
     return std::move(choice.cooked);
 }
 
 std::vector<std::byte> cook_source(cook::Context& context) {
+    const std::string file = context.source().string();
     nlohmann::json json = context.read_json(context.source());
-    const Material material = parse_material(json, context.source().string(), read_through(context));
-    const CookedMaterial cooked = material.quality.pinned
-                                      ? cook_material(json, context.source().string(), read_through(context))
-                                      : choose(context, material, json);
-    return write_cooked_material(json, cooked);
+    Material material = parse_material(json, file, read_through(context));
+    require_baked_grooves(material.grating, file);
+    MaterialSource source{.json = std::move(json), .material = std::move(material)};
+    const CookedMaterial cooked =
+        source.material.quality.pinned ? bake_material(source.material) : choose(context, source, {});
+    return write_cooked_material(source.json, cooked);
+}
+
+/// Whether all triangles with a scene's material are in planes.
+bool is_flat(const scene::ImportedScene& scene, std::size_t material) {
+    constexpr float kFlatness = 0.005F;  // radians
+    return std::ranges::all_of(scene.instances, [&](const scene::ImportedInstance& instance) {
+        const std::vector<glm::vec3>& normals = scene.meshes[instance.mesh].normals;
+        return instance.material != material || std::ranges::all_of(normals, [&](const glm::vec3& normal) {
+                   return glm::distance(normal, normals.front()) < kFlatness;
+               });
+    });
+}
+
+std::optional<GroovePitches> pitches_of(const GltfGrating& grating, const cook::SceneExtension& extension,
+                                        const std::string& file) {
+    if (!grating.groove_texture) return std::nullopt;
+    const auto index = static_cast<std::size_t>(grating.groove_texture->index);
+    scene::require_texture(extension.scene, index, file, extension.pointer + "/grooveTexture");
+    return groove_pitches(*extension.scene.images[extension.scene.textures[index].image]);
+}
+
+/// The error of a pinned representation informs and decides nothing: every fourth of the frames keeps it cheap.
+std::vector<ShadingPoint> pinned_points(SurfaceShape surface) {
+    const std::vector<ShadingPoint> all = measured_points(ErrorMeasure::RelativeRms, surface);
+    std::vector<ShadingPoint> points;
+    for (std::size_t i = 0; i < all.size(); i += 4) points.push_back(all[i]);
+    return points;
+}
+
+/// A grating of a scene. Its errors are those of its grooves without their texture.
+std::vector<std::byte> cook_extension(cook::Context& context, const cook::SceneExtension& extension) {
+    const std::string file = context.source().string();
+    GltfGrating grating = parse_gltf_extension(extension.object, file, read_through(context), extension.pointer);
+    const std::optional<GroovePitches> pitches = pitches_of(grating, extension, file);
+    const GroovePitches* const of_texture = pitches ? &*pitches : nullptr;
+    drawable_material(grating, of_texture, file, extension.pointer);  // refuses what cannot be drawn
+
+    MaterialSource source{.json = material_members(extension.object),
+                          .material = std::move(grating.material),
+                          .pointer = extension.pointer};
+    const nlohmann::json asked = source.json.value("quality", nlohmann::json::object());
+    Quality& quality = source.material.quality;
+    if (!asked.contains("surface") && !is_flat(extension.scene, extension.material))
+        quality.surface = SurfaceShape::Curved;
+    CookedMaterial cooked;
+    if (quality.pinned) {
+        cooked.material = source.material;
+        cooked.measured =
+            measure_pinned(source.material, read_probes(context, quality), pinned_points(quality.surface));
+    } else {
+        ChoiceRules rules{.pointer = extension.pointer, .must_meet_budget = asked.contains("max_error")};
+        if (pitches)
+            rules.allows = [&](const Quality& candidate) {
+                Material with = source.material;
+                with.quality = candidate;
+                return !groove_refusal(with, *pitches);
+            };
+        cooked = choose(context, source, rules);
+    }
+    if (quality.pinned || pitches) {
+        std::optional<BudgetRecord> measured = std::move(cooked.measured);
+        grating.material = std::move(cooked.material);
+        cooked = bake_material(drawable_material(grating, of_texture, file, extension.pointer));
+        cooked.measured = std::move(measured);
+    }
+    return write_gltf_tables(source.json, cooked, pitches.value_or(GroovePitches{}));
 }
 
 void check_source(cook::Context& context) {
@@ -90,9 +182,17 @@ void check_source(cook::Context& context) {
 cook::GltfExtension gltf_extension() {
     cook::GltfExtension extension;
     extension.name = kGltfExtension;
+    extension.schema = [] {
+        return json_schema(kGltfExtension, [](JsonReader& json) { parse_gltf_extension(json, read_nothing); });
+    };
     extension.describe = [](const nlohmann::json& object, const std::string& file, const std::string& pointer) {
         const std::filesystem::path folder = std::filesystem::path(file).parent_path();
         return describe(parse_gltf_extension(object, file, folder, pointer));
+    };
+    extension.version = kGltfTablesVersion + kMaterialAssetVersion;
+    extension.cook = cook_extension;
+    extension.describe_tables = [](std::span<const std::byte> tables, const std::string& file) {
+        return describe(read_gltf_tables(tables, file));
     };
     extension.source_type = kMaterialAssetType;
     extension.from_source = [](cook::Context& context) {
@@ -121,6 +221,12 @@ void register_module(cook::Registry& registry) {
         return json != nullptr && json->is_object() && json->contains("grating");
     };
     type.cook = cook_source;
+    type.schema = [] {
+        return json_schema("Rowland grating material", [](JsonReader& json) {
+            parse_material(json, read_nothing);
+            json.finish();
+        });
+    };
     type.check = check_source;
     type.describe = [](std::span<const std::byte> payload, const std::string& file) {
         return describe(read_cooked_material(payload, file));

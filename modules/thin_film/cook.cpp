@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "modules/thin_film/asset/cooked_film.h"
+#include "engine/core/json_schema.h"
+#include "engine/scene/imported_scene.h"
+#include "modules/thin_film/asset/film_material.h"
 #include "modules/thin_film/asset/gltf_iridescence.h"
 
 namespace rowland::thin_film {
@@ -14,6 +16,18 @@ cook::GltfExtension iridescence() {
     extension.name = kIridescenceExtension;
     extension.describe = [](const nlohmann::json& object, const std::string& file, const std::string& pointer) {
         return describe(parse_gltf_iridescence(object, file, pointer));
+    };
+    extension.version = kGltfFilmVersion;
+    extension.cook = [](cook::Context& context, const cook::SceneExtension& film) {
+        const std::string file = context.source().string();
+        const std::optional<FilmMaterial> material =
+            film_material(parse_gltf_iridescence(film.object, file, film.pointer), film.scene.materials[film.material],
+                          file, film.pointer);
+        return material ? write_gltf_film(*material, bake_film(*material)) : std::vector<std::byte>();
+    };
+    extension.describe_tables = [](std::span<const std::byte> tables, const std::string& file) {
+        return tables.empty() ? std::string("table: none, the film is not drawn\n")
+                              : describe(read_gltf_film(tables, file));
     };
     return extension;
 }
@@ -45,6 +59,7 @@ void register_module(cook::Registry& registry) {
         return json != nullptr && json->is_object() && json->contains("film");
     };
     type.cook = cook_source;
+    type.schema = [] { return json_schema("Rowland thin film", [](JsonReader& json) { parse_film_material(json); }); };
     type.check = [](cook::Context& context) {
         parse_film_material(context.read_json(context.source()), context.source().string());
     };

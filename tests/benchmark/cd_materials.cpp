@@ -5,7 +5,6 @@ namespace rowland::benchmark {
 std::vector<TimedRepresentation> timed_representations() {
     return {
         {"spikes", {{"representation", "spikes"}, {"bands", 5}, {"spikes", 4}}, true},
-        {"bins", {{"representation", "bins"}, {"bands", 5}, {"bins", 16}}, true},
         {"transfer", {{"representation", "transfer"}, {"bands", 5}}, true},
         {"arc", {{"representation", "arc"}, {"bands", 5}, {"rank", 8}}, true},
         {"planar", {{"representation", "planar"}, {"map_resolution", 128}}, true},

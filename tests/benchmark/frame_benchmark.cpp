@@ -9,15 +9,14 @@
 
 #include "engine/core/error.h"
 #include "engine/core/file.h"
+#include "engine/core/log.h"
 #include "engine/core/program.h"
-#include "engine/core/progress.h"
-#include "engine/image/png.h"
-#include "engine/platform/headless_context.h"
-#include "tests/benchmark/entity_benchmark.h"
+#include "engine/image/byte_image.h"
+#include "engine/platform/gl_context.h"
 #include "tests/benchmark/frame_report.h"
 #include "tests/benchmark/frame_stage.h"
 #include "tests/benchmark/frame_variant.h"
-#include "tests/benchmark/program_folder.h"
+#include "tests/benchmark/program_log.h"
 
 namespace rowland {
 namespace {
@@ -191,7 +190,6 @@ int run(int argc, char** argv) {
         write_file_atomic(base.string() + ".json", to_json(report));
         write_file_atomic(base.string() + ".md", to_markdown(report));
     }
-    if (options->only.empty() && !options->markdown) print_entity_times(options->rounds);
     return 0;
 }
 

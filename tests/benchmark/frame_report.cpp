@@ -7,6 +7,7 @@
 #include <cctype>
 #include <nlohmann/json.hpp>
 #include <thread>
+#include <vector>
 
 #include "engine/core/check.h"
 #include "tests/benchmark/processor.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/platform/headless_context.h"
+#include "engine/platform/gl_context.h"
 
 namespace rowland::benchmark {
 

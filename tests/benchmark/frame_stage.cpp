@@ -4,35 +4,99 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <ctime>
 #include <filesystem>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/trigonometric.hpp>
+#include <numbers>
 
-#include "editor/trade/light_loop.h"
+#include "editor/trade/stage.h"
 #include "engine/asset/container.h"
-#include "engine/colour/light_spectra.h"
+#include "engine/colour/illuminant.h"
 #include "engine/core/check.h"
-#include "engine/post/display_transform.h"
-#include "engine/post/shader_files.h"
-#include "engine/post/working_space.h"
-#include "engine/render/local_reflection.h"
-#include "engine/scene/directional_light.h"
+#include "engine/lighting/probe_image.h"
+#include "engine/lighting/procedural_probe.h"
+#include "engine/post/display_pass.h"
+#include "engine/post/ocio_config.h"
+#include "engine/post/post_stack.h"
+#include "engine/render/reflections.h"
+#include "engine/scene/light.h"
 #include "engine/scene/mesh_recipe.h"
 #include "engine/scene/transform.h"
-#include "modules/diffraction/asset/material_json.h"
+#include "modules/diffraction/asset/material.h"
 #include "modules/diffraction/module.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
 #include "modules/diffraction/runtime/glare_pattern.h"
+#include "modules/diffraction/runtime/groove_map.h"
 #include "modules/thin_film/module.h"
 #include "modules/thin_film/runtime/film_surface.h"
 #include "tests/benchmark/cd_materials.h"
-#include "tests/benchmark/even_grooves.h"
-#include "tests/benchmark/lamps.h"
 
 namespace rowland::benchmark {
 
 namespace {
+
+constexpr double kIrradiance = 2.0;  ///< of all lamps together, on surfaces that face them
+constexpr double kHalfSize_deg = 3.0;
+constexpr double kLowest = 0.25;  ///< sines of elevations
+constexpr double kHighest = 0.95;
+constexpr int kProbeWidth = 512;
+
+/// Directions by the golden angle: spread evenly for any count.
+glm::dvec3 lamp_direction(int lamp, int count) {
+    const double y = kLowest + (kHighest - kLowest) * (lamp + 0.5) / count;
+    const double azimuth = lamp * std::numbers::pi * (3.0 - std::sqrt(5.0));
+    const double r = std::sqrt(1.0 - y * y);
+    return {r * std::sin(azimuth), y, -r * std::cos(azimuth)};
+}
+
+/// Lamps spread evenly over the upper part of the sky. Their sum does not depend on their number.
+std::vector<scene::DirectionalLight> lamps(int count) {
+    std::vector<scene::DirectionalLight> result;
+    for (int lamp = 0; lamp < count; ++lamp)
+        result.push_back({.direction = glm::vec3(lamp_direction(lamp, count)),
+                          .irradiance = glm::vec3(static_cast<float>(kIrradiance / count))});
+    return result;
+}
+
+/// A probe of a dim room with the same lamps, six degrees wide; none of them becomes a key light.
+lighting::LightProbe lamp_room(int count) {
+    lighting::StudioRecipe room{
+        .ceiling = glm::dvec3(0.05), .wall = glm::dvec3(0.04), .floor = glm::dvec3(0.03), .boxes = {}};
+    const double solid_angle = std::pow(glm::radians(2.0 * kHalfSize_deg), 2.0);
+    for (int lamp = 0; lamp < count; ++lamp) {
+        const glm::dvec3 d = lamp_direction(lamp, count);
+        room.boxes.push_back({.azimuth_deg = glm::degrees(std::atan2(d.x, -d.z)),
+                              .elevation_deg = glm::degrees(std::asin(d.y)),
+                              .half_width_deg = kHalfSize_deg,
+                              .half_height_deg = kHalfSize_deg,
+                              .radiance = glm::dvec3(kIrradiance / count / solid_angle)});
+    }
+    const lighting::ProbeImage picture(lighting::render_studio(room, kProbeWidth), lighting::Mapping::Equirectangular);
+    lighting::LightProbeSettings settings;
+    settings.key_lights = 0;
+    return lighting::build_light_probe(picture, settings);
+}
+
+constexpr int kSide = 256;
+constexpr std::uint8_t kRotation = 64;  ///< π / 4
+constexpr std::uint8_t kPitch = 128;    ///< half of the range: the material's
+
+/// A map of one direction and the material's pitch: what a map costs, whatever it holds.
+std::shared_ptr<const diffraction::GrooveMap> even_grooves() {
+    auto picture = std::make_shared<image::ByteImage>();
+    picture->width = kSide;
+    picture->height = kSide;
+    for (int i = 0; i < kSide * kSide; ++i)
+        picture->rgba.insert(picture->rgba.end(), {kRotation, kPitch, std::uint8_t{0}, std::uint8_t{255}});
+    scene::ImportedScene scene;
+    scene.images = {picture};
+    scene.textures = {{}};
+    render::SurfaceTextures textures(scene);
+    return std::make_shared<const diffraction::GrooveMap>(diffraction::GrooveTexture{}, textures, "groove map", "");
+}
 
 using Clock = std::chrono::steady_clock;
 

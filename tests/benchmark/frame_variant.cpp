@@ -161,14 +161,13 @@ void add_lamps_in_scene(const TimedRepresentation& direct, std::vector<FrameVari
     }
 }
 
-/// A lattice under the lights of grooves, in one look-up each as well, or three for key lights; and as a streak.
+/// A lattice under the lights of grooves, in one look-up each as well, or three for key lights.
 void add_lattice(const TimedRepresentation& direct, std::vector<FrameVariant>& variants) {
     const auto lattice = [&](FrameVariant variant, const nlohmann::json& quality) {
         variant.name.replace(0, direct.name.size(), "lattice");
         variant.material = lattice_material(quality);
         return variant;
     };
-    variants.push_back(lattice(grating(direct, "/streak", "plain"), {{"representation", "streak"}}));
     variants.push_back(lattice(grating(direct, "/key-lights:16", "plain", Lighting::StudioKeyLights), direct.quality));
     for (const int lamps : {1, 16})
         variants.push_back(lattice(

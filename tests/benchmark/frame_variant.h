@@ -12,7 +12,7 @@ enum class Shader {
     Plain,      ///< the engine's metallic-roughness surface alone
     Grating,    ///< a diffraction material
     Film,       ///< the engine's surface under a thin film
-    LightLoop,  ///< the grating's lights and orders one by one (editor/trade/light_loop.h)
+    LightLoop,  ///< the grating's lights and orders one by one (editor/trade/stage.h)
 };
 
 enum class Motion {

@@ -1,17 +1,41 @@
 // Times of the parts that run on the processor, without a frame around them. Google Benchmark's own options apply, such
 // as --benchmark_filter=sh_ and --benchmark_format=json.
+#include <fmt/format.h>
+
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/core/file.h"
 #include "engine/core/program.h"
-#include "engine/math/instruction_set.h"
-#include "tests/benchmark/markdown_reporter.h"
+#include "engine/math/frame_rotation.h"
 #include "tests/benchmark/microbenchmarks.h"
 #include "tests/benchmark/processor.h"
 
 namespace rowland::microbenchmark {
 namespace {
+
+std::string counters_of(const ::benchmark::UserCounters& counters) {
+    std::string text;
+    for (const auto& [name, counter] : counters)
+        text += fmt::format("{}{} {:.3g}", text.empty() ? "" : ", ", name, counter.value);
+    return text;
+}
+
+/// Prints to the console as Google Benchmark does, and keeps the runs as a Markdown table.
+class MarkdownReporter final : public ::benchmark::ConsoleReporter {
+ public:
+    void ReportRuns(const std::vector<Run>& runs) override {
+        ConsoleReporter::ReportRuns(runs);
+        for (const Run& run : runs)
+            rows_ += fmt::format("| {} | {:.4g} {} | {} |\n", run.benchmark_name(), run.GetAdjustedRealTime(),
+                                 ::benchmark::GetTimeUnitString(run.time_unit), counters_of(run.counters));
+    }
+    std::string table() const { return "| part | time | |\n| --- | --- | --- |\n" + rows_; }
+
+ private:
+    std::string rows_;
+};
 
 /// Takes `--markdown-file=FILE` out of the arguments.
 std::optional<std::string> take_markdown_file(int& argc, char** argv) {

@@ -3,15 +3,23 @@
 #include <epoxy/gl.h>
 
 #include <cstddef>
+#include <filesystem>
+#include <glm/vec2.hpp>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "tests/benchmark/loop_lengths.h"
+#include "tests/benchmark/frame_variant.h"
 
 namespace rowland::benchmark {
+
+/// How often loops run whose length the shaders read from memory, by the GLSL expression of the length.
+using LoopLengths = std::map<std::string, int>;
+
+/// Those of the current draw, as the buffers bound now say.
+LoopLengths loop_lengths(GLuint program);
 
 /// The texts of a linked program as the driver got them, by stage: "vert", "frag" or "comp".
 using ProgramTexts = std::map<std::string, std::string>;
@@ -60,5 +68,12 @@ class ProgramLog {
     std::vector<std::size_t> passes_;
     std::unique_ptr<Replaced> replaced_;
 };
+
+/// Draws each variant and writes the GLSL of all programs that were linked, N.vert with N.frag or N.comp, and
+/// programs.json: "programs" (the files' names without extension), "frames" ("name", the "program" that draws its disc,
+/// and "lengths", how often its loops run), each followed by the passes that its effect adds ("NAME/pass:1"). A context
+/// must be current.
+void write_programs(const std::filesystem::path& folder, const std::vector<FrameVariant>& variants, glm::ivec2 size,
+                    bool software);
 
 }  // namespace rowland::benchmark

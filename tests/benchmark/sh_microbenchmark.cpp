@@ -1,10 +1,13 @@
-// Spherical harmonics in double: evaluation, and building and applying a rotation.
+#include <cmath>
 #include <string>
 
-#include "engine/math/sh_basis.h"
-#include "engine/math/sh_rotation.h"
+#include "engine/core/parallel.h"
+#include "engine/math/frame_rotation.h"
+#include "engine/math/spherical_harmonics.h"
 #include "tests/benchmark/microbenchmarks.h"
-#include "tests/benchmark/random_frames.h"
+
+// Spherical harmonics in double: evaluation, and building and applying a rotation.
+// RGB light turned into the tangent frames of a mesh of 25 000 vertices, as coefficients and as 2n − 1 moments.
 
 namespace rowland::microbenchmark {
 
@@ -71,6 +74,95 @@ void register_sh_rotation() {
                                        bands);
         ::benchmark::RegisterBenchmark(("sh_rotation_apply" + suffix + "/channels:3").c_str(),
                                        apply_rotation<glm::dvec3>, bands);
+    }
+}
+
+namespace {
+
+using ::benchmark::DoNotOptimize;
+using ::benchmark::State;
+
+constexpr std::size_t kVertices = 25000;
+
+std::vector<glm::dvec3> some_light(int bands) {
+    std::vector<glm::dvec3> light;
+    for (int i = 0; i < math::sh_count(bands); ++i) light.emplace_back(std::cos(i), std::cos(2 * i), std::cos(3 * i));
+    return light;
+}
+
+/// A matrix as sparse as that of arc moments in a tangent frame: functions odd across the grooves' plane drop out, and
+/// each row has the functions of one parity.
+math::FrameProjection some_projection(int bands) {
+    std::vector<double> matrix;
+    for (int row = 0; row < 2 * bands - 1; ++row)
+        for (int l = 0; l < bands; ++l)
+            for (int m = -l; m <= l; ++m) matrix.push_back(m >= 0 && m % 2 == row % 2 ? std::cos(row + l) : 0.0);
+    return {matrix, bands};
+}
+
+void rotate_slowly(State& state, int bands) {
+    const RandomFrames frames(kVertices);
+    const auto light = some_light(bands);
+    std::vector<glm::dvec3> rotated(light.size());
+    for (auto _ : state)
+        for (std::size_t i = 0; i < kVertices; ++i) {
+            const glm::dvec3 g(frames.tangent[0][i], frames.tangent[1][i], frames.tangent[2][i]);
+            const glm::dvec3 n(frames.normal[0][i], frames.normal[1][i], frames.normal[2][i]);
+            const glm::dmat3 rows = glm::transpose(glm::dmat3(g, glm::cross(n, g), n));
+            math::ShRotation(rows, bands).apply(std::span<const glm::dvec3>(light), rotated);
+            DoNotOptimize(rotated.data());
+        }
+    report_each(state, kVertices);
+}
+
+void rotate_fast(State& state, int bands, unsigned threads, math::InstructionSet set) {
+    const ThreadLimit limit(threads);
+    const RandomFrames frames(kVertices);
+    const auto light = some_light(bands);
+    std::vector<float> rotated(kVertices * light.size() * 3);
+    for (auto _ : state) {
+        math::rotate_to_frames(light, bands, frames.arrays(), rotated, set);
+        DoNotOptimize(rotated.data());
+    }
+    report_each(state, kVertices);
+}
+
+void project(State& state, int bands, unsigned threads, math::InstructionSet set) {
+    const ThreadLimit limit(threads);
+    const RandomFrames frames(kVertices);
+    const auto light = some_light(bands);
+    const math::FrameProjection projection = some_projection(bands);
+    std::vector<float> moments(kVertices * static_cast<std::size_t>(projection.rows()) * 3);
+    for (auto _ : state) {
+        math::rotate_and_project(light, frames.arrays(), projection, moments, set);
+        DoNotOptimize(moments.data());
+    }
+    report_each(state, kVertices);
+}
+
+/// Processor time where one thread does all the work: other programs on the machine disturb it less.
+template <typename F, typename... Arguments>
+void add(const std::string& name, unsigned threads, F function, Arguments... arguments) {
+    auto* benchmark =
+        ::benchmark::RegisterBenchmark((name + "/threads:" + std::to_string(threads)).c_str(), function, arguments...);
+    benchmark->Unit(::benchmark::kMillisecond);
+    if (threads > 1) benchmark->UseRealTime();
+}
+
+}  // namespace
+
+void register_frame_rotation() {
+    for (const int bands : {5, 11}) {
+        const std::string suffix = "/bands:" + std::to_string(bands);
+        add("vertex_light/double" + suffix, 1, rotate_slowly, bands);
+        for (const auto set : {math::InstructionSet::Baseline, math::InstructionSet::Avx2}) {
+            if (!math::is_supported(set)) continue;
+            const std::string path = std::string("/") + math::instruction_set_name(set) + suffix;
+            for (const unsigned threads : {1U, 2U}) {
+                add("vertex_light" + path, threads, rotate_fast, bands, threads, set);
+                add("vertex_moments" + path, threads, project, bands, threads, set);
+            }
+        }
     }
 }
 

@@ -6,10 +6,8 @@
 #include <string>
 
 #include "engine/scene/editable_gltf.h"
+#include "tests/support/files.h"
 #include "tests/support/program.h"
-#include "tests/support/source_tree.h"
-#include "tests/support/temporary_folder.h"
-#include "tests/support/test_data.h"
 
 namespace rowland {
 namespace {

@@ -13,6 +13,7 @@
 
 #include "engine/core/file.h"
 #include "tests/demo/demo_run.h"
+#include "tests/support/files.h"
 
 namespace rowland {
 namespace {
@@ -124,13 +125,14 @@ std::filesystem::path without_gratings(const std::filesystem::path& glb) {
 
 TEST(DemoCabinet, EveryGratingIsSeen) {
     const std::filesystem::path cooked = std::filesystem::path(ROWLAND_DEMO).parent_path() / "../cooked";
-    const std::filesystem::path cabinet = cooked / "cabinet.glb";
+    const std::filesystem::path cabinet = cooked / "cabinet.scene";
     const auto in_the_studio = [&](const std::string& name, const std::filesystem::path& scene) {
         const std::string probe = " --probe " + (cooked / "studio.probe").string();
         return test::render(name, "--scene " + scene.string() + probe, 320, 180);
     };
     const image::Image picture = in_the_studio("cabinet", cabinet);
-    const image::Image plain = in_the_studio("cabinet_plain", without_gratings(cabinet));
+    const image::Image plain =
+        in_the_studio("cabinet_plain", without_gratings(test::content_path("scenes/cabinet.glb")));
     ASSERT_EQ(picture.texels.size(), 320U * 180U);
     for (const glm::vec3& texel : picture.texels) {
         ASSERT_TRUE(std::isfinite(texel.r) && std::isfinite(texel.g) && std::isfinite(texel.b));

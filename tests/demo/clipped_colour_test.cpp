@@ -11,18 +11,19 @@
 #include <vector>
 
 #include "content/demo/camera_path.h"
-#include "content/demo/pixel/visible_points.h"
+#include "content/demo/pixel/surface_point.h"
 #include "content/demo/session.h"
-#include "engine/platform/headless_context.h"
-#include "engine/post/display_transform.h"
+#include "engine/platform/gl_context.h"
+#include "engine/post/display_pass.h"
 #include "engine/render/gpu_mesh.h"
 #include "engine/scene/transform.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
+#include "tests/demo/demo_session.h"
 
 namespace rowland {
 namespace {
 
-constexpr glm::ivec2 kSize{640, 360};
+constexpr glm::ivec2 kClippedSize{640, 360};
 constexpr int kPictures = 12;
 constexpr std::size_t kProbes = 4;
 
@@ -36,7 +37,7 @@ std::vector<bool> grating_pixels(demo::Session& session, const scene::Camera& ca
             is_grating.push_back(world.find<diffraction::DiffractionSurface>(entity) != nullptr);
         });
     std::vector<bool> found;
-    for (const auto& point : demo::visible_points(camera, kSize, meshes))
+    for (const auto& point : demo::visible_points(camera, kClippedSize, meshes))
         found.push_back(point && is_grating[point->mesh]);
     return found;
 }
@@ -51,13 +52,13 @@ struct Clipping {
 
 void count_clipped(const std::vector<glm::vec3>& shown, const std::vector<bool>& wanted, Clipping& found) {
     const auto clipped = [&](int column, int row, int channel) {
-        const float value = shown[static_cast<std::size_t>(row * kSize.x + column)][channel];
+        const float value = shown[static_cast<std::size_t>(row * kClippedSize.x + column)][channel];
         const long level = std::lround(255.0F * std::clamp(value, 0.0F, 1.0F));
         return level == 0 || level == 255;
     };
-    for (int row = 1; row + 1 < kSize.y; ++row)
-        for (int column = 1; column + 1 < kSize.x; ++column) {
-            if (!wanted[static_cast<std::size_t>(row * kSize.x + column)]) continue;
+    for (int row = 1; row + 1 < kClippedSize.y; ++row)
+        for (int column = 1; column + 1 < kClippedSize.x; ++column) {
+            if (!wanted[static_cast<std::size_t>(row * kClippedSize.x + column)]) continue;
             bool edge = false;
             for (int channel = 0; channel < 3; ++channel)
                 edge = edge || (clipped(column, row, channel) &&
@@ -70,13 +71,9 @@ void count_clipped(const std::vector<glm::vec3>& shown, const std::vector<bool>&
 
 TEST(ClippedColour, FewPixelsOfTheFlightsGratingsLieAtAnEdgeOfClipping) {
     const platform::HeadlessContext context;
-    demo::Options options;
-    options.watch = false;
-    options.content_folder = std::filesystem::path(ROWLAND_SOURCE_TREE) / "content";
-    options.cooked_folder = std::filesystem::path(ROWLAND_DEMO).parent_path().parent_path() / "cooked";
-    options.scene = options.cooked_folder / "cabinet.glb";
+    const demo::Options options = test::cabinet_options();
     const post::OcioConfig config = post::OcioConfig::shipped();
-    demo::Session session(options, config, kSize, kSize, demo::Pace::Still);
+    demo::Session session(options, config, kClippedSize, kClippedSize, demo::Pace::Still);
     std::vector<std::filesystem::path> probes = demo::probe_paths(options);
     probes.resize(std::min(probes.size(), kProbes));
 

@@ -12,7 +12,7 @@
 
 #include "engine/core/file.h"
 #include "tests/demo/demo_run.h"
-#include "tests/support/test_data.h"
+#include "tests/support/files.h"
 
 namespace rowland {
 namespace {
@@ -132,6 +132,7 @@ TEST(Demo, TheBenchmarkNamesEveryPassAndOrdersItsPercentiles) {
     }
     EXPECT_THAT(names, testing::IsSupersetOf({"opaque", "sky", "bloom", "display"}));
     EXPECT_EQ(report.at("drawn").get<int>() + report.at("culled").get<int>(), 4);
+    EXPECT_EQ(report.at("baked"), 0);
 }
 
 TEST(Demo, TheBenchmarkListsOnlyPassesThatRun) {

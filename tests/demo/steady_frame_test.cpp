@@ -7,49 +7,44 @@
 #include <optional>
 #include <vector>
 
-#include "content/demo/play/play_clock.h"
+#include "content/demo/play/recording.h"
 #include "content/demo/session.h"
-#include "engine/gpu/debug.h"
-#include "engine/platform/headless_context.h"
+#include "engine/gpu/context.h"
+#include "engine/platform/gl_context.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
+#include "tests/demo/demo_session.h"
 #include "tests/gpu/call_counts.h"
 
 namespace rowland {
 namespace {
 
 using demo::PlayEvent;
+using test::button;
+using test::mouse;
 
-constexpr glm::ivec2 kSize{96, 54};
-constexpr int kFramesPerSecond = 30;
-
-PlayEvent mouse(double x, double y) {
-    return platform::InputEvent(platform::MouseMoveEvent{{x, y}});
-}
-PlayEvent button(bool down) {
-    return platform::InputEvent(platform::MouseButtonEvent{platform::MouseButton::Left, down});
-}
+constexpr glm::ivec2 kSteadySize{96, 54};
+constexpr int kSteadyFramesPerSecond = 30;
 
 class SteadyFrame : public testing::Test {
  protected:
     SteadyFrame() {
         gpu::enable_debug_output(true);
-        options_.watch = false;
         options_.sun = true;
         options_.auto_exposure = true;
         options_.bloom = 0.05F;
         options_.dither = true;
-        options_.content_folder = std::filesystem::path(ROWLAND_SOURCE_TREE) / "content";
         options_.glare = options_.content_folder / "materials/screen_door.json";
-        options_.cooked_folder = std::filesystem::path(ROWLAND_DEMO).parent_path().parent_path() / "cooked";
     }
 
     void open() {
-        session_.emplace(options_, post::OcioConfig::choose(std::nullopt), kSize, kSize, demo::Pace::Fluent);
+        session_.emplace(options_, post::OcioConfig::choose(std::nullopt), kSteadySize, kSteadySize,
+                         demo::Pace::Fluent);
     }
     void frame(std::vector<PlayEvent> events = {}) {
-        clock_.live(session_->play(), std::chrono::milliseconds(1000 / kFramesPerSecond), std::move(events), nullptr);
+        clock_.live(session_->play(), std::chrono::milliseconds(1000 / kSteadyFramesPerSecond), std::move(events),
+                    nullptr);
         session_->carry_out();
-        session_->draw(1.0F / kFramesPerSecond);
+        session_->draw(1.0F / kSteadyFramesPerSecond);
     }
     /// The first frame links all programs and shows coarse maps.
     void load() {
@@ -72,13 +67,13 @@ class SteadyFrame : public testing::Test {
     }
 
     platform::HeadlessContext context_{{.debug = true}};
-    demo::Options options_;
+    demo::Options options_ = test::session_options();
     std::optional<demo::Session> session_;
     demo::PlayClock clock_;
 };
 
 TEST_F(SteadyFrame, OfTheCabinetNeitherWaitsNorMakesAnything) {
-    options_.scene = options_.cooked_folder / "cabinet.glb";
+    options_.scene = options_.cooked_folder / "cabinet.scene";
     open();
     load();
     test::CallCounts calls;

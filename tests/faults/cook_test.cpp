@@ -11,8 +11,8 @@
 #include "engine/core/file.h"
 #include "tests/faults/moments.h"
 #include "tests/faults/small_disk.h"
+#include "tests/support/files.h"
 #include "tests/support/program.h"
-#include "tests/support/temporary_folder.h"
 
 namespace rowland {
 namespace {

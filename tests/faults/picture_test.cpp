@@ -9,9 +9,8 @@
 
 #include "engine/core/file.h"
 #include "tests/faults/small_disk.h"
+#include "tests/support/files.h"
 #include "tests/support/program.h"
-#include "tests/support/source_tree.h"
-#include "tests/support/temporary_folder.h"
 #include "tests/support/virtual_display.h"
 
 namespace rowland {

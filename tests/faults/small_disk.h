@@ -1,12 +1,15 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <sys/mount.h>
+#include <sys/statvfs.h>
 
 #include <filesystem>
-#include <optional>
+#include <fstream>
+#include <stdexcept>
 #include <string>
 
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 
 namespace rowland::test {
 
@@ -14,17 +17,31 @@ namespace rowland::test {
 class SmallDisk {
  public:
     /// Mounts nothing, and says so by mounted(), where mounting is not allowed.
-    explicit SmallDisk(std::size_t kilobytes);
-    ~SmallDisk();
+    explicit SmallDisk(std::size_t kilobytes) {
+        const std::string options = "size=" + std::to_string(kilobytes) + "k";
+        mounted_ = ::mount("rowland-test", path().c_str(), "tmpfs", MS_NOSUID | MS_NODEV, options.c_str()) == 0;
+    }
+    ~SmallDisk() {
+        if (mounted_) ::umount2(path().c_str(), MNT_DETACH);
+    }
     SmallDisk(const SmallDisk&) = delete;
     SmallDisk& operator=(const SmallDisk&) = delete;
 
     bool mounted() const { return mounted_; }
     const std::filesystem::path& path() const { return folder_.path(); }
     /// Leaves about so many kilobytes free.
-    void fill_but(std::size_t kilobytes) const;
-    void free_again() const;
-    void make_read_only() const;
+    void fill_but(std::size_t kilobytes) const {
+        struct statvfs state = {};
+        if (::statvfs(path().c_str(), &state) != 0) throw std::runtime_error("cannot look at " + path().string());
+        const std::size_t free = state.f_bavail * state.f_frsize;
+        if (free < 1024 * kilobytes) throw std::runtime_error("there is less room than that");
+        std::ofstream(path() / "filling") << std::string(free - 1024 * kilobytes, 'x');
+    }
+    void free_again() const { std::filesystem::remove(path() / "filling"); }
+    void make_read_only() const {
+        if (::mount(nullptr, path().c_str(), nullptr, MS_REMOUNT | MS_RDONLY | MS_NOSUID | MS_NODEV, nullptr) != 0)
+            throw std::runtime_error("cannot remount " + path().string());
+    }
 
  private:
     TemporaryFolder folder_;

@@ -8,9 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/files.h"
 #include "tests/support/program.h"
-#include "tests/support/source_tree.h"
-#include "tests/support/test_data.h"
 
 namespace rowland::fuzz {
 namespace {

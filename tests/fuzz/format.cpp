@@ -22,14 +22,12 @@
 #include "engine/scene/draco_decode.h"
 #include "engine/scene/editable_gltf.h"
 #include "engine/scene/gltf_import.h"
-#include "engine/scene/memory_budget.h"
+#include "engine/scene/gltf_source.h"
 #include "engine/scene/mesh_recipe.h"
-#include "engine/scene/scene_recipe.h"
 #include "modules/diffraction/asset/cooked_material.h"
-#include "modules/diffraction/asset/efficiency_csv.h"
 #include "modules/diffraction/asset/gltf_extension.h"
-#include "modules/diffraction/asset/material_json.h"
-#include "modules/thin_film/asset/cooked_film.h"
+#include "modules/diffraction/asset/material.h"
+#include "modules/thin_film/asset/film_material.h"
 #include "modules/thin_film/asset/gltf_iridescence.h"
 #include "tests/fuzz/sane_scene.h"
 
@@ -136,10 +134,6 @@ void read_mesh_recipe(std::span<const std::byte> bytes) {
     scene::parse_mesh_recipe(parse_json(text(bytes), "input.json"), "input.json");
 }
 
-void read_scene_recipe(std::span<const std::byte> bytes) {
-    scene::parse_scene_recipe(parse_json(text(bytes), "input.json"), "input.json");
-}
-
 void read_recording(std::span<const std::byte> bytes) {
     const demo::Recording recording = demo::parse_recording(std::string(text(bytes)), "input.jsonl");
     for (const demo::Recording::Step& step : recording.steps) ROWLAND_CHECK_OP(step.step, <, recording.step_count);
@@ -197,7 +191,6 @@ const std::vector<Format>& formats() {
         {"iridescence", read_iridescence, {}},
         {"probe-recipe", read_probe_recipe, {".json"}},
         {"mesh-recipe", read_mesh_recipe, {".json"}},
-        {"scene-recipe", read_scene_recipe, {".json"}},
         {"efficiency", read_efficiency, {".csv"}},
         {"illuminant", read_illuminant, {".csv"}},
         {"recording", read_recording, {".jsonl"}},

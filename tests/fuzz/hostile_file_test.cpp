@@ -34,7 +34,7 @@ constexpr bool kSanitized = false;
 #endif
 
 /// How many mutations of its seeds a format is fed: ROWLAND_MUTATIONS of them, or as many as take ROWLAND_FUZZ_SECONDS;
-/// by default 600, or with ROWLAND_TEST_ALL as many as take 20 s.
+/// by default 600, or with ROWLAND_TEST_ALL as many as take 5 s.
 class Allowance {
  public:
     Allowance() {
@@ -45,7 +45,7 @@ class Allowance {
         else if (seconds != nullptr)
             until(std::max(1, std::atoi(seconds)));
         else if (std::getenv("ROWLAND_TEST_ALL") != nullptr)
-            until(20);
+            until(5);
     }
     bool allows(int mutation) const {
         return end_ ? mutation < kFewest || steady_clock::now() < *end_ : mutation < count_;

@@ -14,13 +14,11 @@
 #include "engine/image/exr.h"
 #include "engine/lighting/light_probe.h"
 #include "engine/lighting/probe_recipe.h"
-#include "engine/scene/draco_encode.h"
+#include "engine/scene/glb_write.h"
 #include "engine/scene/mesh_recipe.h"
 #include "modules/diffraction/asset/cooked_material.h"
-#include "modules/thin_film/asset/cooked_film.h"
-#include "tests/support/source_tree.h"
-#include "tests/support/temporary_folder.h"
-#include "tests/support/test_data.h"
+#include "modules/thin_film/asset/film_material.h"
+#include "tests/support/files.h"
 
 namespace rowland::fuzz {
 
@@ -28,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kLargestSeed = 3 << 20;
+constexpr std::uint64_t kLargestSeed = 2 << 20;
 
 std::vector<fs::path> folders() {
     std::vector<fs::path> result{test::source_path("content")};

@@ -21,8 +21,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/image/byte_image.h"
 #include "engine/image/exr.h"
-#include "engine/image/png.h"
 
 namespace rowland {
 namespace {

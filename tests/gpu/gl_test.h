@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/gpu/debug.h"
-#include "engine/gpu/full_screen_pass.h"
+#include "engine/gpu/context.h"
+#include "engine/gpu/framebuffer.h"
 #include "engine/gpu/program.h"
 #include "engine/gpu/shader_library.h"
-#include "engine/platform/headless_context.h"
+#include "engine/platform/gl_context.h"
 #include "tests/support/eight_bit_filtering.h"
 
 namespace rowland::test {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/colour/working_space.h"
+#include "engine/colour/colour_space.h"
 #include "engine/lighting/light_probe.h"
 #include "engine/lighting/probe_image.h"
 #include "engine/render/gpu_mesh.h"

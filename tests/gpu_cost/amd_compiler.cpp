@@ -57,7 +57,7 @@ vk::raii::DescriptorSetLayout make_set_layout(const vk::raii::Device& device) {
     return {device, vk::DescriptorSetLayoutCreateInfo({}, bindings)};
 }
 
-/// As engine/render/shaders/forward_vertex_interface.glsl.
+/// As engine/render/shaders/vertex_input.glsl.
 constexpr std::array kAttributes{vk::Format::eR32G32B32Sfloat,    vk::Format::eR32G32B32Sfloat,
                                  vk::Format::eR32G32B32A32Sfloat, vk::Format::eR32G32Sfloat,
                                  vk::Format::eR32G32Sfloat,       vk::Format::eR32G32B32A32Sfloat,

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tests/support/message_of.h"
+#include "tests/support/expect.h"
 
 namespace rowland::gpu_cost {
 namespace {

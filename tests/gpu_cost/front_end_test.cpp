@@ -2,17 +2,20 @@
 // end.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "engine/core/file.h"
-#include "engine/render/surface_features.h"
+#include "engine/render/surface_programs.h"
 #include "tests/gpu_cost/captured_frames.h"
+#include "tests/support/files.h"
 #include "tests/support/program.h"
-#include "tests/support/temporary_folder.h"
 
 namespace rowland::gpu_cost {
 namespace {
@@ -49,18 +52,21 @@ class FrontEnd : public testing::Test {
         if (!messages_of({"--version"}, ".")) GTEST_SKIP() << "needs glslangValidator (Debian: glslang-tools)";
     }
 
-    /// Expects no message on any stage alone, or on two linked.
+    /// Expects no message on any program of a folder. Equal programs are compiled once.
     static void check(const std::filesystem::path& folder) {
-        test::Command stages;
-        for (const auto& entry : std::filesystem::directory_iterator(folder))
-            if (entry.path().extension() != ".json") stages.push_back(entry.path().filename());
-        EXPECT_GT(stages.size(), 10U);
-        EXPECT_EQ(messages_of(stages, folder), "");
-        for (const std::string& stage : stages) {
-            if (!stage.ends_with(".vert")) continue;
-            const std::string name = stage.substr(0, stage.size() - 5);
-            EXPECT_EQ(messages_of({"-l", stage, name + ".frag"}, folder), "") << name;
+        std::set<std::string> texts;
+        for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+            const std::string name = entry.path().stem();
+            if (entry.path().extension() == ".comp") {
+                EXPECT_EQ(messages_of({name + ".comp"}, folder), "") << name;
+            }
+            if (entry.path().extension() != ".vert") continue;
+            const auto text = [&](const char* stage) { return read_text_file(folder / (name + stage), 1 << 24); };
+            if (texts.insert(text(".vert") + text(".frag")).second) {
+                EXPECT_EQ(messages_of({"-l", name + ".vert", name + ".frag"}, folder), "") << name;
+            }
         }
+        EXPECT_GT(texts.size(), 5U);
     }
 
     /// Expects no message on the frames' programs with `features` added.
@@ -74,30 +80,25 @@ class FrontEnd : public testing::Test {
         }
         check(folder.path());
     }
-
-    const test::TemporaryFolder captured_;
 };
 
-TEST_F(FrontEnd, HasNothingToSayOfAnyProgram) {
-    capture_programs(captured_.path(), {});
-    check(captured_.path());
-}
-
-TEST_F(FrontEnd, HasNothingToSayOfAFeatureInTheProgramsOfPlanes) {
-    capture_programs(captured_.path(), {"planar*"});
-    const std::vector<CapturedFrame> frames = read_frames(captured_.path());
+/// All programs as they are, those of planes with each feature by itself, and all with all features but lights, with
+/// which a material defines more than they.
+TEST_F(FrontEnd, HasNothingToSayOfAnyProgramNorOfItsFeatures) {
+    const test::TemporaryFolder captured;
+    capture_programs(captured.path(), {});
+    check(captured.path());
+    const std::vector<CapturedFrame> frames = read_frames(captured.path());
+    constexpr SurfaceFeatures second_uv = feature::kNormalMap << feature::kSecondUvShift;
+    check_with(~(feature::kUnlit | feature::kLights | second_uv), frames);
+    std::vector<CapturedFrame> planes;
+    std::ranges::copy_if(frames, std::back_inserter(planes),
+                         [](const CapturedFrame& frame) { return frame.name.starts_with("planar"); });
     for (unsigned bit = 0; bit < 26; ++bit) {
         SCOPED_TRACE("feature " + std::to_string(bit));
         const SurfaceFeatures one = 1U << bit;
-        if (!render::defines_of(one).empty()) check_with(one, frames);
+        if (!render::defines_of(one).empty()) check_with(one, planes);
     }
-}
-
-// Lights are left out: with them a material defines more than they.
-TEST_F(FrontEnd, HasNothingToSayOfAllFeaturesTogether) {
-    capture_programs(captured_.path(), {});
-    constexpr SurfaceFeatures second_uv = feature::kNormalMap << feature::kSecondUvShift;
-    check_with(~(feature::kUnlit | feature::kLights | second_uv), read_frames(captured_.path()));
 }
 
 TEST_F(FrontEnd, AnUndeclaredNameIsSaid) {

@@ -9,13 +9,13 @@
 
 #include "engine/command_line/command_line.h"
 #include "engine/core/file.h"
+#include "engine/core/log.h"
 #include "engine/core/program.h"
-#include "engine/core/progress.h"
 #include "tests/gpu_cost/amd_compiler.h"
 #include "tests/gpu_cost/captured_frames.h"
 #include "tests/gpu_cost/cost_table.h"
 #include "tests/gpu_cost/spirv.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 
 namespace rowland {
 namespace {

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/core/file.h"
+#include "tests/support/files.h"
 #include "tests/support/program.h"
-#include "tests/support/temporary_folder.h"
 
 namespace rowland::gpu_cost {
 namespace {

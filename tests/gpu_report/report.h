@@ -1,12 +1,31 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "tests/gpu_report/test_results.h"
-
 namespace rowland::gpu_report {
+
+/// A test that failed, with the worst of what it compared: "0.0043, allowed 0.002", or what else it said.
+struct FailedTest {
+    std::string name;
+    std::string worst;
+};
+
+/// The results of a program of tests.
+struct TestResults {
+    std::string program;
+    int passed = 0;
+    int skipped = 0;
+    std::vector<FailedTest> failed;
+    /// Largest difference between a picture and the CPU's, over its brightest component, of the tests that passed.
+    std::optional<double> largest_difference;
+    bool ended_early = false;  ///< it wrote no results
+};
+
+/// From GoogleTest's JSON output; nullopt: there is none.
+TestResults results_of(const std::string& program, const std::optional<std::string>& json);
 
 /// What was drawn at one size.
 struct TimedSize {

@@ -1,4 +1,4 @@
-// Installs into a fresh prefix, and builds and runs the examples of content/examples against it.
+// Installs into a fresh prefix, and builds and runs the examples of content/examples against it; the pages about them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,20 +11,24 @@
 #include <cstdlib>
 #include <filesystem>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "engine/core/file.h"
-#include "engine/core/number_table.h"
+#include "engine/core/text.h"
+#include "engine/image/byte_image.h"
 #include "engine/image/exr.h"
-#include "engine/image/png_decode.h"
+#include "engine/scene/mesh_recipe.h"
 #include "modules/diffraction/asset/cooked_material.h"
-#include "modules/diffraction/bake/blurred_kernel.h"
+#include "modules/diffraction/bake/kernel_cells.h"
 #include "modules/diffraction/representations/direct/direct.h"
+#include "tests/support/files.h"
 #include "tests/support/program.h"
-#include "tests/support/source_tree.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/unit/engine/scene/hand_written_gltf.h"
 
 namespace rowland {
 namespace {
@@ -115,15 +119,27 @@ class PackageTest : public testing::Test {
     /// A plane seen from above, black but for what `extensions` put on it, drawn by the engine example: the picture's
     /// middle.
     glm::ivec3 middle_of_card(const std::string& program, const std::string& extensions) const {
-        write_file_atomic(path("card.json"), R"({ "scene": {
-            "materials": [{ "name": "foil", "color": [0, 0, 0], "extensions": )" +
-                                                 extensions + R"( }],
-            "meshes": [{ "name": "card", "parts": [
-                { "shape": { "type": "plane", "size": [1, 1] }, "material": "foil" }] }],
-            "cameras": [{ "name": "lens", "vertical_field_of_view_deg": 30 }],
-            "nodes": [{ "name": "card", "mesh": "card" },
-                      { "name": "view", "translation": [0.4, 1, 1], "look_at": [0, 0, 0], "camera": "lens" }] } })");
-        run({ROWLAND_COOK, "cook", path("card.json"), "-o", path("card.glb")});
+        const glm::vec3 eye(0.4F, 1.0F, 1.0F);
+        const glm::quat toward = glm::quatLookAt(-glm::normalize(eye), glm::vec3(0.0F, 1.0F, 0.0F));
+        nlohmann::json file = {
+            {"asset", {{"version", "2.0"}}},
+            {"scenes", {{{"nodes", {0, 1}}}}},
+            {"cameras", {{{"type", "perspective"}, {"perspective", {{"yfov", 0.52}, {"znear", 0.01}}}}}},
+            {"nodes",
+             {{{"name", "card"}, {"mesh", 0}},
+              {{"name", "view"},
+               {"camera", 0},
+               {"translation", {eye.x, eye.y, eye.z}},
+               {"rotation", {toward.x, toward.y, toward.z, toward.w}}}}},
+            {"materials",
+             {{{"name", "foil"},
+               {"pbrMetallicRoughness", {{"baseColorFactor", {0, 0, 0, 1}}, {"metallicFactor", 0}}},
+               {"extensions", nlohmann::json::parse(extensions)}}}}};
+        nlohmann::json primitive =
+            scene::test::primitive_of(file, scene::build_mesh(scene::PlaneRecipe{.width = 1.0, .depth = 1.0}));
+        primitive["material"] = 0;
+        file["meshes"] = {{{"name", "card"}, {"primitives", {primitive}}}};
+        write_file_atomic(path("card.glb"), scene::test::glb_of(file));
         run({program, path("card.glb"), path("probe.exr"), path("card.png")});
         const auto picture = image::decode_png(read_file(path("card.png"), std::uint64_t{1} << 24), "card.png");
         const auto middle = static_cast<std::size_t>(4 * (picture.height / 2 * picture.width + picture.width / 2));
@@ -226,6 +242,48 @@ TEST_F(PackageTest, ARuntimeThatIsNotInstalledIsSaid) {
     const auto configured = configure(test::content_path("examples/engine_scene").string());
     EXPECT_NE(configured.code, 0);
     EXPECT_THAT(configured.err, testing::HasSubstr("runtime"));
+}
+
+/// The comments of what is installed, as Doxygen reads them.
+TEST(ApiReference, IsMadeWithoutAWarning) {
+    if (test::run({"/bin/sh", "-c", "command -v doxygen"}).code != 0) GTEST_SKIP() << "no doxygen";
+    const test::TemporaryFolder folder;
+    const std::string command = "cd '" + test::source_path("").string() +
+                                "' && (cat content/api/Doxyfile; echo 'OUTPUT_DIRECTORY = " + folder.path().string() +
+                                "') | doxygen -";
+    const test::Ended result = test::run({"/bin/sh", "-c", command});
+    EXPECT_EQ(result.code, 0) << result.out;
+    EXPECT_EQ(result.err, "");
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "html" / "index.html"));
+}
+
+constexpr std::uint64_t kMostBytes = 1 << 20;
+
+/// All files of a folder, one after the other.
+std::string source_of(const char* folder) {
+    std::string text;
+    for (const auto& entry : std::filesystem::directory_iterator(test::content_path(folder)))
+        if (entry.is_regular_file()) text += read_text_file(entry.path(), kMostBytes);
+    return text;
+}
+
+/// The page that explains how to port shows the code of its examples as it is: C++ and GLSL of bare_gl, TypeScript of
+/// the package for three.js.
+TEST(PortingPage, EveryLineOfItsCodeIsTheExamples) {
+    const std::string bare_gl = source_of("examples/bare_gl");
+    const std::string three = source_of("web/three/src");
+    std::istringstream page(read_text_file(test::source_path("modules/diffraction/PORTING.md"), kMostBytes));
+    const std::string* source = nullptr;  // of the code that the line is of
+    int lines = 0;
+    for (std::string line; std::getline(page, line);) {
+        if (line.starts_with("```")) {
+            source = line == "```cpp" || line == "```glsl" ? &bare_gl : line == "```ts" ? &three : nullptr;
+        } else if (source != nullptr && !line.empty()) {
+            EXPECT_NE(source->find(line + "\n"), std::string::npos) << line;
+            ++lines;
+        }
+    }
+    EXPECT_GT(lines, 30);
 }
 
 }  // namespace

@@ -18,9 +18,9 @@
 #include <vector>
 
 #include "engine/lighting/sh_light.h"
-#include "engine/math/sh_basis.h"
+#include "engine/math/spherical_harmonics.h"
+#include "modules/diffraction/model/brdf.h"
 #include "modules/diffraction/model/grating.h"
-#include "modules/diffraction/model/grating_equation.h"
 
 // What the properties are tried on: values over many decades, with the edges of their ranges among them.
 
@@ -274,6 +274,10 @@ inline bool is_finite(const glm::dvec3& v) {
 
 inline bool is_finite(const glm::dmat3& m) {
     return is_finite(m[0]) && is_finite(m[1]) && is_finite(m[2]);
+}
+
+inline bool is_finite_and_not_negative(const glm::dvec3& v) {
+    return is_finite(v) && v.x >= 0.0 && v.y >= 0.0 && v.z >= 0.0;
 }
 
 inline double largest(const glm::dvec3& v) {

@@ -4,8 +4,8 @@
 
 #include <string>
 
+#include "tests/support/files.h"
 #include "tests/support/program.h"
-#include "tests/support/test_data.h"
 
 namespace rowland::test {
 

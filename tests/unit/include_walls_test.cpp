@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/source_tree.h"
+#include "tests/support/files.h"
 
 namespace rowland {
 namespace {
@@ -35,6 +35,8 @@ std::vector<Wall> walls() {
         {"modules/diffraction/bake/", with_graphics({"modules/diffraction/reference/"})},
         {"modules/diffraction/asset/", with_graphics({"modules/diffraction/reference/"})},
         {"modules/diffraction/evaluate/", kGraphics},
+        {"modules/diffraction/representations/",
+         with_graphics({"modules/diffraction/runtime/", "modules/diffraction/reference/"})},
         {"modules/diffraction/portable/", with_graphics({"modules/diffraction/reference/"})},
         {"modules/diffraction/runtime/", {"modules/diffraction/reference/", "modules/diffraction/evaluate/"}},
         {"modules/thin_film/", {"modules/diffraction/"}},

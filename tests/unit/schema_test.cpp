@@ -1,28 +1,123 @@
-// The JSON Schemas of materials say what the parsers do: thousands of small changes to good documents, each judged by
-// both.
+// A schema is recorded from its parser, so it says what the parser does: thousands of small changes to good documents,
+// each judged by both.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/colour/illuminant.h"
+#include "engine/core/error.h"
 #include "engine/core/file.h"
+#include "engine/core/json_schema.h"
+#include "engine/lighting/probe_recipe.h"
+#include "engine/scene/gltf_import.h"
+#include "engine/scene/mesh_recipe.h"
+#include "modules/asset_types.h"
 #include "modules/diffraction/asset/gltf_extension.h"
-#include "modules/diffraction/asset/height_map_png.h"
-#include "modules/diffraction/asset/material_json.h"
 #include "modules/thin_film/asset/film_material.h"
-#include "tests/support/temporary_folder.h"
-#include "tests/unit/schema_agreement.h"
+#include "tests/support/files.h"
+#include "tests/support/json_schema.h"
 
 namespace rowland {
 namespace {
 
 using nlohmann::json;
-using test::expect_agreement;
-using test::read_source;
+using Documents = std::vector<json>;
+
+json read_source(const std::string& path) {
+    return parse_json(read_text_file(test::source_path(path), 1 << 20), path);
+}
+
+/// What `rowland-cook schema` prints.
+json schema_of(const std::string& name) {
+    const auto registry = modules::asset_types();
+    for (const cook::GltfExtension& extension : registry->gltf_extensions())
+        if (extension.name == name) return extension.schema();
+    return registry->find(name)->schema();
+}
+
+/// Every document that differs from `document` in one member, which is removed, added or replaced.
+Documents neighbours(const json& document) {
+    static const Documents replacements = {nullptr, true, "", "x", "flat", "all", json::array(), json::object(), -1,
+                                           0,       1,    2,  3.5, 64,     1e4,   1e12,          -1e12};
+    Documents result;
+    const json leaves = document.flatten();
+    for (const auto& [pointer, value] : leaves.items()) {
+        for (json::json_pointer location(pointer); !location.empty(); location = location.parent_pointer()) {
+            const auto with = [&](const std::function<void(json&)>& change) {
+                json copy = document;
+                change(copy);
+                result.push_back(std::move(copy));
+            };
+            for (const json& replacement : replacements) with([&](json& copy) { copy[location] = replacement; });
+            if (document[location.parent_pointer()].is_object()) {
+                with([&](json& copy) { copy[location.parent_pointer()].erase(location.back()); });
+                with([&](json& copy) { copy[location.parent_pointer()]["unknown"] = 1; });
+            }
+        }
+    }
+    return result;
+}
+
+/// Expects that a schema allows what the parser takes. `beyond`: what a schema cannot say, because it compares two
+/// members; the parser alone refuses it.
+void expect_agreement(const json& schema, const Documents& documents, const std::function<void(const json&)>& parse,
+                      const std::function<bool(const json&)>& beyond) {
+    std::size_t accepted = 0;
+    std::size_t refused = 0;
+    for (const json& document : documents) {
+        ASSERT_TRUE(test::satisfies(document, schema)) << document;
+        ASSERT_NO_THROW(parse(document)) << document;
+        for (const json& changed : neighbours(document)) {
+            bool parsed = true;
+            try {
+                parse(changed);
+            } catch (const Error&) {
+                parsed = false;
+            }
+            const bool allowed = test::satisfies(changed, schema);
+            const bool excused = allowed && !parsed && beyond(changed);
+            EXPECT_TRUE(parsed == allowed || excused) << (parsed ? "only parsed: " : "only allowed: ") << changed;
+            (parsed ? accepted : refused) += 1;
+        }
+    }
+    EXPECT_GT(accepted, 20U);
+    EXPECT_GT(refused, 100U);
+}
+
+TEST(Schema, IsWhatAParserAsks) {
+    const auto parse = [](JsonReader& reader) {
+        reader.alternatives(
+            "lamp",
+            [](JsonReader& lamp) {
+                lamp.choice("lamp", {"A", "B"});
+            },
+            [](JsonReader& mirror) { mirror.number("angle", kFraction); });
+        reader.variant("type", {"one", "many"}, [](JsonReader& member, std::size_t type) {
+            for (JsonReader& part : member.objects("parts", 1, type == 0 ? 1 : 9)) {
+                part.numbers_or("size", {1.0, 1.0}, kPositive);
+                part.finish();
+            }
+        });
+        reader.ignore("extras");
+        reader.finish();
+    };
+    const json schema = json_schema("Test", parse);
+    const auto allowed = [&](const char* text) { return test::satisfies(json::parse(text), schema); };
+    EXPECT_TRUE(allowed(R"({"lamp": "A", "type": "one", "parts": [{}], "extras": 3})"));
+    EXPECT_TRUE(allowed(R"({"angle": 0.5, "type": "many", "parts": [{"size": [1, 2]}, {}]})"));
+    for (const char* text : {R"({"lamp": "C", "type": "one", "parts": [{}]})", R"({"type": "one", "parts": [{}]})",
+                             R"({"angle": 1.5, "type": "one", "parts": [{}]})",
+                             R"({"lamp": "A", "angle": 0.5, "type": "one", "parts": [{}]})",
+                             R"({"angle": 1, "type": "one", "parts": [{}, {}]})",
+                             R"({"angle": 1, "type": "many", "parts": [{"size": [1]}]})",
+                             R"({"angle": 1, "type": "many", "parts": [], "more": 1})"})
+        EXPECT_FALSE(allowed(text)) << text;
+}
 
 /// Whatever a material calls its table; its lamp is lamp.csv.
 diffraction::NamedText read_one_table(const std::string& name) {
@@ -48,7 +143,7 @@ bool crosses_quality(const json& document) {
     const bool narrow = !flat && document["grating"]["groove_lobe"].value("/pits/coherent"_json_pointer, 1.0) > 0.0;
     const bool streak = name == "streak" && !narrow;
     const int bands = quality.value("bands", 5);
-    const bool layers = quality.value("spikes", quality.value("bins", 1)) * (bands * bands + 4) / 4 > 2048;
+    const bool layers = quality.value("spikes", 1) * (bands * bands + 4) / 4 > 2048;
     return view || map || layers || streak;
 }
 
@@ -109,7 +204,7 @@ TEST(Schema, OfMaterialsAgreesWithTheParser) {
         return json::parse(R"({"grating": {"lattice": {"a_nm": [900, 10], "b_nm": [-100, 2000]}, "profile": )" +
                            profile + rest);
     };
-    const std::vector<json> documents = {
+    const Documents documents = {
         cell(R"({"type": "aperture", "width_nm": 500, "height_nm": 600})", R"(, "orders": 3}})"),
         cell(R"({"type": "height_map", "file": "cell.png", "depth_nm": 100})", R"(}, "cover": {"ior": 1.5}})"),
         cell(
@@ -130,7 +225,6 @@ TEST(Schema, OfMaterialsAgreesWithTheParser) {
         material(R"({"type": "sinusoidal", "depth_nm": 90})",
                  R"(, "groove_lobe": {"pits": {"length_nm": 850, "coherent": 0.3}}}})"),
         pinned(R"({"representation": "spikes", "spikes": 8, "view_mapping": "parabolic", "key_lights": 64})"),
-        pinned(R"({"representation": "bins", "bins": 9, "bands": 4, "view_resolution": 20, "storage": "unorm8"})"),
         pinned(R"({"representation": "transfer", "bands": 3, "view_mapping": "spherical", "max_error": 0.2})"),
         pinned(
             R"({"representation": "arc", "bands": 6, "rank": 12, "storage": "fp32", "key_lights": 0, "illuminant": "A"})"),
@@ -140,57 +234,84 @@ TEST(Schema, OfMaterialsAgreesWithTheParser) {
         material(R"({"type": "slit", "width_nm": 700}, "groove_lobe": {"sigma": 0.1}})",
                  R"(, "quality": {"representation": "streak", "map_resolution": 160, "bands": 4, "rank": 6}})")};
     expect_agreement(
-        read_source("modules/diffraction/asset/material.schema.json"), documents,
+        schema_of("material"), documents,
         [](const json& document) { diffraction::parse_material(document, "test", read_one_table); }, crosses_members);
 }
 
-/// The extension is a definition of the material's schema, so that both share the grating's.
 TEST(Schema, OfTheGltfExtensionAgreesWithTheParser) {
     const test::TemporaryFolder folder;
     write_file_atomic(folder.path() / "t.csv", read_one_table("t.csv").text);
-    json schema = {{"$ref", "#/$defs/ROWLAND_materials_diffraction"}};
-    schema["$defs"] = read_source("modules/diffraction/asset/material.schema.json")["$defs"];
-    const std::vector<json> documents = {
+    const Documents documents = {
         json::parse(R"({"grating": {"pitch_nm": 1600, "profile": {"type": "slit", "width_nm": 600}},
                         "grooveRotation": 1.5, "grooveTexture": {"index": 2, "texCoord": 1}, "metal": "Cu",
                         "cover": {"ior": 1.49}})"),
         json::parse(R"({"grating": {"pitch_nm": 740, "profile": {"type": "table", "file": "t.csv"}},
                         "grooveTexture": {"index": 0, "sparkle": true, "extras": {}}, "extras": [1], "extensions": {"X": 1}})")};
     expect_agreement(
-        schema, documents,
+        schema_of(diffraction::kGltfExtension), documents,
         [&](const json& document) { diffraction::parse_gltf_extension(document, "test", folder.path()); },
         [](const json& document) { return crosses_members(document) || names_another_file(document); });
 }
 
 TEST(Schema, OfFilmsAgreesWithTheParser) {
-    const std::vector<json> documents = {
+    const Documents documents = {
         json::parse(R"({"film": {"ior": 1.33, "k": 0.1, "thickness_nm": 400}, "base": {"ior": 1.5, "k": 2},
                         "roughness": 0.3, "illuminant": "F11"})"),
         json::parse(
             R"({"film": [{"ior": 1.4, "thickness_nm": 90}, {"ior": 2.3, "thickness_nm": 60}], "metal": "Au"})")};
     expect_agreement(
-        read_source("modules/thin_film/asset/film.schema.json"), documents,
-        [](const json& document) { thin_film::parse_film_material(document, "test"); },
+        schema_of("film"), documents, [](const json& document) { thin_film::parse_film_material(document, "test"); },
         [](const json&) { return false; });
 }
 
 TEST(Schema, GratingsOfTheShippedSceneAreOnesTheModuleReads) {
-    const json recipe = read_source("content/scenes/cabinet.json");
+    const std::vector<std::string> handled = {diffraction::kGltfExtension};
+    const scene::ImportedScene cabinet = scene::load_gltf(test::source_path("content/scenes/cabinet.glb"), handled);
     std::vector<double> pitches;
     bool varies = false;
-    for (const json& material : recipe["scene"]["materials"]) {
-        const json extensions = material.value("extensions", json::object());
-        const auto extension = extensions.find(diffraction::kGltfExtension);
-        if (extension == extensions.end()) continue;
-        const diffraction::GltfGrating grating = diffraction::parse_gltf_extension(
-            *extension, "cabinet.json", ".", "/" + material["name"].get<std::string>());
+    for (const scene::MaterialDescription& material : cabinet.materials) {
+        const auto extension = material.extensions.find(diffraction::kGltfExtension);
+        if (extension == material.extensions.end()) continue;
+        const diffraction::GltfGrating grating =
+            diffraction::parse_gltf_extension(extension->second, "cabinet.glb", ".", "/" + material.name);
         pitches.push_back(grating.material.grating.pitch_nm);
         if (!grating.groove_texture) continue;
         varies = true;
-        EXPECT_LT(static_cast<std::size_t>(grating.groove_texture->index), recipe["scene"]["textures"].size());
+        EXPECT_LT(static_cast<std::size_t>(grating.groove_texture->index), cabinet.textures.size());
     }
     EXPECT_EQ(pitches.size(), 6U);
     EXPECT_TRUE(varies);
+}
+
+TEST(Schema, OfProbeRecipesAgreesWithTheParser) {
+    const Documents documents = {
+        read_source("content/probes/studio.json"),
+        read_source("content/probes/clear_sky.json"),
+        read_source("content/probes/night.json"),
+        json::parse(
+            R"({"probe": {"type": "image", "file": "a.hdr", "mapping": "angular", "bands": 8, "key_lights": 9, "face_size": 64}})"),
+        json::parse(R"({"probe": {"type": "clear_sky", "sun_azimuth_deg": 3, "sun_elevation_deg": 4, "width": 256}})"),
+        json::parse(R"({"probe": {"type": "image", "file": "a.hdr", "illuminant": "F11"}})"),
+        json::parse(R"({"probe": {"type": "image", "file": "a.hdr", "illuminant": "lamps/sodium.csv"}})")};
+    // Names that end in .csv are files; the others must be built in.
+    const auto unknown_illuminant = [](const json& document) {
+        const json& name = document["probe"].value("illuminant", json("D65"));
+        return name.is_string() && !name.get<std::string>().ends_with(".csv");
+    };
+    expect_agreement(
+        schema_of("probe"), documents, [](const json& document) { lighting::parse_probe_recipe(document, "test"); },
+        unknown_illuminant);
+}
+
+TEST(Schema, OfMeshRecipesAgreesWithTheParser) {
+    const Documents documents = {read_source("content/meshes/cd.json"), read_source("content/meshes/sphere.json"),
+                                 read_source("content/meshes/ground.json")};
+    expect_agreement(
+        schema_of("mesh"), documents, [](const json& document) { scene::parse_mesh_recipe(document, "test"); },
+        [](const json& document) {
+            const json& shape = document["mesh"];
+            return shape["type"] == "disc" && shape["outer_radius"] <= shape["inner_radius"];
+        });
 }
 
 }  // namespace

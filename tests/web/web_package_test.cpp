@@ -3,9 +3,8 @@
 
 #include <filesystem>
 
+#include "tests/support/files.h"
 #include "tests/support/program.h"
-#include "tests/support/source_tree.h"
-#include "tests/support/test_data.h"
 
 namespace rowland {
 namespace {

@@ -89,7 +89,7 @@ image::ByteImage DemoUser::shot() {
     while (std::filesystem::exists(numbered("screenshot_{:04}.png", shots_))) ++shots_;
     const std::filesystem::path file = numbered("screenshot_{:04}.png", shots_++);
     user_.key("F12");
-    EXPECT_TRUE(wait_until([&] { return std::filesystem::exists(file); }, 60s)) << messages();
+    EXPECT_TRUE(wait_until([&] { return std::filesystem::exists(file); }, 180s)) << messages();
     return image::decode_byte_image(read_file(file, 1 << 24), file.string());
 }
 

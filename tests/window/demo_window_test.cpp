@@ -6,11 +6,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <string>
-#include <thread>
 
 #include "engine/core/file.h"
-#include "tests/support/temporary_folder.h"
-#include "tests/support/test_data.h"
+#include "tests/support/files.h"
 #include "tests/window/demo_user.h"
 
 namespace rowland {
@@ -56,8 +54,13 @@ std::string sky_that(const std::string& does) {
            " }\n";
 }
 
-TEST_F(DemoWindow, KeysAndDragsChangeThePausedPictureWhichElseStays) {
+TEST_F(DemoWindow, KeysDragsAndDropsChangeThePausedPictureWhichElseStays) {
+    ROWLAND_TEST_DATA(probe, "probes/venice_sunset_256.hdr");
+    write_file_atomic(path("letter.txt"), std::string_view("A letter.\n"));
     DemoUser user(folder_.path(), arguments());
+    user.key("F9");
+    EXPECT_TRUE(test::wait_until([&] { return std::filesystem::exists(path("screenshot_0000.exr")); }, 60s))
+        << "the scene's own light";
     user.key("space");
     image::ByteImage before = user.shot();
     const auto changed = [&] {
@@ -65,32 +68,33 @@ TEST_F(DemoWindow, KeysAndDragsChangeThePausedPictureWhichElseStays) {
         return !same(last, before);
     };
     EXPECT_FALSE(changed());
+    user.drop(path("letter.txt"));
+    user.wait_for_message("letter.txt", 60s);
+    EXPECT_FALSE(changed()) << "a letter is no probe";
     const image::ByteImage without_lamp = before;
     user.key("l");
     EXPECT_TRUE(changed()) << "the lamp";
     user.key("l");
     EXPECT_TRUE(changed());
     EXPECT_TRUE(same(before, without_lamp));
-    for (const char* key : {"v", "p", "equal", "1", "2"}) {
-        user.key(key);
-        EXPECT_TRUE(changed()) << key;
-    }
-    user.drag({100, 100}, {60, 20});
-    EXPECT_TRUE(changed()) << "a drag turns the camera";
-}
 
-TEST_F(DemoWindow, ABrokenShaderKeepsTheOldOneAndAMendedOneIsTaken) {
-    DemoUser user(folder_.path(), arguments());
-    user.key("space");
-    const image::ByteImage first = user.shot();
     write_file_atomic(sky_shader(), sky_that("radiance = nonsense;"));
     user.key("F5");
     const image::ByteImage broken = user.shot();
     write_file_atomic(sky_shader(), sky_that("radiance = vec4(1.0, 0.0, 0.0, 1.0);"));
     user.key("F5");
     // F5 rebuilds light and tables as well, whose last digits may round another way.
-    EXPECT_LE(largest_difference(first, broken), 1);
-    EXPECT_GT(largest_difference(broken, user.shot()), 100);
+    EXPECT_LE(largest_difference(before, broken), 1) << "a broken shader keeps the old one";
+    EXPECT_GT(largest_difference(broken, before = user.shot()), 100) << "a mended one is taken";
+
+    for (const char* key : {"v", "p", "equal", "1", "2"}) {
+        user.key(key);
+        EXPECT_TRUE(changed()) << key;
+    }
+    user.drag({100, 100}, {60, 20});
+    EXPECT_TRUE(changed()) << "a drag turns the camera";
+    user.drop(probe);
+    EXPECT_FALSE(same(before, user.shot_unlike(before, 60s))) << "a probe lights the scene";
 }
 
 /// A small material file.
@@ -100,56 +104,30 @@ std::string material(const char* pitch_nm) {
                "quality": {"representation": "spikes", "bands": 4, "spikes": 4, "view_resolution": 16}})";
 }
 
-TEST_F(DemoWindow, ASavedMaterialShowsByItselfAndABrokenOneKeepsTheOld) {
-    write_file_atomic(path("material.json"), material("1600"));
-    DemoUser user(folder_.path(), arguments({"--material", path("material.json")}));
-    user.key("space");
-    const image::ByteImage first = user.shot();
-    write_file_atomic(path("material.json"), material("-5"));
-    user.wait_for_message("pitch_nm", 60s);
-    EXPECT_TRUE(same(first, user.shot()));
-    write_file_atomic(path("material.json"), material("700"));
-    EXPECT_FALSE(same(first, user.shot_unlike(first, 60s)));
-}
-
-TEST_F(DemoWindow, AChangedSourceIsCookedAgainAndShown) {
+/// Files that the demo watches: a saved one shows without a key, a broken one keeps the old.
+TEST_F(DemoWindow, SavedMaterialsSourcesAndShadersShowByThemselves) {
     const std::filesystem::path source = path("content/meshes/sphere.json");
     std::filesystem::copy(std::filesystem::path(ROWLAND_DEMO).parent_path().parent_path() / "cooked", path("cooked"));
     write_file_atomic(source, R"({"mesh": {"type": "sphere", "radius": 1, "rings": 32, "segments": 64}})");
-    DemoUser user(folder_.path(), arguments({"--cooked-folder", path("cooked"), "--content-folder", path("content")}));
-    user.key("space");
-    const image::ByteImage first = user.shot();
-    std::this_thread::sleep_for(1s);
-    write_file_atomic(source, R"({"mesh": {"type": "sphere", "radius": 1, "rings": 2, "segments": 3}})");
-    EXPECT_FALSE(same(first, user.shot_unlike(first, 60s)));
-}
-
-TEST_F(DemoWindow, AChangedShaderIsTakenWithoutAKey) {
+    write_file_atomic(path("material.json"), material("1600"));
     const std::filesystem::path shader = sky_shader();
-    DemoUser user(folder_.path(), arguments());
+    DemoUser user(folder_.path(), arguments({"--material", path("material.json"), "--cooked-folder", path("cooked"),
+                                             "--content-folder", path("content")}));
     user.key("space");
-    const image::ByteImage first = user.shot();
-    write_file_atomic(shader, sky_that("radiance = vec4(1.0, 0.0, 0.0, 1.0);"));
-    EXPECT_FALSE(same(first, user.shot_unlike(first, 60s)));
-}
-
-TEST_F(DemoWindow, ADroppedProbeLightsTheSceneAndAnythingElseLeavesIt) {
-    ROWLAND_TEST_DATA(probe, "probes/venice_sunset_256.hdr");
-    write_file_atomic(path("letter.txt"), std::string_view("A letter.\n"));
-    DemoUser user(folder_.path(), arguments());
-    user.key("space");
-    const image::ByteImage first = user.shot();
-    user.drop(path("letter.txt"));
-    user.wait_for_message("letter.txt", 60s);
-    EXPECT_TRUE(same(first, user.shot()));
-    user.drop(probe);
-    EXPECT_FALSE(same(first, user.shot_unlike(first, 60s)));
-}
-
-TEST_F(DemoWindow, F9WritesTheScenesOwnLight) {
-    DemoUser user(folder_.path(), arguments());
-    user.key("F9");
-    EXPECT_TRUE(test::wait_until([&] { return std::filesystem::exists(path("screenshot_0000.exr")); }, 60s));
+    image::ByteImage before = user.shot();
+    write_file_atomic(path("material.json"), material("-5"));
+    user.wait_for_message("pitch_nm", 60s);
+    EXPECT_TRUE(same(before, user.shot()));
+    const auto shows = [&](const std::filesystem::path& file, const std::string& text) {
+        write_file_atomic(file, text);
+        const image::ByteImage last = std::exchange(before, user.shot_unlike(before, 60s));
+        return !same(last, before);
+    };
+    EXPECT_TRUE(shows(path("material.json"), material("700")));
+    before = user.settled_shot(60s);
+    EXPECT_TRUE(shows(source, R"({"mesh": {"type": "sphere", "radius": 1, "rings": 2, "segments": 3}})"));
+    before = user.settled_shot(60s);
+    EXPECT_TRUE(shows(shader, sky_that("radiance = vec4(1.0, 0.0, 0.0, 1.0);")));
 }
 
 }  // namespace

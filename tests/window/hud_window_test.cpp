@@ -13,7 +13,7 @@
 
 #include "engine/core/file.h"
 #include "engine/image/byte_image.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 #include "tests/unit/editor/trade/trade_run.h"
 #include "tests/window/demo_user.h"
 
@@ -124,71 +124,56 @@ class HudWindow : public ::testing::Test {
     test::TemporaryFolder folder_;
 };
 
-TEST_F(HudWindow, AClickInThePanelLightsTheLampAndHiddenPanelsTakeNone) {
-    DemoUser user(folder_.path(), arguments());
-    user.key("space");
-    const image::ByteImage dark = user.shot();
-    user.click(kLampBox);
-    const image::ByteImage lit = user.shot_unlike(dark, 60s);
-    EXPECT_GT(differing(dark, lit, 0, kWidth), 0);
-    user.key("F2");
-    user.click(kLampBox);
-    std::this_thread::sleep_for(1s);
-    EXPECT_EQ(differing(lit, user.shot(), 0, kWidth), 0);
-}
-
-TEST_F(HudWindow, AWipeShowsTheOtherLookRightOfItsLineWhichIsDragged) {
-    const int middle = kWidth / 2;
-    const int moved = middle + 40;
-    DemoUser user(folder_.path(), arguments());
-    user.key("space");
-    const image::ByteImage one_look = user.shot();
-    user.key("x");
-    const image::ByteImage two_looks = user.shot_unlike(one_look, 60s);
-    user.drag({middle, kHeight / 2}, {moved - middle, 0});
-    const image::ByteImage dragged = user.shot_unlike(two_looks, 60s);
-    user.key("x");
-    const image::ByteImage again = user.shot_unlike(dragged, 60s);
-    // llvmpipe's scissor lets half the samples of the pixels before its edge through, and whichever look is drawn first
-    // is seen there.
-    EXPECT_EQ(differing(one_look, two_looks, 0, middle - 1), 0);
-    EXPECT_GT(differing(one_look, two_looks, middle, kWidth), 0);
-    EXPECT_EQ(differing(one_look, dragged, 0, moved - 1), 0);
-    EXPECT_GT(differing(one_look, dragged, moved, kWidth), 0);
-    EXPECT_GT(differing(two_looks, dragged, middle, moved), 0);
-    EXPECT_EQ(differing(one_look, again, 0, kWidth), 0);
-}
-
-TEST_F(HudWindow, SettingsOfPanelsAndDropsAreRecorded) {
+/// One session: a click in the panel, the wipe, the next representations and a dropped probe, all recorded.
+TEST_F(HudWindow, PanelsWipeAndRepresentationsShowAndAreRecorded) {
     write_file_atomic(path("turned.hdr"), turned_sky());
     {
         DemoUser user(folder_.path(), arguments({"--record", path("play.jsonl")}));
         user.key("space");
-        const image::ByteImage one_look = user.shot();
+        const image::ByteImage dark = user.shot();
+        user.click(kLampBox);
+        const image::ByteImage lit = user.shot_unlike(dark, 60s);
+        EXPECT_GT(differing(dark, lit, 0, kWidth), 0);
+        user.key("F2");
+        const image::ByteImage hidden = user.settled_shot(60s);
+        user.click(kLampBox);
+        EXPECT_EQ(differing(hidden, user.settled_shot(60s), 0, kWidth), 0) << "hidden panels take no clicks";
+
+        const int middle = kWidth / 2;
+        const int moved = middle + 40;
+        user.point_at(kOnGrating);
+        const image::ByteImage one_look = user.settled_shot(60s);
         user.key("x");
         const image::ByteImage two_looks = user.shot_unlike(one_look, 60s);
-        user.drag({kWidth / 2, kHeight / 2}, {40, 0});
+        user.drag({middle, kHeight / 2}, {moved - middle, 0});
         const image::ByteImage dragged = user.shot_unlike(two_looks, 60s);
+        user.key("x");
+        const image::ByteImage again = user.shot_unlike(dragged, 60s);
+        // llvmpipe's scissor lets half the samples of the pixels before its edge through, and whichever look is drawn
+        // first is seen there.
+        EXPECT_EQ(differing(one_look, two_looks, 0, middle - 1), 0);
+        EXPECT_GT(differing(one_look, two_looks, middle, kWidth), 0);
+        EXPECT_EQ(differing(one_look, dragged, 0, moved - 1), 0);
+        EXPECT_GT(differing(one_look, dragged, moved, kWidth), 0);
+        EXPECT_GT(differing(two_looks, dragged, middle, moved), 0);
+        EXPECT_EQ(differing(one_look, again, 0, kWidth), 0);
+
+        user.point_at(kOnGrating);
+        const image::ByteImage first = user.settled_shot(60s);
+        user.key("t");
+        const image::ByteImage second = user.shot_unlike(first, 60s);
+        EXPECT_GT(differing(first, second, 0, kWidth), 0) << "the next representation, once it is baked";
+        user.key("y");
+        const image::ByteImage third = user.shot_unlike(second, 60s);
+        EXPECT_GT(differing(second, third, 0, kWidth), 0);
         user.drop(path("turned.hdr"));
-        user.shot_unlike(dragged, 60s);
+        user.shot_unlike(third, 60s);
     }
     const std::string recording = read_text_file(path("play.jsonl"), 1 << 20);
     EXPECT_THAT(recording, HasSubstr(R"("set":"wipe","to":1.0)"));
     EXPECT_THAT(recording, HasSubstr(R"("set":"right look","to":"spikes, medium")"));
     EXPECT_THAT(recording, HasSubstr(R"("set":"wipe line","to":0.5)"));
     EXPECT_THAT(recording, HasSubstr(R"("set":"probe","to":")" + path("turned.hdr").string()));
-}
-
-TEST_F(HudWindow, TheNextRepresentationIsShownWhenItIsBaked) {
-    DemoUser user(folder_.path(), arguments());
-    user.key("space");
-    user.point_at(kOnGrating);
-    const image::ByteImage first = user.shot();
-    user.key("t");
-    const image::ByteImage second = user.shot_unlike(first, 60s);
-    EXPECT_GT(differing(first, second, 0, kWidth), 0);
-    user.key("y");
-    EXPECT_GT(differing(second, user.shot_unlike(second, 60s), 0, kWidth), 0);
 }
 
 TEST_F(HudWindow, ThePixelsErrorBecomesWhatEvaluatePrintsWhenMaterialAndProbeChange) {

@@ -15,10 +15,8 @@
 #include "engine/image/byte_image.h"
 #include "engine/scene/editable_gltf.h"
 #include "modules/diffraction/asset/gltf_extension.h"
-#include "tests/support/small_sky.h"
-#include "tests/support/source_tree.h"
-#include "tests/support/temporary_folder.h"
-#include "tests/support/test_data.h"
+#include "tests/support/files.h"
+#include "tests/support/light.h"
 #include "tests/window/inspector_user.h"
 
 namespace rowland {
@@ -53,7 +51,7 @@ class SceneWindow : public ::testing::Test {
         user.click("attach");
         user.click("attach=dvd");
         user.wait_for("material", "740");
-        user.click("show grooves");
+        if (!user.facts().contains("groove handle")) user.click("show grooves");
         user.drag("groove handle", {40, 25});
         user.wait_for("material", "grooveRotation");
         user.key("ctrl+s");
@@ -69,7 +67,13 @@ class SceneWindow : public ::testing::Test {
         EXPECT_NE(grating["grooveRotation"], 0.0);
         saved.set_material_extension(material, diffraction::kGltfExtension, nullptr);
         saved.save();
-        EXPECT_EQ(read_file(after, 1 << 26), read_file(before, 1 << 26));
+        // The same file with the white space of a saved one.
+        const std::filesystem::path rewritten = after.parent_path() / ("rewritten" + after.extension().string());
+        std::filesystem::copy_file(before, rewritten, std::filesystem::copy_options::overwrite_existing);
+        scene::EditableGltf original = scene::EditableGltf::open(rewritten);
+        original.set_material_extension(material, diffraction::kGltfExtension, nullptr);
+        original.save();
+        EXPECT_EQ(read_file(after, 1 << 26), read_file(rewritten, 1 << 26));
     }
 
     static constexpr const char* kWidth = "720";
@@ -105,17 +109,20 @@ TEST_F(SceneWindow, OneSampleOfManyGetsAGratingAlone) {
 }
 
 TEST_F(SceneWindow, ADracoModelAndAGlbAreSavedLikewise) {
-    for (const char* name : {"gltf/draco/derived/Duck_draco_default.glb", "gltf/valid/Duck/glTF_Binary/Duck.glb"}) {
-        ROWLAND_TEST_DATA(original, name);
-        const std::filesystem::path scene = path(original.filename());
-        std::filesystem::copy_file(original, scene);
-        {
-            InspectorUser user(folder_.path(), {scene, "--probe", path("sky.json")});
-            edit(user, {0.5, 0.5}, "blinn3-fx");
-            EXPECT_EQ(user.leave(), 0);
-        }
-        expect_only_grating(original, scene, 0);
+    ROWLAND_TEST_DATA(draco, "gltf/draco/derived/Duck_draco_default.glb");
+    ROWLAND_TEST_DATA(binary, "gltf/valid/Duck/glTF_Binary/Duck.glb");
+    for (const std::filesystem::path& original : {draco, binary})
+        std::filesystem::copy_file(original, path(original.filename()));
+    {
+        InspectorUser user(folder_.path(), {path(draco.filename()), "--probe", path("sky.json")});
+        edit(user, {0.5, 0.5}, "blinn3-fx");
+        user.drop(path(binary.filename()));
+        user.wait_for("document", binary.filename());
+        edit(user, {0.5, 0.5}, "blinn3-fx");
+        EXPECT_EQ(user.leave(), 0);
     }
+    for (const std::filesystem::path& original : {draco, binary})
+        expect_only_grating(original, path(original.filename()), 0);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ SAMPLER_MEMBERS = {"mag_filter": "magFilter", "min_filter": "minFilter", "wrap_s
 
 
 def image_bytes(image):
-    """The image as a PNG or JPEG file: as it was loaded, or written now."""
+    """The image as a PNG or JPEG file: the loaded one, or a new PNG."""
     if image.is_dirty:
         return png_of(image)
     data = image.packed_file.data if image.packed_file else b""
@@ -31,7 +31,7 @@ def image_bytes(image):
 
 
 def png_of(image):
-    """Saved from a copy, so that the image itself stays unsaved or where it is."""
+    """Saves a copy, so that the state and the path of the image do not change."""
     pixels = numpy.empty(len(image.pixels), numpy.float32)
     image.pixels.foreach_get(pixels)
     copy = bpy.data.images.new(image.name, *image.size, alpha=True)

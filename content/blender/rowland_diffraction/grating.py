@@ -9,18 +9,20 @@ from . import rowland_folder
 
 EXTENSION = "ROWLAND_materials_diffraction"
 
-SCHEMA = rowland_folder.load_schema()["$defs"]
-METALS = SCHEMA["metal"]["enum"]
+MEMBERS = rowland_folder.load_schema()["properties"]
+METALS = MEMBERS["metal"]["enum"]
+# Of grooves of one direction; the other alternative is a lattice.
+GROOVES = next(one["properties"] for one in MEMBERS["grating"]["oneOf"] if "pitch_nm" in one["properties"])
 
 # Each profile's members and their schemas, by the profile's name.
 PROFILES = {
     profile["properties"]["type"]["const"]: {
         name: member for name, member in profile["properties"].items() if name != "type"
     }
-    for profile in SCHEMA["grating"]["properties"]["profile"]["oneOf"]
+    for profile in GROOVES["profile"]["oneOf"]
 }
 
-# What a member is when its profile or lobe is chosen, and how such a lobe is drawn on any mesh.
+# Initial values of the members of profiles; initial lobes, with a representation that draws them on any mesh.
 DEFAULTS = {"width_nm": 500, "duty": 0.5, "depth_nm": 120, "file": ""}
 LOBES = {
     "flat": ("flat", {"representation": "arc", "bands": 8, "rank": 12}),
@@ -35,16 +37,10 @@ METAL_COLOURS = {
 
 
 def from_preset(file):
-    """A material file's object as a glTF material holds it: as `rowland-cook attach` makes it, but with whole paths."""
+    """The extension's object of a material file, as of `rowland-cook attach`, but with absolute paths."""
     file = Path(file)
     grating = json.loads(file.read_text(encoding="utf-8"))
     grating.pop("base", None)
-    quality = grating.get("quality", {})
-    if quality and "representation" not in quality:
-        for measured in ("max_error", "measure", "probes", "surface"):
-            quality.pop(measured, None)
-        if not quality:
-            del grating["quality"]
     move_files(grating, lambda name: os.path.normpath(file.parent.absolute() / name))
     return grating
 
@@ -57,10 +53,15 @@ def move_files(grating, moved):
     quality = grating.get("quality", {})
     if quality.get("illuminant", "").endswith(".csv"):
         quality["illuminant"] = moved(quality["illuminant"])
+    for i, probe in enumerate(quality.get("probes", [])):
+        if isinstance(probe, dict):
+            probe["image"] = moved(probe["image"])
+        else:
+            quality["probes"][i] = moved(probe)
 
 
 def relative_to(folder):
-    """For move_files(): whole paths become relative to the folder."""
+    """For move_files(): makes absolute paths relative to the folder."""
     return lambda name: os.path.relpath(name, folder).replace(os.sep, "/")
 
 
@@ -95,9 +96,9 @@ def set_lobe_kind(grating, kind):
 
 def set_profile_kind(grating, kind):
     old = value_at(grating, ("grating", "profile"), {})
-    members = {name: old.get(name, DEFAULTS[name]) for name in PROFILES[kind]}
+    members = {name: old.get(name, DEFAULTS.get(name, 1)) for name in PROFILES[kind]}
     set_value(grating, ("grating", "profile"), {"type": kind, **members})
-    if kind == "table":  # its efficiencies are those of its metal and dye
+    if kind == "table":  # its efficiencies include metal and dye
         grating.pop("metal", None)
         grating.get("cover", {}).pop("tint", None)
     if kind != "slit":
@@ -119,7 +120,7 @@ def spectral_colour(wavelength_nm):
 
 
 def viewport_colour(grating):
-    """The metal, half of it in the colour that a visible order sends back at 30 degrees: 2 d sin 30 = m lambda."""
+    """The metal's colour, mixed with that of the order that returns at 30 degrees: 2 d sin 30 = m lambda."""
     metal = METAL_COLOURS.get(grating.get("metal"), (0.95, 0.95, 0.95))
     tint = value_at(grating, ("cover", "tint"), (1, 1, 1))
     pitch = value_at(grating, ("grating", "pitch_nm"), 1600)

@@ -1,4 +1,4 @@
-"""The panel of the material tab, and what its buttons do."""
+"""The panel of the material tab and its operators."""
 
 import subprocess
 import tempfile
@@ -17,7 +17,7 @@ def has_grating(context):
 
 
 class ROWLAND_OT_preset(bpy.types.Operator):
-    """Give the material this grating"""
+    """Set this grating on the material"""
 
     bl_idname = "rowland.preset"
     bl_label = "Grating"
@@ -35,7 +35,7 @@ class ROWLAND_OT_preset(bpy.types.Operator):
 
 
 class ROWLAND_OT_remove(bpy.types.Operator):
-    """Take the grating away"""
+    """Remove the grating"""
 
     bl_idname = "rowland.remove"
     bl_label = "Remove grating"

@@ -1,5 +1,5 @@
 """The grating of a Blender material: its JSON object as text, and a property for each field of the panel that reads and
-writes this text. What the panel does not show stays as it is."""
+writes this text. Members that the panel does not show are kept."""
 
 import json
 
@@ -32,7 +32,7 @@ def limits(schema):
 def number(path, name, schema=None, otherwise=0.0, **more):
     known = limits(schema or {})
 
-    def set_(self, value):  # Blender does not apply min and max to what scripts set
+    def set_(self, value):  # Blender does not apply min and max to values that scripts set
         value = min(max(rounded(value), known.get("min", value)), known.get("max", value))
         self.change(grating.set_value, path, value)
 
@@ -50,16 +50,16 @@ def choice(name, values, get, set_, labels=None):
 
 
 def update_image(self, _context):
-    """Shows the image as numbers. Blender would reload it, so one with unsaved pixels stays as it is."""
+    """Sets the image to non-colour data. Blender then reloads it, so an image with unsaved pixels is not changed."""
     image = self.groove_image
     if image and not image.is_dirty and image.colorspace_settings.name != "Non-Color":
         image.colorspace_settings.name = "Non-Color"
 
 
-GRATING = grating.SCHEMA["grating"]["properties"]
-COVER = grating.SCHEMA["cover"]["properties"]
-TRANSMISSION = grating.SCHEMA["transmission"]["properties"]
-LOBE = {list(lobe["properties"])[0]: lobe["properties"] for lobe in GRATING["groove_lobe"]["oneOf"] if "type" in lobe}
+COVER = grating.MEMBERS["cover"]["properties"]
+TRANSMISSION = grating.MEMBERS["transmission"]["properties"]
+LOBES = [lobe["properties"] for lobe in grating.GROOVES["groove_lobe"]["oneOf"] if "properties" in lobe]
+LOBE = {next(iter(lobe)): lobe for lobe in LOBES}
 PITS = LOBE["pits"]["pits"]["properties"]
 MEMBERS = {name: schema for members in grating.PROFILES.values() for name, schema in members.items()}
 
@@ -71,7 +71,7 @@ class RowlandGrating(bpy.types.PropertyGroup):
         name="Groove image", type=bpy.types.Image, update=update_image,
         description="Red: rotation of the grooves / 180 degrees; green: pitch / 2; 0: no grating")
 
-    pitch_nm: number(("grating", "pitch_nm"), "Pitch (nm)", GRATING["pitch_nm"], precision=3)
+    pitch_nm: number(("grating", "pitch_nm"), "Pitch (nm)", grating.GROOVES["pitch_nm"], precision=3)
     lines_per_mm: bpy.props.FloatProperty(
         name="Lines per mm", min=0.1, max=1e6, precision=3,
         get=lambda self: 1e6 / grating.value_at(self.object(), ("grating", "pitch_nm"), 1600),
@@ -120,13 +120,13 @@ class RowlandGrating(bpy.types.PropertyGroup):
         return json.loads(self.text) if self.text else {}
 
     def change(self, function, *arguments):
-        """Applies function(object, *arguments) and keeps the result."""
+        """Applies function(object, *arguments) and stores the object."""
         changed = self.object()
         function(changed, *arguments)
         self.replace(changed)
 
     def replace(self, new_object):
-        """The object, and what the viewport shows of it. Without nodes that would be the exported surface."""
+        """Sets the object and the viewport's colour. Without nodes that colour would be exported as the surface."""
         self.text = json.dumps(new_object)
         if self.id_data.use_nodes:
             self.id_data.diffuse_color = (*grating.viewport_colour(new_object), 1.0)

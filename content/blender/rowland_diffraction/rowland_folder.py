@@ -1,7 +1,8 @@
-"""Where Rowland is: the add-on is a link into its tree, and takes limits, presets and programs from there."""
+"""The location of Rowland: the add-on is a link into its tree and takes limits, presets and programs from there."""
 
 import json
 import shutil
+import subprocess
 from pathlib import Path
 
 FOLDER = Path(__file__).resolve().parents[3]
@@ -9,11 +10,12 @@ MATERIALS = FOLDER / "content" / "materials"
 
 
 def load_schema():
-    """The JSON Schema of the material file."""
-    file = FOLDER / "modules" / "diffraction" / "asset" / "material.schema.json"
-    if not file.is_file():
-        raise FileNotFoundError(f"{file} is missing: link the add-on's folder from Rowland's tree, do not copy it")
-    return json.loads(file.read_text(encoding="utf-8"))
+    """The JSON Schema of the material file, from the program that reads it."""
+    program = find_program("rowland-cook")
+    if program is None:
+        raise FileNotFoundError("rowland-cook is missing: build Rowland, and link the add-on's folder from its tree")
+    printed = subprocess.run([program, "schema", "material"], check=True, capture_output=True)
+    return json.loads(printed.stdout)
 
 
 def preset_files():

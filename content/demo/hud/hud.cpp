@@ -8,8 +8,8 @@
 #include <variant>
 
 #include "content/demo/pixel/surface_point.h"
-#include "content/demo/play/hierarchy.h"
-#include "engine/app/unused_file.h"
+#include "content/demo/play/body.h"
+#include "engine/app/drawing_program.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/core/log.h"

@@ -8,7 +8,7 @@
 #include "content/demo/options.h"
 #include "content/demo/pixel/pixel_meter.h"
 #include "content/demo/pixel/reference_still.h"
-#include "content/demo/play/play_event.h"
+#include "content/demo/play/action.h"
 #include "content/demo/session.h"
 #include "engine/platform/frame_pacing.h"
 #include "engine/platform/input.h"

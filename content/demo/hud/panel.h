@@ -8,7 +8,7 @@
 #include "content/demo/looks/comparison.h"
 #include "content/demo/options.h"
 #include "content/demo/pixel/pixel_meter.h"
-#include "content/demo/play/play_event.h"
+#include "content/demo/play/action.h"
 #include "content/demo/session.h"
 
 namespace rowland::demo {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -29,5 +30,11 @@ std::optional<double> wipe_line(float line, const std::string& left, const std::
 
 /// A line at the bottom with the most important keys.
 void hint_line();
+
+/// Memory that the process has in use; 0 where the system does not say.
+std::size_t resident_bytes();
+
+/// "812 B", "3.4 KiB", "56 MiB": three digits at most before the unit.
+std::string readable_bytes(std::size_t bytes);
 
 }  // namespace rowland::demo

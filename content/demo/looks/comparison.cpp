@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
+#include "engine/render/draw_list.h"
 #include "engine/render/gpu_mesh.h"
 #include "engine/render/material.h"
-#include "engine/render/picture_columns.h"
-#include "engine/scene/skin.h"
+#include "engine/scene/animation.h"
 #include "engine/scene/transform.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
-#include "modules/diffraction/runtime/flatness.h"
-#include "modules/diffraction/runtime/gpu_still.h"
+#include "modules/diffraction/runtime/gpu_material.h"
+#include "modules/diffraction/runtime/vertex_light.h"
 
 namespace rowland::demo {
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "content/demo/looks/look.h"
-#include "content/demo/looks/variants.h"
 #include "engine/ecs/world.h"
 #include "engine/gpu/texture.h"
 

@@ -2,32 +2,34 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <utility>
 
-#include "modules/diffraction/asset/quality_json.h"
+#include "engine/core/log.h"
+#include "modules/diffraction/asset/quality.h"
 
 namespace rowland::demo {
 
 namespace {
 
-/// Whether the representation has settings that the demo varies.
-bool has_details(const diffraction::RepresentationInfo& info) {
-    return std::any_of(info.settings.begin(), info.settings.end(),
-                       [](const diffraction::SettingInfo& setting) { return !setting.details.empty(); });
+/// Settings that a representation's looks differ in, at coarse, medium and fine detail. The demo leaves the other
+/// settings at their defaults. Every representation has an entry.
+using Details = std::map<std::string, std::array<int, 3>>;
+
+const Details& details_of(const std::string& representation) {
+    static const std::map<std::string, Details> all{
+        {"spikes", {{"bands", {3, 5, 8}}, {"spikes", {4, 4, 8}}}}, {"transfer", {{"bands", {3, 5, 8}}}},
+        {"arc", {{"bands", {3, 5, 8}}, {"rank", {4, 8, 16}}}},     {"direct", {}},
+        {"planar", {{"map_resolution", {32, 128, 256}}}},          {"circle", {{"map_resolution", {16, 48, 104}}}},
+        {"streak", {{"map_resolution", {128, 192, 320}}}}};
+    return all.at(representation);
 }
 
 nlohmann::json settings_of(const Look& look) {
     nlohmann::json settings = {{"representation", look.representation}};
-    for (const diffraction::SettingInfo& setting : diffraction::find_representation(look.representation)->settings)
-        if (!setting.details.empty()) settings[setting.key] = setting.details[static_cast<std::size_t>(look.detail)];
+    for (const auto& [key, values] : details_of(look.representation))
+        settings[key] = values[static_cast<std::size_t>(look.detail)];
     return settings;
-}
-
-/// What the demo offers: not bins, which transfer tables beat.
-std::vector<const diffraction::RepresentationInfo*> shown_representations() {
-    std::vector<const diffraction::RepresentationInfo*> shown;
-    for (const auto* info : diffraction::representations())
-        if (info->in_demo) shown.push_back(info);
-    return shown;
 }
 
 }  // namespace
@@ -39,7 +41,7 @@ const char* detail_name(Detail detail) {
 
 std::string look_name(const Look& look) {
     if (look.own()) return "as cooked";
-    if (!has_details(*diffraction::find_representation(look.representation))) return look.representation;
+    if (details_of(look.representation).empty()) return look.representation;
     return look.representation + ", " + detail_name(look.detail);
 }
 
@@ -47,7 +49,7 @@ std::optional<Look> look_named(std::string name) {
     if (name == look_name({})) return Look{};
     if (const auto old = name.find(", usual"); old != std::string::npos)
         name.replace(old, std::string::npos, ", medium");
-    for (const auto* info : shown_representations())
+    for (const auto* info : diffraction::representations())
         for (const Detail detail : {Detail::Medium, Detail::Coarse, Detail::Fine})
             if (const Look look{info->name, detail}; look_name(look) == name) return look;
     return std::nullopt;
@@ -64,13 +66,13 @@ std::optional<diffraction::Material> with_look(const LookSubject& subject, const
     quality->illuminant = material.quality.illuminant;
     material.quality = std::move(*quality);
     if (!subject.grooves) return material;
-    if (diffraction::groove_refusal(material, *subject.grooves)) return std::nullopt;
-    return diffraction::suited_to_grooves(std::move(material), *subject.grooves);
+    if (diffraction::groove_refusal(material, subject.grooves->pitches())) return std::nullopt;
+    return diffraction::suited_to_grooves(std::move(material), subject.grooves->pitches());
 }
 
 std::vector<Look> looks_of(const LookSubject& subject, Detail detail) {
     std::vector<Look> looks{Look{.representation = {}, .detail = detail}};
-    for (const auto* info : shown_representations()) {
+    for (const auto* info : diffraction::representations()) {
         Look look{.representation = info->name, .detail = detail};
         if (with_look(subject, look)) looks.push_back(std::move(look));
     }
@@ -87,6 +89,39 @@ Look next_detail(const Look& look) {
     Look next = look;
     next.detail = static_cast<Detail>((static_cast<int>(look.detail) + 1) % 3);
     return next;
+}
+
+GpuMaterialPointer Variants::find(const GpuMaterialPointer& own,
+                                  const std::shared_ptr<const diffraction::GrooveMap>& grooves, bool flat,
+                                  const Look& look) {
+    if (look.own()) return own;
+    for (const auto& variant : variants_)
+        if (variant->own.lock() == own && variant->grooves == grooves && variant->look == look)
+            return variant->uploaded;
+    const LookSubject subject{.material = own->cooked()->material, .flat = flat, .grooves = grooves};
+    variants_.push_back(std::make_shared<Variant>(
+        Variant{.own = own, .grooves = grooves, .look = look, .material = with_look(subject, look), .uploaded = {}}));
+    return nullptr;
+}
+
+void Variants::poll() {
+    const auto change = baked_.poll();
+    if (change.value) running_->uploaded = diffraction::make_gpu_material(*baked_.value(), xyz_to_working_);
+    if (!change.failure.empty()) log_error("{}: {}", look_name(running_->look), change.failure);
+    if (change.value || !change.failure.empty()) running_ = nullptr;
+    std::erase_if(variants_, [](const auto& variant) { return variant->own.expired(); });
+    if (running_) return;
+    const auto next = std::ranges::find_if(variants_, [](const auto& v) { return v->material.has_value(); });
+    if (next == variants_.end()) return;
+    running_ = *next;
+    baked_.want(running_, [material = *std::exchange(running_->material, std::nullopt)](const auto&, const auto&) {
+        return std::optional(diffraction::bake_material(material));
+    });
+}
+
+bool Variants::baking() const {
+    return running_ != nullptr ||
+           std::ranges::any_of(variants_, [](const auto& variant) { return variant->material.has_value(); });
 }
 
 }  // namespace rowland::demo

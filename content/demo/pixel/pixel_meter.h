@@ -6,12 +6,25 @@
 #include <string>
 
 #include "engine/core/computed.h"
-#include "engine/math/sh_window.h"
+#include "engine/lighting/probe_image.h"
+#include "engine/math/spherical_harmonics.h"
 #include "modules/diffraction/asset/cooked_material.h"
-#include "modules/diffraction/evaluate/point_comparison.h"
-#include "modules/diffraction/model/shading_point.h"
+#include "modules/diffraction/evaluate/point_shader.h"
+#include "modules/diffraction/model/grating.h"
 
 namespace rowland::demo {
+
+/// A probe at full resolution, for the reference.
+struct WholeProbe {
+    lighting::ProbeImage image;
+    int key_lights = 16;  ///< the most that it is cooked with
+};
+
+/// The image of a probe: an image file (`mapping` "equirect" or "angular"), or that of a recipe. For a cooked probe,
+/// the recipe of its name in `recipes`, or in the folder "recipes" beside it. Throws Error (input), also if there is
+/// none.
+WholeProbe load_whole_probe(const std::filesystem::path& path, const std::string& mapping,
+                            const std::filesystem::path& recipes);
 
 /// The probe under which points are measured.
 struct PixelProbe {

@@ -4,9 +4,9 @@
 #include <chrono>
 #include <span>
 
+#include "content/demo/pixel/pixel_meter.h"
 #include "content/demo/pixel/surface_point.h"
-#include "content/demo/pixel/whole_probe.h"
-#include "engine/colour/light_spectra.h"
+#include "engine/colour/illuminant.h"
 #include "engine/render/gpu_mesh.h"
 #include "engine/scene/transform.h"
 #include "modules/diffraction/reference/reference.h"

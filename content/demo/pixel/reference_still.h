@@ -7,11 +7,11 @@
 
 #include "content/demo/looks/comparison.h"
 #include "content/demo/pixel/pixel_meter.h"
-#include "content/demo/pixel/visible_points.h"
+#include "content/demo/pixel/surface_point.h"
 #include "engine/core/computed.h"
 #include "engine/gpu/texture.h"
 #include "engine/scene/camera.h"
-#include "modules/diffraction/model/shading_point.h"
+#include "modules/diffraction/model/grating.h"
 
 namespace rowland::demo {
 

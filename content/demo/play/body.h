@@ -1,14 +1,31 @@
 #pragma once
 
+#include <cstddef>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "engine/ecs/world.h"
+#include "engine/scene/camera.h"
+#include "engine/scene/mesh.h"
+#include "engine/scene/ray.h"
 #include "engine/scene/transform.h"
 
 namespace rowland::demo {
+
+/// Null (never alive) at the top of the hierarchy.
+ecs::Entity parent_of(ecs::World& world, ecs::Entity entity);
+
+/// Object to world, from the present transforms: needs no update_world_matrices().
+glm::mat4 object_to_world(ecs::World& world, ecs::Entity entity);
+
+/// The name of an object: that of the nearest node at or above it that has one; else "grating".
+std::string name_of_object(ecs::World& world, ecs::Entity entity);
 
 /// Time constant with which a thrown object slows down, seconds.
 inline constexpr double kSpinDecay_s = 2.5;
@@ -60,5 +77,28 @@ scene::Transform transform_of(const Body& body, const glm::vec3& up);
 
 /// Sets the Transform of its node.
 void update_node(ecs::World& world, const Body& body);
+
+using scene::Ray;
+using scene::TriangleHit;
+
+/// A mesh that a ray can hit.
+struct PickTarget {
+    ecs::Entity entity;
+    std::shared_ptr<const scene::Mesh> mesh;
+    scene::Bounds bounds;  ///< of the mesh
+};
+
+/// The nearest intersection of a ray with the targets.
+struct Hit {
+    std::size_t target = 0;
+    TriangleHit triangle;   ///< its distance in metres
+    glm::vec3 point{0.0F};  ///< world
+};
+
+/// The nearest hit among the targets that are alive; nullopt if the ray misses all.
+std::optional<Hit> pick(ecs::World& world, std::span<const PickTarget> targets, const Ray& ray);
+
+/// The ray through a point of a window of that size; both in screen coordinates from the upper left, y down.
+Ray ray_through(const scene::Camera& camera, glm::dvec2 point, glm::ivec2 size);
 
 }  // namespace rowland::demo

@@ -4,9 +4,7 @@
 
 #include "engine/platform/input.h"
 #include "engine/scene/camera.h"
-#include "engine/scene/fly_camera.h"
 #include "engine/scene/mesh.h"
-#include "engine/scene/orbit_camera.h"
 
 namespace rowland::demo {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "content/demo/play/hierarchy.h"
+#include "content/demo/play/body.h"
 #include "engine/core/check.h"
 
 namespace rowland::demo {

@@ -6,7 +6,6 @@
 #include <glm/vec3.hpp>
 
 #include "content/demo/play/body.h"
-#include "content/demo/play/pick.h"
 #include "engine/ecs/world.h"
 #include "engine/scene/camera.h"
 

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,13 +14,32 @@
 #include "content/demo/play/body.h"
 #include "content/demo/play/camera_control.h"
 #include "content/demo/play/hand.h"
-#include "content/demo/play/pick.h"
-#include "content/demo/play/play_event.h"
-#include "content/demo/play/player_lights.h"
 #include "engine/ecs/world.h"
 #include "engine/scene/camera.h"
+#include "engine/scene/light.h"
 
 namespace rowland::demo {
+
+/// The most lights in a world: as many as the renderer draws.
+inline constexpr std::size_t kMostLights = 64;
+
+/// All lights of the world, not only the player's.
+std::size_t light_count(ecs::World& world);
+
+/// Lights that the player adds, each in the next of a few colours.
+class PlayerLights {
+ public:
+    /// A light at `position`, relative to `parent`, that lights what is `reach` metres away about as a room does. Adds
+    /// nothing and returns false if the world has kMostLights.
+    bool add(ecs::World& world, ecs::Entity parent, const glm::vec3& position, float reach);
+    /// Removes the last one; false if there is none.
+    bool remove(ecs::World& world);
+
+    const std::vector<ecs::Entity>& entities() const { return lights_; }
+
+ private:
+    std::vector<ecs::Entity> lights_;
+};
 
 inline constexpr int kStepsPerSecond = 120;
 inline constexpr int kFramesPerSecond = 30;  ///< without a window

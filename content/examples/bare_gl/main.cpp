@@ -1,11 +1,11 @@
 // bare_gl MATERIAL PROBE PICTURE: a disc with the cooked material MATERIAL under the light probe PROBE (.hdr or .exr,
 // equirectangular) and a lamp, drawn with Rowland's shader and no engine. Writes a PNG, and to standard output, for a
 // few pixels, where they are and their radiance: modules/diffraction/PORTING.md says what happens here.
-#include <engine/image/load.h>
-#include <engine/image/png.h>
+#include <engine/image/byte_image.h>
+#include <engine/image/image.h>
 #include <engine/lighting/light_samples.h>
 #include <modules/diffraction/asset/cooked_material.h>
-#include <modules/diffraction/bake/blurred_kernel.h>
+#include <modules/diffraction/bake/kernel_cells.h>
 #include <modules/diffraction/representations/planar/planar_map.h>
 
 #include <array>

@@ -1,12 +1,11 @@
 #include "draw_scene.h"
 
-#include <engine/image/load.h>
-#include <engine/platform/headless_context.h>
+#include <engine/image/image.h>
+#include <engine/live/live_assets.h>
+#include <engine/platform/gl_context.h>
 #include <engine/post/ocio_config.h>
 #include <engine/render/scene_instance.h>
-#include <engine/scene/gltf_import.h>
 #include <engine/scene/transform.h>
-#include <engine/view/capture.h>
 #include <engine/view/picture.h>
 
 #include <cstdio>
@@ -31,7 +30,8 @@ scene::Camera first_camera(const scene::ImportedScene& scene) {
 
 }  // namespace
 
-int draw_scene(int argc, char** argv, const std::function<void(render::Renderer&)>& register_modules) try {
+int draw_scene(int argc, char** argv, const cook::Registry& registry,
+               const std::function<void(render::Renderer&)>& register_modules) try {
     if (argc != 4) return std::fprintf(stderr, "usage: %s SCENE PROBE PICTURE\n", argv[0]), 2;
     const platform::HeadlessContext context;
 
@@ -40,7 +40,9 @@ int draw_scene(int argc, char** argv, const std::function<void(render::Renderer&
     const lighting::ProbeImage probe(image::load_image(argv[2]), lighting::Mapping::Equirectangular, argv[2]);
     picture.set_probe(lighting::build_light_probe(probe));
 
-    const scene::ImportedScene scene = scene::load_gltf(argv[1], picture.renderer().gltf_extensions());
+    // A glTF is cooked first, and kept for the next time; a cooked .scene is loaded as it is.
+    std::vector<std::filesystem::path> read_files;
+    const scene::ImportedScene scene = live::load_scene(registry, argv[1], live::default_cache_folder(), read_files);
     ecs::World world;
     render::instantiate(world, scene, picture.renderer(), argv[1]);
     scene::update_world_matrices(world);

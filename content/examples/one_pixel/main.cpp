@@ -1,9 +1,9 @@
 // one_pixel PROBE: the radiance (XYZ) of one pixel of a compact disc under a light probe (.hdr or .exr,
 // equirectangular).
-#include <engine/image/load.h>
+#include <engine/image/image.h>
 #include <engine/lighting/probe_image.h>
-#include <engine/math/sh_rotation.h>
-#include <modules/diffraction/model/shading_point.h>
+#include <engine/math/spherical_harmonics.h>
+#include <modules/diffraction/model/grating.h>
 #include <modules/diffraction/representations/transfer/transfer_table.h>
 
 #include <cstdio>

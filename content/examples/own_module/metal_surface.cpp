@@ -12,16 +12,15 @@ namespace {
 
 using namespace rowland;
 
+constexpr const char* kExtension = "EXAMPLE_materials_metal";
 constexpr const char* kFragmentFile = "metal.frag.glsl";
 constexpr const char* kFragmentText = R"(#version 450 core
 #define MATERIAL_SPECULAR
-#include "engine/render/shaders/forward_fragment_interface.glsl"
+#include "engine/render/shaders/surface.glsl"
+#include "engine/render/shaders/environment.glsl"
 
 uniform vec3 n;
 uniform vec3 k;
-
-// The base alone: nothing covers it, nothing is added.
-MaterialTerms material_terms() { return MaterialTerms(vec3(1.0), vec3(0.0), vec3(0.0)); }
 
 // Unpolarised reflectance of a conductor [Born & Wolf, Principles of Optics, 14.2].
 vec3 conductor_reflectance(float cosine) {
@@ -41,7 +40,13 @@ vec3 reflect_specular(vec3 light, vec3 f0, float cosine) {
     return to_working * (conductor_reflectance(cosine) * (inverse(to_working) * light));
 }
 
-#include "engine/render/shaders/forward_fragment_main.glsl"
+#include "engine/render/shaders/shading.glsl"
+
+// The base alone: nothing covers it, nothing is added.
+void main() {
+    read_screen_visibility();
+    write_surface(MaterialTerms(vec3(1.0), vec3(0.0), vec3(0.0)));
+}
 )";
 
 glm::vec3 three_numbers(const nlohmann::json& extension, const char* key, const std::string& file,
@@ -58,14 +63,17 @@ glm::vec3 three_numbers(const nlohmann::json& extension, const char* key, const 
     return values;
 }
 
+MetalSurface metal_surface(const nlohmann::json& extension, const std::string& file, const std::string& pointer) {
+    return {.n = three_numbers(extension, "n", file, pointer), .k = three_numbers(extension, "k", file, pointer)};
+}
+
 class MetalType final : public render::MaterialType {
  public:
     std::string name() const override { return "metal"; }
-    std::string gltf_extension() const override { return "EXAMPLE_materials_metal"; }
-    void attach(ecs::World& world, ecs::Entity entity, const nlohmann::json& extension,
-                render::SurfaceTextures& /*textures*/, const std::string& file, const std::string& pointer) override {
-        world.add(entity, MetalSurface{.n = three_numbers(extension, "n", file, pointer),
-                                       .k = three_numbers(extension, "k", file, pointer)});
+    std::string gltf_extension() const override { return kExtension; }
+    void attach(ecs::World& world, ecs::Entity entity, const render::MaterialExtension& extension,
+                render::SurfaceTextures& /*textures*/) override {
+        world.add(entity, metal_surface(extension.object, extension.file, extension.pointer));
     }
     void add_shaders(gpu::ShaderLibrary& library) const override { library.add(kFragmentFile, kFragmentText); }
     bool owns(ecs::World& world, ecs::Entity entity) const override {
@@ -83,6 +91,15 @@ class MetalType final : public render::MaterialType {
 };
 
 }  // namespace
+
+void register_module(cook::Registry& registry) {
+    registry.add_gltf_extension(
+        {.name = kExtension,
+         .describe = [](const nlohmann::json& extension, const std::string& file, const std::string& pointer) {
+             metal_surface(extension, file, pointer);
+             return std::string("a metal");
+         }});
+}
 
 void register_module(render::Renderer& renderer) {
     renderer.add_material_type(std::make_unique<MetalType>());

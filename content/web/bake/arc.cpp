@@ -3,12 +3,12 @@
 #include <glm/glm.hpp>
 
 #include "content/web/bake/exports.h"
-#include "content/web/bake/key_light_numbers.h"
 #include "content/web/bake/material.h"
 #include "engine/lighting/key_lights.h"
 #include "engine/lighting/probe_image.h"
+#include "engine/lighting/sh_light.h"
 #include "engine/scene/mesh.h"
-#include "modules/diffraction/representations/arc/arc_products.h"
+#include "modules/diffraction/runtime/vertex_light.h"
 
 namespace rowland::web {
 

@@ -2,7 +2,6 @@
 #include <cstdlib>
 
 #include "content/web/bake/exports.h"
-#include "content/web/bake/key_light_numbers.h"
 #include "content/web/bake/material.h"
 #include "engine/lighting/light_samples.h"
 #include "modules/diffraction/bake/diffraction_pattern.h"
@@ -34,7 +33,7 @@ ROWLAND_EXPORT(use_key_lights) void use_key_lights(Probe* probe, const float* ke
     probe->rest = lighting::light_samples(probe->image, probe->keys);
 }
 
-/// The brightest parts of an image: key_light_numbers.h. `texels`: as of read_probe(). A second.
+/// The brightest parts of an image, kKeyLightNumbers each. `texels`: as of read_probe(). A second.
 ROWLAND_EXPORT(fit_key_lights)
 Numbers* fit_key_lights(glm::vec3* texels, int width, int height, int count) {
     image::Image image{width, height, std::vector<glm::vec3>(texels, texels + width * height)};
@@ -61,7 +60,7 @@ ROWLAND_EXPORT(probe_texels) Numbers* probe_texels(const Probe* probe) {
     return numbers;
 }
 
-/// KeyLobe for each light: shaders/key_lobe_block.h.
+/// KeyLobe for each light: shaders/light_blocks.h.
 ROWLAND_EXPORT(key_lobes) Numbers* key_lobes(const Probe* probe) {
     auto* numbers = new Numbers;
     for (const lighting::KeyLight& key : probe->keys) append(diffraction::key_lobe(key), *numbers);

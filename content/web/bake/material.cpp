@@ -4,10 +4,10 @@
 #include <string>
 
 #include "content/web/bake/exports.h"
-#include "engine/colour/light_spectra.h"
-#include "engine/colour/working_space.h"
+#include "engine/colour/colour_space.h"
+#include "engine/colour/illuminant.h"
 #include "engine/core/error.h"
-#include "modules/diffraction/asset/layer_weights.h"
+#include "modules/diffraction/asset/material.h"
 #include "modules/diffraction/representations/direct/direct.h"
 
 namespace rowland::web {

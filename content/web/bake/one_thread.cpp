@@ -8,7 +8,6 @@
 #include "engine/core/file.h"
 #include "engine/core/log.h"
 #include "engine/core/parallel.h"
-#include "engine/core/progress.h"
 
 namespace fmt {
 

@@ -1,11 +1,11 @@
-// Writes the static site: node build.mjs FOLDER PACKAGE CABINET, the package built and the cabinet cooked.
+// Writes the static site: node build.mjs FOLDER PACKAGE, the package built.
 import { cpSync, mkdirSync, readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { fileURLToPath, pathToFileURL } from "node:url";
 
 const here = fileURLToPath(new URL(".", import.meta.url));
-const [out, from, cabinet] = process.argv.slice(2);
-if (!cabinet) throw new Error("expected: node build.mjs FOLDER PACKAGE CABINET");
+const [out, from] = process.argv.slice(2);
+if (!from) throw new Error("expected: node build.mjs FOLDER PACKAGE");
 const { buildSync } = createRequire(from + "/package.json")("esbuild");
 
 mkdirSync(out, { recursive: true });
@@ -34,8 +34,7 @@ async function builtInKeyLights() {
 }
 buildSync({ ...options, entryPoints: [here + "page.ts"], define: { BUILT_IN_KEY_LIGHTS: await builtInKeyLights() }, outfile: out + "/page.js" });
 buildSync({ ...options, entryPoints: [from + "/dist/worker.js"], outfile: out + "/worker.js" });
-for (const file of ["index.html", "page.css"]) cpSync(here + file, `${out}/${file}`);
+for (const file of ["index.html", "page.css", "cabinet.glb"]) cpSync(here + file, `${out}/${file}`);
 for (const file of ["bake.wasm", "arc.wasm", "reference.wasm"]) cpSync(`${from}/dist/${file}`, `${out}/${file}`);
-cpSync(cabinet, `${out}/cabinet.glb`);
 for (const file of ["draco_decoder.wasm", "draco_wasm_wrapper.js"])
     cpSync(`${from}/node_modules/three/examples/jsm/libs/draco/gltf/${file}`, `${out}/draco/${file}`);

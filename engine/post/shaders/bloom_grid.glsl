@@ -1,10 +1,10 @@
 // The grids of bloom.h: texels hold light in rgb and area in alpha, relative to those of a texel inside the picture.
 
-#include "engine/gpu/shaders/half_float.glsl"
+#include "engine/gpu/shaders/dialect.glsl"
 
 layout(binding = 0) uniform sampler2D fine;
 
-// What is not finite counts as 0, the rest is held within the half floats. By bits, because compilers may take isnan
+// Components that are not finite count as 0, others are clamped to the half floats' range. By bits, because compilers may take isnan
 // for false.
 vec3 usable(vec3 colour) {
     bvec3 is_finite = lessThan(floatBitsToUint(colour) & 0x7fffffffu, uvec3(0x7f800000u));

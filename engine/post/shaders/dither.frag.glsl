@@ -6,7 +6,7 @@ layout(binding = 0) uniform sampler2D display_value;
 uniform int frame;
 uniform float step_size;
 
-// In steps of the target: dither.h.
+// In steps of the target: display_pass.h.
 float dither_offset(uvec2 pixel) {
     // 2^32 over the plastic number 1.32471795724, over its square, and over the golden ratio.
     uint phase = pixel.x * 0xc13fa9a9u + pixel.y * 0x91e10da5u + uint(frame) * 0x9e3779b9u;

@@ -1,6 +1,6 @@
 #version 450 core
 
-#include "engine/gpu/shaders/half_float.glsl"
+#include "engine/gpu/shaders/dialect.glsl"
 #include "glare_grid.glsl"
 
 layout(location = 0) out vec4 with_glare;

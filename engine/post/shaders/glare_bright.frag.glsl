@@ -22,7 +22,7 @@ void pixels_between(vec2 low, vec2 high, out ivec2 first, out ivec2 last) {
     last = ivec2(clamp(ceil(size * (0.5 + 0.5 * most / tan_half_fov) - 0.5), vec2(0.0), size - 1.0));
 }
 
-// Bright light of the pixels around a cell, each divided among the nine cells around it: what one cell gets, over its area.
+// Gathers the bright light of the pixels around a cell: the spline weight of this cell, over the cell's area.
 void main() {
     vec2 centre = floor(gl_FragCoord.xy);
     vec2 cosines = (centre - 0.5 * vec2(cells - 1)) * cell;

@@ -1,4 +1,4 @@
-// The picture's pixels, the grid's cells (glare_grid.h), and the light that the sheet diffracts.
+// The picture's pixels, the grid's cells (glare.h), and the light that the sheet diffracts.
 
 layout(binding = 0) uniform sampler2D scene_linear;
 uniform vec2 tan_half_fov;

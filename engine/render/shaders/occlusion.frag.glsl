@@ -1,5 +1,5 @@
 #version 450 core
-// engine/render/ambient_occlusion.h. Positions are in the camera's axes, metres.
+// engine/render/effects.h. Positions are in the camera's axes, metres.
 layout(binding = 0) uniform sampler2D depth_map;
 uniform vec2 extent;         // half of the picture at depth 1
 uniform vec2 planes;         // near, far

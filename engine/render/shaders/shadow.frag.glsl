@@ -1,6 +1,5 @@
 #version 450 core
-#include "engine/render/shaders/forward_fragment_interface.glsl"
-#include "engine/render/shaders/surface_maps.glsl"
+#include "engine/render/shaders/surface.glsl"
 
 void main() {
 #ifdef ALPHA_MASK

@@ -1,5 +1,5 @@
 #version 450 core
-#include "engine/render/shaders/forward_vertex_interface.glsl"
+#include "engine/render/shaders/vertex_input.glsl"
 
 #ifdef FROM_EYE
 #define TO_CLIP view_projection

@@ -1,6 +1,5 @@
 #version 450 core
-#include "engine/gpu/shaders/half_float.glsl"
-#include "engine/render/shaders/frame_block.h"
+#include "engine/render/shaders/scene_blocks.h"
 
 layout(binding = 0) uniform samplerCube environment_map;
 

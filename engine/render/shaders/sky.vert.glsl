@@ -1,5 +1,5 @@
 #version 450 core
-#include "engine/render/shaders/frame_block.h"
+#include "engine/render/shaders/scene_blocks.h"
 
 out vec3 direction;
 

@@ -1,5 +1,5 @@
 #version 450 core
-// A face of a mirror's surroundings from a picture of twice its size: engine/render/object_reflection.h.
+// A face of a mirror's surroundings from a picture of twice its size: engine/render/reflections.h.
 layout(binding = 0) uniform sampler2D picture;
 layout(binding = 1) uniform sampler2D depth_map;
 uniform vec2 planes;   // near, far

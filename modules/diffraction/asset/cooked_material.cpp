@@ -10,14 +10,11 @@
 #include <utility>
 
 #include "engine/asset/container.h"
-#include "engine/colour/light_spectra.h"
+#include "engine/colour/illuminant.h"
 #include "engine/core/byte_stream.h"
 #include "engine/core/error.h"
 #include "engine/core/json_reader.h"
 #include "engine/lighting/key_lights.h"
-#include "modules/diffraction/asset/efficiency_csv.h"
-#include "modules/diffraction/asset/height_map_png.h"
-#include "modules/diffraction/asset/layer_weights.h"
 
 namespace rowland::diffraction {
 
@@ -149,21 +146,34 @@ CookedMaterial cook_material(const nlohmann::json& json, const std::string& file
     return cook_material(json, file, read_beside(std::filesystem::path(file).parent_path()));
 }
 
-std::vector<std::byte> write_cooked_material(const nlohmann::json& json, const CookedMaterial& cooked) {
-    ByteWriter writer;
+void check_method(const nlohmann::json& json, const std::string& file, const Method& method) {
+    require_baked_grooves(parse_material(with_method(json, method), file).grating, file);
+}
+
+CookedMaterial cook(const nlohmann::json& json, const std::string& file, const Method& method) {
+    return cook_material(with_method(json, method), file);
+}
+
+namespace {
+
+void write_material(const nlohmann::json& json, const CookedMaterial& cooked, ByteWriter& writer) {
     writer.text(json.dump());
     write_named(named_texts(json, cooked.material), writer);
     write_baked(cooked, writer);
     if (cooked.reflected) write_baked(*cooked.reflected, writer);
     writer.text(cooked.measured ? write_budget_record(*cooked.measured) : std::string());
-    return writer.take();
 }
 
-CookedMaterial read_cooked_material(std::span<const std::byte> payload, const std::string& file) {
-    ByteReader reader(payload, file);
+/// `pitches`: of the groove texture that the tables are for; null: none.
+CookedMaterial read_material(ByteReader& reader, const GroovePitches* pitches) {
+    const std::string& file = reader.file();
     CookedMaterial cooked;
     const nlohmann::json json = parse_json(reader.text(), file);
     cooked.material = parse_material(json, file, read_among(read_named(reader), file));
+    if (pitches != nullptr) {
+        if (groove_refusal(cooked.material, *pitches)) reader.fail("a groove texture", "none for this representation");
+        cooked.material = suited_to_grooves(std::move(cooked.material), *pitches);
+    }
     read_baked(reader, cooked);
     if (const auto side = reflected_side(cooked.material.grating)) {
         auto reflected = std::make_shared<CookedMaterial>();
@@ -175,6 +185,38 @@ CookedMaterial read_cooked_material(std::span<const std::byte> payload, const st
     if (const std::string record = reader.text(); !record.empty()) cooked.measured = parse_budget_record(record, file);
     if (reader.remaining() != 0) reader.fail(fmt::format("{} bytes too many", reader.remaining()), "the end");
     return cooked;
+}
+
+}  // namespace
+
+std::vector<std::byte> write_cooked_material(const nlohmann::json& json, const CookedMaterial& cooked) {
+    ByteWriter writer;
+    write_material(json, cooked, writer);
+    return writer.take();
+}
+
+CookedMaterial read_cooked_material(std::span<const std::byte> payload, const std::string& file) {
+    ByteReader reader(payload, file);
+    return read_material(reader, nullptr);
+}
+
+std::vector<std::byte> write_gltf_tables(const nlohmann::json& json, const CookedMaterial& cooked,
+                                         const GroovePitches& pitches) {
+    ByteWriter writer;
+    writer.value(pitches.smallest);
+    writer.value(pitches.largest);
+    write_material(json, cooked, writer);
+    return writer.take();
+}
+
+CookedMaterial read_gltf_tables(std::span<const std::byte> tables, const std::string& file) {
+    ByteReader reader(tables, file);
+    GroovePitches pitches;
+    pitches.smallest = reader.value<double>();
+    pitches.largest = reader.value<double>();
+    if (!(pitches.smallest > 0.0 && pitches.smallest <= pitches.largest && pitches.largest <= 2.0))
+        reader.fail(fmt::format("pitches from {} to {}", pitches.smallest, pitches.largest), "0 < ascending <= 2");
+    return read_material(reader, pitches.vary() ? &pitches : nullptr);
 }
 
 CookedMaterial load_cooked_material(const std::filesystem::path& path) {
@@ -207,12 +249,19 @@ void add_cost(const ShadingCost& cost, Lines& lines) {
 }
 
 void add_record(const BudgetRecord& record, Lines& lines) {
-    lines.add("max_error", record.max_error);
+    const double largest = record.largest_error();
+    if (!record.has_budget())
+        lines.add("max_error", "none: the representation is pinned");
+    else if (largest > record.max_error)
+        lines.add("max_error", fmt::format("{}, missed: this is the best that can be reached", record.max_error));
+    else
+        lines.add("max_error", record.max_error);
     lines.add("measure", error_measure_name(record.measure));
     lines.add("measured_on", fmt::format("{} surface, {} frames", surface_shape_name(record.surface), record.frames));
     for (const BudgetRecord::OfProbe& probe : record.probes)
         lines.add("measured_error",
                   fmt::format("{:.5f} under {} with {} key lights", probe.error, probe.probe, probe.key_lights));
+    lines.add("largest_error", fmt::format("{:.5f}", largest));
     lines.add("price", fmt::format("{:.4g} fetches per pixel", record.price));
 }
 

@@ -9,16 +9,16 @@
 #include <string>
 #include <vector>
 
-#include "modules/diffraction/asset/budget_record.h"
+#include "modules/diffraction/asset/groove_pitches.h"
 #include "modules/diffraction/asset/material.h"
-#include "modules/diffraction/asset/material_json.h"
+#include "modules/diffraction/asset/quality.h"
 #include "modules/diffraction/model/colour_kernel.h"
 #include "modules/diffraction/representations/representation.h"
 
 namespace rowland::diffraction {
 
 inline constexpr const char* kMaterialAssetType = "material";
-inline constexpr std::uint32_t kMaterialAssetVersion = 6;
+inline constexpr std::uint32_t kMaterialAssetVersion = 7;
 
 /// A material with its baked tables.
 struct CookedMaterial {
@@ -46,6 +46,10 @@ CookedMaterial bake_material(const Material& material);
 /// read by `read`, or beside `file`. Throws Error (input) naming `file`.
 CookedMaterial cook_material(const nlohmann::json& json, const std::string& file, const ReadNamed& read);
 CookedMaterial cook_material(const nlohmann::json& json, const std::string& file);
+/// The same as the method says. Throws Error (input), also if the method does not suit the grating.
+CookedMaterial cook(const nlohmann::json& json, const std::string& file, const Method& method);
+/// Throws Error (input) if cook() would, without baking.
+void check_method(const nlohmann::json& json, const std::string& file, const Method& method);
 
 /// The payload of a cooked material: the source as compact JSON with the chosen representation pinned, the CSV files
 /// that it names, the kernel, the representation's number and tables, those of a sheet's reflected side, and the record
@@ -54,6 +58,13 @@ std::vector<std::byte> write_cooked_material(const nlohmann::json& json, const C
 
 /// Inverse of write_cooked_material for untrusted bytes. Throws Error (input).
 CookedMaterial read_cooked_material(std::span<const std::byte> payload, const std::string& file);
+
+/// The tables of a glTF material's grating, which are for the pitches of its groove texture: the payload of a cooked
+/// material behind these.
+inline constexpr std::uint32_t kGltfTablesVersion = 1;
+std::vector<std::byte> write_gltf_tables(const nlohmann::json& json, const CookedMaterial& cooked,
+                                         const GroovePitches& pitches);
+CookedMaterial read_gltf_tables(std::span<const std::byte> tables, const std::string& file);
 
 /// Loads a cooked material file. Throws Error (input); a wrong version names the command that recooks.
 CookedMaterial load_cooked_material(const std::filesystem::path& path);

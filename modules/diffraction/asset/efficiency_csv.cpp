@@ -1,5 +1,4 @@
-#include "modules/diffraction/asset/efficiency_csv.h"
-
+// The CSV files of measured efficiencies.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,10 +9,11 @@
 #include <optional>
 #include <vector>
 
-#include "engine/colour/sampled_spectrum.h"
+#include "engine/colour/spectrum.h"
 #include "engine/core/error.h"
-#include "engine/core/number_table.h"
-#include "modules/diffraction/model/grating_equation.h"
+#include "engine/core/text.h"
+#include "modules/diffraction/asset/material.h"
+#include "modules/diffraction/model/brdf.h"
 
 namespace rowland::diffraction {
 

@@ -2,19 +2,14 @@
 
 #include <limits>
 
-#include "engine/core/json_reader.h"
-#include "engine/core/json_vector.h"
-#include "modules/diffraction/asset/material_json.h"
-#include "modules/diffraction/asset/material_parts.h"
-
 namespace rowland::diffraction {
 
 namespace {
 
 /// glTF allows both members on every object, with any content.
 void allow_foreign_members(JsonReader& json) {
-    json.has("extras");
-    json.has("extensions");
+    json.ignore("extras");
+    json.ignore("extensions");
 }
 
 constexpr std::int64_t kLargestIndex = std::numeric_limits<std::int32_t>::max();
@@ -39,22 +34,44 @@ GrooveTexture parse_groove_texture(JsonReader json) {
     return texture;
 }
 
+void read_placement(JsonReader& reader, GroovePlacement& placement) {
+    placement.has_base = reader.has("base");
+    placement.groove_rotation = reader.number_or("grooveRotation", 0.0, {});
+    if (auto texture = reader.object_if_there("grooveTexture"))
+        placement.groove_texture = parse_groove_texture(*texture);
+}
+
 }  // namespace
 
-GltfGrating parse_gltf_extension(const nlohmann::json& json, const std::string& file,
-                                 const std::filesystem::path& folder, const std::string& pointer) {
+GltfGrating parse_gltf_extension(const nlohmann::json& json, const std::string& file, const ReadNamed& read,
+                                 const std::string& pointer) {
     JsonReader reader(json, file, pointer);
+    return parse_gltf_extension(reader, read);
+}
+
+GltfGrating parse_gltf_extension(JsonReader& reader, const ReadNamed& read) {
     GltfGrating result;
-    result.material = parse_material_parts(reader, read_beside(folder));
-    result.has_base = reader.has("base");
-    result.groove_rotation = reader.number_or("grooveRotation", 0.0, {});
-    if (auto texture = reader.object_if_there("grooveTexture")) result.groove_texture = parse_groove_texture(*texture);
+    result.material = parse_material(reader, read);
+    read_placement(reader, result);
     if (result.groove_texture && result.material.grating.lattice)
         reader.fail("grooveTexture", "a groove texture on a lattice", "no grooveTexture",
                     "it varies grooves of one direction");
     allow_foreign_members(reader);
     reader.finish();
     return result;
+}
+
+GltfGrating parse_gltf_extension(const nlohmann::json& json, const std::string& file,
+                                 const std::filesystem::path& folder, const std::string& pointer) {
+    return parse_gltf_extension(json, file, read_beside(folder), pointer);
+}
+
+GroovePlacement parse_groove_placement(const nlohmann::json& json, const std::string& file,
+                                       const std::string& pointer) {
+    JsonReader reader(json, file, pointer);
+    GroovePlacement placement;
+    read_placement(reader, placement);
+    return placement;
 }
 
 }  // namespace rowland::diffraction

@@ -25,12 +25,16 @@ struct GrooveTexture {
     bool sparkle = false;  ///< "sparkle": a pixel shows the grooves of one texel, not the mean of those that it covers
 };
 
-/// A material's ROWLAND_materials_diffraction object.
-struct GltfGrating {
-    Material material;
+/// How a grating lies on a surface.
+struct GroovePlacement {
     bool has_base = false;         ///< false: the base layer is the glTF's metallic-roughness surface
     double groove_rotation = 0.0;  ///< radians by which g is turned from the tangent toward the bitangent
     std::optional<GrooveTexture> groove_texture;
+};
+
+/// A material's ROWLAND_materials_diffraction object.
+struct GltfGrating : GroovePlacement {
+    Material material;
 };
 
 /// Parses the extension's object: a material object with the optional members "grooveRotation" and "grooveTexture";
@@ -38,5 +42,30 @@ struct GltfGrating {
 /// `pointer` is the object's JSON pointer in `file`. Throws Error (input) as parse_material() does.
 GltfGrating parse_gltf_extension(const nlohmann::json& json, const std::string& file,
                                  const std::filesystem::path& folder, const std::string& pointer = "");
+/// The same, where files that the material names are read by `read`.
+GltfGrating parse_gltf_extension(const nlohmann::json& json, const std::string& file, const ReadNamed& read,
+                                 const std::string& pointer);
+GltfGrating parse_gltf_extension(JsonReader& reader, const ReadNamed& read);
+
+/// A material file's object as a glTF in `folder` holds it, as the value of kGltfExtension. "base" is left out: the
+/// layer under the grating is the glTF material's own surface, with its textures. Names of files, relative to the
+/// material file's folder `from`, become relative to `folder`. `material` is sane (parse_material()). Throws Error
+/// (input) for a name that is not UTF-8.
+nlohmann::ordered_json gltf_object(nlohmann::ordered_json material, const std::filesystem::path& from,
+                                   const std::filesystem::path& folder);
+
+/// Makes the names of files in a material's object, relative to the folder `from`, relative to `to`. Objects that are
+/// not sane may stay as they are.
+void move_named_files(nlohmann::ordered_json& object, const std::filesystem::path& from,
+                      const std::filesystem::path& to);
+
+/// "740 nm lamellar, grooves turned by 30 degrees, groove texture 2"
+std::string describe(const GltfGrating& grating);
+
+/// The placement alone; the other members are not looked at.
+GroovePlacement parse_groove_placement(const nlohmann::json& json, const std::string& file, const std::string& pointer);
+
+/// Those members of the object that a material file may have.
+nlohmann::json material_members(nlohmann::json object);
 
 }  // namespace rowland::diffraction

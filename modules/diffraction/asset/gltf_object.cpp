@@ -1,10 +1,10 @@
-#include "modules/diffraction/asset/gltf_object.h"
+#include "modules/diffraction/asset/gltf_extension.h"
 
 #include <fmt/format.h>
 
 #include <numbers>
 
-#include "engine/core/utf8.h"
+#include "engine/core/text.h"
 #include "modules/diffraction/model/profile.h"
 
 namespace rowland::diffraction {
@@ -30,10 +30,6 @@ void move_name(OrderedJson& owner, const char* key, const std::string& extension
 
 OrderedJson gltf_object(OrderedJson material, const std::filesystem::path& from, const std::filesystem::path& folder) {
     material.erase("base");
-    if (auto quality = material.find("quality"); quality != material.end() && !quality->contains("representation")) {
-        for (const char* measured : {"max_error", "measure", "probes", "surface"}) quality->erase(measured);
-        if (quality->empty()) material.erase("quality");
-    }
     move_named_files(material, from, folder);
     return material;
 }
@@ -45,7 +41,17 @@ void move_named_files(OrderedJson& object, const std::filesystem::path& from, co
     OrderedJson* grating = member(object, "grating");
     OrderedJson* profile = grating ? member(*grating, "profile") : nullptr;
     if (profile) move_name(*profile, "file", "", from, to);
-    if (OrderedJson* quality = member(object, "quality")) move_name(*quality, "illuminant", ".csv", from, to);
+    OrderedJson* quality = member(object, "quality");
+    if (!quality) return;
+    move_name(*quality, "illuminant", ".csv", from, to);
+    OrderedJson* probes = member(*quality, "probes");
+    if (!probes || !probes->is_array()) return;
+    for (OrderedJson& probe : *probes) {
+        if (probe.is_object()) move_name(probe, "image", "", from, to);
+        OrderedJson recipe = {{"name", probe}};
+        move_name(recipe, "name", "", from, to);
+        probe = recipe["name"];
+    }
 }
 
 std::string describe(const GltfGrating& grating) {
@@ -56,6 +62,11 @@ std::string describe(const GltfGrating& grating) {
         text += fmt::format(", grooves turned by {:.4g} degrees", grating.groove_rotation * 180.0 / std::numbers::pi);
     if (grating.groove_texture) text += fmt::format(", groove texture {}", grating.groove_texture->index);
     return text;
+}
+
+nlohmann::json material_members(nlohmann::json object) {
+    for (const char* key : {"grooveRotation", "grooveTexture", "extras", "extensions"}) object.erase(key);
+    return object;
 }
 
 }  // namespace rowland::diffraction

@@ -1,14 +1,17 @@
-#include "modules/diffraction/asset/lattice_json.h"
-
+// A material's lattice, and the picture of its heights.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numbers>
+#include <span>
+#include <vector>
 
-#include "modules/diffraction/asset/height_map_png.h"
-#include "modules/diffraction/asset/profile_json.h"
+#include "engine/core/error.h"
+#include "engine/image/byte_image.h"
+#include "modules/diffraction/asset/material.h"
 
 namespace rowland::diffraction {
 
@@ -20,8 +23,9 @@ constexpr double kLongestSide_nm = 1e7;
 constexpr double kLeastAngle_degrees = 2.0;
 
 glm::dvec2 parse_side(JsonReader& json, const char* key) {
-    const std::vector<double> side = json.numbers(key, 2, {.minimum = -kLongestSide_nm, .maximum = kLongestSide_nm});
-    const glm::dvec2 vector(side[0], side[1]);
+    const NumberRange range{.minimum = -kLongestSide_nm, .maximum = kLongestSide_nm};
+    const auto vector = read_vector<glm::dvec2>(json, key, range);
+    if (json.records()) return vector;
     const double length = glm::length(vector);
     if (!(length >= kShortestSide_nm && length <= kLongestSide_nm))
         json.fail(key, fmt::format("a length of {} nm", length),
@@ -35,25 +39,17 @@ void parse_sides(JsonReader json, Lattice& lattice) {
     const double area = std::abs(lattice.a_nm.x * lattice.b_nm.y - lattice.a_nm.y * lattice.b_nm.x);
     const double sine = std::min(1.0, area / (glm::length(lattice.a_nm) * glm::length(lattice.b_nm)));
     const double angle_degrees = std::asin(sine) * 180.0 / std::numbers::pi;
-    if (angle_degrees < kLeastAngle_degrees)
+    if (angle_degrees < kLeastAngle_degrees && !json.records())
         json.fail("b_nm", fmt::format("{:.3g} degrees between a and b", angle_degrees),
                   fmt::format("at least {} degrees", kLeastAngle_degrees),
                   "for grooves of one direction give pitch_nm instead");
     json.finish();
 }
 
-Profile parse_grooves(JsonReader& json, const char* key, double pitch_nm) {
-    const ReadNamed no_table = [&](const std::string&) -> NamedText {
-        json.fail(std::string(key) + "/type", "a table of efficiencies",
-                  "slit, lamellar, sinusoidal or blazed in a crossed profile");
-    };
-    return parse_profile(json.object(key), pitch_nm, no_table);
-}
-
 LatticeProfile parse_height_map(JsonReader& json, int orders, const ReadNamed& read) {
     const double depth_nm = json.number("depth_nm", {.minimum = 0.0, .minimum_open = true});
-    const std::string name = json.text("file");
-    if (name.empty()) json.fail("file", "an empty name", "a PNG of the heights of one cell");
+    const std::string name = json.file_name("file", "a PNG of the heights of one cell");
+    if (json.records()) return HeightMap{};
     HeightMap map = read_height_map(read(name));
     map.depth_nm = depth_nm;
     // A picture of n texels has n distinct orders.
@@ -64,24 +60,25 @@ LatticeProfile parse_height_map(JsonReader& json, int orders, const ReadNamed& r
 }
 
 LatticeProfile parse_lattice_profile(JsonReader json, const Lattice& lattice, const ReadNamed& read) {
-    const double a_nm = glm::length(lattice.a_nm);
-    const double b_nm = glm::length(lattice.b_nm);
+    const auto length = [&](const glm::dvec2& side) {
+        return json.records() ? std::numeric_limits<double>::infinity() : glm::length(side);
+    };
+    const double a_nm = length(lattice.a_nm);
+    const double b_nm = length(lattice.b_nm);
     const auto within = [](double side_nm) {
         return NumberRange{.minimum = 0.0, .maximum = side_nm, .minimum_open = true};
     };
     LatticeProfile profile;
-    const std::string type = json.choice("type", {"crossed", "aperture", "height_map"});
-    if (type == "crossed") {
-        CrossedProfile crossed;
-        crossed.along_a = parse_grooves(json, "along_a", a_nm);
-        crossed.along_b = parse_grooves(json, "along_b", b_nm);
-        profile = std::move(crossed);
-    } else if (type == "aperture") {
-        profile = ApertureProfile{.width_nm = json.number("width_nm", within(a_nm)),
-                                  .height_nm = json.number("height_nm", within(b_nm))};
-    } else {
-        profile = parse_height_map(json, lattice.orders, read);
-    }
+    json.variant("type", {"crossed", "aperture", "height_map"}, [&](JsonReader& reader, std::size_t type) {
+        if (type == 0)
+            profile = CrossedProfile{.along_a = parse_profile(reader.object("along_a"), a_nm, {}),
+                                     .along_b = parse_profile(reader.object("along_b"), b_nm, {})};
+        else if (type == 1)
+            profile = ApertureProfile{.width_nm = reader.number("width_nm", within(a_nm)),
+                                      .height_nm = reader.number("height_nm", within(b_nm))};
+        else
+            profile = parse_height_map(reader, lattice.orders, read);
+    });
     json.finish();
     return profile;
 }
@@ -90,9 +87,8 @@ LatticeProfile parse_lattice_profile(JsonReader json, const Lattice& lattice, co
 
 Grating parse_lattice_grating(JsonReader& json, const ReadNamed& read) {
     for (const char* member : {"pitch_nm", "grooves", "normalization", "groove_lobe"})
-        if (json.has(member))
-            json.fail(member, fmt::format("{} beside a lattice", member), "no such member",
-                      "it is for grooves of one direction");
+        json.refuse_if_there(member, fmt::format("{} beside a lattice", member), "no such member",
+                             "it is for grooves of one direction");
     Lattice lattice;
     parse_sides(json.object("lattice"), lattice);
     lattice.orders = static_cast<int>(json.integer_or("orders", lattice.orders, 1, kHighestLatticeOrder));
@@ -102,6 +98,27 @@ Grating parse_lattice_grating(JsonReader& json, const ReadNamed& read) {
     grating.orders.clear();
     grating.lattice = std::move(lattice);
     return grating;
+}
+
+HeightMap read_height_map(const NamedText& png) {
+    const std::span<const std::byte> bytes = std::as_bytes(std::span(png.text));
+    if (!image::is_png(bytes)) refuse_input(png.file, {}, "another format", "a PNG of the heights of one cell");
+    const image::ByteImageSize size = image::png_size(bytes, png.file);
+    if (size.width > kLargestHeightMap || size.height > kLargestHeightMap)
+        refuse_input(png.file, {}, fmt::format("{} x {} texels", size.width, size.height),
+                     fmt::format("at most {0} x {0} for the heights of one cell", kLargestHeightMap),
+                     "scale the picture down");
+    const image::ByteImage picture = image::decode_png(bytes, png.file);
+    HeightMap map{.columns = picture.width, .rows = picture.height, .heights = {}, .depth_nm = 0.0};
+    for (std::size_t texel = 0; texel < picture.rgba.size(); texel += 4) map.heights.push_back(picture.rgba[texel]);
+    return map;
+}
+
+std::string write_height_map(const HeightMap& map) {
+    std::vector<std::uint8_t> rgb;
+    for (const std::uint8_t height : map.heights) rgb.insert(rgb.end(), 3, height);
+    const std::vector<std::byte> png = image::encode_png(map.columns, map.rows, 3, rgb);
+    return {reinterpret_cast<const char*>(png.data()), png.size()};
 }
 
 }  // namespace rowland::diffraction

@@ -1,11 +1,17 @@
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <glm/vec3.hpp>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/colour/illuminant.h"
+#include "engine/core/json_reader.h"
 #include "engine/lighting/probe_image.h"
 #include "modules/diffraction/model/grating.h"
 #include "modules/diffraction/representations/representation.h"
@@ -57,5 +63,68 @@ struct Material {
 /// The representation to bake: the pinned one, else spikes, of a lattice planar. A cooker pins the one that it chooses
 /// for max_error.
 Representation representation(const Material& material);
+
+/// A file that a material names, and what messages call it.
+struct NamedText {
+    std::string text;
+    std::string file;
+};
+
+/// Reads a file that a material names: "file" of a table or a height map, "illuminant" of its quality. Throws Error
+/// (input) if it cannot.
+using ReadNamed = std::function<NamedText(const std::string& name)>;
+
+/// The largest file that a material may name.
+inline constexpr std::uint64_t kMaximumNamedFileSize = 16 << 20;
+
+/// Reads names relative to a folder.
+ReadNamed read_beside(std::filesystem::path folder);
+
+/// Parses the material object of a .json file or of the glTF extension. Every failure is an Error (input) that names
+/// `file`, the JSON pointer, what was found and what was expected; unknown keys name the nearest valid one.
+Material parse_material(const nlohmann::json& json, const std::string& file, const ReadNamed& read);
+/// The same, where names are relative to the folder of `file`.
+Material parse_material(const nlohmann::json& json, const std::string& file);
+/// The members that a material file and the glTF extension have in common: all of a material file's. The caller asks
+/// for its own members and calls finish().
+Material parse_material(JsonReader& reader, const ReadNamed& read);
+
+/// A material file's JSON, not checked yet. Throws Error (input).
+nlohmann::json load_material_json(const std::filesystem::path& path);
+/// Reads and parses a material file.
+Material load_material(const std::filesystem::path& path);
+
+/// Its parts. They throw Error (input). A groove's profile, by profile_descriptors(); without `read` none from a file:
+Profile parse_profile(JsonReader json, double pitch_nm, const ReadNamed& read);
+/// The grating of a file that has a "lattice" in place of "pitch_nm": lattice, its profile, its orders.
+Grating parse_lattice_grating(JsonReader& json, const ReadNamed& read);
+/// "quality": a tolerated error, or a representation with its settings, which must suit the grating (refusal()).
+Quality parse_quality(JsonReader json, const Grating& grating, const ReadNamed& read);
+
+/// Parses a table of efficiencies: CSV with the header `wavelength_nm,R-2,R-1,R+0,R+1,…`, one column per order in any
+/// order, and, for several angles of incidence, a second column `incidence_deg` in (−90, 90). Wavelengths ascend
+/// (within each incidence) and reach into 380–780 nm; efficiencies are ≥ 0 and a row sums to at most
+/// 1 + kRowSumTolerance. Throws Error (input) naming `file` and the row.
+EfficiencyTable parse_efficiency_csv(std::string_view text, const std::string& file);
+/// The text that parse_efficiency_csv() reads back to the same numbers.
+std::string write_efficiency_csv(const EfficiencyTable& table);
+
+/// The largest width and height of a cell's picture.
+inline constexpr int kLargestHeightMap = 256;
+/// The heights of one cell from the text of a PNG, whose red is the height. The depth is not set. Throws Error (input).
+HeightMap read_height_map(const NamedText& png);
+/// A PNG of the same heights, as text.
+std::string write_height_map(const HeightMap& map);
+
+/// Weights of the engine's own shading of a grating: XYZ of the illuminant's white (Y = 1) after the grating.
+struct LayerWeights {
+    glm::dvec3 mirror{0.0};  ///< the zero order, unless `orders` lists 0 (then the diffraction term shades it); a
+                             ///< sheet that transmits sends it straight on
+    glm::dvec3 base{1.0};  ///< 1 − Σ listed η − η₀, of both sides of a sheet, at least 0: the light that reaches
+                           ///< the base layer. 0 for a sheet's reflected side alone
+};
+
+/// PHYSICS §2, "Zero order". Each weight is ∫ w(λ) cmf(λ) S(λ) dλ, S the illuminant, of luminance 1.
+LayerWeights layer_weights(const Grating& grating, const colour::Illuminant& illuminant = colour::d65());
 
 }  // namespace rowland::diffraction

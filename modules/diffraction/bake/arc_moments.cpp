@@ -2,12 +2,13 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <glm/mat3x3.hpp>
 #include <numbers>
 
 #include "engine/core/check.h"
-#include "engine/math/sh_basis.h"
-#include "modules/diffraction/bake/arc_coefficients.h"
+#include "engine/math/spherical_harmonics.h"
 
 namespace rowland::diffraction {
 
@@ -102,6 +103,160 @@ std::vector<glm::dvec3> ArcMoments::operator()(const lighting::ShLight& tangent_
     for (std::size_t k = 0; k < moments.size(); ++k)
         for (std::size_t i = 0; i < common; ++i) moments[k] += matrix_[k * count + i] * tangent_light.coefficients[i];
     return moments;
+}
+
+namespace {
+
+using std::numbers::pi;
+
+/// Gauss–Legendre needs π nodes per wave, and a few more where cos t stretches waves.
+constexpr int kNodesPerWave = 6;
+
+/// T(r sin t) of a cover bends toward the ends of the arc.
+constexpr int kCoverNodes = 16;
+
+/// The flat lobe's integrand is a trigonometric polynomial of degree `bands` in t over half a period: 16 nodes give
+/// 1e-15 at 5 bands. A lobe's core is a bump that takes up to 1/17 of the interval: 40 nodes more.
+int core_node_count(int bands, const GrooveLobe& lobe) {
+    const int smooth = std::max(16, 2 * bands + 6);
+    const int waves = static_cast<int>(2.0 * lobe_extent(lobe).core_half_width / lobe_extent(lobe).tail_feature_size);
+    return is_flat(lobe) ? smooth : smooth + 40 + kNodesPerWave * waves;
+}
+
+/// Beyond the core a lobe is as smooth as its waves along the arc, which spans at most 2 in s_h.
+int tail_node_count(int bands, const GrooveLobe& lobe) {
+    const int waves = static_cast<int>(std::ceil(2.0 / lobe_extent(lobe).tail_feature_size));
+    return std::max(16, 2 * bands + 6) + kNodesPerWave * waves;
+}
+
+/// The flat lobe's moments are functions of r alone. T's nearest pole, beyond the horizon at r = −1/√(n² + 1), lets 32
+/// Chebyshev nodes on [0, 1] give 1e-14 up to n = 3.
+constexpr int kRadiusNodes = 32;
+
+struct ChebyshevNode {
+    double position;
+    double weight;  ///< of the barycentric formula (Berrut & Trefethen 2004, eq. 5.3)
+};
+
+std::array<ChebyshevNode, kRadiusNodes> radius_nodes() {
+    std::array<ChebyshevNode, kRadiusNodes> nodes{};
+    for (int j = 0; j < kRadiusNodes; ++j) {
+        const double angle = pi * (j + 0.5) / kRadiusNodes;
+        nodes[static_cast<std::size_t>(j)] = {0.5 + 0.5 * std::cos(angle), (j % 2 == 0 ? 1.0 : -1.0) * std::sin(angle)};
+    }
+    return nodes;
+}
+
+/// The cyclic exchange of axes (h, n, g) → (g, h, n). Columns are the images of the first frame's axes.
+glm::dmat3 arc_to_tangent_axes() {
+    return {0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0};
+}
+
+}  // namespace
+
+/// A part of the arc, t from begin to end.
+struct ArcCoefficients::Stretch {
+    double begin = 0.0;
+    double end = 0.0;
+};
+
+/// The arc's radius and the view along the grooves.
+struct ArcCoefficients::Circle {
+    double r = 0.0;
+    double v_h = 0.0;
+};
+
+ArcCoefficients::ArcCoefficients(int bands, const GrooveLobe& lobe, const std::optional<Cover>& cover)
+    : bands_(bands),
+      lobe_(lobe),
+      cover_(cover),
+      core_rule_(math::gauss_legendre(core_node_count(bands, lobe) + (cover ? kCoverNodes : 0), 0.0, 1.0)),
+      tail_rule_(math::gauss_legendre(tail_node_count(bands, lobe) + (cover ? kCoverNodes : 0), 0.0, 1.0)),
+      to_tangent_frame_(arc_to_tangent_axes(), bands) {
+    if (is_flat(lobe))
+        for (const ChebyshevNode& node : radius_nodes()) of_radius_.push_back(integrated(node.position, 0.0, 0.0));
+}
+
+ArcCoefficients::Moments ArcCoefficients::moments(double r, double v_h, double wavelength_nm) const {
+    return is_flat(lobe_) ? interpolated(r) : integrated(r, v_h, wavelength_nm);
+}
+
+ArcCoefficients::Moments ArcCoefficients::interpolated(double r) const {
+    static const std::array<ChebyshevNode, kRadiusNodes> nodes = radius_nodes();
+    Moments result;
+    double sum = 0.0;
+    for (std::size_t j = 0; j < nodes.size(); ++j) {
+        if (r == nodes[j].position) return of_radius_[j];
+        const double weight = nodes[j].weight / (r - nodes[j].position);
+        sum += weight;
+        // w is even about the arc's top: the other moments vanish.
+        for (std::size_t m = 0; m < static_cast<std::size_t>(bands_); m += 2)
+            result.cosine[m] += weight * of_radius_[j].cosine[m];
+        for (std::size_t m = 1; m < static_cast<std::size_t>(bands_); m += 2)
+            result.sine[m] += weight * of_radius_[j].sine[m];
+    }
+    for (double& moment : result.cosine) moment /= sum;
+    for (double& moment : result.sine) moment /= sum;
+    return result;
+}
+
+ArcCoefficients::Moments ArcCoefficients::integrated(double r, double v_h, double wavelength_nm) const {
+    const double core = lobe_extent(lobe_).core_half_width;
+    const double begin = is_flat(lobe_) ? 0.0 : std::acos(std::clamp((core - v_h) / r, -1.0, 1.0));
+    const double end = is_flat(lobe_) ? pi : std::acos(std::clamp((-core - v_h) / r, -1.0, 1.0));
+    const LobeDensity density(lobe_, wavelength_nm);
+    Moments result;
+    add_moments(core_rule_, {begin, end}, {r, v_h}, density, result);
+    if (lobe_extent(lobe_).half_width > core) {
+        add_moments(tail_rule_, {0.0, begin}, {r, v_h}, density, result);
+        add_moments(tail_rule_, {end, pi}, {r, v_h}, density, result);
+    }
+    return result;
+}
+
+void ArcCoefficients::add_moments(const math::QuadratureRule& rule, const Stretch& stretch, const Circle& arc,
+                                  const LobeDensity& density, Moments& result) const {
+    const double length = stretch.end - stretch.begin;
+    if (length <= 0.0) return;
+    for (std::size_t node = 0; node < rule.nodes.size(); ++node) {
+        const double t = stretch.begin + length * rule.nodes[node];
+        const double c = std::cos(t);
+        const double s = std::sin(t);
+        const double weight =
+            length * rule.weights[node] * arc.r * s * density(arc.r * c + arc.v_h) * transmittance(cover_, arc.r * s);
+        // cos mt and sin mt by recurrence.
+        double cosine = weight;
+        double sine = 0.0;
+        for (std::size_t m = 0; m < static_cast<std::size_t>(bands_); ++m) {
+            result.cosine[m] += cosine;
+            result.sine[m] += sine;
+            const double next = cosine * c - sine * s;
+            sine = sine * c + cosine * s;
+            cosine = next;
+        }
+    }
+}
+
+void ArcCoefficients::accumulate(double a, double v_h, double wavelength_nm, double weight,
+                                 std::span<double> sum) const {
+    if (std::abs(a) >= 1.0 || weight == 0.0) return;
+    const double r = std::sqrt((1.0 - a) * (1.0 + a));
+    const Moments arc = moments(r, v_h, wavelength_nm);
+    // At t = 0 every Y_lm with m ≥ 0 is its function of a.
+    std::array<double, math::sh_count(math::kMaximumBands)> polar;
+    math::evaluate_sh({r, 0.0, a}, bands_, polar);
+    for (int l = 0; l < bands_; ++l) {
+        for (int m = 0; m <= l; ++m) {
+            const double amplitude = weight * polar[static_cast<std::size_t>(math::sh_index(l, m))];
+            const auto k = static_cast<std::size_t>(m);
+            sum[static_cast<std::size_t>(math::sh_index(l, m))] += amplitude * arc.cosine[k];
+            if (m > 0) sum[static_cast<std::size_t>(math::sh_index(l, -m))] += amplitude * arc.sine[k];
+        }
+    }
+}
+
+void ArcCoefficients::to_tangent_frame(std::span<const double> arc_frame, std::span<double> tangent_frame) const {
+    to_tangent_frame_.apply(arc_frame, tangent_frame);
 }
 
 }  // namespace rowland::diffraction

@@ -2,19 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <glm/common.hpp>
+#include <span>
 #include <utility>
 
 #include "engine/core/check.h"
-#include "modules/diffraction/bake/lattice_nodes.h"
-#include "modules/diffraction/model/efficiency.h"
+#include "engine/core/parallel.h"
+#include "modules/diffraction/bake/lattice_terms.h"
+#include "modules/diffraction/model/grating.h"
 
 namespace rowland::diffraction {
 
 namespace {
 
-/// Relative difference of efficiencies that counts as none.
+/// Efficiencies that differ by less than this fraction count as equal.
 constexpr double kSameEfficiency = 1e-6;
-/// Every so many nanometres efficiencies are compared.
+/// Efficiencies are compared at this step, in nanometres.
 constexpr int kCompared_nm = 5;
 
 bool as_bright(const Grating& grating, int a, int b) {
@@ -83,6 +87,176 @@ DiffractionPattern in_space(DiffractionPattern pattern, const glm::dmat3& xyz_to
     for (DiffractionPattern::Node& node : pattern.nodes)
         node.weight = glm::mat3(xyz_to_space * glm::dmat3(node.weight));
     return pattern;
+}
+
+namespace {
+
+/// The coarsest level has so many texels a side: of them, the pattern takes the middle half.
+constexpr int kCoarsestPicture = 8;
+/// |u_g| and |u_h| of all pairs of directions.
+constexpr double kFarthestPair = 2.0;
+/// The blur of a level: its variance over the square of a texel.
+constexpr double kLevelVariance = 0.64;
+/// That variance plus that of the interpolation between texels, averaged over positions.
+constexpr double kShownVariance = kLevelVariance + 1.0 / 6.0;
+/// Points of a pattern closer than this are joined before its extent is known.
+constexpr double kCoarseStep = 0.01;
+
+/// Divides a point's weight among the four texels around it.
+template <typename Level, typename Value>
+void add_point(const glm::vec2& u, const Value& weight, double half_width, Level& level) {
+    const glm::dvec2 position = (glm::dvec2(u) / half_width + 1.0) * (0.5 * level.size) - 0.5;
+    const glm::dvec2 low = glm::floor(position);
+    const double texel = 2.0 * half_width / level.size;
+    for (int corner = 0; corner < 4; ++corner) {
+        const glm::dvec2 at = low + glm::dvec2(corner & 1, corner >> 1);
+        const glm::dvec2 near = 1.0 - glm::abs(position - at);
+        const glm::ivec2 cell = glm::clamp(glm::ivec2(at), 0, level.size - 1);
+        level.density[static_cast<std::size_t>(cell.y) * static_cast<std::size_t>(level.size) +
+                      static_cast<std::size_t>(cell.x)] +=
+            static_cast<float>(near.x * near.y / (texel * texel)) * weight;
+    }
+}
+
+/// Weights of a normal distribution, of this deviation in texels, at distances of `first`, `first` + 1 … −`first`.
+std::vector<float> normal_weights(double deviation, double first) {
+    std::vector<float> weights;
+    double sum = 0.0;
+    for (double x = first; x <= -first; x += 1.0) sum += std::exp(-0.5 * x * x / (deviation * deviation));
+    for (double x = first; x <= -first; x += 1.0)
+        weights.push_back(static_cast<float>(std::exp(-0.5 * x * x / (deviation * deviation)) / sum));
+    return weights;
+}
+
+/// Sums over neighbours along the rows, of every `stride`th texel, and exchanges rows and columns. Beyond the border is
+/// black.
+template <typename Level>
+Level blurred_and_turned(const Level& level, std::span<const float> weights, int stride, int rows) {
+    using Value = typename decltype(level.density)::value_type;
+    const int columns = level.size / stride;
+    const int before = static_cast<int>(weights.size()) / 2 - (stride == 2 ? 1 : 0);
+    Level turned{.size = level.size, .density = {}};
+    turned.density.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), Value(0.0F));
+    parallel_for(static_cast<std::size_t>(rows), [&](std::size_t row) {
+        const Value* from = level.density.data() + row * static_cast<std::size_t>(level.size);
+        for (int column = 0; column < columns; ++column) {
+            Value sum(0.0F);
+            for (int i = 0; i < static_cast<int>(weights.size()); ++i) {
+                const int at = column * stride + i - before;
+                if (at >= 0 && at < level.size) sum += weights[static_cast<std::size_t>(i)] * from[at];
+            }
+            turned.density[static_cast<std::size_t>(column) * static_cast<std::size_t>(rows) + row] = sum;
+        }
+    });
+    turned.size = rows;
+    return turned;
+}
+
+template <typename Level>
+Level blurred(const Level& level, std::span<const float> weights, int stride) {
+    const Level half = blurred_and_turned(level, weights, stride, level.size);
+    return blurred_and_turned(half, weights, stride, level.size / stride);
+}
+
+/// Blurs points, which divided among four texels have a variance of a sixth of a texel's square already. `variance`: in
+/// such squares.
+template <typename Level>
+Level smoothed(const Level& points, double variance) {
+    const double deviation = std::sqrt(variance - 1.0 / 6.0);
+    return blurred(points, normal_weights(deviation, -std::ceil(4.0 * deviation)), 1);
+}
+
+/// The next level: its texels' centres lie between those of the finer one. `variance`: of the blur that it adds, in
+/// squares of the finer one's texels.
+template <typename Level>
+Level halved(const Level& finer, double variance) {
+    // Interpolation between its texels adds 4/6, where that of the finer one added 1/6.
+    const double deviation = std::sqrt(variance - 0.5);
+    return blurred(finer, normal_weights(deviation, 0.5 - std::ceil(4.0 * deviation)), 2);
+}
+
+template <typename Precise, typename Level>
+Precise bilinear(const Level& level, const glm::dvec2& uv) {
+    const glm::dvec2 position = glm::clamp(uv * double(level.size) - 0.5, 0.0, level.size - 1.0);
+    const glm::ivec2 low = glm::min(glm::ivec2(position), level.size - 2);
+    const glm::dvec2 t = position - glm::dvec2(low);
+    const auto of = [&](int row, int column) {
+        return Precise(level.density[static_cast<std::size_t>(row) * static_cast<std::size_t>(level.size) +
+                                     static_cast<std::size_t>(column)]);
+    };
+    return (1.0 - t.y) * ((1.0 - t.x) * of(low.y, low.x) + t.x * of(low.y, low.x + 1)) +
+           t.y * ((1.0 - t.x) * of(low.y + 1, low.x) + t.x * of(low.y + 1, low.x + 1));
+}
+
+/// A picture of `weight_of(node)` at each node, of this variance at least.
+template <typename Value, typename WeightOf>
+MippedPattern<Value> mipped(const DiffractionPattern& pattern, double half_width, double variance, int size,
+                            const WeightOf& weight_of) {
+    MippedPattern<Value> picture{.half_width = half_width, .variance = variance, .growth = 0.0, .levels = {}};
+    auto& finest = picture.levels.emplace_back();
+    finest.size = size;
+    finest.density.assign(static_cast<std::size_t>(size) * static_cast<std::size_t>(size), Value(0.0F));
+    picture.variance = std::max(variance, picture.texel_variance());
+    picture.growth = std::max(picture.variance / 3.0, picture.texel_variance());
+    for (const DiffractionPattern::Node& node : pattern.nodes) add_point(node.u, weight_of(node), half_width, finest);
+    const double in_texels = kShownVariance * picture.variance / picture.texel_variance();
+    finest = smoothed(finest, in_texels - 1.0 / 6.0);
+    const double added = 3.0 * kShownVariance * picture.growth / picture.texel_variance();
+    while (picture.levels.back().size > kCoarsestPicture)
+        picture.levels.push_back(halved(picture.levels.back(), added));
+    return picture;
+}
+
+}  // namespace
+
+template <typename Value>
+double MippedPattern<Value>::texel_variance() const {
+    const double texel = 2.0 * half_width / levels[0].size;
+    return kShownVariance * texel * texel;
+}
+
+template <typename Value>
+typename MippedPattern<Value>::Precise MippedPattern<Value>::at(const glm::dvec2& u, double level) const {
+    if (std::max(std::abs(u.x), std::abs(u.y)) > half_width) return Precise(0.0);
+    const double held = std::clamp(level, 0.0, static_cast<double>(levels.size() - 1));
+    const auto finer = std::min(static_cast<std::size_t>(held), levels.size() - 2);
+    const double t = held - static_cast<double>(finer);
+    const glm::dvec2 uv = 0.5 * (u / half_width + 1.0);
+    return (1.0 - t) * bilinear<Precise>(levels[finer], uv) + t * bilinear<Precise>(levels[finer + 1], uv);
+}
+
+template struct MippedPattern<glm::mat3>;
+template struct MippedPattern<glm::vec3>;
+
+double level_of(const PatternPicture& picture, double variance) {
+    return 0.5 * std::log2(std::max(variance, 1e-30) / picture.texel_variance());
+}
+
+double level_of(const LightPicture& picture, double variance) {
+    const double wider = 1.0 + std::max(variance - picture.variance, 0.0) / picture.growth;
+    const double finer = std::floor(0.5 * std::log2(wider));
+    return finer + (wider * std::exp2(-2.0 * finer) - 1.0) / 3.0;
+}
+
+double picture_half_width(const Grating& grating, const colour::LightSpectra& spectra) {
+    float farthest = 1e-6F;
+    for (const DiffractionPattern::Node& node : shaded_pattern(grating, spectra, kCoarseStep).nodes)
+        farthest = std::max({farthest, std::abs(node.u.x), std::abs(node.u.y)});
+    return std::min(2.05 * static_cast<double>(farthest), kFarthestPair);
+}
+
+PatternPicture pattern_picture(const Grating& grating, const colour::LightSpectra& spectra, int size) {
+    ROWLAND_CHECK_OP(size, >=, 2 * kCoarsestPicture);
+    const double half_width = picture_half_width(grating, spectra);
+    return mipped<glm::mat3>(shaded_pattern(grating, spectra, 2.0 * half_width / size), half_width, 0.0, size,
+                             [](const DiffractionPattern::Node& node) { return node.weight; });
+}
+
+LightPicture light_picture(const DiffractionPattern& pattern, double half_width, const glm::vec3& flux, double variance,
+                           int size) {
+    ROWLAND_CHECK_OP(size, >=, 2 * kCoarsestPicture);
+    return mipped<glm::vec3>(pattern, half_width, variance, size,
+                             [&](const DiffractionPattern::Node& node) { return node.weight * flux; });
 }
 
 }  // namespace rowland::diffraction

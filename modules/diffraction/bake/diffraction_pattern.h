@@ -2,15 +2,17 @@
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
-#include "engine/colour/light_spectra.h"
+#include "engine/colour/illuminant.h"
 #include "modules/diffraction/model/grating.h"
 
 namespace rowland::diffraction {
 
-/// Where a grating sends light: its diffraction pattern P over u = (s_g + v_g, s_h + v_h), PHYSICS (31): points for
+/// Where a grating sends light: its diffraction pattern P over u = (s_g + v_g, s_h + v_h), PHYSICS (6.2): points for
 /// the wavelengths of all orders, which grooves spread along h by their lobe.
 struct DiffractionPattern {
     /// The light of one order and wavelength: P = Σ_nodes weight δ(u_g − node.u_g) D_h(u_h − node.u_h).
@@ -33,7 +35,7 @@ inline constexpr double kPatternStep = 0.004;
 DiffractionPattern diffraction_pattern(const Grating& grating, const colour::LightSpectra& spectra,
                                        double step = kPatternStep);
 
-/// The same in the frame that a point is shaded in: of a sheet that transmits, lit_from_behind() reverses h.
+/// The pattern in the frame that a point is shaded in: for a sheet that transmits, lit_from_behind() reverses h.
 DiffractionPattern shaded_pattern(const Grating& grating, const colour::LightSpectra& spectra,
                                   double step = kPatternStep);
 
@@ -42,5 +44,54 @@ bool is_even(const Grating& grating);
 
 /// The pattern in another colour space than XYZ.
 DiffractionPattern in_space(DiffractionPattern pattern, const glm::dmat3& xyz_to_space);
+
+/// A diffraction pattern of points as a mip-mapped picture over u, PHYSICS (13.5): how much light leaves per unit of
+/// (u_g, u_h). A texture of GL_LINEAR_MIPMAP_LINEAR, black beyond its border. Every level holds all of the pattern's
+/// light, blurred by a normal distribution; each is wider than the one before by about its texels.
+/// `Value`: glm::mat3, linear RGB in, XYZ or another space out; glm::vec3 of one light.
+template <typename Value>
+struct MippedPattern {
+    using Precise = std::conditional_t<std::is_same_v<Value, glm::mat3>, glm::dmat3, glm::dvec3>;
+
+    double half_width =
+        0.0;  ///< it shows |u_g|, |u_h| up to this: texel i of n is centred on ((2i + 1)/n − 1) half_width
+    double variance = 0.0;  ///< of the blur of the finest level, interpolated between its texels
+    double growth = 0.0;    ///< level l is blurred by 4^l − 1 of it more
+    struct Level {
+        int size = 0;                ///< of a side
+        std::vector<Value> density;  ///< row by row along h
+    };
+    std::vector<Level> levels;  ///< each half the size of the one before
+
+    /// The value that the texture unit interpolates; 0 beyond the border.
+    Precise at(const glm::dvec2& u, double level) const;
+    /// The variance of the narrowest blur that texels of the finest level show.
+    double texel_variance() const;
+};
+
+using PatternPicture = MippedPattern<glm::mat3>;
+/// The picture of one light, blurred by its extent.
+using LightPicture = MippedPattern<glm::vec3>;
+
+/// Texels along a side of the finest level.
+inline constexpr int kPatternPictureSize = 1024;
+
+/// Where the mean density over a distribution of this variance along each axis is shown, PHYSICS (13.5). Its widths
+/// come from the level alone: the logarithm deviates least.
+double level_of(const PatternPicture& picture, double variance);
+/// The level for a light, whose levels differ little in width: the mixture of two levels has the variance.
+double level_of(const LightPicture& picture, double variance);
+
+/// The narrowest pattern that the texels show.
+PatternPicture pattern_picture(const Grating& grating, const colour::LightSpectra& spectra,
+                               int size = kPatternPictureSize);
+
+/// The half-width of a picture: twice the pattern's, so that little of it is blurred over the border.
+double picture_half_width(const Grating& grating, const colour::LightSpectra& spectra);
+
+/// The pattern of light of one colour, blurred by `variance` or as narrow as its texels show. The second level has
+/// twice the variance, or more where its texels show no less.
+LightPicture light_picture(const DiffractionPattern& pattern, double half_width, const glm::vec3& flux, double variance,
+                           int size);
 
 }  // namespace rowland::diffraction

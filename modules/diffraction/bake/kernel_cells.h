@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
 #include <span>
 #include <vector>
 
@@ -9,15 +12,35 @@
 
 namespace rowland::diffraction {
 
+/// Pitches that vary over the surface: factors of the material's pitch, at equal steps of their logarithm.
+struct PitchAxis {
+    double smallest = 0.5;  ///< > 0
+    double largest = 2.0;   ///< > smallest
+    int nodes = 32;         ///< ≥ 2
+
+    double factor_at(int node) const {
+        return smallest * std::pow(largest / smallest, static_cast<double>(node) / (nodes - 1));
+    }
+    /// 0 at the smallest, 1 at the largest.
+    double position_of(double factor) const { return std::log(factor / smallest) / std::log(largest / smallest); }
+    /// Scale and offset from a factor's logarithm to the coordinate of a texture of so many texels.
+    glm::dvec2 scale_bias() const {
+        const double scale = (nodes - 1.0) / nodes / std::log(largest / smallest);
+        return {scale, 0.5 / nodes - scale * std::log(smallest)};
+    }
+
+    friend bool operator==(const PitchAxis&, const PitchAxis&) = default;
+};
+
 /// Linear interpolation of f at step h exceeds f by h² f''/12 on average. Nodes therefore hold f less this fraction of
 /// their second difference, which more than halves the interpolation's RMS error.
 inline constexpr float kBestLinear = 1.0F / 12.0F;
 
-/// The same along views at step h under KernelCells: h²/32 more, for light that is spread over cells of ½ h (a variance
-/// of h²/24, divided linearly among two) and the kernel's mean over them (h²/48).
+/// The fraction along views at step h under KernelCells: h²/32 more, for light that is spread over cells of ½ h (a
+/// variance of h²/24, divided linearly among two) and the kernel's mean over them (h²/48).
 inline constexpr float kBestView = kBestLinear + 1.0F / 32.0F;
 
-/// Four numbers that are calculated with at once.
+/// Four numbers in one vector register.
 using Four = float __attribute__((vector_size(4 * sizeof(float))));
 
 /// A colour kernel over equal cells, for correlation with arc profiles: 2(views − 1) cells of a ∈ [−1, 1] and views at
@@ -41,7 +64,7 @@ class KernelCells {
     template <typename Value>
     void sharpen(std::span<Value> xyz, std::size_t count) const;
 
-    /// Cells that the kernel's weights reach from a view.
+    /// The number of cells that the kernel's weights reach from a view.
     struct Range {
         int begin;
         int end;
@@ -50,9 +73,46 @@ class KernelCells {
 
     int views_;
     int cells_;
-    int first_ = 0;               ///< weights before this and
-    int end_ = 0;                 ///< from this on are 0
+    int first_ = 0;  ///< weights outside [first_, end_) are 0
+    int end_ = 0;
     std::vector<float> weights_;  ///< 12 per sum: columns of the matrix, each padded to four
 };
+
+inline constexpr int kLevelsPerOctave = 4;
+
+/// k smoothed by normal distributions, over x and the deviation σ: the response to a light of that extent in one
+/// look-up. A 2D texture, GL_LINEAR, GL_CLAMP_TO_EDGE, three texels (the matrix's columns) per entry.
+///   s = ((x − begin)/(end − begin) (columns−1) + ½)/columns
+///   t = (log₂(σ/narrowest)·levels_per_octave + ½)/levels
+struct BlurredKernel {
+    double begin_nm = 0.0;
+    double end_nm = 0.0;
+    double narrowest_nm = 0.0;  ///< σ of level 0
+    int columns = 0;
+    int levels = 0;
+    int levels_per_octave = kLevelsPerOctave;
+    std::vector<glm::mat3> values;  ///< per nm; level by level
+
+    /// The value that the texture unit interpolates: 0 at the table's ends, and no narrower than a column.
+    glm::dmat3 at(double x_nm, double deviation_nm) const;
+};
+
+/// σ from 1 nm to at least `widest_nm` ≥ 1; x to 4σ beyond the kernel. A value is what at() is to give for σ: the
+/// stencil is narrower by what columns and interpolation add. Where σ is wider than the kernel's features, values are
+/// as 1/σ, and n levels an octave are off by (ln 2/n)²/8 between them: .4 % for 4, .1 % for 8.
+BlurredKernel blur(const KernelTable& kernel, double widest_nm, int columns = 2048,
+                   int levels_per_octave = kLevelsPerOctave);
+
+/// blur() for lights and pixels on a grating of this pitch: deviations of u up to .2. At most so many columns.
+BlurredKernel blur_for_lights(const KernelTable& kernel, double pitch_nm, int most_columns = 4096,
+                              int levels_per_octave = kLevelsPerOctave);
+
+/// The uniforms of shaders/kernel.glsl, which looks up u = x/d instead of x.
+struct KernelUniforms {
+    glm::vec4 scale_bias{0.0F};  ///< scale and offset from u to s; deviation of u in level 0; scale of the values: d
+    glm::vec2 rows{0.0F};        ///< scale and offset from log2(deviation of u) to t
+    glm::vec2 reach{0.0F};       ///< k is 0 where |u| differs from x by more than y
+};
+KernelUniforms kernel_uniforms(const KernelTable& kernel, const BlurredKernel& blurred, double pitch_nm);
 
 }  // namespace rowland::diffraction

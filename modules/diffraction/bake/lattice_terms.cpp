@@ -9,18 +9,54 @@
 #include <optional>
 #include <utility>
 
-#include "engine/math/sh_basis.h"
+#include "engine/core/parallel.h"
+#include "engine/math/spherical_harmonics.h"
 #include "modules/diffraction/bake/view_spectrum.h"
-#include "modules/diffraction/model/efficiency.h"
+#include "modules/diffraction/model/grating.h"
 
 namespace rowland::diffraction {
 
 namespace {
 
-/// Up to so many orders are summed one by one.
+constexpr double kDarkOrder = 1e-9;
+constexpr double kFarthestOrder = 2.0;  ///< |u| of all pairs of directions
+
+}  // namespace
+
+std::vector<LatticeOrder> lattice_orders(const Grating& grating) {
+    const Lattice& lattice = *grating.lattice;
+    std::vector<std::vector<double>> by_wavelength(colour::kVisibleMax - colour::kVisibleMin + 1);
+    parallel_for(by_wavelength.size(), [&](std::size_t j) {
+        by_wavelength[j] = lattice_order_efficiencies(grating, colour::kVisibleMin + static_cast<double>(j));
+    });
+    const glm::dmat2 stars = reciprocal(lattice);
+    const int columns = order_columns(lattice);
+    std::vector<LatticeOrder> orders;
+    for (std::size_t i = 0; i < by_wavelength[0].size(); ++i) {
+        LatticeOrder order;
+        order.u_per_nm = stars * glm::dvec2(static_cast<int>(i) % columns - lattice.orders,
+                                            static_cast<int>(i) / columns - lattice.orders);
+        for (const std::vector<double>& efficiencies : by_wavelength) order.efficiency.push_back(efficiencies[i]);
+        const bool bright = *std::max_element(order.efficiency.begin(), order.efficiency.end()) >= kDarkOrder;
+        const double shortest = colour::kVisibleMin * glm::length(order.u_per_nm);
+        if (bright && shortest > 0.0 && shortest <= kFarthestOrder) orders.push_back(std::move(order));
+    }
+    return orders;
+}
+
+std::vector<LatticeOrder> shaded_lattice_orders(const Grating& grating) {
+    std::vector<LatticeOrder> orders = lattice_orders(grating);
+    if (grating.transmission)
+        for (LatticeOrder& order : orders) order.u_per_nm.y = -order.u_per_nm.y;
+    return orders;
+}
+
+namespace {
+
+/// Up to this number, orders are summed one by one.
 constexpr std::size_t kFewOrders = 100;
 
-/// Points of the pattern this far apart are one for harmonics of so many bands: 1e-4 of the highest.
+/// Points of the pattern within this distance are one point for so many bands: an error of 1e-4 of the highest.
 double cell_of(int bands) {
     return std::max(0.03 / bands, 0.004);
 }
@@ -107,6 +143,72 @@ std::vector<glm::dmat3> LatticeTerms::coefficients(const glm::dvec2& view) const
         add(basis.data(), part.fraction * transmittance(cover_, part.s.z) * point.weight);
     }
     return result;
+}
+
+namespace {
+
+constexpr int kRange_nm = colour::kVisibleMax - colour::kVisibleMin;
+constexpr double kFarthest = 2.0;
+
+/// One order's wavelengths, joined to nodes.
+class OrderNodes {
+ public:
+    OrderNodes(const glm::dvec2& u_per_nm, double step, std::vector<DiffractionPattern::Node>& nodes)
+        : u_per_nm_(u_per_nm), reach_nm_(0.5 * step / glm::length(u_per_nm)), nodes_(nodes) {}
+    OrderNodes(const OrderNodes&) = delete;
+    OrderNodes& operator=(const OrderNodes&) = delete;
+    ~OrderNodes() { finish(); }
+
+    void add(double wavelength_nm, const glm::dmat3& weight) {
+        if (power_ > 0.0 && wavelength_nm - begin_nm_ > reach_nm_) finish();
+        if (power_ == 0.0) begin_nm_ = wavelength_nm;
+        double power = 1e-300;
+        for (int c = 0; c < 3; ++c) power += weight[c].x + weight[c].y + weight[c].z;
+        power_ += power;
+        moment_ += power * wavelength_nm;
+        weight_ += weight;
+    }
+
+ private:
+    void finish() {
+        if (power_ == 0.0) return;
+        const double mean_nm = moment_ / power_;
+        nodes_.push_back({glm::vec2(mean_nm * u_per_nm_), static_cast<float>(mean_nm), glm::mat3(weight_)});
+        power_ = moment_ = 0.0;
+        weight_ = glm::dmat3(0.0);
+    }
+
+    glm::dvec2 u_per_nm_;
+    double reach_nm_;
+    std::vector<DiffractionPattern::Node>& nodes_;
+    double begin_nm_ = 0.0;
+    double power_ = 0.0;
+    double moment_ = 0.0;
+    glm::dmat3 weight_{0.0};
+};
+
+}  // namespace
+
+std::vector<DiffractionPattern::Node> lattice_nodes(const Grating& grating, const colour::LightSpectra& spectra,
+                                                    double step) {
+    std::vector<DiffractionPattern::Node> nodes;
+    for (const LatticeOrder& order : lattice_orders(grating)) {
+        const double u_of_1nm = glm::length(order.u_per_nm);
+        const int nodes_per_nm = std::max(1, static_cast<int>(std::ceil(u_of_1nm / step)));
+        const int last = kRange_nm * nodes_per_nm;
+        OrderNodes joined(order.u_per_nm, step, nodes);
+        for (int i = 0; i <= last; ++i) {
+            const double beyond_nm = static_cast<double>(i) / nodes_per_nm;
+            const double wavelength_nm = colour::kVisibleMin + beyond_nm;
+            if (u_of_1nm * wavelength_nm > kFarthest) break;
+            const auto below = static_cast<std::size_t>(std::min(static_cast<int>(beyond_nm), kRange_nm - 1));
+            const double efficiency =
+                std::lerp(order.efficiency[below], order.efficiency[below + 1], beyond_nm - static_cast<double>(below));
+            const double step_nm = (i == 0 || i == last ? 0.5 : 1.0) / nodes_per_nm;
+            joined.add(wavelength_nm, step_nm * efficiency * observed_spectra(spectra, wavelength_nm));
+        }
+    }
+    return nodes;
 }
 
 }  // namespace rowland::diffraction

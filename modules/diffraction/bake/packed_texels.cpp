@@ -15,10 +15,10 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// By Storage.
+/// Indexed by Storage.
 constexpr std::array<std::string_view, 4> kStorageNames{"unorm16", "fp16", "fp32", "unorm8"};
 
-/// Words of so many components.
+/// The number of words that hold so many components.
 std::size_t word_count(Storage storage, std::size_t components) {
     return components * component_bytes(storage) / sizeof(std::uint16_t);
 }

@@ -55,7 +55,7 @@ void read_packed_texels(ByteReader& reader, std::size_t layers, std::size_t texe
 /// The storage that a number in a file names. Throws Error (input) at the reader's offset.
 Storage to_storage(const ByteReader& reader, unsigned number);
 
-/// 3 × 3 matrices: their count, then nine floats each, column by column.
+/// Writes 3 × 3 matrices: their count, then nine floats each, column by column.
 void write_matrices(std::span<const glm::mat3> matrices, ByteWriter& writer);
 /// Throws Error (input) unless their number is within bounds and every number finite.
 std::vector<glm::mat3> read_matrices(ByteReader& reader, const char* what, std::size_t fewest, std::size_t most);

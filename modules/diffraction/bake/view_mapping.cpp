@@ -9,8 +9,8 @@
 
 #include "engine/core/check.h"
 #include "engine/core/error.h"
+#include "engine/core/log.h"
 #include "engine/core/parallel.h"
-#include "engine/core/progress.h"
 
 namespace rowland::diffraction {
 
@@ -18,13 +18,13 @@ namespace {
 
 using std::numbers::pi;
 
-/// By ViewMapping.
+/// Indexed by ViewMapping.
 constexpr std::array<std::string_view, 3> kViewMappingNames{"spherical", "parabolic", "one-dimensional"};
 
 /// Far above any use, and small enough that no product of sizes overflows.
 constexpr int kMaximumNodes = 1 << 14;
 
-/// −1 … 1 at equal steps.
+/// The position of a node in [−1, 1] at equal steps.
 double signed_node(int index, int count) {
     return 2.0 * index / (count - 1) - 1.0;
 }

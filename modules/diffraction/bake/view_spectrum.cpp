@@ -1,16 +1,122 @@
 #include "modules/diffraction/bake/view_spectrum.h"
 
 #include <fmt/format.h>
-
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <functional>
+#include <glm/matrix.hpp>
 
+#include "engine/colour/spectrum.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
-#include "engine/math/sh_basis.h"
-#include "modules/diffraction/model/efficiency.h"
+#include "engine/math/spherical_harmonics.h"
+#include "modules/diffraction/model/grating.h"
 
 namespace rowland::diffraction {
+
+namespace {
+
+/// Two Gauss–Legendre nodes on [0, 1], each of weight ½.
+constexpr std::array<double, 2> kNodes = {0.21132486540518711775, 0.78867513459481288225};
+
+}  // namespace
+
+TransferTerms::TransferTerms(const Grating& grating, const colour::LightSpectra& spectra, int bands)
+    : pitch_nm_(grating.pitch_nm),
+      by_moments_(has_arc_moments(grating)),
+      orders_(grating.orders),
+      arcs_(bands, grating.lobe, grating.cover),
+      moments_(bands) {
+    ROWLAND_CHECK_OP(grating.pitch_nm, >, 0.0);
+    require_many_grooves(grating);
+    if (grating.lattice) lattice_.emplace(grating, spectra, bands);
+    for (const int order : orders_)
+        for (std::size_t j = 0; j < kWavelengths; ++j) {
+            const double wavelength_nm = colour::kVisibleMin + static_cast<double>(j);
+            weights_.push_back(order_efficiency(grating, order, wavelength_nm) *
+                               glm::outerProduct(colour::cie_xyz(wavelength_nm), spectra(wavelength_nm)));
+        }
+}
+
+template <typename Use>
+void TransferTerms::each_arc(double v_g, double pitch_nm, const Use& use) const {
+    for (std::size_t k = 0; k < orders_.size(); ++k) {
+        const double slope = orders_[k] / pitch_nm;
+        const auto weight_at = [&](double position) {
+            const auto j = std::min(static_cast<std::size_t>(position), kWavelengths - 2);
+            const double t = position - static_cast<double>(j);
+            const std::size_t first = k * kWavelengths + j;
+            return (1.0 - t) * weights_[first] + t * weights_[first + 1];
+        };
+        if (orders_[k] == 0) {
+            for (std::size_t j = 0; j < kWavelengths; ++j)
+                use(-v_g, colour::kVisibleMin + static_cast<double>(j),
+                    (j == 0 || j + 1 == kWavelengths ? 0.5 : 1.0) * weights_[k * kWavelengths + j]);
+            continue;
+        }
+        for (std::size_t j = 0; j + 1 < kWavelengths; ++j) {
+            const double wavelength_nm = colour::kVisibleMin + static_cast<double>(j);
+            const double begin = std::clamp(slope * wavelength_nm - v_g, -1.0, 1.0);
+            const double end = std::clamp(slope * (wavelength_nm + 1.0) - v_g, -1.0, 1.0);
+            if (begin == end) continue;
+            // The coefficients have a square root at the horizon in a = cos ϑ, but not in ϑ.
+            const double angle = std::acos(begin);
+            const double length = std::acos(end) - angle;
+            for (const double node : kNodes) {
+                const double at = angle + length * node;
+                const double a = std::cos(at);
+                const double wavelength_at = std::clamp((a + v_g) / slope, wavelength_nm, wavelength_nm + 1.0);
+                const double step_nm = 0.5 * std::abs(length * std::sin(at) / slope);
+                use(a, wavelength_at, step_nm * weight_at(wavelength_at - colour::kVisibleMin));
+            }
+        }
+    }
+}
+
+std::vector<glm::dmat3> TransferTerms::coefficients(double v_g, double v_h, double pitch_factor) const {
+    if (lattice_) return lattice_->coefficients({v_g, v_h});
+    if (!by_moments_) return summed_arcs(v_g, v_h, pitch_factor);
+    // Fewer functions of a, and no quadrature along the arc.
+    const std::vector<glm::dmat3> terms = moments(v_g, pitch_factor);
+    const auto count = static_cast<std::size_t>(math::sh_count(arcs_.bands()));
+    std::vector<glm::dmat3> result(count, glm::dmat3(0.0));
+    for (std::size_t k = 0; k < terms.size(); ++k)
+        for (std::size_t i = 0; i < count; ++i) result[i] += moments_.matrix()[k * count + i] * terms[k];
+    return result;
+}
+
+std::vector<glm::dmat3> TransferTerms::summed_arcs(double v_g, double v_h, double pitch_factor) const {
+    const auto count = static_cast<std::size_t>(math::sh_count(arcs_.bands()));
+    std::vector<glm::dmat3> arc_frame(count, glm::dmat3(0.0));
+    std::vector<double> arc(count);
+    each_arc(v_g, pitch_nm_ * pitch_factor, [&](double a, double wavelength_nm, const glm::dmat3& weight) {
+        std::fill(arc.begin(), arc.end(), 0.0);
+        arcs_.accumulate(a, v_h, wavelength_nm, 1.0, arc);
+        for (std::size_t i = 0; i < count; ++i)
+            if (arc[i] != 0.0) arc_frame[i] += arc[i] * weight;
+    });
+    std::vector<glm::dmat3> result(count);
+    std::vector<double> turned(count);
+    for (int c = 0; c < 3; ++c)
+        for (int o = 0; o < 3; ++o) {
+            for (std::size_t i = 0; i < count; ++i) arc[i] = arc_frame[i][c][o];
+            arcs_.to_tangent_frame(arc, turned);
+            for (std::size_t i = 0; i < count; ++i) result[i][c][o] = turned[i];
+        }
+    return result;
+}
+
+std::vector<glm::dmat3> TransferTerms::moments(double v_g, double pitch_factor) const {
+    ROWLAND_CHECK(by_moments_, "arc moments are those of the flat lobe in air");
+    std::vector<glm::dmat3> result(static_cast<std::size_t>(arc_moment_count(moments_.bands())), glm::dmat3(0.0));
+    std::vector<double> basis(result.size());
+    each_arc(v_g, pitch_nm_ * pitch_factor, [&](double a, double, const glm::dmat3& weight) {
+        evaluate_arc_basis(a, moments_.bands(), basis);
+        for (std::size_t k = 0; k < result.size(); ++k) result[k] += basis[k] * weight;
+    });
+    return result;
+}
 
 void require_many_grooves(const Grating& grating) {
     if (grating.grooves >= kManyGrooves) return;

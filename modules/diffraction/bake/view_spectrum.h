@@ -1,19 +1,59 @@
 #pragma once
 
+#include <cstddef>
+#include <glm/mat3x3.hpp>
+#include <optional>
 #include <vector>
 
 #include "engine/colour/illuminant.h"
-#include "modules/diffraction/bake/arc_coefficients.h"
+#include "modules/diffraction/bake/arc_moments.h"
 #include "modules/diffraction/bake/lattice_terms.h"
 #include "modules/diffraction/model/grating.h"
 
 namespace rowland::diffraction {
 
+/// Whether arc moments describe all that a grating sees of a light: grooves of the flat lobe without a cover, whose
+/// T(s_n) is no polynomial.
+inline bool has_arc_moments(const Grating& grating) {
+    return sees_v_g_alone(grating) && !grating.cover;
+}
+
+/// The diffraction term of one view as SH coefficients with the wavelengths summed (PHYSICS §5):
+/// c_i,o,c(v) = Σ_m ∫ η_m(λ) cmf_o(λ) E_c(λ) C_i(mλ/d − v_g) dλ. This equals d ∫ C_i(a) k_o,c(d(a+v_g)) da, but knows
+/// the wavelength that the lobe depends on. Of a lattice: LatticeTerms.
+class TransferTerms {
+ public:
+    /// Throws as require_many_grooves().
+    TransferTerms(const Grating& grating, const colour::LightSpectra& spectra, int bands);
+
+    /// c_i for a view, [i] RGB in, XYZ out; bands² matrices in the frame (g, h, n). The weight is linear between whole
+    /// nanometres, as in ColourKernel. Each nanometre above the horizon takes two Gauss–Legendre nodes in the arc's
+    /// angle: 1e-8 exact for the flat lobe. `pitch_factor` scales the pitch, not the efficiencies.
+    std::vector<glm::dmat3> coefficients(double v_g, double v_h, double pitch_factor = 1.0) const;
+
+    /// The coefficients T_k(v_g) of the 2·bands − 1 arc moments (arc_moments.h), [k]. has_arc_moments() must hold.
+    std::vector<glm::dmat3> moments(double v_g, double pitch_factor = 1.0) const;
+
+ private:
+    /// Calls use(a, wavelength_nm, weight) for every arc of the quadrature.
+    template <typename Use>
+    void each_arc(double v_g, double pitch_nm, const Use& use) const;
+    std::vector<glm::dmat3> summed_arcs(double v_g, double v_h, double pitch_factor) const;
+
+    double pitch_nm_;
+    bool by_moments_;
+    std::vector<int> orders_;
+    std::vector<glm::dmat3> weights_;  ///< order by order, one per nanometre
+    ArcCoefficients arcs_;
+    ArcMoments moments_;
+    std::optional<LatticeTerms> lattice_;
+};
+
 /// Throws Error (input) for fewer than kManyGrooves grooves: baked tables hold for N → ∞.
 void require_many_grooves(const Grating& grating);
 
 /// The diffraction term of one view as SH coefficients per wavelength: c_i(v, λ) = Σ_m η_m(λ) C_i(mλ/d − v_g), PHYSICS
-/// §5, or of a lattice (51), tabulated at every nanometre of the visible range. Holds everything that does not depend
+/// §5, or of a lattice (13.4), tabulated at every nanometre of the visible range. Holds everything that does not depend
 /// on the view.
 class ViewSpectrum {
  public:

@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
+#include <variant>
 
 #include "engine/core/check.h"
 #include "engine/core/error.h"
-#include "engine/core/progress.h"
-#include "modules/diffraction/asset/method.h"
+#include "engine/core/log.h"
+#include "modules/diffraction/asset/cooked_material.h"
+#include "modules/diffraction/asset/quality.h"
 
 namespace rowland::diffraction {
 
@@ -66,16 +69,24 @@ std::vector<nlohmann::json> budget_candidates(const Grating& grating, SurfaceSha
 }
 
 BudgetChoice choose_representation(const Material& material, std::span<const BudgetProbe> probes,
-                                   std::span<const ShadingPoint> frames, const std::string& file) {
+                                   std::span<const ShadingPoint> frames, const std::string& file,
+                                   const ChoiceRules& rules) {
     ROWLAND_CHECK(!probes.empty() && !frames.empty(), "an error needs light and views to be measured on");
     const double max_error = material.quality.max_error;
     const int most = std::ranges::max(probes, {}, &BudgetProbe::key_lights).key_lights;
+    std::vector<nlohmann::json> settings = budget_candidates(material.grating, material.quality.surface, most);
+    if (rules.allows)
+        std::erase_if(settings, [&](const nlohmann::json& candidate) {
+            const auto suited = suited_quality(candidate, material.grating);
+            const auto* quality = std::get_if<Quality>(&suited);
+            return quality == nullptr || !rules.allows(*quality);
+        });
     std::unique_ptr<Progress> progress;
     const SearchState found = search({.material = material,
                                       .probes = probes,
                                       .frames = frames,
                                       .error = error_function(material.quality.measure, material.quality.surface),
-                                      .settings = budget_candidates(material.grating, material.quality.surface, most),
+                                      .settings = std::move(settings),
                                       .good_enough = max_error},
                                      [&](const SearchState& state) {
                                          if (!progress)
@@ -84,15 +95,34 @@ BudgetChoice choose_representation(const Material& material, std::span<const Bud
                                          progress->advance();
                                      });
     const MeasuredChoice& best = *std::ranges::min_element(found.measured, {}, &MeasuredChoice::error);
-    if (best.error() > max_error)
-        refuse_input(file, "/quality/max_error", fmt::format("{}", max_error),
+    const std::string pointer = rules.pointer + "/quality/max_error";
+    if (best.error() > max_error && rules.must_meet_budget)
+        refuse_input(file, pointer, fmt::format("{}", max_error),
                      fmt::format("at least {:.3g}, the best that can be reached here: {}", rounded_up(best.error()),
                                  best.settings.dump()),
                      "allow more, or pin a representation");
+    if (best.error() > max_error)
+        log_warning("{}: {}: no representation has an error of at most {}; the best one has {:.3g}: {}", file, pointer,
+                    max_error, rounded_up(best.error()), best.settings.dump());
     BudgetChoice choice{best.settings, *best.baked};
     choice.cooked.material.quality = best.quality;
     choice.cooked.measured = record_of(best, material, probes, frames.size());
     return choice;
+}
+
+std::optional<BudgetRecord> measure_pinned(const Material& material, std::span<const BudgetProbe> probes,
+                                           std::span<const ShadingPoint> frames) {
+    const SearchState found = search({.material = material,
+                                      .probes = probes,
+                                      .frames = frames,
+                                      .error = error_function(material.quality.measure, material.quality.surface),
+                                      .settings = {},
+                                      .first = nlohmann::json::object()},
+                                     [](const SearchState&) {});
+    BudgetRecord record = record_of(found.measured.front(), material, probes, frames.size());
+    record.max_error = 0.0;
+    if (!std::isfinite(record.largest_error())) return std::nullopt;
+    return record;
 }
 
 }  // namespace rowland::diffraction

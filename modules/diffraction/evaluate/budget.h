@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,10 +21,24 @@ struct BudgetChoice {
     CookedMaterial cooked;    ///< baked with them, and with the record of what was measured
 };
 
+/// What a choice is bound by, besides the budget.
+struct ChoiceRules {
+    std::string pointer = "";  ///< JSON pointer of the material's object, for messages
+    /// Whether it is an error if no setting is within max_error. Otherwise the best one is taken, with a warning.
+    bool must_meet_budget = true;
+    /// The qualities that may be chosen; empty: all.
+    std::function<bool(const Quality&)> allows = {};
+};
+
 /// The cheapest of budget_candidates() whose error (quality.measure, over `frames`) is within the material's
 /// quality.max_error under every probe, by search(). The material pins nothing. Throws Error (input) naming `file` and
 /// the least error that can be reached, if that is above max_error.
 BudgetChoice choose_representation(const Material& material, std::span<const BudgetProbe> probes,
-                                   std::span<const ShadingPoint> frames, const std::string& file);
+                                   std::span<const ShadingPoint> frames, const std::string& file,
+                                   const ChoiceRules& rules = {});
+
+/// The errors of the representation that the material pins, under each probe; nullopt where the reference is black.
+std::optional<BudgetRecord> measure_pinned(const Material& material, std::span<const BudgetProbe> probes,
+                                           std::span<const ShadingPoint> frames);
 
 }  // namespace rowland::diffraction

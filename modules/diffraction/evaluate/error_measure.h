@@ -1,14 +1,45 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <glm/vec3.hpp>
 #include <span>
 #include <vector>
 
 #include "modules/diffraction/asset/material.h"
-#include "modules/diffraction/model/shading_point.h"
+#include "modules/diffraction/model/grating.h"
 
 namespace rowland::diffraction {
+
+/// The relative RMS error √(Σ‖XYZ − reference‖² / Σ‖reference‖²) (PHYSICS §1). 0 where both are black, infinite where
+/// only the reference is black. The spans have equal lengths, one value per frame.
+double relative_rms(std::span<const glm::dvec3> radiance, std::span<const glm::dvec3> reference);
+
+/// The frames that errors are measured at, 120 for each shape: a compact disc tilted by 35° for flat surfaces; for
+/// curved ones a sphere with the grooves along its meridians, down to v_n = 0.1.
+std::vector<ShadingPoint> measured_frames(SurfaceShape surface);
+
+/// The pixels of a picture that see a surface.
+struct PictureLayout {
+    int width = 0;
+    int height = 0;
+    std::vector<std::size_t> pixels;  ///< of each point: row · width + column, row 0 at the top
+};
+
+/// XYZ of a picture's pixels from that of its points; black where it sees no surface.
+std::vector<glm::dvec3> picture(const PictureLayout& layout, std::span<const glm::dvec3> radiance);
+
+/// Mean colour::hdr_flip() over the pixels that see a surface; 0 if none does. The spans have one value per point.
+double mean_hdr_flip(const PictureLayout& layout, std::span<const glm::dvec3> radiance,
+                     std::span<const glm::dvec3> reference);
+
+/// A picture that errors are measured on, 32 × 32 pixels, and its points: a compact disc tilted by 35° for flat
+/// surfaces; for curved ones a sphere with the grooves along its meridians, down to v_n = 0.1. From three radii away.
+struct MeasuredPicture {
+    PictureLayout layout;
+    std::vector<ShadingPoint> points;
+};
+MeasuredPicture measured_picture(SurfaceShape surface);
 
 /// The points that an error is measured at: measured_frames(), for ErrorMeasure::HdrFlip those of measured_picture().
 std::vector<ShadingPoint> measured_points(ErrorMeasure measure, SurfaceShape surface);

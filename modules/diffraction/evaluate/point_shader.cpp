@@ -1,16 +1,20 @@
 #include "modules/diffraction/evaluate/point_shader.h"
 
 #include <algorithm>
+#include <array>
 #include <glm/geometric.hpp>
 #include <memory>
+#include <span>
 #include <utility>
 
+#include "engine/colour/illuminant.h"
 #include "engine/core/error.h"
+#include "engine/core/log.h"
 #include "engine/core/parallel.h"
-#include "engine/core/progress.h"
-#include "engine/math/sh_rotation.h"
+#include "engine/math/spherical_harmonics.h"
+#include "modules/diffraction/evaluate/error_measure.h"
+#include "modules/diffraction/reference/reference.h"
 #include "modules/diffraction/representations/direct/direct.h"
-#include "modules/diffraction/representations/direct/pattern_light.h"
 #include "modules/diffraction/representations/streak/streak.h"
 
 namespace rowland::diffraction {
@@ -23,7 +27,7 @@ struct DirectPart {
     std::vector<lighting::KeyLight> keys;
 };
 
-/// Streaks show the whole probe: key lights light only the incoherent rest of the lobe.
+/// Streaks show the whole probe: key lights light only the incoherent part of the lobe.
 DirectPart direct_part(const CookedMaterial& cooked, const EvaluationLight& light) {
     const Grating& grating = cooked.material.grating;
     DirectPart part{.material = {.pitch_nm = grating.pitch_nm,
@@ -33,8 +37,8 @@ DirectPart direct_part(const CookedMaterial& cooked, const EvaluationLight& ligh
                     .keys = {light.key_lights().begin(), light.key_lights().end()}};
     const auto* tables = std::get_if<StreakTables>(&cooked.tables);
     if (tables == nullptr) return part;
-    if (!tables->rest) part.keys.clear();
-    if (const auto rest = incoherent_rest(grating)) part.material.lobe = rest->lobe;
+    if (!tables->incoherent) part.keys.clear();
+    if (const auto rest = incoherent_part(grating)) part.material.lobe = rest->lobe;
     for (lighting::KeyLight& key : part.keys) key.flux *= 1.0 - tables->streak.power;
     return part;
 }
@@ -137,6 +141,31 @@ PointShader exact_spikes(const Grating& grating, const SpikeSettings& settings, 
                                 const lighting::ShLight& rotated, const glm::dvec3& view) {
                                 return evaluate_spikes(baker->bake(view.x, view.y), rotated);
                             });
+}
+
+PointComparer::PointComparer(lighting::ProbeImage probe, int key_lights)
+    : probe_(std::make_unique<const lighting::ProbeImage>(std::move(probe))),
+      fitted_(key_lights),
+      lights_(*probe_, 0, key_lights) {}
+
+lighting::ShLight PointComparer::harmonics(int key_lights, int bands) {
+    return lights_.split(std::min(key_lights, fitted_)).harmonics(bands);
+}
+
+PointComparison PointComparer::compare(const std::shared_ptr<const CookedMaterial>& cooked,
+                                       math::SphericalWindow window, const ShadingPoint& frame) {
+    const EvaluationLight& lit = lights_.split(std::min(cooked->material.quality.key_lights, fitted_), window);
+    if (!ready_ || ready_->cooked != cooked || ready_->light != &lit)
+        ready_.emplace(Ready{cooked, &lit, baked_shader(*cooked, lit)});
+    const std::array points{frame};
+    const colour::LightSpectra spectra(cooked->material.quality.illuminant);
+    PointComparison result;
+    std::vector<glm::dvec3> shown = evaluate_points(info(cooked->tables).name, ready_->shader, *cooked, lit, points);
+    add_reflected_side(*cooked, lit, points, shown);
+    result.shown = shown[0];
+    result.reference = reference_radiance(cooked->material.grating, *probe_, spectra, points)[0];
+    result.error = relative_rms(std::span(&result.shown, 1), std::span(&result.reference, 1));
+    return result;
 }
 
 }  // namespace rowland::diffraction

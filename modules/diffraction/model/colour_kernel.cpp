@@ -6,7 +6,7 @@
 #include "engine/core/check.h"
 #include "engine/core/parallel.h"
 #include "modules/diffraction/model/brdf.h"
-#include "modules/diffraction/model/efficiency.h"
+#include "modules/diffraction/model/grating.h"
 
 namespace rowland::diffraction {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/colour/light_spectra.h"
+#include "engine/colour/illuminant.h"
 #include "modules/diffraction/model/grating.h"
 
 namespace rowland::diffraction {

@@ -1,17 +1,69 @@
 #pragma once
 
 #include <algorithm>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <vector>
 
-#include "engine/colour/metal.h"
-#include "modules/diffraction/model/cover.h"
+#include "engine/colour/illuminant.h"
+#include "engine/colour/spectrum.h"
 #include "modules/diffraction/model/lattice.h"
 #include "modules/diffraction/model/lobe.h"
 #include "modules/diffraction/model/profile.h"
-#include "modules/diffraction/model/transmission.h"
 
 namespace rowland::diffraction {
+
+/// A transparent layer over the grooves: a disc's polycarbonate, a foil's lacquer (PHYSICS §10).
+struct Cover {
+    double ior = 1.58;  ///< n at all wavelengths, at least 1
+    /// Linear Rec.709 in [0, 1]: what a dye in the layer passes on the way in, and on the way out.
+    glm::dvec3 tint{1.0};
+};
+
+/// T(c), PHYSICS (10.1): the fraction of unpolarised light that enters a medium of index `ior` from air at an angle of
+/// this cosine, or leaves it; by Fresnel's formulas. 0 at grazing incidence and below. |cosine| ≤ 1.
+double transmittance(double ior, double cosine);
+
+/// The same of a cover; 1 without one.
+inline double transmittance(const std::optional<Cover>& cover, double cosine) {
+    return cover ? transmittance(cover->ior, cosine) : 1.0;
+}
+
+/// τ², PHYSICS (10.4): what the tint passes on the way in and out at normal incidence; 1 without a cover.
+double dye_transmittance(const std::optional<Cover>& cover, double wavelength_nm);
+
+/// The index of the medium that the grooves lie in.
+inline double groove_medium(const std::optional<Cover>& cover) {
+    return cover ? cover->ior : 1.0;
+}
+
+/// A shaded point in world axes: the direction to the eye, the surface normal, and the grating vector (across the
+/// grooves).
+struct ShadingPoint {
+    glm::dvec3 view{0.0, 0.0, 1.0};
+    glm::dvec3 normal{0.0, 0.0, 1.0};
+    glm::dvec3 grating{1.0, 0.0, 0.0};
+
+    friend bool operator==(const ShadingPoint&, const ShadingPoint&) = default;
+};
+
+/// True if all three vectors are finite and not 0, and the grating vector is not along the normal.
+bool is_valid(const ShadingPoint& frame);
+
+/// The rotation from world to tangent frame: rows g, h = n × g, n, g made orthogonal to n (PHYSICS §1). The frame must
+/// be valid.
+glm::dmat3 world_to_tangent(const ShadingPoint& frame);
+
+/// A thin sheet that sends light through (PHYSICS §12).
+struct Transmission {
+    double ior = 1.5;          ///< n of the sheet at all wavelengths, at least 1; slits and tables do not depend on it
+    double reflectance = 0.0;  ///< fraction of the light that the sheet reflects, in [0, 1]; it transmits the rest
+};
+
+/// The point of a sheet's other side that shows, as a reflection grating, what the sheet shows at `frame`: the view is
+/// mirrored in the surface, the normal is the opposite one (PHYSICS (12.3)). The frame must be valid.
+ShadingPoint lit_from_behind(const ShadingPoint& frame);
 
 enum class Normalization {
     Energy,  ///< each order carries its efficiency: reciprocal, conserves energy
@@ -59,5 +111,30 @@ inline bool sees_v_g_alone(const Grating& grating) {
 inline bool lists(const Grating& grating, int order) {
     return std::binary_search(grating.orders.begin(), grating.orders.end(), order);
 }
+
+/// R(λ): the metal's reflectance in the medium over it, times what a cover's dye passes twice. 1 for a table of
+/// efficiencies, which was measured with both. Of a sheet, the fraction that it transmits; of its reflected side, the
+/// rest.
+double reflectance(const Grating& grating, double wavelength_nm);
+
+/// The weight of order m at wavelength λ in the diffraction term: R(λ) η_m(λ), for the "agu" normalisation times
+/// λ/550 nm (PHYSICS §3). Under a cover η_m and R are those in its medium, and its dye is included; T is not
+/// (PHYSICS §10). A table of several incidences is evaluated for light from s_g. Baked representations use the
+/// default, normal incidence: light and material separate only if η_m does not depend on s_g.
+double order_efficiency(const Grating& grating, int order, double wavelength_nm, double s_g = 0.0);
+
+/// The same at the fractional order d u/λ, from the groove's own spectrum: for fewer than kManyGrooves grooves. A
+/// contract violation for tables.
+double fractional_order_efficiency(const Grating& grating, double fractional_order, double wavelength_nm);
+
+/// R(λ) η_mk(λ) of a grating with a lattice, in the order of lattice_efficiencies().
+std::vector<double> lattice_order_efficiencies(const Grating& grating, double wavelength_nm);
+
+/// R(λ) η_0(λ): the fraction of the power in the mirror reflection or, of a sheet, straight through, whatever the
+/// normalisation.
+double zero_order_efficiency(const Grating& grating, double wavelength_nm);
+
+/// cmf(λ) E(λ)ᵀ per nm, linear RGB in, XYZ out: what a sum over wavelengths multiplies the efficiency with.
+glm::dmat3 observed_spectra(const colour::LightSpectra& spectra, double wavelength_nm);
 
 }  // namespace rowland::diffraction

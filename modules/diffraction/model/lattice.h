@@ -44,7 +44,7 @@ struct Lattice {
 inline constexpr int kHighestLatticeOrder = 50;
 
 /// Columns a* and b* per nm: a·a* = 1, a·b* = 0. Order (m, k) of wavelength λ lies at u = λ (m a* + k b*), PHYSICS
-/// (45).
+/// (12.4).
 glm::dmat2 reciprocal(const Lattice& lattice);
 
 /// Orders of a side: 2 orders + 1.

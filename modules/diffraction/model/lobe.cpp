@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/colour/sampled_spectrum.h"
+#include "engine/colour/spectrum.h"
 #include "modules/diffraction/model/profile.h"
 
 namespace rowland::diffraction {

@@ -5,9 +5,33 @@
 #include <variant>
 #include <vector>
 
-#include "modules/diffraction/model/efficiency_table.h"
-
 namespace rowland::diffraction {
+
+/// The efficiencies of one angle of incidence: a row per wavelength, a column per order of the table.
+struct EfficiencySlice {
+    double incidence_deg = 0.0;          ///< signed: positive where the light comes from +g, s_g = sin(incidence)
+    std::vector<double> wavelengths_nm;  ///< ascending, at least one
+    std::vector<double> efficiencies;    ///< row by row, each ≥ 0, rows summing to at most 1 + kRowSumTolerance
+};
+
+/// Order efficiencies from a measurement or a rigorous solver; they include the metal (PHYSICS §3).
+struct EfficiencyTable {
+    std::vector<int> orders;              ///< ascending; all others are 0
+    std::vector<EfficiencySlice> slices;  ///< ascending incidence, at least one
+};
+
+/// How far a row's sum may exceed 1 by rounding; such rows are scaled to 1.
+inline constexpr double kRowSumTolerance = 1e-3;
+
+/// η_m(λ) for light from s_g, |s_g| ≤ 1. Linear in wavelength, and in the angle of incidence if the table has several;
+/// constant beyond the table's ends.
+///
+/// Never interpolated across a cut-off. An order is cut off after its last non-zero row if zeros follow: the value of
+/// that row holds up to the wavelength λ_c at which the order turns evanescent, d (1 ± s_g)/|m|, or up to the next row
+/// if λ_c is not between the two; beyond, the value is 0. A row at λ_c itself is ignored: solvers print 0 or the limit
+/// there. Between a slice that has the order and one that has not, the former's value holds while the order propagates.
+/// Held values are no means of rows, so the orders may sum to more than 1: then all are scaled to a sum of 1.
+double table_efficiency(const EfficiencyTable& table, double pitch_nm, int order, double wavelength_nm, double s_g);
 
 /// A slit of width b in every pitch d (Agu's groove).
 struct SlitProfile {
@@ -31,7 +55,7 @@ struct BlazedProfile {
 };
 
 /// The shape of a groove. A new one also needs, in profile.cpp, the overloads efficiency(), spectrum() and describe()
-/// (it does not compile without), and its members in material.schema.json (a test compares the two).
+/// (it does not compile without), and its descriptor, from which parser, schema and editors take it.
 using Profile = std::variant<SlitProfile, LamellarProfile, SinusoidalProfile, BlazedProfile, EfficiencyTable>;
 
 /// One member of a profile in a material file: a number greater than 0, or the name of a file.
@@ -41,9 +65,7 @@ struct ProfileMember {
     const char* unit = "";      ///< "" for a pure number
     double less_than = 0.0;     ///< values lie in (0, less_than); infinity: no upper limit
     bool within_pitch = false;  ///< values lie in (0, pitch_nm] instead
-    double slider_least = 0.0;  ///< the range that a user interface offers
-    double slider_most = 0.0;
-    double initial = 0.0;  ///< when a user chooses the profile
+    double initial = 0.0;       ///< when a user chooses the profile
     const char* help = "";
     const char* source = "";  ///< of the formula
     /// Where the number is, of a Profile that holds the profile described. Null: the member names the file that the

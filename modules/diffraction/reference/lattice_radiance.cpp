@@ -1,4 +1,4 @@
-#include "modules/diffraction/reference/lattice_radiance.h"
+#include "modules/diffraction/reference/reference.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 #include <glm/vec2.hpp>
 #include <optional>
 
+#include "engine/core/log.h"
 #include "engine/core/parallel.h"
-#include "engine/core/progress.h"
-#include "modules/diffraction/model/efficiency.h"
+#include "modules/diffraction/model/grating.h"
 
 namespace rowland::diffraction {
 
@@ -85,7 +85,7 @@ class LatticeView {
         return xyz;
     }
 
-    /// From `s` or, through a sheet, from its mirror image behind the surface, PHYSICS (44).
+    /// From `s` or, through a sheet, from its mirror image behind the surface, PHYSICS (12.3).
     glm::dvec3 incident(const glm::dvec3& s) const {
         return light_.radiance(glm::dvec3(s.x, s.y, from_behind_ ? -s.z : s.z) * tangent_);
     }

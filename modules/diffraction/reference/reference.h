@@ -4,19 +4,26 @@
 #include <span>
 #include <vector>
 
-#include "engine/colour/light_spectra.h"
+#include "engine/colour/illuminant.h"
 #include "modules/diffraction/model/grating.h"
-#include "modules/diffraction/model/shading_point.h"
 #include "modules/diffraction/reference/incident_light.h"
 
 namespace rowland::diffraction {
 
-/// The ground truth: XYZ of the listed orders of `grating` for every frame, PHYSICS (14), exact but for quadrature. Per
-/// order and nanometre the light is integrated along its half circle s_g = mλ/d − v_g, from a probe at full resolution
-/// (bilinear) or from SH; the step follows the probe's texels and the lobe. Fewer than kManyGrooves grooves have their
-/// true width (profiles but tables, lobes but pits). A sheet that transmits shows the light mirrored in its plane, and
-/// adds what it reflects. The orders of a lattice are points, PHYSICS (46). A table of several incidences is evaluated
-/// at s_g of each arc. A view below the horizon is black. A cover's gloss is not included. All frames must be valid.
+/// reference_radiance() of a grating with a lattice, PHYSICS (13.2): per order and nanometre the light of one
+/// direction, s_p = λ (m a* + k b*) − v_p. The step is smaller where 1 nm moves the farthest order by more than the
+/// light's panels. `refinement` ≥ 1 divides it.
+std::vector<glm::dvec3> lattice_radiance(const Grating& grating, const IncidentLight& light,
+                                         const colour::LightSpectra& spectra, std::span<const ShadingPoint> frames,
+                                         int refinement);
+
+/// The ground truth: XYZ of the listed orders of `grating` for every frame, PHYSICS (4.1), exact but for quadrature.
+/// Per order and nanometre the light is integrated along its half circle s_g = mλ/d − v_g, from a probe at full
+/// resolution (bilinear) or from SH; the step follows the probe's texels and the lobe. Fewer than kManyGrooves grooves
+/// have their true width (profiles but tables, lobes but pits). A sheet that transmits shows the light mirrored in its
+/// plane, and adds what it reflects. The orders of a lattice are points, PHYSICS (13.1). A table of several incidences
+/// is evaluated at s_g of each arc. A view below the horizon is black. A cover's gloss is not included. All frames must
+/// be valid.
 ///
 /// Uses all cores; the result does not depend on their number. Shares no code with the baked representations.
 std::vector<glm::dvec3> reference_radiance(const Grating& grating, const IncidentLight& light,

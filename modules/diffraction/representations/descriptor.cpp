@@ -25,9 +25,8 @@ const SettingInfo* RepresentationInfo::find(std::string_view key) const {
 
 SettingValues::SettingValues(const RepresentationInfo& info, JsonReader& json) : info_(&info) {
     for (const ReplacedSetting& old : info.replaced)
-        if (json.has(old.key))
-            json.fail(old.key, fmt::format("a setting that \"{}\" no longer has", info.name),
-                      fmt::format("\"{}\", which replaced it", old.by));
+        json.refuse_if_there(old.key, fmt::format("a setting that \"{}\" no longer has", info.name),
+                             fmt::format("\"{}\", which replaced it", old.by));
     for (const SettingInfo& setting : info.settings) {
         if (!json.has(setting.key)) continue;
         if (setting.words.empty())
@@ -55,38 +54,31 @@ Storage SettingValues::storage() const {
     return parse_storage(word_or("storage", info_->find("storage")->default_value.get<std::string>()));
 }
 
-SettingInfo bands_setting(std::vector<nlohmann::json> sweep, std::vector<int> details) {
+SettingInfo bands_setting() {
     return {.key = "bands",
             .label = "Bands",
             .help = "Bands n of spherical harmonics, n² coefficients. More follow sharper light.",
             .minimum = 1,
             .maximum = kMostBands,
-            .default_value = 5,
-            .sweep = std::move(sweep),
-            .details = std::move(details)};
+            .default_value = 5};
 }
 
-SettingInfo rank_setting(std::vector<nlohmann::json> sweep, std::vector<int> details) {
+SettingInfo rank_setting() {
     return {.key = "rank",
             .label = "Rank",
             .help = "Products of the arc table's decomposition.",
             .minimum = 1,
             .maximum = kMostArcRank,
-            .default_value = 8,
-            .sweep = std::move(sweep),
-            .details = std::move(details)};
+            .default_value = 8};
 }
 
-SettingInfo map_resolution_setting(int default_value, int maximum, std::vector<nlohmann::json> sweep,
-                                   std::vector<int> details) {
+SettingInfo map_resolution_setting(int default_value, int maximum) {
     return {.key = "map_resolution",
             .label = "Map resolution",
             .help = "Cells along a side of the map.",
             .minimum = 8,
             .maximum = maximum,
-            .default_value = default_value,
-            .sweep = std::move(sweep),
-            .details = std::move(details)};
+            .default_value = default_value};
 }
 
 SettingInfo view_mapping_setting() {
@@ -96,22 +88,20 @@ SettingInfo view_mapping_setting() {
             .words = {"spherical", "parabolic", "one-dimensional"}};
 }
 
-SettingInfo view_resolution_setting(std::vector<nlohmann::json> sweep) {
+SettingInfo view_resolution_setting() {
     return {.key = "view_resolution",
             .label = "View resolution",
             .help = "Rows of the table over views; nodes, where it is one-dimensional.",
             .minimum = 2,
-            .maximum = 512,
-            .sweep = std::move(sweep)};
+            .maximum = 512};
 }
 
-SettingInfo storage_setting(Storage default_value, std::vector<nlohmann::json> sweep) {
+SettingInfo storage_setting(Storage default_value) {
     return {.key = "storage",
             .label = "Storage",
             .help = "Format of a table's components.",
             .words = {"fp32", "fp16", "unorm16", "unorm8"},
-            .default_value = storage_name(default_value),
-            .sweep = std::move(sweep)};
+            .default_value = storage_name(default_value)};
 }
 
 ViewGrid default_view_grid(const Grating& grating) {

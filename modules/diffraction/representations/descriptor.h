@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "engine/core/json_reader.h"
-#include "engine/math/sh_window.h"
 #include "modules/diffraction/bake/packed_texels.h"
 #include "modules/diffraction/bake/view_mapping.h"
 #include "modules/diffraction/model/grating.h"
@@ -35,9 +34,6 @@ struct SettingInfo {
     std::vector<std::string_view> words{};  ///< not empty: the setting is one of these words, not a number
     /// Null if it depends on the grating or on other settings.
     nlohmann::json default_value{};
-    std::vector<nlohmann::json> sweep{};  ///< values at which the sweep varies it
-    /// Values in the demo: coarse, default, fine; empty: the demo leaves it at its default.
-    std::vector<int> details{};
 };
 
 /// A setting that no longer exists, and the one that replaced it.
@@ -46,7 +42,7 @@ struct ReplacedSetting {
     const char* by = "";
 };
 
-/// The description of a representation for parsers, schemas, editors, sweeps, budgets and tables.
+/// The description of a representation for parsers, schemas, editors and budgets.
 struct RepresentationInfo {
     const char* name;     ///< in material files and methods
     const char* summary;  ///< one line for people
@@ -55,15 +51,9 @@ struct RepresentationInfo {
     bool lattices = false;            ///< it also shades lattices
     bool needs_flat_surface = false;  ///< curved meshes are shaded by a stand-in
     bool takes_harmonics = false;     ///< light is given as SH, to which windows apply
-    bool in_demo = true;              ///< shown in the demo's comparison
     KeyLightUse key_lights = KeyLightUse::ByDefault;
     std::vector<SettingInfo> settings{};
     std::vector<ReplacedSetting> replaced{};
-    std::vector<const char*> editor_start{};  ///< settings that an editor writes on choosing the representation
-    const char* sweep_tier = "";              ///< settings of the sweep's starting point; key_lights may be among them
-    std::vector<int> sweep_key_lights{};      ///< numbers of key lights that the sweep takes
-    std::vector<math::SphericalWindow> sweep_windows{};
-    std::vector<std::string> sweep_more{};  ///< further settings of the sweep
     /// What a budget may try for a lobe and a surface.
     std::vector<std::string> (*budget)(bool flat_lobe, SurfaceShape surface) = nullptr;
 
@@ -98,13 +88,12 @@ class SettingValues {
 };
 
 /// Settings that several representations have.
-SettingInfo bands_setting(std::vector<nlohmann::json> sweep = {}, std::vector<int> details = {});
-SettingInfo rank_setting(std::vector<nlohmann::json> sweep = {}, std::vector<int> details = {});
-SettingInfo map_resolution_setting(int default_value, int maximum, std::vector<nlohmann::json> sweep,
-                                   std::vector<int> details);
+SettingInfo bands_setting();
+SettingInfo rank_setting();
+SettingInfo map_resolution_setting(int default_value, int maximum);
 SettingInfo view_mapping_setting();
-SettingInfo view_resolution_setting(std::vector<nlohmann::json> sweep = {});
-SettingInfo storage_setting(Storage default_value, std::vector<nlohmann::json> sweep = {});
+SettingInfo view_resolution_setting();
+SettingInfo storage_setting(Storage default_value);
 
 /// Layers of four that bands² coefficients take: ⌈bands²/4⌉.
 constexpr int harmonic_layers(int bands) {

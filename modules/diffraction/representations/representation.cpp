@@ -12,7 +12,7 @@ namespace rowland::diffraction {
 namespace {
 
 constexpr int kFetchesPerLight = 2;  ///< of the lobe's table, for a pixel narrower than the lobe
-/// Counted in key_lobes.glsl and light_spot.glsl for the flat lobe: position 25, height 45, sum 15.
+/// Counted in key_light_tables.glsl and kernel.glsl for the flat lobe: position 25, height 45, sum 15.
 constexpr int kMultiplyAddsPerLight = 85;
 
 /// Calls use<Settings>(index) for every representation.

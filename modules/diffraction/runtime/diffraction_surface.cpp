@@ -1,16 +1,14 @@
 #include "modules/diffraction/runtime/diffraction_surface.h"
 
-#include <fmt/format.h>
-
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "engine/core/error.h"
+#include "engine/core/file.h"
 #include "engine/core/log.h"
 #include "engine/render/gpu_mesh.h"
-#include "engine/scene/skin.h"
+#include "engine/scene/animation.h"
 #include "engine/scene/transform.h"
+#include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/asset/gltf_extension.h"
 #include "modules/diffraction/shaders/shader_files.h"
 
@@ -76,17 +74,6 @@ bool is_filling(const GpuMaterial& material, const SurfaceState& state) {
 
 }  // namespace
 
-Material drawable_material(const GltfGrating& grating, const GrooveMap* grooves, const std::string& file,
-                           const std::string& pointer) {
-    const auto require = [&](const std::optional<Refusal>& refused, const std::string& parent) {
-        if (refused) refuse_input(file, parent + refused->key, refused->found, refused->expected, refused->remedy);
-    };
-    require(baked_refusal(grating.material.grating), pointer);
-    if (grooves == nullptr) return grating.material;
-    require(groove_refusal(grating.material, *grooves), pointer + "/");
-    return suited_to_grooves(grating.material, *grooves);
-}
-
 void add_surface(ecs::World& world, ecs::Entity entity, DiffractionSurface surface, bool has_base) {
     const render::StandardMaterial base = surface.material->base();
     world.add(entity, std::move(surface));
@@ -103,41 +90,35 @@ std::string DiffractionSurfaceType::gltf_extension() const {
     return kGltfExtension;
 }
 
-void DiffractionSurfaceType::attach(ecs::World& world, ecs::Entity entity, const nlohmann::json& extension,
-                                    render::SurfaceTextures& textures, const std::string& file,
-                                    const std::string& pointer) {
-    const std::filesystem::path folder = std::filesystem::path(file).parent_path();
-    const GltfGrating grating = parse_gltf_extension(extension, file, folder, pointer);
-    DiffractionSurface surface{.groove_rotation = static_cast<float>(grating.groove_rotation)};
-    if (grating.groove_texture)
-        surface.grooves = groove_map(extension["grooveTexture"].dump(), *grating.groove_texture, textures, file,
-                                     pointer + "/grooveTexture");
-    const Material material = drawable_material(grating, surface.grooves.get(), file, pointer);
-    std::string key = folder.string() + extension.dump();
-    if (surface.grooves)
-        key += fmt::format("{} {}", surface.grooves->smallest_pitch(), surface.grooves->largest_pitch());
+void DiffractionSurfaceType::attach(ecs::World& world, ecs::Entity entity, const render::MaterialExtension& extension,
+                                    render::SurfaceTextures& textures) {
+    const auto& [object, description, file, pointer] = extension;
+    const GroovePlacement placement = parse_groove_placement(object, file, pointer);
+    DiffractionSurface surface{.groove_rotation = static_cast<float>(placement.groove_rotation)};
+    if (placement.groove_texture) surface.grooves = groove_map(*placement.groove_texture, extension, textures);
     if (world.get<render::StandardMaterial>(entity).clear_coat > 0.0F)
         log_warning("{}: {}: KHR_materials_clearcoat beside a grating is not drawn: a grating's gloss is its cover's",
                     file, pointer);
-    surface.material = baked(material, key);
-    add_surface(world, entity, std::move(surface), grating.has_base);
+    surface.material = uploaded(extension.tables(kGltfExtension), file + ": " + pointer);
+    add_surface(world, entity, std::move(surface), placement.has_base);
 }
 
-std::shared_ptr<const GrooveMap> DiffractionSurfaceType::groove_map(const std::string& key, const GrooveTexture& use,
-                                                                    render::SurfaceTextures& textures,
-                                                                    const std::string& file,
-                                                                    const std::string& pointer) {
-    auto made = std::make_shared<const GrooveMap>(use, textures, file, pointer);
-    std::weak_ptr<const GrooveMap>& kept = groove_maps_[{made->image(), key}];
+std::shared_ptr<const GrooveMap> DiffractionSurfaceType::groove_map(const GrooveTexture& use,
+                                                                    const render::MaterialExtension& extension,
+                                                                    render::SurfaceTextures& textures) {
+    auto made = std::make_shared<const GrooveMap>(use, textures, extension.file, extension.pointer + "/grooveTexture");
+    std::weak_ptr<const GrooveMap>& kept = groove_maps_[{made->image(), extension.object["grooveTexture"].dump()}];
     if (auto present = kept.lock()) return present;
     kept = made;
     return made;
 }
 
-std::shared_ptr<const GpuMaterial> DiffractionSurfaceType::baked(const Material& material, const std::string& key) {
-    if (auto present = baked_[key].lock()) return present;
-    auto made = make_gpu_material(bake_material(material), xyz_to_working_);
-    baked_[key] = made;
+std::shared_ptr<const GpuMaterial> DiffractionSurfaceType::uploaded(const std::vector<std::byte>& tables,
+                                                                    const std::string& file) {
+    std::weak_ptr<const GpuMaterial>& kept = uploaded_[Hasher().bytes(tables).digest().hex()];
+    if (auto present = kept.lock()) return present;
+    auto made = make_gpu_material(read_gltf_tables(tables, file), xyz_to_working_);
+    kept = made;
     return made;
 }
 
@@ -160,17 +141,14 @@ void DiffractionSurfaceType::warn_of_other_white(const std::string& baked_for, c
 }
 
 void DiffractionSurfaceType::update(ecs::World& world, const render::FrameLight& light) {
-    if (world.view<DiffractionSurface>().count() > 0) update(world, division_.of(light));
-}
-
-void DiffractionSurfaceType::update(ecs::World& world, const LightParts& light) {
+    if (world.view<DiffractionSurface>().count() == 0) return;
     light_.set(light);
     world.view<DiffractionSurface, render::MeshInstance, scene::WorldMatrix>().each(
         [&](ecs::Entity entity, const DiffractionSurface& surface, const render::MeshInstance& instance,
             const scene::WorldMatrix& world_matrix) {
             if (world.find<SurfaceState>(entity) == nullptr) world.add(entity, SurfaceState{});
             SurfaceState& state = world.get<SurfaceState>(entity);
-            warn_of_other_white(surface.material->illuminant(), light.illuminant);
+            warn_of_other_white(surface.material->illuminant(), light_.illuminant());
             const bool changed = update_key(surface, instance, glm::mat3(world_matrix.matrix), light_.version(), state);
             const auto update_surface = [&](const scene::Mesh& mesh, bool skinned) {
                 update_sides(surface,

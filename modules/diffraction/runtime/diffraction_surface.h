@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <map>
@@ -8,8 +9,9 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
-#include "engine/math/sh_window.h"
+#include "engine/math/spherical_harmonics.h"
 #include "engine/render/material.h"
 #include "modules/diffraction/runtime/gpu_material.h"
 #include "modules/diffraction/runtime/surface_light.h"
@@ -22,11 +24,6 @@ struct DiffractionSurface {
     float groove_rotation = 0.0F;  ///< radians by which g is turned from the mesh's tangent toward its bitangent
     std::shared_ptr<const GrooveMap> grooves = nullptr;  ///< varies direction and pitch over the surface
 };
-
-/// A grating of a glTF file under its map, ready to be baked; null: it has no map. Throws Error (input) if it cannot be
-/// drawn. `file` and `pointer` (JSON) are for messages.
-Material drawable_material(const GltfGrating& grating, const GrooveMap* grooves, const std::string& file,
-                           const std::string& pointer);
 
 /// Gives an entity, which already has its StandardMaterial, a grating. `has_base`: the material's base replaces it.
 void add_surface(ecs::World& world, ecs::Entity entity, DiffractionSurface surface, bool has_base);
@@ -49,35 +46,31 @@ class DiffractionSurfaceType final : public render::MaterialType {
 
     std::string name() const override { return "diffraction"; }
     std::string gltf_extension() const override;
-    /// Bakes the grating now. Equal gratings use the same tables.
-    void attach(ecs::World& world, ecs::Entity entity, const nlohmann::json& extension,
-                render::SurfaceTextures& textures, const std::string& file, const std::string& pointer) override;
+    /// Equal gratings use the same tables.
+    void attach(ecs::World& world, ecs::Entity entity, const render::MaterialExtension& extension,
+                render::SurfaceTextures& textures) override;
 
     void add_shaders(gpu::ShaderLibrary& library) const override;
     bool owns(ecs::World& world, ecs::Entity entity) const override;
     gpu::ProgramDesc program(ecs::World& world, ecs::Entity entity) const override;
     void update(ecs::World& world, const render::FrameLight& light) override;
     std::uint64_t version() const override { return version_; }
-    /// The same under light that does not come from the renderer.
-    void update(ecs::World& world, const LightParts& light);
     void bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const override;
     std::optional<gpu::ProgramDesc> coat_program(ecs::World& world, ecs::Entity entity) const override;
     void bind_coat(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const override;
 
  private:
     void warn_of_other_white(const std::string& baked_for, const std::string& lit_by);
-    /// One for all objects with the same `key`, its JSON.
-    std::shared_ptr<const GrooveMap> groove_map(const std::string& key, const GrooveTexture& use,
-                                                render::SurfaceTextures& textures, const std::string& file,
-                                                const std::string& pointer);
-    std::shared_ptr<const GpuMaterial> baked(const Material& material, const std::string& key);
+    /// One for all objects with the same texture and the same object of it.
+    std::shared_ptr<const GrooveMap> groove_map(const GrooveTexture& use, const render::MaterialExtension& extension,
+                                                render::SurfaceTextures& textures);
+    std::shared_ptr<const GpuMaterial> uploaded(const std::vector<std::byte>& tables, const std::string& file);
 
     glm::dmat3 xyz_to_working_;
     MapPace map_pace_;
-    std::map<std::string, std::weak_ptr<const GpuMaterial>> baked_;  ///< by the file's folder and the extension's text
+    std::map<std::string, std::weak_ptr<const GpuMaterial>> uploaded_;  ///< by the hash of the tables
     std::map<std::pair<const image::ByteImage*, std::string>, std::weak_ptr<const GrooveMap>> groove_maps_;
     std::set<std::pair<std::string, std::string>> warned_of_;  ///< illuminants baked for, lit by
-    LightDivision division_;
     SurfaceLight light_;
     std::uint64_t version_ = 0;
 };

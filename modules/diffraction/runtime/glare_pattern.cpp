@@ -2,9 +2,9 @@
 
 #include <glm/matrix.hpp>
 
-#include "engine/colour/working_space.h"
+#include "engine/colour/colour_space.h"
 #include "modules/diffraction/bake/diffraction_pattern.h"
-#include "modules/diffraction/model/efficiency.h"
+#include "modules/diffraction/model/grating.h"
 
 namespace rowland::diffraction {
 

@@ -1,7 +1,8 @@
 #include "modules/diffraction/runtime/gpu_material.h"
 
 #include <fmt/format.h>
-
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <tuple>
@@ -9,27 +10,46 @@
 #include <utility>
 #include <variant>
 
-#include "modules/diffraction/asset/layer_weights.h"
-#include "modules/diffraction/representations/arc/gpu_arc.h"
-#include "modules/diffraction/representations/bins/gpu_bins.h"
-#include "modules/diffraction/representations/circle/gpu_circle.h"
-#include "modules/diffraction/representations/direct/gpu_direct.h"
-#include "modules/diffraction/representations/planar/gpu_planar.h"
-#include "modules/diffraction/representations/spikes/gpu_spikes.h"
-#include "modules/diffraction/representations/streak/gpu_streak.h"
-#include "modules/diffraction/representations/transfer/gpu_transfer.h"
+#include "engine/render/surface_programs.h"
+#include "modules/diffraction/asset/material.h"
+#include "modules/diffraction/representations/spikes/spikes.h"
+#include "modules/diffraction/runtime/bindings.h"
+#include "modules/diffraction/runtime/gpu_arc.h"
+#include "modules/diffraction/runtime/gpu_circle.h"
+#include "modules/diffraction/runtime/gpu_planar.h"
+#include "modules/diffraction/runtime/gpu_spikes.h"
+#include "modules/diffraction/runtime/gpu_streak.h"
 
 namespace rowland::diffraction {
 
 namespace {
 
 /// The class that draws each of BakedTables, in its order.
-using GpuClasses = std::tuple<GpuSpikes, GpuBins, GpuTransfer, GpuArc, GpuDirect, GpuPlanar, GpuCircle, GpuStreak>;
+using GpuClasses = std::tuple<GpuSpikes, GpuTransfer, GpuArc, GpuDirect, GpuPlanar, GpuCircle, GpuStreak>;
 static_assert(std::tuple_size_v<GpuClasses> == kRepresentationCount);
 
 /// Both sides of a sheet.
 bool passes_light(const Grating& grating) {
     return grating.transmission || grating.side_reflectance;
+}
+
+/// A path below modules/diffraction/, as a define that names a file to include.
+std::string shader_file(const char* path) {
+    return std::string("\"modules/diffraction/") + path + '"';
+}
+
+bool defines(const gpu::ProgramDesc& desc, const char* name) {
+    return std::ranges::any_of(desc.defines, [&](const gpu::Define& define) { return define.first == name; });
+}
+
+/// Adds to the fragment stage's samplers that the engine is told of.
+void add_samplers(gpu::ProgramDesc& desc, int samplers) {
+    for (auto& [name, value] : desc.defines)
+        if (name == render::kMaterialSamplers) {
+            value = std::to_string(std::stoi(value) + samplers);
+            return;
+        }
+    desc.defines.emplace_back(render::kMaterialSamplers, std::to_string(samplers));
 }
 
 }  // namespace
@@ -58,7 +78,8 @@ GpuMaterial::GpuMaterial(const CookedMaterial& cooked, const glm::dmat3& xyz_to_
 }
 
 gpu::ProgramDesc GpuMaterial::program(const SurfaceState& state) const {
-    gpu::ProgramDesc desc;
+    gpu::ProgramDesc desc{.vertex = "modules/diffraction/shaders/grating.vert.glsl",
+                          .fragment = "modules/diffraction/shaders/grating.frag.glsl"};
     describe(state, desc);
     add_defines(state, desc);
     return desc;
@@ -68,14 +89,29 @@ void GpuMaterial::add_defines(const SurfaceState& state, gpu::ProgramDesc& desc)
     if (separate_lights_) desc.defines.push_back({"SEPARATE_LIGHTS", "1"});
     // It is nearly linear between vertices, and at the pixels a fifth of the plain surface.
     desc.defines.push_back({"AMBIENT_AT_VERTICES", "1"});
-    if (key_lights_ == 0) desc.defines.push_back({"NO_KEY_LIGHTS", "1"});
     if (cooked_->material.grating.cover) desc.defines.push_back({"COVER", "1"});
     if (transmits()) desc.defines.push_back({"TRANSMISSION", "1"});
     if (cooked_->material.grating.side_reflectance) desc.defines.push_back({"REFLECTED_SIDE", "1"});
     kernel_.add_defines(desc);
-    if (pattern_) desc.defines.push_back({"LATTICE", "1"});
+    if (pattern_) desc.defines.push_back({"LATTICE", shader_file("shaders/pattern.glsl")});
+    if (shades_key_lights(desc)) desc.defines.push_back({"KEY_LOBES", key_light_shader(state)});
     if (state.grooves) state.grooves->add_defines(even_kernel_, desc);
+    // The kernel or a lattice's pattern; the groove map, or tables of key lights.
+    add_samplers(desc, state.grooves || defines(desc, "KEY_LOBES") ? 2 : 1);
     if (lights_at_vertices_ && !state.grooves) desc.defines.push_back({"LIGHTS_AT_VERTICES", "1"});
+}
+
+/// A streak shows the whole probe, key lights included. The arc table beside it, of the incoherent part of Stam's pits,
+/// needs them.
+bool GpuMaterial::shades_key_lights(const gpu::ProgramDesc& desc) const {
+    return key_lights_ > 0 && !(defines(desc, "STREAK") && (defines(desc, "LOBE_GAUSSIAN") || pattern_));
+}
+
+/// The tables of key lights, one look-up for each, do not support order 0 or varying pitches.
+std::string GpuMaterial::key_light_shader(const SurfaceState& state) const {
+    if (pattern_) return "";  // pattern.glsl
+    return shader_file(kernel_.has_zero_order() || state.grooves ? "shaders/key_light_windows.glsl"
+                                                                 : "shaders/key_light_tables.glsl");
 }
 
 void GpuMaterial::bind(const gpu::Program& program, const SurfaceLight& light, const SurfaceState& state) const {
@@ -118,14 +154,44 @@ std::shared_ptr<const GpuMaterial> make_gpu_material(const CookedMaterial& cooke
     return material;
 }
 
-void set_shaders(gpu::ProgramDesc& desc, const char* vertex, const char* fragment) {
-    desc.vertex = std::string("modules/diffraction/") + vertex;
-    desc.fragment = std::string("modules/diffraction/") + fragment;
+void set_pixel_shader(gpu::ProgramDesc& desc, const char* file, int samplers) {
+    add_samplers(desc, samplers);
+    std::erase_if(desc.defines, [](const gpu::Define& define) { return define.first == "PROBE_LIGHT"; });
+    desc.defines.push_back({"PROBE_LIGHT", shader_file(file)});
 }
 
-void set_vertex_shader(gpu::ProgramDesc& desc, const char* vertex) {
-    set_shaders(desc, vertex, "shaders/vertex_shaded.frag.glsl");
+void set_vertex_shader(gpu::ProgramDesc& desc, const char* file) {
     desc.defines.push_back({"VERTEX_SHADED", "1"});
+    desc.defines.push_back({"VERTEX_LIGHT", shader_file(file)});
+}
+
+namespace {
+
+/// Like a map without key lights, a still shows the whole probe and no other light.
+CookedMaterial as_a_map(const CookedMaterial& cooked) {
+    CookedMaterial map = cooked;
+    map.material.quality.key_lights = 0;
+    map.tables = CircleTables{};
+    map.reflected = nullptr;  // the image shows both sides of a sheet
+    return map;
+}
+
+}  // namespace
+
+GpuStill::GpuStill(const CookedMaterial& cooked, std::shared_ptr<const gpu::Texture> still,
+                   const glm::dmat3& xyz_to_working)
+    : GpuMaterial(as_a_map(cooked), xyz_to_working), still_(std::move(still)) {}
+
+void GpuStill::describe(const SurfaceState&, gpu::ProgramDesc& desc) const {
+    set_pixel_shader(desc, "shaders/still.glsl");
+}
+
+void GpuStill::bind_tables(const gpu::Program& program, const SurfaceState&) const {
+    still_->bind(kMapUnit);
+    // The viewport is that of the whole image, whatever the scissor.
+    std::array<GLint, 4> viewport{};
+    glGetIntegerv(GL_VIEWPORT, viewport.data());
+    program.set("still_scale", 1.0F / glm::vec2(viewport[2], viewport[3]));
 }
 
 }  // namespace rowland::diffraction

@@ -7,17 +7,17 @@
 #include <optional>
 #include <string>
 
-#include "engine/gpu/limits.h"
+#include "engine/gpu/buffer.h"
+#include "engine/gpu/context.h"
 #include "engine/gpu/program.h"
-#include "engine/gpu/stream_buffer.h"
+#include "engine/gpu/texture.h"
 #include "engine/render/material.h"
 #include "engine/scene/mesh.h"
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/representations/point_shader.h"
-#include "modules/diffraction/runtime/gpu_kernel.h"
-#include "modules/diffraction/runtime/gpu_pattern.h"
+#include "modules/diffraction/runtime/analytic_lights.h"
+#include "modules/diffraction/runtime/gpu_map.h"
 #include "modules/diffraction/runtime/groove_map.h"
-#include "modules/diffraction/runtime/map_filling.h"
 #include "modules/diffraction/runtime/surface_light.h"
 
 namespace rowland::diffraction {
@@ -79,19 +79,21 @@ class GpuMaterial {
     /// The program must be in use.
     void bind(const gpu::Program& program, const SurfaceLight& light, const SurfaceState& state) const;
 
-    /// The part of the light that is not shaded light by light.
-    LightPart light_part() const {
-        if (key_lights_ > 0) return {LightPart::Rest, key_lights_};
-        return separate_lights_ ? LightPart::Probe : LightPart::Whole;
-    }
-
  protected:
     GpuMaterial(const CookedMaterial& cooked, const glm::dmat3& xyz_to_working);
 
     /// The kernel and order 0 of cooked() in the working space.
     const MaterialKernel& working_material() const { return working_material_; }
 
-    /// The representation's shader files and defines.
+    /// The light that is not shaded light by light.
+    const lighting::ShLight& harmonics(SurfaceLight& light, int bands) const {
+        return separate_lights_ ? light.probe_harmonics(bands, key_lights_) : light.whole_harmonics(bands);
+    }
+    const std::shared_ptr<const lighting::LightSamples>& samples(const SurfaceLight& light) const {
+        return light.probe_samples(key_lights_);
+    }
+
+    /// The representation's shader file and defines.
     virtual void describe(const SurfaceState& state, gpu::ProgramDesc& desc) const = 0;
     virtual void bind_tables(const gpu::Program& program, const SurfaceState& state) const = 0;
     /// What the vertex stage reads: storage buffers, bytes of one for each vertex, texels of a buffer for each vertex.
@@ -105,6 +107,8 @@ class GpuMaterial {
 
  private:
     void add_defines(const SurfaceState& state, gpu::ProgramDesc& desc) const;
+    bool shades_key_lights(const gpu::ProgramDesc& desc) const;
+    std::string key_light_shader(const SurfaceState& state) const;
 
     std::shared_ptr<const CookedMaterial> cooked_;
     std::shared_ptr<const GpuMaterial> reflected_;
@@ -124,9 +128,40 @@ class GpuMaterial {
 /// `xyz_to_working` as the renderer's.
 std::shared_ptr<const GpuMaterial> make_gpu_material(const CookedMaterial& cooked, const glm::dmat3& xyz_to_working);
 
-/// Sets shader files by their paths below modules/diffraction/.
-void set_shaders(gpu::ProgramDesc& desc, const char* vertex, const char* fragment);
-/// The same for a program that shades vertices.
-void set_vertex_shader(gpu::ProgramDesc& desc, const char* vertex);
+/// Names the shader file, below modules/diffraction/, that gives the light from the probe at the pixels, by so many
+/// samplers.
+void set_pixel_shader(gpu::ProgramDesc& desc, const char* file, int samplers = 1);
+/// The same at the vertices.
+void set_vertex_shader(gpu::ProgramDesc& desc, const char* file);
+
+/// An image in place of a representation: the radiance of the listed orders under the whole probe, computed elsewhere
+/// for the current view. The scene's other lights are shaded as with any material. shaders/still.glsl.
+class GpuStill final : public GpuMaterial {
+ public:
+    /// `still` covers the viewport, row 0 at the bottom: XYZ and alpha 1 where it is known, else 0. `cooked`: its
+    /// material.
+    GpuStill(const CookedMaterial& cooked, std::shared_ptr<const gpu::Texture> still, const glm::dmat3& xyz_to_working);
+
+    void update(const SurfaceObject&, SurfaceLight&, SurfaceState&) const override {}
+
+ private:
+    void describe(const SurfaceState& state, gpu::ProgramDesc& desc) const override;
+    void bind_tables(const gpu::Program& program, const SurfaceState& state) const override;
+
+    std::shared_ptr<const gpu::Texture> still_;
+};
+
+/// Analytic lights and key lights alone.
+class GpuDirect final : public GpuMaterial {
+ public:
+    GpuDirect(const CookedMaterial& cooked, const DirectTables&, const glm::dmat3& xyz_to_working)
+        : GpuMaterial(cooked, xyz_to_working) {}
+
+    void update(const SurfaceObject&, SurfaceLight&, SurfaceState&) const override {}
+
+ private:
+    void describe(const SurfaceState&, gpu::ProgramDesc&) const override {}
+    void bind_tables(const gpu::Program&, const SurfaceState&) const override {}
+};
 
 }  // namespace rowland::diffraction

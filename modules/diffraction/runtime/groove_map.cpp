@@ -1,9 +1,10 @@
 #include "modules/diffraction/runtime/groove_map.h"
 
 #include <fmt/format.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <span>
@@ -11,25 +12,15 @@
 #include "engine/core/error.h"
 #include "engine/render/draw_list.h"
 #include "modules/diffraction/runtime/bindings.h"
-#include "modules/diffraction/runtime/groove_moments.h"
 
 namespace rowland::diffraction {
 
 namespace {
 
-/// Default rank of a table over pitches, for an error of 1 % or less; with one pitch, 8 give 2 %.
-constexpr int kPitchRank = 12;
-/// Largest ratio of neighbouring pitches of an `arc` table, and of a `planar` map: midway between two, a CD-like foil's
-/// is .5, .8 and 2.2 % off under Grace, Ennis and Royal Esplanade, 1.3, 2.1 and 4.9 % at the table's step (measured).
-constexpr double kTablePitchStep = 1.045;
-constexpr double kMapPitchStep = 1.03;
-/// Smaller relative differences of the pitch are ignored.
-constexpr double kSamePitch = 0.01;
-
 scene::TextureUse texture_use(const GrooveTexture& use, const scene::ImportedScene& scene, const std::string& file,
                               const std::string& pointer) {
     const auto index = static_cast<std::size_t>(use.index);
-    render::require_texture(scene, index, file, pointer);
+    scene::require_texture(scene, index, file, pointer);
     if (use.tex_coord > 1)
         refuse_input(file, pointer + "/texCoord", fmt::format("{}", use.tex_coord),
                      "0 or 1: only two sets of texture coordinates are supported");
@@ -48,10 +39,6 @@ int wrapped(int index, int size, scene::TextureWrap wrap) {
     return within < size ? within : period - 1 - within;
 }
 
-bool varies_pitch(const GrooveMap& grooves) {
-    return grooves.smallest_pitch() < 1.0 - kSamePitch || grooves.largest_pitch() > 1.0 + kSamePitch;
-}
-
 }  // namespace
 
 GrooveMap::GrooveMap(const GrooveTexture& use, render::SurfaceTextures& textures, const std::string& file,
@@ -61,17 +48,8 @@ GrooveMap::GrooveMap(const GrooveTexture& use, render::SurfaceTextures& textures
     sparkle_ = use.sparkle;
     sampling_ = scene.textures[static_cast<std::size_t>(use.index)];
     image_ = scene.images[sampling_.image];
-    int smallest = 256;
-    int largest = 0;
-    for (std::size_t i = 1; i < image_->rgba.size(); i += 4) {
-        gaps_ = gaps_ || image_->rgba[i] == 0;
-        if (image_->rgba[i] == 0) continue;
-        smallest = std::min<int>(smallest, image_->rgba[i]);
-        largest = std::max<int>(largest, image_->rgba[i]);
-    }
-    if (largest == 0) return;
-    smallest_pitch_ = 2.0 * smallest / 255.0;
-    largest_pitch_ = 2.0 * largest / 255.0;
+    for (std::size_t i = 1; i < image_->rgba.size(); i += 4) gaps_ = gaps_ || image_->rgba[i] == 0;
+    pitches_ = groove_pitches(*image_);
 }
 
 double GrooveMap::red(int column, int row) const {
@@ -115,7 +93,7 @@ const gpu::Texture& GrooveMap::moments(bool even) const {
             .format = gpu::Format::RGBA16, .width = image_->width, .height = image_->height, .levels = levels ? 0 : 1},
         sampling);
     made->upload(std::span<const std::uint16_t>(
-        groove_moments(*image_, {.even = even, .gaps = gaps_, .smallest_pitch = smallest_pitch_})));
+        groove_moments(*image_, {.even = even, .gaps = gaps_, .smallest_pitch = pitches_.smallest})));
     if (levels) made->generate_levels();
     return *made;
 }
@@ -132,48 +110,7 @@ void GrooveMap::bind(bool even, const gpu::Program& program) const {
     const render::UvTransform transform = render::uv_transform(use_.transform);
     program.set("groove_uv_linear", transform.linear);
     program.set("groove_uv_offset", transform.offset);
-    program.set("groove_pitch", static_cast<float>(smallest_pitch_));
-}
-
-std::optional<Refusal> groove_refusal(const Material& material, const GrooveMap& grooves) {
-    const std::optional<Representation>& pinned = material.quality.pinned;
-    const bool map = pinned && std::holds_alternative<PlanarSettings>(*pinned);
-    if (pinned && !map && !std::holds_alternative<ArcSettings>(*pinned)) {
-        const auto* streak = std::get_if<StreakSurfaceSettings>(&*pinned);
-        const bool narrow = streak != nullptr && !streak->rest;
-        if (narrow || std::holds_alternative<DirectSettings>(*pinned)) return std::nullopt;
-        return Refusal{"quality/representation", fmt::format("\"{}\" with a grooveTexture", info(*pinned).name),
-                       "\"arc\", \"planar\", \"direct\" or, with a sigma for groove_lobe, \"streak\"",
-                       "or leave quality out"};
-    }
-    if (!varies_pitch(grooves) || is_flat(material.grating.lobe)) return std::nullopt;
-    return Refusal{"grooveTexture",
-                   fmt::format("pitches of {:.3g} to {:.3g} times pitch_nm, with a groove_lobe that is not flat",
-                               grooves.smallest_pitch(), grooves.largest_pitch()),
-                   "the flat groove_lobe, or the representation \"streak\" or \"direct\"",
-                   "or keep the texture's green at one half"};
-}
-
-Material suited_to_grooves(Material material, const GrooveMap& grooves) {
-    Quality& quality = material.quality;
-    if (!quality.pinned) {
-        quality.pinned = ArcSettings{.rank = kPitchRank};
-        quality.key_lights = lighting::kMaximumKeyLights;
-    }
-    if (!varies_pitch(grooves)) return material;
-    const double largest = grooves.largest_pitch();
-    const double low = std::min(grooves.smallest_pitch(), largest * (1.0 - kSamePitch));
-    const auto axis = [&](double step) {
-        return PitchAxis{.smallest = low,
-                         .largest = largest,
-                         .nodes = 2 + static_cast<int>(std::log(largest / low) / std::log(step))};
-    };
-    if (auto* arc = std::get_if<ArcSettings>(&*quality.pinned)) arc->pitch = axis(kTablePitchStep);
-    if (auto* planar = std::get_if<PlanarSettings>(&*quality.pinned)) {
-        planar->size.pitch = axis(kMapPitchStep);
-        planar->stand_in.pitch = axis(kTablePitchStep);
-    }
-    return material;
+    program.set("groove_pitch", static_cast<float>(pitches_.smallest));
 }
 
 scene::Mesh turned_by(const GrooveMap& grooves, const scene::Mesh& mesh) {
@@ -188,6 +125,30 @@ scene::Mesh turned_by(const GrooveMap& grooves, const scene::Mesh& mesh) {
                       mesh.tangents[i].w);
     }
     return turned;
+}
+
+namespace {
+
+std::uint16_t normalised(double value) {
+    return static_cast<std::uint16_t>(std::lround(65535.0 * value));
+}
+
+std::array<std::uint16_t, 4> moments_of(std::uint8_t red, std::uint8_t green, const GrooveMomentUse& use) {
+    if (green == 0) return {normalised(0.5), normalised(0.5), 0, 0};
+    const double angle = (use.even ? 2.0 : 1.0) * std::numbers::pi * red / 255.0;
+    const double inverse = use.smallest_pitch / (2.0 * green / 255.0);
+    return {normalised(0.5 + 0.5 * std::cos(angle)), normalised(0.5 + 0.5 * std::sin(angle)), normalised(inverse),
+            normalised(use.gaps ? 1.0 : inverse * inverse)};
+}
+
+}  // namespace
+
+std::vector<std::uint16_t> groove_moments(const image::ByteImage& image, const GrooveMomentUse& use) {
+    std::vector<std::uint16_t> moments;
+    moments.reserve(image.rgba.size());
+    for (std::size_t i = 0; i < image.rgba.size(); i += 4)
+        for (const std::uint16_t moment : moments_of(image.rgba[i], image.rgba[i + 1], use)) moments.push_back(moment);
+    return moments;
 }
 
 }  // namespace rowland::diffraction

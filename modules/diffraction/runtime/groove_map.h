@@ -1,10 +1,12 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/gpu/program.h"
 #include "engine/gpu/texture.h"
@@ -12,7 +14,7 @@
 #include "engine/render/surface_textures.h"
 #include "engine/scene/imported_scene.h"
 #include "modules/diffraction/asset/gltf_extension.h"
-#include "modules/diffraction/asset/material.h"
+#include "modules/diffraction/asset/groove_pitches.h"
 
 namespace rowland::diffraction {
 
@@ -26,9 +28,7 @@ class GrooveMap {
     GrooveMap(const GrooveTexture& use, render::SurfaceTextures& textures, const std::string& file,
               const std::string& pointer);
 
-    /// The range of the factors above 0; 1 if there are none.
-    double smallest_pitch() const { return smallest_pitch_; }
-    double largest_pitch() const { return largest_pitch_; }
+    const GroovePitches& pitches() const { return pitches_; }
 
     /// Radians at a vertex's texture coordinates, bilinear where the texture is.
     double rotation(const glm::vec2& uv) const;
@@ -39,7 +39,7 @@ class GrooveMap {
     void add_defines(bool even, gpu::ProgramDesc& desc) const;
     void bind(bool even, const gpu::Program& program) const;
 
-    /// The moments of groove_moments.h. Created at the first call.
+    /// groove_moments(). Created at the first call.
     const gpu::Texture& moments(bool even) const;
 
  private:
@@ -51,18 +51,23 @@ class GrooveMap {
     mutable std::array<std::optional<gpu::Texture>, 2> moments_;  ///< for other and for even kernels
     std::shared_ptr<const image::ByteImage> image_;
     scene::ImportedTexture sampling_;
-    double smallest_pitch_ = 1.0;
-    double largest_pitch_ = 1.0;
+    GroovePitches pitches_;
 };
-
-/// Why a material cannot be drawn under a map: its representation supports one direction or one pitch only. nullopt if
-/// it can. The key is a JSON pointer relative to the glTF extension, without its first slash.
-std::optional<Refusal> groove_refusal(const Material& material, const GrooveMap& grooves);
-
-/// The material with the pitches of a map for which groove_refusal() is nullopt; arc, if nothing is pinned.
-Material suited_to_grooves(Material material, const GrooveMap& grooves);
 
 /// The mesh with its tangents rotated by the map at the vertices.
 scene::Mesh turned_by(const GrooveMap& grooves, const scene::Mesh& mesh);
+
+/// How the texels of a groove texture become moments.
+struct GrooveMomentUse {
+    bool even = true;             ///< the kernel is: grooves of the angles θ and θ + π are the same
+    bool gaps = false;            ///< some texels have no grating
+    double smallest_pitch = 1.0;  ///< of the texture, over the material's
+};
+
+/// The texels of a groove texture (groove_map.h) as numbers whose means describe the grooves of an area, whatever their
+/// distribution (PHYSICS (11.3)): four per texel, of 65535. With c = 1 where there is a grating and 0 elsewhere, the
+/// angle θ, j = 2 for even kernels and 1 for others, and q = smallest pitch / pitch:
+///   ½ + ½ c cos jθ,  ½ + ½ c sin jθ,  c q,  c q², or c for textures with gaps, whose pitches count as equal.
+std::vector<std::uint16_t> groove_moments(const image::ByteImage& image, const GrooveMomentUse& use);
 
 }  // namespace rowland::diffraction

@@ -3,7 +3,7 @@
 #include <span>
 
 #include "engine/lighting/key_lights.h"
-#include "modules/diffraction/shaders/key_lobe_block.h"
+#include "modules/diffraction/shaders/light_blocks.h"
 
 namespace rowland::diffraction {
 

@@ -3,22 +3,107 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/gtx/component_wise.hpp>
+#include <glm/mat3x3.hpp>
 #include <glm/vector_relational.hpp>
+#include <numbers>
 #include <utility>
 #include <vector>
 
+#include "engine/math/spherical_harmonics.h"
+#include "modules/diffraction/bake/arc_moments.h"
+#include "modules/diffraction/representations/direct/lobe_table.h"
 #include "modules/diffraction/runtime/bindings.h"
 #include "modules/diffraction/runtime/key_lobe.h"
-#include "modules/diffraction/runtime/light_window.h"
-#include "modules/diffraction/shaders/key_lobe_block.h"
+#include "modules/diffraction/shaders/light_blocks.h"
 
 namespace rowland::diffraction {
 
+namespace {
+
+constexpr int kNormals = 64;
+constexpr int kTurns = 4;  ///< grating vectors per normal
+constexpr int kArcs = 15;
+
+/// Rows (g, h, n) of frames spread over all orientations: normals on a Fibonacci spiral, g turned about them.
+std::vector<glm::dmat3> spread_frames() {
+    std::vector<glm::dmat3> frames;
+    for (int i = 0; i < kNormals; ++i) {
+        const double z = 1.0 - (2.0 * i + 1.0) / kNormals;
+        const double azimuth = i * std::numbers::pi * (3.0 - std::sqrt(5.0));
+        const double r = std::sqrt(1.0 - z * z);
+        const glm::dvec3 n(r * std::cos(azimuth), r * std::sin(azimuth), z);
+        const glm::dvec3 east(-std::sin(azimuth), std::cos(azimuth), 0.0);
+        for (int turn = 0; turn < kTurns; ++turn) {
+            const double angle = std::numbers::pi * (turn + 0.5) / kTurns;
+            const glm::dvec3 g = std::cos(angle) * east + std::sin(angle) * glm::cross(n, east);
+            frames.push_back(glm::transpose(glm::dmat3(g, glm::cross(n, g), n)));
+        }
+    }
+    return frames;
+}
+
+/// C_i(a) of evenly spaced arcs, arc by arc.
+std::vector<std::vector<double>> arc_rows(int bands) {
+    const ArcCoefficients coefficients(bands, FlatLobe{});
+    const auto count = static_cast<std::size_t>(math::sh_count(bands));
+    std::vector<std::vector<double>> rows;
+    for (int i = 0; i < kArcs; ++i) {
+        std::vector<double> arc_frame(count);
+        std::vector<double> row(count);
+        coefficients.accumulate((2.0 * i + 1.0) / kArcs - 1.0, 0.0, 550.0, 1.0, arc_frame);
+        coefficients.to_tangent_frame(arc_frame, row);
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+/// The negative fraction of the light that the arcs of one frame gather; the light is rotated into the frame.
+double negative_fraction(const std::vector<std::vector<double>>& rows, const std::vector<glm::dvec3>& rotated) {
+    double negative = 0.0;
+    double all = 0.0;
+    for (const std::vector<double>& row : rows) {
+        glm::dvec3 light(0.0);
+        for (std::size_t i = 0; i < row.size(); ++i) light += row[i] * rotated[i];
+        for (int c = 0; c < 3; ++c) {
+            negative += std::max(0.0, -light[c]);
+            all += std::abs(light[c]);
+        }
+    }
+    return all > 0.0 ? negative / all : 0.0;
+}
+
+}  // namespace
+
+double ringing(const lighting::ShLight& light) {
+    const std::vector<std::vector<double>> rows = arc_rows(light.bands);
+    const std::vector<glm::dmat3> frames = spread_frames();
+    std::vector<glm::dvec3> rotated(light.coefficients.size());
+    double sum = 0.0;
+    for (const glm::dmat3& frame : frames) {
+        math::ShRotation(frame, light.bands).apply(std::span<const glm::dvec3>(light.coefficients), rotated);
+        sum += negative_fraction(rows, rotated);
+    }
+    return sum / static_cast<double>(frames.size());
+}
+
+math::SphericalWindow weakest_window(const lighting::ShLight& light, int bands) {
+    for (const auto window : {math::SphericalWindow::None, math::SphericalWindow::Lanczos})
+        if (ringing(lighting::limit_bands(light, bands, window)) <= kTolerableRinging) return window;
+    return math::SphericalWindow::Hann;
+}
+
+void add_distant_lights(std::span<const render::DistantLight> lights, lighting::ShLight& sh) {
+    std::vector<double> basis(sh.coefficients.size());
+    for (const render::DistantLight& light : lights) {
+        math::evaluate_sh(glm::dvec3(light.direction), sh.bands, basis);
+        for (std::size_t i = 0; i < basis.size(); ++i) sh.coefficients[i] += basis[i] * glm::dvec3(light.irradiance);
+    }
+}
+
 static_assert(lighting::kMaximumKeyLights <= ROWLAND_MAXIMUM_KEY_LOBES);
 static_assert(kLobeTableOctaves == ROWLAND_LOBE_TABLE_OCTAVES && kLobeTableStart == ROWLAND_LOBE_TABLE_START);
-
-SurfaceLight::SurfaceLight(std::optional<math::SphericalWindow> window) : window_(window) {}
 
 void SurfaceLight::set_light_colours(std::span<const glm::vec3> strengths) {
     constexpr float kSameColour = 1e-4F;
@@ -37,44 +122,53 @@ void SurfaceLight::set_light_colours(std::span<const glm::vec3> strengths) {
     }
 }
 
-void SurfaceLight::set(const LightParts& light) {
-    if (light_.light_strengths != light.light_strengths) set_light_colours(light.light_strengths);
-    light_.light_strengths = light.light_strengths;
-    if (lit_ && light_.version == light.version) return;
-    if (light_.texels != light.texels) texels_.clear();
-    light_ = light;
-    lit_ = true;
-    windowed_.clear();
+void SurfaceLight::set(const render::FrameLight& frame) {
+    const bool same_strengths = frame_.light_strengths == frame.light_strengths;
+    const bool same_light = frame_.probe && frame_.version == frame.version;
+    const bool same_probe = frame_.probe == frame.probe && frame_.analytic_key_lights == frame.analytic_key_lights;
+    frame_ = frame;
+    if (!same_strengths) set_light_colours(frame.light_strengths);
+    if (same_light) return;
+    whole_.clear();
+    if (same_probe) return;
+    without_key_lights_.clear();
+    samples_.clear();
     for (auto& [count, lights] : key_lights_) lights.changed = true;
 }
 
-const lighting::ShLight& SurfaceLight::harmonics(int bands, LightPart part) {
-    const std::span<const lighting::KeyLight> keys = key_lights(part.key_lights);
-    const std::tuple key(bands, part.kind, keys.size());
-    const auto found = windowed_.find(key);
-    if (found != windowed_.end()) return found->second;
-    const auto unwindowed = [&] {
-        if (part.kind == LightPart::Whole) return light_.sh;
-        if (part.kind == LightPart::Probe) return light_.probe_sh;
-        if (keys.size() == light_.key_lights.size()) return light_.residual;
-        return lighting::residual(light_.probe_sh, keys, light_.probe_sh.bands);
-    };
-    const lighting::ShLight light = unwindowed();
-    const math::SphericalWindow window = window_ ? *window_ : weakest_window(light, bands);
-    return windowed_.emplace(key, lighting::limit_bands(light, bands, window)).first->second;
+lighting::ShLight SurfaceLight::windowed(const lighting::ShLight& light, int bands) const {
+    return lighting::limit_bands(light, bands, window_ ? *window_ : weakest_window(light, bands));
 }
 
-const std::shared_ptr<const lighting::LightSamples>& SurfaceLight::texels(LightPart part) const {
-    if (part.kind != LightPart::Rest) return light_.probe_texels;
-    const std::span<const lighting::KeyLight> keys = key_lights(part.key_lights);
-    if (keys.size() == light_.key_lights.size()) return light_.texels;
-    std::shared_ptr<const lighting::LightSamples>& texels = texels_[keys.size()];
-    if (!texels) texels = std::make_shared<const lighting::LightSamples>(lighting::unpack(*light_.packed, keys));
-    return texels;
+const lighting::ShLight& SurfaceLight::whole_harmonics(int bands) {
+    if (const auto found = whole_.find(bands); found != whole_.end()) return found->second;
+    lighting::ShLight whole = frame_.probe->sh;
+    add_distant_lights(frame_.distant_lights, whole);
+    return whole_.emplace(bands, windowed(whole, bands)).first->second;
+}
+
+const lighting::ShLight& SurfaceLight::probe_harmonics(int bands, int most_key_lights) {
+    const std::span<const lighting::KeyLight> keys = key_lights(most_key_lights);
+    const std::pair key(bands, keys.size());
+    if (const auto found = without_key_lights_.find(key); found != without_key_lights_.end()) return found->second;
+    const lighting::ShLight& probe = frame_.probe->sh;
+    return without_key_lights_
+        .emplace(key, windowed(keys.empty() ? probe : lighting::residual(probe, keys, probe.bands), bands))
+        .first->second;
+}
+
+const std::shared_ptr<const lighting::LightSamples>& SurfaceLight::probe_samples(int most_key_lights) const {
+    const std::span<const lighting::KeyLight> keys = key_lights(most_key_lights);
+    std::shared_ptr<const lighting::LightSamples>& samples = samples_[keys.size()];
+    const lighting::PackedLight& light = frame_.probe->light;
+    if (!samples && light.face_size > 0)
+        samples = std::make_shared<const lighting::LightSamples>(lighting::unpack(light, keys));
+    return samples;
 }
 
 std::span<const lighting::KeyLight> SurfaceLight::key_lights(int most) const {
-    return std::span(light_.key_lights).first(std::min(light_.key_lights.size(), static_cast<std::size_t>(most)));
+    const std::span<const lighting::KeyLight> all = frame_.key_lights();
+    return all.first(std::min(all.size(), static_cast<std::size_t>(most)));
 }
 
 void SurfaceLight::bind_light_colours() const {

@@ -1,4 +1,4 @@
-// d k(d u), the colour kernel smoothed by a normal distribution of u: bake/blurred_kernel.h. Layers for red, green and
+// d k(d u), the colour kernel smoothed by a normal distribution of u: bake/kernel_cells.h. Layers for red, green and
 // blue light, then one for each colour of the scene's lights. Values are in the colour space of the stored ones.
 TEXTURE_UNIT(10) uniform sampler2DArray kernel_table;
 uniform vec4 kernel_scale_bias;  // scale and offset from u to s; deviation of u in row 0; scale of the values
@@ -67,3 +67,160 @@ vec3 kernel_value(float u, float deviation, vec3 rgb) {
     }
     return value + zero_order_value(u, deviation, rgb);
 }
+
+// 2 D_h(s_h + v_h) for X, Y and Z, widened by the light's extent along the grooves: representations/direct/direct.h,
+// groove_factor(). The program defines LOBE_GAUSSIAN, LOBE_PITS or, for the flat lobe, neither.
+
+#if defined(LOBE_GAUSSIAN)
+uniform vec2 lobe_gaussian;  // deviation; peak of D_h
+vec3 groove_factor(float sum_h, float deviation_h) {
+    float wide = length(vec2(lobe_gaussian.x, deviation_h));
+    float z = sum_h / wide;
+    return vec3(2.0 * lobe_gaussian.y * lobe_gaussian.x / wide * exp(-0.5 * z * z));
+}
+#elif defined(LOBE_PITS)
+uniform vec2 lobe_gaussian;   // of the coherent part
+uniform vec3 pit_wavelengths;  // pits' length over the wavelength, for X, Y and Z
+uniform float incoherent;     // fraction of the power
+// Means of the two parts over nodes at `sum_h` with these weights. `peak`: of the coherent part.
+vec3 pits_factor(vec3 sum_h, vec3 weights, float peak) {
+    vec3 z = sum_h / lobe_gaussian.x;
+    vec3 factor = vec3(peak * dot(weights, exp(-0.5 * z * z)));
+    for (int o = 0; o < 3; ++o) {
+        // Nearer to 0 the quotient is 1, to 2e-5; a GPU's sine may have an error of 1e-6.
+        vec3 x = max(abs(3.14159265358979 * pit_wavelengths[o] * sum_h), 0.01);
+        vec3 amplitude = sin(x) / x;
+        factor[o] += incoherent * pit_wavelengths[o] * dot(weights, amplitude * amplitude);
+    }
+    return factor;
+}
+// Three-node Gauss-Hermite over the light's extent.
+vec3 pits_factor(float sum_h, float deviation_h, float peak) {
+    float step = 1.73205080756888 * deviation_h;
+    return pits_factor(sum_h + vec3(0.0, -step, step), vec3(4.0, 1.0, 1.0) / 3.0, peak);
+}
+vec3 groove_factor(float sum_h, float deviation_h) { return pits_factor(sum_h, deviation_h, lobe_gaussian.y); }
+vec3 groove_factor(float sum_h) { return pits_factor(vec3(sum_h), vec3(2.0, 0.0, 0.0), lobe_gaussian.y); }
+#else
+vec3 groove_factor(float sum_h, float deviation_h) { return vec3(1.0); }
+#endif
+#ifndef LOBE_PITS
+vec3 groove_factor(float sum_h) { return groove_factor(sum_h, 0.0); }  // of a light without extent
+#endif
+
+// The same for the probe's key lights. With a streak, which shows the whole probe, they light the incoherent part alone.
+#if defined(STREAK) && defined(LOBE_PITS)
+vec3 key_groove_factor(float sum_h, float deviation_h) { return pits_factor(sum_h, deviation_h, 0.0); }
+#else
+vec3 key_groove_factor(float sum_h, float deviation_h) { return groove_factor(sum_h, deviation_h); }
+#endif
+
+// The kernel's values are in the working space; with pits, which have a factor each for X, Y and Z, in XYZ.
+vec3 kernel_to_working(vec3 value) {
+#ifdef LOBE_PITS
+    return mat3(xyz_to_working) * value;
+#else
+    return value;
+#endif
+}
+
+// A light without extent on a grating.
+
+// d k(d u) for the pixel's own d = `pitch` times the material's.
+vec3 pitch_kernel_value(float u, float deviation, vec3 rgb, float pitch) {
+    return pitch * kernel_value(pitch * u, pitch * deviation, rgb);
+}
+
+#ifdef SMALL_LIGHTS
+uniform mat3 working_to_rec709;
+
+// What lights are weighted by for a view of this cosine: 1/2 d of the kernel, 0 below the horizon.
+float small_light_weight(KernelScale scale, float v_n) { return v_n > 0.0 ? 0.5 * scale.scale_bias.w : 0.0; }
+
+// Adds lights[i]. `weight`: small_light_weight() times irradiance on a surface that faces the light, over its strength;
+// `axes`: columns g, h, n in the world; `v_h`: toward the eye, along h; `u`: of s_g + v_g over the pixel.
+void add_small_light(KernelScale scale, int i, float weight, vec3 l, mat3 axes, float v_h, PixelU u, float pitch,
+                     inout vec3 sum) {
+    float t = kernel_row(scale, pitch * pitch * u.square_width);
+    float above = max(dot(l, axes[2]), 0.0);
+    vec3 dimmed = (pitch * weight * above * cover_transmittance(above)) * groove_factor(dot(l, axes[1]) + v_h);
+    // One look-up costs less than a branch around it.
+    sum += dimmed * light_colours[i].y * kernel_texel(scale, pitch * u.mean, t, light_colours[i].x);
+#ifdef ZERO_ORDER
+    sum += dimmed / scale.scale_bias.w *
+           zero_order_value(pitch * u.mean, pitch * deviation_of(u), working_to_rec709 * lights[i].strength.rgb);
+#endif
+}
+#endif
+
+#ifdef KEY_LOBES
+// Cumulative normal distribution [Press et al., Numerical Recipes, erfcc: 1.2e-7 relative].
+float normal_cdf(float x) {
+    float z = abs(x) * 0.70710678118655;
+    float t = 1.0 / (1.0 + 0.5 * z);
+    float p = -1.13520398 + t * (1.48851587 + t * (-0.82215223 + t * 0.17087277));
+    p = 0.09678418 + t * (-0.18628806 + t * (0.27886807 + t * p));
+    p = -1.26551223 + t * (1.00002368 + t * (0.37409196 + t * p));
+    float beyond = 0.5 * t * exp(p - z * z);
+    return x < 0.0 ? beyond : 1.0 - beyond;
+}
+
+float normal_density(float x) { return 0.39894228040143 * exp(-0.5 * x * x); }
+
+// Mean of max(0, x) for x of this mean and deviation: engine/lighting/key_lights.h, clamp_normal(). What exceeds
+// max(0, mean) is the deviation times a function of |z|, fitted as 2 to the power of a polynomial: 7e-7 of the deviation.
+float clamped_mean(float mean, float deviation) {
+    float z = min(abs(mean) / max(deviation, 1e-12), 8.0);
+    float power = -1.3257504 + z * (-1.8080855 + z * (-0.4119510 + z * (-0.0426687 + z * 0.0031916)));
+    return max(mean, 0.0) + deviation * exp2(power);
+}
+
+// A light in a surface's tangent frame: representations/direct/direct.h, light_spot().
+
+// Mean and variance of x above 0, values weighted by x, for x of this mean and variance; 0 where nothing is above:
+// engine/lighting/key_lights.h, clamp_normal().
+struct ClampedMoments {
+    float weighted_mean;
+    float weighted_variance;
+};
+ClampedMoments clamped_moments(float mean, float variance) {
+    float deviation = sqrt(variance);
+    float below = normal_cdf(mean / deviation);
+    float density = deviation * normal_density(mean / deviation);
+    float first = mean * below + density;
+    if (!(first > 1e-6 * deviation)) return ClampedMoments(0.0, 0.0);
+    float weighted = ((mean * mean + variance) * below + mean * density) / first;
+    float third = mean * (mean * mean + 3.0 * variance) * below + (mean * mean + 2.0 * variance) * density;
+    return ClampedMoments(weighted, max(third / first - weighted * weighted, 0.0));
+}
+
+// Mean of a cover's transmittance over a lobe: direct.h, transmittance(). `mean_n`: mean of s_n.
+float lobe_transmittance(float mean_n, vec4 moments) {
+#ifdef COVER
+    ClampedMoments above = clamped_moments(mean_n, max(moments.y * mean_n * mean_n + moments.z, 0.0));
+    float deviation = sqrt(above.weighted_variance);
+    return 0.5 * (cover_transmittance(above.weighted_mean - deviation) +
+                  cover_transmittance(min(above.weighted_mean + deviation, 1.0)));
+#else
+    return 1.0;
+#endif
+}
+
+#if defined(LOBE_GAUSSIAN) || defined(LOBE_PITS)
+// Mean and deviation of s_h, directions weighted by s_n above the horizon: direct.cpp, clamp_at_horizon(). `mean`: of the
+// lobe's directions, in (g, h, n).
+vec2 spread_along_grooves(vec3 mean, vec4 moments) {
+    float elongation = moments.y;
+    float variance_n = max(elongation * mean.z * mean.z + moments.z, 0.0);
+    float variance_h = elongation * mean.y * mean.y + moments.z;
+    ClampedMoments above = clamped_moments(mean.z, variance_n);
+    if (above.weighted_mean == 0.0) return vec2(mean.y, sqrt(max(variance_h, 0.0)));
+    float slope = elongation * mean.y * mean.z / variance_n;
+    float rest = max(variance_h - slope * slope * variance_n, 0.0);
+    return vec2(mean.y + slope * (above.weighted_mean - mean.z),
+                sqrt(rest + slope * slope * above.weighted_variance));
+}
+#else
+vec2 spread_along_grooves(vec3 mean, vec4 moments) { return vec2(0.0); }
+#endif
+#endif

@@ -1,9 +1,5 @@
 // Lights on a lattice: one look-up in its diffraction pattern for all orders, bake/pattern_picture.h and
 // representations/direct/pattern_light.h.
-#include "modules/diffraction/shaders/has_direct.glsl"
-#if defined(LATTICE) && defined(HAS_DIRECT)
-#include "modules/diffraction/shaders/cover.glsl"
-#include "modules/diffraction/shaders/light_colour_block.h"
 
 TEXTURE_UNIT(10) uniform sampler2DArray pattern_picture;  // a layer for each colour
 uniform vec4 pattern_scale;  // from u to the picture; bias of the level; scale of the values; reach of |u|
@@ -35,17 +31,16 @@ void add_pattern_light(int i, float weight, vec3 l, GrooveView view, inout vec3 
 #endif
 
 #ifdef KEY_LOBES
-#include "modules/diffraction/shaders/light_spot.glsl"
 TEXTURE_UNIT(14) uniform sampler2DArray pattern_lobes;  // a layer for each light
 uniform vec4 pattern_lobe_scale;  // from u to the picture; variance of a texel; scale of the values, per unit of the
                                   // largest flux; reach of |u|
-const float PICTURE_VARIANCE = 0.5;   // direct/pattern_light.h, kPictureVariance
+const float PICTURE_VARIANCE = 0.5;   // direct/direct.h, kPictureVariance
 
 vec3 pattern_lobe_texel(vec2 u, float level, int light) {
     return textureLod(pattern_lobes, vec3(u * pattern_lobe_scale.x + 0.5, light), level).xyz;
 }
 
-// direct/pattern_light.h, pattern_radiance(), per unit of the scale.
+// direct/direct.h, pattern_radiance(), per unit of the scale.
 vec3 pattern_key_light(int i, KeyLobe lobe, GrooveView view) {
     vec3 mean = lobe.mean.xyz * view.axes;
     vec2 u = mean.xy + view.direction.xy;
@@ -72,10 +67,10 @@ vec3 pattern_key_light(int i, KeyLobe lobe, GrooveView view) {
     return flux / 6.0 * lobe_transmittance(mean.z, lobe.moments) * value;
 }
 
-vec3 pattern_key_lights(GrooveView view) {
+// Working space.
+vec3 key_lights_at_pixel(GrooveView view) {
     vec3 sum = vec3(0.0);
     for (int i = 0; i < int(key_lobe_count.x); ++i) sum += pattern_key_light(i, key_lobes[i], view);
     return pattern_lobe_scale.z * sum;
 }
-#endif
 #endif

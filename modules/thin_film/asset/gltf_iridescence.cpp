@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <glm/common.hpp>
 #include <limits>
 
-#include "engine/colour/colour_json.h"
+#include "engine/colour/illuminant.h"
 #include "engine/core/json_reader.h"
-#include "engine/core/json_vector.h"
 #include "modules/thin_film/asset/film_material.h"
 
 namespace rowland::thin_film {
@@ -42,6 +45,25 @@ std::optional<scene::TextureUse> parse_texture(JsonReader& json, const char* key
     return use;
 }
 
+/// Of the material's KHR_materials_ior.
+double dielectric_ior(const scene::MaterialDescription& description, const std::string& file,
+                      const std::string& pointer) {
+    const auto found = description.extensions.find(kIorExtension);
+    constexpr double kDefault = 1.5;
+    if (found == description.extensions.end()) return kDefault;
+    return parse_gltf_ior(found->second, file, pointer.substr(0, pointer.rfind('/') + 1) + kIorExtension);
+}
+
+/// PHYSICS §3: what the file names, else an index that gives the metallic-roughness surface's reflectance at normal
+/// incidence.
+Base base_of(const GltfIridescence& iridescence, const scene::MaterialDescription& description, double ior) {
+    if (iridescence.base) return *iridescence.base;
+    if (description.metallic == 0.0F) return std::complex<double>(ior, 0.0);
+    const double dielectric = std::pow((ior - 1.0) / (ior + 1.0), 2.0);
+    const glm::dvec3 colour = glm::clamp(glm::dvec3(description.base_colour), 0.0, 1.0);
+    return NormalReflectance{glm::mix(glm::dvec3(dielectric), colour, static_cast<double>(description.metallic))};
+}
+
 }  // namespace
 
 GltfIridescence parse_gltf_iridescence(const nlohmann::json& json, const std::string& file,
@@ -72,6 +94,24 @@ double parse_gltf_ior(const nlohmann::json& json, const std::string& file, const
     reader.finish();
     constexpr double kInfinite = 1e6;
     return ior == 0.0 ? kInfinite : ior;
+}
+
+std::optional<FilmMaterial> film_material(const GltfIridescence& iridescence,
+                                          const scene::MaterialDescription& description, const std::string& file,
+                                          const std::string& pointer) {
+    if (iridescence.factor == 0.0 || description.unlit) return std::nullopt;
+    const bool varies = iridescence.thickness_texture.has_value();
+    const double other_nm = varies ? iridescence.thickness_at_0_nm : iridescence.thickness_at_1_nm;
+    const auto [thinnest_nm, thickest_nm] = std::minmax(other_nm, iridescence.thickness_at_1_nm);
+    const double roughness = description.roughness;
+    const double ior = dielectric_ior(description, file, pointer);
+    return FilmMaterial{.film = {.layers = {{.index = iridescence.ior, .thickness_nm = thickest_nm}},
+                                 .base = base_of(iridescence, description, ior)},
+                        .range = {.thinnest_nm = thinnest_nm,
+                                  .thickest_nm = thickest_nm,
+                                  .smoothest = description.metallic_roughness_texture ? 0.0 : roughness,
+                                  .roughest = roughness},
+                        .illuminant = iridescence.illuminant};
 }
 
 std::string describe(const GltfIridescence& iridescence) {

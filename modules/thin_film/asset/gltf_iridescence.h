@@ -5,7 +5,8 @@
 #include <string>
 
 #include "engine/colour/illuminant.h"
-#include "engine/scene/material_description.h"
+#include "engine/scene/imported_scene.h"
+#include "modules/thin_film/asset/film_material.h"
 #include "modules/thin_film/model/film.h"
 
 namespace rowland::thin_film {
@@ -36,5 +37,11 @@ double parse_gltf_ior(const nlohmann::json& json, const std::string& file, const
 
 /// "100 to 400 nm of ior 1.3, factor 1"
 std::string describe(const GltfIridescence& iridescence);
+
+/// The film of a material with this extension, whose object's JSON pointer is `pointer`; nullopt if it is not drawn:
+/// factor 0, or unlit. The base, thicknesses and roughnesses: PHYSICS §3. Throws Error (input).
+std::optional<FilmMaterial> film_material(const GltfIridescence& iridescence,
+                                          const scene::MaterialDescription& description, const std::string& file,
+                                          const std::string& pointer);
 
 }  // namespace rowland::thin_film

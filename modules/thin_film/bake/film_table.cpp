@@ -1,6 +1,7 @@
 #include "modules/thin_film/bake/film_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/gtc/packing.hpp>
@@ -9,11 +10,53 @@
 
 #include "engine/core/check.h"
 #include "engine/core/parallel.h"
-#include "engine/lighting/lobe_angles.h"
 #include "engine/lighting/lobe_nodes.h"
-#include "modules/thin_film/bake/rough_film.h"
 
 namespace rowland::thin_film {
+
+namespace {
+
+/// Of the path difference: a 26th of the shortest visible fringe, where a cubic is 1e-4 of its height off.
+constexpr double kPathStep_nm = 15.0;
+
+/// Weights of four equidistant nodes at 0 to 3 for a value at `at` (Lagrange).
+std::array<double, 4> cubic_weights(double at) {
+    const double a = at;
+    const double b = at - 1.0;
+    const double c = at - 2.0;
+    const double d = at - 3.0;
+    return {-b * c * d / 6.0, a * c * d / 2.0, -a * b * d / 2.0, a * b * c / 6.0};
+}
+
+}  // namespace
+
+RoughFilm::RoughFilm(const FilmColour& colour, double thinnest_nm, double thickest_nm) : thinnest_nm_(thinnest_nm) {
+    const double range_nm = thickest_nm - thinnest_nm;
+    const double finest_nm = kPathStep_nm / (2.0 * std::abs(colour.film().layers.front().index));
+    nodes_ = std::max<std::size_t>(static_cast<std::size_t>(std::ceil(range_nm / finest_nm)) + 1, 4);
+    step_nm_ = range_nm / static_cast<double>(nodes_ - 1);
+    values_.resize(nodes_ * (kAngleSteps + 1));
+    parallel_for(kAngleSteps + 1, [&](std::size_t angle) {
+        const double root = static_cast<double>(angle) / kAngleSteps;
+        const FilmColour::AtAngle at = colour.at(root * root);
+        for (std::size_t i = 0; i < nodes_; ++i)
+            values_[angle * nodes_ + i] = at(thinnest_nm + static_cast<double>(i) * step_nm_);
+    });
+}
+
+glm::dmat3 RoughFilm::average(std::span<const double> angles, double thickness_nm) const {
+    const double last = static_cast<double>(nodes_ - 1);
+    const double position = step_nm_ > 0.0 ? std::clamp((thickness_nm - thinnest_nm_) / step_nm_, 0.0, last) : 0.0;
+    const std::size_t first = std::min(static_cast<std::size_t>(std::max(position - 1.0, 0.0)), nodes_ - 4);
+    const std::array<double, 4> weights = cubic_weights(position - static_cast<double>(first));
+    glm::dmat3 sum(0.0);
+    for (std::size_t angle = 0; angle < angles.size(); ++angle) {
+        if (angles[angle] == 0.0) continue;
+        const glm::dmat3* const at = &values_[angle * nodes_ + first];
+        sum += angles[angle] * (weights[0] * at[0] + weights[1] * at[1] + weights[2] * at[2] + weights[3] * at[3]);
+    }
+    return sum;
+}
 
 namespace {
 
@@ -25,7 +68,7 @@ constexpr double kThickest_nm = 1e7;
 constexpr double kLeastMeasuredCosine = 0.05;
 constexpr std::size_t kMeasuredCosines = 101;  // in step with no table
 
-/// Coordinates of the columns and the rows, of which they are equal steps. PHYSICS (4).
+/// Coordinates of the columns and the rows, of which they are equal steps. PHYSICS (4.2).
 double column_coordinate(double cosine) {
     return std::sqrt(cosine + FilmTable::kCosineOffset);
 }
@@ -249,13 +292,13 @@ FilmTable empty_table(const Film& film, const TableRange& range, const TableSize
             .begin = row_coordinate(path_difference(index, range.thinnest_nm, 0.0)),
             .end = row_coordinate(path_difference(index, range.thickest_nm, 1.0)),
             .roughest = range.roughest,
+            .by_lobe_nodes = range.roughest > 0.0 && size.layers == 1,
             .only_thickness_nm = range.thinnest_nm};
 }
 
 FilmTable bake_table(const FilmColour& colour, const TableRange& range, const TableSize& size) {
     FilmTable table = empty_table(colour.film(), range, size);
     const bool rough = range.roughest > 0.0;
-    table.by_lobe_nodes = rough && table.layers == 1;
     // What a node of another angle but the same path difference needs.
     const double spread =
         path_difference(table.index, 1.0, 1.0) / std::max(path_difference(table.index, 1.0, 0.0), 1e-9);

@@ -2,11 +2,29 @@
 
 #include <cstddef>
 #include <glm/mat3x3.hpp>
+#include <span>
 #include <vector>
 
-#include "modules/thin_film/model/film_colour.h"
+#include "modules/thin_film/model/film.h"
 
 namespace rowland::thin_film {
+
+/// M of a film averaged over microfacets, from M at steps of angle and thickness: cubic in thickness.
+class RoughFilm {
+ public:
+    static constexpr int kAngleSteps = 128;  ///< of √cos
+
+    RoughFilm(const FilmColour& colour, double thinnest_nm, double thickest_nm);
+
+    /// `angles`: lobe_angles() of kAngleSteps. A thickness beyond the ends counts as the end's.
+    glm::dmat3 average(std::span<const double> angles, double thickness_nm) const;
+
+ private:
+    double thinnest_nm_;
+    double step_nm_;
+    std::size_t nodes_;
+    std::vector<glm::dmat3> values_;  ///< thickness fastest
+};
 
 /// What of a film's surface a table is for.
 struct TableRange {
@@ -21,7 +39,7 @@ struct TableError {
     double rms = 0.0;      ///< √ of the mean of its square
 };
 
-/// M averaged over the microfacets that a view sees, at nodes. PHYSICS (4), (5). Axes: √(c + kCosineOffset) of the
+/// M averaged over the microfacets that a view sees, at nodes. PHYSICS (4.2), (5.1). Axes: √(c + kCosineOffset) of the
 /// view's cosine c; the path difference x in the outermost layer at the lobe's mean_square_cosine(), along which
 /// fringes of all angles lie alike, in equal steps of log(x + kPathOffset_nm); roughness, of which the first node is 0.
 /// Where thickness and roughness vary, the table is the mirror's, and a lobe is the mean of it at four angles.
@@ -57,7 +75,7 @@ struct FilmTable {
 /// Path difference 2 t √(n² − 1 + cos²θ) in a layer of index n at an angle in air.
 double path_difference(double index, double thickness_nm, double square_cosine);
 
-/// Mean of cos² over the microfacets that a view sees, to .05. PHYSICS (6).
+/// Mean of cos² over the microfacets that a view sees, to .05. PHYSICS (5.2).
 double mean_square_cosine(double view_cosine, double roughness);
 
 /// As it is stored: each column rounded to nine bits a component and an exponent of its own, and not below 0.
@@ -70,7 +88,7 @@ struct TableSize {
     int layers = 1;  ///< 1 only if the range has no roughness, or if lobes are means of the mirror's table
 };
 
-/// The size with which a table of this range has at most 64 kB, chosen by measured error: PHYSICS §5.
+/// The size with which a table of this range has at most 64 kB, chosen by measured error: MEASUREMENTS.md.
 TableSize table_size(const TableRange& range);
 
 /// A table without values.

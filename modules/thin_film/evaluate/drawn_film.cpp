@@ -4,8 +4,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "engine/lighting/environment_light.h"
-#include "engine/lighting/lobe_angles.h"
+#include "engine/lighting/environment_map.h"
 #include "engine/lighting/lobe_nodes.h"
 
 namespace rowland::thin_film {

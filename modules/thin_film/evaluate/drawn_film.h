@@ -10,7 +10,7 @@ namespace rowland::thin_film {
 /// How a frame looks up the environment's light for a rough surface.
 enum class Reflections {
     OneLookUp,   ///< the split sum
-    FourLookUps  ///< Effects::rough_reflections, PHYSICS (8)
+    FourLookUps  ///< Effects::rough_reflections, PHYSICS (5.4)
 };
 
 /// XYZ radiance toward v of a film of this thickness and perceptual roughness, as the shader computes it. n and v are

@@ -1,10 +1,15 @@
 #include "modules/thin_film/model/film.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <numbers>
 
-#include "engine/colour/light_spectra.h"
+#include "engine/colour/illuminant.h"
+#include "engine/colour/spectrum.h"
+#include "engine/core/check.h"
 
 namespace rowland::thin_film {
 
@@ -34,6 +39,114 @@ std::complex<double> base_index(const Base& base, double wavelength_nm) {
 Film with_thickness(Film film, double thickness_nm) {
     film.layers.front().thickness_nm = thickness_nm;
     return film;
+}
+
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Nearer to grazing incidence the quotients of PHYSICS (2.1) are 0/0 to rounding.
+constexpr double kLeastCosine = 1e-9;
+
+/// A medium, and the part of the wave vector across the faces over that in vacuum: q = n cos θ.
+struct Medium {
+    Complex index;
+    Complex q;
+};
+
+/// n² − sin²θ without cancellation. The root in the first quadrant: what runs into the base decays there.
+Medium medium(Complex index, double cosine) {
+    return {index, std::sqrt((index - 1.0) * (index + 1.0) + cosine * cosine)};
+}
+
+enum class Polarisation { S, P };
+
+/// Amplitude that the face between two media reflects. PHYSICS (2.1).
+Complex face(const Medium& above, const Medium& below, Polarisation polarisation) {
+    const bool s = polarisation == Polarisation::S;
+    const Complex a = s ? above.q : below.index * below.index * above.q;
+    const Complex b = s ? below.q : above.index * above.index * below.q;
+    return (a - b) / (a + b);
+}
+
+/// PHYSICS (2.2). `turned`: what the layer's lower face reflects, with the phase of the way there and back.
+Complex airy(Complex first, Complex turned) {
+    return (first + turned) / (1.0 + first * turned);
+}
+
+Complex phase_per_nm(const Medium& layer, double wavelength_nm) {
+    return Complex(0.0, 4.0 * std::numbers::pi / wavelength_nm) * layer.q;
+}
+
+/// Amplitude of all layers and the base, for light that arrives in `above`.
+Complex stack(Medium above, std::span<const Layer> layers, Complex base, double wavelength_nm, double cosine,
+              Polarisation polarisation) {
+    if (layers.empty()) return face(above, medium(base, cosine), polarisation);
+    const Medium layer = medium(layers.front().index, cosine);
+    const Complex below = stack(layer, layers.subspan(1), base, wavelength_nm, cosine, polarisation);
+    const Complex turn = std::exp(phase_per_nm(layer, wavelength_nm) * layers.front().thickness_nm);
+    return airy(face(above, layer, polarisation), below * turn);
+}
+
+double mean_intensity(Complex s, Complex p) {
+    return std::min(0.5 * (std::norm(s) + std::norm(p)), 1.0);
+}
+
+}  // namespace
+
+LayersAtAngle::LayersAtAngle(std::span<const Layer> layers, std::complex<double> base, double wavelength_nm,
+                             double cosine) {
+    ROWLAND_CHECK(!layers.empty(), "a film has a layer");
+    const double c = std::max(cosine, kLeastCosine);
+    const Medium outermost = medium(layers.front().index, c);
+    const auto amplitudes = [&](Polarisation polarisation) {
+        return Amplitudes{face({1.0, c}, outermost, polarisation),
+                          stack(outermost, layers.subspan(1), base, wavelength_nm, c, polarisation)};
+    };
+    s_ = amplitudes(Polarisation::S);
+    p_ = amplitudes(Polarisation::P);
+    phase_per_nm_ = phase_per_nm(outermost, wavelength_nm);
+}
+
+double LayersAtAngle::reflectance(double outermost_thickness_nm) const {
+    const Complex turn = std::exp(phase_per_nm_ * outermost_thickness_nm);
+    return mean_intensity(airy(s_.first, s_.below * turn), airy(p_.first, p_.below * turn));
+}
+
+double reflectance(std::span<const Layer> layers, std::complex<double> base, double wavelength_nm, double cosine) {
+    const double c = std::max(cosine, kLeastCosine);
+    const auto amplitude = [&](Polarisation polarisation) {
+        return stack({1.0, c}, layers, base, wavelength_nm, c, polarisation);
+    };
+    return mean_intensity(amplitude(Polarisation::S), amplitude(Polarisation::P));
+}
+
+double reflectance(const Film& film, double wavelength_nm, double cosine) {
+    return reflectance(film.layers, base_index(film.base, wavelength_nm), wavelength_nm, cosine);
+}
+
+FilmColour::FilmColour(const Film& film, const colour::LightSpectra& spectra) : film_(film) {
+    for (int nm = colour::kVisibleMin; nm <= colour::kVisibleMax; ++nm) {
+        const bool at_an_end = nm == colour::kVisibleMin || nm == colour::kVisibleMax;
+        const glm::dmat3 observed = glm::outerProduct(colour::cie_xyz(nm), spectra(nm));
+        wavelengths_.push_back(
+            {static_cast<double>(nm), base_index(film.base, nm), (at_an_end ? 0.5 : 1.0) * observed});
+    }
+}
+
+FilmColour::AtAngle FilmColour::at(double cosine) const {
+    AtAngle result;
+    result.parts_.reserve(wavelengths_.size());
+    for (const Wavelength& wavelength : wavelengths_)
+        result.parts_.push_back(
+            {LayersAtAngle(film_.layers, wavelength.base, wavelength.nm, cosine), &wavelength.observed});
+    return result;
+}
+
+glm::dmat3 FilmColour::AtAngle::operator()(double thickness_nm) const {
+    glm::dmat3 sum(0.0);
+    for (const Part& part : parts_) sum += part.layers.reflectance(thickness_nm) * *part.observed;
+    return sum;
 }
 
 }  // namespace rowland::thin_film

@@ -1,11 +1,14 @@
 #pragma once
 
 #include <complex>
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <span>
 #include <variant>
 #include <vector>
 
-#include "engine/colour/metal.h"
+#include "engine/colour/illuminant.h"
+#include "engine/colour/spectrum.h"
 
 namespace rowland::thin_film {
 
@@ -40,5 +43,69 @@ std::complex<double> base_index(const Base& base, double wavelength_nm);
 
 /// The same film with an outermost layer of another thickness. It has a layer.
 Film with_thickness(Film film, double thickness_nm);
+
+/// Layers on a base under light of one wavelength and angle, for any thickness of the outermost layer.
+class LayersAtAngle {
+ public:
+    /// `cosine` ∈ [0, 1]: of the angle of incidence in air. There is a layer.
+    LayersAtAngle(std::span<const Layer> layers, std::complex<double> base, double wavelength_nm, double cosine);
+
+    /// Fraction of unpolarised light that is reflected, in [0, 1]. PHYSICS (2.1), (2.2).
+    double reflectance(double outermost_thickness_nm) const;
+
+ private:
+    struct Amplitudes {
+        std::complex<double> first;  ///< of the outermost face
+        std::complex<double> below;  ///< of all below the outermost layer
+    };
+    Amplitudes s_;
+    Amplitudes p_;
+    std::complex<double> phase_per_nm_;  ///< iβ of the outermost layer over its thickness
+};
+
+/// Fraction of unpolarised light of one wavelength that a film reflects, in [0, 1]: Airy's sum for both polarisations.
+/// Without layers: the base's. `cosine` ∈ [0, 1]: of the angle of incidence in air.
+double reflectance(std::span<const Layer> layers, std::complex<double> base, double wavelength_nm, double cosine);
+
+/// The same of a film, whose base depends on the wavelength.
+double reflectance(const Film& film, double wavelength_nm, double cosine);
+
+/// M: linear RGB of light → XYZ of what a film reflects of it. PHYSICS (4.1). Exact for a smooth surface under light
+/// that LightSpectra describes.
+class FilmColour {
+ public:
+    /// The film has a layer.
+    FilmColour(const Film& film, const colour::LightSpectra& spectra);
+
+    /// M at one angle, for any thickness of the outermost layer.
+    class AtAngle {
+     public:
+        glm::dmat3 operator()(double thickness_nm) const;
+
+     private:
+        friend class FilmColour;
+        struct Part {
+            LayersAtAngle layers;
+            const glm::dmat3* observed;  ///< cmf(λ) E(λ)ᵀ dλ
+        };
+        std::vector<Part> parts_;  ///< one for each wavelength
+    };
+
+    /// `cosine` ∈ [0, 1]: of the angle of incidence. The result refers to this object.
+    AtAngle at(double cosine) const;
+    /// M for the film's own thickness.
+    glm::dmat3 operator()(double cosine) const { return at(cosine)(film_.layers.front().thickness_nm); }
+
+    const Film& film() const { return film_; }
+
+ private:
+    struct Wavelength {
+        double nm;
+        std::complex<double> base;
+        glm::dmat3 observed;
+    };
+    Film film_;
+    std::vector<Wavelength> wavelengths_;
+};
 
 }  // namespace rowland::thin_film

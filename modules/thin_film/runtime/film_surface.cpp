@@ -1,17 +1,19 @@
 #include "modules/thin_film/runtime/film_surface.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/common.hpp>
+#include <glm/matrix.hpp>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <utility>
+#include <vector>
 
+#include "engine/colour/colour_space.h"
+#include "engine/core/file.h"
 #include "engine/core/log.h"
 #include "engine/render/draw_list.h"
+#include "engine/render/surface_programs.h"
 #include "engine/render/surface_textures.h"
 #include "modules/thin_film/asset/gltf_iridescence.h"
 #include "modules/thin_film/shaders/shader_files.h"
@@ -20,46 +22,96 @@ namespace rowland::thin_film {
 
 namespace {
 
-/// Of the material's KHR_materials_ior.
-double dielectric_ior(ecs::World& world, ecs::Entity entity, const std::string& file, const std::string& pointer) {
-    constexpr double kDefault = 1.5;
-    const auto* material = world.find<render::FileMaterial>(entity);
-    if (material == nullptr) return kDefault;
-    const auto& extensions = material->description->extensions;
-    const auto found = extensions.find(kIorExtension);
-    if (found == extensions.end()) return kDefault;
-    return parse_gltf_ior(found->second, file, pointer.substr(0, pointer.rfind('/') + 1) + kIorExtension);
+bool is_line(const FilmTable& table) {
+    return table.rows == 1 && table.layers <= 2;
 }
+
+/// One thickness, all roughnesses: layers are rows.
+bool has_roughnesses(const FilmTable& table) {
+    return table.layers > 2;
+}
+
+/// Columns of M in the working space, one after another. The fourth components are the reflectance of white.
+std::vector<glm::vec4> working_columns(const FilmTable& table, const glm::dmat3& xyz_to_working) {
+    const glm::dmat3 working_to_rec709 = glm::inverse(xyz_to_working * colour::rec709_to_xyz());
+    std::vector<glm::vec4> columns;
+    columns.reserve(3 * table.values.size());
+    for (int column = 0; column < 3; ++column)
+        for (const glm::mat3& value : table.values) {
+            const glm::mat3 working(xyz_to_working * glm::dmat3(value) * working_to_rec709);
+            columns.emplace_back(working[column], (working * glm::vec3(1.0F))[column]);
+        }
+    return columns;
+}
+
+/// Software renderers read floats faster than halves.
+gpu::Texture upload(const FilmTable& table, const glm::dmat3& xyz_to_working) {
+    const int slices = 3 * table.layers;
+    const bool line = is_line(table);
+    gpu::Texture texture({.kind = line ? gpu::TextureKind::Line : gpu::TextureKind::Plane,
+                          .format = gpu::Format::RGBA32F,
+                          .width = line ? slices * table.columns : table.columns,
+                          .height = line ? 1 : table.rows * slices});
+    texture.upload(std::span<const glm::vec4>(working_columns(table, xyz_to_working)));
+    return texture;
+}
+
+/// Scale and bias from [begin, end] to the centres of the first and the last of `nodes` texels.
+glm::vec2 to_texels(double begin, double end, int nodes) {
+    const double scale = end > begin ? (nodes - 1) / ((end - begin) * nodes) : 0.0;
+    return {scale, 0.5 / nodes - begin * scale};
+}
+
+/// film_path and film_axes of the shaders.
+struct Axes {
+    glm::vec4 path;
+    glm::vec4 axes;
+};
+
+Axes axes(const FilmTable& table) {
+    const auto slices = static_cast<float>(3 * table.layers);
+    const auto last = static_cast<float>(table.layers - 1);
+    const auto square = static_cast<float>((table.index - 1.0) * (table.index + 1.0));
+    const glm::vec2 columns =
+        to_texels(std::sqrt(FilmTable::kCosineOffset), std::sqrt(1.0 + FilmTable::kCosineOffset), table.columns);
+    const glm::vec2 rows = to_texels(table.begin, table.end, table.rows);
+    if (is_line(table)) return {{square, 0.0F, 0.0F, 0.0F}, {columns / slices, last / slices, 1.0F / 3.0F}};
+    if (has_roughnesses(table)) {
+        const glm::vec2 roughnesses = to_texels(0.0, table.roughest, table.layers) / 3.0F;
+        return {{square, roughnesses, table.roughest}, {columns, 0.0F, 1.0F / 3.0F}};
+    }
+    return {{square, rows / slices, 0.0F}, {columns, last / slices, 1.0F / 3.0F}};
+}
+
+std::vector<gpu::Define> defines_for(const FilmTable& table) {
+    if (is_line(table)) return {{"FILM_LINE", "1"}};
+    if (has_roughnesses(table)) return {{"FILM_ROUGHNESSES", "1"}};
+    if (table.by_lobe_nodes) return {{"FILM_LOBE_NODES", "1"}};
+    return {};
+}
+
+}  // namespace
+
+GpuFilm::GpuFilm(const FilmTable& table, const glm::dmat3& xyz_to_working, std::string illuminant)
+    : texture_(upload(table, xyz_to_working)), defines_(defines_for(table)), illuminant_(std::move(illuminant)) {
+    const Axes of_table = axes(table);
+    path_ = of_table.path;
+    axes_ = of_table.axes;
+}
+
+void GpuFilm::bind(const gpu::Program& program) const {
+    texture_.bind(kFilmTableUnit);
+    program.set("film_path", path_);
+    program.set("film_axes", axes_);
+}
+
+namespace {
 
 render::SurfaceTexture texture(const std::optional<scene::TextureUse>& use, render::SurfaceTextures& textures,
                                const std::string& file, const std::string& pointer) {
     if (!use) return {};
-    render::require_texture(textures.scene(), use->texture, file, pointer);
+    scene::require_texture(textures.scene(), use->texture, file, pointer);
     return textures.get(*use, render::TexelMeaning::Linear);
-}
-
-/// PHYSICS §3: what the file names, else an index that gives the metallic-roughness surface's reflectance at normal
-/// incidence.
-Base base_of(const GltfIridescence& iridescence, const render::StandardMaterial& material, double ior) {
-    if (iridescence.base) return *iridescence.base;
-    if (material.metallic == 0.0F) return std::complex<double>(ior, 0.0);
-    const double dielectric = std::pow((ior - 1.0) / (ior + 1.0), 2.0);
-    return NormalReflectance{glm::mix(glm::dvec3(dielectric), glm::clamp(glm::dvec3(material.base_colour), 0.0, 1.0),
-                                      static_cast<double>(material.metallic))};
-}
-
-FilmMaterial film_material(const GltfIridescence& iridescence, const render::StandardMaterial& material, double ior) {
-    const bool varies = iridescence.thickness_texture.has_value();
-    const double other_nm = varies ? iridescence.thickness_at_0_nm : iridescence.thickness_at_1_nm;
-    const auto [thinnest_nm, thickest_nm] = std::minmax(other_nm, iridescence.thickness_at_1_nm);
-    const double roughness = material.roughness;
-    return {.film = {.layers = {{.index = iridescence.ior, .thickness_nm = thickest_nm}},
-                     .base = base_of(iridescence, material, ior)},
-            .range = {.thinnest_nm = thinnest_nm,
-                      .thickest_nm = thickest_nm,
-                      .smoothest = material.metallic_roughness_texture ? 0.0 : roughness,
-                      .roughest = roughness},
-            .illuminant = iridescence.illuminant};
 }
 
 /// Whether nothing is seen of the light that passes the film.
@@ -97,9 +149,10 @@ std::vector<std::string> FilmSurfaceType::gltf_extensions_beside() const {
     return {kIorExtension};
 }
 
-void FilmSurfaceType::attach(ecs::World& world, ecs::Entity entity, const nlohmann::json& extension,
-                             render::SurfaceTextures& textures, const std::string& file, const std::string& pointer) {
-    const GltfIridescence read = parse_gltf_iridescence(extension, file, pointer);
+void FilmSurfaceType::attach(ecs::World& world, ecs::Entity entity, const render::MaterialExtension& extension,
+                             render::SurfaceTextures& textures) {
+    const auto& [object, description, file, pointer] = extension;
+    const GltfIridescence read = parse_gltf_iridescence(object, file, pointer);
     FilmSurface surface{
         .factor = static_cast<float>(read.factor),
         .factor_texture = texture(read.factor_texture, textures, file, pointer + "/iridescenceTexture"),
@@ -112,18 +165,17 @@ void FilmSurfaceType::attach(ecs::World& world, ecs::Entity entity, const nlohma
         log_warning("{}: {}: KHR_materials_clearcoat over a thin film is not drawn", file, pointer);
     material.clear_coat = 0.0F;
     material.passes_light = material.alpha_mode == scene::AlphaMode::Blend;
-    const double ior = dielectric_ior(world, entity, file, pointer);
-    const std::string key = fmt::format("{} {} {} {} {} {} {} {}", extension.dump(), ior, material.metallic,
-                                        material.base_colour.r, material.base_colour.g, material.base_colour.b,
-                                        material.roughness, static_cast<bool>(material.metallic_roughness_texture));
-    surface.film = baked(film_material(read, material, ior), key);
+    surface.film = uploaded(extension.tables(kIridescenceExtension), read, file + ": " + pointer);
     world.add(entity, std::move(surface));
 }
 
-std::shared_ptr<const GpuFilm> FilmSurfaceType::baked(const FilmMaterial& material, const std::string& key) {
-    if (auto present = baked_[key].lock()) return present;
-    auto made = std::make_shared<const GpuFilm>(bake_film(material), xyz_to_working_, material.illuminant.name);
-    baked_[key] = made;
+std::shared_ptr<const GpuFilm> FilmSurfaceType::uploaded(const std::vector<std::byte>& tables,
+                                                         const GltfIridescence& extension, const std::string& file) {
+    std::weak_ptr<const GpuFilm>& kept = uploaded_[Hasher().bytes(tables).digest().hex()];
+    if (auto present = kept.lock()) return present;
+    auto made =
+        std::make_shared<const GpuFilm>(read_gltf_film(tables, file), xyz_to_working_, extension.illuminant.name);
+    kept = made;
     return made;
 }
 
@@ -139,7 +191,7 @@ gpu::ProgramDesc FilmSurfaceType::program(ecs::World& world, ecs::Entity entity)
     const FilmSurface& surface = world.get<FilmSurface>(entity);
     gpu::ProgramDesc desc{.vertex = "engine/render/shaders/plain.vert.glsl",
                           .fragment = "modules/thin_film/shaders/film.frag.glsl",
-                          .defines = {{"AMBIENT_AT_VERTICES", "1"}}};
+                          .defines = {{"AMBIENT_AT_VERTICES", "1"}, {render::kMaterialSamplers, "4"}}};
     for (const gpu::Define& define : surface.film->defines()) desc.defines.push_back(define);
     if (surface.factor == 1.0F && !surface.factor_texture) desc.defines.push_back({"FILM_WHOLE", "1"});
     const auto& material = world.get<render::StandardMaterial>(entity);

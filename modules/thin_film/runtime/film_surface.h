@@ -1,17 +1,46 @@
 #pragma once
 
+#include <cstddef>
 #include <glm/mat3x3.hpp>
+#include <glm/vec4.hpp>
 #include <map>
 #include <memory>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "engine/gpu/program.h"
+#include "engine/gpu/texture.h"
 #include "engine/render/material.h"
-#include "modules/thin_film/asset/cooked_film.h"
-#include "modules/thin_film/runtime/gpu_film.h"
+#include "modules/thin_film/asset/film_material.h"
+#include "modules/thin_film/asset/gltf_iridescence.h"
+#include "modules/thin_film/bake/film_table.h"
 
 namespace rowland::thin_film {
+
+// As in shaders/.
+inline constexpr unsigned kFilmTableUnit = 8;
+inline constexpr unsigned kFactorMapUnit = 9;
+inline constexpr unsigned kThicknessMapUnit = 10;
+
+/// A film's table on the GPU, in the working space.
+class GpuFilm {
+ public:
+    /// `illuminant`: the name of that which the table was baked for.
+    GpuFilm(const FilmTable& table, const glm::dmat3& xyz_to_working, std::string illuminant);
+
+    void bind(const gpu::Program& program) const;
+    /// Of the shaders that read it.
+    const std::vector<gpu::Define>& defines() const { return defines_; }
+    const std::string& illuminant() const { return illuminant_; }
+
+ private:
+    gpu::Texture texture_;
+    std::vector<gpu::Define> defines_;
+    glm::vec4 path_;
+    glm::vec4 axes_;
+    std::string illuminant_;
+};
 
 /// Component: a film over the entity's StandardMaterial. The table decides what the film lies on: the material's
 /// metallic factor and colour are those of its diffuse base.
@@ -37,9 +66,9 @@ class FilmSurfaceType final : public render::MaterialType {
     std::string name() const override { return "thin film"; }
     std::string gltf_extension() const override;
     std::vector<std::string> gltf_extensions_beside() const override;
-    /// Bakes the film now. Equal films share their tables.
-    void attach(ecs::World& world, ecs::Entity entity, const nlohmann::json& extension,
-                render::SurfaceTextures& textures, const std::string& file, const std::string& pointer) override;
+    /// Equal films share their tables.
+    void attach(ecs::World& world, ecs::Entity entity, const render::MaterialExtension& extension,
+                render::SurfaceTextures& textures) override;
 
     void add_shaders(gpu::ShaderLibrary& library) const override;
     bool owns(ecs::World& world, ecs::Entity entity) const override;
@@ -48,11 +77,12 @@ class FilmSurfaceType final : public render::MaterialType {
     void bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const override;
 
  private:
-    std::shared_ptr<const GpuFilm> baked(const FilmMaterial& material, const std::string& key);
+    std::shared_ptr<const GpuFilm> uploaded(const std::vector<std::byte>& tables, const GltfIridescence& extension,
+                                            const std::string& file);
 
     glm::dmat3 xyz_to_working_;
-    std::map<std::string, std::weak_ptr<const GpuFilm>> baked_;
-    std::set<std::string> warned_of_;  ///< illuminants baked for and lit by
+    std::map<std::string, std::weak_ptr<const GpuFilm>> uploaded_;  ///< by the hash of the tables
+    std::set<std::string> warned_of_;                               ///< illuminants baked for and lit by
 };
 
 }  // namespace rowland::thin_film

@@ -1,12 +1,13 @@
 #version 450 core
-// A metallic-roughness surface under a thin film: PHYSICS (4), (5).
+// A metallic-roughness surface under a thin film: PHYSICS (4.2), (5.1).
 #define MATERIAL_SPECULAR
 #define MATERIAL_SPECULAR_LOBE
 #define MATERIAL_TRANSMITTANCE
 #ifdef FILM_PASSES_LIGHT
 #define MATERIAL_PASSES_LIGHT
 #endif
-#include "engine/render/shaders/forward_fragment_interface.glsl"
+#include "engine/render/shaders/surface.glsl"
+#include "engine/render/shaders/environment.glsl"
 #include "modules/thin_film/shaders/film_lookup.glsl"
 
 #ifdef FILM_FACTOR_MAP
@@ -29,7 +30,7 @@ vec2 film_uv(int map, vec2 uv) {
     return film_uv_linear[map].xy * uv.x + film_uv_linear[map].zw * uv.y + (map == 0 ? film_uv_offset.xy : film_uv_offset.zw);
 }
 
-MaterialTerms material_terms() {
+void read_film() {
     factor = film_factor;
     thickness = film_thickness.y;
 #ifdef FILM_FACTOR_MAP
@@ -38,7 +39,6 @@ MaterialTerms material_terms() {
 #ifdef FILM_THICKNESS_MAP
     thickness = mix(film_thickness.x, film_thickness.y, texture(film_thickness_map, film_uv(1, FILM_THICKNESS_MAP)).g);
 #endif
-    return MaterialTerms(vec3(1.0), vec3(0.0), vec3(0.0));
 }
 
 vec3 transmittance(float n_v, float roughness) {
@@ -52,8 +52,6 @@ vec3 transmittance(float n_v, float roughness) {
 }
 
 #ifdef FILM_PASSES_LIGHT
-vec4 surface_colour();
-
 vec3 background_weight() { return (1.0 - surface_colour().a) * passing; }
 #endif
 
@@ -76,4 +74,10 @@ vec3 reflect_specular(vec3 light, vec3 f0, float cosine) {
     return with_factor(bare, (film_matrix(cosine, thickness, 0.0) * light).rgb);
 }
 
-#include "engine/render/shaders/forward_fragment_main.glsl"
+#include "engine/render/shaders/shading.glsl"
+
+void main() {
+    read_screen_visibility();
+    read_film();
+    write_surface(MaterialTerms(vec3(1.0), vec3(0.0), vec3(0.0)));
+}

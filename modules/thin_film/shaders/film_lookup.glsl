@@ -6,7 +6,6 @@ TEXTURE_UNIT(8) uniform SAMPLER_LINE film_table;
 #else
 TEXTURE_UNIT(8) uniform sampler2D film_table;
 #endif
-#include "engine/render/shaders/lobe_nodes.glsl"
 uniform vec4 film_path;  // x: n^2 - 1 of the outermost layer; y, z: scale and bias from the logarithm of the path
                          // difference, or from the roughness, to rows; w: the greatest roughness
 uniform vec4 film_axes;  // x, y: scale and bias from the root of the cosine to columns; z: from the mirror's layer to the rough

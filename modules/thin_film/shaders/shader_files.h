@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "engine/core/embedded_file.h"
+#include "engine/core/text.h"
 
 namespace rowland::thin_film {
 

@@ -1,7 +1,7 @@
 // What programs get of all modules together.
 #include <gmock/gmock.h>
 
-#include "engine/colour/working_space.h"
+#include "engine/colour/colour_space.h"
 #include "modules/asset_types.h"
 #include "modules/material_types.h"
 #include "tests/gpu/gl_test.h"

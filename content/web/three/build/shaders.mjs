@@ -38,7 +38,7 @@ function paste(text, pasted) {
 }
 
 const plainUniforms = (text) =>
-    text.replace(/BLOCK_BINDING\(\d+\) uniform \w+ \{([^}]*)\};/g, (_, members) =>
+    text.replace(/ROWLAND_BLOCK\(\d+, \w+\) \{([^}]*)\};/g, (_, members) =>
         members.replace(/^\s*(\w[^;]*;)/gm, "uniform $1"))
         .replace(/^#define (ROWLAND_MAXIMUM_\w+) (\d+)$/gm, "#ifndef $1\n#define $1 $2\n#endif");
 

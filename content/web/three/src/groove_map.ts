@@ -5,8 +5,8 @@ import {
 import { toHalf } from "./half.js";
 
 /**
- * What groove_view.glsl reads of a groove texture (R: rotation / π, G: half the pitch over the material's; 0: no grating):
- * the moments of modules/diffraction/runtime/groove_moments.h, as halves and what these round off.
+ * What grooves.glsl reads of a groove texture (R: rotation / π, G: half the pitch over the material's; 0: no grating):
+ * the moments of modules/diffraction/runtime/groove_map.h, as halves and what these round off.
  */
 export interface GrooveMap {
     readonly moments: DataTexture;

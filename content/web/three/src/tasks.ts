@@ -115,7 +115,7 @@ export class Tasks {
         bake.call("give_back", address);
     }
 
-    /** The numbers of the key lights: KeyLobe of shaders/key_lobe_block.h. */
+    /** The numbers of the key lights: KeyLobe of shaders/light_blocks.h. */
     async keyLobes(): Promise<Float32Array> {
         return (await this.module("bake")).numbers("key_lobes", this.probe);
     }

@@ -9,9 +9,9 @@
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
-#include "engine/math/sh_basis.h"
+#include "engine/math/spherical_harmonics.h"
 #include "modules/diffraction/bake/arc_moments.h"
-#include "modules/diffraction/bake/transfer_terms.h"
+#include "modules/diffraction/bake/view_spectrum.h"
 
 namespace rowland::diffraction {
 
@@ -273,24 +273,11 @@ ArcTable read_arc_table(ByteReader& reader) {
 
 ArcTable read(ByteReader& reader, const ArcSettings& settings) {
     ArcTable table = read_arc_table(reader);
-    require_as_asked(reader, table.bands == settings.bands && table.rank <= settings.rank && !table.pitch &&
-                                 (!settings.grid || table.grid == *settings.grid) && table.storage == settings.storage);
+    require_as_asked(reader, table.bands == settings.bands && table.rank <= settings.rank &&
+                                 table.pitch == settings.pitch && (!settings.grid || table.grid == *settings.grid) &&
+                                 table.storage == settings.storage);
     return table;
 }
-
-namespace {
-
-/// Combinations of bands, ranks and key lights: elsewhere the sweep varies one at a time.
-std::vector<std::string> bands_by_rank_by_key_lights() {
-    std::vector<std::string> settings;
-    for (const int bands : {3, 8, 16})
-        for (const int rank : {4, 8, 16})
-            for (const int key_lights : {0, 16, 64})
-                settings.push_back(fmt::format("bands={}/rank={}/storage=fp16/key_lights={}", bands, rank, key_lights));
-    return settings;
-}
-
-}  // namespace
 
 const RepresentationInfo& ArcSettings::info() {
     static const RepresentationInfo info{
@@ -298,14 +285,8 @@ const RepresentationInfo& ArcSettings::info() {
         .summary = "a few products of table and light: light at the vertices, views in the pixels",
         .lattices = true,
         .takes_harmonics = true,
-        .settings = {bands_setting({2, 3, 4, 6, 8, 10, 12, 16}, {3, 5, 8}), rank_setting({2, 4, 6, 12, 16}, {4, 8, 16}),
-                     view_mapping_setting(), view_resolution_setting(),
-                     storage_setting(ArcSettings().storage, {"fp32", "unorm16", "unorm8"})},
-        .editor_start = {"bands", "rank"},
-        .sweep_tier = "bands=5/rank=8/storage=fp16/key_lights=16",
-        .sweep_key_lights = {0, 4, 8, 32, 64},
-        .sweep_windows = {math::SphericalWindow::Lanczos, math::SphericalWindow::Hann},
-        .sweep_more = bands_by_rank_by_key_lights(),
+        .settings = {bands_setting(), rank_setting(), view_mapping_setting(), view_resolution_setting(),
+                     storage_setting(ArcSettings().storage)},
         .budget = [](bool flat_lobe, SurfaceShape) -> std::vector<std::string> {
             if (!flat_lobe) return {"bands=5/rank=8", "bands=8/rank=16"};
             std::vector<std::string> settings;

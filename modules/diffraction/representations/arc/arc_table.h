@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "engine/colour/light_spectra.h"
+#include "engine/colour/illuminant.h"
 #include "engine/lighting/sh_light.h"
+#include "modules/diffraction/bake/kernel_cells.h"
 #include "modules/diffraction/bake/packed_texels.h"
-#include "modules/diffraction/bake/pitch_axis.h"
 #include "modules/diffraction/bake/view_mapping.h"
 #include "modules/diffraction/model/grating.h"
 #include "modules/diffraction/representations/descriptor.h"

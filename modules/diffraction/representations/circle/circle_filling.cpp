@@ -13,17 +13,16 @@
 #include "engine/core/check.h"
 #include "engine/core/parallel.h"
 #include "modules/diffraction/bake/kernel_cells.h"
-#include "modules/diffraction/representations/circle/circle_chart.h"
-#include "modules/diffraction/representations/circle/circle_light.h"
+#include "modules/diffraction/representations/circle/circle.h"
 #include "modules/diffraction/representations/circle/circle_map.h"
 
 namespace rowland::diffraction {
 
 namespace {
 
-/// Cells of a cube's face that the light of the rest is divided among: its nodes are further apart. 40 would lose a
-/// fifth of the accuracy under a probe with one small lamp.
-constexpr int kRestLightCells = 56;
+/// Cells of a cube's face that the light of the remainder is divided among: its nodes are further apart. 40 would lose
+/// a fifth of the accuracy under a probe with one small lamp.
+constexpr int kRemainderLightCells = 56;
 
 /// The multiples of the angle that a grid's moments have: `first`, first + step, …; of 0 the sine is left out.
 struct Multiples {
@@ -34,9 +33,9 @@ struct Multiples {
     int of_term(int term) const { return first + (first == 0 ? (term + 1) / 2 : term / 2) * step; }
 };
 constexpr Multiples kOfTerms{.first = 0, .step = 1, .terms = kCircleTerms};
-constexpr Multiples kOfRest{.first = 4, .step = 2, .terms = 10};
-constexpr Multiples kOfCoveredRest{.first = 3, .step = 1, .terms = 12};  // where the series converges sooner
-static_assert(kOfRest.first + (kOfRest.terms / 2 - 1) * kOfRest.step < kCircleMultiples);
+constexpr Multiples kOfRemainder{.first = 4, .step = 2, .terms = 10};
+constexpr Multiples kOfCoveredRemainder{.first = 3, .step = 1, .terms = 12};  // where the series converges sooner
+static_assert(kOfRemainder.first + (kOfRemainder.terms / 2 - 1) * kOfRemainder.step < kCircleMultiples);
 
 /// The clamped cosine's coefficient for each cell of a and each term.
 std::vector<float> coefficients(const std::optional<Cover>& cover, int cells, const Multiples& multiples) {
@@ -57,9 +56,9 @@ std::vector<float> unchanged_terms() {
     return rows;
 }
 
-/// Values on the axis of the angle as functions of the terms of the rest: row j holds function j's coefficients of the
-/// terms. Least squares of their linear interpolation over the angle: a tridiagonal cyclic matrix; three Gauss-Seidel
-/// sweeps give a digit.
+/// Values on the axis of the angle as functions of the terms of the remainder: row j holds function j's coefficients of
+/// the terms. Least squares of their linear interpolation over the angle: a tridiagonal cyclic matrix; three
+/// Gauss-Seidel sweeps give a digit.
 std::vector<float> functions_of_terms(const Multiples& multiples, int angles, double period) {
     constexpr int kStepsPerAngle = 64;
     constexpr int kSweeps = 40;
@@ -100,7 +99,7 @@ struct Angle {
     float cosine;
     float sine;
 
-    /// Of the sum of two angles; `inverse` is 1/r.
+    /// The value at the sum of two angles; `inverse` is 1/r.
     Angle plus(const Angle& other, float inverse) const {
         return {(cosine * other.cosine - sine * other.sine) * inverse,
                 (cosine * other.sine + sine * other.cosine) * inverse};
@@ -263,7 +262,8 @@ class GridFilling {
         }
     }
 
-    /// By how much values are lowered, of their second difference: for linear interpolation, and for the light's blur.
+    /// The fraction of their second difference by which values are lowered: for linear interpolation, and for the
+    /// light's blur.
     float sharpening_at(int row, int column) const {
         const glm::dvec2 p = point_of({column, row});
         const double step = 2.0 / (grid_.side * grid_.scale() * (1.0 + glm::dot(p, p)));  // of g
@@ -310,7 +310,7 @@ CircleMap fill_circle_map(const lighting::LightSamples& texels, const KernelTabl
     CircleMap map{.charts = charts,
                   .covered = cover.has_value(),
                   .terms = empty_grid(charts, kCircleTerms, size.views, size.side),
-                  .rest = empty_grid(charts, angles, rest_views(size.views), rest_side(size.side))};
+                  .remainder = empty_grid(charts, angles, remainder_views(size.views), remainder_side(size.side))};
     const auto fill = [&]<const Multiples & kMultiples>(CircleGrid& grid, int light_cells,
                                                         const std::vector<float>& functions) {
         const KernelCells cells(kernel, pitch_nm, grid.views, zero_order_xyz);
@@ -318,12 +318,12 @@ CircleMap fill_circle_map(const lighting::LightSamples& texels, const KernelTabl
     };
     fill.operator()<kOfTerms>(map.terms, kCircleLightCells, unchanged_terms());
     if (angles == 0) return map;
-    const Multiples& of_rest = cover ? kOfCoveredRest : kOfRest;
+    const Multiples& of_rest = cover ? kOfCoveredRemainder : kOfRemainder;
     const std::vector<float> functions = functions_of_terms(of_rest, angles, map.period());
     if (cover)
-        fill.operator()<kOfCoveredRest>(map.rest, kRestLightCells, functions);
+        fill.operator()<kOfCoveredRemainder>(map.remainder, kRemainderLightCells, functions);
     else
-        fill.operator()<kOfRest>(map.rest, kRestLightCells, functions);
+        fill.operator()<kOfRemainder>(map.remainder, kRemainderLightCells, functions);
     return map;
 }
 

@@ -7,15 +7,49 @@
 #include <numbers>
 
 #include "engine/math/quadrature.h"
-#include "modules/diffraction/representations/circle/circle_chart.h"
 
 namespace rowland::diffraction {
 
 namespace {
 
+glm::dvec3 mirrored(const glm::dvec3& v, int chart) {
+    return chart == 0 ? v : glm::dvec3(v.x, -v.y, v.z);
+}
+
+}  // namespace
+
+CircleFrame frame_at(const glm::dvec3& g, int chart) {
+    const glm::dvec3 up = mirrored(g, chart);
+    const glm::dvec3 turn = up + glm::dvec3(0.0, 1.0, 0.0);
+    const double scale = 1.0 / (1.0 + up.y);
+    return {g, mirrored(glm::dvec3(1.0, 0.0, 0.0) - up.x * scale * turn, chart),
+            mirrored(glm::dvec3(0.0, 0.0, 1.0) - up.z * scale * turn, chart)};
+}
+
+glm::dvec2 chart_point(const glm::dvec3& g, int chart) {
+    const glm::dvec3 up = mirrored(g, chart);
+    return glm::dvec2(up.x, up.z) / (1.0 + up.y);
+}
+
+AngleImage angle_image(std::size_t image) {
+    AngleImage angle{1, 0};
+    const auto reflect = [&](int quarters) { angle = {-angle.sign, quarters - angle.quarters}; };
+    if ((image & 4) != 0) reflect(1);
+    if ((image & 1) != 0) reflect(2);
+    if ((image & 2) != 0) reflect(0);
+    return angle;
+}
+
+glm::dvec3 grating_vector(const glm::dvec2& p, int chart) {
+    const double square = glm::dot(p, p);
+    return mirrored(glm::dvec3(2.0 * p.x, 1.0 - square, 2.0 * p.y) / (1.0 + square), chart);
+}
+
+namespace {
+
 using std::numbers::pi;
 
-/// Where a look-up reads a grid.
+/// The texels and weights of a look-up.
 struct CirclePosition {
     int chart;
     glm::dvec2 p;
@@ -41,15 +75,16 @@ glm::dvec3 value_at(const CircleGrid& grid, int function, const CirclePosition& 
     return sum;
 }
 
-/// The rest of the series at the normal's angle, linear between two functions.
+/// The remainder of the series at the normal's angle, linear between two functions.
 glm::dvec3 rest_at(const CircleMap& map, double c, double s, const CirclePosition& look_up) {
-    const int count = map.rest.functions;
+    const int count = map.remainder.functions;
     if (count == 0) return glm::dvec3(0.0);
     const double turns = map.covered ? circle_turn(c, s) : circle_turn(c * c - s * s, 2.0 * s * c);
     const double position = (turns - std::floor(turns)) * count;
     const int low = std::min(static_cast<int>(position), count - 1);
     const double second = position - low;
-    return (1.0 - second) * value_at(map.rest, low, look_up) + second * value_at(map.rest, (low + 1) % count, look_up);
+    return (1.0 - second) * value_at(map.remainder, low, look_up) +
+           second * value_at(map.remainder, (low + 1) % count, look_up);
 }
 
 }  // namespace
@@ -59,11 +94,11 @@ std::size_t CircleGrid::index(int chart, int function, int view, int row, int co
     return (((u(chart) * u(functions) + u(function)) * u(views) + u(view)) * u(side) + u(row)) * u(side) + u(column);
 }
 
-int rest_side(int side) {
+int remainder_side(int side) {
     return std::max(8, side * 8 / 13);
 }
 
-int rest_views(int views) {
+int remainder_views(int views) {
     return std::max(8, views * 8 / 13);
 }
 

@@ -8,14 +8,48 @@
 #include <numbers>
 #include <optional>
 #include <stop_token>
+#include <utility>
 #include <vector>
 
 #include "engine/lighting/light_samples.h"
 #include "modules/diffraction/model/colour_kernel.h"
-#include "modules/diffraction/model/cover.h"
-#include "modules/diffraction/model/shading_point.h"
+#include "modules/diffraction/model/grating.h"
 
 namespace rowland::diffraction {
+
+/// A grating vector and the directions from which angles around it are counted: CircleMap's e1 and e2.
+struct CircleFrame {
+    glm::dvec3 g{0.0};
+    glm::dvec3 e1{0.0};
+    glm::dvec3 e2{0.0};
+};
+
+/// The frame of the smallest rotation from +Y, mirrored for the chart of the lower half.
+CircleFrame frame_at(const glm::dvec3& g, int chart);
+
+/// Chart coordinates of g: the stereographic map p = (g_x, g_z)/(1 + g_y), mirrored for the lower half; and back.
+glm::dvec2 chart_point(const glm::dvec3& g, int chart);
+glm::dvec3 grating_vector(const glm::dvec2& p, int chart);
+
+/// The symmetries of a cube that keep +Y, which the nodes and the light of circle maps have. s_g of a node and a
+/// direction is that of their images, and so is the angle but for angle_image(): both are computed once for all images.
+inline constexpr std::size_t kCircleImages = 8;
+
+/// Image 0 is the vector itself; 4 exchanges x and z, then 1 reverses x and 2 reverses z.
+template <typename Vector>
+Vector circle_image(Vector v, std::size_t image) {
+    if ((image & 4) != 0) std::swap(v.x, v.z);
+    if ((image & 1) != 0) v.x = -v.x;
+    if ((image & 2) != 0) v.z = -v.z;
+    return v;
+}
+
+/// The angle around a frame's g that becomes t for its image: sign · t + quarters · π/2.
+struct AngleImage {
+    int sign;
+    int quarters;
+};
+AngleImage angle_image(std::size_t image);
 
 /// Functions of g and v_g on nodes.
 struct CircleGrid {
@@ -46,15 +80,15 @@ inline constexpr int kTermLookUps = (3 * kCircleTerms + 3) / 4;
 ///     mirrored back for chart 1; cos t = n·e1, sin t = n·e2
 ///   v_g: slice j holds v_g = 2j/(views−1) − 1, both ends included; coordinate (½(v_g+1)(views−1) + ½)/views
 ///   values are optimised for linear interpolation (kBestLinear), not the radiance at the nodes
-///   XYZ = Σ_i term_i · f_i + rest(t), f = 1, cos t, sin t, cos 2t, sin 2t
-/// The rest of the series has the period π (2π under a cover, where T(v_n) is left out): function j of `rest` holds it
-/// where circle_turn() of cos 2t, sin 2t (cos t, sin t) is j/functions, linear between. It is small, so it has fewer
-/// nodes (rest_side(), rest_views()).
+///   XYZ = Σ_i term_i · f_i + remainder(t), f = 1, cos t, sin t, cos 2t, sin 2t
+/// The remainder of the series has the period π (2π under a cover, where T(v_n) is left out): function j of `remainder`
+/// holds it where circle_turn() of cos 2t, sin 2t (cos t, sin t) is j/functions, linear between. It is small, so it has
+/// fewer nodes (remainder_side(), remainder_views()).
 struct CircleMap {
     int charts = 0;  ///< 1 or 2
     bool covered = false;
     CircleGrid terms;
-    CircleGrid rest;  ///< none: no functions
+    CircleGrid remainder;  ///< none: no functions
 
     double period() const { return covered ? 2.0 * std::numbers::pi : std::numbers::pi; }
 };
@@ -62,27 +96,27 @@ struct CircleMap {
 struct CircleMapSize {
     int side = 104;   ///< of the terms, ≥ 8
     int views = 130;  ///< of the terms, ≥ 8
-    int angles = 14;  ///< of the rest, for half a turn of the normal; 0: the series ends at cos 2t
+    int angles = 14;  ///< of the remainder, for half a turn of the normal; 0: the series ends at cos 2t
 };
 
-/// Nodes of the rest: 8 for 13 of the terms' on each axis.
-int rest_side(int side);
-int rest_views(int views);
-/// Functions of the rest.
+/// Nodes of the remainder: 8 for 13 of the terms' on each axis.
+int remainder_side(int side);
+int remainder_views(int views);
+/// Functions of the remainder.
 int rest_angles(int angles, bool covered);
 
 /// The angles for half a turn that a grating's map has by default: fewer under a cover, which lets in less light at
 /// grazing angles, where the series converges slowly.
 int circle_angles(const std::optional<Cover>& cover);
 
-/// Of the map that is shown while a larger one is filled: within a tenth of a second on two cores.
+/// The size of the map that is shown while a larger one is filled: it is filled within .1 s on two cores.
 inline constexpr int kCoarseCircleSide = 16;
 
 /// Multiples of the angle that a map is filled from.
 inline constexpr int kCircleMultiples = 13;
 
-/// The Fourier coefficients of T(r cos t) max(0, cos t) on cos kt, k < kCircleMultiples, PHYSICS (28); without a cover
-/// T = 1, and r does not matter.
+/// The Fourier coefficients of T(r cos t) max(0, cos t) on cos kt, k < kCircleMultiples, PHYSICS (10.3); without a
+/// cover T = 1, and r does not matter.
 std::array<double, kCircleMultiples> clamped_cosine(const std::optional<Cover>& cover, double r);
 
 /// Where the direction (c, s) lies on an axis that replaces its angle: −½ to ½ of a turn, as steep as the angle within

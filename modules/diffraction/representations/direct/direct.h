@@ -1,16 +1,20 @@
 #pragma once
 
 #include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "engine/lighting/key_lights.h"
-#include "modules/diffraction/bake/blurred_kernel.h"
+#include "modules/diffraction/bake/diffraction_pattern.h"
+#include "modules/diffraction/bake/kernel_cells.h"
 #include "modules/diffraction/model/colour_kernel.h"
-#include "modules/diffraction/model/cover.h"
+#include "modules/diffraction/model/grating.h"
 #include "modules/diffraction/model/lobe.h"
-#include "modules/diffraction/model/shading_point.h"
+#include "modules/diffraction/representations/descriptor.h"
+#include "modules/diffraction/representations/point_shader.h"
 
 namespace rowland::diffraction {
 
@@ -21,7 +25,7 @@ struct DirectLight {
     double angular_radius = 0.0;          ///< radians
 };
 
-/// A light in a surface's tangent frame: what a grating sees of it.
+/// A light in a surface's tangent frame: its moments in s_g, s_h and s_n.
 struct LightSpot {
     glm::dvec3 flux{0.0};
     double cosine = 0.0;         ///< mean of s_n⁺ over the light
@@ -85,5 +89,54 @@ glm::dvec3 direct_radiance(const KernelTable& kernel, const DirectMaterial& mate
 glm::dvec3 direct_radiance(const KernelTable& kernel, const DirectMaterial& material,
                            std::span<const lighting::KeyLight> lights, const ShadingPoint& frame,
                            double footprint = 0.0);
+
+/// A light on a lattice: its flux on the surface, and its mean and variance in the plane of the surface.
+struct PatternLight {
+    glm::dvec3 irradiance{0.0};  ///< flux times the mean of s_n⁺, and a cover's T(s_n)
+    glm::dvec2 centre{0.0};      ///< mean of (s_g, s_h)
+    double variance = 0.0;       ///< of s_g and s_h, their mean
+};
+PatternLight pattern_light(const DirectLight& light, const std::optional<Cover>& cover,
+                           const glm::dmat3& world_to_tangent);
+
+/// XYZ = P̄(u) · irradiance, PHYSICS (13.5): one look-up for all orders. `footprint`: half the extent of the pixel in u.
+/// Without T(v_n).
+glm::dvec3 pattern_radiance(const PatternPicture& picture, const PatternLight& light, const glm::dvec2& v_p,
+                            double footprint = 0.0);
+
+/// Variance of the blur of a key light's finest level, as a fraction of the light's variance: the narrowest that the
+/// light has in the plane up to 45° from the normal. The next level has the light's whole variance.
+inline constexpr double kPictureVariance = 0.5;
+
+/// A picture for each key light, of one size. `space`: of the values, from XYZ. A texture of 45 MB or less in halves.
+std::vector<LightPicture> key_light_pictures(const Grating& grating, const colour::LightSpectra& spectra,
+                                             std::span<const lighting::KeyLight> lights,
+                                             const glm::dmat3& space = glm::dmat3(1.0));
+
+/// XYZ of a key light from its picture: three look-ups, as it is an ellipse in the plane, PHYSICS (13.6). Without
+/// T(v_n).
+glm::dvec3 pattern_radiance(const LightPicture& picture, const lighting::KeyLight& light,
+                            const std::optional<Cover>& cover, const glm::dmat3& world_to_tangent,
+                            const glm::dvec2& v_p, double footprint = 0.0);
+
+/// The sum over a probe's key lights at a point; black for a view below the horizon.
+glm::dvec3 pattern_radiance(std::span<const LightPicture> pictures, const std::optional<Cover>& cover,
+                            std::span<const lighting::KeyLight> lights, const ShadingPoint& frame);
+
+/// Shades the probe's key lights and the scene's analytic lights alone.
+struct DirectSettings {
+    static const RepresentationInfo& info();
+    static DirectSettings from(const SettingValues& values, const Grating& grating);
+};
+
+/// Empty: the kernel is part of every material.
+struct DirectTables {};
+
+DirectTables bake(const Grating& grating, const DirectSettings& settings);
+void write(const DirectTables& tables, ByteWriter& writer);
+DirectTables read(ByteReader& reader, const DirectSettings& settings);
+ShadingCost cost(const DirectTables& tables);
+Facts facts(const DirectTables& tables);
+PointShader point_shader(const DirectTables& tables, const MaterialKernel& material, const EvaluationLight& light);
 
 }  // namespace rowland::diffraction

@@ -20,7 +20,7 @@ namespace {
 using math::FourierTransform;
 constexpr std::size_t kLightLanes = FourierTransform::kLanes;
 
-/// Nodes that a cubic spline reaches beyond the grid at each end.
+/// Number of nodes that a cubic spline reaches beyond each end of the grid.
 constexpr int kMargin = 1;
 
 /// Weights of the four nodes around a position: the cubic spline, whose centre of weight is the position.

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "engine/lighting/light_samples.h"
-#include "modules/diffraction/model/shading_point.h"
-#include "modules/diffraction/representations/planar/light_disc.h"
+#include "modules/diffraction/model/grating.h"
 #include "modules/diffraction/representations/planar/lobe_spectrum.h"
+#include "modules/diffraction/representations/planar/planar_map.h"
 
 namespace rowland::diffraction {
 
@@ -17,9 +17,9 @@ struct LobeMapSize {
     LobeMapViews views;
 };
 
-/// What is shown while a larger map is filled: within 40 ms of a tilt on two cores.
+/// The size of the map that is shown while a larger one is filled: it is filled within 40 ms on two cores.
 inline constexpr LobeMapSize kCoarseLobeMap{.azimuths = 64, .views = {.g = 64, .h = 32}};
-/// The same where g is the same everywhere.
+/// That size for an object whose g is the same everywhere.
 inline constexpr LobeMapSize kCoarseLobeSlice{.azimuths = 1, .views = {.g = 128, .h = 128}};
 
 /// The map for an object whose g is the same everywhere, in place of one of `size`: of twice as many views, 384 at
@@ -50,13 +50,13 @@ struct LobeMap {
     std::vector<glm::vec3> values;  ///< XYZ, or the pattern's space: [(slice · views.h + j_h) · views.g + j_g]
 };
 
-/// Fills a map: correlates the light seen from straight above, turned to each azimuth, with the pattern, PHYSICS (31),
+/// Fills a map: correlates the light seen from straight above, turned to each azimuth, with the pattern, PHYSICS (6.2),
 /// by Fourier transforms. Uses all cores; the result does not depend on their number. After a stop request it returns
 /// early with an unusable map.
 LobeMap fill_lobe_map(const lighting::LightSamples& texels, const LobeSpectrum& spectrum, const glm::dvec3& normal,
                       int azimuths, const std::stop_token& stop = {});
 
-/// The same for one azimuth, that of `grating`. Uses one core.
+/// Fills a map of one azimuth, that of `grating`. Uses one core.
 LobeMap fill_lobe_slice(const lighting::LightSamples& texels, const LobeSpectrum& spectrum, const glm::dvec3& normal,
                         const glm::dvec3& grating);
 

@@ -20,12 +20,12 @@ namespace {
 using math::FourierTransform;
 constexpr std::size_t kLanes = FourierTransform::kLanes;
 
-/// About the most by which a frequency is amplified. More would show single lamps with rings around them, and so would
-/// a limit that sets in at one frequency.
+/// Largest amplification of a frequency, approximately. More would show single lamps with rings around them, and so
+/// would a limit that sets in at one frequency.
 constexpr double kMostRestored = 3.0;
 /// Pits' lobes are tabulated at this many wavelengths, and linear between.
 constexpr std::size_t kPitWavelengths = 16;
-/// Points of a lobe per step of the grid.
+/// Sample points of a lobe in each step of the grid.
 constexpr int kLobePoints = 16;
 
 double sinc_of(double x) {

@@ -21,25 +21,25 @@ struct LobeMapViews {
 
 /// The Fourier transform of a diffraction pattern over a grid of u, as correlation with light on LobeMapViews needs it:
 /// periods of at least 4, the extent of u. It also undoes the blur by the light's distribution among nodes, PHYSICS
-/// (33), as far as that amplifies little more than kMostRestored times, and lowers values for linear interpolation
+/// (6.4), as far as that amplifies little more than kMostRestored times, and lowers values for linear interpolation
 /// (kBestLinear) along both axes.
 class LobeSpectrum {
  public:
     LobeSpectrum(const DiffractionPattern& pattern, const LobeMapViews& views);
 
     const LobeMapViews& views() const { return views_; }
-    /// Of the LightDisc that the light must be taken from.
+    /// The size of the LightDisc that holds the light.
     int disc_cells() const { return 2 * std::max(views_.g, views_.h); }
-    /// P(−u) = P(u).
+    /// Whether P(−u) = P(u).
     bool even() const { return even_; }
-    /// Of the pattern: the light is to be dimmed by its T(s_n).
+    /// The pattern's cover, whose T(s_n) dims the light.
     const std::optional<Cover>& cover() const { return cover_; }
     std::size_t size_g() const { return size_g_; }
     std::size_t size_h() const { return size_h_; }
 
     /// Three columns of a complex 3 × 3 matrix: the real parts, four floats a column, then the imaginary ones.
     static constexpr std::size_t kFloats = 24;
-    /// The matrices of all frequencies along g at one along h.
+    /// The matrices of all frequencies along g at one frequency along h.
     std::span<const float> at(std::size_t frequency_h) const;
 
  private:
@@ -47,7 +47,7 @@ class LobeSpectrum {
     void fill_lobe(const DiffractionPattern& pattern);
     /// A pattern without a lobe.
     void fill_points(const DiffractionPattern& pattern);
-    /// What a frequency's matrix is multiplied by.
+    /// The factor of a frequency's matrix.
     double factor(std::size_t g, std::size_t h) const;
 
     LobeMapViews views_;

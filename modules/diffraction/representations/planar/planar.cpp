@@ -14,16 +14,17 @@ namespace {
 /// A map of so many views takes 135 MB, or twice as many where orders m and −m differ.
 constexpr int kMostLobeViews = 256;
 
-/// Where lamps are as small as texels, azimuths count more than views: 128 views and 352 azimuths take 23 MB.
+/// Under lamps as small as texels the number of azimuths matters more than that of views: 128 views and 352 azimuths
+/// take 23 MB.
 int lobe_azimuths(int views) {
     constexpr int kMost = 512;
     return std::min(kMost, (11 * views / 4 + 3) / 4 * 4);
 }
 
-/// For an error of 2 % under lamps as small as texels (PHYSICS §13).
+/// Keeps the error within 2 % under lamps as small as texels (PHYSICS §13).
 constexpr int kLatticeViews = 256;
 
-/// No lobe blurs what turns: 128 views take 34 MB, 256 views 270 MB.
+/// No lobe blurs the azimuths of a lattice: 128 views take 34 MB, 256 views 270 MB.
 int lattice_azimuths(int views) {
     return 4 * views;
 }
@@ -69,12 +70,7 @@ const RepresentationInfo& PlanarSettings::info() {
         .is_map = true,
         .lattices = true,
         .needs_flat_surface = true,
-        .settings = {map_resolution_setting(128, 1024, {16, 32, 64, 256, 512}, {32, 128, 256}), views_h_setting(),
-                     bands_setting(), rank_setting()},
-        .editor_start = {"map_resolution"},
-        .sweep_tier = "map_resolution=128/key_lights=16",
-        .sweep_key_lights = {0, 4, 32},
-        .sweep_more = {"map_resolution=64", "map_resolution=256", "map_resolution=512"},
+        .settings = {map_resolution_setting(128, 1024), views_h_setting(), bands_setting(), rank_setting()},
         .budget = [](bool flat_lobe, SurfaceShape surface) -> std::vector<std::string> {
             if (surface != SurfaceShape::Flat) return {};
             if (!flat_lobe) return {"map_resolution=32", "map_resolution=64", "map_resolution=128"};

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "engine/core/lazy.h"
+#include "engine/core/parallel.h"
 #include "modules/diffraction/bake/diffraction_pattern.h"
 #include "modules/diffraction/representations/arc/arc_table.h"
 #include "modules/diffraction/representations/planar/lobe_map.h"
@@ -24,7 +24,7 @@ struct PlanarSettings {
     void set_illuminant(const colour::Illuminant& white) { stand_in.illuminant = white; }
 };
 
-/// What a map of a lobe that is not flat is filled from, besides the light.
+/// The material's part of a map of a lobe that is not flat.
 struct PlanarLobe {
     LobeMapSize size;
     DiffractionPattern pattern;
@@ -38,11 +38,11 @@ struct PlanarTables {
 
 PlanarTables bake(const Grating& grating, const PlanarSettings& settings);
 void write(const PlanarTables& tables, ByteWriter& writer);
-/// The map's size and the lobe's pattern are the settings'.
+/// Takes the map's size and the lobe's pattern from the settings.
 PlanarTables read(ByteReader& reader, const PlanarSettings& settings);
 ShadingCost cost(const PlanarTables& tables);
 Facts facts(const PlanarTables& tables);
-/// Keeps the map of the last plane only: for one thread at a time, and for points sorted by plane.
+/// Keeps the map of the last plane only: call it from one thread at a time, with points sorted by plane.
 PointShader point_shader(const PlanarTables& tables, const MaterialKernel& material, const EvaluationLight& light);
 
 }  // namespace rowland::diffraction

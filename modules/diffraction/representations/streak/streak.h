@@ -1,18 +1,36 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
-#include "engine/colour/light_spectra.h"
+#include "engine/colour/illuminant.h"
 #include "engine/core/byte_stream.h"
-#include "modules/diffraction/model/cover.h"
 #include "modules/diffraction/model/grating.h"
+#include "modules/diffraction/representations/arc/arc_table.h"
 #include "modules/diffraction/representations/streak/streak_map.h"
-#include "modules/diffraction/representations/streak/streak_segment.h"
 
 namespace rowland::diffraction {
+
+/// Nodes of a segment.
+inline constexpr int kSegmentNodes = 7;
+/// Every pixel loops over all segments.
+inline constexpr std::size_t kMostStreakSegments = 64;
+
+/// Equidistant nodes over an interval of path differences: node j sees the light about s_g = x_j/d − v_g. Stored as it
+/// is in memory.
+struct StreakSegment {
+    float first_nm = 0.0F;
+    float step_nm = 0.0F;
+    std::array<glm::mat3, kSegmentNodes> weights{};  ///< RGB in, XYZ out, per radiance that a node sees
+
+    float path_nm(int node) const { return first_nm + static_cast<float>(node) * step_nm; }
+};
+static_assert(sizeof(StreakSegment) == 4 * (2 + 9 * kSegmentNodes) && std::is_trivially_copyable_v<StreakSegment>);
 
 /// A narrow lobe: the grating mirrors along the grooves and disperses across them (PHYSICS §6 "streak"). The nodes
 /// replace the colour kernel of all orders: Σ_j weight_j N(u − u_j; width) is the closest to d k(d u).
@@ -38,9 +56,9 @@ Streak make_streak(const Grating& grating, const StreakSettings& settings);
 /// The map that the streak's nodes look up.
 StreakMapSize map_size(const Streak& streak, int map_resolution);
 
-/// The incoherent rest of a grating with Stam's pits: the same grating with the incoherent, smooth lobe, which SH can
+/// The incoherent part of a grating with Stam's pits: the same grating with the incoherent, smooth lobe, which SH can
 /// represent. Its weight is 1 − Streak::power. nullopt for other lobes.
-std::optional<Grating> incoherent_rest(const Grating& grating);
+std::optional<Grating> incoherent_part(const Grating& grating);
 
 /// XYZ of the streak for the tangent-frame view; the columns of `axes` are g, h, n in the world. Every segment looks up
 /// the map at its nodes, whose position in the map is a parabola through three points of the segment, whose
@@ -55,5 +73,29 @@ int most_seen_nodes(const Streak& streak);
 void write(const Streak& streak, ByteWriter& writer);
 /// Throws Error (input) for invalid bytes, or more than kMostStreakSegments segments.
 Streak read_streak(ByteReader& reader);
+
+/// Shades a narrow lobe from a map of the whole probe, and the incoherent part of Stam's pits with an arc table.
+struct StreakSurfaceSettings {
+    StreakSettings streak;
+    std::optional<ArcSettings> incoherent{};  ///< of incoherent_part(), if any
+
+    static const RepresentationInfo& info();
+    static StreakSurfaceSettings from(const SettingValues& values, const Grating& grating);
+    void set_illuminant(const colour::Illuminant& white);
+};
+
+struct StreakTables {
+    Streak streak{};
+    StreakMapSize map;
+    std::optional<ArcTable> incoherent{};  ///< of weight 1 − streak.power
+};
+
+StreakTables bake(const Grating& grating, const StreakSurfaceSettings& settings);
+void write(const StreakTables& tables, ByteWriter& writer);
+StreakTables read(ByteReader& reader, const StreakSurfaceSettings& settings);
+ShadingCost cost(const StreakTables& tables);
+Facts facts(const StreakTables& tables);
+/// Throws Error (input) for band-limited light.
+PointShader point_shader(const StreakTables& tables, const MaterialKernel& material, const EvaluationLight& light);
 
 }  // namespace rowland::diffraction

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <numbers>
 
 #include "engine/core/check.h"
@@ -214,7 +215,7 @@ StreakPosition streak_position(const glm::dvec3& direction, const glm::dvec3& al
 StreakMap fill_streak_map(const lighting::LightSamples& texels, const StreakMapSize& size,
                           const std::stop_token& stop) {
     ROWLAND_CHECK(size.side >= 8 && size.side % 4 == 0, "a streak map's side is a multiple of 4");
-    ROWLAND_CHECK(size.turns >= 4 && size.turns % 4 == 0, "a streak map's directions are a multiple of 4");
+    ROWLAND_CHECK(size.directions >= 4 && size.directions % 4 == 0, "a streak map's directions are a multiple of 4");
     StreakMap map{.size = size, .levels = {}};
     for (int level = 0; level < kStreakLevels; ++level) fill_level(map, level, texels, stop);
     return map;
@@ -226,6 +227,32 @@ glm::dvec3 sample(const StreakMap& map, const StreakPosition& position) {
     const double between = level - fine;
     const glm::dvec3 value = trilinear(map, fine, position.texture);
     return between == 0.0 ? value : (1.0 - between) * value + between * trilinear(map, fine + 1, position.texture);
+}
+
+namespace {
+
+constexpr double kLeastExtent = 1e-6;
+
+}  // namespace
+
+StreakPath::StreakPath(double low, double high, const LobePoint& before, const LobePoint& centre,
+                       const LobePoint& after)
+    : middle_(0.5 * (low + high)), scale_(2.0 / std::max(high - low, kLeastExtent)), level_(centre.level) {
+    const int chart = centre.direction.y < 0.0 ? 1 : 0;
+    const auto texture = [chart](const LobePoint& point) {
+        return streak_position(point.direction, point.along, chart).texture;
+    };
+    const glm::dvec3 first = texture(before);
+    glm::dvec3 last = texture(after);
+    last.z -= std::round(last.z - first.z);
+    mean_ = 0.5 * (last + first);
+    slope_ = 0.5 * (last - first);
+    bend_ = glm::dvec3(glm::dvec2(mean_ - texture(centre)), 0.0);
+}
+
+StreakPosition StreakPath::at(double x) const {
+    const double t = scale_ * (x - middle_);
+    return {mean_ + t * slope_ + (t * t - 1.0) * bend_, level_};
 }
 
 }  // namespace rowland::diffraction

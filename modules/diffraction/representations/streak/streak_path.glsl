@@ -1,4 +1,4 @@
-// Where the nodes of a segment look up the streak map: streak_path.h.
+// Where the nodes of a segment look up the streak map: streak_map.h.
 
 TEXTURE_UNIT(11) uniform sampler3D streak_map;  // streak_map.h
 uniform float map_scale;                        // of the stored values

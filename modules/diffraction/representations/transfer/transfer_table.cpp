@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "engine/math/sh_basis.h"
-#include "modules/diffraction/bake/transfer_terms.h"
+#include "engine/math/spherical_harmonics.h"
+#include "modules/diffraction/bake/view_spectrum.h"
 
 namespace rowland::diffraction {
 
@@ -84,16 +84,8 @@ const RepresentationInfo& TransferSettings::info() {
         .lattices = true,
         .takes_harmonics = true,
         .key_lights = KeyLightUse::OnRequest,
-        .settings = {bands_setting({2, 3, 4, 6, 8, 12, 16}, {3, 5, 8}), view_mapping_setting(),
-                     view_resolution_setting(),
-                     storage_setting(TransferSettings().storage, {"fp32", "unorm16", "unorm8"})},
-        .editor_start = {"bands"},
-        .sweep_tier = "bands=5/storage=fp16/key_lights=16",
-        .sweep_key_lights = {0, 4, 64},
-        .sweep_more = {"bands=5/storage=fp16/key_lights=16/view_mapping=one-dimensional/view_resolution=32",
-                       "bands=5/storage=fp16/key_lights=16/view_mapping=one-dimensional/view_resolution=64",
-                       "bands=5/storage=fp16/key_lights=16/view_mapping=one-dimensional/view_resolution=128",
-                       "bands=5/storage=fp16/key_lights=16/view_mapping=one-dimensional/view_resolution=512"},
+        .settings = {bands_setting(), view_mapping_setting(), view_resolution_setting(),
+                     storage_setting(TransferSettings().storage)},
         .budget = [](bool flat_lobe, SurfaceShape) -> std::vector<std::string> {
             if (!flat_lobe) return {"bands=5"};
             return {"bands=3", "bands=5", "bands=8"};

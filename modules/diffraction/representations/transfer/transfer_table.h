@@ -3,7 +3,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
-#include "engine/colour/light_spectra.h"
+#include "engine/colour/illuminant.h"
 #include "engine/lighting/sh_light.h"
 #include "modules/diffraction/bake/packed_texels.h"
 #include "modules/diffraction/bake/view_mapping.h"

@@ -1,11 +1,10 @@
-#include "engine/gpu/bound_state.h"
+#include "engine/gpu/pipeline_state.h"
 
 #include <array>
 #include <optional>
 #include <random>
 
 #include "engine/gpu/buffer.h"
-#include "engine/gpu/pipeline_state.h"
 #include "tests/gpu/call_counts.h"
 #include "tests/gpu/gl_test.h"
 

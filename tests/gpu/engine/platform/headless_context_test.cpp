@@ -1,4 +1,4 @@
-#include "engine/platform/headless_context.h"
+#include "engine/platform/gl_context.h"
 
 #include <epoxy/gl.h>
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 
 #include "engine/gpu/pipeline_state.h"
 #include "tests/gpu/gl_test.h"
-#include "tests/support/message_of.h"
+#include "tests/support/expect.h"
 
 namespace rowland {
 

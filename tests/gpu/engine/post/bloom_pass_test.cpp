@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "engine/post/shader_files.h"
+#include "engine/post/post_stack.h"
 #include "tests/gpu/gl_test.h"
 #include "tests/unit/engine/post/cpu_effects.h"
 

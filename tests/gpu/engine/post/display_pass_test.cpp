@@ -8,10 +8,9 @@
 #include <random>
 
 #include "engine/core/file.h"
-#include "engine/post/shader_files.h"
+#include "engine/post/post_stack.h"
 #include "tests/gpu/gl_test.h"
-#include "tests/support/temporary_folder.h"
-#include "tests/support/test_data.h"
+#include "tests/support/files.h"
 #include "tests/unit/engine/post/cpu_effects.h"
 
 namespace rowland {

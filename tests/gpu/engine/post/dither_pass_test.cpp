@@ -1,9 +1,9 @@
-#include "engine/post/dither.h"
+#include "engine/post/display_pass.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "engine/post/shader_files.h"
+#include "engine/post/post_stack.h"
 #include "tests/gpu/gl_test.h"
 #include "tests/unit/engine/post/cpu_effects.h"
 

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <vector>
 
-#include "engine/post/shader_files.h"
+#include "engine/post/post_stack.h"
 #include "tests/gpu/gl_test.h"
 
 namespace rowland {

@@ -1,20 +1,19 @@
-#include "engine/post/post_stack.h"
-
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <random>
 
-#include "engine/post/shader_files.h"
-#include "engine/post/working_space.h"
+#include "engine/post/bloom.h"
+#include "engine/post/ocio_config.h"
+#include "engine/post/post_stack.h"
+#include "engine/post/vignette.h"
 #include "tests/gpu/gl_test.h"
+#include "tests/gpu/wide_halves.h"
 #include "tests/unit/engine/post/cpu_effects.h"
 
 namespace rowland {
-
 namespace {
 
 using post::PostFrame;
@@ -263,6 +262,74 @@ TEST_F(PostStackTest, AutomaticExposureWithoutWeightsIsALogicError) {
         "luminance_weights");
 }
 
-}  // namespace
+class HalfFloatPassTest : public test::GlTest {
+ protected:
+    static constexpr int kSide = 16;
 
+    HalfFloatPassTest() {
+        library_.add_embedded(post::shader_files());
+        std::mt19937 random(5);
+        std::uniform_real_distribution<float> uniform(0.1F, 1.0F);
+        std::vector<glm::vec4> texels(std::size_t{kSide} * kSide);
+        for (glm::vec4& texel : texels) texel = {uniform(random), uniform(random), uniform(random), 1.0F};
+        source_ = gpu::Texture({.format = gpu::Format::RGBA32F, .width = kSide, .height = kSide});
+        source_.upload(std::span<const glm::vec4>(texels));
+    }
+    /// What is left for the driver to round.
+    template <typename Draw>
+    static void expect_rounded(const Draw& draw) {
+        const test::WideHalves wide;
+        const gpu::Framebuffer halves({.width = kSide, .height = kSide, .colours = {gpu::Format::RGBA16F}});
+        draw(halves);
+        EXPECT_EQ(test::not_halves(halves.read_rgba_float()), 0);
+        const gpu::Framebuffer floats({.width = kSide, .height = kSide, .colours = {gpu::Format::RGBA32F}});
+        draw(floats);
+        EXPECT_GT(test::not_halves(floats.read_rgba_float()), kSide * kSide);
+    }
+
+    gpu::ShaderLibrary library_;
+    gpu::Texture source_;
+};
+
+TEST_F(HalfFloatPassTest, BloomRounds) {
+    post::BloomPass pass(library_);
+    expect_rounded([&](const gpu::Framebuffer& target) { pass.draw(source_, {.strength = 0.3F}, target); });
+}
+
+TEST_F(HalfFloatPassTest, VignetteRounds) {
+    const post::VignettePass pass(library_);
+    expect_rounded([&](const gpu::Framebuffer& target) { pass.draw(source_, {.vertical_fov = 1.0F}, target); });
+}
+
+using post::VignetteSettings;
+using VignettePassTest = test::GlTest;
+
+TEST_F(VignettePassTest, AgreesWithTheFormula) {
+    gpu::ShaderLibrary library;
+    library.add_embedded(post::shader_files());
+    const post::VignettePass pass(library);
+    for (const glm::ivec2 size : {glm::ivec2(64, 36), glm::ivec2(33, 47)}) {
+        gpu::Texture source({.format = gpu::Format::RGBA32F, .width = size.x, .height = size.y});
+        source.upload(std::vector<glm::vec4>(static_cast<std::size_t>(size.x * size.y), {1.0F, -0.5F, 0.25F, 0.75F}));
+        const gpu::Framebuffer target({.width = size.x, .height = size.y, .colours = {gpu::Format::RGBA32F}});
+        for (const VignetteSettings& settings :
+             {VignetteSettings{.vertical_fov = 1.2F}, VignetteSettings{.strength = 0.8F, .radius = 0.3F},
+              VignetteSettings{.vertical_fov = 0.7F, .strength = 1.0F, .softness = 0.1F}, VignetteSettings{}}) {
+            pass.draw(source, settings, target);
+            const std::vector<glm::vec4> drawn = target.colour().read();
+            for (int y = 0; y < size.y; ++y) {
+                for (int x = 0; x < size.x; ++x) {
+                    const glm::vec4& pixel = drawn[static_cast<std::size_t>(y * size.x + x)];
+                    const float factor = post::vignette_factor({x, y}, size, settings);
+                    // Float rounding on either side, magnified by the steepest smoothstep, 1.5 / 0.1.
+                    EXPECT_NEAR(pixel.r, factor, 1e-5F) << x << " " << y;
+                    EXPECT_NEAR(pixel.g, -0.5F * factor, 1e-5F);
+                    EXPECT_EQ(pixel.a, 0.75F);
+                }
+            }
+        }
+    }
+}
+
+}  // namespace
 }  // namespace rowland

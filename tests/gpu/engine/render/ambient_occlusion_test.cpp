@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "engine/gpu/pass_times.h"
-#include "engine/scene/directional_light.h"
+#include "engine/scene/light.h"
 #include "tests/gpu/engine/render/traced_scene.h"
 
 namespace rowland::render {

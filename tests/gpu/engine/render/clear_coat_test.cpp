@@ -1,7 +1,7 @@
 // KHR_materials_clearcoat on the engine's own surface, against the formula on the CPU.
 #include <gtest/gtest.h>
 
-#include "engine/scene/directional_light.h"
+#include "engine/scene/light.h"
 #include "tests/gpu/render_test.h"
 
 namespace rowland::render {

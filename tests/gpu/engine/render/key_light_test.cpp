@@ -4,11 +4,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/lighting/clear_sky.h"
 #include "engine/lighting/key_lights.h"
 #include "engine/lighting/light_samples.h"
-#include "engine/math/sh_basis.h"
-#include "engine/scene/directional_light.h"
+#include "engine/lighting/procedural_probe.h"
+#include "engine/math/spherical_harmonics.h"
+#include "engine/scene/light.h"
 #include "tests/gpu/render_test.h"
 
 namespace rowland::render {

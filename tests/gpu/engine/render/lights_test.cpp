@@ -2,10 +2,9 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "engine/math/sh_basis.h"
+#include "engine/math/spherical_harmonics.h"
 #include "engine/render/scene_lights.h"
-#include "engine/scene/directional_light.h"
-#include "engine/scene/punctual_light.h"
+#include "engine/scene/light.h"
 #include "tests/gpu/render_test.h"
 #include "tests/unit/engine/scene/punctual_attenuation.h"
 

@@ -1,4 +1,4 @@
-#include "engine/render/picture_columns.h"
+#include "engine/render/draw_list.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 

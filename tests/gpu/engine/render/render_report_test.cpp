@@ -5,11 +5,10 @@
 
 #include "engine/core/file.h"
 #include "engine/gpu/pass_times.h"
-#include "engine/scene/directional_light.h"
-#include "engine/scene/punctual_light.h"
-#include "engine/scene/skin.h"
+#include "engine/scene/animation.h"
+#include "engine/scene/light.h"
 #include "tests/gpu/render_test.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 
 namespace rowland::render {
 namespace {
@@ -143,10 +142,10 @@ TEST_F(RenderReportTest, ReloadedShadersReachEveryVariant) {
     add(square(), {.base_colour_texture = texture(1, {glm::vec4(1.0F)}), .unlit = true}, translation(1.0F, 0.0F, 0.0F));
     EXPECT_EQ(at(draw(), -0.5F, 0.0F).r, 1.0F);
     const test::TemporaryFolder tree;
-    write_file_atomic(tree.path() / "engine/render/shaders/forward_fragment_main.glsl",
+    write_file_atomic(tree.path() / "engine/render/shaders/shading.glsl",
                       "layout(location = 0) out vec4 radiance;\n"
-                      "#include \"engine/render/shaders/surface_maps.glsl\"\n"
-                      "void main() { radiance = vec4(7.0, surface_colour().a, 0.0, 1.0); }\n");
+                      "struct MaterialTerms { vec3 base_weight; vec3 mirror_weight; vec3 added; };\n"
+                      "void write_surface(MaterialTerms terms) { radiance = vec4(7.0, surface_colour().a, 0.0, 1.0); }\n");
     renderer_.reload_shaders(tree.path());
     const auto pixels = draw();
     EXPECT_EQ(at(pixels, -0.5F, 0.0F).r, 7.0F);

@@ -4,13 +4,13 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/core/error.h"
-#include "engine/render/object_reflection.h"
+#include "engine/render/reflections.h"
 #include "engine/render/surface_textures.h"
-#include "engine/scene/directional_light.h"
-#include "engine/scene/node_label.h"
-#include "engine/scene/skin.h"
+#include "engine/scene/animation.h"
+#include "engine/scene/light.h"
+#include "engine/scene/transform.h"
 #include "tests/gpu/render_test.h"
-#include "tests/support/message_of.h"
+#include "tests/support/expect.h"
 
 namespace rowland::render {
 namespace {
@@ -29,19 +29,13 @@ class MarkType final : public MaterialType {
     std::string name() const override { return "mark"; }
     std::string gltf_extension() const override { return "TEST_mark"; }
     std::vector<std::string> gltf_extensions_beside() const override { return {"TEST_beside"}; }
-    void attach(ecs::World& world, ecs::Entity entity, const nlohmann::json& extension, SurfaceTextures& /*textures*/,
-                const std::string& file, const std::string& pointer) override {
-        if (!extension.contains("number"))
-            throw Error({.file = file,
-                         .location = pointer,
-                         .found = "no number",
-                         .expected = "a number",
-                         .remedy = {},
-                         .fault = Fault::Input});
-        const auto& all = world.get<FileMaterial>(entity).description->extensions;
-        world.add(entity, Marked{extension["number"].get<int>(), pointer,
+    void attach(ecs::World& world, ecs::Entity entity, const MaterialExtension& extension,
+                SurfaceTextures& /*textures*/) override {
+        if (!extension.object.contains("number")) refuse_input(extension.file, extension.pointer, "none", "a number");
+        world.add(entity, Marked{extension.object["number"].get<int>(), extension.pointer,
                                  world.find<MeshInstance>(entity) && world.find<StandardMaterial>(entity),
-                                 all.contains("TEST_beside")});
+                                 extension.material.extensions.contains("TEST_beside")});
+        if (extension.object.contains("tables")) extension.tables("TEST_mark");
     }
     void add_shaders(gpu::ShaderLibrary& /*library*/) const override {}
     bool owns(ecs::World& /*world*/, ecs::Entity /*entity*/) const override { return false; }
@@ -271,7 +265,6 @@ TEST_F(SceneInstanceTest, AnExtensionBesideATypesOwnIsReadByItAndAloneIsWarnedOf
     const SceneInstance instance = instantiate(world_, scene, renderer_, "test.gltf");
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
     EXPECT_TRUE(world_.get<Marked>(instance.drawn[0]).had_another_beside);
-    EXPECT_EQ(world_.find<FileMaterial>(instance.drawn[0]), nullptr);
 
     scene.materials[0].extensions.erase("TEST_mark");
     scene.instances.push_back(scene.instances[0]);
@@ -286,11 +279,15 @@ TEST_F(SceneInstanceTest, AnExtensionBesideATypesOwnIsReadByItAndAloneIsWarnedOf
 TEST_F(SceneInstanceTest, AWrongExtensionLeavesTheWorldAsItWas) {
     renderer_.add_material_type(std::make_unique<MarkType>());
     scene::ImportedScene scene = two_nodes();
-    scene.materials[0].extensions = {{"TEST_mark", nlohmann::json::object()}};
-    const std::string message = test::message_of([&] { instantiate(world_, scene, renderer_, "test.gltf"); });
-    EXPECT_NE(message.find("test.gltf"), std::string::npos) << message;
-    EXPECT_NE(message.find("/materials/0/extensions/TEST_mark"), std::string::npos) << message;
-    EXPECT_EQ(world_.living(), 0U);
+    // The second one takes tables, but the scene has not been cooked.
+    for (const nlohmann::json& wrong : {nlohmann::json::object(), nlohmann::json{{"number", 1}, {"tables", true}}}) {
+        scene.materials[0].extensions = {{"TEST_mark", wrong}};
+        const std::string message = test::message_of([&] { instantiate(world_, scene, renderer_, "test.gltf"); });
+        EXPECT_NE(message.find("test.gltf"), std::string::npos) << message;
+        EXPECT_NE(message.find("/materials/0/extensions/TEST_mark"), std::string::npos) << message;
+        EXPECT_EQ(message.find("rowland-cook") != std::string::npos, wrong.contains("tables")) << message;
+        EXPECT_EQ(world_.living(), 0U);
+    }
 }
 
 }  // namespace

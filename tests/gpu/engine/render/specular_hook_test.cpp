@@ -2,22 +2,22 @@
 #include <utility>
 
 #include "engine/render/scene_instance.h"
-#include "engine/scene/directional_light.h"
-#include "engine/scene/node_label.h"
-#include "engine/scene/punctual_light.h"
+#include "engine/scene/light.h"
+#include "engine/scene/transform.h"
 #include "tests/gpu/render_test.h"
-#include "tests/support/message_of.h"
+#include "tests/support/expect.h"
 
 namespace rowland::render {
 namespace {
 
 constexpr const char* kBeforeHook = R"(#version 450 core
 #define MATERIAL_SPECULAR
-#include "engine/render/shaders/forward_fragment_interface.glsl"
-MaterialTerms material_terms() { return MaterialTerms(vec3(1.0), vec3(0.0), vec3(0.0)); }
+#include "engine/render/shaders/surface.glsl"
+#include "engine/render/shaders/environment.glsl"
 vec3 reflect_specular(vec3 light, vec3 f0, float cosine) { return )";
 constexpr const char* kAfterHook = R"(; }
-#include "engine/render/shaders/forward_fragment_main.glsl"
+#include "engine/render/shaders/shading.glsl"
+void main() { write_surface(MaterialTerms(vec3(1.0), vec3(0.0), vec3(0.0))); }
 )";
 
 /// Draws every entity that has a StandardMaterial, with a specular function of the test's.

@@ -4,7 +4,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "engine/lighting/environment_map.h"
-#include "engine/scene/directional_light.h"
+#include "engine/scene/light.h"
 #include "tests/gpu/render_test.h"
 
 namespace rowland::render {

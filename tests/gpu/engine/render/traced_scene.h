@@ -33,8 +33,7 @@ class TracedSceneTest : public RenderTest {
 
     /// Standing on the floor.
     void add_box(const glm::vec3& foot, const glm::vec3& size) {
-        scene::Mesh mesh = scene::build_mesh(scene::BoxRecipe{.width = size.x, .height = size.y, .depth = size.z});
-        add(std::move(mesh), kWhite, glm::translate(glm::mat4(1.0F), foot));
+        add(box_mesh(size), kWhite, glm::translate(glm::mat4(1.0F), foot));
         const glm::dvec3 half(0.5F * size);
         boxes_.push_back({glm::dvec3(foot) - glm::dvec3(half.x, 0.0, half.z),
                           glm::dvec3(foot) + glm::dvec3(half.x, 2.0 * half.y, half.z)});
@@ -44,6 +43,28 @@ class TracedSceneTest : public RenderTest {
         scene::Mesh mesh = scene::build_mesh(scene::SphereRecipe{.radius = radius, .rings = 96, .segments = 192});
         add(std::move(mesh), material, glm::translate(glm::mat4(1.0F), centre));
         spheres_.push_back({glm::dvec3(centre), radius});
+    }
+
+    /// Standing on the plane y = 0, around the Y axis.
+    static scene::Mesh box_mesh(const glm::vec3& size) {
+        scene::Mesh mesh;
+        for (int face = 0; face < 6; ++face) {
+            glm::vec3 normal(0.0F);
+            normal[face / 2] = face % 2 == 0 ? 1.0F : -1.0F;
+            glm::vec3 tangent(0.0F);
+            tangent[(face / 2 + 1) % 3] = 1.0F;
+            const glm::vec3 across = glm::cross(normal, tangent);
+            const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+            for (const glm::vec2& uv : {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(1, 1), glm::vec2(0, 1)}) {
+                const glm::vec3 corner = normal + (2.0F * uv.x - 1.0F) * tangent + (2.0F * uv.y - 1.0F) * across;
+                mesh.positions.push_back(0.5F * size * (corner + glm::vec3(0.0F, 1.0F, 0.0F)));
+                mesh.normals.push_back(normal);
+                mesh.tangents.emplace_back(tangent, -1.0F);
+                mesh.uvs.push_back(uv);
+            }
+            for (const std::uint32_t corner : {0U, 1U, 2U, 0U, 2U, 3U}) mesh.indices.push_back(first + corner);
+        }
+        return mesh;
     }
 
     /// The nearest intersection beyond 1e-6 m.

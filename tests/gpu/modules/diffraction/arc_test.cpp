@@ -55,11 +55,10 @@ TEST_F(Arc, OnlyTheFirstSoManyKeyLightsAreShadedOneByOne) {
     std::vector<lighting::KeyLight> all = three_keys();
     std::swap(all[0], all[1]);  // the first of three_keys() is seen best
     light_ = light_of(smooth_probe(), all);
-    light_.probe_sh = light_.sh;
     const std::vector<lighting::KeyLight> first = {light_.key_lights[0]};
     const CookedMaterial cooked = cook(kBlazed, R"({"representation": "arc", "key_lights": 1})");
     show(cooked, 0.3);
-    const auto rest = arc_xyz(cooked, lighting::residual(light_.probe_sh, first, light_.probe_sh.bands));
+    const auto rest = arc_xyz(cooked, lighting::residual(light_.sh, first, light_.sh.bands));
     const auto shown = [&](const std::vector<lighting::KeyLight>& keys) {
         return [&, keys](const Point& point) { return rest(point) + key_light_xyz(cooked, keys, point); };
     };

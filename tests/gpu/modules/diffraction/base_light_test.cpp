@@ -1,9 +1,9 @@
 // The light on the layer under a grating.
 #include <gtest/gtest.h>
 
-#include "engine/colour/working_space.h"
-#include "engine/math/sh_basis.h"
-#include "modules/diffraction/asset/layer_weights.h"
+#include "engine/colour/colour_space.h"
+#include "engine/math/spherical_harmonics.h"
+#include "modules/diffraction/asset/material.h"
 #include "tests/gpu/modules/diffraction/grating_picture.h"
 
 namespace rowland::diffraction {
@@ -15,7 +15,7 @@ class BaseLight : public GratingPicture {
  protected:
     /// A grating that no light reaches, on a base layer under ambient light alone.
     void show_under_ambient_light(bool double_sided) {
-        light_.sh.coefficients.assign(light_.sh.coefficients.size(), glm::dvec3(0.0));
+        light_ = black_light();
         cooked_ = cook(kSlitCd, R"({"representation": "arc", "key_lights": 0})");
         show(cooked_);
         lighting::LightProbe probe;

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "modules/diffraction/representations/circle/gpu_circle.h"
+#include "modules/diffraction/runtime/gpu_circle.h"
 #include "tests/gpu/modules/diffraction/filter_error.h"
 #include "tests/gpu/modules/diffraction/grating_picture.h"
 
@@ -58,7 +58,7 @@ TEST_F(Circle, PixelsEqualTheCpusMap) {
     }
 }
 
-/// Without the rest of the series, and with another number of angles than by default.
+/// Without the remainder of the series, and with another number of angles than by default.
 TEST_F(Circle, PixelsHaveAnyNumberOfAngles) {
     for (const char* angles : {"0", "9"}) {
         const std::string quality = R"({"representation": "circle", "map_resolution": 24, "angles": )";
@@ -113,8 +113,7 @@ TEST_F(Circle, MotionFillsNothingAndObjectsShareTheMap) {
     ++light_.version;  // the same texels
     draw();
     EXPECT_EQ(filling().maps_shown(), 1);
-    light_.texels = std::make_shared<const lighting::LightSamples>(*light_.texels);
-    ++light_.version;
+    light_ = light_of(smooth_probe(), {}, light_.version + 1);
     draw();
     EXPECT_EQ(filling().maps_shown(), 2);
 }

@@ -4,7 +4,7 @@
 
 #include "engine/core/json_reader.h"
 #include "modules/diffraction/asset/cooked_material.h"
-#include "modules/diffraction/asset/material_json.h"
+#include "modules/diffraction/asset/material.h"
 
 namespace rowland::diffraction {
 

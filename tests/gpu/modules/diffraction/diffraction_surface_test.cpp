@@ -2,11 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "engine/core/file.h"
 #include "engine/core/json_reader.h"
+#include "modules/diffraction/asset/cooked_material.h"
+#include "modules/diffraction/asset/gltf_extension.h"
 #include "tests/gpu/modules/diffraction/grating_picture.h"
-#include "tests/support/message_of.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/expect.h"
+#include "tests/support/files.h"
 
 namespace rowland::diffraction {
 namespace {
@@ -16,10 +17,10 @@ using ::testing::HasSubstr;
 class Surface : public GratingPicture {};
 
 TEST_F(Surface, AnEntityKeepsItsPlaceWhenItsRepresentationChanges) {
-    const char* const qualities[] = {
-        R"({"representation": "spikes"})", R"({"representation": "planar", "map_resolution": 32})",
-        R"({"representation": "arc"})",    R"({"representation": "transfer"})",
-        R"({"representation": "bins"})",   R"({"representation": "circle", "map_resolution": 24})"};
+    const char* const qualities[] = {R"({"representation": "spikes"})",
+                                     R"({"representation": "planar", "map_resolution": 32})",
+                                     R"({"representation": "arc"})", R"({"representation": "transfer"})",
+                                     R"({"representation": "circle", "map_resolution": 24})"};
     mesh_ = flat_triangle();
     show(cook(kSlitCd, qualities[0]));
     const ecs::Entity entity = entity_;
@@ -112,67 +113,54 @@ TEST_F(Surface, VertexLightIsMadeOnlyWhenSomethingChanges) {
     EXPECT_NE(made(), turned);
 }
 
-TEST_F(Surface, ABrokenQualityIsRefusedByName) {
-    show(cook(kSlitCd, R"({"representation": "direct"})"));
-    DiffractionSurfaceType type(glm::dmat3(1.0));
-    const scene::ImportedScene no_pictures;
-    render::SurfaceTextures textures(no_pictures);
-    const auto attach = [&](const char* members) {
-        return rowland::test::message_of([&] {
-            type.attach(world_, entity_, parse_json(std::string("{\"grating\": ") + kSlitCd + members + "}", "m"),
-                        textures, "scene.gltf", "/materials/0");
-        });
-    };
-    EXPECT_THAT(attach(R"(, "quality": {"representation": "arc", "rnak": 3})"), HasSubstr("/materials/0/quality/rnak"));
-    EXPECT_THAT(attach(R"(, "quality": {"representation": "streak"})"),
-                HasSubstr("/materials/0/quality/representation"));
-    EXPECT_THAT(attach(R"(, "grooveTexture": {"index": 0})"), HasSubstr("/materials/0/grooveTexture/index"));
-    type.attach(world_, entity_,
-                parse_json(std::string("{\"grating\": ") + kSlitCd + R"(, "grooveRotation": 0.25})", "m"), textures,
-                "scene.gltf", "/materials/0");
+/// Gives the entity what a cooked scene's material holds.
+class Attached : public Surface {
+ protected:
+    Attached() { show(cook(kSlitCd, R"({"representation": "direct"})")); }
+
+    void attach(const std::string& members, const char* profile = kSlitCd) {
+        const nlohmann::json object = parse_json(
+            std::string("{\"grating\": ") + profile + R"(, "quality": {"representation": "direct"})" + members + "}",
+            "m.gltf");
+        const nlohmann::json material = material_members(object);
+        scene::MaterialDescription description;
+        description.tables[kGltfExtension] = std::make_shared<const std::vector<std::byte>>(
+            write_gltf_tables(material, bake_material(parse_material(material, "m.gltf")), {}));
+        type_.attach(world_, entity_, {object, description, file_, "/materials/0"}, textures_);
+    }
+
+    std::string file_ = "m.gltf";
+    DiffractionSurfaceType type_{glm::dmat3(1.0)};
+    scene::ImportedScene no_pictures_;
+    render::SurfaceTextures textures_{no_pictures_};
+};
+
+TEST_F(Attached, LiesOnTheSurfaceAsTheExtensionSays) {
+    attach(R"(, "grooveRotation": 0.25)");
     EXPECT_EQ(world_.get<DiffractionSurface>(entity_).groove_rotation, 0.25F);
+    EXPECT_THAT(rowland::test::message_of([&] { attach(R"(, "grooveTexture": {"index": 0})"); }),
+                HasSubstr("/materials/0/grooveTexture/index"));
+}
+
+TEST_F(Attached, EqualTablesAreUploadedOnce) {
+    attach("");
+    const auto first = world_.get<DiffractionSurface>(entity_).material;
+    attach(R"(, "metal": "Al")");
+    EXPECT_NE(world_.get<DiffractionSurface>(entity_).material, first);
+    attach("");
+    EXPECT_EQ(world_.get<DiffractionSurface>(entity_).material, first);
 }
 
 /// A grating's gloss is its cover's, whatever the glTF's coat is.
-TEST_F(Surface, AClearCoatBesideAGratingIsNotDrawnAndSaysSo) {
-    show(cook(kSlitCd, R"({"representation": "direct"})"));
-    DiffractionSurfaceType type(glm::dmat3(1.0));
-    const scene::ImportedScene scene;
-    render::SurfaceTextures textures(scene);
+TEST_F(Attached, AClearCoatBesideAGratingIsNotDrawnAndSaysSo) {
     for (const char* cover : {"", R"(, "cover": {"ior": 1.5})"}) {
         world_.add(entity_, render::StandardMaterial{.clear_coat = 0.5F});
         testing::internal::CaptureStderr();
-        type.attach(
-            world_, entity_,
-            parse_json(
-                std::string("{\"grating\": ") + kSlitCd + cover + R"(, "quality": {"representation": "direct"}})", "m"),
-            textures, "m.gltf", "/materials/0");
+        attach(cover);
         EXPECT_THAT(testing::internal::GetCapturedStderr(),
                     testing::AllOf(HasSubstr("m.gltf: /materials/0"), HasSubstr("clearcoat"), HasSubstr("cover")));
         EXPECT_EQ(world_.get<render::StandardMaterial>(entity_).clear_coat, 0.0F);
     }
-}
-
-TEST_F(Surface, TablesOfOneNameInTwoFoldersAreTwoMaterials) {
-    DiffractionSurfaceType type(glm::dmat3(1.0));
-    const scene::ImportedScene no_pictures;
-    render::SurfaceTextures textures(no_pictures);
-    const nlohmann::json extension = parse_json(
-        R"({"grating": {"pitch_nm": 1600, "profile": {"type": "table", "file": "t.csv"}, "orders": [-1, 1]},
-            "quality": {"representation": "direct"}})",
-        "m");
-    const auto attached = [&](const rowland::test::TemporaryFolder& folder) {
-        type.attach(world_, entity_, extension, textures, (folder.path() / "scene.gltf").string(), "/materials/0");
-        return world_.get<DiffractionSurface>(entity_).material;
-    };
-    const rowland::test::TemporaryFolder dim;
-    const rowland::test::TemporaryFolder bright;
-    write_file_atomic(dim.path() / "t.csv", "wavelength_nm,R-1,R+1\n380,0.1,0.1\n780,0.1,0.1\n");
-    write_file_atomic(bright.path() / "t.csv", "wavelength_nm,R-1,R+1\n380,0.4,0.4\n780,0.4,0.4\n");
-    show(cook(kSlitCd, R"({"representation": "direct"})"));
-    const std::shared_ptr<const GpuMaterial> first = attached(dim);
-    EXPECT_NE(attached(bright), first);
-    EXPECT_EQ(attached(dim), first);
 }
 
 }  // namespace

@@ -1,9 +1,8 @@
 // Analytic lights on the GPU against the CPU.
 #include <gtest/gtest.h>
 
-#include "engine/scene/directional_light.h"
-#include "engine/scene/punctual_light.h"
-#include "modules/diffraction/asset/layer_weights.h"
+#include "engine/scene/light.h"
+#include "modules/diffraction/asset/material.h"
 #include "tests/gpu/modules/diffraction/grating_picture.h"
 #include "tests/gpu/render_test.h"
 
@@ -181,9 +180,7 @@ TEST_F(Direct, PointLightsShineOnEveryRepresentation) {
     const char* const qualities[] = {kDirect, R"({"representation": "spikes"})",
                                      R"({"representation": "arc", "key_lights": 0})",
                                      R"({"representation": "circle", "map_resolution": 16})"};
-    light_.sh.coefficients.assign(light_.sh.coefficients.size(), glm::dvec3(0.0));
-    light_.residual = light_.sh;
-    light_.texels = std::make_shared<const lighting::LightSamples>();
+    light_ = black_light();
     for (const char* quality : qualities) {
         const CookedMaterial cooked = cook(kSlitCd, quality);
         if (!renderer_) {

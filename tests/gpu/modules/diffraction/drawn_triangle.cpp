@@ -6,8 +6,8 @@
 #include <glm/matrix.hpp>
 #include <span>
 
-#include "engine/math/sh_rotation.h"
-#include "modules/diffraction/runtime/tangent_light.h"
+#include "engine/math/spherical_harmonics.h"
+#include "modules/diffraction/runtime/vertex_light.h"
 
 namespace rowland::diffraction {
 

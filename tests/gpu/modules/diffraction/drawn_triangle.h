@@ -36,7 +36,7 @@ struct Point {
 };
 
 /// Half the width of an interval of u = s_g + v_g with its variance over the pixel, for a light in the direction
-/// `toward` (world): PHYSICS (38).
+/// `toward` (world): PHYSICS (11.1).
 double footprint(const Point& point, const glm::dvec3& toward);
 /// The same for a light at a point.
 double footprint_of_lamp(const Point& point, const glm::dvec3& lamp);

@@ -77,16 +77,16 @@ LobeTable filter_error(const LobeTable& table) {
 
 CircleMap filter_error(const CircleMap& map) {
     CircleMap error = map;
-    for (CircleGrid* grid : {&error.terms, &error.rest}) {
+    for (CircleGrid* grid : {&error.terms, &error.remainder}) {
         if (grid->functions == 0) continue;
         const auto side = static_cast<std::size_t>(grid->side);
         const std::size_t slices = side * side * static_cast<std::size_t>(grid->views);
         grid->xyz = error_of(grid->xyz, {{.texels = side, .stride = 1},
                                          {.texels = side, .stride = side},
                                          {.texels = static_cast<std::size_t>(grid->views), .stride = side * side}});
-        if (grid == &error.rest) {
+        if (grid == &error.remainder) {
             // Rounded to ten bits, of either sign.
-            const float step = largest_component(map.rest.xyz) / 1023.0F;
+            const float step = largest_component(map.remainder.xyz) / 1023.0F;
             for (glm::vec3& value : grid->xyz) value += step;
             continue;
         }
@@ -128,12 +128,6 @@ void make_positive(StreakSegment& segment) {
 Streak filter_error(const Streak& streak) {
     Streak error = streak;
     for (StreakSegment& segment : error.segments) make_positive(segment);
-    return error;
-}
-
-LatticeStreak filter_error(const LatticeStreak& streak) {
-    LatticeStreak error = streak;
-    for (RaySegment& ray : error.segments) make_positive(ray.nodes);
     return error;
 }
 

@@ -6,7 +6,6 @@
 #include "modules/diffraction/representations/direct/lobe_table.h"
 #include "modules/diffraction/representations/planar/lobe_map.h"
 #include "modules/diffraction/representations/planar/planar_map.h"
-#include "modules/diffraction/representations/streak/lattice_streak.h"
 #include "modules/diffraction/representations/streak/streak.h"
 
 namespace rowland::diffraction {
@@ -26,6 +25,5 @@ CircleMap filter_error(const CircleMap& map);
 StreakMap filter_error(const StreakMap& map);
 /// The streak that sums the errors of its look-ups.
 Streak filter_error(const Streak& streak);
-LatticeStreak filter_error(const LatticeStreak& streak);
 
 }  // namespace rowland::diffraction

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "engine/image/image.h"
+#include "engine/lighting/environment_map.h"
 #include "engine/lighting/light_probe.h"
 #include "engine/lighting/light_samples.h"
-#include "engine/lighting/prefilter.h"
 
 namespace rowland::diffraction {
 
@@ -34,19 +34,34 @@ std::vector<lighting::KeyLight> three_keys() {
             {.direction = glm::normalize(glm::dvec3(0.1, -0.9, 0.15)), .flux = {0.9, 0.2, 0.1}, .concentration = 1e4}};
 }
 
-LightParts light_of(const lighting::ProbeImage& probe, std::vector<lighting::KeyLight> keys, std::uint64_t version) {
+GratingLight light_of(const lighting::ProbeImage& image, std::vector<lighting::KeyLight> keys, std::uint64_t version) {
     constexpr int kBands = 10;
-    LightParts light;
-    light.residual = lighting::project(probe, kBands);
+    constexpr int kLightFace = 32;
+    GratingLight light{.key_lights = std::move(keys), .residual = lighting::project(image, kBands), .version = version};
     light.sh = light.residual;
-    const lighting::ShLight lobes = lighting::project(keys, kBands);
-    for (std::size_t i = 0; i < light.sh.coefficients.size() && !keys.empty(); ++i)
-        light.sh.coefficients[i] += lobes.coefficients[i];
-    light.key_lights = std::move(keys);
-    light.texels = std::make_shared<const lighting::LightSamples>(lighting::light_samples(probe, {}, 0.1));
-    light.probe_sh = light.residual;
-    light.probe_texels = light.texels;
-    light.version = version;
+    lighting::LightProbe probe;
+    if (!light.key_lights.empty()) {
+        const lighting::ShLight lobes = lighting::project(light.key_lights, kBands);
+        for (std::size_t i = 0; i < light.sh.coefficients.size(); ++i)
+            light.sh.coefficients[i] += lobes.coefficients[i];
+        light.residual = lighting::residual(light.sh, light.key_lights, kBands);
+    }
+    std::vector<lighting::KeyLight> removed = light.key_lights;  // removing negative light adds it
+    for (lighting::KeyLight& key : removed) key.flux = -key.flux;
+    probe.sh = light.sh;
+    probe.key_lights = light.key_lights;
+    probe.light = lighting::pack(lighting::light_samples(image, removed, 0.1), kLightFace);
+    light.probe_texels = std::make_shared<const lighting::LightSamples>(lighting::unpack(probe.light));
+    light.texels = std::make_shared<const lighting::LightSamples>(lighting::unpack(probe.light, light.key_lights));
+    light.probe = std::make_shared<const lighting::LightProbe>(std::move(probe));
+    return light;
+}
+
+GratingLight black_light() {
+    lighting::LightProbe probe;
+    probe.sh = {.bands = 10, .coefficients = std::vector<glm::dvec3>(100, glm::dvec3(0.0))};
+    GratingLight light{.sh = probe.sh, .residual = probe.sh, .version = 1};
+    light.probe = std::make_shared<const lighting::LightProbe>(std::move(probe));
     return light;
 }
 

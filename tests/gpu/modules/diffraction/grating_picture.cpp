@@ -16,7 +16,7 @@ namespace {
 /// A DiffractionSurfaceType under light that the test sets, whatever the renderer's is.
 class UnderLight final : public render::MaterialType {
  public:
-    UnderLight(const glm::dmat3& xyz_to_working, const DiffractionSettings& settings, const LightParts& light)
+    UnderLight(const glm::dmat3& xyz_to_working, const DiffractionSettings& settings, const GratingLight& light)
         : inner_(xyz_to_working, settings), light_(&light) {}
 
     std::string name() const override { return "diffraction"; }
@@ -26,7 +26,7 @@ class UnderLight final : public render::MaterialType {
         return inner_.program(world, entity);
     }
     void update(ecs::World& world, const render::FrameLight& frame) override {
-        LightParts light = *light_;
+        render::FrameLight light = light_->frame();
         light.light_strengths = frame.light_strengths;  // of the world's own lights
         inner_.update(world, light);
     }
@@ -42,7 +42,7 @@ class UnderLight final : public render::MaterialType {
 
  private:
     DiffractionSurfaceType inner_;
-    const LightParts* light_;
+    const GratingLight* light_;
 };
 
 }  // namespace

@@ -67,7 +67,7 @@ class GratingPicture : public rowland::test::GlTest, protected DrawnTriangle {
     std::optional<render::Renderer> renderer_;
     ecs::World world_;
     ecs::Entity entity_;
-    LightParts light_ = light_of(smooth_probe(), {});
+    GratingLight light_ = light_of(smooth_probe(), {});
     std::shared_ptr<const GpuMaterial> material_;
     gpu::Framebuffer target_{
         gpu::FramebufferDesc{.width = kSize, .height = kSize, .colours = {gpu::Format::RGBA32F}, .depth = true}};

@@ -8,10 +8,10 @@
 #include <random>
 
 #include "engine/core/json_reader.h"
-#include "modules/diffraction/asset/material_json.h"
+#include "modules/diffraction/asset/material.h"
 #include "tests/gpu/modules/diffraction/filter_error.h"
 #include "tests/gpu/modules/diffraction/grating_picture.h"
-#include "tests/support/message_of.h"
+#include "tests/support/expect.h"
 
 namespace rowland::diffraction {
 namespace {
@@ -51,7 +51,7 @@ class Grooves : public GratingPicture {
         return parse_material(parse_json("{\"grating\":" + grating + ",\"quality\":" + quality + "}", "test"), "test");
     }
     CookedMaterial cook_with(const std::string& grating, const std::string& quality, const GrooveMap& map) {
-        return bake_material(suited_to_grooves(material(grating, quality), map));
+        return bake_material(suited_to_grooves(material(grating, quality), map.pitches()));
     }
     void show_with(const CookedMaterial& cooked, std::shared_ptr<const GrooveMap> map, double rotation) {
         show(cooked, rotation);
@@ -131,8 +131,8 @@ constexpr const char* kFlatFoil = R"({"pitch_nm": 1300, "profile": {"type": "sin
 TEST_F(Grooves, PatchesOfAFlatCardEqualTheCpu) {
     light_ = light_of(smooth_probe(), three_keys());
     const auto map = map_of(kPatches, 2);
-    EXPECT_NEAR(map->smallest_pitch(), 200.0 / 255.0, 1e-12);
-    EXPECT_NEAR(map->largest_pitch(), 440.0 / 255.0, 1e-12);
+    EXPECT_NEAR(map->pitches().smallest, 200.0 / 255.0, 1e-12);
+    EXPECT_NEAR(map->pitches().largest, 440.0 / 255.0, 1e-12);
     const CookedMaterial cooked = cook_with(kFlatFoil, R"({"max_error": 0.05})", *map);
     EXPECT_EQ(std::get<ArcTable>(cooked.tables).rank, 12);
     show_with(cooked, map, 0.4);
@@ -304,7 +304,7 @@ TEST_F(Grooves, ALevelOfMomentsIsTheirMean) {
         glm::dvec4 mean(0.0);
         for (const Texel& texel : texels) {
             const double angle = (even ? 2.0 : 1.0) * 3.14159265358979323846 * texel.red / 255.0;
-            const double inverse = map->smallest_pitch() / (2.0 * texel.green / 255.0);
+            const double inverse = map->pitches().smallest / (2.0 * texel.green / 255.0);
             mean += glm::dvec4(0.5 + 0.5 * std::cos(angle), 0.5 + 0.5 * std::sin(angle), inverse, inverse * inverse);
         }
         mean /= static_cast<double>(texels.size());
@@ -325,7 +325,7 @@ TEST_F(Grooves, PlanarMapsOfAnyLobeServeAllDirections) {
             const std::string settings =
                 R"({"representation": "planar", "key_lights": 0, "map_resolution": 32, "map_at": ")";
             const CookedMaterial cooked = cook_with(grating, settings + map_at + "\"}", *map);
-            ASSERT_FALSE(groove_refusal(cooked.material, *map));
+            ASSERT_FALSE(groove_refusal(cooked.material, map->pitches()));
             if (!renderer_) show_with(cooked, map, 0.4);
             use(cooked);
             world_.add(entity_, DiffractionSurface{material_, 0.4F, map});
@@ -365,9 +365,9 @@ TEST_F(Grooves, PlanarMapsOfAnyLobeServeAllDirections) {
 TEST_F(Grooves, WhatKnowsOneDirectionOrOnePitchIsRefusedByPlace) {
     const auto map = map_of(kPatches, 2);
     const auto refusal = [&](const std::string& grating, const std::string& quality) {
-        return groove_refusal(material(grating, quality), *map).value_or(Refusal{}).key;
+        return groove_refusal(material(grating, quality), map->pitches()).value_or(Refusal{}).key;
     };
-    for (const char* name : {"spikes", "bins", "transfer", "circle"})
+    for (const char* name : {"spikes", "transfer", "circle"})
         EXPECT_EQ(refusal(kFlatFoil, R"({"representation": ")" + std::string(name) + "\"}"), "quality/representation");
     EXPECT_EQ(refusal(kFlatFoil, R"({"representation": "planar"})"), "");
     for (const char* name : {"arc", "planar"})

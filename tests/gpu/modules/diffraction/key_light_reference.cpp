@@ -5,7 +5,6 @@
 #include <numbers>
 #include <tuple>
 
-#include "modules/diffraction/representations/direct/lobe_cosine.h"
 #include "modules/diffraction/representations/direct/lobe_table.h"
 #include "tests/gpu/modules/diffraction/filter_error.h"
 

@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "engine/scene/directional_light.h"
-#include "modules/diffraction/asset/layer_weights.h"
-#include "modules/diffraction/representations/direct/pattern_light.h"
-#include "modules/diffraction/representations/planar/gpu_planar.h"
+#include "engine/scene/light.h"
+#include "modules/diffraction/asset/material.h"
+#include "modules/diffraction/representations/direct/direct.h"
+#include "modules/diffraction/runtime/gpu_planar.h"
 #include "tests/gpu/modules/diffraction/filter_error.h"
 #include "tests/gpu/modules/diffraction/grating_picture.h"
 #include "tests/gpu/render_test.h"
@@ -120,37 +120,11 @@ TEST_F(CurvedLattice, MapsForFlatMeshesAreReplacedByArc) {
     EXPECT_EQ(draw(), by_arc);
 }
 
-TEST_F(CurvedLattice, SpikesAndBinsEqualTheCpus) {
+TEST_F(CurvedLattice, SpikesEqualTheCpus) {
     const CookedMaterial spikes = cook(kCrossedFoil, R"({"representation": "spikes"})");
     show(spikes, -0.6);
     EXPECT_LT(largest_difference(draw(), table_xyz<SpikeTable>(spikes, light_.sh)), kPictureTolerance);
-    const CookedMaterial bins = cook(kCrossedFoil, R"({"representation": "bins", "view_mapping": "parabolic"})");
-    use(bins);
-    EXPECT_LT(largest_difference(draw(), table_xyz<BinTable>(bins, light_.sh)), kPictureTolerance);
     EXPECT_GT(brightest_, 0.01);
-}
-
-/// Key lights are in the map alone.
-TEST_F(CurvedLattice, StreaksEqualTheCpus) {
-    light_ = light_of(smooth_probe(), three_keys());
-    for (const char* grating : {kCrossedFoil, kCoarseScreen}) {
-        const CookedMaterial cooked = cook(grating, R"({"representation": "streak", "map_resolution": 64})");
-        if (!renderer_) show(cooked, 0.7);
-        use(cooked);
-        const auto& tables = std::get<StreakTables>(cooked.tables);
-        const StreakMap map = fill_streak_map(*light_.probe_texels, tables.map);
-        const StreakMap map_error = filter_error(map);
-        const LatticeStreak streak_error = filter_error(*tables.lattice);
-        const auto by = [&](const LatticeStreak& streak, const StreakMap& looked_up, const Point& point) {
-            return evaluate(streak, looked_up, glm::transpose(point.to_tangent), point.view);
-        };
-        EXPECT_LT(largest_difference(
-                      draw(), [&](const Point& point) { return by(*tables.lattice, map, point); },
-                      [&](const Point& point) { return by(streak_error, map_error, point); }),
-                  kPictureTolerance)
-            << grating;
-        EXPECT_GT(brightest_, 0.01);
-    }
 }
 
 TEST_F(LatticePicture, KeyLightsEqualTheCpu) {

@@ -2,9 +2,21 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <regex>
+#include <set>
+#include <string>
+
+#include "engine/render/shader_interface.h"
+#include "engine/render/surface_programs.h"
+#include "modules/diffraction/shaders/shader_files.h"
 #include "tests/gpu/lowered_limit.h"
 #include "tests/gpu/modules/diffraction/grating_picture.h"
-#include "tests/support/message_of.h"
+#include "tests/support/expect.h"
+#include "tests/support/files.h"
+#include "tests/support/grating_programs.h"
 
 namespace rowland::diffraction {
 namespace {
@@ -37,13 +49,144 @@ TEST_F(GratingLimits, LightOfMoreThanABufferHoldsIsRefused) {
 
 TEST_F(GratingLimits, AVertexStageWithoutStorageDrawsWhatNeedsNone) {
     const LoweredLimit limit(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, 0);
-    for (const char* representation : {"spikes", "bins", "transfer", "arc"})
+    for (const char* representation : {"spikes", "transfer", "arc"})
         EXPECT_THAT(refusal(representation), HasSubstr("1 storage buffers")) << representation;
     for (const char* quality :
          {R"({"representation": "direct"})", R"({"representation": "circle", "map_resolution": 8})"}) {
         use(cook(kSlitCd, quality));
         EXPECT_NO_THROW(draw()) << quality;
     }
+}
+
+/// What a fragment stage reads.
+struct StageUse {
+    int samplers = 0;
+    int components = 0;  ///< of the vertex stage's outputs
+};
+
+int property(GLuint program, GLenum interface, GLuint index, GLenum name) {
+    GLint value = 0;
+    glGetProgramResourceiv(program, interface, index, 1, &name, 1, nullptr, &value);
+    return value;
+}
+
+int components_of(GLenum type) {
+    switch (type) {
+        case GL_FLOAT:
+            return 1;
+        case GL_FLOAT_VEC2:
+            return 2;
+        case GL_FLOAT_VEC3:
+            return 3;
+        default:
+            return 4;
+    }
+}
+
+bool is_number(GLenum type) {
+    for (const GLenum number :
+         {GL_FLOAT, GL_FLOAT_VEC2, GL_FLOAT_VEC3, GL_FLOAT_VEC4, GL_INT, GL_FLOAT_MAT3, GL_FLOAT_MAT4})
+        if (type == number) return true;
+    return false;
+}
+
+std::string name_of_input(GLuint program, GLuint index) {
+    std::array<char, 128> name{};
+    glGetProgramResourceName(program, GL_PROGRAM_INPUT, index, name.size(), nullptr, name.data());
+    return name.data();
+}
+
+/// Of a stage that is linked alone, so that what it reads is known without the other.
+StageUse use_of(const std::string& text) {
+    const char* source = text.c_str();
+    const GLuint program = glCreateShaderProgramv(GL_FRAGMENT_SHADER, 1, &source);
+    StageUse use;
+    GLint inputs = 0;
+    glGetProgramInterfaceiv(program, GL_PROGRAM_INPUT, GL_ACTIVE_RESOURCES, &inputs);
+    for (GLuint i = 0; i < static_cast<GLuint>(inputs); ++i)
+        if (!name_of_input(program, i).starts_with("gl_"))
+            use.components += components_of(static_cast<GLenum>(property(program, GL_PROGRAM_INPUT, i, GL_TYPE))) *
+                              property(program, GL_PROGRAM_INPUT, i, GL_ARRAY_SIZE);
+    GLint uniforms = 0;
+    glGetProgramInterfaceiv(program, GL_UNIFORM, GL_ACTIVE_RESOURCES, &uniforms);
+    for (GLuint i = 0; i < static_cast<GLuint>(uniforms); ++i)
+        if (property(program, GL_UNIFORM, i, GL_BLOCK_INDEX) < 0 &&
+            !is_number(static_cast<GLenum>(property(program, GL_UNIFORM, i, GL_TYPE))))
+            ++use.samplers;
+    glDeleteProgram(program);
+    return use;
+}
+
+class ProgramLimits : public rowland::test::GlTest {};
+
+/// With every map, attribute and effect, with a normal map and without. OpenGL 4.5 guarantees 16 samplers in a stage
+/// and 60 components between two.
+TEST_F(ProgramLimits, TheLargestProgramsKeepToWhatOpenGlGuarantees) {
+    using namespace render::feature;
+    constexpr render::SurfaceFeatures kAllMaps =
+        kBaseColourMap | kMetallicRoughnessMap | kOcclusionMap | kEmissiveMap | (kEmissiveMap << kSecondUvShift);
+    constexpr render::SurfaceFeatures kAll = kAllMaps | kColours | kTextureTransform | kAlphaMask | kLights;
+    gpu::ShaderLibrary library;
+    library.add_embedded(render::shader_files());
+    library.add_embedded(shader_files());
+    int most_samplers = 0;
+    int most_components = 0;
+    for (const rowland::test::GratingProgram& program : rowland::test::grating_programs())
+        for (const rowland::test::Defines& lights : rowland::test::grating_lights())
+            for (const render::SurfaceFeatures normals : {kNormalMap, 0U}) {
+                if (!rowland::test::exists(program, lights)) continue;
+                gpu::ProgramDesc desc{.vertex = "modules/diffraction/shaders/grating.vert.glsl",
+                                      .fragment = "modules/diffraction/shaders/grating.frag.glsl",
+                                      .defines = program.defines};
+                desc.defines.insert(desc.defines.end(), lights.begin(), lights.end());
+                desc.defines.emplace_back("AMBIENT_AT_VERTICES", "1");
+                if (program.name == "circle") desc.defines.emplace_back("MATERIAL_CURVED_MIRROR", "1");
+                desc.defines.emplace_back(render::kMaterialSamplers, std::to_string(program.samplers));
+                render::add_defines(kAll | normals, desc);
+                const gpu::ShaderText fragment = library.assemble(desc.fragment, desc.defines);
+                EXPECT_NO_THROW(gpu::Program(library.assemble(desc.vertex, desc.defines), fragment)) << program.name;
+                const StageUse use = use_of(fragment.text);
+                EXPECT_LE(use.samplers, render::fragment_samplers(desc)) << program.name;
+                EXPECT_LE(use.samplers, render::kGuaranteedSamplers) << program.name;
+                EXPECT_LE(use.components, 60) << program.name;
+                most_samplers = std::max(most_samplers, use.samplers);
+                most_components = std::max(most_components, use.components);
+            }
+    EXPECT_GE(most_samplers, 15);  // the counts are not of empty programs
+    EXPECT_GE(most_components, 50);
+}
+
+/// Words in capitals of the lines that `keep` takes.
+std::set<std::string> macros_of(const std::filesystem::path& file,
+                                const std::function<bool(const std::string&)>& keep) {
+    static const std::regex kMacro(R"(\b[A-Z][A-Z0-9_]+\b)");
+    std::set<std::string> macros;
+    std::ifstream text(file);
+    for (std::string line; std::getline(text, line);)
+        if (keep(line))
+            for (auto it = std::sregex_iterator(line.begin(), line.end(), kMacro); it != std::sregex_iterator(); ++it)
+                macros.insert(it->str());
+    return macros;
+}
+
+TEST(ShaderDefines, EachThatAConditionReadsIsInThePages) {
+    std::set<std::string> known;
+    for (const char* page : {"engine/render/shaders/README.md", "modules/diffraction/shaders/README.md"})
+        known.merge(macros_of(rowland::test::source_path(page), [](const std::string&) { return true; }));
+    std::size_t read = 0;
+    for (const char* folder :
+         {"engine/render/shaders", "modules/diffraction/shaders", "modules/diffraction/representations"})
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(rowland::test::source_path(folder))) {
+            if (entry.path().extension() != ".glsl") continue;
+            const auto is_condition = [](const std::string& line) {
+                return line.starts_with("#if") || line.starts_with("#elif");
+            };
+            for (const std::string& macro : macros_of(entry.path(), is_condition)) {
+                EXPECT_TRUE(known.contains(macro) || macro.starts_with("FILM_")) << entry.path() << ": " << macro;
+                ++read;
+            }
+        }
+    EXPECT_GT(read, 50U);
 }
 
 }  // namespace

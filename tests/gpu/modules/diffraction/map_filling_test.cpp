@@ -1,5 +1,5 @@
 // When maps are filled, and which is shown meanwhile.
-#include "modules/diffraction/runtime/map_filling.h"
+#include "modules/diffraction/runtime/gpu_map.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // A flat grating's map: against the CPU's, and when it is filled.
 #include <gtest/gtest.h>
 
-#include "modules/diffraction/representations/planar/gpu_planar.h"
+#include "modules/diffraction/runtime/gpu_planar.h"
 #include "tests/gpu/modules/diffraction/filter_error.h"
 #include "tests/gpu/modules/diffraction/grating_picture.h"
 
@@ -80,9 +80,6 @@ TEST_F(Planar, KeyLightsComeOnTop) {
 /// Without analytic lights the map holds the whole probe, and nothing is added to it.
 TEST_F(Planar, KeyLightsMayStayInTheMap) {
     light_ = light_of(smooth_probe(), three_keys());
-    light_.probe_texels = light_.texels;
-    light_.texels = std::make_shared<const lighting::LightSamples>();
-    light_.probe_sh = light_.residual;
     const CookedMaterial cooked =
         cook(kSlitCd, R"({"representation": "planar", "map_resolution": 64, "key_lights": 0})");
     show(cooked, -0.3);

@@ -11,14 +11,14 @@
 #include <vector>
 
 #include "engine/core/json_reader.h"
-#include "engine/math/sh_rotation.h"
+#include "engine/math/spherical_harmonics.h"
 #include "engine/render/gpu_mesh.h"
 #include "engine/render/renderer.h"
 #include "engine/scene/transform.h"
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/module.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
-#include "modules/diffraction/runtime/tangent_light.h"
+#include "modules/diffraction/runtime/vertex_light.h"
 #include "tests/gpu/gl_test.h"
 
 namespace rowland::diffraction {

@@ -8,17 +8,17 @@
 #include <optional>
 #include <random>
 
-#include "engine/gpu/debug.h"
-#include "engine/math/sh_rotation.h"
-#include "engine/platform/headless_context.h"
+#include "engine/gpu/context.h"
+#include "engine/math/spherical_harmonics.h"
+#include "engine/platform/gl_context.h"
 #include "engine/render/gpu_mesh.h"
 #include "engine/render/renderer.h"
-#include "engine/scene/directional_light.h"
+#include "engine/scene/light.h"
 #include "engine/scene/transform.h"
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/module.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
-#include "modules/diffraction/runtime/tangent_light.h"
+#include "modules/diffraction/runtime/vertex_light.h"
 #include "tests/gpu/modules/diffraction/cook_grating.h"
 #include "tests/support/eight_bit_filtering.h"
 

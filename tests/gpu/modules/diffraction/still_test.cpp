@@ -1,7 +1,7 @@
 // A picture that is shown instead of a representation.
-#include "modules/diffraction/runtime/gpu_still.h"
+#include "modules/diffraction/runtime/gpu_material.h"
 
-#include "modules/diffraction/asset/material_json.h"
+#include "modules/diffraction/asset/material.h"
 #include "modules/diffraction/module.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
 #include "tests/gpu/render_test.h"

@@ -1,7 +1,7 @@
 // Streaks on the GPU against the CPU's evaluation, and when their map is filled.
 #include <gtest/gtest.h>
 
-#include "modules/diffraction/representations/streak/gpu_streak.h"
+#include "modules/diffraction/runtime/gpu_streak.h"
 #include "tests/gpu/modules/diffraction/filter_error.h"
 #include "tests/gpu/modules/diffraction/grating_picture.h"
 
@@ -51,12 +51,12 @@ class StreakSurface : public GratingPicture {
     }
     /// What the streak leaves of pits, and key lights by the lobe of that.
     std::function<glm::dvec3(const Point&)> rest(const CookedMaterial& cooked) {
-        const ArcTable& table = tables(cooked).rest.value();
+        const ArcTable& table = tables(cooked).incoherent.value();
         std::vector<std::vector<glm::dvec3>> products;
         for (std::size_t vertex = 0; vertex < 3; ++vertex)
             products.push_back(light_products(table, vertex_light(vertex, light_.residual, table.bands).coefficients));
         CookedMaterial incoherent = cooked;
-        incoherent.material.grating = incoherent_rest(cooked.material.grating).value();
+        incoherent.material.grating = incoherent_part(cooked.material.grating).value();
         return [this, products, &table, incoherent](const Point& point) {
             std::vector<glm::dvec3> mixed;
             for (std::size_t r = 0; r < products[0].size(); ++r)

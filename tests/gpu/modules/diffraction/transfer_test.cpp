@@ -43,18 +43,6 @@ TEST_F(VertexShading, TransferTakesKeyLightsWhereItIsTold) {
     EXPECT_GT(largest_difference(draw(), rest), 0.1);
 }
 
-TEST_F(VertexShading, BinsEqualTheCpu) {
-    const char* const qualities[] = {R"({"representation": "bins", "bins": 12})",
-                                     R"({"representation": "bins", "bands": 3, "view_mapping": "one-dimensional"})"};
-    for (const char* quality : qualities) {
-        const CookedMaterial cooked = cook(kBlazed, quality);
-        if (!renderer_) show(cooked, 1.1);
-        use(cooked);
-        EXPECT_LT(largest_difference(draw(), table_xyz<BinTable>(cooked, light_.sh)), kPictureTolerance) << quality;
-        EXPECT_GT(brightest_, 0.01);
-    }
-}
-
 TEST_F(VertexShading, SpikesEqualTheCpuForTurnedGroovesAndOtherMappings) {
     const char* const qualities[] = {
         R"({"representation": "spikes"})", R"({"representation": "spikes", "view_mapping": "parabolic"})",

@@ -7,10 +7,9 @@
 #include <vector>
 
 #include "engine/lighting/light_probe.h"
-#include "engine/scene/directional_light.h"
-#include "engine/scene/punctual_light.h"
+#include "engine/scene/light.h"
 #include "modules/diffraction/asset/cooked_material.h"
-#include "modules/diffraction/asset/material_json.h"
+#include "modules/diffraction/asset/material.h"
 #include "modules/diffraction/module.h"
 #include "tests/gpu/modules/diffraction/upload_log.h"
 #include "tests/gpu/render_test.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/scene/directional_light.h"
+#include "engine/scene/light.h"
 #include "tests/gpu/modules/diffraction/grating_picture.h"
 
 namespace rowland::diffraction {
@@ -39,7 +39,6 @@ class WorkingSpace : public GratingPicture {
 TEST_F(WorkingSpace, EveryRepresentationDrawsInIt) {
     const std::pair<const char*, const char*> materials[] = {
         {kSlitCd, R"({"representation": "spikes"})"},
-        {kSlitCd, R"({"representation": "bins"})"},
         {kSlitCd, R"({"representation": "transfer"})"},
         {kSlitCd, R"({"representation": "arc", "lights_at": "vertices"})"},
         {kSlitCd, R"({"representation": "planar", "map_resolution": 32})"},

@@ -5,16 +5,18 @@
 #include "modules/thin_film/module.h"
 #include "modules/thin_film/runtime/film_surface.h"
 #include "tests/gpu/render_test.h"
-#include "tests/support/message_of.h"
+#include "tests/support/expect.h"
 
 namespace rowland::thin_film {
 namespace {
+
+constexpr const char* kPointer = "/materials/0/extensions/KHR_materials_iridescence";
 
 class GltfFilm : public rowland::test::RenderTest {
  protected:
     GltfFilm() { renderer_.set_probe(even_light(1.0F)); }
 
-    /// One square with a material of these extensions, and a texture of two texels side by side.
+    /// One square with a cooked material of these extensions, and a texture of two texels side by side.
     scene::ImportedScene scene_with(const nlohmann::json& extensions, scene::AlphaMode alpha_mode) const {
         scene::ImportedScene scene;
         scene.meshes = {square()};
@@ -33,6 +35,11 @@ class GltfFilm : public rowland::test::RenderTest {
         material.metallic = 0.0F;
         material.roughness = 0.0F;
         for (const auto& [name, value] : extensions.items()) material.extensions[name] = value;
+        if (const auto found = material.extensions.find(kIridescenceExtension); found != material.extensions.end())
+            if (const auto film = film_material(parse_gltf_iridescence(found->second, "scene.gltf", kPointer), material,
+                                                "scene.gltf", kPointer))
+                material.tables[kIridescenceExtension] =
+                    std::make_shared<const std::vector<std::byte>>(write_gltf_film(*film, bake_film(*film)));
         scene.materials = {material};
         scene.instances = {{.name = "square", .mesh = 0, .material = 0, .node = 0, .skin = {}}};
         return scene;

@@ -4,15 +4,15 @@
 #include <array>
 #include <utility>
 
+#include "engine/lighting/environment_map.h"
 #include "engine/lighting/light_samples.h"
-#include "engine/lighting/prefilter.h"
 #include "modules/thin_film/evaluate/drawn_film.h"
 #include "modules/thin_film/module.h"
-#include "modules/thin_film/reference/rough_reference.h"
+#include "modules/thin_film/reference/film_reference.h"
 #include "modules/thin_film/runtime/film_surface.h"
 #include "tests/gpu/render_test.h"
-#include "tests/support/facings.h"
-#include "tests/support/test_data.h"
+#include "tests/support/files.h"
+#include "tests/support/light.h"
 
 namespace rowland::thin_film {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "engine/core/file.h"
-#include "tests/support/message_of.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/expect.h"
+#include "tests/support/files.h"
 
 namespace rowland::demo {
 namespace {

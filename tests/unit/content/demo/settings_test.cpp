@@ -4,13 +4,13 @@
 #include <filesystem>
 #include <vector>
 
-#include "content/demo/play/hierarchy.h"
+#include "content/demo/play/body.h"
 #include "content/demo/session.h"
+#include "engine/cook/cook_source.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
-#include "engine/platform/headless_context.h"
-#include "tests/support/source_tree.h"
-#include "tests/support/temporary_folder.h"
+#include "engine/platform/gl_context.h"
+#include "tests/support/files.h"
 
 namespace rowland::demo {
 namespace {
@@ -20,7 +20,7 @@ class DemoSettings : public ::testing::Test {
     DemoSettings() {
         options_.watch = false;
         options_.cooked_folder = std::filesystem::path(ROWLAND_DEMO).parent_path().parent_path() / "cooked";
-        options_.scene = options_.cooked_folder / "cabinet.glb";
+        options_.scene = options_.cooked_folder / "cabinet.scene";
         session_.emplace(options_, config_, glm::ivec2(64, 36), glm::ivec2(64, 36), Pace::Fluent);
     }
     /// Through a step of the play, as from a panel or a recording.
@@ -36,6 +36,14 @@ class DemoSettings : public ::testing::Test {
     post::OcioConfig config_ = post::OcioConfig::choose(std::nullopt);
     std::optional<Session> session_;
 };
+
+/// What the demo ships is cooked by the build.
+TEST_F(DemoSettings, AStartBakesNothing) {
+    const std::uint64_t before = cook::sources_baked();
+    session_.reset();
+    session_.emplace(options_, config_, glm::ivec2(64, 36), glm::ivec2(64, 36), Pace::Fluent);
+    EXPECT_EQ(cook::sources_baked(), before);
+}
 
 TEST_F(DemoSettings, NumbersAreTaken) {
     set({Setting::Exposure, -1.25});

@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "engine/core/file.h"
+#include "tests/support/files.h"
 #include "tests/support/program.h"
-#include "tests/support/source_tree.h"
-#include "tests/support/temporary_folder.h"
 
 namespace rowland {
 namespace {
@@ -79,7 +78,7 @@ TEST_F(Attach, ReplacesTheSceneAndListShowsIt) {
     OrderedJson expected = OrderedJson::parse(read_text_file(dvd, kMost));
     expected.erase("base");
     EXPECT_EQ(material(0)["extensions"][kExtension], expected) << "the material's own surface is under the grating";
-    EXPECT_THAT(text(), HasSubstr(R"({ "name": "Paint", "extras": { "a": 1.0e0 } },)"));
+    EXPECT_EQ(material(1), OrderedJson::parse(R"({"name": "Paint", "extras": {"a": 1.0}})"));
     EXPECT_EQ(list(),
               "material\tname\tattached\tmeshes\n"
               "#0\tChrome\t740 nm lamellar\tbody, wheel\n"
@@ -90,7 +89,7 @@ TEST_F(Attach, ReplacesTheSceneAndListShowsIt) {
     EXPECT_EQ(attach({"--material", "Chrome", dvd}).code, 0);
     EXPECT_EQ(text(), once) << "again, as a build does";
     EXPECT_EQ(attach({"--remove", "Chrome"}).code, 0);
-    EXPECT_EQ(text(), kScene);
+    EXPECT_EQ(OrderedJson::parse(text()), OrderedJson::parse(kScene)) << "in the order of its members";
     write("SCENE.GLTF", kScene);
     EXPECT_EQ(attach({"--material", "Chrome", dvd}, "SCENE.GLTF").code, 0);
 }
@@ -196,7 +195,7 @@ TEST_F(Attach, LargeFilesTakeLittleMoreThanTheirSize) {
     EXPECT_EQ(ended.code, 0) << ended.err;
     EXPECT_LT(ended.peak_bytes, 400'000'000U);
     const std::string now = read_text_file(path("large.glb"), std::uint64_t{1} << 30);
-    ASSERT_GT(now.size(), glb.size());
+    EXPECT_NE(now.find(kExtension), std::string::npos);
     EXPECT_TRUE(std::string_view(now).ends_with(std::string_view(glb).substr(begin)));
 }
 

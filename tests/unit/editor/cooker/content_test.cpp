@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "engine/core/file.h"
+#include "tests/support/files.h"
 #include "tests/support/program.h"
-#include "tests/support/source_tree.h"
-#include "tests/support/temporary_folder.h"
 
 namespace rowland {
 namespace {

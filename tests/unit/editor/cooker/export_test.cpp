@@ -14,16 +14,14 @@
 #include <vector>
 
 #include "engine/core/file.h"
-#include "engine/math/sh_basis.h"
+#include "engine/math/spherical_harmonics.h"
 #include "modules/diffraction/asset/cooked_material.h"
-#include "modules/diffraction/asset/material_json.h"
-#include "modules/diffraction/asset/method.h"
+#include "modules/diffraction/asset/material.h"
+#include "modules/diffraction/asset/quality.h"
 #include "modules/diffraction/evaluate/point_shader.h"
+#include "tests/support/files.h"
 #include "tests/support/json_schema.h"
 #include "tests/support/program.h"
-#include "tests/support/source_tree.h"
-#include "tests/support/temporary_folder.h"
-#include "tests/support/test_data.h"
 
 namespace rowland {
 namespace {
@@ -250,8 +248,8 @@ glm::dvec3 from_lobe(const Export& document, const std::vector<float>& kernel, c
     return xyz;
 }
 
-// Key lights as `direct` shades them are approximations of lobes (PHYSICS §11): 2 % for the widest there are, as these
-// four.
+// Key lights as `direct` shades them are approximations of lobes (MEASUREMENTS §11): 2 % for the widest there are, as
+// these four.
 TEST(Export, KeyLightsAndTheKernelShadeAsTheDirectRepresentationDoes) {
     ROWLAND_TEST_DATA(probe, "probes/venice_sunset_256.hdr");
     const Export document(kCd, {"--probe", probe, "--key-lights", "4"});

@@ -12,8 +12,8 @@
 #include "editor/cooker/job_plan.h"
 #include "editor/cooker/run_jobs.h"
 #include "engine/core/file.h"
+#include "tests/support/files.h"
 #include "tests/support/program.h"
-#include "tests/support/temporary_folder.h"
 #include "tests/unit/engine/cook/tile_type.h"
 
 namespace rowland::editor {

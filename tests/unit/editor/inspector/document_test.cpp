@@ -1,23 +1,16 @@
 #include "editor/inspector/document.h"
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <chrono>
-#include <csignal>
 #include <filesystem>
 #include <string>
-#include <thread>
 #include <utility>
 
 #include "engine/core/error.h"
 #include "engine/core/file.h"
-#include "modules/diffraction/asset/material_json.h"
-#include "tests/support/message_of.h"
-#include "tests/support/source_tree.h"
-#include "tests/support/temporary_folder.h"
+#include "modules/diffraction/asset/material.h"
+#include "tests/support/expect.h"
+#include "tests/support/files.h"
 
 namespace rowland::inspector {
 namespace {
@@ -122,16 +115,9 @@ TEST_F(DocumentTest, EveryEditIsTakenBackInTurn) {
     for (int i = 0; i < 3; ++i) document.redo();
     EXPECT_EQ(document.json(), end);
     EXPECT_FALSE(document.can_redo());
-}
-
-TEST_F(DocumentTest, AnEditEndsWhatCouldBeRedone) {
-    Document document = opened();
-    document.set_value(pitch(), 900);
     document.undo();
     document.set_value(pitch(), 1000);
-    EXPECT_FALSE(document.can_redo());
-    document.undo();
-    EXPECT_EQ(document.material().grating.pitch_nm, 1600.0);
+    EXPECT_FALSE(document.can_redo()) << "an edit drops the undone steps";
 }
 
 TEST_F(DocumentTest, ADragIsOneStep) {
@@ -196,20 +182,12 @@ TEST_F(DocumentTest, PresetsAreNeverWrittenOver) {
     Document document = Document::open_as_new(kMaterials / "cd.json");
     EXPECT_TRUE(document.dirty());
     EXPECT_THAT(test::message_of([&] { document.save(); }), HasSubstr("under a name"));
-    document.save_as(path("mine.json"));
+    document.save_as(path("min\xe9.json"));  // not UTF-8
     EXPECT_FALSE(document.dirty());
-    EXPECT_EQ(document.path(), path("mine.json"));
+    EXPECT_EQ(document.path(), path("min\xe9.json"));
     document.set_value(pitch(), 740);
     document.save();
-    EXPECT_EQ(diffraction::load_material(path("mine.json")).grating.pitch_nm, 740.0);
-}
-
-TEST_F(DocumentTest, EveryPresetIsASaneMaterial) {
-    for (const char* name :
-         {"cd", "cd_r", "dvd", "blu_ray", "ruled_600", "ruled_1200", "holographic_foil", "vinyl", "cd_paper"}) {
-        const Document document = Document::open_as_new(kMaterials / (std::string(name) + ".json"));
-        EXPECT_GT(document.material().grating.pitch_nm, 0.0) << name;
-    }
+    EXPECT_EQ(diffraction::load_material(path("min\xe9.json")).grating.pitch_nm, 740.0);
 }
 
 TEST_F(DocumentTest, FilesThatAMaterialNamesAreFoundFromItsNewFolder) {
@@ -231,22 +209,6 @@ TEST_F(DocumentTest, AFileThatCannotBeWrittenLosesNothing) {
     EXPECT_TRUE(document.dirty());
     document.save();
     EXPECT_FALSE(document.dirty());
-}
-
-TEST_F(DocumentTest, HugeCorruptAndMissingFilesAreRefused) {
-    write_file_atomic(path("huge.json"), std::string(40 << 20, ' '));
-    EXPECT_THAT(test::message_of([&] { Document::open(path("huge.json")); }), HasSubstr("41943040 bytes"));
-    write_file_atomic(path("corrupt.json"), "{\"grating\": {\"pitch_nm\": 16");
-    EXPECT_THAT(test::message_of([&] { Document::open(path("corrupt.json")); }), HasSubstr("corrupt.json"));
-    EXPECT_THAT(test::message_of([&] { Document::open(path("none.json")); }), HasSubstr("none.json"));
-    write_file_atomic(path("\xff\xfe.json"), "[]");
-    EXPECT_THAT(test::message_of([&] { Document::open(path("\xff\xfe.json")); }), HasSubstr(".json"));
-}
-
-TEST_F(DocumentTest, ANameThatIsNotUtf8IsSavedTo) {
-    Document document = opened();
-    document.save_as(path("caf\xe9.json"));
-    EXPECT_EQ(Document::open(path("caf\xe9.json")).json(), document.json());
 }
 
 TEST_F(DocumentTest, AMaterialMovedSoThatJsonCannotNameItsFilesIsNotSaved) {
@@ -285,34 +247,6 @@ TEST_F(DocumentTest, EditsAreRescuedIfTheFolderWasRemoved) {
     EXPECT_EQ(document.rescue(), path("temporary/cd.unsaved.json"));
     ::unsetenv("TMPDIR");
     EXPECT_EQ(Document::open(path("temporary/cd.unsaved.json")).json(), document.json());
-}
-
-// A child process saves two materials alternately and is killed at some moment; the file is then one of the two.
-TEST_F(DocumentTest, KilledWhileSavingItLeavesTheOldOrTheNewFile) {
-    opened();
-    const auto save_for_ever = [&] {
-        Document document = Document::open(path("cd.json"));
-        for (int i = 0;; ++i) {
-            document.set_value(pitch(), i % 2 == 0 ? 1700 : 1600);
-            document.finish_edit();
-            document.save();
-        }
-    };
-    int changed = 0;
-    for (int round = 0; round < 20; ++round) {
-        const pid_t child = ::fork();
-        if (child == 0) {
-            save_for_ever();
-            ::_exit(0);
-        }
-        std::this_thread::sleep_for(std::chrono::milliseconds(20 + 3 * round));
-        ::kill(child, SIGKILL);
-        ::waitpid(child, nullptr, 0);
-        const double left = diffraction::load_material(path("cd.json")).grating.pitch_nm;
-        EXPECT_TRUE(left == 1600.0 || left == 1700.0) << left;
-        changed += left == 1700.0 ? 1 : 0;
-    }
-    EXPECT_GT(changed, 0);  // the children did save
 }
 
 }  // namespace

@@ -2,12 +2,16 @@
 
 #include <gmock/gmock.h>
 
+#include <filesystem>
 #include <set>
+#include <string>
 
 #include "engine/core/error.h"
 #include "engine/core/file.h"
-#include "modules/diffraction/asset/material_json.h"
-#include "tests/support/source_tree.h"
+#include "modules/asset_types.h"
+#include "modules/diffraction/asset/material.h"
+#include "tests/support/expect.h"
+#include "tests/support/files.h"
 
 namespace rowland::inspector {
 namespace {
@@ -65,22 +69,20 @@ TEST(Fields, AMaterialShowsOneFieldOfAPointer) {
     }
 }
 
-// The schema lists what a material may hold; whoever adds a member there must tell the inspector of it.
+// The schema lists what a material may hold; whoever adds a member must tell the inspector of it.
 TEST(Fields, EveryMemberOfTheSchemaHasAField) {
-    const Json schema =
-        Json::parse(read_text_file(test::source_path("modules/diffraction/asset/material.schema.json"), 1 << 20));
+    const Json members = modules::asset_types()->find("material")->schema()["properties"];
     const auto has_field = [](const std::string& pointer) {
         return std::ranges::any_of(fields(), [&](const Field& field) { return field.pointer == pointer; });
     };
-    for (const auto& [name, part] : schema["$defs"]["grating"]["properties"].items())
-        EXPECT_TRUE(has_field("/grating/" + name)) << name;
-    for (const auto& [name, part] : schema["$defs"]["lattice_grating"]["properties"].items())
-        EXPECT_TRUE(has_field("/grating/" + name) || name == "lattice") << name;
+    for (const Json& grating : members["grating"]["oneOf"])
+        for (const auto& [name, part] : grating["properties"].items())
+            EXPECT_TRUE(has_field("/grating/" + name) || name == "lattice") << name;
     for (const char* name : {"/grating/lattice/a_nm", "/grating/lattice/b_nm", "/metal", "/quality"})
         EXPECT_TRUE(has_field(name)) << name;
-    EXPECT_EQ(schema["properties"].size(), 6U);  // those, the grating and these
+    EXPECT_EQ(members.size(), 6U);  // those, the grating and these
     for (const std::string of : {"base", "cover", "transmission"})
-        for (const auto& [name, part] : schema["$defs"][of]["properties"].items())
+        for (const auto& [name, part] : members[of]["properties"].items())
             EXPECT_TRUE(has_field("/" + of + "/" + name)) << name;
 }
 
@@ -195,6 +197,39 @@ TEST(Fields, LinesPerMillimetreAreAPitchOfWholePicometres) {
     EXPECT_EQ(pitch_of_lines(600.0), 1666.667);
     EXPECT_EQ(pitch_of_lines(1200.0), 833.333);
     EXPECT_NEAR(lines_per_mm(pitch_of_lines(1200.0)), 1200.0, 1200.0 * 0.5e-3 / 833.0);  // half a picometre
+}
+
+TEST(OrderedJson, ShippedMaterialsAreWrittenAsTheyWereRead) {
+    int files = 0;
+    const std::filesystem::path folder = test::content_path("materials");
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        if (entry.path().extension() != ".json") continue;
+        const std::string text = read_text_file(entry.path(), 1 << 20);
+        EXPECT_EQ(format_json(parse_ordered(text, entry.path().string())), text) << entry.path();
+        ++files;
+    }
+    EXPECT_GE(files, 8);
+}
+
+TEST(OrderedJson, KeysKeepTheOrderOfTheFile) {
+    EXPECT_EQ(format_json(parse_ordered(R"({"z":1,"a":{"y":2,"b":[3,4]}})", "m.json")),
+              "{\n  \"z\": 1,\n  \"a\": { \"y\": 2, \"b\": [3, 4] }\n}\n");
+}
+
+TEST(OrderedJson, WhatWouldBeTooWideIsBroken) {
+    Json wide;
+    for (int i = 0; i < 40; ++i) wide["list"].push_back(1000 + i);
+    const std::string text = format_json(wide);
+    EXPECT_THAT(text, testing::HasSubstr("[\n    1000,\n    1001,"));
+    EXPECT_EQ(Json::parse(text), wide);
+}
+
+TEST(OrderedJson, HostileTextIsRefusedWithItsPlace) {
+    EXPECT_THAT(test::message_of([] { parse_ordered("{\"a\": 1,\n  b}", "m.json"); }),
+                testing::AllOf(testing::HasSubstr("m.json"), testing::HasSubstr("line 2")));
+    EXPECT_THAT(test::message_of([] { parse_ordered(std::string(20000, '['), "m.json"); }),
+                testing::HasSubstr("nested too deep"));
+    EXPECT_THAT(test::message_of([] { parse_ordered("{\"a\": \"\xff\"}", "m.json"); }), testing::HasSubstr("m.json"));
 }
 
 }  // namespace

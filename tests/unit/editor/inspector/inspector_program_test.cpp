@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <sys/wait.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <glm/mat4x4.hpp>
@@ -9,12 +9,11 @@
 
 #include "editor/inspector/pick_point.h"
 #include "editor/inspector/preview.h"
-#include "editor/inspector/preview_shape.h"
 #include "engine/core/file.h"
 #include "engine/image/byte_image.h"
 #include "engine/scene/transform.h"
-#include "tests/support/source_tree.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
+#include "tests/support/program.h"
 
 namespace rowland::inspector {
 namespace {
@@ -23,21 +22,14 @@ using testing::HasSubstr;
 
 const std::string kContent = test::source_path("content").string();
 
-struct Finished {
-    int exit_code = -1;
-    std::string output;
-    std::string messages;
-};
-
 class InspectorProgram : public testing::Test {
  protected:
-    Finished run(const std::string& program, const std::string& arguments) const {
-        const std::string command = fmt::format("'{}' {} >'{}' 2>'{}'", program, arguments, path("out"), path("err"));
-        const int status = std::system(command.c_str());
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text_file(path("out"), 1 << 20),
-                read_text_file(path("err"), 1 << 20)};
+    /// Runs a program; `arguments` as in a shell.
+    test::Ended run(const std::string& program, const std::string& arguments) const {
+        return test::run({"/bin/sh", "-c", fmt::format("exec '{}' {}", program, arguments)},
+                         {.limit = std::chrono::seconds(400)});
     }
-    Finished inspect(const std::string& arguments) const {
+    test::Ended inspect(const std::string& arguments) const {
         return run(ROWLAND_INSPECTOR, "--layout " + path("none.json") + " " + arguments);
     }
     std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
@@ -46,9 +38,9 @@ class InspectorProgram : public testing::Test {
 };
 
 TEST_F(InspectorProgram, HelpShowsAnExampleAndTheKeys) {
-    const Finished help = inspect("--help");
-    EXPECT_EQ(help.exit_code, 0);
-    EXPECT_THAT(help.output, testing::AllOf(HasSubstr("example:"), HasSubstr("--capture"), HasSubstr("Ctrl+Z")));
+    const test::Ended help = inspect("--help");
+    EXPECT_EQ(help.code, 0);
+    EXPECT_THAT(help.out, testing::AllOf(HasSubstr("example:"), HasSubstr("--capture"), HasSubstr("Ctrl+Z")));
 }
 
 TEST_F(InspectorProgram, WhatCannotBeOpenedIsRefusedByName) {
@@ -57,26 +49,26 @@ TEST_F(InspectorProgram, WhatCannotBeOpenedIsRefusedByName) {
     write_file_atomic(path("bad.glb"), "glTF");
     write_file_atomic(path("caf\xe9.json"), "[1]");
     for (const char* name : {"corrupt.json", "huge.json", "bad.glb", "missing.json", "caf\xe9.json"}) {
-        const Finished refused = inspect(fmt::format("'{}' --capture '{}'", path(name), path("x.png")));
-        EXPECT_EQ(refused.exit_code, 2) << name << ": " << refused.messages;
-        EXPECT_THAT(refused.messages, HasSubstr(name));
+        const test::Ended refused = inspect(fmt::format("'{}' --capture '{}'", path(name), path("x.png")));
+        EXPECT_EQ(refused.code, 2) << name << ": " << refused.err;
+        EXPECT_THAT(refused.err, HasSubstr(name));
         EXPECT_FALSE(std::filesystem::exists(path("x.png")));
     }
 }
 
 TEST_F(InspectorProgram, AMissingProbeIsRefusedByName) {
-    const Finished refused = inspect(fmt::format("--probe '{}' --capture '{}'", path("none.hdr"), path("x.png")));
-    EXPECT_EQ(refused.exit_code, 2);
-    EXPECT_THAT(refused.messages, HasSubstr("none.hdr"));
+    const test::Ended refused = inspect(fmt::format("--probe '{}' --capture '{}'", path("none.hdr"), path("x.png")));
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_THAT(refused.err, HasSubstr("none.hdr"));
     EXPECT_FALSE(std::filesystem::exists(path("x.png")));
 }
 
 TEST_F(InspectorProgram, BadUsageIsRefused) {
     for (const char* usage : {"--size 12", "--size 100x100", "--size 1280x99999999999", "--size nanx800",
                               "--shape teapot", "--scale 9", "--scale nan", "--scale inf", "--nonsense"}) {
-        const Finished refused = inspect(usage);
-        EXPECT_EQ(refused.exit_code, 2) << usage;
-        EXPECT_THAT(refused.messages, HasSubstr("--help"));
+        const test::Ended refused = inspect(usage);
+        EXPECT_EQ(refused.code, 2) << usage;
+        EXPECT_THAT(refused.err, HasSubstr("--help"));
     }
 }
 
@@ -87,8 +79,8 @@ TEST_F(InspectorProgram, OutputsAreCheckedBeforeWork) {
          {"--capture '" + path("a.jpg") + "'", std::string("--capture /dev/full"),
           std::string("--capture /proc/nowhere/a.png"), fmt::format("--capture '{0}' --controls '{0}'", path("a.png")),
           fmt::format("--controls '{}'", path("mine.json")), fmt::format("--layout '{}'", path("mine.json"))}) {
-        const Finished refused = run(ROWLAND_INSPECTOR, fmt::format("'{}' {}", path("mine.json"), outputs));
-        EXPECT_EQ(refused.exit_code, 2) << outputs << ": " << refused.messages;
+        const test::Ended refused = run(ROWLAND_INSPECTOR, fmt::format("'{}' {}", path("mine.json"), outputs));
+        EXPECT_EQ(refused.code, 2) << outputs << ": " << refused.err;
         EXPECT_EQ(read_text_file(path("mine.json"), 1 << 10), material);
     }
 }
@@ -116,15 +108,15 @@ TEST_F(InspectorProgram, ThePreviewsPixelsAreTheDemos) {
     constexpr glm::ivec2 kSize(320, 320);
     const std::string material = kContent + "/materials/cd.json";
     const std::string probe = kContent + "/probes/studio.json";
-    const Finished demo = run(
+    const test::Ended demo = run(
         ROWLAND_DEMO, fmt::format("--disc --headless --no-ambient-occlusion --no-soft-shadows --no-local-reflections "
                                   "--material '{}' --probe '{}' --width {} --height {} --capture '{}'",
                                   material, probe, kSize.x, kSize.y, path("demo.png")));
-    ASSERT_EQ(demo.exit_code, 0) << demo.messages;
-    const Finished preview =
+    ASSERT_EQ(demo.code, 0) << demo.err;
+    const test::Ended preview =
         inspect(fmt::format("'{}' --probe '{}' --shape disc --size {}x{} --preview-only --capture '{}'", material,
                             probe, kSize.x, kSize.y, path("preview.png")));
-    ASSERT_EQ(preview.exit_code, 0) << preview.messages;
+    ASSERT_EQ(preview.code, 0) << preview.err;
 
     const image::ByteImage one = read_picture(path("demo.png"));
     const image::ByteImage other = read_picture(path("preview.png"));

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "editor/inspector/preview_shape.h"
+#include "editor/inspector/preview.h"
 
 namespace rowland::inspector {
 namespace {
@@ -60,6 +60,48 @@ TEST(PreviewShapes, AModelIsFitted) {
     const scene::Bounds box{.minimum = {970.0F, -15.0F, -15.0F}, .maximum = {1000.0F, 15.0F, 15.0F}};
     EXPECT_NEAR(30.0F * fitting_scale(box), 0.116F, 1e-6F);
     EXPECT_EQ(fitting_scale({}), 1.0F);
+}
+
+constexpr float kAspect = 1.5F;
+
+TEST(LampHandle, DraggedToWhereItIsTheLampStays) {
+    for (const float azimuth : {-120.0F, -40.0F, 0.0F, 35.0F, 170.0F})
+        for (const float elevation : {0.0F, 20.0F, 50.0F, 85.0F}) {
+            Stage stage{.lamp_azimuth_deg = azimuth, .lamp_elevation_deg = elevation};
+            const LampHandle handle = lamp_handle(opening_camera(), kAspect, stage);
+            const glm::vec3 before = lamp_direction(stage);
+            drag_lamp(stage, opening_camera(), kAspect, handle.position, handle.behind);
+            // Near the rim the sphere is seen at a grazing angle, where floats of the picture are coarse.
+            EXPECT_LT(glm::distance(lamp_direction(stage), before), 0.01F) << azimuth << ", " << elevation;
+        }
+}
+
+TEST(LampHandle, FollowsTheMouseInsideTheRim) {
+    Stage stage;
+    for (const glm::vec2 at : {glm::vec2(0.5F, 0.3F), {0.6F, 0.35F}, {0.42F, 0.2F}}) {
+        drag_lamp(stage, opening_camera(), kAspect, at, false);
+        EXPECT_LT(glm::distance(lamp_handle(opening_camera(), kAspect, stage).position, at), 1e-3F);
+    }
+}
+
+TEST(LampHandle, OutsideTheRimAndBelowTheHorizonItEnds) {
+    Stage stage;
+    drag_lamp(stage, opening_camera(), kAspect, {0.99F, 0.3F}, false);
+    const LampHandle handle = lamp_handle(opening_camera(), kAspect, stage);
+    EXPECT_LT(handle.position.x, 0.95F);
+    EXPECT_GT(handle.position.x, 0.6F);
+    drag_lamp(stage, opening_camera(), kAspect, {0.5F, 0.95F}, false);
+    EXPECT_EQ(stage.lamp_elevation_deg, 0.0F);
+}
+
+TEST(LampHandle, IsInThePictureAtAllDistances) {
+    for (const float scale : {0.3F, 1.0F, 8.0F}) {
+        scene::Camera camera = opening_camera();
+        camera.eye = camera.target + scale * (camera.eye - camera.target);
+        const LampHandle handle = lamp_handle(camera, kAspect, {.lamp_azimuth_deg = 0, .lamp_elevation_deg = 90});
+        EXPECT_GT(handle.position.y, 0.0F) << scale;
+        EXPECT_LT(handle.position.y, 0.3F) << scale;
+    }
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 #include "engine/core/file.h"
 #include "tests/support/csv.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 #include "tests/unit/editor/trade/trade_run.h"
 
 namespace rowland {

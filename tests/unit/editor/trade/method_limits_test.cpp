@@ -7,10 +7,10 @@
 
 #include "engine/core/error.h"
 #include "engine/core/file.h"
-#include "modules/diffraction/asset/method.h"
-#include "modules/diffraction/asset/quality_json.h"
+#include "modules/diffraction/asset/cooked_material.h"
+#include "modules/diffraction/asset/quality.h"
+#include "tests/support/files.h"
 #include "tests/support/program.h"
-#include "tests/support/temporary_folder.h"
 
 namespace rowland::diffraction {
 namespace {
@@ -123,8 +123,8 @@ TEST_F(MethodLimits, MethodsThatDoNotSuitAGratingAreRefusedByEveryProgram) {
 
 TEST_F(MethodLimits, FlagsThatAMethodIgnoresStillHaveALimit) {
     write_file_atomic(folder_.path() / "plain.json", material("flat", 1500).dump());
-    for (const char* flag : {"--rank=x", "--rank=nan", "--rank=0", "--bins=65", "--spikes=inf", "--bands=1e300",
-                             "--resolution=-1", "--storage=fp64"})
+    for (const char* flag :
+         {"--rank=x", "--rank=nan", "--rank=0", "--spikes=inf", "--bands=1e300", "--resolution=-1", "--storage=fp64"})
         for (const char* method : {"transfer", "reference"})
             expect_refused({ROWLAND_TRADE, "evaluate", "--material=plain.json", "--probe=probe.hdr", "--method", method,
                             "--frames", "frames.csv", flag});

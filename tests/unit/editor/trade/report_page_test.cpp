@@ -11,7 +11,7 @@
 #include <functional>
 
 #include "engine/core/file.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 #include "tests/unit/editor/trade/trade_run.h"
 
 namespace rowland {

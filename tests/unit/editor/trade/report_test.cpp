@@ -3,8 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+
+#include "editor/trade/paper_figures.h"
 #include "engine/core/file.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 
 namespace rowland::trade {
 namespace {
@@ -75,18 +82,6 @@ TEST(Report, SaysHowItWasMadeAndUnderWhatLight) {
     EXPECT_EQ(data["films"][0]["relative_rms"], 0.01);
 }
 
-TEST(Report, SaysThatTheMachineWasLoaded) {
-    SweepResults r = results();
-    r.costs[0].time->other_load = 0.02;
-    EXPECT_EQ(report_data(r, {}, {}, {}, {})["loaded_times"], 0);
-    r.costs[1].time->other_load = 0.4;
-    r.costs[1].time->spread = 0.3;
-    const auto data = report_data(r, {}, {}, {}, {});
-    EXPECT_EQ(data["loaded_times"], 1);
-    EXPECT_EQ(data["panels"][0]["rows"][1]["frame_spread"], 0.3);
-    EXPECT_TRUE(data["panels"][0]["rows"][0]["frame_spread"].is_null());
-}
-
 TEST(Report, MarksThePapersSetting) {
     SweepResults r = results();
     r.settings[0][2] = diffraction::parse_method("spikes/spikes=4/bands=5");
@@ -124,6 +119,95 @@ TEST(Report, IsOneFileAndItsDataCannotEndTheScript) {
     EXPECT_THAT(page, Not(HasSubstr("/*DATA*/")));
     for (const char* foreign : {"src=\"http", "href=\"http", "@import", "fetch("})
         EXPECT_THAT(page, Not(HasSubstr(foreign)));
+}
+
+TEST(ParetoFront, HoldsWhatNothingBeatsInBoth) {
+    const std::vector<TradePoint> points = {{3.0, 1.0}, {1.0, 5.0}, {2.0, 6.0}, {2.0, 3.0}, {4.0, 1.0}};
+    EXPECT_EQ(pareto_front(points), (std::vector<std::size_t>{1, 3, 0}));
+}
+
+TEST(ParetoFront, TakesTheFirstOfEqualPointsAndNoneThatIsNotFinite) {
+    const double infinite = std::numeric_limits<double>::infinity();
+    const std::vector<TradePoint> points = {{infinite, 0.1}, {1.0, 2.0}, {1.0, 2.0}, {0.5, std::nan("")}};
+    EXPECT_EQ(pareto_front(points), (std::vector<std::size_t>{1}));
+    EXPECT_TRUE(pareto_front({}).empty());
+}
+
+/// Against its definition, pair by pair.
+TEST(ParetoFront, AgreesWithItsDefinition) {
+    std::mt19937 random(7);
+    std::uniform_int_distribution<int> value(0, 9);
+    std::vector<TradePoint> points;
+    for (int i = 0; i < 60; ++i) points.push_back({1.0 * value(random), 1.0 * value(random)});
+    std::vector<bool> on_front(points.size(), false);
+    for (const std::size_t i : pareto_front(points)) on_front[i] = true;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        bool beaten = false;
+        for (std::size_t j = 0; j < points.size(); ++j) {
+            const bool no_worse = points[j].cost <= points[i].cost && points[j].error <= points[i].error;
+            const bool better = points[j].cost < points[i].cost || points[j].error < points[i].error;
+            beaten = beaten || (no_worse && (better || j < i));
+        }
+        EXPECT_EQ(on_front[i], !beaten) << i;
+    }
+}
+
+lighting::ProbeImage uniform_but(std::size_t texel, float value) {
+    image::Image image{.width = 64, .height = 32, .texels = std::vector<glm::vec3>(2048, glm::vec3(0.5F))};
+    image.texels[texel] = glm::vec3(value);
+    return {std::move(image), lighting::Mapping::Equirectangular};
+}
+
+TEST(ProbeStatistics, OfAUniformProbe) {
+    const ProbeStatistics found = statistics_of(uniform_but(0, 0.5F));
+    EXPECT_EQ(found.width, 64);
+    EXPECT_EQ(found.height, 32);
+    EXPECT_NEAR(found.mean, 0.5, 1e-6);
+    EXPECT_NEAR(found.peak_over_mean, 1.0, 1e-6);
+    EXPECT_NEAR(found.brightest_fraction, 1e-3, 1e-8);
+}
+
+TEST(ProbeStatistics, ALampOfATexel) {
+    // A texel at the equator: 2π/64 · π/32 sr of 4π, but for 4e-4: .0767 % of the sphere, which gives .0767 of .5767.
+    const ProbeStatistics found = statistics_of(uniform_but(16 * 64 + 20, 50.0F));
+    EXPECT_NEAR(found.mean, 0.5 + 49.5 * 7.666e-4, 1e-4);
+    EXPECT_NEAR(found.peak_over_mean, 50.0 / found.mean, 1e-6);
+    EXPECT_NEAR(found.brightest_fraction, (50.0 * 7.666e-4 + 0.5 * 2.334e-4) / found.mean, 1e-4);
+}
+
+TEST(ProbeStatistics, OfABlackProbe) {
+    image::Image image{.width = 8, .height = 4, .texels = std::vector<glm::vec3>(32, glm::vec3(0.0F))};
+    const ProbeStatistics found = statistics_of({std::move(image), lighting::Mapping::Equirectangular});
+    EXPECT_EQ(found.mean, 0.0);
+    EXPECT_EQ(found.peak_over_mean, 0.0);
+}
+
+diffraction::Grating slit(double grooves) {
+    return {.pitch_nm = 1600.0, .grooves = grooves, .profile = diffraction::SlitProfile{.width_nm = 800.0}};
+}
+
+/// Goodman: a peak of N grooves is 0.886/N of an order wide at half its height; an order of 550 nm at 1600 nm is
+/// (550/1600)/cos θ radians, θ = 20.1°.
+TEST(PaperFigures, ThePeakHasItsTrueWidth) {
+    const Figure2 figure = figure_2(slit(1500.0));
+    const double order = 550.0 / 1600.0 / std::cos(std::asin(550.0 / 1600.0)) * 180.0 / std::numbers::pi;
+    EXPECT_NEAR(figure.peak_width_degrees, 0.8859 / 1500.0 * order, 1e-3 * figure.peak_width_degrees);
+    EXPECT_NEAR(figure_2(slit(150.0)).peak_width_degrees, 10.0 * figure.peak_width_degrees,
+                1e-3 * figure.peak_width_degrees);
+}
+
+TEST(PaperFigures, DiffractionIsSpikesWhereInterferenceIsSmooth) {
+    const Figure2 figure = figure_2(slit(1500.0));
+    const auto fraction_above = [](const Curve& curve) {
+        return static_cast<double>(std::count_if(curve.y.begin(), curve.y.end(), [](double y) { return y > 0.3; })) /
+               static_cast<double>(curve.y.size());
+    };
+    EXPECT_LT(fraction_above(figure.diffraction), 0.01);
+    EXPECT_GT(fraction_above(figure.interference), 0.4);
+    EXPECT_EQ(*std::max_element(figure.diffraction.y.begin(), figure.diffraction.y.end()), 1.0);
+    // The slit's envelope at order ±1: sinc²(½) = (2/π)².
+    EXPECT_NEAR(figure.diffraction.y.front(), std::pow(2.0 / std::numbers::pi, 2.0), 1e-12);
+    EXPECT_NEAR(figure.diffraction.x.back(), std::numbers::pi, 1e-12);
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
-#include "engine/app/unused_file.h"
+#include "engine/app/drawing_program.h"
 
 #include <gtest/gtest.h>
 
 #include "engine/core/file.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 
 namespace rowland::app {
 namespace {

@@ -11,9 +11,8 @@
 #include "engine/core/byte_stream.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
-#include "engine/core/hash.h"
-#include "tests/support/message_of.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/expect.h"
+#include "tests/support/files.h"
 
 namespace rowland::asset {
 namespace {

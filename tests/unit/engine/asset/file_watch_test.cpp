@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/file.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 
 namespace rowland::asset {
 namespace {

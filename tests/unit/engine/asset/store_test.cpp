@@ -7,7 +7,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/file.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 
 namespace rowland::asset {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "tests/support/message_of.h"
+#include "tests/support/expect.h"
 
 namespace rowland {
 namespace {

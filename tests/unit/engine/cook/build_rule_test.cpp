@@ -6,8 +6,8 @@
 #include <string>
 
 #include "engine/core/file.h"
+#include "tests/support/files.h"
 #include "tests/support/program.h"
-#include "tests/support/temporary_folder.h"
 
 // RowlandCook.cmake in a small project of its own, which cooks two assets with the test's cooker.
 

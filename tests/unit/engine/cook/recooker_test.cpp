@@ -6,7 +6,7 @@
 #include "engine/asset/container.h"
 #include "engine/cook/cook_source.h"
 #include "engine/core/file.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 #include "tests/unit/engine/cook/tile_type.h"
 
 namespace rowland::cook {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/file.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 #include "tests/unit/engine/cook/tile_type.h"
 
 namespace rowland::cook {

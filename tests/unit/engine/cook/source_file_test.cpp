@@ -8,7 +8,7 @@
 #include <string>
 
 #include "engine/core/file.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 #include "tests/unit/engine/cook/tile_type.h"
 
 namespace rowland::cook {

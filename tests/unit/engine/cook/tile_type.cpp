@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "engine/core/hash.h"
+#include "engine/core/file.h"
 #include "engine/core/parallel.h"
 
 namespace rowland::test {

@@ -1,19 +1,19 @@
-#include "engine/core/byte_stream.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
 
+#include "engine/core/byte_stream.h"
 #include "engine/core/error.h"
-#include "tests/support/message_of.h"
+#include "engine/core/text.h"
+#include "tests/support/expect.h"
 
 namespace rowland {
+
 namespace {
 
-using testing::HasSubstr;
-
 using test::message_of;
+using testing::HasSubstr;
 
 std::vector<std::byte> sample() {
     ByteWriter writer;
@@ -101,5 +101,18 @@ TEST(ByteStream, EmptyArraysAndTextsSurvive) {
     EXPECT_TRUE(reader.take(0).empty());
 }
 
+TEST(Utf8, WhatIsValidStaysAndTheRestIsReplaced) {
+    for (const char* text : {"", "cd", "Größe \"1\"\\n\t", "\xf0\x9f\x92\xbf"}) EXPECT_EQ(valid_utf8(text), text);
+    EXPECT_EQ(valid_utf8("b\xff.json"), "b\xef\xbf\xbd.json");
+    EXPECT_EQ(valid_utf8("cut \xf0\x9f"), "cut \xef\xbf\xbd");
+    EXPECT_EQ(valid_utf8(std::string_view("a\0b", 3)), std::string("a\0b", 3));
+}
+
+TEST(Utf8, APathThatIsNoTextIsRefusedWithTheRemedy) {
+    EXPECT_EQ(require_utf8("Größe.json", "rename it"), "Größe.json");
+    EXPECT_THAT(test::message_of([] { require_utf8("b\xff.json", "rename it"); }), testing::HasSubstr("rename it"));
+}
+
 }  // namespace
+
 }  // namespace rowland

@@ -1,10 +1,12 @@
-#include "engine/core/error.h"
-
 #include <gtest/gtest.h>
 
 #include <string>
 
+#include "engine/core/check.h"
+#include "engine/core/error.h"
+
 namespace rowland {
+
 namespace {
 
 std::string message(ErrorInfo info) {
@@ -59,5 +61,22 @@ TEST(Error, OverlongFieldsAreShortenedBetweenCharacters) {
     EXPECT_EQ(shown.substr(dots + 3, 2), "\u00e9");
 }
 
+TEST(CheckDeathTest, FailedComparisonPrintsBothOperands) {
+    const int bands = 3;
+    EXPECT_DEATH(ROWLAND_CHECK_OP(bands, >=, 5), "error_test.cpp:[0-9]+: contract violated: bands >= 5 with 3 and 5");
+}
+
+TEST(CheckDeathTest, FailedConditionPrintsItsMessage) {
+    EXPECT_DEATH(ROWLAND_CHECK(1 > 2, "one is not above two"), "contract violated: one is not above two");
+}
+
+TEST(Check, OperandsAreEvaluatedOnce) {
+    int evaluations = 0;
+    ROWLAND_CHECK_OP(++evaluations, ==, 1);
+    ROWLAND_CHECK(++evaluations == 2, "evaluated twice");
+    EXPECT_EQ(evaluations, 2);
+}
+
 }  // namespace
+
 }  // namespace rowland

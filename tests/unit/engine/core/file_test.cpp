@@ -1,5 +1,3 @@
-#include "engine/core/file.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -8,14 +6,19 @@
 
 #include <csignal>
 #include <fstream>
+#include <span>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
 #include "engine/core/error.h"
-#include "tests/support/temporary_folder.h"
+#include "engine/core/file.h"
+#include "tests/support/expect.h"
+#include "tests/support/files.h"
 
 namespace rowland {
+
 namespace {
 
 using testing::HasSubstr;
@@ -172,5 +175,97 @@ TEST_F(File, ReadersSeeOldOrNewContentWhole) {
     EXPECT_THAT(names(), testing::ElementsAre("a"));
 }
 
+std::span<const std::byte> bytes(std::string_view text) {
+    return std::as_bytes(std::span(text.data(), text.size()));
+}
+
+TEST(Hash, EmptyInputHasThePublishedXxh3Digest) {
+    // XXH3_128bits of no bytes with seed 0, from xxHash's own sanity checks.
+    EXPECT_EQ(Hasher().digest().hex(), "99aa06d3014798d86001c324468d497f");
+}
+
+TEST(Hash, HexPrintsHighHalfFirstWithLeadingZeros) {
+    EXPECT_EQ((Hash128{.low = 0xab, .high = 0x1}).hex(), "000000000000000100000000000000ab");
+}
+
+TEST(Hash, BytesInPiecesHashLikeBytesAtOnce) {
+    EXPECT_EQ(Hasher().bytes(bytes("grat")).bytes(bytes("ing")).digest(), Hasher().bytes(bytes("grating")).digest());
+}
+
+TEST(Hash, TextsAreHashedWithTheirLengths) {
+    EXPECT_NE(Hasher().text("ab").text("c").digest(), Hasher().text("a").text("bc").digest());
+    EXPECT_NE(Hasher().text("").digest(), Hasher().digest());
+    EXPECT_NE(Hasher().text("a").digest(), Hasher().bytes(bytes("a")).digest());
+}
+
+TEST(Hash, EveryBitChangesBothHalves) {
+    const Hash128 original = Hasher().text("rowland").digest();
+    for (std::size_t bit = 0; bit < 56; ++bit) {
+        std::string text = "rowland";
+        text[bit / 8] = static_cast<char>(text[bit / 8] ^ (1 << (bit % 8)));
+        const Hash128 changed = Hasher().text(text).digest();
+        EXPECT_NE(changed.low, original.low) << bit;
+        EXPECT_NE(changed.high, original.high) << bit;
+    }
+}
+
+TEST(Hash, DigestLeavesTheHasherUsable) {
+    Hasher hasher;
+    hasher.text("a");
+    EXPECT_EQ(hasher.digest(), hasher.digest());
+    EXPECT_EQ(hasher.text("b").digest(), Hasher().text("a").text("b").digest());
+}
+
+class Outputs : public testing::Test {
+ protected:
+    Outputs() { write_file_atomic(path("source.json"), "{}"); }
+    std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
+    std::string refusal(const std::vector<Output>& outputs) const {
+        const std::vector<std::filesystem::path> inputs{path("source.json")};
+        return test::message_of([&] { check_outputs(inputs, outputs); });
+    }
+
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(Outputs, FilesOfTheirOwnPassAndNothingIsWritten) {
+    const std::vector<std::filesystem::path> inputs{path("source.json"), path("source.json"), path("missing.json")};
+    const std::vector<Output> outputs{{"--capture", path("a.PNG"), ".png"},
+                                      {"--benchmark", path("new/folder/a.json")},
+                                      {"--record", "relative.jsonl"}};
+    EXPECT_NO_THROW(check_outputs(inputs, outputs));
+    EXPECT_FALSE(std::filesystem::exists(path("new")));
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), 1);
+}
+
+TEST_F(Outputs, AnInputIsRefusedByWhateverName) {
+    std::filesystem::create_symlink("source.json", path("link.json"));
+    std::filesystem::create_hard_link(path("source.json"), path("hard.json"));
+    std::filesystem::create_directory_symlink(folder_.path(), path("folder"));
+    for (const char* name : {"source.json", "./source.json", "new/../source.json", "link.json", "hard.json",
+                             "folder/source.json", "folder/folder/link.json"})
+        EXPECT_THAT(refusal({{"--output", path(name)}}), HasSubstr("--output")) << name;
+}
+
+TEST_F(Outputs, AnotherOutputIsRefusedWhetherOrNotItExists) {
+    write_file_atomic(path("old.png"), "");
+    for (const char* name : {"new.png", "old.png"})
+        EXPECT_THAT(refusal({{"--capture", path(name)}, {"--capture-linear", folder_.path() / "." / name}}),
+                    HasSubstr("the same file as the output of --capture"));
+}
+
+TEST_F(Outputs, AnExtensionOfAnotherFormatIsRefused) {
+    for (const char* name : {"a.jpg", "a", "a.png.exr", ".png"})
+        EXPECT_THAT(refusal({{"--capture", path(name), ".png"}}), HasSubstr("expected .png")) << name;
+}
+
+TEST_F(Outputs, WhatCannotBeWrittenIsRefused) {
+    const std::vector<std::filesystem::path> names{"/dev/full",           "/proc/nowhere/a.png", "/dev/null/a.png",
+                                                   path("source.json/a"), folder_.path(),        path("new/")};
+    for (const std::filesystem::path& name : names)
+        EXPECT_THAT(refusal({{"--capture", name}}), HasSubstr("--capture")) << name;
+}
+
 }  // namespace
+
 }  // namespace rowland

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/error.h"
-#include "tests/support/message_of.h"
+#include "tests/support/expect.h"
 
 namespace rowland {
 namespace {

@@ -1,17 +1,25 @@
-#include "engine/core/program.h"
-
 #include <fcntl.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <new>
 #include <stdexcept>
+#include <vector>
 
 #include "engine/core/error.h"
+#include "engine/core/program.h"
+#include "tests/support/expect.h"
 
 namespace rowland {
+
 namespace {
+
+using std::chrono::steady_clock;
 
 /// Exit code of a body that throws `exception`; `message` receives what was printed.
 template <typename Exception>
@@ -66,5 +74,89 @@ TEST(Program, ResultsThatCannotBeWrittenAreCodeOne) {
     EXPECT_EQ(message, "error: standard output: writing failed: No space left on device\n");
 }
 
+using Exchange = ChildProcess::Exchange;
+
+/// Far more than anything here takes; only what is Late waits this long.
+ChildProcess::Deadline soon() {
+    return steady_clock::now() + std::chrono::seconds(60);
+}
+
+Exchange tell(ChildProcess& process, char command) {
+    return process.send(std::as_bytes(std::span(&command, 1)), soon());
+}
+
+TEST(ChildProcess, TakesAndGivesMoreThanASocketHolds) {
+    ChildProcess process(ROWLAND_MISBEHAVING_PROGRAM);
+    std::vector<std::byte> sent(std::size_t{4} << 20);
+    for (std::size_t i = 0; i < sent.size(); ++i) sent[i] = static_cast<std::byte>(i * 31 >> 3);
+    const std::size_t size = sent.size();
+    ASSERT_EQ(tell(process, 'e'), Exchange::Done);
+    ASSERT_EQ(process.send(std::as_bytes(std::span(&size, 1)), soon()), Exchange::Done);
+    ASSERT_EQ(process.send(sent, soon()), Exchange::Done);
+    std::vector<std::byte> received(size);
+    ASSERT_EQ(process.receive(received, soon()), Exchange::Done);
+    EXPECT_TRUE(received == sent);
+}
+
+TEST(ChildProcess, TellsHowAProgramEnded) {
+    std::byte answer{};
+    ChildProcess killed(ROWLAND_MISBEHAVING_PROGRAM);
+    ASSERT_EQ(tell(killed, 'k'), Exchange::Done);
+    EXPECT_EQ(killed.receive(std::span(&answer, 1), soon()), Exchange::Ended);
+    EXPECT_EQ(killed.ending(), "ended by signal 9");
+
+    ChildProcess finished(ROWLAND_MISBEHAVING_PROGRAM);
+    ASSERT_EQ(tell(finished, 'x'), Exchange::Done);
+    EXPECT_EQ(finished.receive(std::span(&answer, 1), soon()), Exchange::Ended);
+    EXPECT_EQ(finished.ending(), "ended with code 3");
+}
+
+TEST(ChildProcess, SendingToOneThatIsGoneIsNoSignal) {
+    ChildProcess process(ROWLAND_MISBEHAVING_PROGRAM);
+    std::byte answer{};
+    ASSERT_EQ(tell(process, 'x'), Exchange::Done);
+    ASSERT_EQ(process.receive(std::span(&answer, 1), soon()), Exchange::Ended);
+    EXPECT_EQ(tell(process, 'e'), Exchange::Ended);
+}
+
+TEST(ChildProcess, OneThatHangsIsLateAndGoneWithItsScope) {
+    {
+        ChildProcess process(ROWLAND_MISBEHAVING_PROGRAM);
+        std::byte answer{};
+        ASSERT_EQ(tell(process, 'h'), Exchange::Done);
+        EXPECT_EQ(process.receive(std::span(&answer, 1), steady_clock::now() + std::chrono::milliseconds(20)),
+                  Exchange::Late);
+        // More than the socket holds, which nobody takes.
+        const std::vector<std::byte> flood(std::size_t{8} << 20);
+        EXPECT_EQ(process.send(flood, steady_clock::now() + std::chrono::milliseconds(20)), Exchange::Late);
+    }
+    EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1);
+    EXPECT_EQ(errno, ECHILD) << "no child is left";
+}
+
+TEST(ChildProcess, ThatCannotBeStartedIsTheSystemsFault) {
+    EXPECT_THAT(test::message_of([] { ChildProcess process("/nowhere/program"); }, Fault::System),
+                testing::HasSubstr("/nowhere/program: cannot be started"));
+}
+
+TEST(HelperProgram, IsFoundBesideTheRunningProgram) {
+    const std::filesystem::path running = std::filesystem::read_symlink("/proc/self/exe");
+    EXPECT_EQ(helper_program(running.filename()), running);
+}
+
+TEST(HelperProgram, IsLookedForInTheFolderTheUserNames) {
+    ASSERT_EQ(setenv("ROWLAND_HELPER_FOLDER", "/bin", 1), 0);
+    const std::filesystem::path shell = helper_program("sh");
+    ASSERT_EQ(unsetenv("ROWLAND_HELPER_FOLDER"), 0);
+    EXPECT_EQ(shell, "/bin/sh");
+}
+
+TEST(HelperProgram, ThatIsMissingIsNamedWithWhereItWasLookedFor) {
+    EXPECT_THAT(
+        test::message_of([] { helper_program("rowland-none"); }, Fault::System),
+        testing::AllOf(testing::HasSubstr("rowland-none: not in /"), testing::HasSubstr("ROWLAND_HELPER_FOLDER")));
+}
+
 }  // namespace
+
 }  // namespace rowland

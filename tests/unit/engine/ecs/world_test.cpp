@@ -7,8 +7,6 @@
 #include <set>
 #include <string>
 
-#include "engine/ecs/commands.h"
-
 namespace rowland::ecs {
 namespace {
 

@@ -14,13 +14,12 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <random>
 
 #include "engine/core/error.h"
 #include "engine/core/file.h"
-#include "tests/support/temporary_folder.h"
-#include "tests/support/test_data.h"
-#include "tests/unit/engine/image/bytes.h"
+#include "tests/support/expect.h"
+#include "tests/support/files.h"
+#include "tests/unit/engine/image/image_bytes.h"
 
 namespace rowland::image {
 namespace {
@@ -42,14 +41,7 @@ bool same_bits(const Image& a, const Image& b) {
 }
 
 std::string refusal(std::span<const std::byte> bytes) {
-    try {
-        read_exr(bytes, "made.exr");
-    } catch (const Error& error) {
-        EXPECT_EQ(error.info().fault, Fault::Input);
-        return error.what();
-    }
-    ADD_FAILURE() << "was not refused";
-    return {};
+    return test::message_of([&] { read_exr(bytes, "made.exr"); });
 }
 
 /// A 4 × 2 file whose channels all hold 0.5, 1.5, 2.5, ...
@@ -107,12 +99,8 @@ TEST(Exr, AlphaIsWrittenAndIgnoredOnReading) {
 TEST(Exr, FailingToWriteIsASystemError) {
     const test::TemporaryFolder folder;
     write_file_atomic(folder.path() / "file", std::string_view("x"));
-    try {
-        write_exr(folder.path() / "file" / "a.exr", made_image(2, 2));
-        FAIL() << "was written below a file";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.info().fault, Fault::System);
-    }
+    EXPECT_NE(test::message_of([&] { write_exr(folder.path() / "file" / "a.exr", made_image(2, 2)); }, Fault::System),
+              "");
 }
 
 TEST(Exr, HalfFloatLuminanceLayersAndTilesAreRead) {
@@ -232,26 +220,6 @@ TEST(Exr, EveryTruncationIsRefused) {
     const auto bytes = made_file(Imf::Header(4, 2), {"R", "G", "B"}, Imf::HALF, folder.path() / "a.exr");
     for (std::size_t size = 0; size < bytes.size(); ++size)
         EXPECT_THROW(read_exr(std::span(bytes).first(size), "cut.exr"), Error) << size;
-}
-
-TEST(Exr, FlippedBytesNeverCrash) {
-    const test::TemporaryFolder folder;
-    std::mt19937 random(3);
-    for (const bool tiled : {false, true}) {
-        const auto original = made_file(Imf::Header(4, 2), {"R", "G", "B"}, Imf::HALF, folder.path() / "a.exr", tiled);
-        for (std::size_t i = 0; i < original.size(); ++i)
-            for (int round = 0; round < 4; ++round) {
-                auto bytes = original;
-                bytes[i] = static_cast<std::byte>(random());
-                try {
-                    const Image image = read_exr(bytes, "flipped.exr");
-                    EXPECT_EQ(image.texels.size(),
-                              static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
-                } catch (const Error&) {
-                    // refused is fine
-                }
-            }
-    }
 }
 
 TEST(Exr, ProbesLoadWithTheirSizes) {

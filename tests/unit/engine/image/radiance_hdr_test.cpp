@@ -7,8 +7,9 @@
 
 #include "engine/core/error.h"
 #include "engine/core/file.h"
-#include "tests/support/test_data.h"
-#include "tests/unit/engine/image/bytes.h"
+#include "tests/support/expect.h"
+#include "tests/support/files.h"
+#include "tests/unit/engine/image/image_bytes.h"
 
 namespace rowland::image {
 namespace {
@@ -33,14 +34,7 @@ std::string six_texels() {
 }
 
 std::string refusal(const std::string& text) {
-    try {
-        read(text);
-    } catch (const Error& error) {
-        EXPECT_EQ(error.info().fault, Fault::Input);
-        return error.what();
-    }
-    ADD_FAILURE() << "was not refused";
-    return {};
+    return test::message_of([&] { read(text); });
 }
 
 TEST(RadianceHdr, FlatTexelsAreMantissaTimesPowerOfTwo) {
@@ -155,22 +149,6 @@ TEST(RadianceHdr, EveryTruncationIsRefused) {
     for (std::size_t size = 0; size < bytes.size(); ++size)
         EXPECT_THROW(read_radiance_hdr(std::span(bytes).first(size), "cut.hdr"), Error) << size;
     EXPECT_NO_THROW(read_radiance_hdr(bytes, "whole.hdr"));
-}
-
-TEST(RadianceHdr, FlippedBytesNeverCrash) {
-    ROWLAND_TEST_DATA(path, "probes/simple-rle.hdr");
-    const auto original = read_file(path, 1 << 20);
-    for (std::size_t i = 0; i < original.size(); ++i)
-        for (int value = 0; value < 256; value += 5) {
-            auto bytes = original;
-            bytes[i] = static_cast<std::byte>(value);
-            try {
-                const Image image = read_radiance_hdr(bytes, "flipped.hdr");
-                EXPECT_EQ(image.texels.size(), static_cast<std::size_t>(image.width * image.height));
-            } catch (const Error&) {
-                // refused is fine
-            }
-        }
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 #include "engine/core/json_reader.h"
 #include "engine/image/exr.h"
 #include "engine/lighting/light_probe.h"
-#include "tests/support/evaluate_irradiance.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
+#include "tests/support/light.h"
 
 namespace rowland::lighting {
 namespace {

@@ -7,10 +7,10 @@
 #include <numbers>
 
 #include "engine/core/parallel.h"
-#include "engine/image/load.h"
+#include "engine/image/image.h"
 #include "engine/math/quadrature.h"
-#include "engine/math/sh_basis.h"
-#include "tests/support/test_data.h"
+#include "engine/math/spherical_harmonics.h"
+#include "tests/support/files.h"
 
 namespace rowland::lighting {
 namespace {

@@ -1,18 +1,135 @@
-#include "engine/lighting/light_metric.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <vector>
 
 #include "engine/lighting/environment_map.h"
+#include "engine/lighting/light_metric.h"
 #include "engine/math/quadrature.h"
-#include "engine/math/sh_basis.h"
+#include "engine/math/spherical_harmonics.h"
 #include "tests/unit/engine/lighting/made_probes.h"
 
 namespace rowland::lighting {
+
 namespace {
+
+constexpr int kSize = 16;
+
+std::vector<glm::vec3> uneven_texels() {
+    std::vector<glm::vec3> texels;
+    for (int i = 0; i < 6 * kSize * kSize; ++i) texels.emplace_back(i % 7, i % 11 == 0 ? 1000 : 1, 0.5 * (i % 3));
+    return texels;
+}
+
+TEST(CubeTree, EveryDepthHoldsTheWholeLight) {
+    const CubeTree tree(uneven_texels(), kSize);
+    ASSERT_EQ(tree.side(tree.leaf_depth()), kSize);
+    std::vector<glm::dvec3> flux;
+    for (int depth = 0; depth <= tree.leaf_depth(); ++depth) {
+        glm::dvec3 sum(0.0);
+        double solid_angle = 0;
+        for (int face = 0; face < 6; ++face)
+            for (int row = 0; row < tree.side(depth); ++row)
+                for (int column = 0; column < tree.side(depth); ++column) {
+                    sum += glm::dvec3(tree.node(depth, face, column, row).flux);
+                    solid_angle += tree.node(depth, face, column, row).solid_angle;
+                }
+        EXPECT_NEAR(solid_angle / (4 * std::numbers::pi), 1, 1e-5);  // single precision, 1536 addends
+        flux.push_back(sum);
+    }
+    for (const glm::dvec3& f : flux) EXPECT_LT(glm::length(f - flux[0]) / glm::length(flux[0]), 1e-5);
+}
+
+TEST(CubeTree, ALoneLampIsWhereItStands) {
+    std::vector<glm::vec3> texels(std::size_t{6} * kSize * kSize, glm::vec3(0.0f));
+    texels[(3 * kSize + 5) * kSize + 9] = glm::vec3(100.0f);  // face 3, column 9, row 5
+    const CubeTree tree(texels, kSize);
+    const auto expected = glm::normalize(cube_direction(3, (2 * 9 + 1.0) / kSize - 1, (2 * 5 + 1.0) / kSize - 1));
+    for (int depth = 0; depth <= tree.leaf_depth(); ++depth) {
+        const int shrink = kSize / tree.side(depth);
+        const auto& node = tree.node(depth, 3, 9 / shrink, 5 / shrink);
+        EXPECT_LT(glm::length(glm::dvec3(node.source) - expected), 1e-6) << depth;
+    }
+}
+
+TEST(CubeTree, OfCellsKeepsTheDirectionWithinACell) {
+    std::vector<CubeCell> cells(std::size_t{6} * kSize * kSize);
+    const glm::dvec3 lamp = glm::normalize(cube_direction(3, (2 * 9 + 1.7) / kSize - 1, (2 * 5 + 0.4) / kSize - 1));
+    cells[(3 * kSize + 5) * kSize + 9] = {.flux = {2.0, 1.0, 0.5}, .direction = 3.5 * lamp};
+    const CubeTree tree(cells, kSize);
+    for (int depth = 0; depth <= tree.leaf_depth(); ++depth) {
+        const int shrink = kSize / tree.side(depth);
+        const auto& node = tree.node(depth, 3, 9 / shrink, 5 / shrink);
+        EXPECT_LT(glm::length(glm::dvec3(node.source) - lamp), 1e-6) << depth;
+        EXPECT_EQ(node.flux, glm::vec3(2.0F, 1.0F, 0.5F)) << depth;
+    }
+}
+
+/// The mean over normals by quadrature on the sphere, for a bright light from below.
+TEST(DirectionWeight, IsTheMeanOfTheErrorRelativeToTheSignal) {
+    std::vector<DirectionWeight::Signal> signals;
+    for (int i = 0; i < 100; ++i) {
+        const glm::dvec3 s = test::spread_direction(i, 100);
+        signals.push_back({s, 1.0 + 100.0 * std::exp(4.0 * (glm::dot(s, glm::dvec3(0.6, -0.8, 0.0)) - 1.0))});
+    }
+    const auto clamped_square = [](const glm::dvec3& n, const glm::dvec3& s) {
+        return std::pow(std::max(0.0, glm::dot(n, s)), 2.0);
+    };
+    const math::QuadratureRule heights = math::gauss_legendre(30, -1.0, 1.0);
+    constexpr int kAngles = 60;
+    const auto mean = [&](const auto& function) {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < heights.nodes.size(); ++i)
+            for (int j = 0; j < kAngles; ++j) {
+                const double angle = 2.0 * std::numbers::pi * j / kAngles;
+                const double radius = std::sqrt(1.0 - heights.nodes[i] * heights.nodes[i]);
+                sum += heights.weights[i] / (2.0 * kAngles) *
+                       function(glm::dvec3(radius * std::cos(angle), heights.nodes[i], radius * std::sin(angle)));
+            }
+        return sum;
+    };
+    const auto signal = [&](const glm::dvec3& n) {
+        double sum = 0.0;
+        for (const DirectionWeight::Signal& one : signals) sum += clamped_square(n, one.direction) * one.square;
+        return sum;
+    };
+    const double least = 4e-4 * mean(signal);
+    const auto expected = [&](const glm::dvec3& s) {
+        return std::sqrt(mean([&](const glm::dvec3& n) {
+            return std::pow(0.5 + 0.5 * n.y, 2.0) * clamped_square(n, s) / (signal(n) + least);
+        }));
+    };
+    const DirectionWeight weight(signals);
+    const glm::dvec3 first = test::spread_direction(0, 12);
+    for (int i = 1; i < 12; ++i) {
+        const glm::dvec3 s = test::spread_direction(i, 12);
+        const double ratio = expected(s) / expected(first);
+        // Normals are .26 rad apart, directions .05.
+        EXPECT_NEAR(weight.root(s) / weight.root(first), ratio, 0.02 * ratio) << i;
+    }
+}
+
+/// One bright lamp from below: what the surfaces that face away from it see counts more than the lamp.
+TEST(DirectionWeight, LightBehindMostHorizonsCountsLess) {
+    const DirectionWeight::Signal signals[] = {{{0.0, -1.0, 0.0}, 1e4}, {{0.0, 1.0, 0.0}, 1.0}};
+    const DirectionWeight weight(signals);
+    EXPECT_GT(weight.root({0.0, 1.0, 0.0}), 3.0 * weight.root({0.0, -1.0, 0.0}));
+}
+
+TEST(DirectionWeight, IsOneInTheMeanAndContinuousAcrossFaces) {
+    const DirectionWeight::Signal signals[] = {{glm::normalize(glm::dvec3(0.2, 0.9, 0.1)), 3.0}};
+    const DirectionWeight weight(signals);
+    double mean = 0.0;
+    for (int i = 0; i < 200; ++i) mean += weight.root(test::spread_direction(i, 200)) / 200.0;
+    EXPECT_NEAR(mean, 1.0, 0.1);
+    const glm::dvec3 edge = glm::normalize(glm::dvec3(1.0, 1.0, 0.3));
+    const glm::dvec3 step(1e-7, -1e-7, 0.0);
+    EXPECT_NEAR(weight.root(edge + step), weight.root(edge - step), 1e-5);
+    // Black probes: all directions count, none as infinity.
+    EXPECT_TRUE(std::isfinite(DirectionWeight({}).root(edge)));
+}
 
 /// Coefficient of band l of a product: ∫ product(cos γ) P_l(cos γ) over the sphere.
 double band_weight(const LobeProduct& product, unsigned l) {
@@ -110,4 +227,5 @@ TEST(LightMetric, LobesAreComparedByTheErrorThatTheExactBandsLeave) {
 }
 
 }  // namespace
+
 }  // namespace rowland::lighting

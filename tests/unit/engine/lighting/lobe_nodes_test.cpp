@@ -1,17 +1,12 @@
 #include "engine/lighting/lobe_nodes.h"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
 #include <functional>
-#include <string>
 
-#include "engine/lighting/fit_lobe_nodes.h"
-#include "engine/lighting/gauss_nodes.h"
-#include "engine/lighting/lobe_angles.h"
+#include "editor/lobe_nodes/fit_lobe_nodes.h"
+#include "editor/lobe_nodes/gauss_nodes.h"
 
 namespace rowland::lighting {
 namespace {
@@ -78,31 +73,13 @@ TEST(LobeNodes, LookUpsAddUpToTheLobe) {
     }
 }
 
-void write(const LobeNodeTable& table, const std::string& path) {
-    std::ofstream file(path);
-    file << kLobeNodesHeader << '\n';
-    constexpr std::size_t kTexels = std::size_t{LobeNodeTable::kColumns} * LobeNodeTable::kRows;
-    for (std::size_t i = 0; i < kTexels; ++i) {
-        file << i % LobeNodeTable::kColumns << ',' << i / LobeNodeTable::kColumns;
-        for (std::size_t plane = 0; plane < LobeNodeTable::kPlanes; ++plane)
-            for (int node = 0; node < kLobeNodes; ++node)
-                file << fmt::format(",{:.4g}", table.texels[plane * kTexels + i][node]);
-        file << '\n';
-    }
-}
-
-/// `./rowland update-lobe-nodes` writes the file again.
 TEST(LobeNodesOfTheFile, AreThoseOfAFit) {
-    if (const char* path = std::getenv("ROWLAND_UPDATE_LOBE_NODES")) {
-        write(fit_lobe_nodes(), path);
-        GTEST_SKIP() << "written: " << path;
-    }
     for (const int row : {2, 9, 16, 22})
         for (const int column : {2, 13, 27}) {
-            const double cosine = LobeNodeTable::view_cosine(column);
-            const double roughness = LobeNodeTable::roughness(row);
+            const double cosine = column_view_cosine(column);
+            const double roughness = row_roughness(row);
             LobeNodes exact = gauss_nodes(cosine, roughness);
-            const LobeNodes read = lobe_node_table().get(column, row);
+            const LobeNodes read = texel_nodes(lobe_node_table(), column, row);
             for (std::size_t i = 0; i < exact.size(); ++i) {
                 EXPECT_NEAR(read.at(i).cosine, exact.at(i).cosine, 1e-3) << row << " " << column;
                 EXPECT_NEAR(read.at(i).weight, exact.at(i).weight, 1e-3) << row << " " << column;

@@ -3,12 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <thread>
 
 #include "engine/cook/cook_source.h"
 #include "engine/core/file.h"
-#include "tests/support/message_of.h"
-#include "tests/support/temporary_folder.h"
+#include "engine/scene/cooked_scene.h"
+#include "tests/support/expect.h"
+#include "tests/support/files.h"
 
 namespace rowland::live {
 namespace {
@@ -80,6 +82,69 @@ TEST_F(LiveAssetsTest, AnAssetFollowsItsSource) {
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     EXPECT_EQ(*number, 12345);
+    EXPECT_TRUE(assets.failures().empty());
+}
+
+/// A glTF scene whose material has tables.
+class LiveScene : public LiveAssetsTest {
+ protected:
+    LiveScene() {
+        cook::GltfExtension extension;
+        extension.name = "TEST_number";
+        extension.describe = [](const nlohmann::json& object, const std::string&, const std::string&) {
+            return object.at("number").dump();
+        };
+        extension.cook = [](cook::Context&, const cook::SceneExtension& at) {
+            return std::vector<std::byte>(at.object["number"].get<std::size_t>());
+        };
+        extension.describe_tables = [](std::span<const std::byte>, const std::string&) { return std::string(); };
+        registry_->add_gltf_extension(std::move(extension));
+        scene::register_scene_type(*registry_);
+        write(7);
+    }
+
+    void write(int number) const {
+        write_file_atomic(gltf_,
+                          R"({"asset": {"version": "2.0"}, "materials": [{"extensions": {"TEST_number": {"number": )" +
+                              std::to_string(number) + "}}}]}");
+    }
+    static std::size_t number(const scene::ImportedScene& scene) {
+        return scene.materials.at(0).tables.at("TEST_number")->size();
+    }
+    void poll_until(LiveAssets& assets, const std::function<bool()>& done) const {
+        for (int i = 0; i < 1000 && !done(); ++i) {
+            assets.poll();
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+    }
+
+    std::shared_ptr<cook::Registry> registry_ = std::make_shared<cook::Registry>();
+    std::filesystem::path gltf_ = folder_.path() / "room.gltf";
+    LiveAssetSettings settings_{.watch = false, .cache_folder = folder_.path() / "cache"};
+};
+
+TEST_F(LiveScene, ASecondStartBakesNothing) {
+    const std::uint64_t before = cook::sources_baked();
+    EXPECT_EQ(number(*LiveAssets(registry_, settings_).scene(gltf_)), 7U);
+    EXPECT_EQ(cook::sources_baked(), before + 1);
+    EXPECT_EQ(number(*LiveAssets(registry_, settings_).scene(gltf_)), 7U);
+    cook::cook_source(*registry_, gltf_, folder_.path() / "room.scene");
+    const std::uint64_t cooked = cook::sources_baked();
+    EXPECT_EQ(cooked, before + 2);
+    EXPECT_EQ(number(*LiveAssets(registry_, settings_).scene(folder_.path() / "room.scene")), 7U);
+    EXPECT_EQ(cook::sources_baked(), cooked);
+}
+
+TEST_F(LiveScene, FollowsItsSourceAndStaysWhileThatIsBroken) {
+    LiveAssets assets(registry_, settings_);
+    const asset::Handle<scene::ImportedScene> scene = assets.scene(gltf_);
+    write_file_atomic(gltf_, R"({"asset": )");
+    poll_until(assets, [&] { return !assets.failures().empty(); });
+    ASSERT_THAT(assets.failures(), testing::ElementsAre(HasSubstr("room.gltf")));
+    EXPECT_EQ(number(*scene), 7U);
+    write(1234);
+    poll_until(assets, [&] { return number(*scene) != 7U; });
+    EXPECT_EQ(number(*scene), 1234U);
     EXPECT_TRUE(assets.failures().empty());
 }
 

@@ -21,7 +21,7 @@ inline std::vector<glm::dvec3> scattered_directions(int count) {
 }
 
 /// Rotation by `angle` about `axis` (Rodrigues), to rounding.
-inline glm::dmat3 turn(const glm::dvec3& axis, double angle) {
+inline glm::dmat3 rotation_about(const glm::dvec3& axis, double angle) {
     const glm::dvec3 a = glm::normalize(axis);
     const double s = std::sin(angle);
     const double h = std::sin(angle / 2);
@@ -35,23 +35,24 @@ inline glm::dmat3 turn(const glm::dvec3& axis, double angle) {
     return m;
 }
 
-/// Turns that are hard on angle-based methods, and random ones.
+/// Rotations that are hard on angle-based methods, and random ones.
 inline std::vector<glm::dmat3> hard_rotations() {
     constexpr double pi = std::numbers::pi;
     std::vector<glm::dmat3> all = {glm::dmat3(1.0)};
     for (const glm::dvec3 axis : {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)}) {
-        glm::dmat3 half(-1.0);  // an exact half turn
+        glm::dmat3 half(-1.0);  // an exact rotation by 180°
         for (int i = 0; i < 3; ++i)
             if (axis[i] == 1) half[i][i] = 1;
         all.push_back(half);
-        for (const double angle : {pi / 2, -pi / 2, pi, 1e-9}) all.push_back(turn(axis, angle));
+        for (const double angle : {pi / 2, -pi / 2, pi, 1e-9}) all.push_back(rotation_about(axis, angle));
     }
-    all.push_back(turn({1, 2, 3}, 1e-9));
-    all.push_back(turn({1, 1, 0}, pi));
+    all.push_back(rotation_about({1, 2, 3}, 1e-9));
+    all.push_back(rotation_about({1, 1, 0}, pi));
     std::mt19937_64 random(7);
     std::normal_distribution<double> normal;
     std::uniform_real_distribution<double> angle(-pi, pi);
-    for (int i = 0; i < 8; ++i) all.push_back(turn({normal(random), normal(random), normal(random)}, angle(random)));
+    for (int i = 0; i < 8; ++i)
+        all.push_back(rotation_about({normal(random), normal(random), normal(random)}, angle(random)));
     return all;
 }
 

@@ -10,13 +10,25 @@
 #include <vector>
 
 #include "engine/core/parallel.h"
-#include "engine/math/sh_basis.h"
-#include "engine/math/sh_rotation.h"
+#include "engine/math/spherical_harmonics.h"
 #include "tests/unit/engine/math/directions.h"
-#include "tests/unit/engine/math/instruction_sets.h"
 
 namespace rowland::math {
 namespace {
+
+/// A test that runs once per instruction set, and is skipped where the processor lacks it.
+class OnInstructionSet : public testing::TestWithParam<InstructionSet> {
+ protected:
+    void SetUp() override {
+        if (!is_supported(GetParam())) GTEST_SKIP() << "this processor lacks it";
+    }
+};
+
+const auto kInstructionSets = testing::Values(InstructionSet::Baseline, InstructionSet::Avx2);
+
+std::string name_of_instruction_set(const testing::TestParamInfo<InstructionSet>& info) {
+    return instruction_set_name(info.param);
+}
 
 /// Tangents and normals in arrays; tangent i and normal i need not be perpendicular.
 struct Frames {
@@ -61,10 +73,10 @@ Frames many_frames() {
     std::normal_distribution<double> normal;
     const auto vector = [&] { return glm::dvec3(normal(random), normal(random), normal(random)); };
     for (double angle = 1; angle > 1e-12; angle /= 3) {
-        add(test::turn(vector(), angle));
-        add(test::turn({0, 1, 0}, std::numbers::pi - angle));
+        add(test::rotation_about(vector(), angle));
+        add(test::rotation_about({0, 1, 0}, std::numbers::pi - angle));
     }
-    for (int i = 0; i < 600; ++i) add(test::turn(vector(), 3 * normal(random)));
+    for (int i = 0; i < 600; ++i) add(test::rotation_about(vector(), 3 * normal(random)));
     for (int i = 0; i < 50; ++i) frames.add(vector() * 1e-3, vector() * 1e3);
     return frames;
 }
@@ -97,7 +109,7 @@ std::vector<glm::dvec3> slowly_rotated(const std::vector<glm::dvec3>& light, int
     return rotated;
 }
 
-class FrameRotation : public test::OnInstructionSet {};
+class FrameRotation : public OnInstructionSet {};
 
 TEST_P(FrameRotation, AgreesWithTheSlowRotation) {
     const Frames frames = many_frames();
@@ -206,7 +218,7 @@ TEST_P(FrameRotation, ProjectionEqualsTheMatrixTimesTheRotatedLight) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(, FrameRotation, test::kInstructionSets, test::name_of_instruction_set);
+INSTANTIATE_TEST_SUITE_P(, FrameRotation, kInstructionSets, name_of_instruction_set);
 
 TEST(FrameProjection, KeepsNoZeros) {
     const std::vector<double> matrix = {0, 2, 0, 1e-12, 0, 0, 0, 0, 0, 0, -1, 3};

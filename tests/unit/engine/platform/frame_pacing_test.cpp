@@ -98,38 +98,26 @@ TEST(FrameTimes, TheLastFramesAreInOrder) {
     EXPECT_EQ(times.in_order_ms(), (std::vector<float>{3, 4, 5}));
 }
 
-TEST(FrameTimes, OneFrameIsAllOfThem) {
-    FrameTimes times;
-    times.add(16ms);
-    const FrameStatistics statistics = times.statistics();
-    EXPECT_EQ(statistics.count, 1U);
-    EXPECT_EQ(statistics.mean_ms, 16.0);
-    EXPECT_EQ(statistics.median_ms, 16.0);
-    EXPECT_EQ(statistics.percentile_95_ms, 16.0);
-    EXPECT_EQ(statistics.maximum_ms, 16.0);
-}
-
-TEST(FrameTimes, RanksBetweenTwoFramesGoToTheSlowerOne) {
-    FrameTimes times;
-    for (const int ms : {3, 1, 2}) times.add(milliseconds(ms));
-    EXPECT_EQ(times.statistics().median_ms, 2.0);         // rank 1.5
-    EXPECT_EQ(times.statistics().percentile_95_ms, 3.0);  // rank 2.85
-}
-
-TEST(FrameTimes, OldFramesAreForgotten) {
-    FrameTimes times(3);
-    for (const int ms : {500, 1, 2, 3}) times.add(milliseconds(ms));
-    EXPECT_EQ(times.statistics().count, 3U);
-    EXPECT_EQ(times.statistics().maximum_ms, 3.0);
-    times.add(10ms);
-    EXPECT_EQ(times.statistics().mean_ms, 5.0);  // 2, 3, 10
-}
-
-TEST(FrameTimes, NoFrameIsAllZero) {
-    const FrameStatistics statistics = FrameTimes().statistics();
-    EXPECT_EQ(statistics.count, 0U);
-    EXPECT_EQ(statistics.mean_ms, 0.0);
-    EXPECT_EQ(statistics.maximum_ms, 0.0);
+TEST(FrameTimes, FewFramesHaveTheStatisticsOfTheLastOnes) {
+    const struct {
+        std::vector<int> ms;
+        std::size_t count;
+        double mean, median, percentile_95, maximum;
+    } cases[] = {{{}, 0, 0, 0, 0, 0},
+                 {{16}, 1, 16, 16, 16, 16},
+                 {{3, 1, 2}, 3, 2, 2, 3, 3},              // ranks 1.5 and 2.85 go to the slower frame
+                 {{500, 1, 2, 3}, 3, 2, 2, 3, 3},         // the oldest is forgotten
+                 {{500, 1, 2, 3, 10}, 3, 5, 3, 10, 10}};  // 2, 3, 10
+    for (const auto& one : cases) {
+        FrameTimes times(3);
+        for (const int ms : one.ms) times.add(milliseconds(ms));
+        const FrameStatistics statistics = times.statistics();
+        EXPECT_EQ(statistics.count, one.count);
+        EXPECT_EQ(statistics.mean_ms, one.mean);
+        EXPECT_EQ(statistics.median_ms, one.median);
+        EXPECT_EQ(statistics.percentile_95_ms, one.percentile_95);
+        EXPECT_EQ(statistics.maximum_ms, one.maximum);
+    }
 }
 
 TEST(FrameClock, FirstTickIsZeroAndLaterOnesCoverTheTimeBetween) {

@@ -1,12 +1,20 @@
-#include "engine/platform/input.h"
-
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numbers>
+#include <set>
+#include <vector>
+
+#include "engine/platform/glfw.h"
+#include "engine/platform/input.h"
+#include "engine/platform/window.h"
 
 namespace rowland::platform {
+
 namespace {
 
 constexpr ButtonState kUp{};
@@ -24,46 +32,27 @@ GamepadEvent pad_with(GamepadAxis axis, float value) {
     return event;
 }
 
-TEST(Input, KeyIsPressedOnceThenHeldThenReleasedOnce) {
-    InputState input;
-    input.apply(KeyEvent{Key::W, true});
-    EXPECT_EQ(input.key(Key::W), kWentDown);
-    EXPECT_EQ(input.key(Key::S), kUp);
-    input.begin_frame();
-    EXPECT_EQ(input.key(Key::W), kHeld);
-    input.apply(KeyEvent{Key::W, false});
-    EXPECT_EQ(input.key(Key::W), kWentUp);
-    input.begin_frame();
-    EXPECT_EQ(input.key(Key::W), kUp);
-}
-
-TEST(Input, KeyTappedWithinOneFrameIsSeen) {
-    InputState input;
-    input.begin_frame();
-    input.apply(KeyEvent{Key::Space, true});
-    input.apply(KeyEvent{Key::Space, false});
-    EXPECT_EQ(input.key(Key::Space), kTapped);
-    input.begin_frame();
-    EXPECT_EQ(input.key(Key::Space), kUp);
-}
-
-TEST(Input, HeldKeyReleasedAndPressedAgainWithinOneFrameIsBoth) {
-    InputState input;
-    input.apply(KeyEvent{Key::A, true});
-    input.begin_frame();
-    input.apply(KeyEvent{Key::A, false});
-    input.apply(KeyEvent{Key::A, true});
-    EXPECT_EQ(input.key(Key::A), (ButtonState{.down = true, .pressed = true, .released = true}));
-}
-
-TEST(Input, RepeatedDownIsNotPressedAgainAndStrayUpIsNoRelease) {
-    InputState input;
-    input.apply(KeyEvent{Key::A, true});
-    input.begin_frame();
-    input.apply(KeyEvent{Key::A, true});
-    EXPECT_EQ(input.key(Key::A), kHeld);
-    input.apply(KeyEvent{Key::B, false});
-    EXPECT_EQ(input.key(Key::B), kUp);
+TEST(Input, AKeysStateFollowsItsEventsOfEachFrame) {
+    struct Frame {
+        std::vector<bool> downs;
+        ButtonState state;
+    };
+    const std::vector<std::vector<Frame>> plays = {
+        {{{true}, kWentDown}, {{}, kHeld}, {{false}, kWentUp}, {{}, kUp}},
+        {{{true, false}, kTapped}, {{}, kUp}},
+        {{{true}, kWentDown}, {{false, true}, {.down = true, .pressed = true, .released = true}}},
+        {{{true}, kWentDown}, {{true}, kHeld}},  // the keyboard's repeat
+        {{{false}, kUp}},                        // a stray release
+    };
+    for (const std::vector<Frame>& play : plays) {
+        InputState input;
+        for (const Frame& frame : play) {
+            input.begin_frame();
+            for (const bool down : frame.downs) input.apply(KeyEvent{Key::W, down});
+            EXPECT_EQ(input.key(Key::W), frame.state) << &play - plays.data();
+            EXPECT_EQ(input.key(Key::S), kUp);
+        }
+    }
 }
 
 TEST(Input, KeyAxisCountsTapsAndCancelsOpposites) {
@@ -84,21 +73,19 @@ TEST(Input, KeyAxisCountsTapsAndCancelsOpposites) {
     EXPECT_EQ(input.key_axis(Key::A, Key::D), -1.0F);
 }
 
-TEST(Input, FirstMovementHasNoDelta) {
-    InputState input;
-    input.apply(MouseMoveEvent{{400.0, 300.0}});
-    EXPECT_EQ(input.mouse_delta(), glm::dvec2(0.0));
-    EXPECT_EQ(input.mouse_position(), glm::dvec2(400.0, 300.0));
-}
-
-TEST(Input, DeltaSumsTheMovementsOfOneFrame) {
+TEST(Input, DeltaSumsTheMovementsOfOneFrameWithoutJumps) {
     InputState input;
     input.apply(MouseMoveEvent{{10.0, 10.0}});
+    EXPECT_EQ(input.mouse_delta(), glm::dvec2(0.0));  // the first movement
+    EXPECT_EQ(input.mouse_position(), glm::dvec2(10.0, 10.0));
     input.begin_frame();
     input.apply(MouseMoveEvent{{15.0, 9.0}});
     input.apply(MouseMoveEvent{{12.0, 20.0}});
     EXPECT_EQ(input.mouse_delta(), glm::dvec2(2.0, 10.0));
     input.begin_frame();
+    input.apply(FocusEvent{false});
+    input.apply(FocusEvent{true});
+    input.apply(MouseMoveEvent{{900.0, 900.0}});  // after a change of focus
     EXPECT_EQ(input.mouse_delta(), glm::dvec2(0.0));
 }
 
@@ -113,15 +100,6 @@ TEST(Input, CaptureMakesNoJumpWhenItBeginsOrEnds) {
         input.apply(MouseMoveEvent{{captured ? 5003.0 : -4997.0, 76.0}});
         EXPECT_EQ(input.mouse_delta(), glm::dvec2(3.0, -1.0)) << "captured: " << captured;
     }
-}
-
-TEST(Input, ChangeOfFocusMakesNoJump) {
-    InputState input;
-    input.apply(MouseMoveEvent{{10.0, 10.0}});
-    input.apply(FocusEvent{false});
-    input.apply(FocusEvent{true});
-    input.apply(MouseMoveEvent{{900.0, 900.0}});
-    EXPECT_EQ(input.mouse_delta(), glm::dvec2(0.0));
 }
 
 TEST(Input, DragIsOnlyTheMovementWithTheButtonDown) {
@@ -280,5 +258,44 @@ TEST(DeadZone, BrokenReadingIsRest) {
     EXPECT_EQ(radial_dead_zone({0.5F, kInfinity}), glm::vec2(0.0F));
 }
 
+// A primary monitor, a larger one to its right and one that stands above, in negative coordinates.
+const std::array kMonitors{ScreenArea{{0, 0}, {1920, 1080}}, ScreenArea{{1920, 0}, {2560, 1440}},
+                           ScreenArea{{0, -1080}, {1920, 1080}}};
+
+TEST(ScreenLayout, WindowBelongsToTheMonitorThatShowsMostOfIt) {
+    const std::pair<ScreenArea, std::size_t> windows[] = {
+        {{{100, 100}, {800, 600}}, 0},  {{{1900, 100}, {800, 600}}, 1},
+        {{{1500, 100}, {800, 600}}, 0},                                     // 420 columns of it against 380
+        {{{1540, 100}, {800, 600}}, 1},                                     // 380 against 420
+        {{{1520, 100}, {800, 600}}, 0},                                     // equal: the first
+        {{{100, -500}, {800, 600}}, 2}, {{{-5000, -5000}, {800, 600}}, 0},  // unseen: the primary one
+        {{{100, 100}, {0, 0}}, 0}};
+    for (const auto& [window, monitor] : windows)
+        EXPECT_EQ(monitor_showing(window, kMonitors), monitor) << window.position.x << " " << window.position.y;
+}
+
+TEST(GlfwEvents, EveryNamedKeyHasAKeyOfTheKeyboard) {
+    std::set<Key> reached;
+    for (int key = -1; key <= GLFW_KEY_LAST; ++key)
+        if (const auto known = key_of_glfw(key)) reached.insert(*known);
+    EXPECT_EQ(reached.size(), static_cast<std::size_t>(Key::Count));
+    EXPECT_FALSE(reached.contains(Key::Count));
+}
+
+TEST(GlfwEvents, KeysAndButtonsAreThemselvesAndOthersNothing) {
+    const std::pair<int, std::optional<Key>> keys[] = {{GLFW_KEY_A, Key::A},      {GLFW_KEY_W, Key::W},
+                                                       {GLFW_KEY_Z, Key::Z},      {GLFW_KEY_0, Key::Digit0},
+                                                       {GLFW_KEY_9, Key::Digit9}, {GLFW_KEY_F1, Key::F1},
+                                                       {GLFW_KEY_F12, Key::F12},  {GLFW_KEY_LEFT_SHIFT, Key::LeftShift},
+                                                       {GLFW_KEY_UNKNOWN, {}},    {GLFW_KEY_F25, {}},
+                                                       {GLFW_KEY_LAST + 1, {}}};
+    for (const auto& [glfw, key] : keys) EXPECT_EQ(key_of_glfw(glfw), key) << glfw;
+    EXPECT_EQ(mouse_button_of_glfw(GLFW_MOUSE_BUTTON_LEFT), MouseButton::Left);
+    EXPECT_EQ(mouse_button_of_glfw(GLFW_MOUSE_BUTTON_RIGHT), MouseButton::Right);
+    EXPECT_EQ(mouse_button_of_glfw(GLFW_MOUSE_BUTTON_MIDDLE), MouseButton::Middle);
+    EXPECT_EQ(mouse_button_of_glfw(GLFW_MOUSE_BUTTON_8), std::nullopt);
+}
+
 }  // namespace
+
 }  // namespace rowland::platform

@@ -7,7 +7,7 @@
 
 #include "engine/core/check.h"
 #include "engine/core/file.h"
-#include "engine/post/shipped_config.h"
+#include "engine/post/ocio_config.h"
 
 namespace rowland::test {
 

@@ -8,7 +8,7 @@
 
 #include "engine/post/auto_exposure.h"
 #include "engine/post/bloom.h"
-#include "engine/post/dither.h"
+#include "engine/post/display_pass.h"
 #include "engine/post/vignette.h"
 
 // The effects on the CPU, as plainly as they can be written: what the passes on the GPU are compared with. Pictures are

@@ -63,9 +63,9 @@ TEST(Vignette, PicturesAreMultipliedByTheFactor) {
 }
 
 TEST(Vignette, HasNoEffectUnlessAskedFor) {
-    EXPECT_FALSE(has_effect({}));
-    EXPECT_TRUE(has_effect({.vertical_fov = 1.0F}));
-    EXPECT_TRUE(has_effect({.strength = 0.1F}));
+    EXPECT_FALSE(has_effect(VignetteSettings{}));
+    EXPECT_TRUE(has_effect(VignetteSettings{.vertical_fov = 1.0F}));
+    EXPECT_TRUE(has_effect(VignetteSettings{.strength = 0.1F}));
     EXPECT_EQ(vignette_factor({0, 0}, {64, 48}, {}), 1.0F);
 }
 

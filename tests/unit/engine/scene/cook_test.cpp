@@ -7,9 +7,8 @@
 #include "engine/core/file.h"
 #include "engine/core/json_reader.h"
 #include "engine/scene/gltf_import.h"
-#include "tests/support/message_of.h"
-#include "tests/support/temporary_folder.h"
-#include "tests/support/test_data.h"
+#include "tests/support/expect.h"
+#include "tests/support/files.h"
 
 namespace rowland::scene {
 namespace {
@@ -55,34 +54,10 @@ TEST_F(SceneCook, BrokenRecipeIsRefusedByName) {
     }
 }
 
-TEST_F(SceneCook, SceneRecipeBecomesAGlb) {
-    const std::filesystem::path source = write("room.json", R"({"scene": {
-        "materials": [{"name": "m"}],
-        "meshes": [{"name": "b", "parts": [{"shape": {"type": "box", "size": [1, 1, 1]}, "material": "m"}]}],
-        "nodes": [{"name": "n", "mesh": "b"}, {"name": "k", "mesh": "b"}]}})");
-    const cook::AssetType& type = registry_.type_of_source(source);
-    EXPECT_EQ(type.name, "scene");
-    EXPECT_EQ(type.extension, ".glb");
-    cook::Context context(source);
-    const std::vector<std::byte> payload = type.cook(context);
-    EXPECT_THAT(context.dependencies(), testing::ElementsAre(source));
-    cook::Context again(source);
-    EXPECT_EQ(type.cook(again), payload);
-    EXPECT_THAT(type.describe(payload, "room.glb"), testing::HasSubstr("nodes: 2\nmeshes: 1\nmaterials: 1\n"));
-}
-
-TEST_F(SceneCook, BrokenSceneRecipeIsRefusedByName) {
-    const std::filesystem::path source = write("room.json", R"({"scene": {"nodes": [{"name": "n", "mesh": "b"}]}})");
-    cook::Context context(source);
-    EXPECT_THAT(rowland::test::message_of([&] { registry_.type_of_source(source).check(context); }),
-                testing::HasSubstr("room.json: /scene/nodes/0/mesh"));
-}
-
-TEST_F(SceneCook, GltfIsCheckedOnly) {
+TEST_F(SceneCook, GltfIsCheckedWithAllThatItNames) {
     ROWLAND_TEST_DATA(path, "gltf/valid/Duck/glTF/Duck.gltf");
     const cook::AssetType& type = registry_.type_of_source(path);
-    EXPECT_EQ(type.name, "gltf");
-    EXPECT_FALSE(type.cook);
+    EXPECT_EQ(type.name, "scene");
     cook::Context context(path);
     type.check(context);
     EXPECT_THAT(context.dependencies(), testing::Contains(path.parent_path() / "Duck0.bin"));
@@ -103,7 +78,8 @@ TEST_F(SceneCook, GltfWithABrokenPictureIsRefused) {
 
 TEST_F(SceneCook, GltfIsDescribedByWhatItHolds) {
     ROWLAND_TEST_DATA(path, "gltf/valid/Duck/glTF_Binary/Duck.glb");
-    const std::string text = registry_.type_of_source(path).describe(read_file(path, 1 << 20), "Duck.glb");
+    cook::Context context(path);
+    const std::string text = registry_.type_of_source(path).describe_source(context);
     for (const char* line : {"vertices: 2399\n", "nodes: 3\n", "meshes: 1\n", "materials: 1\n", "textures: 1\n",
                              "skins: 0\n", "animations: 0\n", "lights: 0\n"})
         EXPECT_THAT(text, testing::HasSubstr(line));

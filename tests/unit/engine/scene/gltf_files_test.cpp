@@ -12,7 +12,7 @@
 #include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/scene/gltf_import.h"
-#include "tests/support/test_data.h"
+#include "tests/support/files.h"
 #include "tests/unit/engine/scene/mesh_sanity.h"
 
 namespace rowland::scene {

@@ -73,8 +73,36 @@ std::size_t add_floats(json& file, const std::string& type, const std::vector<fl
     return add_accessor(file, type, 5126, values.size() / sizes.at(type), std::as_bytes(std::span(values)));
 }
 
+json primitive_of(json& file, const Mesh& mesh) {
+    const auto add = [&](const char* type, const auto& values) {
+        return add_accessor(file, type, 5126, values.size(), std::as_bytes(std::span(values)));
+    };
+    json attributes = {{"POSITION", add("VEC3", mesh.positions)}};
+    const Bounds box = bounds(mesh);
+    file["accessors"].back()["min"] = {box.minimum.x, box.minimum.y, box.minimum.z};
+    file["accessors"].back()["max"] = {box.maximum.x, box.maximum.y, box.maximum.z};
+    attributes["NORMAL"] = add("VEC3", mesh.normals);
+    attributes["TANGENT"] = add("VEC4", mesh.tangents);
+    attributes["TEXCOORD_0"] = add("VEC2", mesh.uvs);
+    const std::size_t indices =
+        add_accessor(file, "SCALAR", 5125, mesh.indices.size(), std::as_bytes(std::span(mesh.indices)));
+    return {{"attributes", attributes}, {"indices", indices}};
+}
+
 void set_attribute(json& file, const std::string& name, std::size_t accessor) {
     file["meshes"][0]["primitives"][0]["attributes"][name] = accessor;
+}
+
+std::vector<std::byte> glb_of(const json& file) {
+    std::string text = file.dump();
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    std::vector<std::byte> glb;
+    const auto add = [&](std::span<const std::byte> bytes) { glb.insert(glb.end(), bytes.begin(), bytes.end()); };
+    const auto size = static_cast<std::uint32_t>(text.size());
+    const std::array<std::uint32_t, 5> header = {0x46546C67, 2, 20 + size, size, 0x4E4F534A};
+    add(std::as_bytes(std::span(header)));
+    add(std::as_bytes(std::span(text)));
+    return glb;
 }
 
 ImportedScene load(const json& file, std::span<const std::string> handled) {

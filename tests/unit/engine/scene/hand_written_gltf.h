@@ -27,8 +27,14 @@ std::size_t add_floats(nlohmann::json& file, const std::string& type, const std:
 std::size_t add_accessor(nlohmann::json& file, const std::string& type, int component_type, std::size_t count,
                          std::span<const std::byte> bytes, bool normalised = false);
 
+/// Adds accessors to a mesh's positions, normals, tangents, uvs and indices; the primitive that uses them.
+nlohmann::json primitive_of(nlohmann::json& file, const Mesh& mesh);
+
 /// Adds an attribute to the first primitive.
 void set_attribute(nlohmann::json& file, const std::string& name, std::size_t accessor);
+
+/// A .glb without a binary chunk.
+std::vector<std::byte> glb_of(const nlohmann::json& file);
 
 ImportedScene load(const nlohmann::json& file, std::span<const std::string> handled = {});
 

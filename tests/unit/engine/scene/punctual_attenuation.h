@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/scene/punctual_light.h"
+#include "engine/scene/light.h"
 
 namespace rowland::scene {
 

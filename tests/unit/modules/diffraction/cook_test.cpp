@@ -10,12 +10,14 @@
 #include "engine/core/json_reader.h"
 #include "engine/core/parallel.h"
 #include "engine/lighting/probe_recipe.h"
+#include "engine/scene/imported_scene.h"
 #include "modules/diffraction/asset/cooked_material.h"
+#include "modules/diffraction/asset/groove_pitches.h"
 #include "modules/diffraction/evaluate/error_measure.h"
 #include "modules/diffraction/evaluate/point_shader.h"
 #include "modules/diffraction/reference/reference.h"
-#include "tests/support/message_of.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/expect.h"
+#include "tests/support/files.h"
 
 namespace rowland::diffraction {
 namespace {
@@ -137,6 +139,98 @@ TEST_F(BudgetMaterial, WithoutProbesTheClearSkyIsMeant) {
     const CookedMaterial cooked = read_cooked_material(cook(), "m.material");
     ASSERT_TRUE(cooked.measured);
     EXPECT_THAT(cooked.measured->probes.at(0).probe, HasSubstr("clear sky"));
+}
+
+/// The same grating on the only material of a scene.
+class GratingInScene : public BudgetMaterial {
+ protected:
+    GratingInScene() {
+        scene_.meshes.resize(1);
+        scene_.meshes[0].normals = {{0.0F, 1.0F, 0.0F}, {0.0F, 1.0F, 0.0F}};
+        scene_.instances = {{.name = "m", .mesh = 0, .material = 0, .node = 0, .skin = {}}};
+        scene_.materials.resize(1);
+        auto texture = std::make_shared<image::ByteImage>();
+        texture->width = 2;
+        texture->height = 1;
+        texture->rgba = {10, 100, 0, 255, 200, 160, 0, 255};
+        scene_.images = {texture};
+        scene_.textures.resize(1);
+    }
+
+    const cook::GltfExtension& extension() const { return registry_.gltf_extensions().at(0); }
+    std::vector<std::byte> tables(const nlohmann::json& quality, const nlohmann::json& more = {}) const {
+        nlohmann::json object = {{"grating", {{"pitch_nm", 1600}, {"profile", {{"type", "slit"}, {"width_nm", 800}}}}},
+                                 {"quality", quality},
+                                 {"grooveRotation", 0.5}};
+        object.update(more.is_null() ? nlohmann::json::object() : more);
+        cook::Context context(source());
+        return extension().cook(context, {object, "/materials/0/extensions/E", scene_, 0});
+    }
+    CookedMaterial cooked(const nlohmann::json& quality, const nlohmann::json& more = {}) const {
+        return read_gltf_tables(tables(quality, more), "s.scene");
+    }
+
+    scene::ImportedScene scene_;
+};
+
+TEST_F(GratingInScene, IsChosenForItsBudgetAsAMaterialFileIs) {
+    const nlohmann::json quality = {{"max_error", 0.2}, {"illuminant", "F2"}, {"probes", {"room.json"}}};
+    const std::vector<std::byte> bytes = tables(quality);
+    const CookedMaterial in_scene = read_gltf_tables(bytes, "s.scene");
+    const CookedMaterial in_file = read_cooked_material(cook(), "m.material");
+    EXPECT_EQ(describe(in_scene), describe(in_file));
+    EXPECT_EQ(extension().describe_tables(bytes, "s.scene"), describe(in_file));
+    EXPECT_EQ(tables(quality, {{"grooveRotation", 1.5}}), bytes);  // the direction is the surface's
+    for (std::size_t missing = 1; missing < 400; missing += 7)
+        EXPECT_THROW(read_gltf_tables(std::span(bytes).first(bytes.size() - missing), "s.scene"), Error);
+}
+
+TEST_F(GratingInScene, APinnedOneStaysAndIsMeasured) {
+    const CookedMaterial cooked = this->cooked({{"representation", "arc"}, {"bands", 3}});
+    EXPECT_EQ(std::get<ArcTable>(cooked.tables).bands, 3);
+    ASSERT_TRUE(cooked.measured);
+    EXPECT_FALSE(cooked.measured->has_budget());
+    EXPECT_GT(cooked.measured->largest_error(), 0.0);
+    EXPECT_THAT(describe(cooked),
+                ::testing::AllOf(HasSubstr("representation: arc"), HasSubstr("pinned"),
+                                 HasSubstr("under the built-in clear sky"), HasSubstr("largest_error: ")));
+}
+
+TEST_F(GratingInScene, IsMeasuredOnTheShapeOfItsMeshesUnlessItNamesOne) {
+    const auto measured_on = [&](nlohmann::json quality) {
+        quality["probes"] = {"room.json"};
+        return cooked(quality).measured->surface;
+    };
+    EXPECT_EQ(measured_on({{"max_error", 0.5}}), SurfaceShape::Flat);
+    scene_.meshes[0].normals[1] = {1.0F, 0.0F, 0.0F};
+    EXPECT_EQ(measured_on({{"max_error", 0.5}}), SurfaceShape::Curved);
+    EXPECT_EQ(measured_on({{"max_error", 0.5}, {"surface", "flat"}}), SurfaceShape::Flat);
+}
+
+TEST_F(GratingInScene, AStatedBudgetOutOfReachIsRefusedByItsPointer) {
+    EXPECT_THAT(rowland::test::message_of([&] {
+                    tables({{"max_error", 1e-6}, {"surface", "curved"}, {"probes", {"room.json"}}});
+                }),
+                HasSubstr("/materials/0/extensions/E/quality/max_error"));
+}
+
+TEST_F(GratingInScene, WithATextureHasTablesForItsPitches) {
+    const nlohmann::json texture = {{"grooveTexture", {{"index", 0}}}};
+    const CookedMaterial cooked = this->cooked({{"max_error", 0.5}, {"probes", {"room.json"}}}, texture);
+    const GroovePitches pitches = groove_pitches(*scene_.images[0]);
+    EXPECT_FALSE(groove_refusal(cooked.material, pitches));
+    if (const auto* arc = std::get_if<ArcTable>(&cooked.tables)) {
+        ASSERT_TRUE(arc->pitch);
+        EXPECT_NEAR(arc->pitch->largest, 320.0 / 255.0, 1e-9);
+    }
+    EXPECT_THAT(rowland::test::message_of([&] {
+                    tables({{"representation", "spikes"}}, texture);
+                }),
+                HasSubstr("grooveTexture"));
+    EXPECT_THAT(rowland::test::message_of([&] {
+                    tables(nlohmann::json::object(), {{"grooveTexture", {{"index", 3}}}});
+                }),
+                HasSubstr("1 textures"));
 }
 
 }  // namespace

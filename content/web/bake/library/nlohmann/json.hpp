@@ -13,6 +13,8 @@
 
 namespace nlohmann {
 
+class ordered_json;
+
 class json {
  public:
     enum class error_handler_t { replace };

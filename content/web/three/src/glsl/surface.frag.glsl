@@ -1,6 +1,7 @@
 // Beneath three's <lights_physical_pars_fragment>: the diffraction term of MeshPhysicalMaterial.
 #define SEPARATE_LIGHTS
-#define KEY_LOBE_WINDOWS
+#define KEY_LOBES
+#define SHOWN_LAYERS LAYERS
 #include "engine/gpu/shaders/dialect.glsl"
 in vec3 world_position;
 in vec3 world_normal;
@@ -13,15 +14,15 @@ uniform mat3 xyz_to_working;  // linear Rec.709
 uniform vec3 mirror_weight;
 uniform vec3 base_weight;
 uniform float light_scale;  // of the probe
-#include "modules/diffraction/shaders/cover.glsl"
-#include "modules/diffraction/shaders/groove_view.glsl"
-#include "modules/diffraction/shaders/small_light.glsl"
-#include "modules/diffraction/shaders/key_lobe_windows.glsl"
+#include "modules/diffraction/shaders/grooves.glsl"
+#include "modules/diffraction/shaders/kernel.glsl"
+#include "modules/diffraction/shaders/light_blocks.h"
+#include "modules/diffraction/shaders/key_light_windows.glsl"
 #ifdef ROWLAND_PLANAR
 #include "modules/diffraction/representations/planar/planar_map.glsl"
 #endif
 #ifdef ROWLAND_ARC
-#include "modules/diffraction/representations/arc/arc_sum.glsl"
+#include "modules/diffraction/representations/arc/arc.glsl"
 #endif
 
 GrooveView lit_view;
@@ -82,9 +83,7 @@ vec3 probe_radiance(GrooveView view) {
 #ifdef ROWLAND_ARC
     sum += arc_radiance(view);
 #endif
-#ifdef KEY_LOBES
-    sum += kernel_to_working(key_lights_radiance(view));
-#endif
+    sum += key_lights_at_pixel(view);
     return light_scale * sum;
 }
 

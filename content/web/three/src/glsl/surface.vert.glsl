@@ -1,4 +1,4 @@
-// Beneath three's <common>: what groove_view.glsl takes from the vertices.
+// Beneath three's <common>: what grooves.glsl takes from the vertices.
 out vec3 world_position;
 out vec3 world_normal;
 out vec3 world_grating;

@@ -1,4 +1,4 @@
-#include "content/demo/hud/memory.h"
+#include "content/demo/hud/windows.h"
 
 #include <gtest/gtest.h>
 

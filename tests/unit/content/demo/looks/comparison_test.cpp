@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "engine/lighting/probe_image.h"
-#include "modules/diffraction/asset/material_json.h"
+#include "modules/diffraction/asset/material.h"
 #include "modules/diffraction/module.h"
 #include "tests/gpu/render_test.h"
 

@@ -6,7 +6,7 @@
 #include <variant>
 
 #include "modules/diffraction/asset/cooked_material.h"
-#include "modules/diffraction/asset/material_json.h"
+#include "modules/diffraction/asset/material.h"
 
 namespace rowland::demo {
 namespace {

@@ -4,16 +4,16 @@
 #include <chrono>
 #include <thread>
 
+#include "content/demo/pixel/pixel_meter.h"
 #include "content/demo/pixel/surface_point.h"
-#include "content/demo/pixel/whole_probe.h"
 #include "engine/core/file.h"
-#include "modules/diffraction/asset/material_json.h"
-#include "modules/diffraction/evaluate/radiance_error.h"
+#include "modules/diffraction/asset/material.h"
+#include "modules/diffraction/evaluate/error_measure.h"
 #include "modules/diffraction/module.h"
 #include "modules/diffraction/reference/reference.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
 #include "tests/gpu/render_test.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 
 namespace rowland::demo {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "engine/platform/key.h"
+#include "engine/platform/input.h"
 
 namespace rowland::demo {
 namespace {

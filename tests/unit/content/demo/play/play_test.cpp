@@ -1,5 +1,5 @@
 #include "content/demo/play/play.h"
-#include "content/demo/play/hierarchy.h"
+#include "content/demo/play/body.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "engine/scene/directional_light.h"
+#include "engine/scene/light.h"
 #include "engine/scene/transform.h"
 #include "tests/unit/content/demo/play/small_world.h"
 

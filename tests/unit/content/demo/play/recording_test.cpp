@@ -6,8 +6,8 @@
 #include <string>
 
 #include "engine/core/file.h"
-#include "tests/support/message_of.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/expect.h"
+#include "tests/support/files.h"
 #include "tests/unit/content/demo/play/small_world.h"
 
 namespace rowland::demo {

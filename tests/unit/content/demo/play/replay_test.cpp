@@ -4,10 +4,10 @@
 #include <cmath>
 #include <vector>
 
-#include "content/demo/play/hierarchy.h"
-#include "content/demo/play/play_clock.h"
+#include "content/demo/play/body.h"
+#include "content/demo/play/recording.h"
 #include "engine/scene/transform.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 #include "tests/unit/content/demo/play/small_world.h"
 
 namespace rowland::demo {

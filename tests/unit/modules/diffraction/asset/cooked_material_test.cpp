@@ -10,8 +10,8 @@
 #include "engine/core/file.h"
 #include "engine/core/parallel.h"
 #include "modules/diffraction/cook.h"
-#include "tests/support/message_of.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/expect.h"
+#include "tests/support/files.h"
 
 namespace rowland::diffraction {
 namespace {
@@ -53,7 +53,7 @@ nlohmann::json material_with(const char* quality) {
 }
 
 constexpr const char* kQualities[] = {
-    R"({"representation": "bins", "bands": 2, "bins": 3, "view_resolution": 4})",
+    R"({"representation": "spikes", "bands": 2, "spikes": 3, "view_resolution": 4})",
     R"({"representation": "transfer", "bands": 2, "view_resolution": 8, "storage": "fp32"})",
     R"({"representation": "arc", "bands": 2, "rank": 3, "view_resolution": 8})",
     R"({"representation": "direct"})",
@@ -109,7 +109,7 @@ TEST(CookedMaterial, TablesOfOtherSettingsThanTheMaterialsAreRefused) {
         const nlohmann::json json = material_with(quality);
         nlohmann::json other = json;
         const CookedMaterial cooked = cook_material(json, "m.json");
-        for (const char* key : {"bands", "bins", "rank", "view_resolution", "storage"}) {
+        for (const char* key : {"bands", "spikes", "rank", "view_resolution", "storage"}) {
             if (!json["quality"].contains(key)) continue;
             other = json;
             other["quality"][key] = std::string(key) == "storage" ? nlohmann::json("fp16") : nlohmann::json(2);
@@ -130,7 +130,7 @@ TEST(CookedMaterial, AStreakOfTooManySegmentsOrNoRestIsRefused) {
     segments.push_back(segments[0]);
     EXPECT_THROW(read_cooked_material(write_cooked_material(json, crowded), "m.material"), Error);
     CookedMaterial bare = cooked;
-    std::get<StreakTables>(bare.tables).rest.reset();
+    std::get<StreakTables>(bare.tables).incoherent.reset();
     EXPECT_THROW(read_cooked_material(write_cooked_material(json, bare), "m.material"), Error);
     CookedMaterial broken = cooked;
     std::get<StreakTables>(broken.tables).streak.segments[0].weights[0][1][1] = std::numeric_limits<float>::quiet_NaN();
@@ -315,6 +315,42 @@ TEST_F(TableMaterial, AMissingTableIsRefusedAndStillADependency) {
     cook::Context context(source());
     EXPECT_THROW(registry_.find(kMaterialAssetType)->cook(context), Error);
     EXPECT_EQ(context.dependencies().size(), 2U);
+}
+
+/// The promise about cooked files (content/README.md): version_7.material was written when version 7 was new.
+constexpr const char* kSource = R"({
+  "grating": { "pitch_nm": 1200, "profile": { "type": "lamellar", "duty": 0.4, "depth_nm": 120 }, "orders": [-1, 1] },
+  "metal": "Al",
+  "quality": { "representation": "arc", "bands": 2, "rank": 3, "view_resolution": 8 }
+})";
+
+TEST(CookedVersion, AMaterialOfThisVersionIsReadAndIsWhatItsSourceStillBakesTo) {
+    const CookedMaterial kept = load_cooked_material(ROWLAND_COOKED_MATERIAL);
+    const CookedMaterial now = cook_material(nlohmann::json::parse(kSource), "source.json");
+    EXPECT_EQ(kept.material.grating.pitch_nm, 1200.0);
+    EXPECT_EQ(kept.material.grating.orders, (std::vector<int>{-1, 1}));
+    ASSERT_EQ(kept.kernel.antiderivative.size(), now.kernel.antiderivative.size());
+    // Single precision; another compiler's mathematics may round another way.
+    constexpr double rounding = 1e-6;
+    double difference = 0.0;
+    double largest = 0.0;
+    for (std::size_t i = 0; i < now.kernel.antiderivative.size(); ++i) {
+        for (int column = 0; column < 3; ++column) {
+            for (int row = 0; row < 3; ++row) {
+                const float a = kept.kernel.antiderivative[i][column][row];
+                const float b = now.kernel.antiderivative[i][column][row];
+                difference = std::max(difference, static_cast<double>(std::abs(a - b)));
+                largest = std::max(largest, static_cast<double>(std::abs(b)));
+            }
+        }
+    }
+    EXPECT_GT(largest, 0.01);
+    EXPECT_LE(difference, rounding * largest) << "the bake has changed: raise kMaterialAssetVersion, keep a new file";
+    const auto& table = std::get<ArcTable>(kept.tables);
+    const auto& expected = std::get<ArcTable>(now.tables);
+    EXPECT_EQ(table.rank, expected.rank);
+    EXPECT_EQ(table.grid.columns, expected.grid.columns);
+    ASSERT_EQ(table.texels.size(), expected.texels.size());
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "modules/diffraction/asset/efficiency_csv.h"
+#include "modules/diffraction/asset/material.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 #include <string>
 
 #include "engine/core/file.h"
-#include "tests/support/message_of.h"
-#include "tests/support/test_data.h"
+#include "tests/support/expect.h"
+#include "tests/support/files.h"
 
 namespace rowland::diffraction {
 namespace {

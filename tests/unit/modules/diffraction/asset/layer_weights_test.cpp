@@ -1,12 +1,12 @@
-#include "modules/diffraction/asset/layer_weights.h"
+#include "modules/diffraction/asset/material.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "engine/colour/light_spectra.h"
-#include "engine/colour/observer.h"
-#include "modules/diffraction/model/efficiency.h"
+#include "engine/colour/illuminant.h"
+#include "engine/colour/spectrum.h"
+#include "modules/diffraction/model/grating.h"
 
 namespace rowland::diffraction {
 namespace {
@@ -93,6 +93,17 @@ TEST(LayerWeights, TheAguNormalisationAddsNoLightEither) {
         const LayerWeights weights = layer_weights(grating);
         EXPECT_LE(weights.mirror.y + weights.base.y + white_of_listed_orders(grating), 1.0 + kTolerance) << fill;
     }
+}
+
+/// What is neither in the listed orders of a lattice nor in its mirror's goes to the base.
+TEST(LayerWeights, ScreensLeaveTheirRemainderToTheBase) {
+    Grating screen;
+    screen.lattice = Lattice{.a_nm = {50000.0, 0.0},
+                             .b_nm = {0.0, 40000.0},
+                             .profile = ApertureProfile{.width_nm = 15000.0, .height_nm = 40000.0},
+                             .orders = 40};
+    EXPECT_NEAR(layer_weights(screen).mirror.y, 0.3 * 0.3, 1e-9);
+    EXPECT_NEAR(layer_weights(screen).base.y, 0.7, 5e-3);
 }
 
 }  // namespace

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "engine/colour/metal.h"
+#include "engine/colour/spectrum.h"
 #include "engine/core/file.h"
-#include "modules/diffraction/asset/efficiency_csv.h"
-#include "modules/diffraction/model/efficiency.h"
-#include "tests/support/test_data.h"
+#include "modules/diffraction/asset/material.h"
+#include "modules/diffraction/model/grating.h"
+#include "tests/support/files.h"
 
 namespace rowland::diffraction {
 namespace {

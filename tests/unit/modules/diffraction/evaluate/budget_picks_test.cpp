@@ -8,16 +8,13 @@
 #include <optional>
 
 #include "engine/core/error.h"
-#include "engine/image/load.h"
-#include "modules/diffraction/asset/material_json.h"
+#include "engine/image/image.h"
+#include "modules/diffraction/asset/material.h"
 #include "modules/diffraction/evaluate/budget.h"
-#include "modules/diffraction/evaluate/frame_sets.h"
-#include "modules/diffraction/evaluate/measured_picture.h"
+#include "modules/diffraction/evaluate/error_measure.h"
 #include "modules/diffraction/evaluate/point_shader.h"
-#include "modules/diffraction/evaluate/radiance_error.h"
 #include "modules/diffraction/reference/reference.h"
-#include "tests/support/source_tree.h"
-#include "tests/support/test_data.h"
+#include "tests/support/files.h"
 
 namespace rowland::diffraction {
 namespace {

@@ -8,14 +8,13 @@
 
 #include "engine/core/json_reader.h"
 #include "engine/core/parallel.h"
-#include "engine/image/load.h"
-#include "modules/diffraction/asset/material_json.h"
-#include "modules/diffraction/evaluate/frame_sets.h"
+#include "engine/image/image.h"
+#include "modules/diffraction/asset/material.h"
+#include "modules/diffraction/evaluate/error_measure.h"
 #include "modules/diffraction/evaluate/point_shader.h"
-#include "modules/diffraction/evaluate/radiance_error.h"
 #include "modules/diffraction/reference/reference.h"
-#include "tests/support/message_of.h"
-#include "tests/support/test_data.h"
+#include "tests/support/expect.h"
+#include "tests/support/files.h"
 
 namespace rowland::diffraction {
 namespace {

@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "engine/image/load.h"
-#include "modules/diffraction/asset/method.h"
-#include "modules/diffraction/evaluate/frame_sets.h"
+#include "engine/image/image.h"
+#include "modules/diffraction/asset/cooked_material.h"
+#include "modules/diffraction/asset/quality.h"
+#include "modules/diffraction/evaluate/error_measure.h"
 #include "modules/diffraction/evaluate/point_shader.h"
-#include "modules/diffraction/evaluate/radiance_error.h"
 #include "modules/diffraction/reference/reference.h"
-#include "tests/support/test_data.h"
+#include "tests/support/files.h"
 
 namespace rowland::diffraction {
 namespace {
@@ -47,9 +47,8 @@ std::vector<std::string> whole_light_methods(SurfaceShape surface, bool narrow) 
 /// changes how much of the lost detail is seen.
 std::vector<std::string> other_methods(bool narrow) {
     if (narrow) return {"arc/bands=5/rank=8/view_resolution=16"};
-    return {"spikes/bands=5/spikes=4", "bins/bands=5/bins=8",  "transfer/bands=5",
-            "arc/bands=5/rank=8",      "arc/bands=12/rank=16", "arc/bands=8/rank=12/key_lights=16",
-            "direct/key_lights=16"};
+    return {"spikes/bands=5/spikes=4",           "transfer/bands=5",    "arc/bands=5/rank=8", "arc/bands=12/rank=16",
+            "arc/bands=8/rank=12/key_lights=16", "direct/key_lights=16"};
 }
 
 class CoverUnderProbe : public ::testing::TestWithParam<ProbeCase> {

@@ -1,5 +1,5 @@
 // One point at a time, held to what rowland-trade evaluate prints for it.
-#include "modules/diffraction/evaluate/point_comparison.h"
+#include "modules/diffraction/evaluate/point_shader.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -12,9 +12,9 @@
 
 #include "engine/asset/container.h"
 #include "engine/core/file.h"
-#include "engine/image/load.h"
+#include "engine/image/image.h"
 #include "modules/diffraction/asset/cooked_material.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/files.h"
 #include "tests/unit/editor/trade/trade_run.h"
 
 namespace rowland::diffraction {

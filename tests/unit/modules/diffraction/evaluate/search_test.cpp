@@ -4,11 +4,9 @@
 
 #include <algorithm>
 
-#include "modules/diffraction/asset/material_json.h"
-#include "modules/diffraction/evaluate/frame_sets.h"
-#include "modules/diffraction/evaluate/measured_scene.h"
+#include "modules/diffraction/asset/material.h"
+#include "modules/diffraction/evaluate/error_measure.h"
 #include "modules/diffraction/evaluate/point_shader.h"
-#include "modules/diffraction/evaluate/radiance_error.h"
 #include "modules/diffraction/reference/reference.h"
 
 namespace rowland::diffraction {

@@ -9,14 +9,14 @@
 #include <glm/geometric.hpp>
 #include <string>
 
-#include "engine/colour/observer.h"
+#include "engine/colour/spectrum.h"
 #include "engine/core/file.h"
-#include "engine/math/sh_rotation.h"
-#include "modules/diffraction/bake/arc_coefficients.h"
-#include "modules/diffraction/model/efficiency.h"
-#include "modules/diffraction/model/grating_equation.h"
+#include "engine/math/spherical_harmonics.h"
+#include "modules/diffraction/bake/arc_moments.h"
+#include "modules/diffraction/model/brdf.h"
+#include "modules/diffraction/model/grating.h"
 #include "modules/diffraction/reference/reference.h"
-#include "tests/support/test_data.h"
+#include "tests/support/files.h"
 #include "tests/unit/modules/diffraction/reference/oracle.h"
 
 namespace rowland::diffraction {
@@ -87,8 +87,8 @@ std::vector<glm::dvec3> radiance(const Grating& grating, const std::vector<Shadi
     return result;
 }
 
-/// PHYSICS §4 gives .2–.4 %, .01–.16 % and .005–.05 % (measured here: .18–.44, .013–.16, .005–.053): held to the upper
-/// ends, a tenth more allowed.
+/// MEASUREMENTS §4 gives .2–.4 %, .01–.16 % and .005–.05 % (measured here: .18–.44, .013–.16, .005–.053): held to the
+/// upper ends, a tenth more allowed.
 TEST(ColourKernel, CellsOfItsAntiderivativeGiveTheBandlimitedOracle) {
     ROWLAND_TEST_DATA(path, "oracle/radiance_bandlimited.csv");
     ROWLAND_TEST_DATA(light_path, "oracle/bandlimited_light_n5.csv");

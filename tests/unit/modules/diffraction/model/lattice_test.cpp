@@ -8,7 +8,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "modules/diffraction/model/efficiency.h"
+#include "modules/diffraction/model/grating.h"
 
 namespace rowland::diffraction {
 namespace {
@@ -30,7 +30,7 @@ TEST(Lattice, ReciprocalVectorsAreDualToTheCell) {
     EXPECT_NEAR(glm::dot(stars[1], hexagonal.b_nm), 1.0, 1e-15);
 }
 
-/// PHYSICS (48).
+/// PHYSICS (13.3).
 TEST(Lattice, OrdersOfCrossedGroovesAreProducts) {
     const Profile a = SinusoidalProfile{.depth_nm = 120.0};
     const Profile b = BlazedProfile{.depth_nm = 250.0};

@@ -9,13 +9,13 @@
 #include <numbers>
 #include <span>
 
-#include "engine/colour/observer.h"
+#include "engine/colour/spectrum.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
-#include "engine/math/sh_basis.h"
-#include "modules/diffraction/model/efficiency.h"
-#include "modules/diffraction/model/grating_equation.h"
+#include "engine/math/spherical_harmonics.h"
+#include "modules/diffraction/model/brdf.h"
+#include "modules/diffraction/model/grating.h"
 
 namespace rowland::diffraction {
 

@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "engine/colour/light_spectra.h"
+#include "engine/colour/illuminant.h"
 #include "engine/lighting/sh_light.h"
 #include "modules/diffraction/model/grating.h"
 

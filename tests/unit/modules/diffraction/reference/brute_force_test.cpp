@@ -9,13 +9,13 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "engine/colour/observer.h"
+#include "engine/colour/spectrum.h"
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
-#include "modules/diffraction/bake/arc_coefficients.h"
-#include "modules/diffraction/model/efficiency.h"
+#include "modules/diffraction/bake/arc_moments.h"
+#include "modules/diffraction/model/grating.h"
 #include "modules/diffraction/reference/reference.h"
-#include "tests/support/test_data.h"
+#include "tests/support/files.h"
 #include "tests/unit/modules/diffraction/reference/oracle.h"
 
 namespace rowland::diffraction {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "modules/diffraction/reference/reference.h"
-#include "tests/support/test_data.h"
+#include "tests/support/files.h"
 #include "tests/unit/modules/diffraction/reference/oracle.h"
 
 namespace rowland::diffraction {

@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
-#include "engine/colour/observer.h"
-#include "modules/diffraction/model/efficiency.h"
-#include "modules/diffraction/model/grating_equation.h"
+#include "engine/colour/spectrum.h"
+#include "modules/diffraction/model/brdf.h"
+#include "modules/diffraction/model/grating.h"
 #include "modules/diffraction/reference/reference.h"
 
 namespace rowland::diffraction {

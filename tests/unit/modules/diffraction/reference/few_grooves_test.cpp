@@ -7,12 +7,12 @@
 #include <numbers>
 #include <vector>
 
-#include "engine/colour/observer.h"
+#include "engine/colour/spectrum.h"
 #include "engine/math/quadrature.h"
-#include "engine/math/sh_basis.h"
+#include "engine/math/spherical_harmonics.h"
 #include "modules/diffraction/model/brdf.h"
 #include "modules/diffraction/reference/reference.h"
-#include "tests/support/test_data.h"
+#include "tests/support/files.h"
 #include "tests/unit/modules/diffraction/reference/oracle.h"
 
 namespace rowland::diffraction {

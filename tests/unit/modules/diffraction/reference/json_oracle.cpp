@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/core/json_reader.h"
-#include "modules/diffraction/asset/material_json.h"
+#include "modules/diffraction/asset/material.h"
 
 namespace rowland::diffraction::test {
 

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "engine/image/load.h"
-#include "modules/diffraction/model/efficiency.h"
+#include "engine/image/image.h"
+#include "modules/diffraction/model/grating.h"
 #include "modules/diffraction/reference/reference.h"
 #include "tests/support/csv.h"
-#include "tests/support/test_data.h"
+#include "tests/support/files.h"
 #include "tests/unit/modules/diffraction/reference/json_oracle.h"
 
 namespace rowland::diffraction {

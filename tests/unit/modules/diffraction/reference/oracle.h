@@ -8,7 +8,6 @@
 
 #include "engine/lighting/sh_light.h"
 #include "modules/diffraction/model/grating.h"
-#include "modules/diffraction/model/shading_point.h"
 #include "tests/support/csv.h"
 
 namespace rowland::diffraction::test {

@@ -8,12 +8,12 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "engine/colour/observer.h"
+#include "engine/colour/spectrum.h"
 #include "engine/core/parallel.h"
-#include "engine/image/load.h"
-#include "modules/diffraction/model/grating_equation.h"
+#include "engine/image/image.h"
+#include "modules/diffraction/model/brdf.h"
 #include "tests/support/csv.h"
-#include "tests/support/test_data.h"
+#include "tests/support/files.h"
 #include "tests/unit/modules/diffraction/reference/json_oracle.h"
 
 namespace rowland::diffraction {

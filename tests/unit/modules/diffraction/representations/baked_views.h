@@ -8,8 +8,8 @@
 
 #include "engine/core/byte_stream.h"
 #include "engine/core/error.h"
-#include "engine/math/sh_rotation.h"
-#include "modules/diffraction/model/shading_point.h"
+#include "engine/math/spherical_harmonics.h"
+#include "modules/diffraction/model/grating.h"
 #include "tests/unit/modules/diffraction/reference/oracle.h"
 
 namespace rowland::diffraction::test {

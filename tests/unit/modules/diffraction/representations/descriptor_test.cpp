@@ -1,52 +1,17 @@
-// A representation is described once. The schema and the page, which are written by hand, agree with the descriptors.
+// A representation is described once. The page, which is written by hand, agrees with the descriptors.
 #include <gtest/gtest.h>
 
-#include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "engine/core/file.h"
 #include "modules/diffraction/representations/representation.h"
-#include "tests/support/source_tree.h"
+#include "tests/support/files.h"
 
 namespace rowland::diffraction {
 namespace {
 
-using nlohmann::json;
-
 std::string read_module_file(const std::string& path) {
     return read_text_file(rowland::test::source_path("modules/diffraction/" + path), 1 << 20);
-}
-
-/// What the schema says of a pinned representation.
-json quality_schema(const RepresentationInfo& info) {
-    const json where = {{"enum", {"pixels", "vertices"}}};
-    json properties = {{"max_error", {{"type", "number"}, {"exclusiveMinimum", 0}}},
-                       {"illuminant", {{"$ref", "#/$defs/illuminant"}}},
-                       {"representation", {{"const", info.name}}},
-                       {"lights_at", where}};
-    properties["key_lights"]["$ref"] =
-        info.key_lights == KeyLightUse::Always ? "#/$defs/some_key_lights" : "#/$defs/key_lights";
-    if (info.is_map) properties["map_at"] = where;
-    for (const SettingInfo& setting : info.settings)
-        properties[setting.key] =
-            setting.words.empty()
-                ? json{{"type", "integer"}, {"minimum", setting.minimum}, {"maximum", setting.maximum}}
-                : json{{"enum", setting.words}};
-    return {{"type", "object"},
-            {"required", {"representation"}},
-            {"additionalProperties", false},
-            {"properties", properties}};
-}
-
-TEST(RepresentationDescriptors, AreWhatTheSchemaSays) {
-    const json schema = json::parse(read_module_file("asset/material.schema.json"));
-    std::map<std::string, json> by_name;
-    for (const json& choice : schema["$defs"]["quality"]["oneOf"])
-        if (choice["properties"].contains("representation"))
-            by_name[choice["properties"]["representation"]["const"]] = choice;
-    EXPECT_EQ(by_name.size(), kRepresentationCount);
-    for (const RepresentationInfo* info : representations()) EXPECT_EQ(by_name[info->name], quality_schema(*info));
 }
 
 /// The row of the page's table of representations: "| `arc` | … | `bands` 5, `rank` 8 … |".

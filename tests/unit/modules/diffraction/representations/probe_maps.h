@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/image/load.h"
+#include "engine/image/image.h"
 #include "engine/lighting/key_lights.h"
 #include "engine/lighting/light_samples.h"
 #include "modules/diffraction/model/colour_kernel.h"

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "engine/colour/working_space.h"
-#include "modules/diffraction/model/efficiency.h"
+#include "engine/colour/colour_space.h"
+#include "modules/diffraction/model/grating.h"
 
 namespace rowland::diffraction {
 namespace {

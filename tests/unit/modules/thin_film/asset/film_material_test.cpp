@@ -5,9 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/core/json_reader.h"
-#include "modules/thin_film/asset/cooked_film.h"
 #include "modules/thin_film/asset/gltf_iridescence.h"
-#include "tests/support/message_of.h"
+#include "tests/support/expect.h"
 
 namespace rowland::thin_film {
 namespace {
@@ -38,8 +37,8 @@ TEST(FilmMaterial, RefusesWhatIsNoFilmWithItsLocation) {
     expect_refused(R"({"film": {"ior": 0.9, "thickness_nm": 400}, "metal": "Al"})", {"film.json", "/film/ior", "0.9"});
     expect_refused(R"({"film": {"ior": 1.3, "thickness_nm": -1}, "metal": "Al"})", {"/film/thickness_nm", "-1"});
     expect_refused(R"({"film": {"ior": 1.3, "thickness_nm": 1}})", {"base"});
-    expect_refused(R"({"film": {"ior": 1.3, "thickness_nm": 1}, "metal": "Al", "base": {"ior": 1.5}})", {"/metal"});
-    expect_refused(R"({"film": [], "metal": "Al"})", {"/film", "0 layers"});
+    expect_refused(R"({"film": {"ior": 1.3, "thickness_nm": 1}, "metal": "Al", "base": {"ior": 1.5}})", {"/base"});
+    expect_refused(R"({"film": [], "metal": "Al"})", {"/film", "0 objects"});
     expect_refused(R"({"film": {"ior": 1.3, "thickness_nm": 1}, "metal": "Al", "roughnes": 1})", {"roughness"});
 }
 

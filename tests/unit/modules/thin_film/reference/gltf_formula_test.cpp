@@ -1,9 +1,9 @@
-#include "modules/thin_film/reference/gltf_formula.h"
+#include "modules/thin_film/reference/film_reference.h"
 
 #include <gtest/gtest.h>
 
-#include "engine/colour/primaries.h"
-#include "modules/thin_film/model/film_colour.h"
+#include "engine/colour/colour_space.h"
+#include "modules/thin_film/model/film.h"
 
 namespace rowland::thin_film {
 namespace {

@@ -1,0 +1,262 @@
+#include "editor/inspector/open_document.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "editor/inspector/groove_picture.h"
+#include "engine/core/error.h"
+#include "engine/core/file.h"
+#include "engine/core/json_reader.h"
+#include "modules/diffraction/asset/gltf_extension.h"
+#include "modules/diffraction/asset/material.h"
+
+namespace rowland::inspector {
+
+namespace {
+
+constexpr std::uint64_t kLargestSource = 16 << 20;
+constexpr std::uint64_t kLargestPicture = 64 << 20;
+
+const std::array kPresets = {"cd",         "cd_pressed",       "cd_r", "dvd", "blu_ray", "ruled_600",
+                             "ruled_1200", "holographic_foil", "vinyl"};
+
+bool has_extension(const std::filesystem::path& path, std::initializer_list<const char*> extensions) {
+    return std::ranges::count(extensions, path.extension().string()) > 0;
+}
+
+bool is_scene_file(const std::filesystem::path& path) {
+    return has_extension(path, {".gltf", ".glb"});
+}
+
+/// A PNG or JPEG, for groove textures.
+bool is_picture_file(const std::filesystem::path& path) {
+    return has_extension(path, {".png", ".jpg", ".jpeg"});
+}
+
+bool is_table(const diffraction::Grating& grating) {
+    return std::holds_alternative<diffraction::EfficiencyTable>(grating.profile);
+}
+
+}  // namespace
+
+bool is_light_file(const std::filesystem::path& path) {
+    if (has_extension(path, {".hdr", ".exr", ".pic", ".probe"})) return true;
+    if (is_scene_file(path) || is_picture_file(path) || has_extension(path, {".csv"})) return false;
+    const nlohmann::json json = parse_json(read_text_file(path, kLargestSource), path.string());
+    return json.is_object() && json.contains("probe");
+}
+
+OpenDocument::OpenDocument(std::filesystem::path presets, Messages& messages)
+    : presets_(std::move(presets)),
+      messages_(messages),
+      document_(Document::open_as_new(presets_ / "cd.json")),
+      cook_(std::make_shared<GratingCook>(nullptr)) {}
+
+std::string OpenDocument::chosen_name() const {
+    return scene() != nullptr && document_.chosen() < scene()->materials.size()
+               ? scene()->materials[document_.chosen()].name
+               : document_.name();
+}
+
+void OpenDocument::open(const std::filesystem::path& path) {
+    const std::string file = path.filename().string();
+    messages_.attempt([&] {
+        if (is_scene_file(path)) {
+            opening_path_ = std::make_shared<const std::filesystem::path>(path);
+        } else if (is_picture_file(path)) {
+            set_groove_picture(as_groove_picture(read_file(path, kLargestPicture), file),
+                               std::filesystem::path(file).replace_extension(".png").string());
+        } else if (has_extension(path, {".csv"})) {
+            opened_table_ = diffraction::parse_efficiency_csv(read_text_file(path, diffraction::kMaximumNamedFileSize),
+                                                              path.string());
+            messages_.say(file + ": compared with the efficiencies of the profile");
+        } else {
+            use_material(Document::open(path), path);
+        }
+    });
+}
+
+bool OpenDocument::open_preset(const std::string& name) {
+    const std::filesystem::path path = presets_ / (name + ".json");
+    return messages_.attempt([&] { use_material(Document::open_as_new(path), path); });
+}
+
+std::span<const char* const> OpenDocument::presets() {
+    return kPresets;
+}
+
+bool OpenDocument::is_replaced_by(const std::filesystem::path& path) const {
+    if (is_scene_file(path)) return true;
+    if (document_.is_scene() || is_picture_file(path) || has_extension(path, {".csv"})) return false;
+    try {
+        return !is_light_file(path);
+    } catch (const Error&) {
+        return false;  // the file will be refused
+    }
+}
+
+void OpenDocument::close_scene() {
+    if (document_.is_scene()) messages_.attempt([&] { replace(Document::open_as_new(presets_ / "cd.json"), nullptr); });
+}
+
+void OpenDocument::replace(Document document, std::shared_ptr<const PreviewObject> object) {
+    document_ = std::move(document);
+    ++replacements_;
+    object_ = std::move(object);
+    cook_ = std::make_shared<GratingCook>(object_ ? object_->scene : nullptr);
+    scene_gratings_.reset();
+    if (object_) return;
+    messages_.say(document_.name() + (document_.path().empty() ? ": the start of a new material" : ": opened"));
+}
+
+void OpenDocument::replace(OpenedScene opened) {
+    auto object = std::make_shared<const PreviewObject>(
+        PreviewObject{PreviewShape::Model, upload(*opened.object), opened.object});
+    replace(std::move(opened.document), std::move(object));
+    const std::string file = document_.name();
+    for (const std::string& warning : scene()->imported.warnings) messages_.say(file + ": " + warning);
+    std::size_t gratings = 0;
+    for (std::size_t i = 0; i < document_.material_count(); ++i) gratings += document_.accepted(i) ? 1 : 0;
+    messages_.say(
+        fmt::format("{}: opened: {} materials, {} with a grating", file, scene()->materials.size(), gratings));
+}
+
+void OpenDocument::use_material(Document material, const std::filesystem::path& path) {
+    if (!document_.is_scene()) return replace(std::move(material), nullptr);
+    document_.set_grating(
+        diffraction::gltf_object(material.json(), std::filesystem::absolute(path).parent_path(), document_.folder()),
+        material.name());
+    messages_.say(material.name() + ": the grating of " + chosen_name());
+}
+
+void OpenDocument::start_opening() {
+    opening_.want(
+        opening_path_ ? std::optional(opening_path_) : std::nullopt,
+        [path = opening_path_](const std::stop_token& stop, auto&&) -> std::optional<std::shared_ptr<OpenedScene>> {
+            auto object = load_scene_object(*path);
+            Document document = Document::open_scene(scene::EditableGltf::open(*path), object->without_material);
+            if (stop.stop_requested()) return std::nullopt;
+            return std::make_shared<OpenedScene>(OpenedScene{std::move(object), std::move(document)});
+        });
+}
+
+bool OpenDocument::take_opened(const Opening::Change& change) {
+    if (!change.failure.empty()) {
+        messages_.say(change.failure, true);
+        opening_path_.reset();
+        return true;
+    }
+    if (!change.value || !opening_path_) return change.value;
+    opening_path_.reset();
+    messages_.attempt([&] { replace(std::move(**opening_.value())); });
+    opening_.reset();
+    return true;
+}
+
+void OpenDocument::finish_opening() {
+    start_opening();
+    take_opened(opening_.wait());
+}
+
+void OpenDocument::cancel_opening() {
+    if (!opening_path_) return;
+    messages_.say(opening_path_->filename().string() + ": not opened");
+    opening_path_.reset();
+    opening_.reset();
+}
+
+void OpenDocument::save(bool over_changes) {
+    asks_to_overwrite = !over_changes && document_.changed_outside();
+    if (asks_to_overwrite) return messages_.say(document_.name() + ": changed by another program since it was opened");
+    if (messages_.attempt([&] { document_.save(over_changes); })) messages_.say(document_.path().string() + ": saved");
+}
+
+void OpenDocument::save_as(const std::filesystem::path& path) {
+    if (messages_.attempt([&] { document_.save_as(path); })) messages_.say(path.string() + ": saved");
+}
+
+void OpenDocument::paste_grating(const std::string& text) {
+    messages_.attempt([&] {
+        document_.set_grating(parse_ordered(text, "the clipboard"), "the clipboard");
+        messages_.say("the grating of " + chosen_name() + " is the clipboard's");
+    });
+}
+
+void OpenDocument::remove_grating() {
+    messages_.attempt([&] {
+        document_.set_grating(nullptr, document_.name());
+        messages_.say(chosen_name() + ": without a grating");
+    });
+}
+
+void OpenDocument::set_groove_picture(std::vector<std::byte> picture, const std::string& name) {
+    if (!document_.is_scene() || !document_.has_grating())
+        refuse_input(
+            name, {}, "a picture", "a scene with a grating on the chosen material",
+            "open a .gltf or .glb, choose a material and attach a grating; the picture then varies its grooves");
+    const std::size_t index = document_.new_textures().add(std::move(picture), name);
+    Json texture = document_.json().value("grooveTexture", Json::object());
+    texture["index"] = index;
+    document_.finish_edit();
+    document_.set_value(field_at("/grooveTexture"), texture);
+    document_.finish_edit();
+    messages_.say(name + ": the grooves of " + chosen_name());
+}
+
+void OpenDocument::set_foil_pattern(const std::string& name) {
+    messages_.attempt([&] { set_groove_picture(foil_pattern(name), name + ".png"); });
+}
+
+void OpenDocument::cook(Cooking& cooking, const std::shared_ptr<const MaterialSource>& source) {
+    cooking.want(source ? std::optional(source) : std::nullopt,
+                 [cook = cook_, source](auto&&...) { return cook->cook(*source); });
+}
+
+bool OpenDocument::update() {
+    start_opening();
+    bool news = take_opened(opening_.poll());
+    cook(cooked_, document_.accepted());
+    cook(saved_, document_.saved());
+    const auto change = cooked_.poll();
+    if (!change.failure.empty()) messages_.say(change.failure, true);
+    if (change.value && !is_table((*cooked_.value())->material->material.grating))
+        last_scalar_ = (*cooked_.value())->material->material.grating;
+    news = change.value || !change.failure.empty() || news;
+    news = saved_.poll().value || news;  // cooked_ reports the same failure
+    news = scene_gratings_.update(document_, cook_, cooked_.current() ? *cooked_.value() : nullptr) || news;
+    for (std::string& failure : scene_gratings_.take_failures()) messages_.say(std::move(failure), true);
+    return news;
+}
+
+bool OpenDocument::busy() const {
+    const auto& source = document_.accepted();
+    return !cooked_.wants(source ? std::optional(source) : std::nullopt) || cooked_.busy() || saved_.busy() ||
+           scene_gratings_.busy() || opening_path_ != nullptr;
+}
+
+std::shared_ptr<const CookedGrating> OpenDocument::grating(bool as_saved) const {
+    const Cooking& cooking = as_saved ? saved_ : cooked_;
+    return document_.has_grating() && cooking.value() != nullptr ? *cooking.value() : nullptr;
+}
+
+Gratings OpenDocument::gratings(bool as_saved) const {
+    Gratings all = scene_gratings_.all();
+    if (as_saved) all.at(document_.chosen()) = grating(true);
+    return all;
+}
+
+std::optional<diffraction::Grating> OpenDocument::compared() const {
+    if (!document_.has_grating()) return std::nullopt;
+    diffraction::Grating other = document_.material().grating;
+    if (is_table(other) && last_scalar_) return last_scalar_;
+    if (!opened_table_) return std::nullopt;
+    other.profile = *opened_table_;
+    other.metal.reset();
+    other.normalization = diffraction::Normalization::Energy;
+    return other;
+}
+
+}  // namespace rowland::inspector

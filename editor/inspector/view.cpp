@@ -1,0 +1,128 @@
+#include "editor/inspector/view.h"
+
+#include <utility>
+#include <vector>
+
+namespace rowland::inspector {
+
+View::View(const post::OcioConfig& config, bool still, OpenDocument& document, const LightChoice& light,
+           Messages& messages)
+    : document_(document), light_(light), messages_(messages), preview_(config, still) {
+    choose_shape(PreviewShape::Disc);
+}
+
+void View::choose_shape(PreviewShape shape) {
+    if (shape == PreviewShape::Model) {
+        if (!document_.object()) return;
+        object_ = document_.object();
+    } else {
+        object_ = std::make_shared<const PreviewObject>(PreviewObject{
+            shape, {.meshes = {render::make_mesh_instance(preview_mesh(shape))}, .materials = {}}, nullptr});
+    }
+    forget_point();
+}
+
+void View::forget_point() {
+    picked_.reset();
+    surface_.reset();
+    point_ = nullptr;
+    searched_ = false;
+}
+
+void View::update() {
+    const std::size_t chosen = document_.document().chosen();
+    const std::size_t replacements = document_.replacements();
+    if (std::exchange(followed_, replacements) != replacements) {
+        if (document_.object())
+            choose_shape(PreviewShape::Model);
+        else if (object_->scene)
+            choose_shape(PreviewShape::Disc);
+        forget_point();
+    }
+    if (std::exchange(chosen_, chosen) != chosen) forget_point();
+}
+
+void View::pick(const glm::vec2& at) {
+    const auto surface = preview_.pick(at);
+    if (!surface) return;
+    if (object_->scene && surface->material) {
+        document_.document().choose(*surface->material);
+        chosen_ = *surface->material;
+    }
+    surface_ = surface;
+    point_ = std::make_shared<const diffraction::ShadingPoint>(surface->frame);
+    picked_ = PickedPixel{.position = at};
+    pixel_inputs_ = {};
+}
+
+void View::draw(glm::ivec2 size, const scene::Camera& camera, bool with_saved, float seconds) {
+    if (!ready() || size.x < 1 || size.y < 1) return;
+    const std::size_t chosen = object_->scene ? document_.document().chosen() : 0;
+    const auto gratings = [&](bool as_saved) {
+        return object_->scene ? document_.gratings(as_saved) : Gratings{document_.grating(as_saved)};
+    };
+    messages_.attempt([&] {
+        preview_.show({.size = size,
+                       .eye = camera.eye,
+                       .target = camera.target,
+                       .stage = stage,
+                       .object = object_,
+                       .light = light_.current(),
+                       .gratings = gratings(false),
+                       .saved = with_saved && document_.saved() ? std::optional(gratings(true)) : std::nullopt,
+                       .grooves_of = shows_grooves ? std::optional(chosen) : std::nullopt,
+                       .glare_of = looks_through ? std::optional(chosen) : std::nullopt});
+    });
+    preview_.draw(seconds);
+    update_point();
+    const PixelInputs inputs{document_.cooked(), light_.current(), point_, stage};
+    if (picked_ && std::exchange(pixel_inputs_, inputs) != inputs) read_picked_pixel();
+}
+
+void View::read_picked_pixel() {
+    const glm::ivec2 size = preview_.display().size();
+    const glm::ivec2 pixel = glm::min(glm::ivec2(picked_->position * glm::vec2(size)), size - 1);
+    const auto index =
+        static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(size.x) + static_cast<std::size_t>(pixel.x);
+    picked_->working = glm::vec3(preview_.linear().read_rgba_float()[index]);
+    const std::vector<std::uint8_t> display = preview_.display().read_rgba8();
+    picked_->display = {display[4 * index], display[4 * index + 1], display[4 * index + 2]};
+}
+
+std::optional<PickedSurface> View::find_surface() {
+    const std::size_t chosen = document_.document().chosen();
+    std::vector<glm::vec2> points;
+    if (object_->scene) points = preview_.middles_of(chosen);
+    points.insert(points.end(), {glm::vec2(0.66F, 0.5F), glm::vec2(0.5F, 0.5F), glm::vec2(0.5F, 0.68F)});
+    for (const glm::vec2 at : points)
+        if (auto surface = preview_.pick(at); surface && (!object_->scene || surface->material == chosen))
+            return surface;
+    return std::nullopt;
+}
+
+diffraction::ShadingPoint View::point_or_middle() {
+    if (point_) return *point_;
+    const auto surface = find_surface();
+    return surface ? surface->frame : diffraction::ShadingPoint{};
+}
+
+/// Finds a surface of the chosen material of a scene, once, and follows the rotation of its grooves.
+void View::update_point() {
+    if (!object_->scene || !preview_.drawn()) return;
+    if (!document_.document().has_grating()) {
+        point_ = nullptr;
+        return;
+    }
+    if (!surface_ && !std::exchange(searched_, true)) surface_ = find_surface();
+    if (!surface_) return;
+    const Gratings gratings = document_.gratings(false);
+    const std::shared_ptr<const CookedGrating>& grating = gratings.at(document_.document().chosen());
+    if (!grating) return;
+    const diffraction::ShadingPoint point =
+        with_grating_rotated(surface_->point, grating->groove_rotation + surface_->map_rotation);
+    if (point_ && point == *point_) return;
+    surface_->frame = point;
+    point_ = std::make_shared<const diffraction::ShadingPoint>(point);
+}
+
+}  // namespace rowland::inspector

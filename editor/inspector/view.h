@@ -1,0 +1,83 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <optional>
+#include <tuple>
+
+#include "editor/inspector/light.h"
+#include "editor/inspector/open_document.h"
+#include "editor/inspector/preview.h"
+#include "engine/core/log.h"
+#include "engine/scene/camera.h"
+
+namespace rowland::inspector {
+
+struct PickedPixel {
+    glm::vec2 position{0.5F};  ///< from the picture's upper left corner, in [0, 1]
+    glm::vec3 working{0.0F};   ///< scene-linear
+    glm::ivec3 display{0};     ///< 8-bit values
+};
+
+/// The preview of the document under the light, on a shape or in its scene, and the point that the user picked in it.
+/// Needs a current context.
+class View {
+ public:
+    /// `document`, `light` and `messages` must outlive it. `still`: as for Preview.
+    View(const post::OcioConfig& config, bool still, OpenDocument& document, const LightChoice& light,
+         Messages& messages);
+
+    Stage stage;
+    bool looks_through = false;  ///< the chosen material is held before the camera as well
+    bool shows_grooves = false;  ///< strokes along the grooves of the chosen material
+
+    /// PreviewShape::Model shows the scene; it is ignored without one.
+    void choose_shape(PreviewShape shape);
+    PreviewShape shape() const { return object_->shape; }
+    /// Picks the surface at a point of the last picture, if there is one; in a scene that chooses its material.
+    void pick(const glm::vec2& at);
+
+    /// Follows the document: another scene is shown as a whole, and another chosen material ends the pick. Call it
+    /// every frame, after the document's update().
+    void update();
+    /// Whether there are a light and a material, or a scene, to draw.
+    bool ready() const { return light_.current() && (document_.cooked() || document_.document().is_scene()); }
+    /// Draws the preview if it is ready and the picture may have changed. `with_saved`: also the saved version.
+    void draw(glm::ivec2 size, const scene::Camera& camera, bool with_saved, float seconds);
+    /// Whether the next picture may differ from the last for the same inputs.
+    bool changes() const { return ready() && preview_.changes(); }
+
+    const Preview& preview() const { return preview_; }
+    const std::optional<PickedPixel>& picked() const { return picked_; }
+    /// In a scene: the picked point of the chosen material, or a visible point of it; nullopt: none was found.
+    const std::optional<PickedSurface>& surface() const { return surface_; }
+    /// The shading point of surface(), in the probe's axes; a new pointer whenever it changes. Null: no such surface.
+    const std::shared_ptr<const diffraction::ShadingPoint>& point() const { return point_; }
+    /// point(), or that of a visible point near the middle of the picture.
+    diffraction::ShadingPoint point_or_middle();
+
+ private:
+    using PixelInputs =
+        std::tuple<OpenDocument::Cooked, LightChoice::Light, std::shared_ptr<const diffraction::ShadingPoint>, Stage>;
+
+    void forget_point();
+    std::optional<PickedSurface> find_surface();
+    void update_point();
+    void read_picked_pixel();
+
+    OpenDocument& document_;
+    const LightChoice& light_;
+    Messages& messages_;
+    Preview preview_;
+    std::shared_ptr<const PreviewObject> object_;
+    std::size_t followed_ = 0;  ///< replacements of the document in the last update()
+    std::size_t chosen_ = 0;    ///< material in the last update()
+    std::optional<PickedPixel> picked_;
+    std::optional<PickedSurface> surface_;
+    std::shared_ptr<const diffraction::ShadingPoint> point_;
+    bool searched_ = false;     ///< for a surface of the chosen material
+    PixelInputs pixel_inputs_;  ///< of the colours in picked_
+};
+
+}  // namespace rowland::inspector

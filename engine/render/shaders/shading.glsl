@@ -1,0 +1,224 @@
+// The metallic-roughness surface under the scene's lights and the environment, and what the program writes. A material
+// includes surface.glsl and environment.glsl, defines what it changes (engine/MODULES.md, "Write the shaders"), then
+// includes this file and writes its main().
+layout(location = 0) out vec4 radiance;
+#ifdef MATERIAL_PASSES_LIGHT
+layout(location = 0, index = 1) out vec4 background;  // what lies behind is multiplied by it
+#endif
+
+// What a material adds to, and leaves of, the metallic-roughness surface. Working space.
+struct MaterialTerms {
+    vec3 base_weight;    // fraction of the light that reaches the metallic-roughness base
+    vec3 mirror_weight;  // fraction that is reflected as by a mirror; read only under MATERIAL_HAS_MIRROR
+    vec3 added;          // the material's own radiance
+};
+
+// The surface at a pixel, and what it reflects of all lights.
+struct LitSurface {
+    vec3 n;
+    vec3 v;
+    vec3 diffuse;    // over pi
+    vec3 f0;
+    float alpha2;
+    float n_v;       // signed
+    float facing;    // n_v above 0
+    float masking;   // Smith's term of the view
+    vec3 radiance;
+#ifdef MATERIAL_GLOSS
+    float gloss_alpha2;   // of the layer on top
+    float gloss_masking;
+    vec3 gloss;           // what it reflects
+#endif
+};
+
+// GGX with height-correlated Smith visibility [Heitz 2014]. `facing`: the view's cosine; `masking`: its Smith's term.
+float microfacets(float n_h, float n_l, float alpha2, float facing, float masking) {
+    float d = n_h * n_h * (alpha2 - 1.0) + 1.0;
+    float shadowing = n_l * masking + facing * sqrt(n_l * n_l * (1.0 - alpha2) + alpha2);
+    return 0.5 / PI * alpha2 / (d * d * max(shadowing, 1e-6));
+}
+
+// Adds what the surface reflects of a light of this irradiance (on what faces it). l and v are unit vectors, so
+// |l + v|² = 2 + 2 l·v.
+void add_light(vec3 irradiance, vec3 l, inout LitSurface surface) {
+    float v_l = dot(surface.v, l);
+    float inverse_length = inversesqrt(max(2.0 + 2.0 * v_l, 1e-12));
+    float n_l = dot(surface.n, l);
+    float n_h = clamp((n_l + surface.n_v) * inverse_length, 0.0, 1.0);
+    float v_h = clamp((1.0 + v_l) * inverse_length, 0.0, 1.0);
+    n_l = max(n_l, 0.0);
+    float density = microfacets(n_h, n_l, surface.alpha2, surface.facing, surface.masking);
+#ifdef MATERIAL_GLOSS
+    surface.gloss += microfacets(n_h, n_l, surface.gloss_alpha2, surface.facing, surface.gloss_masking) *
+                     gloss_reflectance(v_h) * n_l * irradiance;
+#endif
+#ifdef MATERIAL_SPECULAR
+    vec3 specular = reflect_specular(irradiance, surface.f0, v_h) * density;
+    surface.radiance += (surface.diffuse * irradiance + specular) * n_l;
+#else
+    vec3 fresnel = schlick_reflectance(surface.f0, v_h);
+    surface.radiance += (surface.diffuse + fresnel * density) * n_l * irradiance;
+#endif
+}
+
+#if defined(DIRECTIONAL_LIGHTS) || defined(PUNCTUAL_LIGHTS)
+// glTF's KHR_lights_punctual: inverse square, a window at the range, a spot's cone. `inverse`: 1 / distance.
+float punctual_attenuation(Light light, float distance2, float inverse, vec3 l) {
+    float window = clamp(1.0 - distance2 * distance2 * light.position.w, 0.0, 1.0);
+    float cone = clamp(light.axis.w - dot(light.axis.xyz, l), 0.0, 1.0) * inverse;
+    return window * cone * cone;
+}
+
+// What the surface reflects. `added`: radiance of the material's own, to which it and a layer on top add their parts of
+// the lights.
+vec3 direct_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness, inout vec3 added) {
+    float alpha2 = max(roughness * roughness * roughness * roughness, 1e-6);
+    float n_v = dot(n, v);
+    float facing = max(n_v, 1e-4);
+    float masking = sqrt(facing * facing * (1.0 - alpha2) + alpha2);
+#ifdef MATERIAL_GLOSS
+    float gloss_alpha2 = pow(max(gloss_roughness(), 0.04), 4.0);
+    LitSurface surface =
+        LitSurface(n, v, diffuse / PI, f0, alpha2, n_v, facing, masking, vec3(0.0), gloss_alpha2,
+                   sqrt(facing * facing * (1.0 - gloss_alpha2) + gloss_alpha2), vec3(0.0));
+#else
+    LitSurface surface = LitSurface(n, v, diffuse / PI, f0, alpha2, n_v, facing, masking, vec3(0.0));
+#endif
+#ifdef DIRECTIONAL_LIGHTS
+#ifdef SEVERAL_DIRECTIONAL_LIGHTS
+    int directional = int(light_counts.x);
+#else
+    const int directional = 1;  // most scenes have one sun: a loop of unknown length costs a quarter of the frame
+#endif
+    for (int i = 0; i < directional; ++i) {
+        float visibility = 1.0;
+#ifdef SHADOWS
+        if (i == 0) visibility = shadow_visibility(lights[i].position.xyz);
+#endif
+        add_light(visibility * lights[i].strength.rgb, lights[i].position.xyz, surface);
+#ifdef MATERIAL_DIRECTIONAL_LIGHTS
+        material_light(i, visibility, lights[i].position.xyz, added);
+#endif
+    }
+#endif
+#ifdef PUNCTUAL_LIGHTS
+    for (int i = int(light_counts.x); i < int(light_counts.y); ++i) {
+        vec3 to_light = lights[i].position.xyz - world_position;
+        float distance2 = dot(to_light, to_light);
+        float inverse = inversesqrt(max(distance2, 1e-8));
+        vec3 l = to_light * inverse;
+        float attenuation = punctual_attenuation(lights[i], distance2, inverse, l);
+        add_light(attenuation * lights[i].strength.rgb, l, surface);
+#ifdef MATERIAL_PUNCTUAL_LIGHTS
+        material_light(i, attenuation, l, added);
+#endif
+    }
+#endif
+#ifdef MATERIAL_GLOSS
+    added += surface.gloss;
+#endif
+    return surface.radiance;
+}
+#else
+vec3 direct_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness, inout vec3 added) { return vec3(0.0); }
+#endif
+
+// What the lobe reflects of the environment. `split`: lobe_albedo().
+#ifdef ROUGH_REFLECTIONS
+// The light of each part of the lobe, as microfacets at that part's angle reflect it.
+vec3 lobe_reflection(vec3 n, vec3 v, vec3 f0, float n_v, float roughness, vec2 split) {
+    vec2 position = lobe_position(n_v, roughness);
+    vec4 cosines = lobe_cosines(position, n_v, roughness);
+    vec4 weights = lobe_weights(position);
+    vec4 leans = lobe_leans(position, roughness);
+    // Narrower than the first rough level they would show the mirror's sharp lamps.
+    vec4 roughnesses = max(lobe_roughnesses(position, roughness), min(roughness, 1.0 / environment.x));
+    vec3 mirrored = reflect(-v, n);
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < 4; ++i) {
+        vec3 light = environment_light(mix(mirrored, n, leans[i]), roughnesses[i]);
+#ifdef MATERIAL_SPECULAR
+        sum += weights[i] * reflect_specular(light, f0, cosines[i]);
+#else
+        sum += weights[i] * light * schlick_reflectance(f0, cosines[i]);
+#endif
+    }
+    return sum * (split.x + split.y);
+}
+#else
+vec3 lobe_reflection(vec3 n, vec3 v, vec3 f0, float n_v, float roughness, vec2 split) {
+    vec3 light = environment_light(lobe_direction(n, v, roughness), roughness);
+#if defined(MATERIAL_SPECULAR_LOBE)
+    return reflect_lobe(light, f0, n_v, roughness, split);
+#elif defined(MATERIAL_SPECULAR)
+    // The angle at which (1 - cosine)^5 equals its mean over the lobe; a smooth surface has n_v itself, which the
+    // table's half floats cannot resolve near normal incidence.
+    float albedo = split.x + split.y;
+    float cosine = max(n_v, 1.0 - pow(split.y / max(albedo, 1e-6), 0.2));
+    return reflect_specular(light, f0, min(cosine, 1.0)) * albedo;
+#else
+    return (f0 * split.x + split.y) * light;
+#endif
+}
+#endif
+
+// The metallic-roughness surface: split sum [Karis 2013] over the prefiltered probe, and the lights, whose part of the
+// material's own radiance goes to `added`. `base`: colour and alpha, which becomes the fraction of what lies behind that
+// is hidden.
+vec3 base_radiance(inout vec4 base, vec3 n, vec3 v, inout vec3 added) {
+    vec2 factors = surface_metallic_roughness();
+    float roughness = factors.y;
+    vec3 f0 = mix(vec3(0.04), base.rgb, factors.x);
+    vec3 diffuse = base.rgb * (1.0 - factors.x);
+    float n_v = max(dot(n, v), 0.0);
+#ifdef MATERIAL_TRANSMITTANCE
+    vec3 passing = transmittance(n_v, roughness);
+#ifdef ALPHA_BLEND
+    diffuse *= passing * base.a;
+    base.a = 1.0 - (1.0 - base.a) * dot(passing, vec3(1.0 / 3.0));
+#else
+    diffuse *= passing;
+#endif
+#endif
+    vec3 reflected = lobe_reflection(n, v, f0, n_v, roughness, lobe_albedo(n_v, roughness));
+#ifdef AMBIENT_AT_VERTICES
+    vec3 from_all_sides = ambient_at_vertex;
+#else
+    vec3 from_all_sides = ambient_light(n);
+#endif
+    vec3 from_probe = (diffuse * from_all_sides * ambient_visibility() + reflected) * surface_occlusion();
+    return from_probe + direct_light(n, v, diffuse, f0, roughness, added);
+}
+
+// Writes the surface with what a material adds to and leaves of it: the end of main(), which begins with
+// read_screen_visibility().
+void write_surface(MaterialTerms terms) {
+    vec4 base = surface_colour();
+    vec3 sum = surface_emission();
+#ifdef UNLIT
+    sum += base.rgb;
+#else
+    vec3 v = to_eye();
+    vec3 n = seen_normal(surface_normal(), v);
+    sum += terms.base_weight * base_radiance(base, n, v, terms.added);
+    sum += terms.added;
+#ifdef MATERIAL_HAS_MIRROR
+    sum += terms.mirror_weight * mirrored_light(reflect(-v, n));
+#endif
+#endif
+    float alpha = base.a;
+#if defined(MATERIAL_PASSES_LIGHT)
+    radiance = vec4(sum, 1.0);
+    background = vec4(background_weight(), 0.0);
+#elif defined(ALPHA_BLEND) && defined(MATERIAL_TRANSMITTANCE)
+    radiance = vec4(sum / max(alpha, 1e-4), alpha);  // blending multiplies by alpha; reflections are whole already
+#elif defined(ALPHA_BLEND)
+    radiance = vec4(sum, alpha);
+#else
+    radiance = vec4(sum, 1.0);
+#endif
+    if (shadow.z > 0.0) radiance = rounded_to_half(radiance);
+#ifdef ALPHA_MASK
+    if (alpha < metallic_roughness.z) discard;  // last: derivatives are undefined after it
+#endif
+}

@@ -1,0 +1,110 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "engine/gpu/program.h"
+#include "engine/gpu/shader_library.h"
+#include "engine/render/gpu_mesh.h"
+#include "engine/render/material.h"
+
+namespace rowland::render {
+
+/// What an object's shaders must do, a bit each. A program does only what its objects need.
+using SurfaceFeatures = std::uint32_t;
+
+namespace feature {
+inline constexpr SurfaceFeatures kColours = 1U << 0U;
+inline constexpr SurfaceFeatures kSkinned = 1U << 1U;
+inline constexpr SurfaceFeatures kBaseColourMap = 1U << 2U;
+inline constexpr SurfaceFeatures kMetallicRoughnessMap = 1U << 3U;
+inline constexpr SurfaceFeatures kNormalMap = 1U << 4U;
+inline constexpr SurfaceFeatures kOcclusionMap = 1U << 5U;
+inline constexpr SurfaceFeatures kEmissiveMap = 1U << 6U;
+inline constexpr SurfaceFeatures kPassesLight = 1U << 7U;
+inline constexpr SurfaceFeatures kRoughReflections = 1U << 8U;
+inline constexpr unsigned kSecondUvShift = 8;  ///< a map's bit shifted left by this: the map uses the second UV set
+inline constexpr SurfaceFeatures kTextureTransform = 1U << 16U;
+inline constexpr SurfaceFeatures kDoubleSided = 1U << 17U;
+inline constexpr SurfaceFeatures kAlphaMask = 1U << 18U;
+inline constexpr SurfaceFeatures kAlphaBlend = 1U << 19U;
+inline constexpr SurfaceFeatures kUnlit = 1U << 20U;
+inline constexpr SurfaceFeatures kDirectionalLights = 1U << 21U;
+inline constexpr SurfaceFeatures kPunctualLights = 1U << 22U;
+inline constexpr SurfaceFeatures kShadows = 1U << 23U;
+inline constexpr SurfaceFeatures kSeveralDirectionalLights = 1U << 24U;
+inline constexpr SurfaceFeatures kKeyLights = 1U << 25U;
+inline constexpr SurfaceFeatures kClearCoat = 1U << 26U;
+inline constexpr SurfaceFeatures kAmbientOcclusion = 1U << 27U;
+inline constexpr SurfaceFeatures kSoftShadows = 1U << 28U;
+inline constexpr SurfaceFeatures kLocalReflections = 1U << 29U;
+inline constexpr SurfaceFeatures kFromEye = 1U << 30U;  ///< of a surface's outline: as the camera sees it
+inline constexpr SurfaceFeatures kObjectReflections = 1U << 31U;
+inline constexpr SurfaceFeatures kEffects =
+    kAmbientOcclusion | kSoftShadows | kLocalReflections | kObjectReflections | kRoughReflections;
+inline constexpr SurfaceFeatures kLights =
+    kDirectionalLights | kSeveralDirectionalLights | kPunctualLights | kShadows | kKeyLights | kEffects;
+}  // namespace feature
+
+/// A texture of a surface. Its index in kSurfaceMaps is that of its unit from kFirstMapUnit on and of its transform in
+/// ObjectBlock.
+struct SurfaceMap {
+    SurfaceFeatures bit;
+    const char* define;
+    SurfaceTexture StandardMaterial::*texture;
+};
+inline constexpr std::array<SurfaceMap, 5> kSurfaceMaps = {
+    {{feature::kBaseColourMap, "BASE_COLOUR_MAP", &StandardMaterial::base_colour_texture},
+     {feature::kMetallicRoughnessMap, "METALLIC_ROUGHNESS_MAP", &StandardMaterial::metallic_roughness_texture},
+     {feature::kNormalMap, "NORMAL_MAP", &StandardMaterial::normal_texture},
+     {feature::kOcclusionMap, "OCCLUSION_MAP", &StandardMaterial::occlusion_texture},
+     {feature::kEmissiveMap, "EMISSIVE_MAP", &StandardMaterial::emissive_texture}}};
+
+/// Of a surface on a mesh. `lights`: those of feature::kLights that the frame has.
+SurfaceFeatures features_of(const StandardMaterial& material, const GpuMesh& mesh, bool skinned,
+                            SurfaceFeatures lights);
+/// Those that an unlit surface needs: base colour, alpha and emission.
+SurfaceFeatures without_light(SurfaceFeatures features);
+/// Those that a shadow map needs: the surface's outline.
+SurfaceFeatures of_shadow(SurfaceFeatures features);
+
+/// As defines for the shaders.
+std::vector<gpu::Define> defines_of(SurfaceFeatures features);
+/// Samplers of a fragment stage that every OpenGL 4.5 has.
+inline constexpr int kGuaranteedSamplers = 16;
+/// The define by which a material's program tells how many samplers its own fragment code has.
+inline constexpr const char* kMaterialSamplers = "MATERIAL_SAMPLERS";
+/// An upper bound of the samplers of a program's fragment stage.
+int fragment_samplers(const gpu::ProgramDesc& desc);
+/// Adds the defines to a program's own, which win. Where that took more than kGuaranteedSamplers, as all five maps with
+/// all effects can, the surface does not mirror the objects around it and then does not average its mirror over pixels.
+void add_defines(SurfaceFeatures features, gpu::ProgramDesc& desc);
+
+/// Programs by description, each compiled on first use.
+class ProgramCache {
+ public:
+    gpu::ShaderLibrary& library() { return library_; }
+    const gpu::ShaderLibrary& library() const { return library_; }
+
+    /// Valid until reload(). Throws Error (system) if it does not compile.
+    const gpu::Program& get(const gpu::ProgramDesc& desc);
+    /// Recompiles all, from `source_tree` where it has their files. If one does not compile, all stay as they were and
+    /// its Error (system) is thrown.
+    void reload(const std::filesystem::path& source_tree);
+    std::size_t size() const { return programs_.size(); }
+
+ private:
+    struct Compiled {
+        gpu::ProgramDesc desc;
+        gpu::Program program;
+    };
+
+    gpu::ShaderLibrary library_;
+    std::map<std::string, Compiled> programs_;
+};
+
+}  // namespace rowland::render

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/core/json_reader.h"
+#include "engine/scene/gltf_source.h"
+
+namespace rowland::scene {
+
+inline constexpr const char* kDracoExtension = "KHR_draco_mesh_compression";
+inline constexpr const char* kLightExtension = "KHR_lights_punctual";
+inline constexpr const char* kTextureTransform = "KHR_texture_transform";
+
+/// Adds `text` unless it is already there.
+void warn_once(std::vector<std::string>& warnings, std::string text);
+
+/// Refuses a version that is not 2.x and a minVersion that is not 2.0 (glTF 2.0, 3.2). Throws Error (input).
+void check_asset(JsonReader asset);
+
+/// Checks a glTF's JSON: every member that we read has the right type and range, every index names an element, required
+/// extensions are supported or among `handled_extensions`. This precedes tinygltf's parse, which drops elements with
+/// members of a wrong type and truncates large integers. Returns the members that we read and no others; the memory
+/// that tinygltf's structures for them take is spent from `budget`. Ignored extensions are added to the warnings.
+/// Throws Error (input) with the JSON pointer.
+nlohmann::json check_gltf(const nlohmann::json& root, const std::string& file,
+                          std::span<const std::string> handled_extensions, MemoryBudget& budget,
+                          std::vector<std::string>& warnings);
+
+}  // namespace rowland::scene

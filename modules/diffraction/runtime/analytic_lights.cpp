@@ -1,0 +1,233 @@
+#include "modules/diffraction/runtime/analytic_lights.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <glm/gtx/component_wise.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec4.hpp>
+#include <span>
+#include <vector>
+
+#include "engine/colour/colour_space.h"
+#include "engine/core/parallel.h"
+#include "modules/diffraction/bake/kernel_cells.h"
+#include "modules/diffraction/representations/direct/direct.h"
+#include "modules/diffraction/representations/direct/lobe_table.h"
+#include "modules/diffraction/runtime/bindings.h"
+#include "modules/diffraction/runtime/key_lobe.h"
+
+namespace rowland::diffraction {
+
+namespace {
+
+/// From XYZ to the colour space of the kernel's values: kernel.glsl.
+glm::dmat3 kernel_space(const CookedMaterial& cooked, const glm::dmat3& xyz_to_working) {
+    return std::holds_alternative<PitsLobe>(cooked.material.grating.lobe) ? glm::dmat3(1.0) : xyz_to_working;
+}
+
+}  // namespace
+
+GpuKernel::GpuKernel(const CookedMaterial& cooked, const glm::dmat3& xyz_to_working)
+    : kernel_(in_space(cooked.kernel, kernel_space(cooked, xyz_to_working))),
+      pitch_nm_(cooked.material.grating.pitch_nm),
+      lobe_(cooked.material.grating.lobe),
+      zero_order_(kernel_space(cooked, xyz_to_working) * cooked.zero_order_xyz),
+      working_to_rec709_(glm::inverse(xyz_to_working * colour::rec709_to_xyz())) {}
+
+const GpuKernel::Blurred& GpuKernel::blurred() const {
+    if (!blurred_) {
+        blurred_.emplace(Blurred{.kernel = blur_for_lights(kernel_, pitch_nm_), .uniforms = {}});
+        blurred_->uniforms = kernel_uniforms(kernel_, blurred_->kernel, pitch_nm_);
+    }
+    return *blurred_;
+}
+
+GpuKernel::Smoothed GpuKernel::smooth(std::span<const glm::vec3> light_colours) const {
+    const BlurredKernel& kernel = blurred().kernel;
+    // fp16 would add an error of 5e-4 to that of the texture unit's 8-bit weights.
+    Smoothed smoothed{.texture = gpu::Texture({.kind = gpu::TextureKind::PlaneArray,
+                                               .format = gpu::Format::RGBA32F,
+                                               .width = kernel.columns,
+                                               .height = kernel.levels,
+                                               .depth = kFirstColourLayer + static_cast<int>(light_colours.size())},
+                                              {.filter = gpu::Filter::Linear}),
+                      .colours{light_colours.begin(), light_colours.end()}};
+    const auto upload = [&](const glm::vec3& colour, int layer) {
+        std::vector<glm::vec4> texels;
+        texels.reserve(kernel.values.size());
+        for (const glm::mat3& value : kernel.values) texels.emplace_back(value * colour, 0.0F);
+        smoothed.texture.upload(std::span<const glm::vec4>(texels), {.layer = layer});
+    };
+    for (int c = 0; c < 3; ++c) upload(glm::mat3(1.0F)[c], c);
+    for (std::size_t i = 0; i < light_colours.size(); ++i)
+        upload(light_colours[i], kFirstColourLayer + static_cast<int>(i));
+    return smoothed;
+}
+
+void GpuKernel::add_defines(gpu::ProgramDesc& desc) const {
+    if (has_zero_order()) desc.defines.push_back({"ZERO_ORDER", "1"});
+    if (std::holds_alternative<GaussianLobe>(lobe_)) desc.defines.push_back({"LOBE_GAUSSIAN", "1"});
+    if (std::holds_alternative<PitsLobe>(lobe_)) desc.defines.push_back({"LOBE_PITS", "1"});
+}
+
+void GpuKernel::set_lobe(const gpu::Program& program) const {
+    const auto set_gaussian = [&](double sigma, double power) {
+        program.set("lobe_gaussian",
+                    glm::vec2(glm::dvec2(sigma, power * lobe_density(GaussianLobe{sigma}, 0.0, 550.0))));
+    };
+    if (const auto* gaussian = std::get_if<GaussianLobe>(&lobe_)) set_gaussian(gaussian->sigma, 1.0);
+    if (const auto* pits = std::get_if<PitsLobe>(&lobe_)) {
+        set_gaussian(kCoherentSigma, pits->coherent);
+        program.set("pit_wavelengths", glm::vec3(pits->length_nm / kPitsWavelengths_nm));
+        program.set("incoherent", static_cast<float>(1.0 - pits->coherent));
+    }
+}
+
+void GpuKernel::bind(const gpu::Program& program, std::span<const lighting::KeyLight> key_lights,
+                     std::span<const glm::vec3> light_colours) const {
+    if (program.has_uniform("lobe_scale_bias")) {
+        lobes_.set(blurred().kernel, pitch_nm_, key_lights);
+        lobes_.bind(program, blurred().uniforms, pitch_nm_);
+    }
+    set_lobe(program);
+    if (!program.has_uniform("kernel_scale_bias")) return;
+    if (!smoothed_ || !std::ranges::equal(smoothed_->colours, light_colours)) smoothed_ = smooth(light_colours);
+    smoothed_->texture.bind(kKernelUnit);
+    const KernelUniforms& uniforms = blurred().uniforms;
+    program.set("kernel_scale_bias", uniforms.scale_bias);
+    program.set("kernel_rows", uniforms.rows);
+    program.set("kernel_reach", uniforms.reach);
+    program.set("zero_order", zero_order_);
+    program.set("working_to_rec709", working_to_rec709_);
+}
+
+void GpuLobes::set(const BlurredKernel& kernel, double pitch_nm, std::span<const lighting::KeyLight> lights) {
+    if (lights.empty() || same_lobes(lights, lights_)) return;
+    lights_.assign(lights.begin(), lights.end());
+    begin_nm_ = kernel.begin_nm;
+    end_nm_ = kernel.end_nm;
+    const int columns = static_cast<int>(std::bit_floor(static_cast<unsigned>(kernel.columns)));
+    std::vector<LobeTable> tables(lights_.size());
+    parallel_for(lights_.size(),
+                 [&](std::size_t i) { tables[i] = make_lobe_table(kernel, pitch_nm, lights_[i], columns); });
+    // Stored as fp16: each layer is divided by its light's flux, and all by the largest component.
+    std::vector<float> inverse_flux;
+    float largest = 1e-30F;
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+        const auto flux = static_cast<float>(glm::compMax(lights_[i].flux));
+        inverse_flux.push_back(flux > 0.0F ? 1.0F / flux : 0.0F);
+        for (const glm::vec3& value : tables[i].values)
+            largest = std::max(largest, inverse_flux[i] * glm::compMax(glm::abs(value)));
+    }
+    texture_ = gpu::Texture({.kind = gpu::TextureKind::PlaneArray,
+                             .format = gpu::Format::RGBA16F,
+                             .width = columns,
+                             .height = tables[0].rows,
+                             .depth = static_cast<int>(tables.size())},
+                            {.filter = gpu::Filter::Linear});
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+        for (glm::vec3& value : tables[i].values) value *= inverse_flux[i] / largest;
+        texture_.upload(std::span<const glm::vec3>(tables[i].values), {.layer = static_cast<int>(i)});
+    }
+    scale_ = largest;
+}
+
+void GpuLobes::bind(const gpu::Program& program, const KernelUniforms& kernel, double pitch_nm) const {
+    if (lights_.empty() || !program.has_uniform("lobe_scale_bias")) return;
+    texture_.bind(kLobeUnit);
+    const double extent_nm = end_nm_ - begin_nm_;
+    // Five deviations of the kernel's own smoothing.
+    program.set("lobe_reach", kernel.reach + glm::vec2(0.0F, 5.0F * kernel.scale_bias.z));
+    program.set("lobe_scale_bias", glm::vec3(glm::dvec3(pitch_nm / extent_nm, -begin_nm_ / extent_nm, double{scale_})));
+}
+
+namespace {
+
+gpu::Texture layered_texture(int size, std::size_t layers, std::size_t levels) {
+    return gpu::Texture({.kind = gpu::TextureKind::PlaneArray,
+                         .format = gpu::Format::RGBA16F,
+                         .width = size,
+                         .height = size,
+                         .depth = static_cast<int>(layers),
+                         .levels = static_cast<int>(levels)},
+                        gpu::Sampling{.filter = gpu::Filter::Trilinear});
+}
+
+/// `value(density)`: of a texel.
+template <typename Picture, typename ValueOf>
+void upload_layer(gpu::Texture& texture, const Picture& picture, std::size_t layer, const ValueOf& value) {
+    for (std::size_t level = 0; level < picture.levels.size(); ++level) {
+        std::vector<glm::vec3> texels;
+        texels.reserve(picture.levels[level].density.size());
+        for (const auto& density : picture.levels[level].density) texels.push_back(value(density));
+        texture.upload(std::span<const glm::vec3>(texels),
+                       {.level = static_cast<int>(level), .layer = static_cast<int>(layer)});
+    }
+}
+
+float largest_flux(const lighting::KeyLight& light) {
+    return std::max(static_cast<float>(glm::compMax(light.flux)), 1e-30F);
+}
+
+}  // namespace
+
+GpuPattern::GpuPattern(const Material& material, const glm::dmat3& xyz_to_working)
+    : grating_(material.grating), illuminant_(material.quality.illuminant), xyz_to_working_(xyz_to_working) {}
+
+void GpuPattern::upload_colours(std::span<const glm::vec3> light_colours) const {
+    if (!picture_) {
+        picture_ = pattern_picture(grating_, colour::LightSpectra(illuminant_));
+        largest_ = 1e-30F;
+        const glm::mat3 to_working(xyz_to_working_);
+        for (PatternPicture::Level& level : picture_->levels)
+            for (glm::mat3& density : level.density) {
+                density = to_working * density;
+                for (int c = 0; c < 3; ++c) largest_ = std::max(largest_, glm::compMax(glm::abs(density[c])));
+            }
+    }
+    colours_.assign(light_colours.begin(), light_colours.end());
+    texture_.emplace(
+        layered_texture(picture_->levels[0].size, std::max<std::size_t>(colours_.size(), 1), picture_->levels.size()));
+    for (std::size_t i = 0; i < colours_.size(); ++i)
+        upload_layer(*texture_, *picture_, i,
+                     [&](const glm::mat3& density) { return density * colours_[i] / largest_; });
+}
+
+void GpuPattern::upload_key_lights(std::span<const lighting::KeyLight> key_lights) const {
+    key_lights_.assign(key_lights.begin(), key_lights.end());
+    const std::vector<LightPicture> pictures =
+        key_light_pictures(grating_, colour::LightSpectra(illuminant_), key_lights_, xyz_to_working_);
+    // Stored as fp16: each layer is divided by its light's flux, and all by the largest component.
+    float largest = 1e-30F;
+    for (std::size_t i = 0; i < pictures.size(); ++i)
+        for (const LightPicture::Level& level : pictures[i].levels)
+            for (const glm::vec3& density : level.density)
+                largest = std::max(largest, glm::compMax(glm::abs(density)) / largest_flux(key_lights_[i]));
+    const LightPicture& first = pictures[0];
+    lobe_texture_.emplace(layered_texture(first.levels[0].size, pictures.size(), first.levels.size()));
+    for (std::size_t i = 0; i < pictures.size(); ++i)
+        upload_layer(*lobe_texture_, pictures[i], i,
+                     [&](const glm::vec3& density) { return density / (largest * largest_flux(key_lights_[i])); });
+    lobe_scale_ =
+        glm::vec4(glm::dvec4(0.5 / first.half_width, first.texel_variance(), double{largest}, first.half_width));
+}
+
+void GpuPattern::bind(const gpu::Program& program, std::span<const lighting::KeyLight> key_lights,
+                      std::span<const glm::vec3> light_colours) const {
+    if (program.has_uniform("pattern_scale")) {
+        if (!texture_ || !std::ranges::equal(colours_, light_colours)) upload_colours(light_colours);
+        texture_->bind(kKernelUnit);
+        // The level of a variance: half its binary logarithm, and this.
+        const double bias = -0.5 * std::log2(picture_->texel_variance());
+        program.set("pattern_scale",
+                    glm::vec4(glm::dvec4(0.5 / picture_->half_width, bias, double{largest_}, picture_->half_width)));
+    }
+    if (program.has_uniform("pattern_lobe_scale") && !key_lights.empty()) {
+        if (!same_lobes(key_lights_, key_lights)) upload_key_lights(key_lights);
+        lobe_texture_->bind(kLobeUnit);
+        program.set("pattern_lobe_scale", lobe_scale_);
+    }
+}
+
+}  // namespace rowland::diffraction

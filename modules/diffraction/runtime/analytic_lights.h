@@ -1,0 +1,99 @@
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/gpu/program.h"
+#include "engine/gpu/texture.h"
+#include "engine/lighting/key_lights.h"
+#include "modules/diffraction/asset/cooked_material.h"
+#include "modules/diffraction/asset/material.h"
+#include "modules/diffraction/bake/diffraction_pattern.h"
+#include "modules/diffraction/bake/kernel_cells.h"
+
+namespace rowland::diffraction {
+
+/// The tables of the key lights for one grating (representations/direct/lobe_table.h), one texture layer each:
+/// shaders/key_light_tables.glsl. They do not depend on the lights' directions.
+class GpuLobes {
+ public:
+    /// Rebuilds the layers if the lights' fluxes or concentrations changed.
+    void set(const BlurredKernel& kernel, double pitch_nm, std::span<const lighting::KeyLight> lights);
+    void bind(const gpu::Program& program, const KernelUniforms& kernel, double pitch_nm) const;
+
+ private:
+    gpu::Texture texture_;
+    std::vector<lighting::KeyLight> lights_;
+    float scale_ = 1.0F;  ///< of stored values, per unit of the flux' largest component
+    double begin_nm_ = 0.0;
+    double end_nm_ = 0.0;
+};
+
+/// The kernel for analytic lights and key lights: shaders/kernel.glsl.
+class GpuKernel {
+ public:
+    /// `xyz_to_working`: of the engine's lights, which come in the working space.
+    GpuKernel(const CookedMaterial& cooked, const glm::dmat3& xyz_to_working);
+
+    bool has_zero_order() const { return zero_order_ != glm::mat3(0.0F); }
+    void add_defines(gpu::ProgramDesc& desc) const;
+    /// Uploads the kernel when a program first reads it, and the key lights' tables when the lights change.
+    /// `light_colours`: see SurfaceLight.
+    void bind(const gpu::Program& program, std::span<const lighting::KeyLight> key_lights,
+              std::span<const glm::vec3> light_colours) const;
+
+ private:
+    struct Blurred {
+        BlurredKernel kernel;
+        KernelUniforms uniforms;
+    };
+    struct Smoothed {
+        gpu::Texture texture;
+        std::vector<glm::vec3> colours;  ///< of its layers from the fourth on
+    };
+    const Blurred& blurred() const;
+    Smoothed smooth(std::span<const glm::vec3> light_colours) const;
+    void set_lobe(const gpu::Program& program) const;
+
+    KernelTable kernel_;
+    double pitch_nm_;
+    GrooveLobe lobe_;
+    glm::mat3 zero_order_;
+    glm::mat3 working_to_rec709_;
+    mutable std::optional<Blurred> blurred_;
+    mutable std::optional<Smoothed> smoothed_;
+    mutable GpuLobes lobes_;
+};
+
+/// A lattice's diffraction pattern for analytic lights and key lights: shaders/pattern.glsl.
+class GpuPattern {
+ public:
+    /// `xyz_to_working`: of the engine's lights, which come in the working space.
+    GpuPattern(const Material& material, const glm::dmat3& xyz_to_working);
+
+    /// Computes and uploads pictures when a program first reads them, and when the lights' colours or the key lights
+    /// change, but for their directions. `light_colours`: see SurfaceLight.
+    void bind(const gpu::Program& program, std::span<const lighting::KeyLight> key_lights,
+              std::span<const glm::vec3> light_colours) const;
+
+ private:
+    void upload_colours(std::span<const glm::vec3> light_colours) const;
+    void upload_key_lights(std::span<const lighting::KeyLight> key_lights) const;
+
+    Grating grating_;
+    colour::Illuminant illuminant_;
+    glm::dmat3 xyz_to_working_;
+    mutable std::optional<PatternPicture> picture_;  ///< in the working space, its largest component 1
+    mutable float largest_ = 1.0F;
+    mutable std::optional<gpu::Texture> texture_;
+    mutable std::vector<glm::vec3> colours_;  ///< of its layers
+    mutable std::optional<gpu::Texture> lobe_texture_;
+    mutable std::vector<lighting::KeyLight> key_lights_;  ///< of its layers
+    mutable glm::vec4 lobe_scale_{0.0F};
+};
+
+}  // namespace rowland::diffraction

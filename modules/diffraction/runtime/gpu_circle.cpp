@@ -1,0 +1,121 @@
+#include "modules/diffraction/runtime/gpu_circle.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "modules/diffraction/runtime/vertex_light.h"
+
+namespace rowland::diffraction {
+
+namespace {
+
+/// The texels of a row that one look-up of the terms reads.
+void append(const CircleGrid& grid, int chart, int view, int row, int look_up, std::vector<glm::vec4>& texels) {
+    for (int column = 0; column < grid.side; ++column) {
+        glm::vec4& texel = texels.emplace_back(0.0F);
+        for (int i = 0; i < 4; ++i) {
+            const int component = 4 * look_up + i;
+            if (component < 3 * grid.functions)
+                texel[i] = grid.xyz[grid.index(chart, component / 3, view, row, column)][component % 3];
+        }
+    }
+}
+
+/// Four components of the terms' values per texel: circle.glsl. A pixel's look-ups lie within a row of the volume:
+/// in separate rows they would evict each other from a processor's cache, as their addresses map to the same sets.
+MapTexels terms_in_layout(const CircleGrid& grid, int charts) {
+    std::array<std::vector<glm::vec4>, 1> texels;
+    texels[0].reserve(static_cast<std::size_t>(grid.views * charts * grid.side) *
+                      static_cast<std::size_t>(grid.side * kTermLookUps));
+    for (int view = 0; view < grid.views; ++view)
+        for (int chart = 0; chart < charts; ++chart)
+            for (int row = 0; row < grid.side; ++row)
+                for (int look_up = 0; look_up < kTermLookUps; ++look_up)
+                    append(grid, chart, view, row, look_up, texels[0]);
+    return pack(texels,
+                {.kind = gpu::TextureKind::Volume,
+                 .width = grid.side * kTermLookUps,
+                 .height = grid.side * charts,
+                 .depth = grid.views},
+                {.filter = gpu::Filter::Linear});
+}
+
+/// The remainder's angles, side by side as well.
+std::optional<MapTexels> rest_in_layout(const CircleGrid& grid, int charts) {
+    if (grid.functions == 0) return std::nullopt;
+    std::vector<glm::vec3> texels;
+    texels.reserve(grid.xyz.size());
+    for (int view = 0; view < grid.views; ++view)
+        for (int chart = 0; chart < charts; ++chart)
+            for (int row = 0; row < grid.side; ++row)
+                for (int angle = 0; angle < grid.functions; ++angle) {
+                    const auto from =
+                        grid.xyz.begin() + static_cast<std::ptrdiff_t>(grid.index(chart, angle, view, row, 0));
+                    texels.insert(texels.end(), from, from + grid.side);
+                }
+    return pack_ten_bits(texels,
+                         {.kind = gpu::TextureKind::Volume,
+                          .width = grid.side * grid.functions,
+                          .height = grid.side * charts,
+                          .depth = grid.views},
+                         {.filter = gpu::Filter::Linear, .wrap_s = gpu::Wrap::Repeat});
+}
+
+struct Filling {
+    MaterialKernel material;
+    CircleMapSize full;
+
+    FilledMap operator()(const MapInput& input, MapDetail detail, const std::stop_token& stop) const {
+        CircleMapSize size = full;
+        if (detail == MapDetail::Coarse) size.side = std::min(size.side, kCoarseCircleSide);
+        const CircleMap map = fill_circle_map(*input.texels, material.kernel, material.pitch_nm, size,
+                                              material.zero_order_xyz, material.cover, stop);
+        if (stop.stop_requested()) return {};
+        return {.texels = terms_in_layout(map.terms, map.charts),
+                .second = rest_in_layout(map.remainder, map.charts),
+                .set_uniforms = [scales = glm::vec2(glm::dvec2(map.terms.scale(), map.remainder.scale()))](
+                                    const gpu::Program& program) { program.set("circle_map_scales", scales); }};
+    }
+};
+
+}  // namespace
+
+GpuCircle::GpuCircle(const CookedMaterial& cooked, const CircleTables& tables, const glm::dmat3& xyz_to_working)
+    : GpuMaterial(cooked, xyz_to_working),
+      size_(tables.size),
+      charts_(chart_count(working_material().kernel)),
+      fill_(std::make_shared<const FillMap>(Filling{working_material(), tables.size})) {}
+
+void GpuCircle::update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const {
+    if (!state.data) state.data = std::make_unique<CircleData>();
+    auto& data = static_cast<CircleData&>(*state.data);
+    if (data.mesh != state.mesh || !state.mesh) {
+        data.mesh = state.mesh;
+        data.flat = !object.skinned && flat_normal(object.mesh).has_value();
+    }
+    map_.update({.texels = samples(light)}, fill_, object.map_pace);
+}
+
+void GpuCircle::describe(const SurfaceState& state, gpu::ProgramDesc& desc) const {
+    if (cooked()->material.quality.map_at_vertices) {
+        set_vertex_shader(desc, "representations/circle/circle.glsl");
+    } else {
+        set_pixel_shader(desc, "representations/circle/circle.glsl", 2);
+        if (!static_cast<const CircleData&>(*state.data).flat) desc.defines.push_back({"MATERIAL_CURVED_MIRROR", "1"});
+    }
+    desc.defines.push_back({"CHARTS", std::to_string(charts_)});
+    desc.defines.push_back({"VIEWS", std::to_string(size_.views)});
+    desc.defines.push_back({"REST_VIEWS", std::to_string(remainder_views(size_.views))});
+    desc.defines.push_back({"ANGLES", std::to_string(size_.angles)});  // for half a turn
+}
+
+void GpuCircle::bind_tables(const gpu::Program& program, const SurfaceState&) const {
+    map_.bind(program);
+}
+
+}  // namespace rowland::diffraction

@@ -1,0 +1,213 @@
+#include "modules/diffraction/runtime/gpu_planar.h"
+
+#include <algorithm>
+#include <array>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_inverse.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+#include <string>
+#include <utility>
+
+#include "engine/core/log.h"
+#include "engine/core/parallel.h"
+#include "modules/diffraction/representations/planar/lobe_map.h"
+#include "modules/diffraction/representations/planar/planar_map.h"
+#include "modules/diffraction/runtime/vertex_light.h"
+
+namespace rowland::diffraction {
+
+namespace {
+
+/// Smaller changes of a map's axes do not show at its resolution.
+constexpr double kSameAxis = 1e-5;
+
+PlanarData& data_of(SurfaceState& state) {
+    if (!state.data) state.data = std::make_unique<PlanarData>();
+    return static_cast<PlanarData&>(*state.data);
+}
+
+const PlanarData& data_of(const SurfaceState& state) {
+    return static_cast<const PlanarData&>(*state.data);
+}
+
+glm::dvec3 in_world(const glm::dvec3& normal, const glm::mat4& object_to_world) {
+    return glm::normalize(glm::inverseTranspose(glm::dmat3(object_to_world)) * normal);
+}
+
+void follow(const glm::dvec3& axis, glm::dvec3& followed) {
+    if (glm::length(followed - axis) > kSameAxis) followed = axis;
+}
+
+}  // namespace
+
+GpuPlanar::GpuPlanar(const CookedMaterial& cooked, const PlanarTables& tables, const glm::dmat3& xyz_to_working)
+    : GpuMaterial(cooked, xyz_to_working),
+      stand_in_([material = this->cooked(), table = tables.stand_in, xyz_to_working] {
+          return std::make_unique<const GpuArc>(*material, *table, xyz_to_working);
+      }),
+      fill_(planar_filling(tables, working_material(), xyz_to_working)),
+      lobe_map_(tables.lobe.has_value()),
+      half_turn_(tables.lobe && tables.lobe->pattern.even),
+      pitch_axis_(tables.size.pitch.has_value()) {}
+
+void GpuPlanar::find_flatness(const SurfaceObject& object, const SurfaceState& state, PlanarData& data) const {
+    if (data.mesh == state.mesh && state.mesh) return;
+    data.mesh = state.mesh;
+    data.flat = object.skinned ? std::nullopt : flat_normal(object.mesh);
+    data.tangent = common_tangent(object.mesh);
+    if (!data.flat && !object.skinned)
+        log_warning("a grating of representation planar is on a mesh that is not flat: it is shaded as arc");
+}
+
+void GpuPlanar::update_map(const SurfaceObject& object, const SurfaceLight& light, bool grooves,
+                           PlanarData& data) const {
+    const auto& texels = samples(light);
+    data.has_map = data.flat && texels;
+    if (!data.has_map) return;
+    follow(in_world(*data.flat, object.object_to_world), data.normal);
+    if (lobe_map_ && !grooves && data.tangent) {
+        if (!data.grating) data.grating.emplace(0.0);
+        const glm::dmat3 to_tangent =
+            tangent_frame(glm::vec3(*data.flat), *data.tangent, object.object_to_world, object.groove_rotation);
+        follow(glm::transpose(to_tangent)[0], *data.grating);
+    } else {
+        data.grating.reset();
+    }
+    data.map.update({.texels = texels, .normal = data.normal, .grating = data.grating}, fill_, object.map_pace);
+}
+
+void GpuPlanar::update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const {
+    PlanarData& data = data_of(state);
+    find_flatness(object, state, data);
+    update_map(object, light, state.grooves != nullptr, data);
+    data.stand_in_is_old = data.stand_in_is_old || object.changed;
+    if (data.has_map || !data.stand_in_is_old) return;
+    SurfaceObject changed = object;
+    changed.changed = true;
+    (*stand_in_)->update(changed, light, state);
+    data.stand_in_is_old = false;
+}
+
+bool GpuPlanar::filling(const SurfaceState& state) const {
+    const PlanarData& data = data_of(state);
+    return data.has_map && !data.map.is_complete();
+}
+
+void GpuPlanar::describe(const SurfaceState& state, gpu::ProgramDesc& desc) const {
+    if (!data_of(state).has_map) return (*stand_in_)->describe(state, desc);
+    // The vertices do not read a groove texture.
+    if (cooked()->material.quality.map_at_vertices && !state.grooves)
+        set_vertex_shader(desc, "representations/planar/planar.glsl");
+    else
+        set_pixel_shader(desc, "representations/planar/planar.glsl");
+    if (state.grooves) desc.defines.push_back({"FINE_GROOVE_PARTS", "1"});  // each is one look-up
+    if (pitch_axis_) desc.defines.push_back({"PITCH_AXIS", "1"});
+    if (lobe_map_) desc.defines.push_back({"LOBE_MAP", "1"});
+    if (half_turn_) desc.defines.push_back({"HALF_TURN", "1"});
+}
+
+void GpuPlanar::bind_tables(const gpu::Program& program, const SurfaceState& state) const {
+    const PlanarData& data = data_of(state);
+    if (data.has_map)
+        data.map.bind(program);
+    else
+        (*stand_in_)->bind_tables(program, state);
+}
+
+namespace {
+
+PlanarMapSize coarser(PlanarMapSize size) {
+    size.azimuths = std::min(kCoarsePlanarMap.azimuths, size.azimuths);
+    size.views = std::min(kCoarsePlanarMap.views, size.views);
+    if (size.pitch) size.pitch->nodes = std::max(2, size.pitch->nodes / 2);
+    return size;
+}
+
+LobeMapSize smaller(const LobeMapSize& a, const LobeMapSize& b) {
+    return {.azimuths = std::min(a.azimuths, b.azimuths),
+            .views = {.g = std::min(a.views.g, b.views.g), .h = std::min(a.views.h, b.views.h)}};
+}
+
+void set_axes(const gpu::Program& program, const glm::dvec3& e1, const glm::dvec3& e2) {
+    program.set("planar_e1", glm::vec3(e1));
+    program.set("planar_e2", glm::vec3(e2));
+}
+
+/// Maps of flat lobe.
+struct FlatFilling {
+    MaterialKernel material;
+    PlanarMapSize full;
+
+    FilledMap operator()(const MapInput& input, MapDetail detail, const std::stop_token& stop) const {
+        const PlanarMapSize size = detail == MapDetail::Full ? full : coarser(full);
+        PlanarMap map = fill_planar_map(*input.texels, material.kernel, material.pitch_nm, input.normal, size,
+                                        material.zero_order_xyz, material.cover, stop);
+        const std::array levels{std::move(map.xyz)};
+        const auto kind = map.pitch ? gpu::TextureKind::Volume : gpu::TextureKind::Plane;
+        return {
+            .texels = pack(levels, {.kind = kind, .width = map.azimuths, .height = map.views, .depth = map.slices()},
+                           {.filter = gpu::Filter::Linear, .wrap_s = gpu::Wrap::Repeat}),
+            .set_uniforms = [e1 = map.e1, e2 = map.e2, size](const gpu::Program& program) {
+                set_axes(program, e1, e2);
+                if (size.pitch) program.set("pitch_scale_bias", glm::vec2(size.pitch->scale_bias()));
+                program.set("planar_map_half_texel", glm::vec2(0.5 / glm::dvec2(size.azimuths, size.views)));
+            }};
+    }
+};
+
+/// Volume maps of other lobes.
+struct LobeFilling {
+    struct Level {
+        int azimuths;
+        Lazy<LobeSpectrum> spectrum;
+    };
+    struct Levels {
+        Level coarse;
+        Level full;
+    };
+    Levels all;  ///< azimuths
+    Levels one;
+
+    FilledMap operator()(const MapInput& input, MapDetail detail, const std::stop_token& stop) const {
+        const Levels& levels_of = input.grating ? one : all;
+        const Level& level = detail == MapDetail::Full ? levels_of.full : levels_of.coarse;
+        LobeMap map = input.grating ? fill_lobe_slice(*input.texels, *level.spectrum, input.normal, *input.grating)
+                                    : fill_lobe_map(*input.texels, *level.spectrum, input.normal, level.azimuths, stop);
+        if (stop.stop_requested()) return {};
+        const LobeMapSize& size = map.size;
+        const int depth = slices(size, map.half_turn);
+        const std::array levels{std::move(map.values)};
+        return {.texels = pack(
+                    levels,
+                    {.kind = gpu::TextureKind::Volume, .width = size.views.g, .height = size.views.h, .depth = depth},
+                    {.filter = gpu::Filter::Linear, .wrap_r = map.half_turn ? gpu::Wrap::Clamp : gpu::Wrap::Repeat}),
+                .set_uniforms = [axes = map.axes, size, depth](const gpu::Program& program) {
+                    set_axes(program, axes.e1, axes.e2);
+                    program.set("lobe_map_axes",
+                                glm::vec4(glm::dvec4(0.5 - 0.5 / size.views.g, 0.5 - 0.5 / size.views.h,
+                                                     static_cast<double>(size.azimuths) / depth, 0.5 / depth)));
+                }};
+    }
+};
+
+}  // namespace
+
+std::shared_ptr<const FillMap> planar_filling(const PlanarTables& tables, const MaterialKernel& material,
+                                              const glm::dmat3& xyz_to_working) {
+    if (!tables.lobe) return std::make_shared<const FillMap>(FlatFilling{material, tables.size});
+    const auto pattern = std::make_shared<const DiffractionPattern>(in_space(tables.lobe->pattern, xyz_to_working));
+    const auto levels = [&](const LobeMapSize& coarse, const LobeMapSize& full) {
+        const auto level = [&](const LobeMapSize& size) {
+            return LobeFilling::Level{size.azimuths, Lazy<LobeSpectrum>([pattern, views = size.views] {
+                                          return LobeSpectrum(*pattern, views);
+                                      })};
+        };
+        return LobeFilling::Levels{level(smaller(coarse, full)), level(full)};
+    };
+    const LobeMapSize& size = tables.lobe->size;
+    return std::make_shared<const FillMap>(
+        LobeFilling{.all = levels(kCoarseLobeMap, size), .one = levels(kCoarseLobeSlice, one_azimuth(size))});
+}
+
+}  // namespace rowland::diffraction

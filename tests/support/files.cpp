@@ -1,0 +1,42 @@
+#include "tests/support/files.h"
+
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace rowland::test {
+
+TemporaryFolder::TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "rowland-test-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot create a temporary folder");
+    path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+}
+
+std::filesystem::path source_path(const std::string& path) {
+    const std::filesystem::path root = ROWLAND_SOURCE_TREE;
+    return path.empty() ? root : root / path;
+}
+
+std::filesystem::path content_path(const std::string& path) {
+    return source_path("content") / path;
+}
+
+std::optional<std::filesystem::path> find_data(const std::string& relative_path) {
+    const char* folder = std::getenv("ROWLAND_DATA");
+    const std::filesystem::path path = std::filesystem::path(folder ? folder : ROWLAND_DEFAULT_DATA) / relative_path;
+    if (!std::filesystem::exists(path)) return std::nullopt;
+    return path.lexically_normal();
+}
+
+bool data_is_required() {
+    const char* ci = std::getenv("CI");
+    return (ci && std::string_view(ci) == "true") || std::getenv("ROWLAND_DATA") != nullptr;
+}
+
+}  // namespace rowland::test

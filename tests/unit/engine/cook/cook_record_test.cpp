@@ -1,0 +1,69 @@
+#include "engine/cook/cook_record.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine/cook/cook_source.h"
+#include "engine/core/file.h"
+#include "tests/support/files.h"
+#include "tests/unit/engine/cook/tile_type.h"
+
+namespace rowland::cook {
+namespace {
+
+class CookOnce : public testing::Test {
+ protected:
+    CookOnce() {
+        test::register_tile_types(registry_);
+        write("a/s.tiles", "size 3 include more.txt");
+        write("a/more.txt", "size 4 ");
+    }
+
+    void write(const std::string& name, std::string_view text) const { write_file_atomic(folder_.path() / name, text); }
+    /// The cooked file, and how many sources were baked for it.
+    std::pair<std::filesystem::path, std::uint64_t> once(const std::string& name) {
+        const std::uint64_t before = sources_baked();
+        read_files_.clear();
+        const auto file = cook_once(registry_, folder_.path() / name, folder_.path() / "cache", read_files_);
+        return {file, sources_baked() - before};
+    }
+
+    test::TemporaryFolder folder_;
+    Registry registry_;
+    std::vector<std::filesystem::path> read_files_;
+};
+
+TEST_F(CookOnce, BakesAContentOnceWhereverItIs) {
+    const auto [file, baked] = once("a/s.tiles");
+    EXPECT_EQ(baked, 1U);
+    const asset::CookedAsset asset = asset::load(file, "tiles", 2);
+    EXPECT_EQ(asset.payload.size(), 3U);
+    EXPECT_EQ(file.filename(), asset.header.content_hash.hex() + ".cooked");
+    EXPECT_EQ(once("a/s.tiles"), std::pair(file, std::uint64_t{0}));
+    EXPECT_THAT(read_files_, testing::ElementsAre(folder_.path() / "a/s.tiles", folder_.path() / "a/more.txt"));
+    write("b/other.tiles", "size 3 include more.txt");
+    write("b/more.txt", "size 4 ");
+    EXPECT_EQ(once("b/other.tiles"), std::pair(file, std::uint64_t{0}));
+}
+
+TEST_F(CookOnce, BakesAgainWhenADependencyChangesAndKnowsTheOldContentStill) {
+    const auto [file, baked] = once("a/s.tiles");
+    write("a/more.txt", "size 5 ");
+    const auto [changed, baked_again] = once("a/s.tiles");
+    EXPECT_NE(changed, file);
+    EXPECT_EQ(baked_again, 1U);
+    std::filesystem::remove(changed);
+    EXPECT_EQ(once("a/s.tiles"), std::pair(changed, std::uint64_t{1}));
+}
+
+TEST_F(CookOnce, ARefusedSourceLeavesNothingAndIsAnError) {
+    write("a/s.tiles", "refuse");
+    EXPECT_THAT(test::refusal_of([&] { once("a/s.tiles"); }), testing::HasSubstr("s.tiles: refuse"));
+    EXPECT_THAT(test::refusal_of([&] { once("a/none.tiles"); }), testing::HasSubstr("none.tiles"));
+    EXPECT_THAT(test::refusal_of([&] { once("a/none.notes"); }), testing::HasSubstr("none.notes"));
+    EXPECT_FALSE(std::filesystem::exists(folder_.path() / "cache"));
+    EXPECT_THAT(read_files_, testing::Contains(folder_.path() / "a/none.notes"));
+}
+
+}  // namespace
+}  // namespace rowland::cook

@@ -1,0 +1,311 @@
+// Maps of lattices against the reference.
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <span>
+#include <variant>
+
+#include "engine/core/parallel.h"
+#include "engine/lighting/procedural_probe.h"
+#include "modules/diffraction/asset/material.h"
+#include "modules/diffraction/reference/reference.h"
+#include "modules/diffraction/representations/planar/lobe_map.h"
+#include "modules/diffraction/representations/point_shader.h"
+#include "tests/support/csv.h"
+#include "tests/support/files.h"
+#include "tests/unit/modules/diffraction/representations/probe_maps.h"
+
+namespace rowland::diffraction {
+namespace {
+
+using test::relative_rms;
+
+LobeMap lobe_map(const Grating& grating, const lighting::LightSamples& texels, const glm::dvec3& normal,
+                 const LobeMapSize& size) {
+    const LobeSpectrum spectrum(diffraction_pattern(grating, colour::LightSpectra()), size.views);
+    return fill_lobe_map(texels, spectrum, normal, size.azimuths);
+}
+
+std::vector<glm::dvec3> samples(const LobeMap& map, const std::vector<ShadingPoint>& frames) {
+    std::vector<glm::dvec3> xyz;
+    for (const ShadingPoint& frame : frames) xyz.push_back(sample(map, frame));
+    return xyz;
+}
+
+/// Points of a plane, seen from everywhere above it.
+std::vector<ShadingPoint> points_of(const glm::dvec3& normal) {
+    const PlaneAxes axes = plane_axes(normal);
+    std::vector<ShadingPoint> points;
+    for (int i = 0; i < 20; ++i) {
+        const double azimuth = 2.4 * i;
+        const double tilt = 0.03 + 0.075 * i;
+        const glm::dvec3 across = std::cos(1.1 * i) * axes.e1 + std::sin(1.1 * i) * axes.e2;
+        points.push_back({.view = std::cos(tilt) * axes.n + std::sin(tilt) * across,
+                          .normal = axes.n,
+                          .grating = std::cos(azimuth) * axes.e1 + std::sin(azimuth) * axes.e2});
+    }
+    return points;
+}
+
+lighting::ShLight smooth_light() {
+    return {.bands = 3,
+            .coefficients = {{4.0, 3.5, 3.0},
+                             {0.5, -0.3, 0.2},
+                             {1.2, 0.8, 0.9},
+                             {-0.4, 0.6, 0.5},
+                             {0.3, 0.1, -0.2},
+                             {-0.2, 0.3, 0.4},
+                             {0.2, 0.2, -0.3},
+                             {0.1, -0.4, 0.2},
+                             {0.4, 0.3, 0.1}}};
+}
+
+Grating with_lobe(const GrooveLobe& lobe) {
+    Grating grating = test::compact_disc();
+    grating.lobe = lobe;
+    return grating;
+}
+
+/// The slow sum is the reference's quadrature. Light without detail: the rest is the map's steps of .03 at the
+/// horizon's edge, .8 % for the lobe that is narrower than they are (measured), .5 % and less for the others.
+TEST(LobeMap, EqualsTheReferenceUnderSmoothLight) {
+    Grating blazed = with_lobe(GaussianLobe{0.1});
+    blazed.profile = BlazedProfile{.depth_nm = 280.0};
+    blazed.orders = {0, 1, 2};
+    Grating long_pits = with_lobe(PitsLobe{.length_nm = 3000.0, .coherent = 0.5});
+    long_pits.pitch_nm = 740.0;
+    const lighting::ShLight light = smooth_light();
+    const lighting::LightSamples texels = EvaluationLight(light, math::SphericalWindow::None).texels();
+    const glm::dvec3 normal = glm::normalize(glm::dvec3(0.3, 0.8, -0.5));
+    const std::vector<ShadingPoint> points = points_of(normal);
+    const struct {
+        const char* name;
+        Grating grating;
+    } cases[] = {{"sigma 1", with_lobe(GaussianLobe{1.0})},
+                 {"sigma 0.2", with_lobe(GaussianLobe{0.2})},
+                 {"sigma 0.02", with_lobe(GaussianLobe{0.02})},
+                 {"pits", with_lobe(PitsLobe{})},
+                 {"incoherent pits", with_lobe(PitsLobe{.coherent = 0.0})},
+                 {"long pits, fine pitch", long_pits},
+                 {"blazed", blazed}};
+    for (const auto& one : cases) {
+        const LobeMap map = lobe_map(one.grating, texels, normal, {.azimuths = 32, .views = {.g = 64, .h = 64}});
+        EXPECT_EQ(map.half_turn, std::string(one.name) != "blazed");
+        const double error =
+            relative_rms(samples(map, points), reference_radiance(one.grating, light, colour::LightSpectra(), points));
+        RecordProperty(one.name, fmt::format("{:.3g}", error));
+        EXPECT_LT(error, 1e-2) << one.name;
+    }
+}
+
+/// The narrowest lobe under a doorway of a few texels: .9 % measured, 2 % is the goal. The coarse map, which is shown
+/// for as long as an object turns: 10 % measured.
+TEST(LobeMap, MatchesEnnisThroughANarrowLobe) {
+    ROWLAND_TEST_DATA(frames_path, "oracle/frames_tilted_cd.csv");
+    ROWLAND_TEST_DATA(probe_path, "probes/ennis_probulator.hdr");
+    const auto frames = test::read_frames(rowland::test::read_csv(frames_path));
+    const lighting::ProbeImage probe(image::load_image(probe_path), lighting::Mapping::Equirectangular);
+    const Grating grating = with_lobe(GaussianLobe{0.02});
+    const auto expected = reference_radiance(grating, IncidentLight(probe), colour::LightSpectra(), frames);
+    const lighting::LightSamples texels = lighting::light_samples(probe);
+    const auto error = [&](const LobeMapSize& size) {
+        const double found = relative_rms(samples(lobe_map(grating, texels, frames[0].normal, size), frames), expected);
+        RecordProperty(fmt::format("views_{}", size.views.g), fmt::format("{:.3g}", found));
+        return found;
+    };
+    EXPECT_LT(error({}), 0.02);
+    EXPECT_LT(error(kCoarseLobeMap), 0.15);
+}
+
+/// What is computed for the half turn alone is what the whole turn gives.
+TEST(LobeMap, TheHalfTurnIsTheWholeTurn) {
+    const lighting::LightSamples texels = EvaluationLight(smooth_light(), math::SphericalWindow::None).texels();
+    DiffractionPattern pattern = diffraction_pattern(with_lobe(PitsLobe{}), colour::LightSpectra());
+    ASSERT_TRUE(pattern.even);
+    const glm::dvec3 normal(0, 0, 1);
+    const LobeMapViews views{.g = 16, .h = 24};
+    const LobeMap half = fill_lobe_map(texels, LobeSpectrum(pattern, views), normal, 16);
+    pattern.even = false;
+    const LobeMap whole = fill_lobe_map(texels, LobeSpectrum(pattern, views), normal, 16);
+    EXPECT_EQ(half.values.size(), 9U * 16U * 24U);
+    EXPECT_EQ(whole.values.size(), 16U * 16U * 24U);
+    const std::vector<ShadingPoint> points = points_of(normal);
+    EXPECT_LT(relative_rms(samples(half, points), samples(whole, points)), 1e-5);
+}
+
+TEST(LobeMap, AnyNumberOfThreadsGivesTheSameMap) {
+    const lighting::LightSamples texels = EvaluationLight(smooth_light(), math::SphericalWindow::None).texels();
+    const auto filled = [&](unsigned threads) {
+        const ThreadLimit limit(threads);
+        return lobe_map(with_lobe(PitsLobe{}), texels, {0, 1, 0}, {.azimuths = 16, .views = {.g = 16, .h = 16}});
+    };
+    EXPECT_EQ(filled(1).values, filled(2).values);
+}
+
+TEST(LobeMap, AViewBelowTheHorizonIsBlack) {
+    const LobeMap map =
+        lobe_map(with_lobe(GaussianLobe{0.2}), EvaluationLight(smooth_light(), math::SphericalWindow::None).texels(),
+                 {0, 0, 1}, {.azimuths = 8, .views = {.g = 8, .h = 8}});
+    EXPECT_EQ(sample(map, {.view = {0.1, 0.2, -0.3}, .normal = {0, 0, 1}, .grating = {1, 0, 0}}), glm::dvec3(0.0));
+}
+
+Grating lattice_of(const LatticeProfile& profile, const glm::dvec2& a_nm, const glm::dvec2& b_nm, int orders) {
+    Grating grating;
+    grating.orders.clear();
+    grating.pitch_nm = glm::length(a_nm);
+    grating.lattice = Lattice{.a_nm = a_nm, .b_nm = b_nm, .profile = profile, .orders = orders};
+    return grating;
+}
+
+Grating crossed_foil() {
+    return lattice_of(CrossedProfile{.along_a = SinusoidalProfile{120.0}, .along_b = SinusoidalProfile{90.0}},
+                      {1000.0, 0.0}, {0.0, 1200.0}, 3);
+}
+
+Grating screen() {
+    return lattice_of(ApertureProfile{.width_nm = 15000.0, .height_nm = 40000.0}, {50000.0, 0.0}, {0.0, 50000.0}, 12);
+}
+
+/// Nothing is symmetric: each sign of g, h, m and k shows.
+Grating oblique_blaze() {
+    return lattice_of(CrossedProfile{.along_a = BlazedProfile{250.0}, .along_b = BlazedProfile{150.0}}, {1400.0, 200.0},
+                      {-300.0, 1800.0}, 2);
+}
+
+double map_error(const Grating& grating, const IncidentLight& light, const lighting::LightSamples& texels,
+                 const std::vector<ShadingPoint>& frames, const LobeMapSize& size) {
+    std::vector<ShadingPoint> points = frames;
+    if (grating.transmission) std::transform(points.begin(), points.end(), points.begin(), lit_from_behind);
+    const LobeSpectrum spectrum(shaded_pattern(grating, colour::LightSpectra()), size.views);
+    const LobeMap map = fill_lobe_map(texels, spectrum, points[0].normal, size.azimuths);
+    std::vector<glm::dvec3> found;
+    for (const ShadingPoint& point : points) found.push_back(sample(map, point));
+    return relative_rms(found, reference_radiance(grating, light, colour::LightSpectra(), frames));
+}
+
+TEST(LatticeMapUnderSmoothLight, EqualsTheReference) {
+    lighting::ShLight light{.bands = 3, .coefficients = {}};
+    for (int i = 0; i < 9; ++i) light.coefficients.emplace_back(4.0 / (1 + i), 0.9 - 0.1 * i, 0.5 + 0.1 * i);
+    const lighting::LightSamples texels = EvaluationLight(light, math::SphericalWindow::None).texels();
+    std::vector<ShadingPoint> frames;
+    const PlaneAxes axes = plane_axes({0.3, 0.8, -0.5});
+    for (int i = 0; i < 20; ++i)
+        frames.push_back({.view = std::cos(0.07 * i) * axes.n +
+                                  std::sin(0.07 * i) * (std::cos(1.1 * i) * axes.e1 + std::sin(1.1 * i) * axes.e2),
+                          .normal = axes.n,
+                          .grating = std::cos(2.4 * i) * axes.e1 + std::sin(2.4 * i) * axes.e2});
+    Grating sheet = oblique_blaze();
+    sheet.transmission = Transmission{.ior = 1.6};
+    const struct {
+        const char* name;
+        Grating grating;
+    } cases[] = {
+        {"crossed", crossed_foil()}, {"screen", screen()}, {"oblique blaze", oblique_blaze()}, {"sheet", sheet}};
+    for (const auto& one : cases) {
+        const double error =
+            map_error(one.grating, light, texels, frames, {.azimuths = 32, .views = {.g = 96, .h = 80}});
+        RecordProperty(one.name, fmt::format("{:.3g}", error));
+        EXPECT_LT(error, 0.021) << one.name;  // steps of .025 at the horizon's edge
+    }
+}
+
+/// Views around the orders of one lamp, a quarter of a step apart.
+std::vector<ShadingPoint> dense_views() {
+    const PlaneAxes axes = plane_axes({0.1, 0.9, 0.3});
+    std::vector<ShadingPoint> frames;
+    for (int i = 0; i < 40; ++i)
+        for (int j = 0; j < 40; ++j) {
+            const glm::dvec2 v(-0.5 + 0.015 * i, -0.3 + 0.015 * j);
+            frames.push_back({.view = v.x * axes.e1 + v.y * axes.e2 + std::sqrt(1.0 - glm::dot(v, v)) * axes.n,
+                              .normal = axes.n,
+                              .grating = std::cos(0.4321) * axes.e1 + std::sin(0.4321) * axes.e2});
+        }
+    return frames;
+}
+
+/// A lamp 10 000 times as bright as the room: around its orders the map shows the room, not rings. Nine of ten views
+/// are within 52 % of the reference with a sharp limit of what is restored, 6 % with today's (measured).
+TEST(LatticeMapUnderALamp, HasNoRings) {
+    const lighting::StudioRecipe room{.ceiling = glm::dvec3(0.02),
+                                      .wall = glm::dvec3(0.035),
+                                      .floor = glm::dvec3(0.02),
+                                      .boxes = {{.azimuth_deg = 128.0,
+                                                 .elevation_deg = 50.0,
+                                                 .half_width_deg = 4.0,
+                                                 .half_height_deg = 4.0,
+                                                 .soft_edge_deg = 1.0,
+                                                 .radiance = glm::dvec3(300.0)}}};
+    const lighting::ProbeImage probe(lighting::render_studio(room, 1024), lighting::Mapping::Equirectangular);
+    const std::vector<ShadingPoint> frames = dense_views();
+    const LobeSpectrum spectrum(shaded_pattern(crossed_foil(), colour::LightSpectra()), {.g = 128, .h = 128});
+    const LobeMap map = fill_lobe_map(lighting::light_samples(probe), spectrum, frames[0].normal, 512);
+    const auto expected = reference_radiance(crossed_foil(), probe, colour::LightSpectra(), frames);
+    std::vector<double> errors;
+    for (std::size_t i = 0; i < frames.size(); ++i)
+        errors.push_back(std::abs(sample(map, frames[i]).y / expected[i].y - 1.0));
+    std::sort(errors.begin(), errors.end());
+    const double most = errors[errors.size() * 9 / 10];
+    RecordProperty("nine_of_ten", fmt::format("{:.3g}", most));
+    EXPECT_LT(most, 0.1);
+}
+
+struct LatticeProbe {
+    const char* name;
+    const char* file;
+    lighting::Mapping mapping;
+};
+
+class LatticeMap : public testing::TestWithParam<LatticeProbe> {};
+
+/// The view that deviates most does not count if the reference itself is 2 % off by its own account: of the foil under
+/// Ennis' doorway one is, by 5 %.
+void leave_out_the_doubtful(const Grating& grating, const lighting::ProbeImage& probe,
+                            const std::vector<ShadingPoint>& frames, std::vector<glm::dvec3>& found,
+                            std::vector<glm::dvec3>& expected) {
+    std::size_t worst = 0;
+    for (std::size_t i = 0; i < frames.size(); ++i)
+        if (glm::distance(found[i], expected[i]) > glm::distance(found[worst], expected[worst])) worst = i;
+    const auto checked = checked_reference(grating, probe, colour::LightSpectra(), std::span(frames).subspan(worst, 1));
+    if (checked[0].error > 0.02) found[worst] = expected[worst] = glm::dvec3(0.0);
+}
+
+/// The shipped materials on objects of one g, in the maps that they have there.
+TEST_P(LatticeMap, OfOneAzimuthIsWithinTwoPerCentOfTheReference) {
+    ROWLAND_TEST_DATA(path, std::string("probes/") + GetParam().file);
+    ROWLAND_TEST_DATA(frames_path, "oracle/frames_tilted_cd.csv");
+    std::vector<ShadingPoint> frames = test::read_frames(rowland::test::read_csv(frames_path));
+    const glm::dvec3 g = frames[0].grating;
+    for (ShadingPoint& frame : frames) frame.grating = g;
+    const lighting::ProbeImage probe(image::load_image(path), GetParam().mapping);
+    const lighting::LightSamples texels = lighting::light_samples(probe);
+    for (const char* name : {"crossed_foil", "phone_screen", "butterfly_wing"}) {
+        const Material material = load_material(rowland::test::content_path(fmt::format("materials/{}.json", name)));
+        const Grating& grating = material.grating;
+        const auto settings = std::get<PlanarSettings>(representation(material));
+        const PlanarLobe lobe = *bake(grating, settings).lobe;
+        const LobeSpectrum spectrum(lobe.pattern, one_azimuth(lobe.size).views);
+        const LobeMap map = fill_lobe_slice(texels, spectrum, frames[0].normal, g);
+        std::vector<glm::dvec3> found;
+        for (const ShadingPoint& frame : frames)
+            found.push_back(transmittance(grating.cover, glm::dot(frame.normal, frame.view)) * sample(map, frame));
+        std::vector<glm::dvec3> expected = reference_radiance(grating, probe, colour::LightSpectra(), frames);
+        leave_out_the_doubtful(grating, probe, frames, found, expected);
+        const double error = relative_rms(found, expected);
+        RecordProperty(name, fmt::format("{:.3g}", error));
+        EXPECT_LT(error, 0.02) << name;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Probes, LatticeMap,
+    testing::Values(LatticeProbe{"Ennis", "ennis_probulator.hdr", lighting::Mapping::Equirectangular},
+                    LatticeProbe{"Grace", "grace_probe.hdr", lighting::Mapping::Angular},
+                    LatticeProbe{"BlenderSunset", "blender_sunset.exr", lighting::Mapping::Equirectangular}),
+    [](const auto& probe) { return std::string(probe.param.name); });
+
+}  // namespace
+}  // namespace rowland::diffraction
