@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cstring>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -12,9 +10,9 @@
 
 #include "engine/core/byte_stream.h"
 #include "engine/core/error.h"
-#include "engine/core/json_reader.h"
 #include "engine/core/log.h"
 #include "engine/scene/gltf_import.h"
+#include "engine/scene/gltf_source.h"
 
 namespace rowland::scene {
 
@@ -24,63 +22,14 @@ using Bytes = std::vector<std::byte>;
 
 constexpr std::uint32_t kLayoutVersion = 1;
 constexpr std::uint64_t kMaximumFileBytes = std::uint64_t{1} << 30;
-constexpr std::uint32_t kGlbMagic = 0x46546C67;  // "glTF"
-constexpr std::uint32_t kJsonChunk = 0x4E4F534A;
-constexpr std::uint32_t kBinaryChunk = 0x004E4942;
-
-/// A glTF file of which load_gltf() has accepted all but the extensions' contents.
-struct GltfParts {
-    nlohmann::json json;
-    Bytes binary;
-    bool is_glb = false;
-};
-
-GltfParts split(std::span<const std::byte> bytes, const std::string& file) {
-    GltfParts parts;
-    ByteReader reader(bytes, file);
-    std::span<const std::byte> text = bytes;
-    if (bytes.size() >= sizeof kGlbMagic && std::memcmp(bytes.data(), &kGlbMagic, sizeof kGlbMagic) == 0) {
-        parts.is_glb = true;
-        reader.take(3 * sizeof(std::uint32_t));
-        const auto chunk = [&] {
-            const auto size = reader.value<std::uint32_t>();
-            const auto type = reader.value<std::uint32_t>();
-            return std::pair(type, reader.take(size));
-        };
-        text = chunk().second;
-        if (reader.remaining() >= 2 * sizeof(std::uint32_t))
-            if (const auto [type, data] = chunk(); type == kBinaryChunk) parts.binary.assign(data.begin(), data.end());
-    }
-    parts.json = parse_json({reinterpret_cast<const char*>(text.data()), text.size()}, file);
-    return parts;
-}
-
-std::string percent_decoded(const std::string& uri) {
-    std::string text;
-    for (std::size_t i = 0; i < uri.size(); ++i) {
-        unsigned code = 0;
-        const char* const digits = uri.data() + i + 1;
-        const bool escaped =
-            uri[i] == '%' && i + 2 < uri.size() && std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2;
-        text += escaped ? static_cast<char>(code) : uri[i];
-        if (escaped) i += 2;
-    }
-    return text;
-}
 
 /// The bytes of the file that an object's "uri" names, and removes that member; nullopt: it names none.
-std::optional<Bytes> take_named_file(cook::Context& context, nlohmann::json& object) {
+std::optional<Bytes> take_named_file(cook::Context& context, const GltfSource& source, nlohmann::json& object) {
     const auto uri = object.find("uri");
     if (uri == object.end() || uri->get_ref<const std::string&>().starts_with("data:")) return std::nullopt;
-    Bytes bytes = context.read(context.source().parent_path() /
-                                   std::filesystem::path(percent_decoded(uri->get<std::string>())).lexically_normal(),
-                               kMaximumFileBytes);
+    Bytes bytes = context.read(file_of_uri(source, uri->get<std::string>(), ""), kMaximumFileBytes);
     object.erase(uri);
     return bytes;
-}
-
-void pad(Bytes& bytes, std::byte with) {
-    while (bytes.size() % 4 != 0) bytes.push_back(with);
 }
 
 /// Where a buffer of the source is in the packed file.
@@ -89,36 +38,37 @@ struct PackedBuffer {
     std::size_t offset;
 };
 
-/// Makes the binary chunk the first buffer and moves into it what buffers and images name. Embedded base64 stays.
-void embed_files(cook::Context& context, GltfParts& parts) {
+/// Makes the binary chunk the first buffer and moves into it what buffers and images name. Embedded base64 stays. The
+/// chunk's data.
+Bytes embed_files(cook::Context& context, GltfSource& source) {
     Bytes chunk;
-    const auto append = [&](const Bytes& bytes) {
-        pad(chunk, std::byte{0});
+    const auto append = [&](std::span<const std::byte> bytes) {
+        chunk.resize(padded_chunk(chunk.size()));
         const std::size_t offset = chunk.size();
         chunk.insert(chunk.end(), bytes.begin(), bytes.end());
         return offset;
     };
     nlohmann::json buffers = nlohmann::json::array({nlohmann::json::object()});
     std::vector<PackedBuffer> packed;
-    for (nlohmann::json& buffer : parts.json["buffers"]) {
-        if (const auto bytes = take_named_file(context, buffer)) {
+    for (nlohmann::json& buffer : source.json["buffers"]) {
+        if (const auto bytes = take_named_file(context, source, buffer)) {
             packed.push_back({0, append(*bytes)});
         } else if (packed.empty() && !buffer.contains("uri")) {
-            packed.push_back({0, append(parts.binary)});
+            packed.push_back({0, append(source.binary())});
         } else {
             packed.push_back({buffers.size(), 0});
             buffers.push_back(std::move(buffer));
         }
     }
     nlohmann::json views = nlohmann::json::array();
-    for (nlohmann::json& view : parts.json["bufferViews"]) {
+    for (nlohmann::json& view : source.json["bufferViews"]) {
         const PackedBuffer& at = packed.at(view.at("buffer").get<std::size_t>());
         view["buffer"] = at.buffer;
         view["byteOffset"] = view.value("byteOffset", std::size_t{0}) + at.offset;
         views.push_back(std::move(view));
     }
-    for (nlohmann::json& image : parts.json["images"]) {
-        const auto bytes = take_named_file(context, image);
+    for (nlohmann::json& image : source.json["images"]) {
+        const auto bytes = take_named_file(context, source, image);
         if (!bytes) continue;
         const bool png = !bytes->empty() && bytes->front() == std::byte{0x89};
         image["mimeType"] = png ? "image/png" : "image/jpeg";
@@ -127,44 +77,30 @@ void embed_files(cook::Context& context, GltfParts& parts) {
     }
     if (chunk.empty() && buffers.size() > 1) chunk.resize(4);  // the others keep their numbers
     buffers[0]["byteLength"] = chunk.size();
-    parts.binary = std::move(chunk);
-    parts.json["buffers"] = std::move(buffers);
-    parts.json["bufferViews"] = std::move(views);
+    source.json["buffers"] = std::move(buffers);
+    source.json["bufferViews"] = std::move(views);
     for (const char* key : {"buffers", "bufferViews", "images"})  // glTF has no empty arrays
-        if (parts.json[key].empty() || (std::string_view(key) == "buffers" && parts.binary.empty()))
-            parts.json.erase(key);
+        if (source.json[key].empty() || (std::string_view(key) == "buffers" && chunk.empty())) source.json.erase(key);
+    return chunk;
 }
 
 /// The source as one GLB; as it is, if it is one that names no files.
 Bytes packed_glb(cook::Context& context) {
-    Bytes source = context.read(context.source(), kMaximumFileBytes);
-    GltfParts parts = split(source, context.source().string());
+    const std::string file = context.source().string();
+    GltfSource source =
+        split_gltf(context.read(context.source(), kMaximumFileBytes), file, context.source().parent_path());
     const auto names_file = [&](const char* key) {
-        const nlohmann::json& array = parts.json.value(key, nlohmann::json::array());
+        const nlohmann::json& array = source.json.value(key, nlohmann::json::array());
         return std::ranges::any_of(array, [](const nlohmann::json& element) {
             return element.contains("uri") && !element["uri"].get_ref<const std::string&>().starts_with("data:");
         });
     };
-    if (parts.is_glb && !names_file("buffers") && !names_file("images")) return source;
-    embed_files(context, parts);
-    const std::string text = parts.json.dump();
-    Bytes json(text.size());
-    std::memcpy(json.data(), text.data(), text.size());
-    pad(json, std::byte{' '});
-    pad(parts.binary, std::byte{0});
-    ByteWriter writer;
-    const std::size_t chunks = parts.binary.empty() ? 1 : 2;
-    const std::size_t size = 12 + 8 * chunks + json.size() + parts.binary.size();
-    for (const std::size_t value : {std::size_t{kGlbMagic}, std::size_t{2}, size})
-        writer.value(static_cast<std::uint32_t>(value));
-    const auto write_chunk = [&](std::uint32_t type, const Bytes& bytes) {
-        writer.value(static_cast<std::uint32_t>(bytes.size()));
-        writer.value(type);
-        for (const std::byte byte : bytes) writer.value(static_cast<std::uint8_t>(byte));
-    };
-    write_chunk(kJsonChunk, json);
-    if (!parts.binary.empty()) write_chunk(kBinaryChunk, parts.binary);
-    return writer.take();
+    if (source.is_glb() && !names_file("buffers") && !names_file("images")) return std::move(source.bytes);
+    Bytes chunk = embed_files(context, source);
+    Bytes glb = glb_beginning(source.json.dump(), chunk.empty() ? std::nullopt : std::optional(chunk.size()), 0, file);
+    chunk.resize(padded_chunk(chunk.size()));
+    glb.insert(glb.end(), chunk.begin(), chunk.end());
+    return glb;
 }
 
 /// The tables of a scene's extensions, each stored once.

@@ -3,10 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <fstream>
-#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -91,10 +88,6 @@ std::string plain_name(const std::string& name) {
     for (const char c : name.substr(0, 100))
         plain += (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '-' ? c : '_';
     return plain.empty() ? "image" : plain;
-}
-
-std::size_t padded(std::size_t size) {
-    return (size + 3) / 4 * 4;
 }
 
 fs::path folder_of(const fs::path& file) {
@@ -294,7 +287,7 @@ bool EditableGltf::has_binary() const {
 /// Returns the index of the buffer view.
 std::size_t EditableGltf::add_to_binary(std::vector<std::byte> image) {
     std::vector<std::byte> added(appended().begin(), appended().end());
-    added.resize(padded(opened_->binary_size + added.size()) - opened_->binary_size);
+    added.resize(padded_chunk(opened_->binary_size + added.size()) - opened_->binary_size);
     const std::size_t offset = opened_->binary_size + added.size();
     added.insert(added.end(), image.begin(), image.end());
     appended_ = std::make_shared<const std::vector<std::byte>>(std::move(added));
@@ -322,35 +315,17 @@ std::vector<std::span<const std::byte>> EditableGltf::parts(std::vector<std::byt
     const bool in_lines = in_lines_ && !opened_->is_glb();
     std::string json = json_->dump(in_lines ? 2 : -1);
     if (in_lines) json += '\n';
-    const auto put = [&](std::size_t value) {
-        const auto number = std::bit_cast<std::array<std::byte, 4>>(static_cast<std::uint32_t>(value));
-        owned.insert(owned.end(), number.begin(), number.end());
-    };
-    const auto put_json = [&] {
-        const auto text = std::as_bytes(std::span(json));
-        owned.insert(owned.end(), text.begin(), text.end());
-    };
     if (!opened_->is_glb()) {
-        put_json();
+        const auto text = std::as_bytes(std::span(json));
+        owned.assign(text.begin(), text.end());
         return {owned};
     }
-    // Chunks have multiples of 4 bytes.
-    json.resize(padded(json.size()), ' ');
     const std::size_t binary_size = opened_->binary_size + appended().size();
-    const std::size_t total =
-        20 + json.size() + (has_binary() ? 8 + padded(binary_size) : 0) + opened_->other_chunks().size();
-    if (total > std::numeric_limits<std::uint32_t>::max())
-        refuse_input(path().string(), "", fmt::format("{} bytes with what was added", total),
-                     "at most 4 GiB, the most that a .glb can hold");
-    for (const std::size_t number :
-         {std::size_t{GltfSource::kMagic}, std::size_t{2}, total, json.size(), std::size_t{GltfSource::kJsonChunk}})
-        put(number);
-    put_json();
+    owned = glb_beginning(std::move(json), has_binary() ? std::optional(binary_size) : std::nullopt,
+                          opened_->other_chunks().size(), path().string());
     if (!has_binary()) return {owned, opened_->other_chunks()};
-    put(padded(binary_size));
-    put(GltfSource::kBinaryChunk);
     const std::size_t before = owned.size();
-    owned.resize(before + padded(binary_size) - binary_size);
+    owned.resize(before + padded_chunk(binary_size) - binary_size);
     return {std::span(owned).first(before), opened_->binary(), appended(), std::span(owned).subspan(before),
             opened_->other_chunks()};
 }

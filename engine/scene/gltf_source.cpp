@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <string_view>
 
 #include "engine/core/byte_stream.h"
@@ -92,23 +93,6 @@ std::string percent_decode(const std::string& uri) {
     return text;
 }
 
-/// The path of the file that a URI names. Throws if it is not in the glTF's folder or below it: a hostile glTF must not
-/// read other files, nor probe for them by the error messages.
-std::filesystem::path resolve(const GltfSource& source, const std::string& uri, const std::string& pointer) {
-    const std::string expected = "the name of a file in the glTF's folder, or base64 data";
-    if (!source.folder)
-        refuse_input(source.file, pointer, fmt::format("an external file \"{:.60}\"", uri), "embedded data");
-    const std::string name = percent_decode(uri);
-    if (name.empty() || name.find('\0') != std::string::npos || name.find(':') != std::string::npos ||
-        name.find('\\') != std::string::npos)
-        refuse_input(source.file, pointer, fmt::format("URI \"{:.60}\"", uri), expected, kFileRemedy);
-    const std::filesystem::path path = std::filesystem::path(name).lexically_normal();
-    if (path.is_absolute() || *path.begin() == "..")
-        refuse_input(source.file, pointer, fmt::format("URI \"{:.60}\", outside the glTF's folder", uri), expected,
-                     kFileRemedy);
-    return *source.folder / path;
-}
-
 std::vector<std::byte> decode_base64(std::string_view base64) {
     // tinygltf decodes data URIs of a few media types only, so the real type is replaced by a known one.
     std::vector<unsigned char> data;
@@ -134,7 +118,7 @@ GltfBuffer load_data_uri(const GltfSource& source, const std::string& uri, const
 
 GltfBuffer load_file(const GltfSource& source, const std::string& uri, const std::string& pointer, MemoryBudget& budget,
                      std::vector<std::filesystem::path>* read_files) {
-    const std::filesystem::path path = resolve(source, uri, pointer);
+    const std::filesystem::path path = file_of_uri(source, uri, pointer);
     if (read_files) read_files->push_back(path);
     GltfBuffer buffer;
     try {
@@ -168,6 +152,42 @@ void MemoryBudget::require_left(std::uint64_t count, std::uint64_t element_bytes
         refuse_input(file_, pointer, fmt::format("{} elements of {} bytes", count, element_bytes),
                      fmt::format("at most {} bytes in the whole scene", limit_),
                      "split the scene, or correct the count");
+}
+
+std::vector<std::byte> glb_beginning(std::string json, std::optional<std::size_t> binary_size, std::size_t other_size,
+                                     const std::string& file) {
+    json.resize(padded_chunk(json.size()), ' ');
+    const std::size_t total = 20 + json.size() + (binary_size ? 8 + padded_chunk(*binary_size) : 0) + other_size;
+    if (total > std::numeric_limits<std::uint32_t>::max())
+        refuse_input(file, "", fmt::format("{} bytes with what was added", total),
+                     "at most 4 GiB, the most that a .glb can hold");
+    ByteWriter writer;
+    const auto put = [&](std::size_t number) { writer.value(static_cast<std::uint32_t>(number)); };
+    for (const std::size_t number :
+         {std::size_t{GltfSource::kMagic}, std::size_t{2}, total, json.size(), std::size_t{GltfSource::kJsonChunk}})
+        put(number);
+    for (const char character : json) writer.value(character);
+    if (binary_size) {
+        put(padded_chunk(*binary_size));
+        put(GltfSource::kBinaryChunk);
+    }
+    return writer.take();
+}
+
+/// A hostile glTF must not read other files, nor probe for them by the error messages.
+std::filesystem::path file_of_uri(const GltfSource& source, const std::string& uri, const std::string& pointer) {
+    const std::string expected = "the name of a file in the glTF's folder, or base64 data";
+    if (!source.folder)
+        refuse_input(source.file, pointer, fmt::format("an external file \"{:.60}\"", uri), "embedded data");
+    const std::string name = percent_decode(uri);
+    if (name.empty() || name.find('\0') != std::string::npos || name.find(':') != std::string::npos ||
+        name.find('\\') != std::string::npos)
+        refuse_input(source.file, pointer, fmt::format("URI \"{:.60}\"", uri), expected, kFileRemedy);
+    const std::filesystem::path path = std::filesystem::path(name).lexically_normal();
+    if (path.is_absolute() || *path.begin() == "..")
+        refuse_input(source.file, pointer, fmt::format("URI \"{:.60}\", outside the glTF's folder", uri), expected,
+                     kFileRemedy);
+    return *source.folder / path;
 }
 
 GltfSource split_gltf(std::vector<std::byte> bytes, std::string file, std::optional<std::filesystem::path> folder) {

@@ -60,6 +60,21 @@ struct GltfSource {
 /// it is parsed. Throws Error (input).
 GltfSource split_gltf(std::vector<std::byte> bytes, std::string file, std::optional<std::filesystem::path> folder);
 
+/// Chunks of a GLB have multiples of 4 bytes.
+constexpr std::size_t padded_chunk(std::size_t bytes) {
+    return (bytes + 3) / 4 * 4;
+}
+
+/// The beginning of a GLB: its header, the JSON chunk and, if there is one, the header of the BIN chunk. Its
+/// `binary_size` bytes of data, padded by zeros, and other chunks of `other_size` bytes follow. Throws Error (input)
+/// naming `file` if the whole is more than a GLB can hold.
+std::vector<std::byte> glb_beginning(std::string json, std::optional<std::size_t> binary_size, std::size_t other_size,
+                                     const std::string& file);
+
+/// The path of the file that a URI names, in the glTF's folder or below it. `pointer` is the URI's owner. Throws Error
+/// (input).
+std::filesystem::path file_of_uri(const GltfSource& source, const std::string& uri, const std::string& pointer);
+
 /// Owned unless it is a part of the file.
 struct GltfBuffer {
     std::vector<std::byte> owned;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 #include <vector>
+
 #include "engine/core/json_schema.h"
 #include "engine/image/image.h"
 #include "engine/lighting/probe_recipe.h"
@@ -70,11 +71,10 @@ std::vector<BudgetProbe> read_probes(cook::Context& context, const Quality& qual
     return probes;
 }
 
-/// A material in a source: its JSON as a material file has it, at `pointer` of the source.
+/// A material in a source: its JSON as a material file has it.
 struct MaterialSource {
     nlohmann::json json;
     Material material;
-    std::string pointer = "";
 };
 
 /// Pins the chosen settings in the material's JSON.
@@ -142,9 +142,7 @@ std::vector<std::byte> cook_extension(cook::Context& context, const cook::SceneE
     const GroovePitches* const of_texture = pitches ? &*pitches : nullptr;
     drawable_material(grating, of_texture, file, extension.pointer);  // refuses what cannot be drawn
 
-    MaterialSource source{.json = material_members(extension.object),
-                          .material = std::move(grating.material),
-                          .pointer = extension.pointer};
+    MaterialSource source{.json = material_members(extension.object), .material = std::move(grating.material)};
     const nlohmann::json asked = source.json.value("quality", nlohmann::json::object());
     Quality& quality = source.material.quality;
     if (!asked.contains("surface") && !is_flat(extension.scene, extension.material))

@@ -1,9 +1,11 @@
 #include "modules/thin_film/asset/film_material.h"
 
 #include <fmt/format.h>
+
 #include <cmath>
 #include <glm/gtc/packing.hpp>
 #include <vector>
+
 #include "engine/asset/container.h"
 #include "engine/colour/illuminant.h"
 #include "engine/core/byte_stream.h"

@@ -9,18 +9,19 @@
 namespace rowland {
 namespace {
 
-class PassTimesTest : public test::GlTest {
- protected:
-    PassTimesTest() {
-        program_ = build_full_screen(R"(#version 450 core
+/// Work in proportion to `turns`.
+constexpr const char* kWork = R"(#version 450 core
 uniform int turns;
 layout(location = 0) out vec4 colour;
 void main() {
     float x = gl_FragCoord.x;
     for (int i = 0; i < turns; ++i) x = sin(x) + 1.0;
     colour = vec4(x);
-})");
-    }
+})";
+
+class PassTimesTest : public test::GlTest {
+ protected:
+    PassTimesTest() { program_ = build_full_screen(kWork); }
     /// Work in proportion to `turns`, always onto the same framebuffer.
     void pass(gpu::PassTimes* times, const char* name, int turns) {
         const gpu::PassTimes::Scope scope(times, name);
@@ -106,14 +107,7 @@ TEST_F(PassTimesTest, WithNobodyToTellNothingIsTimed) {
 using TimerTest = test::GlTest;
 
 TEST_F(TimerTest, MeasuresASinglePassAsTheClockDoes) {
-    const gpu::Program program = build_full_screen(R"(#version 450 core
-uniform int turns;
-layout(location = 0) out vec4 colour;
-void main() {
-    float x = gl_FragCoord.x;
-    for (int i = 0; i < turns; ++i) x = sin(x) + 1.0;
-    colour = vec4(x);
-})");
+    const gpu::Program program = build_full_screen(kWork);
     program.set("turns", context_.is_software() ? 100 : 100000);
     const gpu::Framebuffer target({.width = 512, .height = 512});
     const gpu::FullScreenTriangle triangle;
