@@ -1,9 +1,8 @@
 #include <cstdio>
 #include <optional>
 
-#include "content/demo/offscreen.h"
 #include "content/demo/options.h"
-#include "content/demo/window_loop.h"
+#include "content/demo/run.h"
 #include "engine/core/error.h"
 #include "engine/core/program.h"
 #include "engine/platform/window.h"

@@ -1,4 +1,4 @@
-#include "content/demo/offscreen.h"
+#include "content/demo/run.h"
 
 #include <epoxy/gl.h>
 #include <fmt/format.h>
@@ -17,7 +17,6 @@
 #include "engine/core/file.h"
 #include "engine/core/log.h"
 #include "engine/platform/frame_pacing.h"
-#include "engine/scene/transform.h"
 #include "engine/view/picture.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
 
@@ -34,8 +33,8 @@ void pass_time(Play& play, int frames_per_second) {
     for (int i = 0; i < kStepsPerSecond / frames_per_second; ++i) play.step({});
 }
 
-/// The captures of the last frame, the `frame`-th of `frames`.
-void write_captures_of(Session& session, const Options& options, int frame, int frames) {
+/// Writes the captures of frame `frame` of `frames`.
+void write_frame_captures(Session& session, const Options& options, int frame, int frames) {
     if (options.capture_linear)
         view::write_linear_capture(session.picture().linear(), view::numbered(*options.capture_linear, frame, frames));
     if (options.capture)
@@ -47,11 +46,11 @@ void write_captures(Session& session, const Options& options) {
     for (int frame = 0; frame < frames; ++frame) {
         if (frame > 0) pass_time(session.play(), kFramesPerSecond);
         session.draw(1.0F / kFramesPerSecond);
-        write_captures_of(session, options, frame, frames);
+        write_frame_captures(session, options, frame, frames);
     }
 }
 
-/// A flight through the scene's views as numbered PNG files. Each probe lights an equal part of it.
+/// A flight through the scene's views as numbered PNG files. Each probe lights an equal number of frames.
 void write_tour(Session& session, const Options& options) {
     std::vector<std::filesystem::path> probes = probe_paths(options);
     probes.resize(std::min(probes.size(), kTourProbes));
@@ -70,10 +69,10 @@ void write_tour(Session& session, const Options& options) {
     }
 }
 
-/// In frames of 1/30 s, at most as many as the options say. Without captures, the last picture goes to the output
-/// folder.
+/// Plays the recording at 30 frames per second, at most `options.frames`. Without --capture, the last frame goes to the
+/// output folder.
 void play_back(Session& session, const Options& options, const Recording& recording) {
-    // A little long, so that rounding never leaves a frame a step short.
+    // 1 ns longer, so that rounding down cannot drop a step.
     constexpr std::chrono::nanoseconds kFrame(1'000'000'000 / kFramesPerSecond + 1);
     constexpr std::uint64_t kStepsPerFrame = kStepsPerSecond / kFramesPerSecond;
     std::uint64_t frames = (recording.step_count + kStepsPerFrame - 1) / kStepsPerFrame;
@@ -84,7 +83,7 @@ void play_back(Session& session, const Options& options, const Recording& record
         clock.replay(session.play(), kFrame, recording);
         session.carry_out();
         session.draw(1.0F / kFramesPerSecond);
-        write_captures_of(session, options, static_cast<int>(frame), static_cast<int>(frames));
+        write_frame_captures(session, options, static_cast<int>(frame), static_cast<int>(frames));
         progress.advance();
     }
     if (!options.captures() && frames > 0)
@@ -92,42 +91,13 @@ void play_back(Session& session, const Options& options, const Recording& record
     log_state(session.play());
 }
 
-}  // namespace
-
-void run_offscreen(const Options& options, const post::OcioConfig& config) {
-    const bool writes_to_folder = !options.captures() && !options.benchmark;
-    if (writes_to_folder) rowland::check_outputs({}, {{{"--output-folder", options.output_folder / "flight.png"}}});
-    app::render_offscreen(options.gl_debug, [&](const std::string& renderer) {
-        const std::optional<Recording> recording = recording_for(options);
-        const glm::ivec2 size(options.width, options.height);
-        Session session(options, config, size, recording ? recording->head.window : size,
-                        options.benchmark || recording ? Pace::Fluent : Pace::Still);
-        // A picture in a file depends on nothing but what it shows.
-        session.picture().post_settings().wait_for_exposure = !options.benchmark;
-        if (options.benchmark) {
-            session.picture().time_passes(true);
-            const auto times = fly_around(session, options.frames.value_or(kBenchmarkFrames), renderer);
-            write_file_atomic(*options.benchmark, times.dump(2) + "\n");
-            log_info("wrote {}", options.benchmark->string());
-        } else if (recording) {
-            play_back(session, options, *recording);
-        } else if (options.captures()) {
-            write_captures(session, options);
-        } else {
-            write_tour(session, options);
-        }
-    });
-}
-
-namespace {
-
 constexpr int kWarmUpFrames = 3;
 
 std::chrono::nanoseconds nanoseconds(double ms) {
     return std::chrono::nanoseconds(static_cast<std::int64_t>(ms * 1e6));
 }
 
-/// During its life gratings are drawn as the plain surfaces under them.
+/// Removes the grating component from all entities while alive.
 class WithoutGratings {
  public:
     explicit WithoutGratings(ecs::World& world) : world_(world) {
@@ -150,13 +120,12 @@ class WithoutGratings {
 
 std::chrono::nanoseconds draw(Session& session, const scene::Camera& camera) {
     const auto start = std::chrono::steady_clock::now();
-    scene::update_world_matrices(session.scene().world());
-    session.picture().draw(session.scene().world(), camera, 1.0F / kFramesPerSecond);
+    session.draw_from(camera, 1.0F / kFramesPerSecond);
     glFinish();
     return std::chrono::steady_clock::now() - start;
 }
 
-/// The median ratio of a frame's time to that of the same frame without gratings, drawn right after it.
+/// Median over frames of the time with gratings divided by the time without, drawn back to back.
 double times_plain(Session& session, int frames) {
     std::vector<double> ratios;
     for (int frame = -kWarmUpFrames; frame < frames; ++frame) {
@@ -171,7 +140,7 @@ double times_plain(Session& session, int frames) {
     return *middle;
 }
 
-/// The times of one pass in each frame. The GPU's may come too late to be known.
+/// The times of one pass in each frame. GPU times may be missing: queries arrive late.
 struct PassSamples {
     std::string name;
     platform::FrameTimes cpu;
@@ -180,8 +149,7 @@ struct PassSamples {
 
 void add(std::vector<PassSamples>& passes, const std::vector<gpu::PassTime>& times, std::size_t capacity) {
     for (const gpu::PassTime& time : times) {
-        auto found =
-            std::find_if(passes.begin(), passes.end(), [&](const auto& pass) { return pass.name == time.name; });
+        auto found = std::ranges::find(passes, time.name, &PassSamples::name);
         if (found == passes.end())
             found = passes.insert(passes.end(),
                                   {time.name, platform::FrameTimes(capacity), platform::FrameTimes(capacity)});
@@ -201,8 +169,11 @@ nlohmann::ordered_json to_json(const platform::FrameStatistics& statistics) {
             {"maximum_ms", statistics.maximum_ms}};
 }
 
-}  // namespace
-
+/// Flies once around the scene in so many frames, 1/30 s of the scene's time apart, each finished before the next.
+/// Returns the report: "device" (as given), "width", "height", "frame" (time from the first command to the last pixel),
+/// "times_plain" (cost of gratings: ratio to the frame without them), "passes" (in their order), "drawn" and "culled"
+/// (objects in the last frame), "baked" (sources that the program had to bake). The first frames, which compile and
+/// upload, are not counted.
 nlohmann::ordered_json fly_around(Session& session, int frames, const std::string& device) {
     view::Picture& picture = session.picture();
     const auto capacity = static_cast<std::size_t>(frames);
@@ -232,6 +203,33 @@ nlohmann::ordered_json fly_around(Session& session, int frames, const std::strin
     report["culled"] = picture.renderer().report().culled;
     report["baked"] = cook::sources_baked();
     return report;
+}
+
+}  // namespace
+
+void run_offscreen(const Options& options, const post::OcioConfig& config) {
+    const bool writes_to_folder = !options.captures() && !options.benchmark;
+    if (writes_to_folder) rowland::check_outputs({}, {{{"--output-folder", options.output_folder / "flight.png"}}});
+    app::render_offscreen(options.gl_debug, [&](const std::string& renderer) {
+        const std::optional<Recording> recording = recording_for(options);
+        const glm::ivec2 size(options.width, options.height);
+        Session session(options, config, size, recording ? recording->head.window : size,
+                        options.benchmark || recording ? Pace::Fluent : Pace::Still);
+        // Captures wait for automatic exposure and do not depend on timing; benchmarks do not wait.
+        session.picture().post_settings().wait_for_exposure = !options.benchmark;
+        if (options.benchmark) {
+            session.picture().time_passes(true);
+            const auto times = fly_around(session, options.frames.value_or(kBenchmarkFrames), renderer);
+            write_file_atomic(*options.benchmark, times.dump(2) + "\n");
+            log_info("wrote {}", options.benchmark->string());
+        } else if (recording) {
+            play_back(session, options, *recording);
+        } else if (options.captures()) {
+            write_captures(session, options);
+        } else {
+            write_tour(session, options);
+        }
+    });
 }
 
 }  // namespace rowland::demo

@@ -150,7 +150,7 @@ std::filesystem::path Session::probe_named(const std::string& name) const {
 }
 
 void Session::set_look(Side side, const std::string& object, const std::string& name) {
-    const auto look = look_named(name);
+    const auto look = parse_look(name);
     if (!look) refuse_input("look", "", name, "a look, as \"arc, fine\"");
     if (object.empty()) comparison_.set_look_of_all(side, *look);
     for (const ecs::Entity grating : comparison_.gratings())

@@ -106,8 +106,6 @@ class Session {
     std::vector<Action> screenshots_;
 };
 
-class Play;
-
 /// What the options show, by the name that a recording stores.
 std::string scene_name(const Options& options);
 

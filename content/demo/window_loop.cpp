@@ -1,4 +1,4 @@
-#include "content/demo/window_loop.h"
+#include "content/demo/run.h"
 
 #include <fmt/format.h>
 

@@ -27,7 +27,7 @@ flight night
 keep discs_at_night "$work"/night/flight_02_*.png
 # scene NAME CAPTURE PICTURE [OPTIONS]: a scene of content/scenes.
 scene() {
-    demo --scene "$root/build/release/cooked/$1.glb" --probe "$root/build/release/cooked/captured_$2.probe" \
+    demo --scene "$root/build/release/cooked/$1.scene" --probe "$root/build/release/cooked/captured_$2.probe" \
         --width 960 --height 540 --bloom 0.04 --frames 1 --capture "$work/$3.png" "${@:4}"
     keep "$3" "$work/$3.png"
 }

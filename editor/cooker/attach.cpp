@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "engine/cook/cook_source.h"
-#include "engine/cook/source_file.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/core/json_reader.h"

@@ -3,18 +3,22 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "editor/cooker/attach_command.h"
-#include "editor/cooker/farm_commands.h"
-#include "engine/cook/check_file.h"
+#include "editor/cooker/attach.h"
+#include "editor/cooker/jobs.h"
 #include "engine/cook/cook_source.h"
 #include "engine/core/error.h"
+#include "engine/core/file.h"
 #include "engine/core/log.h"
 #include "engine/core/parallel.h"
 #include "engine/core/program.h"
@@ -22,6 +26,13 @@
 namespace rowland::editor {
 
 namespace {
+
+void add_threads_option(CLI::App& command, unsigned& threads) {
+    command.add_option("--threads", threads, "Use at most N threads; 0: all cores. The result is the same")
+        ->check(CLI::Range(0, 1024))
+        ->type_name("N")
+        ->capture_default_str();
+}
 
 void add_cook_command(CLI::App& program, const cook::Registry& registry) {
     struct Options {
@@ -98,6 +109,151 @@ void add_schema_command(CLI::App& program, const cook::Registry& registry) {
     command->callback([name, schemas] { fmt::print("{}\n", schemas.at(*name)().dump(2)); });
 }
 
+/// Adds `attach`, which sets material extensions of a glTF in place.
+void add_attach_command(CLI::App& program, const cook::Registry& registry) {
+    CLI::App* command = program.add_subcommand("attach", "Give materials of a .gltf or .glb their gratings");
+    const auto options = std::make_shared<AttachOptions>();
+    command->add_option("SCENE", options->scene, "The scene; without -o it is replaced")->required();
+    command
+        ->add_option("--material", options->attached,
+                     "A material, by name or as #NUMBER, and its grating (may be repeated)")
+        ->type_name("NAME GRATING.json");
+    command->add_option("--remove", options->removed, "Take a material's grating away (may be repeated)")
+        ->type_name("NAME")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command
+        ->add_option("--groove-rotation-deg", options->rotation_deg,
+                     "Turn the grooves, from the tangent toward the bitangent")
+        ->type_name("ANGLE");
+    command
+        ->add_option("--groove-texture", options->texture,
+                     "An image that varies the grooves: red their direction, green their pitch")
+        ->type_name("IMAGE");
+    command->add_option("-o,--output", options->output, "Write here instead");
+    command->add_option("--depfile", options->depfile, "Write the files that were read, in Makefile syntax");
+    command->footer(
+        "Writes what is named into the file's text and nothing else: all other bytes stay. A refused grating changes\n"
+        "nothing. The material's own surface stays under the grating; the grating's `base` is left out.\n\n"
+        "Example: rowland-cook attach truck.glb --material Chrome content/materials/dvd.json -o truck_dvd.glb");
+    command->callback([options, &registry] { attach(registry, *options); });
+}
+
+/// Adds `list`, which prints the material extensions of a glTF.
+void add_list_command(CLI::App& program, const cook::Registry& registry, int& exit_code) {
+    CLI::App* command =
+        program.add_subcommand("list", "List the materials of a .gltf or .glb and what is attached to them");
+    const auto scene = std::make_shared<std::filesystem::path>();
+    command->add_option("SCENE", *scene, "The scene")->required();
+    command->footer(
+        "Prints one line per material: its number, its name, its grating, the meshes that use it.\n\n"
+        "Example: rowland-cook list truck.glb");
+    command->callback([scene, &registry, &exit_code] { exit_code = list_materials(registry, *scene); });
+}
+
+constexpr std::uint64_t kMostPlanBytes = std::uint64_t{256} << 20;
+
+/// Adds `plan`, which lists what to cook as jobs that many workers can share.
+void add_plan_command(CLI::App& program, const cook::Registry& registry) {
+    struct Options {
+        std::vector<std::filesystem::path> sources;
+        std::filesystem::path output_folder;
+        bool json = false;
+    };
+    const auto options = std::make_shared<Options>();
+    CLI::App* command = program.add_subcommand("plan", "List what is to be cooked, for many workers to share");
+    command->add_option("SOURCE", options->sources, "Sources, and folders with all that can be cooked below them")
+        ->required();
+    command
+        ->add_option("-o,--output-folder", options->output_folder,
+                     "Where the cooked files go, in folders like the sources'")
+        ->required();
+    command->add_flag("--json", options->json, "JSON lines, which `run` reads");
+    command->footer(
+        "Prints one line per job: its id, its kind, its source and its output. The id depends on the output alone.\n"
+        "Paths are written as given here: name them so that all workers find them.\n\n"
+        "Example: rowland-cook plan content --output-folder cooked --json > plan.jsonl");
+    command->callback([options, &registry] {
+        const std::vector<Job> jobs = plan_jobs(registry, options->sources, options->output_folder);
+        fmt::print("{}", options->json ? write_plan(jobs) : job_table(jobs));
+    });
+}
+
+struct RunOptions {
+    std::filesystem::path plan;
+    std::vector<std::string> ids;
+    bool all = false;
+    std::optional<std::filesystem::path> state_folder;
+    unsigned threads = 0;
+};
+
+/// The jobs of the plan that the command line names.
+std::vector<Job> chosen_jobs(const RunOptions& options) {
+    std::vector<Job> jobs = parse_plan(read_text_file(options.plan, kMostPlanBytes), options.plan.string());
+    if (options.all) return jobs;
+    std::vector<Job> result;
+    for (const std::string& id : options.ids) {
+        const auto job = std::ranges::find(jobs, id, &Job::id);
+        if (job == jobs.end())
+            refuse_input("--job", id, "no job of " + options.plan.string(), "an id of the plan's first column");
+        result.push_back(*job);
+    }
+    return result;
+}
+
+/// No job may overwrite the plan or what another job reads or writes.
+void check_jobs(const std::vector<Job>& jobs, const RunOptions& options, const std::filesystem::path& state_folder) {
+    std::vector<std::filesystem::path> inputs = {options.plan};
+    std::vector<Output> outputs = {{"--state", state_folder / "record"}};
+    for (const Job& job : jobs) {
+        inputs.push_back(job.source);
+        outputs.push_back({"the output of job " + job.id, job.output});
+    }
+    check_outputs(inputs, outputs);
+}
+
+/// The exit code: 2 if a job's sources were refused, else 1 if a job failed otherwise.
+int run_plan(const cook::Registry& registry, const RunOptions& options) {
+    if (options.all == !options.ids.empty())
+        refuse_input("--job, --all", {}, options.all ? "both" : "neither", "one of them",
+                     "see rowland-cook run --help");
+    const ThreadLimit limit(options.threads);
+    const std::filesystem::path state_folder = options.state_folder.value_or(options.plan.string() + ".state");
+    const std::vector<Job> jobs = chosen_jobs(options);
+    check_jobs(jobs, options, state_folder);
+    bool refused = false;
+    bool failed = false;
+    fmt::print("id\tresult\toutput\n");
+    run_jobs(registry, jobs, state_folder, [&](const Job& job, JobResult result, const std::string& reason) {
+        if (!reason.empty()) log_error("{}", reason);
+        refused = refused || result == JobResult::Refused;
+        failed = failed || result == JobResult::Failed;
+        fmt::print("{}\t{}\t{}\n", job.id, job_result_name(result), job.output.string());
+        std::fflush(stdout);  // so that the line is kept if the program is killed
+    });
+    return refused ? 2 : failed ? 1 : 0;
+}
+
+/// Adds `run`, which does jobs of a plan beside other workers.
+void add_run_command(CLI::App& program, const cook::Registry& registry, int& exit_code) {
+    CLI::App* command = program.add_subcommand("run", "Do jobs of a plan, beside other workers on a shared folder");
+    const auto options = std::make_shared<RunOptions>();
+    command->add_option("--plan", options->plan, "What `plan --json` wrote")->required()->type_name("FILE");
+    CLI::Option* job = command->add_option("--job", options->ids, "Do this job (may be repeated)")->type_name("ID");
+    command->add_flag("--all", options->all, "Do all jobs that no worker has done or is doing")->excludes(job);
+    command
+        ->add_option("--state", options->state_folder,
+                     "Where locks and records of finished jobs are kept (<plan>.state)")
+        ->type_name("FOLDER");
+    add_threads_option(*command, options->threads);
+    command->footer(
+        "A finished job whose sources have not changed is not done again. Any number of workers may run at once, on\n"
+        "any machines that see the same folders. If one is killed, another one does its job. Ends when every job is\n"
+        "done. Prints one line per job: its id, the result, its output.\n\n"
+        "Example: rowland-cook run --plan plan.jsonl --all");
+    command->callback([options, &registry, &exit_code] { exit_code = run_plan(registry, *options); });
+}
+
 }  // namespace
 
 int run_cooker(int argc, const char* const* argv, const cook::Registry& registry,
@@ -114,8 +270,10 @@ int run_cooker(int argc, const char* const* argv, const cook::Registry& registry
         add_check_command(program, registry, exit_code);
         add_info_command(program, registry);
         add_schema_command(program, registry);
-        add_attach_commands(program, registry, exit_code);
-        add_farm_commands(program, registry, exit_code);
+        add_attach_command(program, registry);
+        add_list_command(program, registry, exit_code);
+        add_plan_command(program, registry);
+        add_run_command(program, registry, exit_code);
         for (const AddCommand add : more) add(program);
         try {
             program.parse(argc, argv);

@@ -126,14 +126,6 @@ std::string format_json(const Json& value) {
     return text + "\n";
 }
 
-std::vector<Field> shown_for(const std::string& other, const std::string& choice, std::vector<Field> fields) {
-    for (Field& field : fields) {
-        field.only_with = other;
-        field.only_for = {choice};
-    }
-    return fields;
-}
-
 const Field& field_at(std::string_view pointer) {
     for (const auto all : {fields(), groove_fields()}) {
         const auto found = std::ranges::find(all, pointer, &Field::pointer);

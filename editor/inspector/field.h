@@ -60,13 +60,8 @@ struct Field {
     std::vector<Choice> defaults_by_choice{};
 };
 
-/// Restricts fields to one choice of the field at the pointer `other`.
-std::vector<Field> shown_for(const std::string& other, const std::string& choice, std::vector<Field> fields);
-
 /// All fields of a material file, in the order of display.
 std::span<const Field> fields();
-/// The part of fields() that edits "grating".
-std::vector<Field> grating_fields();
 /// The additional fields of a scene's material: its grooves on the mesh.
 std::span<const Field> groove_fields();
 

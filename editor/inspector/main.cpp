@@ -169,7 +169,7 @@ class WindowFrame {
 WindowFrame::WindowFrame(const Options& options, const post::OcioConfig& config, Session& session, Layout& layout)
     : layout_(layout),
       session_(session),
-      ui_({.scale = layout.scale}),
+      ui_(layout.scale),
       controls_(options.controls),
       workbench_(config, session, layout, controls_) {}
 

@@ -10,6 +10,7 @@
 #include "engine/colour/spectrum.h"
 #include "engine/lighting/lobe_nodes.h"
 #include "modules/diffraction/bake/diffraction_pattern.h"
+#include "modules/diffraction/bake/view_spectrum.h"
 #include "modules/diffraction/evaluate/error_measure.h"
 #include "modules/diffraction/evaluate/point_shader.h"
 #include "modules/diffraction/model/brdf.h"
@@ -76,14 +77,18 @@ std::vector<double> luminances(const std::vector<glm::dvec3>& xyz) {
     return result;
 }
 
-/// The material with the representation transfer, without key lights.
-diffraction::CookedMaterial as_harmonics(const diffraction::CookedMaterial& cooked, int bands) {
-    diffraction::CookedMaterial result = cooked;
-    diffraction::Quality& quality = result.material.quality;
-    quality.pinned = diffraction::TransferSettings{.bands = bands, .grid = {}, .storage = diffraction::Storage::Half};
-    quality.key_lights = 0;
-    result.tables = diffraction::bake_tables(result.material.grating, representation(result.material));
-    return result;
+/// Shades by so many bands of the light's SH, PHYSICS (5.3).
+diffraction::PointShader harmonics_shader(const diffraction::Material& material,
+                                          const diffraction::EvaluationLight& light, int bands) {
+    return diffraction::in_tangent_frame(
+        light.harmonics(bands),
+        [terms = diffraction::TransferTerms(material.grating, colour::LightSpectra(material.quality.illuminant),
+                                            bands)](const lighting::ShLight& rotated, const glm::dvec3& view) {
+            const std::vector<glm::dmat3> coefficients = terms.coefficients(view.x, view.y);
+            glm::dvec3 xyz(0.0);
+            for (std::size_t i = 0; i < coefficients.size(); ++i) xyz += coefficients[i] * rotated.coefficients[i];
+            return xyz;
+        });
 }
 
 constexpr int kAngles = 86;        ///< 0 to 85 degrees
@@ -343,7 +348,10 @@ ViewSweep view_sweep(const diffraction::CookedMaterial& cooked, const lighting::
     if (stop.stop_requested()) return sweep;
     sweep.drawn = luminances(evaluate_baked(cooked, light, frames));
     const diffraction::EvaluationLight whole(probe, 0, math::SphericalWindow::None);
-    sweep.harmonics = luminances(evaluate_baked(as_harmonics(cooked, bands), whole, frames));
+    std::vector<glm::dvec3> harmonics =
+        evaluate_points("harmonics", harmonics_shader(cooked.material, whole, bands), cooked, whole, frames);
+    add_reflected_side(cooked, whole, frames, harmonics);
+    sweep.harmonics = luminances(harmonics);
     return sweep;
 }
 

@@ -19,11 +19,6 @@ float sphere_radius(const scene::Camera& camera) {
     return glm::distance(camera.eye, camera.target) * std::sin(rim);
 }
 
-glm::vec2 in_picture(const scene::Camera& camera, float aspect, const glm::vec3& point) {
-    const glm::vec4 clip = camera.projection(aspect) * camera.view() * glm::vec4(point, 1.0F);
-    return {0.5F + 0.5F * clip.x / clip.w, 0.5F - 0.5F * clip.y / clip.w};
-}
-
 /// The direction of the first intersection of a ray with the sphere (of the last if `far`), or of the sphere's point
 /// nearest to a ray that misses.
 glm::vec3 direction_of(const Ray& ray, const glm::vec3& centre, float radius, bool far) {
@@ -36,10 +31,10 @@ glm::vec3 direction_of(const Ray& ray, const glm::vec3& centre, float radius, bo
 
 }  // namespace
 
-Ray ray_through(const scene::Camera& camera, float aspect, const glm::vec2& at) {
-    const glm::mat4 to_world = glm::inverse(camera.projection(aspect) * camera.view());
-    const glm::vec4 far = to_world * glm::vec4(2.0F * at.x - 1.0F, 1.0F - 2.0F * at.y, 0.5F, 1.0F);
-    return {camera.eye, glm::normalize(glm::vec3(far) / far.w - camera.eye)};
+glm::vec2 in_picture(const scene::Camera& camera, float aspect, const glm::vec3& point) {
+    const glm::vec4 clip = camera.projection(aspect) * camera.view() * glm::vec4(point, 1.0F);
+    if (clip.w <= 0.0F) return glm::vec2(-1.0F);
+    return {0.5F + 0.5F * clip.x / clip.w, 0.5F - 0.5F * clip.y / clip.w};
 }
 
 std::optional<PickedPoint> pick_point(const scene::Mesh& mesh, const glm::mat4& object_to_world, const Ray& ray) {
@@ -88,8 +83,8 @@ LampHandle lamp_handle(const scene::Camera& camera, float aspect, const Stage& s
 }
 
 void drag_lamp(Stage& stage, const scene::Camera& camera, float aspect, const glm::vec2& at, bool behind) {
-    const glm::vec3 direction =
-        direction_of(ray_through(camera, aspect, at), camera.target, sphere_radius(camera), behind);
+    const Ray ray = scene::ray_through(camera, {aspect * at.x, at.y}, {aspect, 1.0F});
+    const glm::vec3 direction = direction_of(ray, camera.target, sphere_radius(camera), behind);
     stage.lamp_elevation_deg = glm::degrees(std::asin(std::clamp(direction.y, 0.0F, 1.0F)));
     // Overhead there is no azimuth: it stays.
     if (std::hypot(direction.x, direction.z) > 1e-4F)

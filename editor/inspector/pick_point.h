@@ -25,8 +25,8 @@ struct PickedPoint {
     float distance = 0.0F;  ///< from the ray's origin, in lengths of its direction
 };
 
-/// The ray from the eye through a point of the picture, given from its upper left corner in [0, 1].
-Ray ray_through(const scene::Camera& camera, float aspect, const glm::vec2& at);
+/// Where the picture shows a point, from its upper left corner in [0, 1]; (-1, -1) behind the eye.
+glm::vec2 in_picture(const scene::Camera& camera, float aspect, const glm::vec3& point);
 
 /// The nearest point of a mesh on the ray. nullopt if the ray misses or the frame is not valid.
 std::optional<PickedPoint> pick_point(const scene::Mesh& mesh, const glm::mat4& object_to_world, const Ray& ray);

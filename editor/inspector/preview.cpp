@@ -266,14 +266,12 @@ float Preview::aspect() const {
 }
 
 Ray Preview::ray(const glm::vec2& at) const {
-    return ray_through(rotated_camera(inputs_), aspect(), at);
+    const glm::vec2 size(inputs_.size);
+    return scene::ray_through(rotated_camera(inputs_), at * size, size);
 }
 
 glm::vec2 Preview::project(const glm::vec3& position) const {
-    const scene::Camera camera = rotated_camera(inputs_);
-    const glm::vec4 clip = camera.projection(aspect()) * camera.view() * glm::vec4(position, 1.0F);
-    if (clip.w <= 0.0F) return glm::vec2(-1.0F);
-    return {0.5F + 0.5F * clip.x / clip.w, 0.5F - 0.5F * clip.y / clip.w};
+    return in_picture(rotated_camera(inputs_), aspect(), position);
 }
 
 void Preview::draw_grooves() {

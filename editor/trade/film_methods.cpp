@@ -162,7 +162,7 @@ glm::dvec3 three_wavelengths(const thin_film::Film& film, double cosine) {
 }
 
 std::vector<FilmRow> film_rows(const lighting::ProbeImage& probe) {
-    Light light{.whole = lighting::gather_texels(lighting::light_samples(probe), kGatheredFace),
+    Light light{.whole = lighting::merge_samples(lighting::light_samples(probe), kGatheredFace),
                 .limited = {},
                 .environment = lighting::prefilter(probe)};
     light.limited = band_limited(light.whole);

@@ -2,15 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <iterator>
 #include <optional>
 
 #include "engine/core/error.h"
-#include "engine/core/file.h"
-#include "engine/core/json_reader.h"
 #include "engine/core/text.h"
 #include "engine/math/spherical_harmonics.h"
 #include "engine/scene/mesh_recipe.h"
@@ -54,17 +54,6 @@ diffraction::ShadingPoint sphere_frame(const glm::dvec3& eye, const glm::dvec3& 
 
 [[noreturn]] void fail(const NumberTable& table, std::size_t i, std::string found, std::string expected) {
     refuse_input(table.file, fmt::format("row {}", table.file_rows[i]), std::move(found), std::move(expected));
-}
-
-constexpr std::uint64_t kLargestMaterial = 1 << 20;
-
-void add_named_files(const nlohmann::json& json, const std::filesystem::path& folder,
-                     std::vector<std::filesystem::path>& files) {
-    if (json.is_structured()) {
-        for (const nlohmann::json& value : json) add_named_files(value, folder, files);
-    } else if (json.is_string() && json.get<std::string>().ends_with(".csv")) {
-        files.push_back(folder / json.get<std::string>());
-    }
 }
 
 }  // namespace
@@ -184,19 +173,20 @@ lighting::ProbeImage read_probe(const std::filesystem::path& path, const std::st
     return lighting::load_probe_image(path, lighting::parse_mapping(mapping));
 }
 
-nlohmann::json read_material_json(const std::filesystem::path& path) {
-    return parse_json(read_text_file(path, kLargestMaterial), path.string());
-}
-
 ProbeFile parse_probe_file(const std::string& text, const std::string& mapping) {
     for (const std::string known : {"angular", "equirect"})
         if (text.ends_with(":" + known)) return {text.substr(0, text.size() - known.size() - 1), known};
     return {text, mapping};
 }
 
-std::vector<std::filesystem::path> files_named_in(const std::filesystem::path& material) {
+std::vector<std::filesystem::path> files_named_in(const nlohmann::json& material, const std::filesystem::path& folder) {
     std::vector<std::filesystem::path> files;
-    add_named_files(read_material_json(material), material.parent_path(), files);
+    if (material.is_structured()) {
+        for (const nlohmann::json& value : material)
+            std::ranges::copy(files_named_in(value, folder), std::back_inserter(files));
+    } else if (material.is_string() && material.get<std::string>().ends_with(".csv")) {
+        files.push_back(folder / material.get<std::string>());
+    }
     return files;
 }
 

@@ -69,11 +69,8 @@ struct ProbeFile {
 /// "FILE" or "FILE:angular" or "FILE:equirect"; without a suffix, `mapping`.
 ProbeFile parse_probe_file(const std::string& text, const std::string& mapping);
 
-/// The JSON of a material file, unchecked. Throws Error (input).
-nlohmann::json read_material_json(const std::filesystem::path& path);
-
-/// The CSV files that a material file names. Throws Error (input).
-std::vector<std::filesystem::path> files_named_in(const std::filesystem::path& material);
+/// The CSV files in `folder` that a material's JSON names.
+std::vector<std::filesystem::path> files_named_in(const nlohmann::json& material, const std::filesystem::path& folder);
 
 /// Writes results to standard output. run_program() reports a failure to write.
 void write_results(const std::string& text);

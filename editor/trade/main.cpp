@@ -136,7 +136,8 @@ void CompareCommand::run() const {
         refuse_input("--difference", "", "--frames, which are no picture", "the tool's scene: no --frames");
     const ProbeFile file = parse_probe_file(probe, mapping);
     if (difference) {
-        std::vector<std::filesystem::path> files = files_named_in(material);
+        std::vector<std::filesystem::path> files =
+            files_named_in(diffraction::load_material_json(material), material.parent_path());
         files.insert(files.end(), {material, file.path});
         check_outputs(files, std::array{Output{"--difference", *difference, ".png"}});
     }

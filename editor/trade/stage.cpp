@@ -144,8 +144,7 @@ bool LightLoopType::owns(ecs::World& world, ecs::Entity entity) const {
 }
 
 gpu::ProgramDesc LightLoopType::program(ecs::World& /*world*/, ecs::Entity /*entity*/) const {
-    return {.vertex = "modules/diffraction/shaders/grating.vert.glsl",
-            .fragment = "editor/trade/light_loop.frag.glsl"};
+    return {.vertex = "modules/diffraction/shaders/grating.vert.glsl", .fragment = "editor/trade/light_loop.frag.glsl"};
 }
 
 void LightLoopType::bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const {

@@ -69,7 +69,7 @@ class LightLoopType final : public render::MaterialType {
     void bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const override;
 };
 
-/// The disc of picture_scene.h on the GPU, lit by a probe. Needs a current context.
+/// The disc of disc_mesh() on the GPU, lit by a probe. Needs a current context.
 class Stage {
  public:
     /// `directional_light`: one lamp besides the probe.

@@ -36,9 +36,8 @@ std::string material_hash(nlohmann::json json, const std::filesystem::path& path
     json.erase("quality");
     Hasher hasher;
     hasher.text(json.dump()).text(illuminant);
-    std::vector<std::filesystem::path> files;
-    add_named_files(json, path.parent_path(), files);
-    for (const auto& file : files) hasher.bytes(read_file(file, diffraction::kMaximumNamedFileSize));
+    for (const auto& file : files_named_in(json, path.parent_path()))
+        hasher.bytes(read_file(file, diffraction::kMaximumNamedFileSize));
     return hasher.digest().hex();
 }
 
@@ -106,7 +105,7 @@ Sweep::Sweep(SweepInputs inputs)
       references_(inputs_.folder / "references.jsonl"),
       results_(inputs_.folder / "journal.jsonl") {
     for (const auto& path : inputs_.materials) {
-        const nlohmann::json json = read_material_json(path);
+        const nlohmann::json json = diffraction::load_material_json(path);
         diffraction::Material parsed = diffraction::load_material(path);
         for (const diffraction::Method& setting : inputs_.settings) check_method(json, path.string(), setting);
         const auto settings = inputs_.settings.empty() ? sweep_plan(parsed.grating.lobe) : inputs_.settings;

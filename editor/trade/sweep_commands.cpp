@@ -97,7 +97,8 @@ SweepInputs inputs_of(const SweepOptions& options, std::initializer_list<const c
     }
     for (const std::string& text : options.frames) files.push_back(parse_frames(text).second);
     for (const auto& material : options.materials)
-        std::ranges::copy(files_named_in(material), std::back_inserter(files));
+        std::ranges::copy(files_named_in(diffraction::load_material_json(material), material.parent_path()),
+                          std::back_inserter(files));
     std::vector<Output> outputs;
     for (const char* name : {"references.jsonl", "journal.jsonl"})
         outputs.push_back({"--output", options.output / name});

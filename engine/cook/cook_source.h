@@ -51,4 +51,34 @@ struct CookSettings {
 BakedAsset cook_source(const Registry& registry, const std::filesystem::path& source,
                        const std::filesystem::path& output, const CookSettings& settings = {});
 
+/// The record of a finished cook, by which it is not done again: who made the output, from what, and what it is.
+struct CookRecord {
+    std::string cooker;                               ///< hash of the program; empty: any of this tool_version()
+    std::vector<std::filesystem::path> dependencies;  ///< the source first
+    std::string content_hash;                         ///< cook::content_hash() of them
+    std::string output_hash;                          ///< empty: not recorded
+};
+
+/// Replaces the file as a whole. Throws Error (system).
+void write_cook_record(const std::filesystem::path& file, const CookRecord& record);
+
+/// nullopt if there is no such file or it is not a record: then the source is to be cooked.
+std::optional<CookRecord> read_cook_record(const std::filesystem::path& file);
+
+/// The cooked file of `source` in a cache: cooked now, unless a file there was cooked from the same content of the
+/// source and of all its dependencies, wherever these are. `read_files` receives the dependencies, also of a source
+/// that is refused. For any number of processes. Throws Error as cook_source() does.
+std::filesystem::path cook_once(const Registry& registry, const std::filesystem::path& source,
+                                const std::filesystem::path& cache_folder,
+                                std::vector<std::filesystem::path>& read_files);
+
+/// Loads a source, or a cooked asset (recognised by its magic), as the engine would. Returns its kind, such as "probe
+/// source" or "cooked probe". Throws Error (input) if it is refused or of no known kind. Other exceptions of a loader
+/// become such an Error.
+std::string check_file(const Registry& registry, const std::filesystem::path& path);
+
+/// What a cooked asset holds, a "name: value" line each: its header, then its payload as its type describes it.
+/// Throws Error (input) like check_file, and for a source.
+std::string describe_file(const Registry& registry, const std::filesystem::path& path);
+
 }  // namespace rowland::cook

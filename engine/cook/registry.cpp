@@ -4,26 +4,18 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 
-#include "engine/cook/source_file.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/core/json_reader.h"
+#include "engine/core/text.h"
 
 namespace rowland::cook {
 
 namespace {
 
 constexpr std::uint64_t kMaximumJsonBytes = std::uint64_t{16} << 20;
-
-bool is_json(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension == ".json";
-}
 
 }  // namespace
 
@@ -48,6 +40,10 @@ nlohmann::json Context::read_json(const std::filesystem::path& path) {
     return parse_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string());
 }
 
+void fail_changed(const std::filesystem::path& path) {
+    fail_system(path.string(), "changed while it was being cooked", "cook again");
+}
+
 void Registry::add(AssetType type) {
     ROWLAND_CHECK(!type.name.empty() && find(type.name) == nullptr, "asset type names are unique: " + type.name);
     ROWLAND_CHECK(type.recognises && type.check, "recognises and checks its sources: " + type.name);
@@ -63,7 +59,8 @@ std::vector<std::string> Registry::gltf_extension_names() const {
 
 const AssetType* Registry::recognise(const std::filesystem::path& source) const {
     std::optional<nlohmann::json> json;
-    if (is_json(source)) json = parse_json(read_text_file(source, kMaximumJsonBytes), source.string());
+    if (lower_case(source.extension().string()) == ".json")
+        json = parse_json(read_text_file(source, kMaximumJsonBytes), source.string());
 
     const AssetType* claim = nullptr;
     for (const AssetType& type : types_) {

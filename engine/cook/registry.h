@@ -2,14 +2,18 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <filesystem>
 #include <functional>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "engine/core/error.h"
 #include "engine/core/file.h"
 
 namespace rowland::scene {
@@ -103,6 +107,30 @@ struct GltfExtension {
     std::string rotation_member;  ///< an angle in radians
     std::string texture_member;   ///< a textureInfo
 };
+
+/// Throws Error (system): a file has changed since the cook first read it.
+[[noreturn]] void fail_changed(const std::filesystem::path& path);
+
+/// Runs a loader on `file`. Exceptions of the libraries it uses become an Error (input).
+template <typename Loader>
+decltype(auto) as_refusal_of(const std::filesystem::path& file, const Loader& loader) {
+    const auto refuse = [&file](std::string reason) {
+        return Error({.file = file.string(),
+                      .location = {},
+                      .found = std::move(reason),
+                      .expected = "a sane file",
+                      .remedy = {}});
+    };
+    try {
+        return loader();
+    } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw refuse("needs more memory than there is");
+    } catch (const std::exception& error) {
+        throw refuse(error.what());
+    }
+}
 
 class Registry {
  public:

@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <new>
 #include <random>
@@ -19,6 +20,7 @@
 #include <vector>
 
 #include "engine/core/error.h"
+#include "engine/core/text.h"
 
 namespace rowland {
 
@@ -78,28 +80,50 @@ class Descriptor {
     int fd_;
 };
 
+/// A regular file that is open for reading.
+class SourceFile {
+ public:
+    /// Throws Error (input) for what is no readable file, and for a file larger than `max_bytes`.
+    SourceFile(const std::filesystem::path& path, std::uint64_t max_bytes)
+        // Non-blocking: opening a pipe must not wait for a writer. It changes nothing for regular files.
+        : path_(path), file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)) {
+        if (file_.get() < 0)
+            refuse_input(path.string(), "", fmt::format("cannot be opened: {}", std::strerror(errno)),
+                         "a readable file");
+        struct stat status = {};
+        if (::fstat(file_.get(), &status) != 0) fail_action(path, "stat", errno);
+        if (!S_ISREG(status.st_mode)) refuse_input(path.string(), "", "not a regular file", "a readable file");
+        size_ = static_cast<std::uint64_t>(status.st_size);
+        if (size_ > max_bytes)
+            refuse_input(path.string(), "", fmt::format("{} bytes", size_), fmt::format("at most {} bytes", max_bytes));
+    }
+
+    std::size_t size() const { return static_cast<std::size_t>(size_); }
+
+    /// Fills `buffer`, or as much of it as the file still holds; returns the number of bytes read.
+    std::size_t read(std::span<std::byte> buffer) {
+        std::size_t done = 0;
+        while (done < buffer.size()) {
+            const ssize_t count = ::read(file_.get(), buffer.data() + done, buffer.size() - done);
+            if (count < 0 && errno == EINTR) continue;
+            if (count < 0) fail_action(path_, "reading", errno);
+            if (count == 0) break;
+            done += static_cast<std::size_t>(count);
+        }
+        return done;
+    }
+
+ private:
+    const std::filesystem::path& path_;
+    Descriptor file_;
+    std::uint64_t size_ = 0;
+};
+
 template <typename Buffer>
 Buffer read_whole(const std::filesystem::path& path, std::uint64_t max_bytes) {
-    // Non-blocking: opening a pipe must not wait for a writer. It changes nothing for regular files.
-    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
-    if (file.get() < 0)
-        refuse_input(path.string(), "", fmt::format("cannot be opened: {}", std::strerror(errno)), "a readable file");
-    struct stat status = {};
-    if (::fstat(file.get(), &status) != 0) fail_action(path, "stat", errno);
-    if (!S_ISREG(status.st_mode)) refuse_input(path.string(), "", "not a regular file", "a readable file");
-    const auto size = static_cast<std::uint64_t>(status.st_size);
-    if (size > max_bytes)
-        refuse_input(path.string(), "", fmt::format("{} bytes", size), fmt::format("at most {} bytes", max_bytes));
-    Buffer data(static_cast<std::size_t>(size), {});
-    std::size_t done = 0;
-    while (done < data.size()) {
-        const ssize_t count = ::read(file.get(), data.data() + done, data.size() - done);
-        if (count < 0 && errno == EINTR) continue;
-        if (count < 0) fail_action(path, "reading", errno);
-        if (count == 0) break;  // the file was truncated while we read
-        done += static_cast<std::size_t>(count);
-    }
-    data.resize(done);
+    SourceFile file(path, max_bytes);
+    Buffer data(file.size(), {});
+    data.resize(file.read(std::as_writable_bytes(std::span(data))));  // the file may be truncated while we read
     return data;
 }
 
@@ -188,6 +212,30 @@ std::string read_text_file(const std::filesystem::path& path, std::uint64_t max_
     return read_whole<std::string>(path, max_bytes);
 }
 
+std::vector<std::byte> read_beginning(const std::filesystem::path& path, std::size_t size) {
+    std::vector<std::byte> buffer(size);
+    buffer.resize(SourceFile(path, std::numeric_limits<std::uint64_t>::max()).read(buffer));
+    if (buffer.empty()) refuse_input(path.string(), "", "an empty file", "a readable file");
+    return buffer;
+}
+
+std::optional<Hash128> hash_file(const std::filesystem::path& path) {
+    try {
+        SourceFile file(path, kMaximumHashedBytes);
+        Hasher hasher;
+        std::vector<std::byte> buffer(1 << 20);
+        std::uint64_t total = 0;
+        while (const std::size_t count = file.read(buffer)) {
+            hasher.bytes(std::span(buffer).first(count));
+            total += count;
+            if (total > kMaximumHashedBytes) return std::nullopt;  // it grows while we read
+        }
+        return hasher.digest();
+    } catch (const Error&) {
+        return std::nullopt;
+    }
+}
+
 void create_folder(const std::filesystem::path& path) {
     std::error_code code;
     std::filesystem::create_directories(path, code);
@@ -220,9 +268,7 @@ void write_file_atomic(const std::filesystem::path& path, std::string_view text)
 
 std::optional<FileLock> FileLock::try_take(const std::filesystem::path& file) {
     FileLock lock(::open(file.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
-    if (lock.descriptor_ < 0)
-        fail_system(file.string(), std::string("opening failed: ") + std::strerror(errno),
-                    "check permissions and free space");
+    if (lock.descriptor_ < 0) fail_action(file, "opening", errno);
     while (::flock(lock.descriptor_, LOCK_EX | LOCK_NB) != 0) {
         if (errno == EWOULDBLOCK) return std::nullopt;
         if (errno != EINTR) break;
@@ -244,11 +290,6 @@ std::vector<std::string> keys_of(const std::filesystem::path& path) {
     struct stat status = {};
     if (::stat(path.c_str(), &status) == 0) keys.push_back(fmt::format("{}:{}", status.st_dev, status.st_ino));
     return keys;
-}
-
-std::string lower_case(std::string text) {
-    std::ranges::transform(text, text.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
-    return text;
 }
 
 }  // namespace

@@ -42,6 +42,14 @@ class Hasher {
 std::vector<std::byte> read_file(const std::filesystem::path& path, std::uint64_t max_bytes);
 std::string read_text_file(const std::filesystem::path& path, std::uint64_t max_bytes);
 
+/// The first `size` bytes of a file, or all of a shorter one. Throws as read_file() does, and for an empty file.
+std::vector<std::byte> read_beginning(const std::filesystem::path& path, std::size_t size);
+
+/// The largest file that is hashed, so that a sparse file of terabytes does not occupy a program for hours.
+inline constexpr std::uint64_t kMaximumHashedBytes = std::uint64_t{1} << 30;
+/// Content hash of a file; nullopt if it is no regular file, unreadable or larger than kMaximumHashedBytes.
+std::optional<Hash128> hash_file(const std::filesystem::path& path);
+
 /// Creates a folder and its missing parents. Throws Error (system).
 void create_folder(const std::filesystem::path& path);
 

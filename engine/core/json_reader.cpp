@@ -271,10 +271,6 @@ std::vector<double> JsonReader::numbers(const std::string& key, std::size_t coun
     return result;
 }
 
-std::vector<double> JsonReader::numbers_or(const std::string& key, std::vector<double> fallback, NumberRange range) {
-    return has(key) ? numbers(key, fallback.size(), range) : std::move(fallback);
-}
-
 std::ptrdiff_t JsonReader::choice_index(const std::string& key, const std::vector<std::string_view>& choices) {
     if (recorded(key, {.kind = Kind::Choice, .choices = choices})) return 0;
     const std::string word = text(key);

@@ -88,8 +88,6 @@ class JsonReader {
     bool boolean_or(const std::string& key, bool fallback);
     /// An array of exactly `count` numbers.
     std::vector<double> numbers(const std::string& key, std::size_t count, NumberRange range);
-    /// An array of as many numbers as `fallback` has.
-    std::vector<double> numbers_or(const std::string& key, std::vector<double> fallback, NumberRange range);
     /// One of `choices`; the message names the nearest.
     std::string choice(const std::string& key, const std::vector<std::string_view>& choices);
     std::string choice_or(const std::string& key, std::string fallback, const std::vector<std::string_view>& choices);

@@ -19,6 +19,12 @@ std::string valid_utf8(std::string_view text) {
     return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
 }
 
+std::string lower_case(std::string text) {
+    for (char& c : text)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return text;
+}
+
 std::string require_utf8(const std::filesystem::path& path, const std::string& remedy) {
     std::string text = path.string();
     if (valid_utf8(text) != text) refuse_input(text, {}, "a name that is not UTF-8", "one that JSON can hold", remedy);

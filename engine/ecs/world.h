@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <tuple>
 #include <type_traits>
@@ -54,7 +53,7 @@ class SparseSet {
 
  protected:
     void check_unlocked() const {
-        ROWLAND_CHECK(locks_ == 0, "a component storage was changed while a view iterates over it; use ecs::Commands");
+        ROWLAND_CHECK(locks_ == 0, "a component storage was changed while a view iterates over it");
     }
     void insert_entity(Entity entity) {
         const std::size_t page = entity.index / kPageSize;
@@ -130,7 +129,7 @@ std::size_t component_id() {
 /// The entities that have all of T... and none of X... . Cheap to make; holds no entities itself.
 /// Legal inside each(): reading and writing any component, replacing a component the entity already has, creating empty
 /// entities, and changing storages the view does not iterate. Illegal, and asserted: adding or removing T...,
-/// destroying an entity that has any of T... . Record those in Commands.
+/// destroying an entity that has any of T... . Collect those, and do them afterwards.
 template <typename Excluded, typename... T>
 class View;
 
@@ -254,38 +253,6 @@ class View<Exclude<X...>, T...> {
 
     std::tuple<Pool<T>*...> pools_;
     std::tuple<Pool<X>*...> excluded_;
-};
-
-/// Structural changes recorded while a view iterates, applied afterwards in the order they were recorded. A change to
-/// an entity that an earlier one destroyed is dropped.
-class Commands {
- public:
-    void destroy(Entity entity) {
-        record([entity](World& world) {
-            if (world.alive(entity)) world.destroy(entity);
-        });
-    }
-    template <typename T>
-    void add(Entity entity, T component) {
-        record([entity, component = std::move(component)](World& world) {
-            if (world.alive(entity)) world.add<T>(entity, component);
-        });
-    }
-    template <typename T>
-    void remove(Entity entity) {
-        record([entity](World& world) {
-            if (world.alive(entity)) world.remove<T>(entity);
-        });
-    }
-    /// Applies and forgets everything recorded.
-    void apply(World& world) {
-        for (const auto& change : std::exchange(changes_, {})) change(world);
-    }
-
- private:
-    void record(std::function<void(World&)> change) { changes_.push_back(std::move(change)); }
-
-    std::vector<std::function<void(World&)>> changes_;
 };
 
 }  // namespace rowland::ecs

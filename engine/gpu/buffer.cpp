@@ -36,22 +36,12 @@ void Buffer::Release::operator()(GLuint name) const {
     bound_state().forget(BoundState::Slot::StorageBuffer, name);
 }
 
-Buffer::Buffer(std::span<const std::byte> data, BufferUse use) : size_(data.size()), use_(use) {
+Buffer::Buffer(std::span<const std::byte> data) : size_(data.size()) {
     ROWLAND_CHECK_OP(data.size(), >, std::size_t{0});
     GLuint name = 0;
     glCreateBuffers(1, &name);
     handle_ = Handle<Release>(name);
-    const GLbitfield flags = use == BufferUse::Dynamic ? GL_DYNAMIC_STORAGE_BIT : 0;
-    glNamedBufferStorage(name, static_cast<GLsizeiptr>(data.size()), data.data(), flags);
-}
-
-Buffer::Buffer(std::size_t bytes, BufferUse use) : Buffer(std::vector<std::byte>(bytes), use) {}
-
-void Buffer::update(std::span<const std::byte> data, std::size_t offset) {
-    ROWLAND_CHECK(use_ == BufferUse::Dynamic, "a static buffer is not updated");
-    ROWLAND_CHECK_OP(offset, <=, size_);
-    ROWLAND_CHECK_OP(data.size(), <=, size_ - offset);
-    glNamedBufferSubData(id(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(data.size()), data.data());
+    glNamedBufferStorage(name, static_cast<GLsizeiptr>(data.size()), data.data(), 0);
 }
 
 Buffer Buffer::mapped(std::size_t bytes, GLbitfield access) {

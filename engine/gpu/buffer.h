@@ -31,9 +31,6 @@ class Fence {
     std::unique_ptr<std::remove_pointer_t<GLsync>, Release> sync_;
 };
 
-/// Whether a buffer's content may change after it is made.
-enum class BufferUse { Static, Dynamic };
-
 /// Offsets of uniform blocks and shader storage in a buffer must be multiples of this: the largest that OpenGL lets a
 /// driver ask for.
 inline constexpr std::size_t kBufferAlignment = 256;
@@ -42,13 +39,12 @@ constexpr std::size_t aligned(std::size_t offset) {
     return (offset + kBufferAlignment - 1) / kBufferAlignment * kBufferAlignment;
 }
 
-/// GPU memory of fixed size: vertices, indices, uniform blocks, shader storage.
+/// GPU memory of fixed size and, unless it is mapped, of fixed content: vertices, indices, uniform blocks, shader
+/// storage.
 class Buffer {
  public:
     Buffer() = default;
-    explicit Buffer(std::span<const std::byte> data, BufferUse use = BufferUse::Static);
-    /// A buffer of `bytes` zeros.
-    explicit Buffer(std::size_t bytes, BufferUse use = BufferUse::Dynamic);
+    explicit Buffer(std::span<const std::byte> data);
 
     /// A buffer that stays mapped, and coherent: GL_MAP_WRITE_BIT or GL_MAP_READ_BIT says what the CPU does. Throws
     /// Error (system) if there is no memory.
@@ -58,16 +54,8 @@ class Buffer {
 
     /// A buffer that holds `values` as they lie in memory.
     template <typename T>
-    static Buffer of(std::span<const T> values, BufferUse use = BufferUse::Static) {
-        return Buffer(std::as_bytes(values), use);
-    }
-
-    /// Overwrites part of a dynamic buffer. It is a logic error if the buffer is static or the range does not fit.
-    void update(std::span<const std::byte> data, std::size_t offset = 0);
-    /// Overwrites the start of the buffer with one plain struct, such as a uniform block.
-    template <typename T>
-    void update_value(const T& value) {
-        update(std::as_bytes(std::span<const T>(&value, 1)));
+    static Buffer of(std::span<const T> values) {
+        return Buffer(std::as_bytes(values));
     }
 
     void bind_uniform(unsigned binding) const { bind_uniform(binding, 0, size_); }
@@ -88,7 +76,6 @@ class Buffer {
     Handle<Release> handle_;
     std::byte* mapping_ = nullptr;
     std::size_t size_ = 0;
-    BufferUse use_ = BufferUse::Static;
 };
 
 /// GPU memory whose content is replaced up to once a frame, as a whole. Draws read what was last written before them.

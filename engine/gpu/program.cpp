@@ -249,9 +249,4 @@ void Program::set(std::string_view name, std::span<const glm::vec4> values) cons
         glProgramUniform4fv(id(), *at, static_cast<GLsizei>(values.size()), glm::value_ptr(values.front()));
 }
 
-void Program::set_block_binding(std::string_view block, unsigned binding) const {
-    const GLuint index = glGetUniformBlockIndex(id(), std::string(block).c_str());
-    if (index != GL_INVALID_INDEX) glUniformBlockBinding(id(), index, binding);
-}
-
 }  // namespace rowland::gpu

@@ -67,10 +67,6 @@ class Program {
     void set(std::string_view name, std::span<const glm::vec3> values) const;
     void set(std::string_view name, std::span<const glm::vec4> values) const;
 
-    /// Connects a uniform block to a binding point (Buffer::bind_uniform); `layout(binding = …)` makes this
-    /// unnecessary.
-    void set_block_binding(std::string_view block, unsigned binding) const;
-
     /// Whether the linked program reads such a uniform outside of blocks.
     bool has_uniform(std::string_view name) const;
     GLuint id() const { return handle_.get(); }

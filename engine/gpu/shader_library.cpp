@@ -111,9 +111,7 @@ std::vector<std::string> ShaderLibrary::names() const {
 
 std::string ShaderLibrary::read(const std::string& name) const {
     if (std::optional<std::string> text = find(name)) return *std::move(text);
-    std::vector<std::string> names;
-    for (const auto& [known, text] : embedded_) names.push_back(known);
-    const std::optional<std::string> nearest = nearest_word(name, names);
+    const std::optional<std::string> nearest = nearest_word(name, names());
     fail(name, 0, "no such shader file", "a file built into the program or in the shader source folder",
          nearest ? fmt::format("did you mean {}?", *nearest) : "");
 }

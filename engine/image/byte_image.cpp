@@ -85,14 +85,6 @@ struct Reading {
     }
 };
 
-}  // namespace
-
-bool is_png(std::span<const std::byte> bytes) {
-    return bytes.size() >= kSignature.size() &&
-           std::equal(kSignature.begin(), kSignature.end(), bytes.begin(),
-                      [](std::uint8_t a, std::byte b) { return std::byte{a} == b; });
-}
-
 ByteImageSize png_size(std::span<const std::byte> bytes, const std::string& file) {
     const Chunk header = chunk_at(bytes, kSignature.size(), file);
     if (header.type != "IHDR" || header.data.size() != kHeaderLength)
@@ -116,8 +108,6 @@ ByteImage decode_png(std::span<const std::byte> bytes, const std::string& file) 
     reading.check(png_image_finish_read(&reading.image, nullptr, result.rgba.data(), 0, nullptr), file);
     return result;
 }
-
-namespace {
 
 /// A block of 8 × 8 texels takes at least one bit; twice that to be safe.
 constexpr std::uint64_t kMaximumTexelsPerJpegByte = std::uint64_t{8} * 64 * 2;
@@ -159,13 +149,6 @@ ByteImageSize size_of(std::span<const std::byte> bytes, const Decoder& decoder, 
     return {width, height};
 }
 
-}  // namespace
-
-bool is_jpeg(std::span<const std::byte> bytes) {
-    return bytes.size() >= 3 && bytes[0] == std::byte{0xFF} && bytes[1] == std::byte{0xD8} &&
-           bytes[2] == std::byte{0xFF};
-}
-
 ByteImageSize jpeg_size(std::span<const std::byte> bytes, const std::string& file) {
     return size_of(bytes, make_decoder(file), file);
 }
@@ -184,14 +167,23 @@ ByteImage decode_jpeg(std::span<const std::byte> bytes, const std::string& file)
     return result;
 }
 
-namespace {
-
 [[noreturn]] void refuse_format(std::span<const std::byte> bytes, const std::string& file) {
     refuse_input(file, "", bytes.empty() ? "an empty image" : "an unknown image format", "PNG or JPEG",
                  "convert the image to one of them");
 }
 
 }  // namespace
+
+bool is_png(std::span<const std::byte> bytes) {
+    return bytes.size() >= kSignature.size() &&
+           std::equal(kSignature.begin(), kSignature.end(), bytes.begin(),
+                      [](std::uint8_t a, std::byte b) { return std::byte{a} == b; });
+}
+
+bool is_jpeg(std::span<const std::byte> bytes) {
+    return bytes.size() >= 3 && bytes[0] == std::byte{0xFF} && bytes[1] == std::byte{0xD8} &&
+           bytes[2] == std::byte{0xFF};
+}
 
 ByteImageSize byte_image_size(std::span<const std::byte> bytes, const std::string& file) {
     if (is_png(bytes)) return png_size(bytes, file);

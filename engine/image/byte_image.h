@@ -30,17 +30,9 @@ ByteImageSize byte_image_size(std::span<const std::byte> bytes, const std::strin
 /// ones.
 ByteImage decode_byte_image(std::span<const std::byte> bytes, const std::string& file);
 
+/// True if the bytes begin as a PNG or a JPEG does.
 bool is_png(std::span<const std::byte> bytes);
-
-/// See byte_image_size and decode_byte_image; `bytes` must be a PNG's.
-ByteImageSize png_size(std::span<const std::byte> bytes, const std::string& file);
-ByteImage decode_png(std::span<const std::byte> bytes, const std::string& file);
-
 bool is_jpeg(std::span<const std::byte> bytes);
-
-/// See byte_image_size and decode_byte_image; `bytes` must be a JPEG's.
-ByteImageSize jpeg_size(std::span<const std::byte> bytes, const std::string& file);
-ByteImage decode_jpeg(std::span<const std::byte> bytes, const std::string& file);
 
 /// An 8-bit PNG of `channels` 3 (RGB) or 4 (RGBA, straight alpha), width·height·channels bytes, row by row from the
 /// top. The same picture gives the same bytes. Throws Error (system) if encoding fails.

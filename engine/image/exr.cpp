@@ -202,10 +202,6 @@ Image read_exr(std::span<const std::byte> bytes, const std::string& file) {
     }
 }
 
-Image read_exr(const std::filesystem::path& path) {
-    return read_exr(read_file(path, kMaximumFileBytes), path.string());
-}
-
 void write_exr(const std::filesystem::path& path, const Image& image) {
     ROWLAND_CHECK_OP(image.texels.size(), ==,
                      static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));

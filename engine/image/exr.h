@@ -17,7 +17,6 @@ namespace rowland::image {
 /// luminance/chroma, subsampled or integer channels, cube maps, a data window that is not the display window, and sizes
 /// over image.h (checked before allocating).
 Image read_exr(std::span<const std::byte> bytes, const std::string& file);
-Image read_exr(const std::filesystem::path& path);
 
 /// True if the bytes begin as an OpenEXR file does.
 bool is_exr(std::span<const std::byte> bytes);

@@ -10,7 +10,6 @@
 #include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/image/exr.h"
-#include "engine/image/radiance_hdr.h"
 
 namespace rowland::image {
 

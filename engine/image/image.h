@@ -59,6 +59,16 @@ void check_decoded_bytes(std::int64_t width, std::int64_t height, std::uint64_t 
 void check_compression(std::int64_t width, std::int64_t height, std::size_t file_bytes, std::uint64_t texels_per_byte,
                        const std::string& file);
 
+/// Decodes a Radiance picture (.hdr, .pic): both run-length encodings and flat scanlines, all eight orientations.
+/// A texel is mantissa · 2^(exponent − 136), 0 where the exponent is 0 (Radiance itself adds ½ to the mantissa; other
+/// programs, and the reference radiances of the tests, do not); values are divided by the header's EXPOSURE and
+/// COLORCORR lines and converted from its PRIMARIES, if any, to Rec.709. Throws Error (input) for anything malformed
+/// and for sizes over image.h (checked before allocating); `file` names the bytes in messages.
+Image read_radiance_hdr(std::span<const std::byte> bytes, const std::string& file);
+
+/// True if the bytes begin as a Radiance picture does.
+bool is_radiance_hdr(std::span<const std::byte> bytes);
+
 /// Reads a Radiance or OpenEXR image, whichever the first bytes say. Throws Error (input).
 Image load_image(const std::filesystem::path& path);
 /// The same for bytes in memory; `file` names them in messages.

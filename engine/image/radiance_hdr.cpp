@@ -1,5 +1,3 @@
-#include "engine/image/radiance_hdr.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +13,6 @@
 #include "engine/colour/colour_space.h"
 #include "engine/core/byte_stream.h"
 #include "engine/core/error.h"
-#include "engine/core/file.h"
 #include "engine/image/image.h"
 
 // Format: Ward, "Real pixels", Graphics Gems II, 1991, and the Radiance source's color.c.
@@ -252,10 +249,6 @@ Image read_radiance_hdr(std::span<const std::byte> bytes, const std::string& fil
     if (header.primaries)
         if (const auto matrix = colour::to_rec709(*header.primaries)) transform_colours(image, *matrix);
     return image;
-}
-
-Image read_radiance_hdr(const std::filesystem::path& path) {
-    return read_radiance_hdr(read_file(path, kMaximumFileBytes), path.string());
 }
 
 }  // namespace rowland::image

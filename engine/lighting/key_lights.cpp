@@ -117,15 +117,19 @@ ClampedNormal clamp_normal(double mean, double deviation) {
             .weighted_variance = std::max(0.0, third / first - weighted_mean * weighted_mean)};
 }
 
-double lobe_cosine(const KeyLight& key, const glm::dvec3& normal) {
-    const LobeMoments moments = lobe_moments(key.concentration);
-    const double c = glm::dot(key.direction, normal);
-    const double variance = c * c * moments.variance_along + (1.0 - c * c) * moments.variance_across;
-    return clamp_normal(c * moments.mean, std::sqrt(std::max(0.0, variance))).mean;
+LobeIrradiance::LobeIrradiance(std::span<const KeyLight> keys) : keys_(keys) {
+    for (const KeyLight& key : keys) moments_.push_back(lobe_moments(key.concentration));
 }
 
-glm::dvec3 irradiance(const KeyLight& key, const glm::dvec3& normal) {
-    return lobe_cosine(key, normal) * key.flux;
+glm::dvec3 LobeIrradiance::operator()(const glm::dvec3& normal) const {
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = 0; i < keys_.size(); ++i) {
+        const LobeMoments& moments = moments_[i];
+        const double c = glm::dot(keys_[i].direction, normal);
+        const double variance = c * c * moments.variance_along + (1.0 - c * c) * moments.variance_across;
+        sum += clamp_normal(c * moments.mean, std::sqrt(std::max(0.0, variance))).mean * keys_[i].flux;
+    }
+    return sum;
 }
 
 }  // namespace rowland::lighting

@@ -71,11 +71,18 @@ struct ClampedNormal {
 };
 ClampedNormal clamp_normal(double mean, double deviation);
 
-/// Mean of the clamped cosine max(0, s·normal) over a lobe. Takes the cosine as normally distributed, with its exact
-/// mean and variance: error .001 at κ = 25 and .0001 at 100 (.004 at 10, .023 at worst, κ = 1), against quadrature.
-double lobe_cosine(const KeyLight& key, const glm::dvec3& normal);
+/// Irradiance from lobes on a surface of a unit normal: the sum of flux times the mean of the clamped cosine
+/// max(0, s·normal) over the lobe. Takes the cosine as normally distributed, with its exact mean and variance: error
+/// .001 of the flux at κ = 25 and .0001 at 100 (.004 at 10, .023 at worst, κ = 1), against quadrature.
+class LobeIrradiance {
+ public:
+    /// `keys` must outlive it.
+    explicit LobeIrradiance(std::span<const KeyLight> keys);
+    glm::dvec3 operator()(const glm::dvec3& normal) const;
 
-/// Irradiance on a surface of unit normal `normal`: flux · lobe_cosine().
-glm::dvec3 irradiance(const KeyLight& key, const glm::dvec3& normal);
+ private:
+    std::span<const KeyLight> keys_;
+    std::vector<LobeMoments> moments_;
+};
 
 }  // namespace rowland::lighting

@@ -53,6 +53,7 @@ struct Trial {
 /// than .5 % of their amplitude around an extremum.
 std::vector<Trial> spread_trials(std::span<const KeyLight> keys) {
     constexpr int kCount = 4096;
+    const LobeIrradiance irradiance(keys);
     std::vector<Trial> trials(kCount);
     for (int i = 0; i < kCount; ++i) {
         Trial& trial = trials[static_cast<std::size_t>(i)];
@@ -61,7 +62,7 @@ std::vector<Trial> spread_trials(std::span<const KeyLight> keys) {
         const double r = std::sqrt(1 - z * z);
         const glm::dvec3 normal(r * std::cos(phi), r * std::sin(phi), z);
         math::evaluate_sh(normal, kBands, trial.basis);
-        for (const KeyLight& key : keys) trial.from_keys += irradiance(key, normal) / std::numbers::pi;
+        trial.from_keys = irradiance(normal) / std::numbers::pi;
     }
     return trials;
 }

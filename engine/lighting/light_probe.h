@@ -34,7 +34,7 @@ struct AmbientLight {
 
 /// The first three bands convolved with the clamped cosine, under the weakest window (none, Lanczos or Hann over three
 /// bands, then exponentials of increasing damping) that keeps E non-negative in a dense set of directions. Missing
-/// bands count as zeros. `keys`: lobes whose irradiance() is added to that of `light`. Only the sum must be
+/// bands count as zeros. `keys`: lobes whose irradiance is added to that of `light`. Only the sum must be
 /// non-negative: `light` may be a residual().
 AmbientLight ambient_coefficients(const ShLight& light, std::span<const KeyLight> keys = {});
 
@@ -64,7 +64,7 @@ struct LightProbe {
     PackedLight light;                              ///< at full resolution, with the key lights
     PackedEnvironmentMap environment;               ///< prefiltered for glossy reflection
     std::optional<CaptureDome> dome;                ///< none: the environment is infinitely far away
-    TexelReport report;                             ///< texels of the source image that were taken as black
+    InvalidTexelCounts report;                      ///< texels of the source image that were taken as black
 };
 
 /// Version of serialise()'s layout and of build_light_probe()'s results; part of the cooked header.

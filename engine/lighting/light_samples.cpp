@@ -76,6 +76,48 @@ LightSamples row_samples(const ProbeImage& probe, int first, int end) {
     return samples;
 }
 
+/// How the flux of a lobe divides among cells: `fractions[i]` goes to cell `indices[i]`; they sum to 1.
+struct LobeFractions {
+    std::vector<std::size_t> indices;
+    std::vector<double> fractions;
+};
+
+/// Distributes the lobe's flux over `count` cells, `direction(i)` and `solid_angle(i)`, by the midpoint rule.
+template <typename Direction, typename SolidAngle>
+LobeFractions lobe_fractions(const KeyLight& key, std::size_t count, const Direction& direction,
+                             const SolidAngle& solid_angle) {
+    // Directions with a larger κ(1 − cos θ) are skipped: their density is below exp(−30) of the peak.
+    constexpr double kCutoff = 30.0;
+    LobeFractions result;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::dvec3 s = direction(i);
+        if (key.concentration * (1.0 - glm::dot(s, key.direction)) >= kCutoff) continue;
+        result.indices.push_back(i);
+        result.fractions.push_back(lobe_density(key, s) * solid_angle(i));
+        sum += result.fractions.back();
+    }
+    for (double& fraction : result.fractions) fraction /= sum;
+    return result;
+}
+
+/// Calls take(i, flux) with the flux that a lobe has in cell i, of `count` cells with sides of at most `side` radians.
+/// Appends samples for lobes whose deviation is less than a side, which the midpoint rule does not resolve.
+template <typename Direction, typename SolidAngle, typename Take>
+void subtract_lobes(std::span<const KeyLight> keys, double side, std::size_t count, const Direction& direction,
+                    const SolidAngle& solid_angle, LightSamples& samples, const Take& take) {
+    const auto is_resolved = [&](std::size_t k) { return keys[k].concentration * side * side < 1.0; };
+    std::vector<LobeFractions> lobes(keys.size());
+    parallel_for(keys.size(), [&](std::size_t k) {
+        if (is_resolved(k)) lobes[k] = lobe_fractions(keys[k], count, direction, solid_angle);
+    });
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+        if (!is_resolved(k)) subtract_narrow_lobe(keys[k], samples);
+        for (std::size_t j = 0; j < lobes[k].indices.size(); ++j)
+            take(lobes[k].indices[j], lobes[k].fractions[j] * keys[k].flux);
+    }
+}
+
 /// The cells that samples are added to.
 class Gatherer {
  public:
@@ -130,26 +172,18 @@ void LightSamples::push_back(const glm::dvec3& direction, const glm::dvec3& flux
 LightSamples light_samples(const ProbeImage& probe, std::span<const KeyLight> keys, double largest_side) {
     const FineProbe fine(probe, largest_side);
     LightSamples texels = row_samples(*fine, 0, fine->image().height);
-    const std::size_t count = texels.size();
     const auto width = static_cast<std::size_t>(fine->image().width);
-    const double side = 2.0 * std::numbers::pi / fine->image().width;
-    std::vector<LobeFractions> lobes(keys.size());
-    parallel_for(keys.size(), [&](std::size_t k) {
-        if (!is_resolved(keys[k], side)) return;
-        lobes[k] = lobe_fractions(
-            keys[k], count, [&](std::size_t i) { return texels.direction(i); },
-            [&](std::size_t i) { return fine->solid_angle(static_cast<int>(i % width), static_cast<int>(i / width)); });
-    });
-    for (std::size_t k = 0; k < keys.size(); ++k) {
-        if (!is_resolved(keys[k], side)) subtract_narrow_lobe(keys[k], texels);
-        for (std::size_t j = 0; j < lobes[k].indices.size(); ++j) {
-            const std::size_t i = lobes[k].indices[j];
-            const glm::vec3 lobe(lobes[k].fractions[j] * keys[k].flux);
+    subtract_lobes(
+        keys, 2.0 * std::numbers::pi / fine->image().width, texels.size(),
+        [&](std::size_t i) { return texels.direction(i); },
+        [&](std::size_t i) { return fine->solid_angle(static_cast<int>(i % width), static_cast<int>(i / width)); },
+        texels,
+        [&](std::size_t i, const glm::dvec3& flux) {
+            const glm::vec3 lobe(flux);
             texels.red[i] -= lobe.x;
             texels.green[i] -= lobe.y;
             texels.blue[i] -= lobe.z;
-        }
-    }
+        });
     return texels;
 }
 
@@ -180,7 +214,7 @@ void subtract_narrow_lobe(const KeyLight& key, LightSamples& samples) {
 }
 
 std::vector<CubeCell> gather_cells(const ProbeImage& probe, int face_size) {
-    const FineProbe fine(probe, kTexelSide);
+    const FineProbe fine(probe, kMaximumTexelSide);
     const int height = fine->image().height;
     const int rows = std::max(1, (1 << 18) / fine->image().width);  // at a time: 6 MB of samples
     Gatherer gatherer(face_size);
@@ -201,15 +235,14 @@ LightSamples cell_samples(std::span<const CubeCell> cells) {
     return samples;
 }
 
-LightSamples gather_texels(const LightSamples& texels, int face_size) {
+LightSamples merge_samples(const LightSamples& texels, int face_size) {
     return cell_samples(gather_cells(texels, face_size));
 }
 
 namespace {
 
-/// Cube faces that lobes are sampled on, and the longest side of a cell.
+/// Cells a side of the cube faces that lobes are sampled on; a cell's longest side is 2 / kLobeFace.
 constexpr int kLobeFace = 128;
-constexpr double kLobeCellSide = 2.0 / kLobeFace;
 
 /// Steps of a position along a cell's side.
 constexpr double kPositions = 256.0;
@@ -262,19 +295,11 @@ void subtract(std::span<const KeyLight> keys, LightSamples& samples) {
         directions[i] = direction_in(cell, kLobeFace, 0.5, 0.5);
         if (cell.face == 0) solid_angles[i] = cube_solid_angle(kLobeFace, cell.column, cell.row);
     }
-    std::vector<LobeFractions> lobes(keys.size());
-    parallel_for(keys.size(), [&](std::size_t k) {
-        if (!is_resolved(keys[k], kLobeCellSide)) return;
-        lobes[k] = lobe_fractions(
-            keys[k], directions.size(), [&](std::size_t i) { return directions[i]; },
-            [&](std::size_t i) { return solid_angles[i % solid_angles.size()]; });
-    });
     std::vector<glm::dvec3> flux(directions.size(), glm::dvec3(0.0));
-    for (std::size_t k = 0; k < keys.size(); ++k) {
-        if (!is_resolved(keys[k], kLobeCellSide)) subtract_narrow_lobe(keys[k], samples);
-        for (std::size_t j = 0; j < lobes[k].indices.size(); ++j)
-            flux[lobes[k].indices[j]] += lobes[k].fractions[j] * keys[k].flux;
-    }
+    subtract_lobes(
+        keys, 2.0 / kLobeFace, directions.size(), [&](std::size_t i) { return directions[i]; },
+        [&](std::size_t i) { return solid_angles[i % solid_angles.size()]; }, samples,
+        [&](std::size_t i, const glm::dvec3& of_lobe) { flux[i] += of_lobe; });
     for (std::size_t i = 0; i < flux.size(); ++i)
         if (flux[i] != glm::dvec3(0.0)) samples.push_back(directions[i], -flux[i]);
 }

@@ -12,7 +12,7 @@
 
 namespace rowland::lighting {
 
-/// A probe as point samples, one array per component, all of one length. They cover the whole sphere once.
+/// A probe as point samples of directions, a structure of arrays.
 struct LightSamples {
     std::vector<float> x, y, z;           ///< unit directions, world axes
     std::vector<float> red, green, blue;  ///< flux: radiance × solid angle. May be negative (see light_samples())
@@ -25,68 +25,38 @@ struct LightSamples {
     void push_back(const glm::dvec3& direction, const glm::dvec3& flux);
 };
 
-/// Texels longer than this, in radians, are divided into several samples of bilinearly interpolated radiance.
-inline constexpr double kTexelSide = 0.0065;
+/// Texels with a side above this, in radians, are subdivided into samples of bilinearly interpolated radiance.
+inline constexpr double kMaximumTexelSide = 0.0065;
 
-/// A sample for each texel of a probe, minus the lobes of `keys`: both together have the probe's flux. Does not depend
-/// on the number of threads. 24 bytes per sample: 12 MB for 1024 × 512 texels.
+/// Samples of a probe's texels, from which the lobes of `keys` are subtracted: lobes and samples together have the
+/// probe's flux. Does not depend on the number of threads. 24 bytes per sample: 12 MB for 1024 × 512 texels.
 LightSamples light_samples(const ProbeImage& probe, std::span<const KeyLight> keys = {},
-                           double largest_side = kTexelSide);
+                           double largest_side = kMaximumTexelSide);
 
-/// The sums over the samples that lie in a texel of a cube map. Weights are |red| + |green| + |blue| of the flux.
+/// Sums over the samples in one cell of a cube map. A sample's weight is |red| + |green| + |blue| of its flux.
 struct CubeCell {
     glm::dvec3 flux{0.0};
     glm::dvec3 direction{0.0};  ///< Σ weight · direction
-    glm::dvec2 position{0.0};   ///< Σ weight · position in the cell along s and t, in [0, 1]²
+    glm::dvec2 position{0.0};   ///< Σ weight · position in the cell, in [0, 1]²
 };
 
-/// The samples of a probe, summed in the cells of a cube map of `face_size` cells a side, in CubeLayout's order. Memory
-/// is that of the cells, however large the probe.
+/// The samples of a probe, summed in the cells of a cube map of `face_size` cells a side, in the order of CubeLayout
+/// (environment_map.h). Memory use does not depend on the probe's size.
 std::vector<CubeCell> gather_cells(const ProbeImage& probe, int face_size);
 std::vector<CubeCell> gather_cells(const LightSamples& texels, int face_size);
 
-/// A sample for each cell that holds light, in its weighted mean direction: a compact lamp keeps its direction.
+/// One sample per cell that is not black, in its weighted mean direction: a lamp smaller than a cell keeps its
+/// direction.
 LightSamples cell_samples(std::span<const CubeCell> cells);
-/// cell_samples(gather_cells(…)).
-LightSamples gather_texels(const LightSamples& texels, int face_size);
+/// Reduces samples to one per cell of a cube map.
+LightSamples merge_samples(const LightSamples& texels, int face_size);
 
-/// How the flux of a lobe divides among directions: fractions that sum to 1.
-struct LobeFractions {
-    std::vector<std::size_t> indices;
-    std::vector<double> fractions;
-};
-
-/// Whether the midpoint rule of lobe_fractions() holds for cells with sides of at most `side` radians: the lobe's
-/// deviation is at least a side.
-inline bool is_resolved(const KeyLight& key, double side) {
-    return key.concentration * side * side < 1.0;
-}
-
-/// Integrates the lobe by the midpoint rule: `direction(i)` and `solid_angle(i)` for i < count.
-template <typename Direction, typename SolidAngle>
-LobeFractions lobe_fractions(const KeyLight& key, std::size_t count, const Direction& direction,
-                             const SolidAngle& solid_angle) {
-    // κ(1 − cos) beyond which the density, exp(−this) of its peak, does not count.
-    constexpr double kReach = 30.0;
-    LobeFractions result;
-    double sum = 0.0;
-    for (std::size_t i = 0; i < count; ++i) {
-        const glm::dvec3 s = direction(i);
-        const double cosine = s.x * key.direction.x + s.y * key.direction.y + s.z * key.direction.z;
-        if (key.concentration * (1.0 - cosine) >= kReach) continue;
-        result.indices.push_back(i);
-        result.fractions.push_back(lobe_density(key, s) * solid_angle(i));
-        sum += result.fractions.back();
-    }
-    for (double& fraction : result.fractions) fraction /= sum;
-    return result;
-}
-
-/// Appends three circles of eight samples whose negative flux has the low moments of a lobe of κ ≥ 100.
+/// Subtracts a lobe too narrow for the cells (κ ≥ 100): appends 3 × 8 samples of negative flux on circles around its
+/// direction, with the lobe's low-order moments.
 void subtract_narrow_lobe(const KeyLight& key, LightSamples& samples);
 
-/// A probe's whole light for storage: a sample in each cell of a cube map (CubeLayout's order), 8 bytes each. It has
-/// the cell's flux and a position within the cell, so a compact lamp keeps its flux and its direction.
+/// All light of a probe, packed for storage: a sample in each cell of a cube map (CubeLayout's order), 8 bytes each. It
+/// has the cell's flux and a position within the cell, so a compact lamp keeps its flux and its direction.
 struct PackedLight {
     int face_size = 0;                    ///< cells a side of a face; 0: no light
     float scale = 1.0F;                   ///< flux per stored unit, a power of two
@@ -99,13 +69,13 @@ struct PackedLight {
 
 inline constexpr int kMaximumLightFace = 1024;
 
-/// The light of a probe: flux ≥ 0, none of it subnormal when summed. 1 ≤ face_size ≤ kMaximumLightFace. Flux is rounded
+/// Packs the light of a probe, whose flux is ≥ 0 and not subnormal. 1 ≤ face_size ≤ kMaximumLightFace. Flux is rounded
 /// to 1/2048 of itself, positions to 1/512 of a cell's side.
 PackedLight pack(std::span<const CubeCell> cells, int face_size);
 PackedLight pack(const LightSamples& texels, int face_size);
 
 /// The samples, then the lobes of `keys` as samples of negative flux: lobes and samples together have the whole flux,
-/// for any lobes. Black samples are omitted. Does not depend on the number of threads.
+/// including that of lobes narrower than a cell. Black samples are omitted. Does not depend on the number of threads.
 LightSamples unpack(const PackedLight& light, std::span<const KeyLight> keys = {});
 
 }  // namespace rowland::lighting

@@ -63,7 +63,7 @@ const char* mapping_name(Mapping mapping) {
     return kNames.at(static_cast<std::size_t>(mapping)).first;
 }
 
-Mapping recognised_mapping(const image::Image& image, const std::string& file) {
+Mapping detect_mapping(const image::Image& image, const std::string& file) {
     if (image.width != image.height || image.width <= 1) return Mapping::Equirectangular;
     if (black_outside_circle(image)) return Mapping::Angular;
     refuse_input(
@@ -78,8 +78,8 @@ namespace {
 using std::numbers::pi;
 
 /// Counts components that are no radiance and sets them to 0. A texel counts once, for its worst component.
-TexelReport clean(image::Image& image) {
-    TexelReport report;
+InvalidTexelCounts clean(image::Image& image) {
+    InvalidTexelCounts report;
     for (glm::vec3& texel : image.texels) {
         bool nan = false;
         bool infinite = false;
@@ -259,7 +259,7 @@ image::Image averaged(const image::Image& image, int width, int height) {
 
 }  // namespace
 
-glm::ivec2 probe_shape(int width, int height) {
+glm::ivec2 resampled_size(int width, int height) {
     constexpr double kLongest = 8;
     const double most = std::max(2.0 * width * height, std::exp2(20));
     const glm::dvec2 size(width, height);
@@ -277,7 +277,7 @@ glm::ivec2 probe_shape(int width, int height) {
 }
 
 ProbeImage::ProbeImage(image::Image image, Mapping mapping, const std::string& file)
-    : image_(std::move(image)), mapping_(mapping == Mapping::Auto ? recognised_mapping(image_, file) : mapping) {
+    : image_(std::move(image)), mapping_(mapping == Mapping::Auto ? detect_mapping(image_, file) : mapping) {
     check_shape(image_, mapping_, file);
     report_ = clean(image_);
     if (image_.width == 1 && image_.height == 1) image_ = everywhere(image_.texels[0], mapping_);
@@ -285,7 +285,7 @@ ProbeImage::ProbeImage(image::Image image, Mapping mapping, const std::string& f
 }
 
 void ProbeImage::resample() {
-    const glm::ivec2 shape = probe_shape(image_.width, image_.height);
+    const glm::ivec2 shape = resampled_size(image_.width, image_.height);
     if (shape == glm::ivec2(image_.width, image_.height)) return;
     image_ = averaged(image_, std::min(shape.x, image_.width), std::min(shape.y, image_.height));
     image::Image divided = image::make_image(shape.x, shape.y);
@@ -305,7 +305,7 @@ ProbeImage load_probe_image(const std::filesystem::path& path, Mapping mapping) 
 }
 
 void warn_about(const ProbeImage& probe, const std::string& file) {
-    const TexelReport& report = probe.report();
+    const InvalidTexelCounts& report = probe.report();
     if (report.total() > 0)
         log_warning("{}: {} texels are negative or not finite and taken as black ({} NaN, {} infinite, {} negative)",
                     file, report.total(), report.nan, report.infinite, report.negative);

@@ -14,8 +14,8 @@ namespace rowland::lighting {
 /// How a probe image covers the sphere.
 enum class Mapping {
     Equirectangular,  ///< top row +Y, centre −Z, right +X
-    Angular,  ///< Debevec's light probe: square, centre −Z, radius = angle/π; texels beyond radius 1 are no light
-    Auto,     ///< as recognised_mapping() finds; no probe has it
+    Angular,  ///< Debevec's light probe: square, centre −Z, radius = angle/π; texels beyond radius 1 are ignored
+    Auto,     ///< as detect_mapping() finds; an argument only
 };
 
 /// "equirect", "angular" or "auto". Throws Error (input) otherwise.
@@ -23,12 +23,12 @@ Mapping parse_mapping(const std::string& name);
 const char* mapping_name(Mapping mapping);
 
 /// The mapping of an image. One that is not square is equirectangular. A square one is an angular map if it is black
-/// outside its inscribed circle; a tenth of that part may be bright, for captions. Throws Error (input) for another
-/// square image, of more than one texel, which may be either; `file` names it.
-Mapping recognised_mapping(const image::Image& image, const std::string& file);
+/// outside its inscribed circle; up to a tenth of the corner texels may be bright (captions). Any other square
+/// image is ambiguous, except a single texel: throws Error (input) that names `file`.
+Mapping detect_mapping(const image::Image& image, const std::string& file);
 
-/// Texels that were counted and set to 0 when the probe was made.
-struct TexelReport {
+/// Texels with an invalid component, which was set to 0 when the probe was made.
+struct InvalidTexelCounts {
     std::uint64_t nan = 0;
     std::uint64_t infinite = 0;
     std::uint64_t negative = 0;
@@ -38,18 +38,17 @@ struct TexelReport {
 /// A light probe at full resolution: an image, its mapping, and the lookup.
 class ProbeImage {
  public:
-    /// Replaces NaN, infinite and negative components by 0 (see report()). Two kinds of images are resampled: one of a
-    /// single texel, to a larger one of the same radiance; and an equirectangular one with texels more than 8 times as
-    /// long as wide, so that sums over texels cost in proportion to the image (see probe_shape()). Throws Error (input)
-    /// if the image is empty, not square for an angular map, or cannot be recognised (Mapping::Auto); `file` names it
-    /// in messages.
+    /// Replaces NaN, infinite and negative components by 0 (see report()). Resamples an image of
+    /// a single texel to a larger one of the same radiance, and an equirectangular one whose texels have an aspect
+    /// ratio above 8 (see resampled_size()). Throws Error (input) if the image is empty, not square for an angular map,
+    /// or cannot be recognised (Mapping::Auto); `file` names it in messages.
     ProbeImage(image::Image image, Mapping mapping, const std::string& file = "probe");
 
     const image::Image& image() const { return image_; }
     Mapping mapping() const { return mapping_; }
-    const TexelReport& report() const { return report_; }
+    const InvalidTexelCounts& report() const { return report_; }
 
-    /// Unit vector through a point of the image in texel units: (column + ½, row + ½) is a texel's centre. Meaningless
+    /// Unit vector through a point of the image in texel units: (column + ½, row + ½) is a texel's centre. Unspecified
     /// outside an angular map's disc, where solid_angle() is 0.
     glm::dvec3 direction(double x, double y) const;
 
@@ -66,19 +65,19 @@ class ProbeImage {
 
     image::Image image_;
     Mapping mapping_;
-    TexelReport report_;
+    InvalidTexelCounts report_;
 };
 
-/// Reads a .hdr or .exr file. Logs a warning for texels that were set to 0, and for a square image as
-/// `Equirectangular`, which is more likely an angular map. Throws Error (input).
+/// Reads a .hdr or .exr file. Logs a warning for texels that were set to 0, and for a square image that is
+/// read as equirectangular, which is more likely an angular map. Throws Error (input).
 ProbeImage load_probe_image(const std::filesystem::path& path, Mapping mapping);
 
-/// Logs the warnings of load_probe_image().
+/// Logs that texels were set to 0, or that the mapping is doubtful.
 void warn_about(const ProbeImage& probe, const std::string& file);
 
-/// The size that an equirectangular image of `width` × `height` texels is resampled to. Its texels are at most 8 times
-/// as long as wide on the equator, and it has at most max(2 · width · height, 2²⁰) texels. The long side is divided; if
-/// that makes too many texels, the short one is averaged.
-glm::ivec2 probe_shape(int width, int height);
+/// The size that an equirectangular image of `width` × `height` texels is resampled to. Its texels have an aspect ratio
+/// of at most 8 on the equator, and it has at most max(2 · width · height, 2²⁰) texels. Texels are split along the long
+/// side; above the limit they are averaged along the short one.
+glm::ivec2 resampled_size(int width, int height);
 
 }  // namespace rowland::lighting

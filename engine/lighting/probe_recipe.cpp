@@ -10,7 +10,9 @@
 
 #include "engine/colour/illuminant.h"
 #include "engine/colour/spectrum.h"
+#include "engine/core/file.h"
 #include "engine/core/json_reader.h"
+#include "engine/image/image.h"
 #include "engine/math/spherical_harmonics.h"
 
 namespace rowland::lighting {
@@ -160,6 +162,17 @@ ProbeImage render_recipe(const ProbeRecipe& recipe, const std::function<image::I
     ProbeImage probe(std::move(image), capture->mapping, capture->file);
     warn_about(probe, capture->file);
     return probe;
+}
+
+FullResolutionProbe load_whole_probe(const std::filesystem::path& path, const std::string& mapping) {
+    constexpr std::uint64_t kMaximumRecipeBytes = 16 << 20;
+    const std::string file = path.string();
+    if (path.extension() != ".json")
+        return {.image = {image::load_image(path), parse_mapping(mapping), file},
+                .key_lights = LightProbeSettings().key_lights};
+    const ProbeRecipe recipe = parse_probe_recipe(parse_json(read_text_file(path, kMaximumRecipeBytes), file), file);
+    const auto beside = [&](const std::string& name) { return image::load_image(path.parent_path() / name); };
+    return {.image = render_recipe(recipe, beside, file), .key_lights = recipe.settings.key_lights};
 }
 
 }  // namespace rowland::lighting

@@ -4,11 +4,10 @@
 #include <utility>
 
 #include "engine/asset/container.h"
-#include "engine/cook/cook_record.h"
 #include "engine/cook/cook_source.h"
 #include "engine/core/check.h"
 #include "engine/core/log.h"
-#include "engine/scene/cooked_scene.h"
+#include "engine/scene/cook.h"
 #include "engine/scene/gltf_import.h"
 
 namespace rowland::live {

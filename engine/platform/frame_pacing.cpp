@@ -37,12 +37,7 @@ int FixedStep::advance(std::chrono::nanoseconds frame) {
     remainder_ += counted.count() * steps_per_second_;
     const std::int64_t steps = remainder_ / kNanosecondsPerSecond;
     remainder_ -= steps * kNanosecondsPerSecond;
-    steps_ += steps;
     return static_cast<int>(steps);
-}
-
-double FixedStep::alpha() const {
-    return static_cast<double>(remainder_) / static_cast<double>(kNanosecondsPerSecond);
 }
 
 FrameTimes::FrameTimes(std::size_t capacity) : capacity_(capacity) {

@@ -20,18 +20,10 @@ class FixedStep {
     /// Adds a frame's time and returns how many steps to simulate now. A negative time counts as none.
     int advance(std::chrono::nanoseconds frame);
 
-    double step_s() const { return 1.0 / static_cast<double>(steps_per_second_); }
-    /// Time of all steps so far.
-    double simulated_s() const { return static_cast<double>(steps_) / static_cast<double>(steps_per_second_); }
-    /// How far the time shown lies between the last step and the next, 0 <= alpha < 1: draw
-    /// `mix(previous, current, alpha)`.
-    double alpha() const;
-
  private:
     std::int64_t steps_per_second_;
     std::chrono::nanoseconds longest_frame_;
     std::int64_t remainder_ = 0;  ///< time not simulated yet, in nanoseconds times steps_per_second_
-    std::int64_t steps_ = 0;
 };
 
 /// Times in milliseconds. Median and percentiles by nearest rank, so each is a time that occurred.

@@ -72,14 +72,9 @@ constexpr const char* needed =
     fail_system("OpenGL without a window", std::move(found), std::move(remedy), needed);
 }
 
+/// Whether a word is in a list that is separated by spaces; null: an empty list.
 bool has_word(const char* words, std::string_view word) {
-    const std::string_view text = words == nullptr ? "" : words;
-    for (std::size_t start = 0; start < text.size();) {
-        const std::size_t end = std::min(text.find(' ', start), text.size());
-        if (text.substr(start, end - start) == word) return true;
-        start = end + 1;
-    }
-    return false;
+    return words != nullptr && fmt::format(" {} ", words).find(fmt::format(" {} ", word)) != std::string::npos;
 }
 
 const char* client_extensions() {

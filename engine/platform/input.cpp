@@ -44,11 +44,11 @@ bool is_finite(glm::dvec2 v) {
 
 }  // namespace
 
-glm::vec2 radial_dead_zone(glm::vec2 stick, float zone) {
+glm::vec2 radial_dead_zone(glm::vec2 stick) {
     const float length = glm::length(stick);
     // The negation also catches NaN.
-    if (!(length > zone) || !std::isfinite(length)) return glm::vec2(0.0F);
-    const float rescaled = std::min((length - zone) / (1.0F - zone), 1.0F);
+    if (!(length > kStickDeadZone) || !std::isfinite(length)) return glm::vec2(0.0F);
+    const float rescaled = std::min((length - kStickDeadZone) / (1.0F - kStickDeadZone), 1.0F);
     return stick * (rescaled / length);
 }
 
@@ -73,21 +73,6 @@ bool InputState::any_down() const {
 float InputState::key_axis(Key negative, Key positive) const {
     const auto active = [this](Key k) { return key(k).down || key(k).pressed ? 1.0F : 0.0F; };
     return active(positive) - active(negative);
-}
-
-float InputState::gamepad_axis(GamepadAxis axis) const {
-    switch (axis) {
-        case GamepadAxis::LeftX:
-            return left_stick().x;
-        case GamepadAxis::LeftY:
-            return left_stick().y;
-        case GamepadAxis::RightX:
-            return right_stick().x;
-        case GamepadAxis::RightY:
-            return right_stick().y;
-        default:
-            return std::max(radial_dead_zone({raw_axis(axis), 0.0F}).x, 0.0F);
-    }
 }
 
 glm::vec2 InputState::left_stick() const {
@@ -224,6 +209,14 @@ std::optional<Key> key_of_glfw(int glfw) {
     for (int i = 0; i < index(Key::Count); ++i)
         if (glfw_of(static_cast<Key>(i)) == glfw) return static_cast<Key>(i);
     return std::nullopt;
+}
+
+std::optional<MouseButton> mouse_button_of_glfw(int glfw) {
+    static_assert(static_cast<int>(MouseButton::Left) == GLFW_MOUSE_BUTTON_LEFT);
+    static_assert(static_cast<int>(MouseButton::Right) == GLFW_MOUSE_BUTTON_RIGHT);
+    static_assert(static_cast<int>(MouseButton::Middle) == GLFW_MOUSE_BUTTON_MIDDLE);
+    if (glfw < GLFW_MOUSE_BUTTON_LEFT || glfw > GLFW_MOUSE_BUTTON_MIDDLE) return std::nullopt;
+    return static_cast<MouseButton>(glfw);
 }
 
 }  // namespace rowland::platform

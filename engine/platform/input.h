@@ -80,10 +80,10 @@ using InputEvent = std::variant<KeyEvent, MouseButtonEvent, MouseMoveEvent, Scro
 /// Fraction of a stick's travel that reads as centred; released worn sticks may stop anywhere inside it.
 constexpr float kStickDeadZone = 0.15F;
 
-/// Removes the dead zone of `stick` (each axis -1 to 1): 0 up to length `zone` (0 <= zone < 1), then growing to length
-/// 1 at full travel, in the same direction. Radial, so that a stick does not snap to the axes. A stick that is not
-/// finite gives 0.
-glm::vec2 radial_dead_zone(glm::vec2 stick, float zone = kStickDeadZone);
+/// Removes the dead zone of `stick` (each axis -1 to 1): 0 up to length kStickDeadZone, then growing to length 1 at
+/// full travel, in the same direction. Radial, so that a stick does not snap to the axes. A stick that is not finite
+/// gives 0.
+glm::vec2 radial_dead_zone(glm::vec2 stick);
 
 /// A button of any device during one frame. Pressed and released within one frame is both, and not down at its end.
 struct ButtonState {
@@ -126,9 +126,7 @@ class InputState {
     const std::u32string& typed() const { return typed_; }
 
     bool focused() const { return focused_; }
-    bool gamepad_connected() const { return gamepad_.connected; }
-    /// Without its dead zone: the sticks' is radial, the triggers' is along their one axis.
-    float gamepad_axis(GamepadAxis axis) const;
+    /// Without their dead zones.
     glm::vec2 left_stick() const;
     glm::vec2 right_stick() const;
 
@@ -161,7 +159,8 @@ class InputState {
 std::string name_of(Key key);
 std::optional<Key> key_named(std::string_view name);
 
-/// The key of a GLFW number; nullopt for one that Key does not have.
+/// The key or the button of a GLFW number; nullopt for one that the enumeration does not have.
 std::optional<Key> key_of_glfw(int glfw);
+std::optional<MouseButton> mouse_button_of_glfw(int glfw);
 
 }  // namespace rowland::platform

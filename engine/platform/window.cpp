@@ -7,13 +7,16 @@
 #include <cstdint>
 #include <cstdlib>
 #include <glm/common.hpp>
+#include <memory>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "engine/gpu/pipeline_state.h"
 #include "engine/platform/gl_context.h"
-#include "engine/platform/glfw.h"
 
 namespace rowland::platform {
 
@@ -41,6 +44,112 @@ std::size_t monitor_showing(const ScreenArea& window, std::span<const ScreenArea
 }
 
 namespace {
+
+/// Returns and clears GLFW's last error; empty if there was none.
+std::string take_glfw_error() {
+    const char* description = nullptr;
+    const bool failed = glfwGetError(&description) != GLFW_NO_ERROR;
+    return failed && description != nullptr ? description : "";
+}
+
+}  // namespace
+
+/// GLFW is initialised while someone holds this. Main thread only.
+class GlfwLibrary {
+ public:
+    /// Initialises GLFW if nobody holds it; null if that fails, with GLFW's reason in `reason`.
+    static std::shared_ptr<GlfwLibrary> acquire(std::string& reason) {
+        // GLFW is one per process and so is the count of its holders.
+        static std::weak_ptr<GlfwLibrary> running;
+        if (auto held = running.lock()) return held;
+        if (glfwInit() != GLFW_TRUE) {
+            reason = take_glfw_error();
+            return nullptr;
+        }
+        std::shared_ptr<GlfwLibrary> library(new GlfwLibrary);
+        running = library;
+        return library;
+    }
+    ~GlfwLibrary() { glfwTerminate(); }
+    GlfwLibrary(const GlfwLibrary&) = delete;
+    GlfwLibrary& operator=(const GlfwLibrary&) = delete;
+
+ private:
+    GlfwLibrary() = default;
+};
+
+/// What happened in a window since the last poll.
+struct WindowEvents {
+    std::vector<InputEvent> input;
+    std::vector<std::vector<std::filesystem::path>> drops;  ///< the files of each drop
+    bool exposed = false;                                   ///< the window's content is lost
+};
+
+namespace {
+
+// Both enumerations list the pad's buttons in the same order.
+static_assert(static_cast<int>(GamepadButton::North) == GLFW_GAMEPAD_BUTTON_Y);
+static_assert(static_cast<int>(GamepadButton::Left) == GLFW_GAMEPAD_BUTTON_LAST);
+static_assert(static_cast<int>(GamepadButton::Count) == GLFW_GAMEPAD_BUTTON_LAST + 1);
+
+WindowEvents& events_of(GLFWwindow* window) {
+    return *static_cast<WindowEvents*>(glfwGetWindowUserPointer(window));
+}
+
+void on_key(GLFWwindow* window, int key, int /*scancode*/, int action, int /*mods*/) {
+    // Repeats are for typed text.
+    const std::optional<Key> known = key_of_glfw(key);
+    if (known && action != GLFW_REPEAT) events_of(window).input.push_back(KeyEvent{*known, action == GLFW_PRESS});
+}
+
+void on_mouse_button(GLFWwindow* window, int button, int action, int /*mods*/) {
+    const std::optional<MouseButton> known = mouse_button_of_glfw(button);
+    if (known) events_of(window).input.push_back(MouseButtonEvent{*known, action == GLFW_PRESS});
+}
+
+void on_drop(GLFWwindow* window, int count, const char** paths) {
+    std::vector<std::filesystem::path>& files = events_of(window).drops.emplace_back();
+    // GLFW's paths are UTF-8 on every system.
+    for (int i = 0; i < count; ++i) files.emplace_back(reinterpret_cast<const char8_t*>(paths[i]));
+}
+
+/// Appends what happens in `window` to `events`, which becomes the window's user pointer and must outlive the window.
+void collect_events(GLFWwindow* window, WindowEvents& events) {
+    glfwSetWindowUserPointer(window, &events);
+    glfwSetKeyCallback(window, on_key);
+    glfwSetCharCallback(window, [](GLFWwindow* w, unsigned codepoint) {
+        events_of(w).input.push_back(CharEvent{static_cast<char32_t>(codepoint)});
+    });
+    glfwSetMouseButtonCallback(window, on_mouse_button);
+    glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
+        events_of(w).input.push_back(MouseMoveEvent{{x, y}});
+    });
+    glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
+        events_of(w).input.push_back(ScrollEvent{{x, y}});
+    });
+    glfwSetWindowFocusCallback(
+        window, [](GLFWwindow* w, int focused) { events_of(w).input.push_back(FocusEvent{focused == GLFW_TRUE}); });
+    glfwSetDropCallback(window, on_drop);
+    glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { events_of(w).exposed = true; });
+}
+
+/// The first game pad whose layout GLFW knows; not connected if there is none.
+GamepadEvent read_gamepad() {
+    GLFWgamepadstate state{};
+    int joystick = GLFW_JOYSTICK_1;
+    while (joystick <= GLFW_JOYSTICK_LAST && glfwGetGamepadState(joystick, &state) != GLFW_TRUE) ++joystick;
+    if (joystick > GLFW_JOYSTICK_LAST) return {};
+
+    GamepadEvent event{.connected = true, .axes = {}, .buttons = {}};
+    // GLFW's sticks grow downwards and its triggers go from -1.
+    const auto stick = [&](int axis) { return state.axes[axis]; };
+    const auto trigger = [&](int axis) { return 0.5F * (state.axes[axis] + 1.0F); };
+    event.axes = {stick(GLFW_GAMEPAD_AXIS_LEFT_X),         -stick(GLFW_GAMEPAD_AXIS_LEFT_Y),
+                  stick(GLFW_GAMEPAD_AXIS_RIGHT_X),        -stick(GLFW_GAMEPAD_AXIS_RIGHT_Y),
+                  trigger(GLFW_GAMEPAD_AXIS_LEFT_TRIGGER), trigger(GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER)};
+    for (std::size_t i = 0; i < event.buttons.size(); ++i) event.buttons[i] = state.buttons[i] == GLFW_PRESS;
+    return event;
+}
 
 [[noreturn]] void fail(const std::string& doing, const std::string& reason, std::string expected, std::string remedy) {
     throw Error({.file = "window",
@@ -145,7 +254,8 @@ Window::Window(const WindowOptions& options) : state_(std::make_unique<State>())
     const std::string gpu = choose_gpu_of_windows(options.gpu);
     state_->handle = open(options);
     collect_events(state_->handle, state_->events);
-    set_vsync(options.vsync);
+    make_current();
+    glfwSwapInterval(options.vsync ? 1 : 0);
     require_gpu_of_window(gpu);
 }
 
@@ -158,11 +268,6 @@ void Window::make_current() {
 
 void Window::swap() {
     glfwSwapBuffers(state_->handle);
-}
-
-void Window::set_vsync(bool on) {
-    make_current();
-    glfwSwapInterval(on ? 1 : 0);
 }
 
 std::vector<InputEvent> Window::poll_events() {

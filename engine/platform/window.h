@@ -64,8 +64,6 @@ class Window {
     void make_current();
     /// Shows what was drawn; waits for the display if vsync is on.
     void swap();
-    /// Makes this window's context current.
-    void set_vsync(bool on);
 
     /// The input since the last poll, in order. Passes dropped files to the drop handler first, and what that throws to
     /// the caller.

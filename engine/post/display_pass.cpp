@@ -6,11 +6,11 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <utility>
 
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 
-namespace OCIO = OCIO_NAMESPACE;
 namespace OCIO = OCIO_NAMESPACE;
 
 namespace rowland::post {
@@ -108,7 +108,7 @@ gpu::Sampling sampling_of(OCIO::Interpolation interpolation) {
     return {.filter = nearest ? gpu::Filter::Nearest : gpu::Filter::Linear};
 }
 
-gpu::Texture volume_lut(const OCIO::GpuShaderDescRcPtr& shader, unsigned index, std::string& sampler) {
+DisplayPass::Lut volume_lut(const OCIO::GpuShaderDescRcPtr& shader, unsigned index) {
     const char* texture_name = nullptr;
     const char* sampler_name = nullptr;
     unsigned edge = 0;
@@ -116,17 +116,16 @@ gpu::Texture volume_lut(const OCIO::GpuShaderDescRcPtr& shader, unsigned index, 
     shader->get3DTexture(index, texture_name, sampler_name, edge, interpolation);
     const float* values = nullptr;
     shader->get3DTextureValues(index, values);
-    sampler = sampler_name;
     const int size = static_cast<int>(edge);
     gpu::Texture texture(
         {.kind = gpu::TextureKind::Volume, .format = gpu::Format::RGB32F, .width = size, .height = size, .depth = size},
         sampling_of(interpolation));
     texture.upload(std::span<const float>(values, std::size_t{3} * edge * edge * edge), {.layers = size});
-    return texture;
+    return {sampler_name, std::move(texture)};
 }
 
 /// A one-dimensional table; OpenColorIO folds one that is too long for a texture line into rows.
-gpu::Texture line_lut(const OCIO::GpuShaderDescRcPtr& shader, unsigned index, std::string& sampler) {
+DisplayPass::Lut line_lut(const OCIO::GpuShaderDescRcPtr& shader, unsigned index) {
     const char* texture_name = nullptr;
     const char* sampler_name = nullptr;
     unsigned width = 0;
@@ -136,7 +135,6 @@ gpu::Texture line_lut(const OCIO::GpuShaderDescRcPtr& shader, unsigned index, st
     shader->getTexture(index, texture_name, sampler_name, width, height, channel, interpolation);
     const float* values = nullptr;
     shader->getTextureValues(index, values);
-    sampler = sampler_name;
     const bool is_red = channel == OCIO::GpuShaderDesc::TEXTURE_RED_CHANNEL;
     gpu::Texture texture({.kind = height > 1 ? gpu::TextureKind::Plane : gpu::TextureKind::Line,
                           .format = is_red ? gpu::Format::R32F : gpu::Format::RGB32F,
@@ -144,7 +142,7 @@ gpu::Texture line_lut(const OCIO::GpuShaderDescRcPtr& shader, unsigned index, st
                           .height = static_cast<int>(height)},
                          sampling_of(interpolation));
     texture.upload(std::span<const float>(values, std::size_t{is_red ? 1U : 3U} * width * height));
-    return texture;
+    return {sampler_name, std::move(texture)};
 }
 
 }  // namespace
@@ -181,23 +179,14 @@ void DisplayPass::build(const gpu::ShaderLibrary& library, const std::string& so
     fragment.text += gpu::line_directive(fragment.files.size(), 1) + shader_->getShaderText();
     fragment.files.push_back(source);
     program_ = gpu::Program(library.assemble(gpu::full_screen_vertex_shader), fragment);
-    ++program_builds_;
     upload_luts();
 }
 
 void DisplayPass::upload_luts() {
     luts_.clear();
-    for (unsigned i = 0; i < shader_->getNum3DTextures(); ++i) {
-        Lut& lut = luts_.emplace_back();
-        lut.texture = volume_lut(shader_, i, lut.sampler);
-    }
-    for (unsigned i = 0; i < shader_->getNumTextures(); ++i) {
-        Lut& lut = luts_.emplace_back();
-        lut.texture = line_lut(shader_, i, lut.sampler);
-    }
-    for (std::size_t i = 0; i < luts_.size(); ++i) {
-        program_.set(luts_[i].sampler, static_cast<int>(first_lut_unit + i));
-    }
+    for (unsigned i = 0; i < shader_->getNum3DTextures(); ++i) luts_.push_back(volume_lut(shader_, i));
+    for (unsigned i = 0; i < shader_->getNumTextures(); ++i) luts_.push_back(line_lut(shader_, i));
+    for (std::size_t i = 0; i < luts_.size(); ++i) program_.set(luts_[i].sampler, static_cast<int>(first_lut_unit + i));
 }
 
 void DisplayPass::set_uniforms() const {

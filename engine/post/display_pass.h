@@ -88,14 +88,13 @@ class DisplayPass {
     /// target must not be larger than the source.
     void draw(const gpu::Texture& source, float exposure_stops, const gpu::Framebuffer& target) const;
 
-    /// How often a program was compiled so far.
-    int program_builds() const { return program_builds_; }
-
- private:
+    /// A table of the transform's code.
     struct Lut {
         std::string sampler;
         gpu::Texture texture;
     };
+
+ private:
     void build(const gpu::ShaderLibrary& library, const std::string& source);
     void upload_luts();
     void set_uniforms() const;
@@ -105,7 +104,6 @@ class DisplayPass {
     OCIO_NAMESPACE::GpuShaderDescRcPtr shader_;
     std::vector<Lut> luts_;
     std::string cache_id_;
-    int program_builds_ = 0;
 };
 
 }  // namespace rowland::post

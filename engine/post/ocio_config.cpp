@@ -20,7 +20,6 @@
 #include "engine/post/computed_views.h"
 
 namespace OCIO = OCIO_NAMESPACE;
-namespace OCIO = OCIO_NAMESPACE;
 
 namespace rowland::post {
 

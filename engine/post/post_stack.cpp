@@ -42,9 +42,7 @@ const gpu::Texture& PostStack::with_glare(const gpu::Texture& picture, const Pos
 }
 
 const gpu::Texture& PostStack::with_bloom(const gpu::Texture& picture, const PostSettings& settings) {
-    if (!settings.bloom) return picture;
-    require_valid(*settings.bloom);
-    if (settings.bloom->strength == 0.0F) return picture;
+    if (!settings.bloom || settings.bloom->strength == 0.0F) return picture;
     const gpu::PassTimes::Scope scope(times_, "bloom");
     const gpu::Framebuffer& bloomed = sized(bloomed_, picture.size(), picture.desc().format);
     BloomPass& pass = made(bloom_, *library_);
@@ -80,9 +78,7 @@ float PostStack::automatic_stops(const gpu::Texture& picture, const PostSettings
 }
 
 const gpu::Texture& PostStack::with_vignette(const gpu::Texture& picture, const PostSettings& settings) {
-    if (!settings.vignette) return picture;
-    require_valid(*settings.vignette);
-    if (!has_effect(*settings.vignette)) return picture;
+    if (!settings.vignette || !has_effect(*settings.vignette)) return picture;
     const gpu::PassTimes::Scope scope(times_, "vignette");
     const gpu::Framebuffer& vignetted = sized(vignetted_, picture.size(), picture.desc().format);
     made(vignette_, *library_).draw(picture, *settings.vignette, vignetted);

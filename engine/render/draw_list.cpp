@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/matrix.hpp>
+#include <utility>
 
 #include "engine/core/check.h"
 #include "engine/render/scene_lights.h"
@@ -77,7 +77,7 @@ ObjectBlock object_block(const Draw& draw, const glm::mat3& rec709_to_working) {
                                material.clear_coat_roughness);
     block.map_strength = glm::vec4(material.normal_scale, material.occlusion_strength, draw.mirrored ? -1.0F : 1.0F,
                                    static_cast<float>(draw.first_joint));
-    if ((draw.features & feature::kTextureTransform) == 0) return block;
+    if ((draw.features & feature::kTextureTransformExtension) == 0) return block;
     for (std::size_t i = 0; i < kSurfaceMaps.size(); ++i) {
         const UvTransform uv = uv_transform((material.*kSurfaceMaps[i].texture).transform);
         block.uv_linear[i] = uv.linear;
@@ -87,15 +87,7 @@ ObjectBlock object_block(const Draw& draw, const glm::mat3& rec709_to_working) {
 }
 
 void sort_opaque(std::vector<const Draw*>& draws) {
-    std::stable_sort(draws.begin(), draws.end(), [](const Draw* a, const Draw* b) {
-        if (a->program != b->program) return std::less<>()(a->program, b->program);
-        return a->distance2 < b->distance2;
-    });
-}
-
-void sort_blended(std::vector<const Draw*>& draws) {
-    std::stable_sort(draws.begin(), draws.end(),
-                     [](const Draw* a, const Draw* b) { return a->distance2 > b->distance2; });
+    std::ranges::stable_sort(draws, {}, [](const Draw* draw) { return std::pair(draw->program, draw->distance2); });
 }
 
 namespace {

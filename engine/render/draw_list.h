@@ -72,8 +72,6 @@ ObjectBlock object_block(const Draw& draw, const glm::mat3& rec709_to_working);
 
 /// By program, and from front to back within one: few changes of state, little overdraw.
 void sort_opaque(std::vector<const Draw*>& draws);
-/// From back to front.
-void sort_blended(std::vector<const Draw*>& draws);
 
 /// The fixed-function state that draws a surface into a target of this size; none if no pixel may change.
 std::optional<gpu::PipelineState> state_of(const Draw& draw, glm::ivec2 size);

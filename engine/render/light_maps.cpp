@@ -48,6 +48,7 @@ constexpr int kIrradianceFace = 64;
 
 std::vector<glm::vec3> irradiance_texels(std::span<const lighting::KeyLight> keys, const glm::dmat3& to_working) {
     const lighting::CubeLayout layout{.face_size = kIrradianceFace, .levels = 1};
+    const lighting::LobeIrradiance irradiance(keys);
     std::vector<glm::vec3> texels(layout.offset(1));
     parallel_for(std::size_t{6} * kIrradianceFace, [&](std::size_t line) {
         const int face = static_cast<int>(line) / kIrradianceFace;
@@ -55,9 +56,7 @@ std::vector<glm::vec3> irradiance_texels(std::span<const lighting::KeyLight> key
         for (int column = 0; column < kIrradianceFace; ++column) {
             const glm::dvec3 normal = glm::normalize(lighting::cube_direction(
                 face, (2.0 * column + 1.0) / kIrradianceFace - 1.0, (2.0 * row + 1.0) / kIrradianceFace - 1.0));
-            glm::dvec3 sum(0.0);
-            for (const lighting::KeyLight& key : keys) sum += lighting::irradiance(key, normal);
-            texels[layout.index(0, face, column, row)] = glm::vec3(to_working * sum);
+            texels[layout.index(0, face, column, row)] = glm::vec3(to_working * irradiance(normal));
         }
     });
     return texels;
@@ -162,7 +161,7 @@ std::vector<glm::vec2> bake_brdf_table(int size) {
 gpu::Texture brdf_texture() {
     constexpr int kSize = 64;
     gpu::Texture texture({.format = gpu::Format::RG16F, .width = kSize, .height = kSize});
-    const std::vector<glm::vec2> table = bake_brdf_table(kSize);
+    static const std::vector<glm::vec2> table = bake_brdf_table(kSize);
     texture.upload(std::span<const float>(&table[0].x, 2 * table.size()));
     return texture;
 }

@@ -15,7 +15,7 @@ namespace {
 /// The name of the nearest named node at or above an entity; a number where there is none.
 std::string entity_name(ecs::World& world, ecs::Entity entity) {
     for (const ecs::Entity* at = &entity; at != nullptr && world.alive(*at);) {
-        const auto* label = world.find<scene::NodeLabel>(*at);
+        const auto* label = world.find<scene::NodeMetadata>(*at);
         if (label != nullptr && !label->name.empty()) return fmt::format("entity \"{}\"", label->name);
         const auto* parent = world.find<scene::Parent>(*at);
         at = parent != nullptr ? &parent->entity : nullptr;

@@ -87,8 +87,9 @@ struct MaterialExtension {
     const std::vector<std::byte>& tables(const std::string& extension) const;
 };
 
-/// A kind of surface that a module adds to the engine: see engine/MODULES.md. Its shaders include the engine's surface.glsl, environment.glsl and shading.glsl (fragment stage) or vertex.glsl (vertex stage). Texture
-/// units 8 to 14 and buffer bindings from 4 on are its own.
+/// A kind of surface that a module adds to the engine: see engine/MODULES.md. Its shaders include the engine's
+/// surface.glsl, environment.glsl and shading.glsl (fragment stage) or vertex.glsl (vertex stage). Texture units 8 to
+/// 14 and buffer bindings from 4 on are its own.
 class MaterialType {
  public:
     virtual ~MaterialType() = default;

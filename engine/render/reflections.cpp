@@ -15,11 +15,11 @@
 #include <utility>
 #include <vector>
 
+#include "engine/lighting/environment_map.h"
 #include "engine/math/spherical_harmonics.h"
 #include "engine/render/draw_list.h"
 #include "engine/render/material.h"
 #include "engine/render/renderer.h"
-#include "engine/render/renderer_frame.h"
 #include "engine/render/scene_lights.h"
 #include "engine/render/shader_interface.h"
 #include "engine/render/shaders/scene_blocks.h"
@@ -38,7 +38,7 @@ glm::vec3 ambient_radiance(const PlaneLight& light, const glm::dvec3& normal) {
     math::evaluate_sh(normal, 3, basis);
     glm::dvec3 sum(0.0);
     for (std::size_t i = 0; i < basis.size(); ++i) sum += basis[i] * light.ambient.coefficients[i];
-    for (const lighting::KeyLight& key : light.keys) sum += lighting::irradiance(key, normal) / std::numbers::pi;
+    sum += lighting::LobeIrradiance(light.keys)(normal) / std::numbers::pi;
     return glm::max(light.rec709_to_working * glm::vec3(sum), 0.0F);
 }
 
@@ -127,18 +127,6 @@ namespace {
 
 constexpr float kQuarterTurn = std::numbers::pi_v<float> / 2.0F;
 
-struct CubeFace {
-    glm::vec3 forward;
-    glm::vec3 up;
-};
-// A face's first row of texels is the lowest of a picture that is taken this way up.
-constexpr std::array<CubeFace, ObjectReflection::kFaces> kCubeFaces = {{{{1.0F, 0.0F, 0.0F}, {0.0F, -1.0F, 0.0F}},
-                                                                        {{-1.0F, 0.0F, 0.0F}, {0.0F, -1.0F, 0.0F}},
-                                                                        {{0.0F, 1.0F, 0.0F}, {0.0F, 0.0F, 1.0F}},
-                                                                        {{0.0F, -1.0F, 0.0F}, {0.0F, 0.0F, -1.0F}},
-                                                                        {{0.0F, 0.0F, 1.0F}, {0.0F, -1.0F, 0.0F}},
-                                                                        {{0.0F, 0.0F, -1.0F}, {0.0F, -1.0F, 0.0F}}}};
-
 gpu::Texture empty_cube(gpu::Format format, int face_size, int levels, gpu::Filter filter) {
     gpu::Texture cube({.kind = gpu::TextureKind::CubeMap,
                        .format = format,
@@ -164,10 +152,12 @@ ObjectReflection::ObjectReflection(int face_size)
 }
 
 scene::Camera ObjectReflection::camera(int face) const {
-    const CubeFace& axes = kCubeFaces.at(static_cast<std::size_t>(face));
+    const glm::vec3 forward(lighting::cube_direction(face, 0.0, 0.0));
+    // A face's first row of texels is the lowest of a picture that is taken with its rows upward.
+    const glm::vec3 upward = glm::vec3(lighting::cube_direction(face, 0.0, 1.0)) - forward;
     return {.eye = centre,
-            .target = centre + axes.forward,
-            .up = axes.up,
+            .target = centre + forward,
+            .up = upward,
             .vertical_field_of_view = kQuarterTurn,
             .near_plane = 0.002F};
 }

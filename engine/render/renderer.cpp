@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <span>
 #include <utility>
@@ -12,10 +13,6 @@
 #include "engine/core/log.h"
 #include "engine/gpu/pipeline_state.h"
 #include "engine/lighting/key_lights.h"
-#include "engine/render/draw_list.h"
-#include "engine/render/light_maps.h"
-#include "engine/render/renderer_frame.h"
-#include "engine/render/scene_lights.h"
 #include "engine/render/shader_interface.h"
 
 namespace rowland::render {
@@ -212,7 +209,7 @@ void Renderer::select_draws(ecs::World& world, Frame& frame) {
         (blends ? frame.blended : frame.opaque).push_back(&draw);
     }
     sort_opaque(frame.opaque);
-    sort_blended(frame.blended);
+    std::ranges::stable_sort(frame.blended, std::greater<>(), &Draw::distance2);  // from back to front
 }
 
 void Renderer::select_casters(Frame& frame) {

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <map>
 #include <memory>
 #include <optional>
@@ -87,7 +90,25 @@ class Renderer {
     const gpu::ShaderLibrary& shaders() const { return programs_.library(); }
 
  private:
-    struct Frame;
+    /// The state of one call of render().
+    struct Frame {
+        const scene::Camera* camera = nullptr;
+        glm::ivec2 size{1};
+        float aspect = 1.0F;
+        bool into_halves = false;  ///< the target holds half floats
+        Shading shading = Shading::Full;
+        bool occlusion = false;
+        glm::mat4 view_projection{1.0F};
+        DrawList list;
+        std::vector<Draw*> used;  ///< those that need an ObjectBlock
+        std::vector<const Draw*> opaque;
+        std::vector<const Draw*> blended;
+        std::vector<const Draw*> casters;
+        ShadowView shadow;
+        std::size_t light_offset = 0;   ///< of the LightBlock in frame_data_, bytes
+        std::size_t joints_offset = 0;  ///< of the joint matrices
+        float farthest = 0.0F;          ///< extent of the drawn entities along the camera's axis
+    };
 
     SurfaceFeatures light_features(const Frame& frame) const;
     void update_light(ecs::World& world);
@@ -133,7 +154,7 @@ class Renderer {
     std::optional<LocalReflection> reflection_;
     std::optional<ObjectReflections> object_reflections_;
 
-    bool probe_changed_ = false;  ///< or whether its key lights are apart
+    bool probe_changed_ = false;  ///< the probe, or whether its key lights are analytic lights
     FrameLight light_;
     lighting::AmbientLight ambient_;  ///< of the probe without its analytic key lights
     SceneLights lights_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 #include <set>
 #include <utility>
 #include <variant>
@@ -37,7 +38,7 @@ class Builder {
             const ecs::Entity entity = world_.create();
             instance_.nodes.push_back(entity);
             world_.add(entity, scene::Transform(node.local));
-            world_.add(entity, scene::NodeLabel{node.name, node.extras});
+            world_.add(entity, scene::NodeMetadata{node.name, node.extras});
             if (!node.parent) continue;
             ROWLAND_CHECK_OP(*node.parent, <, instance_.nodes.size() - 1);
             world_.add(entity, scene::Parent{instance_.nodes[*node.parent]});
@@ -102,16 +103,16 @@ class Builder {
             for (const auto& type : renderer_.material_types())
                 if (type->gltf_extension() == name)
                     type->attach(world_, entity, {object, material, file_, pointer + "/" + name}, textures_);
-        warn_of_extensions_alone(material, pointer);
+        warn_unaccompanied_extensions(material, pointer);
         owner_of(world_, entity, renderer_.material_types(), file_, pointer);
     }
 
-    /// Once for each extension of the file.
-    void warn_of_extensions_alone(const scene::MaterialDescription& material, const std::string& pointer) {
+    /// Warns, once per extension, of those that only mean something beside their type's gltf_extension().
+    void warn_unaccompanied_extensions(const scene::MaterialDescription& material, const std::string& pointer) {
         for (const auto& type : renderer_.material_types()) {
             if (material.extensions.contains(type->gltf_extension())) continue;
             for (const std::string& name : type->gltf_extensions_beside())
-                if (material.extensions.contains(name) && warned_of_.insert(name).second)
+                if (material.extensions.contains(name) && warned_extensions_.insert(name).second)
                     log_warning("{}: {}/{} is ignored without {}", file_, pointer, name, type->gltf_extension());
         }
     }
@@ -123,7 +124,7 @@ class Builder {
     SceneInstance& instance_;
     SurfaceTextures textures_;
     std::vector<MeshInstance> meshes_;  ///< by index; made when first used
-    std::set<std::string> warned_of_;   ///< extensions
+    std::set<std::string> warned_extensions_;
 };
 
 }  // namespace
@@ -134,14 +135,6 @@ void SceneInstance::animate(ecs::World& world, std::size_t animation, float time
     for (std::size_t i = 0; i < nodes.size(); ++i) pose[i] = world.get<scene::Transform>(nodes[i]);
     scene::pose(animations[animation], time_s, pose);
     for (std::size_t i = 0; i < nodes.size(); ++i) world.get<scene::Transform>(nodes[i]) = pose[i];
-}
-
-std::optional<ecs::Entity> SceneInstance::node_named(ecs::World& world, std::string_view name) const {
-    for (const ecs::Entity node : nodes) {
-        const auto* label = world.find<scene::NodeLabel>(node);
-        if (label != nullptr && label->name == name) return node;
-    }
-    return std::nullopt;
 }
 
 SceneInstance instantiate(ecs::World& world, const scene::ImportedScene& scene, Renderer& renderer,

@@ -1,9 +1,7 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "engine/ecs/world.h"
@@ -14,7 +12,7 @@
 namespace rowland::render {
 
 struct SceneInstance {
-    std::vector<ecs::Entity> nodes;   ///< one per node, in the import's order: Transform, Parent and NodeLabel
+    std::vector<ecs::Entity> nodes;   ///< one per node, in the import's order: Transform, Parent and NodeMetadata
     std::vector<ecs::Entity> drawn;   ///< one per instance of a primitive: MeshInstance and StandardMaterial
     std::vector<ecs::Entity> lights;  ///< one per light
     std::vector<scene::Animation> animations;
@@ -22,9 +20,6 @@ struct SceneInstance {
     /// Sets the nodes' transforms to an animation's at a time. World matrices follow with the next
     /// scene::update_world_matrices().
     void animate(ecs::World& world, std::size_t animation, float time_s) const;
-
-    /// The first node of that name that is alive.
-    std::optional<ecs::Entity> node_named(ecs::World& world, std::string_view name) const;
 };
 
 /// Makes entities of a scene and puts its meshes and textures on the GPU. Primitives and lights are children of their

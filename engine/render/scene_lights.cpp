@@ -186,10 +186,7 @@ ShadowView fit_shadow(const glm::vec3& toward_light, std::span<const scene::Boun
     ROWLAND_CHECK_OP(size, >=, 32);
     const glm::mat3 axes = light_axes(toward_light);
     scene::Bounds cast = transformed(casters.front(), glm::mat4(axes));
-    for (const scene::Bounds& caster : casters.subspan(1)) {
-        const scene::Bounds box = transformed(caster, glm::mat4(axes));
-        cast = {glm::min(cast.minimum, box.minimum), glm::max(cast.maximum, box.maximum)};
-    }
+    for (const scene::Bounds& caster : casters.subspan(1)) cast = around(cast, transformed(caster, glm::mat4(axes)));
     const glm::vec3 centre = axes * seen.centre;
     const scene::Bounds region = shadowed_region(cast, {centre - seen.radius, centre + seen.radius});
 

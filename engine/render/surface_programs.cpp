@@ -12,7 +12,7 @@ namespace {
 constexpr std::array<std::pair<SurfaceFeatures, const char*>, 19> kSwitches = {
     {{feature::kColours, "HAS_COLOURS"},
      {feature::kSkinned, "SKINNED"},
-     {feature::kTextureTransform, "TEXTURE_TRANSFORM"},
+     {feature::kTextureTransformExtension, "TEXTURE_TRANSFORM"},
      {feature::kDoubleSided, "DOUBLE_SIDED"},
      {feature::kAlphaMask, "ALPHA_MASK"},
      {feature::kAlphaBlend, "ALPHA_BLEND"},
@@ -45,7 +45,7 @@ SurfaceFeatures map_features(const StandardMaterial& material) {
         if (!texture) continue;
         features |= map.bit;
         if (texture.uv_set == 1) features |= second_uv(map.bit);
-        if (!is_identity(texture.transform)) features |= feature::kTextureTransform;
+        if (!is_identity(texture.transform)) features |= feature::kTextureTransformExtension;
     }
     return features;
 }
@@ -54,7 +54,7 @@ SurfaceFeatures map_features(const StandardMaterial& material) {
 SurfaceFeatures keep_maps(SurfaceFeatures features, SurfaceFeatures kept) {
     for (const SurfaceMap& map : kSurfaceMaps)
         if ((map.bit & kept) == 0) features &= ~(map.bit | second_uv(map.bit));
-    if ((features & kept) == 0) features &= ~feature::kTextureTransform;
+    if ((features & kept) == 0) features &= ~feature::kTextureTransformExtension;
     return features;
 }
 

@@ -11,6 +11,25 @@
 
 namespace rowland::scene {
 
+namespace {
+
+constexpr glm::vec3 kUp{0.0F, 1.0F, 0.0F};
+
+template <typename Vector>
+Vector finite_or_zero(Vector v) {
+    for (int i = 0; i < v.length(); ++i)
+        if (!std::isfinite(v[i])) return Vector(0);
+    return v;
+}
+
+/// `move` limited to length 1, so that two keys are not faster than one.
+glm::vec3 cut_to_one(glm::vec3 move) {
+    const float length = glm::length(move);
+    return length > 1.0F ? move / length : move;
+}
+
+}  // namespace
+
 glm::mat4 Camera::view() const {
     return glm::lookAt(eye, target, up);
 }
@@ -47,11 +66,8 @@ OrbitCamera::OrbitCamera(const Camera& start, OrbitSettings settings) : settings
     angles_ = angles_of(offset);
     distance_ = std::isfinite(distance) ? std::clamp(distance, settings.minimum_distance, settings.maximum_distance)
                                         : settings.minimum_distance;
-    const glm::vec3& target = lens_.target;
-    if (!std::isfinite(target.x) || !std::isfinite(target.y) || !std::isfinite(target.z)) {
-        lens_.target = glm::vec3(0.0F);
-    }
-    lens_.up = glm::vec3(0.0F, 1.0F, 0.0F);
+    lens_.target = finite_or_zero(lens_.target);
+    lens_.up = kUp;
 }
 
 void OrbitCamera::update(const OrbitInput& input) {
@@ -70,25 +86,6 @@ Camera OrbitCamera::camera() const {
     camera.eye = camera.target + distance_ * direction_of(angles_);
     return camera;
 }
-
-namespace {
-
-constexpr glm::vec3 kUp{0.0F, 1.0F, 0.0F};
-
-template <typename Vector>
-Vector finite_or_zero(Vector v) {
-    for (int i = 0; i < v.length(); ++i)
-        if (!std::isfinite(v[i])) return Vector(0);
-    return v;
-}
-
-/// `move` limited to length 1, so that two keys are not faster than one.
-glm::vec3 cut_to_one(glm::vec3 move) {
-    const float length = glm::length(move);
-    return length > 1.0F ? move / length : move;
-}
-
-}  // namespace
 
 FlyCamera::FlyCamera(const Camera& start, FlySettings settings)
     : settings_(settings), lens_(start), position_(finite_or_zero(start.eye)) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <string_view>
 #include <utility>
 
@@ -24,7 +23,7 @@ namespace fs = std::filesystem;
 /// The file as an outline; also checks the types of all that EditableGltf edits. Throws Error (input).
 GltfOutline read_outline(const nlohmann::json& gltf, const std::string& file) {
     JsonReader root(gltf, file);
-    check_asset(root.object("asset"));
+    check_gltf_version(root.object("asset"));
     GltfOutline outline;
     for (JsonReader& material : root.objects_if_there("materials")) {
         outline.materials.push_back(material.text_or("name", ""));
@@ -78,10 +77,6 @@ void assign_members(OrderedJson& old, const OrderedJson& now) {
     for (const auto& [key, value] : now.items()) assign_members(old[key], value);
 }
 
-bool is_jpeg(std::span<const std::byte> image) {
-    return !image.empty() && image[0] == std::byte{0xFF};
-}
-
 /// A file name without what URIs and file systems treat specially.
 std::string plain_name(const std::string& name) {
     std::string plain;
@@ -92,16 +87,6 @@ std::string plain_name(const std::string& name) {
 
 fs::path folder_of(const fs::path& file) {
     return fs::weakly_canonical(fs::absolute(file).parent_path());
-}
-
-/// Of a file that exists.
-Hash128 hash_of(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::vector<char> buffer(1 << 20);
-    Hasher hasher;
-    while (file.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || file.gcount() > 0)
-        hasher.bytes(std::as_bytes(std::span(buffer.data(), static_cast<std::size_t>(file.gcount()))));
-    return hasher.digest();
 }
 
 }  // namespace
@@ -267,7 +252,7 @@ std::size_t EditableGltf::add_image(std::vector<std::byte> image, const std::str
     // The chunk is the first buffer's, unless that names a file.
     const bool to_binary =
         opened_->is_glb() && (buffers.empty() ? !has_binary() : has_binary() && !buffers[0].contains("uri"));
-    OrderedJson entry{{"name", name}, {"mimeType", is_jpeg(image) ? "image/jpeg" : "image/png"}};
+    OrderedJson entry{{"name", name}, {"mimeType", image::is_jpeg(image) ? "image/jpeg" : "image/png"}};
     if (to_binary)
         entry["bufferView"] = add_to_binary(std::move(image));
     else
@@ -301,7 +286,7 @@ std::size_t EditableGltf::add_to_binary(std::vector<std::byte> image) {
 std::string EditableGltf::add_file(std::vector<std::byte> image, const std::string& name) {
     for (int number = 1;; ++number) {
         const std::string file = fmt::format("{}{}{}", plain_name(name), number > 1 ? fmt::format("_{}", number) : "",
-                                             is_jpeg(image) ? ".jpg" : ".png");
+                                             image::is_jpeg(image) ? ".jpg" : ".png");
         std::error_code none;
         const bool is_taken = std::ranges::find(added_files_, file, &AddedFile::name) != added_files_.end() ||
                               fs::exists(path().parent_path() / file, none);
@@ -339,7 +324,7 @@ std::vector<std::byte> EditableGltf::bytes() const {
 
 bool EditableGltf::changed_on_disk() const {
     std::error_code none;
-    return fs::exists(path(), none) && hash_of(path()) != on_disk_->hash;
+    return fs::exists(path(), none) && hash_file(path()) != on_disk_->hash;
 }
 
 void EditableGltf::require_files_beside(const fs::path& target) const {

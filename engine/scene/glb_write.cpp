@@ -60,17 +60,15 @@ void fill(const Mesh& mesh, draco::Mesh& target) {
     add_attribute(target, draco::GeometryAttribute::TEX_COORD, mesh.uvs);
 }
 
-std::vector<char> encode(const Mesh& mesh, const DracoBits& bits) {
+std::vector<char> encode(const Mesh& mesh) {
     draco::Mesh source;
     fill(mesh, source);
     draco::ExpertEncoder encoder(source);
     encoder.SetEncodingMethod(draco::MESH_SEQUENTIAL_ENCODING);
     constexpr int kSpeed = 5;
     encoder.SetSpeedOptions(kSpeed, kSpeed);
-    encoder.SetAttributeQuantization(DracoIds::kPosition, bits.position);
-    encoder.SetAttributeQuantization(DracoIds::kNormal, bits.normal);
-    encoder.SetAttributeQuantization(DracoIds::kTangent, bits.tangent);
-    encoder.SetAttributeQuantization(DracoIds::kUv, bits.uv);
+    for (const int id : {DracoIds::kPosition, DracoIds::kNormal, DracoIds::kTangent, DracoIds::kUv})
+        encoder.SetAttributeQuantization(id, kDracoBits);
     draco::EncoderBuffer buffer;
     const draco::Status status = encoder.EncodeToBuffer(&buffer);
     if (!status.ok()) fail_draco(fmt::format("encoding failed: {}", status.error_msg_string()));
@@ -146,20 +144,16 @@ gltf::Primitive add_primitive(gltf::Model& model, const Mesh& mesh, const DracoS
 
 }  // namespace
 
-DracoStream encode_draco(const Mesh& mesh, const DracoBits& bits) {
+DracoStream encode_draco(const Mesh& mesh) {
     check_mesh(mesh);
-    for (const int count : {bits.position, bits.normal, bits.tangent, bits.uv}) {
-        ROWLAND_CHECK_OP(count, >=, 2);
-        ROWLAND_CHECK_OP(count, <=, 30);
-    }
     DracoStream stream;
-    stream.bytes = encode(mesh, bits);
+    stream.bytes = encode(mesh);
     stream.bounds = decoded_bounds(stream.bytes, mesh.positions.size());
     return stream;
 }
 
-std::vector<std::byte> write_glb(const Mesh& mesh, const std::string& name, const DracoBits& bits) {
-    const DracoStream stream = encode_draco(mesh, bits);
+std::vector<std::byte> write_glb(const Mesh& mesh, const std::string& name) {
+    const DracoStream stream = encode_draco(mesh);
     gltf::Model model;
     model.asset.generator = "Rowland";
     model.extensionsUsed = model.extensionsRequired = {kDracoExtension};

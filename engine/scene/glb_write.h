@@ -8,16 +8,11 @@
 
 namespace rowland::scene {
 
-/// Quantisation of a written mesh, in bits a component, 2 … 30. Draco stores a component as one of 2^bits steps over
-/// the attribute's largest extent, so its error is half of extent / (2^bits − 1). At 16 bits that is 0.9 µm on a 12 cm
-/// disc and 1.5e-5 a component for tangents, which turns a tangent by at most 2.7e-5 rad. Normals are stored
-/// octahedrally, with an error of at most √18 / (2^bits − 2), 6.5e-5.
-struct DracoBits {
-    int position = 16;
-    int normal = 16;
-    int tangent = 16;
-    int uv = 16;
-};
+/// Quantisation of a written mesh, bits a component. Draco stores a component as one of 2^bits steps over the
+/// attribute's largest extent, so its error is half of extent / (2^bits − 1): 0.9 µm on a 12 cm disc, and 1.5e-5 a
+/// component for tangents, which rotates a tangent by at most 2.7e-5 rad. Normals are stored octahedrally, with an
+/// error of at most √18 / (2^bits − 2), 6.5e-5.
+inline constexpr int kDracoBits = 16;
 
 /// Ids of the attributes in the stream.
 struct DracoIds {
@@ -34,11 +29,11 @@ struct DracoStream {
 
 /// Encodes positions, normals, tangents and uvs sequentially: every vertex and triangle keeps its index. Deterministic.
 /// Throws Error (system) if Draco fails.
-DracoStream encode_draco(const Mesh& mesh, const DracoBits& bits = {});
+DracoStream encode_draco(const Mesh& mesh);
 
 /// A binary glTF 2.0 file of one mesh at one node, both called `name`: positions, normals, tangents and uvs,
 /// Draco-compressed (KHR_draco_mesh_compression is required to read it). The same mesh gives the same bytes. Throws
 /// Error (system) if Draco fails.
-std::vector<std::byte> write_glb(const Mesh& mesh, const std::string& name = "mesh", const DracoBits& bits = {});
+std::vector<std::byte> write_glb(const Mesh& mesh, const std::string& name = "mesh");
 
 }  // namespace rowland::scene

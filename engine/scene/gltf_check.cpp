@@ -25,7 +25,7 @@ using Json = nlohmann::json;
 // Quantised attributes are ordinary accessors to us, so that extension needs nothing more.
 constexpr std::array<std::string_view, 7> kSupportedExtensions = {
     kDracoExtension,       kLightExtension,         "KHR_materials_clearcoat", "KHR_materials_emissive_strength",
-    "KHR_materials_unlit", "KHR_mesh_quantization", kTextureTransform};
+    "KHR_materials_unlit", "KHR_mesh_quantization", kTextureTransformExtension};
 
 /// A member of a glTF object, and what its value must be.
 struct Member {
@@ -150,7 +150,7 @@ constexpr std::array kTexture = {text("name"), index("source", "/images"), index
 
 constexpr std::array kTransform = {numbers("offset", 2, kFiniteFloat), number("rotation", kFiniteFloat),
                                    numbers("scale", 2, kFiniteFloat), integer("texCoord", 0, kMaximumUvSet)};
-constexpr std::array kUseExtensions = {object(kTextureTransform, kTransform)};
+constexpr std::array kUseExtensions = {object(kTextureTransformExtension, kTransform)};
 constexpr std::array kUse = {!index("index", "/textures"), integer("texCoord", 0, kMaximumUvSet),
                              object("extensions", kUseExtensions)};
 constexpr std::array kNormal = {kUse[0], kUse[1], kUse[2], number("scale", kFiniteFloat)};
@@ -443,7 +443,7 @@ void warn_once(std::vector<std::string>& warnings, std::string text) {
     if (std::ranges::find(warnings, text) == warnings.end()) warnings.push_back(std::move(text));
 }
 
-void check_asset(JsonReader asset) {
+void check_gltf_version(JsonReader asset) {
     const auto check = [&](const std::string& key, unsigned most_minor, const std::string& expected) {
         const std::string text = asset.text(key);
         const std::optional<Version> version = parse_version(text);
@@ -458,7 +458,7 @@ nlohmann::json check_gltf(const nlohmann::json& root, const std::string& file,
                           std::span<const std::string> handled_extensions, MemoryBudget& budget,
                           std::vector<std::string>& warnings) {
     JsonReader reader(root, file);
-    check_asset(reader.object("asset"));
+    check_gltf_version(reader.object("asset"));
     check_extensions(reader, handled_extensions, warnings);
     Json checked = Check(root, file, budget).object(reader, root, kRoot, root);
     check_relations(checked, file, warnings);

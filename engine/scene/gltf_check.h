@@ -12,19 +12,19 @@ namespace rowland::scene {
 
 inline constexpr const char* kDracoExtension = "KHR_draco_mesh_compression";
 inline constexpr const char* kLightExtension = "KHR_lights_punctual";
-inline constexpr const char* kTextureTransform = "KHR_texture_transform";
+inline constexpr const char* kTextureTransformExtension = "KHR_texture_transform";
 
 /// Adds `text` unless it is already there.
 void warn_once(std::vector<std::string>& warnings, std::string text);
 
-/// Refuses a version that is not 2.x and a minVersion that is not 2.0 (glTF 2.0, 3.2). Throws Error (input).
-void check_asset(JsonReader asset);
+/// Throws Error (input) unless the version is 2.x and minVersion, if any, is 2.0 (glTF 2.0 specification, §3.2).
+void check_gltf_version(JsonReader asset);
 
-/// Checks a glTF's JSON: every member that we read has the right type and range, every index names an element, required
-/// extensions are supported or among `handled_extensions`. This precedes tinygltf's parse, which drops elements with
-/// members of a wrong type and truncates large integers. Returns the members that we read and no others; the memory
-/// that tinygltf's structures for them take is spent from `budget`. Ignored extensions are added to the warnings.
-/// Throws Error (input) with the JSON pointer.
+/// Verifies a glTF's JSON: every member that we read has the right type and range, every index refers to an existing
+/// element, required extensions are supported or among `handled_extensions`. Call it before tinygltf, which silently
+/// drops elements with members of a wrong type and truncates large integers. Returns the members that we read and no
+/// others, and charges the memory of tinygltf's structures for them to `budget`. Ignored extensions are added to the
+/// warnings. Throws Error (input) with the JSON pointer.
 nlohmann::json check_gltf(const nlohmann::json& root, const std::string& file,
                           std::span<const std::string> handled_extensions, MemoryBudget& budget,
                           std::vector<std::string>& warnings);

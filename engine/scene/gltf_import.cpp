@@ -115,8 +115,10 @@ class InstanceImport {
     std::vector<std::size_t> joint_counts_;          ///< of each imported mesh
 };
 
-ImportedScene import_source(const GltfSource& source, std::span<const std::string> handled_extensions,
-                            std::vector<std::filesystem::path>* read_files) {
+}  // namespace
+
+ImportedScene import_gltf(const GltfSource& source, std::span<const std::string> handled_extensions,
+                          std::vector<std::filesystem::path>* read_files) {
     ImportedScene scene;
     MemoryBudget budget(source.file);
     const GltfDocument document = parse_gltf(source, handled_extensions, budget, read_files, scene.warnings);
@@ -133,19 +135,16 @@ ImportedScene import_source(const GltfSource& source, std::span<const std::strin
     return scene;
 }
 
-}  // namespace
-
 ImportedScene load_gltf(const std::filesystem::path& path, std::span<const std::string> handled_extensions,
                         std::vector<std::filesystem::path>* read_files) {
     if (read_files) read_files->push_back(path);
     std::vector<std::byte> bytes = read_file(path, MemoryBudget::kDefaultLimit);
-    return import_source(split_gltf(std::move(bytes), path.string(), path.parent_path()), handled_extensions,
-                         read_files);
+    return import_gltf(split_gltf(std::move(bytes), path.string(), path.parent_path()), handled_extensions, read_files);
 }
 
 ImportedScene load_glb(std::span<const std::byte> bytes, const std::string& file,
                        std::span<const std::string> handled_extensions) {
-    return import_source(split_gltf({bytes.begin(), bytes.end()}, file, std::nullopt), handled_extensions, nullptr);
+    return import_gltf(split_gltf({bytes.begin(), bytes.end()}, file, std::nullopt), handled_extensions, nullptr);
 }
 
 void require_texture(const ImportedScene& scene, std::size_t index, const std::string& file,

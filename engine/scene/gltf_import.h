@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/scene/gltf_source.h"
 #include "engine/scene/imported_scene.h"
 
 namespace rowland::scene {
@@ -17,6 +18,9 @@ namespace rowland::scene {
 ImportedScene load_gltf(const std::filesystem::path& path, std::span<const std::string> handled_extensions = {},
                         std::vector<std::filesystem::path>* read_files = nullptr);
 
+/// The same for a file that was split.
+ImportedScene import_gltf(const GltfSource& source, std::span<const std::string> handled_extensions,
+                          std::vector<std::filesystem::path>* read_files);
 /// The same for the bytes of a self-contained file; `file` is its name for messages.
 ImportedScene load_glb(std::span<const std::byte> bytes, const std::string& file,
                        std::span<const std::string> handled_extensions = {});

@@ -42,7 +42,7 @@ std::optional<TextureUse> texture_use(const gltf::Model& model, const Info& info
     TextureUse use;
     use.texture = static_cast<std::size_t>(info.index);
     use.uv_set = info.texCoord;
-    if (const auto found = info.extensions.find(kTextureTransform); found != info.extensions.end()) {
+    if (const auto found = info.extensions.find(kTextureTransformExtension); found != info.extensions.end()) {
         const gltf::Value& transform = found->second;
         use.transform = {.offset = vec2_or(transform, "offset", glm::vec2(0.0F)),
                          .rotation = static_cast<float>(number_or(transform, "rotation", 0.0)),

@@ -1,4 +1,4 @@
-#include "engine/scene/gltf_model.h"
+// A glTF file, parsed and checked, and the values of its accessors.
 
 #include <fmt/format.h>
 
@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "engine/core/error.h"
+#include "engine/scene/gltf_parts.h"
 
 namespace rowland::scene {
 

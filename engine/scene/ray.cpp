@@ -1,10 +1,22 @@
 #include "engine/scene/ray.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 
 namespace rowland::scene {
+
+Ray ray_through(const scene::Camera& camera, const glm::dvec2& point, const glm::dvec2& size) {
+    const glm::vec3 forward = glm::normalize(camera.target - camera.eye);
+    const glm::vec3 right = glm::normalize(glm::cross(forward, camera.up));
+    const glm::vec3 up = glm::cross(right, forward);
+    // The picture's height is 2 tan(fov / 2) at distance 1.
+    const double scale = 2.0 * std::tan(0.5 * static_cast<double>(camera.vertical_field_of_view)) / size.y;
+    const auto x = static_cast<float>(scale * (point.x - 0.5 * size.x));
+    const auto y = static_cast<float>(scale * (0.5 * size.y - point.y));
+    return {camera.eye, glm::normalize(forward + x * right + y * up)};
+}
 
 std::optional<TriangleHit> meet(const Ray& ray, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
     const glm::vec3 ab = b - a;

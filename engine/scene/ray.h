@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/scene/camera.h"
 #include "engine/scene/mesh.h"
 
 namespace rowland::scene {
@@ -20,6 +21,9 @@ struct TriangleHit {
     glm::vec2 weights{0.0F};   ///< barycentric, of its second and third corner
     float distance = 0.0F;     ///< in lengths of the ray's direction
 };
+
+/// The ray from a camera's eye through a point of a picture of that size; both from the upper left corner, y down.
+Ray ray_through(const Camera& camera, const glm::dvec2& point, const glm::dvec2& size);
 
 /// The intersection with one triangle, `triangle` left 0; nullopt if the ray misses (Möller & Trumbore 1997).
 std::optional<TriangleHit> meet(const Ray& ray, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);

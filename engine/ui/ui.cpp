@@ -95,6 +95,8 @@ void InputFeed::feed_mouse(const platform::InputState& input, ImGuiIO& io) {
 
 namespace {
 
+/// ImGui divides by the time between frames.
+constexpr double kShortestFrame_s = 1e-4;
 constexpr float kFontSize = 15.0F;         ///< pixels at scale 1
 constexpr float kBuiltInFontSize = 13.0F;  ///< of ImGui's own font
 
@@ -171,26 +173,8 @@ void load_font(ImGuiIO& io, float scale) {
     io.Fonts->AddFontDefault(&config);
 }
 
-namespace {
-
-/// ImGui divides by the time between frames.
-constexpr double kShortestFrame_s = 1e-4;
-
-}  // namespace
-
-struct Ui::State {
-    ImGuiContext* context = nullptr;
-    UiOptions options;
-    InputFeed feed;
-    bool in_frame = false;
-    bool scale_changed = false;
-    bool has_drawn = false;
-};
-
-Ui::Ui(const UiOptions& options) : state_(std::make_unique<State>()) {
-    state_->options = options;
-    state_->context = ImGui::CreateContext();
-    ImGui::SetCurrentContext(state_->context);
+Ui::Ui(float scale) : context_(ImGui::CreateContext()) {
+    ImGui::SetCurrentContext(context_);
     ImGuiIO& io = ImGui::GetIO();
     // ImGui stores no layout: programs place their windows themselves.
     io.IniFilename = nullptr;
@@ -200,37 +184,33 @@ Ui::Ui(const UiOptions& options) : state_(std::make_unique<State>()) {
     io.ConfigWindowsMoveFromTitleBarOnly = true;
     io.ConfigInputTextCursorBlink = false;  // a program may draw only when something changes
     map_keys(io);
-    set_scale(options.scale);
+    set_scale(scale);
     ImGui_ImplOpenGL3_Init("#version 450 core");
 }
 
 Ui::~Ui() {
-    ImGui::SetCurrentContext(state_->context);
-    if (state_->in_frame) ImGui::EndFrame();
+    ImGui::SetCurrentContext(context_);
+    if (in_frame_) ImGui::EndFrame();
     ImGui_ImplOpenGL3_Shutdown();
-    ImGui::DestroyContext(state_->context);
+    ImGui::DestroyContext(context_);
 }
 
 void Ui::set_scale(float scale) {
-    state_->options.scale = std::clamp(scale, kSmallestScale, kLargestScale);
-    state_->scale_changed = true;
-}
-
-float Ui::scale() const {
-    return state_->options.scale;
+    scale_ = std::clamp(scale, kSmallestScale, kLargestScale);
+    scale_changed_ = true;
 }
 
 void Ui::begin_frame(const platform::InputState& input, const UiFrame& frame) {
-    ImGui::SetCurrentContext(state_->context);
-    if (state_->in_frame) ImGui::EndFrame();
+    ImGui::SetCurrentContext(context_);
+    if (in_frame_) ImGui::EndFrame();
     ImGuiIO& io = ImGui::GetIO();
-    if (state_->scale_changed) {
-        state_->scale_changed = false;
-        ImGui::GetStyle() = make_style(state_->options.scale);
-        load_font(io, state_->options.scale);
+    if (scale_changed_) {
+        scale_changed_ = false;
+        ImGui::GetStyle() = make_style(scale_);
+        load_font(io, scale_);
         // Not all of its objects: ImGui 1.86 would take its new, empty buffers for as large as the old.
         ImGui_ImplOpenGL3_DestroyFontsTexture();
-        if (state_->has_drawn) ImGui_ImplOpenGL3_CreateFontsTexture();  // else NewFrame makes it
+        if (has_drawn_) ImGui_ImplOpenGL3_CreateFontsTexture();  // else NewFrame makes it
     }
     const glm::vec2 size(frame.size);
     io.DisplaySize = {size.x, size.y};
@@ -238,34 +218,34 @@ void Ui::begin_frame(const platform::InputState& input, const UiFrame& frame) {
         io.DisplayFramebufferScale = {static_cast<float>(frame.framebuffer_size.x) / size.x,
                                       static_cast<float>(frame.framebuffer_size.y) / size.y};
     io.DeltaTime = static_cast<float>(std::max(frame.seconds, kShortestFrame_s));
-    state_->feed.feed(input, io);
+    feed_.feed(input, io);
     ImGui_ImplOpenGL3_NewFrame();
-    state_->has_drawn = true;
+    has_drawn_ = true;
     ImGui::NewFrame();
-    state_->in_frame = true;
+    in_frame_ = true;
 }
 
 bool Ui::wants_mouse() const {
-    ImGui::SetCurrentContext(state_->context);
+    ImGui::SetCurrentContext(context_);
     return ImGui::GetIO().WantCaptureMouse;
 }
 
 bool Ui::wants_keyboard() const {
-    ImGui::SetCurrentContext(state_->context);
+    ImGui::SetCurrentContext(context_);
     const ImGuiIO& io = ImGui::GetIO();
     // A window keeps ImGui's own wish for keys after a click into it; ours ends when nothing is highlighted or typed.
     return io.WantTextInput || io.NavVisible;
 }
 
 bool Ui::wants_text() const {
-    ImGui::SetCurrentContext(state_->context);
+    ImGui::SetCurrentContext(context_);
     return ImGui::GetIO().WantTextInput;
 }
 
 void Ui::render() {
-    ROWLAND_CHECK(state_->in_frame, "a user interface is drawn once for each frame that was begun");
-    ImGui::SetCurrentContext(state_->context);
-    state_->in_frame = false;
+    ROWLAND_CHECK(in_frame_, "a user interface is drawn once for each frame that was begun");
+    ImGui::SetCurrentContext(context_);
+    in_frame_ = false;
     ImGui::Render();
     // The backend leaves all state as it was, at the price of 50 calls: not for nothing.
     if (ImDrawData* drawn = ImGui::GetDrawData(); drawn->TotalVtxCount > 0) ImGui_ImplOpenGL3_RenderDrawData(drawn);

@@ -2,12 +2,11 @@
 
 #include <array>
 #include <glm/vec2.hpp>
-#include <memory>
 
 #include "engine/gpu/framebuffer.h"
 #include "engine/platform/input.h"
 
-struct ImGuiIO;
+struct ImGuiContext;
 struct ImGuiIO;
 struct ImGuiStyle;
 
@@ -37,9 +36,6 @@ ImGuiStyle make_style(float scale);
 /// letters only, if the system does not have it.
 void load_font(ImGuiIO& io, float scale);
 
-struct UiOptions {
-    float scale = 1.0F;  ///< of text and controls, kSmallestScale to kLargestScale
-};
 inline constexpr float kSmallestScale = 0.5F;
 inline constexpr float kLargestScale = 4.0F;
 
@@ -62,7 +58,8 @@ struct UiFrame {
 ///     ui.draw(target);                   // over it; or draw_in_window()
 class Ui {
  public:
-    explicit Ui(const UiOptions& options = {});
+    /// `scale`: of text and controls, kSmallestScale to kLargestScale.
+    explicit Ui(float scale = 1.0F);
     ~Ui();
     Ui(const Ui&) = delete;
     Ui& operator=(const Ui&) = delete;
@@ -83,15 +80,19 @@ class Ui {
     /// The same into the window's own framebuffer.
     void draw_in_window();
 
-    /// Takes effect with the next frame; clamped to the range of UiOptions.
+    /// Takes effect with the next frame; clamped to its range.
     void set_scale(float scale);
-    float scale() const;
+    float scale() const { return scale_; }
 
  private:
-    struct State;
     void render();
 
-    std::unique_ptr<State> state_;
+    ImGuiContext* context_;
+    float scale_ = 1.0F;
+    bool scale_changed_ = false;
+    InputFeed feed_;
+    bool in_frame_ = false;
+    bool has_drawn_ = false;
 };
 
 }  // namespace rowland::ui

@@ -5,7 +5,6 @@ namespace rowland::benchmark {
 std::vector<TimedRepresentation> timed_representations() {
     return {
         {"spikes", {{"representation", "spikes"}, {"bands", 5}, {"spikes", 4}}, true},
-        {"transfer", {{"representation", "transfer"}, {"bands", 5}}, true},
         {"arc", {{"representation", "arc"}, {"bands", 5}, {"rank", 8}}, true},
         {"planar", {{"representation", "planar"}, {"map_resolution", 128}}, true},
         {"planar/sigma", {{"representation", "planar"}, {"map_resolution", 128}}, true, {{"sigma", 0.05}}},

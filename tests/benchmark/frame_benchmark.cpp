@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "engine/command_line/command_line.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/core/log.h"
 #include "engine/core/program.h"
-#include "engine/image/byte_image.h"
 #include "engine/platform/gl_context.h"
 #include "tests/benchmark/frame_report.h"
 #include "tests/benchmark/frame_stage.h"
@@ -31,16 +31,14 @@ struct Options {
     int rounds = 4;
     std::vector<std::string> only;
     bool list = false;
-    bool markdown = false;
     bool require_gpu = false;
     std::optional<std::filesystem::path> json;
     std::optional<std::filesystem::path> output_folder;
-    std::optional<std::filesystem::path> pictures;
     std::optional<std::filesystem::path> programs;
 };
 
-/// nullopt if the program is to end with the status.
-std::optional<Options> parse_options(int argc, char** argv, int& status) {
+/// nullopt if only help was asked for.
+std::optional<Options> parse_options(int argc, char** argv) {
     Options options;
     CLI::App app{"Frame times of the diffraction material against the plain one: minima over interleaved rounds.",
                  "rowland-benchmark"};
@@ -56,20 +54,13 @@ std::optional<Options> parse_options(int argc, char** argv, int& status) {
         ->capture_default_str();
     app.add_option("--only", options.only, "Names or patterns, with commas between them")->delimiter(',');
     app.add_flag("--list", options.list, "Print the names of all variants and draw nothing");
-    app.add_flag("--markdown", options.markdown, "Print a Markdown table");
     app.add_option("--json", options.json, "Also write the results to a file");
     app.add_option("--output-folder", options.output_folder,
-                   "Also write results and table to frames-RENDERER.json and .md in a folder");
+                   "Also write results and table to frames-RENDERER.json and .txt in a folder");
     app.add_flag("--require-gpu", options.require_gpu, "Fail where the processor draws");
-    app.add_option("--pictures", options.pictures, "Write what each variant draws as PNG files to a folder");
     app.add_option("--programs", options.programs,
                    "Write the GLSL of all programs, and which one draws each frame's disc, to a folder; times nothing");
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        status = app.exit(error) == 0 ? 0 : 2;
-        return std::nullopt;
-    }
+    if (!parse_command_line(app, argc, argv)) return std::nullopt;
     return options;
 }
 
@@ -84,21 +75,13 @@ double mean_radiance(const gpu::Framebuffer& picture) {
 double coverage(FrameStage& stage, bool software) {
     FrameVariant variant = all_variants().front();
     FrameScene(variant, stage, software).draw();
-    const std::vector<glm::vec4> lit = stage.linear().read_rgba_float();
+    const std::vector<glm::vec4> lit = stage.picture().read_rgba_float();
     variant.shader = Shader::Unlit;
     FrameScene(variant, stage, software).draw();
-    const std::vector<glm::vec4> unlit = stage.linear().read_rgba_float();
+    const std::vector<glm::vec4> unlit = stage.picture().read_rgba_float();
     std::size_t differing = 0;
     for (std::size_t i = 0; i < lit.size(); ++i) differing += lit[i] != unlit[i] ? 1U : 0U;
     return static_cast<double>(differing) / static_cast<double>(lit.size());
-}
-
-void write_picture(const std::filesystem::path& folder, const std::string& name, FrameStage& stage) {
-    std::string file = name;
-    std::replace(file.begin(), file.end(), '/', '_');
-    std::replace(file.begin(), file.end(), ':', '-');
-    const glm::ivec2 size = stage.linear().size();
-    image::write_png(folder / (file + ".png"), size.x, size.y, stage.displayed());
 }
 
 /// A variant while it is timed.
@@ -127,8 +110,7 @@ std::vector<Timed> prepare(const Options& options, FrameStage& stage, bool softw
     for (const FrameVariant& variant : variants) {
         FrameScene scene(variant, stage, software);
         scene.settle();
-        timed.push_back({std::move(scene), mean_radiance(stage.linear())});
-        if (options.pictures) write_picture(*options.pictures, variant.name, stage);
+        timed.push_back({std::move(scene), mean_radiance(stage.picture())});
         progress.advance();
     }
     return timed;
@@ -157,9 +139,8 @@ std::vector<FrameResult> measure(const Options& options, FrameStage& stage, bool
 }
 
 int run(int argc, char** argv) {
-    int status = 0;
-    const std::optional<Options> options = parse_options(argc, argv, status);
-    if (!options) return status;
+    const std::optional<Options> options = parse_options(argc, argv);
+    if (!options) return 0;
     if (options->list) {
         for (const FrameVariant& variant : all_variants()) std::printf("%s\n", variant.name.c_str());
         return 0;
@@ -167,28 +148,24 @@ int run(int argc, char** argv) {
     const platform::HeadlessContext context({.debug = false});
     FrameReport report = describe_machine(context);
     if (options->require_gpu && report.software)
-        throw Error({.file = "--require-gpu",
-                     .location = {},
-                     .found = report.renderer,
-                     .expected = "a GPU with OpenGL 4.5 and EGL",
-                     .remedy = "run it without the option, or on another machine",
-                     .fault = Fault::System});
+        fail_system("--require-gpu", report.renderer + " draws, no GPU with OpenGL 4.5 and EGL",
+                    "run it without the option, or on another machine");
     if (options->programs) {
         write_programs(*options->programs, choose_variants(options->only), options->size, report.software);
         return 0;
     }
-    FrameStage stage(options->size);
+    FrameStage stage(options->size, diffraction::MapPace::Whole);
     report.size = options->size;
     report.rounds = options->rounds;
     report.results = measure(*options, stage, report.software);
     report.coverage = coverage(stage, report.software);
 
-    std::fputs((options->markdown ? to_markdown(report) : to_text(report)).c_str(), stdout);
+    std::fputs(to_text(report).c_str(), stdout);
     if (options->json) write_file_atomic(*options->json, to_json(report));
     if (options->output_folder) {
         const std::filesystem::path base = *options->output_folder / ("frames-" + file_name_of(report.renderer));
         write_file_atomic(base.string() + ".json", to_json(report));
-        write_file_atomic(base.string() + ".md", to_markdown(report));
+        write_file_atomic(base.string() + ".txt", to_text(report));
     }
     return 0;
 }

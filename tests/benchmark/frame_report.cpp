@@ -23,19 +23,6 @@ const FrameResult& find(const FrameReport& report, const std::string& name) {
     return *found;
 }
 
-std::string machine_line(const FrameReport& report) {
-    return fmt::format("{} ({} threads); {}, {}", report.processor, report.threads, report.renderer, report.version);
-}
-
-std::string picture_line(const FrameReport& report) {
-    return fmt::format("{}x{}, disc over {:.0f} % of the picture, sky on, minima of {} interleaved rounds",
-                       report.size.x, report.size.y, 100.0 * report.coverage, report.rounds);
-}
-
-const char* work_name(const FrameReport& report) {
-    return report.software ? "threads ms" : "GPU ms";
-}
-
 }  // namespace
 
 double FrameReport::ratio(const FrameResult& result) const {
@@ -58,23 +45,17 @@ FrameReport describe_machine(const platform::HeadlessContext& context) {
 }
 
 std::string to_text(const FrameReport& report) {
-    std::string text = machine_line(report) + "\n" + picture_line(report) + "\n";
+    std::string text = fmt::format(
+        "{} ({} threads); {}, {}\n"
+        "{}x{}, disc over {:.0f} % of the picture, sky on, minima of {} interleaved rounds\n",
+        report.processor, report.threads, report.renderer, report.version, report.size.x, report.size.y,
+        100.0 * report.coverage, report.rounds);
     text += fmt::format("{:<36} {:>9} {:>9} {:>8} {:>10} {:>8}  {}\n", "frame", "ms", "median", "ratio",
-                        work_name(report), "ratio", "to");
+                        report.software ? "threads ms" : "GPU ms", "ratio", "to");
     for (const FrameResult& result : report.results)
         text += fmt::format("{:<36} {:>9.2f} {:>9.2f} {:>8.3f} {:>10.2f} {:>8.3f}  {}\n", result.name,
                             result.minimum_ms, result.median_ms, report.ratio(result), result.work_ms,
                             report.work_ratio(result), result.baseline);
-    return text;
-}
-
-std::string to_markdown(const FrameReport& report) {
-    std::string text = machine_line(report) + "\n\n" + picture_line(report) + "\n\n";
-    text += fmt::format("| frame | ms | ratio | {} | ratio | to |\n| --- | --- | --- | --- | --- | --- |\n",
-                        work_name(report));
-    for (const FrameResult& result : report.results)
-        text += fmt::format("| {} | {:.2f} | {:.3f} | {:.2f} | {:.3f} | {} |\n", result.name, result.minimum_ms,
-                            report.ratio(result), result.work_ms, report.work_ratio(result), result.baseline);
     return text;
 }
 

@@ -39,9 +39,8 @@ struct FrameReport {
 /// Describes machine and driver of the current context.
 FrameReport describe_machine(const platform::HeadlessContext& context);
 
-/// Aligned columns for a terminal, or a Markdown table.
+/// Aligned columns.
 std::string to_text(const FrameReport& report);
-std::string to_markdown(const FrameReport& report);
 std::string to_json(const FrameReport& report);
 
 /// GL_RENDERER as part of a file's name: lower case, with dashes in place of other characters than letters and digits.

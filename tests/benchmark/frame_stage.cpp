@@ -18,9 +18,7 @@
 #include "engine/core/check.h"
 #include "engine/lighting/probe_image.h"
 #include "engine/lighting/procedural_probe.h"
-#include "engine/post/display_pass.h"
 #include "engine/post/ocio_config.h"
-#include "engine/post/post_stack.h"
 #include "engine/render/reflections.h"
 #include "engine/scene/light.h"
 #include "engine/scene/mesh_recipe.h"
@@ -28,7 +26,6 @@
 #include "modules/diffraction/asset/material.h"
 #include "modules/diffraction/module.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
-#include "modules/diffraction/runtime/glare_pattern.h"
 #include "modules/diffraction/runtime/groove_map.h"
 #include "modules/thin_film/module.h"
 #include "modules/thin_film/runtime/film_surface.h"
@@ -122,12 +119,6 @@ lighting::LightProbe probe_of(const FrameVariant& variant) {
     return lighting::deserialise(probe.payload, "studio.probe");
 }
 
-gpu::ShaderLibrary post_library() {
-    gpu::ShaderLibrary library;
-    library.add_embedded(post::shader_files());
-    return library;
-}
-
 render::Effects effects_of(Effect effect) {
     render::Effects effects;
     if (effect == Effect::AmbientOcclusion) effects.ambient_occlusion = render::AmbientOcclusionSettings{};
@@ -137,41 +128,21 @@ render::Effects effects_of(Effect effect) {
     return effects;
 }
 
-/// Lindsay & Agu's: blur, exposure (part of the display transform), vignette; and the display's encoding.
-post::PostSettings all_effects() {
-    return {.bloom = post::BloomSettings{},
-            .exposure_stops = 0.5F,
-            .vignette = post::VignetteSettings{.vertical_fov = kFieldOfView, .strength = 0.3F},
-            .dither = post::DitherSettings{}};
-}
-
 }  // namespace
 
-FrameStage::FrameStage(glm::ivec2 size)
+FrameStage::FrameStage(glm::ivec2 size, diffraction::MapPace map_pace)
     : xyz_to_working_(post::xyz_to_scene_linear(post::OcioConfig::shipped())),
-      linear_({.width = size.x, .height = size.y, .depth = true}),
-      display_({.width = size.x, .height = size.y, .colours = {gpu::Format::RGBA8}}),
-      post_shaders_(post_library()),
-      display_pass_(post_shaders_, post::DisplayTransform(post::OcioConfig::shipped())),
-      post_stack_(post_shaders_) {}
-
-const render::MeshInstance& FrameStage::disc(int vertices) {
-    const auto found = discs_.find(vertices);
-    if (found != discs_.end()) return found->second;
-    scene::DiscRecipe recipe{.inner_radius = 0.0235, .outer_radius = 0.058};
-    if (vertices == 2500) {
-        recipe.rings = 24;
-        recipe.segments = 99;
-    }
-    scene::Mesh mesh = scene::build_mesh(recipe);
-    ROWLAND_CHECK_OP(mesh.positions.size(), ==, static_cast<std::size_t>(vertices));
-    return discs_.emplace(vertices, render::make_mesh_instance(std::move(mesh))).first->second;
+      map_pace_(map_pace),
+      picture_({.width = size.x, .height = size.y, .depth = true}),
+      disc_(render::make_mesh_instance(
+          scene::build_mesh(scene::DiscRecipe{.inner_radius = 0.0235, .outer_radius = 0.058}))) {
+    ROWLAND_CHECK_OP(disc_.mesh->positions.size(), ==, 25'000U);
 }
 
 std::unique_ptr<render::Renderer> FrameStage::make_renderer(const FrameVariant& variant) const {
     auto renderer = std::make_unique<render::Renderer>(xyz_to_working_);
     diffraction::DiffractionSettings settings;
-    settings.map_pace = diffraction::MapPace::Whole;
+    settings.map_pace = map_pace_;
     diffraction::register_module(*renderer, settings);
     thin_film::register_module(*renderer);
     renderer->add_material_type(std::make_unique<trade::LightLoopType>());
@@ -206,44 +177,15 @@ std::shared_ptr<const diffraction::GrooveMap> FrameStage::groove_map() {
     return groove_map_;
 }
 
-/// Crossed, 500 lines per mm.
-std::shared_ptr<const post::GlarePattern> FrameStage::glasses() {
-    const diffraction::SinusoidalProfile grooves{.depth_nm = 85.0};
-    const diffraction::Lattice crossed{.a_nm = {2000.0, 0.0},
-                                       .b_nm = {0.0, 2000.0},
-                                       .profile = diffraction::CrossedProfile{.along_a = grooves, .along_b = grooves}};
-    if (!glasses_)
-        glasses_ = std::make_shared<post::GlarePattern>(
-            diffraction::glare_pattern({.pitch_nm = 2000.0, .orders = {}, .lattice = crossed}, xyz_to_working_));
-    return glasses_;
-}
-
 void FrameStage::draw(const FrameVariant& variant, ecs::World& world, render::Shading shading) {
-    renderer(variant).render(world, camera(), linear_, shading);
-    if (!variant.post) return;
-    post::PostSettings effects = all_effects();
-    if (variant.glare) effects.glare = post::GlareSettings{.pattern = glasses(), .vertical_fov = kFieldOfView};
-    develop(effects);
-}
-
-void FrameStage::develop(const post::PostSettings& settings) {
-    post_stack_.draw(linear_.colour(), display_pass_, settings, {}, display_);
-}
-
-std::vector<std::uint8_t> FrameStage::displayed() {
-    develop({});
-    const std::vector<std::uint8_t> rgba = display_.read_rgba8();
-    std::vector<std::uint8_t> rgb;
-    for (std::size_t i = 0; i < rgba.size(); ++i)
-        if (i % 4 != 3) rgb.push_back(rgba[i]);
-    return rgb;
+    renderer(variant).render(world, camera(), picture_, shading);
 }
 
 FrameScene::FrameScene(FrameVariant variant, FrameStage& stage, bool software)
     : variant_(std::move(variant)), stage_(&stage), software_(software) {
     disc_ = world_.create();
     world_.add(disc_, scene::Transform{});
-    world_.add(disc_, stage.disc(variant_.vertices));
+    world_.add(disc_, render::MeshInstance(stage.disc()));
     const FrameVariant grating{.name = {},
                                .baseline = {},
                                .material = cd_material({{"representation", "direct"}}),
@@ -268,7 +210,7 @@ FrameScene::FrameScene(FrameVariant variant, FrameStage& stage, bool software)
                                                             .casts_shadow = variant_.shadow});
     }
     if (variant_.effect == Effect::LocalReflection) add_reflected_plane();
-    move();
+    scene::update_world_matrices(world_);
 }
 
 void FrameScene::add_film() {
@@ -286,7 +228,7 @@ void FrameScene::add_film() {
     map->upload(std::span<const std::uint8_t>(ramp));
     world_.get<render::StandardMaterial>(disc_).base_colour = glm::vec3(0.5F);  // what passes is seen
     auto& surface = world_.get<thin_film::FilmSurface>(disc_);
-    surface.thickness_at_0_nm = 100.0F;
+    surface.minimum_thickness_nm = 100.0F;
     surface.thickness_texture.texture = std::move(map);
 }
 
@@ -297,7 +239,7 @@ void FrameScene::add_reflected_plane() {
     const ecs::Entity plane = world_.create();
     world_.add(plane, scene::Transform{.translation = {0.0F, kHeight, 0.0F},
                                        .rotation = glm::angleAxis(glm::pi<float>(), glm::vec3(1.0F, 0.0F, 0.0F))});
-    world_.add(plane, render::MeshInstance(stage_->disc(2500)));
+    world_.add(plane, render::MeshInstance(stage_->disc()));
     world_.add(plane, render::StandardMaterial{});
     world_.add(plane, render::ReflectedTop{.half = glm::vec2(kHalf)});
 }
@@ -310,28 +252,22 @@ void FrameScene::shade_in_a_loop(const std::vector<render::DistantLight>& lights
     world_.add(disc_, trade::LightLoopSurface{std::move(loop)});
 }
 
-void FrameScene::move() {
-    const bool spins = variant_.motion == Motion::Spinning;
-    const float angle = variant_.motion == Motion::Rest ? 0.0F : 0.02F * static_cast<float>(frame_ % 11);
-    world_.get<scene::Transform>(disc_).rotation =
-        glm::angleAxis(angle, spins ? glm::vec3(0.0F, 1.0F, 0.0F) : glm::vec3(1.0F, 0.0F, 0.0F));
-    scene::update_world_matrices(world_);
-    ++frame_;
-}
-
 FrameTime FrameScene::draw() {
-    move();
     const render::Shading shading = variant_.shader == Shader::Unlit ? render::Shading::Unlit : render::Shading::Full;
+    times_.begin_frame();
     const Clock::time_point start = Clock::now();
     const std::clock_t work_start = std::clock();
-    timer_.begin();
-    stage_->draw(variant_, world_, shading);
-    timer_.end();
+    {
+        const gpu::PassTimes::Scope scope(software_ ? nullptr : &times_, "frame");
+        stage_->draw(variant_, world_, shading);
+    }
     glFinish();
     FrameTime time;
     time.work_ms = 1e3 * static_cast<double>(std::clock() - work_start) / CLOCKS_PER_SEC;
     time.wall_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-    if (!software_) time.work_ms = timer_.wait();
+    if (software_) return time;
+    times_.begin_frame();  // reads what the GPU has finished
+    time.work_ms = times_.latest().at(0).gpu_ms.value();
     return time;
 }
 

@@ -10,25 +10,22 @@
 #include <vector>
 
 #include "engine/gpu/framebuffer.h"
-#include "engine/gpu/shader_library.h"
-#include "engine/post/display_pass.h"
-#include "engine/post/post_stack.h"
+#include "engine/gpu/pass_times.h"
 #include "engine/render/gpu_mesh.h"
 #include "engine/render/renderer.h"
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/runtime/gpu_material.h"
 #include "modules/diffraction/runtime/groove_map.h"
 #include "tests/benchmark/frame_variant.h"
-#include "tests/benchmark/gpu_timer.h"
 
 namespace rowland::benchmark {
 
 /// The renderers, meshes and materials of all variants; those that several variants use are created once.
 class FrameStage {
  public:
-    explicit FrameStage(glm::ivec2 size);
+    FrameStage(glm::ivec2 size, diffraction::MapPace map_pace);
 
-    const render::MeshInstance& disc(int vertices);
+    const render::MeshInstance& disc() const { return disc_; }
     /// One renderer per light and effect: a change would update everything that depends on it.
     render::Renderer& renderer(const FrameVariant& variant);
     /// A variant's material on the GPU; its light fills the maps.
@@ -36,30 +33,22 @@ class FrameStage {
     std::shared_ptr<const diffraction::GrooveMap> groove_map();
 
     void draw(const FrameVariant& variant, ecs::World& world, render::Shading shading);
-    const gpu::Framebuffer& linear() const { return linear_; }
-    /// The linear picture through the display transform, 8-bit RGB from the top.
-    std::vector<std::uint8_t> displayed();
+    const gpu::Framebuffer& picture() const { return picture_; }
     const glm::dmat3& xyz_to_working() const { return xyz_to_working_; }
 
  private:
     std::unique_ptr<render::Renderer> make_renderer(const FrameVariant& variant) const;
     const diffraction::CookedMaterial& cooked(const nlohmann::json& material);
-    std::shared_ptr<const post::GlarePattern> glasses();
-    void develop(const post::PostSettings& settings);
 
     glm::dmat3 xyz_to_working_;
-    gpu::Framebuffer linear_;
-    gpu::Framebuffer display_;
-    gpu::ShaderLibrary post_shaders_;
-    post::DisplayPass display_pass_;
-    post::PostStack post_stack_;
-    std::map<int, render::MeshInstance> discs_;
+    diffraction::MapPace map_pace_;
+    gpu::Framebuffer picture_;
+    render::MeshInstance disc_;
     std::map<std::tuple<Lighting, int, Effect>, std::unique_ptr<render::Renderer>> renderers_;
     std::map<std::string, diffraction::CookedMaterial> cooked_;
     std::map<std::pair<std::string, const render::Renderer*>, std::shared_ptr<const diffraction::GpuMaterial>>
         materials_;
     std::shared_ptr<const diffraction::GrooveMap> groove_map_;
-    std::shared_ptr<const post::GlarePattern> glasses_;
 };
 
 /// The times of a frame.
@@ -77,7 +66,7 @@ class FrameScene {
 
     /// Draws the next frame.
     FrameTime draw();
-    /// Draws until no shader is compiled and no map is filled any more.
+    /// Draws until no shader is compiled and no map is filled.
     void settle();
     const FrameVariant& variant() const { return variant_; }
 
@@ -85,15 +74,13 @@ class FrameScene {
     void add_film();
     void add_reflected_plane();
     void shade_in_a_loop(const std::vector<render::DistantLight>& lights);
-    void move();
 
     FrameVariant variant_;
     FrameStage* stage_;
     bool software_;
     ecs::World world_;
     ecs::Entity disc_;
-    gpu::Timer timer_;
-    int frame_ = 0;
+    gpu::PassTimes times_;
 };
 
 }  // namespace rowland::benchmark

@@ -14,7 +14,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kFewVertices = 2500;
 constexpr int kLampCounts[] = {1, 4, 16, 64};
 
 /// The representation's surface in `lighting`.
@@ -31,48 +30,15 @@ FrameVariant grating(const TimedRepresentation& drawn, const std::string& suffix
     return variant;
 }
 
-FrameVariant with_vertices(FrameVariant variant, int vertices) {
-    variant.vertices = vertices;
-    return variant;
-}
-
-FrameVariant moving(FrameVariant variant, Motion motion) {
-    variant.motion = motion;
-    return variant;
-}
-
-FrameVariant with_post(FrameVariant variant) {
-    variant.post = true;
-    return variant;
-}
-
-FrameVariant with_shadow(FrameVariant variant) {
-    variant.name += "/shadow";
-    variant.shadow = true;
+FrameVariant with(FrameVariant variant, const std::string& suffix, bool FrameVariant::*feature) {
+    variant.name += suffix;
+    variant.*feature = true;
     return variant;
 }
 
 FrameVariant with_effect(FrameVariant variant, const std::string& suffix, Effect effect) {
     variant.name += suffix;
     variant.effect = effect;
-    return variant;
-}
-
-FrameVariant with_cover(FrameVariant variant) {
-    variant.name += "/cover";
-    variant.material["cover"] = {{"ior", 1.58}};
-    return variant;
-}
-
-FrameVariant with_groove_map(FrameVariant variant) {
-    variant.name += "/groove-map";
-    variant.groove_map = true;
-    return variant;
-}
-
-FrameVariant with_thickness_map(FrameVariant variant) {
-    variant.name += "/thickness-map";
-    variant.thickness_map = true;
     return variant;
 }
 
@@ -96,21 +62,15 @@ void add_plain(std::vector<FrameVariant>& variants) {
     variants.push_back(engine_surface("plain", Shader::Plain));
     variants.push_back(engine_surface("unlit", Shader::Unlit));
     variants.push_back(engine_surface("plain/key-lights:16", Shader::Plain, Lighting::StudioKeyLights));
-    variants.push_back(with_vertices(engine_surface("plain/vertices:2500", Shader::Plain), kFewVertices));
-    variants.back().baseline = variants.back().name;
-    variants.push_back(with_post(engine_surface("plain/post", Shader::Plain)));
-    variants.push_back(with_post(engine_surface("plain/post/glare", Shader::Plain)));
-    variants.back().baseline = "plain/post";
-    variants.back().glare = true;
     const FrameVariant plain = engine_surface("plain", Shader::Plain);
-    const FrameVariant shadow = with_shadow(plain);
+    const FrameVariant shadow = with(plain, "/shadow", &FrameVariant::shadow);
     variants.push_back(shadow);
     variants.push_back(with_effect(plain, "/ambient-occlusion", Effect::AmbientOcclusion));
     variants.push_back(with_effect(shadow, "/ambient-occlusion", Effect::AmbientOcclusion));
     FrameVariant film = engine_surface("film", Shader::Film);
     film.material = {{"film", {{"ior", 1.33}, {"thickness_nm", 400}}}, {"base", {{"ior", 1.5}}}, {"roughness", 0.3}};
     variants.push_back(film);
-    variants.push_back(with_thickness_map(film));
+    variants.push_back(with(film, "/thickness-map", &FrameVariant::thickness_map));
     variants.push_back(with_effect(film, "/rough-reflections", Effect::RoughReflection));
     variants.push_back(with_effect(shadow, "/soft", Effect::SoftShadow));
     variants.push_back(with_effect(plain, "/local-reflection", Effect::LocalReflection));
@@ -119,10 +79,9 @@ void add_plain(std::vector<FrameVariant>& variants) {
 
 void add_representation(const TimedRepresentation& drawn, std::vector<FrameVariant>& variants) {
     variants.push_back(grating(drawn, "", "plain"));
-    if (drawn.name == "streak") return;             // it reads key lights in the probe, and has no state per object
-    if (drawn.name.starts_with("planar/")) return;  // otherwise as planar, but for a tilt, after which each frame waits
+    if (drawn.name == "streak") return;             // it reads key lights in the probe
+    if (drawn.name.starts_with("planar/")) return;  // otherwise as planar
     variants.push_back(grating(drawn, "/key-lights:16", "plain", Lighting::StudioKeyLights));
-    variants.push_back(moving(grating(drawn, "/tilting", "plain"), Motion::Tilting));
     TimedRepresentation at_vertices = drawn;
     at_vertices.quality["lights_at"] = "vertices";
     variants.push_back(grating(at_vertices, "/key-lights:16/lights-at-vertices", "plain", Lighting::StudioKeyLights));
@@ -133,21 +92,10 @@ void add_representation(const TimedRepresentation& drawn, std::vector<FrameVaria
     variants.push_back(grating(at_vertices, "/key-lights:16/at-vertices", "plain", Lighting::StudioKeyLights));
 }
 
-/// Variants that show how the time depends on the number of vertices.
-void add_few_vertices(const TimedRepresentation& drawn, std::vector<FrameVariant>& variants) {
-    const std::string baseline = "plain/vertices:2500";
-    variants.push_back(with_vertices(grating(drawn, "/vertices:2500", baseline), kFewVertices));
-    variants.push_back(with_vertices(
-        grating(drawn, "/vertices:2500/key-lights:16", baseline, Lighting::StudioKeyLights), kFewVertices));
-}
-
 void add_lamps_in_probe(const TimedRepresentation& drawn, std::vector<FrameVariant>& variants) {
-    for (const int lamps : kLampCounts) {
-        // The whole curve for one, its ends for the others.
-        if (drawn.name != "spikes" && lamps != kLampCounts[0] && lamps != std::end(kLampCounts)[-1]) continue;
-        const std::string suffix = "/lights-in-probe:";
+    const std::string suffix = "/lights-in-probe:";
+    for (const int lamps : kLampCounts)
         variants.push_back(with_lamps(grating(drawn, suffix, drawn.name + suffix, Lighting::LampsInProbe), lamps));
-    }
 }
 
 void add_lamps_in_scene(const TimedRepresentation& direct, std::vector<FrameVariant>& variants) {
@@ -185,19 +133,17 @@ std::vector<FrameVariant> all_variants() {
     add_plain(variants);
     for (const TimedRepresentation& drawn : timed_representations()) {
         add_representation(drawn, variants);
-        if (drawn.name == "spikes" || drawn.name == "arc") {
-            add_few_vertices(drawn, variants);
-            variants.push_back(with_post(grating(drawn, "/post", "plain/post")));
-        }
         if (drawn.name == "arc" || drawn.name == "direct")
-            variants.push_back(with_groove_map(grating(drawn, "", "plain")));
+            variants.push_back(with(grating(drawn, "", "plain"), "/groove-map", &FrameVariant::groove_map));
         if (drawn.name == "arc" || drawn.name == "planar" || drawn.name == "direct")
-            variants.push_back(with_shadow(grating(drawn, "", "plain")));
-        if (drawn.name == "planar/pits") variants.push_back(with_cover(grating(drawn, "", "plain")));
-        if (drawn.name == "planar") variants.push_back(moving(grating(drawn, "/spinning", "plain"), Motion::Spinning));
-        if (drawn.name != "direct")
-            add_lamps_in_probe(drawn, variants);
-        else {
+            variants.push_back(with(grating(drawn, "", "plain"), "/shadow", &FrameVariant::shadow));
+        if (drawn.name == "planar/pits") {
+            variants.push_back(grating(drawn, "/cover", "plain"));
+            variants.back().material["cover"] = {{"ior", 1.58}};
+        }
+        // By harmonics and by maps, which cost nothing per lamp.
+        if (drawn.name == "spikes" || drawn.name == "planar") add_lamps_in_probe(drawn, variants);
+        if (drawn.name == "direct") {
             add_lamps_in_scene(drawn, variants);
             add_lattice(drawn, variants);
         }

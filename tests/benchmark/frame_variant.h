@@ -15,12 +15,6 @@ enum class Shader {
     LightLoop,  ///< the grating's lights and orders one by one (editor/trade/stage.h)
 };
 
-enum class Motion {
-    Rest,
-    Tilting,   ///< its normal turns: what depends on the object's orientation is updated each frame
-    Spinning,  ///< about its own axis
-};
-
 /// Where light comes from besides the sun, one directional light.
 enum class Lighting {
     Studio,           ///< a probe whose lights are all SH
@@ -44,16 +38,12 @@ struct FrameVariant {
     std::string baseline;  ///< the name of the variant that this one's time is divided by
     Shader shader = Shader::Plain;
     nlohmann::json material;  ///< of Shader::Grating and Film: a material file
-    int vertices = 25000;     ///< of the disc: 25 000 or 2 500
-    Motion motion = Motion::Rest;
     Lighting lighting = Lighting::Studio;
     int lamps = 0;
     bool shadow = false;  ///< the sun casts one
     Effect effect = Effect::None;
     bool groove_map = false;     ///< a texture varies the grooves' direction and pitch
     bool thickness_map = false;  ///< a texture varies the film's thickness from 100 nm to its own
-    bool post = false;           ///< bloom, vignette and display transform after it
-    bool glare = false;          ///< and, before them, crossed diffraction glasses
 };
 
 /// All frames that are timed, each baseline before the variants that are compared with it.

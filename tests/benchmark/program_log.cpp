@@ -161,7 +161,7 @@ void ProgramLog::record(GLuint program) {
 void write_programs(const std::filesystem::path& folder, const std::vector<FrameVariant>& variants, glm::ivec2 size,
                     bool software) {
     const ProgramLog log;
-    FrameStage stage(size);
+    FrameStage stage(size, diffraction::MapPace::Incremental);
     nlohmann::ordered_json frames = nlohmann::ordered_json::array();
     Progress progress("programs", variants.size());
     const auto add = [&](const std::string& name, std::size_t program, const LoopLengths& lengths) {
@@ -169,7 +169,7 @@ void write_programs(const std::filesystem::path& folder, const std::vector<Frame
     };
     for (const FrameVariant& variant : variants) {
         const std::size_t known_passes = log.passes().size();
-        FrameScene(variant, stage, software).settle();
+        FrameScene(variant, stage, software).draw();
         ROWLAND_CHECK(log.last_mesh().has_value(), "a frame without its disc");
         add(variant.name, log.last_mesh()->program, log.last_mesh()->lengths);
         for (std::size_t i = known_passes; i < log.passes().size() && variant.effect != Effect::None; ++i)

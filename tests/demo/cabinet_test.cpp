@@ -73,8 +73,8 @@ TEST(DemoCabinet, ASpinningNodeTurnsAboutItsAxis) {
     // In half a second it turns by 10 degrees, its right upper corner from 45 to 55 degrees.
     test::run_demo("--width 192 --height 108 --frames 16 --scene " + test::result("spinning.gltf").string() +
                    " --capture-linear " + test::result("spinning.exr").string());
-    const image::Image first = image::read_exr(test::result("spinning_0000.exr"));
-    const image::Image turned = image::read_exr(test::result("spinning_0015.exr"));
+    const image::Image first = image::load_image(test::result("spinning_0000.exr"));
+    const image::Image turned = image::load_image(test::result("spinning_0015.exr"));
     const glm::vec3 square = from_middle(first, 0, 0);
     EXPECT_EQ(from_middle(first, 25, 25), square);
     EXPECT_NE(from_middle(first, 20, 29), square);

@@ -24,8 +24,7 @@ namespace rowland {
 namespace {
 
 constexpr glm::ivec2 kClippedSize{640, 360};
-constexpr int kPictures = 12;
-constexpr std::size_t kProbes = 4;
+constexpr std::size_t kPictures = 4;
 
 std::vector<bool> grating_pixels(demo::Session& session, const scene::Camera& camera) {
     ecs::World& world = session.play().world();
@@ -74,18 +73,18 @@ TEST(ClippedColour, FewPixelsOfTheFlightsGratingsLieAtAnEdgeOfClipping) {
     const demo::Options options = test::cabinet_options();
     const post::OcioConfig config = post::OcioConfig::shipped();
     demo::Session session(options, config, kClippedSize, kClippedSize, demo::Pace::Still);
-    std::vector<std::filesystem::path> probes = demo::probe_paths(options);
-    probes.resize(std::min(probes.size(), kProbes));
+    const std::vector<std::filesystem::path> probes = demo::probe_paths(options);
 
     std::map<std::string, Clipping> clipping;
-    for (int i = 0; i < kPictures; ++i) {
-        session.use_probe(probes[static_cast<std::size_t>(i) * probes.size() / kPictures]);
-        const scene::Camera camera = demo::tour(session.scene().views(), i / (kPictures - 1.0));
+    for (std::size_t i = 0; i < kPictures; ++i) {
+        session.use_probe(probes[i % probes.size()]);
+        const scene::Camera camera =
+            demo::tour(session.scene().views(), static_cast<double>(i) / static_cast<double>(kPictures - 1));
         // Maps are full in the second frame at rest.
         for (int frame = 0; frame < 2; ++frame) session.draw_from(camera, 0.0F);
         const std::vector<bool> wanted = grating_pixels(session, camera);
         const std::vector<glm::vec4> linear = session.picture().linear().read_rgba_float();
-        for (const char* view : {"Constant Hue", "ACES 1.0 - SDR Video", "AgX"}) {
+        for (const char* view : {"Constant Hue", "ACES 1.0 - SDR Video"}) {
             std::vector<glm::vec3> shown(linear.begin(), linear.end());
             post::DisplayTransform(config, {"", view}).apply_cpu(shown);
             count_clipped(shown, wanted, clipping[view]);

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "engine/image/exr.h"
+#include "engine/image/image.h"
 
 namespace rowland::test {
 
@@ -27,7 +27,7 @@ inline image::Image render(const std::string& name, const std::string& arguments
                        " --capture-linear '" + path.string() + "' " + arguments),
               0)
         << name;
-    return image::read_exr(path);
+    return image::load_image(path);
 }
 
 }  // namespace rowland::test

@@ -18,7 +18,7 @@ inline demo::Options session_options() {
 
 inline demo::Options cabinet_options() {
     demo::Options options = session_options();
-    options.scene = options.cooked_folder / "cabinet.glb";
+    options.scene = options.cooked_folder / "cabinet.scene";
     return options;
 }
 

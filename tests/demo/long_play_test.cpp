@@ -1,4 +1,4 @@
-// Fifteen seconds of play without a window: nothing piles up.
+// Ten seconds of play without a window: nothing piles up.
 #include <gtest/gtest.h>
 #include <malloc.h>
 
@@ -27,9 +27,10 @@ using test::button;
 using test::mouse;
 
 constexpr int kPlayFramesPerSecond = 10;
-constexpr int kRounds = 3;  ///< ROWLAND_PLAY_ROUNDS asks for more: 120 are ten minutes
+constexpr int kRounds = 2;  ///< ROWLAND_PLAY_ROUNDS asks for more: 120 are ten minutes
 constexpr int kFramesPerRound = 50;
-constexpr glm::ivec2 kPlaySize{160, 90};
+constexpr glm::ivec2 kPlayPixels{80, 45};
+constexpr glm::ivec2 kPlayWindow{160, 90};  ///< in the mouse's units
 
 int rounds() {
     const char* asked = std::getenv("ROWLAND_PLAY_ROUNDS");
@@ -54,10 +55,10 @@ std::vector<PlayEvent> events_of(int frame) {
     if (frame == 14) return {button(false)};
     if (frame >= 15 && frame < 19) return {demo::ActionEvent{Action::AddLight}};
     if (frame >= 25 && frame < 29) return {demo::ActionEvent{Action::RemoveLight}};
-    constexpr std::array kOthers{Action::Bloom,        Action::NextProbe,  Action::Lamp,          Action::TurnLightLeft,
-                                 Action::AutoExposure, Action::Lamp,       Action::TurnLightLeft, Action::NextProbe,
-                                 Action::Bloom,        Action::SlowMotion, Action::AutoExposure,  Action::NextProbe,
-                                 Action::SlowMotion,   Action::Vignette,   Action::Vignette};
+    constexpr std::array kOthers{Action::Bloom,        Action::NextProbe,    Action::Lamp,       Action::TurnLightLeft,
+                                 Action::AutoExposure, Action::Lamp,         Action::Bloom,      Action::TurnLightLeft,
+                                 Action::SlowMotion,   Action::AutoExposure, Action::SlowMotion, Action::Vignette,
+                                 Action::Vignette};
     if (frame >= 30 && frame - 30 < static_cast<int>(kOthers.size()))
         return {demo::ActionEvent{kOthers[static_cast<std::size_t>(frame - 30)]}};
     return {};
@@ -76,7 +77,7 @@ TEST(DemoLongPlay, HoldsItsMemoryAndDrawsFinitePixelsWithoutAnOpenGlError) {
     const platform::HeadlessContext context({.debug = true});
     gpu::enable_debug_output(true);  // an error ends the program
     const post::OcioConfig config = post::OcioConfig::choose(std::nullopt);
-    demo::Session session(test::cabinet_options(), config, kPlaySize, kPlaySize, demo::Pace::Fluent);
+    demo::Session session(test::cabinet_options(), config, kPlayPixels, kPlayWindow, demo::Pace::Fluent);
     demo::PlayClock clock;
     const std::filesystem::path first_probe = session.probe_path();
     std::vector<double> held;
@@ -97,7 +98,7 @@ TEST(DemoLongPlay, HoldsItsMemoryAndDrawsFinitePixelsWithoutAnOpenGlError) {
         RecordProperty("held_mib_" + std::to_string(round), std::to_string(held.back()));
     }
     EXPECT_EQ(session.play().steps(), static_cast<unsigned>(120 * count * kFramesPerRound / kPlayFramesPerSecond));
-    EXPECT_GT(session.play().environment_turn(), 0.5);
+    EXPECT_GT(session.play().environment_turn(), 0.3);
     // Measured of four rounds, in MiB, beside six busy processes: 315.88, 315.89, 315.90 and 315.90.
     const double before = held[static_cast<std::size_t>(count + 1) / 4];
     EXPECT_LT(held.back() - before, 0.5) << "from " << before << " to " << held.back();

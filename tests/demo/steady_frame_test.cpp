@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <thread>
 #include <vector>
 
 #include "content/demo/play/recording.h"
@@ -46,10 +47,10 @@ class SteadyFrame : public testing::Test {
         session_->carry_out();
         session_->draw(1.0F / kSteadyFramesPerSecond);
     }
-    /// The first frame links all programs and shows coarse maps.
+    /// The first frame links all programs and shows coarse maps. Between the next ones, the cores fill the full maps.
     void load() {
-        do frame();
-        while (diffraction::maps_are_filling(session_->play().world()));
+        for (frame(); diffraction::maps_are_filling(session_->play().world()); frame())
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
         test::CallCounts calls;
         for (int i = 0; i < 2; ++i) frame();
         EXPECT_EQ(calls.take().compiled, 0);

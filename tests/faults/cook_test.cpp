@@ -11,7 +11,7 @@
 #include "engine/core/file.h"
 #include "tests/faults/moments.h"
 #include "tests/faults/small_disk.h"
-#include "tests/support/files.h"
+#include "tests/support/folder_test.h"
 #include "tests/support/program.h"
 
 namespace rowland {
@@ -40,17 +40,13 @@ std::string efficiency(const char* share) {
     return text;
 }
 
-class CookFaults : public testing::Test {
+class CookFaults : public test::FolderTest {
  protected:
     CookFaults() {
         write("grating.json", material(1600));
         write("efficiency.csv", efficiency("0.1"));
         std::filesystem::create_directory(path("out"));
     }
-
-    std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
-    void write(const std::string& name, std::string_view text) const { write_file_atomic(path(name), text); }
-    std::string text(const std::string& name) const { return read_text_file(path(name), 1 << 24); }
 
     test::Command cook_to(const std::filesystem::path& output) const {
         return {ROWLAND_COOK, "cook", path("grating.json"), "-o", output, "--threads", "1"};
@@ -67,8 +63,6 @@ class CookFaults : public testing::Test {
             names.insert(entry.path().filename());
         return names;
     }
-
-    test::TemporaryFolder folder_;
 };
 
 TEST_F(CookFaults, KilledAtAnyMomentItLeavesTheOldAssetOrTheNewOneWhole) {
@@ -216,20 +210,6 @@ TEST_F(CookFaults, OnAFullDiskItKeepsTheOldAssetAndSaysWhy) {
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(disk.path()), {}), 1) << "only the asset is there";
     EXPECT_EQ(test::run(cook_to(asset)).code, 0);
     EXPECT_EQ(read_text_file(asset, 1 << 24), cooked());
-}
-
-/// What the user names and cannot be written is bad usage, found before work begins.
-TEST_F(CookFaults, DevicesAndFilesInPlaceOfFoldersAreBadUsage) {
-    for (const std::filesystem::path& output : {std::filesystem::path("/dev/full"), path("efficiency.csv") / "asset"}) {
-        const Ended ended = test::run(cook_to(output));
-        EXPECT_EQ(ended.code, 2) << output;
-        EXPECT_THAT(ended.err, HasSubstr("--output " + output.string()));
-    }
-    test::Command with_depfile = cook_to(path("out/asset"));
-    with_depfile.insert(with_depfile.end(), {"--depfile", path("grating.json")});
-    EXPECT_EQ(test::run(with_depfile).code, 2);
-    EXPECT_EQ(text("grating.json"), material(1600));
-    EXPECT_EQ(outputs(), std::set<std::string>{});
 }
 
 TEST_F(CookFaults, IntoAReadOnlyFolderNothingIsWrittenAndTheMessageSaysWhy) {

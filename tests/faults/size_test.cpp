@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -125,15 +126,24 @@ std::size_t write_sheet(const std::string& path, std::uint32_t side, int layers)
                 append(indices, std::array{at, at + side, at + 1, at + 1, at + side, at + side + 1});
             }
     const std::size_t count = indices.size() / sizeof(std::uint32_t);
-    const std::string vertices = std::to_string(std::size_t{side} * side);
-    std::string json =
-        R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":)"
-        R"([{"attributes":{"POSITION":0},"indices":1}]}],"accessors":[{"bufferView":0,"componentType":5126,"count":)" +
-        vertices + R"(,"type":"VEC3","min":[0,0,0],"max":[1,0,1]},{"bufferView":1,"componentType":5125,"count":)" +
-        std::to_string(count) + R"(,"type":"SCALAR"}],"bufferViews":[{"buffer":0,"byteLength":)" +
-        std::to_string(positions.size()) + R"(},{"buffer":0,"byteOffset":)" + std::to_string(positions.size()) +
-        R"(,"byteLength":)" + std::to_string(indices.size()) + R"(}],"buffers":[{"byteLength":)" +
-        std::to_string(positions.size() + indices.size()) + "}]}";
+    const nlohmann::json gltf = {{"asset", {{"version", "2.0"}}},
+                                 {"scene", 0},
+                                 {"scenes", {{{"nodes", {0}}}}},
+                                 {"nodes", {{{"mesh", 0}}}},
+                                 {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}}}}}}},
+                                 {"accessors",
+                                  {{{"bufferView", 0},
+                                    {"componentType", 5126},
+                                    {"count", std::size_t{side} * side},
+                                    {"type", "VEC3"},
+                                    {"min", {0, 0, 0}},
+                                    {"max", {1, 0, 1}}},
+                                   {{"bufferView", 1}, {"componentType", 5125}, {"count", count}, {"type", "SCALAR"}}}},
+                                 {"bufferViews",
+                                  {{{"buffer", 0}, {"byteLength", positions.size()}},
+                                   {{"buffer", 0}, {"byteOffset", positions.size()}, {"byteLength", indices.size()}}}},
+                                 {"buffers", {{{"byteLength", positions.size() + indices.size()}}}}};
+    std::string json = gltf.dump();
     json.resize((json.size() + 3) / 4 * 4, ' ');
     const auto size = [](std::size_t bytes) { return static_cast<std::uint32_t>(bytes); };
     std::string header = "glTF";

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "content/demo/play/recording.h"
-#include "editor/cooker/job_plan.h"
+#include "editor/cooker/jobs.h"
 #include "engine/asset/container.h"
 #include "engine/colour/illuminant.h"
 #include "engine/core/check.h"
@@ -16,7 +16,7 @@
 #include "engine/core/json_reader.h"
 #include "engine/image/byte_image.h"
 #include "engine/image/exr.h"
-#include "engine/image/radiance_hdr.h"
+#include "engine/image/image.h"
 #include "engine/lighting/light_probe.h"
 #include "engine/lighting/probe_recipe.h"
 #include "engine/scene/draco_decode.h"
@@ -29,13 +29,15 @@
 #include "modules/diffraction/asset/material.h"
 #include "modules/thin_film/asset/film_material.h"
 #include "modules/thin_film/asset/gltf_iridescence.h"
-#include "tests/fuzz/sane_scene.h"
+#include "tests/unit/engine/scene/mesh_sanity.h"
 
 namespace rowland::fuzz {
 
 namespace {
 
-std::string_view text(std::span<const std::byte> bytes) {
+using Input = std::span<const std::byte>;
+
+std::string_view text(Input bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
@@ -44,14 +46,13 @@ const std::vector<std::string>& handled_extensions() {
     return names;
 }
 
-void read_glb(std::span<const std::byte> bytes) {
-    const scene::ImportedScene scene = scene::load_glb(bytes, "input.glb", handled_extensions());
-    require_sane(scene);
-    scene::merge_instances(scene);
+void read_glb(Input bytes) {
+    const auto sane = scene::test::is_sane(scene::load_glb(bytes, "input.glb", handled_extensions()));
+    ROWLAND_CHECK(sane, sane.message());
 }
 
 /// What may be edited need not be a scene that is drawn.
-void edit_glb(std::span<const std::byte> bytes) {
+void edit_glb(Input bytes) {
     scene::EditableGltf gltf({bytes.begin(), bytes.end()}, "input.glb");
     constexpr std::size_t kMost = 3;  // an edit costs as much as the text is long
     for (std::size_t i = 0; i < std::min(gltf.outline().materials.size(), kMost); ++i) {
@@ -67,24 +68,11 @@ void edit_glb(std::span<const std::byte> bytes) {
 }
 
 /// The JSON of a .gltf, as the one chunk of a .glb: nothing outside of it can be read.
-void read_gltf(std::span<const std::byte> bytes) {
-    std::vector<std::byte> glb;
-    const auto put = [&](std::uint32_t value) {
-        const auto* begin = reinterpret_cast<const std::byte*>(&value);
-        glb.insert(glb.end(), begin, begin + sizeof(value));
-    };
-    const std::size_t padded = (bytes.size() + 3) / 4 * 4;
-    put(0x46546C67);  // "glTF"
-    put(2);
-    put(static_cast<std::uint32_t>(20 + padded));
-    put(static_cast<std::uint32_t>(padded));
-    put(0x4E4F534A);  // "JSON"
-    glb.insert(glb.end(), bytes.begin(), bytes.end());
-    glb.resize(20 + padded, std::byte{' '});
-    read_glb(glb);
+void read_gltf(Input bytes) {
+    read_glb(scene::glb_beginning(std::string(text(bytes)), std::nullopt, 0, "input.glb"));
 }
 
-void read_draco(std::span<const std::byte> bytes) {
+void read_draco(Input bytes) {
     scene::MemoryBudget budget("input.drc");
     scene::DracoProcess decoder;
     const scene::DracoMesh mesh(bytes, "input.drc", "stream", decoder, budget);
@@ -97,16 +85,16 @@ void require_whole(const image::Image& image) {
                      static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
 }
 
-void read_hdr(std::span<const std::byte> bytes) {
+void read_hdr(Input bytes) {
     require_whole(image::read_radiance_hdr(bytes, "input.hdr"));
 }
 
-void read_exr(std::span<const std::byte> bytes) {
+void read_exr(Input bytes) {
     require_whole(image::read_exr(bytes, "input.exr"));
 }
 
-void read_byte_image(std::span<const std::byte> bytes) {
-    image::decode_byte_image(bytes, "input.png");
+nlohmann::json parsed(Input bytes) {
+    return parse_json(text(bytes), "input.json");
 }
 
 /// Files that a material names are there, and the same for all.
@@ -114,45 +102,21 @@ diffraction::NamedText named(const std::string& name) {
     return {"wavelength_nm,R-1,R+0,R+1\n380,.2,.3,.2\n780,.1,.4,.1\n", name};
 }
 
-void read_material(std::span<const std::byte> bytes) {
-    diffraction::parse_material(parse_json(text(bytes), "input.json"), "input.json", named);
+void read_material(Input bytes) {
+    diffraction::parse_material(parsed(bytes), "input.json", named);
 }
 
-void read_film(std::span<const std::byte> bytes) {
-    thin_film::parse_film_material(parse_json(text(bytes), "input.json"), "input.json");
-}
-
-void read_iridescence(std::span<const std::byte> bytes) {
-    thin_film::describe(thin_film::parse_gltf_iridescence(parse_json(text(bytes), "input.json"), "input.json", ""));
-}
-
-void read_probe_recipe(std::span<const std::byte> bytes) {
-    lighting::parse_probe_recipe(parse_json(text(bytes), "input.json"), "input.json");
-}
-
-void read_mesh_recipe(std::span<const std::byte> bytes) {
-    scene::parse_mesh_recipe(parse_json(text(bytes), "input.json"), "input.json");
-}
-
-void read_recording(std::span<const std::byte> bytes) {
+void read_recording(Input bytes) {
     const demo::Recording recording = demo::parse_recording(std::string(text(bytes)), "input.jsonl");
     for (const demo::Recording::Step& step : recording.steps) ROWLAND_CHECK_OP(step.step, <, recording.step_count);
 }
 
-void read_plan(std::span<const std::byte> bytes) {
+void read_plan(Input bytes) {
     const std::vector<editor::Job> jobs = editor::parse_plan(std::string(text(bytes)), "input.jsonl");
     ROWLAND_CHECK_OP(editor::parse_plan(editor::write_plan(jobs), "again.jsonl").size(), ==, jobs.size());
 }
 
-void read_efficiency(std::span<const std::byte> bytes) {
-    diffraction::parse_efficiency_csv(text(bytes), "input.csv");
-}
-
-void read_illuminant(std::span<const std::byte> bytes) {
-    colour::parse_illuminant(text(bytes), "input.csv");
-}
-
-void read_cooked(std::span<const std::byte> bytes) {
+void read_cooked(Input bytes) {
     const asset::CookedAsset cooked = asset::unpack(bytes, "input.cooked");
     if (cooked.header.type == diffraction::kMaterialAssetType)
         diffraction::describe(diffraction::read_cooked_material(cooked.payload, "input.cooked"));
@@ -163,15 +127,15 @@ void read_cooked(std::span<const std::byte> bytes) {
 }
 
 /// Payloads alone: behind the container's checksum few mutations would be seen.
-void read_cooked_material(std::span<const std::byte> bytes) {
+void read_cooked_material(Input bytes) {
     diffraction::describe(diffraction::read_cooked_material(bytes, "input.material"));
 }
 
-void read_cooked_film(std::span<const std::byte> bytes) {
+void read_cooked_film(Input bytes) {
     thin_film::describe(thin_film::read_cooked_film(bytes, "input.film"));
 }
 
-void read_cooked_probe(std::span<const std::byte> bytes) {
+void read_cooked_probe(Input bytes) {
     lighting::deserialise(bytes, "input.probe");
 }
 
@@ -185,14 +149,16 @@ const std::vector<Format>& formats() {
         {"draco", read_draco, {".drc"}},
         {"hdr", read_hdr, {".hdr"}},
         {"exr", read_exr, {".exr"}},
-        {"byte-image", read_byte_image, {".png", ".jpg"}},
+        {"byte-image", [](Input bytes) { image::decode_byte_image(bytes, "input.png"); }, {".png", ".jpg"}},
         {"material", read_material, {".json"}},
-        {"film", read_film, {}},
-        {"iridescence", read_iridescence, {}},
-        {"probe-recipe", read_probe_recipe, {".json"}},
-        {"mesh-recipe", read_mesh_recipe, {".json"}},
-        {"efficiency", read_efficiency, {".csv"}},
-        {"illuminant", read_illuminant, {".csv"}},
+        {"film", [](Input bytes) { thin_film::parse_film_material(parsed(bytes), "input.json"); }, {}},
+        {"iridescence",
+         [](Input bytes) { thin_film::describe(thin_film::parse_gltf_iridescence(parsed(bytes), "input.json", "")); },
+         {}},
+        {"probe-recipe", [](Input bytes) { lighting::parse_probe_recipe(parsed(bytes), "input.json"); }, {".json"}},
+        {"mesh-recipe", [](Input bytes) { scene::parse_mesh_recipe(parsed(bytes), "input.json"); }, {".json"}},
+        {"efficiency", [](Input bytes) { diffraction::parse_efficiency_csv(text(bytes), "input.csv"); }, {".csv"}},
+        {"illuminant", [](Input bytes) { colour::parse_illuminant(text(bytes), "input.csv"); }, {".csv"}},
         {"recording", read_recording, {".jsonl"}},
         {"plan", read_plan, {}},
         {"cooked", read_cooked, {".material", ".probe"}},

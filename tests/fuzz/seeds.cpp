@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "content/demo/play/recording.h"
-#include "editor/cooker/job_plan.h"
+#include "editor/cooker/jobs.h"
 #include "engine/asset/container.h"
 #include "engine/core/file.h"
 #include "engine/image/exr.h"
@@ -18,6 +18,7 @@
 #include "engine/scene/mesh_recipe.h"
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/thin_film/asset/film_material.h"
+#include "tests/support/expect.h"
 #include "tests/support/files.h"
 
 namespace rowland::fuzz {
@@ -91,8 +92,7 @@ Seed plan() {
     const std::vector<editor::Job> jobs = {{"0123456789ab", "material", "content/cd.json", "cooked/cd.material"},
                                            {"ba9876543210", "probe", "a \"b\".json", "cooked/\xc3\xa4.probe"}};
     const std::string text = editor::write_plan(jobs);
-    const auto* begin = reinterpret_cast<const std::byte*>(text.data());
-    return {"two jobs", {begin, begin + text.size()}};
+    return {"two jobs", test::bytes_of(text)};
 }
 
 /// Small pictures: captured ones are so large that few mutations of them are tried, and fewer hit what steers.
@@ -112,8 +112,7 @@ Seed small_hdr() {
         text += std::string("\x02\x02\x00\x08", 4);
         for (const char component : {'\x80', '\x80', '\x80', '\x81'}) text += {'\x88', component};
     }
-    const auto* begin = reinterpret_cast<const std::byte*>(text.data());
-    return {"small picture", {begin, begin + text.size()}};
+    return {"small picture", test::bytes_of(text)};
 }
 
 std::vector<Seed> draco_seeds() {
@@ -122,8 +121,8 @@ std::vector<Seed> draco_seeds() {
         const scene::Mesh mesh = scene::build_mesh(
             scene::DiscRecipe{.inner_radius = 0.02, .outer_radius = 0.06, .rings = rings, .segments = 12});
         const std::vector<char> stream = scene::encode_draco(mesh).bytes;
-        const auto* begin = reinterpret_cast<const std::byte*>(stream.data());
-        result.push_back({"disc of " + std::to_string(rings) + " rings", {begin, begin + stream.size()}});
+        result.push_back(
+            {"disc of " + std::to_string(rings) + " rings", test::bytes_of({stream.data(), stream.size()})});
     }
     return result;
 }
@@ -147,8 +146,7 @@ constexpr const char* kIridescence =
         "extras": {"metal": "Au"}})";
 
 Seed written(std::string_view text) {
-    const auto* begin = reinterpret_cast<const std::byte*>(text.data());
-    return {std::string(text), {begin, begin + text.size()}};
+    return {std::string(text), test::bytes_of(text)};
 }
 
 Seed cooked_film() {

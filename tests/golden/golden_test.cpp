@@ -22,7 +22,7 @@
 #include <vector>
 
 #include "engine/image/byte_image.h"
-#include "engine/image/exr.h"
+#include "engine/image/image.h"
 
 namespace rowland {
 namespace {
@@ -105,7 +105,7 @@ TEST(Golden, TheComparisonSeesAChangeOfOneFifthOfAStop) {
 TEST(Golden, LinearCaptureHoldsFinitePixelsOnly) {
     const std::filesystem::path drawn = std::filesystem::path(ROWLAND_RESULT_FOLDER) / "cd_clear_sky.exr";
     ASSERT_EQ(run_demo("--probe " + cooked_probe("clear_sky") + " --capture-linear " + drawn.string()), 0);
-    const image::Image image = image::read_exr(drawn);
+    const image::Image image = image::load_image(drawn);
     EXPECT_EQ(image.width, 480);
     EXPECT_EQ(image.height, 270);
     for (const glm::vec3& texel : image.texels)

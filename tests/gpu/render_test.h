@@ -14,6 +14,7 @@
 #include "engine/render/gpu_mesh.h"
 #include "engine/render/renderer.h"
 #include "engine/scene/camera.h"
+#include "engine/scene/light.h"
 #include "engine/scene/transform.h"
 #include "tests/gpu/gl_test.h"
 
@@ -62,6 +63,15 @@ class RenderTest : public GlTest {
         return entity;
     }
 
+    /// Replaces the sun, the one directional light that this makes.
+    void set_sun(const glm::vec3& toward, bool casts_shadow = true) {
+        if (world_.alive(sun_)) world_.destroy(sun_);
+        sun_ = world_.create();
+        world_.add(sun_, scene::DirectionalLight{.direction = glm::normalize(toward),
+                                                 .irradiance = glm::vec3(3.0F),
+                                                 .casts_shadow = casts_shadow});
+    }
+
     /// A texture of so many texels across, without a filter, row 0 at v = 0.
     static render::SurfaceTexture texture(int width, const std::vector<glm::vec4>& texels) {
         auto made = std::make_shared<gpu::Texture>(
@@ -97,6 +107,7 @@ class RenderTest : public GlTest {
 
     render::Renderer renderer_{glm::inverse(colour::rec709_to_xyz())};
     ecs::World world_;
+    ecs::Entity sun_;
     scene::Camera camera_{.eye = {0.0F, 0.0F, kEye}, .vertical_field_of_view = 2.0F * std::atan(kHalfView / kEye)};
     gpu::Framebuffer target_{
         gpu::FramebufferDesc{.width = kSize, .height = kSize, .colours = {gpu::Format::RGBA32F}, .depth = true}};

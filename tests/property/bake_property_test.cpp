@@ -135,8 +135,7 @@ RC_GTEST_PROP(SpikeTableProperty, StorageErrorIsHalfAStep, ()) {
     settings.spikes = any_settings();
     settings.spikes.bands = std::min(settings.spikes.bands, 3);
     settings.spikes.spikes = std::min(settings.spikes.spikes, 3);
-    settings.theta_nodes = 3;
-    settings.phi_nodes = 4;
+    settings.grid = {.columns = 4, .rows = 3};
     settings.storage = *rc::gen::element(Storage::Unorm16, Storage::Half);
     const SpikeTable table = bake(shape, settings);
     const auto count = static_cast<std::size_t>(settings.spikes.bands * settings.spikes.bands);
@@ -149,7 +148,7 @@ RC_GTEST_PROP(SpikeTableProperty, StorageErrorIsHalfAStep, ()) {
     const SpikeSet stored = sample(table, v.x, v.y, v.z);
     for (std::size_t k = 0; k < exact.wavelengths_nm.size(); ++k)
         for (std::size_t i = 0; i < count; ++i) {
-            const std::size_t layer = k * static_cast<std::size_t>(table.layers_per_spike) + i / 4;
+            const std::size_t layer = k * static_cast<std::size_t>(table.layers_per_spike()) + i / 4;
             const auto c = static_cast<int>(i % 4);
             const auto scale = static_cast<double>(table.scale[layer][c]);
             const double step = settings.storage == Storage::Half ? scale / 4096.0 : 0.5 * scale / 65535.0;

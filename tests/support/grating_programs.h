@@ -42,11 +42,8 @@ inline std::vector<GratingProgram> grating_programs() {
     const char* const streak = "representations/streak/streak.glsl";
     Defines spikes = at_vertices("representations/spikes/spikes.glsl", plane);
     spikes.insert(spikes.end(), {{"BANDS", "5"}, {"SPIKES", "8"}});
-    Defines transfer = at_vertices("representations/transfer/transfer.glsl", plane);
-    transfer.push_back({"BANDS", "5"});
     return {
         {"spikes", 2, spikes},
-        {"transfer", 2, transfer},
         {"arc", 3, at_pixels(arc, line, {{"ARC_PRODUCTS", "1"}})},
         {"arc_of_rank_16", 3, at_pixels(arc, of_rank_16, {{"ARC_PRODUCTS", "1"}})},
         {"arc_turns", 3,

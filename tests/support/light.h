@@ -37,9 +37,10 @@ inline std::vector<Facing> random_facings(int count) {
 }
 
 /// A recipe of a clear sky's probe that is so small that the reference is quick under it; `width` in texels.
-inline std::string small_sky(int width) {
-    return fmt::format(
-        R"({{"probe": {{"type": "clear_sky", "sun_azimuth_deg": 40, "sun_elevation_deg": 35, "width": {}}}}})", width);
+inline std::string small_sky(int width, int key_lights = 16) {
+    return fmt::format(R"({{"probe": {{"type": "clear_sky", "sun_azimuth_deg": 40, "sun_elevation_deg": 35, "width": {},
+                            "key_lights": {}}}}})",
+                       width, key_lights);
 }
 
 /// E(n)/π for the unit normal.

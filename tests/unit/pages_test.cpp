@@ -260,6 +260,26 @@ TEST(Pages, EveryLinkLeadsToAFileAndAHeading) {
     EXPECT_GT(links, 30);
 }
 
+/// `name()` or `Class::name()` in a page.
+TEST(Pages, EveryFunctionThatTheyNameExists) {
+    const std::regex word(R"(\w+)");
+    std::set<std::string> words;
+    for (const TreeFile& file : tree_files())
+        if (!file.path.ends_with(".md") && file.path != kThisFile)
+            words.insert(std::sregex_token_iterator(file.text.begin(), file.text.end(), word), {});
+    const std::regex function(R"(`[\w:.]*?(\w+)\(\)`)");
+    int functions = 0;
+    for (const TreeFile& file : tree_files()) {
+        if (!file.path.ends_with(".md") || file.path.starts_with("content/web/")) continue;
+        for (const std::smatch& match : matches(file.text, function)) {
+            ++functions;
+            EXPECT_TRUE(words.contains(match[1]))
+                << file.path << ":" << line_at(file.text, match.position()) << ": " << match.str();
+        }
+    }
+    EXPECT_GT(functions, 40);
+}
+
 struct Term {
     const char* needle;   ///< in lower case: only lines that contain it are searched by `found`
     const char* found;    ///< regular expression of the usage, case-sensitive

@@ -91,7 +91,7 @@ TEST_F(DemoWindow, KeysDragsAndDropsChangeThePausedPictureWhichElseStays) {
         user.key(key);
         EXPECT_TRUE(changed()) << key;
     }
-    user.drag({100, 100}, {60, 20});
+    user.drag({100, 160}, {60, 10});  // below the messages, on the ground
     EXPECT_TRUE(changed()) << "a drag turns the camera";
     user.drop(probe);
     EXPECT_FALSE(same(before, user.shot_unlike(before, 60s))) << "a probe lights the scene";

@@ -39,7 +39,7 @@ Hud::Hud(const Options& options, Session& session, const platform::FrameTimes& f
     : options_(options),
       session_(session),
       frame_times_(frame_times),
-      ui_({.scale = scale}),
+      ui_(scale),
       window_(window),
       panels_(window.x >= kRoomForPanels.x && window.y >= kRoomForPanels.y) {}
 
@@ -145,18 +145,18 @@ PixelProbe Hud::probe() const {
 void Hud::show_reference() {
     Comparison& comparison = session_.comparison();
     if (reference_ && comparison.wiping())
-        still_.update(session_.play().world(), comparison, session_.play().camera(), session_.picture().linear().size(),
-                      probe());
+        reference_picture_.update(session_.play().world(), comparison, session_.play().camera(),
+                                  session_.picture().linear().size(), probe());
     else
-        still_.stop(comparison);
+        reference_picture_.stop(comparison);
 }
 
 std::string Hud::name_of_all(Side side) {
     Comparison& comparison = session_.comparison();
     if (side == Side::Right && reference_) {
-        if (!still_.failure().empty()) return still_.failure();
-        return still_.begun() ? fmt::format("reference, {:.0f} %", 100.0 * still_.progress())
-                              : std::string("reference, once nothing moves");
+        if (!reference_picture_.failure().empty()) return reference_picture_.failure();
+        return reference_picture_.begun() ? fmt::format("reference, {:.0f} %", 100.0 * reference_picture_.progress())
+                                          : std::string("reference, once nothing moves");
     }
     std::optional<Look> common;
     for (const ecs::Entity grating : comparison.gratings()) {
@@ -241,7 +241,7 @@ void Hud::build() {
     show_reference();
     if (session_.comparison().wiping())
         if (const auto line =
-                wipe_line(session_.comparison().line(), name_of_all(Side::Left), name_of_all(Side::Right)))
+                wipe_handle(session_.comparison().line(), name_of_all(Side::Left), name_of_all(Side::Right)))
             panel().set(Setting::WipeLine, *line);
     if (panels_) {
         measure_pixel();
@@ -250,7 +250,7 @@ void Hud::build() {
         // Help covers the pixel window.
         if (!help_ && pixel_window(target_ ? &*target_ : nullptr, meter_, session_.picture().xyz_to_working()))
             write_pixel();
-        hint_line();
+        key_hints();
     }
     session_.picture().time_passes(times_);
     if (times_) frame_window(frame_times_, session_.picture().pass_times().latest(), times_);

@@ -7,7 +7,7 @@
 #include "content/demo/hud/windows.h"
 #include "content/demo/options.h"
 #include "content/demo/pixel/pixel_meter.h"
-#include "content/demo/pixel/reference_still.h"
+#include "content/demo/pixel/reference_picture.h"
 #include "content/demo/play/action.h"
 #include "content/demo/session.h"
 #include "engine/platform/frame_pacing.h"
@@ -64,7 +64,7 @@ class Hud {
     glm::ivec2 window_;
     std::vector<PlayEvent> events_;
     PixelMeter meter_;
-    ReferenceStill still_;
+    ReferencePicture reference_picture_;
     bool reference_ = false;  ///< right of a wipe's line
     std::optional<PixelTarget> target_;
     ui::MessageList messages_;

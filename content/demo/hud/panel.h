@@ -13,7 +13,7 @@
 
 namespace rowland::demo {
 
-/// What the panels show. They change nothing themselves but emit events, which are recorded.
+/// What the panels show. They do not modify the session; they emit events, which are recorded.
 struct Panel {
     const Options& options;
     Session& session;
@@ -27,14 +27,10 @@ struct Panel {
     Comparison& comparison() const { return session.comparison(); }
 };
 
-/// One section each, within the window that is being built.
+/// Each adds one section to the current ImGui window.
 void light_panel(const Panel& panel);
 void picture_panel(const Panel& panel);
 void play_panel(const Panel& panel);
 void gratings_panel(const Panel& panel);
-
-/// A control for an action, with its key in the tooltip.
-void action_button(const Panel& panel, Action action, const char* label);
-void action_check_box(const Panel& panel, Action action, const char* label, bool on);
 
 }  // namespace rowland::demo

@@ -14,26 +14,6 @@
 
 namespace rowland::demo {
 
-std::size_t resident_bytes() {
-    std::ifstream file("/proc/self/statm");
-    std::size_t all_pages = 0;
-    std::size_t resident_pages = 0;
-    if (!(file >> all_pages >> resident_pages)) return 0;
-    return resident_pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
-}
-
-std::string readable_bytes(std::size_t bytes) {
-    constexpr std::array kUnits = {"B", "KiB", "MiB", "GiB", "TiB"};
-    auto value = static_cast<double>(bytes);
-    std::size_t unit = 0;
-    while (value >= 1000.0 && unit + 1 < kUnits.size()) {
-        value /= 1024.0;
-        ++unit;
-    }
-    return unit == 0 || value >= 10.0 ? fmt::format("{:.0f} {}", value, kUnits[unit])
-                                      : fmt::format("{:.1f} {}", value, kUnits[unit]);
-}
-
 namespace {
 
 void graph(const platform::FrameTimes& times) {
@@ -76,63 +56,6 @@ void pass_table(const std::vector<gpu::PassTime>& passes) {
     ImGui::EndTable();
 }
 
-}  // namespace
-
-void frame_window(const platform::FrameTimes& times, const std::vector<gpu::PassTime>& passes, bool& open) {
-    const ImVec2 size = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({size.x - 10.0F, 10.0F}, ImGuiCond_Always, {1.0F, 0.0F});
-    if (ImGui::Begin("Frames", &open, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove)) {
-        ImGui::Dummy({18.0F * ImGui::GetFontSize(), 0.0F});
-        graph(times);
-        pass_table(passes);
-    }
-    ImGui::End();
-}
-
-void help_window(bool& open) {
-    const ImVec2 size = ImGui::GetIO().DisplaySize;
-    const float width = std::min(34.0F * ImGui::GetFontSize(), size.x - 20.0F);
-    ImGui::SetNextWindowPos({size.x - 10.0F, 10.0F}, ImGuiCond_Always, {1.0F, 0.0F});
-    ImGui::SetNextWindowSize({width, size.y - 20.0F});
-    ImGui::SetNextWindowBgAlpha(0.96F);
-    if (ImGui::Begin("Controls", &open, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove) &&
-        ImGui::BeginTable("controls", 2, ImGuiTableFlags_RowBg)) {
-        ImGui::TableSetupColumn("control", ImGuiTableColumnFlags_WidthFixed, 12.5F * ImGui::GetFontSize());
-        ImGui::TableSetupColumn("what");
-        std::string group;
-        for (const HelpLine& line : help_lines()) {
-            if (group != line.group) {
-                ImGui::TableNextRow();
-                ImGui::TableNextColumn();
-                ImGui::TextDisabled("%s", (group = line.group).c_str());
-            }
-            ImGui::TableNextRow();
-            ImGui::TableNextColumn();
-            ImGui::TextUnformatted(line.control.c_str());
-            ImGui::TableNextColumn();
-            ImGui::TextWrapped("%s", line.what.c_str());
-        }
-        ImGui::EndTable();
-    }
-    ImGui::End();
-}
-
-void hint_line() {
-    const ImVec2 size = ImGui::GetIO().DisplaySize;
-    const auto key = [](Action action) { return std::string(platform::name_of(row_of(action).key)); };
-    const std::string text = key(Action::Help) + " controls    " + key(Action::Hud) + " panels    " +
-                             key(Action::FrameGraph) + " times    " + key(Action::Wipe) + " wipe    " +
-                             key(Action::Close) + " quit";
-    const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
-    ImDrawList* list = ImGui::GetBackgroundDrawList();
-    const ImVec2 at(20.0F, size.y - extent.y - 14.0F);
-    list->AddRectFilled({at.x - 10.0F, at.y - 4.0F}, {at.x + extent.x + 10.0F, at.y + extent.y + 4.0F},
-                        ImGui::GetColorU32(ImGuiCol_WindowBg), 5.0F);
-    list->AddText(at, ImGui::GetColorU32(ImGuiCol_TextDisabled), text.c_str());
-}
-
-namespace {
-
 /// Roughly what a display shows, with `white` as white.
 ImVec4 swatch(const glm::dvec3& rgb, double white) {
     const auto encoded = [white](double linear) {
@@ -173,7 +96,92 @@ void reading_table(const PixelReading& reading, const glm::dmat3& xyz_to_working
     ImGui::Text("error %.3g %%", 100.0 * reading.point.error);
 }
 
+constexpr float kGrabWidth = 14.0F;
+constexpr float kHandleRadius = 9.0F;
+
+/// A label whose left edge, or right edge if `to_the_left`, is at `x`.
+void draw_label(ImDrawList* list, float x, float y, const std::string& text, bool to_the_left) {
+    const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
+    const float left = to_the_left ? x - extent.x - 12.0F : x;
+    list->AddRectFilled({left, y}, {left + extent.x + 12.0F, y + extent.y + 6.0F},
+                        ImGui::GetColorU32(ImGuiCol_WindowBg), 4.0F);
+    list->AddText({left + 6.0F, y + 3.0F}, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+}
+
 }  // namespace
+
+std::size_t resident_set_bytes() {
+    std::ifstream file("/proc/self/statm");
+    std::size_t all_pages = 0;
+    std::size_t resident_pages = 0;
+    if (!(file >> all_pages >> resident_pages)) return 0;
+    return resident_pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+}
+
+std::string format_bytes(std::size_t bytes) {
+    constexpr std::array kUnits = {"B", "KiB", "MiB", "GiB", "TiB"};
+    auto value = static_cast<double>(bytes);
+    std::size_t unit = 0;
+    while (value >= 1000.0 && unit + 1 < kUnits.size()) {
+        value /= 1024.0;
+        ++unit;
+    }
+    return unit == 0 || value >= 10.0 ? fmt::format("{:.0f} {}", value, kUnits[unit])
+                                      : fmt::format("{:.1f} {}", value, kUnits[unit]);
+}
+
+void frame_window(const platform::FrameTimes& times, const std::vector<gpu::PassTime>& passes, bool& open) {
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({size.x - 10.0F, 10.0F}, ImGuiCond_Always, {1.0F, 0.0F});
+    if (ImGui::Begin("Frames", &open, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove)) {
+        ImGui::Dummy({18.0F * ImGui::GetFontSize(), 0.0F});
+        graph(times);
+        pass_table(passes);
+    }
+    ImGui::End();
+}
+
+void help_window(bool& open) {
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    const float width = std::min(34.0F * ImGui::GetFontSize(), size.x - 20.0F);
+    ImGui::SetNextWindowPos({size.x - 10.0F, 10.0F}, ImGuiCond_Always, {1.0F, 0.0F});
+    ImGui::SetNextWindowSize({width, size.y - 20.0F});
+    ImGui::SetNextWindowBgAlpha(0.96F);
+    if (ImGui::Begin("Controls", &open, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove) &&
+        ImGui::BeginTable("controls", 2, ImGuiTableFlags_RowBg)) {
+        ImGui::TableSetupColumn("control", ImGuiTableColumnFlags_WidthFixed, 12.5F * ImGui::GetFontSize());
+        ImGui::TableSetupColumn("what");
+        std::string group;
+        for (const HelpLine& line : help_lines()) {
+            if (group != line.group) {
+                ImGui::TableNextRow();
+                ImGui::TableNextColumn();
+                ImGui::TextDisabled("%s", (group = line.group).c_str());
+            }
+            ImGui::TableNextRow();
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(line.control.c_str());
+            ImGui::TableNextColumn();
+            ImGui::TextWrapped("%s", line.what.c_str());
+        }
+        ImGui::EndTable();
+    }
+    ImGui::End();
+}
+
+void key_hints() {
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    const auto key = [](Action action) { return std::string(platform::name_of(key_row(action).key)); };
+    const std::string text = key(Action::Help) + " controls    " + key(Action::Hud) + " panels    " +
+                             key(Action::FrameGraph) + " times    " + key(Action::Wipe) + " wipe    " +
+                             key(Action::Close) + " quit";
+    const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
+    ImDrawList* list = ImGui::GetBackgroundDrawList();
+    const ImVec2 at(20.0F, size.y - extent.y - 14.0F);
+    list->AddRectFilled({at.x - 10.0F, at.y - 4.0F}, {at.x + extent.x + 10.0F, at.y + extent.y + 4.0F},
+                        ImGui::GetColorU32(ImGuiCol_WindowBg), 5.0F);
+    list->AddText(at, ImGui::GetColorU32(ImGuiCol_TextDisabled), text.c_str());
+}
 
 bool pixel_window(const PixelTarget* target, const PixelMeter& meter, const glm::dmat3& xyz_to_working) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
@@ -198,7 +206,7 @@ bool pixel_window(const PixelTarget* target, const PixelMeter& meter, const glm:
             } else if (meter.reading()) {
                 reading_table(*meter.reading(), xyz_to_working);
                 ImGui::SameLine();
-                const std::string key(platform::name_of(row_of(Action::WritePixel).key));
+                const std::string key(platform::name_of(key_row(Action::WritePixel).key));
                 write = ImGui::SmallButton(("write (" + key + ")").c_str());
             }
         }
@@ -207,23 +215,7 @@ bool pixel_window(const PixelTarget* target, const PixelMeter& meter, const glm:
     return write;
 }
 
-namespace {
-
-constexpr float kGrabWidth = 14.0F;
-constexpr float kHandleRadius = 9.0F;
-
-/// A label whose left edge, or right edge if `to_the_left`, is at `x`.
-void draw_label(ImDrawList* list, float x, float y, const std::string& text, bool to_the_left) {
-    const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
-    const float left = to_the_left ? x - extent.x - 12.0F : x;
-    list->AddRectFilled({left, y}, {left + extent.x + 12.0F, y + extent.y + 6.0F},
-                        ImGui::GetColorU32(ImGuiCol_WindowBg), 4.0F);
-    list->AddText({left + 6.0F, y + 3.0F}, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
-}
-
-}  // namespace
-
-std::optional<double> wipe_line(float line, const std::string& left, const std::string& right) {
+std::optional<double> wipe_handle(float line, const std::string& left, const std::string& right) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const float x = line * size.x;
     ImGui::SetNextWindowPos({x - 0.5F * kGrabWidth, 0.0F});

@@ -19,12 +19,12 @@ using diffraction::DiffractionSurface;
 struct Comparison::Looks {
     Look left;
     Look right;
-    GpuMaterialPointer own{};                     ///< the object's own material
-    GpuMaterialPointer assigned{};                ///< by us, last: a different one now is a new own material
-    GpuMaterialPointer of_right{};                ///< shown by the copy
-    std::shared_ptr<const gpu::Texture> still{};  ///< shown by still_material
-    GpuMaterialPointer still_of{};
-    GpuMaterialPointer still_material{};
+    GpuMaterialPointer own{};                       ///< the object's own material
+    GpuMaterialPointer assigned{};                  ///< by us, last: a different one now is a new own material
+    GpuMaterialPointer of_right{};                  ///< shown by the copy
+    std::shared_ptr<const gpu::Texture> picture{};  ///< shown by picture_material
+    GpuMaterialPointer pictured_material{};
+    GpuMaterialPointer picture_material{};
     std::shared_ptr<const scene::Mesh> mesh{};
     bool flat = false;  ///< that mesh
     std::optional<ecs::Entity> copy{};
@@ -86,7 +86,7 @@ const Look& Comparison::look(ecs::Entity grating, Side side) {
 }
 
 void Comparison::set_look(ecs::Entity grating, Side side, const Look& look) {
-    const bool suits = with_look(subject(grating), look).has_value();
+    const bool suits = apply_look(subject(grating), look).has_value();
     Looks& looks = looks_of_grating(grating);
     (side == Side::Left ? looks.left : looks.right) = suits ? look : Look{.representation = {}, .detail = look.detail};
 }
@@ -131,14 +131,14 @@ GpuMaterialPointer Comparison::material_of_copy(ecs::Entity grating) {
     const auto& grooves = world_.get<DiffractionSurface>(grating).grooves;
     if (!looks.of_right) looks.of_right = looks.own;
     if (const auto wanted = variants_.find(looks.own, grooves, looks.flat, looks.right)) looks.of_right = wanted;
-    if (!still_ || grooves) return looks.of_right;
-    if (looks.still != still_ || looks.still_of != looks.own) {
-        looks.still = still_;
-        looks.still_of = looks.own;
-        looks.still_material =
-            std::make_shared<const diffraction::GpuStill>(*looks.own->cooked(), still_, variants_.xyz_to_working());
+    if (!reference_picture_ || grooves) return looks.of_right;
+    if (looks.picture != reference_picture_ || looks.pictured_material != looks.own) {
+        looks.picture = reference_picture_;
+        looks.pictured_material = looks.own;
+        looks.picture_material = std::make_shared<const diffraction::GpuPicture>(
+            *looks.own->cooked(), reference_picture_, variants_.xyz_to_working());
     }
-    return looks.still_material;
+    return looks.picture_material;
 }
 
 void Comparison::show_copy(ecs::Entity grating) {

@@ -36,15 +36,15 @@ class Comparison {
     /// A look that does not suit the object becomes its own look.
     void set_look(ecs::Entity grating, Side side, const Look& look);
     void set_look_of_all(Side side, const Look& look);
-    /// Of an object, for looks_of().
+    /// Of an object, for suitable_looks().
     LookSubject subject(ecs::Entity grating);
     /// The material that an object shows on a side; the last one while a new one is baked.
     GpuMaterialPointer shown(ecs::Entity grating, Side side);
     GpuMaterialPointer own(ecs::Entity grating);
-    /// A picture (as for GpuStill) that all gratings show right of the line in place of their looks; null: none.
+    /// A picture (as for GpuPicture) that all gratings show right of the line in place of their looks; null: none.
     /// Gratings whose grooves vary keep their looks.
-    void set_still(std::shared_ptr<const gpu::Texture> still) { still_ = std::move(still); }
-    bool shows_still() const { return still_ != nullptr; }
+    void set_reference_picture(std::shared_ptr<const gpu::Texture> picture) { reference_picture_ = std::move(picture); }
+    bool shows_reference_picture() const { return reference_picture_ != nullptr; }
     bool baking() const { return variants_.baking(); }
 
     /// To be called once per frame, between the update of world matrices and drawing.
@@ -62,7 +62,7 @@ class Comparison {
 
     ecs::World& world_;
     Variants variants_;
-    std::shared_ptr<const gpu::Texture> still_;
+    std::shared_ptr<const gpu::Texture> reference_picture_;
     Look left_of_all_;
     Look right_of_all_;
     bool wiping_ = false;

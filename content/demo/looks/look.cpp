@@ -12,16 +12,17 @@ namespace rowland::demo {
 
 namespace {
 
-/// Settings that a representation's looks differ in, at coarse, medium and fine detail. The demo leaves the other
-/// settings at their defaults. Every representation has an entry.
+/// For each representation, the settings that the detail changes, at coarse, medium and fine detail. Other settings
+/// keep their defaults. Every representation has an entry.
 using Details = std::map<std::string, std::array<int, 3>>;
 
 const Details& details_of(const std::string& representation) {
-    static const std::map<std::string, Details> all{
-        {"spikes", {{"bands", {3, 5, 8}}, {"spikes", {4, 4, 8}}}}, {"transfer", {{"bands", {3, 5, 8}}}},
-        {"arc", {{"bands", {3, 5, 8}}, {"rank", {4, 8, 16}}}},     {"direct", {}},
-        {"planar", {{"map_resolution", {32, 128, 256}}}},          {"circle", {{"map_resolution", {16, 48, 104}}}},
-        {"streak", {{"map_resolution", {128, 192, 320}}}}};
+    static const std::map<std::string, Details> all{{"spikes", {{"bands", {3, 5, 8}}, {"spikes", {4, 4, 8}}}},
+                                                    {"arc", {{"bands", {3, 5, 8}}, {"rank", {4, 8, 16}}}},
+                                                    {"direct", {}},
+                                                    {"planar", {{"map_resolution", {32, 128, 256}}}},
+                                                    {"circle", {{"map_resolution", {16, 48, 104}}}},
+                                                    {"streak", {{"map_resolution", {128, 192, 320}}}}};
     return all.at(representation);
 }
 
@@ -45,7 +46,7 @@ std::string look_name(const Look& look) {
     return look.representation + ", " + detail_name(look.detail);
 }
 
-std::optional<Look> look_named(std::string name) {
+std::optional<Look> parse_look(std::string name) {
     if (name == look_name({})) return Look{};
     if (const auto old = name.find(", usual"); old != std::string::npos)
         name.replace(old, std::string::npos, ", medium");
@@ -55,7 +56,7 @@ std::optional<Look> look_named(std::string name) {
     return std::nullopt;
 }
 
-std::optional<diffraction::Material> with_look(const LookSubject& subject, const Look& look) {
+std::optional<diffraction::Material> apply_look(const LookSubject& subject, const Look& look) {
     if (look.own()) return subject.material;
     diffraction::Material material = subject.material;
     if (diffraction::find_representation(look.representation)->needs_flat_surface && !subject.flat) return std::nullopt;
@@ -70,17 +71,17 @@ std::optional<diffraction::Material> with_look(const LookSubject& subject, const
     return diffraction::suited_to_grooves(std::move(material), subject.grooves->pitches());
 }
 
-std::vector<Look> looks_of(const LookSubject& subject, Detail detail) {
+std::vector<Look> suitable_looks(const LookSubject& subject, Detail detail) {
     std::vector<Look> looks{Look{.representation = {}, .detail = detail}};
     for (const auto* info : diffraction::representations()) {
         Look look{.representation = info->name, .detail = detail};
-        if (with_look(subject, look)) looks.push_back(std::move(look));
+        if (apply_look(subject, look)) looks.push_back(std::move(look));
     }
     return looks;
 }
 
 Look next_representation(const LookSubject& subject, const Look& look) {
-    const std::vector<Look> looks = looks_of(subject, look.detail);
+    const std::vector<Look> looks = suitable_looks(subject, look.detail);
     const auto at = std::find(looks.begin(), looks.end(), look);
     return at == looks.end() || at + 1 == looks.end() ? looks.front() : *(at + 1);
 }
@@ -100,7 +101,7 @@ GpuMaterialPointer Variants::find(const GpuMaterialPointer& own,
             return variant->uploaded;
     const LookSubject subject{.material = own->cooked()->material, .flat = flat, .grooves = grooves};
     variants_.push_back(std::make_shared<Variant>(
-        Variant{.own = own, .grooves = grooves, .look = look, .material = with_look(subject, look), .uploaded = {}}));
+        Variant{.own = own, .grooves = grooves, .look = look, .material = apply_look(subject, look), .uploaded = {}}));
     return nullptr;
 }
 

@@ -29,7 +29,7 @@ struct Look {
 /// "as cooked", or "arc, fine".
 std::string look_name(const Look& look);
 /// Its inverse; nullopt for another text. Recordings of earlier versions say "usual" for "medium".
-std::optional<Look> look_named(std::string name);
+std::optional<Look> parse_look(std::string name);
 
 struct LookSubject {
     diffraction::Material material;
@@ -38,12 +38,12 @@ struct LookSubject {
 };
 
 /// The material with the look's settings in place of its own; nullopt if they do not suit its grating or the object.
-std::optional<diffraction::Material> with_look(const LookSubject& subject, const Look& look);
+std::optional<diffraction::Material> apply_look(const LookSubject& subject, const Look& look);
 
 /// The material's own look, then all that suit the object, in one detail.
-std::vector<Look> looks_of(const LookSubject& subject, Detail detail);
+std::vector<Look> suitable_looks(const LookSubject& subject, Detail detail);
 
-/// The one after `look` among looks_of() its detail, the first after the last.
+/// The one after `look` among suitable_looks() its detail, the first after the last.
 Look next_representation(const LookSubject& subject, const Look& look);
 /// The next detail of the same representation; coarse after fine.
 Look next_detail(const Look& look);

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "engine/core/computed.h"
-#include "engine/lighting/probe_image.h"
+#include "engine/lighting/probe_recipe.h"
 #include "engine/math/spherical_harmonics.h"
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/evaluate/point_shader.h"
@@ -14,17 +14,13 @@
 
 namespace rowland::demo {
 
-/// A probe at full resolution, for the reference.
-struct WholeProbe {
-    lighting::ProbeImage image;
-    int key_lights = 16;  ///< the most that it is cooked with
-};
+using lighting::FullResolutionProbe;
 
-/// The image of a probe: an image file (`mapping` "equirect" or "angular"), or that of a recipe. For a cooked probe,
+/// The whole probe of an image file (`mapping` "equirect" or "angular"), or of a recipe. For a cooked probe, that of
 /// the recipe of its name in `recipes`, or in the folder "recipes" beside it. Throws Error (input), also if there is
 /// none.
-WholeProbe load_whole_probe(const std::filesystem::path& path, const std::string& mapping,
-                            const std::filesystem::path& recipes);
+FullResolutionProbe load_whole_probe(const std::filesystem::path& path, const std::string& mapping,
+                                     const std::filesystem::path& recipes);
 
 /// The probe under which points are measured.
 struct PixelProbe {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "engine/core/check.h"
 #include "engine/platform/input.h"
@@ -66,40 +67,12 @@ constexpr std::array kHeldKeys{HeldKey{Held::Forward, Key::W, "walk forward"},
                                HeldKey{Held::Slow, Key::LeftControl, "walk slowly"},
                                HeldKey{Held::Spin, Key::LeftShift, "and drag: spin an object about its own axis"}};
 
-const char* group_of(Action action) {
-    switch (action) {
-        case Action::Walk:
-        case Action::ResetView:
-        case Action::PutBack:
-        case Action::Pause:
-        case Action::SlowMotion:
-        case Action::OneStep:
-            return "View and motion";
-        case Action::AddLight:
-        case Action::RemoveLight:
-        case Action::TurnLightLeft:
-        case Action::TurnLightRight:
-        case Action::Lamp:
-        case Action::NextProbe:
-            return "Light";
-        case Action::NextView:
-        case Action::LessExposure:
-        case Action::MoreExposure:
-        case Action::Bloom:
-        case Action::Vignette:
-        case Action::AutoExposure:
-        case Action::Dither:
-        case Action::Glare:
-            return "Picture";
-        case Action::NextLook:
-        case Action::NextDetail:
-        case Action::Wipe:
-        case Action::Reference:
-            return "Gratings";
-        default:
-            return "Program";
-    }
-}
+/// The first action of each group of the help.
+constexpr std::array<std::pair<Action, const char*>, 5> kGroups{{{Action::Walk, "View and motion"},
+                                                                 {Action::AddLight, "Light"},
+                                                                 {Action::NextView, "Picture"},
+                                                                 {Action::NextLook, "Gratings"},
+                                                                 {Action::Help, "Program"}}};
 
 const char* button_name(GamepadButton button) {
     constexpr platform::PerEnum<GamepadButton, const char*> kNames{
@@ -114,14 +87,13 @@ std::span<const ActionKey> action_keys() {
     return kActionKeys;
 }
 
-const ActionKey& row_of(Action action) {
-    const auto* const row = std::find_if(kActionKeys.begin(), kActionKeys.end(),
-                                         [action](const ActionKey& key) { return key.action == action; });
+const ActionKey& key_row(Action action) {
+    const auto* const row = std::ranges::find(kActionKeys, action, &ActionKey::action);
     ROWLAND_CHECK(row != kActionKeys.end(), "every action has a row");
     return *row;
 }
 
-std::optional<Action> action_named(std::string_view name) {
+std::optional<Action> find_action(std::string_view name) {
     for (const ActionKey& row : kActionKeys)
         if (row.name == name) return row.action;
     return std::nullopt;
@@ -132,20 +104,23 @@ std::span<const HeldKey> held_keys() {
 }
 
 platform::Key key_of(Held held) {
-    const auto* const row =
-        std::find_if(kHeldKeys.begin(), kHeldKeys.end(), [held](const HeldKey& key) { return key.held == held; });
+    const auto* const row = std::ranges::find(kHeldKeys, held, &HeldKey::held);
     ROWLAND_CHECK(row != kHeldKeys.end(), "everything held has a row");
     return row->key;
 }
 
 std::vector<HelpLine> help_lines() {
-    std::vector<HelpLine> lines{{"Mouse", "drag an object", "turn it; release it in motion and it goes on turning"},
-                                {"Mouse", "wheel on a held object", "spin it about its own axis"},
+    std::vector<HelpLine> lines{{"Mouse", "drag an object", "turn it; let go while moving to throw it"},
+                                {"Mouse", "wheel while dragging an object", "spin it about its own axis"},
                                 {"Mouse", "drag the background", "orbit"},
                                 {"Mouse", "wheel", "zoom"}};
     for (const HeldKey& row : kHeldKeys) lines.push_back({"Held keys", platform::name_of(row.key), row.help});
-    for (const ActionKey& row : kActionKeys)
-        lines.push_back({group_of(row.action), platform::name_of(row.key), row.help});
+    const char* group = "";
+    for (const ActionKey& row : kActionKeys) {
+        const auto* const begun = std::ranges::find(kGroups, row.action, &std::pair<Action, const char*>::first);
+        if (begun != kGroups.end()) group = begun->second;
+        lines.push_back({group, platform::name_of(row.key), row.help});
+    }
     constexpr const char* kPad = "Game pad";
     lines.push_back({kPad, "pad sticks", "orbit, or walk and look; with A held: turn the object in the middle"});
     for (const ActionKey& row : kActionKeys)
@@ -165,7 +140,6 @@ std::string help_text() {
 
 namespace {
 
-/// One row per setting.
 constexpr std::array<SettingKind, 9> kKinds{{
     {Setting::Exposure, "exposure", {{-12.0, 12.0}}},
     {Setting::Bloom, "bloom", {{0.0, 1.0}}},

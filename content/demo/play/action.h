@@ -34,8 +34,8 @@ struct ActionKey {
 
 /// One row per action, in the order of the help.
 std::span<const ActionKey> action_keys();
-const ActionKey& row_of(Action action);
-std::optional<Action> action_named(std::string_view name);
+const ActionKey& key_row(Action action);
+std::optional<Action> find_action(std::string_view name);
 
 /// Effects that last while a key is held.
 enum class Held { Forward, Back, Left, Right, Down, Up, Fast, Slow, Spin };

@@ -23,7 +23,7 @@ glm::mat4 object_to_world(ecs::World& world, ecs::Entity entity) {
 
 std::string name_of_object(ecs::World& world, ecs::Entity entity) {
     for (; world.alive(entity); entity = parent_of(world, entity))
-        if (const auto* label = world.find<scene::NodeLabel>(entity); label != nullptr && !label->name.empty())
+        if (const auto* label = world.find<scene::NodeMetadata>(entity); label != nullptr && !label->name.empty())
             return label->name;
     return "grating";
 }
@@ -103,17 +103,6 @@ std::optional<Hit> pick(ecs::World& world, std::span<const PickTarget> targets, 
         nearest = {.target = i, .triangle = *hit, .point = ray.origin + hit->distance * ray.direction};
     }
     return nearest;
-}
-
-Ray ray_through(const scene::Camera& camera, glm::dvec2 point, glm::ivec2 size) {
-    const glm::vec3 forward = glm::normalize(camera.target - camera.eye);
-    const glm::vec3 right = glm::normalize(glm::cross(forward, camera.up));
-    const glm::vec3 up = glm::cross(right, forward);
-    // The window's height is 2 tan(fov / 2) at distance 1.
-    const double scale = 2.0 * std::tan(0.5 * static_cast<double>(camera.vertical_field_of_view)) / size.y;
-    const auto x = static_cast<float>(scale * (point.x - 0.5 * size.x));
-    const auto y = static_cast<float>(scale * (0.5 * size.y - point.y));
-    return {camera.eye, glm::normalize(forward + x * right + y * up)};
 }
 
 }  // namespace rowland::demo

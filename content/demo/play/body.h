@@ -98,7 +98,4 @@ struct Hit {
 /// The nearest hit among the targets that are alive; nullopt if the ray misses all.
 std::optional<Hit> pick(ecs::World& world, std::span<const PickTarget> targets, const Ray& ray);
 
-/// The ray through a point of a window of that size; both in screen coordinates from the upper left, y down.
-Ray ray_through(const scene::Camera& camera, glm::dvec2 point, glm::ivec2 size);
-
 }  // namespace rowland::demo

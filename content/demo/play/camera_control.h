@@ -8,19 +8,19 @@
 
 namespace rowland::demo {
 
-/// The player's camera: orbits about a point, or walks.
+/// The user's camera: orbits about a point, or walks.
 class CameraControl {
  public:
-    /// `room`: the eye stays inside while walking.
+    /// Walking is confined to `room`.
     CameraControl(const scene::Camera& start, const scene::Bounds& room);
 
     bool walking() const { return walking_.has_value(); }
     void walk();
-    /// Returns to orbiting, about the point `distance` ahead.
+    /// Returns to orbiting, about the point `distance` metres in front of the eye.
     void stop_walking(float distance);
     void reset();
 
-    /// One step of `seconds`. `drags`: the mouse is the camera's (and does not hold a body).
+    /// One step of `seconds`. `drags`: dragging moves the camera, not an object.
     void step(const platform::InputState& input, double seconds, bool drags);
     scene::Camera camera() const;
 

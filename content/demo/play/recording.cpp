@@ -63,7 +63,7 @@ ordered_json line_of(const ResizeEvent& event, std::uint64_t step) {
 }
 
 ordered_json line_of(const ActionEvent& event, std::uint64_t step) {
-    return {{"step", step}, {"action", row_of(event.action).name}};
+    return {{"step", step}, {"action", key_row(event.action).name}};
 }
 
 ordered_json line_of(const SettingEvent& event, std::uint64_t step) {
@@ -123,7 +123,7 @@ PlayEvent button_event(JsonReader& reader) {
 
 PlayEvent action_event(JsonReader& reader) {
     const std::string name = reader.text("action");
-    const auto action = action_named(name);
+    const auto action = find_action(name);
     if (!action) reader.fail("action", name, "an action, as \"pause\"");
     return ActionEvent{*action};
 }

@@ -40,7 +40,7 @@ int draw_scene(int argc, char** argv, const cook::Registry& registry,
     const lighting::ProbeImage probe(image::load_image(argv[2]), lighting::Mapping::Equirectangular, argv[2]);
     picture.set_probe(lighting::build_light_probe(probe));
 
-    // A glTF is cooked first, and kept for the next time; a cooked .scene is loaded as it is.
+    // A glTF file is cooked first and cached; a .scene is loaded directly.
     std::vector<std::filesystem::path> read_files;
     const scene::ImportedScene scene = live::load_scene(registry, argv[1], live::default_cache_folder(), read_files);
     ecs::World world;
@@ -48,7 +48,8 @@ int draw_scene(int argc, char** argv, const cook::Registry& registry,
     scene::update_world_matrices(world);
 
     const scene::Camera camera = first_camera(scene);
-    for (int frame = 0; frame < 2; ++frame) picture.draw(world, camera, 0.0F);  // maps are filled for objects at rest
+    for (int frame = 0; frame < 2; ++frame)
+        picture.draw(world, camera, 0.0F);  // the second with full maps: they are filled once objects rest
     view::write_display_capture(picture.encoded(), argv[3]);
     return 0;
 } catch (const std::exception& error) {

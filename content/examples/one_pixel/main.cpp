@@ -4,7 +4,7 @@
 #include <engine/lighting/probe_image.h>
 #include <engine/math/spherical_harmonics.h>
 #include <modules/diffraction/model/grating.h>
-#include <modules/diffraction/representations/transfer/transfer_table.h>
+#include <modules/diffraction/representations/arc/arc_table.h>
 
 #include <cstdio>
 #include <exception>
@@ -17,7 +17,7 @@ int main(int argc, char** argv) try {
 
     // The material: grooves 1600 nm apart, half of each reflects. Baked once, for any light and view.
     const diffraction::Grating disc{.pitch_nm = 1600.0, .profile = diffraction::SlitProfile{.width_nm = 800.0}};
-    const auto table = diffraction::bake(disc, {.bands = 5});
+    const auto table = diffraction::bake(disc, {.bands = 5, .rank = 16});
 
     // The light: spherical harmonics of the probe, in five bands.
     const lighting::ProbeImage probe(image::load_image(argv[1]), lighting::Mapping::Equirectangular, argv[1]);

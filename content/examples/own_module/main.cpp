@@ -1,5 +1,5 @@
-// own_module SCENE PROBE PICTURE: a glTF scene, drawn by Rowland's engine with a module of this project. Materials with
-// the extension EXAMPLE_materials_metal are metals of that complex index of refraction.
+// own_module SCENE PROBE PICTURE: draws a glTF scene with Rowland's engine and a module of this project. Materials with
+// the extension EXAMPLE_materials_metal are metals with the complex refractive index given there.
 #include <engine/module.h>
 
 #include "draw_scene.h"

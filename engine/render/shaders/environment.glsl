@@ -24,34 +24,31 @@ float environment_level(float roughness) {
 }
 
 #if defined(ROUGH_REFLECTIONS) || defined(FILM_LOBE_NODES)
-// The four angles and look-ups that stand for a GGX lobe: engine/lighting/lobe_nodes.h.
-TEXTURE_UNIT(21) uniform sampler2D lobe_nodes;
+TEXTURE_UNIT(21) uniform sampler2D lobe_node_table;  // engine/lighting/lobe_nodes.h
 
 const float LOBE_OFFSET = 0.02;  // kLobeCosineOffset
 
-// Of a lobe in the table.
-vec2 lobe_position(float n_v, float roughness) {
+// The four nodes of a GGX lobe, one per component: the cosines of incidence on its microfacets, and the look-ups of the
+// light that they reflect, along mix(mirror's direction, normal, lean).
+struct LobeNodes {
+    vec4 cosines;
+    vec4 weights;
+    vec4 leans;
+    vec4 roughnesses;
+};
+
+LobeNodes lobe_nodes(float n_v, float roughness) {
     float least = sqrt(LOBE_OFFSET);
     float root = (sqrt(n_v + LOBE_OFFSET) - least) / (sqrt(1.0 + LOBE_OFFSET) - least);
     float column = 0.5 * (root + 1.0 - sqrt(max(1.0 - n_v, 0.0)));
-    vec2 size = vec2(textureSize(lobe_nodes, 0)) * vec2(1.0, 0.25);
-    return (vec2(column, sqrt(roughness)) * (size - 1.0) + 0.5) / (size * vec2(1.0, 4.0));
+    vec2 size = vec2(textureSize(lobe_node_table, 0)) * vec2(1.0, 0.25);
+    vec2 position = (vec2(column, sqrt(roughness)) * (size - 1.0) + 0.5) / (size * vec2(1.0, 4.0));
+    vec4 planes[4];
+    for (int i = 0; i < 4; ++i) planes[i] = textureLod(lobe_node_table, position + vec2(0.0, 0.25 * float(i)), 0.0);
+    vec4 roots = sqrt(n_v + LOBE_OFFSET) + roughness * roughness * planes[0];
+    return LobeNodes(clamp(roots * roots - LOBE_OFFSET, 0.0, 1.0), planes[1], roughness * roughness * planes[2],
+                     min(roughness * planes[3], 1.0));
 }
-
-vec4 lobe_plane(vec2 position, float plane) { return textureLod(lobe_nodes, position + vec2(0.0, 0.25 * plane), 0.0); }
-
-// Of the microfacets.
-vec4 lobe_cosines(vec2 position, float n_v, float roughness) {
-    vec4 roots = sqrt(n_v + LOBE_OFFSET) + roughness * roughness * lobe_plane(position, 0.0);
-    return clamp(roots * roots - LOBE_OFFSET, 0.0, 1.0);
-}
-
-vec4 lobe_weights(vec2 position) { return lobe_plane(position, 1.0); }
-
-// Light is looked up along mix(mirror's direction, normal, lean).
-vec4 lobe_leans(vec2 position, float roughness) { return roughness * roughness * lobe_plane(position, 2.0); }
-
-vec4 lobe_roughnesses(vec2 position, float roughness) { return min(roughness * lobe_plane(position, 3.0), 1.0); }
 #endif
 
 #ifdef LOCAL_REFLECTIONS
@@ -137,10 +134,18 @@ uniform vec4 surroundings;  // xyz: the centre, world; w: angle of a texel, radi
 const int MARCH_STEPS = 16;
 const int HALVINGS = 5;
 
-// The light from a direction: that of the object which the ray meets in place of `beyond`. A ray's point that is seen
-// from the centre at an angle a from the ray's direction lies at r / sin(a), where r is the ray's least distance.
+// Toward a ray's point as seen from the centre, at an angle from the ray's direction. `aside`: toward its nearest point.
+vec3 toward_point(float angle, vec3 aside, vec3 direction) { return sin(angle) * aside + cos(angle) * direction; }
+
+// The point lies at least / sin(angle) from the centre, where `least` is the ray's least distance.
+bool lies_behind_object(float angle, vec3 aside, vec3 direction, float least) {
+    vec3 toward = toward_point(angle, aside, direction);
+    return textureLod(surrounding_nearness, toward, 0.0).r * least > sin(angle);
+}
+
+// The light from a direction: that of the object which the ray meets in place of `beyond`.
 vec3 with_object_reflection(vec3 beyond, vec3 direction, float roughness) {
-    vec3 turn = fwidth(direction);
+    vec3 spread = fwidth(direction);
     vec3 from = world_position - surroundings.xyz;
     float along = dot(from, direction);
     vec3 foot = from - along * direction;
@@ -150,21 +155,19 @@ vec3 with_object_reflection(vec3 beyond, vec3 direction, float roughness) {
     float met = -1.0;  // beyond the last angle that is known to lie before an object
     for (int i = 1; i <= MARCH_STEPS && met < 0.0; ++i) {
         float angle = begin * (1.0 - float(i) / float(MARCH_STEPS));
-        vec3 toward = sin(angle) * aside + cos(angle) * direction;
-        if (textureLod(surrounding_nearness, toward, 0.0).r * least > sin(angle)) met = angle;
+        if (lies_behind_object(angle, aside, direction, least)) met = angle;
     }
     if (met < 0.0) return beyond;
     float before = met + begin / float(MARCH_STEPS);
     for (int i = 0; i < HALVINGS; ++i) {
         float angle = 0.5 * (before + met);
-        vec3 toward = sin(angle) * aside + cos(angle) * direction;
-        if (textureLod(surrounding_nearness, toward, 0.0).r * least > sin(angle)) met = angle;
+        if (lies_behind_object(angle, aside, direction, least)) met = angle;
         else before = angle;
     }
     // A lobe as wide as a plane sees it, and what the pixel covers.
-    float footprint = 2.0 * roughness * roughness + max(turn.x, max(turn.y, turn.z));
-    vec3 toward = sin(met) * aside + cos(met) * direction;
-    vec4 light = textureLod(surrounding_light, toward, log2(max(footprint / surroundings.w, 1.0)));
+    float footprint = 2.0 * roughness * roughness + max(spread.x, max(spread.y, spread.z));
+    vec4 light = textureLod(surrounding_light, toward_point(met, aside, direction),
+                            log2(max(footprint / surroundings.w, 1.0)));
     return beyond * (1.0 - light.a) + light.rgb;
 }
 #endif

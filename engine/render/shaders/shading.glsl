@@ -127,20 +127,17 @@ vec3 direct_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness, inout 
 #ifdef ROUGH_REFLECTIONS
 // The light of each part of the lobe, as microfacets at that part's angle reflect it.
 vec3 lobe_reflection(vec3 n, vec3 v, vec3 f0, float n_v, float roughness, vec2 split) {
-    vec2 position = lobe_position(n_v, roughness);
-    vec4 cosines = lobe_cosines(position, n_v, roughness);
-    vec4 weights = lobe_weights(position);
-    vec4 leans = lobe_leans(position, roughness);
+    LobeNodes nodes = lobe_nodes(n_v, roughness);
     // Narrower than the first rough level they would show the mirror's sharp lamps.
-    vec4 roughnesses = max(lobe_roughnesses(position, roughness), min(roughness, 1.0 / environment.x));
+    vec4 roughnesses = max(nodes.roughnesses, min(roughness, 1.0 / environment.x));
     vec3 mirrored = reflect(-v, n);
     vec3 sum = vec3(0.0);
     for (int i = 0; i < 4; ++i) {
-        vec3 light = environment_light(mix(mirrored, n, leans[i]), roughnesses[i]);
+        vec3 light = environment_light(mix(mirrored, n, nodes.leans[i]), roughnesses[i]);
 #ifdef MATERIAL_SPECULAR
-        sum += weights[i] * reflect_specular(light, f0, cosines[i]);
+        sum += nodes.weights[i] * reflect_specular(light, f0, nodes.cosines[i]);
 #else
-        sum += weights[i] * light * schlick_reflectance(f0, cosines[i]);
+        sum += nodes.weights[i] * light * schlick_reflectance(f0, nodes.cosines[i]);
 #endif
     }
     return sum * (split.x + split.y);

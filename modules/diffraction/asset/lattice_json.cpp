@@ -103,12 +103,12 @@ Grating parse_lattice_grating(JsonReader& json, const ReadNamed& read) {
 HeightMap read_height_map(const NamedText& png) {
     const std::span<const std::byte> bytes = std::as_bytes(std::span(png.text));
     if (!image::is_png(bytes)) refuse_input(png.file, {}, "another format", "a PNG of the heights of one cell");
-    const image::ByteImageSize size = image::png_size(bytes, png.file);
+    const image::ByteImageSize size = image::byte_image_size(bytes, png.file);
     if (size.width > kLargestHeightMap || size.height > kLargestHeightMap)
         refuse_input(png.file, {}, fmt::format("{} x {} texels", size.width, size.height),
                      fmt::format("at most {0} x {0} for the heights of one cell", kLargestHeightMap),
                      "scale the picture down");
-    const image::ByteImage picture = image::decode_png(bytes, png.file);
+    const image::ByteImage picture = image::decode_byte_image(bytes, png.file);
     HeightMap map{.columns = picture.width, .rows = picture.height, .heights = {}, .depth_nm = 0.0};
     for (std::size_t texel = 0; texel < picture.rgba.size(); texel += 4) map.heights.push_back(picture.rgba[texel]);
     return map;

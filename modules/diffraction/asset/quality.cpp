@@ -294,10 +294,6 @@ nlohmann::json to_json(const Method& method) {
     return json;
 }
 
-Method method_from_json(const nlohmann::json& json, const std::string& file) {
-    return read_method(json, file);
-}
-
 nlohmann::json with_method(nlohmann::json json, const Method& method) {
     nlohmann::json quality = method.quality;
     if (json.contains("quality") && json["quality"].is_object()) {

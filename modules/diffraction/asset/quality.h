@@ -74,8 +74,6 @@ Method parse_method(const std::string& text);
 std::string method_name(const Method& method);
 
 nlohmann::json to_json(const Method& method);
-/// Throws Error (input) naming `file` for what to_json() does not write.
-Method method_from_json(const nlohmann::json& json, const std::string& file);
 
 const RepresentationInfo& info(const Method& method);
 

@@ -50,7 +50,7 @@ std::vector<int> key_light_counts(int most) {
 
 }  // namespace
 
-std::vector<nlohmann::json> budget_candidates(const Grating& grating, SurfaceShape surface, int most_key_lights) {
+std::vector<nlohmann::json> budget_candidates(const Grating& grating, SurfaceShape surface, int key_light_limit) {
     std::vector<nlohmann::json> list;
     for (const RepresentationInfo* info : representations())
         for (const std::string& settings : info->budget(sees_v_g_alone(grating), surface)) {
@@ -60,7 +60,7 @@ std::vector<nlohmann::json> budget_candidates(const Grating& grating, SurfaceSha
                 list.push_back(std::move(quality));
                 continue;
             }
-            for (const int keys : key_light_counts(most_key_lights)) {
+            for (const int keys : key_light_counts(key_light_limit)) {
                 quality["key_lights"] = keys;
                 list.push_back(quality);
             }

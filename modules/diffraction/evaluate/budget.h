@@ -12,8 +12,8 @@
 
 namespace rowland::diffraction {
 
-/// The settings that a budget chooses from, as members of a material's "quality". `most_key_lights`: of the probes.
-std::vector<nlohmann::json> budget_candidates(const Grating& grating, SurfaceShape surface, int most_key_lights);
+/// The settings that a budget chooses from, as members of a material's "quality". `key_light_limit`: of the probes.
+std::vector<nlohmann::json> budget_candidates(const Grating& grating, SurfaceShape surface, int key_light_limit);
 
 /// A representation chosen for a material.
 struct BudgetChoice {

@@ -95,11 +95,6 @@ SettingInfo view_mapping_setting();
 SettingInfo view_resolution_setting();
 SettingInfo storage_setting(Storage default_value);
 
-/// Layers of four that bands² coefficients take: ⌈bands²/4⌉.
-constexpr int harmonic_layers(int bands) {
-    return (bands * bands + 3) / 4;
-}
-
 /// Flat lobe: 256 nodes over v_g, an error of 1e-4 or less from 740 nm pitch on. Others: 64 × 32 spherical nodes, .3 %
 /// for a lobe of .3 under 5 bands; as many parabolic nodes have .9 %. A lattice has .7 to 1.6 % (measured).
 ViewGrid default_view_grid(const Grating& grating);

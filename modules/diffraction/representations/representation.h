@@ -13,22 +13,20 @@
 #include "modules/diffraction/representations/planar/planar.h"
 #include "modules/diffraction/representations/spikes/spikes.h"
 #include "modules/diffraction/representations/streak/streak.h"
-#include "modules/diffraction/representations/transfer/transfer_table.h"
 
 namespace rowland::diffraction {
 
-/// How a material is shaded (PHYSICS §6). The order equals that of BakedTables and the numbers in cooked files.
+/// How a material is shaded (PHYSICS §6). The order equals that of BakedTables.
 ///
 /// Each alternative has the static members info() and from() (the settings for a grating). Optional members: the static
 /// refusal() (why the settings do not suit a grating), and `illuminant` or set_illuminant() where the light's white is
 /// baked in.
-using Representation = std::variant<SpikeTableSettings, TransferSettings, ArcSettings, DirectSettings, PlanarSettings,
-                                    CircleSettings, StreakSurfaceSettings>;
+using Representation = std::variant<SpikeTableSettings, ArcSettings, DirectSettings, PlanarSettings, CircleSettings,
+                                    StreakSurfaceSettings>;
 
 /// The baked tables of each representation. These overloads must exist for every alternative: bake(), write(), read(),
 /// cost(), facts() and point_shader().
-using BakedTables =
-    std::variant<SpikeTable, TransferTable, ArcTable, DirectTables, PlanarTables, CircleTables, StreakTables>;
+using BakedTables = std::variant<SpikeTable, ArcTable, DirectTables, PlanarTables, CircleTables, StreakTables>;
 inline constexpr std::size_t kRepresentationCount = std::variant_size_v<Representation>;
 static_assert(kRepresentationCount == std::variant_size_v<BakedTables>);
 

@@ -1,5 +1,6 @@
 #include "modules/diffraction/runtime/diffraction_surface.h"
 
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -134,8 +135,8 @@ gpu::ProgramDesc DiffractionSurfaceType::program(ecs::World& world, ecs::Entity 
     return world.get<DiffractionSurface>(entity).material->program(world.get<SurfaceState>(entity));
 }
 
-void DiffractionSurfaceType::warn_of_other_white(const std::string& baked_for, const std::string& lit_by) {
-    if (baked_for == lit_by || !warned_of_.emplace(baked_for, lit_by).second) return;
+void DiffractionSurfaceType::warn_illuminant_mismatch(const std::string& baked_for, const std::string& lit_by) {
+    if (baked_for == lit_by || !warned_pairs_.emplace(baked_for, lit_by).second) return;
     log_warning("a grating baked for the illuminant {} is lit by {}: it shows the colours of {}", baked_for, lit_by,
                 baked_for);
 }
@@ -148,7 +149,7 @@ void DiffractionSurfaceType::update(ecs::World& world, const render::FrameLight&
             const scene::WorldMatrix& world_matrix) {
             if (world.find<SurfaceState>(entity) == nullptr) world.add(entity, SurfaceState{});
             SurfaceState& state = world.get<SurfaceState>(entity);
-            warn_of_other_white(surface.material->illuminant(), light_.illuminant());
+            warn_illuminant_mismatch(surface.material->illuminant(), light_.illuminant());
             const bool changed = update_key(surface, instance, glm::mat3(world_matrix.matrix), light_.version(), state);
             const auto update_surface = [&](const scene::Mesh& mesh, bool skinned) {
                 update_sides(surface,

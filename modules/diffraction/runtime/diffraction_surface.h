@@ -60,7 +60,7 @@ class DiffractionSurfaceType final : public render::MaterialType {
     void bind_coat(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const override;
 
  private:
-    void warn_of_other_white(const std::string& baked_for, const std::string& lit_by);
+    void warn_illuminant_mismatch(const std::string& baked_for, const std::string& lit_by);
     /// One for all objects with the same texture and the same object of it.
     std::shared_ptr<const GrooveMap> groove_map(const GrooveTexture& use, const render::MaterialExtension& extension,
                                                 render::SurfaceTextures& textures);
@@ -70,7 +70,7 @@ class DiffractionSurfaceType final : public render::MaterialType {
     MapPace map_pace_;
     std::map<std::string, std::weak_ptr<const GpuMaterial>> uploaded_;  ///< by the hash of the tables
     std::map<std::pair<const image::ByteImage*, std::string>, std::weak_ptr<const GrooveMap>> groove_maps_;
-    std::set<std::pair<std::string, std::string>> warned_of_;  ///< illuminants baked for, lit by
+    std::set<std::pair<std::string, std::string>> warned_pairs_;  ///< illuminants baked for, lit by
     SurfaceLight light_;
     std::uint64_t version_ = 0;
 };

@@ -1,5 +1,3 @@
-#include "modules/diffraction/runtime/gpu_circle.h"
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -8,11 +6,17 @@
 #include <utility>
 #include <vector>
 
-#include "modules/diffraction/runtime/vertex_light.h"
+#include "modules/diffraction/runtime/gpu_representations.h"
 
 namespace rowland::diffraction {
 
 namespace {
+
+/// GpuCircle's data of an object.
+struct CircleData final : ObjectData {
+    std::shared_ptr<const scene::Mesh> mesh;  ///< of `flat`
+    bool flat = false;                        ///< so is its mirror, which needs no average over the pixel
+};
 
 /// The texels of a row that one look-up of the terms reads.
 void append(const CircleGrid& grid, int chart, int view, int row, int look_up, std::vector<glm::vec4>& texels) {

@@ -35,19 +35,6 @@ float largest_component(std::span<const glm::vec4> values) {
     return largest_of(values);
 }
 
-GpuMap::GpuMap(const gpu::TextureDesc& desc, const gpu::Sampling& sampling, float scale, GpuMap spare) : scale_(scale) {
-    const gpu::TextureDesc& old = spare.texture_.desc();
-    const bool fits = spare.texture_.id() != 0 && old.kind == desc.kind && old.format == desc.format &&
-                      old.width == desc.width && old.height == desc.height && old.depth == desc.depth &&
-                      old.levels == desc.levels;
-    texture_ = fits ? std::move(spare.texture_) : gpu::Texture(desc, sampling);
-}
-
-void GpuMap::bind(const gpu::Program& program, bool second) const {
-    texture_.bind(second ? kSecondMapUnit : kMapUnit);
-    program.set(second ? "second_map_scale" : "map_scale", scale_);
-}
-
 namespace {
 
 constexpr std::size_t kTexelsPerTask = 1 << 14;
@@ -104,17 +91,23 @@ MapTexels pack_ten_bits(std::span<const glm::vec3> values, gpu::TextureDesc desc
     return texels;
 }
 
-MapUpload::MapUpload(MapTexels texels, GpuMap spare)
-    : texels_(std::move(texels)), map_(texels_.desc, texels_.sampling, texels_.scale, std::move(spare)) {}
-
-template <typename Word>
-void MapUpload::upload_slices(std::span<const Word> words, int count) {
-    const std::size_t slice = words.size() / static_cast<std::size_t>(std::max(1, texels_.desc.depth >> level_));
-    map_.upload(words.subspan(static_cast<std::size_t>(slice_) * slice, static_cast<std::size_t>(count) * slice),
-                {.level = static_cast<int>(level_), .layer = slice_, .layers = count});
+GpuMap::GpuMap(MapTexels texels, GpuMap spare) : texels_(std::move(texels)) {
+    const gpu::TextureDesc& desc = texels_.desc;
+    const gpu::TextureDesc& old = spare.texture_.desc();
+    const bool fits = spare.texture_.id() != 0 && old.kind == desc.kind && old.format == desc.format &&
+                      old.width == desc.width && old.height == desc.height && old.depth == desc.depth &&
+                      old.levels == desc.levels;
+    texture_ = fits ? std::move(spare.texture_) : gpu::Texture(desc, texels_.sampling);
 }
 
-bool MapUpload::upload(int slices) {
+template <typename Word>
+void GpuMap::upload_slices(std::span<const Word> words, int count) {
+    const std::size_t slice = words.size() / static_cast<std::size_t>(std::max(1, texels_.desc.depth >> level_));
+    texture_.upload(words.subspan(static_cast<std::size_t>(slice_) * slice, static_cast<std::size_t>(count) * slice),
+                    {.level = static_cast<int>(level_), .layer = slice_, .layers = count});
+}
+
+bool GpuMap::upload(int slices) {
     const auto levels = static_cast<std::size_t>(texels_.desc.levels);
     for (int left = std::max(1, slices); left > 0 && level_ < levels;) {
         const int depth = std::max(1, texels_.desc.depth >> level_);
@@ -129,12 +122,16 @@ bool MapUpload::upload(int slices) {
         slice_ = 0;
         ++level_;
     }
-    return level_ == levels;
+    if (level_ < levels) return false;
+    texels_.levels.clear();
+    texels_.ten_bits = {};
+    return true;
 }
 
-GpuMap MapUpload::take() {
+void GpuMap::bind(const gpu::Program& program, bool second) const {
     ROWLAND_CHECK_OP(level_, ==, static_cast<std::size_t>(texels_.desc.levels));
-    return std::move(map_);
+    texture_.bind(second ? kSecondMapUnit : kMapUnit);
+    program.set(second ? "second_map_scale" : "map_scale", texels_.scale);
 }
 
 namespace {
@@ -150,12 +147,9 @@ FilledMap filled(const FillMap& fill, MapInput input, MapDetail detail, const st
 
 }  // namespace
 
-void MapFilling::warn_of_black(const MapInput& input) const {
-    if (!input.texels && (!wanted_ || wanted_->texels))
-        log_warning("the map of a grating is under a probe without texels: it stays dark");
-}
-
 void MapFilling::fill_now(const MapInput& input, const FillMap& fill, MapDetail detail) {
+    if (!input.texels && (!shown_ || shown_->input.texels))
+        log_warning("the map of a grating is under a probe without texels: it stays dark");
     begin_upload({std::make_shared<FilledMap>(filled(fill, input, detail)), input, detail});
     upload(kAllSlices);
 }
@@ -196,17 +190,13 @@ void MapFilling::begin_upload(Filled filled) {
 void MapFilling::upload(int slices) {
     // A coarse map is small.
     const int wanted = uploading_ && uploading_->detail == MapDetail::Full ? slices : kAllSlices;
-    if (uploads_.empty() || !std::ranges::all_of(uploads_, [&](MapUpload& part) { return part.upload(wanted); }))
-        return;
-    spare_ = std::exchange(map_, {});
-    for (MapUpload& part : uploads_) map_.push_back(part.take());
-    uploads_.clear();
+    if (uploads_.empty() || !std::ranges::all_of(uploads_, [&](GpuMap& part) { return part.upload(wanted); })) return;
+    spare_ = std::exchange(map_, std::exchange(uploads_, {}));
     shown_ = std::exchange(uploading_, std::nullopt);
     ++maps_shown_;
 }
 
 void MapFilling::update(const MapInput& input, const std::shared_ptr<const FillMap>& fill, MapPace pace) {
-    warn_of_black(input);
     if (pace == MapPace::Whole) {
         if (is_complete() && wanted_ == input) return;
         filling_.reset();
@@ -217,7 +207,8 @@ void MapFilling::update(const MapInput& input, const std::shared_ptr<const FillM
     if (const bool new_light = !shown_ || shown_->input.texels != input.texels; new_light) {
         filling_.reset();
         wanted_.reset();
-        fill_now(input, *fill, MapDetail::Coarse);
+        // The next frame begins the full map: in this one, other maps and the driver's compiler need the cores.
+        return fill_now(input, *fill, MapDetail::Coarse);
     }
     const Filling::Change change = filling_.poll();
     if (!change.failure.empty()) fail_system("", "a map that cannot be filled: " + change.failure);

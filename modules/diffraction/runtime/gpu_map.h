@@ -21,30 +21,12 @@ namespace rowland::diffraction {
 float largest_component(std::span<const glm::vec3> xyz);
 float largest_component(std::span<const glm::vec4> values);
 
-/// A map of radiance (XYZ) on the GPU, divided by its largest component: in fp16, which ends at 65504, or in 10 bits.
-class GpuMap {
- public:
-    GpuMap() = default;
-    /// A map without values. `scale`: the largest component to come. upload() takes values divided by it: halves, four
-    /// per texel, or texels of RGB10_A2. `spare` is a map that is no longer shown: its texture is used again if it has
-    /// the size. Maps of one size are sampled in one way.
-    GpuMap(const gpu::TextureDesc& desc, const gpu::Sampling& sampling, float scale, GpuMap spare);
-    void upload(std::span<const std::uint16_t> halves, gpu::TextureSlice slice) { texture_.upload(halves, slice); }
-    void upload(std::span<const std::uint32_t> packed, gpu::TextureSlice slice) { texture_.upload(packed, slice); }
-
-    /// `second`: beside another map of the same program.
-    void bind(const gpu::Program& program, bool second) const;
-
- private:
-    gpu::Texture texture_;
-    float scale_ = 1.0F;
-};
-
-/// A map in its texture's layout, for MapUpload.
+/// A map of radiance (XYZ) in its texture's layout, divided by its largest component: in fp16, which ends at 65504, or
+/// in 10 bits.
 struct MapTexels {
     gpu::TextureDesc desc;
     gpu::Sampling sampling;
-    float scale = 1.0F;  ///< the largest component, by which the halves are divided
+    float scale = 1.0F;  ///< the largest component
     /// Halves of each level, four per texel, or texels of RGB10_A2 in ten_bits.
     std::vector<std::vector<std::uint16_t>> levels{};
     std::vector<std::uint32_t> ten_bits{};
@@ -57,25 +39,27 @@ MapTexels pack(std::span<const std::vector<glm::vec4>> levels, gpu::TextureDesc 
 /// Values of either sign in ten bits per component, 0 to 1 for −scale to scale: one level, as RGB10_A2.
 MapTexels pack_ten_bits(std::span<const glm::vec3> values, gpu::TextureDesc desc, const gpu::Sampling& sampling);
 
-/// Uploads a map, some slices at a time.
-class MapUpload {
+/// A map on the GPU, uploaded some slices at a time.
+class GpuMap {
  public:
-    /// Into the texture of `spare`, if it fits.
-    explicit MapUpload(MapTexels texels, GpuMap spare = {});
+    GpuMap() = default;
+    /// `spare` is a map that is no longer shown: its texture is used again if it has the size. Maps of one size are
+    /// sampled in one way.
+    GpuMap(MapTexels texels, GpuMap spare);
 
     /// Uploads up to so many slices, at least one; true when all are uploaded.
     bool upload(int slices);
 
-    /// All must be uploaded.
-    GpuMap take();
+    /// All must be uploaded. `second`: beside another map of the same program.
+    void bind(const gpu::Program& program, bool second) const;
 
  private:
     /// Uploads a part of a level's slices.
     template <typename Word>
     void upload_slices(std::span<const Word> words, int count);
 
-    MapTexels texels_;
-    GpuMap map_;
+    MapTexels texels_;  ///< without values once they are uploaded
+    gpu::Texture texture_;
     std::size_t level_ = 0;
     int slice_ = 0;  ///< of the level, the next to upload
 };
@@ -83,7 +67,7 @@ class MapUpload {
 /// How long frames wait for maps.
 enum class MapPace {
     Incremental,  ///< for a coarse map, tens of milliseconds, where the light is new; never for full ones
-    Whole,        ///< for full maps, always. For stills
+    Whole,        ///< for full maps, always. For pictures in files
 };
 
 /// What a map is filled from, besides its material.
@@ -134,14 +118,13 @@ class MapFilling {
     using Filling = Computed<MapInput, Filled>;
 
     void fill_now(const MapInput& input, const FillMap& fill, MapDetail detail);
-    void warn_of_black(const MapInput& input) const;
     void want(const MapInput& input, const std::shared_ptr<const FillMap>& fill);
     void begin_upload(Filled filled);
     void upload(int slices);
 
     std::optional<MapInput> wanted_;
     Filling filling_;
-    std::vector<MapUpload> uploads_;  ///< of uploading_, one per texture
+    std::vector<GpuMap> uploads_;  ///< of uploading_, one per texture
     std::optional<Filled> uploading_;
     std::vector<GpuMap> map_;      ///< one per texture
     std::vector<GpuMap> spare_;    ///< the map before it, whose textures the next one of its size takes

@@ -12,20 +12,15 @@
 
 #include "engine/render/surface_programs.h"
 #include "modules/diffraction/asset/material.h"
-#include "modules/diffraction/representations/spikes/spikes.h"
 #include "modules/diffraction/runtime/bindings.h"
-#include "modules/diffraction/runtime/gpu_arc.h"
-#include "modules/diffraction/runtime/gpu_circle.h"
-#include "modules/diffraction/runtime/gpu_planar.h"
-#include "modules/diffraction/runtime/gpu_spikes.h"
-#include "modules/diffraction/runtime/gpu_streak.h"
+#include "modules/diffraction/runtime/gpu_representations.h"
 
 namespace rowland::diffraction {
 
 namespace {
 
 /// The class that draws each of BakedTables, in its order.
-using GpuClasses = std::tuple<GpuSpikes, GpuTransfer, GpuArc, GpuDirect, GpuPlanar, GpuCircle, GpuStreak>;
+using GpuClasses = std::tuple<GpuSpikes, GpuArc, GpuDirect, GpuPlanar, GpuCircle, GpuStreak>;
 static_assert(std::tuple_size_v<GpuClasses> == kRepresentationCount);
 
 /// Both sides of a sheet.
@@ -167,7 +162,7 @@ void set_vertex_shader(gpu::ProgramDesc& desc, const char* file) {
 
 namespace {
 
-/// Like a map without key lights, a still shows the whole probe and no other light.
+/// Like a map without key lights, a picture shows the whole probe and no other light.
 CookedMaterial as_a_map(const CookedMaterial& cooked) {
     CookedMaterial map = cooked;
     map.material.quality.key_lights = 0;
@@ -178,20 +173,20 @@ CookedMaterial as_a_map(const CookedMaterial& cooked) {
 
 }  // namespace
 
-GpuStill::GpuStill(const CookedMaterial& cooked, std::shared_ptr<const gpu::Texture> still,
-                   const glm::dmat3& xyz_to_working)
-    : GpuMaterial(as_a_map(cooked), xyz_to_working), still_(std::move(still)) {}
+GpuPicture::GpuPicture(const CookedMaterial& cooked, std::shared_ptr<const gpu::Texture> picture,
+                       const glm::dmat3& xyz_to_working)
+    : GpuMaterial(as_a_map(cooked), xyz_to_working), picture_(std::move(picture)) {}
 
-void GpuStill::describe(const SurfaceState&, gpu::ProgramDesc& desc) const {
-    set_pixel_shader(desc, "shaders/still.glsl");
+void GpuPicture::describe(const SurfaceState&, gpu::ProgramDesc& desc) const {
+    set_pixel_shader(desc, "shaders/picture.glsl");
 }
 
-void GpuStill::bind_tables(const gpu::Program& program, const SurfaceState&) const {
-    still_->bind(kMapUnit);
+void GpuPicture::bind_tables(const gpu::Program& program, const SurfaceState&) const {
+    picture_->bind(kMapUnit);
     // The viewport is that of the whole image, whatever the scissor.
     std::array<GLint, 4> viewport{};
     glGetIntegerv(GL_VIEWPORT, viewport.data());
-    program.set("still_scale", 1.0F / glm::vec2(viewport[2], viewport[3]));
+    program.set("picture_scale", 1.0F / glm::vec2(viewport[2], viewport[3]));
 }
 
 }  // namespace rowland::diffraction

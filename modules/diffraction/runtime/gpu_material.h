@@ -135,12 +135,13 @@ void set_pixel_shader(gpu::ProgramDesc& desc, const char* file, int samplers = 1
 void set_vertex_shader(gpu::ProgramDesc& desc, const char* file);
 
 /// An image in place of a representation: the radiance of the listed orders under the whole probe, computed elsewhere
-/// for the current view. The scene's other lights are shaded as with any material. shaders/still.glsl.
-class GpuStill final : public GpuMaterial {
+/// for the current view. The scene's other lights are shaded as with any material. shaders/picture.glsl.
+class GpuPicture final : public GpuMaterial {
  public:
-    /// `still` covers the viewport, row 0 at the bottom: XYZ and alpha 1 where it is known, else 0. `cooked`: its
+    /// `picture` covers the viewport, row 0 at the bottom: XYZ and alpha 1 where it is known, else 0. `cooked`: its
     /// material.
-    GpuStill(const CookedMaterial& cooked, std::shared_ptr<const gpu::Texture> still, const glm::dmat3& xyz_to_working);
+    GpuPicture(const CookedMaterial& cooked, std::shared_ptr<const gpu::Texture> picture,
+               const glm::dmat3& xyz_to_working);
 
     void update(const SurfaceObject&, SurfaceLight&, SurfaceState&) const override {}
 
@@ -148,20 +149,7 @@ class GpuStill final : public GpuMaterial {
     void describe(const SurfaceState& state, gpu::ProgramDesc& desc) const override;
     void bind_tables(const gpu::Program& program, const SurfaceState& state) const override;
 
-    std::shared_ptr<const gpu::Texture> still_;
-};
-
-/// Analytic lights and key lights alone.
-class GpuDirect final : public GpuMaterial {
- public:
-    GpuDirect(const CookedMaterial& cooked, const DirectTables&, const glm::dmat3& xyz_to_working)
-        : GpuMaterial(cooked, xyz_to_working) {}
-
-    void update(const SurfaceObject&, SurfaceLight&, SurfaceState&) const override {}
-
- private:
-    void describe(const SurfaceState&, gpu::ProgramDesc&) const override {}
-    void bind_tables(const gpu::Program&, const SurfaceState&) const override {}
+    std::shared_ptr<const gpu::Texture> picture_;
 };
 
 }  // namespace rowland::diffraction

@@ -1,5 +1,3 @@
-#include "modules/diffraction/runtime/gpu_streak.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +6,7 @@
 #include <string>
 
 #include "modules/diffraction/runtime/bindings.h"
+#include "modules/diffraction/runtime/gpu_representations.h"
 
 namespace rowland::diffraction {
 
@@ -63,22 +62,22 @@ GpuStreak::GpuStreak(const CookedMaterial& cooked, const StreakTables& tables, c
       reach_(static_cast<float>(tables.streak.reach())),
       level_(static_cast<float>(std::log2(tables.streak.sigma / tables.map.length))),
       power_(static_cast<float>(tables.streak.power / std::erf(1.0 / (tables.streak.sigma * std::numbers::sqrt2)))),
-      rest_weight_(static_cast<float>(1.0 - tables.streak.power)),
+      arc_fraction_(static_cast<float>(1.0 - tables.streak.power)),
       fill_(std::make_shared<const FillMap>(
           [size = tables.map](const MapInput& input, MapDetail detail, const std::stop_token& stop) {
               return fill(size, input, detail, stop);
           })) {
-    if (tables.incoherent) rest_.emplace(cooked, *tables.incoherent, xyz_to_working);
+    if (tables.incoherent) incoherent_.emplace(cooked, *tables.incoherent, xyz_to_working);
 }
 
 void GpuStreak::update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const {
-    if (rest_) rest_->update(object, light, state);
+    if (incoherent_) incoherent_->update(object, light, state);
     map_.update({.texels = light.probe_samples(0)}, fill_, object.map_pace);
 }
 
 void GpuStreak::describe(const SurfaceState& state, gpu::ProgramDesc& desc) const {
-    if (rest_) {
-        rest_->describe(state, desc);
+    if (incoherent_) {
+        incoherent_->describe(state, desc);
         desc.defines.push_back({"REST", "1"});
     }
     set_pixel_shader(desc, "representations/streak/streak.glsl");
@@ -87,13 +86,13 @@ void GpuStreak::describe(const SurfaceState& state, gpu::ProgramDesc& desc) cons
 }
 
 void GpuStreak::bind_tables(const gpu::Program& program, const SurfaceState& state) const {
-    if (rest_) rest_->bind_tables(program, state);
+    if (incoherent_) incoherent_->bind_tables(program, state);
     segments_.bind_storage(kStreakSegmentBinding);
     map_.bind(program);
     program.set("streak_level", level_);
     program.set("streak_reach", reach_);
     program.set("streak_power", power_);
-    program.set("rest_weight", rest_weight_);
+    program.set("rest_weight", arc_fraction_);
 }
 
 }  // namespace rowland::diffraction

@@ -147,8 +147,8 @@ const lighting::ShLight& SurfaceLight::whole_harmonics(int bands) {
     return whole_.emplace(bands, windowed(whole, bands)).first->second;
 }
 
-const lighting::ShLight& SurfaceLight::probe_harmonics(int bands, int most_key_lights) {
-    const std::span<const lighting::KeyLight> keys = key_lights(most_key_lights);
+const lighting::ShLight& SurfaceLight::probe_harmonics(int bands, int key_light_limit) {
+    const std::span<const lighting::KeyLight> keys = key_lights(key_light_limit);
     const std::pair key(bands, keys.size());
     if (const auto found = without_key_lights_.find(key); found != without_key_lights_.end()) return found->second;
     const lighting::ShLight& probe = frame_.probe->sh;
@@ -157,8 +157,8 @@ const lighting::ShLight& SurfaceLight::probe_harmonics(int bands, int most_key_l
         .first->second;
 }
 
-const std::shared_ptr<const lighting::LightSamples>& SurfaceLight::probe_samples(int most_key_lights) const {
-    const std::span<const lighting::KeyLight> keys = key_lights(most_key_lights);
+const std::shared_ptr<const lighting::LightSamples>& SurfaceLight::probe_samples(int key_light_limit) const {
+    const std::span<const lighting::KeyLight> keys = key_lights(key_light_limit);
     std::shared_ptr<const lighting::LightSamples>& samples = samples_[keys.size()];
     const lighting::PackedLight& light = frame_.probe->light;
     if (!samples && light.face_size > 0)

@@ -50,9 +50,9 @@ class SurfaceLight {
     /// The probe and the directional lights in this number of bands, windowed.
     const lighting::ShLight& whole_harmonics(int bands);
     /// The probe without key_lights(most), in this number of bands, windowed.
-    const lighting::ShLight& probe_harmonics(int bands, int most_key_lights);
+    const lighting::ShLight& probe_harmonics(int bands, int key_light_limit);
     /// The same light at full resolution; null if the probe has no samples.
-    const std::shared_ptr<const lighting::LightSamples>& probe_samples(int most_key_lights) const;
+    const std::shared_ptr<const lighting::LightSamples>& probe_samples(int key_light_limit) const;
 
     /// The probe's first `most` key lights, or all; none unless the frame shades them as analytic lights.
     std::span<const lighting::KeyLight> key_lights(int most) const;

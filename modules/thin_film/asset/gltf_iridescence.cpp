@@ -73,8 +73,10 @@ GltfIridescence parse_gltf_iridescence(const nlohmann::json& json, const std::st
     read.factor = reader.number_or("iridescenceFactor", read.factor, {.minimum = 0.0, .maximum = 1.0});
     read.factor_texture = parse_texture(reader, "iridescenceTexture");
     read.ior = reader.number_or("iridescenceIor", read.ior, kFilmIndex);
-    read.thickness_at_0_nm = reader.number_or("iridescenceThicknessMinimum", read.thickness_at_0_nm, kThickness_nm);
-    read.thickness_at_1_nm = reader.number_or("iridescenceThicknessMaximum", read.thickness_at_1_nm, kThickness_nm);
+    read.minimum_thickness_nm =
+        reader.number_or("iridescenceThicknessMinimum", read.minimum_thickness_nm, kThickness_nm);
+    read.maximum_thickness_nm =
+        reader.number_or("iridescenceThicknessMaximum", read.maximum_thickness_nm, kThickness_nm);
     read.thickness_texture = parse_texture(reader, "iridescenceThicknessTexture");
     if (reader.has("extras") && reader.raw("extras").is_object()) {
         JsonReader extras = reader.object("extras");
@@ -101,8 +103,8 @@ std::optional<FilmMaterial> film_material(const GltfIridescence& iridescence,
                                           const std::string& pointer) {
     if (iridescence.factor == 0.0 || description.unlit) return std::nullopt;
     const bool varies = iridescence.thickness_texture.has_value();
-    const double other_nm = varies ? iridescence.thickness_at_0_nm : iridescence.thickness_at_1_nm;
-    const auto [thinnest_nm, thickest_nm] = std::minmax(other_nm, iridescence.thickness_at_1_nm);
+    const double other_nm = varies ? iridescence.minimum_thickness_nm : iridescence.maximum_thickness_nm;
+    const auto [thinnest_nm, thickest_nm] = std::minmax(other_nm, iridescence.maximum_thickness_nm);
     const double roughness = description.roughness;
     const double ior = dielectric_ior(description, file, pointer);
     return FilmMaterial{.film = {.layers = {{.index = iridescence.ior, .thickness_nm = thickest_nm}},
@@ -117,8 +119,8 @@ std::optional<FilmMaterial> film_material(const GltfIridescence& iridescence,
 std::string describe(const GltfIridescence& iridescence) {
     const std::string thickness =
         iridescence.thickness_texture
-            ? fmt::format("{:g} to {:g}", iridescence.thickness_at_0_nm, iridescence.thickness_at_1_nm)
-            : fmt::format("{:g}", iridescence.thickness_at_1_nm);
+            ? fmt::format("{:g} to {:g}", iridescence.minimum_thickness_nm, iridescence.maximum_thickness_nm)
+            : fmt::format("{:g}", iridescence.maximum_thickness_nm);
     return fmt::format("{} nm of ior {:g}, factor {:g}", thickness, iridescence.ior, iridescence.factor);
 }
 

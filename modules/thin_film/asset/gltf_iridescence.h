@@ -21,8 +21,8 @@ struct GltfIridescence {
     double factor = 0.0;
     std::optional<scene::TextureUse> factor_texture;  ///< R
     double ior = 1.3;
-    double thickness_at_0_nm = 100.0;  ///< where the thickness texture is 0
-    double thickness_at_1_nm = 400.0;  ///< where it is 1, and everywhere without one; may be the smaller
+    double minimum_thickness_nm = 100.0;  ///< where the thickness texture is 0
+    double maximum_thickness_nm = 400.0;  ///< where it is 1, and everywhere without one; may be the smaller
     std::optional<scene::TextureUse> thickness_texture;  ///< G
     std::optional<Base> base;                       ///< "metal" or "base" of its extras, as in a film material file
     colour::Illuminant illuminant = colour::d65();  ///< of its extras

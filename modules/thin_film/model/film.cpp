@@ -36,11 +36,6 @@ std::complex<double> base_index(const Base& base, double wavelength_nm) {
     return std::visit(IndexAt{wavelength_nm}, base);
 }
 
-Film with_thickness(Film film, double thickness_nm) {
-    film.layers.front().thickness_nm = thickness_nm;
-    return film;
-}
-
 namespace {
 
 using Complex = std::complex<double>;

@@ -41,9 +41,6 @@ struct Film {
 /// Index of the base at a wavelength. PHYSICS §3.
 std::complex<double> base_index(const Base& base, double wavelength_nm);
 
-/// The same film with an outermost layer of another thickness. It has a layer.
-Film with_thickness(Film film, double thickness_nm);
-
 /// Layers on a base under light of one wavelength and angle, for any thickness of the outermost layer.
 class LayersAtAngle {
  public:

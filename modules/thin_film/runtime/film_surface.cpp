@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/matrix.hpp>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <utility>
@@ -26,12 +27,12 @@ bool is_line(const FilmTable& table) {
     return table.rows == 1 && table.layers <= 2;
 }
 
-/// One thickness, all roughnesses: layers are rows.
+/// One thickness; the roughness varies along the texture's rows.
 bool has_roughnesses(const FilmTable& table) {
     return table.layers > 2;
 }
 
-/// Columns of M in the working space, one after another. The fourth components are the reflectance of white.
+/// Columns of the reflectance matrix M, PHYSICS (4.2), in the working space. Fourth components: reflectance of white.
 std::vector<glm::vec4> working_columns(const FilmTable& table, const glm::dmat3& xyz_to_working) {
     const glm::dmat3 working_to_rec709 = glm::inverse(xyz_to_working * colour::rec709_to_xyz());
     std::vector<glm::vec4> columns;
@@ -56,7 +57,7 @@ gpu::Texture upload(const FilmTable& table, const glm::dmat3& xyz_to_working) {
     return texture;
 }
 
-/// Scale and bias from [begin, end] to the centres of the first and the last of `nodes` texels.
+/// Scale and bias that map begin and end to the centres of the first and the last of `nodes` texels.
 glm::vec2 to_texels(double begin, double end, int nodes) {
     const double scale = end > begin ? (nodes - 1) / ((end - begin) * nodes) : 0.0;
     return {scale, 0.5 / nodes - begin * scale};
@@ -114,7 +115,7 @@ render::SurfaceTexture texture(const std::optional<scene::TextureUse>& use, rend
     return textures.get(*use, render::TexelMeaning::Linear);
 }
 
-/// Whether nothing is seen of the light that passes the film.
+/// Whether light transmitted by the film is absorbed.
 bool is_black(const render::StandardMaterial& material) {
     const bool metal = material.metallic == 1.0F && !material.metallic_roughness_texture;
     return !material.passes_light && (metal || material.base_colour == glm::vec3(0.0F));
@@ -138,7 +139,7 @@ void add_film(ecs::World& world, ecs::Entity entity, const CookedFilm& cooked, c
     material.passes_light = material.alpha_mode == scene::AlphaMode::Blend;
     world.add(entity, FilmSurface{.film = std::make_shared<const GpuFilm>(cooked.table, xyz_to_working,
                                                                           cooked.material.illuminant.name),
-                                  .thickness_at_1_nm = static_cast<float>(cooked.material.range.thickest_nm)});
+                                  .maximum_thickness_nm = static_cast<float>(cooked.material.range.thickest_nm)});
 }
 
 std::string FilmSurfaceType::gltf_extension() const {
@@ -156,8 +157,8 @@ void FilmSurfaceType::attach(ecs::World& world, ecs::Entity entity, const render
     FilmSurface surface{
         .factor = static_cast<float>(read.factor),
         .factor_texture = texture(read.factor_texture, textures, file, pointer + "/iridescenceTexture"),
-        .thickness_at_0_nm = static_cast<float>(read.thickness_at_0_nm),
-        .thickness_at_1_nm = static_cast<float>(read.thickness_at_1_nm),
+        .minimum_thickness_nm = static_cast<float>(read.minimum_thickness_nm),
+        .maximum_thickness_nm = static_cast<float>(read.maximum_thickness_nm),
         .thickness_texture = texture(read.thickness_texture, textures, file, pointer + "/iridescenceThicknessTexture")};
     auto& material = world.get<render::StandardMaterial>(entity);
     if (read.factor == 0.0 || material.unlit) return;
@@ -207,7 +208,7 @@ void FilmSurfaceType::update(ecs::World& world, const render::FrameLight& light)
     const std::string& lit_by = light.probe->illuminant.name;
     world.view<FilmSurface>().each([&](ecs::Entity, const FilmSurface& surface) {
         const std::string& baked_for = surface.film->illuminant();
-        if (baked_for == lit_by || !warned_of_.insert(baked_for + " " + lit_by).second) return;
+        if (baked_for == lit_by || !warned_pairs_.insert(baked_for + " " + lit_by).second) return;
         log_warning("a film baked for the illuminant {} is lit by {}: it shows the colours of {}", baked_for, lit_by,
                     baked_for);
     });
@@ -217,7 +218,7 @@ void FilmSurfaceType::bind(ecs::World& world, ecs::Entity entity, const gpu::Pro
     const FilmSurface& surface = world.get<FilmSurface>(entity);
     surface.film->bind(program);
     program.set("film_factor", surface.factor);
-    program.set("film_thickness", glm::vec2(surface.thickness_at_0_nm, surface.thickness_at_1_nm));
+    program.set("film_thickness", glm::vec2(surface.minimum_thickness_nm, surface.maximum_thickness_nm));
     if (!surface.factor_texture && !surface.thickness_texture) return;
     const std::array<render::UvTransform, 2> uv = {render::uv_transform(surface.factor_texture.transform),
                                                    render::uv_transform(surface.thickness_texture.transform)};

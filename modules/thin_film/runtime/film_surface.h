@@ -48,8 +48,8 @@ struct FilmSurface {
     std::shared_ptr<const GpuFilm> film = nullptr;
     float factor = 1.0F;                            ///< 0: no film
     render::SurfaceTexture factor_texture = {};     ///< R
-    float thickness_at_0_nm = 0.0F;                 ///< where the thickness texture is 0
-    float thickness_at_1_nm = 400.0F;               ///< where it is 1, and everywhere without one
+    float minimum_thickness_nm = 0.0F;              ///< where the thickness texture is 0
+    float maximum_thickness_nm = 400.0F;            ///< where it is 1, and everywhere without one
     render::SurfaceTexture thickness_texture = {};  ///< G
 };
 
@@ -82,7 +82,7 @@ class FilmSurfaceType final : public render::MaterialType {
 
     glm::dmat3 xyz_to_working_;
     std::map<std::string, std::weak_ptr<const GpuFilm>> uploaded_;  ///< by the hash of the tables
-    std::set<std::string> warned_of_;                               ///< illuminants baked for and lit by
+    std::set<std::string> warned_pairs_;                            ///< illuminants baked for and lit by
 };
 
 }  // namespace rowland::thin_film

@@ -39,13 +39,10 @@ mat3x4 film_matrix(float cosine, float thickness_nm, float roughness) {
 // M averaged over the lobe that a view sees.
 mat3x4 film_lobe(float n_v, float thickness_nm, float roughness) {
 #ifdef FILM_LOBE_NODES
-    vec2 position = lobe_position(n_v, roughness);
-    vec4 cosines = lobe_cosines(position, n_v, roughness);
-    vec4 weights = lobe_weights(position);
-    mat3x4 sum = weights.x * film_matrix(cosines.x, thickness_nm, 0.0);
-    sum += weights.y * film_matrix(cosines.y, thickness_nm, 0.0);
-    sum += weights.z * film_matrix(cosines.z, thickness_nm, 0.0);
-    return sum + weights.w * film_matrix(cosines.w, thickness_nm, 0.0);
+    LobeNodes nodes = lobe_nodes(n_v, roughness);
+    mat3x4 sum = mat3x4(0.0);
+    for (int i = 0; i < 4; ++i) sum += nodes.weights[i] * film_matrix(nodes.cosines[i], thickness_nm, 0.0);
+    return sum;
 #else
     return film_matrix(n_v, thickness_nm, roughness);
 #endif

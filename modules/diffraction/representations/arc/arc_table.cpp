@@ -126,7 +126,7 @@ void check_settings(const Grating& grating, const ArcSettings& settings) {
                  .location = "groove_lobe",
                  .found = "a lobe that is not flat, with a pitch that varies over the surface",
                  .expected = "the flat lobe: weights over views and pitches would take three dimensions",
-                 .remedy = "drop the pitch variation, or use the representation \"transfer\" or \"spikes\""});
+                 .remedy = "drop the pitch variation"});
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ enum class LightTerms : std::uint8_t {
     Harmonics = 1,   ///< n² SH coefficients; any grating
 };
 
-/// The transfer table as a product (the principal components that the paper suggests, PHYSICS §5):
+/// The coefficients of TransferTerms as a product (the principal components that the paper suggests, PHYSICS §5):
 /// c_k,o,c(v) ≈ Σ_r w_r(v) U_r,k,c,o. A vertex computes the XYZ values p_r = Σ_k U_r,k q_k from the light's numbers q;
 /// a pixel computes Σ_r w_r(v) p_r.
 ///

@@ -149,10 +149,6 @@ const RepresentationInfo& CircleSettings::info() {
     return info;
 }
 
-std::optional<Refusal> CircleSettings::refusal(const SettingValues&, const Grating&) {
-    return std::nullopt;
-}
-
 CircleSettings CircleSettings::from(const SettingValues& values, const Grating& grating) {
     const int side = values.number("map_resolution");
     return {.size = {.side = side,
@@ -163,13 +159,13 @@ CircleSettings CircleSettings::from(const SettingValues& values, const Grating& 
 }
 
 CircleTables bake(const Grating&, const CircleSettings& settings) {
-    return {settings.size, settings.charts, settings.covered};
+    return {settings};
 }
 
 void write(const CircleTables&, ByteWriter&) {}
 
 CircleTables read(ByteReader&, const CircleSettings& settings) {
-    return {settings.size, settings.charts, settings.covered};
+    return {settings};
 }
 
 ShadingCost cost(const CircleTables& tables) {

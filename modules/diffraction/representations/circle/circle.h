@@ -43,15 +43,11 @@ struct CircleSettings {
     bool covered = false;
 
     static const RepresentationInfo& info();
-    static std::optional<Refusal> refusal(const SettingValues& values, const Grating& grating);
     static CircleSettings from(const SettingValues& values, const Grating& grating);
 };
 
-struct CircleTables {
-    CircleMapSize size;
-    int charts = 2;
-    bool covered = false;
-};
+/// There is nothing to bake.
+struct CircleTables : CircleSettings {};
 
 CircleTables bake(const Grating& grating, const CircleSettings& settings);
 void write(const CircleTables& tables, ByteWriter& writer);

@@ -1,8 +1,8 @@
 #include "modules/diffraction/representations/spikes/spikes.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <glm/matrix.hpp>
 #include <span>
 
@@ -165,7 +165,7 @@ namespace {
 constexpr double kWavelengthRange_nm = colour::kVisibleMax - colour::kVisibleMin;
 
 // Limits for files: far above any use, and small enough that no product of them overflows.
-constexpr int kMaximumAngleNodes = 1 << 14;
+constexpr int kMaximumNodes = 1 << 14;
 constexpr int kMaximumSpikes = 512;
 
 /// Storage and mapping are in one byte.
@@ -177,10 +177,10 @@ double normalized(double wavelength_nm) {
 
 /// Writes a view's spikes into unquantised texels.
 void store(const SpikeSet& spikes, const SpikeTable& table, std::size_t texel, std::vector<double>& values) {
-    const std::size_t texels_per_layer = table.grid().texels();
+    const std::size_t texels_per_layer = table.grid.texels();
     const auto count = static_cast<std::size_t>(math::sh_count(table.bands));
     for (std::size_t k = 0; k < spikes.wavelengths_nm.size(); ++k) {
-        const std::size_t first_layer = k * static_cast<std::size_t>(table.layers_per_spike);
+        const std::size_t first_layer = k * static_cast<std::size_t>(table.layers_per_spike());
         const auto put = [&](std::size_t entry, double value) {
             const std::size_t layer = first_layer + entry / kTexelComponents;
             values[(layer * texels_per_layer + texel) * kTexelComponents + entry % kTexelComponents] = value;
@@ -201,31 +201,28 @@ SpikeTable bake(const Grating& grating, const SpikeTableSettings& settings) {
     SpikeTable table;
     table.bands = settings.spikes.bands;
     table.spikes = settings.spikes.spikes;
-    table.theta_nodes = settings.theta_nodes;
-    table.phi_nodes = settings.phi_nodes;
-    table.layers_per_spike = spike_layers(table.bands);
+    table.grid = settings.grid;
     table.storage = settings.storage;
-    table.mapping = settings.mapping;
-    const ViewGrid grid = table.grid();
-    check_view_grid(grid, grating);
+    check_view_grid(table.grid, grating);
 
     const SpikeBaker baker(grating, settings.spikes);
     const std::vector<double> signs = mirror_signs(table.bands);
-    std::vector<double> values(static_cast<std::size_t>(table.layers()) * grid.texels() * kTexelComponents, 0.0);
-    for_each_view("baking spikes", grid, grating, [&](const glm::dvec2& view, std::size_t texel, std::size_t mirror) {
-        const SpikeSet spikes = baker.bake(view.x, view.y);
-        store(spikes, table, texel, values);
-        if (mirror != texel) store(mirrored(spikes, signs), table, mirror, values);
-    });
+    std::vector<double> values(static_cast<std::size_t>(table.layers()) * table.grid.texels() * kTexelComponents, 0.0);
+    for_each_view("baking spikes", table.grid, grating,
+                  [&](const glm::dvec2& view, std::size_t texel, std::size_t mirror) {
+                      const SpikeSet spikes = baker.bake(view.x, view.y);
+                      store(spikes, table, texel, values);
+                      if (mirror != texel) store(mirrored(spikes, signs), table, mirror, values);
+                  });
     pack(values, static_cast<std::size_t>(table.layers()), table);
     return table;
 }
 
 SpikeSet sample(const SpikeTable& table, double v_g, double v_h, double v_n) {
-    const BilinearLookup lookup = look_up(table.grid(), v_g, v_h, v_n);
-    const std::size_t texels_per_layer = table.grid().texels();
+    const BilinearLookup lookup = look_up(table.grid, v_g, v_h, v_n);
+    const std::size_t texels_per_layer = table.grid.texels();
     const auto entry = [&](std::size_t spike, std::size_t i) {
-        const std::size_t layer = spike * static_cast<std::size_t>(table.layers_per_spike) + i / kTexelComponents;
+        const std::size_t layer = spike * static_cast<std::size_t>(table.layers_per_spike()) + i / kTexelComponents;
         return filtered(table, layer, texels_per_layer, i % kTexelComponents, lookup);
     };
 
@@ -241,10 +238,10 @@ SpikeSet sample(const SpikeTable& table, double v_g, double v_h, double v_n) {
 void write(const SpikeTable& table, ByteWriter& writer) {
     writer.value<std::int32_t>(table.bands);
     writer.value<std::int32_t>(table.spikes);
-    writer.value<std::int32_t>(table.theta_nodes);
-    writer.value<std::int32_t>(table.phi_nodes);
-    writer.value(static_cast<std::uint8_t>(static_cast<unsigned>(table.storage) | static_cast<unsigned>(table.mapping)
-                                                                                      << kMappingShift));
+    writer.value<std::int32_t>(table.grid.rows);
+    writer.value<std::int32_t>(table.grid.columns);
+    writer.value(static_cast<std::uint8_t>(static_cast<unsigned>(table.storage) |
+                                           static_cast<unsigned>(table.grid.mapping) << kMappingShift));
     write_packed_texels(table, writer);
 }
 
@@ -252,16 +249,15 @@ SpikeTable read_spike_table(ByteReader& reader) {
     SpikeTable table;
     table.bands = read_count(reader, "bands", 1, math::kMaximumBands);
     table.spikes = read_count(reader, "spikes", 1, kMaximumSpikes);
-    table.theta_nodes = read_count(reader, "theta nodes", 1, kMaximumAngleNodes);
-    table.phi_nodes = read_count(reader, "phi nodes", 1, kMaximumAngleNodes);
-    table.layers_per_spike = spike_layers(table.bands);
+    table.grid.rows = read_count(reader, "rows", 1, kMaximumNodes);
+    table.grid.columns = read_count(reader, "columns", 1, kMaximumNodes);
     const auto choices = reader.value<std::uint8_t>();
     table.storage = to_storage(reader, choices & ((1U << kMappingShift) - 1U));
-    table.mapping = to_view_mapping(reader, choices >> kMappingShift);
-    if (!is_valid(table.grid()))
-        reader.fail(fmt::format("{} x {} nodes", table.phi_nodes, table.theta_nodes),
-                    fmt::format("a {} table's", view_mapping_name(table.mapping)));
-    read_packed_texels(reader, static_cast<std::size_t>(table.layers()), table.grid().texels(), table);
+    table.grid.mapping = to_view_mapping(reader, choices >> kMappingShift);
+    if (!is_valid(table.grid))
+        reader.fail(fmt::format("{} x {} nodes", table.grid.columns, table.grid.rows),
+                    fmt::format("a {} table's", view_mapping_name(table.grid.mapping)));
+    read_packed_texels(reader, static_cast<std::size_t>(table.layers()), table.grid.texels(), table);
     return table;
 }
 
@@ -291,27 +287,22 @@ const RepresentationInfo& SpikeTableSettings::info() {
 
 std::optional<Refusal> SpikeTableSettings::refusal(const SettingValues& values, const Grating& grating) {
     if (auto refused = view_grid_refusal(values, grating)) return refused;
-    return layer_refusal("spikes", values.number("spikes") * spike_layers(values.number("bands")));
+    SpikeTable table;
+    table.bands = values.number("bands");
+    table.spikes = values.number("spikes");
+    return layer_refusal("spikes", table.layers());
 }
 
 SpikeTableSettings SpikeTableSettings::from(const SettingValues& values, const Grating&) {
-    SpikeTableSettings settings;
-    const ViewGrid grid =
-        view_grid(values, {.mapping = settings.mapping, .columns = settings.phi_nodes, .rows = settings.theta_nodes});
-    settings.spikes.bands = values.number("bands");
-    settings.spikes.spikes = values.number("spikes");
-    settings.mapping = grid.mapping;
-    settings.phi_nodes = grid.columns;
-    settings.theta_nodes = grid.rows;
-    settings.storage = values.storage();
-    return settings;
+    return {.spikes = {.bands = values.number("bands"), .spikes = values.number("spikes")},
+            .grid = view_grid(values, ViewGrid{}),
+            .storage = values.storage()};
 }
 
 SpikeTable read(ByteReader& reader, const SpikeTableSettings& settings) {
     SpikeTable table = read_spike_table(reader);
-    const ViewGrid grid{.mapping = settings.mapping, .columns = settings.phi_nodes, .rows = settings.theta_nodes};
     require_as_asked(reader, table.bands == settings.spikes.bands && table.spikes == settings.spikes.spikes &&
-                                 table.grid() == grid && table.storage == settings.storage);
+                                 table.grid == settings.grid && table.storage == settings.storage);
     return table;
 }
 
@@ -325,7 +316,7 @@ ShadingCost cost(const SpikeTable& table) {
 
 Facts facts(const SpikeTable& table) {
     return with_view_table({{"bands", fmt::to_string(table.bands)}, {"spikes", fmt::to_string(table.spikes)}},
-                           table.grid(), table);
+                           table.grid, table);
 }
 
 }  // namespace rowland::diffraction

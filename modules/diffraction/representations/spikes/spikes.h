@@ -64,37 +64,26 @@ glm::dvec3 evaluate_spikes(const SpikeSet& spikes, const lighting::ShLight& tang
 
 /// Spikes tabulated over the views of the upper hemisphere, laid out as a 2D texture array (the paper's step 4 and 5).
 ///
-/// Layer k·L + j (L = layers_per_spike) holds entries 4j..4j+3 of spike k's list [c_0 … c_{n²−1}, (λ_k − 380)/400, 0
-/// …]. The grid is that of ViewGrid: phi_nodes columns and theta_nodes rows, for every mapping.
+/// Layer k·L + j, L = ⌈(bands²+1)/4⌉, holds entries 4j..4j+3 of spike k's list [c_0 … c_{n²−1}, (λ_k − 380)/400, 0 …].
 struct SpikeTable : PackedTexels {
     int bands = 0;
     int spikes = 0;
-    int theta_nodes = 0;
-    int phi_nodes = 0;
-    int layers_per_spike = 0;
-    ViewMapping mapping = ViewMapping::Spherical;
+    ViewGrid grid;
 
-    int layers() const { return spikes * layers_per_spike; }
-    ViewGrid grid() const { return {.mapping = mapping, .columns = phi_nodes, .rows = theta_nodes}; }
+    int layers_per_spike() const { return (bands * bands + 1 + 3) / 4; }
+    int layers() const { return spikes * layers_per_spike(); }
 };
 
 struct SpikeTableSettings {
     SpikeSettings spikes;
-    int theta_nodes = 32;  ///< rows ≥ 2; one-dimensional: 1
-    int phi_nodes = 64;    ///< columns; spherical: ≥ 1, else ≥ 2
+    ViewGrid grid{};  ///< one-dimensional: flat lobe only
     Storage storage = Storage::Unorm16;
-    ViewMapping mapping = ViewMapping::Spherical;  ///< one-dimensional: flat lobe only
 
     static const RepresentationInfo& info();
     static std::optional<Refusal> refusal(const SettingValues& values, const Grating& grating);
     static SpikeTableSettings from(const SettingValues& values, const Grating& grating);
     void set_illuminant(const colour::Illuminant& white) { spikes.illuminant = white; }
 };
-
-/// Layers per spike: ⌈(bands²+1)/4⌉.
-constexpr int spike_layers(int bands) {
-    return (bands * bands + 1 + 3) / 4;
-}
 
 /// Bakes the spikes of every node. Throws Error (input) for a one-dimensional mapping of a lobe that is not flat. The
 /// bytes do not depend on the number of threads.

@@ -39,7 +39,7 @@ NarrowLobe narrow_lobe(const GrooveLobe& lobe) {
                  .location = "groove_lobe",
                  .found = is_flat(lobe) ? "flat" : "pits without a coherent part",
                  .expected = "a narrow lobe: sigma, or pits with a coherent part, for the representation \"streak\"",
-                 .remedy = "use \"arc\", \"transfer\" or \"spikes\""});
+                 .remedy = "use \"arc\" or \"spikes\""});
 }
 
 /// The kernel's sums over a raster of x.

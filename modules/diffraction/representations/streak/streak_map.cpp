@@ -66,7 +66,7 @@ std::vector<std::vector<std::size_t>> binned(const lighting::LightSamples& light
 
 BlurredCube blurred_cube(const lighting::LightSamples& texels, double deviation, const std::stop_token& stop) {
     const int face_size = std::clamp(static_cast<int>(std::bit_ceil(static_cast<unsigned>(2.5 / deviation))), 32, 512);
-    const lighting::LightSamples lights = lighting::gather_texels(texels, face_size);
+    const lighting::LightSamples lights = lighting::merge_samples(texels, face_size);
     BlurredCube cube{.layout = {.face_size = face_size, .levels = 1}, .texels = {}};
     cube.texels.resize(cube.layout.offset(1), glm::vec3(0.0F));
     const lighting::CubeLayout bins{.face_size = kBins, .levels = 1};

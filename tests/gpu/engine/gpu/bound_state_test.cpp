@@ -40,7 +40,7 @@ class BoundStateTest : public test::GlTest {
 
 TEST_F(BoundStateTest, WhatIsSetIsNotSetAgain) {
     const gpu::Texture texture = texel(1.0F);
-    const gpu::Buffer buffer(512);
+    const gpu::Buffer buffer(std::vector<std::byte>(512));
     const auto set_all = [&] {
         texture.bind(0);
         buffer.bind_uniform(3, 256, 16);
@@ -63,7 +63,7 @@ TEST_F(BoundStateTest, WhatIsSetIsNotSetAgain) {
 TEST_F(BoundStateTest, ADeletedObjectIsForgotten) {
     using Slot = gpu::BoundState::Slot;
     std::optional<gpu::Texture> texture = texel(1.0F);
-    std::optional<gpu::Buffer> buffer(std::in_place, std::size_t{256});
+    std::optional<gpu::Buffer> buffer(std::in_place, std::vector<std::byte>(256));
     std::optional<gpu::Framebuffer> target(std::in_place, gpu::FramebufferDesc{});
     std::optional<gpu::Program> program = build_full_screen(kShowsTheTexture);
     std::optional<gpu::FullScreenTriangle> triangle(std::in_place);

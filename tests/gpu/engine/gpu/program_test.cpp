@@ -147,25 +147,6 @@ void main() { colour = vec4(used); })");
     program.set("unused", 1.0F);  // would end the program if it were an error of the driver
 }
 
-TEST_F(ProgramTest, BlocksAreConnectedByName) {
-    const gpu::Program program = build_full_screen(R"(#version 450 core
-layout(std140) uniform First { vec4 first; };
-layout(std140) uniform Second { vec4 second; };
-layout(location = 0) out vec4 colour;
-void main() { colour = first - second; })");
-    program.set_block_binding("First", 5);
-    program.set_block_binding("Second", 6);
-    gpu::Buffer first(sizeof(glm::vec4));
-    gpu::Buffer second(sizeof(glm::vec4));
-    first.update_value(glm::vec4(3.0F));
-    second.update_value(glm::vec4(1.0F));
-    first.bind_uniform(5);
-    second.bind_uniform(6);
-    const gpu::Framebuffer target(gpu::FramebufferDesc{});
-    gpu::FullScreenTriangle().draw(program, target);
-    EXPECT_EQ(target.read_rgba_float()[0].r, 2.0F);
-}
-
 using gpu::ShaderLibrary;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -249,10 +230,6 @@ TEST(ShaderLibrary, SourceFolderComesBeforeWhatIsBuiltIn) {
     EXPECT_THAT(shaders.assemble("a/main.glsl").text, HasSubstr("changed on disk\n"));
     shaders.set_source_folder(std::nullopt);
     EXPECT_THAT(shaders.assemble("a/main.glsl").text, HasSubstr("part line 2\n"));
-}
-
-TEST(ShaderLibrary, HoldsTheFullScreenTriangleFromTheStart) {
-    EXPECT_THAT(ShaderLibrary().read("engine/gpu/shaders/full_screen_triangle.vert.glsl"), HasSubstr("gl_VertexID"));
 }
 
 TEST(CompileLog, KnowsTheFormsDriversUse) {

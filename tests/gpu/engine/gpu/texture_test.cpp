@@ -176,27 +176,6 @@ void main() { colour = texture(volume, coordinate); })");
     EXPECT_FLOAT_EQ(target.read_rgba_float()[0].r, 0.5F + 2.0F * 1.0F + 6.0F * 2.5F);
 }
 
-TEST_F(TextureTest, CubeMapFacesLieInTheirDirections) {
-    const std::array<glm::vec3, 6> directions{glm::vec3{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
-                                              glm::vec3{0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
-    gpu::Texture texture({.kind = TextureKind::CubeMap, .format = Format::RGBA16F, .width = 4, .height = 4});
-    for (int face = 0; face < 6; ++face) {
-        texture.upload(std::vector<float>(16, 1.0F + static_cast<float>(face)), {.layer = face});
-    }
-    texture.bind(0);
-    const gpu::Program program = build_full_screen(R"(#version 450 core
-layout(binding = 0) uniform samplerCube cube;
-uniform vec3 direction;
-layout(location = 0) out vec4 colour;
-void main() { colour = texture(cube, direction); })");
-    const gpu::Framebuffer target({.width = 1, .height = 1, .colours = {Format::R32F}});
-    for (int face = 0; face < 6; ++face) {
-        program.set("direction", directions[static_cast<std::size_t>(face)]);
-        gpu::FullScreenTriangle().draw(program, target);
-        EXPECT_EQ(target.read_rgba_float()[0].r, 1.0F + static_cast<float>(face)) << "face " << face;
-    }
-}
-
 /// The direction through a point of a face, s and t from 0 to 1 as uploaded (OpenGL 4.5, table 8.19).
 glm::vec3 face_direction(int face, float s, float t) {
     const float a = 2.0F * s - 1.0F;

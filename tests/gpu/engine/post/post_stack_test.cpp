@@ -1,16 +1,13 @@
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <random>
 
-#include "engine/post/bloom.h"
 #include "engine/post/ocio_config.h"
-#include "engine/post/post_stack.h"
-#include "engine/post/vignette.h"
-#include "tests/gpu/gl_test.h"
-#include "tests/gpu/wide_halves.h"
+#include "tests/gpu/engine/post/post_test.h"
 #include "tests/unit/engine/post/cpu_effects.h"
 
 namespace rowland {
@@ -33,38 +30,23 @@ post::GlareSettings glare_by(glm::vec2 offset) {
     return {.pattern = pattern};
 }
 
-class PostStackTest : public test::GlTest {
+class PostStackTest : public test::PostTest {
  protected:
-    PostStackTest() { library_.add_embedded(post::shader_files()); }
-
     static gpu::Texture random_picture(glm::ivec2 size, gpu::Format format = gpu::Format::RGBA16F) {
         std::mt19937 random(23);
         std::uniform_real_distribution<float> uniform(0.01F, 2.0F);
         std::vector<glm::vec4> pixels(static_cast<std::size_t>(size.x * size.y), glm::vec4(1.0F));
-        for (glm::vec4& pixel : pixels) {
+        for (glm::vec4& pixel : pixels)
             for (int c = 0; c < 3; ++c) pixel[c] = uniform(random);
-        }
-        gpu::Texture texture({.format = format, .width = size.x, .height = size.y});
-        texture.upload(std::span<const glm::vec4>(pixels));
-        return texture;
+        return picture(pixels, size, format);
     }
     static gpu::Texture plain_picture(float value) {
-        gpu::Texture texture({.format = gpu::Format::RGBA16F, .width = 16, .height = 16});
-        texture.upload(std::vector<glm::vec4>(256, {glm::vec3(value), 1.0F}));
-        return texture;
-    }
-    static gpu::Framebuffer target(glm::ivec2 size, gpu::Format format) {
-        return gpu::Framebuffer({.width = size.x, .height = size.y, .colours = {format}});
+        return picture(std::vector<glm::vec4>(256, {glm::vec3(value), 1.0F}), {16, 16}, gpu::Format::RGBA16F);
     }
     PostFrame frame(float seconds = 0.0F) const { return {.seconds = seconds, .luminance_weights = weights_}; }
 
-    gpu::ShaderLibrary library_;
     post::DisplayTransform transform_{post::OcioConfig::shipped(), {"", "ACES 1.0 - SDR Video"}};
-    post::DisplayPass display_ = [this] {
-        gpu::ShaderLibrary library;
-        library.add_embedded(post::shader_files());
-        return post::DisplayPass(library, transform_);
-    }();
+    post::DisplayPass display_{library_, transform_};
     glm::vec3 weights_ = post::luminance_weights(post::OcioConfig::shipped());
 };
 
@@ -120,8 +102,8 @@ TEST_F(PostStackTest, AgreesWithTheEffectsOnTheCpuInTheirOrder) {
         stack.draw(hdr, display_, every_effect, frame(), drawn_to);
         const std::vector<glm::vec4> drawn = drawn_to.colour().read();
 
-        const std::vector<glm::vec4> picture = hdr.read();
-        std::vector<glm::vec3> expected(picture.begin(), picture.end());
+        const std::vector<glm::vec4> pixels = hdr.read();
+        std::vector<glm::vec3> expected(pixels.begin(), pixels.end());
         post::apply_bloom(expected, size, *every_effect.bloom);
         const double mean = *post::mean_log2_luminance(expected, weights_, every_effect.auto_exposure->darkest);
         const float stops = 0.5F + post::target_stops(mean, *every_effect.auto_exposure);
@@ -217,28 +199,12 @@ TEST_F(PostStackTest, AVignetteDoesNotChangeTheAutomaticExposure) {
     EXPECT_NEAR(stack.exposure_stops(), 0.0F, 1e-3F);
 }
 
-TEST_F(PostStackTest, DitherKeepsTheMeanThroughTheWholeStack) {
-    const gpu::Framebuffer drawn = target({16, 16}, gpu::Format::RGBA8);
-    post::PostStack stack(library_);
-    for (float value = 0.1F; value < 0.12F; value += 0.002F) {
-        const gpu::Texture hdr = plain_picture(value);
-        stack.draw(hdr, display_, {.dither = post::DitherSettings{}}, {}, drawn);
-        double mean = 0.0;
-        for (std::size_t i = 0; const std::uint8_t byte : drawn.read_rgba8()) mean += i++ % 4 == 1 ? byte / 256.0 : 0.0;
-        std::vector<glm::vec3> expected{glm::vec3(hdr.read()[0])};
-        transform_.apply_cpu(expected);
-        // 0.05 of a step, and the display transform's 1e-4 between GPU and CPU.
-        EXPECT_NEAR(mean, 255.0 * expected[0].g, 0.05 + 255.0 * 1e-4) << value;
-    }
-}
-
 TEST_F(PostStackTest, TheThresholdOfGlareIsOfTheExposedPicture) {
     const glm::ivec2 size(64, 36);
     std::vector<glm::vec4> pixels(64 * 36, glm::vec4(0.0F));
     pixels[18 * 64 + 32] = glm::vec4(1.5F);
-    gpu::Texture hdr({.format = gpu::Format::RGBA16F, .width = size.x, .height = size.y});
-    hdr.upload(std::span<const glm::vec4>(pixels));
-    const gpu::Framebuffer drawn = target(size, gpu::Format::RGBA32F);
+    const gpu::Texture hdr = picture(pixels, size, gpu::Format::RGBA16F);
+    const gpu::Framebuffer drawn = target(size);
     post::PostStack stack(library_);
     const auto display_value_of_the_lamp = [&](float stops, bool glare) {
         PostSettings settings{.exposure_stops = stops};
@@ -260,75 +226,6 @@ TEST_F(PostStackTest, AutomaticExposureWithoutWeightsIsALogicError) {
             stack.draw(plain_picture(1.0F), display_, settings, {}, drawn);
         },
         "luminance_weights");
-}
-
-class HalfFloatPassTest : public test::GlTest {
- protected:
-    static constexpr int kSide = 16;
-
-    HalfFloatPassTest() {
-        library_.add_embedded(post::shader_files());
-        std::mt19937 random(5);
-        std::uniform_real_distribution<float> uniform(0.1F, 1.0F);
-        std::vector<glm::vec4> texels(std::size_t{kSide} * kSide);
-        for (glm::vec4& texel : texels) texel = {uniform(random), uniform(random), uniform(random), 1.0F};
-        source_ = gpu::Texture({.format = gpu::Format::RGBA32F, .width = kSide, .height = kSide});
-        source_.upload(std::span<const glm::vec4>(texels));
-    }
-    /// What is left for the driver to round.
-    template <typename Draw>
-    static void expect_rounded(const Draw& draw) {
-        const test::WideHalves wide;
-        const gpu::Framebuffer halves({.width = kSide, .height = kSide, .colours = {gpu::Format::RGBA16F}});
-        draw(halves);
-        EXPECT_EQ(test::not_halves(halves.read_rgba_float()), 0);
-        const gpu::Framebuffer floats({.width = kSide, .height = kSide, .colours = {gpu::Format::RGBA32F}});
-        draw(floats);
-        EXPECT_GT(test::not_halves(floats.read_rgba_float()), kSide * kSide);
-    }
-
-    gpu::ShaderLibrary library_;
-    gpu::Texture source_;
-};
-
-TEST_F(HalfFloatPassTest, BloomRounds) {
-    post::BloomPass pass(library_);
-    expect_rounded([&](const gpu::Framebuffer& target) { pass.draw(source_, {.strength = 0.3F}, target); });
-}
-
-TEST_F(HalfFloatPassTest, VignetteRounds) {
-    const post::VignettePass pass(library_);
-    expect_rounded([&](const gpu::Framebuffer& target) { pass.draw(source_, {.vertical_fov = 1.0F}, target); });
-}
-
-using post::VignetteSettings;
-using VignettePassTest = test::GlTest;
-
-TEST_F(VignettePassTest, AgreesWithTheFormula) {
-    gpu::ShaderLibrary library;
-    library.add_embedded(post::shader_files());
-    const post::VignettePass pass(library);
-    for (const glm::ivec2 size : {glm::ivec2(64, 36), glm::ivec2(33, 47)}) {
-        gpu::Texture source({.format = gpu::Format::RGBA32F, .width = size.x, .height = size.y});
-        source.upload(std::vector<glm::vec4>(static_cast<std::size_t>(size.x * size.y), {1.0F, -0.5F, 0.25F, 0.75F}));
-        const gpu::Framebuffer target({.width = size.x, .height = size.y, .colours = {gpu::Format::RGBA32F}});
-        for (const VignetteSettings& settings :
-             {VignetteSettings{.vertical_fov = 1.2F}, VignetteSettings{.strength = 0.8F, .radius = 0.3F},
-              VignetteSettings{.vertical_fov = 0.7F, .strength = 1.0F, .softness = 0.1F}, VignetteSettings{}}) {
-            pass.draw(source, settings, target);
-            const std::vector<glm::vec4> drawn = target.colour().read();
-            for (int y = 0; y < size.y; ++y) {
-                for (int x = 0; x < size.x; ++x) {
-                    const glm::vec4& pixel = drawn[static_cast<std::size_t>(y * size.x + x)];
-                    const float factor = post::vignette_factor({x, y}, size, settings);
-                    // Float rounding on either side, magnified by the steepest smoothstep, 1.5 / 0.1.
-                    EXPECT_NEAR(pixel.r, factor, 1e-5F) << x << " " << y;
-                    EXPECT_NEAR(pixel.g, -0.5F * factor, 1e-5F);
-                    EXPECT_EQ(pixel.a, 0.75F);
-                }
-            }
-        }
-    }
 }
 
 }  // namespace

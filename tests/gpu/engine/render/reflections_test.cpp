@@ -17,7 +17,6 @@ class LocalReflectionTest : public test::TracedSceneTest {
  protected:
     LocalReflectionTest() {
         renderer_.set_probe(even_light(1.0F));
-        world_.view<MeshInstance>().each([&](ecs::Entity entity, const MeshInstance&) { floor_ = entity; });
         world_.get<StandardMaterial>(floor_).base_colour_texture = texture(kMap, quarters());
         world_.add(floor_, top_of(*world_.get<MeshInstance>(floor_).mesh));
         add_sphere({0.0F, 0.05F, 0.0F}, 0.05F, kMirror);
@@ -51,18 +50,12 @@ class LocalReflectionTest : public test::TracedSceneTest {
     /// Of the pixels that show the sphere, where their mirrored rays meet the floor.
     std::vector<Reflected> reflected() const {
         std::vector<Reflected> result;
-        for (int row = 0; row < kHeight; ++row)
-            for (int column = 0; column < kWidth; ++column) {
-                const auto hit = seen(column, row);
-                if (!hit || glm::length(hit->point - glm::dvec3(0.0, 0.05, 0.0)) > 0.0501) continue;
-                const glm::dvec3 incident = glm::normalize(hit->point - glm::dvec3(camera_.eye));
-                // At the outline a pixel sees other rays.
-                if (glm::dot(incident, hit->normal) > -0.2) continue;
-                const glm::dvec3 mirrored = glm::reflect(incident, hit->normal);
-                const auto met = trace(hit->point + 1e-5 * hit->normal, mirrored);
-                const bool inside = met && glm::max(std::abs(met->point.x), std::abs(met->point.z)) < kFloor;
-                result.push_back({index(column, row), inside ? met : std::nullopt, inside ? lobe(-mirrored.y) : 0.0});
-            }
+        for_each_mirrored({0.0F, 0.05F, 0.0F}, 0.05F,
+                          [&](std::size_t pixel, const glm::dvec3& mirrored, const std::optional<Hit>& met) {
+                              const bool inside =
+                                  met && glm::max(std::abs(met->point.x), std::abs(met->point.z)) < kFloor;
+                              result.push_back({pixel, inside ? met : std::nullopt, inside ? lobe(-mirrored.y) : 0.0});
+                          });
         return result;
     }
 
@@ -71,7 +64,6 @@ class LocalReflectionTest : public test::TracedSceneTest {
     static inline const std::vector<glm::vec4> kTexels = {
         {0.1F, 0.1F, 0.1F, 1.0F}, {0.3F, 0.3F, 0.3F, 1.0F}, {0.5F, 0.5F, 0.5F, 1.0F}, {0.7F, 0.7F, 0.7F, 1.0F}};
     const StandardMaterial kMirror{.base_colour = glm::vec3(1.0F), .metallic = 1.0F, .roughness = 0.0F};
-    ecs::Entity floor_;
 };
 
 TEST_F(LocalReflectionTest, AMirrorShowsThePlaneWhereItsRaysMeetIt) {
@@ -167,28 +159,17 @@ class ObjectReflectionTest : public test::TracedSceneTest {
  protected:
     ObjectReflectionTest() {
         renderer_.set_probe(even_light(kSky));
-        world_.view<MeshInstance>().each([&](ecs::Entity entity, const MeshInstance&) { floor_ = entity; });
         camera_ = {.eye = {0.1F, 0.2F, 0.6F}, .target = kMiddle, .vertical_field_of_view = 0.17F};
-        add_sphere(kMiddle, kRadius, {.base_colour = glm::vec3(1.0F), .metallic = 1.0F, .roughness = 0.0F});
-        mirror_ = last();
+        mirror_ = add_sphere(kMiddle, kRadius, {.base_colour = glm::vec3(1.0F), .metallic = 1.0F, .roughness = 0.0F});
         world_.add(mirror_, ReflectsObjects{mirror_});
-        add_box({0.14F, 0.0F, 0.06F}, {0.06F, 0.1F, 0.05F});
-        colour(kBox);
-        add_sphere({-0.1F, 0.03F, 0.08F}, 0.03F);
-        colour(kNear);
-        add_sphere({0.0F, 0.06F, 0.3F}, 0.06F);
-        colour(kFar);
+        set_radiance(add_box({0.14F, 0.0F, 0.06F}, {0.06F, 0.1F, 0.05F}), kBox);
+        set_radiance(add_sphere({-0.1F, 0.03F, 0.08F}, 0.03F), kNear);
+        far_ = add_sphere({0.0F, 0.06F, 0.3F}, 0.06F);
+        set_radiance(far_, kFar);
         renderer_.set_effects({.object_reflections = true});
     }
-    ecs::Entity last() {
-        ecs::Entity newest;
-        world_.view<MeshInstance>().each([&](ecs::Entity entity, const MeshInstance&) {
-            if (newest.index == ecs::Entity::kNoIndex || entity.index > newest.index) newest = entity;
-        });
-        return newest;
-    }
-    void colour(double radiance) {
-        auto& material = world_.get<StandardMaterial>(last());
+    void set_radiance(ecs::Entity entity, double radiance) {
+        auto& material = world_.get<StandardMaterial>(entity);
         material.base_colour = glm::vec3(static_cast<float>(radiance));
         material.unlit = true;
     }
@@ -201,16 +182,10 @@ class ObjectReflectionTest : public test::TracedSceneTest {
     /// What the mirror shows at each pixel: an object's radiance, the sky's, or 0 at its outline and beside it.
     std::vector<double> expected() const {
         std::vector<double> result(static_cast<std::size_t>(kWidth * kHeight), 0.0);
-        const glm::dvec3 middle(kMiddle);
-        for (int row = 0; row < kHeight; ++row)
-            for (int column = 0; column < kWidth; ++column) {
-                const auto hit = seen(column, row);
-                if (!hit || glm::length(hit->point - middle) > 1.001 * static_cast<double>(kRadius)) continue;
-                const glm::dvec3 incident = glm::normalize(hit->point - glm::dvec3(camera_.eye));
-                if (glm::dot(incident, hit->normal) > -0.2) continue;
-                const auto met = trace(hit->point + 1e-5 * hit->normal, glm::reflect(incident, hit->normal));
-                result[index(column, row)] = radiance(met);
-            }
+        for_each_mirrored(kMiddle, kRadius,
+                          [&](std::size_t pixel, const glm::dvec3& /*mirrored*/, const std::optional<Hit>& met) {
+                              result[pixel] = radiance(met);
+                          });
         return result;
     }
     /// Whether all pixels at most so many away are expected to show the same.
@@ -228,8 +203,8 @@ class ObjectReflectionTest : public test::TracedSceneTest {
     static constexpr double kFar = 0.6;
     static constexpr float kRadius = 0.05F;
     static constexpr glm::vec3 kMiddle{0.0F, 0.06F, 0.0F};
-    ecs::Entity floor_;
     ecs::Entity mirror_;
+    ecs::Entity far_;
 };
 
 TEST_F(ObjectReflectionTest, AMirrorShowsObjectsWhereItsRaysMeetThem) {
@@ -262,7 +237,7 @@ TEST_F(ObjectReflectionTest, TheSurroundingsAreDrawnAgainOnlyAfterAChange) {
     camera_.eye.x -= 0.1F;
     // A face in a frame.
     const auto move = [&](float along_x) {
-        world_.get<scene::WorldMatrix>(last()).matrix[3].x += along_x;
+        world_.get<scene::WorldMatrix>(far_).matrix[3].x += along_x;
         for (int face = 1; face < ObjectReflection::kFaces; ++face) greens();
         return greens();
     };

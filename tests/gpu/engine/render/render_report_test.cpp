@@ -1,4 +1,4 @@
-// What a frame draws, culls, compiles and measures; skins.
+// What a frame draws, culls, compiles and measures; skins; parts of the picture.
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
@@ -142,10 +142,11 @@ TEST_F(RenderReportTest, ReloadedShadersReachEveryVariant) {
     add(square(), {.base_colour_texture = texture(1, {glm::vec4(1.0F)}), .unlit = true}, translation(1.0F, 0.0F, 0.0F));
     EXPECT_EQ(at(draw(), -0.5F, 0.0F).r, 1.0F);
     const test::TemporaryFolder tree;
-    write_file_atomic(tree.path() / "engine/render/shaders/shading.glsl",
-                      "layout(location = 0) out vec4 radiance;\n"
-                      "struct MaterialTerms { vec3 base_weight; vec3 mirror_weight; vec3 added; };\n"
-                      "void write_surface(MaterialTerms terms) { radiance = vec4(7.0, surface_colour().a, 0.0, 1.0); }\n");
+    write_file_atomic(
+        tree.path() / "engine/render/shaders/shading.glsl",
+        "layout(location = 0) out vec4 radiance;\n"
+        "struct MaterialTerms { vec3 base_weight; vec3 mirror_weight; vec3 added; };\n"
+        "void write_surface(MaterialTerms terms) { radiance = vec4(7.0, surface_colour().a, 0.0, 1.0); }\n");
     renderer_.reload_shaders(tree.path());
     const auto pixels = draw();
     EXPECT_EQ(at(pixels, -0.5F, 0.0F).r, 7.0F);
@@ -177,6 +178,50 @@ TEST_F(RenderReportTest, PassTimesAreListedByNameAndPositive) {
     renderer_.set_pass_times(nullptr);
     draw();
     EXPECT_TRUE(renderer_.report().passes.empty());
+}
+
+void expect_near(const glm::vec4& drawn, const glm::vec3& expected, const std::string& where) {
+    // 32-bit floats, through two matrices.
+    EXPECT_LT(glm::length(glm::vec3(drawn) - expected), 1e-5F) << where << ": " << drawn.r << ", " << drawn.b;
+}
+
+class PictureColumnsTest : public test::RenderTest {
+ protected:
+    ecs::Entity add_square(const glm::vec3& colour, PictureColumns columns) {
+        const ecs::Entity entity = add(square(), {.base_colour = colour, .unlit = true});
+        world_.add(entity, columns);
+        return entity;
+    }
+    static constexpr glm::vec3 kRed{1.0F, 0.0F, 0.0F};
+    static constexpr glm::vec3 kBlue{0.0F, 0.0F, 1.0F};
+};
+
+TEST_F(PictureColumnsTest, TwoInOnePlaceShareThePictureAtTheLine) {
+    add_square(kRed, {0.0F, 0.6F});
+    add_square(kBlue, {0.6F, 1.0F});
+    const auto pixels = draw();
+    const int line = static_cast<int>(std::lround(0.6F * kSize));
+    for (int column = 5; column < kSize - 5; ++column) {
+        const glm::vec4 pixel = pixels[static_cast<std::size_t>(kSize / 2 * kSize + column)];
+        expect_near(pixel, column < line ? kRed : kBlue, "column " + std::to_string(column));
+    }
+}
+
+TEST_F(PictureColumnsTest, WithoutThemAnEntityShowsEverywhereBesideOneThatHasThem) {
+    add_square(kRed, {0.0F, 0.5F});
+    add(square(), {.base_colour = kBlue, .unlit = true}, glm::translate(glm::mat4(1.0F), {0.0F, 0.0F, -0.5F}));
+    const auto pixels = draw();
+    expect_near(at(pixels, -0.5F, 0.0F), kRed, "left");
+    expect_near(at(pixels, 0.5F, 0.0F), kBlue, "right");
+}
+
+TEST_F(PictureColumnsTest, NoColumnsShowNothingAndAllShowAll) {
+    const ecs::Entity entity = add_square(kRed, {0.7F, 0.7F});
+    expect_near(at(draw(), 0.5F, 0.0F), glm::vec3(0.0F), "nothing");
+    world_.get<PictureColumns>(entity) = {-3.0F, 4.0F};
+    const auto pixels = draw();
+    expect_near(at(pixels, -0.9F, 0.0F), kRed, "left");
+    expect_near(at(pixels, 0.9F, 0.0F), kRed, "right");
 }
 
 }  // namespace

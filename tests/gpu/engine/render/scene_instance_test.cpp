@@ -53,6 +53,8 @@ class SceneInstanceTest : public test::RenderTest {
         scene.nodes.resize(2);
         scene.nodes[0].local.translation = {0.0F, 0.5F, 0.0F};
         scene.nodes[1].parent = 0;
+        scene.nodes[1].name = "disc";
+        scene.nodes[1].extras = {{"grab", true}};
         scene.nodes[1].local.rotation = glm::angleAxis(1.5707963F, glm::vec3(0.0F, 0.0F, 1.0F));
         scene.instances = {{.name = "square", .mesh = 0, .material = 0, .node = 1, .skin = {}}};
         scene.materials.resize(1);
@@ -78,6 +80,8 @@ TEST_F(SceneInstanceTest, NodesBecomeEntitiesAndPrimitivesTheirChildren) {
     ASSERT_EQ(instance.nodes.size(), 2U);
     ASSERT_EQ(instance.drawn.size(), 1U);
     EXPECT_EQ(world_.get<scene::Parent>(instance.nodes[1]).entity, instance.nodes[0]);
+    EXPECT_EQ(world_.get<scene::NodeMetadata>(instance.nodes[1]).name, "disc");
+    EXPECT_EQ(world_.get<scene::NodeMetadata>(instance.nodes[1]).extras, nlohmann::json({{"grab", true}}));
     EXPECT_EQ(world_.get<scene::Parent>(instance.drawn[0]).entity, instance.nodes[1]);
     const auto pixels = draw_updated();
     EXPECT_EQ(at(pixels, 0.0F, 0.5F).g, 1.0F);
@@ -210,28 +214,6 @@ TEST_F(SceneInstanceTest, LightsHangOnTheirNodes) {
     EXPECT_EQ(at(draw_updated(), 0.0F, 0.5F).g, 0.0F);
     destroy(world_, instance);
     EXPECT_EQ(world_.living(), 0U);
-}
-
-TEST_F(SceneInstanceTest, ALightKeepsItsShadow) {
-    scene::ImportedScene scene = two_nodes();
-    scene.lights = {{.node = 0, .light = scene::DirectionalLight{.casts_shadow = true}},
-                    {.node = 1, .light = scene::DirectionalLight{.casts_shadow = false}}};
-    const SceneInstance instance = instantiate(world_, scene, renderer_, "test.gltf");
-    EXPECT_TRUE(world_.get<scene::DirectionalLight>(instance.lights.at(0)).casts_shadow);
-    EXPECT_FALSE(world_.get<scene::DirectionalLight>(instance.lights.at(1)).casts_shadow);
-}
-
-TEST_F(SceneInstanceTest, ANodeIsFoundByItsNameAndHasItsExtras) {
-    scene::ImportedScene scene = two_nodes();
-    scene.nodes[0].name = "stand";
-    scene.nodes[1].name = "disc";
-    scene.nodes[1].extras = {{"grab", true}};
-    const SceneInstance instance = instantiate(world_, scene, renderer_, "test.gltf");
-    EXPECT_EQ(instance.node_named(world_, "disc"), instance.nodes[1]);
-    EXPECT_EQ(instance.node_named(world_, "lid"), std::nullopt);
-    EXPECT_EQ(world_.get<scene::NodeLabel>(instance.nodes[1]).extras, scene.nodes[1].extras);
-    world_.destroy(instance.nodes[1]);
-    EXPECT_EQ(instance.node_named(world_, "disc"), std::nullopt);
 }
 
 TEST_F(SceneInstanceTest, WhatIsBelowANodeThatReflectsObjectsIsOneGroup) {

@@ -20,29 +20,21 @@ class ShadowTest : public test::RenderTest {
     ShadowTest() {
         renderer_.set_shadow_map_size(512);
         add(square(), kGrey);
-        set_light({0.0F, 0.0F, 1.0F});
-    }
-    void set_light(const glm::vec3& toward, bool casts_shadow = true) {
-        if (world_.alive(light_)) world_.destroy(light_);
-        light_ = world_.create();
-        world_.add(light_, scene::DirectionalLight{.direction = glm::normalize(toward),
-                                                   .irradiance = glm::vec3(3.0F),
-                                                   .casts_shadow = casts_shadow});
+        set_sun({0.0F, 0.0F, 1.0F});
     }
     static glm::mat4 translation(float x, float y, float z) { return glm::translate(glm::mat4(1.0F), {x, y, z}); }
 
     const StandardMaterial kGrey{.base_colour = glm::vec3(0.5F), .roughness = 1.0F};
-    ecs::Entity light_;
 };
 
 TEST_F(ShadowTest, APointUnderAnOccluderHasOnlyAmbientLightAndOneBesideItAllOfIt) {
     renderer_.set_probe(even_light(1.0F));
     const auto without = draw();
-    world_.get<scene::DirectionalLight>(light_).irradiance = glm::vec3(0.0F);
+    world_.get<scene::DirectionalLight>(sun_).irradiance = glm::vec3(0.0F);
     const auto ambient = draw();
-    world_.get<scene::DirectionalLight>(light_).irradiance = glm::vec3(3.0F);
+    world_.get<scene::DirectionalLight>(sun_).irradiance = glm::vec3(3.0F);
     // The camera sees the shadow because the light comes from the side: it falls from x = 0.7 on z = 0.6 to x = 0.1.
-    set_light({1.0F, 0.0F, 1.0F});
+    set_sun({1.0F, 0.0F, 1.0F});
     const auto lit = draw();
     add(square(0.2F), kGrey, translation(0.7F, 0.0F, 0.6F));
     const auto pixels = draw();
@@ -56,16 +48,16 @@ TEST_F(ShadowTest, APointUnderAnOccluderHasOnlyAmbientLightAndOneBesideItAllOfIt
 
 TEST_F(ShadowTest, OnlyALightThatCastsShadowsHasAMap) {
     add(square(0.3F), kGrey, translation(0.0F, 0.0F, 0.5F));
-    set_light({0.0F, 0.0F, 1.0F}, false);
+    set_sun({0.0F, 0.0F, 1.0F}, false);
     draw();
     EXPECT_EQ(renderer_.report().shadow_drawn, 0);
-    set_light({0.0F, 0.0F, 1.0F}, true);
+    set_sun({0.0F, 0.0F, 1.0F}, true);
     draw();
     EXPECT_EQ(renderer_.report().shadow_drawn, 2);
 }
 
 TEST_F(ShadowTest, TheSecondLightShinesIntoTheShadowOfTheFirst) {
-    set_light({1.0F, 0.0F, 1.0F});
+    set_sun({1.0F, 0.0F, 1.0F});
     add(square(0.2F), kGrey, translation(0.7F, 0.0F, 0.6F));
     EXPECT_EQ(at(draw(), 0.1F, 0.0F).g, 0.0F);
     world_.add(world_.create(),
@@ -74,7 +66,7 @@ TEST_F(ShadowTest, TheSecondLightShinesIntoTheShadowOfTheFirst) {
 }
 
 TEST_F(ShadowTest, WhatIsOutsideThePictureStillCastsItsShadowIntoIt) {
-    set_light({1.0F, 0.0F, 0.25F});
+    set_sun({1.0F, 0.0F, 0.25F});
     const float before = at(draw(), 0.0F, 0.0F).g;
     // Far to the right, out of the picture: its shadow falls on the middle.
     const glm::mat4 turned = glm::rotate(translation(4.0F, 0.0F, 1.0F), 1.2F, {0.0F, 1.0F, 0.0F});
@@ -86,7 +78,7 @@ TEST_F(ShadowTest, WhatIsOutsideThePictureStillCastsItsShadowIntoIt) {
 }
 
 TEST_F(ShadowTest, HolesOfAMaskLetTheLightThroughAndGlassCastsNoShadow) {
-    set_light({1.0F, 0.0F, 1.0F});
+    set_sun({1.0F, 0.0F, 1.0F});
     const float open = at(draw(), 0.1F, 0.0F).g;
     StandardMaterial mask = kGrey;
     mask.alpha_mode = AlphaMode::Mask;
@@ -100,7 +92,7 @@ TEST_F(ShadowTest, HolesOfAMaskLetTheLightThroughAndGlassCastsNoShadow) {
 }
 
 TEST_F(ShadowTest, SkinnedMeshesCastTheShadowOfTheirPose) {
-    set_light({1.0F, 0.0F, 1.0F});
+    set_sun({1.0F, 0.0F, 1.0F});
     scene::Mesh mesh = square(0.2F);
     mesh.joints.assign(4, glm::u16vec4(0));
     mesh.weights.assign(4, {1.0F, 0.0F, 0.0F, 0.0F});
@@ -115,123 +107,89 @@ TEST_F(ShadowTest, SkinnedMeshesCastTheShadowOfTheirPose) {
 }
 
 /// A ground that is lit at a grazing angle, with something far above to give the map depth.
-class GrazingSunTest : public test::GlTest {
+class GrazingSunTest : public test::RenderTest {
  protected:
-    static constexpr int kSize = 200;
+    static constexpr int kPixels = 200;
 
-    GrazingSunTest() {
-        lighting::LightProbe dark;
-        dark.sh = {.bands = 1, .coefficients = {glm::dvec3(0.0)}};
-        dark.environment.layout = {.face_size = 4, .levels = 1};
-        dark.environment.halves.assign(3 * dark.environment.layout.offset(1), 0);
-        renderer_.set_probe(dark);
+    GrazingSunTest() { camera_ = {.eye = {0.3F, 1.5F, 3.0F}, .target = {0.0F, 0.0F, 0.0F}}; }
+
+    void add_white(scene::Mesh mesh, const glm::mat4& matrix) {
+        add(std::move(mesh), {.base_colour = glm::vec3(0.8F), .roughness = 1.0F}, matrix);
     }
-    void add(scene::Mesh mesh, const glm::mat4& matrix) {
-        const ecs::Entity entity = world_.create();
-        world_.add(entity, make_mesh_instance(std::move(mesh)));
-        world_.add(entity, StandardMaterial{.base_colour = glm::vec3(0.8F), .roughness = 1.0F});
-        world_.add(entity, scene::WorldMatrix{matrix});
+    static glm::vec3 toward_sun(float degrees_from_zenith, float azimuth) {
+        const float zenith = glm::radians(degrees_from_zenith);
+        return {std::sin(zenith) * std::cos(azimuth), std::cos(zenith), std::sin(zenith) * std::sin(azimuth)};
     }
-    void set_sun(float degrees_from_zenith, float azimuth, bool casts_shadow) {
-        if (world_.alive(sun_)) world_.destroy(sun_);
-        const float zenith = degrees_from_zenith * 0.0174532925F;
-        sun_ = world_.create();
-        world_.add(sun_, scene::DirectionalLight{.direction = {std::sin(zenith) * std::cos(azimuth), std::cos(zenith),
-                                                               std::sin(zenith) * std::sin(azimuth)},
-                                                 .irradiance = glm::vec3(3.0F),
-                                                 .casts_shadow = casts_shadow});
+    std::vector<glm::vec4> draw_large() {
+        renderer_.render(world_, camera_, picture_);
+        return picture_.read_rgba_float();
     }
-    std::vector<glm::vec4> draw() {
-        renderer_.render(world_, camera_, target_);
-        return target_.read_rgba_float();
-    }
-    /// Fraction of the lit pixels that the shadow map darkens by more than a hundredth.
-    double darkened(float degrees_from_zenith, float azimuth) {
-        set_sun(degrees_from_zenith, azimuth, false);
-        const auto open = draw();
-        set_sun(degrees_from_zenith, azimuth, true);
-        const auto shadowed = draw();
-        int lit = 0;
-        int dark = 0;
+    struct Darkened {
+        int lit = 0;       ///< pixels whose green exceeds a threshold without a shadow map
+        int darkened = 0;  ///< those of them that the map darkens by more than a hundredth
+    };
+    Darkened darkened(const glm::vec3& toward, float threshold) {
+        set_sun(toward, false);
+        const auto open = draw_large();
+        set_sun(toward, true);
+        const auto shadowed = draw_large();
+        Darkened count;
         for (std::size_t i = 0; i < open.size(); ++i) {
-            if (open[i].g <= 0.01F) continue;
-            ++lit;
-            dark += shadowed[i].g < 0.99F * open[i].g ? 1 : 0;
+            if (open[i].g <= threshold) continue;
+            ++count.lit;
+            count.darkened += shadowed[i].g < 0.99F * open[i].g ? 1 : 0;
         }
-        EXPECT_GT(lit, kSize * kSize / 4);
-        return static_cast<double>(dark) / lit;
+        return count;
     }
 
-    Renderer renderer_{glm::inverse(colour::rec709_to_xyz())};
-    ecs::World world_;
-    ecs::Entity sun_;
-    scene::Camera camera_{.eye = {0.3F, 1.5F, 3.0F}, .target = {0.0F, 0.0F, 0.0F}};
-    gpu::Framebuffer target_{
-        gpu::FramebufferDesc{.width = kSize, .height = kSize, .colours = {gpu::Format::RGBA32F}, .depth = true}};
+    const glm::mat4 kLying = glm::rotate(glm::mat4(1.0F), -1.5707963F, {1.0F, 0.0F, 0.0F});
+    gpu::Framebuffer picture_{
+        gpu::FramebufferDesc{.width = kPixels, .height = kPixels, .colours = {gpu::Format::RGBA32F}, .depth = true}};
 };
 
 TEST_F(GrazingSunTest, APlaneDoesNotShadowItself) {
-    const glm::mat4 lying = glm::rotate(glm::mat4(1.0F), -1.5707963F, {1.0F, 0.0F, 0.0F});
-    add(test::RenderTest::square(5.0F), lying);
-    for (const float azimuth : {0.0F, 0.4F, 0.785F, 2.0F, 4.4F}) {
-        EXPECT_LT(darkened(75.0F, azimuth), 0.001) << azimuth;
-        EXPECT_LT(darkened(20.0F, azimuth), 0.001) << azimuth;
-    }
+    add_white(square(5.0F), kLying);
+    for (const float azimuth : {0.0F, 0.4F, 0.785F, 2.0F, 4.4F})
+        for (const float degrees : {75.0F, 20.0F}) {
+            const Darkened count = darkened(toward_sun(degrees, azimuth), 0.01F);
+            EXPECT_GT(count.lit, kPixels * kPixels / 4);
+            EXPECT_LT(count.darkened, count.lit / 1000) << degrees << ", " << azimuth;
+        }
 }
 
 TEST_F(GrazingSunTest, AShadowBeginsWhereItsCasterStands) {
-    const glm::mat4 lying = glm::rotate(glm::mat4(1.0F), -1.5707963F, {1.0F, 0.0F, 0.0F});
-    add(test::RenderTest::square(2.0F), lying);
+    add_white(square(2.0F), kLying);
     // A wall on the plane x = 0, its foot on the ground; the sun stands at 45° over +x, so its shadow covers x < 0.
-    add(test::RenderTest::square(0.5F),
-        glm::rotate(glm::translate(glm::mat4(1.0F), {0.0F, 0.5F, 0.0F}), 1.5707963F, {0.0F, 1.0F, 0.0F}));
+    add_white(square(0.5F),
+              glm::rotate(glm::translate(glm::mat4(1.0F), {0.0F, 0.5F, 0.0F}), 1.5707963F, {0.0F, 1.0F, 0.0F}));
     camera_ = {.eye = {0.0F, 5.0F, 0.001F}, .target = {0.0F, 0.0F, 0.0F}, .vertical_field_of_view = 0.3F};
-    set_sun(45.0F, 0.0F, true);
-    const auto pixels = draw();
+    set_sun(toward_sun(45.0F, 0.0F));
+    const auto pixels = draw_large();
     // Half the picture's height, 5 tan 0.15 = 0.756 m, is half of 200 pixels. A map of 2048 texels over the 4 m ground
     // has texels of at most 4 m · 2^¼ / 2040 = 2.3 mm; lift, filter and slope bias move an edge by at most 5 of them,
     // 12 mm or 1.6 pixels, and the pixel that the edge crosses is one more.
-    const auto row = pixels.begin() + std::ptrdiff_t{kSize / 2} * kSize;
-    for (int column = kSize / 2 - 60; column < kSize / 2 - 3; ++column) EXPECT_EQ(row[column].g, 0.0F) << column;
-    for (int column = kSize / 2 + 3; column < kSize; ++column) EXPECT_GT(row[column].g, 0.1F) << column;
+    const auto row = pixels.begin() + std::ptrdiff_t{kPixels / 2} * kPixels;
+    for (int column = kPixels / 2 - 60; column < kPixels / 2 - 3; ++column) EXPECT_EQ(row[column].g, 0.0F) << column;
+    for (int column = kPixels / 2 + 3; column < kPixels; ++column) EXPECT_GT(row[column].g, 0.1F) << column;
 }
 
 TEST_F(GrazingSunTest, ASphereIsDarkenedOnlyWhereItTurnsAway) {
-    add(scene::build_mesh(scene::SphereRecipe{.radius = 1.0}), glm::mat4(1.0F));
+    add_white(scene::build_mesh(scene::SphereRecipe{.radius = 1.0}), glm::mat4(1.0F));
     camera_ = {.eye = {0.0F, 0.0F, 3.0F}, .target = {0.0F, 0.0F, 0.0F}, .vertical_field_of_view = 0.65F};
-    set_sun(60.0F, 0.0F, false);
-    const auto open = draw();
-    set_sun(60.0F, 0.0F, true);
-    const auto shadowed = draw();
-    int dark = 0;
-    int lit = 0;
-    for (std::size_t i = 0; i < open.size(); ++i) {
-        // Facets, not the smooth normal, cast the shadow: near the terminator they turn away first.
-        if (open[i].g < 0.12F) continue;
-        ++lit;
-        dark += shadowed[i].g < 0.99F * open[i].g ? 1 : 0;
-    }
-    EXPECT_GT(lit, 5000);
-    EXPECT_LT(dark, lit / 1000);
+    // Facets, not the smooth normal, cast the shadow: near the terminator they turn away first.
+    const Darkened count = darkened(toward_sun(60.0F, 0.0F), 0.12F);
+    EXPECT_GT(count.lit, 5000);
+    EXPECT_LT(count.darkened, count.lit / 1000);
 }
 
 class SoftShadowTest : public test::TracedSceneTest {
  protected:
-    SoftShadowTest() {
-        renderer_.set_shadow_map_size(2048);
-        set_light(true);
-    }
-    void set_light(bool casts_shadow) {
-        if (world_.alive(light_)) world_.destroy(light_);
-        light_ = world_.create();
-        world_.add(light_, scene::DirectionalLight{
-                               .direction = kToward, .irradiance = glm::vec3(3.0F), .casts_shadow = casts_shadow});
-    }
+    SoftShadowTest() { set_sun(kToward); }
     /// Of the light in each pixel: a picture's ratio to the one without shadows.
     std::vector<float> visibility(float angular_radius) {
-        set_light(false);
+        set_sun(kToward, false);
         const std::vector<float> open = greens();
-        set_light(true);
+        set_sun(kToward);
         renderer_.set_effects(angular_radius > 0.0F
                                   ? Effects{.soft_shadows = SoftShadowSettings{.angular_radius = angular_radius}}
                                   : Effects{});
@@ -276,7 +234,6 @@ class SoftShadowTest : public test::TracedSceneTest {
     }
 
     const glm::vec3 kToward = glm::normalize(glm::vec3(-0.7F, 0.8F, -0.4F));
-    ecs::Entity light_;
 };
 
 TEST_F(SoftShadowTest, AnEdgeIsAsWideAsThatOfTheDisc) {

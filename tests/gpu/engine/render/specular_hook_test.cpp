@@ -118,7 +118,7 @@ TEST_F(SpecularHook, MixesTheColoursOfTheEnvironmentByTheViewsAngleOnASmoothSurf
 TEST_F(SpecularHook, TwoMaterialTypesOnOneEntityAreAnErrorThatNamesBothAndTheEntity) {
     const ecs::Entity entity = add(square(), {});
     const ecs::Entity node = world_.create();
-    world_.add(node, scene::NodeLabel{.name = "teapot", .extras = {}});
+    world_.add(node, scene::NodeMetadata{.name = "teapot", .extras = {}});
     world_.add(entity, scene::Parent{node});
     use("first kind", "light");
     draw();

@@ -28,21 +28,21 @@ class TracedSceneTest : public RenderTest {
 
     TracedSceneTest() {
         camera_ = {.eye = {0.25F, 0.3F, 0.6F}, .target = {0.0F, 0.03F, 0.0F}, .vertical_field_of_view = 0.5F};
-        add(scene::build_mesh(scene::PlaneRecipe{.width = 2.0 * kFloor, .depth = 2.0 * kFloor}), kWhite);
+        floor_ = add(scene::build_mesh(scene::PlaneRecipe{.width = 2.0 * kFloor, .depth = 2.0 * kFloor}), kWhite);
     }
 
     /// Standing on the floor.
-    void add_box(const glm::vec3& foot, const glm::vec3& size) {
-        add(box_mesh(size), kWhite, glm::translate(glm::mat4(1.0F), foot));
+    ecs::Entity add_box(const glm::vec3& foot, const glm::vec3& size) {
         const glm::dvec3 half(0.5F * size);
         boxes_.push_back({glm::dvec3(foot) - glm::dvec3(half.x, 0.0, half.z),
                           glm::dvec3(foot) + glm::dvec3(half.x, 2.0 * half.y, half.z)});
+        return add(box_mesh(size), kWhite, glm::translate(glm::mat4(1.0F), foot));
     }
-    void add_sphere(const glm::vec3& centre, float radius) { add_sphere(centre, radius, kWhite); }
-    void add_sphere(const glm::vec3& centre, float radius, const render::StandardMaterial& material) {
-        scene::Mesh mesh = scene::build_mesh(scene::SphereRecipe{.radius = radius, .rings = 96, .segments = 192});
-        add(std::move(mesh), material, glm::translate(glm::mat4(1.0F), centre));
+    ecs::Entity add_sphere(const glm::vec3& centre, float radius) { return add_sphere(centre, radius, kWhite); }
+    ecs::Entity add_sphere(const glm::vec3& centre, float radius, const render::StandardMaterial& material) {
         spheres_.push_back({glm::dvec3(centre), radius});
+        scene::Mesh mesh = scene::build_mesh(scene::SphereRecipe{.radius = radius, .rings = 96, .segments = 192});
+        return add(std::move(mesh), material, glm::translate(glm::mat4(1.0F), centre));
     }
 
     /// Standing on the plane y = 0, around the Y axis.
@@ -109,6 +109,22 @@ class TracedSceneTest : public RenderTest {
         return trace(glm::dvec3(camera_.eye), glm::normalize(direction));
     }
 
+    /// Calls f(pixel, direction, hit) for the pixels that show a mirror sphere, but for its outline, where a pixel sees
+    /// other rays: the direction and the first hit of the mirrored ray.
+    template <typename Function>
+    void for_each_mirrored(const glm::vec3& centre, float radius, const Function& f) const {
+        for (int row = 0; row < kHeight; ++row)
+            for (int column = 0; column < kWidth; ++column) {
+                const auto hit = seen(column, row);
+                if (!hit || glm::length(hit->point - glm::dvec3(centre)) > 1.001 * static_cast<double>(radius))
+                    continue;
+                const glm::dvec3 incident = glm::normalize(hit->point - glm::dvec3(camera_.eye));
+                if (glm::dot(incident, hit->normal) > -0.2) continue;
+                const glm::dvec3 mirrored = glm::reflect(incident, hit->normal);
+                f(index(column, row), mirrored, trace(hit->point + 1e-5 * hit->normal, mirrored));
+            }
+    }
+
     /// Green of all pixels, rows from the top.
     std::vector<float> greens() {
         renderer_.render(world_, camera_, picture_);
@@ -128,6 +144,7 @@ class TracedSceneTest : public RenderTest {
     const render::StandardMaterial kWhite{.base_colour = glm::vec3(1.0F), .roughness = 1.0F};
     std::vector<std::pair<glm::dvec3, glm::dvec3>> boxes_;  ///< lowest and highest corner
     std::vector<std::pair<glm::dvec3, double>> spheres_;
+    ecs::Entity floor_;
     gpu::Framebuffer picture_{
         gpu::FramebufferDesc{.width = kWidth, .height = kHeight, .colours = {gpu::Format::RGBA32F}, .depth = true}};
 };

@@ -3,8 +3,7 @@
 
 #include <algorithm>
 
-#include "modules/diffraction/runtime/gpu_circle.h"
-#include "tests/gpu/modules/diffraction/filter_error.h"
+#include "modules/diffraction/runtime/gpu_representations.h"
 #include "tests/gpu/modules/diffraction/grating_picture.h"
 
 namespace rowland::diffraction {
@@ -18,25 +17,6 @@ class Circle : public GratingPicture {
         size.side = std::min(size.side, largest_side);
         return fill_circle_map(*light_.texels, cooked.kernel, cooked.material.grating.pitch_nm, size,
                                cooked.zero_order_xyz);
-    }
-    static glm::dvec3 at(const CircleMap& map, const Point& point) {
-        const glm::dmat3 axes = glm::transpose(point.to_tangent);
-        return sample(map, ShadingPoint{.view = axes * point.view, .normal = axes[2], .grating = axes[0]});
-    }
-    double difference_from(const CircleMap& expected, const std::vector<glm::vec4>& pixels) {
-        const CircleMap error = filter_error(expected);
-        return largest_difference(
-            pixels, [&](const Point& point) { return at(expected, point); },
-            [&](const Point& point) { return at(error, point); });
-    }
-    /// Of a map and key lights on top of it.
-    double difference_from_lit(const CookedMaterial& cooked, const std::vector<glm::vec4>& pixels) {
-        const CircleMap expected = map(cooked);
-        const CircleMap error = filter_error(expected);
-        return largest_difference(
-            pixels,
-            [&](const Point& point) { return at(expected, point) + key_light_xyz(cooked, light_.key_lights, point); },
-            [&](const Point& point) { return at(error, point) + key_light_error(cooked, light_.key_lights, point); });
     }
 };
 
@@ -79,11 +59,7 @@ TEST_F(Circle, AMapAtTheVerticesIsInterpolated) {
         const CookedMaterial cooked = cook(kSlitCd, quality + lights_at + "\"}");
         if (!renderer_) show(cooked, -0.3);
         use(cooked);
-        const CircleMap expected = map(cooked);
-        const CircleMap error = filter_error(expected);
-        expect_map_at_vertices(
-            cooked, [&](const Point& point) { return at(expected, point); },
-            [&](const Point& point) { return at(error, point); });
+        expect_map_at_vertices(cooked, map(cooked));
     }
 }
 
@@ -91,7 +67,10 @@ TEST_F(Circle, KeyLightsComeOnTop) {
     light_ = light_of(smooth_probe(), three_keys());
     const CookedMaterial cooked = cook(kSlitCd, kCircle);
     show(cooked, -0.3);
-    EXPECT_LT(difference_from_lit(cooked, draw()), kPictureTolerance);
+    const CircleMap expected = map(cooked);
+    EXPECT_LT(largest_difference(draw(), sum(map_xyz(expected), key_lights(cooked)),
+                                 sum(map_xyz(filter_error(expected)), key_lights_error(cooked))),
+              kPictureTolerance);
 }
 
 TEST_F(Circle, MotionFillsNothingAndObjectsShareTheMap) {

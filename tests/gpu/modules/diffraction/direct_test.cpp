@@ -45,9 +45,8 @@ TEST_F(Direct, KeyLightsEqualTheCpuWithTheSmoothedKernel) {
         const CookedMaterial cooked = cook(grating, kDirect);
         if (!renderer_) show(cooked, 0.5);
         use(cooked);
-        const auto expected = [&](const Point& point) { return key_light_xyz(cooked, light_.key_lights, point); };
-        const auto error = [&](const Point& point) { return key_light_error(cooked, light_.key_lights, point); };
-        EXPECT_LT(largest_difference(draw(), expected, error), kPictureTolerance) << grating;
+        EXPECT_LT(largest_difference(draw(), key_lights(cooked), key_lights_error(cooked)), kPictureTolerance)
+            << grating;
         EXPECT_GT(brightest_, 0.01);
     }
 }
@@ -99,8 +98,7 @@ TEST_F(Direct, LightsAtTheVerticesAreInterpolated) {
                                  }),
               kPictureTolerance);
     EXPECT_GT(brightest_, 0.01);
-    const auto at_pixels = [&](const Point& point) { return key_light_xyz(cooked, light_.key_lights, point); };
-    EXPECT_GT(largest_difference(draw(), at_pixels), 0.1);  // three vertices are far too few
+    EXPECT_GT(largest_difference(draw(), key_lights(cooked)), 0.1);  // three vertices are far too few
 }
 
 TEST_F(Direct, PitsEqualTheCpu) {
@@ -109,9 +107,7 @@ TEST_F(Direct, PitsEqualTheCpu) {
                                            "groove_lobe": {"pits": {"length_nm": 850, "coherent": 0.3}}})",
                                        kDirect);
     show(cooked, 0.1);
-    EXPECT_LT(
-        largest_difference(draw(), [&](const Point& point) { return key_light_xyz(cooked, light_.key_lights, point); }),
-        kPictureTolerance);
+    EXPECT_LT(largest_difference(draw(), key_lights(cooked)), kPictureTolerance);
     EXPECT_GT(brightest_, 0.01);
 }
 
@@ -121,9 +117,8 @@ TEST_F(Direct, OrderZeroShowsTheLobesThemselves) {
     const CookedMaterial cooked =
         cook(R"({"pitch_nm": 1601, "profile": {"type": "slit", "width_nm": 700}, "orders": [-1, 0, 1]})", kDirect);
     show(cooked, 0.5);
-    const auto expected = [&](const Point& point) {
-        return key_light_xyz(cooked, light_.key_lights, point) + order_zero_xyz(cooked, light_.key_lights, point);
-    };
+    const AtPoint expected =
+        sum(key_lights(cooked), [&](const Point& point) { return order_zero_xyz(cooked, light_.key_lights, point); });
     EXPECT_LT(largest_difference(draw(), expected), kPictureTolerance);
     CookedMaterial without = cooked;
     without.zero_order_xyz = glm::dmat3(0.0);

@@ -12,6 +12,7 @@
 #include "tests/gpu/gl_test.h"
 #include "tests/gpu/modules/diffraction/cook_grating.h"
 #include "tests/gpu/modules/diffraction/drawn_triangle.h"
+#include "tests/gpu/modules/diffraction/filter_error.h"
 #include "tests/gpu/modules/diffraction/grating_light.h"
 #include "tests/gpu/modules/diffraction/key_light_reference.h"
 
@@ -54,14 +55,40 @@ class GratingPicture : public rowland::test::GlTest, protected DrawnTriangle {
         return [vertices](const Point& point) { return mix(point, vertices); };
     }
 
-    /// Draws a material whose map is looked up at the vertices, which `map_xyz` does on the CPU, and its key lights at
-    /// the vertices or at the pixels.
+    /// What a map gives.
+    template <typename Map>
+    static AtPoint map_xyz(const Map& map) {
+        return [shared = std::make_shared<const Map>(map)](const Point& point) {
+            const glm::dmat3 axes = glm::transpose(point.to_tangent);
+            return sample(*shared, ShadingPoint{.view = axes * point.view, .normal = axes[2], .grating = axes[0]});
+        };
+    }
+    /// What the light's key lights give, and the error that texture units may add. `cooked` must outlive them.
+    AtPoint key_lights(const CookedMaterial& cooked) const {
+        return [this, &cooked](const Point& point) { return key_light_xyz(cooked, light_.key_lights, point); };
+    }
+    AtPoint key_lights_error(const CookedMaterial& cooked) const {
+        return [this, &cooked](const Point& point) { return key_light_error(cooked, light_.key_lights, point); };
+    }
+    static AtPoint sum(const AtPoint& a, const AtPoint& b) {
+        return [a, b](const Point& point) { return a(point) + b(point); };
+    }
+
+    /// Draws a material whose map is looked up at the vertices, and its key lights at the vertices or at the pixels.
+    template <typename Map>
+    void expect_map_at_vertices(const CookedMaterial& cooked, const Map& map) {
+        expect_map_at_vertices(cooked, map_xyz(map), map_xyz(filter_error(map)));
+    }
     void expect_map_at_vertices(const CookedMaterial& cooked, const AtPoint& map_xyz, const AtPoint& map_error);
 
-    /// Largest difference between the picture and `expected` beyond `filter_error`, over the picture's largest
-    /// component.
+    /// Largest difference between the picture and `expected` beyond `allowed`, over the picture's largest component.
     double largest_difference(const std::vector<glm::vec4>& pixels, const AtPoint& expected,
-                              const AtPoint& filter_error = nullptr);
+                              const AtPoint& allowed = nullptr);
+    /// The same of a map.
+    template <typename Map>
+    double difference_from(const Map& expected, const std::vector<glm::vec4>& pixels) {
+        return largest_difference(pixels, map_xyz(expected), map_xyz(filter_error(expected)));
+    }
 
     glm::dmat3 xyz_to_working_{1.0};
     std::optional<render::Renderer> renderer_;

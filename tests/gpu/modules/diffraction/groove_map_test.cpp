@@ -9,7 +9,6 @@
 
 #include "engine/core/json_reader.h"
 #include "modules/diffraction/asset/material.h"
-#include "tests/gpu/modules/diffraction/filter_error.h"
 #include "tests/gpu/modules/diffraction/grating_picture.h"
 #include "tests/support/expect.h"
 
@@ -367,7 +366,7 @@ TEST_F(Grooves, WhatKnowsOneDirectionOrOnePitchIsRefusedByPlace) {
     const auto refusal = [&](const std::string& grating, const std::string& quality) {
         return groove_refusal(material(grating, quality), map->pitches()).value_or(Refusal{}).key;
     };
-    for (const char* name : {"spikes", "transfer", "circle"})
+    for (const char* name : {"spikes", "circle"})
         EXPECT_EQ(refusal(kFlatFoil, R"({"representation": ")" + std::string(name) + "\"}"), "quality/representation");
     EXPECT_EQ(refusal(kFlatFoil, R"({"representation": "planar"})"), "");
     for (const char* name : {"arc", "planar"})

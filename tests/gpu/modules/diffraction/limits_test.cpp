@@ -49,7 +49,7 @@ TEST_F(GratingLimits, LightOfMoreThanABufferHoldsIsRefused) {
 
 TEST_F(GratingLimits, AVertexStageWithoutStorageDrawsWhatNeedsNone) {
     const LoweredLimit limit(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, 0);
-    for (const char* representation : {"spikes", "transfer", "arc"})
+    for (const char* representation : {"spikes", "arc"})
         EXPECT_THAT(refusal(representation), HasSubstr("1 storage buffers")) << representation;
     for (const char* quality :
          {R"({"representation": "direct"})", R"({"representation": "circle", "map_resolution": 8})"}) {
@@ -125,7 +125,7 @@ TEST_F(ProgramLimits, TheLargestProgramsKeepToWhatOpenGlGuarantees) {
     using namespace render::feature;
     constexpr render::SurfaceFeatures kAllMaps =
         kBaseColourMap | kMetallicRoughnessMap | kOcclusionMap | kEmissiveMap | (kEmissiveMap << kSecondUvShift);
-    constexpr render::SurfaceFeatures kAll = kAllMaps | kColours | kTextureTransform | kAlphaMask | kLights;
+    constexpr render::SurfaceFeatures kAll = kAllMaps | kColours | kTextureTransformExtension | kAlphaMask | kLights;
     gpu::ShaderLibrary library;
     library.add_embedded(render::shader_files());
     library.add_embedded(shader_files());

@@ -1,8 +1,7 @@
 // A flat grating's map: against the CPU's, and when it is filled.
 #include <gtest/gtest.h>
 
-#include "modules/diffraction/runtime/gpu_planar.h"
-#include "tests/gpu/modules/diffraction/filter_error.h"
+#include "modules/diffraction/runtime/gpu_representations.h"
 #include "tests/gpu/modules/diffraction/grating_picture.h"
 
 namespace rowland::diffraction {
@@ -20,16 +19,6 @@ class Planar : public GratingPicture {
     }
     PlanarMap map(const CookedMaterial& cooked) const {
         return map(cooked, std::get<PlanarTables>(cooked.tables).size);
-    }
-    static glm::dvec3 at(const PlanarMap& map, const Point& point) {
-        const glm::dmat3 axes = glm::transpose(point.to_tangent);
-        return sample(map, ShadingPoint{.view = axes * point.view, .normal = axes[2], .grating = axes[0]});
-    }
-    double difference_from(const PlanarMap& expected, const std::vector<glm::vec4>& pixels) {
-        const PlanarMap error = filter_error(expected);
-        return largest_difference(
-            pixels, [&](const Point& point) { return at(expected, point); },
-            [&](const Point& point) { return at(error, point); });
     }
 };
 
@@ -55,11 +44,7 @@ TEST_F(Planar, AMapAtTheVerticesIsInterpolated) {
         const CookedMaterial cooked = cook(kSlitCd, quality + lights_at + "\"}");
         if (!renderer_) show(cooked, 0.7);
         use(cooked);
-        const PlanarMap expected = map(cooked);
-        const PlanarMap error = filter_error(expected);
-        expect_map_at_vertices(
-            cooked, [&](const Point& point) { return at(expected, point); },
-            [&](const Point& point) { return at(error, point); });
+        expect_map_at_vertices(cooked, map(cooked));
     }
 }
 
@@ -68,13 +53,9 @@ TEST_F(Planar, KeyLightsComeOnTop) {
     const CookedMaterial cooked = cook(kSlitCd, kPlanar);
     show(cooked, -0.3);
     const PlanarMap expected = map(cooked);
-    const PlanarMap error = filter_error(expected);
-    EXPECT_LT(
-        largest_difference(
-            draw(),
-            [&](const Point& point) { return at(expected, point) + key_light_xyz(cooked, light_.key_lights, point); },
-            [&](const Point& point) { return at(error, point) + key_light_error(cooked, light_.key_lights, point); }),
-        kPictureTolerance);
+    EXPECT_LT(largest_difference(draw(), sum(map_xyz(expected), key_lights(cooked)),
+                                 sum(map_xyz(filter_error(expected)), key_lights_error(cooked))),
+              kPictureTolerance);
 }
 
 /// Without analytic lights the map holds the whole probe, and nothing is added to it.
@@ -151,16 +132,6 @@ class PlanarLobes : public Planar {
         return map(cooked, glm::transpose(vertex_frame(0))[2], std::get<PlanarTables>(cooked.tables).lobe->size,
                    *light_.texels);
     }
-    double difference_from(const LobeMap& expected, const std::vector<glm::vec4>& pixels) {
-        const LobeMap error = filter_error(expected);
-        const auto at = [](const LobeMap& looked_up, const Point& point) {
-            const glm::dmat3 axes = glm::transpose(point.to_tangent);
-            return sample(looked_up, ShadingPoint{.view = axes * point.view, .normal = axes[2], .grating = axes[0]});
-        };
-        return largest_difference(
-            pixels, [&](const Point& point) { return at(expected, point); },
-            [&](const Point& point) { return at(error, point); });
-    }
 };
 
 constexpr const char* kPitsDisc = R"({"pitch_nm": 1600, "profile": {"type": "slit", "width_nm": 800},
@@ -183,15 +154,7 @@ TEST_F(PlanarLobes, PixelsEqualTheCpusMap) {
 TEST_F(PlanarLobes, AMapAtTheVerticesIsInterpolated) {
     const CookedMaterial cooked = cook_planar(kFoil, R"("map_resolution": 32, "map_at": "vertices")");
     show(cooked, 0.7);
-    const LobeMap expected = full_map(cooked);
-    const LobeMap error = filter_error(expected);
-    const auto at = [](const LobeMap& looked_up, const Point& point) {
-        const glm::dmat3 axes = glm::transpose(point.to_tangent);
-        return sample(looked_up, ShadingPoint{.view = axes * point.view, .normal = axes[2], .grating = axes[0]});
-    };
-    expect_map_at_vertices(
-        cooked, [&](const Point& point) { return at(expected, point); },
-        [&](const Point& point) { return at(error, point); });
+    expect_map_at_vertices(cooked, full_map(cooked));
 }
 
 TEST_F(PlanarLobes, ACoarseMapIsShownUntilTheFullOneIsThere) {

@@ -1,8 +1,7 @@
 // Streaks on the GPU against the CPU's evaluation, and when their map is filled.
 #include <gtest/gtest.h>
 
-#include "modules/diffraction/runtime/gpu_streak.h"
-#include "tests/gpu/modules/diffraction/filter_error.h"
+#include "modules/diffraction/runtime/gpu_representations.h"
 #include "tests/gpu/modules/diffraction/grating_picture.h"
 
 namespace rowland::diffraction {
@@ -84,10 +83,8 @@ TEST_F(StreakSurface, PitsEqualTheCpu) {
     show(cooked, -0.4);
     const auto streak = narrow(cooked);
     const auto smooth = rest(cooked);
-    EXPECT_LT(
-        largest_difference(
-            draw(), [&](const Point& point) { return streak(point) + 0.6 * smooth(point); }, narrow_error(cooked)),
-        kPictureTolerance);
+    const AtPoint expected = [&](const Point& point) { return streak(point) + 0.6 * smooth(point); };
+    EXPECT_LT(largest_difference(draw(), expected, narrow_error(cooked)), kPictureTolerance);
     // Neither part is small.
     const Point middle = point_at(kSize / 2, kSize / 2);
     EXPECT_GT(glm::length(streak(middle)), 0.005 * brightest_);

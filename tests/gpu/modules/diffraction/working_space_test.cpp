@@ -39,11 +39,10 @@ class WorkingSpace : public GratingPicture {
 TEST_F(WorkingSpace, EveryRepresentationDrawsInIt) {
     const std::pair<const char*, const char*> materials[] = {
         {kSlitCd, R"({"representation": "spikes"})"},
-        {kSlitCd, R"({"representation": "transfer"})"},
         {kSlitCd, R"({"representation": "arc", "lights_at": "vertices"})"},
         {kSlitCd, R"({"representation": "planar", "map_resolution": 32})"},
         {kBlazed, R"({"representation": "circle", "map_resolution": 8})"},
-        {kNarrow, R"({"representation": "streak"})"},
+        {kNarrow, R"({"representation": "streak", "map_resolution": 64})"},
         {kPits, R"({"representation": "direct"})"},
         {kPits, R"({"representation": "direct", "lights_at": "vertices"})"},
         {kZeroOrder, R"({"representation": "direct"})"}};

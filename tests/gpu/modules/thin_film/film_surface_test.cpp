@@ -63,7 +63,7 @@ class FilmPixel : public rowland::test::RenderTest {
         auto texel = std::make_shared<gpu::Texture>(gpu::TextureDesc{.format = gpu::Format::RGBA8});
         texel->upload(std::span<const std::uint8_t>(std::array<std::uint8_t, 4>{0, 153, 0, 255}));
         auto& surface = world_.get<FilmSurface>(entity);
-        surface.thickness_at_0_nm = 100.0F;
+        surface.minimum_thickness_nm = 100.0F;
         surface.thickness_texture.texture = std::move(texel);
         return entity;
     }

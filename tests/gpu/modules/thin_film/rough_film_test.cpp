@@ -134,19 +134,18 @@ TEST_F(RoughFilmPixel, OfFourLookUpsIsNearerToTheSumOverMicrofacets) {
 TEST_F(RoughFilmPixel, UnderFourCapturedProbesIsAsFarOffAsThePageSays) {
     struct Row {
         const char* probe;
-        std::array<double, 6> titanium;  ///< four look-ups, at roughness .1 to .6
-        std::array<double, 6> soap;
+        std::array<double, 3> titanium;  ///< four look-ups, at roughness .2, .4 and .6
+        std::array<double, 3> soap;
     };
-    const std::array<Row, 4> measured = {
-        {{"grace_probe.hdr", {0.10, 0.14, 0.12, 0.09, 0.11, 0.10}, {0.44, 0.57, 0.41, 0.30, 0.20, 0.15}},
-         {"ennis_probulator.hdr", {0.05, 0.06, 0.03, 0.06, 0.07, 0.08}, {0.05, 0.06, 0.05, 0.03, 0.06, 0.08}},
-         {"royal_esplanade_1k.hdr", {0.14, 0.10, 0.09, 0.13, 0.10, 0.09}, {0.13, 0.13, 0.08, 0.13, 0.10, 0.08}},
-         {"blender_sunset.exr", {0.02, 0.03, 0.06, 0.08, 0.07, 0.07}, {0.02, 0.04, 0.03, 0.04, 0.06, 0.08}}}};
+    const std::array<Row, 4> measured = {{{"grace_probe.hdr", {0.14, 0.09, 0.10}, {0.57, 0.30, 0.15}},
+                                          {"ennis_probulator.hdr", {0.06, 0.06, 0.08}, {0.06, 0.03, 0.08}},
+                                          {"royal_esplanade_1k.hdr", {0.10, 0.13, 0.09}, {0.13, 0.13, 0.08}},
+                                          {"blender_sunset.exr", {0.03, 0.08, 0.07}, {0.04, 0.04, 0.08}}}};
     for (const Row& row : measured) {
         ROWLAND_TEST_DATA(path, std::string("probes/") + row.probe);
         light_by(path);
-        for (std::size_t i = 0; i < 6; ++i) {
-            const double roughness = 0.1 * static_cast<double>(i + 1);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double roughness = 0.2 * static_cast<double>(i + 1);
             const Errors titanium = errors(anodised_titanium(), roughness);
             const Errors soap = errors(soap_on_glass(), roughness);
             EXPECT_LE(titanium.four, row.titanium.at(i) + 0.01) << row.probe << " " << roughness;

@@ -254,7 +254,7 @@ TEST(Export, KeyLightsAndTheKernelShadeAsTheDirectRepresentationDoes) {
     ROWLAND_TEST_DATA(probe, "probes/venice_sunset_256.hdr");
     const Export document(kCd, {"--probe", probe, "--key-lights", "4"});
     auto frames = points(nullptr);
-    frames.resize(40);
+    frames.resize(12);
     const std::vector<float> kernel = document.array("/material/kernel/antiderivative");
     EXPECT_EQ(document.json["probe"]["key_lights"].size(), 4U);
     std::vector<glm::dvec3> found;

@@ -9,10 +9,10 @@
 #include <string>
 #include <thread>
 
-#include "editor/cooker/job_plan.h"
-#include "editor/cooker/run_jobs.h"
+#include "editor/cooker/jobs.h"
 #include "engine/core/file.h"
-#include "tests/support/files.h"
+#include "tests/support/expect.h"
+#include "tests/support/folder_test.h"
 #include "tests/support/program.h"
 #include "tests/unit/engine/cook/tile_type.h"
 
@@ -22,13 +22,9 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-class FarmTest : public testing::Test {
+class FarmTest : public test::FolderTest {
  protected:
     FarmTest() { test::register_tile_types(registry_); }
-
-    std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
-    void write(const std::string& name, std::string_view text) const { write_file_atomic(path(name), text); }
-    std::string read(const std::string& name) const { return read_text_file(path(name), 1 << 20); }
 
     std::vector<Job> plan() const {
         const std::vector<std::filesystem::path> sources = {path("sources")};
@@ -44,7 +40,6 @@ class FarmTest : public testing::Test {
         return results;
     }
 
-    test::TemporaryFolder folder_;
     cook::Registry registry_;
 };
 
@@ -92,12 +87,12 @@ TEST_F(FarmTest, AWrittenPlanIsReadBack) {
 
 TEST_F(FarmTest, AJobWhoseNameJsonCannotHoldIsRefused) {
     write("sources/b\xff.tiles", "size 1\n");
-    EXPECT_THAT(test::refusal_of([&] { write_plan(plan()); }), HasSubstr("not UTF-8"));
+    EXPECT_THAT(test::message_of([&] { write_plan(plan()); }), HasSubstr("not UTF-8"));
 }
 
 TEST_F(FarmTest, BadPlansAreRefusedByTheirLine) {
     const auto refusal = [](const std::string& text) {
-        return test::refusal_of([&] { parse_plan(text, "plan.jsonl"); });
+        return test::message_of([&] { parse_plan(text, "plan.jsonl"); });
     };
     const std::string good = R"({"id":"0123456789ab","kind":"tiles","source":"a","output":"b"})";
     EXPECT_THAT(refusal(""), HasSubstr("no jobs"));
@@ -112,12 +107,12 @@ TEST_F(FarmTest, TwoSourcesOfOneOutputAreRefused) {
     write("sources/a.tiles", "size 1\n");
     write("sources/b/a.tiles", "size 1\n");
     const std::vector<std::filesystem::path> sources = {path("sources/a.tiles"), path("sources/b/a.tiles")};
-    EXPECT_THAT(test::refusal_of([&] { plan_jobs(registry_, sources, path("cooked")); }), HasSubstr("so does"));
+    EXPECT_THAT(test::message_of([&] { plan_jobs(registry_, sources, path("cooked")); }), HasSubstr("so does"));
 }
 
 TEST_F(FarmTest, ASourceThatIsNotThereIsRefusedByName) {
     const std::vector<std::filesystem::path> sources = {path("nothing.tiles")};
-    EXPECT_THAT(test::refusal_of([&] { plan_jobs(registry_, sources, path("cooked")); }), HasSubstr("nothing.tiles"));
+    EXPECT_THAT(test::message_of([&] { plan_jobs(registry_, sources, path("cooked")); }), HasSubstr("nothing.tiles"));
 }
 
 TEST_F(FarmTest, AJobIsDoneOnceUntilSomethingOfItChanges) {
@@ -256,7 +251,7 @@ TEST_F(WorkerTest, AJobThatWouldOverwriteAnInputOrAnotherOutputIsRefusedBeforeAn
     EXPECT_THAT(refusal(1, path("plan.jsonl")), HasSubstr("the same file as an input"));
     EXPECT_THAT(refusal(1, good[0].output), HasSubstr("the output of job " + good[0].id));
     EXPECT_THAT(refusal(1, "/dev/full"), HasSubstr("/dev/full"));
-    EXPECT_EQ(read("sources/c.tiles"), "size 3009\n");
+    EXPECT_EQ(text("sources/c.tiles"), "size 3009\n");
 }
 
 }  // namespace

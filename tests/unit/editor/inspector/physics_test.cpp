@@ -11,6 +11,7 @@
 #include <numbers>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -264,6 +265,20 @@ void expect_same(const glm::dvec3& a, const glm::dvec3& b, double relative, cons
     EXPECT_GT(b.y, 0.0) << what;
 }
 
+struct Lit {
+    diffraction::CookedMaterial cooked;
+    lighting::ProbeImage image;
+    diffraction::EvaluationLight light;
+};
+
+/// A shipped material under a probe.
+Lit lit(const char* material, const std::filesystem::path& probe) {
+    lighting::ProbeImage image(image::load_image(probe), lighting::Mapping::Equirectangular);
+    diffraction::EvaluationLight light(image, 16, math::SphericalWindow::None);
+    return {diffraction::bake_material(Document::open(kMaterials / material).material()), std::move(image),
+            std::move(light)};
+}
+
 // The panes' numbers follow material and probe, and are what the programs print of them.
 TEST(PointRadiance, IsWhatEvaluatePrints) {
     ROWLAND_TEST_DATA(venice, "probes/venice_sunset_256.hdr");
@@ -271,11 +286,8 @@ TEST(PointRadiance, IsWhatEvaluatePrints) {
     const test::TemporaryFolder folder;
     glm::dvec3 last(0.0);
     for (const auto& [material, probe] :
-         {std::pair{"cd.json", venice}, std::pair{"dvd.json", venice}, std::pair{"dvd.json", sunset}}) {
-        const Document document = Document::open(kMaterials / material);
-        const lighting::ProbeImage image(image::load_image(probe), lighting::Mapping::Equirectangular);
-        const diffraction::CookedMaterial cooked = diffraction::bake_material(document.material());
-        const diffraction::EvaluationLight light(image, 16, math::SphericalWindow::None);
+         {std::pair{"cd.json", venice}, std::pair{"ruled_1200.json", venice}, std::pair{"ruled_1200.json", sunset}}) {
+        const auto [cooked, image, light] = lit(material, probe);
         const PointRadiance point = point_radiance(cooked, image, light, kFrame);
 
         const std::string of_probe = fmt::format("--probe '{}'", probe.string());
@@ -295,10 +307,7 @@ TEST(PointRadiance, IsWhatEvaluatePrints) {
 
 TEST(PointRadiance, ItsSpectrumIsItsColour) {
     ROWLAND_TEST_DATA(venice, "probes/venice_sunset_256.hdr");
-    const Document document = Document::open(kMaterials / "cd.json");
-    const lighting::ProbeImage image(image::load_image(venice), lighting::Mapping::Equirectangular);
-    const diffraction::CookedMaterial cooked = diffraction::bake_material(document.material());
-    const diffraction::EvaluationLight light(image, 16, math::SphericalWindow::None);
+    const auto [cooked, image, light] = lit("cd.json", venice);
     const PointRadiance point = point_radiance(cooked, image, light, kFrame);
     ASSERT_EQ(point.spectrum.size(), 401U);
     glm::dvec3 xyz(0.0);
@@ -312,10 +321,7 @@ TEST(PointRadiance, ItsSpectrumIsItsColour) {
 
 TEST(ViewSweep, TheReferenceAndWhatIsDrawnAreThoseOfAPoint) {
     ROWLAND_TEST_DATA(venice, "probes/venice_sunset_256.hdr");
-    const Document document = Document::open(kMaterials / "cd.json");
-    const lighting::ProbeImage image(image::load_image(venice), lighting::Mapping::Equirectangular);
-    const diffraction::CookedMaterial cooked = diffraction::bake_material(document.material());
-    const diffraction::EvaluationLight light(image, 16, math::SphericalWindow::None);
+    const auto [cooked, image, light] = lit("cd.json", venice);
     const ViewSweep sweep = view_sweep(cooked, image, light, kFrame, 5, 9);
     diffraction::ShadingPoint straight = kFrame;
     straight.view = glm::normalize(kFrame.normal);

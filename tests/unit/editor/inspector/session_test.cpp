@@ -29,7 +29,7 @@ class SmallSession : public testing::Test {
  protected:
     /// `base`: a member of the material, or nothing.
     explicit SmallSession(const std::string& base) {
-        write_file_atomic(path("sky.json"), test::small_sky(64));
+        write_file_atomic(path("sky.json"), test::small_sky(64, 1));
         write_file_atomic(
             path("m.json"),
             R"({"grating": {"pitch_nm": 1600, "orders": [1], "profile": {"type": "slit", "width_nm": 800}}, )" + base +
@@ -212,18 +212,12 @@ TEST_F(SessionTest, WhatIsSavedIsDrawnInAnIdleInspector) {
 }
 
 TEST_F(SessionTest, AModelIsDrawnInPlaceOfAnotherInAnIdleInspector) {
-    const auto gltf = [](const char* scale) {
-        // One triangle, unindexed, with its positions as base64: (0,0,0) (1,0,0) (0,1,0).
-        return std::string(R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
-            "nodes": [{"mesh": 0, "scale": )") +
-               scale + R"(}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
-            "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],
-            "bufferViews": [{"buffer": 0, "byteLength": 36}],
-            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
-                           "min": [0, 0, 0], "max": [1, 1, 0]}]})";
-    };
-    write_file_atomic(path("wide.gltf"), gltf("[1, 0.2, 1]"));
-    write_file_atomic(path("tall.gltf"), gltf("[0.2, 1, 1]"));
+    constexpr int kTriangleStrip = 5;
+    nlohmann::json file = scene::test::document(kTriangleStrip);
+    for (const auto& [name, scale] : {std::pair("wide.gltf", glm::vec2(1.0F, 0.2F)), {"tall.gltf", {0.2F, 1.0F}}}) {
+        file["nodes"][0]["scale"] = {scale.x, scale.y, 1.0F};
+        write_file_atomic(path(name), file.dump());
+    }
     session_.open(path("wide.gltf"));
     draw_until([&] { return session_.view.shape() == PreviewShape::Model && session_.view.ready(); });
     draw(100);

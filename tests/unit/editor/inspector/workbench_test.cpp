@@ -5,7 +5,6 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <set>
 
 #include "editor/inspector/layout.h"
 #include "engine/colour/colour_space.h"
@@ -112,12 +111,6 @@ TEST(Plot, TicksAreRoundAndWithinTheAxis) {
     EXPECT_EQ(ticks({-0.1, 0.1, ""}, 2), (std::vector<double>{-0.1, 0.0, 0.1}));
     EXPECT_EQ(ticks({0.5, 200.0, "", true}, 4), (std::vector<double>{1.0, 10.0, 100.0}));
     EXPECT_TRUE(ticks({1.0, 1.0, ""}, 4).empty());
-}
-
-TEST(Plot, SeriesHaveColoursOfTheirOwn) {
-    std::set<ImU32> colours;
-    for (std::size_t i = 0; i < 7; ++i) colours.insert(series_colour(i));
-    EXPECT_EQ(colours.size(), 7U);
 }
 
 TEST(ScreenColour, WhiteIsWhiteAndNothingLeavesTheScreen) {

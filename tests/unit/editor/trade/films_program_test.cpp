@@ -32,10 +32,10 @@ class FilmsProgram : public ::testing::Test {
               R"({"film": {"ior": 1.3, "thickness_nm": 250}, "metal": "Ag", "roughness": )" + roughness + "}");
     }
     test::Csv evaluated(const std::string& method) {
-        const test::TradeRun run = test::run_trade(
+        const test::Ended run = test::run_trade(
             folder_.path(), "evaluate --material film.json --probe even.hdr --frames frames.csv --method " + method);
-        EXPECT_EQ(run.exit_code, 0) << run.messages;
-        write("results.csv", run.output);
+        EXPECT_EQ(run.code, 0) << run.err;
+        write("results.csv", run.out);
         return test::read_csv(folder_.path() / "results.csv");
     }
 
@@ -43,24 +43,24 @@ class FilmsProgram : public ::testing::Test {
 };
 
 TEST_F(FilmsProgram, WritesAPictureAndHowFarOffTheFormulasAre) {
-    const test::TradeRun run = test::run_trade(folder_.path(), "films swatches.png");
-    EXPECT_EQ(run.exit_code, 0) << run.messages;
-    EXPECT_THAT(run.output, AllOf(HasSubstr("| soap (1.33 on air) | 33.2 % | 24.2 % |"), HasSubstr("titanium")));
+    const test::Ended run = test::run_trade(folder_.path(), "films swatches.png");
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_THAT(run.out, AllOf(HasSubstr("| soap (1.33 on air) | 33.2 % | 24.2 % |"), HasSubstr("titanium")));
     EXPECT_TRUE(std::filesystem::exists(folder_.path() / "swatches.png"));
 }
 
 TEST_F(FilmsProgram, PutsTheMethodsInTheirOrderUnderAProbe) {
-    const test::TradeRun run = test::run_trade(folder_.path(), "films swatches.png --probe even.hdr");
-    EXPECT_EQ(run.exit_code, 0) << run.messages;
+    const test::Ended run = test::run_trade(folder_.path(), "films swatches.png --probe even.hdr");
+    EXPECT_EQ(run.code, 0) << run.err;
     // Light from everywhere: the mean over the lobe is exact, and so are three bands. The formulas are as far off as on
     // smooth films.
     const auto error = [&](const std::string& method) {
         const std::string row = "| soap (1.33 on air) | 0.2 | " + method + " | ";
-        const std::size_t at = run.output.find(row);
-        return at == std::string::npos ? -1.0 : std::stod(run.output.substr(at + row.size()));
+        const std::size_t at = run.out.find(row);
+        return at == std::string::npos ? -1.0 : std::stod(run.out.substr(at + row.size()));
     };
     for (const char* method : {"table", "drawn", "drawn, rough reflections", "spherical harmonics, 3 bands"}) {
-        EXPECT_GE(error(method), 0.0) << run.output;
+        EXPECT_GE(error(method), 0.0) << run.out;
         EXPECT_LE(error(method), 1.0) << method;
     }
     EXPECT_GT(error("glTF's formula"), 5.0);
@@ -88,11 +88,10 @@ TEST_F(FilmsProgram, EvaluateGivesTheReferenceAndTheMethodsOfAFilm) {
 
 TEST_F(FilmsProgram, EvaluateRefusesAGratingsMethodForAFilm) {
     write_film("0");
-    const test::TradeRun run = test::run_trade(
+    const test::Ended run = test::run_trade(
         folder_.path(), "evaluate --material film.json --probe even.hdr --frames frames.csv --method spikes");
-    EXPECT_EQ(run.exit_code, 2);
-    EXPECT_THAT(run.messages,
-                AllOf(HasSubstr("spikes"), HasSubstr("reference, table, drawn or drawn/rough-reflections")));
+    EXPECT_EQ(run.code, 2);
+    EXPECT_THAT(run.err, AllOf(HasSubstr("spikes"), HasSubstr("reference, table, drawn or drawn/rough-reflections")));
 }
 
 }  // namespace

@@ -92,7 +92,7 @@ TEST_F(MethodLimits, SettingsOutOfRangeAreRefusedByEveryProgram) {
                 ++cases;
             }
         }
-    EXPECT_GT(cases, 100);
+    EXPECT_GT(cases, 80);
 }
 
 TEST_F(MethodLimits, MethodsThatDoNotSuitAGratingAreRefusedByEveryProgram) {
@@ -118,14 +118,14 @@ TEST_F(MethodLimits, MethodsThatDoNotSuitAGratingAreRefusedByEveryProgram) {
                 if (why && (grooves == 10.0 || grooves == 1500.0)) expect_refused_everywhere(plain, info->name, pinned);
             }
     EXPECT_GT(suited, 30);
-    EXPECT_GT(refused, 50);
+    EXPECT_GT(refused, 40);
 }
 
 TEST_F(MethodLimits, FlagsThatAMethodIgnoresStillHaveALimit) {
     write_file_atomic(folder_.path() / "plain.json", material("flat", 1500).dump());
     for (const char* flag :
          {"--rank=x", "--rank=nan", "--rank=0", "--spikes=inf", "--bands=1e300", "--resolution=-1", "--storage=fp64"})
-        for (const char* method : {"transfer", "reference"})
+        for (const char* method : {"arc", "reference"})
             expect_refused({ROWLAND_TRADE, "evaluate", "--material=plain.json", "--probe=probe.hdr", "--method", method,
                             "--frames", "frames.csv", flag});
 }

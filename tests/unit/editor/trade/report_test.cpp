@@ -121,11 +121,6 @@ TEST(Report, IsOneFileAndItsDataCannotEndTheScript) {
         EXPECT_THAT(page, Not(HasSubstr(foreign)));
 }
 
-TEST(ParetoFront, HoldsWhatNothingBeatsInBoth) {
-    const std::vector<TradePoint> points = {{3.0, 1.0}, {1.0, 5.0}, {2.0, 6.0}, {2.0, 3.0}, {4.0, 1.0}};
-    EXPECT_EQ(pareto_front(points), (std::vector<std::size_t>{1, 3, 0}));
-}
-
 TEST(ParetoFront, TakesTheFirstOfEqualPointsAndNoneThatIsNotFinite) {
     const double infinite = std::numeric_limits<double>::infinity();
     const std::vector<TradePoint> points = {{infinite, 0.1}, {1.0, 2.0}, {1.0, 2.0}, {0.5, std::nan("")}};

@@ -1,14 +1,9 @@
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -30,7 +25,7 @@ class TradeSweep : public ::testing::Test {
  protected:
     void SetUp() override { test::write_sweep_inputs(folder_.path()); }
 
-    test::TradeRun run(const std::string& arguments) { return test::run_trade(folder_.path(), arguments); }
+    test::Ended run(const std::string& arguments) { return test::run_trade(folder_.path(), arguments); }
     std::string file(const std::string& name) const { return read_text_file(folder_.path() / name, 1 << 24); }
     std::size_t lines(const std::string& name) const {
         if (!std::filesystem::exists(folder_.path() / name)) return 0;
@@ -43,8 +38,8 @@ class TradeSweep : public ::testing::Test {
 
 TEST_F(TradeSweep, HasARowForEverySettingAndSetInBothTables) {
     const auto done = run("sweep --no-times " + test::small_sweep());
-    ASSERT_EQ(done.exit_code, 0) << done.messages;
-    EXPECT_THAT(done.output, HasSubstr("results/sweep.csv"));
+    ASSERT_EQ(done.code, 0) << done.err;
+    EXPECT_THAT(done.out, HasSubstr("results/sweep.csv"));
     const auto rows = test::read_rows(folder_.path() / "results" / "sweep.csv");
     ASSERT_EQ(rows.size(), 3U * 3U - 1U);  // settings × (tilted_cd, sphere, picture); no map is of a sphere
     std::istringstream json_lines(file("results/sweep.jsonl"));
@@ -74,10 +69,10 @@ TEST_F(TradeSweep, ItsErrorsAreEvaluatesOwn) {
     write_file_atomic(folder_.path() / "frames.csv",
                       "vx,vy,vz,nx,ny,nz,gx,gy,gz\n0.3,0.9,0.2,0,1,0,1,0,0\n0.1,0.7,-0.4,0,1,0,0.6,0,0.8\n"
                       "-0.5,0.6,0.1,0,1,0,0.9,0,-0.2\n");
-    ASSERT_EQ(run("sweep --no-times --frames mine=frames.csv " + test::small_sweep()).exit_code, 0);
+    ASSERT_EQ(run("sweep --no-times --frames mine=frames.csv " + test::small_sweep()).code, 0);
     const std::string common = "evaluate --material cd.json --probe sky.hdr --frames frames.csv --method ";
     const auto values = [&](const std::string& method) {
-        write_file_atomic(folder_.path() / "out.csv", run(common + method).output);
+        write_file_atomic(folder_.path() / "out.csv", run(common + method).out);
         std::vector<double> result;
         for (const test::Row& row : test::read_rows(folder_.path() / "out.csv"))
             for (const char* component : {"X", "Y", "Z"}) result.push_back(std::stod(row.at(component)));
@@ -102,10 +97,10 @@ TEST_F(TradeSweep, ItsErrorsAreEvaluatesOwn) {
 }
 
 TEST_F(TradeSweep, ASecondRunMeasuresNothingAndWritesTheSame) {
-    ASSERT_EQ(run("sweep --no-times " + test::small_sweep()).exit_code, 0);
+    ASSERT_EQ(run("sweep --no-times " + test::small_sweep()).code, 0);
     const std::string csv = file("results/sweep.csv");
     const std::string journal = file("results/journal.jsonl");
-    ASSERT_EQ(run("sweep --no-times " + test::small_sweep()).exit_code, 0);
+    ASSERT_EQ(run("sweep --no-times " + test::small_sweep()).code, 0);
     EXPECT_EQ(file("results/journal.jsonl"), journal);
     EXPECT_EQ(file("results/sweep.csv"), csv);
 }
@@ -114,7 +109,7 @@ TEST_F(TradeSweep, TablesHoldNamesOfAnyBytes) {
     std::filesystem::rename(folder_.path() / "cd.json", folder_.path() / "b\xff, \"c\".json");
     ASSERT_EQ(run("sweep --no-times --material 'b\xff, \"c\".json' --probe sky.hdr --setting arc/bands=2/rank=2 "
                   "--picture-size 8 8 --output results")
-                  .exit_code,
+                  .code,
               0);
     EXPECT_THAT(file("results/sweep.csv"), HasSubstr("\n\"b\xef\xbf\xbd, \"\"c\"\"\",sky,"));
     const std::string lines = file("results/sweep.jsonl");
@@ -122,47 +117,39 @@ TEST_F(TradeSweep, TablesHoldNamesOfAnyBytes) {
 }
 
 TEST_F(TradeSweep, AnotherProbeOrMaterialIsMeasuredAnew) {
-    ASSERT_EQ(run("sweep --no-times " + test::small_sweep()).exit_code, 0);
+    ASSERT_EQ(run("sweep --no-times " + test::small_sweep()).code, 0);
     const std::size_t before = lines("results/journal.jsonl");
     const auto first = test::read_rows(folder_.path() / "results" / "sweep.csv");
     std::string probe = file("sky.hdr");
     probe[probe.size() - 3] = '\x60';
     write_file_atomic(folder_.path() / "sky.hdr", probe);
-    ASSERT_EQ(run("sweep --no-times " + test::small_sweep()).exit_code, 0);
+    ASSERT_EQ(run("sweep --no-times " + test::small_sweep()).code, 0);
     EXPECT_EQ(lines("results/journal.jsonl"), 2 * before);
     EXPECT_NE(test::read_rows(folder_.path() / "results" / "sweep.csv")[0].at("relative_rms"),
               first[0].at("relative_rms"));
     write_file_atomic(folder_.path() / "cd.json",
                       R"({"grating": {"pitch_nm": 1500, "profile": {"type": "slit", "width_nm": 800}}})");
-    ASSERT_EQ(run("sweep --no-times " + test::small_sweep()).exit_code, 0);
+    ASSERT_EQ(run("sweep --no-times " + test::small_sweep()).code, 0);
     EXPECT_EQ(lines("results/journal.jsonl"), 3 * before);
 }
 
 /// Killed while it measures, whatever it has measured stays and is not measured again.
 TEST_F(TradeSweep, KilledItGoesOnWhereItStopped) {
     const std::string arguments =
-        "sweep --no-times --setting circle/map_resolution=32 --setting transfer/bands=8 " + test::small_sweep();
-    const pid_t child = ::fork();
-    ASSERT_GE(child, 0);
-    if (child == 0) {
-        const std::string command =
-            fmt::format("cd '{}' && exec '{}' {} >/dev/null 2>&1", folder_.path().string(), ROWLAND_TRADE, arguments);
-        ::execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr));
-        ::_exit(127);
-    }
+        "sweep --no-times --setting circle/map_resolution=32 --setting arc/bands=8 " + test::small_sweep();
     constexpr std::size_t kEnough = 4;
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(300);
-    while (lines("results/journal.jsonl") < kEnough && std::chrono::steady_clock::now() < deadline &&
-           ::waitpid(child, nullptr, WNOHANG) == 0)
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    ::kill(child, SIGKILL);
-    ::waitpid(child, nullptr, 0);
+    {
+        const test::Running sweep(test::trade_command(arguments),
+                                  {.folder = folder_.path(), .limit = std::chrono::minutes(5)});
+        while (lines("results/journal.jsonl") < kEnough && sweep.alive())
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
     const std::string left = file("results/journal.jsonl");
     const std::string whole = left.substr(0, left.rfind('\n') + 1);
     ASSERT_GE(std::count(whole.begin(), whole.end(), '\n'), static_cast<std::ptrdiff_t>(kEnough));
     EXPECT_FALSE(std::filesystem::exists(folder_.path() / "results" / "sweep.csv")) << "killed too late to tell";
 
-    ASSERT_EQ(run(arguments).exit_code, 0);
+    ASSERT_EQ(run(arguments).code, 0);
     const std::string journal = file("results/journal.jsonl");
     EXPECT_EQ(journal.substr(0, whole.size()), whole) << "nothing is lost or measured again";
     EXPECT_EQ(lines("results/journal.jsonl"), 5U * 3U - 1U);
@@ -173,7 +160,7 @@ TEST_F(TradeSweep, KilledItGoesOnWhereItStopped) {
 }
 
 TEST_F(TradeSweep, FramesAreTimedAgainstThePlainMaterial) {
-    ASSERT_EQ(run("sweep --frame-size 64 36 " + test::small_sweep()).exit_code, 0);
+    ASSERT_EQ(run("sweep --frame-size 64 36 " + test::small_sweep()).code, 0);
     for (const test::Row& row : test::read_rows(folder_.path() / "results" / "sweep.csv")) {
         EXPECT_GT(std::stod(row.at("frame_ms")), 0.0);
         EXPECT_NEAR(std::stod(row.at("frame_ratio")), std::stod(row.at("frame_ms")) / std::stod(row.at("plain_ms")),
@@ -185,8 +172,8 @@ TEST_F(TradeSweep, FramesAreTimedAgainstThePlainMaterial) {
 TEST_F(TradeSweep, CompareSaysHowFarAMethodIsFromTheReference) {
     const std::string common = "compare --material cd.json --probe sky.hdr --size 24 14 --method ";
     const auto arc = run(common + "arc/bands=4/rank=8 --difference d.png");
-    ASSERT_EQ(arc.exit_code, 0) << arc.messages;
-    write_file_atomic(folder_.path() / "arc.csv", arc.output);
+    ASSERT_EQ(arc.code, 0) << arc.err;
+    write_file_atomic(folder_.path() / "arc.csv", arc.out);
     const auto rows = test::read_rows(folder_.path() / "arc.csv");
     ASSERT_EQ(rows.size(), 6U);
     EXPECT_EQ(rows[0].at("quantity"), "relative_rms");
@@ -197,16 +184,16 @@ TEST_F(TradeSweep, CompareSaysHowFarAMethodIsFromTheReference) {
     EXPECT_LT(std::stod(rows[5].at("value")), 0.5);
     EXPECT_THAT(file("d.png"), HasSubstr("PNG"));
     const auto same = run(common + "reference");
-    EXPECT_THAT(same.output, AllOf(HasSubstr("relative_rms,0\n"), HasSubstr("hdr_flip,0\n")));
+    EXPECT_THAT(same.out, AllOf(HasSubstr("relative_rms,0\n"), HasSubstr("hdr_flip,0\n")));
     // The two ways round have one difference and two scales.
-    EXPECT_EQ(run(common + "arc/bands=4/rank=8 --against arc/bands=4/rank=8").output, same.output);
+    EXPECT_EQ(run(common + "arc/bands=4/rank=8 --against arc/bands=4/rank=8").out, same.out);
 }
 
 TEST_F(TradeSweep, WrongUsageExitsWith2AndSaysWhy) {
     const auto refusal = [&](const std::string& arguments) {
         const auto outcome = run(arguments);
-        EXPECT_EQ(outcome.exit_code, 2) << arguments;
-        return outcome.messages;
+        EXPECT_EQ(outcome.code, 2) << arguments;
+        return outcome.err;
     };
     const std::string common = "sweep --no-times --material cd.json --output r --probe ";
     EXPECT_THAT(refusal(common + "none.hdr"), HasSubstr("none.hdr"));
@@ -229,9 +216,9 @@ TEST_F(TradeSweep, NoOutputIsAnInputOrADevice) {
     const std::string cd = file("cd.json");
     const auto refusal = [&](const std::string& arguments) {
         const auto outcome = run(arguments);
-        EXPECT_EQ(outcome.exit_code, 2) << arguments;
+        EXPECT_EQ(outcome.code, 2) << arguments;
         EXPECT_EQ(file("cd.json"), cd) << arguments;
-        return outcome.messages;
+        return outcome.err;
     };
     const std::string common = " --material cd.json --probe sky.hdr ";
     EXPECT_THAT(refusal("sweep --output /dev/full" + common), HasSubstr("/dev/full"));
@@ -265,9 +252,9 @@ TEST_F(TradeSweep, NumbersThatAreNoSizesAreRefused) {
             const std::string values =
                 option.ends_with("size") ? fmt::format("'{0}' '{0}'", number) : fmt::format("'{}'", number);
             const auto refused = run(fmt::format("{} {} {}", command, option, values));
-            EXPECT_EQ(refused.exit_code, 2) << command << option << number;
+            EXPECT_EQ(refused.code, 2) << command << option << number;
             if (*number != '-') {
-                EXPECT_THAT(refused.messages, HasSubstr(option)) << number;
+                EXPECT_THAT(refused.err, HasSubstr(option)) << number;
             }
         }
 }

@@ -1,30 +1,18 @@
 #include "tests/unit/editor/trade/trade_run.h"
 
 #include <fmt/format.h>
-#include <sys/wait.h>
-
-#include <array>
-#include <cstdio>
-#include <sstream>
 
 #include "engine/core/file.h"
+#include "tests/support/csv.h"
 
 namespace rowland::test {
 
-TradeRun run_trade(const std::filesystem::path& folder, const std::string& arguments) {
-    const auto messages = folder / "messages";
-    const std::string command =
-        fmt::format("cd '{}' && '{}' {} 2>'{}'", folder.string(), ROWLAND_TRADE, arguments, messages.string());
-    std::FILE* pipe = ::popen(command.c_str(), "r");
-    if (pipe == nullptr) return {};
-    TradeRun run;
-    std::array<char, 4096> buffer;
-    for (std::size_t size = 0; (size = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
-        run.output.append(buffer.data(), size);
-    const int status = ::pclose(pipe);
-    run.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    run.messages = read_text_file(messages, 1 << 20);
-    return run;
+Command trade_command(const std::string& arguments) {
+    return {"/bin/sh", "-c", fmt::format("exec '{}' {}", ROWLAND_TRADE, arguments)};
+}
+
+Ended run_trade(const std::filesystem::path& folder, const std::string& arguments) {
+    return run(trade_command(arguments), {.folder = folder, .limit = std::chrono::minutes(10)});
 }
 
 void write_sweep_inputs(const std::filesystem::path& folder) {
@@ -49,26 +37,10 @@ std::string small_sweep() {
 }
 
 std::vector<Row> read_rows(const std::filesystem::path& path) {
-    const auto cells = [](const std::string& line) {
-        std::vector<std::string> result(1);
-        for (const char c : line)
-            if (c == ',')
-                result.emplace_back();
-            else
-                result.back() += c;
-        return result;
-    };
-    std::istringstream text(read_text_file(path, 1 << 24));
-    std::string line;
-    std::getline(text, line);
-    const std::vector<std::string> header = cells(line);
-    std::vector<Row> rows;
-    while (std::getline(text, line)) {
-        const std::vector<std::string> values = cells(line);
-        Row row;
-        for (std::size_t i = 0; i < header.size(); ++i) row[header[i]] = values.at(i);
-        rows.push_back(row);
-    }
+    const Csv table = read_csv(path);
+    std::vector<Row> rows(table.rows.size());
+    for (std::size_t i = 0; i < table.rows.size(); ++i)
+        for (const std::string& column : table.header) rows[i][column] = table.text(i, column);
     return rows;
 }
 

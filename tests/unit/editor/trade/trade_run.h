@@ -5,16 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/program.h"
+
 namespace rowland::test {
 
-struct TradeRun {
-    int exit_code = -1;
-    std::string output;
-    std::string messages;
-};
-
-/// Runs rowland-trade in a folder.
-TradeRun run_trade(const std::filesystem::path& folder, const std::string& arguments);
+/// rowland-trade with these arguments, written as in a shell.
+Command trade_command(const std::string& arguments);
+/// Runs it in a folder.
+Ended run_trade(const std::filesystem::path& folder, const std::string& arguments);
 
 /// Writes cd.json, and sky.hdr: a small probe with a sun.
 void write_sweep_inputs(const std::filesystem::path& folder);

@@ -3,21 +3,15 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/file.h"
-#include "tests/support/files.h"
+#include "tests/support/folder_test.h"
 
 namespace rowland::asset {
 namespace {
 
 using std::filesystem::file_time_type;
 
-class FileWatchTest : public testing::Test {
+class FileWatchTest : public test::FolderTest {
  protected:
-    std::filesystem::path write(const std::string& name, std::string_view text) const {
-        std::filesystem::path path = folder_.path() / name;
-        write_file_atomic(path, text);
-        return path;
-    }
-    test::TemporaryFolder folder_;
 };
 
 TEST_F(FileWatchTest, AFileLeftAloneHasNotChanged) {

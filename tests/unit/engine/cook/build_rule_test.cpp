@@ -6,7 +6,7 @@
 #include <string>
 
 #include "engine/core/file.h"
-#include "tests/support/files.h"
+#include "tests/support/folder_test.h"
 #include "tests/support/program.h"
 
 // RowlandCook.cmake in a small project of its own, which cooks two assets with the test's cooker.
@@ -17,7 +17,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-class BuildRuleTest : public testing::Test {
+class BuildRuleTest : public test::FolderTest {
  protected:
     BuildRuleTest() {
         write("one.tiles", "include shared part.txt\nsize 10\n");
@@ -26,9 +26,6 @@ class BuildRuleTest : public testing::Test {
         write("shared part.txt", "x");
         std::filesystem::copy_file(ROWLAND_TEST_COOKER, path("cooker"));
     }
-
-    std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
-    void write(const std::string& name, std::string_view text) const { write_file_atomic(path(name), text); }
 
     /// Makes a file newer than anything built so far, whatever the file system's clock.
     void touch(const std::string& name) const {
@@ -54,8 +51,6 @@ class BuildRuleTest : public testing::Test {
         EXPECT_EQ(result.code, 0) << result.out << result.err;
         return result.out;
     }
-
-    test::TemporaryFolder folder_;
 };
 
 TEST_F(BuildRuleTest, ExactlyWhatDependsOnAChangeIsCookedAgain) {

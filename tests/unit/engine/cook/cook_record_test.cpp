@@ -1,17 +1,16 @@
-#include "engine/cook/cook_record.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "engine/cook/cook_source.h"
 #include "engine/core/file.h"
-#include "tests/support/files.h"
+#include "tests/support/expect.h"
+#include "tests/support/folder_test.h"
 #include "tests/unit/engine/cook/tile_type.h"
 
 namespace rowland::cook {
 namespace {
 
-class CookOnce : public testing::Test {
+class CookOnce : public test::FolderTest {
  protected:
     CookOnce() {
         test::register_tile_types(registry_);
@@ -19,7 +18,6 @@ class CookOnce : public testing::Test {
         write("a/more.txt", "size 4 ");
     }
 
-    void write(const std::string& name, std::string_view text) const { write_file_atomic(folder_.path() / name, text); }
     /// The cooked file, and how many sources were baked for it.
     std::pair<std::filesystem::path, std::uint64_t> once(const std::string& name) {
         const std::uint64_t before = sources_baked();
@@ -28,7 +26,6 @@ class CookOnce : public testing::Test {
         return {file, sources_baked() - before};
     }
 
-    test::TemporaryFolder folder_;
     Registry registry_;
     std::vector<std::filesystem::path> read_files_;
 };
@@ -58,9 +55,9 @@ TEST_F(CookOnce, BakesAgainWhenADependencyChangesAndKnowsTheOldContentStill) {
 
 TEST_F(CookOnce, ARefusedSourceLeavesNothingAndIsAnError) {
     write("a/s.tiles", "refuse");
-    EXPECT_THAT(test::refusal_of([&] { once("a/s.tiles"); }), testing::HasSubstr("s.tiles: refuse"));
-    EXPECT_THAT(test::refusal_of([&] { once("a/none.tiles"); }), testing::HasSubstr("none.tiles"));
-    EXPECT_THAT(test::refusal_of([&] { once("a/none.notes"); }), testing::HasSubstr("none.notes"));
+    EXPECT_THAT(test::message_of([&] { once("a/s.tiles"); }), testing::HasSubstr("s.tiles: refuse"));
+    EXPECT_THAT(test::message_of([&] { once("a/none.tiles"); }), testing::HasSubstr("none.tiles"));
+    EXPECT_THAT(test::message_of([&] { once("a/none.notes"); }), testing::HasSubstr("none.notes"));
     EXPECT_FALSE(std::filesystem::exists(folder_.path() / "cache"));
     EXPECT_THAT(read_files_, testing::Contains(folder_.path() / "a/none.notes"));
 }

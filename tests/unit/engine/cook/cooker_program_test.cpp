@@ -49,23 +49,11 @@ TEST_F(CookerProgramTest, CooksSilentlyWithDepfile) {
     EXPECT_THAT(read_text_file(path("out/a.d"), 1000), HasSubstr("a.tiles"));
 }
 
-TEST_F(CookerProgramTest, ThreadsDoNotChangeTheBytes) {
-    const auto source = write("a.tiles", "size 5000");
-    ASSERT_EQ(run({"cook", source, "-o", path("1"), "--threads", "1"}).code, 0);
-    ASSERT_EQ(run({"cook", source, "-o", path("2"), "--threads", "2"}).code, 0);
-    EXPECT_EQ(read_text_file(path("1"), 10'000), read_text_file(path("2"), 10'000));
-}
-
 TEST_F(CookerProgramTest, RefusedSourceIsCodeTwo) {
     const auto result = run({"cook", write("a.tiles", "refuse"), "-o", path("a.cooked")});
     EXPECT_EQ(result.code, 2);
     EXPECT_EQ(result.err, "error: " + path("a.tiles") + ": refuse; expected size, include\n");
     EXPECT_FALSE(std::filesystem::exists(path("a.cooked")));
-}
-
-TEST_F(CookerProgramTest, OutputThatCannotBeWrittenIsCodeTwo) {
-    const auto source = write("a.tiles", "size 1");
-    EXPECT_EQ(run({"cook", source, "-o", source + "/a.cooked"}).code, 2);
 }
 
 TEST_F(CookerProgramTest, SourceThatChangesWhileCookingIsCodeOne) {

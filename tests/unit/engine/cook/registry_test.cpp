@@ -4,13 +4,14 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/file.h"
-#include "tests/support/files.h"
+#include "tests/support/expect.h"
+#include "tests/support/folder_test.h"
 #include "tests/unit/engine/cook/tile_type.h"
 
 namespace rowland::cook {
 namespace {
 
-using test::refusal_of;
+using test::message_of;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -24,7 +25,7 @@ AssetType json_type(const std::string& name, const std::string& key) {
             .describe = {}};
 }
 
-class RegistryTest : public testing::Test {
+class RegistryTest : public test::FolderTest {
  protected:
     RegistryTest() {
         test::register_tile_types(registry_);
@@ -32,13 +33,6 @@ class RegistryTest : public testing::Test {
         registry_.add(json_type("probe", "sun"));
     }
 
-    std::filesystem::path write(const std::string& name, std::string_view text) const {
-        std::filesystem::path path = folder_.path() / name;
-        write_file_atomic(path, text);
-        return path;
-    }
-
-    test::TemporaryFolder folder_;
     Registry registry_;
 };
 
@@ -49,26 +43,20 @@ TEST_F(RegistryTest, SourcesAreKnownByNameOrByTheirJson) {
 }
 
 TEST_F(RegistryTest, UnknownSourceListsWhatIsKnown) {
-    EXPECT_EQ(refusal_of([&] { registry_.type_of_source("a.txt"); }),
+    EXPECT_EQ(message_of([&] { registry_.type_of_source("a.txt"); }),
               "a.txt: a source of no known type; expected one of tiles, notes, plain, material, probe");
     const auto path = write("a.json", "{}");
-    EXPECT_THAT(refusal_of([&] { registry_.type_of_source(path); }), HasSubstr("no known type"));
+    EXPECT_THAT(message_of([&] { registry_.type_of_source(path); }), HasSubstr("no known type"));
 }
 
 TEST_F(RegistryTest, SourceThatTwoTypesClaimIsRefused) {
     const auto path = write("a.json", R"({"sun": 1, "grating": 2})");
-    EXPECT_THAT(refusal_of([&] { registry_.type_of_source(path); }), HasSubstr("claimed by material and probe"));
+    EXPECT_THAT(message_of([&] { registry_.type_of_source(path); }), HasSubstr("claimed by material and probe"));
 }
 
 TEST_F(RegistryTest, BadJsonIsRefusedWithItsPlace) {
     const auto path = write("a.json", "{\n!");
-    EXPECT_THAT(refusal_of([&] { registry_.type_of_source(path); }), HasSubstr("line 2, column 1"));
-}
-
-TEST_F(RegistryTest, TypesAreFoundByName) {
-    ASSERT_NE(registry_.find("probe"), nullptr);
-    EXPECT_EQ(registry_.find("probe")->name, "probe");
-    EXPECT_EQ(registry_.find("Probe"), nullptr);
+    EXPECT_THAT(message_of([&] { registry_.type_of_source(path); }), HasSubstr("line 2, column 1"));
 }
 
 using RegistryDeathTest = RegistryTest;
@@ -97,14 +85,9 @@ TEST_F(RegistryTest, ContextListsEachFileOnceInTheOrderOfMention) {
     EXPECT_EQ(context.fingerprints()[2], std::nullopt);
 }
 
-TEST_F(RegistryTest, ContextNamesFilesRelativeToTheSource) {
-    EXPECT_EQ(Context("x/y/a.json").beside_source("z/t.csv"), "x/y/z/t.csv");
-    EXPECT_EQ(Context("a.json").beside_source("t.csv"), "t.csv");
-}
-
 TEST_F(RegistryTest, ContextReadsJsonWithPlacesInItsErrors) {
     Context context(write("a.json", "[1,"));
-    EXPECT_THAT(refusal_of([&] { context.read_json(context.source()); }), HasSubstr("a.json: line 1"));
+    EXPECT_THAT(message_of([&] { context.read_json(context.source()); }), HasSubstr("a.json: line 1"));
     EXPECT_EQ(context.read_json(write("b.json", "[1]")).at(0), 1);
     EXPECT_EQ(context.dependencies().size(), 2u);
 }

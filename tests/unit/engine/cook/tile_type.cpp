@@ -1,7 +1,5 @@
 #include "tests/unit/engine/cook/tile_type.h"
 
-#include <gtest/gtest.h>
-
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -124,17 +122,6 @@ void register_tile_types(cook::Registry& registry) {
                   .check = [](cook::Context&) {},
                   .describe = [](std::span<const std::byte> payload,
                                  const std::string&) { return "letters: " + std::to_string(payload.size()) + "\n"; }});
-}
-
-std::string refusal_of(const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const Error& error) {
-        EXPECT_EQ(error.info().fault, Fault::Input) << error.what();
-        return error.what();
-    }
-    ADD_FAILURE() << "nothing was thrown";
-    return {};
 }
 
 }  // namespace rowland::test

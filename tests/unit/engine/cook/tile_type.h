@@ -19,7 +19,4 @@ namespace rowland::test {
 /// own bytes without a container. A glTF material holds tiles as the extension TEST_tiles, with all that was read.
 void register_tile_types(cook::Registry& registry);
 
-/// The message of the Error (input) that `action` throws.
-std::string refusal_of(const std::function<void()>& action);
-
 }  // namespace rowland::test

@@ -28,14 +28,6 @@ TEST(Error, EmptyFieldsLeaveNoSeparators) {
     EXPECT_EQ(message({.file = "a", .location = {}, .found = {}, .expected = {}, .remedy = "c"}), "a; c");
 }
 
-TEST(Error, KeepsItsFieldsAndItsFault) {
-    const Error error(
-        {.file = "a", .location = {}, .found = "b\n", .expected = {}, .remedy = {}, .fault = Fault::System});
-    EXPECT_EQ(error.info().found, "b\n");
-    EXPECT_EQ(error.info().fault, Fault::System);
-    EXPECT_EQ(ErrorInfo().fault, Fault::Input);
-}
-
 TEST(Error, MessageStaysOneLineWhateverTheFieldsHold) {
     EXPECT_EQ(message({.file = "a\nb", .location = {}, .found = "\x1b[2J\t\x7f", .expected = {}, .remedy = "c\r"}),
               "a\\x0ab: \\x1b[2J\\x09\\x7f; c\\x0d");

@@ -88,8 +88,6 @@ TEST(JsonReader, ReadsEveryKind) {
     EXPECT_EQ(reader.choice<char>("c", {{"blazed", 'b'}, {"slit", 's'}}), 's');
     EXPECT_EQ(reader.text_or("t", "y"), "x");
     EXPECT_EQ(reader.text_or("none", "y"), "y");
-    EXPECT_EQ(reader.numbers_or("v", {0.0, 0.0}, {}), (std::vector{1.0, 2.0}));
-    EXPECT_EQ(reader.numbers_or("none", {3.0}, {}), (std::vector{3.0}));
     EXPECT_EQ(reader.object_if_there("o")->integer("k", 0, 9), 1);
     EXPECT_FALSE(reader.object_if_there("none"));
     EXPECT_TRUE(reader.objects_if_there("none").empty());

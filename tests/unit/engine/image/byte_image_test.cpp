@@ -1,7 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <png.h>
-#include <stb_image.h>
 
 #include <array>
 #include <cstring>
@@ -19,11 +18,6 @@ namespace rowland::image {
 namespace {
 
 using testing::HasSubstr;
-
-std::vector<std::byte> file_bytes(const std::string& text) {
-    const auto bytes = test::as_bytes(text);
-    return {bytes.begin(), bytes.end()};
-}
 
 /// A PNG as libpng writes it from values of libpng's `format`.
 std::vector<std::byte> encoded_png(std::uint32_t width, std::uint32_t height, std::uint32_t format, const void* values,
@@ -172,37 +166,19 @@ TEST(ByteImage, ImageThatItsBytesCannotHoldIsRefused) {
     png[22] = std::byte{0x20};  // and 8194 high: 64 MiB from a hundred bytes
     EXPECT_THAT(test::message_of([&] { decode_byte_image(png, "a.png"); }), HasSubstr("8195 x 8194 texels in"));
     // The best that deflate can do is let through.
-    const std::vector<std::uint8_t> blank(std::size_t{4096} * 4096, 255);
-    const auto best = encoded_png(4096, 4096, PNG_FORMAT_GRAY, blank.data());
-    EXPECT_EQ(decode_byte_image(best, "a.png").width, 4096);
+    const std::vector<std::uint8_t> blank(std::size_t{2048} * 2048, 255);
+    const auto best = encoded_png(2048, 2048, PNG_FORMAT_GRAY, blank.data());
+    EXPECT_EQ(decode_byte_image(best, "a.png").width, 2048);
     const std::vector<std::uint8_t> blank_rgb(std::size_t{1024} * 1024 * 3, 128);
     EXPECT_EQ(decode_byte_image(test::encoded_jpeg(1024, 1024, blank_rgb), "a.jpg").width, 1024);
 }
 
 TEST(ByteImage, OtherFormatsAreRefusedByName) {
     EXPECT_THAT(test::message_of([] { decode_byte_image({}, "a"); }), HasSubstr("a: an empty image"));
-    EXPECT_THAT(test::message_of([] { decode_byte_image(file_bytes("RIFF....WEBP"), "a"); }),
+    EXPECT_THAT(test::message_of([] { decode_byte_image(test::bytes_of("RIFF....WEBP"), "a"); }),
                 HasSubstr("expected PNG or JPEG"));
-    EXPECT_THAT(test::message_of([] { byte_image_size(file_bytes("\xABKTX 20\xBB"), "a"); }),
+    EXPECT_THAT(test::message_of([] { byte_image_size(test::bytes_of("\xABKTX 20\xBB"), "a"); }),
                 HasSubstr("expected PNG or JPEG"));
-}
-
-TEST(Png, HoldsTheBytesItWasGiven) {
-    const test::TemporaryFolder folder;
-    std::vector<std::uint8_t> rgb(std::size_t{5} * 3 * 3);
-    for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = static_cast<std::uint8_t>(i * 37);
-    const auto path = folder.path() / "a.png";
-    write_png(path, 5, 3, rgb);
-    int width = 0;
-    int height = 0;
-    int channels = 0;
-    std::uint8_t* read = stbi_load(path.c_str(), &width, &height, &channels, 0);
-    ASSERT_NE(read, nullptr);
-    EXPECT_EQ(width, 5);
-    EXPECT_EQ(height, 3);
-    EXPECT_EQ(channels, 3);
-    EXPECT_EQ(std::vector<std::uint8_t>(read, read + rgb.size()), rgb);
-    stbi_image_free(read);
 }
 
 TEST(Png, EncodedAlphaComesBack) {
@@ -214,13 +190,6 @@ TEST(Png, EncodedAlphaComesBack) {
     EXPECT_EQ(read.width, 7);
     EXPECT_EQ(read.height, 2);
     EXPECT_EQ(read.rgba, rgba);
-}
-
-TEST(Png, FailingToWriteIsASystemError) {
-    const test::TemporaryFolder folder;
-    write_file_atomic(folder.path() / "file", std::string_view("x"));
-    const std::vector<std::uint8_t> rgb(3);
-    EXPECT_NE(test::message_of([&] { write_png(folder.path() / "file" / "a.png", 1, 1, rgb); }, Fault::System), "");
 }
 
 }  // namespace

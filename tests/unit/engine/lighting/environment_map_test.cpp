@@ -1,9 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstring>
 
-#include "engine/core/parallel.h"
 #include "engine/image/image.h"
 #include "engine/lighting/environment_map.h"
 #include "tests/support/files.h"
@@ -200,19 +198,6 @@ TEST(Prefilter, TexelSizedLampsAreSpreadWithoutFireflies) {
                 EXPECT_NEAR(seen, exact.y, 0.02 * exact.y + 0.01 * mean) << level << ": " << face << ", " << i;
             }
     }
-}
-
-TEST(Prefilter, DoesNotDependOnTheNumberOfThreads) {
-    const ProbeImage probe = test::made_probe(Mapping::Equirectangular, 64, [](const glm::dvec3& d) {
-        return glm::dvec3(std::exp(4 * d.x), 1 + d.y, d.z > 0.9 ? 1000.0 : 0.1);
-    });
-    std::vector<EnvironmentMap> maps;
-    for (const unsigned threads : {1u, 2u, 5u}) {
-        const ThreadLimit limit(threads);
-        maps.push_back(prefilter(probe));
-    }
-    for (const EnvironmentMap& map : maps)
-        EXPECT_EQ(std::memcmp(map.texels.data(), maps[0].texels.data(), map.texels.size() * sizeof(glm::vec3)), 0);
 }
 
 }  // namespace

@@ -6,11 +6,10 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "engine/core/parallel.h"
 #include "engine/image/image.h"
 #include "engine/math/quadrature.h"
 #include "engine/math/spherical_harmonics.h"
-#include "tests/support/files.h"
+#include "tests/unit/engine/lighting/made_probes.h"
 
 namespace rowland::lighting {
 namespace {
@@ -101,8 +100,9 @@ TEST(KeyLights, IrradianceIsTheLobesClampedCosine) {
             const glm::dvec3 n = std::cos(angle) * kDirection + std::sin(angle) * side;
             const KeyLight key{kDirection, glm::dvec3(2.0, 1.0, 0.5), one.concentration};
             const double exact = lobe_mean(key, [&](const glm::dvec3& s) { return std::max(0.0, glm::dot(s, n)); });
-            EXPECT_NEAR(irradiance(key, n).x, 2.0 * exact, 2.0 * one.tolerance) << one.concentration << " " << i;
-            EXPECT_GE(lobe_cosine(key, n), 0.0);
+            const glm::dvec3 irradiance = LobeIrradiance({&key, 1})(n);
+            EXPECT_NEAR(irradiance.x, 2.0 * exact, 2.0 * one.tolerance) << one.concentration << " " << i;
+            EXPECT_GE(irradiance.x, 0.0);
         }
 }
 
@@ -117,24 +117,20 @@ TEST(KeyLights, ResidualAndLobesAreTheProbe) {
     EXPECT_NEAR(lobes.coefficients[0].x, 3.5 / std::sqrt(4.0 * pi), 1e-13);
 }
 
-/// A probe made of two lobes on a dim ground: their places to a fifth of a texel, their flux to 5 % (the ground's own
-/// light under the lobes is 1 %).
-image::Image two_lobes(int width) {
-    const KeyLight lobes[] = {{kDirection, {4.0, 3.0, 2.0}, 200.0},
-                              {glm::normalize(glm::dvec3(-0.9, -0.2, 0.3)), {1.0, 2.0, 1.0}, 600.0}};
-    image::Image image{.width = width, .height = width / 2, .texels = {}};
-    image.texels.resize(static_cast<std::size_t>(width * width / 2), glm::vec3(0.1F));
-    const ProbeImage empty(image, Mapping::Equirectangular);
-    for (int row = 0; row < image.height; ++row)
-        for (int column = 0; column < width; ++column)
-            for (const KeyLight& lobe : lobes)
-                image.at(column, row) +=
-                    glm::vec3(lobe_density(lobe, empty.direction(column + 0.5, row + 0.5)) * lobe.flux);
-    return image;
+/// Lobes on a dim ground.
+ProbeImage probe_of(const std::vector<KeyLight>& lobes, int height) {
+    return test::made_probe(Mapping::Equirectangular, height, [&](const glm::dvec3& d) {
+        glm::dvec3 radiance(0.1);
+        for (const KeyLight& lobe : lobes) radiance += lobe_density(lobe, d) * lobe.flux;
+        return radiance;
+    });
 }
 
+/// Their positions to a fifth of a texel, their flux to 5 % (the ground's own light under the lobes is 1 %).
 TEST(FitKeyLights, FindsTheLobesAProbeIsMadeOf) {
-    const ProbeImage probe(two_lobes(256), Mapping::Equirectangular);
+    const ProbeImage probe = probe_of(
+        {{kDirection, {4.0, 3.0, 2.0}, 200.0}, {glm::normalize(glm::dvec3(-0.9, -0.2, 0.3)), {1.0, 2.0, 1.0}, 600.0}},
+        128);
     const std::vector<KeyLight> keys = fit_key_lights(probe, 2);
     ASSERT_EQ(keys.size(), 2U);
     EXPECT_LT(glm::length(keys[0].direction - kDirection), 0.005);
@@ -146,17 +142,9 @@ TEST(FitKeyLights, FindsTheLobesAProbeIsMadeOf) {
 
 /// A broad glow shows in the exact bands, a dimmer lamp does not.
 TEST(FitKeyLights, WhatMattersMostComesFirst) {
-    image::Image image{.width = 128, .height = 64, .texels = {}};
-    image.texels.resize(std::size_t{128} * 64, glm::vec3(0.1F));
-    const ProbeImage empty(image, Mapping::Equirectangular);
-    const KeyLight lobes[] = {{kDirection, glm::dvec3(4.0), 42.0},
-                              {glm::normalize(glm::dvec3(-0.9, 0.2, 0.3)), glm::dvec3(3.5), 500.0}};
-    for (int row = 0; row < image.height; ++row)
-        for (int column = 0; column < image.width; ++column)
-            for (const KeyLight& lobe : lobes)
-                image.at(column, row) +=
-                    glm::vec3(lobe_density(lobe, empty.direction(column + 0.5, row + 0.5)) * lobe.flux);
-    const std::vector<KeyLight> keys = fit_key_lights(ProbeImage(image, Mapping::Equirectangular), 2);
+    const std::vector<KeyLight> lobes{{kDirection, glm::dvec3(4.0), 42.0},
+                                      {glm::normalize(glm::dvec3(-0.9, 0.2, 0.3)), glm::dvec3(3.5), 500.0}};
+    const std::vector<KeyLight> keys = fit_key_lights(probe_of(lobes, 64), 2);
     ASSERT_EQ(keys.size(), 2U);
     EXPECT_GT(glm::dot(keys[0].direction, lobes[1].direction), 0.99);
     EXPECT_LT(keys[0].flux.x, keys[1].flux.x);
@@ -187,12 +175,8 @@ TEST(FitKeyLights, LampsOfATexelStayLampsOfATexel) {
 
 /// Light that varies slowly lies in the bands that do not count, unless fewer are left out.
 TEST(FitKeyLights, LeavesTheExactBandsAlone) {
-    image::Image image = image::make_image(64, 32);
-    const ProbeImage empty(image, Mapping::Equirectangular);
-    for (int row = 0; row < image.height; ++row)
-        for (int column = 0; column < image.width; ++column)
-            image.at(column, row) = glm::vec3(glm::dvec3(1.0 + empty.direction(column + 0.5, row + 0.5).x));
-    const ProbeImage probe(image, Mapping::Equirectangular);
+    const ProbeImage probe =
+        test::made_probe(Mapping::Equirectangular, 32, [](const glm::dvec3& d) { return glm::dvec3(1.0 + d.x); });
     const auto flux = [&](const KeyLightFit& settings) {
         double sum = 0.0;
         for (const KeyLight& key : fit_key_lights(probe, 4, settings)) sum += key.flux.x;
@@ -202,32 +186,15 @@ TEST(FitKeyLights, LeavesTheExactBandsAlone) {
     EXPECT_GT(flux({.exact_bands = 1}), 0.05);
 }
 
-TEST(FitKeyLights, DoesNotDependOnTheThreads) {
-    const ProbeImage probe(two_lobes(64), Mapping::Equirectangular);
-    const auto run = [&](unsigned threads) {
-        const ThreadLimit limit(threads);
-        return fit_key_lights(probe, 5);
-    };
-    const auto one = run(1);
-    const auto two = run(2);
-    ASSERT_EQ(one.size(), two.size());
-    for (std::size_t i = 0; i < one.size(); ++i) {
-        EXPECT_EQ(one[i].direction, two[i].direction);
-        EXPECT_EQ(one[i].flux, two[i].flux);
-        EXPECT_EQ(one[i].concentration, two[i].concentration);
-    }
-}
-
 TEST(FitKeyLights, BlackAndUniformProbesHaveNone) {
-    const auto uniform = [](float radiance) {
-        image::Image image{.width = 32, .height = 16, .texels = std::vector<glm::vec3>(512, glm::vec3(radiance))};
-        return ProbeImage(std::move(image), Mapping::Equirectangular);
+    const auto uniform = [](double radiance) {
+        return test::made_probe(Mapping::Equirectangular, 16, [&](const glm::dvec3&) { return glm::dvec3(radiance); });
     };
-    EXPECT_TRUE(fit_key_lights(uniform(0.0F), 16).empty());
-    EXPECT_TRUE(fit_key_lights(uniform(1.0F), 0).empty());
+    EXPECT_TRUE(fit_key_lights(uniform(0.0), 16).empty());
+    EXPECT_TRUE(fit_key_lights(uniform(1.0), 0).empty());
     // The light cells' own unevenness is all there is to fit.
     glm::dvec3 flux(0.0);
-    for (const KeyLight& key : fit_key_lights(uniform(1.0F), 4)) flux += key.flux;
+    for (const KeyLight& key : fit_key_lights(uniform(1.0), 4)) flux += key.flux;
     EXPECT_LT(flux.x, 0.01 * 4.0 * pi);
 }
 

@@ -75,7 +75,7 @@ TEST(LightSamples, GatheringKeepsFluxAndPlace) {
     image.at(40, 50) = glm::vec3(100.0F);
     const ProbeImage probe(image, Mapping::Equirectangular);
     const LightSamples texels = light_samples(probe, {}, 0.1);
-    const LightSamples gathered = gather_texels(texels, 16);
+    const LightSamples gathered = merge_samples(texels, 16);
     ASSERT_EQ(gathered.size(), 1U);
     EXPECT_NEAR(gathered.red[0], total(texels).x, 1e-6 * total(texels).x);
     const glm::dvec3 place(gathered.x[0], gathered.y[0], gathered.z[0]);

@@ -1,10 +1,8 @@
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <map>
 #include <vector>
 
-#include "engine/core/parallel.h"
 #include "engine/image/image.h"
 #include "engine/lighting/probe_image.h"
 #include "engine/lighting/sh_light.h"
@@ -111,21 +109,6 @@ TEST(Project, GraceAndBeachAgreeWithPublishedCoefficients) {
         EXPECT_NEAR(scale, expected.scale, 0.005) << expected.file;  // PHYSICS §9 prints three digits
         for (const Pair& p : pairs) EXPECT_NEAR(p.ours / scale, p.published, 0.005) << expected.file;
         RecordProperty(expected.file, std::to_string(scale));
-    }
-}
-
-TEST(Project, DoesNotDependOnTheNumberOfThreads) {
-    for (const Mapping mapping : test::kMappings) {
-        const ProbeImage probe = test::made_probe(mapping, 96, lopsided);
-        std::vector<ShLight> lights;
-        for (const unsigned threads : {1u, 2u, 5u}) {
-            const ThreadLimit limit(threads);
-            lights.push_back(project(probe, 10));
-        }
-        for (const ShLight& light : lights)
-            EXPECT_EQ(std::memcmp(light.coefficients.data(), lights[0].coefficients.data(),
-                                  light.coefficients.size() * sizeof(glm::dvec3)),
-                      0);
     }
 }
 

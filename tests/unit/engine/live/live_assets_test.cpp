@@ -8,7 +8,7 @@
 
 #include "engine/cook/cook_source.h"
 #include "engine/core/file.h"
-#include "engine/scene/cooked_scene.h"
+#include "engine/scene/cook.h"
 #include "tests/support/expect.h"
 #include "tests/support/files.h"
 
@@ -27,10 +27,7 @@ cook::AssetType number_type(std::uint32_t version) {
         return json != nullptr && json->contains("number");
     };
     type.cook = [](cook::Context& context) {
-        const std::string text = context.read_json(context.source())["number"].dump();
-        std::vector<std::byte> bytes;
-        for (const char c : text) bytes.push_back(static_cast<std::byte>(c));
-        return bytes;
+        return test::bytes_of(context.read_json(context.source())["number"].dump());
     };
     type.check = [](cook::Context&) {};
     type.describe = [](std::span<const std::byte>, const std::string&) { return std::string(); };
@@ -53,6 +50,12 @@ class LiveAssetsTest : public testing::Test {
 
     asset::Handle<int> load(LiveAssets& assets, const std::filesystem::path& path) const {
         return assets.load<int>(path, "number", read_number);
+    }
+    static void poll_until(LiveAssets& assets, const std::function<bool()>& done) {
+        for (int i = 0; i < 1000 && !done(); ++i) {
+            assets.poll();
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
     }
 
     test::TemporaryFolder folder_;
@@ -77,10 +80,7 @@ TEST_F(LiveAssetsTest, AnAssetFollowsItsSource) {
     LiveAssets assets(registry_of(1), {});
     const asset::Handle<int> number = load(assets, source_);
     write_file_atomic(source_, std::string_view(R"({"number": 12345})"));
-    for (int i = 0; i < 1000 && *number == 7; ++i) {
-        assets.poll();
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
+    poll_until(assets, [&] { return *number != 7; });
     EXPECT_EQ(*number, 12345);
     EXPECT_TRUE(assets.failures().empty());
 }
@@ -110,12 +110,6 @@ class LiveScene : public LiveAssetsTest {
     }
     static std::size_t number(const scene::ImportedScene& scene) {
         return scene.materials.at(0).tables.at("TEST_number")->size();
-    }
-    void poll_until(LiveAssets& assets, const std::function<bool()>& done) const {
-        for (int i = 0; i < 1000 && !done(); ++i) {
-            assets.poll();
-            std::this_thread::sleep_for(std::chrono::milliseconds(5));
-        }
     }
 
     std::shared_ptr<cook::Registry> registry_ = std::make_shared<cook::Registry>();

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <vector>
 
 #include "tests/unit/engine/post/cpu_effects.h"
 
@@ -51,15 +50,6 @@ TEST(Vignette, BothMultiply) {
     const float product = vignette_factor({3, 5}, size, natural) * vignette_factor({3, 5}, size, taste);
     EXPECT_NEAR(vignette_factor({3, 5}, size, both), product, 1e-7F);
     EXPECT_LT(product, vignette_factor({3, 5}, size, natural));
-}
-
-TEST(Vignette, PicturesAreMultipliedByTheFactor) {
-    const glm::ivec2 size(3, 2);
-    const VignetteSettings settings{.vertical_fov = 1.0F};
-    std::vector<glm::vec3> pixels(6, glm::vec3(1.0F, -2.0F, 4.0F));
-    apply_vignette(pixels, size, settings);
-    EXPECT_EQ(pixels[5], glm::vec3(1.0F, -2.0F, 4.0F) * vignette_factor({2, 1}, size, settings));
-    EXPECT_EQ(pixels[1], glm::vec3(1.0F, -2.0F, 4.0F) * vignette_factor({1, 0}, size, settings));
 }
 
 TEST(Vignette, HasNoEffectUnlessAskedFor) {

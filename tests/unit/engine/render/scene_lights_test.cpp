@@ -92,9 +92,12 @@ TEST(SceneLights, DirectionalLightsAreTurnedByTheirMatrices) {
 constexpr int kSize = 1024;
 const Sphere kEverything{{0.0F, 0.0F, 0.0F}, 1000.0F};
 
-glm::vec3 corner(const scene::Bounds& box, unsigned i) {
-    return {(i & 1U) ? box.maximum.x : box.minimum.x, (i & 2U) ? box.maximum.y : box.minimum.y,
-            (i & 4U) ? box.maximum.z : box.minimum.z};
+std::array<glm::vec3, 8> corners(const scene::Bounds& box) {
+    std::array<glm::vec3, 8> result;
+    for (std::size_t i = 0; i < 8; ++i)
+        result[i] = {(i & 1U) ? box.maximum.x : box.minimum.x, (i & 2U) ? box.maximum.y : box.minimum.y,
+                     (i & 4U) ? box.maximum.z : box.minimum.z};
+    return result;
 }
 
 std::vector<scene::Bounds> random_boxes(unsigned seed, int count) {
@@ -115,8 +118,8 @@ TEST(ShadowFit, AllCastersLieInsideTheMap) {
         const ShadowView view = fit_shadow(light, casters, kEverything, kSize);
         for (const scene::Bounds& box : casters) {
             EXPECT_TRUE(view.may_see(box));
-            for (unsigned i = 0; i < 8; ++i) {
-                const glm::vec4 clip = view.world_to_clip * glm::vec4(corner(box, i), 1.0F);
+            for (const glm::vec3& corner : corners(box)) {
+                const glm::vec4 clip = view.world_to_clip * glm::vec4(corner, 1.0F);
                 for (int axis = 0; axis < 3; ++axis) EXPECT_LT(std::abs(clip[axis]), 1.0F);
                 EXPECT_EQ(clip.w, 1.0F);
             }
@@ -194,14 +197,6 @@ TEST(AroundView, HoldsTheCornersOfTheViewAndIsTheSameSizeHoweverTheCameraTurns) 
     camera.target = {5.0F, 1.0F, -2.0F};
     EXPECT_EQ(around_view(camera, 1.5F, 4.0F).radius, sphere.radius);
     EXPECT_LT(around_view(camera, 1.5F, 1.0F).radius, sphere.radius);  // what is seen ends nearer
-}
-
-std::array<glm::vec3, 8> corners(const scene::Bounds& box) {
-    std::array<glm::vec3, 8> result;
-    for (std::size_t i = 0; i < 8; ++i)
-        result[i] = {(i & 1U) ? box.maximum.x : box.minimum.x, (i & 2U) ? box.maximum.y : box.minimum.y,
-                     (i & 4U) ? box.maximum.z : box.minimum.z};
-    return result;
 }
 
 glm::mat4 random_matrix(std::mt19937& random) {

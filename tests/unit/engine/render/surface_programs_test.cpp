@@ -30,20 +30,20 @@ TEST(SurfaceFeatures, AMapNamesItsCoordinatesAndAsksForThem) {
 TEST(SurfaceFeatures, WithoutLightOnlyColourAlphaAndEmissionRemain) {
     const SurfaceFeatures all = feature::kColours | feature::kSkinned | feature::kBaseColourMap |
                                 second_uv(feature::kBaseColourMap) | feature::kNormalMap | feature::kOcclusionMap |
-                                feature::kMetallicRoughnessMap | feature::kTextureTransform | feature::kDoubleSided |
-                                feature::kAlphaMask | feature::kLights;
+                                feature::kMetallicRoughnessMap | feature::kTextureTransformExtension |
+                                feature::kDoubleSided | feature::kAlphaMask | feature::kLights;
     EXPECT_EQ(without_light(all), feature::kColours | feature::kSkinned | feature::kBaseColourMap |
-                                      second_uv(feature::kBaseColourMap) | feature::kTextureTransform |
+                                      second_uv(feature::kBaseColourMap) | feature::kTextureTransformExtension |
                                       feature::kAlphaMask | feature::kUnlit);
-    EXPECT_EQ(without_light(feature::kNormalMap | feature::kTextureTransform), feature::kUnlit);
+    EXPECT_EQ(without_light(feature::kNormalMap | feature::kTextureTransformExtension), feature::kUnlit);
 }
 
 TEST(SurfaceFeatures, AShadowNeedsMapsOnlyOfAMask) {
     const SurfaceFeatures lit = feature::kSkinned | feature::kColours | feature::kBaseColourMap | feature::kNormalMap |
-                                feature::kTextureTransform | feature::kShadows | feature::kDoubleSided;
+                                feature::kTextureTransformExtension | feature::kShadows | feature::kDoubleSided;
     EXPECT_EQ(of_shadow(lit), feature::kSkinned);
     EXPECT_EQ(of_shadow(lit | feature::kAlphaMask), feature::kSkinned | feature::kColours | feature::kBaseColourMap |
-                                                        feature::kTextureTransform | feature::kAlphaMask);
+                                                        feature::kTextureTransformExtension | feature::kAlphaMask);
 }
 
 TEST(SurfaceFeatures, AProgramsOwnDefinesStayAndAreNotDoubled) {

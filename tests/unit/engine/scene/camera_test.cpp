@@ -15,8 +15,8 @@ namespace {
 
 using rowland::test::expect_near;
 
-constexpr float kFlyInfinity = std::numeric_limits<float>::infinity();
-constexpr float kFlyNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinite = std::numeric_limits<float>::infinity();
+constexpr float kNotANumber = std::numeric_limits<float>::quiet_NaN();
 
 /// At the origin, looking along -Z, so that +X is to the right.
 Camera start() {
@@ -136,20 +136,14 @@ TEST(FlyCamera, PitchEndsShortOfThePoles) {
 TEST(FlyCamera, BrokenInputAndTimeChangeNothing) {
     FlyCamera camera = flown({.move = {0.0F, 0.0F, 1.0F}}, 1.0, 1);
     const glm::vec3 position = camera.position();
-    for (const float broken : {kFlyNaN, kFlyInfinity, -kFlyInfinity}) {
+    for (const float broken : {kNotANumber, kInfinite, -kInfinite}) {
         camera.update({.move = {broken, 0.0F, 0.0F}, .look = glm::vec2(broken), .turn = glm::vec2(broken)}, 0.0);
         camera.update({.move = {0.0F, 0.0F, 1.0F}, .turn = {1.0F, 1.0F}}, static_cast<double>(broken));
     }
     camera.update({.move = {0.0F, 0.0F, 1.0F}}, -1.0);
     EXPECT_EQ(camera.position(), position);
-    const Camera shown = FlyCamera({.eye = glm::vec3(kFlyNaN), .target = glm::vec3(kFlyNaN)}).camera();
+    const Camera shown = FlyCamera({.eye = glm::vec3(kNotANumber), .target = glm::vec3(kNotANumber)}).camera();
     EXPECT_TRUE(std::isfinite(shown.view()[3][0]));
-}
-
-TEST(FlyCameraDeathTest, RefusesAResponseTimeOfZero) {
-    FlySettings settings;
-    settings.response_s = 0.0F;
-    EXPECT_DEATH(FlyCamera(start(), settings), "response_s > 0");
 }
 
 TEST(FlyCamera, StopsAtTheWallsOfItsRoomAndSlidesAlongThem) {
@@ -166,8 +160,6 @@ TEST(FlyCamera, StopsAtTheWallsOfItsRoomAndSlidesAlongThem) {
     EXPECT_EQ(camera.position().z, -1.0F);
 }
 
-constexpr float kOrbitInfinity = std::numeric_limits<float>::infinity();
-constexpr float kOrbitNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kLargest = std::numeric_limits<float>::max();
 
 Camera orbit_start() {
@@ -178,10 +170,6 @@ float distance_of(const Camera& camera) {
     return glm::distance(camera.eye, camera.target);
 }
 
-void expect_orbit_near(glm::vec3 a, glm::vec3 b, float tolerance) {
-    for (int i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], tolerance) << "component " << i;
-}
-
 void expect_usable(const Camera& camera) {
     const glm::mat4 view = camera.view();
     for (int column = 0; column < 4; ++column)
@@ -190,7 +178,7 @@ void expect_usable(const Camera& camera) {
 
 TEST(OrbitCamera, StartsAtTheGivenCamera) {
     const Camera camera = OrbitCamera(orbit_start()).camera();
-    expect_orbit_near(camera.eye, orbit_start().eye, 2e-6F);  // rounding of the angles at distance 5
+    expect_near(camera.eye, orbit_start().eye, 2e-6F);  // rounding of the angles at distance 5
     EXPECT_EQ(camera.target, orbit_start().target);
     EXPECT_EQ(camera.vertical_field_of_view, 0.5F);
 }
@@ -235,8 +223,8 @@ TEST(OrbitCamera, PitchEndsShortOfThePoles) {
 TEST(OrbitCamera, FullTurnComesBack) {
     OrbitCamera orbit(orbit_start(), {.radians_per_pixel = 6.2831853F / 1000.0F});
     for (int i = 0; i < 1000; ++i) orbit.update({.drag = {1.0F, 0.0F}});
-    expect_orbit_near(orbit.camera().eye, orbit_start().eye,
-                      4e-6F);  // the scale is float: 2e-7 of a turn, at distance 5
+    expect_near(orbit.camera().eye, orbit_start().eye,
+                4e-6F);  // the scale is float: 2e-7 of a turn, at distance 5
     EXPECT_LE(std::abs(orbit.yaw()), std::numbers::pi);
 }
 
@@ -263,9 +251,9 @@ TEST(OrbitCamera, ZoomStaysWithinItsLimits) {
 
 TEST(OrbitCamera, BrokenInputChangesNothing) {
     OrbitCamera orbit(orbit_start());
-    for (const float broken : {kOrbitNaN, kOrbitInfinity, -kOrbitInfinity}) {
+    for (const float broken : {kNotANumber, kInfinite, -kInfinite}) {
         orbit.update({.drag = {broken, broken}, .scroll = broken});
-        expect_orbit_near(orbit.camera().eye, orbit_start().eye, 2e-6F);  // as at the start
+        expect_near(orbit.camera().eye, orbit_start().eye, 2e-6F);  // as at the start
     }
     orbit.update({.drag = {kLargest, -kLargest}, .scroll = -kLargest});
     expect_usable(orbit.camera());
@@ -273,17 +261,13 @@ TEST(OrbitCamera, BrokenInputChangesNothing) {
 
 TEST(OrbitCamera, StartWithoutADirectionIsUsable) {
     for (const glm::vec3 eye :
-         {glm::vec3(1.0F, 0.0F, 0.0F), glm::vec3(kOrbitNaN), glm::vec3(kOrbitInfinity, 0.0F, 0.0F)}) {
+         {glm::vec3(1.0F, 0.0F, 0.0F), glm::vec3(kNotANumber), glm::vec3(kInfinite, 0.0F, 0.0F)}) {
         const OrbitCamera orbit({.eye = eye, .target = {1.0F, 0.0F, 0.0F}});
         EXPECT_GT(orbit.distance(), 0.0F);
         expect_usable(orbit.camera());
     }
-    expect_usable(OrbitCamera({.eye = glm::vec3(0.0F), .target = glm::vec3(kOrbitNaN)}).camera());
+    expect_usable(OrbitCamera({.eye = glm::vec3(0.0F), .target = glm::vec3(kNotANumber)}).camera());
     expect_usable(OrbitCamera({.eye = {0.0F, 9.0F, 0.0F}, .target = glm::vec3(0.0F)}).camera());  // from the pole
-}
-
-TEST(OrbitCameraDeathTest, RefusesADistanceOfZero) {
-    EXPECT_DEATH(OrbitCamera(Camera{}, {.minimum_distance = 0.0F}), "minimum_distance > 0");
 }
 
 }  // namespace

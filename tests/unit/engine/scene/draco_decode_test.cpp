@@ -12,6 +12,7 @@
 #include "engine/core/file.h"
 #include "engine/scene/glb_write.h"
 #include "engine/scene/mesh_recipe.h"
+#include "tests/support/expect.h"
 #include "tests/support/files.h"
 
 namespace rowland::scene {
@@ -99,13 +100,8 @@ TEST(DracoProcess, AttributeThatIsNotThereIsRefused) {
 TEST(DracoProcess, MissingHelperIsTheSystemsFault) {
     const rowland::test::TemporaryFolder empty;
     ASSERT_EQ(setenv("ROWLAND_HELPER_FOLDER", empty.path().c_str(), 1), 0);
-    try {
-        DracoProcess().decode(stream_of(disc()));
-        ADD_FAILURE() << "decoded";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.info().fault, Fault::System);
-        EXPECT_THAT(error.what(), HasSubstr("rowland-decode-draco: not in"));
-    }
+    EXPECT_THAT(rowland::test::message_of([] { DracoProcess().decode(stream_of(disc())); }, Fault::System),
+                HasSubstr("rowland-decode-draco: not in"));
     ASSERT_EQ(unsetenv("ROWLAND_HELPER_FOLDER"), 0);
 }
 

@@ -17,8 +17,8 @@ Mesh compact_disc() {
     return build_mesh(DiscRecipe{.inner_radius = 0.0235, .outer_radius = 0.06});
 }
 
-Mesh read_back(const Mesh& mesh, const DracoBits& bits = {}) {
-    const ImportedScene scene = load_glb(write_glb(mesh, "written", bits), "written.glb");
+Mesh read_back(const Mesh& mesh) {
+    const ImportedScene scene = load_glb(write_glb(mesh, "written"), "written.glb");
     EXPECT_EQ(scene.meshes.size(), 1U);
     EXPECT_TRUE(scene.warnings.empty());
     return scene.meshes.at(0);
@@ -80,25 +80,9 @@ TEST(GlbWrite, MixedHandednessSurvives) {
     for (std::size_t i = 0; i < mesh.tangents.size(); ++i) EXPECT_EQ(back.tangents[i].w, mesh.tangents[i].w) << i;
 }
 
-TEST(GlbWrite, MoreBitsAreFiner) {
-    const Mesh mesh = build_mesh(SphereRecipe{.radius = 1.0, .rings = 16, .segments = 16});
-    const auto worst = [&](int bits) {
-        const Mesh back = read_back(mesh, {.position = bits});
-        float largest = 0.0F;
-        for (std::size_t i = 0; i < mesh.positions.size(); ++i)
-            largest = std::max(largest, glm::distance(back.positions[i], mesh.positions[i]));
-        return largest;
-    };
-    EXPECT_LT(worst(20), worst(10) / 100.0F);  // a step is 2^10 times smaller
-}
-
-TEST(GlbWrite, SameMeshGivesSameBytes) {
-    const std::vector<std::byte> first = write_glb(compact_disc());
-    const std::vector<std::byte> second = write_glb(compact_disc());
-    EXPECT_EQ(first, second);
-    RecordProperty("disc_bytes", std::to_string(first.size()));
+TEST(GlbWrite, CompressesToLessThanHalf) {
     // 48 bytes per vertex and 12 per triangle without compression.
-    EXPECT_LT(first.size(), 25000U * 48U / 2U);
+    EXPECT_LT(write_glb(compact_disc()).size(), 25000U * 48U / 2U);
 }
 
 TEST(GlbWrite, BoundsInTheFileAreThoseOfItsVertices) {
@@ -115,9 +99,9 @@ TEST(GlbWrite, BoundsInTheFileAreThoseOfItsVertices) {
     EXPECT_EQ(bytes.size() % 4, 0U);
 }
 
-TEST(GlbWrite, LargestRecipeLoadsAgain) {
+TEST(GlbWrite, LargeRegularMeshLoadsAgain) {
     // The most regular mesh there is compresses best; the reader must not take it for a hostile stream.
-    const Mesh mesh = build_mesh(PlaneRecipe{.width = 1.0, .depth = 1.0, .subdivisions = 1024});
+    const Mesh mesh = build_mesh(PlaneRecipe{.width = 1.0, .depth = 1.0, .subdivisions = 512});
     EXPECT_EQ(read_back(mesh).positions.size(), mesh.positions.size());
 }
 

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "engine/core/error.h"
 #include "engine/core/file.h"
@@ -33,23 +34,19 @@ using testing::HasSubstr;
 // The vertices of test::document.
 constexpr std::array<float, 15> kPositions = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0};
 
-TEST(GltfImport, TriangleListIsRead) {
-    const Mesh mesh = load(indexed(4, {0, 1, 2})).meshes.at(0);
-    EXPECT_THAT(mesh.indices, testing::ElementsAre(0, 1, 2));
-    EXPECT_TRUE(test::is_sane(mesh));
-    EXPECT_EQ(mesh.normals[0], glm::vec3(0.0F, 0.0F, 1.0F));
-}
-
-TEST(GltfImport, StripsKeepTheWindingOfTheirFirstTriangle) {
-    const Mesh mesh = load(document(5)).meshes.at(0);
-    EXPECT_THAT(mesh.indices, testing::ElementsAre(0, 1, 2, 1, 3, 2, 2, 3, 4));
-    for (const glm::vec3& n : mesh.normals) EXPECT_EQ(n, glm::vec3(0.0F, 0.0F, 1.0F));
-}
-
-TEST(GltfImport, FansTurnAroundTheirFirstVertex) {
-    const Mesh mesh = load(indexed(6, {0, 1, 3, 2})).meshes.at(0);
-    EXPECT_THAT(mesh.indices, testing::ElementsAre(1, 3, 0, 3, 2, 0));
-    EXPECT_EQ(mesh.normals[0], glm::vec3(0.0F, 0.0F, 1.0F));
+/// Strips keep the winding of their first triangle, fans rotate about their first vertex.
+TEST(GltfImport, ListsStripsAndFansBecomeTriangles) {
+    const std::tuple<json, std::vector<std::uint32_t>> cases[] = {
+        {indexed(4, {0, 1, 2}), {0, 1, 2}},
+        {document(5), {0, 1, 2, 1, 3, 2, 2, 3, 4}},
+        {indexed(6, {0, 1, 3, 2}), {1, 3, 0, 3, 2, 0}},
+    };
+    for (const auto& [file, indices] : cases) {
+        const Mesh mesh = load(file).meshes.at(0);
+        EXPECT_EQ(mesh.indices, indices);
+        EXPECT_TRUE(test::is_sane(mesh));
+        EXPECT_EQ(mesh.normals[0], glm::vec3(0.0F, 0.0F, 1.0F));
+    }
 }
 
 TEST(GltfImport, PointsAndLinesAreLeftOutWithOneWarning) {
@@ -81,13 +78,9 @@ TEST(GltfImport, MatrixIsColumnMajor) {
 TEST(GltfImport, NormalisedAttributesAreScaled) {
     json file = document(4);
     const std::vector<std::uint8_t> uvs = {0, 255, 51, 0, 0, 0, 0, 0, 0, 0, 0, 0};
-    const auto bytes = std::as_bytes(std::span(uvs));
-    file["buffers"].push_back({{"byteLength", bytes.size()}, {"uri", data_uri(bytes)}});
-    file["bufferViews"].push_back({{"buffer", 1}, {"byteLength", bytes.size()}, {"byteStride", 4}});
     file["accessors"][0]["count"] = 3;
-    file["accessors"].push_back(
-        {{"bufferView", 1}, {"componentType", 5121}, {"normalized", true}, {"count", 3}, {"type", "VEC2"}});
-    file["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = 1;
+    set_attribute(file, "TEXCOORD_0", test::add_accessor(file, "VEC2", 5121, 3, std::as_bytes(std::span(uvs)), true));
+    file["bufferViews"].back()["byteStride"] = 4;
     const Mesh mesh = load(file).meshes.at(0);
     EXPECT_EQ(mesh.uvs[0], glm::vec2(0.0F, 1.0F));
     EXPECT_EQ(mesh.uvs[1], glm::vec2(0.0F, 0.0F));
@@ -98,11 +91,7 @@ TEST(GltfImport, UnusableNormalsAreGeneratedWithAWarning) {
     std::vector<float> normals(15, 0.0F);
     normals[0] = 3.0F;  // usable, not unit
     normals[5] = std::numeric_limits<float>::quiet_NaN();
-    const auto bytes = std::as_bytes(std::span(normals));
-    file["buffers"].push_back({{"byteLength", bytes.size()}, {"uri", data_uri(bytes)}});
-    file["bufferViews"].push_back({{"buffer", 1}, {"byteLength", bytes.size()}});
-    file["accessors"].push_back({{"bufferView", 1}, {"componentType", 5126}, {"count", 5}, {"type", "VEC3"}});
-    file["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = 1;
+    set_attribute(file, "NORMAL", test::add_floats(file, "VEC3", normals));
     const ImportedScene scene = load(file);
     EXPECT_TRUE(test::is_sane(scene));
     EXPECT_EQ(scene.meshes[0].normals[0], glm::vec3(1.0F, 0.0F, 0.0F));
@@ -147,10 +136,10 @@ TEST(GltfImport, FilesAreReadOnlyFromTheGltfsFolder) {
         } catch (const Error& error) {
             return error.what();
         }
-        return {};
+        return "no error";
     };
-    EXPECT_EQ(refusal("parts/my%20mesh.bin"), "");
-    EXPECT_EQ(refusal("parts/../parts/my mesh.bin"), "");
+    EXPECT_EQ(refusal("parts/my%20mesh.bin"), "no error");
+    EXPECT_EQ(refusal("parts/../parts/my mesh.bin"), "no error");
     EXPECT_THAT(refusal("../secret.bin"), HasSubstr("outside the glTF's folder"));
     EXPECT_THAT(refusal("parts/../../secret.bin"), HasSubstr("outside the glTF's folder"));
     EXPECT_THAT(refusal("%2e%2e/secret.bin"), HasSubstr("outside the glTF's folder"));
@@ -262,7 +251,7 @@ TEST(GltfImport, CyclesAndSharedChildrenAreRefused) {
 TEST(GltfImport, LongChainOfNodesLoads) {
     json file = document(5);
     file["nodes"] = json::array();
-    constexpr int kLength = 100'000;
+    constexpr int kLength = 50'000;
     for (int i = 0; i < kLength; ++i) file["nodes"].push_back({{"children", {i + 1}}});
     file["nodes"].push_back({{"mesh", 0}});
     EXPECT_EQ(load(file).instances.size(), 1U);
@@ -347,11 +336,13 @@ TEST(GltfImport, OnlyABufferThatIsUsedNeedsData) {
     EXPECT_THAT(error_of(file), HasSubstr("/buffers/1: 0 bytes of data"));
 }
 
+std::string error_of_text(std::string_view text) {
+    return rowland::test::message_of([&] { load_glb(std::as_bytes(std::span(text)), "f.gltf"); });
+}
+
 TEST(GltfImport, RepeatedKeysAreRefused) {
-    const std::string text = R"({"asset": {"version": "2.0"}, "nodes": [{}, {"name": "a", "name": "b"}]})";
-    EXPECT_THAT(
-        rowland::test::message_of([&] { load_glb(std::as_bytes(std::span(text.data(), text.size())), "f.gltf"); }),
-        HasSubstr("f.gltf: /nodes/1/name: a repeated key"));
+    EXPECT_THAT(error_of_text(R"({"asset": {"version": "2.0"}, "nodes": [{}, {"name": "a", "name": "b"}]})"),
+                HasSubstr("f.gltf: /nodes/1/name: a repeated key"));
 }
 
 TEST(GltfImport, WithoutScenesTheRootNodesAreShown) {
@@ -365,13 +356,7 @@ TEST(GltfImport, WithoutScenesTheRootNodesAreShown) {
 }
 
 TEST(GltfImport, SyntaxErrorsSayWhere) {
-    const std::string text = "{\n  \"asset\": oops\n}";
-    try {
-        load_glb(std::as_bytes(std::span(text.data(), text.size())), "f.gltf");
-        FAIL() << "was not refused";
-    } catch (const Error& error) {
-        EXPECT_THAT(error.what(), HasSubstr("f.gltf: line 2"));
-    }
+    EXPECT_THAT(error_of_text("{\n  \"asset\": oops\n}"), HasSubstr("f.gltf: line 2"));
 }
 
 TEST(GltfImport, SaysHowTheTangentsOfAMeshWereMade) {

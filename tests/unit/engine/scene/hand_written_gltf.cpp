@@ -4,6 +4,7 @@
 #include <map>
 
 #include "engine/core/error.h"
+#include "engine/scene/gltf_source.h"
 
 namespace rowland::scene::test {
 
@@ -94,15 +95,7 @@ void set_attribute(json& file, const std::string& name, std::size_t accessor) {
 }
 
 std::vector<std::byte> glb_of(const json& file) {
-    std::string text = file.dump();
-    text.resize((text.size() + 3) / 4 * 4, ' ');
-    std::vector<std::byte> glb;
-    const auto add = [&](std::span<const std::byte> bytes) { glb.insert(glb.end(), bytes.begin(), bytes.end()); };
-    const auto size = static_cast<std::uint32_t>(text.size());
-    const std::array<std::uint32_t, 5> header = {0x46546C67, 2, 20 + size, size, 0x4E4F534A};
-    add(std::as_bytes(std::span(header)));
-    add(std::as_bytes(std::span(text)));
-    return glb;
+    return glb_beginning(file.dump(), std::nullopt, 0, "f.glb");
 }
 
 ImportedScene load(const json& file, std::span<const std::string> handled) {

@@ -34,7 +34,7 @@ class ComparisonTest : public test::RenderTest {
     static diffraction::CookedMaterial cooked(int pitch_nm) {
         const std::string json = R"({"grating": {"pitch_nm": )" + std::to_string(pitch_nm) +
                                  R"(, "profile": {"type": "slit", "width_nm": 300}},
-                                     "quality": {"representation": "transfer", "bands": 8}})";
+                                     "quality": {"representation": "spikes", "bands": 8}})";
         return diffraction::cook_material(nlohmann::json::parse(json), "test");
     }
     ecs::Entity add_grating(const diffraction::CookedMaterial& material) {
@@ -104,7 +104,7 @@ TEST_F(ComparisonTest, AWipeShowsEachLookOnItsSideOfTheLineAndNothingElse) {
     EXPECT_TRUE(same(settled(), own, 0, kSize));
 }
 
-TEST_F(ComparisonTest, TwinsAreNoGratingsAndGoWithTheirs) {
+TEST_F(ComparisonTest, CopiesAreNoGratingsAndEndWithTheirGrating) {
     comparison_.set_wiping(true);
     settled();
     EXPECT_EQ(comparison_.gratings().size(), 1U);
@@ -124,7 +124,7 @@ TEST_F(ComparisonTest, GratingsAreListedInTheOrderOfTheirCreation) {
     EXPECT_EQ(comparison_.gratings(), before);
 }
 
-TEST_F(ComparisonTest, AMaterialLoadedAnewKeepsItsObjectsLook) {
+TEST_F(ComparisonTest, AReloadedMaterialKeepsItsObjectsLook) {
     comparison_.set_look(grating_, Side::Left, coarse_spikes());
     const Pixels before = settled();
     world_.add(grating_, surface_of(cooked(700)));

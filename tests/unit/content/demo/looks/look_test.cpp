@@ -23,7 +23,7 @@ LookSubject subject(const std::string& groove_lobe, bool flat) {
 
 std::vector<std::string> names(const LookSubject& subject) {
     std::vector<std::string> result;
-    for (const Look& look : looks_of(subject, Detail::Medium)) result.push_back(look_name(look));
+    for (const Look& look : suitable_looks(subject, Detail::Medium)) result.push_back(look_name(look));
     return result;
 }
 
@@ -47,7 +47,7 @@ TEST(Look, NarrowLobesAreStreaksAndOnFlatSurfacesMaps) {
 
 TEST(Look, TheNextOneGoesRoundAllThatSuitAndComesBack) {
     const LookSubject cd = subject(R"("flat")", true);
-    const std::vector<Look> all = looks_of(cd, Detail::Fine);
+    const std::vector<Look> all = suitable_looks(cd, Detail::Fine);
     ASSERT_GT(all.size(), 4U);
     Look look = all.front();
     EXPECT_TRUE(look.own());
@@ -60,15 +60,15 @@ TEST(Look, TheNextOneGoesRoundAllThatSuitAndComesBack) {
 TEST(Look, IsFoundByItsName) {
     for (const Detail detail : {Detail::Coarse, Detail::Medium, Detail::Fine})
         for (const bool flat : {false, true})
-            for (const Look& look : looks_of(subject(R"("flat")", flat), detail)) {
-                const auto found = look_named(look_name(look));
+            for (const Look& look : suitable_looks(subject(R"("flat")", flat), detail)) {
+                const auto found = parse_look(look_name(look));
                 ASSERT_TRUE(found) << look_name(look);
                 EXPECT_EQ(look_name(*found), look_name(look));
                 EXPECT_EQ(found->representation, look.representation);
             }
-    EXPECT_EQ(look_named("arc, usual"), look_named("arc, medium"));  // as recordings of earlier versions have it
-    EXPECT_EQ(look_named("arc"), std::nullopt);
-    EXPECT_EQ(look_named(""), std::nullopt);
+    EXPECT_EQ(parse_look("arc, usual"), parse_look("arc, medium"));  // as recordings of earlier versions have it
+    EXPECT_EQ(parse_look("arc"), std::nullopt);
+    EXPECT_EQ(parse_look(""), std::nullopt);
 }
 
 TEST(Look, DetailGoesUpAndRound) {
@@ -80,10 +80,10 @@ TEST(Look, DetailGoesUpAndRound) {
 
 TEST(Look, MoreDetailCostsMoreTables) {
     const LookSubject cd = subject(R"("flat")", true);
-    for (const char* name : {"spikes", "arc", "transfer", "planar", "circle"}) {
+    for (const char* name : {"spikes", "arc", "planar", "circle"}) {
         std::size_t bytes = 0;
         for (const Detail detail : {Detail::Coarse, Detail::Medium, Detail::Fine}) {
-            const auto material = with_look(cd, {.representation = name, .detail = detail});
+            const auto material = apply_look(cd, {.representation = name, .detail = detail});
             ASSERT_TRUE(material) << name;
             const std::size_t now = diffraction::shading_cost(diffraction::bake_material(*material).tables).table_bytes;
             EXPECT_GT(now, bytes) << name << detail_name(detail);
@@ -94,12 +94,12 @@ TEST(Look, MoreDetailCostsMoreTables) {
 
 TEST(Look, TakesTheRepresentationAndLeavesGratingAndIlluminant) {
     const LookSubject cd = subject(R"("flat")", true);
-    const auto material = with_look(cd, {.representation = "transfer"});
+    const auto material = apply_look(cd, {.representation = "spikes"});
     ASSERT_TRUE(material);
     EXPECT_EQ(material->grating.pitch_nm, 1600.0);
     EXPECT_EQ(material->quality.illuminant.name, "A");
-    EXPECT_TRUE(std::holds_alternative<diffraction::TransferSettings>(diffraction::representation(*material)));
-    EXPECT_TRUE(std::holds_alternative<diffraction::ArcSettings>(diffraction::representation(*with_look(cd, Look{}))));
+    EXPECT_TRUE(std::holds_alternative<diffraction::SpikeTableSettings>(diffraction::representation(*material)));
+    EXPECT_TRUE(std::holds_alternative<diffraction::ArcSettings>(diffraction::representation(*apply_look(cd, Look{}))));
 }
 
 }  // namespace

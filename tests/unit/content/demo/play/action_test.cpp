@@ -18,11 +18,11 @@ TEST(DemoAction, EveryActionHasAKeyAndANameOfItsOwn) {
         EXPECT_TRUE(keys.insert(row.key).second) << row.name;
         EXPECT_TRUE(names.insert(row.name).second) << row.name;
         EXPECT_TRUE(!row.button || buttons.insert(*row.button).second) << row.name;
-        EXPECT_EQ(action_named(row.name), row.action);
-        EXPECT_EQ(row_of(row.action).key, row.key);
+        EXPECT_EQ(find_action(row.name), row.action);
+        EXPECT_EQ(key_row(row.action).key, row.key);
     }
     for (const HeldKey& row : held_keys()) EXPECT_FALSE(keys.contains(row.key)) << row.help;
-    EXPECT_FALSE(action_named("nothing of the kind"));
+    EXPECT_FALSE(find_action("nothing of the kind"));
 }
 
 TEST(DemoAction, HelpHasALineForEveryKey) {

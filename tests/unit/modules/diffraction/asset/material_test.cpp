@@ -91,8 +91,8 @@ TEST(MaterialJson, EveryFieldReachesTheMaterial) {
     const auto settings = std::get<SpikeTableSettings>(representation(material));
     EXPECT_EQ(settings.spikes.bands, 8);
     EXPECT_EQ(settings.spikes.spikes, 16);
-    EXPECT_EQ(settings.theta_nodes, 48);
-    EXPECT_EQ(settings.phi_nodes, 96);
+    EXPECT_EQ(settings.grid.rows, 48);
+    EXPECT_EQ(settings.grid.columns, 96);
     EXPECT_EQ(settings.storage, Storage::Half);
 }
 

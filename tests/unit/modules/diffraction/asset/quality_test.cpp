@@ -1,6 +1,7 @@
 // The member "quality" of a material, and methods, which are written as one.
 #include "modules/diffraction/asset/quality.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,7 +11,6 @@
 namespace rowland::diffraction {
 namespace {
 
-using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -30,7 +30,7 @@ std::string with_quality(const std::string& quality, const std::string& lobe = "
 
 TEST(QualityJson, ABudgetNamesItsProbesAndItsSurface) {
     const Quality quality = parse_alone(with_quality(
-                                      R"({"max_error": 0.1, "surface": "curved",
+                                            R"({"max_error": 0.1, "surface": "curved",
                       "probes": ["a.json", "b.hdr", {"image": "c.hdr", "mapping": "angular"}, {"image": "d.exr"}]})"))
                                 .quality;
     EXPECT_EQ(quality.surface, SurfaceShape::Curved);
@@ -40,11 +40,6 @@ TEST(QualityJson, ABudgetNamesItsProbesAndItsSurface) {
     EXPECT_EQ(quality.probes[1].mapping, lighting::Mapping::Equirectangular);
     EXPECT_EQ(quality.probes[2].mapping, lighting::Mapping::Angular);
     EXPECT_EQ(quality.probes[3].file, "d.exr");
-    EXPECT_THAT(refusal(with_quality(R"({"probes": []})")), HasSubstr("/quality/probes"));
-    EXPECT_THAT(refusal(with_quality(R"({"probes": ["a", 3]})")), HasSubstr("/quality/probes/1"));
-    EXPECT_THAT(refusal(with_quality(R"({"probes": [{"image": "a.hdr", "file": "b"}]})")),
-                HasSubstr("/quality/probes/0/file"));
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "direct", "probes": ["a.json"]})")), HasSubstr("probes"));
 }
 
 TEST(QualityJson, ABudgetNamesWhatItsErrorIs) {
@@ -54,19 +49,14 @@ TEST(QualityJson, ABudgetNamesWhatItsErrorIs) {
     EXPECT_EQ(parsed(R"({"measure": "delta_e"})").measure, ErrorMeasure::DeltaE);
     EXPECT_EQ(parsed(R"({"measure": "delta_e"})").max_error, 3.0);
     EXPECT_EQ(parsed(R"({"measure": "delta_e", "max_error": 1.5})").max_error, 1.5);
-    EXPECT_THAT(refusal(with_quality(R"({"measure": "flip"})")), HasSubstr("hdr_flip"));
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "direct", "measure": "hdr_flip"})")), HasSubstr("measure"));
 }
 
 TEST(QualityJson, EveryRepresentationTakesItsSettings) {
     const auto pinned = [](const std::string& quality) { return representation(parse_alone(with_quality(quality))); };
-    const auto transfer =
-        std::get<TransferSettings>(pinned(R"({"representation": "transfer", "bands": 6, "storage": "unorm8"})"));
-    EXPECT_EQ(transfer.bands, 6);
-    EXPECT_EQ(transfer.grid, default_view_grid(Grating{}));
-    EXPECT_EQ(transfer.storage, Storage::Unorm8);
-    const auto arc =
-        std::get<ArcSettings>(pinned(R"({"representation": "arc", "bands": 7, "rank": 12, "view_resolution": 99})"));
+    EXPECT_EQ(std::get<ArcSettings>(pinned(R"({"representation": "arc"})")).grid, default_view_grid(Grating{}));
+    const auto arc = std::get<ArcSettings>(
+        pinned(R"({"representation": "arc", "bands": 7, "rank": 12, "view_resolution": 99, "storage": "unorm8"})"));
+    EXPECT_EQ(arc.storage, Storage::Unorm8);
     EXPECT_EQ(arc.bands, 7);
     EXPECT_EQ(arc.rank, 12);
     EXPECT_EQ(arc.grid, (ViewGrid{.mapping = ViewMapping::OneDimensional, .columns = 99, .rows = 1}));
@@ -81,9 +71,9 @@ TEST(QualityJson, EveryRepresentationTakesItsSettings) {
     EXPECT_TRUE(std::holds_alternative<DirectSettings>(pinned(R"({"representation": "direct"})")));
     const auto spikes = std::get<SpikeTableSettings>(
         pinned(R"({"representation": "spikes", "view_mapping": "one-dimensional", "view_resolution": 100})"));
-    EXPECT_EQ(spikes.mapping, ViewMapping::OneDimensional);
-    EXPECT_EQ(spikes.phi_nodes, 100);
-    EXPECT_EQ(spikes.theta_nodes, 1);
+    EXPECT_EQ(spikes.grid.mapping, ViewMapping::OneDimensional);
+    EXPECT_EQ(spikes.grid.columns, 100);
+    EXPECT_EQ(spikes.grid.rows, 1);
 }
 
 TEST(QualityJson, KeyLightsAreApartWhereNothingElseWouldAddThem) {
@@ -97,10 +87,6 @@ TEST(QualityJson, KeyLightsAreApartWhereNothingElseWouldAddThem) {
     EXPECT_EQ(apart(R"({"representation": "circle", "key_lights": 8})"), 8);
     EXPECT_EQ(apart(R"({"representation": "spikes", "key_lights": true})"), kAll);
     EXPECT_EQ(apart(R"({"representation": "arc", "key_lights": false})"), 0);
-    for (const char* out :
-         {R"("direct", "key_lights": 0)", R"("direct", "key_lights": false)", R"("arc", "key_lights": 65)"})
-        EXPECT_THAT(refusal(with_quality(std::string(R"({"representation": )") + out + "}")),
-                    HasSubstr("/quality/key_lights"));
 }
 
 TEST(QualityJson, LightsOfTheirOwnAreAtThePixelsUnlessTold) {
@@ -110,8 +96,6 @@ TEST(QualityJson, LightsOfTheirOwnAreAtThePixelsUnlessTold) {
     EXPECT_FALSE(at_vertices(R"({"representation": "arc"})"));
     EXPECT_TRUE(at_vertices(R"({"representation": "arc", "lights_at": "vertices"})"));
     EXPECT_TRUE(at_vertices(R"({"representation": "planar", "key_lights": 0, "lights_at": "vertices"})"));
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "spikes", "lights_at": "vertices"})")),
-                HasSubstr("/quality/lights_at"));  // it has none
 }
 
 TEST(QualityJson, MapsAreLookedUpAtThePixelsUnlessTold) {
@@ -120,36 +104,54 @@ TEST(QualityJson, MapsAreLookedUpAtThePixelsUnlessTold) {
     const Quality quality = parsed(R"({"representation": "circle", "map_at": "vertices"})");
     EXPECT_TRUE(quality.map_at_vertices);
     EXPECT_FALSE(quality.lights_at_vertices);
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "arc", "map_at": "vertices"})")),
-                HasSubstr("/quality/map_at"));  // it has none
 }
 
-TEST(QualityJson, SettingsThatARepresentationDoesNotHaveAreRefusedByName) {
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "arc", "spikes": 4})")), HasSubstr("/quality/spikes"));
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "arc", "rnak": 4})")),
-                AllOf(HasSubstr("/quality/rnak"), HasSubstr("rank")));
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "arc", "rank": 17})")), HasSubstr("/quality/rank"));
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "arc", "view_mapping": "parabolic"})")),
-                HasSubstr("/quality/view_mapping"));
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "spikes", "bands": 16, "spikes": 64})")),
-                AllOf(HasSubstr("/quality/spikes"), HasSubstr("2048")));
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "plannar"})")), HasSubstr("\"planar\""));
-}
-
-TEST(QualityJson, LobesThatARepresentationCannotShadeAreRefused) {
+/// The member is named, and where it helps what is allowed.
+TEST(QualityJson, WhatDoesNotSuitIsRefusedByItsPointer) {
+    const std::string flat = "\"flat\"";
     const std::string sigma = R"({"sigma": 0.2})";
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "circle"})", sigma)), HasSubstr("/quality/representation"));
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "spikes", "view_mapping": "one-dimensional"})", sigma)),
-                HasSubstr("/quality/view_mapping"));
+    const struct {
+        const char* quality;
+        std::string lobe;
+        std::vector<const char*> told;
+    } rows[] = {
+        {R"("probes": [])", flat, {"/quality/probes"}},
+        {R"("probes": ["a", 3])", flat, {"/quality/probes/1"}},
+        {R"("probes": [{"image": "a.hdr", "file": "b"}])", flat, {"/quality/probes/0/file"}},
+        {R"("representation": "direct", "probes": ["a.json"])", flat, {"probes"}},
+        {R"("measure": "flip")", flat, {"hdr_flip"}},
+        {R"("representation": "direct", "measure": "hdr_flip")", flat, {"measure"}},
+        {R"("representation": "direct", "key_lights": 0)", flat, {"/quality/key_lights"}},
+        {R"("representation": "direct", "key_lights": false)", flat, {"/quality/key_lights"}},
+        {R"("representation": "arc", "key_lights": 65)", flat, {"/quality/key_lights"}},
+        {R"("representation": "spikes", "lights_at": "vertices")", flat, {"/quality/lights_at"}},
+        {R"("representation": "arc", "map_at": "vertices")", flat, {"/quality/map_at"}},
+        {R"("representation": "arc", "spikes": 4)", flat, {"/quality/spikes"}},
+        {R"("representation": "arc", "rnak": 4)", flat, {"/quality/rnak", "rank"}},
+        {R"("representation": "arc", "rank": 17)", flat, {"/quality/rank"}},
+        {R"("representation": "arc", "view_mapping": "parabolic")", flat, {"/quality/view_mapping"}},
+        {R"("representation": "spikes", "bands": 16, "spikes": 64)", flat, {"/quality/spikes", "2048"}},
+        {R"("representation": "plannar")", flat, {"\"planar\""}},
+        {R"("representation": "transfer")", flat, {"/quality/representation", "spikes, arc"}},
+        {R"("representation": "circle", "angles": 25)", flat, {"/quality/angles"}},
+        {R"("representation": "planar", "views_h": 64)", flat, {"/quality/views_h"}},
+        {R"("representation": "streak")", flat, {"/quality/representation"}},
+        {R"("representation": "streak")",
+         R"({"pits": {"length_nm": 850, "coherent": 0}})",
+         {"/quality/representation"}},
+        {R"("representation": "circle")", sigma, {"/quality/representation"}},
+        {R"("representation": "spikes", "view_mapping": "one-dimensional")", sigma, {"/quality/view_mapping"}},
+        {R"("representation": "planar", "map_resolution": 257)", sigma, {"/quality/map_resolution"}},
+        {R"("representation": "streak", "map_resolution": 513)", sigma, {"/quality/map_resolution"}},
+        {R"("representation": "streak", "nodes": 5)", sigma, {"/quality/nodes", "\"map_resolution\""}},
+        {R"("representation": "streak", "taps": 5)", sigma, {"/quality/taps", "\"map_resolution\""}},
+    };
+    for (const auto& row : rows) {
+        const std::string message = refusal(with_quality(fmt::format("{{{}}}", row.quality), row.lobe));
+        for (const char* told : row.told) EXPECT_THAT(message, HasSubstr(told)) << row.quality;
+    }
     EXPECT_NO_THROW(parse_alone(with_quality(R"({"representation": "arc"})", sigma)));
     EXPECT_NO_THROW(parse_alone(with_quality(R"({"representation": "planar", "views_h": 64})", sigma)));
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "planar", "views_h": 64})")), HasSubstr("/quality/views_h"));
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "planar", "map_resolution": 257})", sigma)),
-                HasSubstr("/quality/map_resolution"));
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "streak"})")), HasSubstr("/quality/representation"));
-    EXPECT_THAT(
-        refusal(with_quality(R"({"representation": "streak"})", R"({"pits": {"length_nm": 850, "coherent": 0}})")),
-        HasSubstr("/quality/representation"));
 }
 
 TEST(QualityJson, CirclesTakeAnglesOfTheNormal) {
@@ -160,7 +162,6 @@ TEST(QualityJson, CirclesTakeAnglesOfTheNormal) {
     EXPECT_EQ(angles(""), 14);
     EXPECT_EQ(angles(R"(, "angles": 0)"), 0);
     EXPECT_EQ(angles(R"(, "angles": 20)"), 20);
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "circle", "angles": 25})")), HasSubstr("/quality/angles"));
 }
 
 TEST(QualityJson, StreaksTakeTheirSettings) {
@@ -179,11 +180,6 @@ TEST(QualityJson, StreaksTakeTheirSettings) {
     EXPECT_EQ(pits.incoherent->bands, 7);
     EXPECT_EQ(pits.incoherent->rank, 11);
     EXPECT_EQ(pits.incoherent->illuminant.name, "A");
-    EXPECT_THAT(refusal(with_quality(R"({"representation": "streak", "map_resolution": 513})", R"({"sigma": 0.05})")),
-                HasSubstr("/quality/map_resolution"));
-    for (const std::string old : {"nodes", "taps"})
-        EXPECT_THAT(refusal(with_quality(R"({"representation": "streak", ")" + old + "\": 5}", R"({"sigma": 0.05})")),
-                    AllOf(HasSubstr("/quality/" + old), HasSubstr("\"map_resolution\"")));
 }
 
 const nlohmann::json kMaterial = {
@@ -192,9 +188,7 @@ const nlohmann::json kMaterial = {
 TEST(Method, TextReadsBackAsItself) {
     for (const char* text : {"direct", "arc/bands=5/rank=8", "spikes/bands=5/view_mapping=parabolic/window=hann",
                              "planar/map_resolution=128/key_lights=16"}) {
-        const Method method = parse_method(text);
-        EXPECT_EQ(method_name(method), text);
-        EXPECT_EQ(method_from_json(to_json(method), "s.json"), method) << text;
+        EXPECT_EQ(method_name(parse_method(text)), text);
     }
 }
 
@@ -209,10 +203,6 @@ TEST(Method, BadTextIsRefusedByName) {
     EXPECT_THAT(rowland::test::message_of([] { parse_method("arc/key_lights=65"); }), HasSubstr("[0, 64]"));
     EXPECT_THAT(rowland::test::message_of([] { parse_method("arc/key_lights=many"); }), HasSubstr("many"));
     EXPECT_THAT(rowland::test::message_of([] { parse_method("arc/window=box"); }), HasSubstr("lanczos"));
-    EXPECT_THAT(rowland::test::message_of([] {
-                    method_from_json({{"quality", nlohmann::json::object()}}, "s.json");
-                }),
-                HasSubstr("s.json"));
     EXPECT_THAT(rowland::test::message_of([] { parse_method("arc/bands=5/bands=6"); }), HasSubstr("bands twice"));
 }
 
@@ -235,8 +225,8 @@ TEST(Method, TakesWhatItDoesNotNameFromAMaterialThatPinsTheSameRepresentation) {
     };
     EXPECT_EQ(rank("arc"), 5);
     EXPECT_EQ(rank("arc/rank=4"), 4);
-    const auto other = cook(pinned, "cd.json", parse_method("transfer")).material.quality.pinned;
-    EXPECT_EQ(std::get<TransferSettings>(*other).bands, TransferSettings().bands);
+    const auto other = cook(pinned, "cd.json", parse_method("spikes")).material.quality.pinned;
+    EXPECT_EQ(std::get<SpikeTableSettings>(*other).spikes.bands, SpikeSettings().bands);
 }
 
 TEST(Method, WhatAMaterialFileRefusesIsRefused) {

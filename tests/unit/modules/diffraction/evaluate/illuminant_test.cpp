@@ -46,8 +46,8 @@ TEST(BakedIlluminant, LowPressureSodiumKeepsItsChromaticity) {
         chromaticity(rgb_to_xyz(colour::LightSpectra(colour::parse_illuminant(text, "lamp.csv")), glm::dvec3(1.0)));
     const std::vector<ShadingPoint> frames = frames_of_one_plane();
     for (const char* quality :
-         {R"({"representation": "spikes", "view_resolution": 16})", R"({"representation": "transfer"})",
-          R"({"representation": "arc", "rank": 12})", R"({"representation": "planar", "map_resolution": 64})",
+         {R"({"representation": "spikes", "view_resolution": 16})", R"({"representation": "arc", "rank": 12})",
+          R"({"representation": "planar", "map_resolution": 64})",
           R"({"representation": "circle", "map_resolution": 24})"}) {
         nlohmann::json json = {{"grating", {{"pitch_nm", 1600}, {"profile", {{"type", "slit"}, {"width_nm", 700}}}}},
                                {"quality", nlohmann::json::parse(quality)}};

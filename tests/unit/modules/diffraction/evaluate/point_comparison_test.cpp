@@ -52,15 +52,15 @@ class PointComparisonTest : public ::testing::Test {
     /// The one row that the program prints.
     glm::dvec3 printed(const ShadingPoint& frame, const std::string& arguments) const {
         write_file_atomic(folder_.path() / "frames.csv", "vx,vy,vz,nx,ny,nz,gx,gy,gz\n" + row(frame));
-        const test::TradeRun run = test::run_trade(folder_.path(), "evaluate --frames frames.csv " + arguments);
-        EXPECT_EQ(run.exit_code, 0) << run.messages;
-        std::istringstream lines(run.output);
+        const test::Ended run = test::run_trade(folder_.path(), "evaluate --frames frames.csv " + arguments);
+        EXPECT_EQ(run.code, 0) << run.err;
+        std::istringstream lines(run.out);
         std::string header;
         glm::dvec3 xyz(0.0);
         char comma = 0;
         std::getline(lines, header);
         lines >> xyz.x >> comma >> xyz.y >> comma >> xyz.z;
-        EXPECT_TRUE(lines) << run.output;
+        EXPECT_TRUE(lines) << run.out;
         return xyz;
     }
     static void expect_printed(const glm::dvec3& computed, const glm::dvec3& printed) {
@@ -75,8 +75,8 @@ TEST_F(PointComparisonTest, IsWhatTheProgramPrintsForEachMaterialProbeAndPoint) 
     // A second probe: the first one, turned over.
     image::Image turned = image::load_image(folder_.path() / "sky.hdr");
     std::reverse(turned.texels.begin(), turned.texels.end());
-    const auto wide = cook("wide", "1600", R"({"representation": "transfer", "bands": 4})");
-    const auto narrow = cook("narrow", "740", R"({"representation": "transfer", "bands": 4})");
+    const auto wide = cook("wide", "1600", R"({"representation": "arc", "bands": 4})");
+    const auto narrow = cook("narrow", "740", R"({"representation": "arc", "bands": 4})");
     PointComparer sky(probe("sky.hdr"), 16);
     glm::dvec3 last(0.0);
     for (const ShadingPoint& frame : {kTilted, kOther})

@@ -17,23 +17,18 @@
 #include "modules/diffraction/model/grating.h"
 #include "modules/diffraction/reference/reference.h"
 #include "tests/support/files.h"
+#include "tests/unit/modules/diffraction/gratings.h"
 #include "tests/unit/modules/diffraction/reference/oracle.h"
 
 namespace rowland::diffraction {
 namespace {
 
+using test::compact_disc;
 using test::OracleCase;
 
 /// Low-pressure sodium's D lines, as a meter of 1 nm sees them.
 colour::Illuminant sodium_lamp() {
     return colour::parse_illuminant("wavelength_nm,relative_power\n588,0\n589,1\n590,0\n", "sodium");
-}
-
-Grating compact_disc() {
-    Grating grating;
-    grating.pitch_nm = 1600.0;
-    grating.profile = SlitProfile{800.0};
-    return grating;
 }
 
 /// A(a) of band-limited light in a tangent frame.

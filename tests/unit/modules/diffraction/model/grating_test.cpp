@@ -10,9 +10,12 @@
 #include "engine/colour/illuminant.h"
 #include "modules/diffraction/model/brdf.h"
 #include "modules/diffraction/model/grating.h"
+#include "tests/unit/modules/diffraction/gratings.h"
 
 namespace rowland::diffraction {
 namespace {
+
+using test::compact_disc;
 
 /// 1 − the mean of the squared amplitudes, as textbooks print them, by the two angles (Born & Wolf, §1.5).
 double by_angles(double ior, double cosine) {
@@ -88,15 +91,8 @@ TEST(Cover, ATableIsTakenAsItIs) {
     EXPECT_EQ(zero_order_efficiency(grating, 500.0), 0.5);
 }
 
-Grating slit() {
-    Grating grating;
-    grating.pitch_nm = 1600.0;
-    grating.profile = SlitProfile{800.0};
-    return grating;
-}
-
 TEST(Efficiency, MetalScalesEveryOrder) {
-    Grating grating = slit();
+    Grating grating = compact_disc();
     const double bare = order_efficiency(grating, 1, 500.0);
     const double bare_mirror = zero_order_efficiency(grating, 500.0);
     grating.metal = colour::Metal::Au;
@@ -107,8 +103,8 @@ TEST(Efficiency, MetalScalesEveryOrder) {
 }
 
 TEST(Efficiency, AguWeighsByWavelengthAndAgreesAt550nm) {
-    const Grating energy = slit();
-    Grating agu = slit();
+    const Grating energy = compact_disc();
+    Grating agu = compact_disc();
     agu.normalization = Normalization::Agu;
     EXPECT_DOUBLE_EQ(order_efficiency(agu, 1, 550.0), order_efficiency(energy, 1, 550.0));
     EXPECT_DOUBLE_EQ(order_efficiency(agu, -1, 440.0), 0.8 * order_efficiency(energy, -1, 440.0));
@@ -117,7 +113,7 @@ TEST(Efficiency, AguWeighsByWavelengthAndAgreesAt550nm) {
 }
 
 TEST(Efficiency, FractionalOrderMeetsTheWholeOne) {
-    Grating grating = slit();
+    Grating grating = compact_disc();
     grating.metal = colour::Metal::Cu;
     EXPECT_NEAR(fractional_order_efficiency(grating, 1.0, 500.0), order_efficiency(grating, 1, 500.0), 1e-15);
 }

@@ -49,7 +49,7 @@ Profile profile_of(const std::string& name, const std::string& parameters) {
 /// Twelve printed decimals, parameters printed to six (duty) and nine (phase): 1e-6.
 TEST(Profile, MatchesPublishedScalarEfficiencies) {
     ROWLAND_TEST_DATA(path, "data/facts/grating_efficiencies_scalar.csv");
-    const test::Csv facts = test::read_csv(path);
+    const rowland::test::Csv facts = rowland::test::read_csv(path);
     ASSERT_EQ(facts.rows.size(), 193U);
     for (std::size_t row = 0; row < facts.rows.size(); ++row) {
         const Profile profile = profile_of(facts.text(row, "profile"), facts.text(row, "parameter"));
@@ -167,7 +167,7 @@ TEST(Profile, GrooveSpectrumIsTheGroovesFourierTransform) {
 }
 
 std::string read_module_file(const std::string& path) {
-    return read_text_file(test::source_path("modules/diffraction/" + path), 1 << 20);
+    return read_text_file(rowland::test::source_path("modules/diffraction/" + path), 1 << 20);
 }
 
 TEST(ProfileDescriptor, PageHasEveryProfileAndItsMembers) {

@@ -16,17 +16,13 @@
 #include "modules/diffraction/model/grating.h"
 #include "modules/diffraction/reference/reference.h"
 #include "tests/support/files.h"
+#include "tests/unit/modules/diffraction/gratings.h"
 #include "tests/unit/modules/diffraction/reference/oracle.h"
 
 namespace rowland::diffraction {
 namespace {
 
-Grating compact_disc() {
-    Grating grating;
-    grating.pitch_nm = 1600.0;
-    grating.profile = SlitProfile{800.0};
-    return grating;
-}
+using test::compact_disc;
 
 const glm::dvec3 kView = glm::normalize(glm::dvec3(0.3, 0.2, 0.9));
 

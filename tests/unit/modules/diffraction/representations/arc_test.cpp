@@ -16,32 +16,19 @@
 #include "modules/diffraction/reference/reference.h"
 #include "modules/diffraction/representations/arc/arc_table.h"
 #include "modules/diffraction/representations/direct/direct.h"
-#include "modules/diffraction/representations/transfer/transfer_table.h"
 #include "tests/support/csv.h"
 #include "tests/support/files.h"
+#include "tests/unit/modules/diffraction/gratings.h"
 #include "tests/unit/modules/diffraction/representations/baked_views.h"
 
 namespace rowland::diffraction {
 namespace {
 
+using test::compact_disc;
+using test::foil;
 using test::relative_rms;
 
 constexpr int kEverything = 1000;
-
-Grating compact_disc() {
-    Grating grating;
-    grating.pitch_nm = 1600.0;
-    grating.profile = SlitProfile{800.0};
-    return grating;
-}
-
-Grating foil() {
-    Grating grating;
-    grating.pitch_nm = 1000.0;
-    grating.profile = BlazedProfile{150.0};
-    grating.lobe = GaussianLobe{0.3};
-    return grating;
-}
 
 /// PHYSICS §9 for the full rank: 1e-4; the task's bound for R = 8: 3 %. Rank costs less with every four more.
 TEST(ArcTable, MatchesTheBandlimitedOracle) {
@@ -119,24 +106,49 @@ TEST(ArcTable, RankEightIsEnoughForARealProbe) {
     EXPECT_LT(relative_rms(test::evaluated(bake(compact_disc(), ArcSettings{.rank = 8}), views), exact), 0.03);
 }
 
-/// The lobe's weights are the transfer table as a product: at full rank the same numbers (fp32).
-TEST(ArcTable, OfALobeIsTheTransferTableAtFullRank) {
-    ROWLAND_TEST_DATA(path, "oracle/radiance_bandlimited.csv");
+/// XYZ of a view under light in its tangent frame by the coefficients that an arc table compresses.
+glm::dvec3 by_coefficients(const TransferTerms& terms, const lighting::ShLight& tangent_light, const glm::dvec2& view) {
+    const std::vector<glm::dmat3> coefficients = terms.coefficients(view.x, view.y);
+    glm::dvec3 xyz(0.0);
+    for (std::size_t i = 0; i < coefficients.size(); ++i) xyz += coefficients[i] * tangent_light.coefficients[i];
+    return xyz;
+}
+
+/// At the nodes of its grid, those baked as mirrored views included: at full rank to fp32.
+TEST(ArcTable, OfALobeErrsByItsRankAlone) {
     ROWLAND_TEST_DATA(light_path, "oracle/bandlimited_light_n5.csv");
-    const test::OracleCase one = test::read_cases(path).back();
-    const auto views = test::tangent_views(test::read_sh_light(light_path), one.frames);
-    const ViewGrid grid{ViewMapping::Parabolic, 20, 20};
-    TransferSettings exact;
-    exact.grid = grid;
-    exact.storage = Storage::Float;
-    const auto expected = test::evaluated(bake(one.grating, exact), views);
-    for (const auto& [rank, bound] : {std::pair{8, 0.08}, {16, 0.05}, {kEverything, 1e-5}}) {
-        const ArcTable table = bake(one.grating, ArcSettings{.rank = rank, .grid = grid, .storage = Storage::Float});
+    const lighting::ShLight light = test::read_sh_light(light_path);
+    const ViewGrid grid{ViewMapping::Parabolic, 10, 10};
+    const TransferTerms terms(foil(), colour::LightSpectra(), light.bands);
+    std::vector<test::TangentView> views;
+    std::vector<glm::dvec3> expected;
+    for (const int column : {2, 5, 7})
+        for (const int row : {3, 5, 7}) {
+            const glm::dvec2 at = node_view(grid, column, row);
+            views.push_back({light, {at, std::sqrt(1.0 - glm::dot(at, at))}});
+            expected.push_back(by_coefficients(terms, light, at));
+        }
+    for (const auto& [rank, bound] : {std::pair{8, 0.1}, {16, 0.05}, {kEverything, 1e-5}}) {
+        const ArcTable table = bake(foil(), ArcSettings{.rank = rank, .grid = grid, .storage = Storage::Float});
         EXPECT_EQ(table.terms, LightTerms::Harmonics);
         const double error = relative_rms(test::evaluated(table, views), expected);
         RecordProperty(fmt::format("rank_{}", rank), fmt::format("{:.3g}", error));
         EXPECT_LT(error, bound) << rank;
     }
+}
+
+/// The foil's lobe by the default table, 64 × 32, at full rank: .3 % of interpolation on other frames (measured), 1 %
+/// allowed.
+TEST(ArcTable, MatchesTheBandlimitedOracleForALobe) {
+    ROWLAND_TEST_DATA(path, "oracle/radiance_bandlimited.csv");
+    ROWLAND_TEST_DATA(light_path, "oracle/bandlimited_light_n5.csv");
+    const test::OracleCase one = test::read_cases(path).back();
+    ASSERT_EQ(one.name, "foil_lobe");
+    const auto views = test::tangent_views(test::read_sh_light(light_path), one.frames);
+    const double error =
+        relative_rms(test::evaluated(bake(one.grating, ArcSettings{.rank = kEverything}), views), one.xyz);
+    RecordProperty("error", fmt::format("{:.3g}", error));
+    EXPECT_LT(error, 0.01);
 }
 
 /// Pitches off the table's nodes, against tables baked for just these: 33 nodes over two octaves leave 1e-3.
@@ -171,8 +183,14 @@ TEST(ArcTable, VertexAndPixelPartsAreTheWhole) {
     EXPECT_EQ(shade(table, products, {0.6, 0.0, -0.8}), glm::dvec3(0.0));
 }
 
-TEST(ArcTable, RefusesAPitchAxisForALobe) {
+TEST(ArcTable, SubwavelengthPitchIsExactlyBlack) {
+    const Grating fine{.pitch_nm = 150.0, .profile = SlitProfile{75.0}};
+    EXPECT_EQ(evaluate(bake(fine, ArcSettings{}), {1, {glm::dvec3(1.0)}}, {0.3, 0.1, 0.9}), glm::dvec3(0.0));
+}
+
+TEST(ArcTable, RefusesFewGroovesAndForALobeAPitchAxisAndOneDimension) {
     EXPECT_THROW(bake(foil(), ArcSettings{.pitch = PitchAxis{}}), Error);
+    EXPECT_THROW(bake(foil(), ArcSettings{.grid = ViewGrid{ViewMapping::OneDimensional, 16, 1}}), Error);
     Grating few = compact_disc();
     few.grooves = 10.0;
     EXPECT_THROW(bake(few, ArcSettings{}), Error);
@@ -198,17 +216,10 @@ TEST(ArcTable, HasSoundBytes) {
     test::expect_sound_bytes(bake(foil(), lobe), read_arc_table);
 }
 
-Grating lit_disc() {
-    Grating grating;
-    grating.pitch_nm = 1600.0;
-    grating.profile = SlitProfile{800.0};
-    return grating;
-}
-
 /// XYZ of a compact disc by five bands and key lights.
 std::vector<glm::dvec3> lit(const lighting::ProbeImage& probe, int key_lights, std::span<const ShadingPoint> frames) {
-    static const ArcTable table = bake(lit_disc(), ArcSettings{.rank = 16});
-    static const KernelTable kernel = tabulate(ColourKernel(lit_disc(), colour::LightSpectra(colour::d65())));
+    static const ArcTable table = bake(compact_disc(), ArcSettings{.rank = 16});
+    static const KernelTable kernel = tabulate(ColourKernel(compact_disc(), colour::LightSpectra(colour::d65())));
     const EvaluationLight light(probe, key_lights, math::SphericalWindow::None);
     std::vector<glm::dvec3> xyz = test::evaluated(table, test::tangent_views(light.harmonics(5), frames));
     for (std::size_t i = 0; i < xyz.size(); ++i)
@@ -258,7 +269,7 @@ TEST_P(ArcWithoutKeyLights, IsFartherFromTheReference) {
     std::vector<ShadingPoint> frames;  // of the whole disc: its parts show different light
     for (std::size_t i = 0; i < all.size(); i += 3) frames.push_back(all[i]);
     const lighting::ProbeImage probe(image::load_image(path), lighting::Mapping::Auto);
-    const auto expected = reference_radiance(lit_disc(), probe, colour::LightSpectra(), frames);
+    const auto expected = reference_radiance(compact_disc(), probe, colour::LightSpectra(), frames);
     const double without = test::relative_rms(lit(probe, 0, frames), expected);
     RecordProperty("none", fmt::format("{:.3g}", without));
     for (const int count : {4, 8, 16, 32}) {

@@ -160,10 +160,10 @@ TEST(CircleMap, ViewBelowTheHorizonIsBlack) {
 
 /// The counts of circle.glsl.
 TEST(CircleMap, CostsWhatItsShaderReadsAndComputes) {
-    const ShadingCost series = cost(CircleTables{.size = {.angles = 0}, .charts = 1});
+    const ShadingCost series = cost(CircleTables{{.size = {.angles = 0}, .charts = 1}});
     EXPECT_EQ(series.fetches_per_pixel, 4);
     EXPECT_EQ(series.multiply_adds_per_pixel, 36);
-    const ShadingCost with_rest = cost(CircleTables{.size = {.angles = 14}, .charts = 1});
+    const ShadingCost with_rest = cost(CircleTables{{.size = {.angles = 14}, .charts = 1}});
     EXPECT_EQ(with_rest.fetches_per_pixel, 6);
     EXPECT_EQ(with_rest.multiply_adds_per_pixel, 64);
 }

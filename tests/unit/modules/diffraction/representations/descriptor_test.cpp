@@ -15,8 +15,8 @@ std::string read_module_file(const std::string& path) {
 }
 
 /// The row of the page's table of representations: "| `arc` | … | `bands` 5, `rank` 8 … |".
-std::string row_of(const std::string& page, const std::string& name) {
-    const std::size_t table = page.find("| name | light | work | settings (defaults) |");
+std::string key_row(const std::string& page, const std::string& name) {
+    const std::size_t table = page.find("| name | light it evaluates | cost | settings (defaults) |");
     EXPECT_NE(table, std::string::npos);
     const std::size_t row = page.find("\n| `" + name + "`", table);
     return row == std::string::npos ? "" : page.substr(row + 1, page.find('\n', row + 1) - row - 1);
@@ -25,7 +25,7 @@ std::string row_of(const std::string& page, const std::string& name) {
 TEST(RepresentationDescriptors, HaveARowWithTheirDefaultsInThePage) {
     const std::string page = read_module_file("README.md");
     for (const RepresentationInfo* info : representations()) {
-        const std::string row = row_of(page, info->name);
+        const std::string row = key_row(page, info->name);
         EXPECT_FALSE(row.empty()) << info->name;
         for (const SettingInfo& setting : info->settings) {
             if (!setting.default_value.is_number()) continue;

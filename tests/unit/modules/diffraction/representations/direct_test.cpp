@@ -15,19 +15,14 @@
 #include "modules/diffraction/model/grating.h"
 #include "modules/diffraction/reference/reference.h"
 #include "modules/diffraction/representations/direct/direct.h"
+#include "tests/unit/modules/diffraction/gratings.h"
 #include "tests/unit/modules/diffraction/reference/oracle.h"
 
 namespace rowland::diffraction {
 namespace {
 
+using test::compact_disc;
 using test::relative_rms;
-
-Grating compact_disc() {
-    Grating grating;
-    grating.pitch_nm = 1600.0;
-    grating.profile = SlitProfile{800.0};
-    return grating;
-}
 
 /// The tangent frame is the world's: g = x, h = y, n = z.
 ShadingPoint frame_of(double v_g, double v_h) {

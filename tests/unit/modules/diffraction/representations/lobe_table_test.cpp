@@ -7,21 +7,17 @@
 
 #include "modules/diffraction/model/grating.h"
 #include "modules/diffraction/representations/direct/lobe_table.h"
+#include "tests/unit/modules/diffraction/gratings.h"
 
 namespace rowland::diffraction {
 namespace {
 
+using test::compact_disc;
+
 constexpr double kPitch = 1600.0;
 
-Grating lobe_disc() {
-    Grating grating;
-    grating.pitch_nm = kPitch;
-    grating.profile = SlitProfile{800.0};
-    return grating;
-}
-
 const KernelTable& kernel_table() {
-    static const KernelTable table = tabulate(ColourKernel(lobe_disc(), colour::LightSpectra(colour::d65())));
+    static const KernelTable table = tabulate(ColourKernel(compact_disc(), colour::LightSpectra(colour::d65())));
     return table;
 }
 

@@ -9,17 +9,11 @@
 #include "engine/lighting/light_samples.h"
 #include "modules/diffraction/model/colour_kernel.h"
 #include "modules/diffraction/representations/direct/direct.h"
+#include "tests/unit/modules/diffraction/gratings.h"
 #include "tests/unit/modules/diffraction/reference/oracle.h"
 
 /// What the tests of both maps measure: a map of the probe less its key lights, and the key lights by `direct`.
 namespace rowland::diffraction::test {
-
-inline Grating compact_disc() {
-    Grating grating;
-    grating.pitch_nm = 1600.0;
-    grating.profile = SlitProfile{800.0};
-    return grating;
-}
 
 struct OracleProbe {
     const char* name;

@@ -16,20 +16,16 @@
 #include "modules/diffraction/representations/spikes/spikes.h"
 #include "tests/support/csv.h"
 #include "tests/support/files.h"
+#include "tests/unit/modules/diffraction/gratings.h"
 #include "tests/unit/modules/diffraction/reference/oracle.h"
 #include "tests/unit/modules/diffraction/representations/baked_views.h"
 
 namespace rowland::diffraction {
 namespace {
 
+using test::compact_disc;
+using test::foil;
 using test::OracleCase;
-
-Grating compact_disc() {
-    Grating grating;
-    grating.pitch_nm = 1600.0;
-    grating.profile = SlitProfile{800.0};
-    return grating;
-}
 
 SpikeSettings settings(int spikes, int bands = 5) {
     SpikeSettings result;
@@ -207,18 +203,10 @@ TEST(Spikes, LightWithFewerBandsThanTheMaterialIsTheSameLight) {
 
 using std::numbers::pi;
 
-Grating foil() {
-    Grating grating;
-    grating.pitch_nm = 1000.0;
-    grating.profile = BlazedProfile{150.0};
-    grating.lobe = GaussianLobe{0.3};
-    return grating;
-}
-
 SpikeTableSettings small(Storage storage) {
     SpikeTableSettings settings;
-    settings.theta_nodes = 5;
-    settings.phi_nodes = 8;
+    settings.grid.rows = 5;
+    settings.grid.columns = 8;
     settings.spikes.spikes = 3;
     settings.spikes.bands = 4;
     settings.storage = storage;
@@ -238,16 +226,16 @@ TEST(SpikeTable, NodesAreTheBakedSpikesWithinStorage) {
     for (const Storage storage : {Storage::Unorm16, Storage::Half}) {
         const SpikeTableSettings settings = small(storage);
         const SpikeTable table = bake(foil(), settings);
-        for (int i = 0; i < settings.theta_nodes; ++i)
-            for (int j = 0; j < settings.phi_nodes; ++j) {
-                const double theta = 0.5 * pi * i / (settings.theta_nodes - 1);
-                const double phi = 2.0 * pi * j / settings.phi_nodes;
+        for (int i = 0; i < settings.grid.rows; ++i)
+            for (int j = 0; j < settings.grid.columns; ++j) {
+                const double theta = 0.5 * pi * i / (settings.grid.rows - 1);
+                const double phi = 2.0 * pi * j / settings.grid.columns;
                 const glm::dvec3 v(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
                                    std::max(std::cos(theta), 1e-9));
                 const SpikeSet exact = bake_spikes(foil(), v.x, v.y, settings.spikes);
                 const SpikeSet stored = sample(table, v.x, v.y, v.z);
                 for (std::size_t k = 0; k < 3; ++k) {
-                    const std::size_t layers = static_cast<std::size_t>(table.layers_per_spike);
+                    const std::size_t layers = static_cast<std::size_t>(table.layers_per_spike());
                     for (std::size_t e = 0; e < 16; ++e)
                         EXPECT_NEAR(stored.coefficients[k * 16 + e], exact.coefficients[k * 16 + e],
                                     largest_storage_error(table, k * layers + e / 4, static_cast<int>(e % 4)));
@@ -261,7 +249,7 @@ TEST(SpikeTable, NodesAreTheBakedSpikesWithinStorage) {
 TEST(SpikeTable, HasTheLayoutTheShaderReads) {
     const SpikeTableSettings settings = small(Storage::Unorm16);
     const SpikeTable table = bake(foil(), settings);
-    EXPECT_EQ(table.layers_per_spike, 5);  // 16 coefficients and a wavelength: 17 entries in fours
+    EXPECT_EQ(table.layers_per_spike(), 5);  // 16 coefficients and a wavelength: 17 entries in fours
     EXPECT_EQ(table.layers(), 15);
     EXPECT_EQ(table.texels.size(), 15U * 5U * 8U * 4U);
     EXPECT_EQ(table.scale.size(), 15U);
@@ -329,13 +317,13 @@ TEST(SpikeTable, DefaultResolutionKeepsTheNamedFrames) {
 TEST(SpikeTable, TakesEveryMappingAndStorage) {
     for (const Storage storage : {Storage::Unorm16, Storage::Half, Storage::Float, Storage::Unorm8}) {
         SpikeTableSettings settings = small(storage);
-        settings.mapping = ViewMapping::Parabolic;
+        settings.grid.mapping = ViewMapping::Parabolic;
         const SpikeTable table = bake(foil(), settings);
-        const glm::dvec2 v = node_view(table.grid(), 5, 1);
+        const glm::dvec2 v = node_view(table.grid, 5, 1);
         const SpikeSet exact = bake_spikes(foil(), v.x, v.y, settings.spikes);
         const SpikeSet stored = sample(table, v.x, v.y, std::sqrt(1.0 - glm::dot(v, v)));
         for (std::size_t i = 0; i < exact.coefficients.size(); ++i) {
-            const auto layer = i / 16 * static_cast<std::size_t>(table.layers_per_spike) + i % 16 / 4;
+            const auto layer = i / 16 * static_cast<std::size_t>(table.layers_per_spike()) + i % 16 / 4;
             const double range = static_cast<double>(table.scale[layer][static_cast<int>(i % 4)]);
             EXPECT_NEAR(stored.coefficients[i], exact.coefficients[i],
                         storage == Storage::Unorm8  ? 0.51 / 255.0 * range
@@ -346,13 +334,13 @@ TEST(SpikeTable, TakesEveryMappingAndStorage) {
         write(table, writer);
         ByteReader reader(writer.data(), "table");
         const SpikeTable back = read_spike_table(reader);
-        EXPECT_EQ(back.mapping, ViewMapping::Parabolic);
+        EXPECT_EQ(back.grid.mapping, ViewMapping::Parabolic);
         EXPECT_EQ(back.storage, storage);
         EXPECT_EQ(back.texels, table.texels);
     }
     SpikeTableSettings line = small(Storage::Float);
-    line.mapping = ViewMapping::OneDimensional;
-    line.theta_nodes = 1;
+    line.grid.mapping = ViewMapping::OneDimensional;
+    line.grid.rows = 1;
     EXPECT_THROW(bake(foil(), line), Error);
 }
 

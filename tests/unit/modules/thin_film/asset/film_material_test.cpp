@@ -66,8 +66,8 @@ TEST(GltfIridescence, HasTheExtensionsDefaults) {
     const GltfIridescence read = parse_gltf_iridescence(parse_json("{}", "a.gltf"), "a.gltf", "");
     EXPECT_EQ(read.factor, 0.0);
     EXPECT_EQ(read.ior, 1.3);
-    EXPECT_EQ(read.thickness_at_0_nm, 100.0);
-    EXPECT_EQ(read.thickness_at_1_nm, 400.0);
+    EXPECT_EQ(read.minimum_thickness_nm, 100.0);
+    EXPECT_EQ(read.maximum_thickness_nm, 400.0);
     EXPECT_FALSE(read.factor_texture || read.thickness_texture || read.base);
 }
 
