@@ -42,7 +42,7 @@ struct JsonShape {
     std::vector<std::string_view> choices{};  ///< of Choice
 };
 
-/// Takes down what a parser asks of an object: json_schema() makes a JSON Schema of it.
+/// Records what a parser asks of an object; json_schema() makes a JSON Schema of it.
 class JsonRecorder {
  public:
     virtual ~JsonRecorder() = default;

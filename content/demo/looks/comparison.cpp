@@ -22,9 +22,9 @@ struct Comparison::Looks {
     GpuMaterialPointer own{};                       ///< the object's own material
     GpuMaterialPointer assigned{};                  ///< by us, last: a different one now is a new own material
     GpuMaterialPointer of_right{};                  ///< shown by the copy
-    std::shared_ptr<const gpu::Texture> picture{};  ///< shown by picture_material
-    GpuMaterialPointer pictured_material{};
-    GpuMaterialPointer picture_material{};
+    std::shared_ptr<const gpu::Texture> picture{};  ///< that picture_material shows
+    GpuMaterialPointer picture_own{};               ///< the `own` that picture_material was made for
+    GpuMaterialPointer picture_material{};          ///< shows `picture` in place of `own`
     std::shared_ptr<const scene::Mesh> mesh{};
     bool flat = false;  ///< that mesh
     std::optional<ecs::Entity> copy{};
@@ -132,9 +132,9 @@ GpuMaterialPointer Comparison::material_of_copy(ecs::Entity grating) {
     if (!looks.of_right) looks.of_right = looks.own;
     if (const auto wanted = variants_.find(looks.own, grooves, looks.flat, looks.right)) looks.of_right = wanted;
     if (!reference_picture_ || grooves) return looks.of_right;
-    if (looks.picture != reference_picture_ || looks.pictured_material != looks.own) {
+    if (looks.picture != reference_picture_ || looks.picture_own != looks.own) {
         looks.picture = reference_picture_;
-        looks.pictured_material = looks.own;
+        looks.picture_own = looks.own;
         looks.picture_material = std::make_shared<const diffraction::GpuPicture>(
             *looks.own->cooked(), reference_picture_, variants_.xyz_to_working());
     }

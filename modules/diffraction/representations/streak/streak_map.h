@@ -16,7 +16,7 @@ inline constexpr int kStreakLevels = 3;
 
 struct StreakMapSize {
     int side = 320;        ///< texels of a chart's side, a multiple of 4
-    int directions = 16;        ///< texels over the directions of the lobe, a multiple of 4
+    int directions = 16;   ///< texels over the directions of the lobe, a multiple of 4
     double length = 0.05;  ///< deviation along the lobe at level 0, in radians
 
     /// Deviation across the lobe at level 0, interpolation included: of a node in s_g.
