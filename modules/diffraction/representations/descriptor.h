@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -44,8 +45,9 @@ struct ReplacedSetting {
 
 /// The description of a representation for parsers, schemas, editors and budgets.
 struct RepresentationInfo {
-    const char* name;     ///< in material files and methods
-    const char* summary;  ///< one line for people
+    const char* name;          ///< in material files and methods
+    std::uint8_t file_number;  ///< in cooked files; 1 is taken by one that no longer exists
+    const char* summary;       ///< one line for people
     Lobes lobes = Lobes::Any;
     bool is_map = false;              ///< filled from the probe at run time; directional lights are shaded separately
     bool lattices = false;            ///< it also shades lattices

@@ -15,9 +15,6 @@ constexpr int kFetchesPerLight = 2;  ///< of the lobe's table, for a pixel narro
 /// Counted in key_light_tables.glsl and kernel.glsl for the flat lobe: position 25, height 45, sum 15.
 constexpr int kMultiplyAddsPerLight = 85;
 
-/// The representations' numbers in cooked files. 1 was that of "transfer", which is no longer supported.
-constexpr std::array<std::uint8_t, kRepresentationCount> kFileNumbers{0, 2, 3, 4, 5, 6};
-
 /// Calls use<Settings>(index) for every representation.
 template <typename Use>
 void for_each_representation(const Use& use) {
@@ -133,16 +130,16 @@ BakedTables bake_tables(const Grating& grating, const Representation& representa
 }
 
 void write_tables(const BakedTables& tables, ByteWriter& writer) {
-    writer.value(kFileNumbers[tables.index()]);
+    writer.value(info(tables).file_number);
     std::visit([&](const auto& table) { write(table, writer); }, tables);
 }
 
 BakedTables read_tables(ByteReader& reader, const Representation& expected) {
     const auto number = reader.value<std::uint8_t>();
-    if (number != kFileNumbers[expected.index()])
-        reader.fail(
-            fmt::format("representation {}", number),
-            fmt::format("{} ({}), which the material asks for", kFileNumbers[expected.index()], info(expected).name));
+    if (const RepresentationInfo& wanted = info(expected); number != wanted.file_number)
+        reader.fail(fmt::format("representation {}", number),
+                    fmt::format("{} ({}), which the material asks for; cook the material again", wanted.file_number,
+                                wanted.name));
     return std::visit([&](const auto& settings) -> BakedTables { return read(reader, settings); }, expected);
 }
 

@@ -19,10 +19,6 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// The class that draws each of BakedTables, in its order.
-using GpuClasses = std::tuple<GpuSpikes, GpuArc, GpuDirect, GpuPlanar, GpuCircle, GpuStreak>;
-static_assert(std::tuple_size_v<GpuClasses> == kRepresentationCount);
-
 /// Both sides of a sheet.
 bool passes_light(const Grating& grating) {
     return grating.transmission || grating.side_reflectance;

@@ -4,6 +4,7 @@
 #include <glm/vec4.hpp>
 #include <memory>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "engine/core/parallel.h"
@@ -162,5 +163,9 @@ class GpuStreak final : public GpuMaterial {
     std::shared_ptr<const FillMap> fill_;
     mutable MapFilling map_;  ///< updated by the first object in a frame
 };
+
+/// The classes that draw the alternatives of BakedTables, in its order.
+using GpuClasses = std::tuple<GpuSpikes, GpuArc, GpuDirect, GpuPlanar, GpuCircle, GpuStreak>;
+static_assert(std::tuple_size_v<GpuClasses> == kRepresentationCount);
 
 }  // namespace rowland::diffraction

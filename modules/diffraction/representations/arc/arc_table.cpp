@@ -282,6 +282,7 @@ ArcTable read(ByteReader& reader, const ArcSettings& settings) {
 const RepresentationInfo& ArcSettings::info() {
     static const RepresentationInfo info{
         .name = "arc",
+        .file_number = 2,
         .summary = "a few products of table and light: light at the vertices, views in the pixels",
         .lattices = true,
         .takes_harmonics = true,

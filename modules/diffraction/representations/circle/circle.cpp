@@ -135,6 +135,7 @@ int views_of(int side) {
 const RepresentationInfo& CircleSettings::info() {
     static const RepresentationInfo info{
         .name = "circle",
+        .file_number = 5,
         .summary = "one map for all objects of any shape, of the whole probe",
         .lobes = Lobes::Flat,
         .is_map = true,

@@ -281,6 +281,7 @@ glm::dvec3 pattern_radiance(std::span<const LightPicture> pictures, const std::o
 
 const RepresentationInfo& DirectSettings::info() {
     static const RepresentationInfo info{.name = "direct",
+                                         .file_number = 3,
                                          .summary = "key lights and analytic lights alone",
                                          .lattices = true,
                                          .key_lights = KeyLightUse::Always,

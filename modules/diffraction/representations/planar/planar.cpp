@@ -66,6 +66,7 @@ PointShader by_plane(Fill fill) {
 const RepresentationInfo& PlanarSettings::info() {
     static const RepresentationInfo info{
         .name = "planar",
+        .file_number = 4,
         .summary = "one map for a flat object, of the whole probe",
         .is_map = true,
         .lattices = true,

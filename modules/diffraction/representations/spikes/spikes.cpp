@@ -264,6 +264,7 @@ SpikeTable read_spike_table(ByteReader& reader) {
 const RepresentationInfo& SpikeTableSettings::info() {
     static const RepresentationInfo info{
         .name = "spikes",
+        .file_number = 0,
         .summary = "the paper's: a few wavelengths for each view, light as SH at the vertices",
         .lattices = true,
         .takes_harmonics = true,

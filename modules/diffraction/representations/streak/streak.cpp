@@ -302,6 +302,7 @@ Streak read_streak(ByteReader& reader) {
 
 const RepresentationInfo& StreakSurfaceSettings::info() {
     static const RepresentationInfo info{.name = "streak",
+                                         .file_number = 6,
                                          .summary = "narrow lobes: the whole probe, mirrored along the grooves",
                                          .lobes = Lobes::Mirroring,
                                          .key_lights = KeyLightUse::Always,
