@@ -11,16 +11,16 @@ namespace rowland::demo {
 
 using live::LiveAssets;
 
-/// The demo's assets; the shipped cooked ones follow their sources.
+/// The demo's assets. Shipped cooked ones are recooked and reloaded when their sources change.
 LiveAssets open_assets(const Options& options);
 
-/// What content/CMakeLists.txt cooks for the demo: sources and cooked files.
+/// Sources and cooked files of all that content/CMakeLists.txt cooks for the demo.
 std::vector<cook::Recooker::Job> shipped_jobs(const Options& options);
 
 /// The probe of the command line, or all cooked ones: captures where there are any, then procedural ones.
 std::vector<std::filesystem::path> probe_paths(const Options& options);
 
-/// The folder of cooked assets if the command line names none: ../cooked beside the program.
+/// The folder of cooked assets if the command line names none: `../cooked`, relative to the program's folder.
 std::filesystem::path default_cooked_folder();
 
 }  // namespace rowland::demo

@@ -90,7 +90,7 @@ Session::Session(const Options& options, const post::OcioConfig& config, glm::iv
       views_(config.views(config.default_display())),
       view_(config.default_view(config.default_display())),
       sheets_(sheets(options, scene_)) {
-    play_.set_pose([this](const Play& play) { scene_.pose(play); });
+    play_.set_animation([this](const Play& play) { scene_.pose(play); });
     use_probe(probe_paths_[0]);
     if (options.glare || scene_.sheet() != nullptr) look_through(1);
 }
@@ -253,7 +253,7 @@ void Session::follow_files() {
 }
 
 void Session::refresh_scene() {
-    play_.rest();
+    play_.move_to_rest_pose();
     const bool meshes_changed = scene_.refresh();
     scene_.show_floor(!probe_->dome);
     if (meshes_changed)

@@ -54,7 +54,7 @@ void add_cook_command(CLI::App& program, const cook::Registry& registry) {
     });
 }
 
-/// Checks all files, also after a refusal. Returns the exit code.
+/// Checks all files, even after one was refused. Returns the exit code.
 int check_all(const cook::Registry& registry, const std::vector<std::filesystem::path>& files) {
     bool refused = false;
     bool failed = false;
@@ -75,7 +75,7 @@ void add_check_command(CLI::App& program, const cook::Registry& registry, int& e
     CLI::App* command = program.add_subcommand("check", "Load sources or cooked assets as the engine would");
     command->add_option("FILE", *files, "glTF, GLB, .hdr, .exr, material, recipe or cooked asset")->required();
     command->footer(
-        "Prints a line for each sane file on standard output and for each refused file on standard\n"
+        "Prints a line for each valid file on standard output and for each refused file on standard\n"
         "error; exits 2 if one was refused.\n\n"
         "Example: rowland-cook check scene.glb probe.hdr cooked/cd.material");
     command->callback([files, &registry, &exit_code] { exit_code = check_all(registry, *files); });
@@ -201,7 +201,7 @@ std::vector<Job> chosen_jobs(const RunOptions& options) {
     return result;
 }
 
-/// No job may overwrite the plan or what another job reads or writes.
+/// Throws Error (input) if a job would overwrite the plan or what another job reads or writes.
 void check_jobs(const std::vector<Job>& jobs, const RunOptions& options, const std::filesystem::path& state_folder) {
     std::vector<std::filesystem::path> inputs = {options.plan};
     std::vector<Output> outputs = {{"--state", state_folder / "record"}};

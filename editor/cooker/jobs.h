@@ -37,17 +37,17 @@ std::vector<Job> parse_plan(const std::string& text, const std::string& file);
 /// How a job ended.
 enum class JobResult {
     Cooked,
-    UpToDate,  ///< this program had done it before, from the same sources
+    UpToDate,  ///< already cooked by this version from the same sources
     Refused,   ///< bad input
     Failed,    ///< a failure of the system
 };
 const char* job_result_name(JobResult result);
 
-/// Does jobs beside other processes that do the same, on this machine or on others that share the folders. Outputs are
-/// replaced whole and do not depend on who cooks them, so a job that is done twice does no harm; locks (FileLock) and
-/// records (cook::CookRecord), both in `state_folder`, save the work. Returns when each job is done or has failed here:
-/// it waits for a job that another process is doing, and does it if that process ends without having done it. `report`
-/// gets each job's result when it is known, with the reason where it was refused or failed.
+/// Runs jobs concurrently with other processes that run the same plan, on this machine or on others that share the
+/// folders. Outputs are replaced atomically and do not depend on who cooks them, so running a job twice is harmless;
+/// locks (FileLock) and records (cook::CookRecord), both in `state_folder`, avoid it. Returns when each job is done or
+/// has failed here: it waits for a job that another process runs, and runs it if that process ends without a result.
+/// `report` gets each job's result when it is known, with the reason where it was refused or failed.
 void run_jobs(const cook::Registry& registry, std::span<const Job> jobs, const std::filesystem::path& state_folder,
               const std::function<void(const Job&, JobResult, const std::string& reason)>& report);
 

@@ -14,7 +14,7 @@ struct Layout {
     int width = 1280;
     int height = 800;
     float scale = 1.0F;         ///< of text and controls
-    float material_width = 22;  ///< of the column of fields, in units of the font's height, as the next two
+    float material_width = 22;  ///< of the column of fields; this and the next two in font heights
     float physics_width = 26;
     float price_height = 17;
     std::string shape = "disc";
@@ -23,7 +23,7 @@ struct Layout {
     Stage stage{};
 };
 
-/// Puts a file first among the recent ones, of which ten are kept.
+/// Moves a file to the front of `recent`, which keeps ten.
 void remember(Layout& layout, const std::filesystem::path& path);
 
 /// Reads a layout. Missing members have their defaults, and numbers are clamped to their ranges. A missing or broken
@@ -33,7 +33,7 @@ Layout load_layout(const std::filesystem::path& path);
 /// Throws Error (system).
 void save_layout(const Layout& layout, const std::filesystem::path& path);
 
-/// $XDG_CONFIG_HOME/rowland/inspector.json, or the same under ~/.config; nullopt if there is neither.
+/// $XDG_CONFIG_HOME/rowland/inspector.json, else ~/.config/rowland/inspector.json; nullopt without either variable.
 std::optional<std::filesystem::path> default_layout_file();
 
 }  // namespace rowland::inspector

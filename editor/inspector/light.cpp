@@ -14,7 +14,7 @@ std::shared_ptr<const InspectedLight> load_light(const std::filesystem::path& pa
     if (path.extension() == ".probe")
         refuse_input(path.string(), "", "a cooked probe, which does not have the full resolution",
                      "its source: an .hdr or .exr image, or a recipe", "the reference needs every texel");
-    auto [image, key_lights] = lighting::load_whole_probe(path, mapping);
+    auto [image, key_lights] = lighting::load_full_resolution_probe(path, mapping);
     std::vector<std::filesystem::path> read_files;
     lighting::LightProbe probe = live::load_probe(*make_registry({}), path, mapping, read_files);
     diffraction::EvaluationLight divided(image, key_lights, math::SphericalWindow::None);

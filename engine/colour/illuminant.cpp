@@ -127,7 +127,7 @@ Illuminant read_builtin_illuminant(JsonReader& json) {
 std::variant<Illuminant, std::string> read_illuminant(JsonReader& json, const std::string& owner) {
     const std::string name = json.text_or("illuminant", d65().name);
     json.annotate("illuminant", R"({"minLength": 1})");
-    if (json.records()) return d65();
+    if (json.is_recording_schema()) return d65();
     const std::vector<std::string> names = illuminant_names();
     if (std::find(names.begin(), names.end(), name) != names.end()) return illuminant(name);
     if (name.ends_with(".csv")) return name;

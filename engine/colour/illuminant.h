@@ -32,15 +32,15 @@ const Illuminant& illuminant(const std::string& name);
 const Illuminant& d65();
 
 /// An illuminant from CSV text `wavelength_nm,relative_power`. Throws Error (input) naming the file and the row as
-/// parse_spectrum_csv() does, for negative power, and if it is not visible.
+/// parse_spectrum_csv() does, for negative power, and unless is_visible().
 Illuminant parse_illuminant(std::string_view text, const std::string& file);
 
 inline constexpr std::uint64_t kMaximumIlluminantBytes = 1 << 20;
 
-/// The same from a file of at most kMaximumIlluminantBytes.
+/// parse_illuminant() of a file of at most kMaximumIlluminantBytes.
 Illuminant load_illuminant(const std::filesystem::path& path);
 
-/// The text that parse_illuminant() reads back to the same numbers.
+/// Inverse of parse_illuminant(): CSV text that gives the same numbers.
 std::string write_illuminant_csv(const Illuminant& illuminant);
 
 /// ∫S ȳ dλ over the visible range, trapezoid at 1 nm.
@@ -73,11 +73,11 @@ class LightSpectra {
 /// XYZ of light of colour `rgb`: ∫ L(λ) cmf(λ) dλ, trapezoid at 1 nm over the visible range.
 glm::dvec3 rgb_to_xyz(const LightSpectra& spectra, const glm::dvec3& rgb);
 
-/// The built-in illuminant that "illuminant" names; D65 without it. Throws Error (input) that lists them.
+/// Reads "illuminant", a built-in name; D65 if it is absent. Throws Error (input) that lists the names.
 Illuminant read_builtin_illuminant(JsonReader& json);
 
-/// The same, or the name of a .csv file, which the caller loads. `owner`, for messages: what the file lies beside, as
-/// in "the material".
+/// The same, or the name of a .csv file, which the caller loads. `owner`, for messages: the file that it is relative
+/// to, as in "the material".
 std::variant<Illuminant, std::string> read_illuminant(JsonReader& json, const std::string& owner);
 
 }  // namespace rowland::colour

@@ -27,16 +27,16 @@ std::string describe(const NumberRange& range) {
     const bool bounded_below = std::isfinite(range.minimum);
     const bool bounded_above = std::isfinite(range.maximum);
     if (bounded_below && bounded_above)
-        return fmt::format("a number in {}{}, {}{}", range.minimum_open ? '(' : '[', range.minimum, range.maximum,
-                           range.maximum_open ? ')' : ']');
-    if (bounded_below) return fmt::format("a number {} {}", range.minimum_open ? ">" : ">=", range.minimum);
-    if (bounded_above) return fmt::format("a number {} {}", range.maximum_open ? "<" : "<=", range.maximum);
+        return fmt::format("a number in {}{}, {}{}", range.exclusive_minimum ? '(' : '[', range.minimum, range.maximum,
+                           range.exclusive_maximum ? ')' : ']');
+    if (bounded_below) return fmt::format("a number {} {}", range.exclusive_minimum ? ">" : ">=", range.minimum);
+    if (bounded_above) return fmt::format("a number {} {}", range.exclusive_maximum ? "<" : "<=", range.maximum);
     return "a number";
 }
 
 bool inside(double x, const NumberRange& range) {
-    return std::isfinite(x) && (range.minimum_open ? x > range.minimum : x >= range.minimum) &&
-           (range.maximum_open ? x < range.maximum : x <= range.maximum);
+    return std::isfinite(x) && (range.exclusive_minimum ? x > range.minimum : x >= range.minimum) &&
+           (range.exclusive_maximum ? x < range.maximum : x <= range.maximum);
 }
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {

@@ -18,19 +18,19 @@ namespace rowland {
 /// for nesting deeper than 64, and with the JSON pointer for a repeated key of an object.
 nlohmann::json parse_json(std::string_view text, const std::string& file);
 
-/// A number's domain; the message shows it as an interval. Open ends exclude the bound.
+/// A number's domain; messages show it as an interval.
 struct NumberRange {
     double minimum = -std::numeric_limits<double>::infinity();
     double maximum = std::numeric_limits<double>::infinity();
-    bool minimum_open = false;
-    bool maximum_open = false;
+    bool exclusive_minimum = false;
+    bool exclusive_maximum = false;
 };
 
 /// What a float can hold.
 inline constexpr NumberRange kFiniteFloat{.minimum = std::numeric_limits<float>::lowest(),
                                           .maximum = std::numeric_limits<float>::max()};
 inline constexpr NumberRange kFraction{.minimum = 0.0, .maximum = 1.0};
-inline constexpr NumberRange kPositive{.minimum = 0.0, .minimum_open = true};
+inline constexpr NumberRange kPositive{.minimum = 0.0, .exclusive_minimum = true};
 
 /// What a parser expects of a member.
 struct JsonShape {
@@ -62,7 +62,7 @@ class JsonRecorder {
 /// Reads one JSON object strictly: every failure is an Error (input) that names the file, the JSON pointer, what was
 /// found and what was expected, and finish() refuses keys that were not read, naming the nearest valid one.
 ///
-/// A parser is also the source of its schema: json_schema() runs it with a reader that records() instead of reading.
+/// A parser is also the source of its schema: json_schema() runs it with a reader that records (is_recording_schema()).
 /// Such a reader has every key and returns values within their limits, so a parser must not check them further.
 class JsonReader {
  public:
@@ -70,7 +70,7 @@ class JsonReader {
     JsonReader(const nlohmann::json& value, std::string file, std::string pointer = "");
     explicit JsonReader(std::shared_ptr<JsonRecorder> recorder) : recorder_(std::move(recorder)) {}
 
-    bool records() const { return recorder_ != nullptr; }
+    bool is_recording_schema() const { return recorder_ != nullptr; }
     bool has(const std::string& key);
     /// Fails with these parts if the key is there.
     void refuse_if_there(const std::string& key, const std::string& found, const std::string& expected,

@@ -19,10 +19,12 @@ Json bound(double value) {
 }
 
 Json number_schema(const char* type, const NumberRange& range) {
-    constexpr double kAnyNumber = 1e30;  // what a float can hold is no limit to tell of
+    constexpr double kAnyNumber = 1e30;  // larger bounds, such as a float's range, are not stated
     Json schema = {{"type", type}};
-    if (range.minimum > -kAnyNumber) schema[range.minimum_open ? "exclusiveMinimum" : "minimum"] = bound(range.minimum);
-    if (range.maximum < kAnyNumber) schema[range.maximum_open ? "exclusiveMaximum" : "maximum"] = bound(range.maximum);
+    if (range.minimum > -kAnyNumber)
+        schema[range.exclusive_minimum ? "exclusiveMinimum" : "minimum"] = bound(range.minimum);
+    if (range.maximum < kAnyNumber)
+        schema[range.exclusive_maximum ? "exclusiveMaximum" : "maximum"] = bound(range.maximum);
     return schema;
 }
 

@@ -321,7 +321,7 @@ std::vector<KeyLight> fit_key_lights(const ProbeImage& probe, int count, const K
     ROWLAND_CHECK_OP(count, <=, kMaximumKeyLights);
     ROWLAND_CHECK_OP(settings.smoothing, >, 0.0);
     if (count == 0) return {};
-    const MeasuredProbe measured(gather_cells(probe, kFitFace), kFitFace, settings);
+    const MeasuredProbe measured(bin_into_cells(probe, kFitFace), kFitFace, settings);
     // A texel's light, bilinear as it is seen, has a variance of a sixth of its side's square.
     const double side = 2.0 * pi / probe.image().width;
     const double narrowest = std::clamp(6.0 / (side * side), kWidestConcentration, kNarrowestConcentration);

@@ -80,7 +80,8 @@ CubeTree::CubeTree(std::span<const CubeCell> cells, int face_size) {
     std::vector<Node> leaves = make_leaves(face_size, cells.size());
     for (std::size_t i = 0; i < leaves.size(); ++i) {
         leaves[i].flux = glm::vec3(cells[i].flux);
-        if (cells[i].direction != glm::dvec3(0.0)) leaves[i].source = glm::vec3(glm::normalize(cells[i].direction));
+        if (const glm::dvec3 sum = cells[i].direction_sum; sum != glm::dvec3(0.0))
+            leaves[i].source = glm::vec3(glm::normalize(sum));
     }
     join_levels(std::move(leaves), face_size);
 }
@@ -279,7 +280,7 @@ DirectionWeight weight_of(const CubeTree& light, const KeyLightFit& settings) {
 CubeTree weighted_tree(std::span<const CubeCell> cells, int face_size, const DirectionWeight& weight) {
     std::vector<CubeCell> weighted(cells.begin(), cells.end());
     for (CubeCell& cell : weighted)
-        if (cell.direction != glm::dvec3(0.0)) cell.flux *= weight.root(glm::normalize(cell.direction));
+        if (cell.direction_sum != glm::dvec3(0.0)) cell.flux *= weight.root(glm::normalize(cell.direction_sum));
     return {weighted, face_size};
 }
 

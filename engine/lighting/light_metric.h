@@ -108,7 +108,7 @@ struct MeasuredLobe {
 /// lobe is summed in small nodes of a tree, distant light in large ones.
 class MeasuredProbe {
  public:
-    /// `cells`: of gather_cells() with `face_size`.
+    /// `cells`: of bin_into_cells() with `face_size`.
     MeasuredProbe(std::span<const CubeCell> cells, int face_size, const KeyLightFit& settings);
 
     /// The light times the weight's root.

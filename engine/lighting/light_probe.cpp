@@ -286,7 +286,7 @@ LightProbe build_light_probe(const ProbeImage& probe, const LightProbeSettings& 
     light.illuminant = settings.illuminant;
     light.ambient = ambient_coefficients(light.sh);
     light.key_lights = fit_key_lights(probe, settings.key_lights, settings.key_light_fit);
-    light.light = pack(gather_cells(probe, settings.light_face), settings.light_face);
+    light.light = pack(bin_into_cells(probe, settings.light_face), settings.light_face);
     light.environment = pack(prefilter(probe, settings.prefilter));
     light.dome = settings.dome;
     light.report = probe.report();

@@ -27,7 +27,7 @@ glm::ivec2 parts_of(const ProbeImage& probe, double largest_side) {
     return {parts(width), parts(std::numbers::pi / probe.image().height)};
 }
 
-/// The probe with each texel divided, of bilinearly interpolated radiance.
+/// The probe resampled bilinearly at `parts` times its resolution.
 ProbeImage divide_texels(const ProbeImage& probe, const glm::ivec2& parts) {
     image::Image fine = image::make_image(probe.image().width * parts.x, probe.image().height * parts.y);
     parallel_for(static_cast<std::size_t>(fine.height), [&](std::size_t task) {
@@ -39,7 +39,7 @@ ProbeImage divide_texels(const ProbeImage& probe, const glm::ivec2& parts) {
     return {std::move(fine), probe.mapping()};
 }
 
-/// A probe whose texels are no longer than a given side: the given one where that is so.
+/// A probe whose texels have sides of at most `largest_side`: the given probe if it is fine enough.
 class FineProbe {
  public:
     FineProbe(const ProbeImage& probe, double largest_side) : probe_(&probe) {
@@ -101,11 +101,11 @@ LobeFractions lobe_fractions(const KeyLight& key, std::size_t count, const Direc
     return result;
 }
 
-/// Calls take(i, flux) with the flux that a lobe has in cell i, of `count` cells with sides of at most `side` radians.
-/// Appends samples for lobes whose deviation is less than a side, which the midpoint rule does not resolve.
-template <typename Direction, typename SolidAngle, typename Take>
+/// Calls subtract_from_cell(i, flux) with each lobe's flux in cell i, of `count` cells with sides of at most `side`
+/// radians. Lobes of a standard deviation 1/√κ below a side, unresolved by the midpoint rule, become negative samples.
+template <typename Direction, typename SolidAngle, typename Subtract>
 void subtract_lobes(std::span<const KeyLight> keys, double side, std::size_t count, const Direction& direction,
-                    const SolidAngle& solid_angle, LightSamples& samples, const Take& take) {
+                    const SolidAngle& solid_angle, LightSamples& samples, const Subtract& subtract_from_cell) {
     const auto is_resolved = [&](std::size_t k) { return keys[k].concentration * side * side < 1.0; };
     std::vector<LobeFractions> lobes(keys.size());
     parallel_for(keys.size(), [&](std::size_t k) {
@@ -114,14 +114,14 @@ void subtract_lobes(std::span<const KeyLight> keys, double side, std::size_t cou
     for (std::size_t k = 0; k < keys.size(); ++k) {
         if (!is_resolved(k)) subtract_narrow_lobe(keys[k], samples);
         for (std::size_t j = 0; j < lobes[k].indices.size(); ++j)
-            take(lobes[k].indices[j], lobes[k].fractions[j] * keys[k].flux);
+            subtract_from_cell(lobes[k].indices[j], lobes[k].fractions[j] * keys[k].flux);
     }
 }
 
-/// The cells that samples are added to.
-class Gatherer {
+/// Adds samples to the cells of a cube map.
+class CellAccumulator {
  public:
-    explicit Gatherer(int face_size) : layout_{face_size, 1}, cells_(layout_.offset(1)) {
+    explicit CellAccumulator(int face_size) : layout_{face_size, 1}, cells_(layout_.offset(1)) {
         ROWLAND_CHECK_OP(face_size, >=, 1);
     }
 
@@ -138,11 +138,11 @@ class Gatherer {
             CubeCell& cell =
                 cells_[layout_.index(0, point.face, static_cast<int>(corner.x), static_cast<int>(corner.y))];
             cell.flux += flux;
-            cell.direction += weight * direction;
-            cell.position += weight * (at - corner);
+            cell.direction_sum += weight * direction;
+            cell.position_sum += weight * (at - corner);
         }
     }
-    std::vector<CubeCell> take() { return std::move(cells_); }
+    std::vector<CubeCell> result() { return std::move(cells_); }
 
  private:
     CubeLayout layout_;
@@ -198,45 +198,45 @@ void subtract_narrow_lobe(const KeyLight& key, LightSamples& samples) {
                                           {6.2899450829374792, 0.0103892565015861}}};
     constexpr int kAngles = 8;
     ROWLAND_CHECK_OP(key.concentration, >=, 100.0);
-    const glm::dvec3 far = std::abs(key.direction.y) < 0.7 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
-    const glm::dvec3 first = glm::normalize(glm::cross(far, key.direction));
-    const glm::dvec3 second = glm::cross(key.direction, first);
+    const glm::dvec3 helper = std::abs(key.direction.y) < 0.7 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 tangent = glm::normalize(glm::cross(helper, key.direction));
+    const glm::dvec3 bitangent = glm::cross(key.direction, tangent);
     for (const Node& node : kNodes) {
-        const double drop = node.t / key.concentration;
-        const double sine = std::sqrt(drop * (2.0 - drop));
+        const double one_minus_cos = node.t / key.concentration;
+        const double sine = std::sqrt(one_minus_cos * (2.0 - one_minus_cos));
         for (int i = 0; i < kAngles; ++i) {
             const double angle = 2.0 * std::numbers::pi * i / kAngles;
-            samples.push_back(
-                (1.0 - drop) * key.direction + sine * (std::cos(angle) * first + std::sin(angle) * second),
-                -node.weight / kAngles * key.flux);
+            samples.push_back((1.0 - one_minus_cos) * key.direction +
+                                  sine * (std::cos(angle) * tangent + std::sin(angle) * bitangent),
+                              -node.weight / kAngles * key.flux);
         }
     }
 }
 
-std::vector<CubeCell> gather_cells(const ProbeImage& probe, int face_size) {
+std::vector<CubeCell> bin_into_cells(const ProbeImage& probe, int face_size) {
     const FineProbe fine(probe, kMaximumTexelSide);
     const int height = fine->image().height;
     const int rows = std::max(1, (1 << 18) / fine->image().width);  // at a time: 6 MB of samples
-    Gatherer gatherer(face_size);
-    for (int row = 0; row < height; row += rows) gatherer.add(row_samples(*fine, row, std::min(height, row + rows)));
-    return gatherer.take();
+    CellAccumulator cells(face_size);
+    for (int row = 0; row < height; row += rows) cells.add(row_samples(*fine, row, std::min(height, row + rows)));
+    return cells.result();
 }
 
-std::vector<CubeCell> gather_cells(const LightSamples& texels, int face_size) {
-    Gatherer gatherer(face_size);
-    gatherer.add(texels);
-    return gatherer.take();
+std::vector<CubeCell> bin_into_cells(const LightSamples& texels, int face_size) {
+    CellAccumulator cells(face_size);
+    cells.add(texels);
+    return cells.result();
 }
 
 LightSamples cell_samples(std::span<const CubeCell> cells) {
     LightSamples samples;
     for (const CubeCell& cell : cells)
-        if (cell.direction != glm::dvec3(0.0)) samples.push_back(glm::normalize(cell.direction), cell.flux);
+        if (cell.direction_sum != glm::dvec3(0.0)) samples.push_back(glm::normalize(cell.direction_sum), cell.flux);
     return samples;
 }
 
 LightSamples merge_samples(const LightSamples& texels, int face_size) {
-    return cell_samples(gather_cells(texels, face_size));
+    return cell_samples(bin_into_cells(texels, face_size));
 }
 
 namespace {
@@ -245,7 +245,7 @@ namespace {
 constexpr int kLobeFace = 128;
 
 /// Steps of a position along a cell's side.
-constexpr double kPositions = 256.0;
+constexpr double kPositionSteps = 256.0;
 
 struct Cell {
     int face = 0;
@@ -266,7 +266,7 @@ glm::dvec3 direction_in(const Cell& cell, int face_size, double s, double t) {
 }
 
 std::uint8_t position_byte(double position) {
-    return static_cast<std::uint8_t>(std::clamp(std::floor(position * kPositions), 0.0, kPositions - 1.0));
+    return static_cast<std::uint8_t>(std::clamp(std::floor(position * kPositionSteps), 0.0, kPositionSteps - 1.0));
 }
 
 LightSamples stored_samples(const PackedLight& light) {
@@ -277,15 +277,15 @@ LightSamples stored_samples(const PackedLight& light) {
                                 from_half(light.halves[2 * count + i]));
         if (stored == glm::dvec3(0.0)) continue;
         samples.push_back(
-            direction_in(cell_at(i, light.face_size), light.face_size, (light.positions[i] + 0.5) / kPositions,
-                         (light.positions[count + i] + 0.5) / kPositions),
+            direction_in(cell_at(i, light.face_size), light.face_size, (light.positions[i] + 0.5) / kPositionSteps,
+                         (light.positions[count + i] + 0.5) / kPositionSteps),
             static_cast<double>(light.scale) * stored);
     }
     return samples;
 }
 
-/// Appends the lobes' samples with negative flux, in the cells of a fixed cube: at the stored samples' directions they
-/// would move the lobes.
+/// Appends the lobes as samples of negative flux at the cell centres of a fixed cube; at the stored samples'
+/// directions, which are off centre, the lobes would shift.
 void subtract(std::span<const KeyLight> keys, LightSamples& samples) {
     constexpr auto kSide = static_cast<std::size_t>(kLobeFace);
     std::vector<glm::dvec3> directions(6 * kSide * kSide);
@@ -326,7 +326,7 @@ PackedLight pack(std::span<const CubeCell> cells, int face_size) {
         for (std::size_t c = 0; c < 3; ++c)
             packed.halves[c * cells.size() + i] = to_half(cells[i].flux[static_cast<int>(c)], packed.scale);
         const double weight = cells[i].flux.x + cells[i].flux.y + cells[i].flux.z;
-        const glm::dvec2 position = weight > 0.0 ? cells[i].position / weight : glm::dvec2(0.5);
+        const glm::dvec2 position = weight > 0.0 ? cells[i].position_sum / weight : glm::dvec2(0.5);
         packed.positions[i] = position_byte(position.x);
         packed.positions[cells.size() + i] = position_byte(position.y);
     }
@@ -334,7 +334,7 @@ PackedLight pack(std::span<const CubeCell> cells, int face_size) {
 }
 
 PackedLight pack(const LightSamples& texels, int face_size) {
-    return pack(gather_cells(texels, face_size), face_size);
+    return pack(bin_into_cells(texels, face_size), face_size);
 }
 
 LightSamples unpack(const PackedLight& light, std::span<const KeyLight> keys) {

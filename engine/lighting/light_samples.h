@@ -36,14 +36,14 @@ LightSamples light_samples(const ProbeImage& probe, std::span<const KeyLight> ke
 /// Sums over the samples in one cell of a cube map. A sample's weight is |red| + |green| + |blue| of its flux.
 struct CubeCell {
     glm::dvec3 flux{0.0};
-    glm::dvec3 direction{0.0};  ///< Σ weight · direction
-    glm::dvec2 position{0.0};   ///< Σ weight · position in the cell, in [0, 1]²
+    glm::dvec3 direction_sum{0.0};  ///< Σ weight · direction
+    glm::dvec2 position_sum{0.0};   ///< Σ weight · position in the cell, in [0, 1]²
 };
 
 /// The samples of a probe, summed in the cells of a cube map of `face_size` cells a side, in the order of CubeLayout
 /// (environment_map.h). Memory use does not depend on the probe's size.
-std::vector<CubeCell> gather_cells(const ProbeImage& probe, int face_size);
-std::vector<CubeCell> gather_cells(const LightSamples& texels, int face_size);
+std::vector<CubeCell> bin_into_cells(const ProbeImage& probe, int face_size);
+std::vector<CubeCell> bin_into_cells(const LightSamples& texels, int face_size);
 
 /// One sample per cell that is not black, in its weighted mean direction: a lamp smaller than a cell keeps its
 /// direction.

@@ -73,9 +73,9 @@ std::optional<CaptureDome> parse_dome(JsonReader& reader) {
     if (!reader.has("dome")) return std::nullopt;
     JsonReader object = reader.object("dome");
     CaptureDome dome;
-    dome.height_m = object.number("height_m", {.minimum = 0, .maximum = kLargestDome_m, .minimum_open = true});
-    const double least = object.records() ? 0.0 : dome.height_m;
-    dome.radius_m = object.number("radius_m", {.minimum = least, .maximum = kLargestDome_m, .minimum_open = true});
+    dome.height_m = object.number("height_m", {.minimum = 0, .maximum = kLargestDome_m, .exclusive_minimum = true});
+    const double least = object.is_recording_schema() ? 0.0 : dome.height_m;
+    dome.radius_m = object.number("radius_m", {.minimum = least, .maximum = kLargestDome_m, .exclusive_minimum = true});
     object.finish();
     return dome;
 }
@@ -83,7 +83,7 @@ std::optional<CaptureDome> parse_dome(JsonReader& reader) {
 int parse_width(JsonReader& reader, int fallback) {
     const auto width = static_cast<int>(reader.integer_or("width", fallback, 64, 8192));
     reader.annotate("width", R"({"multipleOf": 4})");
-    if (width % 4 != 0 && !reader.records()) reader.fail("width", std::to_string(width), "a multiple of 4");
+    if (width % 4 != 0 && !reader.is_recording_schema()) reader.fail("width", std::to_string(width), "a multiple of 4");
     return width;
 }
 
@@ -99,7 +99,7 @@ LightProbeSettings parse_settings(JsonReader& reader) {
     return settings;
 }
 
-/// A built-in illuminant, or the name of a file that holds one.
+/// Reads a built-in illuminant, or the name of a file that holds one, into `recipe`.
 void parse_illuminant(JsonReader& reader, ProbeRecipe& recipe) {
     if (!reader.has("illuminant")) return;
     const std::variant<colour::Illuminant, std::string> named = colour::read_illuminant(reader, "the recipe");
@@ -109,7 +109,7 @@ void parse_illuminant(JsonReader& reader, ProbeRecipe& recipe) {
         recipe.illuminant_file = std::get<std::string>(named);
 }
 
-image::Image load_scaled(const ProbeRecipe& recipe, const std::function<image::Image(const std::string&)>& load) {
+image::Image source_image(const ProbeRecipe& recipe, const std::function<image::Image(const std::string&)>& load) {
     if (const auto* studio = std::get_if<StudioRecipe>(&recipe.source)) return render_studio(*studio, recipe.width);
     if (const auto* sky = std::get_if<ClearSkyRecipe>(&recipe.source)) return render_clear_sky(*sky, recipe.width);
     return load(std::get<ImageRecipe>(recipe.source).file);
@@ -122,13 +122,14 @@ ProbeRecipe parse_probe_recipe(JsonReader& document) {
     document.finish();
     ProbeRecipe recipe;
     std::optional<CaptureDome> dome;
+    enum Type : std::size_t { Studio, ClearSky, Image };
     reader.variant("type", {"studio", "clear_sky", "image"}, [&](JsonReader& json, std::size_t type) {
-        if (type == 2) {
+        if (type == Image) {
             recipe.source = parse_image(json);
             dome = parse_dome(json);
             return;
         }
-        if (type == 0)
+        if (type == Studio)
             recipe.source = parse_studio(json);
         else
             recipe.source = parse_clear_sky(json);
@@ -154,7 +155,7 @@ void load_illuminant(ProbeRecipe& recipe, const std::function<std::string(const 
 
 ProbeImage render_recipe(const ProbeRecipe& recipe, const std::function<image::Image(const std::string&)>& load,
                          const std::string& file) {
-    image::Image image = load_scaled(recipe, load);
+    image::Image image = source_image(recipe, load);
     if (recipe.intensity != 1)
         for (glm::vec3& texel : image.texels) texel *= static_cast<float>(recipe.intensity);
     const auto* capture = std::get_if<ImageRecipe>(&recipe.source);
@@ -164,7 +165,7 @@ ProbeImage render_recipe(const ProbeRecipe& recipe, const std::function<image::I
     return probe;
 }
 
-FullResolutionProbe load_whole_probe(const std::filesystem::path& path, const std::string& mapping) {
+FullResolutionProbe load_full_resolution_probe(const std::filesystem::path& path, const std::string& mapping) {
     constexpr std::uint64_t kMaximumRecipeBytes = 16 << 20;
     const std::string file = path.string();
     if (path.extension() != ".json")

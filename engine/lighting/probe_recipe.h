@@ -34,8 +34,7 @@ struct ImageRecipe {
 ///   the image as a room: "height_m" of the camera above the floor, and "radius_m").
 struct ProbeRecipe {
     std::variant<StudioRecipe, ClearSkyRecipe, ImageRecipe> source;
-    int width =
-        1024;  ///< texels, of the equirectangular image rendered from a procedural recipe; its height is width/2
+    int width = 1024;      ///< of a procedural recipe's equirectangular image, texels; its height is width/2
     double intensity = 1;  ///< multiplies all radiance
     LightProbeSettings settings;
     std::string illuminant_file;  ///< .csv, relative to the recipe; empty: settings.illuminant is built in
@@ -62,6 +61,6 @@ struct FullResolutionProbe {
 
 /// Reads a probe recipe (.json) or an image; `mapping` of images: as for parse_mapping(). Takes seconds. Throws Error
 /// (input).
-FullResolutionProbe load_whole_probe(const std::filesystem::path& path, const std::string& mapping);
+FullResolutionProbe load_full_resolution_probe(const std::filesystem::path& path, const std::string& mapping);
 
 }  // namespace rowland::lighting

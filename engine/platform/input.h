@@ -36,7 +36,7 @@ enum class GamepadButton {
     // clang-format on
 };
 
-/// One value for each enumerator of E but Count.
+/// One value for each enumerator of E except Count.
 template <typename E, typename T>
 using PerEnum = std::array<T, static_cast<std::size_t>(E::Count)>;
 
@@ -54,7 +54,7 @@ struct MouseMoveEvent {
 struct ScrollEvent {
     glm::dvec2 offset;  ///< notches; y grows away from the user
 };
-/// The window gained or lost the keyboard.
+/// The window gained or lost the keyboard focus.
 struct FocusEvent {
     bool focused;
 };
@@ -85,7 +85,7 @@ constexpr float kStickDeadZone = 0.15F;
 /// gives 0.
 glm::vec2 radial_dead_zone(glm::vec2 stick);
 
-/// A button of any device during one frame. Pressed and released within one frame is both, and not down at its end.
+/// A button of any device during one frame. A press and release within one frame set both flags, with `down` false.
 struct ButtonState {
     bool down = false;      ///< at the end of the frame
     bool pressed = false;   ///< went down during the frame
@@ -99,7 +99,7 @@ struct ButtonState {
 /// focus is back.
 class InputState {
  public:
-    /// Clears everything but what is held down.
+    /// Clears movement, text and the flags `pressed` and `released`, not `down`.
     void begin_frame();
     void apply(const InputEvent& event);
 
@@ -109,7 +109,7 @@ class InputState {
     bool any_down() const;
     const ButtonState& gamepad_button(GamepadButton button) const { return pad_[static_cast<std::size_t>(button)]; }
 
-    /// -1, 0 or 1 as the one key, neither (or both), or the other was down at any time of the frame.
+    /// -1 if `negative` was down at any time of the frame, 1 if `positive` was, 0 for neither or both.
     float key_axis(Key negative, Key positive) const;
 
     /// Screen coordinates, y down; unbounded while the cursor is captured, when only differences have a meaning.
@@ -126,7 +126,7 @@ class InputState {
     const std::u32string& typed() const { return typed_; }
 
     bool focused() const { return focused_; }
-    /// Without their dead zones.
+    /// After radial_dead_zone().
     glm::vec2 left_stick() const;
     glm::vec2 right_stick() const;
 
@@ -159,7 +159,7 @@ class InputState {
 std::string name_of(Key key);
 std::optional<Key> key_named(std::string_view name);
 
-/// The key or the button of a GLFW number; nullopt for one that the enumeration does not have.
+/// The key or button of a GLFW code; nullopt if the enumeration lacks it.
 std::optional<Key> key_of_glfw(int glfw);
 std::optional<MouseButton> mouse_button_of_glfw(int glfw);
 

@@ -26,7 +26,7 @@ gpu::Program program(const gpu::ShaderLibrary& library, bool is_picture) {
 AutoExposurePass::AutoExposurePass(const gpu::ShaderLibrary& library)
     : sum_picture_(program(library, true)),
       sum_sums_(program(library, false)),
-      totals_(gpu::Buffer::mapped(kMeasurements * gpu::kBufferAlignment, GL_MAP_READ_BIT)) {}
+      totals_(gpu::Buffer::mapped(kMaxInFlight * gpu::kBufferAlignment, GL_MAP_READ_BIT)) {}
 
 void AutoExposurePass::make_sums(glm::ivec2 size) {
     if (size == size_) return;
@@ -45,7 +45,7 @@ void AutoExposurePass::sum(const gpu::Program& program, const gpu::Texture& sour
 }
 
 void AutoExposurePass::start(const gpu::Texture& picture, const glm::vec3& weights, float darkest) {
-    last_ = (last_ + 1) % kMeasurements;
+    last_ = (last_ + 1) % kMaxInFlight;
     if (finished_[last_] && !finished_[last_]->passed()) finished_[last_]->wait();
     make_sums(picture.size());
     totals_.bind_storage(kTotalBinding, last_ * gpu::kBufferAlignment, sizeof(glm::vec2));
@@ -57,29 +57,29 @@ void AutoExposurePass::start(const gpu::Texture& picture, const glm::vec3& weigh
     finished_[last_].emplace();
 }
 
-std::size_t AutoExposurePass::started_before_last(std::size_t count) const {
-    return (last_ + kMeasurements - count) % kMeasurements;
+std::size_t AutoExposurePass::index_of(std::size_t age) const {
+    return (last_ + kMaxInFlight - age) % kMaxInFlight;
 }
 
-MeanLuminance AutoExposurePass::read(std::size_t age) {
+MeanLog2Luminance AutoExposurePass::read(std::size_t age) {
     glm::vec2 total(0.0F);
-    std::memcpy(&total, &totals_.mapping()[started_before_last(age) * gpu::kBufferAlignment], sizeof(total));
+    std::memcpy(&total, &totals_.mapping()[index_of(age) * gpu::kBufferAlignment], sizeof(total));
     // Older ones are out of date.
-    for (; age < kMeasurements; ++age) finished_[started_before_last(age)].reset();
+    for (; age < kMaxInFlight; ++age) finished_[index_of(age)].reset();
     if (total.g == 0.0F) return std::nullopt;
     return double{total.r} / double{total.g};
 }
 
-std::optional<MeanLuminance> AutoExposurePass::take() {
-    for (std::size_t age = 0; age < kMeasurements; ++age) {
-        const std::optional<gpu::Fence>& finished = finished_[started_before_last(age)];
+std::optional<MeanLog2Luminance> AutoExposurePass::take() {
+    for (std::size_t age = 0; age < kMaxInFlight; ++age) {
+        const std::optional<gpu::Fence>& finished = finished_[index_of(age)];
         if (finished && finished->passed()) return read(age);
     }
     return std::nullopt;
 }
 
-MeanLuminance AutoExposurePass::wait() {
-    ROWLAND_CHECK(finished_[last_].has_value(), "a measurement that was started and not taken");
+MeanLog2Luminance AutoExposurePass::wait() {
+    ROWLAND_CHECK(finished_[last_].has_value(), "a measurement that was started and not returned yet");
     finished_[last_]->wait();
     return read(0);
 }

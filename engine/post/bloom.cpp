@@ -19,10 +19,10 @@ constexpr const char* up_shader = "engine/post/shaders/bloom_up.frag.glsl";
 }  // namespace
 
 BloomPass::BloomPass(const gpu::ShaderLibrary& library)
-    : picture_to_coarser_(program(library, down_shader, true)),
-      level_to_coarser_(program(library, down_shader, false)),
-      mix_into_level_(program(library, up_shader, false)),
-      mix_into_picture_(program(library, up_shader, true)) {}
+    : downsample_picture_(program(library, down_shader, true)),
+      downsample_level_(program(library, down_shader, false)),
+      upsample_level_(program(library, up_shader, false)),
+      upsample_picture_(program(library, up_shader, true)) {}
 
 void BloomPass::make_levels(glm::ivec2 size, int levels) {
     const std::vector<glm::ivec2> sizes = bloom_level_sizes(size, levels);
@@ -37,15 +37,15 @@ void BloomPass::make_levels(glm::ivec2 size, int levels) {
     }
 }
 
-void BloomPass::draw_coarser(const gpu::Program& program, const gpu::Texture& fine, const gpu::Framebuffer& target) {
+void BloomPass::downsample(const gpu::Program& program, const gpu::Texture& fine, const gpu::Framebuffer& target) {
     fine.bind(0);
     program.set("coarse_size", target.size());
     triangle_.draw(program, target);
     ++passes_;
 }
 
-void BloomPass::mix_in(const gpu::Program& program, const gpu::Texture& fine, const gpu::Texture& coarse, float weight,
-                       const gpu::Framebuffer& target) {
+void BloomPass::upsample_and_mix(const gpu::Program& program, const gpu::Texture& fine, const gpu::Texture& coarse,
+                                 float weight, const gpu::Framebuffer& target) {
     fine.bind(0);
     coarse.bind(1);
     program.set("coarse_weight", weight);
@@ -59,14 +59,14 @@ void BloomPass::draw(const gpu::Texture& source, const BloomSettings& settings, 
     ROWLAND_CHECK(source.size() == target.size(), "the target of bloom must have the source's size");
     passes_ = 0;
     make_levels(source.size(), settings.levels);
-    draw_coarser(picture_to_coarser_, source, down_.front());
-    for (std::size_t i = 1; i < down_.size(); ++i) draw_coarser(level_to_coarser_, down_[i - 1].colour(), down_[i]);
+    downsample(downsample_picture_, source, down_.front());
+    for (std::size_t i = 1; i < down_.size(); ++i) downsample(downsample_level_, down_[i - 1].colour(), down_[i]);
     const gpu::Texture* blurred = &down_.back().colour();
     for (std::size_t i = up_.size(); i-- > 0;) {
-        mix_in(mix_into_level_, down_[i].colour(), *blurred, bloom_coarser_weight(i, down_.size()), up_[i]);
+        upsample_and_mix(upsample_level_, down_[i].colour(), *blurred, bloom_coarser_weight(i, down_.size()), up_[i]);
         blurred = &up_[i].colour();
     }
-    mix_in(mix_into_picture_, source, *blurred, settings.strength, target);
+    upsample_and_mix(upsample_picture_, source, *blurred, settings.strength, target);
 }
 
 void require_valid(const BloomSettings& settings) {

@@ -13,23 +13,24 @@ namespace rowland::post {
 /// Light scattered in the lens. There is no threshold: every pixel scatters the same fraction of its light.
 struct BloomSettings {
     float strength = 0.05F;  ///< fraction of the light that is scattered, 0 to 1; at 0 no pass runs
-    int levels = 6;          ///< reach: the blur is the mean of those of 2, 4, ... 2^levels pixels; at least 1
+    int levels = 6;          ///< reach: the blur is the mean of blurs 2, 4, ... 2^levels pixels wide; at least 1
 };
 
 /// Replaces a scene-linear picture by mix(picture, blurred picture, strength), in RGBA16F.
 ///
 /// The blur keeps the sum over the picture, wherever the light is and whatever the size, and leaves a picture of one
-/// colour unchanged. Each level halves the one before, rounding up. With W(i,k) the weights by which linear
-/// interpolation makes fine texel i from coarse texels k, positions clamped to the grid (so sum_k W = 1), going down
-/// scatters light by W and going up interpolates by W:
-///     light'(k) = sum_i W(i,k) light(i),  area'(k) = sum_i W(i,k) area(i),  value(i) = sum_k W(i,k)
-///     light'(k)/area'(k).
-/// Then sum_i area(i) value(i) = sum_k light'(k) = sum_i light(i). Inside the picture these are the kernels 1-3-3-1 of
+/// colour unchanged. Each level has half the size of the one before, rounded up. W(i,k) are the weights of bilinear
+/// upsampling from coarse texels k to fine texel i, positions clamped to the grid, so sum_k W = 1. Downsampling is the
+/// transpose; division by the area normalises it at the borders:
+///     light'(k) = sum_i W(i,k) light(i)
+///     area'(k) = sum_i W(i,k) area(i)
+///     value(i) = sum_k W(i,k) light'(k)/area'(k)
+/// Then sum_i area(i) value(i) = sum_k light'(k) = sum_i light(i). Inside the picture the kernels are 1-3-3-1, those of
 /// Chaikin's subdivision, whose repetition is smooth. Levels are mixed on the way up, as in Jimenez, "Next generation
 /// post processing in Call of Duty: Advanced Warfare", SIGGRAPH 2014, but without his gain.
 ///
-/// Non-finite components count as 0, others are clamped to the half floats' ±65504; both also in the picture that is
-/// mixed in. Values are rounded to nearest halves whatever the driver does, so the sum is kept to 1e-3.
+/// Non-finite components count as 0, others are clamped to half floats' range, ±65504, in the unblurred picture as
+/// well. Values are rounded to nearest halves on every driver, so the sum is kept to 1e-3.
 class BloomPass {
  public:
     /// `library` must hold post::shader_files().
@@ -44,17 +45,17 @@ class BloomPass {
 
  private:
     void make_levels(glm::ivec2 size, int levels);
-    void draw_coarser(const gpu::Program& program, const gpu::Texture& fine, const gpu::Framebuffer& target);
-    void mix_in(const gpu::Program& program, const gpu::Texture& fine, const gpu::Texture& coarse, float weight,
-                const gpu::Framebuffer& target);
+    void downsample(const gpu::Program& program, const gpu::Texture& fine, const gpu::Framebuffer& target);
+    void upsample_and_mix(const gpu::Program& program, const gpu::Texture& fine, const gpu::Texture& coarse,
+                          float weight, const gpu::Framebuffer& target);
 
-    gpu::Program picture_to_coarser_;
-    gpu::Program level_to_coarser_;
-    gpu::Program mix_into_level_;
-    gpu::Program mix_into_picture_;
+    gpu::Program downsample_picture_;
+    gpu::Program downsample_level_;
+    gpu::Program upsample_level_;
+    gpu::Program upsample_picture_;
     gpu::FullScreenTriangle triangle_;
     std::vector<gpu::Framebuffer> down_;  ///< light and area, finest first
-    std::vector<gpu::Framebuffer> up_;    ///< the mixes; one fewer, as the coarsest level has nothing to mix in
+    std::vector<gpu::Framebuffer> up_;    ///< the mixes; one fewer: the coarsest level is not mixed
     int passes_ = 0;
 };
 

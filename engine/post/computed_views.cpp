@@ -27,7 +27,7 @@ constexpr double kPivotIn = 10.0 / 16.5;
 constexpr double kPivotOut = 0.5;
 constexpr double kSlope = 2.0;
 
-/// One half of the curve, measured from the pivot: slope kSlope at 0, through the corner (width, height).
+/// One half of the curve, measured from the pivot: slope kSlope at 0, end point (width, height).
 double half_curve(double distance, double width, double height, double power) {
     const double scale =
         std::pow(std::pow(kSlope * width, -power) * (std::pow(kSlope * width / height, power) - 1.0), -1.0 / power);
@@ -50,12 +50,12 @@ double agx_curve(double x) {
 
 namespace {
 
-constexpr double kContrast = 1.551;        ///< g of the tone curve
-constexpr double kHalfLight = 0.6018;      ///< k of the tone curve: light^g that is shown as one half
-constexpr double kChromaOfContrast = 0.5;  ///< power
-constexpr double kUncompressed = 0.65;     ///< fraction of the gamut's chroma up to which chroma stays
+constexpr double kContrast = 1.551;              ///< g of the tone curve
+constexpr double kSemiSaturation = 0.6018;       ///< k of the tone curve: light^g of tone ½
+constexpr double kChromaContrastExponent = 0.5;  ///< chroma is scaled by contrast to this power
+constexpr double kCompressionThreshold = 0.65;   ///< fraction of the gamut's chroma up to which chroma is unchanged
 constexpr double kCompressionPower = 1.6;
-constexpr double kMostChroma = 0.33;  ///< a little more than any colour of Rec.709 has
+constexpr double kMaxChroma = 0.33;  ///< a little more than any colour of Rec.709 has
 
 glm::dvec3 to_rec709(const glm::dvec3& oklab) {
     static const glm::dmat3 matrix = glm::inverse(colour::rec709_to_oklab_lms());
@@ -66,10 +66,10 @@ bool is_inside(const glm::dvec3& rgb) {
     return std::min({rgb.r, rgb.g, rgb.b}) >= 0.0 && std::max({rgb.r, rgb.g, rgb.b}) <= 1.0;
 }
 
-/// The most chroma that the display has of a hue (a unit vector), by bisection.
-double chroma_of_gamut(double lightness, const glm::dvec2& hue) {
+/// Largest in-gamut Oklab chroma at this lightness and hue (a unit vector), by bisection.
+double max_gamut_chroma(double lightness, const glm::dvec2& hue) {
     double inside = 0.0;
-    double outside = kMostChroma;
+    double outside = kMaxChroma;
     for (int i = 0; i < 16; ++i) {
         const double chroma = 0.5 * (inside + outside);
         (is_inside(to_rec709({lightness, chroma * hue})) ? inside : outside) = chroma;
@@ -77,39 +77,39 @@ double chroma_of_gamut(double lightness, const glm::dvec2& hue) {
     return inside;
 }
 
-/// The identity up to kUncompressed, then smoothly toward 1.
+/// The identity up to kCompressionThreshold, then smoothly toward 1.
 double compressed(double ratio) {
-    if (ratio <= kUncompressed) return ratio;
-    constexpr double room = 1.0 - kUncompressed;
-    const double over = (ratio - kUncompressed) / room;
-    return kUncompressed + room * over / std::pow(1.0 + std::pow(over, kCompressionPower), 1.0 / kCompressionPower);
+    if (ratio <= kCompressionThreshold) return ratio;
+    constexpr double room = 1.0 - kCompressionThreshold;
+    const double x = (ratio - kCompressionThreshold) / room;
+    return kCompressionThreshold + room * x / std::pow(1.0 + std::pow(x, kCompressionPower), 1.0 / kCompressionPower);
 }
 
 }  // namespace
 
 double constant_hue_tone(double light) {
     const double power = std::pow(light, kContrast);
-    return power / (power + kHalfLight);
+    return power / (power + kSemiSaturation);
 }
 
 glm::dvec3 constant_hue(const glm::dvec3& lms) {
-    const glm::dvec3 scene = colour::oklab_of_lms(glm::max(lms, 0.0));
-    const double level = scene.x * scene.x * scene.x;
+    const glm::dvec3 oklab = colour::oklab_of_lms(glm::max(lms, 0.0));
+    const double level = oklab.x * oklab.x * oklab.x;
     if (!(level > 0.0)) return glm::dvec3(0.0);
-    const glm::dvec3 rgb = to_rec709(scene);
+    const glm::dvec3 rgb = to_rec709(oklab);
     const double largest = std::max({rgb.r, rgb.g, rgb.b, level});
     const double light = level * std::pow(largest / level, 1.0 - constant_hue_tone(level));
     const double tone = constant_hue_tone(light);
     const double scale = std::cbrt(tone / light);
-    const double lightness = scale * scene.x;
+    const double lightness = scale * oklab.x;
 
-    const glm::dvec2 scene_chroma(scene.y, scene.z);
-    const double length = glm::length(scene_chroma);
-    const glm::dvec2 hue = length > 0.0 ? scene_chroma / length : glm::dvec2(1.0, 0.0);
+    const glm::dvec2 a_b(oklab.y, oklab.z);
+    const double length = glm::length(a_b);
+    const glm::dvec2 hue = length > 0.0 ? a_b / length : glm::dvec2(1.0, 0.0);
     const double contrast = kContrast * (1.0 - tone);  // d log tone / d log light
-    const double chroma = length * scale * std::pow(contrast, kChromaOfContrast);
-    const double most = chroma_of_gamut(lightness, hue);
-    const double shown = most > 0.0 ? most * compressed(chroma / most) : 0.0;
+    const double chroma = length * scale * std::pow(contrast, kChromaContrastExponent);
+    const double largest_chroma = max_gamut_chroma(lightness, hue);
+    const double shown = largest_chroma > 0.0 ? largest_chroma * compressed(chroma / largest_chroma) : 0.0;
     return glm::clamp(to_rec709({lightness, shown * hue}), 0.0, 1.0);
 }
 
@@ -132,24 +132,24 @@ glm::dvec3 false_colour(double stops) {
     return kColours[static_cast<std::size_t>(stop + kEnd)];
 }
 
-namespace {
-
-constexpr const char* kDisplay = "sRGB - Display";
-constexpr unsigned kCurveLength = 4096;
-
-/// The axes of the table of cone responses (l, m, s) in stops: log2 m, from 10 stops below 0.18 to where all is white;
-/// log2 l / m and log2 s / m, as far as spectral light reaches. Neutrals lie on the table's entries.
-constexpr unsigned kTableEdge = 37;
-constexpr glm::dvec3 kLeastStops(-12.5, -3.0, -2.0);
-constexpr glm::dvec3 kMostStops(7.0, 1.5, 4.0);
-const double kDarkest = std::exp2(kLeastStops.x);  // added to responses, so that black has a logarithm
-
-OCIO::TransformRcPtr known(const char* style, OCIO::TransformDirection direction = OCIO::TRANSFORM_DIR_FORWARD) {
+OCIO::TransformRcPtr builtin_transform(const char* style, OCIO::TransformDirection direction) {
     const OCIO::BuiltinTransformRcPtr transform = OCIO::BuiltinTransform::Create();
     transform->setStyle(style);
     transform->setDirection(direction);
     return transform;
 }
+
+namespace {
+
+constexpr const char* kDisplay = "sRGB - Display";
+constexpr unsigned kCurveLength = 4096;
+
+/// The axes of the 3D LUT of cone responses (l, m, s) in stops: log2 m, from 10 stops below 0.18 to where every colour
+/// is white; log2 l / m and log2 s / m, as far as spectral light reaches. Neutrals lie on grid points.
+constexpr unsigned kGridSize = 37;
+constexpr glm::dvec3 kMinStops(-12.5, -3.0, -2.0);
+constexpr glm::dvec3 kMaxStops(7.0, 1.5, 4.0);
+const double kLogOffset = std::exp2(kMinStops.x);  // added to responses, so that black has a logarithm
 
 OCIO::TransformRcPtr matrix_transform(const glm::dmat3& matrix, const glm::dvec3& offset = glm::dvec3(0.0)) {
     std::array<double, 16> values{};
@@ -176,15 +176,15 @@ OCIO::TransformRcPtr logarithm(double least, double most, double offset) {
     return transform;
 }
 
-/// log2 of (l, m, s) → the table's axes, 0 … 1.
+/// log2 of (l, m, s) → the 3D LUT's axes, 0 … 1.
 OCIO::TransformRcPtr table_axes() {
-    const glm::dvec3 scale = 1.0 / (kMostStops - kLeastStops);
+    const glm::dvec3 scale = 1.0 / (kMaxStops - kMinStops);
     const glm::dmat3 differences = glm::transpose(glm::dmat3(0, 1, 0, 1, -1, 0, 0, -1, 1));
     const glm::dmat3 scaled(scale * differences[0], scale * differences[1], scale * differences[2]);
-    return matrix_transform(scaled, -kLeastStops * scale);
+    return matrix_transform(scaled, -kMinStops * scale);
 }
 
-/// A table of `value` over 0 … 1; its components are those of three equal inputs.
+/// 1D LUT over x in 0 … 1: channel c of the input x becomes value(x)[c].
 OCIO::TransformRcPtr curve_table(const std::function<glm::dvec3(double)>& value) {
     const OCIO::Lut1DTransformRcPtr table = OCIO::Lut1DTransform::Create(kCurveLength, false);
     table->setInterpolation(OCIO::INTERP_LINEAR);
@@ -201,35 +201,35 @@ OCIO::TransformRcPtr power(double exponent) {
     return transform;
 }
 
-/// What constant_hue() shows at a point of the table, as cube roots of linear Rec.709, which are smoother.
+/// Entry of the 3D LUT: constant_hue() as cube roots of linear Rec.709, which interpolate better.
 glm::vec3 table_entry(std::size_t i, std::size_t j, std::size_t k) {
-    const glm::dvec3 stops = glm::mix(kLeastStops, kMostStops, glm::dvec3(i, j, k) / (kTableEdge - 1.0));
-    const glm::dvec3 lms = glm::exp2(glm::dvec3(stops.x + stops.y, stops.x, stops.x + stops.z)) - kDarkest;
+    const glm::dvec3 stops = glm::mix(kMinStops, kMaxStops, glm::dvec3(i, j, k) / (kGridSize - 1.0));
+    const glm::dvec3 lms = glm::exp2(glm::dvec3(stops.x + stops.y, stops.x, stops.x + stops.z)) - kLogOffset;
     const glm::dvec3 rgb = constant_hue(lms);
     return {std::cbrt(rgb.r), std::cbrt(rgb.g), std::cbrt(rgb.b)};
 }
 
 OCIO::TransformRcPtr constant_hue_table() {
     static const std::vector<glm::vec3> values = [] {
-        std::vector<glm::vec3> found(std::size_t{kTableEdge} * kTableEdge * kTableEdge);
-        parallel_for(found.size() / kTableEdge, [&](std::size_t line) {
-            for (std::size_t k = 0; k < kTableEdge; ++k)
-                found[line * kTableEdge + k] = table_entry(line / kTableEdge, line % kTableEdge, k);
+        std::vector<glm::vec3> found(std::size_t{kGridSize} * kGridSize * kGridSize);
+        parallel_for(found.size() / kGridSize, [&](std::size_t line) {
+            for (std::size_t k = 0; k < kGridSize; ++k)
+                found[line * kGridSize + k] = table_entry(line / kGridSize, line % kGridSize, k);
         });
         return found;
     }();
-    const OCIO::Lut3DTransformRcPtr table = OCIO::Lut3DTransform::Create(kTableEdge);
+    const OCIO::Lut3DTransformRcPtr table = OCIO::Lut3DTransform::Create(kGridSize);
     table->setInterpolation(OCIO::INTERP_TETRAHEDRAL);
     std::size_t index = 0;
-    for (unsigned i = 0; i < kTableEdge; ++i)
-        for (unsigned j = 0; j < kTableEdge; ++j)
-            for (unsigned k = 0; k < kTableEdge; ++k, ++index)
+    for (unsigned i = 0; i < kGridSize; ++i)
+        for (unsigned j = 0; j < kGridSize; ++j)
+            for (unsigned k = 0; k < kGridSize; ++k, ++index)
                 table->setValue(i, j, k, values[index].r, values[index].g, values[index].b);
     return table;
 }
 
 std::vector<OCIO::TransformRcPtr> constant_hue_view() {
-    return {matrix_transform(colour::rec709_to_oklab_lms()), logarithm(0.0, 1.0, kDarkest), table_axes(),
+    return {matrix_transform(colour::rec709_to_oklab_lms()), logarithm(0.0, 1.0, kLogOffset), table_axes(),
             constant_hue_table(), power(3.0)};
 }
 
@@ -253,15 +253,15 @@ std::vector<OCIO::TransformRcPtr> false_colour_view() {
             curve_table([](double x) { return false_colour((2.0 * x - 1.0) * false_colour_stops); })};
 }
 
-/// Adds a view of the steps from linear Rec.709 in the scene to linear Rec.709 on the display.
+/// Adds a view that applies `steps` (scene-linear Rec.709 to display-linear Rec.709).
 void add_view(OCIO::Config& config, const char* name, const std::vector<OCIO::TransformRcPtr>& steps,
               const char* looks = "") {
     const OCIO::GroupTransformRcPtr group = OCIO::GroupTransform::Create();
-    group->appendTransform(known("ACEScg_to_ACES2065-1", OCIO::TRANSFORM_DIR_INVERSE));
-    group->appendTransform(known("UTILITY - ACES-AP1_to_LINEAR-REC709_BFD"));
+    group->appendTransform(builtin_transform("ACEScg_to_ACES2065-1", OCIO::TRANSFORM_DIR_INVERSE));
+    group->appendTransform(builtin_transform("UTILITY - ACES-AP1_to_LINEAR-REC709_BFD"));
     for (const OCIO::TransformRcPtr& step : steps) group->appendTransform(step);
-    group->appendTransform(known("UTILITY - ACES-AP1_to_LINEAR-REC709_BFD", OCIO::TRANSFORM_DIR_INVERSE));
-    group->appendTransform(known("UTILITY - ACES-AP1_to_CIE-XYZ-D65_BFD"));
+    group->appendTransform(builtin_transform("UTILITY - ACES-AP1_to_LINEAR-REC709_BFD", OCIO::TRANSFORM_DIR_INVERSE));
+    group->appendTransform(builtin_transform("UTILITY - ACES-AP1_to_CIE-XYZ-D65_BFD"));
 
     const OCIO::ViewTransformRcPtr view = OCIO::ViewTransform::Create(OCIO::REFERENCE_SPACE_SCENE);
     view->setName(name);

@@ -40,6 +40,10 @@ constexpr double false_colour_stops = 6.5;  ///< the scale ends this far below a
 /// yellow, orange, red, white: brighter. Beyond the scale as at its ends.
 glm::dvec3 false_colour(double stops);
 
+/// OpenColorIO's built-in transform of this style.
+OCIO_NAMESPACE::TransformRcPtr builtin_transform(
+    const char* style, OCIO_NAMESPACE::TransformDirection direction = OCIO_NAMESPACE::TRANSFORM_DIR_FORWARD);
+
 /// Adds to the shipped configuration the views whose curves and tables no configuration file can hold: "Constant Hue",
 /// which becomes the default, "AgX" and "False Colour". All are OpenColorIO's own transforms, run by its CPU and GPU
 /// code.

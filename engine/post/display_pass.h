@@ -24,15 +24,15 @@ struct DisplaySelection {
 
 /// From the working space (the configuration's scene_linear) to the encoded values of a display: exposure, the view's
 /// looks (gamut compression), the view transform, the display's encoding. NaN input becomes 0, and input is clamped
-/// to the half floats' ±65504; output is not clamped. This is the CPU reference, and the source of the code that
-/// DisplayPass runs on the GPU.
+/// to the range of half floats, ±65504; output is not clamped. This is the CPU reference, and the source of the code
+/// that DisplayPass runs on the GPU.
 class DisplayTransform {
  public:
-    /// Throws Error (input) if there is no such display or view (the message lists those there are and names the
+    /// Throws Error (input) if there is no such display or view (the message lists the existing ones and names the
     /// nearest), no scene_linear role, or a file the view needs is missing.
     explicit DisplayTransform(const OcioConfig& config, const DisplaySelection& selection = {});
 
-    /// Replaces scene-linear pixels by display values. Not for two threads at once on one object.
+    /// Replaces scene-linear pixels by display values. Not thread-safe.
     void apply_cpu(std::span<glm::vec3> pixels, float exposure_stops = 0.0F) const;
 
     const std::string& display() const { return selection_.display; }
@@ -47,23 +47,23 @@ class DisplayTransform {
     OCIO_NAMESPACE::ConstCPUProcessorRcPtr cpu_;
 };
 
-/// Noise below one step of the screen, so that slow gradients show no bands.
+/// Noise of at most half a quantisation step, against bands in slow gradients.
 struct DitherSettings {
     int bits = 8;  ///< of a channel of the target, 1 to 12
 };
 
-/// The last pass: adds noise to display values, the same in all channels so that greys stay grey. It is evenly
-/// distributed between -½ and ½ (never either) steps of the target, so that the mean of rounded values is the value,
-/// and the same for the same pixel and frame on every machine: the fractional parts of an additive lattice of pixels,
-/// with the 2D golden ratio (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences"), which fills
-/// small areas as evenly as blue noise; frames advance by the golden ratio. 0 and 1 stay as they are.
+/// The last pass: adds noise to display values, the same in all channels so that greys stay grey. It is uniform in the
+/// open interval of ±½ quantisation step, so that the mean of the rounded values is the value. It depends on pixel and
+/// frame alone, on every machine: the fractional parts of an additive recurrence over pixels with the 2D golden ratio
+/// (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences"), which fills small areas as evenly as blue
+/// noise; frames advance by the golden ratio. 0 and 1 round to themselves.
 class DitherPass {
  public:
     /// `library` must hold post::shader_files().
     explicit DitherPass(const gpu::ShaderLibrary& library);
 
-    /// Writes display values with noise; alpha is kept. The source must be finer than the target: RGBA16 or RGBA32F.
-    /// The target must not be larger than the source.
+    /// Writes display values with noise; alpha is kept. The source must hold more bits than the target: RGBA16 or
+    /// RGBA32F. The target must not be larger than the source.
     void draw(const gpu::Texture& source, std::uint32_t frame, const DitherSettings& settings,
               const gpu::Framebuffer& target) const;
 
@@ -88,7 +88,7 @@ class DisplayPass {
     /// target must not be larger than the source.
     void draw(const gpu::Texture& source, float exposure_stops, const gpu::Framebuffer& target) const;
 
-    /// A table of the transform's code.
+    /// A look-up texture that the transform's shader reads.
     struct Lut {
         std::string sampler;
         gpu::Texture texture;

@@ -171,12 +171,6 @@ namespace {
 constexpr const char* aces_interchange = "aces_interchange";
 constexpr const char* xyz_interchange = "cie_xyz_d65_interchange";
 
-OCIO::TransformRcPtr builtin(const char* style) {
-    const OCIO::BuiltinTransformRcPtr transform = OCIO::BuiltinTransform::Create();
-    transform->setStyle(style);
-    return transform;
-}
-
 OCIO::TransformRcPtr between_spaces(const char* from, const char* to) {
     const OCIO::ColorSpaceTransformRcPtr transform = OCIO::ColorSpaceTransform::Create();
     transform->setSrc(from);
@@ -192,11 +186,11 @@ bool is_scene_space(const OcioConfig& config, const char* role) {
 /// ACEScg → scene_linear as OpenColorIO sees it.
 OCIO::GroupTransformRcPtr acescg_to_scene_linear_transform(const OcioConfig& config) {
     OCIO::GroupTransformRcPtr group = OCIO::GroupTransform::Create();
-    group->appendTransform(builtin("ACEScg_to_ACES2065-1"));
+    group->appendTransform(builtin_transform("ACEScg_to_ACES2065-1"));
     if (is_scene_space(config, aces_interchange)) {
         group->appendTransform(between_spaces(aces_interchange, OCIO::ROLE_SCENE_LINEAR));
     } else if (is_scene_space(config, xyz_interchange)) {
-        group->appendTransform(builtin("UTILITY - ACES-AP0_to_CIE-XYZ-D65_BFD"));
+        group->appendTransform(builtin_transform("UTILITY - ACES-AP0_to_CIE-XYZ-D65_BFD"));
         group->appendTransform(between_spaces(xyz_interchange, OCIO::ROLE_SCENE_LINEAR));
     } else {
         log_warning("{}: no role {}, so scene_linear is taken to be ACEScg; add the role if it is not", config.source(),

@@ -63,7 +63,7 @@ float PostStack::automatic_stops(const gpu::Texture& picture, const PostSettings
     AutoExposurePass& pass = made(auto_exposure_, *library_);
     const bool waits = settings.wait_for_exposure || !automatic_stops_;
     // Of earlier frames: never this one's, however fast the GPU is.
-    std::optional<MeanLuminance> measured = pass.take();
+    std::optional<MeanLog2Luminance> measured = pass.take();
     pass.start(picture, frame.luminance_weights, automatic.darkest);
     passes_ += pass.passes();
     if (waits) measured = pass.wait();

@@ -41,15 +41,15 @@ struct Draw {
     bool skinned = false;
     std::size_t first_joint = 0;
     SurfaceFeatures features = 0;
-    const gpu::Program* program = nullptr;         ///< null if it is not drawn in the main pass
-    const gpu::Program* coat_program = nullptr;    ///< MaterialType::coat_program(), or null
-    const gpu::Program* depth_program = nullptr;   ///< null if it is not drawn into the depth of occlusion
-    const gpu::Program* shadow_program = nullptr;  ///< null if no light casts its shadow
-    std::size_t block_offset = 0;                  ///< of its ObjectBlock, bytes
-    float distance2 = 0.0F;                        ///< from the eye to the bounds' centre, squared
-    const PictureColumns* columns = nullptr;       ///< null: all
-    std::optional<ecs::Entity> reflects = {};      ///< the group of its ReflectsObjects
-    const ObjectReflection* reflection = nullptr;  ///< of that group
+    const gpu::Program* program = nullptr;          ///< null if it is not drawn in the main pass
+    const gpu::Program* overlay_program = nullptr;  ///< MaterialType::overlay_program(), or null
+    const gpu::Program* depth_program = nullptr;    ///< null if it is not drawn into the depth of occlusion
+    const gpu::Program* shadow_program = nullptr;   ///< null if no light casts its shadow
+    std::size_t block_offset = 0;                   ///< of its ObjectBlock, bytes
+    float distance2 = 0.0F;                         ///< from the eye to the bounds' centre, squared
+    const PictureColumns* columns = nullptr;        ///< null: all
+    std::optional<ecs::Entity> reflects = {};       ///< the group of its ReflectsObjects
+    const ObjectReflection* reflection = nullptr;   ///< of that group
 };
 
 struct DrawList {

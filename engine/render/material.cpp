@@ -12,7 +12,7 @@ namespace rowland::render {
 
 namespace {
 
-/// The name of the nearest named node at or above an entity; a number where there is none.
+/// For messages: the name of the nearest named node at or above an entity, else the entity's number.
 std::string entity_name(ecs::World& world, ecs::Entity entity) {
     for (const ecs::Entity* at = &entity; at != nullptr && world.alive(*at);) {
         const auto* label = world.find<scene::NodeMetadata>(*at);
@@ -38,23 +38,22 @@ void MaterialType::attach(ecs::World& /*world*/, ecs::Entity /*entity*/, const M
     ROWLAND_CHECK(false, "attach() on a material type without a glTF extension, for " + extension.pointer);
 }
 
-std::optional<gpu::ProgramDesc> MaterialType::coat_program(ecs::World& /*world*/, ecs::Entity /*entity*/) const {
+std::optional<gpu::ProgramDesc> MaterialType::overlay_program(ecs::World& /*world*/, ecs::Entity /*entity*/) const {
     return std::nullopt;
 }
 
-void MaterialType::bind_coat(ecs::World& /*world*/, ecs::Entity /*entity*/, const gpu::Program& /*program*/) const {
-    ROWLAND_CHECK(false, "bind_coat() on a material type without coats");
+void MaterialType::bind_overlay(ecs::World& /*world*/, ecs::Entity /*entity*/, const gpu::Program& /*program*/) const {
+    ROWLAND_CHECK(false, "bind_overlay() on a material type without overlay_program()");
 }
 
 const MaterialType* owner_of(ecs::World& world, ecs::Entity entity,
                              std::span<const std::unique_ptr<MaterialType>> types, const std::string& file,
-                             const std::string& pointer) {
+                             const std::string& json_pointer) {
     const MaterialType* owner = nullptr;
     for (const auto& type : types) {
         if (!type->owns(world, entity)) continue;
         if (owner != nullptr)
-            refuse_input(file,
-                         pointer.empty() ? entity_name(world, entity) : pointer + ", " + entity_name(world, entity),
+            refuse_input(file, (json_pointer.empty() ? "" : json_pointer + ", ") + entity_name(world, entity),
                          fmt::format("both {} and {}", owner->name(), type->name()), "at most one material type",
                          "remove one of the two from this surface");
         owner = type.get();

@@ -41,7 +41,7 @@ struct StandardMaterial {
     float occlusion_strength = 1.0F;
     SurfaceTexture emissive_texture = {};
     scene::AlphaMode alpha_mode = scene::AlphaMode::Opaque;
-    bool passes_light = false;  ///< the material type says how much of what lies behind is seen, in place of alpha
+    bool passes_light = false;  ///< the material type's background_weight() replaces alpha
     float alpha_cutoff = 0.5F;
     bool double_sided = false;
     bool unlit = false;       ///< shows base colour and emission, independent of light
@@ -115,22 +115,22 @@ class MaterialType {
     virtual bool owns(ecs::World& world, ecs::Entity entity) const = 0;
     /// The program that draws an owned entity; equal descriptions share one.
     virtual gpu::ProgramDesc program(ecs::World& world, ecs::Entity entity) const = 0;
-    /// A second program that is drawn over the first, of an owned entity that passes light; nullopt: none.
-    virtual std::optional<gpu::ProgramDesc> coat_program(ecs::World& world, ecs::Entity entity) const;
+    /// A second program, with which an owned entity that passes light is drawn again, over itself; nullopt: none.
+    virtual std::optional<gpu::ProgramDesc> overlay_program(ecs::World& world, ecs::Entity entity) const;
     /// Once a frame, before anything is drawn: updates per-object data.
     virtual void update(ecs::World& world, const FrameLight& light) = 0;
-    /// Changes in each update() after which an entity looks different, though neither it nor the light has moved.
+    /// update() changes it when an entity looks different though neither it nor the light has moved.
     virtual std::uint64_t version() const { return 0; }
     /// Binds what an owned entity's program reads. The program is in use.
     virtual void bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const = 0;
-    /// The same for coat_program().
-    virtual void bind_coat(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const;
+    /// The same for overlay_program().
+    virtual void bind_overlay(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const;
 };
 
-/// The type that draws an entity; null: the engine's own surface. `file` and `pointer` (empty: the entity's name) are
-/// for messages. Throws Error (input) that names both types if two own it.
+/// The type that draws an entity; null: the engine's own surface. `file` and `json_pointer` (empty: the
+/// entity's name) are for messages. Throws Error (input) that names both types if two own it.
 const MaterialType* owner_of(ecs::World& world, ecs::Entity entity,
                              std::span<const std::unique_ptr<MaterialType>> types, const std::string& file,
-                             const std::string& pointer = {});
+                             const std::string& json_pointer = {});
 
 }  // namespace rowland::render

@@ -191,7 +191,7 @@ void Renderer::select_draws(ecs::World& world, Frame& frame) {
         }
         // Also for what is not seen yet, so that no later frame waits for a compiler.
         const gpu::Program& program = program_of(world, draw);
-        draw.coat_program = coat_program_of(world, draw);
+        draw.overlay_program = overlay_program_of(world, draw);
         if (frame.occlusion && (draw.features & feature::kAlphaBlend) == 0)
             draw.depth_program = &surface_program(kShadowShader, of_shadow(draw.features) | feature::kFromEye);
         if (!frustum.may_see(draw.bounds)) {
@@ -344,9 +344,9 @@ void Renderer::draw_pass(ecs::World& world, const std::vector<const Draw*>& draw
         if (draw->type != nullptr) draw->type->bind(world, draw->entity, *draw->program);
         if ((draw->features & feature::kObjectReflections) != 0) draw->reflection->bind(*draw->program);
         draw->mesh->draw();
-        if (draw->coat_program == nullptr) continue;
-        draw->coat_program->use();
-        draw->type->bind_coat(world, draw->entity, *draw->coat_program);
+        if (draw->overlay_program == nullptr) continue;
+        draw->overlay_program->use();
+        draw->type->bind_overlay(world, draw->entity, *draw->overlay_program);
         draw->mesh->draw();
     }
 }
@@ -365,9 +365,9 @@ const gpu::Program& Renderer::program_of(ecs::World& world, const Draw& draw) {
     return programs_.get(desc);
 }
 
-const gpu::Program* Renderer::coat_program_of(ecs::World& world, const Draw& draw) {
+const gpu::Program* Renderer::overlay_program_of(ecs::World& world, const Draw& draw) {
     if (draw.type == nullptr || (draw.features & feature::kPassesLight) == 0) return nullptr;
-    std::optional<gpu::ProgramDesc> desc = draw.type->coat_program(world, draw.entity);
+    std::optional<gpu::ProgramDesc> desc = draw.type->overlay_program(world, draw.entity);
     if (!desc) return nullptr;
     add_defines(draw.features, *desc);
     return &programs_.get(*desc);

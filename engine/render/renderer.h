@@ -130,7 +130,7 @@ class Renderer {
     void draw_sky();
     void bind_surface(const Draw& draw) const;
     const gpu::Program& program_of(ecs::World& world, const Draw& draw);
-    const gpu::Program* coat_program_of(ecs::World& world, const Draw& draw);
+    const gpu::Program* overlay_program_of(ecs::World& world, const Draw& draw);
     const gpu::Program& surface_program(const char* shader, SurfaceFeatures features);
 
     glm::dmat3 xyz_to_working_;

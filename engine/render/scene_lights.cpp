@@ -18,7 +18,7 @@ namespace rowland::render {
 
 namespace {
 
-scene::Bounds around(const scene::Bounds& a, const scene::Bounds& b) {
+scene::Bounds merged(const scene::Bounds& a, const scene::Bounds& b) {
     return {glm::min(a.minimum, b.minimum), glm::max(a.maximum, b.maximum)};
 }
 
@@ -35,14 +35,14 @@ scene::Bounds transformed(const scene::Bounds& box, const glm::mat4& matrix) {
 
 std::optional<scene::Bounds> united(std::span<const scene::Bounds> boxes) {
     std::optional<scene::Bounds> all;
-    for (const scene::Bounds& box : boxes) all = all ? around(*all, box) : box;
+    for (const scene::Bounds& box : boxes) all = all ? merged(*all, box) : box;
     return all;
 }
 
 scene::Bounds posed_bounds(const scene::Bounds& box, std::span<const glm::mat4> joints) {
     if (joints.empty()) return box;
     scene::Bounds all = transformed(box, joints.front());
-    for (const glm::mat4& joint : joints.subspan(1)) all = around(all, transformed(box, joint));
+    for (const glm::mat4& joint : joints.subspan(1)) all = merged(all, transformed(box, joint));
     return all;
 }
 
@@ -141,10 +141,10 @@ std::vector<DistantLight> distant_lights(ecs::World& world) {
 
 namespace {
 
-constexpr float kMarginTexels = 4.0F;  ///< empty border at each edge, for the filter, the lift and the snapping
+constexpr float kMarginTexels = 4.0F;  ///< empty at each edge: for filtering, SHADOW_LIFT and snapping to texels
 
-/// The next step of 2^¼ that is not smaller.
-float in_steps(float length) {
+/// `length` rounded up to a power of 2^¼.
+float round_up(float length) {
     return std::exp2(std::ceil(4.0F * std::log2(length)) / 4.0F);
 }
 
@@ -154,7 +154,7 @@ glm::mat3 light_axes(const glm::vec3& toward_light) {
     return glm::transpose(glm::mat3(x, glm::cross(toward_light, x), toward_light));
 }
 
-/// The overlap of both across the light, with the casters' depth; `seen` where they do not overlap.
+/// Intersection of both across the light, at the casters' depth; `seen` if it is empty.
 scene::Bounds shadowed_region(const scene::Bounds& casters, const scene::Bounds& seen) {
     scene::Bounds region{glm::max(casters.minimum, seen.minimum), glm::min(casters.maximum, seen.maximum)};
     if (region.minimum.x > region.maximum.x || region.minimum.y > region.maximum.y) region = seen;
@@ -166,7 +166,7 @@ scene::Bounds shadowed_region(const scene::Bounds& casters, const scene::Bounds&
 }  // namespace
 
 Sphere around_view(const scene::Camera& camera, float aspect, float far_distance) {
-    const float far = in_steps(std::clamp(far_distance, camera.near_plane * 1.01F, camera.far_plane));
+    const float far = round_up(std::clamp(far_distance, camera.near_plane * 1.01F, camera.far_plane));
     const float near = camera.near_plane;
     const float half_height = std::tan(0.5F * camera.vertical_field_of_view);
     const float corner2 = half_height * half_height * (1.0F + aspect * aspect);  // (distance from the axis / depth)²
@@ -186,13 +186,13 @@ ShadowView fit_shadow(const glm::vec3& toward_light, std::span<const scene::Boun
     ROWLAND_CHECK_OP(size, >=, 32);
     const glm::mat3 axes = light_axes(toward_light);
     scene::Bounds cast = transformed(casters.front(), glm::mat4(axes));
-    for (const scene::Bounds& caster : casters.subspan(1)) cast = around(cast, transformed(caster, glm::mat4(axes)));
+    for (const scene::Bounds& caster : casters.subspan(1)) cast = merged(cast, transformed(caster, glm::mat4(axes)));
     const glm::vec3 centre = axes * seen.centre;
     const scene::Bounds region = shadowed_region(cast, {centre - seen.radius, centre + seen.radius});
 
     const auto texels = static_cast<float>(size);
     const glm::vec3 extent = region.maximum - region.minimum;
-    const float side = in_steps(std::max({extent.x, extent.y, 1e-4F}) * texels / (texels - 2.0F * kMarginTexels));
+    const float side = round_up(std::max({extent.x, extent.y, 1e-4F}) * texels / (texels - 2.0F * kMarginTexels));
     const float texel = side / texels;
     const glm::vec2 middle = glm::floor(0.5F * glm::vec2(region.minimum + region.maximum) / texel) * texel;
     const float slack = texel + 1e-3F * extent.z;  // surfaces that face the light lie at one depth

@@ -21,11 +21,11 @@ namespace rowland::render {
 /// Axis-parallel box around a transformed box [Arvo 1990].
 scene::Bounds transformed(const scene::Bounds& box, const glm::mat4& matrix);
 
-/// Around all of them; null if there are none.
+/// Smallest box around all boxes; nullopt if there are none.
 std::optional<scene::Bounds> united(std::span<const scene::Bounds> boxes);
 
-/// Around a skinned mesh in a pose: a vertex is a weighted mean of its positions under single joints, so the joints'
-/// boxes contain it.
+/// Box around a skinned mesh in a pose: a vertex is a weighted mean of its positions under single joints, so the
+/// joints' boxes contain it.
 scene::Bounds posed_bounds(const scene::Bounds& box, std::span<const glm::mat4> joints);
 
 /// A camera's view volume as six planes that face inward [Gribb & Hartmann 2001].
@@ -50,7 +50,7 @@ struct SceneLights {
     SurfaceFeatures features() const;
 };
 
-/// A light's WorldMatrix, if it has one, moves and turns it.
+/// All lights in world axes, each transformed by its WorldMatrix if it has one.
 SceneLights gather_lights(ecs::World& world, const glm::dmat3& rec709_to_working);
 
 /// All directional lights, also those that gather_lights() drops.
@@ -61,25 +61,25 @@ struct Sphere {
     float radius = 0.0F;
 };
 
-/// Around what a camera sees up to `far_distance` along its axis; the same size however the camera turns and moves.
+/// Sphere around the view volume up to `far_distance` along its axis; its size does not depend on the camera's pose.
 Sphere around_view(const scene::Camera& camera, float aspect, float far_distance);
 
-/// How a parallel shadow map looks at the scene.
+/// Orthographic view of the scene from a directional light.
 struct ShadowView {
     glm::mat4 world_to_clip{1.0F};
     float texel_m = 1.0F;  ///< width of a texel in the world
 
-    /// Whether the box casts into the map, at any depth.
+    /// Whether the box overlaps the map across the light, at any depth.
     bool may_see(const scene::Bounds& box) const;
 };
 
 /// Fits a square map of `size` texels to the casters whose shadow can be seen: their boxes' extent across the light,
-/// cut to the seen sphere's. Depth spans all casters, so none is lost. Sizes are rounded to steps of 2^¼ and the
-/// position to whole texels, so that a shadow's edge does not crawl as camera and casters move.
+/// clipped to that of the sphere `seen`. Depth spans all casters, so none is lost. Sizes are rounded to steps of 2^¼
+/// and the position to whole texels, so that a shadow's edge does not crawl as camera and casters move.
 ShadowView fit_shadow(const glm::vec3& toward_light, std::span<const scene::Bounds> casters, const Sphere& seen,
                       int size);
 
-/// The half-shadow of a light that is a disc: percentage-closer soft shadows (Fernando 2005). The mean depth of what
+/// Penumbra of a disc light: percentage-closer soft shadows (Fernando 2005). The mean depth of what
 /// blocks the light about a point gives the width over which comparisons with the shadow map are averaged, as by
 /// similar triangles; a tilted surface is compared with its own plane. Exact under one straight edge; where several
 /// blockers lie at different depths, one mean stands for all.

@@ -52,7 +52,7 @@ void fill(const Mesh& mesh, draco::Mesh& target) {
         target.SetFace(draco::FaceIndex(i),
                        {draco::PointIndex(corner[0]), draco::PointIndex(corner[1]), draco::PointIndex(corner[2])});
     }
-    // In the order of DracoIds.
+    // The order gives the attributes the numbers in DracoIds.
     add_attribute(target, draco::GeometryAttribute::POSITION, mesh.positions);
     add_attribute(target, draco::GeometryAttribute::NORMAL, mesh.normals);
     // The bitstream has no type for tangents (KHR_draco_mesh_compression, "Conformance").
@@ -97,13 +97,13 @@ Bounds decoded_bounds(std::span<const char> stream, std::size_t vertex_count) {
     return box;
 }
 
-/// A float with the fewest digits that distinguish it from its neighbours.
-double few_digits(float x) {
+/// The shortest decimal number that rounds to the float.
+double shortest_decimal(float x) {
     return std::stod(fmt::format("{}", x));
 }
 
-std::vector<double> few_digits(const glm::vec3& v) {
-    return {few_digits(v.x), few_digits(v.y), few_digits(v.z)};
+std::vector<double> shortest_decimal(const glm::vec3& v) {
+    return {shortest_decimal(v.x), shortest_decimal(v.y), shortest_decimal(v.z)};
 }
 
 /// Adds an accessor whose values a Draco stream holds; returns its index.
@@ -133,8 +133,8 @@ gltf::Primitive add_primitive(gltf::Model& model, const Mesh& mesh, const DracoS
         ids[attribute.name] = gltf::Value(attribute.id);
     }
     gltf::Accessor& positions = model.accessors[static_cast<std::size_t>(primitive.attributes["POSITION"])];
-    positions.minValues = few_digits(stream.bounds.minimum);
-    positions.maxValues = few_digits(stream.bounds.maximum);
+    positions.minValues = shortest_decimal(stream.bounds.minimum);
+    positions.maxValues = shortest_decimal(stream.bounds.maximum);
     primitive.indices =
         add_accessor(model, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR, mesh.indices.size());
     primitive.extensions[kDracoExtension] =

@@ -101,10 +101,10 @@ constexpr NumberRange kEmission{.minimum = 0.0, .maximum = 1e6};
 constexpr NumberRange kNotNegative{.minimum = 0.0, .maximum = std::numeric_limits<float>::max()};
 // The sun has 1e5 lux; a light of more than a million suns is a mistake.
 constexpr NumberRange kIntensity{.minimum = 0.0, .maximum = 1e12};
-constexpr NumberRange kLightRange{.minimum = 0.0, .maximum = 1e12, .minimum_open = true};
-constexpr NumberRange kInnerCone{.minimum = 0.0, .maximum = std::numbers::pi / 2.0, .maximum_open = true};
+constexpr NumberRange kLightRange{.minimum = 0.0, .maximum = 1e12, .exclusive_minimum = true};
+constexpr NumberRange kInnerCone{.minimum = 0.0, .maximum = std::numbers::pi / 2.0, .exclusive_maximum = true};
 // Exporters write π / 2 in digits that may round up.
-constexpr NumberRange kOuterCone{.minimum = 0.0, .maximum = std::numbers::pi / 2.0 + 1e-6, .minimum_open = true};
+constexpr NumberRange kOuterCone{.minimum = 0.0, .maximum = std::numbers::pi / 2.0 + 1e-6, .exclusive_minimum = true};
 // Outside these ranges floats cannot resolve the projection.
 constexpr NumberRange kFieldOfView{.minimum = 1e-4, .maximum = std::numbers::pi - 1e-4};
 constexpr NumberRange kPlane{.minimum = 1e-9, .maximum = 1e12};

@@ -1,4 +1,4 @@
-// Primitives of a glTF file as meshes.
+// Imports primitives of a glTF file as meshes.
 
 #include <fmt/format.h>
 
@@ -122,7 +122,7 @@ void finish_weights(const PrimitiveImport& import, Skinning& skinning) {
             weights = glm::vec4(1.0F, 0.0F, 0.0F, 0.0F);
             import.warn("vertices without joint weights were given to their first joint");
         }
-        // An unused slot may name anything.
+        // The joint of a slot of weight 0 may be any number.
         for (int k = 0; k < 4; ++k)
             if (weights[k] == 0.0F) skinning.joints[i][k] = 0;
     }
@@ -198,7 +198,7 @@ void read_vertices(const PrimitiveImport& import, Mesh& mesh) {
         if (!is_finite(position)) import.fail("a position that is infinite or not a number", "finite positions");
 }
 
-/// The primitive's vertex indices as they stand, each checked.
+/// The primitive's vertex indices as stored, each checked to be below `vertex_count`.
 std::vector<std::uint32_t> read_corners(const PrimitiveImport& import, std::size_t vertex_count) {
     std::vector<std::uint32_t> corners;
     if (import.draco) {
@@ -217,7 +217,7 @@ std::vector<std::uint32_t> read_corners(const PrimitiveImport& import, std::size
     return corners;
 }
 
-/// Strips and fans become lists with the same winding (glTF 2.0, 3.7.2.1).
+/// Converts strips and fans to triangle lists of the same winding (glTF 2.0, 3.7.2.1).
 std::vector<std::uint32_t> triangle_list(const PrimitiveImport& import, int mode, std::vector<std::uint32_t> corners) {
     if (mode == TINYGLTF_MODE_TRIANGLES) {
         if (corners.size() % 3 != 0) import.fail(fmt::format("{} triangle corners", corners.size()), "a multiple of 3");
@@ -294,7 +294,7 @@ Mesh import_primitive(const GltfDocument& document, const gltf::Primitive& primi
     // A Draco stream holds a list of triangles, whatever the mode says.
     const int mode = import.draco ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
     mesh.indices = triangle_list(import, mode, read_corners(import, mesh.positions.size()));
-    // The steps below add at most normals, tangents and uvs, and hold the tangents' sums for a moment.
+    // The steps below add at most normals, tangents and uvs, and hold the tangents' sums temporarily.
     budget.spend(mesh.positions.size(), sizeof(glm::vec3) + sizeof(glm::vec4) + sizeof(glm::vec2), pointer);
     budget.require_left(mesh.positions.size(), 6 * sizeof(double), pointer);
     finish_uvs(import, mesh);

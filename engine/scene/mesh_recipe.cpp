@@ -126,7 +126,7 @@ MeshRecipe parse_disc(JsonReader& reader) {
     DiscRecipe recipe;
     recipe.inner_radius = reader.number("inner_radius", {.minimum = 0.0, .maximum = kMeshLength.maximum});
     recipe.outer_radius = reader.number("outer_radius", kMeshLength);
-    if (recipe.outer_radius <= recipe.inner_radius && !reader.records())
+    if (recipe.outer_radius <= recipe.inner_radius && !reader.is_recording_schema())
         reader.fail("outer_radius", fmt::format("{}", recipe.outer_radius),
                     fmt::format("more than inner_radius, {}", recipe.inner_radius));
     recipe.rings = count_or(reader, "rings", recipe.rings, 1);

@@ -15,37 +15,36 @@ namespace rowland::scene {
 namespace {
 
 /// Computes each world matrix once, without recursion: a scene from a file may hold chains of parents of any depth.
-class Placement {
+class WorldMatrices {
  public:
-    explicit Placement(ecs::World& world) : world_(world) {}
+    explicit WorldMatrices(ecs::World& world) : world_(world) {}
 
     void update(ecs::Entity entity) {
-        glm::mat4 above = collect_chain(entity);
+        glm::mat4 matrix = collect_chain(entity);
         for (; !chain_.empty(); chain_.pop_back()) {
             const ecs::Entity next = chain_.back();
             state_of(next) = State::Unknown;
             const Transform* transform = world_.find<Transform>(next);
             if (transform == nullptr) continue;
-            above *= transform->matrix();
-            world_.add(next, WorldMatrix{above});
-            state_of(next) = State::Placed;
+            matrix *= transform->matrix();
+            world_.add(next, WorldMatrix{matrix});
+            state_of(next) = State::Known;
         }
     }
 
  private:
-    enum class State : std::uint8_t { Unknown, InChain, Placed };
+    enum class State : std::uint8_t { Unknown, InChain, Known };
 
     State& state_of(ecs::Entity entity) {
         if (entity.index >= states_.size()) states_.resize(std::size_t{entity.index} + 1, State::Unknown);
         return states_[entity.index];
     }
 
-    /// Fills the chain with `entity` and its ancestors, up to the root or to one that is placed; returns the latter's
-    /// matrix.
+    /// Fills chain_ with `entity` and its ancestors up to one with a known matrix; returns that, else the identity.
     glm::mat4 collect_chain(ecs::Entity entity) {
         while (world_.alive(entity)) {
             State& state = state_of(entity);
-            if (state == State::Placed) return world_.get<WorldMatrix>(entity).matrix;
+            if (state == State::Known) return world_.get<WorldMatrix>(entity).matrix;
             ROWLAND_CHECK(state != State::InChain, "transforms form a cycle");
             state = State::InChain;
             chain_.push_back(entity);
@@ -68,13 +67,13 @@ glm::mat4 Transform::matrix() const {
 }
 
 void update_world_matrices(ecs::World& world) {
-    Placement placement(world);
-    world.view<Transform>().each([&placement](ecs::Entity entity, Transform&) { placement.update(entity); });
+    WorldMatrices matrices(world);
+    world.view<Transform>().each([&matrices](ecs::Entity entity, Transform&) { matrices.update(entity); });
 }
 
 namespace {
 
-// Relative to the largest axis. Files hold floats, some written with six digits.
+// Tolerance relative to the largest axis: files hold floats, some written with six digits.
 constexpr double kRounding = 1e-5;
 
 /// The unit vector along the part of `axis` perpendicular to `x` and `y`, which are unit or zero; zero if there is
@@ -85,15 +84,15 @@ glm::dvec3 perpendicular_part(glm::dvec3 axis, const glm::dvec3& x, const glm::d
     axis /= length;
     axis -= glm::dot(axis, x) * x;
     axis -= glm::dot(axis, y) * y;
-    const double left = glm::length(axis);
-    return left > kRounding ? axis / left : glm::dvec3(0.0);
+    const double remaining = glm::length(axis);
+    return remaining > kRounding ? axis / remaining : glm::dvec3(0.0);
 }
 
 bool is_zero(const glm::dvec3& v) {
     return v == glm::dvec3(0.0);
 }
 
-/// A right-handed rotation along those of the matrix's axes that have a direction.
+/// Right-handed rotation whose axes follow the columns that are not zero.
 glm::dmat3 rotation_along(const glm::dmat3& linear) {
     const glm::dvec3 none(0.0);
     glm::dvec3 x = perpendicular_part(linear[0], none, none);

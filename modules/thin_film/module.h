@@ -4,7 +4,7 @@
 
 namespace rowland::thin_film {
 
-/// Makes the renderer draw entities that have a FilmSurface, and read KHR_materials_iridescence.
+/// Registers the material type that draws entities with a FilmSurface and reads glTF's KHR_materials_iridescence.
 void register_module(render::Renderer& renderer);
 
 }  // namespace rowland::thin_film

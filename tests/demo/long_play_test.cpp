@@ -55,10 +55,11 @@ std::vector<PlayEvent> events_of(int frame) {
     if (frame == 14) return {button(false)};
     if (frame >= 15 && frame < 19) return {demo::ActionEvent{Action::AddLight}};
     if (frame >= 25 && frame < 29) return {demo::ActionEvent{Action::RemoveLight}};
-    constexpr std::array kOthers{Action::Bloom,        Action::NextProbe,    Action::Lamp,       Action::TurnLightLeft,
-                                 Action::AutoExposure, Action::Lamp,         Action::Bloom,      Action::TurnLightLeft,
-                                 Action::SlowMotion,   Action::AutoExposure, Action::SlowMotion, Action::Vignette,
-                                 Action::Vignette};
+    constexpr std::array kOthers{
+        Action::Bloom,        Action::NextProbe,    Action::Lamp,       Action::TurnEnvironmentLeft,
+        Action::AutoExposure, Action::Lamp,         Action::Bloom,      Action::TurnEnvironmentLeft,
+        Action::SlowMotion,   Action::AutoExposure, Action::SlowMotion, Action::Vignette,
+        Action::Vignette};
     if (frame >= 30 && frame - 30 < static_cast<int>(kOthers.size()))
         return {demo::ActionEvent{kOthers[static_cast<std::size_t>(frame - 30)]}};
     return {};

@@ -177,8 +177,8 @@ void Hud::measure_pixel() {
     ecs::World& world = session_.play().world();
     const ecs::Entity grating = under_cursor->grating;
     const Side side = side_of_pointer();
-    target_ = PixelTarget{
-        .object = name_of_object(world, grating), .look = look_name(comparison.look(grating, side)), .refusal = {}};
+    target_ = PixelTarget{.object = name_of_object(world, grating),
+                          .representation = look_name(comparison.look(grating, side))};
     if (world.get<diffraction::DiffractionSurface>(grating).grooves) {
         target_->refusal = "not measured: its grooves vary over the surface";
         return;
@@ -197,7 +197,7 @@ void Hud::measure_pixel() {
 
 /// Writes the frame, for rowland-trade, and the reading.
 void Hud::write_pixel() {
-    if (!target_ || !meter_.current()) {
+    if (!target_ || !meter_.is_up_to_date()) {
         log_info("no pixel to write: {}", target_ ? "it is being measured" : "point at a grating");
         return;
     }

@@ -143,9 +143,9 @@ void light_panel(const Panel& panel) {
     std::vector<std::string> probes;
     for (const std::filesystem::path& path : probe_paths(panel.options)) probes.push_back(path.stem().string());
     text_choice(panel, Setting::Probe, "probe", probes, panel.session.probe_path().stem().string());
-    action_button(panel, Action::TurnLightLeft, " < ");
+    action_button(panel, Action::TurnEnvironmentLeft, " < ");
     ImGui::SameLine();
-    action_button(panel, Action::TurnLightRight, " > ");
+    action_button(panel, Action::TurnEnvironmentRight, " > ");
     ImGui::SameLine();
     ImGui::Text("environment at %.0f°", play.environment_turn() * 180.0 / std::numbers::pi);
     action_button(panel, Action::RemoveLight, " - ");

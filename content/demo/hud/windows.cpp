@@ -52,11 +52,11 @@ void pass_table(const std::vector<gpu::PassTime>& passes) {
         cpu_ms += pass.cpu_ms;
         if (pass.gpu_ms) gpu_ms = gpu_ms.value_or(0.0) + *pass.gpu_ms;
     }
-    pass_row("together", cpu_ms, gpu_ms);
+    pass_row("total", cpu_ms, gpu_ms);
     ImGui::EndTable();
 }
 
-/// Roughly what a display shows, with `white` as white.
+/// Approximate display colour of linear `rgb`; `white` maps to 1.
 ImVec4 swatch(const glm::dvec3& rgb, double white) {
     const auto encoded = [white](double linear) {
         return static_cast<float>(std::pow(std::clamp(linear / white, 0.0, 1.0), 1.0 / 2.2));
@@ -195,13 +195,13 @@ bool pixel_window(const PixelTarget* target, const PixelMeter& meter, const glm:
         if (target == nullptr) {
             ImGui::TextDisabled("point at a grating to measure its pixel");
         } else {
-            ImGui::Text("%s, %s", target->object.c_str(), target->look.c_str());
+            ImGui::Text("%s, %s", target->object.c_str(), target->representation.c_str());
             ImGui::SameLine();
-            ImGui::TextDisabled(meter.current() ? "under the probe" : "measuring…");
-            const std::string& refusal = target->refusal.empty() ? meter.failure() : target->refusal;
-            if (!refusal.empty()) {
+            ImGui::TextDisabled(meter.is_up_to_date() ? "under the probe" : "measuring…");
+            const std::string& problem = target->refusal.empty() ? meter.failure() : target->refusal;
+            if (!problem.empty()) {
                 ImGui::PushTextWrapPos(24.0F * ImGui::GetFontSize());
-                ImGui::TextUnformatted(refusal.c_str());
+                ImGui::TextUnformatted(problem.c_str());
                 ImGui::PopTextWrapPos();
             } else if (meter.reading()) {
                 reading_table(*meter.reading(), xyz_to_working);
@@ -239,7 +239,7 @@ std::optional<double> wipe_handle(float line, const std::string& left, const std
     list->AddLine({x + 1.0F, 0.0F}, {x + 1.0F, size.y}, IM_COL32(0, 0, 0, 160), 3.0F);
     list->AddLine({x, 0.0F}, {x, size.y}, colour, 1.5F);
     list->AddCircleFilled({x, 0.5F * size.y}, kHandleRadius, colour);
-    // Below the title of the folded panel.
+    // Below the title of the collapsed panel.
     const float top = 10.0F + 1.5F * ImGui::GetFrameHeight();
     draw_label(list, x - 8.0F, top, left, true);
     draw_label(list, x + 8.0F, top, right, false);

@@ -10,26 +10,26 @@
 
 namespace rowland::demo {
 
-/// Every control and what it does.
+/// Draws the window that lists every control.
 void help_window(bool& open);
 
-/// Recent frame times, and the CPU and GPU time of each pass of the latest frame.
+/// Draws recent frame times, and the CPU and GPU time of each pass of the latest frame.
 void frame_window(const platform::FrameTimes& times, const std::vector<gpu::PassTime>& passes, bool& open);
 
 /// The grating under the cursor.
 struct PixelTarget {
     std::string object;
-    std::string look;
-    std::string refusal;  ///< why it is not measured; empty if it is
+    std::string representation;
+    std::string refusal{};  ///< why it is not measured; empty if it is
 };
-/// The error of the pixel under the cursor. Returns whether "write" was pressed.
+/// Draws the error of the pixel under the cursor; without a target, a hint. Returns whether "write" was pressed.
 bool pixel_window(const PixelTarget* target, const PixelMeter& meter, const glm::dmat3& xyz_to_working);
 
-/// The line between two looks, at `line` of the width, and their names beside it. Returns its position, or nullopt
-/// unless dragged.
+/// Draws the line between two representations, at `line` of the width, and their names beside it. Returns the line's
+/// new position while it is dragged, else nullopt.
 std::optional<double> wipe_handle(float line, const std::string& left, const std::string& right);
 
-/// A line at the bottom with the most important keys.
+/// Draws a line at the bottom with the most important keys.
 void key_hints();
 
 /// Resident set size of the process; 0 where the system does not say.

@@ -15,18 +15,18 @@ namespace rowland::demo {
 
 using diffraction::DiffractionSurface;
 
-/// Component of a grating.
+/// Component of a grating: its looks, and the materials that show them.
 struct Comparison::Looks {
     Look left;
     Look right;
-    GpuMaterialPointer own{};                       ///< the object's own material
-    GpuMaterialPointer assigned{};                  ///< by us, last: a different one now is a new own material
-    GpuMaterialPointer of_right{};                  ///< shown by the copy
-    std::shared_ptr<const gpu::Texture> picture{};  ///< that picture_material shows
-    GpuMaterialPointer picture_own{};               ///< the `own` that picture_material was made for
-    GpuMaterialPointer picture_material{};          ///< shows `picture` in place of `own`
+    GpuMaterialPointer own{};               ///< the object's own material
+    GpuMaterialPointer assigned{};          ///< by the last update(); if the surface has another, that is its new `own`
+    GpuMaterialPointer right_material{};    ///< shown by the copy
+    GpuMaterialPointer picture_material{};  ///< shows `picture` in place of `picture_own`
+    std::shared_ptr<const gpu::Texture> picture{};
+    GpuMaterialPointer picture_own{};
     std::shared_ptr<const scene::Mesh> mesh{};
-    bool flat = false;  ///< that mesh
+    bool flat = false;  ///< `mesh` lies in a plane
     std::optional<ecs::Entity> copy{};
 };
 
@@ -48,7 +48,7 @@ std::vector<ecs::Entity> Comparison::gratings() {
         .each([&](ecs::Entity entity, const DiffractionSurface&, const render::MeshInstance&) {
             found.push_back(entity);
         });
-    // A wipe reorders the world's components; a list keeps the order of creation.
+    // By creation, as a wipe reorders the world's components.
     std::ranges::sort(found, {}, [](ecs::Entity entity) { return entity.index; });
     return found;
 }
@@ -105,7 +105,7 @@ LookSubject Comparison::subject(ecs::Entity grating) {
 
 GpuMaterialPointer Comparison::shown(ecs::Entity grating, Side side) {
     const Looks& looks = looks_of_grating(grating);
-    return side == Side::Right && looks.of_right ? looks.of_right : looks.assigned;
+    return side == Side::Right && looks.right_material ? looks.right_material : looks.assigned;
 }
 
 void Comparison::update() {
@@ -129,9 +129,9 @@ void Comparison::show(ecs::Entity grating) {
 GpuMaterialPointer Comparison::material_of_copy(ecs::Entity grating) {
     Looks& looks = looks_of_grating(grating);
     const auto& grooves = world_.get<DiffractionSurface>(grating).grooves;
-    if (!looks.of_right) looks.of_right = looks.own;
-    if (const auto wanted = variants_.find(looks.own, grooves, looks.flat, looks.right)) looks.of_right = wanted;
-    if (!reference_picture_ || grooves) return looks.of_right;
+    if (!looks.right_material) looks.right_material = looks.own;
+    if (const auto wanted = variants_.find(looks.own, grooves, looks.flat, looks.right)) looks.right_material = wanted;
+    if (!reference_picture_ || grooves) return looks.right_material;
     if (looks.picture != reference_picture_ || looks.picture_own != looks.own) {
         looks.picture = reference_picture_;
         looks.picture_own = looks.own;
@@ -165,7 +165,7 @@ void Comparison::remove_copy(ecs::Entity grating) {
     if (!looks.copy) return;
     const ecs::Entity copy = *looks.copy;
     looks.copy.reset();
-    looks.of_right.reset();
+    looks.right_material.reset();
     if (world_.alive(copy)) world_.destroy(copy);
     if (world_.find<render::PictureColumns>(grating) != nullptr) world_.remove<render::PictureColumns>(grating);
 }

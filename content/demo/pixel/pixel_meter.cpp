@@ -9,12 +9,13 @@
 
 namespace rowland::demo {
 
-FullResolutionProbe load_whole_probe(const std::filesystem::path& path, const std::string& mapping,
-                                     const std::filesystem::path& recipes) {
-    if (path.extension() != ".probe") return lighting::load_whole_probe(path, mapping);
+FullResolutionProbe load_full_resolution_probe(const std::filesystem::path& path, const std::string& mapping,
+                                               const std::filesystem::path& recipes) {
+    if (path.extension() != ".probe") return lighting::load_full_resolution_probe(path, mapping);
     const std::filesystem::path name = path.stem().replace_extension(".json");
     for (const std::filesystem::path& folder : {recipes, path.parent_path() / "recipes"})
-        if (std::filesystem::is_regular_file(folder / name)) return lighting::load_whole_probe(folder / name, mapping);
+        if (std::filesystem::is_regular_file(folder / name))
+            return lighting::load_full_resolution_probe(folder / name, mapping);
     refuse_input(path.string(), "", "a cooked probe without its recipe " + (recipes / name).string(),
                  "the light at full resolution", "give the probe's image or recipe");
 }
@@ -45,7 +46,8 @@ struct PixelMeter::Lit {
     PixelReading measure(const PixelQuery& query) {
         if (!comparer || source != query.probe) {
             comparer.reset();
-            FullResolutionProbe probe = load_whole_probe(query.probe.path, query.probe.mapping, query.probe.recipes);
+            FullResolutionProbe probe =
+                load_full_resolution_probe(query.probe.path, query.probe.mapping, query.probe.recipes);
             key_light_limit = probe.key_lights;
             comparer.emplace(std::move(probe.image), probe.key_lights);
             source = query.probe;

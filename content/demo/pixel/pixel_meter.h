@@ -19,8 +19,8 @@ using lighting::FullResolutionProbe;
 /// The whole probe of an image file (`mapping` "equirect" or "angular"), or of a recipe. For a cooked probe, that of
 /// the recipe of its name in `recipes`, or in the folder "recipes" beside it. Throws Error (input), also if there is
 /// none.
-FullResolutionProbe load_whole_probe(const std::filesystem::path& path, const std::string& mapping,
-                                     const std::filesystem::path& recipes);
+FullResolutionProbe load_full_resolution_probe(const std::filesystem::path& path, const std::string& mapping,
+                                               const std::filesystem::path& recipes);
 
 /// The probe under which points are measured.
 struct PixelProbe {
@@ -64,7 +64,7 @@ class PixelMeter {
 
     /// The last result, perhaps of an earlier query; null before the first.
     const PixelReading* reading() const { return reading_.value(); }
-    bool current() const { return wanted_ && reading_.is_of(*wanted_); }
+    bool is_up_to_date() const { return wanted_ && reading_.is_of(*wanted_); }
     /// Why the last query has no result; empty if it has, or may get one.
     const std::string& failure() const { return failure_; }
 

@@ -113,7 +113,7 @@ class ReferenceWork {
         : view_(view),
           stop_(stop),
           publish_(publish),
-          probe_(load_whole_probe(view.probe.path, view.probe.mapping, view.probe.recipes)),
+          probe_(load_full_resolution_probe(view.probe.path, view.probe.mapping, view.probe.recipes)),
           points_(visible_points(view.camera, view.size, view.meshes)),
           xyz_(points_.size(), glm::vec4(0.0F)),
           steps_(points_.size(), 0),

@@ -15,7 +15,7 @@ namespace rowland::demo {
 /// What a key press does.
 enum class Action {
     // clang-format off
-    Walk, ResetView, PutBack, Pause, SlowMotion, OneStep, AddLight, RemoveLight, TurnLightLeft, TurnLightRight,
+    Walk, ResetView, PutBack, Pause, SlowMotion, OneStep, AddLight, RemoveLight, TurnEnvironmentLeft, TurnEnvironmentRight,
     Lamp, NextProbe, NextView, LessExposure, MoreExposure, Bloom, Vignette, AutoExposure, Dither, Glare,
     Help, Hud, FrameGraph, NextLook, NextDetail, Wipe, Reference, WritePixel,
     Reload, LinearScreenshot, FullScreen, Screenshot, Close,

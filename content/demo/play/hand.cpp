@@ -11,9 +11,9 @@ namespace rowland::demo {
 
 namespace {
 
-constexpr double kMemory_s = 0.05;    ///< over which the hand's speed is averaged: mice report less often than we step
-constexpr double kSmallestBall = 40;  ///< pixels; small objects must not spin fast at a touch
-constexpr double kWheelPush = 3.0;    ///< radians per second a notch
+constexpr double kVelocityTimeConstant_s = 0.05;  ///< mice report less often than we step
+constexpr double kMinBallRadius_px = 40;          ///< small objects must not spin fast at a touch
+constexpr double kWheelPush = 3.0;                ///< radians per second a notch
 
 /// A node's rotation to the world, without the scales.
 glm::dquat rotation_to_world(ecs::World& world, ecs::Entity node) {
@@ -24,7 +24,7 @@ glm::dquat rotation_to_world(ecs::World& world, ecs::Entity node) {
     return glm::normalize(rotation);
 }
 
-glm::dvec3 limited(const glm::dvec3& spin) {
+glm::dvec3 clamp_spin(const glm::dvec3& spin) {
     const double speed = glm::length(spin);
     return speed > kFastestSpin ? spin * (kFastestSpin / speed) : spin;
 }
@@ -41,25 +41,25 @@ Hand::Hand(ecs::World& world, std::size_t index, Body& body, const glm::vec3& po
     const double depth = std::max(1e-6, glm::dot(glm::dvec3(point - camera.eye), forward));
     metres_per_pixel_ = 2.0 * depth * std::tan(0.5 * static_cast<double>(camera.vertical_field_of_view)) /
                         static_cast<double>(window_height);
-    radius_ = std::max(static_cast<double>(body.radius), kSmallestBall * metres_per_pixel_);
+    radius_ = std::max(static_cast<double>(body.radius), kMinBallRadius_px * metres_per_pixel_);
     const glm::vec3 centre = glm::vec3(object_to_world(world, body.node) * glm::vec4(body.centre, 1.0F));
-    taken_ = glm::inverse(rotation_to_world(world, body.node)) * glm::dvec3(point - centre);
+    grab_offset_ = glm::inverse(rotation_to_world(world, body.node)) * glm::dvec3(point - centre);
     body.state.touched = true;
     body.state.spin = glm::dvec3(0.0);
 }
 
-glm::dvec3 Hand::ball_turn(const glm::dvec2& drag) const {
+glm::dvec3 Hand::trackball_rotation(const glm::dvec2& drag) const {
     return (drag.y * right_ + drag.x * up_) * (metres_per_pixel_ / radius_);
 }
 
-glm::dvec3 Hand::own_turn(const Body& body, const glm::dvec2& drag, const glm::dquat& to_world) const {
+glm::dvec3 Hand::own_axis_rotation(const Body& body, const glm::dvec2& drag, const glm::dquat& to_world) const {
     const glm::dvec3 axis = to_world * own_axis(body);
-    const glm::dvec3 arm = to_world * (rotation_of(body) * taken_);
+    const glm::dvec3 arm = to_world * (rotation_of(body) * grab_offset_);
     const glm::dvec3 motion = (drag.x * right_ - drag.y * up_) * metres_per_pixel_;
-    const glm::dvec3 along = glm::cross(axis, arm);  // motion of the point per radian
+    const glm::dvec3 tangent = glm::cross(axis, arm);  // velocity of the grabbed point per radian
     // Near the axis a short drag would be a large angle.
     const double shortest = 0.3 * radius_;
-    return axis * (glm::dot(motion, along) / std::max(glm::dot(along, along), shortest * shortest));
+    return axis * (glm::dot(motion, tangent) / std::max(glm::dot(tangent, tangent), shortest * shortest));
 }
 
 void Hand::move(ecs::World& world, Body& body, const HandMove& move, double seconds) {
@@ -67,19 +67,19 @@ void Hand::move(ecs::World& world, Body& body, const HandMove& move, double seco
     const glm::dvec2 drag(move.drag);
     glm::dvec3 turned(0.0);  // radians, world
     if (drag != glm::dvec2(0.0)) {
-        turned = move.about_own_axis ? own_turn(body, drag, to_world) : ball_turn(drag);
+        turned = move.about_own_axis ? own_axis_rotation(body, drag, to_world) : trackball_rotation(drag);
         if (!move.about_own_axis) body.state.raised = true;
     }
     const glm::dvec3 in_parent = glm::inverse(to_world) * turned;
     if (const double angle = glm::length(in_parent); angle > 0.0) turn(body, glm::angleAxis(angle, in_parent / angle));
-    velocity_ += (in_parent / seconds - velocity_) * -std::expm1(-seconds / kMemory_s);
+    velocity_ += (in_parent / seconds - velocity_) * -std::expm1(-seconds / kVelocityTimeConstant_s);
     if (move.wheel != 0.0F)
-        body.state.spin = limited(body.state.spin + own_axis(body) * (kWheelPush * static_cast<double>(move.wheel)));
+        body.state.spin = clamp_spin(body.state.spin + own_axis(body) * (kWheelPush * static_cast<double>(move.wheel)));
 }
 
 void Hand::let_go(Body& body) const {
     constexpr double kStill = 0.3;  // radians per second: a resting hand trembles
-    if (glm::length(velocity_) > kStill) body.state.spin = limited(body.state.spin + velocity_);
+    if (glm::length(velocity_) > kStill) body.state.spin = clamp_spin(body.state.spin + velocity_);
 }
 
 }  // namespace rowland::demo

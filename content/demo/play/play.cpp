@@ -27,7 +27,7 @@ constexpr std::array<glm::vec3, 8> kColours = {{{1.38F, 0.92F, 0.52F},   // cand
                                                 {0.77F, 0.88F, 2.87F},   // violet
                                                 {1.0F, 1.0F, 1.0F},      // white
                                                 {0.95F, 1.1F, 0.22F}}};  // lime
-constexpr float kIrradiance = 1.5F;                                      ///< at the reach
+constexpr float kIrradiance = 1.5F;                                      ///< at a distance of `reach`
 
 }  // namespace
 
@@ -62,7 +62,7 @@ using platform::MouseButton;
 
 constexpr double kStep_s = 1.0 / kStepsPerSecond;
 constexpr double kSlowMotion = 0.1;
-constexpr int kStepsOfOneStep = kStepsPerSecond / 30;
+constexpr int kStepsPerFrameAdvance = kStepsPerSecond / 30;
 constexpr double kEnvironmentTurn = 5.0 / 180.0 * std::numbers::pi;
 // A held key acts again after 0.4 s, and from then on ten times a second.
 constexpr int kStepsToRepeat = kStepsPerSecond * 2 / 5;
@@ -84,8 +84,8 @@ Play::Play(ecs::World& world, Toys toys, const scene::Camera& start, const scene
     update_nodes();
 }
 
-void Play::set_pose(Pose pose) {
-    pose_ = std::move(pose);
+void Play::set_animation(Animate animate) {
+    animate_ = std::move(animate);
     update_nodes();
 }
 
@@ -95,7 +95,7 @@ void Play::set_toys(Toys toys) {
         for (const Body& before : toys_.bodies)
             if (before.name == body.name) body.state = before.state;
     toys_ = std::move(toys);
-    turn_environment(0.0);
+    turn_environment(0.0);  // applies turn_ to the new root
     update_nodes();
 }
 
@@ -156,7 +156,7 @@ bool Play::perform(Action action) {
             return true;
         case Action::OneStep:
             paused_ = true;
-            extra_steps_ += kStepsOfOneStep;
+            extra_steps_ += kStepsPerFrameAdvance;
             return true;
         case Action::AddLight:
             add_light();
@@ -164,10 +164,10 @@ bool Play::perform(Action action) {
         case Action::RemoveLight:
             if (lights_.remove(world_)) log_info("{} lights", light_count(world_));
             return true;
-        case Action::TurnLightLeft:
+        case Action::TurnEnvironmentLeft:
             turn_environment(kEnvironmentTurn);
             return true;
-        case Action::TurnLightRight:
+        case Action::TurnEnvironmentRight:
             turn_environment(-kEnvironmentTurn);
             return true;
         default:
@@ -210,7 +210,7 @@ std::optional<std::size_t> Play::held_body() const {
 }
 
 glm::dvec2 Play::pointer() const {
-    // Walking, or with a game pad, the player points at the middle.
+    // While walking, or grabbing by game pad, the player points at the middle.
     const bool middle = walking() || input_.gamepad_button(kPadGrab).down;
     return middle ? 0.5 * glm::dvec2(window_) : input_.mouse_position();
 }
@@ -244,16 +244,16 @@ bool Play::move_hand() {
                         .wheel = static_cast<float>(input_.scroll().y),
                         .about_own_axis = input_.key(key_of(Held::Spin)).down};
     const bool released = !button.down && !pad.down;
-    // A step with only the release does not tell the hand's speed.
+    // A step whose only event is the release has no motion: skipping it keeps the velocity of the throw.
     if (!released || move.drag != glm::vec2(0.0F)) hand_->move(world_, toys_.bodies[hand_->body()], move, kStep_s);
     if (released) let_go();
     return true;
 }
 
 void Play::advance_time() {
-    const int whole_steps = paused_ ? std::min(extra_steps_, 1) : 1;
-    extra_steps_ = paused_ ? extra_steps_ - whole_steps : 0;
-    const double seconds = kStep_s * whole_steps * (slow_ ? kSlowMotion : 1.0);
+    const int advances = paused_ ? std::min(extra_steps_, 1) : 1;
+    extra_steps_ = paused_ ? extra_steps_ - advances : 0;
+    const double seconds = kStep_s * advances * (slow_ ? kSlowMotion : 1.0);
     time_s_ += seconds;
     for (Body& body : toys_.bodies) {
         if (seconds > 0.0) demo::step(body, seconds);
@@ -262,12 +262,12 @@ void Play::advance_time() {
 }
 
 void Play::update_nodes() {
-    if (pose_) pose_(*this);
+    if (animate_) animate_(*this);
     for (const Body& body : toys_.bodies)
         if (world_.alive(body.node)) update_node(world_, body);
 }
 
-void Play::rest() {
+void Play::move_to_rest_pose() {
     for (const Body& body : toys_.bodies)
         if (world_.alive(body.node)) world_.get<scene::Transform>(body.node) = body.rest;
 }
@@ -278,7 +278,7 @@ void Play::put_back() {
 }
 
 void Play::add_light() {
-    // In front of what is pointed at, far enough from it to light a good part of what is in view.
+    // On the ray, nearer to the eye than the hit point by a quarter of the distance, and raised by half as much.
     constexpr float kReachInDistances = 0.25F;
     const scene::Camera seen_from = camera();
     const Ray ray = ray_through(seen_from, pointer(), window_);
@@ -295,7 +295,7 @@ void Play::add_light() {
 
 void Play::turn_environment(double radians) {
     turn_ = std::remainder(turn_ + radians, 2.0 * std::numbers::pi);
-    // The environment stays, and everything else turns the other way: the picture is the same.
+    // The root turns the other way, objects and camera with it: the picture is that of a turned environment.
     world_.get<scene::Transform>(toys_.root).rotation = glm::quat(glm::angleAxis(-turn_, glm::dvec3(0.0, 1.0, 0.0)));
 }
 

@@ -58,21 +58,21 @@ struct Toys {
 class Play {
  public:
     /// Called in each step before bodies are placed: moves everything that is a function of time_s().
-    using Pose = std::function<void(const Play&)>;
+    using Animate = std::function<void(const Play&)>;
 
     /// `world` must outlive the play. `room`: where the player may walk. `window`: as for ResizeEvent.
     Play(ecs::World& world, Toys toys, const scene::Camera& start, const scene::Bounds& room, glm::ivec2 window);
 
-    void set_pose(Pose pose);
+    void set_animation(Animate animate);
     /// After the scene was reloaded: bodies keep the state of the earlier ones of the same name.
     void set_toys(Toys toys);
 
     /// Moves all bodies to their rest pose until the next step, for measuring the scene itself.
-    void rest();
-    /// Moves everything to its present pose.
+    void move_to_rest_pose();
+    /// Moves everything to its pose of this step.
     void update_nodes();
 
-    /// One step, with what the user did meanwhile.
+    /// One step, with the user's events since the last.
     void step(std::span<const PlayEvent> events);
     /// The commands since the last call that the caller must carry out, in order.
     using Command = std::variant<Action, SettingEvent>;
@@ -117,7 +117,7 @@ class Play {
     Toys toys_;
     CameraControl camera_;
     glm::ivec2 window_;
-    Pose pose_;
+    Animate animate_;
     platform::InputState input_;
     std::vector<Command> commands_;
     PlayerLights lights_;
@@ -125,9 +125,9 @@ class Play {
     std::vector<int> held_steps_;  ///< for how many steps each action's key has been down
     bool paused_ = false;
     bool slow_ = false;
-    int extra_steps_ = 0;  ///< to simulate while paused
+    int extra_steps_ = 0;  ///< still to advance while paused
     double time_s_ = 0.0;
-    double turn_ = 0.0;
+    double turn_ = 0.0;  ///< environment_turn()
     std::uint64_t steps_ = 0;
 };
 

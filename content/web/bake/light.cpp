@@ -11,29 +11,29 @@
 
 namespace rowland::web {
 
-/// A probe, its key lights, once they are found, and its samples without them.
+/// A probe, its key lights once they are fitted, and its samples without them.
 struct Probe {
     lighting::ProbeImage image;
     std::vector<lighting::KeyLight> keys;
-    lighting::LightSamples rest;
+    lighting::LightSamples light;
 };
 
 /// `texels`: linear Rec.709, row 0 at the top; released here.
 ROWLAND_EXPORT(read_probe) Probe* read_probe(glm::vec3* texels, int width, int height) {
     image::Image image{width, height, std::vector<glm::vec3>(texels, texels + width * height)};
     std::free(texels);
-    auto* probe = new Probe{.image = {std::move(image), lighting::Mapping::Equirectangular}, .keys = {}, .rest = {}};
-    probe->rest = lighting::light_samples(probe->image, probe->keys);
+    auto* probe = new Probe{.image = {std::move(image), lighting::Mapping::Equirectangular}, .keys = {}, .light = {}};
+    probe->light = lighting::light_samples(probe->image, probe->keys);
     return probe;
 }
 
 /// Takes lights of fit_key_lights() out of the probe.
 ROWLAND_EXPORT(use_key_lights) void use_key_lights(Probe* probe, const float* keys, int count) {
     probe->keys = key_lights_of(keys, count);
-    probe->rest = lighting::light_samples(probe->image, probe->keys);
+    probe->light = lighting::light_samples(probe->image, probe->keys);
 }
 
-/// The brightest parts of an image, kKeyLightNumbers each. `texels`: as of read_probe(). A second.
+/// Key lights of an image, kKeyLightNumbers each. `texels`: as of read_probe(). Takes about a second.
 ROWLAND_EXPORT(fit_key_lights)
 Numbers* fit_key_lights(glm::vec3* texels, int width, int height, int count) {
     image::Image image{width, height, std::vector<glm::vec3>(texels, texels + width * height)};
@@ -67,16 +67,16 @@ ROWLAND_EXPORT(key_lobes) Numbers* key_lobes(const Probe* probe) {
     return numbers;
 }
 
-/// The map of a plane, flat lobe: e1, e2, scale and bias of the pitch, then RGB over azimuths, views and pitches.
-/// `resolution`: views, even; azimuths are twice as many. `pitches`: from `smallest` to `largest` of the material's, or
-/// 1: that alone.
+/// The `planar` map of the flat lobe: e1, e2, scale and bias of the pitch, then RGB over azimuths, views and pitches.
+/// `resolution`: views, even; azimuths are twice as many. `pitches`: number of steps from `smallest` to `largest` times
+/// the material's pitch, or 1: its pitch alone.
 ROWLAND_EXPORT(planar_map)
 Numbers* planar_map(const Material* material, const Probe* probe, double x, double y, double z, int resolution,
                     double smallest, double largest, int pitches) {
     diffraction::PlanarMapSize size = diffraction::planar_map_size(resolution);
     if (pitches > 1) size.pitch = diffraction::PitchAxis{.smallest = smallest, .largest = largest, .nodes = pitches};
     const diffraction::PlanarMap map = diffraction::fill_planar_map(
-        probe->rest, in_space(material->kernel, xyz_to_working()), material->grating().pitch_nm, glm::dvec3(x, y, z),
+        probe->light, in_space(material->kernel, xyz_to_working()), material->grating().pitch_nm, glm::dvec3(x, y, z),
         size, xyz_to_working() * material->zero_order_xyz, material->grating().cover);
     auto* numbers = new Numbers;
     append(glm::vec3(map.e1), *numbers);
@@ -86,8 +86,8 @@ Numbers* planar_map(const Material* material, const Probe* probe, double x, doub
     return numbers;
 }
 
-/// The map of a plane, other lobes: e1, e2, lobe_map_axes, width, height, depth, whether it holds the half turn alone;
-/// then RGB.
+/// The `planar` map of other lobes: e1, e2, lobe_map_axes, width, height, depth, whether its azimuths span only half a
+/// turn; then RGB.
 ROWLAND_EXPORT(lobe_map)
 Numbers* lobe_map(const Material* material, const Probe* probe, double x, double y, double z, int azimuths, int views_g,
                   int views_h) {
@@ -96,7 +96,7 @@ Numbers* lobe_map(const Material* material, const Probe* probe, double x, double
         diffraction_pattern(material->grating(), colour::LightSpectra(material->source.material.quality.illuminant)),
         xyz_to_working());
     const LobeMap map =
-        fill_lobe_map(probe->rest, LobeSpectrum(pattern, {.g = views_g, .h = views_h}), glm::dvec3(x, y, z), azimuths);
+        fill_lobe_map(probe->light, LobeSpectrum(pattern, {.g = views_g, .h = views_h}), glm::dvec3(x, y, z), azimuths);
     const int depth = slices(map.size, map.half_turn);
     auto* numbers = new Numbers;
     append(glm::vec3(map.axes.e1), *numbers);

@@ -1,4 +1,4 @@
-// The ground truth of a pixel: the sum over wavelengths along arcs of the probe itself.
+// The reference radiance of points: sums over wavelengths of integrals along arcs of the full-resolution probe.
 #include "modules/diffraction/reference/reference.h"
 
 #include <cstdlib>
@@ -23,14 +23,14 @@ ROWLAND_EXPORT(release_image) void release_image(const lighting::ProbeImage* ima
 ROWLAND_EXPORT(reference_radiance)
 Numbers* reference_radiance(const Material* material, const lighting::ProbeImage* image, const float* points,
                             int count) {
-    std::vector<diffraction::ShadingPoint> frames;
+    std::vector<diffraction::ShadingPoint> shaded;
     for (int i = 0; i < count; ++i, points += 9)
-        frames.push_back({.view = {points[0], points[1], points[2]},
+        shaded.push_back({.view = {points[0], points[1], points[2]},
                           .normal = {points[3], points[4], points[5]},
                           .grating = {points[6], points[7], points[8]}});
     auto* numbers = new Numbers;
     for (const glm::dvec3& xyz : diffraction::reference_radiance(
-             material->grating(), *image, colour::LightSpectra(material->source.material.quality.illuminant), frames))
+             material->grating(), *image, colour::LightSpectra(material->source.material.quality.illuminant), shaded))
         append(glm::vec3(xyz_to_working() * xyz), *numbers);
     return numbers;
 }

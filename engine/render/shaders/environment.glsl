@@ -6,8 +6,8 @@ TEXTURE_UNIT(1) uniform sampler2D brdf_table;
 in vec3 ambient_at_vertex;
 #endif
 
-// A GGX lobe's albedo for reflectance 1 - (1 - cosine)^5 and for (1 - cosine)^5.
-vec2 lobe_albedo(float n_v, float roughness) { return texture(brdf_table, vec2(n_v, roughness)).rg; }
+// Split-sum scale and bias [Karis 2013]: a GGX lobe's albedo for reflectance 1 - (1 - cosine)^5 and for (1 - cosine)^5.
+vec2 split_sum_dfg(float n_v, float roughness) { return texture(brdf_table, vec2(n_v, roughness)).rg; }
 
 // Where the light of a GGX lobe comes from in the mean: between the mirror's direction and the normal [Lagarde & de
 // Rousiers 2014, 4.9.2]. Prefiltered light has the lobe of a surface seen from in front. Under eight captured probes the
@@ -93,13 +93,13 @@ vec3 plane_albedo(vec2 at, float footprint) {
     return mat3(rec709_to_working) * (plane_colour.rgb * texel);
 }
 
-// What the plane's own lobe reflects of the environment toward the mirror.
+// The plane's reflection of the environment toward the mirror.
 vec3 plane_gloss(vec3 direction, float visibility) {
     float roughness = plane_normal.w;
-    vec2 split = textureLod(brdf_table, vec2(-dot(direction, plane_normal.xyz), roughness), 0.0).rg;
+    vec2 dfg = textureLod(brdf_table, vec2(-dot(direction, plane_normal.xyz), roughness), 0.0).rg;
     vec3 seen = lobe_direction(plane_normal.xyz, -direction, roughness);
     vec3 light = textureLod(environment_map, seen, environment_level(roughness)).rgb * environment.y;
-    return light * ((0.04 * split.x + split.y) * visibility);
+    return light * ((0.04 * dfg.x + dfg.y) * visibility);
 }
 
 // The light from a direction: that of the plane, if the ray meets it, in place of the environment's. A rough surface

@@ -13,7 +13,7 @@ struct MaterialTerms {
     vec3 added;          // the material's own radiance
 };
 
-// The surface at a pixel, and what it reflects of all lights.
+// The surface at a pixel, and its radiance under the lights that were added.
 struct LitSurface {
     vec3 n;
     vec3 v;
@@ -23,11 +23,11 @@ struct LitSurface {
     float n_v;       // signed
     float facing;    // n_v above 0
     float masking;   // Smith's term of the view
-    vec3 radiance;
-#ifdef MATERIAL_GLOSS
-    float gloss_alpha2;   // of the layer on top
-    float gloss_masking;
-    vec3 gloss;           // what it reflects
+    vec3 radiance;   // without the coat's
+#ifdef MATERIAL_COAT
+    float coat_alpha2;   // of the layer on top
+    float coat_masking;
+    vec3 coat;           // its radiance
 #endif
 };
 
@@ -38,7 +38,7 @@ float microfacets(float n_h, float n_l, float alpha2, float facing, float maskin
     return 0.5 / PI * alpha2 / (d * d * max(shadowing, 1e-6));
 }
 
-// Adds what the surface reflects of a light of this irradiance (on what faces it). l and v are unit vectors, so
+// Adds the reflection of a light of this irradiance, measured on a surface that faces it. l and v are unit vectors, so
 // |l + v|² = 2 + 2 l·v.
 void add_light(vec3 irradiance, vec3 l, inout LitSurface surface) {
     float v_l = dot(surface.v, l);
@@ -48,9 +48,9 @@ void add_light(vec3 irradiance, vec3 l, inout LitSurface surface) {
     float v_h = clamp((1.0 + v_l) * inverse_length, 0.0, 1.0);
     n_l = max(n_l, 0.0);
     float density = microfacets(n_h, n_l, surface.alpha2, surface.facing, surface.masking);
-#ifdef MATERIAL_GLOSS
-    surface.gloss += microfacets(n_h, n_l, surface.gloss_alpha2, surface.facing, surface.gloss_masking) *
-                     gloss_reflectance(v_h) * n_l * irradiance;
+#ifdef MATERIAL_COAT
+    surface.coat += microfacets(n_h, n_l, surface.coat_alpha2, surface.facing, surface.coat_masking) *
+                     coat_reflectance(v_h) * n_l * irradiance;
 #endif
 #ifdef MATERIAL_SPECULAR
     vec3 specular = reflect_specular(irradiance, surface.f0, v_h) * density;
@@ -69,18 +69,17 @@ float punctual_attenuation(Light light, float distance2, float inverse, vec3 l) 
     return window * cone * cone;
 }
 
-// What the surface reflects. `added`: radiance of the material's own, to which it and a layer on top add their parts of
-// the lights.
+// Radiance of the metallic-roughness base under the lights. Those of the material and of its coat go to `added`.
 vec3 direct_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness, inout vec3 added) {
     float alpha2 = max(roughness * roughness * roughness * roughness, 1e-6);
     float n_v = dot(n, v);
     float facing = max(n_v, 1e-4);
     float masking = sqrt(facing * facing * (1.0 - alpha2) + alpha2);
-#ifdef MATERIAL_GLOSS
-    float gloss_alpha2 = pow(max(gloss_roughness(), 0.04), 4.0);
+#ifdef MATERIAL_COAT
+    float coat_alpha2 = pow(max(coat_roughness(), 0.04), 4.0);
     LitSurface surface =
-        LitSurface(n, v, diffuse / PI, f0, alpha2, n_v, facing, masking, vec3(0.0), gloss_alpha2,
-                   sqrt(facing * facing * (1.0 - gloss_alpha2) + gloss_alpha2), vec3(0.0));
+        LitSurface(n, v, diffuse / PI, f0, alpha2, n_v, facing, masking, vec3(0.0), coat_alpha2,
+                   sqrt(facing * facing * (1.0 - coat_alpha2) + coat_alpha2), vec3(0.0));
 #else
     LitSurface surface = LitSurface(n, v, diffuse / PI, f0, alpha2, n_v, facing, masking, vec3(0.0));
 #endif
@@ -114,8 +113,8 @@ vec3 direct_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness, inout 
 #endif
     }
 #endif
-#ifdef MATERIAL_GLOSS
-    added += surface.gloss;
+#ifdef MATERIAL_COAT
+    added += surface.coat;
 #endif
     return surface.radiance;
 }
@@ -123,10 +122,10 @@ vec3 direct_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness, inout 
 vec3 direct_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness, inout vec3 added) { return vec3(0.0); }
 #endif
 
-// What the lobe reflects of the environment. `split`: lobe_albedo().
+// The lobe's reflection of the environment. `dfg`: split_sum_dfg().
 #ifdef ROUGH_REFLECTIONS
-// The light of each part of the lobe, as microfacets at that part's angle reflect it.
-vec3 lobe_reflection(vec3 n, vec3 v, vec3 f0, float n_v, float roughness, vec2 split) {
+// Sum over parts of the lobe: the light of a part times the reflectance of microfacets at its angle.
+vec3 lobe_reflection(vec3 n, vec3 v, vec3 f0, float n_v, float roughness, vec2 dfg) {
     LobeNodes nodes = lobe_nodes(n_v, roughness);
     // Narrower than the first rough level they would show the mirror's sharp lamps.
     vec4 roughnesses = max(nodes.roughnesses, min(roughness, 1.0 / environment.x));
@@ -140,26 +139,26 @@ vec3 lobe_reflection(vec3 n, vec3 v, vec3 f0, float n_v, float roughness, vec2 s
         sum += nodes.weights[i] * light * schlick_reflectance(f0, nodes.cosines[i]);
 #endif
     }
-    return sum * (split.x + split.y);
+    return sum * (dfg.x + dfg.y);
 }
 #else
-vec3 lobe_reflection(vec3 n, vec3 v, vec3 f0, float n_v, float roughness, vec2 split) {
+vec3 lobe_reflection(vec3 n, vec3 v, vec3 f0, float n_v, float roughness, vec2 dfg) {
     vec3 light = environment_light(lobe_direction(n, v, roughness), roughness);
 #if defined(MATERIAL_SPECULAR_LOBE)
-    return reflect_lobe(light, f0, n_v, roughness, split);
+    return reflect_lobe(light, f0, n_v, roughness, dfg);
 #elif defined(MATERIAL_SPECULAR)
     // The angle at which (1 - cosine)^5 equals its mean over the lobe; a smooth surface has n_v itself, which the
     // table's half floats cannot resolve near normal incidence.
-    float albedo = split.x + split.y;
-    float cosine = max(n_v, 1.0 - pow(split.y / max(albedo, 1e-6), 0.2));
+    float albedo = dfg.x + dfg.y;
+    float cosine = max(n_v, 1.0 - pow(dfg.y / max(albedo, 1e-6), 0.2));
     return reflect_specular(light, f0, min(cosine, 1.0)) * albedo;
 #else
-    return (f0 * split.x + split.y) * light;
+    return (f0 * dfg.x + dfg.y) * light;
 #endif
 }
 #endif
 
-// The metallic-roughness surface: split sum [Karis 2013] over the prefiltered probe, and the lights, whose part of the
+// The metallic-roughness surface: dfg sum [Karis 2013] over the prefiltered probe, and the lights, whose part of the
 // material's own radiance goes to `added`. `base`: colour and alpha, which becomes the fraction of what lies behind that
 // is hidden.
 vec3 base_radiance(inout vec4 base, vec3 n, vec3 v, inout vec3 added) {
@@ -177,7 +176,7 @@ vec3 base_radiance(inout vec4 base, vec3 n, vec3 v, inout vec3 added) {
     diffuse *= passing;
 #endif
 #endif
-    vec3 reflected = lobe_reflection(n, v, f0, n_v, roughness, lobe_albedo(n_v, roughness));
+    vec3 reflected = lobe_reflection(n, v, f0, n_v, roughness, split_sum_dfg(n_v, roughness));
 #ifdef AMBIENT_AT_VERTICES
     vec3 from_all_sides = ambient_at_vertex;
 #else

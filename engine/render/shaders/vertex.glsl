@@ -10,16 +10,16 @@ void main() {
     vec3 position = vertex_position;
     vec3 normal = vertex_normal;
     vec3 tangent = vertex_tangent.xyz;
-    float mirroring = map_strength.z;
+    float determinant_sign = map_strength.z;
 #ifdef SKINNED
-    mat4 posed = pose();
-    mat3 linear = mat3(posed);
+    mat4 skin = pose();
+    mat3 linear = mat3(skin);
     mat3 cofactors = mat3(cross(linear[1], linear[2]), cross(linear[2], linear[0]), cross(linear[0], linear[1]));
-    float posed_mirroring = dot(cofactors[0], linear[0]) < 0.0 ? -1.0 : 1.0;
-    position = (posed * vec4(position, 1.0)).xyz;
-    normal = posed_mirroring * (cofactors * normal);
+    float skin_determinant_sign = dot(cofactors[0], linear[0]) < 0.0 ? -1.0 : 1.0;
+    position = (skin * vec4(position, 1.0)).xyz;
+    normal = skin_determinant_sign * (cofactors * normal);
     tangent = linear * tangent;
-    mirroring *= posed_mirroring;
+    determinant_sign *= skin_determinant_sign;
 #endif
     vec4 world = object_to_world * vec4(position, 1.0);
     vec3 n = normalize(mat3(normal_to_world) * normal);
@@ -29,7 +29,7 @@ void main() {
     world_normal = n;
 #ifdef NORMAL_MAP
     // A mirroring transform flips the cross product.
-    world_tangent = vec4(g, vertex_tangent.w * mirroring);
+    world_tangent = vec4(g, vertex_tangent.w * determinant_sign);
 #endif
 #ifdef AMBIENT_AT_VERTICES
     ambient_at_vertex = ambient_light(n);

@@ -25,7 +25,7 @@ constexpr double kLeastAngle_degrees = 2.0;
 glm::dvec2 parse_side(JsonReader& json, const char* key) {
     const NumberRange range{.minimum = -kLongestSide_nm, .maximum = kLongestSide_nm};
     const auto vector = read_vector<glm::dvec2>(json, key, range);
-    if (json.records()) return vector;
+    if (json.is_recording_schema()) return vector;
     const double length = glm::length(vector);
     if (!(length >= kShortestSide_nm && length <= kLongestSide_nm))
         json.fail(key, fmt::format("a length of {} nm", length),
@@ -39,7 +39,7 @@ void parse_sides(JsonReader json, Lattice& lattice) {
     const double area = std::abs(lattice.a_nm.x * lattice.b_nm.y - lattice.a_nm.y * lattice.b_nm.x);
     const double sine = std::min(1.0, area / (glm::length(lattice.a_nm) * glm::length(lattice.b_nm)));
     const double angle_degrees = std::asin(sine) * 180.0 / std::numbers::pi;
-    if (angle_degrees < kLeastAngle_degrees && !json.records())
+    if (angle_degrees < kLeastAngle_degrees && !json.is_recording_schema())
         json.fail("b_nm", fmt::format("{:.3g} degrees between a and b", angle_degrees),
                   fmt::format("at least {} degrees", kLeastAngle_degrees),
                   "for grooves of one direction give pitch_nm instead");
@@ -47,9 +47,9 @@ void parse_sides(JsonReader json, Lattice& lattice) {
 }
 
 LatticeProfile parse_height_map(JsonReader& json, int orders, const ReadNamed& read) {
-    const double depth_nm = json.number("depth_nm", {.minimum = 0.0, .minimum_open = true});
+    const double depth_nm = json.number("depth_nm", {.minimum = 0.0, .exclusive_minimum = true});
     const std::string name = json.file_name("file", "a PNG of the heights of one cell");
-    if (json.records()) return HeightMap{};
+    if (json.is_recording_schema()) return HeightMap{};
     HeightMap map = read_height_map(read(name));
     map.depth_nm = depth_nm;
     // A picture of n texels has n distinct orders.
@@ -61,12 +61,12 @@ LatticeProfile parse_height_map(JsonReader& json, int orders, const ReadNamed& r
 
 LatticeProfile parse_lattice_profile(JsonReader json, const Lattice& lattice, const ReadNamed& read) {
     const auto length = [&](const glm::dvec2& side) {
-        return json.records() ? std::numeric_limits<double>::infinity() : glm::length(side);
+        return json.is_recording_schema() ? std::numeric_limits<double>::infinity() : glm::length(side);
     };
     const double a_nm = length(lattice.a_nm);
     const double b_nm = length(lattice.b_nm);
     const auto within = [](double side_nm) {
-        return NumberRange{.minimum = 0.0, .maximum = side_nm, .minimum_open = true};
+        return NumberRange{.minimum = 0.0, .maximum = side_nm, .exclusive_minimum = true};
     };
     LatticeProfile profile;
     json.variant("type", {"crossed", "aperture", "height_map"}, [&](JsonReader& reader, std::size_t type) {

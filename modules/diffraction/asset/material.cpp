@@ -29,7 +29,7 @@ constexpr double kLongestPit_nm = 100000.0;
 
 std::vector<int> parse_orders(JsonReader& json, double pitch_nm) {
     const nlohmann::json& value = json.raw("orders");
-    if (json.records()) {
+    if (json.is_recording_schema()) {
         json.annotate("orders", fmt::format(R"({{"oneOf": [{{"const": "all"}}, {{"type": "array", "minItems": 1,
             "uniqueItems": true, "items": {{"type": "integer", "minimum": -{0}, "maximum": {0}}}}}]}})",
                                             kHighestOrder));
@@ -59,7 +59,7 @@ std::vector<int> parse_orders(JsonReader& json, double pitch_nm) {
 }
 
 PitsLobe parse_pits(JsonReader json) {
-    const NumberRange length{.minimum = 0.0, .maximum = kLongestPit_nm, .minimum_open = true};
+    const NumberRange length{.minimum = 0.0, .maximum = kLongestPit_nm, .exclusive_minimum = true};
     const PitsLobe pits{.length_nm = json.number("length_nm", length), .coherent = json.number("coherent", kFraction)};
     json.finish();
     return pits;
@@ -69,7 +69,7 @@ PitsLobe parse_pits(JsonReader json) {
 constexpr NumberRange kSigma{.minimum = 1e-6};
 
 GrooveLobe parse_lobe(JsonReader& json) {
-    if (!json.records()) {
+    if (!json.is_recording_schema()) {
         const nlohmann::json& value = json.raw("groove_lobe");
         if (value == "flat") return FlatLobe{};
         if (!value.is_object())
@@ -88,7 +88,7 @@ GrooveLobe parse_lobe(JsonReader& json) {
 
 /// The wide orders of few grooves need the groove's spectrum between the orders, and one lobe for all wavelengths.
 void check_few_grooves(JsonReader& json, const Grating& grating) {
-    if (grating.grooves >= kManyGrooves || json.records()) return;
+    if (grating.grooves >= kManyGrooves || json.is_recording_schema()) return;
     const auto refuse = [&](const char* what, const char* why) {
         json.fail("grooves", fmt::format("{} with {}", grating.grooves, what), fmt::format("at least {}", kManyGrooves),
                   why);
@@ -200,26 +200,26 @@ Profile parse_profile(JsonReader json, double pitch_nm, const ReadNamed& read) {
         offered.push_back(&descriptor);
         names.push_back(descriptor.name);
     }
-    if (json.records()) pitch_nm = std::numeric_limits<double>::infinity();
+    if (json.is_recording_schema()) pitch_nm = std::numeric_limits<double>::infinity();
     Profile profile;
     json.variant("type", names, [&](JsonReader& reader, std::size_t type) {
         profile = offered[type]->empty;
         for (const ProfileMember& member : offered[type]->members) {
             if (member.value == nullptr) {
                 const std::string name = reader.file_name(member.key, "a CSV file of efficiencies");
-                if (reader.records()) return;
+                if (reader.is_recording_schema()) return;
                 const NamedText table = read(name);
                 profile = parse_efficiency_csv(table.text, table.file);
                 return;
             }
             NumberRange range = kPositive;
             range.maximum = member.within_pitch ? pitch_nm : member.less_than;
-            range.maximum_open = !member.within_pitch && std::isfinite(member.less_than);
+            range.exclusive_maximum = !member.within_pitch && std::isfinite(member.less_than);
             member.value(profile) = reader.number(member.key, range);
         }
     });
     json.finish();
-    return json.records() ? SlitProfile{} : profile;
+    return json.is_recording_schema() ? SlitProfile{} : profile;
 }
 
 Representation representation(const Material& material) {

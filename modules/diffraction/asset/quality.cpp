@@ -48,7 +48,7 @@ MeasuredProbe parse_probe_image(JsonReader json) {
 }
 
 std::vector<MeasuredProbe> parse_probes(JsonReader& json) {
-    if (json.records()) {
+    if (json.is_recording_schema()) {
         parse_probe_image(json.objects("probes", 1, kMostProbes)[0]);
         json.also_allows("probes/items", R"({"type": "string", "minLength": 1})");
         return {};
@@ -96,7 +96,7 @@ Quality pinned_quality(const RepresentationInfo& info, const SettingValues& valu
 void read_key_lights(JsonReader& json, const RepresentationInfo& info, Quality& quality) {
     const bool always = info.key_lights == KeyLightUse::Always;
     // Files of earlier versions say whether there are any.
-    if (!json.records() && json.has("key_lights") && json.raw("key_lights").is_boolean()) {
+    if (!json.is_recording_schema() && json.has("key_lights") && json.raw("key_lights").is_boolean()) {
         const bool any = json.boolean_or("key_lights", always);
         if (always && !any) json.fail("key_lights", "false", "true with this representation", "or leave it out");
         quality.key_lights = any ? lighting::kMaximumKeyLights : 0;
@@ -112,14 +112,14 @@ void read_key_lights(JsonReader& json, const RepresentationInfo& info, Quality& 
 Quality parse_pinned(JsonReader& json, const RepresentationInfo& info, const Grating& grating) {
     Quality quality;
     const SettingValues values(info, json);
-    if (!json.records()) {
+    if (!json.is_recording_schema()) {
         if (const auto refused = refusal(info, values, grating))
             json.fail(refused->key, refused->found, refused->expected, refused->remedy);
         quality = pinned_quality(info, values, grating);
     }
     read_key_lights(json, info, quality);
     // Maps shade directional lights one by one even where they hold the key lights.
-    if (quality.key_lights > 0 || info.is_map || json.records())
+    if (quality.key_lights > 0 || info.is_map || json.is_recording_schema())
         quality.lights_at_vertices = at_vertices(json, "lights_at");
     if (info.is_map) quality.map_at_vertices = at_vertices(json, "map_at");
     return quality;

@@ -19,7 +19,7 @@ namespace rowland::diffraction {
 namespace {
 
 constexpr double kDarkOrder = 1e-9;
-constexpr double kFarthestOrder = 2.0;  ///< |u| of all pairs of directions
+constexpr double kFarthest = 2.0;  ///< largest |u| of a pair of directions
 
 }  // namespace
 
@@ -39,7 +39,7 @@ std::vector<LatticeOrder> lattice_orders(const Grating& grating) {
         for (const std::vector<double>& efficiencies : by_wavelength) order.efficiency.push_back(efficiencies[i]);
         const bool bright = *std::max_element(order.efficiency.begin(), order.efficiency.end()) >= kDarkOrder;
         const double shortest = colour::kVisibleMin * glm::length(order.u_per_nm);
-        if (bright && shortest > 0.0 && shortest <= kFarthestOrder) orders.push_back(std::move(order));
+        if (bright && shortest > 0.0 && shortest <= kFarthest) orders.push_back(std::move(order));
     }
     return orders;
 }
@@ -56,12 +56,12 @@ namespace {
 /// Up to this number, orders are summed one by one.
 constexpr std::size_t kFewOrders = 100;
 
-/// Points of the pattern within this distance are one point for so many bands: an error of 1e-4 of the highest.
-double cell_of(int bands) {
+/// Points of the pattern within this distance are merged: an error of 1e-4 of the highest of the bands.
+double grid_step_for(int bands) {
     return std::max(0.03 / bands, 0.004);
 }
 
-/// The part above the horizon of light that the pattern spreads over `length` along u.
+/// Of light that the pattern spreads over `length` along u, the part above the horizon.
 struct SeenPart {
     glm::dvec3 s{0.0};      ///< toward its middle
     double fraction = 0.0;  ///< of the whole
@@ -99,17 +99,17 @@ std::vector<double> lattice_spectrum(const std::vector<LatticeOrder>& orders, co
 }
 
 LatticeTerms::LatticeTerms(const Grating& grating, const colour::LightSpectra& spectra, int bands)
-    : orders_(shaded_lattice_orders(grating)), cover_(grating.cover), cell_(cell_of(bands)), bands_(bands) {
+    : orders_(shaded_lattice_orders(grating)), cover_(grating.cover), grid_step_(grid_step_for(bands)), bands_(bands) {
     for (std::size_t j = 0; j < kWavelengths; ++j)
         observed_.push_back((j == 0 || j + 1 == kWavelengths ? 0.5 : 1.0) *
                             observed_spectra(spectra, colour::kVisibleMin + static_cast<double>(j)));
     if (orders_.size() <= kFewOrders) return;
-    // Divided linearly among the four nodes of a grid around a point, which keeps each colour's mean direction.
+    // Each point is divided bilinearly among four nodes of the grid, which keeps each colour's mean direction.
     std::map<std::pair<int, int>, glm::dmat3> grid;
     for (const LatticeOrder& order : orders_)
         for (std::size_t j = 0; j < kWavelengths; ++j) {
-            const glm::dvec2 at = (colour::kVisibleMin + static_cast<double>(j)) / cell_ * order.u_per_nm;
-            if (cell_ * glm::length(at) > 2.0) break;
+            const glm::dvec2 at = (colour::kVisibleMin + static_cast<double>(j)) / grid_step_ * order.u_per_nm;
+            if (grid_step_ * glm::length(at) > kFarthest) break;
             const glm::dvec2 low = glm::floor(at);
             const glm::dvec2 t = at - low;
             for (int corner = 0; corner < 4; ++corner) {
@@ -122,7 +122,7 @@ LatticeTerms::LatticeTerms(const Grating& grating, const colour::LightSpectra& s
         }
     // A point costs as much as five wavelengths of an order.
     if (5 * grid.size() > orders_.size() * kWavelengths) return;
-    for (const auto& [at, weight] : grid) points_.push_back({cell_ * glm::dvec2(at.first, at.second), weight});
+    for (const auto& [at, weight] : grid) points_.push_back({grid_step_ * glm::dvec2(at.first, at.second), weight});
 }
 
 std::vector<glm::dmat3> LatticeTerms::coefficients(const glm::dvec2& view) const {
@@ -137,7 +137,7 @@ std::vector<glm::dmat3> LatticeTerms::coefficients(const glm::dvec2& view) const
     }
     std::vector<double> basis(result.size());
     for (const Point& point : points_) {
-        const SeenPart part = seen_part(point.u, cell_, view);
+        const SeenPart part = seen_part(point.u, grid_step_, view);
         if (part.fraction == 0.0) continue;
         math::evaluate_sh(part.s, bands_, basis);
         add(basis.data(), part.fraction * transmittance(cover_, part.s.z) * point.weight);
@@ -148,9 +148,8 @@ std::vector<glm::dmat3> LatticeTerms::coefficients(const glm::dvec2& view) const
 namespace {
 
 constexpr int kRange_nm = colour::kVisibleMax - colour::kVisibleMin;
-constexpr double kFarthest = 2.0;
 
-/// One order's wavelengths, joined to nodes.
+/// Merges one order's wavelengths into nodes.
 class OrderNodes {
  public:
     OrderNodes(const glm::dvec2& u_per_nm, double step, std::vector<DiffractionPattern::Node>& nodes)

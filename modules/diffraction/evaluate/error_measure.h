@@ -12,10 +12,10 @@
 namespace rowland::diffraction {
 
 /// The relative RMS error √(Σ‖XYZ − reference‖² / Σ‖reference‖²) (PHYSICS §1). 0 where both are black, infinite where
-/// only the reference is black. The spans have equal lengths, one value per frame.
+/// only the reference is black. The spans have equal lengths, one value per point.
 double relative_rms(std::span<const glm::dvec3> radiance, std::span<const glm::dvec3> reference);
 
-/// The frames that errors are measured at, 120 for each shape: a compact disc tilted by 35° for flat surfaces; for
+/// The points that errors are measured at, 120 for each shape: a compact disc tilted by 35° for flat surfaces; for
 /// curved ones a sphere with the grooves along its meridians, down to v_n = 0.1.
 std::vector<ShadingPoint> measured_frames(SurfaceShape surface);
 
@@ -34,7 +34,7 @@ double mean_hdr_flip(const PictureLayout& layout, std::span<const glm::dvec3> ra
                      std::span<const glm::dvec3> reference);
 
 /// A picture that errors are measured on, 32 × 32 pixels, and its points: a compact disc tilted by 35° for flat
-/// surfaces; for curved ones a sphere with the grooves along its meridians, down to v_n = 0.1. From three radii away.
+/// surfaces; for curved ones a sphere with the grooves along its meridians, down to v_n = 0.1. Eye at three radii.
 struct MeasuredPicture {
     PictureLayout layout;
     std::vector<ShadingPoint> points;
@@ -51,10 +51,10 @@ using ErrorFunction =
 /// The error at measured_points(); all but ErrorMeasure::HdrFlip take any other points as well.
 ErrorFunction error_function(ErrorMeasure measure, SurfaceShape surface);
 
-/// Stops that bring the mean Y of the points that are not black to 0.18.
+/// Exposure in stops that maps the mean Y of the points that are not black to 0.18.
 float exposure_for(std::span<const glm::dvec3> xyz);
 
-/// The smallest of the values that this fraction of them does not exceed; 0 if there are none.
+/// Quantile: the smallest value that at least `fraction` of the values do not exceed; 0 if there are none.
 double quantile(std::vector<double> values, double fraction);
 
 }  // namespace rowland::diffraction

@@ -45,8 +45,8 @@ LobeDensity::LobeDensity(const GrooveLobe& lobe, double wavelength_nm) {
         add_gaussian(gaussian->sigma, 1.0);
     } else if (const auto* pits = std::get_if<PitsLobe>(&lobe)) {
         add_gaussian(kCoherentSigma, pits->coherent);
-        pit_wavelengths_ = pits->length_nm / wavelength_nm;
-        pit_peak_ = (1.0 - pits->coherent) * pit_wavelengths_;
+        pit_length_over_wavelength_ = pits->length_nm / wavelength_nm;
+        pit_peak_ = (1.0 - pits->coherent) * pit_length_over_wavelength_;
     } else {
         constant_ = 0.5;
     }
@@ -59,7 +59,7 @@ void LobeDensity::add_gaussian(double sigma, double fraction) {
 }
 
 double LobeDensity::pits(double sum_h) const {
-    const double amplitude = sinc(pit_wavelengths_ * sum_h);
+    const double amplitude = sinc(pit_length_over_wavelength_ * sum_h);
     return pit_peak_ * amplitude * amplitude;
 }
 

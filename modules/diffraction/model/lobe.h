@@ -51,7 +51,7 @@ class LobeDensity {
     double peak_ = 0.0;
     double inverse_sigma_ = 0.0;
     double pit_peak_ = 0.0;
-    double pit_wavelengths_ = 0.0;  ///< ℓ/λ
+    double pit_length_over_wavelength_ = 0.0;  ///< ℓ/λ
 };
 
 /// D_h at one value of s_h + v_h. For many values of one lobe and wavelength, keep a LobeDensity.

@@ -107,13 +107,13 @@ class LatticeView {
 }  // namespace
 
 std::vector<glm::dvec3> lattice_radiance(const Grating& grating, const IncidentLight& light,
-                                         const colour::LightSpectra& spectra, std::span<const ShadingPoint> frames,
+                                         const colour::LightSpectra& spectra, std::span<const ShadingPoint> points,
                                          int refinement) {
     const std::vector<LatticeNode> nodes = nodes_of(grating, spectra);
-    std::vector<glm::dvec3> result(frames.size());
-    Progress progress(refinement == 1 ? "reference" : "reference, finer", frames.size());
-    parallel_for(frames.size(), [&](std::size_t i) {
-        result[i] = LatticeView(grating, light, frames[i], refinement).radiance(*grating.lattice, nodes);
+    std::vector<glm::dvec3> result(points.size());
+    Progress progress(refinement == 1 ? "reference" : "reference, finer", points.size());
+    parallel_for(points.size(), [&](std::size_t i) {
+        result[i] = LatticeView(grating, light, points[i], refinement).radiance(*grating.lattice, nodes);
         progress.advance();
     });
     return result;

@@ -14,22 +14,22 @@ namespace rowland::diffraction {
 /// direction, s_p = λ (m a* + k b*) − v_p. The step is smaller where 1 nm moves the farthest order by more than the
 /// light's panels. `refinement` ≥ 1 divides it.
 std::vector<glm::dvec3> lattice_radiance(const Grating& grating, const IncidentLight& light,
-                                         const colour::LightSpectra& spectra, std::span<const ShadingPoint> frames,
+                                         const colour::LightSpectra& spectra, std::span<const ShadingPoint> points,
                                          int refinement);
 
-/// The ground truth: XYZ of the listed orders of `grating` for every frame, PHYSICS (4.1), exact but for quadrature.
+/// The ground truth: XYZ of the listed orders of `grating` for every point, PHYSICS (4.1), exact but for quadrature.
 /// Per order and nanometre the light is integrated along its half circle s_g = mλ/d − v_g, from a probe at full
 /// resolution (bilinear) or from SH; the step follows the probe's texels and the lobe. Fewer than kManyGrooves grooves
 /// have their true width (profiles but tables, lobes but pits). A sheet that transmits shows the light mirrored in its
 /// plane, and adds what it reflects. The orders of a lattice are points, PHYSICS (13.1). A table of several incidences
-/// is evaluated at s_g of each arc. A view below the horizon is black. A cover's gloss is not included. All frames must
+/// is evaluated at s_g of each arc. A view below the horizon is black. A cover's gloss is not included. All points must
 /// be valid.
 ///
 /// Uses all cores; the result does not depend on their number. Shares no code with the baked representations.
 std::vector<glm::dvec3> reference_radiance(const Grating& grating, const IncidentLight& light,
-                                           const colour::LightSpectra& spectra, std::span<const ShadingPoint> frames);
+                                           const colour::LightSpectra& spectra, std::span<const ShadingPoint> points);
 
-/// A frame's XYZ and an estimate of the reference's own error.
+/// A point's XYZ and an estimate of the reference's own error.
 struct CheckedRadiance {
     glm::dvec3 xyz{0.0};  ///< as reference_radiance() computes it
     double error = 0.0;   ///< ‖XYZ − XYZ at half the steps‖ / ‖XYZ at half the steps‖; 0 where both are black
@@ -40,6 +40,6 @@ struct CheckedRadiance {
 /// Costs five times as much as reference_radiance().
 std::vector<CheckedRadiance> checked_reference(const Grating& grating, const IncidentLight& light,
                                                const colour::LightSpectra& spectra,
-                                               std::span<const ShadingPoint> frames);
+                                               std::span<const ShadingPoint> points);
 
 }  // namespace rowland::diffraction

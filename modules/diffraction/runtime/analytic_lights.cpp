@@ -79,7 +79,7 @@ void GpuKernel::set_lobe(const gpu::Program& program) const {
     if (const auto* gaussian = std::get_if<GaussianLobe>(&lobe_)) set_gaussian(gaussian->sigma, 1.0);
     if (const auto* pits = std::get_if<PitsLobe>(&lobe_)) {
         set_gaussian(kCoherentSigma, pits->coherent);
-        program.set("pit_wavelengths", glm::vec3(pits->length_nm / kPitsWavelengths_nm));
+        program.set("pit_length_over_wavelength", glm::vec3(pits->length_nm / kPitsWavelengths_nm));
         program.set("incoherent", static_cast<float>(1.0 - pits->coherent));
     }
 }

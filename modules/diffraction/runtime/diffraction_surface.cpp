@@ -178,13 +178,13 @@ bool maps_are_filling(ecs::World& world) {
     return filling;
 }
 
-std::optional<gpu::ProgramDesc> DiffractionSurfaceType::coat_program(ecs::World& world, ecs::Entity entity) const {
+std::optional<gpu::ProgramDesc> DiffractionSurfaceType::overlay_program(ecs::World& world, ecs::Entity entity) const {
     const SurfaceState& state = world.get<SurfaceState>(entity);
     if (!state.reflected) return std::nullopt;
     return state.reflected->material->program(*state.reflected);
 }
 
-void DiffractionSurfaceType::bind_coat(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const {
+void DiffractionSurfaceType::bind_overlay(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const {
     const SurfaceState& reflected = *world.get<SurfaceState>(entity).reflected;
     reflected.material->bind(program, light_, reflected);
 }

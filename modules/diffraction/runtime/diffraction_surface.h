@@ -56,8 +56,8 @@ class DiffractionSurfaceType final : public render::MaterialType {
     void update(ecs::World& world, const render::FrameLight& light) override;
     std::uint64_t version() const override { return version_; }
     void bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const override;
-    std::optional<gpu::ProgramDesc> coat_program(ecs::World& world, ecs::Entity entity) const override;
-    void bind_coat(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const override;
+    std::optional<gpu::ProgramDesc> overlay_program(ecs::World& world, ecs::Entity entity) const override;
+    void bind_overlay(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const override;
 
  private:
     void warn_illuminant_mismatch(const std::string& baked_for, const std::string& lit_by);

@@ -116,7 +116,7 @@ void SurfaceLight::set_light_colours(std::span<const glm::vec3> strengths) {
         const auto same = std::find_if(light_colours_.begin(), light_colours_.end(), [&](const glm::vec3& other) {
             return glm::all(glm::lessThan(glm::abs(other - colour), glm::vec3(kSameColour)));
         });
-        colour_block_.light_colours[i] =
+        colour_block_.light_layer_scale[i] =
             glm::vec4(static_cast<float>(kFirstColourLayer + (same - light_colours_.begin())), largest, 0.0F, 0.0F);
         if (same == light_colours_.end()) light_colours_.push_back(colour);
     }

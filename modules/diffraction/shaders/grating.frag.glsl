@@ -8,7 +8,7 @@
 #define MATERIAL_HAS_MIRROR
 #endif
 #ifdef COVER
-#define MATERIAL_GLOSS
+#define MATERIAL_COAT
 #endif
 #include "engine/render/shaders/surface.glsl"
 #include "engine/render/shaders/environment.glsl"
@@ -101,9 +101,9 @@ void prepare_lights(GrooveView view) {}
 uniform vec3 mirror_weight;  // of order 0; working space
 uniform vec3 base_weight;
 
-#ifdef COVER
-float gloss_reflectance(float cosine) { return 1.0 - cover_transmittance(cosine); }
-float gloss_roughness() { return 0.1; }
+#ifdef COVER  // the coat is the cover's gloss
+float coat_reflectance(float cosine) { return 1.0 - cover_transmittance(cosine); }
+float coat_roughness() { return 0.1; }
 #endif
 
 #if defined(TRANSMISSION)

@@ -1,9 +1,9 @@
 // d k(d u), the colour kernel smoothed by a normal distribution of u: bake/kernel_cells.h. Layers for red, green and
-// blue light, then one for each colour of the scene's lights. Values are in the colour space of the stored ones.
+// blue light, then one for each colour of the scene's lights. Values are in the space of kernel_to_working()'s argument.
 TEXTURE_UNIT(10) uniform sampler2DArray kernel_table;
 uniform vec4 kernel_scale_bias;  // scale and offset from u to s; deviation of u in row 0; scale of the values
 uniform vec2 kernel_rows;        // scale and offset from log2(deviation of u) to t
-uniform vec2 kernel_reach;       // k is 0 where |u| differs from x by more than y
+uniform vec2 kernel_reach;       // centre and half-width of the |u| where k is not 0
 #ifdef ZERO_ORDER
 uniform mat3 zero_order;  // RGB in
 #endif
@@ -17,8 +17,8 @@ struct KernelScale {
     vec2 rows;
 };
 
-// log2(x) and a constant. In a loop over lights from exponent and mantissa of its bits, within 9e-4, half of what a texture
-// unit's weights of 8 bits round off a row: a third of log2()'s cost on llvmpipe.
+// log2(x) + LOG2_BIAS. In a loop over lights it is computed from the exponent and mantissa of x: error 9e-4, half the
+// rounding of 8-bit filter weights; it costs a third of log2() on llvmpipe.
 #if defined(SEVERAL_DIRECTIONAL_LIGHTS) || defined(PUNCTUAL_LIGHTS)
 const float LOG2_BIAS = 127.0;
 float biased_log2(float x) {
@@ -31,13 +31,13 @@ const float LOG2_BIAS = 0.0;
 float biased_log2(float x) { return log2(max(x, 1e-30)); }
 #endif
 
-// From biased_log2() of 12 variances of u, the squared width of a box.
+// kernel_scale_bias, and kernel_rows for the argument of kernel_row(): 12 variances of u are the squared width of a box.
 KernelScale kernel_scale() {
     const float BIAS = LOG2_BIAS + 3.58496250072116;  // and log2(12)
     return KernelScale(kernel_scale_bias, vec2(0.5 * kernel_rows.x, kernel_rows.y - 0.5 * BIAS * kernel_rows.x));
 }
 
-// Of a box of this squared width. It may lie outside the table, which clamps it.
+// The coordinate t for a box of this squared width. It may lie outside the table, which clamps it.
 float kernel_row(KernelScale scale, float square_width) {
     return biased_log2(square_width) * scale.rows.x + scale.rows.y;
 }
@@ -80,17 +80,17 @@ vec3 groove_factor(float sum_h, float deviation_h) {
 }
 #elif defined(LOBE_PITS)
 uniform vec2 lobe_gaussian;   // of the coherent part
-uniform vec3 pit_wavelengths;  // pits' length over the wavelength, for X, Y and Z
+uniform vec3 pit_length_over_wavelength;  // for X, Y and Z
 uniform float incoherent;     // fraction of the power
-// Means of the two parts over nodes at `sum_h` with these weights. `peak`: of the coherent part.
+// Sum of both parts over nodes at `sum_h`; the weights sum to 2, the factor of 2 D_h. `peak`: of the coherent part.
 vec3 pits_factor(vec3 sum_h, vec3 weights, float peak) {
     vec3 z = sum_h / lobe_gaussian.x;
     vec3 factor = vec3(peak * dot(weights, exp(-0.5 * z * z)));
     for (int o = 0; o < 3; ++o) {
         // Nearer to 0 the quotient is 1, to 2e-5; a GPU's sine may have an error of 1e-6.
-        vec3 x = max(abs(3.14159265358979 * pit_wavelengths[o] * sum_h), 0.01);
+        vec3 x = max(abs(3.14159265358979 * pit_length_over_wavelength[o] * sum_h), 0.01);
         vec3 amplitude = sin(x) / x;
-        factor[o] += incoherent * pit_wavelengths[o] * dot(weights, amplitude * amplitude);
+        factor[o] += incoherent * pit_length_over_wavelength[o] * dot(weights, amplitude * amplitude);
     }
     return factor;
 }
@@ -124,31 +124,31 @@ vec3 kernel_to_working(vec3 value) {
 #endif
 }
 
-// A light without extent on a grating.
-
-// d k(d u) for the pixel's own d = `pitch` times the material's.
-vec3 pitch_kernel_value(float u, float deviation, vec3 rgb, float pitch) {
-    return pitch * kernel_value(pitch * u, pitch * deviation, rgb);
+// d k(d u) for a pixel whose pitch d is `pitch_factor` times the material's.
+vec3 pitch_kernel_value(float u, float deviation, vec3 rgb, float pitch_factor) {
+    return pitch_factor * kernel_value(pitch_factor * u, pitch_factor * deviation, rgb);
 }
 
 #ifdef SMALL_LIGHTS
 uniform mat3 working_to_rec709;
 
-// What lights are weighted by for a view of this cosine: 1/2 d of the kernel, 0 below the horizon.
+// Factor of PHYSICS (4.2) on the table's values, ½ of their scale, for a view of this cosine; 0 below the horizon.
 float small_light_weight(KernelScale scale, float v_n) { return v_n > 0.0 ? 0.5 * scale.scale_bias.w : 0.0; }
 
-// Adds lights[i]. `weight`: small_light_weight() times irradiance on a surface that faces the light, over its strength;
-// `axes`: columns g, h, n in the world; `v_h`: toward the eye, along h; `u`: of s_g + v_g over the pixel.
-void add_small_light(KernelScale scale, int i, float weight, vec3 l, mat3 axes, float v_h, PixelU u, float pitch,
+// Adds lights[i], a light without extent. `weight`: small_light_weight() times irradiance on a surface that faces the
+// light, over its strength; `axes`: columns g, h, n in the world; `v_h`: toward the eye, along h; `u`: of s_g + v_g over
+// the pixel.
+void add_small_light(KernelScale scale, int i, float weight, vec3 l, mat3 axes, float v_h, PixelU u, float pitch_factor,
                      inout vec3 sum) {
-    float t = kernel_row(scale, pitch * pitch * u.square_width);
+    float t = kernel_row(scale, pitch_factor * pitch_factor * u.square_width);
     float above = max(dot(l, axes[2]), 0.0);
-    vec3 dimmed = (pitch * weight * above * cover_transmittance(above)) * groove_factor(dot(l, axes[1]) + v_h);
+    vec3 dimmed = (pitch_factor * weight * above * cover_transmittance(above)) * groove_factor(dot(l, axes[1]) + v_h);
     // One look-up costs less than a branch around it.
-    sum += dimmed * light_colours[i].y * kernel_texel(scale, pitch * u.mean, t, light_colours[i].x);
+    sum += dimmed * light_layer_scale[i].y * kernel_texel(scale, pitch_factor * u.mean, t, light_layer_scale[i].x);
 #ifdef ZERO_ORDER
     sum += dimmed / scale.scale_bias.w *
-           zero_order_value(pitch * u.mean, pitch * deviation_of(u), working_to_rec709 * lights[i].strength.rgb);
+           zero_order_value(pitch_factor * u.mean, pitch_factor * deviation_of(u),
+                            working_to_rec709 * lights[i].strength.rgb);
 #endif
 }
 #endif
@@ -175,8 +175,6 @@ float clamped_mean(float mean, float deviation) {
     return max(mean, 0.0) + deviation * exp2(power);
 }
 
-// A light in a surface's tangent frame: representations/direct/direct.h, light_spot().
-
 // Mean and variance of x above 0, values weighted by x, for x of this mean and variance; 0 where nothing is above:
 // engine/lighting/key_lights.h, clamp_normal().
 struct ClampedMoments {
@@ -185,16 +183,17 @@ struct ClampedMoments {
 };
 ClampedMoments clamped_moments(float mean, float variance) {
     float deviation = sqrt(variance);
-    float below = normal_cdf(mean / deviation);
+    float above = normal_cdf(mean / deviation);  // P(x > 0)
     float density = deviation * normal_density(mean / deviation);
-    float first = mean * below + density;
+    float first = mean * above + density;
     if (!(first > 1e-6 * deviation)) return ClampedMoments(0.0, 0.0);
-    float weighted = ((mean * mean + variance) * below + mean * density) / first;
-    float third = mean * (mean * mean + 3.0 * variance) * below + (mean * mean + 2.0 * variance) * density;
+    float weighted = ((mean * mean + variance) * above + mean * density) / first;
+    float third = mean * (mean * mean + 3.0 * variance) * above + (mean * mean + 2.0 * variance) * density;
     return ClampedMoments(weighted, max(third / first - weighted * weighted, 0.0));
 }
 
-// Mean of a cover's transmittance over a lobe: direct.h, transmittance(). `mean_n`: mean of s_n.
+// Mean of a cover's transmittance over a lobe: direct.h, transmittance(). `mean_n`: mean of s_n; `moments`: of KeyLobe
+// (light_blocks.h).
 float lobe_transmittance(float mean_n, vec4 moments) {
 #ifdef COVER
     ClampedMoments above = clamped_moments(mean_n, max(moments.y * mean_n * mean_n + moments.z, 0.0));
@@ -208,7 +207,7 @@ float lobe_transmittance(float mean_n, vec4 moments) {
 
 #if defined(LOBE_GAUSSIAN) || defined(LOBE_PITS)
 // Mean and deviation of s_h, directions weighted by s_n above the horizon: direct.cpp, clamp_at_horizon(). `mean`: of the
-// lobe's directions, in (g, h, n).
+// lobe's directions, in (g, h, n); `moments`: of KeyLobe.
 vec2 spread_along_grooves(vec3 mean, vec4 moments) {
     float elongation = moments.y;
     float variance_n = max(elongation * mean.z * mean.z + moments.z, 0.0);
@@ -216,9 +215,9 @@ vec2 spread_along_grooves(vec3 mean, vec4 moments) {
     ClampedMoments above = clamped_moments(mean.z, variance_n);
     if (above.weighted_mean == 0.0) return vec2(mean.y, sqrt(max(variance_h, 0.0)));
     float slope = elongation * mean.y * mean.z / variance_n;
-    float rest = max(variance_h - slope * slope * variance_n, 0.0);
+    float uncorrelated = max(variance_h - slope * slope * variance_n, 0.0);
     return vec2(mean.y + slope * (above.weighted_mean - mean.z),
-                sqrt(rest + slope * slope * above.weighted_variance));
+                sqrt(uncorrelated + slope * slope * above.weighted_variance));
 }
 #else
 vec2 spread_along_grooves(vec3 mean, vec4 moments) { return vec2(0.0); }

@@ -35,8 +35,8 @@ ROWLAND_BLOCK(6, KeyLobeBlock) {
 };
 #ifdef SMALL_LIGHTS
 ROWLAND_BLOCK(7, LightColourBlock) {
-    vec4 light_colours[ROWLAND_MAXIMUM_LIGHTS];  // of lights[]. x: its colour's layer of the kernel table; y: the light's
-                                                 // strength over that colour
+    vec4 light_layer_scale[ROWLAND_MAXIMUM_LIGHTS];  // of lights[]. x: the layer of the kernel table that holds the
+                                                     // light's colour; y: the light's strength over that colour
 };
 #endif
 #ifdef __cplusplus

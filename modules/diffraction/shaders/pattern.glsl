@@ -24,9 +24,9 @@ void add_pattern_light(int i, float weight, vec3 l, GrooveView view, inout vec3 
     vec2 u = vec2(dot(l, view.axes[0]), dot(l, view.axes[1])) + view.direction.xy;
     float level = pattern_level(pixel_variance(dFdx(u), dFdy(u)));
     float above = max(dot(l, view.axes[2]), 0.0);
-    float flux = weight * above * cover_transmittance(above) * light_colours[i].y;
+    float flux = weight * above * cover_transmittance(above) * light_layer_scale[i].y;
     if (!pattern_reaches(u)) flux = 0.0;
-    sum += flux * pattern_scale.z * pattern_texel(u, level, light_colours[i].x - FIRST_COLOUR_LAYER);
+    sum += flux * pattern_scale.z * pattern_texel(u, level, light_layer_scale[i].x - FIRST_COLOUR_LAYER);
 }
 #endif
 

@@ -64,9 +64,9 @@ vec3 with_factor(vec3 bare, vec3 film) {
 #endif
 }
 
-vec3 reflect_lobe(vec3 light, vec3 f0, float n_v, float roughness, vec2 split) {
-    vec3 bare = (f0 * split.x + split.y) * light;
-    return with_factor(bare, (seen * light).rgb * (split.x + split.y));
+vec3 reflect_lobe(vec3 light, vec3 f0, float n_v, float roughness, vec2 dfg) {
+    vec3 bare = (f0 * dfg.x + dfg.y) * light;
+    return with_factor(bare, (seen * light).rgb * (dfg.x + dfg.y));
 }
 
 vec3 reflect_specular(vec3 light, vec3 f0, float cosine) {

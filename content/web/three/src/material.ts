@@ -140,7 +140,7 @@ export class GratingMaterial extends MeshPhysicalMaterial {
         this.set("kernel_rows", new Vector2().fromArray(kernelUniforms, 4));
         this.set("kernel_reach", new Vector2().fromArray(kernelUniforms, 6));
         this.set("lobe_gaussian", new Vector2().fromArray(facts, FACT.gaussian));
-        this.set("pit_wavelengths", vector(FACT.pits));
+        this.set("pit_length_over_wavelength", vector(FACT.pits));
         this.set("incoherent", facts[FACT.incoherent]);
         this.set("cover_square", facts[FACT.ior] ** 2);
         this.set("zero_order", matrix(FACT.zeroOrder));

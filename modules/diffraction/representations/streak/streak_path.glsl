@@ -1,31 +1,30 @@
-// Where the nodes of a segment look up the streak map: streak_map.h.
-
-TEXTURE_UNIT(11) uniform sampler3D streak_map;  // streak_map.h
+// Texture coordinates at which the nodes of a segment look up the streak map: streak_map.h.
+TEXTURE_UNIT(11) uniform sampler3D streak_map;
 uniform float map_scale;                        // of the stored values
 uniform float streak_level;                     // log2 of a lobe's deviation over the map's
 
 const float CHART_SCALE = 0.5 / 1.1;
 const float RIM = 0.905;
 
-// Half a sphere of directions.
+// Stereographic, of the half sphere above (`up` = 1) or below (-1) the horizon.
 vec2 chart_position(vec3 s, float up) { return s.xz / max(1.0 + up * s.y, RIM); }
 
-// Position in the chart; direction of the tangent `along` there as a texture coordinate.
+// xy: position in the chart; z: angle there of the tangent `along`, as a texture coordinate.
 vec3 streak_position(vec3 s, vec3 along, float up) {
     vec2 p = chart_position(s, up);
     vec2 image = along.xz - up * along.y * p;
-    float turn = image.x / (abs(image.x) + abs(image.y));
-    return vec3(p, 0.5 + 0.5 * (image.y < 0.0 ? turn : -turn));
+    float diamond_angle = image.x / (abs(image.x) + abs(image.y));
+    return vec3(p, 0.5 + 0.5 * (image.y < 0.0 ? diamond_angle : -diamond_angle));
 }
 
-// A parabola in the chart; the lobe's direction is linear.
+// mean + t slope + t^2 bend. xy: position in the chart; z: angle of the tangent, linear in t.
 struct StreakPath {
     vec3 mean;
     vec3 slope;
     vec2 bend;
 };
 
-// Through streak_position() of the ends, at t = -1 and 1, and the direction `centre` at t = 0.
+// The path through streak_position() of both ends, at t = -1 and 1, and the direction `centre`, at t = 0.
 StreakPath streak_path(vec3 before, vec3 centre, vec3 after, float up) {
     after.z -= round(after.z - before.z);
     vec3 mean = 0.5 * (after + before);

@@ -39,7 +39,7 @@ class AutoExposurePassTest : public test::PostTest {
         }
         return pixels;
     }
-    post::MeanLuminance measure(const std::vector<glm::vec3>& pixels, glm::ivec2 size) {
+    post::MeanLog2Luminance measure(const std::vector<glm::vec3>& pixels, glm::ivec2 size) {
         pass_.start(picture(pixels, size), kWeights, kDarkest);
         return pass_.wait();
     }

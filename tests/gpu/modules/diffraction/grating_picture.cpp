@@ -33,11 +33,11 @@ class UnderLight final : public render::MaterialType {
     void bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const override {
         inner_.bind(world, entity, program);
     }
-    std::optional<gpu::ProgramDesc> coat_program(ecs::World& world, ecs::Entity entity) const override {
-        return inner_.coat_program(world, entity);
+    std::optional<gpu::ProgramDesc> overlay_program(ecs::World& world, ecs::Entity entity) const override {
+        return inner_.overlay_program(world, entity);
     }
-    void bind_coat(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const override {
-        inner_.bind_coat(world, entity, program);
+    void bind_overlay(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const override {
+        inner_.bind_overlay(world, entity, program);
     }
 
  private:

@@ -128,8 +128,8 @@ TEST(JsonReader, MissingKeyIsRefusedNamingItsMisspelling) {
 
 TEST(JsonReader, NumberRangesHoldAndAreShownAsIntervals) {
     const auto number = [](NumberRange range) { return [range](JsonReader& reader) { reader.number("a", range); }; };
-    const NumberRange positive = {.minimum = 0, .minimum_open = true};
-    const NumberRange share = {.minimum = 0, .maximum = 1, .maximum_open = true};
+    const NumberRange positive = {.minimum = 0, .exclusive_minimum = true};
+    const NumberRange share = {.minimum = 0, .maximum = 1, .exclusive_maximum = true};
     EXPECT_EQ(read_message(R"({"a": 0})", number(positive)), "a.json: /a: 0; expected a number > 0");
     EXPECT_EQ(read_message(R"({"a": 1})", number(share)), "a.json: /a: 1; expected a number in [0, 1)");
     EXPECT_EQ(read_message(R"({"a": 3})", number({.maximum = 2})), "a.json: /a: 3; expected a number <= 2");

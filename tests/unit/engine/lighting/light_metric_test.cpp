@@ -57,7 +57,7 @@ TEST(CubeTree, ALoneLampIsWhereItStands) {
 TEST(CubeTree, OfCellsKeepsTheDirectionWithinACell) {
     std::vector<CubeCell> cells(std::size_t{6} * kSize * kSize);
     const glm::dvec3 lamp = glm::normalize(cube_direction(3, (2 * 9 + 1.7) / kSize - 1, (2 * 5 + 0.4) / kSize - 1));
-    cells[(3 * kSize + 5) * kSize + 9] = {.flux = {2.0, 1.0, 0.5}, .direction = 3.5 * lamp};
+    cells[(3 * kSize + 5) * kSize + 9] = {.flux = {2.0, 1.0, 0.5}, .direction_sum = 3.5 * lamp};
     const CubeTree tree(cells, kSize);
     for (int depth = 0; depth <= tree.leaf_depth(); ++depth) {
         const int shrink = kSize / tree.side(depth);
@@ -165,7 +165,7 @@ constexpr int kMetricFace = 64;
 TEST(LightMetric, TheTreeSumsWhatAllTexelsSum) {
     const ProbeImage probe = lamps_in_a_room();
     const KeyLightFit settings;
-    const std::vector<CubeCell> cells = gather_cells(probe, kMetricFace);
+    const std::vector<CubeCell> cells = bin_into_cells(probe, kMetricFace);
     const LightSamples texels = cell_samples(cells);
     const MeasuredProbe measured(cells, kMetricFace, settings);
     // Each texel as a point light, measured by itself.
@@ -188,7 +188,7 @@ TEST(LightMetric, LobesAreComparedByTheErrorThatTheExactBandsLeave) {
     constexpr int kBands = 5;
     constexpr int kCells = 32;
     const KeyLightFit settings{.smoothing = 200.0, .exact_bands = kBands};
-    const MeasuredProbe measured(gather_cells(lamps_in_a_room(), kMetricFace), kMetricFace, settings);
+    const MeasuredProbe measured(bin_into_cells(lamps_in_a_room(), kMetricFace), kMetricFace, settings);
     const LobeShape shapes[] = {{test::spread_direction(3, 20), 300.0},
                                 {glm::normalize(test::spread_direction(3, 20) + glm::dvec3(0.0, 0.1, 0.05)), 100.0},
                                 {test::spread_direction(12, 20), 60.0}};

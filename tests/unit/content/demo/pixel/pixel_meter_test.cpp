@@ -47,15 +47,16 @@ class PixelMeterTest : public ::testing::Test {
         const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
         while (std::chrono::steady_clock::now() < deadline) {
             meter.poll();
-            if (meter.current() || !meter.failure().empty()) break;
+            if (meter.is_up_to_date() || !meter.failure().empty()) break;
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         }
-        EXPECT_TRUE(meter.current()) << meter.failure();
+        EXPECT_TRUE(meter.is_up_to_date()) << meter.failure();
         return meter.reading() ? *meter.reading() : PixelReading{};
     }
     /// What the module's own comparison says of it.
     diffraction::PointComparison direct(const PixelQuery& asked, math::SphericalWindow window) const {
-        FullResolutionProbe probe = load_whole_probe(asked.probe.path, asked.probe.mapping, asked.probe.recipes);
+        FullResolutionProbe probe =
+            load_full_resolution_probe(asked.probe.path, asked.probe.mapping, asked.probe.recipes);
         return diffraction::PointComparer(probe.image, probe.key_lights).compare(asked.cooked, window, asked.frame);
     }
 
@@ -120,7 +121,7 @@ TEST_F(PixelMeterTest, AProbeThatIsNotThereIsSaidAndTheNextOneIsMeasured) {
     meter.ask(query(wide_, "nowhere.probe"));
     while (meter.failure().empty()) meter.poll();
     EXPECT_NE(meter.failure().find("nowhere.json"), std::string::npos) << meter.failure();
-    EXPECT_FALSE(meter.current());
+    EXPECT_FALSE(meter.is_up_to_date());
     answer(meter, query(wide_, "warm.json"));
     EXPECT_TRUE(meter.failure().empty());
 }
@@ -135,7 +136,7 @@ TEST(FullResolutionProbe, OfACookedProbeIsThatOfItsRecipe) {
     const test::TemporaryFolder folder;
     const auto path = [&](const char* name) { return folder.path() / name; };
     const std::filesystem::path probe = path("sky.probe");  // not read
-    const auto load = [&] { return load_whole_probe(probe, "auto", path("shipped")); };
+    const auto load = [&] { return load_full_resolution_probe(probe, "auto", path("shipped")); };
     EXPECT_THAT(test::message_of(load), HasSubstr((path("shipped") / "sky.json").string()));
     std::filesystem::create_directory(path("recipes"));
     write_file_atomic(path("recipes") / "sky.json", test::small_sky(64));

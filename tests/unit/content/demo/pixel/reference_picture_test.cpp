@@ -28,7 +28,7 @@ class ReferencePictureTest : public test::RenderTest {
             {"azimuth_deg": 160, "elevation_deg": 40, "half_size_deg": [40, 30], "soft_edge_deg": 20,
              "radiance": [3, 5, 4]}]}})");
         diffraction::register_module(renderer_);
-        const FullResolutionProbe room = load_whole_probe(probe_.path, probe_.mapping, probe_.recipes);
+        const FullResolutionProbe room = load_full_resolution_probe(probe_.path, probe_.mapping, probe_.recipes);
         renderer_.set_probe(lighting::build_light_probe(
             room.image, {.bands = 4, .key_lights = 0, .light_face = 16, .prefilter = {.face_size = 16}}));
         const auto json = nlohmann::json::parse(
@@ -93,7 +93,7 @@ class ReferencePictureTest : public test::RenderTest {
             }
         EXPECT_GT(frames.size(), 100U);
         const auto& cooked = *comparison_.own(grating_)->cooked();
-        const FullResolutionProbe room = load_whole_probe(probe_.path, probe_.mapping, probe_.recipes);
+        const FullResolutionProbe room = load_full_resolution_probe(probe_.path, probe_.mapping, probe_.recipes);
         return diffraction::relative_rms(
             shown, diffraction::reference_radiance(cooked.material.grating, room.image,
                                                    colour::LightSpectra(cooked.material.quality.illuminant), frames));

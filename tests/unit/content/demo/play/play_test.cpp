@@ -344,7 +344,7 @@ TEST(DemoPlay, ASceneLoadedAnewKeepsWhatItsObjectsBecame) {
     const BodyState before = play.bodies()[kRight].state;
     ASSERT_GT(glm::length(before.spin), 1.0);
     const glm::mat4 stood = object_to_world(small.world, small.right);
-    play.rest();
+    play.move_to_rest_pose();
     EXPECT_NE(object_to_world(small.world, small.right), stood);
     Toys toys = small.toys();
     std::swap(toys.bodies[0], toys.bodies[1]);
