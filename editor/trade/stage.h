@@ -65,7 +65,7 @@ class LightLoopType final : public render::MaterialType {
     void add_shaders(gpu::ShaderLibrary& library) const override;
     bool owns(ecs::World& world, ecs::Entity entity) const override;
     gpu::ProgramDesc program(ecs::World& world, ecs::Entity entity) const override;
-    void update(ecs::World&, const render::FrameLight&) override {}
+    void update(ecs::World&, const render::FrameLight&, std::span<const ecs::Entity>) override {}
     void bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const override;
 };
 

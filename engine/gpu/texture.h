@@ -42,6 +42,8 @@ struct TextureDesc {
     int height = 1;  ///< 1 for a line; the width for a cube map
     int depth = 1;   ///< layers of an array, slices of a volume; otherwise 1
     int levels = 1;  ///< mip levels; 0: down to 1×1
+
+    friend bool operator==(const TextureDesc&, const TextureDesc&) = default;
 };
 
 enum class Filter { Nearest, Linear, Trilinear };

@@ -41,6 +41,7 @@ struct Draw {
     bool skinned = false;
     std::size_t first_joint = 0;
     SurfaceFeatures features = 0;
+    bool in_picture = false;                        ///< its bounds are
     const gpu::Program* program = nullptr;          ///< null if it is not drawn in the main pass
     const gpu::Program* overlay_program = nullptr;  ///< MaterialType::overlay_program(), or null
     const gpu::Program* depth_program = nullptr;    ///< null if it is not drawn into the depth of occlusion

@@ -42,6 +42,10 @@ std::optional<gpu::ProgramDesc> MaterialType::overlay_program(ecs::World& /*worl
     return std::nullopt;
 }
 
+std::vector<gpu::ProgramDesc> MaterialType::later_programs(ecs::World& /*world*/, ecs::Entity /*entity*/) const {
+    return {};
+}
+
 void MaterialType::bind_overlay(ecs::World& /*world*/, ecs::Entity /*entity*/, const gpu::Program& /*program*/) const {
     ROWLAND_CHECK(false, "bind_overlay() on a material type without overlay_program()");
 }

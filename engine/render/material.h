@@ -117,9 +117,13 @@ class MaterialType {
     virtual gpu::ProgramDesc program(ecs::World& world, ecs::Entity entity) const = 0;
     /// A second program, with which an owned entity that passes light is drawn again, over itself; nullopt: none.
     virtual std::optional<gpu::ProgramDesc> overlay_program(ecs::World& world, ecs::Entity entity) const;
-    /// Once a frame, before anything is drawn: updates per-object data.
-    virtual void update(ecs::World& world, const FrameLight& light) = 0;
-    /// update() changes it when an entity looks different though neither it nor the light has moved.
+    /// Programs that will draw an owned entity in place of program() and overlay_program(), without a change of the
+    /// scene: they are compiled in this frame as well.
+    virtual std::vector<gpu::ProgramDesc> later_programs(ecs::World& world, ecs::Entity entity) const;
+    /// Once a frame, before anything is drawn and the programs of all entities are asked for: updates per-object data.
+    /// `seen`: the drawn entities, of any type, that are in the picture, then others that mirrors may show.
+    virtual void update(ecs::World& world, const FrameLight& light, std::span<const ecs::Entity> seen) = 0;
+    /// Changes in each update() after which an entity looks different, though neither it nor the light has moved.
     virtual std::uint64_t version() const { return 0; }
     /// Binds what an owned entity's program reads. The program is in use.
     virtual void bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const = 0;

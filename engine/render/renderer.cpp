@@ -116,9 +116,9 @@ void Renderer::render(ecs::World& world, const scene::Camera& camera, const gpu:
     report_ = {};
 
     update_light(world);
-    if (shading == Shading::Full)
-        for (const auto& type : types_) type->update(world, light_);
     update_reflection(world, frame);
+    frame.list = gather_draws(world, types_, light_features(frame));
+    update_materials(world, frame);
     select_draws(world, frame);
     select_casters(frame);
     upload(frame);
@@ -180,9 +180,22 @@ SurfaceFeatures Renderer::light_features(const Frame& frame) const {
     return features;
 }
 
-void Renderer::select_draws(ecs::World& world, Frame& frame) {
-    frame.list = gather_draws(world, types_, light_features(frame));
+void Renderer::update_materials(ecs::World& world, Frame& frame) {
     const Frustum frustum(frame.view_projection);
+    bool mirrors = false;
+    std::vector<ecs::Entity> seen;
+    std::vector<ecs::Entity> others;
+    for (Draw& draw : frame.list.draws) {
+        draw.in_picture = frustum.may_see(draw.bounds);
+        (draw.in_picture ? seen : others).push_back(draw.entity);
+        mirrors = mirrors || (draw.features & feature::kObjectReflections) != 0;
+    }
+    if (frame.shading == Shading::Unlit) return;
+    if (mirrors) seen.insert(seen.end(), others.begin(), others.end());
+    for (const auto& type : types_) type->update(world, light_, seen);
+}
+
+void Renderer::select_draws(ecs::World& world, Frame& frame) {
     const glm::vec3 forward = glm::normalize(frame.camera->target - frame.camera->eye);
     for (Draw& draw : frame.list.draws) {
         if (frame.shading == Shading::Unlit) {
@@ -192,9 +205,10 @@ void Renderer::select_draws(ecs::World& world, Frame& frame) {
         // Also for what is not seen yet, so that no later frame waits for a compiler.
         const gpu::Program& program = program_of(world, draw);
         draw.overlay_program = overlay_program_of(world, draw);
+        compile_later_programs(world, draw);
         if (frame.occlusion && (draw.features & feature::kAlphaBlend) == 0)
             draw.depth_program = &surface_program(kShadowShader, of_shadow(draw.features) | feature::kFromEye);
-        if (!frustum.may_see(draw.bounds)) {
+        if (!draw.in_picture) {
             ++report_.culled;
             continue;
         }
@@ -371,6 +385,14 @@ const gpu::Program* Renderer::overlay_program_of(ecs::World& world, const Draw& 
     if (!desc) return nullptr;
     add_defines(draw.features, *desc);
     return &programs_.get(*desc);
+}
+
+void Renderer::compile_later_programs(ecs::World& world, const Draw& draw) {
+    if (draw.type == nullptr) return;
+    for (gpu::ProgramDesc& desc : draw.type->later_programs(world, draw.entity)) {
+        add_defines(draw.features, desc);
+        programs_.get(desc);
+    }
 }
 
 const gpu::Program& Renderer::surface_program(const char* shader, SurfaceFeatures features) {

@@ -79,9 +79,9 @@ class Renderer {
     /// they were and its Error (system) with file and line is thrown.
     void reload_shaders(const std::filesystem::path& source_tree);
 
-    /// Draws a frame. A probe must have been set. The programs of a surface are compiled in the first frame that it is
-    /// in, seen or not. Whoever sets OpenGL's state by other means than rowland::gpu calls gpu::forget_bound_state()
-    /// before.
+    /// Draws a frame. A probe must have been set. What only an entity that is seen needs is computed when it is seen.
+    /// The programs of a surface are compiled in the first frame that it is in, seen or not. Whoever sets OpenGL's
+    /// state by other means than rowland::gpu calls gpu::forget_bound_state() before.
     void render(ecs::World& world, const scene::Camera& camera, const gpu::Framebuffer& target,
                 Shading shading = Shading::Full);
     const FrameReport& report() const { return report_; }
@@ -113,6 +113,7 @@ class Renderer {
     SurfaceFeatures light_features(const Frame& frame) const;
     void update_light(ecs::World& world);
     void update_ambient();
+    void update_materials(ecs::World& world, Frame& frame);
     void select_draws(ecs::World& world, Frame& frame);
     void select_casters(Frame& frame);
     FrameBlock frame_block(const Frame& frame) const;
@@ -131,6 +132,7 @@ class Renderer {
     void bind_surface(const Draw& draw) const;
     const gpu::Program& program_of(ecs::World& world, const Draw& draw);
     const gpu::Program* overlay_program_of(ecs::World& world, const Draw& draw);
+    void compile_later_programs(ecs::World& world, const Draw& draw);
     const gpu::Program& surface_program(const char* shader, SurfaceFeatures features);
 
     glm::dmat3 xyz_to_working_;

@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <span>
 
 namespace metal {
 
@@ -82,7 +83,8 @@ class MetalType final : public render::MaterialType {
     gpu::ProgramDesc program(ecs::World& /*world*/, ecs::Entity /*entity*/) const override {
         return {.vertex = "engine/render/shaders/plain.vert.glsl", .fragment = kFragmentFile};
     }
-    void update(ecs::World& /*world*/, const render::FrameLight& /*light*/) override {}  // nothing to prepare
+    void update(ecs::World& /*world*/, const render::FrameLight& /*light*/,
+                std::span<const ecs::Entity> /*seen*/) override {}  // nothing to prepare
     void bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const override {
         const MetalSurface& surface = world.get<MetalSurface>(entity);
         program.set("n", surface.n);

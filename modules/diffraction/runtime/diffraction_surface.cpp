@@ -11,26 +11,37 @@
 #include "engine/scene/transform.h"
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/asset/gltf_extension.h"
+#include "modules/diffraction/runtime/vertex_light.h"
 #include "modules/diffraction/shaders/shader_files.h"
 
 namespace rowland::diffraction {
 
 namespace {
 
-/// Updates the cache key in `state`; true if it changes. Another material's data is dropped.
-bool update_key(const DiffractionSurface& surface, const render::MeshInstance& instance, const glm::mat3& orientation,
-                std::uint64_t light_version, SurfaceState& state) {
-    const bool same = state.material == surface.material && state.mesh == instance.mesh &&
-                      state.orientation == orientation && state.groove_rotation == surface.groove_rotation &&
-                      state.grooves == surface.grooves && state.light_version == light_version;
-    if (state.material != surface.material) state = {};
-    state.material = surface.material;
-    state.mesh = instance.mesh;
-    state.orientation = orientation;
+/// Takes over what the object's program depends on, seen or not. Another material's data is dropped.
+void take_surface(const DiffractionSurface& surface, const std::shared_ptr<const scene::Mesh>& mesh, bool skinned,
+                  SurfaceState& state) {
+    if (state.material != surface.material) {
+        state = {};
+        state.material = surface.material;
+        if (surface.material->reflected()) state.reflected = std::make_unique<SurfaceState>();
+    }
+    if (state.mesh != mesh) {
+        state.mesh = mesh;
+        state.flat = skinned ? std::nullopt : flat_normal(*mesh);
+        state.tangent = common_tangent(*mesh);
+        if (surface.material->transmits()) {
+            if (state.flat) state.flat = -*state.flat;
+            if (state.tangent) state.tangent->w = -state.tangent->w;
+        }
+        state.changed = true;
+    }
+    if (state.groove_rotation != surface.groove_rotation || state.grooves != surface.grooves) state.changed = true;
     state.groove_rotation = surface.groove_rotation;
     state.grooves = surface.grooves;
-    state.light_version = light_version;
-    return !same;
+    if (state.reflected)
+        take_surface({surface.material->reflected(), surface.groove_rotation, surface.grooves}, mesh, skinned,
+                     *state.reflected);
 }
 
 /// The same surface seen from its other side.
@@ -51,26 +62,12 @@ void update_lit_side(const GpuMaterial& material, const SurfaceObject& object, S
                      .groove_rotation = object.groove_rotation,
                      .skinned = object.skinned,
                      .changed = object.changed,
-                     .map_pace = object.map_pace},
+                     .maps = object.maps},
                     light, state);
 }
 
-void update_sides(const DiffractionSurface& surface, const SurfaceObject& object, SurfaceLight& light,
-                  SurfaceState& state) {
-    update_lit_side(*surface.material, object, light, state);
-    const std::shared_ptr<const GpuMaterial>& reflecting = surface.material->reflected();
-    if (!reflecting) return;
-    if (!state.reflected) state.reflected = std::make_unique<SurfaceState>();
-    SurfaceState& reflected = *state.reflected;
-    reflected.material = reflecting;
-    reflected.mesh = state.mesh;
-    reflected.groove_rotation = state.groove_rotation;
-    reflected.grooves = state.grooves;
-    reflecting->update(object, light, reflected);
-}
-
-bool is_filling(const GpuMaterial& material, const SurfaceState& state) {
-    return material.filling(state) || (state.reflected && material.reflected()->filling(*state.reflected));
+bool is_filling(const SurfaceState& state) {
+    return state.map.is_filling() || (state.reflected && state.reflected->map.is_filling());
 }
 
 }  // namespace
@@ -85,7 +82,7 @@ void add_surface(ecs::World& world, ecs::Entity entity, DiffractionSurface surfa
 }
 
 DiffractionSurfaceType::DiffractionSurfaceType(const glm::dmat3& xyz_to_working, const DiffractionSettings& settings)
-    : xyz_to_working_(xyz_to_working), map_pace_(settings.map_pace), light_(settings.window) {}
+    : xyz_to_working_(xyz_to_working), light_(settings.window), maps_(settings.map_pace, settings.map_wait) {}
 
 std::string DiffractionSurfaceType::gltf_extension() const {
     return kGltfExtension;
@@ -141,40 +138,62 @@ void DiffractionSurfaceType::warn_illuminant_mismatch(const std::string& baked_f
                 baked_for);
 }
 
-void DiffractionSurfaceType::update(ecs::World& world, const render::FrameLight& light) {
+std::vector<gpu::ProgramDesc> DiffractionSurfaceType::later_programs(ecs::World& world, ecs::Entity entity) const {
+    std::vector<gpu::ProgramDesc> programs;
+    auto& state = world.get<SurfaceState>(entity);
+    for (SurfaceState* side : {&state, state.reflected.get()}) {
+        if (side == nullptr || !side->without_map || !side->map.is_filling()) continue;
+        side->without_map = false;
+        programs.push_back(side->material->program(*side));
+        side->without_map = true;
+    }
+    return programs;
+}
+
+void DiffractionSurfaceType::update(ecs::World& world, const render::FrameLight& light,
+                                    std::span<const ecs::Entity> seen) {
+    maps_.begin_frame();
     if (world.view<DiffractionSurface>().count() == 0) return;
     light_.set(light);
-    world.view<DiffractionSurface, render::MeshInstance, scene::WorldMatrix>().each(
-        [&](ecs::Entity entity, const DiffractionSurface& surface, const render::MeshInstance& instance,
-            const scene::WorldMatrix& world_matrix) {
+    world.view<DiffractionSurface, render::MeshInstance>().each(
+        [&](ecs::Entity entity, const DiffractionSurface& surface, const render::MeshInstance& instance) {
             if (world.find<SurfaceState>(entity) == nullptr) world.add(entity, SurfaceState{});
-            SurfaceState& state = world.get<SurfaceState>(entity);
+            auto& state = world.get<SurfaceState>(entity);
+            state.seen = false;
+            take_surface(surface, instance.mesh, world.find<scene::Skin>(entity) != nullptr, state);
             warn_illuminant_mismatch(surface.material->illuminant(), light_.illuminant());
-            const bool changed = update_key(surface, instance, glm::mat3(world_matrix.matrix), light_.version(), state);
-            const auto update_surface = [&](const scene::Mesh& mesh, bool skinned) {
-                update_sides(surface,
-                             {.mesh = mesh,
-                              .object_to_world = world_matrix.matrix,
-                              .groove_rotation = static_cast<double>(surface.groove_rotation),
-                              .skinned = skinned,
-                              .changed = changed || skinned,
-                              .map_pace = map_pace_},
-                             light_, state);
-            };
-            if (const scene::Skin* skin = world.find<scene::Skin>(entity))
-                update_surface(scene::posed(*instance.mesh, scene::joint_matrices(world, *skin)), true);
-            else
-                update_surface(*instance.mesh, false);
-            if (changed || is_filling(*surface.material, state)) ++version_;
         });
+    for (const ecs::Entity entity : seen)
+        if (owns(world, entity)) update_seen(world, entity, world.get<SurfaceState>(entity));
+}
+
+void DiffractionSurfaceType::update_seen(ecs::World& world, ecs::Entity entity, SurfaceState& state) {
+    const glm::mat4& matrix = world.get<scene::WorldMatrix>(entity).matrix;
+    state.seen = true;
+    state.changed = state.changed || state.orientation != glm::mat3(matrix) || state.light_version != light_.version();
+    state.orientation = glm::mat3(matrix);
+    state.light_version = light_.version();
+    const auto update_sides = [&](const scene::Mesh& mesh, bool skinned) {
+        const SurfaceObject object{.mesh = mesh,
+                                   .object_to_world = matrix,
+                                   .groove_rotation = static_cast<double>(state.groove_rotation),
+                                   .skinned = skinned,
+                                   .changed = state.changed || skinned,
+                                   .maps = maps_};
+        update_lit_side(*state.material, object, light_, state);
+        if (state.reflected) state.reflected->material->update(object, light_, *state.reflected);
+    };
+    if (const scene::Skin* skin = world.find<scene::Skin>(entity))
+        update_sides(scene::posed(*state.mesh, scene::joint_matrices(world, *skin)), true);
+    else
+        update_sides(*state.mesh, false);
+    if (std::exchange(state.changed, false) || is_filling(state)) ++version_;
 }
 
 bool maps_are_filling(ecs::World& world) {
     bool filling = false;
-    world.view<DiffractionSurface, SurfaceState>().each(
-        [&](ecs::Entity, const DiffractionSurface& surface, const SurfaceState& state) {
-            filling = filling || is_filling(*surface.material, state);
-        });
+    world.view<SurfaceState>().each(
+        [&](ecs::Entity, const SurfaceState& state) { filling = filling || (state.seen && is_filling(state)); });
     return filling;
 }
 

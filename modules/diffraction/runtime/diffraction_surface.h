@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <glm/mat3x3.hpp>
@@ -7,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +16,7 @@
 #include "engine/math/spherical_harmonics.h"
 #include "engine/render/material.h"
 #include "modules/diffraction/runtime/gpu_material.h"
+#include "modules/diffraction/runtime/map_cache.h"
 #include "modules/diffraction/runtime/surface_light.h"
 
 namespace rowland::diffraction {
@@ -32,13 +35,14 @@ struct DiffractionSettings {
     /// On band-limited light, against ringing; nullopt: the weakest sufficient window.
     std::optional<math::SphericalWindow> window = std::nullopt;
     MapPace map_pace = MapPace::Incremental;
+    std::chrono::milliseconds map_wait = kMapWait;  ///< the longest that a frame waits for coarse maps
 };
 
-/// Whether maps are still being filled for the light and the objects that were last drawn.
+/// Whether maps are still being filled for the light and the objects that were last seen.
 bool maps_are_filling(ecs::World& world);
 
-/// Draws entities that have a DiffractionSurface, each by its material's representation. Per-object data is updated
-/// when the light, the object or its material changes.
+/// Draws entities that have a DiffractionSurface, each by its material's representation. The data of an object that is
+/// seen is updated when the light, the object or its material changes.
 class DiffractionSurfaceType final : public render::MaterialType {
  public:
     /// `xyz_to_working` as the renderer's.
@@ -53,13 +57,15 @@ class DiffractionSurfaceType final : public render::MaterialType {
     void add_shaders(gpu::ShaderLibrary& library) const override;
     bool owns(ecs::World& world, ecs::Entity entity) const override;
     gpu::ProgramDesc program(ecs::World& world, ecs::Entity entity) const override;
-    void update(ecs::World& world, const render::FrameLight& light) override;
+    std::vector<gpu::ProgramDesc> later_programs(ecs::World& world, ecs::Entity entity) const override;
+    void update(ecs::World& world, const render::FrameLight& light, std::span<const ecs::Entity> seen) override;
     std::uint64_t version() const override { return version_; }
     void bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const override;
     std::optional<gpu::ProgramDesc> overlay_program(ecs::World& world, ecs::Entity entity) const override;
     void bind_overlay(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const override;
 
  private:
+    void update_seen(ecs::World& world, ecs::Entity entity, SurfaceState& state);
     void warn_illuminant_mismatch(const std::string& baked_for, const std::string& lit_by);
     /// One for all objects with the same texture and the same object of it.
     std::shared_ptr<const GrooveMap> groove_map(const GrooveTexture& use, const render::MaterialExtension& extension,
@@ -67,11 +73,11 @@ class DiffractionSurfaceType final : public render::MaterialType {
     std::shared_ptr<const GpuMaterial> uploaded(const std::vector<std::byte>& tables, const std::string& file);
 
     glm::dmat3 xyz_to_working_;
-    MapPace map_pace_;
     std::map<std::string, std::weak_ptr<const GpuMaterial>> uploaded_;  ///< by the hash of the tables
     std::map<std::pair<const image::ByteImage*, std::string>, std::weak_ptr<const GrooveMap>> groove_maps_;
     std::set<std::pair<std::string, std::string>> warned_pairs_;  ///< illuminants baked for, lit by
     SurfaceLight light_;
+    MapCache maps_;
     std::uint64_t version_ = 0;
 };
 

@@ -12,12 +12,6 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// GpuCircle's data of an object.
-struct CircleData final : ObjectData {
-    std::shared_ptr<const scene::Mesh> mesh;  ///< of `flat`
-    bool flat = false;                        ///< so is its mirror, which needs no average over the pixel
-};
-
 /// The texels of a row that one look-up of the terms reads.
 void append(const CircleGrid& grid, int chart, int view, int row, int look_up, std::vector<glm::vec4>& texels) {
     for (int column = 0; column < grid.side; ++column) {
@@ -96,21 +90,18 @@ GpuCircle::GpuCircle(const CookedMaterial& cooked, const CircleTables& tables, c
       fill_(std::make_shared<const FillMap>(Filling{working_material(), tables.size})) {}
 
 void GpuCircle::update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const {
-    if (!state.data) state.data = std::make_unique<CircleData>();
-    auto& data = static_cast<CircleData&>(*state.data);
-    if (data.mesh != state.mesh || !state.mesh) {
-        data.mesh = state.mesh;
-        data.flat = !object.skinned && flat_normal(object.mesh).has_value();
-    }
-    map_.update({.texels = samples(light)}, fill_, object.map_pace);
+    state.map.update(fill_, {.texels = samples(light)}, object.maps);
+    state.without_map = !state.map.shown();
 }
 
 void GpuCircle::describe(const SurfaceState& state, gpu::ProgramDesc& desc) const {
+    if (state.without_map) return;
     if (cooked()->material.quality.map_at_vertices) {
         set_vertex_shader(desc, "representations/circle/circle.glsl");
     } else {
         set_pixel_shader(desc, "representations/circle/circle.glsl", 2);
-        if (!static_cast<const CircleData&>(*state.data).flat) desc.defines.push_back({"MATERIAL_CURVED_MIRROR", "1"});
+        // What a flat mirror shows changes little over a pixel.
+        if (!state.flat) desc.defines.push_back({"MATERIAL_CURVED_MIRROR", "1"});
     }
     desc.defines.push_back({"CHARTS", std::to_string(charts_)});
     desc.defines.push_back({"VIEWS", std::to_string(size_.views)});
@@ -118,8 +109,8 @@ void GpuCircle::describe(const SurfaceState& state, gpu::ProgramDesc& desc) cons
     desc.defines.push_back({"ANGLES", std::to_string(size_.angles)});  // for half a turn
 }
 
-void GpuCircle::bind_tables(const gpu::Program& program, const SurfaceState&) const {
-    map_.bind(program);
+void GpuCircle::bind_tables(const gpu::Program& program, const SurfaceState& state) const {
+    if (!state.without_map) state.map.shown()->bind(program);
 }
 
 }  // namespace rowland::diffraction

@@ -4,12 +4,9 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/gtc/packing.hpp>
-#include <limits>
 #include <utility>
 
 #include "engine/core/check.h"
-#include "engine/core/error.h"
-#include "engine/core/log.h"
 #include "engine/core/parallel.h"
 #include "modules/diffraction/runtime/bindings.h"
 
@@ -91,13 +88,16 @@ MapTexels pack_ten_bits(std::span<const glm::vec3> values, gpu::TextureDesc desc
     return texels;
 }
 
-GpuMap::GpuMap(MapTexels texels, GpuMap spare) : texels_(std::move(texels)) {
+GpuMap::GpuMap(MapTexels texels, std::vector<gpu::Texture>& spare) : texels_(std::move(texels)) {
     const gpu::TextureDesc& desc = texels_.desc;
-    const gpu::TextureDesc& old = spare.texture_.desc();
-    const bool fits = spare.texture_.id() != 0 && old.kind == desc.kind && old.format == desc.format &&
-                      old.width == desc.width && old.height == desc.height && old.depth == desc.depth &&
-                      old.levels == desc.levels;
-    texture_ = fits ? std::move(spare.texture_) : gpu::Texture(desc, texels_.sampling);
+    const auto fitting =
+        std::ranges::find_if(spare, [&](const gpu::Texture& texture) { return texture.desc() == desc; });
+    if (fitting == spare.end()) {
+        texture_ = gpu::Texture(desc, texels_.sampling);
+    } else {
+        texture_ = std::move(*fitting);
+        spare.erase(fitting);
+    }
 }
 
 template <typename Word>
@@ -132,94 +132,6 @@ void GpuMap::bind(const gpu::Program& program, bool second) const {
     ROWLAND_CHECK_OP(level_, ==, static_cast<std::size_t>(texels_.desc.levels));
     texture_.bind(second ? kSecondMapUnit : kMapUnit);
     program.set(second ? "second_map_scale" : "map_scale", texels_.scale);
-}
-
-namespace {
-
-/// Of a full map, in one frame.
-constexpr int kSlicesPerFrame = 8;
-constexpr int kAllSlices = std::numeric_limits<int>::max();
-
-FilledMap filled(const FillMap& fill, MapInput input, MapDetail detail, const std::stop_token& stop = {}) {
-    if (!input.texels) input.texels = std::make_shared<const lighting::LightSamples>();
-    return fill(input, detail, stop);
-}
-
-}  // namespace
-
-void MapFilling::fill_now(const MapInput& input, const FillMap& fill, MapDetail detail) {
-    if (!input.texels && (!shown_ || shown_->input.texels))
-        log_warning("the map of a grating is under a probe without texels: it stays dark");
-    begin_upload({std::make_shared<FilledMap>(filled(fill, input, detail)), input, detail});
-    upload(kAllSlices);
-}
-
-void MapFilling::want(const MapInput& input, const std::shared_ptr<const FillMap>& fill) {
-    if (wanted_ == input) return;
-    // An object that turns in every frame would never get a map if each frame began another one.
-    if (wanted_ && filling_.busy() && !filling_.is_of(*wanted_)) return;
-    wanted_ = input;
-    ++fills_begun_;
-    const bool coarse = !shown_ || shown_->input != input;
-    filling_.want(
-        input,
-        [input, fill, coarse](const std::stop_token& stop, const Filling::Publish& publish) -> std::optional<Filled> {
-            const auto fill_to = [&](MapDetail detail) {
-                return Filled{std::make_shared<FilledMap>(filled(*fill, input, detail, stop)), input, detail};
-            };
-            if (coarse) {
-                Filled first = fill_to(MapDetail::Coarse);
-                if (stop.stop_requested()) return std::nullopt;
-                publish(std::move(first));
-            }
-            Filled full = fill_to(MapDetail::Full);
-            if (stop.stop_requested()) return std::nullopt;
-            return full;
-        });
-}
-
-void MapFilling::begin_upload(Filled filled) {
-    spare_.resize(2);
-    uploads_.clear();
-    uploads_.emplace_back(std::move(filled.map->texels), std::move(spare_[0]));
-    if (filled.map->second) uploads_.emplace_back(std::move(*filled.map->second), std::move(spare_[1]));
-    spare_.clear();
-    uploading_ = std::move(filled);
-}
-
-void MapFilling::upload(int slices) {
-    // A coarse map is small.
-    const int wanted = uploading_ && uploading_->detail == MapDetail::Full ? slices : kAllSlices;
-    if (uploads_.empty() || !std::ranges::all_of(uploads_, [&](GpuMap& part) { return part.upload(wanted); })) return;
-    spare_ = std::exchange(map_, std::exchange(uploads_, {}));
-    shown_ = std::exchange(uploading_, std::nullopt);
-    ++maps_shown_;
-}
-
-void MapFilling::update(const MapInput& input, const std::shared_ptr<const FillMap>& fill, MapPace pace) {
-    if (pace == MapPace::Whole) {
-        if (is_complete() && wanted_ == input) return;
-        filling_.reset();
-        wanted_ = input;
-        ++fills_begun_;
-        return fill_now(input, *fill, MapDetail::Full);
-    }
-    if (const bool new_light = !shown_ || shown_->input.texels != input.texels; new_light) {
-        filling_.reset();
-        wanted_.reset();
-        // The next frame begins the full map: in this one, other maps and the driver's compiler need the cores.
-        return fill_now(input, *fill, MapDetail::Coarse);
-    }
-    const Filling::Change change = filling_.poll();
-    if (!change.failure.empty()) fail_system("", "a map that cannot be filled: " + change.failure);
-    if (change.value) begin_upload(*filling_.value());
-    want(input, fill);
-    upload(kSlicesPerFrame);
-}
-
-void MapFilling::bind(const gpu::Program& program) const {
-    for (std::size_t i = 0; i < map_.size(); ++i) map_[i].bind(program, i > 0);
-    if (shown_->map->set_uniforms) shown_->map->set_uniforms(program);
 }
 
 }  // namespace rowland::diffraction

@@ -16,18 +16,13 @@
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/representations/point_shader.h"
 #include "modules/diffraction/runtime/analytic_lights.h"
-#include "modules/diffraction/runtime/gpu_map.h"
 #include "modules/diffraction/runtime/groove_map.h"
+#include "modules/diffraction/runtime/map_cache.h"
 #include "modules/diffraction/runtime/surface_light.h"
 
 namespace rowland::diffraction {
 
 class GpuMaterial;
-
-/// A representation's data of one object besides the light at its vertices.
-struct ObjectData {
-    virtual ~ObjectData() = default;
-};
 
 /// Component: the data of one object with a grating, and their cache key.
 struct SurfaceState {
@@ -36,11 +31,19 @@ struct SurfaceState {
     glm::mat3 orientation{0.0F};
     float groove_rotation = 0.0F;
     std::shared_ptr<const GrooveMap> grooves;
-    std::uint64_t light_version = 0;
+    std::shared_ptr<const std::uint64_t> light_version;  ///< SurfaceLight::version()
+    bool changed = true;                                 ///< since it was last updated
+    bool seen = false;                                   ///< in the last frame
 
-    gpu::StreamBuffer vertex_light;           ///< per vertex; may be empty
-    std::unique_ptr<ObjectData> data;         ///< may be null
-    std::unique_ptr<SurfaceState> reflected;  ///< of GpuMaterial::reflected(); null before it is updated
+    std::optional<glm::dvec3> flat;    ///< normal of the lit side of a flat mesh without a skin, object axes
+    std::optional<glm::vec4> tangent;  ///< common_tangent() on that side
+
+    gpu::StreamBuffer vertex_light;  ///< per vertex; may be empty
+    glm::vec3 arc_e1{0.0F};          ///< of GpuArc: ArcTurns
+    glm::vec3 arc_e2{0.0F};
+    ObjectMap map;
+    bool without_map = false;                 ///< drawn without one: it is not filled yet, or there can be none
+    std::unique_ptr<SurfaceState> reflected;  ///< of GpuMaterial::reflected(), or null
 };
 
 /// An object with a grating in this frame.
@@ -50,7 +53,7 @@ struct SurfaceObject {
     double groove_rotation = 0.0;  ///< radians, from the tangent toward the bitangent
     bool skinned = false;
     bool changed = true;  ///< since the last frame: light, orientation, mesh, rotation or material
-    MapPace map_pace = MapPace::Incremental;
+    MapCache& maps;
 };
 
 /// A cooked material on the GPU. One class per representation implements it.
@@ -70,10 +73,8 @@ class GpuMaterial {
     /// Name of the illuminant that the tables are baked for.
     const std::string& illuminant() const { return cooked_->material.quality.illuminant.name; }
 
-    /// Call once per frame for each object, before it is drawn.
+    /// Call once per frame for each object that is seen, before it is drawn.
     virtual void update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const = 0;
-    /// Whether the object, as last updated, has a coarse or an old map until the full one is filled.
-    virtual bool filling(const SurfaceState&) const { return false; }
 
     gpu::ProgramDesc program(const SurfaceState& state) const;
     /// The program must be in use.

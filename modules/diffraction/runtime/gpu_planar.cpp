@@ -17,36 +17,6 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// Smaller changes of a map's axes do not show at its resolution.
-constexpr double kSameAxis = 1e-5;
-
-PlanarData& data_of(SurfaceState& state) {
-    if (!state.data) state.data = std::make_unique<PlanarData>();
-    return static_cast<PlanarData&>(*state.data);
-}
-
-const PlanarData& data_of(const SurfaceState& state) {
-    return static_cast<const PlanarData&>(*state.data);
-}
-
-glm::dvec3 in_world(const glm::dvec3& normal, const glm::mat4& object_to_world) {
-    return glm::normalize(glm::inverseTranspose(glm::dmat3(object_to_world)) * normal);
-}
-
-void follow(const glm::dvec3& axis, glm::dvec3& followed) {
-    if (glm::length(followed - axis) > kSameAxis) followed = axis;
-}
-
-/// Updates what the mesh determines.
-void find_flatness(const SurfaceObject& object, const SurfaceState& state, PlanarData& data) {
-    if (data.mesh == state.mesh && state.mesh) return;
-    data.mesh = state.mesh;
-    data.flat = object.skinned ? std::nullopt : flat_normal(object.mesh);
-    data.tangent = common_tangent(object.mesh);
-    if (!data.flat && !object.skinned)
-        log_warning("a grating of representation planar is on a mesh that is not flat: it is shaded as arc");
-}
-
 PlanarMapSize coarser(PlanarMapSize size) {
     size.azimuths = std::min(kCoarsePlanarMap.azimuths, size.azimuths);
     size.views = std::min(kCoarsePlanarMap.views, size.views);
@@ -151,42 +121,35 @@ GpuPlanar::GpuPlanar(const CookedMaterial& cooked, const PlanarTables& tables, c
       half_turn_(tables.lobe && tables.lobe->pattern.even),
       pitch_axis_(tables.size.pitch.has_value()) {}
 
-void GpuPlanar::update_map(const SurfaceObject& object, const SurfaceLight& light, bool grooves,
-                           PlanarData& data) const {
-    const auto& texels = samples(light);
-    data.has_map = data.flat && texels;
-    if (!data.has_map) return;
-    follow(in_world(*data.flat, object.object_to_world), data.normal);
-    if (lobe_map_ && !grooves && data.tangent) {
-        if (!data.grating) data.grating.emplace(0.0);
-        const glm::dmat3 to_tangent =
-            tangent_frame(glm::vec3(*data.flat), *data.tangent, object.object_to_world, object.groove_rotation);
-        follow(glm::transpose(to_tangent)[0], *data.grating);
-    } else {
-        data.grating.reset();
-    }
-    data.map.update({.texels = texels, .normal = data.normal, .grating = data.grating}, fill_, object.map_pace);
+MapInput GpuPlanar::map_input(const SurfaceObject& object, const SurfaceLight& light, const SurfaceState& state) const {
+    const glm::dmat3 linear(object.object_to_world);
+    MapInput input{.texels = samples(light), .normal = glm::normalize(glm::inverseTranspose(linear) * *state.flat)};
+    if (lobe_map_ && !state.grooves && state.tangent)
+        input.grating = glm::transpose(
+            tangent_frame(glm::vec3(*state.flat), *state.tangent, object.object_to_world, object.groove_rotation))[0];
+    return input;
 }
 
 void GpuPlanar::update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const {
-    PlanarData& data = data_of(state);
-    find_flatness(object, state, data);
-    update_map(object, light, state.grooves != nullptr, data);
-    data.stand_in_is_old = data.stand_in_is_old || object.changed;
-    if (data.has_map || !data.stand_in_is_old) return;
+    if (state.flat && samples(light))
+        state.map.update(fill_, map_input(object, light, state), object.maps);
+    else
+        state.map = {};
+    const bool was_without = std::exchange(state.without_map, !state.map.shown());
+    if (!state.without_map) {
+        if (was_without) state.vertex_light = {};
+        return;
+    }
+    if (was_without && !object.changed) return;
+    if (!state.flat && !object.skinned && !was_without)
+        log_warning("a grating of representation planar is on a mesh that is not flat: it is shaded as arc");
     SurfaceObject changed = object;
     changed.changed = true;
     (*stand_in_)->update(changed, light, state);
-    data.stand_in_is_old = false;
-}
-
-bool GpuPlanar::filling(const SurfaceState& state) const {
-    const PlanarData& data = data_of(state);
-    return data.has_map && !data.map.is_complete();
 }
 
 void GpuPlanar::describe(const SurfaceState& state, gpu::ProgramDesc& desc) const {
-    if (!data_of(state).has_map) return (*stand_in_)->describe(state, desc);
+    if (state.without_map || !state.flat) return (*stand_in_)->describe(state, desc);
     // The vertices do not read a groove texture.
     if (cooked()->material.quality.map_at_vertices && !state.grooves)
         set_vertex_shader(desc, "representations/planar/planar.glsl");
@@ -199,11 +162,10 @@ void GpuPlanar::describe(const SurfaceState& state, gpu::ProgramDesc& desc) cons
 }
 
 void GpuPlanar::bind_tables(const gpu::Program& program, const SurfaceState& state) const {
-    const PlanarData& data = data_of(state);
-    if (data.has_map)
-        data.map.bind(program);
-    else
+    if (state.without_map)
         (*stand_in_)->bind_tables(program, state);
+    else
+        state.map.shown()->bind(program);
 }
 
 }  // namespace rowland::diffraction

@@ -11,7 +11,6 @@
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/program.h"
 #include "engine/gpu/texture.h"
-#include "modules/diffraction/runtime/gpu_map.h"
 #include "modules/diffraction/runtime/gpu_material.h"
 #include "modules/diffraction/runtime/vertex_light.h"
 
@@ -83,33 +82,20 @@ class GpuDirect final : public GpuMaterial {
     void bind_tables(const gpu::Program&, const SurfaceState&) const override {}
 };
 
-/// GpuPlanar's data of an object.
-struct PlanarData final : ObjectData {
-    std::shared_ptr<const scene::Mesh> mesh;  ///< of `flat`
-    std::optional<glm::dvec3> flat;           ///< the mesh's normal, in its own axes
-    std::optional<glm::vec4> tangent;         ///< of its mesh, if all agree
-    glm::dvec3 normal{0.0};                   ///< of the map, in the world
-    std::optional<glm::dvec3> grating;        ///< the same, if it has one azimuth
-    bool has_map = false;                     ///< the mesh is flat and the probe has texels
-    MapFilling map;
-    bool stand_in_is_old = true;  ///< the stand-in's vertex data are out of date
-};
-
-/// One map for each flat object: planar_map.glsl. It follows the object's normal and the probe; a rotation about the
-/// normal leaves it valid, unless it is over v_g and v_h alone, as all points have one g. An arc table shades objects
-/// that are not flat, and without a probe's texels.
+/// One map for all flat objects with one normal: planar_map.glsl. It follows the normal and the probe; a rotation about
+/// the normal leaves it valid, unless it is over v_g and v_h alone, as all points have one g. An arc table shades
+/// objects that are not flat, those without a probe's texels, and others until there is a map.
 class GpuPlanar final : public GpuMaterial {
  public:
     GpuPlanar(const CookedMaterial& cooked, const PlanarTables& tables, const glm::dmat3& xyz_to_working);
 
     void update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const override;
-    bool filling(const SurfaceState& state) const override;
 
  private:
     void describe(const SurfaceState& state, gpu::ProgramDesc& desc) const override;
     void bind_tables(const gpu::Program& program, const SurfaceState& state) const override;
 
-    void update_map(const SurfaceObject& object, const SurfaceLight& light, bool grooves, PlanarData& data) const;
+    MapInput map_input(const SurfaceObject& object, const SurfaceLight& light, const SurfaceState& state) const;
 
     Lazy<std::unique_ptr<const GpuArc>> stand_in_;
     std::shared_ptr<const FillMap> fill_;
@@ -118,15 +104,13 @@ class GpuPlanar final : public GpuMaterial {
     bool pitch_axis_;
 };
 
-/// One map for all objects of a material: circle.glsl. It follows the probe; objects do not matter.
+/// One map for all objects of a material: circle.glsl. It follows the probe; objects do not matter. Until it is there,
+/// only analytic lights and key lights are shown.
 class GpuCircle final : public GpuMaterial {
  public:
     GpuCircle(const CookedMaterial& cooked, const CircleTables& tables, const glm::dmat3& xyz_to_working);
 
     void update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const override;
-    bool filling(const SurfaceState&) const override { return !map_.is_complete(); }
-
-    const MapFilling& map() const { return map_; }
 
  private:
     void describe(const SurfaceState& state, gpu::ProgramDesc& desc) const override;
@@ -135,7 +119,6 @@ class GpuCircle final : public GpuMaterial {
     CircleMapSize size_;
     int charts_;
     std::shared_ptr<const FillMap> fill_;
-    mutable MapFilling map_;  ///< updated by the first object in a frame
 };
 
 /// The streak of a narrow lobe from a map of the whole probe, and an arc table for the incoherent part of Stam's pits:
@@ -145,9 +128,6 @@ class GpuStreak final : public GpuMaterial {
     GpuStreak(const CookedMaterial& cooked, const StreakTables& tables, const glm::dmat3& xyz_to_working);
 
     void update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const override;
-    bool filling(const SurfaceState&) const override { return !map_.is_complete(); }
-
-    const MapFilling& map() const { return map_; }
 
  private:
     void describe(const SurfaceState& state, gpu::ProgramDesc& desc) const override;
@@ -161,7 +141,6 @@ class GpuStreak final : public GpuMaterial {
     std::optional<GpuArc> incoherent_;
 
     std::shared_ptr<const FillMap> fill_;
-    mutable MapFilling map_;  ///< updated by the first object in a frame
 };
 
 /// The classes that draw the alternatives of BakedTables, in its order.

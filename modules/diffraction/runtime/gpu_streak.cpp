@@ -72,10 +72,12 @@ GpuStreak::GpuStreak(const CookedMaterial& cooked, const StreakTables& tables, c
 
 void GpuStreak::update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const {
     if (incoherent_) incoherent_->update(object, light, state);
-    map_.update({.texels = light.probe_samples(0)}, fill_, object.map_pace);
+    state.map.update(fill_, {.texels = light.probe_samples(0)}, object.maps);
+    state.without_map = !state.map.shown();
 }
 
 void GpuStreak::describe(const SurfaceState& state, gpu::ProgramDesc& desc) const {
+    if (state.without_map) return;
     if (incoherent_) {
         incoherent_->describe(state, desc);
         desc.defines.push_back({"REST", "1"});
@@ -86,9 +88,10 @@ void GpuStreak::describe(const SurfaceState& state, gpu::ProgramDesc& desc) cons
 }
 
 void GpuStreak::bind_tables(const gpu::Program& program, const SurfaceState& state) const {
+    if (state.without_map) return;
     if (incoherent_) incoherent_->bind_tables(program, state);
     segments_.bind_storage(kStreakSegmentBinding);
-    map_.bind(program);
+    state.map.shown()->bind(program);
     program.set("streak_level", level_);
     program.set("streak_reach", reach_);
     program.set("streak_power", power_);

@@ -135,14 +135,9 @@ void GpuSpikes::bind_tables(const gpu::Program&, const SurfaceState& state) cons
 
 namespace {
 
-/// The plane of a flat object under a GrooveMap.
-struct ArcPlane final : ObjectData {
-    glm::vec3 e1{0.0F};
-    glm::vec3 e2{0.0F};
-};
-
-const ArcPlane* plane_of(const SurfaceState& state) {
-    return state.grooves ? dynamic_cast<const ArcPlane*>(state.data.get()) : nullptr;
+/// A flat object under a GrooveMap has the products of every azimuth of g.
+bool has_turns(const SurfaceState& state) {
+    return state.grooves && state.flat;
 }
 
 ViewGrid weight_grid(const ArcTable& table) {
@@ -161,17 +156,12 @@ GpuArc::GpuArc(const CookedMaterial& cooked, const ArcTable& table, const glm::d
 
 std::vector<glm::vec4> GpuArc::grooved_products(const SurfaceObject& object, const lighting::ShLight& light,
                                                 SurfaceState& state) const {
-    if (plane_of(state) != nullptr) state.data.reset();
-    // If this is the stand-in of another representation, the state holds that one's data.
-    const auto flat = object.skinned || state.data ? std::nullopt : flat_normal(object.mesh);
-    if (!flat)
+    if (!state.flat)
         return products_(light, turned_by(*state.grooves, object.mesh), object.object_to_world, object.groove_rotation);
     const glm::dmat3 linear(object.object_to_world);
-    ArcTurns turns = arc_turns(products_, light, glm::normalize(glm::inverseTranspose(linear) * *flat));
-    auto plane = std::make_unique<ArcPlane>();
-    plane->e1 = turns.e1;
-    plane->e2 = turns.e2;
-    state.data = std::move(plane);
+    ArcTurns turns = arc_turns(products_, light, glm::normalize(glm::inverseTranspose(linear) * *state.flat));
+    state.arc_e1 = turns.e1;
+    state.arc_e2 = turns.e2;
     return std::move(turns.terms);
 }
 
@@ -186,9 +176,8 @@ void GpuArc::update(const SurfaceObject& object, SurfaceLight& light, SurfaceSta
 }
 
 void GpuArc::describe(const SurfaceState& state, gpu::ProgramDesc& desc) const {
-    const bool turns = plane_of(state) != nullptr;
     set_pixel_shader(desc, "representations/arc/arc.glsl");
-    if (turns)
+    if (has_turns(state))
         desc.defines.push_back({"TURNS", std::to_string(products_.bands())});
     else
         desc.defines.push_back({"ARC_PRODUCTS", "1"});
@@ -201,9 +190,9 @@ void GpuArc::bind_tables(const gpu::Program& program, const SurfaceState& state)
     weights_.bind();
     state.vertex_light.bind_storage(kVertexLightBinding);
     if (pitch_) program.set("pitch_scale_bias", glm::vec2(pitch_->scale_bias()));
-    if (const ArcPlane* plane = plane_of(state)) {
-        program.set("arc_e1", plane->e1);
-        program.set("arc_e2", plane->e2);
+    if (has_turns(state)) {
+        program.set("arc_e1", state.arc_e1);
+        program.set("arc_e2", state.arc_e2);
     }
 }
 

@@ -129,6 +129,7 @@ void SurfaceLight::set(const render::FrameLight& frame) {
     frame_ = frame;
     if (!same_strengths) set_light_colours(frame.light_strengths);
     if (same_light) return;
+    version_ = std::make_shared<const std::uint64_t>(frame.version);
     whole_.clear();
     if (same_probe) return;
     without_key_lights_.clear();

@@ -43,7 +43,9 @@ class SurfaceLight {
 
     /// The frame's probe must not be null.
     void set(const render::FrameLight& frame);
-    std::uint64_t version() const { return frame_.version; }
+    /// Another pointer with each change of the light, and never one of another SurfaceLight's: versions are counted by
+    /// each renderer from the same number.
+    const std::shared_ptr<const std::uint64_t>& version() const { return version_; }
     /// Name of the spectrum of the probe's white.
     const std::string& illuminant() const { return frame_.probe->illuminant.name; }
 
@@ -68,6 +70,7 @@ class SurfaceLight {
 
     std::optional<math::SphericalWindow> window_;
     render::FrameLight frame_;
+    std::shared_ptr<const std::uint64_t> version_;
     std::vector<glm::vec3> light_colours_;
     LightColourBlock colour_block_ = {};
     mutable gpu::StreamBuffer colour_buffer_;

@@ -203,7 +203,8 @@ gpu::ProgramDesc FilmSurfaceType::program(ecs::World& world, ecs::Entity entity)
     return desc;
 }
 
-void FilmSurfaceType::update(ecs::World& world, const render::FrameLight& light) {
+void FilmSurfaceType::update(ecs::World& world, const render::FrameLight& light,
+                             std::span<const ecs::Entity> /*seen*/) {
     if (!light.probe) return;
     const std::string& lit_by = light.probe->illuminant.name;
     world.view<FilmSurface>().each([&](ecs::Entity, const FilmSurface& surface) {

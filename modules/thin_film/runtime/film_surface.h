@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -73,7 +74,7 @@ class FilmSurfaceType final : public render::MaterialType {
     void add_shaders(gpu::ShaderLibrary& library) const override;
     bool owns(ecs::World& world, ecs::Entity entity) const override;
     gpu::ProgramDesc program(ecs::World& world, ecs::Entity entity) const override;
-    void update(ecs::World& world, const render::FrameLight& light) override;
+    void update(ecs::World& world, const render::FrameLight& light, std::span<const ecs::Entity> seen) override;
     void bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const override;
 
  private:

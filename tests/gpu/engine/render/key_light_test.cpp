@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "engine/lighting/key_lights.h"
 #include "engine/lighting/light_samples.h"
@@ -185,7 +186,9 @@ class KeyListener final : public MaterialType {
     void add_shaders(gpu::ShaderLibrary& /*library*/) const override {}
     bool owns(ecs::World& /*world*/, ecs::Entity /*entity*/) const override { return false; }
     gpu::ProgramDesc program(ecs::World& /*world*/, ecs::Entity /*entity*/) const override { return {}; }
-    void update(ecs::World& /*world*/, const FrameLight& light) override { *light_ = light; }
+    void update(ecs::World& /*world*/, const FrameLight& light, std::span<const ecs::Entity> /*seen*/) override {
+        *light_ = light;
+    }
     void bind(ecs::World& /*world*/, ecs::Entity /*entity*/, const gpu::Program& /*program*/) const override {}
 
  private:

@@ -2,6 +2,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "engine/core/error.h"
 #include "engine/render/reflections.h"
@@ -40,7 +41,7 @@ class MarkType final : public MaterialType {
     void add_shaders(gpu::ShaderLibrary& /*library*/) const override {}
     bool owns(ecs::World& /*world*/, ecs::Entity /*entity*/) const override { return false; }
     gpu::ProgramDesc program(ecs::World& /*world*/, ecs::Entity /*entity*/) const override { return {}; }
-    void update(ecs::World& /*world*/, const FrameLight& /*light*/) override {}
+    void update(ecs::World& /*world*/, const FrameLight& /*light*/, std::span<const ecs::Entity> /*seen*/) override {}
     void bind(ecs::World& /*world*/, ecs::Entity /*entity*/, const gpu::Program& /*program*/) const override {}
 };
 

@@ -1,4 +1,5 @@
 // Material types that take part in the base's specular reflection, and two types on one entity.
+#include <span>
 #include <utility>
 
 #include "engine/render/scene_instance.h"
@@ -34,7 +35,7 @@ class HookType final : public MaterialType {
     gpu::ProgramDesc program(ecs::World& /*world*/, ecs::Entity /*entity*/) const override {
         return {.vertex = "engine/render/shaders/plain.vert.glsl", .fragment = name_ + ".frag.glsl"};
     }
-    void update(ecs::World& /*world*/, const FrameLight& /*light*/) override {}
+    void update(ecs::World& /*world*/, const FrameLight& /*light*/, std::span<const ecs::Entity> /*seen*/) override {}
     void bind(ecs::World& /*world*/, ecs::Entity /*entity*/, const gpu::Program& /*program*/) const override {}
 
  private:

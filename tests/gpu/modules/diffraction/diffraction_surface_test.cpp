@@ -94,7 +94,7 @@ TEST_F(Surface, ViewsFromBelowAreBlack) {
     }
 }
 
-TEST_F(Surface, VertexLightIsMadeOnlyWhenSomethingChanges) {
+TEST_F(Surface, VertexLightIsMadeOnlyWhenSomethingSeenChanges) {
     show(cook(kSlitCd, R"({"representation": "arc"})"));
     const auto made = [&] {
         draw();
@@ -109,7 +109,16 @@ TEST_F(Surface, VertexLightIsMadeOnlyWhenSomethingChanges) {
     const int turned = made();
     EXPECT_NE(turned, first);
     ++light_.version;
-    EXPECT_NE(made(), turned);
+    const int under_new_light = made();
+    EXPECT_NE(under_new_light, turned);
+    // What is not in the picture is updated when it is again.
+    const glm::vec3 target = camera_.target;
+    camera_.target = 2.0F * camera_.eye - target;
+    transform_.rotation = glm::angleAxis(0.2F, glm::vec3(1.0F, 0.0F, 0.0F));
+    EXPECT_EQ(made(), under_new_light);
+    EXPECT_EQ(renderer_->report().culled, 1);
+    camera_.target = target;
+    EXPECT_NE(made(), under_new_light);
 }
 
 /// Gives the entity what a cooked scene's material holds.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -25,10 +26,13 @@ class UnderLight final : public render::MaterialType {
     gpu::ProgramDesc program(ecs::World& world, ecs::Entity entity) const override {
         return inner_.program(world, entity);
     }
-    void update(ecs::World& world, const render::FrameLight& frame) override {
+    std::vector<gpu::ProgramDesc> later_programs(ecs::World& world, ecs::Entity entity) const override {
+        return inner_.later_programs(world, entity);
+    }
+    void update(ecs::World& world, const render::FrameLight& frame, std::span<const ecs::Entity> seen) override {
         render::FrameLight light = light_->frame();
         light.light_strengths = frame.light_strengths;  // of the world's own lights
-        inner_.update(world, light);
+        inner_.update(world, light, seen);
     }
     void bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const override {
         inner_.bind(world, entity, program);
@@ -47,9 +51,10 @@ class UnderLight final : public render::MaterialType {
 
 }  // namespace
 
-void GratingPicture::show(const CookedMaterial& cooked, double groove_rotation, MapPace pace) {
+void GratingPicture::show(const CookedMaterial& cooked, double groove_rotation, MapPace pace,
+                          std::chrono::milliseconds map_wait) {
     renderer_.emplace(xyz_to_working_);
-    const DiffractionSettings settings{.window = math::SphericalWindow::None, .map_pace = pace};
+    const DiffractionSettings settings{.window = math::SphericalWindow::None, .map_pace = pace, .map_wait = map_wait};
     renderer_->add_material_type(std::make_unique<UnderLight>(xyz_to_working_, settings, light_));
     lighting::LightProbe dark;
     dark.sh = {.bands = 3, .coefficients = std::vector<glm::dvec3>(9, glm::dvec3(0.0))};

@@ -2,6 +2,7 @@
 
 // Pictures of gratings against the CPU: what the tests of all representations share.
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -34,7 +35,8 @@ inline constexpr double kMapTolerance = 5e-4;
 class GratingPicture : public rowland::test::GlTest, protected DrawnTriangle {
  protected:
     /// Builds the scene, from the mesh and the light as they are.
-    void show(const CookedMaterial& cooked, double groove_rotation = 0.0, MapPace pace = MapPace::Whole);
+    void show(const CookedMaterial& cooked, double groove_rotation = 0.0, MapPace pace = MapPace::Whole,
+              std::chrono::milliseconds map_wait = std::chrono::hours(1));
     /// Gives the triangle another material.
     void use(const CookedMaterial& cooked);
     /// Rows from the top down.

@@ -1,10 +1,12 @@
 // When maps are filled, and which is shown meanwhile.
-#include "modules/diffraction/runtime/gpu_map.h"
+#include "modules/diffraction/runtime/map_cache.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <memory>
 #include <semaphore>
 #include <stdexcept>
@@ -17,54 +19,114 @@
 namespace rowland::diffraction {
 namespace {
 
+using namespace std::chrono_literals;
+
 /// Maps of one texel; a test says when a full one may be filled.
 class MapFillingTest : public rowland::test::GlTest {
  protected:
     ~MapFillingTest() override { full_maps_.release(1000); }
 
-    void update(double normal, MapPace pace = MapPace::Incremental) {
-        filling_.update({.texels = texels_, .normal = {normal, 0.0, 0.0}}, fill_, pace);
+    /// A frame with one object.
+    void update(double normal) {
+        cache_->begin_frame();
+        add(object_, normal);
+    }
+    void add(ObjectMap& object, double normal) {
+        object.update(fill_, {.texels = texels_, .normal = {normal, 0.0, 0.0}}, *cache_);
     }
     void update_until_complete(double normal) {
-        while (!filling_.is_complete()) update(normal);
+        for (update(normal); object_.is_filling();) update(normal);
     }
 
     std::shared_ptr<const lighting::LightSamples> texels_ = std::make_shared<const lighting::LightSamples>();
     std::atomic<int> coarse_count_ = 0;
+    std::atomic<int> full_count_ = 0;
     std::counting_semaphore<> full_maps_{0};
     std::shared_ptr<const FillMap> fill_ =
         std::make_shared<const FillMap>([this](const MapInput&, MapDetail detail, const std::stop_token&) -> FilledMap {
-            if (detail == MapDetail::Full)
+            if (detail == MapDetail::Full) {
                 full_maps_.acquire();
-            else
+                ++full_count_;
+            } else {
                 ++coarse_count_;
+            }
             const std::array<std::vector<glm::vec3>, 1> levels{std::vector<glm::vec3>{glm::vec3(1.0F)}};
             return {.texels = pack(levels, {}, {}), .set_uniforms = nullptr};
         });
-    MapFilling filling_;  ///< last member: it waits for the thread
+    ObjectMap object_;
+    /// Last member: it waits for its threads.
+    std::unique_ptr<MapCache> cache_ = std::make_unique<MapCache>(MapPace::Incremental, 1h);
 };
 
 TEST_F(MapFillingTest, TheFirstFrameHasACoarseMapAndDoesNotWaitForTheFullOne) {
     update(1.0);
-    EXPECT_TRUE(filling_.has_map());
-    EXPECT_FALSE(filling_.is_complete());
+    const auto first = object_.shown();
+    ASSERT_NE(first, nullptr);
     for (int frame = 0; frame < 10; ++frame) update(1.0);
-    EXPECT_FALSE(filling_.is_complete());
+    EXPECT_EQ(first->shown, MapDetail::Coarse);
     full_maps_.release();
     update_until_complete(1.0);
-    EXPECT_EQ(filling_.fills_begun(), 1);
-    EXPECT_EQ(filling_.maps_shown(), 2);
+    EXPECT_EQ(object_.shown(), first);
     EXPECT_EQ(coarse_count_, 1);
+    EXPECT_EQ(full_count_, 1);
+}
+
+TEST_F(MapFillingTest, ObjectsThatAreLitAlikeShareAMap) {
+    std::array<ObjectMap, 3> others;
+    update(1.0);
+    add(others[0], 1.0 + 1e-6);
+    add(others[1], 1.0 + 1e-4);
+    EXPECT_EQ(others[0].shown(), object_.shown());
+    EXPECT_NE(others[1].shown(), object_.shown());
+    fill_ = std::make_shared<const FillMap>(*fill_);  // another material
+    add(others[2], 1.0);
+    EXPECT_NE(others[2].shown(), object_.shown());
+    EXPECT_EQ(coarse_count_, 3);
+}
+
+/// Many objects' maps come one after the other, however long that takes.
+TEST_F(MapFillingTest, AFrameThatMayNotWaitHasNoMapAndOthersComeInTheOrderOfRequests) {
+    std::vector<double> filled;
+    fill_ = std::make_shared<const FillMap>(
+        [&filled, inner = fill_](const MapInput& input, MapDetail detail, const std::stop_token& stop) {
+            if (detail == MapDetail::Coarse) filled.push_back(input.normal.x);
+            return (*inner)(input, detail, stop);
+        });
+    cache_ = std::make_unique<MapCache>(MapPace::Incremental, 0ms);
+    std::vector<ObjectMap> objects(50);
+    while (std::ranges::any_of(objects, [](const ObjectMap& object) { return !object.shown(); })) {
+        cache_->begin_frame();
+        for (std::size_t i = 0; i < objects.size(); ++i) add(objects[i], static_cast<double>(i));
+    }
+    EXPECT_EQ(filled.size(), objects.size());
+    EXPECT_TRUE(std::ranges::is_sorted(filled));
+}
+
+/// What is no longer seen keeps its map, and no other is filled for it.
+TEST_F(MapFillingTest, NothingIsFilledForWhatIsNotSeen) {
+    update(1.0);
+    const auto first = object_.shown();
+    cache_->begin_frame();  // begins the full map
+    cache_->begin_frame();  // gives it up
+    full_maps_.release(2);
+    ObjectMap other;
+    for (add(other, 2.0); other.is_filling(); add(other, 2.0)) cache_->begin_frame();
+    EXPECT_EQ(first->shown, MapDetail::Coarse);
+    update_until_complete(1.0);
+    EXPECT_EQ(object_.shown(), first);
+    EXPECT_EQ(coarse_count_, 2);
 }
 
 TEST_F(MapFillingTest, CoarseMapsFollowAnObjectThatTurnsInEveryFrame) {
+    full_maps_.release(1000);
     update(0.0);
     double normal = 0.0;
-    full_maps_.release(1000);
-    while (filling_.maps_shown() < 10) update(normal += 1.0);
-    EXPECT_GT(coarse_count_, 1);
+    while (coarse_count_ < 10) {
+        update(normal += 1.0);
+        EXPECT_NE(object_.shown(), nullptr);
+    }
     update_until_complete(normal);
-    EXPECT_TRUE(filling_.has_map());
+    EXPECT_EQ(object_.shown()->input.normal.x, normal);
 }
 
 int textures_created = 0;
@@ -76,33 +138,34 @@ void APIENTRY create_textures(GLenum target, GLsizei count, GLuint* names) {
 /// The one that is shown, and the one that the next map goes to.
 TEST_F(MapFillingTest, MapsOfOneSizeTakeTurnsInTwoTextures) {
     const rowland::test::ReplacedFunction<&epoxy_glCreateTextures> counted("glCreateTextures", create_textures);
-    full_maps_.release(1000);
     textures_created = 0;
-    double normal = 0.0;
-    while (filling_.maps_shown() < 10) update(normal += 1.0);
+    update(0.0);
+    for (double normal = 1.0; coarse_count_ < 10; normal += 1.0) update(normal);
     EXPECT_EQ(textures_created, 2);
 }
 
 TEST_F(MapFillingTest, UnderNewLightNoFrameShowsTheOldOneNorWaitsForTheFullMap) {
     update(1.0);
+    const auto old = object_.shown();
     texels_ = std::make_shared<const lighting::LightSamples>();
     update(1.0);  // the old light's full map is still being filled
     EXPECT_EQ(coarse_count_, 2);
-    EXPECT_EQ(filling_.maps_shown(), 2);
-    EXPECT_FALSE(filling_.is_complete());
+    EXPECT_NE(object_.shown(), old);
+    EXPECT_EQ(object_.shown()->shown, MapDetail::Coarse);
     full_maps_.release(2);
     update_until_complete(1.0);
-    EXPECT_EQ(filling_.maps_shown(), 3);
     EXPECT_EQ(coarse_count_, 2);
 }
 
 TEST_F(MapFillingTest, AStillWaitsForTheFullMapOfEveryInput) {
+    cache_ = std::make_unique<MapCache>(MapPace::Whole);
     for (const double normal : {1.0, 2.0, 2.0}) {
         full_maps_.release();
-        update(normal, MapPace::Whole);
-        EXPECT_TRUE(filling_.is_complete());
+        update(normal);
+        EXPECT_FALSE(object_.is_filling());
+        EXPECT_EQ(object_.shown()->input.normal.x, normal);
     }
-    EXPECT_EQ(filling_.fills_begun(), 2);
+    EXPECT_EQ(full_count_, 2);
     EXPECT_EQ(coarse_count_, 0);
 }
 

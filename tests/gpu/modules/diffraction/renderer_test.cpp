@@ -8,6 +8,8 @@
 #include <glm/geometric.hpp>
 #include <memory>
 #include <numbers>
+#include <optional>
+#include <string>
 
 #include "engine/core/error.h"
 #include "engine/core/file.h"
@@ -164,6 +166,44 @@ TEST(Renderer, AGratingNeverReturnsMoreThanTheFurnaceSends) {
     EXPECT_LT(largest, 1.0F + 0.04F + kFurnaceTolerance);  // 0.04: the base's Fresnel layer lies over its diffuse part
     // Slit: 1/4 mirror + 1/4 in the orders + 1/2 base, of which some orders are evanescent.
     EXPECT_GT(centre(pixels).y, 0.6F);
+}
+
+/// What an object keeps of its light is a renderer's own: each counts the changes of its light from 1.
+TEST(Renderer, TwoOverOneWorldShowEachItsOwnProbe) {
+    const platform::HeadlessContext context({.debug = true});
+    std::array<std::optional<Renderer>, 2> renderers;
+    for (std::size_t i = 0; i < 2; ++i) {
+        diffraction::register_module(renderers[i].emplace(glm::dmat3(1.0)));
+        renderers[i]->set_probe(uniform_probe(glm::vec3(1.0F + 3.0F * static_cast<float>(i))));
+    }
+    const gpu::Framebuffer target({.width = 8, .height = 8, .colours = {gpu::Format::RGBA32F}, .depth = true});
+    for (const char* representation : {R"("arc")", R"("spikes")", R"("planar", "map_resolution": 16)"}) {
+        const std::string material = std::string(R"({"grating": {"pitch_nm": 1600, "profile": {"type": "slit",
+            "width_nm": 800}}, "quality": {"representation": )") +
+                                     representation + "}}";
+        ecs::World world;
+        const ecs::Entity entity = world.create();
+        world.add(entity, scene::Transform{});
+        world.add(entity, make_mesh_instance(
+                              scene::build_mesh(scene::DiscRecipe{.outer_radius = 1.0, .rings = 2, .segments = 9})));
+        world.add(entity, StandardMaterial{});
+        diffraction::add_surface(
+            world, entity,
+            {.material = diffraction::make_gpu_material(
+                 diffraction::cook_material(parse_json(material, "test"), "test"), glm::dmat3(1.0))},
+            true);
+        scene::update_world_matrices(world);
+        const auto brightness = [&](Renderer& renderer) {
+            renderer.render(world, {.eye = {0.0F, 2.0F, 1.0F}}, target);
+            return target.read_rgba_float()[35].y;
+        };
+        const float bright = brightness(*renderers[1]);
+        EXPECT_NEAR(bright, 1.6F, 1.0F);  // the sky has 4
+        for (int frame = 0; frame < 2; ++frame) {
+            EXPECT_NEAR(brightness(*renderers[0]), 0.25F * bright, 1e-3F * bright) << representation;
+            EXPECT_NEAR(brightness(*renderers[1]), bright, 1e-3F * bright) << representation;
+        }
+    }
 }
 
 TEST(Renderer, ReloadedShadersAreUsedAndABrokenOneKeepsTheOld) {
