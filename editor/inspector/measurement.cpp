@@ -109,10 +109,10 @@ void Measurement::want_point_numbers() {
                 [cooked = inputs->cooked, light = inputs->light, point = view_.point_or_middle()](
                     const std::stop_token& stop, auto&&) -> std::optional<PointNumbers> {
                     PointNumbers numbers;
-                    numbers.radiance = point_radiance(*cooked, light->image, light->divided, point);
+                    numbers.radiance = point_radiance(*cooked, light->image, light->divided, point.frame, point.layout);
                     if (!stop.stop_requested())
-                        numbers.sweep =
-                            view_sweep(*cooked, light->image, light->divided, point, kSweepBands, kSweepViews, stop);
+                        numbers.sweep = view_sweep(*cooked, light->image, light->divided, point.frame, point.layout,
+                                                   kSweepBands, kSweepViews, stop);
                     if (stop.stop_requested()) return std::nullopt;
                     return numbers;
                 });

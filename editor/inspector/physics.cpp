@@ -315,17 +315,18 @@ std::vector<double> spectrum_at(const diffraction::Material& material, const lig
 }
 
 PointRadiance point_radiance(const diffraction::CookedMaterial& cooked, const lighting::ProbeImage& probe,
-                             const diffraction::EvaluationLight& light, const diffraction::ShadingPoint& frame) {
+                             const diffraction::EvaluationLight& light, const diffraction::ShadingPoint& frame,
+                             diffraction::GrooveLayout layout) {
     const std::span<const diffraction::ShadingPoint> frames(&frame, 1);
     const colour::LightSpectra spectra(cooked.material.quality.illuminant);
     return {.spectrum = spectrum_at(cooked.material, probe, frame),
             .reference = reference_radiance(cooked.material.grating, probe, spectra, frames)[0],
-            .drawn = evaluate_baked(cooked, light, frames)[0]};
+            .drawn = evaluate_baked(cooked, light, frames, layout)[0]};
 }
 
 ViewSweep view_sweep(const diffraction::CookedMaterial& cooked, const lighting::ProbeImage& probe,
-                     const diffraction::EvaluationLight& light, const diffraction::ShadingPoint& surface, int bands,
-                     int views, const std::stop_token& stop) {
+                     const diffraction::EvaluationLight& light, const diffraction::ShadingPoint& surface,
+                     diffraction::GrooveLayout layout, int bands, int views, const std::stop_token& stop) {
     constexpr double kWidest_deg = 80.0;
     const glm::dmat3 to_world = glm::transpose(diffraction::world_to_tangent(surface));
     ViewSweep sweep;
@@ -346,7 +347,7 @@ ViewSweep view_sweep(const diffraction::CookedMaterial& cooked, const lighting::
             sweep.reference.push_back(xyz.y);
     }
     if (stop.stop_requested()) return sweep;
-    sweep.drawn = luminances(evaluate_baked(cooked, light, frames));
+    sweep.drawn = luminances(evaluate_baked(cooked, light, frames, layout));
     const diffraction::EvaluationLight whole(probe, 0, math::SphericalWindow::None);
     std::vector<glm::dvec3> harmonics =
         evaluate_points("harmonics", harmonics_shader(cooked.material, whole, bands), cooked, whole, frames);

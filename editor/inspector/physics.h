@@ -110,8 +110,10 @@ struct PointRadiance {
 };
 
 /// `light` must be the division of `probe`. White light has the material's illuminant. The frame must be valid.
+/// `layout`: of the object that the point is on.
 PointRadiance point_radiance(const diffraction::CookedMaterial& cooked, const lighting::ProbeImage& probe,
-                             const diffraction::EvaluationLight& light, const diffraction::ShadingPoint& frame);
+                             const diffraction::EvaluationLight& light, const diffraction::ShadingPoint& frame,
+                             diffraction::GrooveLayout layout);
 
 /// Spectral radiance Σ_m η_m(λ) Σ_c E_c(λ) A_c(mλ/d − v_g), the integrand of PHYSICS §4, every nanometre from 380 to
 /// 780. Order 0, a δ in wavelength and direction, is left out.
@@ -130,8 +132,8 @@ struct ViewSweep {
 /// A sweep of `views` views from −80° to 80° over a surface with the frame's normal and grating vector. If it is
 /// stopped, it returns early with an incomplete result.
 ViewSweep view_sweep(const diffraction::CookedMaterial& cooked, const lighting::ProbeImage& probe,
-                     const diffraction::EvaluationLight& light, const diffraction::ShadingPoint& surface, int bands,
-                     int views = 61, const std::stop_token& stop = {});
+                     const diffraction::EvaluationLight& light, const diffraction::ShadingPoint& surface,
+                     diffraction::GrooveLayout layout, int bands, int views = 61, const std::stop_token& stop = {});
 
 /// A film and the angle of view.
 struct FilmInputs {

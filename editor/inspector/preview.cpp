@@ -17,6 +17,7 @@
 #include "engine/scene/transform.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
 #include "modules/diffraction/runtime/glare_pattern.h"
+#include "modules/diffraction/runtime/vertex_light.h"
 #include "modules/material_types.h"
 
 namespace rowland::inspector {
@@ -311,6 +312,7 @@ std::optional<PickedSurface> Preview::pick(const glm::vec2& at) {
         nearest = PickedSurface{.point = *point,
                                 .frame = {},
                                 .material = part.material,
+                                .layout = diffraction::groove_layout(*instance.mesh),
                                 .map_rotation = 0.0,
                                 .stage_rotation_deg = inputs_.stage.rotation_deg,
                                 .mesh = part.name};

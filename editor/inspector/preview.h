@@ -46,9 +46,10 @@ struct PickedSurface {
     PickedPoint point;                    ///< in the axes of the preview's world, which rotates with the object
     diffraction::ShadingPoint frame;      ///< in the probe's axes, with the grating vector of the material's grooves
     std::optional<std::size_t> material;  ///< nullopt: a mesh without one
-    double map_rotation = 0.0;            ///< rotation by the groove texture at this point, radians
-    float stage_rotation_deg = 0.0F;      ///< when it was picked
-    std::string mesh;                     ///< of a scene
+    diffraction::GrooveLayout layout = diffraction::GrooveLayout::FlatUniform;  ///< of the mesh
+    double map_rotation = 0.0;        ///< rotation by the groove texture at this point, radians
+    float stage_rotation_deg = 0.0F;  ///< when it was picked
+    std::string mesh;                 ///< of a scene
 };
 
 /// All inputs of the picture.

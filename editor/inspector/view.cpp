@@ -100,10 +100,10 @@ std::optional<PickedSurface> View::find_surface() {
     return std::nullopt;
 }
 
-diffraction::ShadingPoint View::point_or_middle() {
-    if (point_) return *point_;
+View::ViewedPoint View::point_or_middle() {
+    if (point_) return {*point_, surface_->layout};
     const auto surface = find_surface();
-    return surface ? surface->frame : diffraction::ShadingPoint{};
+    return surface ? ViewedPoint{surface->frame, surface->layout} : ViewedPoint{};
 }
 
 /// Finds a surface of the chosen material of a scene, once, and follows the rotation of its grooves.

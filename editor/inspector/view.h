@@ -54,8 +54,12 @@ class View {
     const std::optional<PickedSurface>& surface() const { return surface_; }
     /// The shading point of surface(), in the probe's axes; a new pointer whenever it changes. Null: no such surface.
     const std::shared_ptr<const diffraction::ShadingPoint>& point() const { return point_; }
-    /// point(), or that of a visible point near the middle of the picture.
-    diffraction::ShadingPoint point_or_middle();
+    /// Of point(), or of a visible point near the middle of the picture.
+    struct ViewedPoint {
+        diffraction::ShadingPoint frame{};
+        diffraction::GrooveLayout layout = diffraction::GrooveLayout::FlatUniform;
+    };
+    ViewedPoint point_or_middle();
 
  private:
     using PixelInputs =

@@ -14,6 +14,7 @@
 #include "engine/core/file.h"
 #include "engine/core/log.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
+#include "modules/diffraction/runtime/vertex_light.h"
 
 namespace rowland::demo {
 
@@ -183,14 +184,18 @@ void Hud::measure_pixel() {
         target_->refusal = "not measured: its grooves vary over the surface";
         return;
     }
-    const auto frame = frame_at(placed_grating(world, grating).value(), under_cursor->hit.triangle,
-                                under_cursor->hit.point, session_.play().camera().eye);
+    const PlacedGrating placed = placed_grating(world, grating).value();
+    const auto frame =
+        frame_at(placed, under_cursor->hit.triangle, under_cursor->hit.point, session_.play().camera().eye);
     if (!frame) {
         target_->refusal = "seen from behind";
         return;
     }
-    PixelQuery query{
-        .cooked = comparison.shown(grating, side)->cooked(), .frame = *frame, .window = std::nullopt, .probe = probe()};
+    PixelQuery query{.cooked = comparison.shown(grating, side)->cooked(),
+                     .frame = *frame,
+                     .layout = diffraction::groove_layout(*placed.mesh),
+                     .window = std::nullopt,
+                     .probe = probe()};
     if (options_.light_window != "auto") query.window = math::parse_window(options_.light_window);
     meter_.ask(query);
 }

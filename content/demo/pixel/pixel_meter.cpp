@@ -63,7 +63,7 @@ struct PixelMeter::Lit {
             windowed = query.cooked;
             reading.window = window;
         }
-        reading.point = comparer->compare(query.cooked, reading.window, query.frame);
+        reading.point = comparer->compare(query.cooked, reading.window, query.frame, query.layout);
         return reading;
     }
 };

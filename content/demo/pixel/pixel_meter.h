@@ -36,13 +36,14 @@ struct PixelProbe {
 struct PixelQuery {
     std::shared_ptr<const diffraction::CookedMaterial> cooked;
     diffraction::ShadingPoint frame;
+    diffraction::GrooveLayout layout;  ///< of the object
     /// On tables over harmonics; nullopt: the weakest sufficient one, as the renderer chooses.
     std::optional<math::SphericalWindow> window;
     PixelProbe probe;
 
     friend bool operator==(const PixelQuery& a, const PixelQuery& b) {
         return a.cooked == b.cooked && a.probe == b.probe && a.window == b.window && a.frame.view == b.frame.view &&
-               a.frame.normal == b.frame.normal && a.frame.grating == b.frame.grating;
+               a.frame.normal == b.frame.normal && a.frame.grating == b.frame.grating && a.layout == b.layout;
     }
 };
 

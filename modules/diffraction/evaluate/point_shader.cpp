@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <map>
 #include <memory>
 #include <span>
 #include <utility>
@@ -128,10 +130,73 @@ void add_reflected_side(const CookedMaterial& cooked, const EvaluationLight& lig
     for (std::size_t i = 0; i < xyz.size(); ++i) xyz[i] += reflected[i];
 }
 
+namespace {
+
+constexpr double kSameAxis = 1e-6;
+
+}  // namespace
+
+GrooveLayout layout_of(std::span<const ShadingPoint> points) {
+    const auto agree = [&](glm::dvec3 ShadingPoint::*axis) {
+        return std::ranges::all_of(points, [&](const ShadingPoint& point) {
+            return glm::distance(glm::normalize(points.front().*axis), glm::normalize(point.*axis)) < kSameAxis;
+        });
+    };
+    if (!agree(&ShadingPoint::normal)) return GrooveLayout::Curved;
+    return agree(&ShadingPoint::grating) ? GrooveLayout::FlatUniform : GrooveLayout::Flat;
+}
+
+CookedMaterial as_drawn(const CookedMaterial& cooked, GrooveLayout layout) {
+    CookedMaterial result = cooked;
+    if (auto* planar = std::get_if<PlanarTables>(&result.tables)) {
+        if (layout == GrooveLayout::FlatUniform && planar->lobe && planar->lobe->size.azimuths > 1)
+            planar->lobe->size = one_azimuth(planar->lobe->size);
+        if (layout == GrooveLayout::Curved) result.tables = ArcTable(*planar->stand_in);
+    }
+    if (cooked.reflected)
+        result.reflected = std::make_shared<const CookedMaterial>(as_drawn(*cooked.reflected, layout));
+    return result;
+}
+
+namespace {
+
+/// The points of the planes whose points share g, and of the others, plane by plane.
+std::map<GrooveLayout, std::vector<std::size_t>> indices_by_layout(std::span<const ShadingPoint> frames) {
+    std::map<std::array<double, 3>, std::vector<std::size_t>> planes;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        const glm::dvec3 n = glm::round(glm::normalize(frames[i].normal) / (0.5 * kSameAxis));
+        planes[{n.x, n.y, n.z}].push_back(i);
+    }
+    std::map<GrooveLayout, std::vector<std::size_t>> result;
+    for (const auto& [normal, indices] : planes) {
+        std::vector<ShadingPoint> points;
+        for (const std::size_t i : indices) points.push_back(frames[i]);
+        std::vector<std::size_t>& of_layout = result[layout_of(points)];
+        of_layout.insert(of_layout.end(), indices.begin(), indices.end());
+    }
+    return result;
+}
+
+}  // namespace
+
 std::vector<glm::dvec3> evaluate_baked(const CookedMaterial& cooked, const EvaluationLight& light,
                                        std::span<const ShadingPoint> frames) {
-    std::vector<glm::dvec3> xyz = evaluate_side(cooked, light, frames);
-    add_reflected_side(cooked, light, frames, xyz);
+    if (!info(cooked.tables).needs_flat_surface) return evaluate_baked(cooked, light, frames, GrooveLayout::Flat);
+    std::vector<glm::dvec3> xyz(frames.size());
+    for (const auto& [layout, indices] : indices_by_layout(frames)) {
+        std::vector<ShadingPoint> points;
+        for (const std::size_t i : indices) points.push_back(frames[i]);
+        const std::vector<glm::dvec3> part = evaluate_baked(cooked, light, points, layout);
+        for (std::size_t i = 0; i < part.size(); ++i) xyz[indices[i]] = part[i];
+    }
+    return xyz;
+}
+
+std::vector<glm::dvec3> evaluate_baked(const CookedMaterial& cooked, const EvaluationLight& light,
+                                       std::span<const ShadingPoint> frames, GrooveLayout layout) {
+    const CookedMaterial drawn = as_drawn(cooked, layout);
+    std::vector<glm::dvec3> xyz = evaluate_side(drawn, light, frames);
+    add_reflected_side(drawn, light, frames, xyz);
     return xyz;
 }
 
@@ -153,15 +218,19 @@ lighting::ShLight PointComparer::harmonics(int key_lights, int bands) {
 }
 
 PointComparison PointComparer::compare(const std::shared_ptr<const CookedMaterial>& cooked,
-                                       math::SphericalWindow window, const ShadingPoint& frame) {
+                                       math::SphericalWindow window, const ShadingPoint& frame, GrooveLayout layout) {
     const EvaluationLight& lit = lights_.split(std::min(cooked->material.quality.key_lights, fitted_), window);
-    if (!ready_ || ready_->cooked != cooked || ready_->light != &lit)
-        ready_.emplace(Ready{cooked, &lit, baked_shader(*cooked, lit)});
+    if (!ready_ || ready_->cooked != cooked || ready_->layout != layout || ready_->light != &lit) {
+        auto drawn = std::make_unique<const CookedMaterial>(as_drawn(*cooked, layout));
+        PointShader shader = baked_shader(*drawn, lit);
+        ready_.emplace(Ready{cooked, layout, &lit, std::move(drawn), std::move(shader)});
+    }
+    const CookedMaterial& drawn = *ready_->drawn;
     const std::array points{frame};
     const colour::LightSpectra spectra(cooked->material.quality.illuminant);
     PointComparison result;
-    std::vector<glm::dvec3> shown = evaluate_points(info(cooked->tables).name, ready_->shader, *cooked, lit, points);
-    add_reflected_side(*cooked, lit, points, shown);
+    std::vector<glm::dvec3> shown = evaluate_points(info(drawn.tables).name, ready_->shader, drawn, lit, points);
+    add_reflected_side(drawn, lit, points, shown);
     result.shown = shown[0];
     result.reference = reference_radiance(cooked->material.grating, *probe_, spectra, points)[0];
     result.error = relative_rms(std::span(&result.shown, 1), std::span(&result.reference, 1));

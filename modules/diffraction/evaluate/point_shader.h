@@ -16,16 +16,24 @@
 
 namespace rowland::diffraction {
 
+/// Of one object's points, at least one.
+GrooveLayout layout_of(std::span<const ShadingPoint> points);
+/// The material as such an object shows it; only `planar` differs.
+CookedMaterial as_drawn(const CookedMaterial& cooked, GrooveLayout layout);
+
 /// Shades points by a baked material's tables or map, without key lights; both arguments must outlive it. Maps are
 /// filled on first use and kept. A sheet that transmits is shaded at lit_from_behind() of its points. `planar` keeps
 /// the map of the last plane, so that its shader is for one thread at a time.
 PointShader baked_shader(const CookedMaterial& cooked, const EvaluationLight& light);
 
 /// XYZ of points by a baked material, as its shaders compute it: the tables or the map for the residual light, and
-/// `direct` for the key lights. `planar` fills a map for every plane among the points. Views below the horizon are
-/// black.
+/// `direct` for the key lights. `planar` fills a map for every plane among the points, whose points are taken for those
+/// of one object: a map of one azimuth where they share g. Views below the horizon are black.
 std::vector<glm::dvec3> evaluate_baked(const CookedMaterial& cooked, const EvaluationLight& light,
                                        std::span<const ShadingPoint> frames);
+/// The same for points of objects of that layout.
+std::vector<glm::dvec3> evaluate_baked(const CookedMaterial& cooked, const EvaluationLight& light,
+                                       std::span<const ShadingPoint> frames, GrooveLayout layout);
 
 /// Adds to such XYZ what the other side of a sheet reflects.
 void add_reflected_side(const CookedMaterial& cooked, const EvaluationLight& light,
@@ -55,8 +63,9 @@ class PointComparer {
 
     /// `window`: on the light of tables over harmonics. The frame must be valid. Throws Error (input) where the
     /// material cannot be evaluated under a probe.
+    /// `layout`: of the object that the point is on.
     PointComparison compare(const std::shared_ptr<const CookedMaterial>& cooked, math::SphericalWindow window,
-                            const ShadingPoint& frame);
+                            const ShadingPoint& frame, GrooveLayout layout);
 
     /// The light without so many key lights that tables over so many bands take, without a window.
     lighting::ShLight harmonics(int key_lights, int bands);
@@ -65,7 +74,9 @@ class PointComparer {
     /// The last material, ready to shade.
     struct Ready {
         std::shared_ptr<const CookedMaterial> cooked;
-        const EvaluationLight* light = nullptr;
+        GrooveLayout layout;
+        const EvaluationLight* light;
+        std::unique_ptr<const CookedMaterial> drawn;  ///< as_drawn()
         PointShader shader;
     };
 

@@ -61,6 +61,13 @@ struct Transmission {
     double reflectance = 0.0;  ///< fraction of the light that the sheet reflects, in [0, 1]; it transmits the rest
 };
 
+/// How g lies on an object, which decides what `planar` draws there.
+enum class GrooveLayout {
+    Curved,      ///< the stand-in of the map
+    Flat,        ///< a map of all azimuths
+    FlatUniform  ///< g is the same everywhere: of a lobe that is not flat, or a lattice, a map of one azimuth
+};
+
 /// The point of a sheet's other side that shows, as a reflection grating, what the sheet shows at `frame`: the view is
 /// mirrored in the surface, the normal is the opposite one (PHYSICS (12.3)). The frame must be valid.
 ShadingPoint lit_from_behind(const ShadingPoint& frame);

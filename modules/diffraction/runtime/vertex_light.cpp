@@ -187,6 +187,11 @@ std::optional<glm::vec4> common_tangent(const scene::Mesh& mesh) {
     return agree ? std::optional(first) : std::nullopt;
 }
 
+GrooveLayout groove_layout(const scene::Mesh& mesh) {
+    if (!flat_normal(mesh)) return GrooveLayout::Curved;
+    return common_tangent(mesh) ? GrooveLayout::FlatUniform : GrooveLayout::Flat;
+}
+
 namespace {
 
 constexpr std::size_t kVerticesAtOnce = 256;

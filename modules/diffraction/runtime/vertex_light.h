@@ -40,6 +40,9 @@ std::optional<glm::dvec3> flat_normal(const scene::Mesh& mesh);
 /// The tangent of a flat mesh with its bitangent's sign, in object axes, if all its tangents agree.
 std::optional<glm::vec4> common_tangent(const scene::Mesh& mesh);
 
+/// Of a mesh without a groove texture and without skin.
+GrooveLayout groove_layout(const scene::Mesh& mesh);
+
 /// The vertices' part of an arc table, for many vertices: light_products() in every vertex's tangent frame.
 class ArcProducts {
  public:

@@ -47,16 +47,18 @@ std::optional<PlanarLobe> lobe_of(const PlanarSettings& settings) {
                                      0.25 * std::min(finest.step_g(), finest.step_h()))};
 }
 
-/// `fill(normal)` gives a plane's map; the last one is kept.
+/// `fill(normal, g)` gives an object's map; the last one is kept. `one_azimuth`: another g is another object.
 template <typename Map, typename Fill>
-PointShader by_plane(Fill fill) {
-    struct Plane {
+PointShader by_object(bool one_azimuth, Fill fill) {
+    struct Object {
         glm::dvec3 normal{0.0};
+        glm::dvec3 grating{0.0};
         Map map;
     };
-    return [fill = std::move(fill), last = std::make_shared<Plane>()](const ShadingPoint& frame) {
+    return [one_azimuth, fill = std::move(fill), last = std::make_shared<Object>()](const ShadingPoint& frame) {
         const glm::dvec3 normal = glm::normalize(frame.normal);
-        if (normal != last->normal) *last = {normal, fill(normal)};
+        if (normal != last->normal || (one_azimuth && frame.grating != last->grating))
+            *last = {normal, frame.grating, fill(normal, frame.grating)};
         return sample(last->map, frame);
     };
 }
@@ -145,15 +147,22 @@ Facts facts(const PlanarTables& tables) {
 }
 
 PointShader point_shader(const PlanarTables& tables, const MaterialKernel& material, const EvaluationLight& light) {
-    if (tables.lobe)
-        return by_plane<LobeMap>(
-            [texels = light.texels(), azimuths = tables.lobe->size.azimuths,
-             spectrum = std::make_shared<const LobeSpectrum>(tables.lobe->pattern, tables.lobe->size.views)](
-                const glm::dvec3& normal) { return fill_lobe_map(texels, *spectrum, normal, azimuths); });
-    return by_plane<PlanarMap>([material, size = tables.size, texels = light.texels()](const glm::dvec3& normal) {
-        return fill_planar_map(texels, material.kernel, material.pitch_nm, normal, size, material.zero_order_xyz,
-                               material.cover);
-    });
+    if (!tables.lobe)
+        return by_object<PlanarMap>(
+            false, [material, size = tables.size, texels = light.texels()](const glm::dvec3& n, const glm::dvec3&) {
+                return fill_planar_map(texels, material.kernel, material.pitch_nm, n, size, material.zero_order_xyz,
+                                       material.cover);
+            });
+    const LobeMapSize& size = tables.lobe->size;
+    const auto spectrum = std::make_shared<const LobeSpectrum>(tables.lobe->pattern, size.views);
+    if (size.azimuths == 1)
+        return by_object<LobeMap>(true, [texels = light.texels(), spectrum](const glm::dvec3& n, const glm::dvec3& g) {
+            return fill_lobe_slice(texels, *spectrum, n, g);
+        });
+    return by_object<LobeMap>(
+        false, [texels = light.texels(), azimuths = size.azimuths, spectrum](const glm::dvec3& n, const glm::dvec3&) {
+            return fill_lobe_map(texels, *spectrum, n, azimuths);
+        });
 }
 
 }  // namespace rowland::diffraction

@@ -42,7 +42,8 @@ void write(const PlanarTables& tables, ByteWriter& writer);
 PlanarTables read(ByteReader& reader, const PlanarSettings& settings);
 ShadingCost cost(const PlanarTables& tables);
 Facts facts(const PlanarTables& tables);
-/// Keeps the map of the last plane only: call it from one thread at a time, with points sorted by plane.
+/// Keeps the map of the last plane only: call it from one thread at a time, with points sorted by plane. Tables of one
+/// azimuth (one_azimuth()) fill a map for each g.
 PointShader point_shader(const PlanarTables& tables, const MaterialKernel& material, const EvaluationLight& light);
 
 }  // namespace rowland::diffraction

@@ -266,6 +266,15 @@ TEST(Export, KeyLightsAndTheKernelShadeAsTheDirectRepresentationDoes) {
     EXPECT_LT(difference(found, evaluated(probe, "direct", 4, frames)), 2.5e-2);
 }
 
+/// The sRGB standard's matrix (IEC 61966-2-1), row by row: its four digits.
+TEST(Export, ItsColoursAreThoseOfTheStandard) {
+    const std::vector<double> published = {3.2406, -1.5372, -0.4986, -0.9689, 1.8758, 0.0415, 0.0557, -0.2040, 1.0570};
+    const nlohmann::json json = Export(kCd, {}).json;
+    ASSERT_EQ(json["xyz_to_linear_srgb"].size(), published.size());
+    for (std::size_t i = 0; i < published.size(); ++i)
+        EXPECT_NEAR(json["xyz_to_linear_srgb"][i].get<double>(), published[i], 5e-4) << i;
+}
+
 TEST(Export, IsSmallSatisfiesItsSchemaAndHasTheSameBytesEveryTime) {
     const Export document("materials/cd.json", {});
     EXPECT_EQ(document.bytes.size(), 4U * 9 * 2048);

@@ -242,6 +242,7 @@ TEST(PatternFigure, WithoutLightItIsEmpty) {
 const std::filesystem::path kMaterials = test::content_path("materials");
 
 /// The frame of a point as the programs read it, and as we do.
+constexpr auto kUniform = diffraction::GrooveLayout::FlatUniform;
 const diffraction::ShadingPoint kFrame{.view = {0.2, 0.6, 0.77}, .normal = {0.0, 1.0, 0.1}, .grating = {1.0, 0.0, 0.3}};
 
 /// The numbers of the row that rowland-trade prints.
@@ -288,7 +289,7 @@ TEST(PointRadiance, IsWhatEvaluatePrints) {
     for (const auto& [material, probe] :
          {std::pair{"cd.json", venice}, std::pair{"ruled_1200.json", venice}, std::pair{"ruled_1200.json", sunset}}) {
         const auto [cooked, image, light] = lit(material, probe);
-        const PointRadiance point = point_radiance(cooked, image, light, kFrame);
+        const PointRadiance point = point_radiance(cooked, image, light, kFrame, kUniform);
 
         const std::string of_probe = fmt::format("--probe '{}'", probe.string());
         const std::string source = (kMaterials / material).string();
@@ -308,7 +309,7 @@ TEST(PointRadiance, IsWhatEvaluatePrints) {
 TEST(PointRadiance, ItsSpectrumIsItsColour) {
     ROWLAND_TEST_DATA(venice, "probes/venice_sunset_256.hdr");
     const auto [cooked, image, light] = lit("cd.json", venice);
-    const PointRadiance point = point_radiance(cooked, image, light, kFrame);
+    const PointRadiance point = point_radiance(cooked, image, light, kFrame, kUniform);
     ASSERT_EQ(point.spectrum.size(), 401U);
     glm::dvec3 xyz(0.0);
     for (std::size_t i = 0; i < point.spectrum.size(); ++i) {
@@ -322,10 +323,10 @@ TEST(PointRadiance, ItsSpectrumIsItsColour) {
 TEST(ViewSweep, TheReferenceAndWhatIsDrawnAreThoseOfAPoint) {
     ROWLAND_TEST_DATA(venice, "probes/venice_sunset_256.hdr");
     const auto [cooked, image, light] = lit("cd.json", venice);
-    const ViewSweep sweep = view_sweep(cooked, image, light, kFrame, 5, 9);
+    const ViewSweep sweep = view_sweep(cooked, image, light, kFrame, kUniform, 5, 9);
     diffraction::ShadingPoint straight = kFrame;
     straight.view = glm::normalize(kFrame.normal);
-    const PointRadiance point = point_radiance(cooked, image, light, straight);
+    const PointRadiance point = point_radiance(cooked, image, light, straight, kUniform);
     EXPECT_NEAR(sweep.angles_deg[4], 0.0, 1e-12);
     EXPECT_NEAR(sweep.reference[4], point.reference.y, 1e-9 * point.reference.y);
     EXPECT_NEAR(sweep.drawn[4], point.drawn.y, 1e-9 * point.drawn.y);

@@ -1,6 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <complex>
+#include <tuple>
+
 #include "engine/colour/spectrum.h"
 #include "engine/core/error.h"
 
@@ -98,6 +101,18 @@ TEST(Metal, ReflectsAsHandbooksSay) {
     EXPECT_NEAR(metal_reflectance(Metal::Au, 650.0), 0.95, 0.04);
     EXPECT_NEAR(metal_reflectance(Metal::Cu, 500.0), 0.55, 0.07);
     EXPECT_NEAR(metal_reflectance(Metal::Cu, 650.0), 0.94, 0.05);
+}
+
+/// Rows of the published tables, at their own wavelengths: nm, n, k.
+TEST(Metal, IndicesAreThoseOfTheTables) {
+    const std::vector<std::tuple<Metal, double, double, double>> rows = {
+        {Metal::Ag, 551.040771, 0.124375, 3.348125}, {Metal::Ag, 309.960449, 1.323, 0.647},
+        {Metal::Al, 302.400421, 0.28, 3.64},         {Metal::Au, 302.400421, 1.812, 1.92},
+        {Metal::Cu, 302.400421, 1.38, 1.687},
+    };
+    for (const auto& [metal, nm, n, k] : rows) {
+        EXPECT_EQ(metal_index(metal, nm), std::complex(n, k)) << metal_name(metal) << nm;
+    }
 }
 
 TEST(Metal, ReflectanceIsAShareAtEveryWavelength) {

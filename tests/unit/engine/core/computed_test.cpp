@@ -162,6 +162,48 @@ TEST(Computed, APublishedValueIsShownBeforeTheEndAndComputedAgainIfStopped) {
     EXPECT_EQ(*value.value(), 2);
 }
 
+/// Moving one that is armed takes until another thread has begun to write, or for a while if it cannot.
+struct Slow {
+    struct Shared {
+        std::atomic<bool> armed{false};
+        std::atomic<bool> reading{false};
+        std::atomic<bool> torn{false};
+    };
+    Shared* shared;
+
+    explicit Slow(Shared& s) : shared(&s) {}
+    Slow(Slow&& other) noexcept : shared(other.shared) {
+        if (!shared->armed.exchange(false)) return;
+        shared->reading = true;
+        const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(50);
+        while (!shared->torn && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+        shared->reading = false;
+    }
+    Slow& operator=(Slow&& other) noexcept {
+        if (shared->reading) shared->torn = true;
+        shared = other.shared;
+        return *this;
+    }
+};
+
+TEST(Computed, NothingIsPublishedWhileAValueIsTaken) {
+    Slow::Shared shared;
+    std::atomic<bool> published{false};
+    Computed<int, Slow> value;
+    value.want(1, [&](const std::stop_token&, const Computed<int, Slow>::Publish& publish) -> std::optional<Slow> {
+        publish(Slow(shared));
+        published = true;
+        while (!shared.reading) std::this_thread::yield();
+        publish(Slow(shared));
+        return std::nullopt;
+    });
+    while (!published) std::this_thread::yield();
+    shared.armed = true;
+    EXPECT_TRUE(value.poll().value);
+    value.wait();
+    EXPECT_FALSE(shared.torn);
+}
+
 TEST(Computed, AResetDropsTheValueAndWhatIsOnItsWay) {
     Doubled value;
     value.want(1, twice(1));

@@ -38,6 +38,7 @@ class PixelMeterTest : public ::testing::Test {
     PixelQuery query(std::shared_ptr<const diffraction::CookedMaterial> cooked, const std::string& probe) const {
         return {.cooked = std::move(cooked),
                 .frame = {.view = {0.2, 0.3, 0.9}, .normal = {0.0, 0.0, 1.0}, .grating = {1.0, 0.0, 0.0}},
+                .layout = diffraction::GrooveLayout::FlatUniform,
                 .window = math::SphericalWindow::None,
                 .probe = {.path = folder_.path() / probe, .mapping = "equirect", .recipes = folder_.path()}};
     }
@@ -57,7 +58,8 @@ class PixelMeterTest : public ::testing::Test {
     diffraction::PointComparison direct(const PixelQuery& asked, math::SphericalWindow window) const {
         FullResolutionProbe probe =
             load_full_resolution_probe(asked.probe.path, asked.probe.mapping, asked.probe.recipes);
-        return diffraction::PointComparer(probe.image, probe.key_lights).compare(asked.cooked, window, asked.frame);
+        return diffraction::PointComparer(probe.image, probe.key_lights)
+            .compare(asked.cooked, window, asked.frame, asked.layout);
     }
 
     test::TemporaryFolder folder_;

@@ -68,6 +68,7 @@ TEST(MaterialJson, OnlyPitchAndProfileAreRequired) {
     EXPECT_TRUE(is_flat(material.grating.lobe));
     EXPECT_FALSE(material.grating.metal.has_value());
     EXPECT_EQ(material.base.colour, glm::vec3(0.0F));
+    EXPECT_EQ(material.base.roughness, 0.3F);
     EXPECT_EQ(material.quality.max_error, 0.05);
     EXPECT_FALSE(material.quality.pinned.has_value());
 }

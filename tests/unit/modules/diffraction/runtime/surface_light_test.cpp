@@ -127,5 +127,24 @@ TEST(SurfaceLight, ASunChangesTheWholeAloneAndUnpacksNothing) {
     EXPECT_NE(light.probe_samples(2), samples);
 }
 
+/// The window is chosen for the light that is left, not for the one before.
+TEST(SurfaceLight, AMovedSunIsWindowedAnew) {
+    render::FrameLight frame{.probe = probe_with_lamps(), .version = 1};
+    SurfaceLight light(std::nullopt);
+    for (const glm::vec3 direction : {glm::vec3(0.0F), glm::vec3(0.0F, 1.0F, 0.0F), glm::vec3(0.0F, 0.0F, -1.0F)}) {
+        frame.distant_lights = {{direction, glm::vec3(50.0F * glm::length(direction))}};
+        ++frame.version;
+        light.set(frame);
+        lighting::ShLight expected = frame.probe->sh;
+        std::vector<double> basis(expected.coefficients.size());
+        math::evaluate_sh(glm::dvec3(direction), 4, basis);
+        for (std::size_t i = 0; i < basis.size() && frame.version > 2; ++i)
+            expected.coefficients[i] += glm::dvec3(50.0 * basis[i]);
+        const math::SphericalWindow window = weakest_window(expected, 4);
+        EXPECT_EQ(window == math::SphericalWindow::None, frame.version == 2) << "a sun alone rings";
+        EXPECT_EQ(light.whole_harmonics(4).coefficients, lighting::limit_bands(expected, 4, window).coefficients);
+    }
+}
+
 }  // namespace
 }  // namespace rowland::diffraction

@@ -38,6 +38,15 @@ TEST(ThinFilmReflectance, OfABareFaceIsFresnels) {
     EXPECT_NEAR(bare(aluminium, 1.0), std::norm((1.0 - aluminium) / (1.0 + aluminium)), 1e-14);
 }
 
+/// glTF's metals may reflect all light, or more where a colour was scaled; the index stays finite.
+TEST(ThinFilmReflectance, OfAPerfectMirrorIsNearlyOne) {
+    for (const double r0 : {1.0, 1.5}) {
+        const std::complex<double> index = base_index(NormalReflectance{glm::dvec3(r0)}, 550.0);
+        ASSERT_TRUE(std::isfinite(index.real())) << r0;
+        EXPECT_NEAR(std::norm((index - 1.0) / (index + 1.0)), 0.9999, 1e-12) << r0;
+    }
+}
+
 TEST(ThinFilmReflectance, OfAFilmThatIsNotThereIsTheBases) {
     for (const Complex base : {Complex(1.0), Complex(1.5), Complex(0.2, 3.4), Complex(0.7)})
         for (const double cosine : {0.0, 1e-9, 0.05, 0.5, 1.0}) {
