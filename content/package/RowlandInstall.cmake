@@ -8,6 +8,7 @@ include(CMakePackageConfigHelpers)
 set(headers_folder ${CMAKE_INSTALL_INCLUDEDIR}/rowland)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Rowland)
 set(shaders_folder ${CMAKE_INSTALL_DATADIR}/rowland/shaders)
+set(helpers_folder ${CMAKE_INSTALL_LIBEXECDIR}/rowland)
 
 # rowland_export(<component> [<target> <name>]...)
 # Installs the targets and the headers of their folders; outside they are called Rowland::<name>. Headers keep their
@@ -26,11 +27,14 @@ function(rowland_export component)
           COMPONENT ${component})
 endfunction()
 
-# The headers of folders without their subfolders.
+# The headers of folders without their subfolders. How assets are cooked needs the cooker, which is of the runtime.
 function(rowland_install_headers component)
   foreach(folder IN LISTS ARGN)
     cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${PROJECT_SOURCE_DIR})
     file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.h)
+    if(component STREQUAL "library")
+      list(FILTER headers EXCLUDE REGEX "/cook\\.h$")
+    endif()
     install(FILES ${headers} DESTINATION ${headers_folder}/${folder} COMPONENT ${component})
   endforeach()
 endfunction()
@@ -87,13 +91,14 @@ foreach(module IN ITEMS diffraction thin_film)
 endforeach()
 
 install(TARGETS rowland-cook rowland-trade RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT tools)
+install(FILES ${ROWLAND_COMMIT_FILE} DESTINATION ${helpers_folder} COMPONENT tools)
 # What Scene and the tools run beside them; engine/core/program.h says where it is looked for.
 foreach(component IN ITEMS runtime tools)
-  install(TARGETS rowland-decode-draco RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/rowland COMPONENT ${component})
+  install(TARGETS rowland-decode-draco RUNTIME DESTINATION ${helpers_folder} COMPONENT ${component})
 endforeach()
 
 configure_package_config_file(content/package/RowlandConfig.cmake.in ${PROJECT_BINARY_DIR}/RowlandConfig.cmake
-  INSTALL_DESTINATION ${package_folder} PATH_VARS shaders_folder)
+  INSTALL_DESTINATION ${package_folder} PATH_VARS shaders_folder helpers_folder)
 # Before 1.0 a minor version may change any interface.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/RowlandConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/RowlandConfig.cmake ${PROJECT_BINARY_DIR}/RowlandConfigVersion.cmake

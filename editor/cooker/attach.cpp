@@ -33,7 +33,9 @@ std::string on_one_line(const std::string& text) {
 std::optional<std::size_t> number_after_hash(const std::string& text) {
     std::size_t number = 0;
     const char* const end = text.data() + text.size();
-    if (!text.starts_with('#') || std::from_chars(text.data() + 1, end, number).ptr != end) return std::nullopt;
+    if (!text.starts_with('#')) return std::nullopt;
+    const auto [read, code] = std::from_chars(text.data() + 1, end, number);
+    if (code != std::errc() || read != end) return std::nullopt;
     return number;
 }
 

@@ -16,6 +16,7 @@
 
 #include "editor/cooker/attach.h"
 #include "editor/cooker/jobs.h"
+#include "engine/command_line/command_line.h"
 #include "engine/cook/cook_source.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
@@ -261,7 +262,6 @@ int run_cooker(int argc, const char* const* argv, const cook::Registry& registry
     return run_program([&] {
         int exit_code = 0;
         CLI::App program("Turns sources into the cooked assets that Rowland loads, and checks both.", "rowland-cook");
-        program.set_version_flag("--version", fmt::format("rowland-cook {}", cook::tool_version()));
         program.require_subcommand(1);
         program.footer(
             "Exit codes: 0 success, 2 bad input or usage, 1 any other failure.\n\n"
@@ -275,11 +275,7 @@ int run_cooker(int argc, const char* const* argv, const cook::Registry& registry
         add_plan_command(program, registry);
         add_run_command(program, registry, exit_code);
         for (const AddCommand add : more) add(program);
-        try {
-            program.parse(argc, argv);
-        } catch (const CLI::ParseError& error) {
-            return program.exit(error) == 0 ? 0 : 2;
-        }
+        parse_command_line(program, argc, argv);
         return exit_code;
     });
 }

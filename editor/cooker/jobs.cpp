@@ -76,7 +76,7 @@ std::vector<Job> plan_jobs(const cook::Registry& registry, std::span<const std::
                            const std::filesystem::path& output_folder) {
     std::vector<Job> jobs;
     for (const std::filesystem::path& source : sources) {
-        if (!std::filesystem::is_directory(source)) {
+        if (std::error_code unknown; !std::filesystem::is_directory(source, unknown)) {
             read_beginning(source, 1);  // refuses what is not a readable file
             const cook::AssetType& type = registry.type_of_source(source);
             if (!type.cook)

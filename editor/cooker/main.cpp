@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "editor/cooker/cooker_program.h"
+#include "engine/command_line/command_line.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/lighting/probe_image.h"
@@ -121,9 +122,14 @@ void add_export_command(CLI::App& program) {
     command->add_option("--bands", options->bands, "Bands of the SH and of --arc")
         ->check(CLI::Range(1, math::kMaximumBands))
         ->capture_default_str();
-    command->add_option("--planar", options->normal, "Also the map of a flat surface with this normal")->expected(3);
+    command->add_option("--planar", options->normal, "Also the map of a flat surface with this normal")
+        ->expected(3)
+        ->check(finite(-1e6, 1e6));
     command->add_option("--resolution", options->resolution, "Azimuths and views of the map; even")
         ->check(CLI::Range(8, 1024))
+        ->check([](const std::string& text) {
+            return text.find_last_of("02468") == text.size() - 1 ? "" : text + " is odd";
+        })
         ->capture_default_str();
     command->footer(
         "modules/diffraction/portable/FORMAT.md describes the files.\n\n"

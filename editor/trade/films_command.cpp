@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <iterator>
 #include <memory>
 #include <numbers>
@@ -16,6 +17,7 @@
 #include "editor/trade/inputs.h"
 #include "editor/trade/sweep.h"
 #include "engine/colour/colour_space.h"
+#include "engine/core/file.h"
 #include "engine/image/byte_image.h"
 #include "modules/diffraction/evaluate/error_measure.h"
 #include "modules/thin_film/model/film.h"
@@ -141,8 +143,13 @@ struct FilmsOptions {
 };
 
 void show_films(const FilmsOptions& options) {
+    std::vector<ProbeFile> probes;
+    std::vector<std::filesystem::path> files;
+    for (const std::string& probe : options.probes)
+        files.push_back(probes.emplace_back(parse_probe_file(probe, "auto")).path);
+    check_outputs(files, std::array{Output{"picture", options.picture, ".png"}});
     std::string tables = swatches(options.picture);
-    for (const std::string& probe : options.probes) tables += trade_under(parse_probe_file(probe, "auto"));
+    for (const ProbeFile& probe : probes) tables += trade_under(probe);
     write_results(tables);
 }
 

@@ -17,9 +17,9 @@
 #include "editor/trade/inputs.h"
 #include "editor/trade/measure_error.h"
 #include "editor/trade/sweep.h"
+#include "engine/command_line/command_line.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
-#include "engine/core/json_reader.h"
 #include "engine/core/program.h"
 #include "engine/core/text.h"
 #include "engine/image/byte_image.h"
@@ -161,8 +161,6 @@ void CompareCommand::run() const {
     if (error.flip) write_results(fmt::format("hdr_flip,{:.6g}\n", *error.flip));
 }
 
-constexpr int kUsageError = 2;
-
 /// As a shell would take it.
 std::string command_line(std::span<char*> arguments) {
     std::string text;
@@ -171,18 +169,6 @@ std::string command_line(std::span<char*> arguments) {
         text += fmt::format("{}{}", text.empty() ? "" : " ", quoted ? "'" + argument + "'" : argument);
     }
     return valid_utf8(text);
-}
-
-/// CLI11 reports a misspelt command only as a missing one.
-void check_command(const CLI::App& program, std::string_view word) {
-    if (word.starts_with('-')) return;
-    std::vector<std::string> names;
-    for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
-    if (std::ranges::find(names, word) != names.end()) return;
-    const auto near = nearest_word(word, names);
-    refuse_input("rowland-trade", {}, fmt::format("command \"{}\"", word),
-                 fmt::format("one of {}", fmt::join(names, ", ")),
-                 near ? fmt::format("is \"{}\" meant?", *near) : "see rowland-trade --help");
 }
 
 }  // namespace
@@ -213,12 +199,7 @@ int main(int argc, char** argv) {
         rowland::trade::add_sweep_commands(program,
                                            rowland::trade::command_line({argv, static_cast<std::size_t>(argc)}));
         rowland::trade::add_films_command(program);
-        if (argc > 1) rowland::trade::check_command(program, argv[1]);
-        try {
-            program.parse(argc, argv);
-        } catch (const CLI::ParseError& error) {
-            return program.exit(error) == 0 ? 0 : rowland::trade::kUsageError;
-        }
+        rowland::parse_command_line(program, argc, argv);
         return 0;
     });
 }

@@ -25,9 +25,10 @@ void Context::depend_on(const std::filesystem::path& path) {
     fingerprints_.push_back(hash_file(path));
 }
 
-std::vector<std::byte> Context::read(const std::filesystem::path& path, std::uint64_t max_bytes) {
+std::vector<std::byte> Context::read(const std::filesystem::path& path, std::uint64_t max_bytes,
+                                     const std::string& remedy) {
     depend_on(path);
-    std::vector<std::byte> bytes = read_file(path, max_bytes);
+    std::vector<std::byte> bytes = read_file(path, max_bytes, remedy);
     // What is cooked must be what the content hash is of, even if the file is changed back before anybody looks again.
     const auto index = std::find(dependencies_.begin(), dependencies_.end(), path) - dependencies_.begin();
     const std::optional<Hash128>& known = fingerprints_[static_cast<std::size_t>(index)];

@@ -40,7 +40,8 @@ class Context {
 
     /// Reads and records a file. Throws Error (input) as rowland::read_file does, and Error (system) if it has changed
     /// since it was first mentioned.
-    std::vector<std::byte> read(const std::filesystem::path& path, std::uint64_t max_bytes);
+    std::vector<std::byte> read(const std::filesystem::path& path, std::uint64_t max_bytes,
+                                const std::string& remedy = "");
     /// A file parsed as JSON (at most 16 MiB, depth-limited), and recorded. Throws Error (input).
     nlohmann::json read_json(const std::filesystem::path& path);
 

@@ -9,7 +9,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <map>
@@ -61,8 +63,16 @@ namespace {
 void require_no_device(const std::filesystem::path& path) {
     if (!path.has_filename()) refuse_input(path.string(), "", "names a folder", "a file to write");
     struct stat old = {};
-    if (::stat(path.c_str(), &old) == 0 && !S_ISREG(old.st_mode))
-        refuse_input(path.string(), "", "exists and is not a regular file", "a file to write");
+    if (::stat(path.c_str(), &old) == 0) {
+        if (!S_ISREG(old.st_mode))
+            refuse_input(path.string(), "", "exists and is not a regular file", "a file to write");
+        return;
+    }
+    // Where a folder is missing, the system does not look at the names below it.
+    int code = errno;
+    for (const std::filesystem::path& name : path)
+        if (code == ENOENT && ::lstat(name.c_str(), &old) != 0 && errno == ENAMETOOLONG) code = errno;
+    if (code == ELOOP || code == ENAMETOOLONG) refuse_input(path.string(), "", std::strerror(code), "a file to write");
 }
 
 /// An open file descriptor.
@@ -84,7 +94,7 @@ class Descriptor {
 class SourceFile {
  public:
     /// Throws Error (input) for what is no readable file, and for a file larger than `max_bytes`.
-    SourceFile(const std::filesystem::path& path, std::uint64_t max_bytes)
+    SourceFile(const std::filesystem::path& path, std::uint64_t max_bytes, const std::string& remedy = "")
         // Non-blocking: opening a pipe must not wait for a writer. It changes nothing for regular files.
         : path_(path), file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)) {
         if (file_.get() < 0)
@@ -95,7 +105,8 @@ class SourceFile {
         if (!S_ISREG(status.st_mode)) refuse_input(path.string(), "", "not a regular file", "a readable file");
         size_ = static_cast<std::uint64_t>(status.st_size);
         if (size_ > max_bytes)
-            refuse_input(path.string(), "", fmt::format("{} bytes", size_), fmt::format("at most {} bytes", max_bytes));
+            refuse_input(path.string(), "", fmt::format("{} bytes", size_), fmt::format("at most {} bytes", max_bytes),
+                         remedy);
     }
 
     std::size_t size() const { return static_cast<std::size_t>(size_); }
@@ -120,8 +131,8 @@ class SourceFile {
 };
 
 template <typename Buffer>
-Buffer read_whole(const std::filesystem::path& path, std::uint64_t max_bytes) {
-    SourceFile file(path, max_bytes);
+Buffer read_whole(const std::filesystem::path& path, std::uint64_t max_bytes, const std::string& remedy = "") {
+    SourceFile file(path, max_bytes, remedy);
     Buffer data(file.size(), {});
     data.resize(file.read(std::as_writable_bytes(std::span(data))));  // the file may be truncated while we read
     return data;
@@ -204,8 +215,22 @@ class Replacement {
 
 }  // namespace
 
-std::vector<std::byte> read_file(const std::filesystem::path& path, std::uint64_t max_bytes) {
-    return read_whole<std::vector<std::byte>>(path, max_bytes);
+std::uint64_t memory_limit(const char* name, std::uint64_t least, std::uint64_t most) {
+    const char* value = std::getenv(name);
+    std::uint64_t mebibytes = least;
+    if (value != nullptr) {
+        const char* const end = value + std::strlen(value);
+        const auto [read, code] = std::from_chars(value, end, mebibytes);
+        if (code != std::errc() || read != end || mebibytes < least || mebibytes > most)
+            refuse_input(name, "", fmt::format("\"{:.40}\"", value),
+                         fmt::format("a number of MiB from {} to {}", least, most));
+    }
+    return mebibytes << 20;
+}
+
+std::vector<std::byte> read_file(const std::filesystem::path& path, std::uint64_t max_bytes,
+                                 const std::string& remedy) {
+    return read_whole<std::vector<std::byte>>(path, max_bytes, remedy);
 }
 
 std::string read_text_file(const std::filesystem::path& path, std::uint64_t max_bytes) {
@@ -244,8 +269,8 @@ void create_folder(const std::filesystem::path& path) {
 
 void require_writable(const std::filesystem::path& path) {
     require_no_device(path);
-    std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
     std::error_code ignored;
+    std::filesystem::path folder = std::filesystem::absolute(path, ignored).parent_path();
     while (!std::filesystem::exists(folder, ignored) && folder.has_relative_path()) folder = folder.parent_path();
     const Replacement attempt(folder / "file");
 }
@@ -285,7 +310,8 @@ namespace {
 /// Two paths lead to one file exactly if they have a key in common: the path without links, or the inode.
 std::vector<std::string> keys_of(const std::filesystem::path& path) {
     std::error_code code;
-    const std::filesystem::path canonical = std::filesystem::weakly_canonical(std::filesystem::absolute(path), code);
+    const std::filesystem::path canonical =
+        std::filesystem::weakly_canonical(std::filesystem::absolute(path, code), code);
     std::vector<std::string> keys{code ? path.string() : canonical.string()};
     struct stat status = {};
     if (::stat(path.c_str(), &status) == 0) keys.push_back(fmt::format("{}:{}", status.st_dev, status.st_ino));

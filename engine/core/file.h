@@ -37,9 +37,14 @@ class Hasher {
     std::unique_ptr<XXH3_state_s, void (*)(XXH3_state_s*)> state_;
 };
 
+/// Bytes that the environment variable `name` allows a reader, which it gives in MiB: `least` MiB if it is not set.
+/// Throws Error (input) unless it is a whole number from `least` to `most`.
+std::uint64_t memory_limit(const char* name, std::uint64_t least, std::uint64_t most);
+
 /// Reads a whole file. Throws Error (input) if it is missing, not a regular file, unreadable or larger than
-/// `max_bytes`.
-std::vector<std::byte> read_file(const std::filesystem::path& path, std::uint64_t max_bytes);
+/// `max_bytes`, for which `remedy` says what to do.
+std::vector<std::byte> read_file(const std::filesystem::path& path, std::uint64_t max_bytes,
+                                 const std::string& remedy = "");
 std::string read_text_file(const std::filesystem::path& path, std::uint64_t max_bytes);
 
 /// The first `size` bytes of a file, or all of a shorter one. Throws as read_file() does, and for an empty file.

@@ -139,6 +139,9 @@ double typical(const NumberRange& range) {
 
 nlohmann::json parse_json(std::string_view text, const std::string& file) {
     const std::size_t keys = check_depth(text, file);
+    // The library takes it for the end.
+    if (const std::size_t null = text.find('\0'); null != std::string_view::npos)
+        refuse_input(file, fmt::format("byte {}", null), "a null character", "valid JSON");
     try {
         nlohmann::json json = nlohmann::json::parse(text);
         // Of two equal keys the library keeps one without saying so.

@@ -1,5 +1,6 @@
 #include "engine/core/program.h"
 
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
@@ -16,6 +17,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <fstream>
 #include <limits>
 #include <new>
 #include <system_error>
@@ -68,6 +70,32 @@ pid_t spawn(const fs::path& program, int standard_input) {
     posix_spawn_file_actions_destroy(&actions);
     if (code != 0) fail(program, "cannot be started", code);
     return process;
+}
+
+}  // namespace
+
+[[gnu::weak]] const char* installed_helper_folder() {
+    return ROWLAND_INSTALLED_HELPER_FOLDER;
+}
+
+namespace {
+
+std::vector<fs::path> helper_folders() {
+    if (const char* named = std::getenv("ROWLAND_HELPER_FOLDER")) return {named};
+    std::vector<fs::path> folders;
+    std::error_code unknown;
+    const fs::path running = fs::read_symlink("/proc/self/exe", unknown);
+    Dl_info library{};
+    if (dladdr(reinterpret_cast<const void*>(&helper_program), &library) == 0) library.dli_fname = "";
+    for (const fs::path& file : {running, fs::path(library.dli_fname)}) {
+        const fs::path folder = file.parent_path();
+        // A program is named as it was called, and may be the library.
+        if (!folder.is_absolute() || (!folders.empty() && folder == folders.front())) continue;
+        folders.push_back(folder);
+        folders.push_back((folder / ROWLAND_HELPER_FOLDER_FROM_BIN).lexically_normal());
+    }
+    folders.emplace_back(installed_helper_folder());
+    return folders;
 }
 
 }  // namespace
@@ -151,22 +179,21 @@ std::string ChildProcess::ending() {
 }
 
 fs::path helper_program(const std::string& name) {
-    std::vector<fs::path> folders;
-    if (const char* named = std::getenv("ROWLAND_HELPER_FOLDER")) {
-        folders = {named};
-    } else {
-        std::error_code unknown;  // without /proc only the installed folder is searched
-        const fs::path running = fs::read_symlink("/proc/self/exe", unknown).parent_path();
-        if (!unknown) folders = {running, running.parent_path() / "libexec" / "rowland"};
-        folders.emplace_back(ROWLAND_INSTALLED_HELPER_FOLDER);
-    }
     std::string looked_at;
-    for (const fs::path& folder : folders) {
+    for (const fs::path& folder : helper_folders()) {
         if (fs::path program = folder / name; access(program.c_str(), X_OK) == 0) return program;
         looked_at += (looked_at.empty() ? "" : ", ") + folder.string();
     }
     fail_system(name, "not in " + looked_at, "install Rowland again, or name its folder in ROWLAND_HELPER_FOLDER",
                 "a helper program of Rowland");
+}
+
+std::string version_text(const std::string& program) {
+    std::string commit;
+    for (const fs::path& folder : helper_folders())
+        if (std::ifstream file(folder / "commit"); commit.empty()) std::getline(file, commit);
+    return fmt::format("{} {}, commit {}, {}", program, ROWLAND_VERSION, commit.empty() ? "unknown" : commit,
+                       ROWLAND_COMPILER);
 }
 
 }  // namespace rowland

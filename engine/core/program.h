@@ -15,6 +15,10 @@ namespace rowland {
 /// such as results that could not be written. Errors are printed as one line on standard error.
 int run_program(const std::function<int()>& body);
 
+/// "PROGRAM 0.1.0, commit 0123456789ab, GNU 12.2.0 Release". The commit is read from a file that the build writes,
+/// since a program that changed with each commit would cook all assets again; "unknown" without it.
+std::string version_text(const std::string& program);
+
 /// A helper program for work that may crash, hang or exhaust memory. Both sides exchange bytes over a socket, which is
 /// the helper's standard input; its standard output and error are discarded. The destructor kills it.
 class ChildProcess {
@@ -45,9 +49,13 @@ class ChildProcess {
     int socket_ = -1;
 };
 
-/// The path of the helper program `name`: in the folder $ROWLAND_HELPER_FOLDER, else beside the running program, in
-/// ../libexec/rowland from there, or in the installation folder the library was built for. Throws Error (system) if it
-/// is in none of them.
+/// The folder of helper programs that the library was built for. Weak: find_package(Rowland) defines it for other
+/// projects' programs as the folder of the package it found.
+const char* installed_helper_folder();
+
+/// The path of the helper program `name`: in the folder $ROWLAND_HELPER_FOLDER, else beside the running program or the
+/// shared library that holds this code, in the installation's folder relative to either (../libexec/rowland), or in
+/// installed_helper_folder(). Throws Error (system) if it is in none of them.
 std::filesystem::path helper_program(const std::string& name);
 
 }  // namespace rowland

@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cstdlib>
-#include <string_view>
 
 #include "engine/core/error.h"
 #include "engine/core/file.h"
@@ -17,21 +14,7 @@ namespace {
 
 constexpr const char* kMemoryVariable = "ROWLAND_IMAGE_MEMORY";
 constexpr std::uint64_t kMebibyte = 1 << 20;
-constexpr std::uint64_t kDefaultMemory = 400;  // MiB
 constexpr std::uint64_t kDecodedBytesPerByte = 192;
-
-std::uint64_t memory_mebibytes() {
-    const char* value = std::getenv(kMemoryVariable);
-    if (value == nullptr) return kDefaultMemory;
-    const std::string_view text(value);
-    std::uint64_t mebibytes = 0;
-    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), mebibytes);
-    constexpr std::uint64_t kMost = 1 << 20;
-    if (code != std::errc() || end != text.data() + text.size() || mebibytes < kDefaultMemory || mebibytes > kMost)
-        refuse_input(kMemoryVariable, "", fmt::format("\"{:.40}\"", text),
-                     fmt::format("a number of MiB from {} to {}", kDefaultMemory, kMost));
-    return mebibytes;
-}
 
 }  // namespace
 
@@ -44,7 +27,7 @@ void check_image_size(std::int64_t width, std::int64_t height, const std::string
 }
 
 std::uint64_t decoded_limit(std::uint64_t file_bytes) {
-    return std::max(memory_mebibytes() * kMebibyte, kDecodedBytesPerByte * file_bytes);
+    return std::max(memory_limit(kMemoryVariable, 400, 1 << 20), kDecodedBytesPerByte * file_bytes);
 }
 
 void check_decoded_bytes(std::int64_t width, std::int64_t height, std::uint64_t decoded_bytes, std::size_t file_bytes,

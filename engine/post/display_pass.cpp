@@ -61,6 +61,7 @@ DisplayTransform::DisplayTransform(const OcioConfig& config, const DisplaySelect
                      "the colour space light is computed in, as the role scene_linear",
                      "add the role to the configuration");
     }
+    const ClassicLocale classic;
     try {
         processor_ = make_processor(config, selection_);
         cpu_ = processor_->getDefaultCPUProcessor();
@@ -152,6 +153,7 @@ DisplayPass::DisplayPass(const gpu::ShaderLibrary& library, const DisplayTransfo
 }
 
 void DisplayPass::set_transform(const gpu::ShaderLibrary& library, const DisplayTransform& transform) {
+    const ClassicLocale classic;
     OCIO::GpuShaderDescRcPtr shader = OCIO::GpuShaderDesc::CreateShaderDesc();
     shader->setLanguage(OCIO::GPU_LANGUAGE_GLSL_4_0);
     shader->setFunctionName("display_transform");

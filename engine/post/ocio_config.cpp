@@ -86,6 +86,7 @@ OcioConfig::OcioConfig(OCIO::ConstConfigRcPtr config, std::string source)
 }
 
 OcioConfig OcioConfig::shipped() {
+    const ClassicLocale classic;
     std::istringstream text{std::string(shipped_config_file().front().text)};
     try {
         const OCIO::ConfigRcPtr config = OCIO::Config::CreateFromStream(text)->createEditableCopy();
@@ -97,6 +98,7 @@ OcioConfig OcioConfig::shipped() {
 }
 
 OcioConfig OcioConfig::from_named_file(const std::filesystem::path& path, const std::string& source) {
+    const ClassicLocale classic;
     const bool is_builtin_name = path.string().starts_with("ocio:");
     if (is_builtin_name && latest_version() < std::pair{2U, 2U}) fail_builtin_name(source);
     if (!is_builtin_name) {

@@ -2,9 +2,11 @@
 
 #include <OpenColorIO/OpenColorIO.h>
 
+#include <clocale>
 #include <filesystem>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <locale>
 #include <optional>
 #include <span>
 #include <string>
@@ -52,6 +54,23 @@ class OcioConfig {
     std::string source_;
     std::string preferred_display_;
     std::string preferred_view_;
+};
+
+/// The classic locale while it lives. OpenColorIO reads and writes numbers in the global one, which in an application
+/// may have a decimal comma. To be used while no other thread changes or needs the locale.
+class ClassicLocale {
+ public:
+    ClassicLocale() : c_(std::setlocale(LC_ALL, nullptr)), before_(std::locale::global(std::locale::classic())) {}
+    ~ClassicLocale() {
+        std::locale::global(before_);
+        std::setlocale(LC_ALL, c_.c_str());
+    }
+    ClassicLocale(const ClassicLocale&) = delete;
+    ClassicLocale& operator=(const ClassicLocale&) = delete;
+
+ private:
+    std::string c_;  ///< the C library's
+    std::locale before_;
 };
 
 /// One file: content/ocio/rowland.ocio.

@@ -165,8 +165,8 @@ Bytes write_payload(const Bytes& glb, const SceneTables& cooked) {
 }
 
 GltfSource read_source(cook::Context& context) {
-    return split_gltf(context.read(context.source(), MemoryBudget::kDefaultLimit), context.source().string(),
-                      context.source().parent_path());
+    return split_gltf(context.read(context.source(), MemoryBudget::scene_limit(), MemoryBudget::kRemedy),
+                      context.source().string(), context.source().parent_path());
 }
 
 /// The scene as the engine loads it. Refuses an extension that its module refuses.

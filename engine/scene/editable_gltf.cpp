@@ -99,7 +99,7 @@ std::size_t GltfOutline::uses(std::size_t material) const {
 }
 
 EditableGltf EditableGltf::open(const fs::path& path) {
-    return {read_file(path, MemoryBudget::kDefaultLimit), path};
+    return {read_file(path, MemoryBudget::scene_limit(), MemoryBudget::kRemedy), path};
 }
 
 EditableGltf::EditableGltf(std::vector<std::byte> bytes, fs::path path)
@@ -347,7 +347,7 @@ void EditableGltf::write_added_files(const fs::path& folder) const {
         const fs::path file = folder / added.name;
         if (std::error_code none; !fs::exists(file, none))
             write_file_atomic(file, *added.bytes);
-        else if (read_file(file, MemoryBudget::kDefaultLimit) != *added.bytes)
+        else if (read_file(file, MemoryBudget::scene_limit()) != *added.bytes)
             refuse_input(file.string(), "", "a file with other content", "none, or the image that was added",
                          "rename it");
     }

@@ -5,6 +5,7 @@
 #include <draco/mesh/mesh.h>
 #include <fmt/format.h>
 
+#include <charconv>
 #include <glm/common.hpp>
 #include <limits>
 #include <span>
@@ -97,9 +98,12 @@ Bounds decoded_bounds(std::span<const char> stream, std::size_t vertex_count) {
     return box;
 }
 
-/// The shortest decimal number that rounds to the float.
+/// The shortest decimal number that rounds to the float, whatever the locale.
 double shortest_decimal(float x) {
-    return std::stod(fmt::format("{}", x));
+    const std::string text = fmt::format("{}", x);
+    double value = 0.0;
+    std::from_chars(text.data(), text.data() + text.size(), value);
+    return value;
 }
 
 std::vector<double> shortest_decimal(const glm::vec3& v) {

@@ -138,7 +138,7 @@ ImportedScene import_gltf(const GltfSource& source, std::span<const std::string>
 ImportedScene load_gltf(const std::filesystem::path& path, std::span<const std::string> handled_extensions,
                         std::vector<std::filesystem::path>* read_files) {
     if (read_files) read_files->push_back(path);
-    std::vector<std::byte> bytes = read_file(path, MemoryBudget::kDefaultLimit);
+    std::vector<std::byte> bytes = read_file(path, MemoryBudget::scene_limit(), MemoryBudget::kRemedy);
     return import_gltf(split_gltf(std::move(bytes), path.string(), path.parent_path()), handled_extensions, read_files);
 }
 

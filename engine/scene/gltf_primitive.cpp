@@ -128,7 +128,7 @@ void finish_weights(const PrimitiveImport& import, Skinning& skinning) {
     }
 }
 
-/// COLOR_0 as linear RGBA, ≥ 0; empty if there is none.
+/// COLOR_0 as linear RGBA, clamped to [0, 1] (glTF 2.0, 3.7.2.1); empty if there is none.
 std::vector<glm::vec4> read_colours(const PrimitiveImport& import) {
     const std::string name = "COLOR_0";
     require_component_type(import, name, true);
@@ -151,7 +151,7 @@ std::vector<glm::vec4> read_colours(const PrimitiveImport& import) {
             colour = glm::vec4(1.0F);
             import.warn("colours that are not numbers were set to white");
         }
-        colour = glm::max(colour, glm::vec4(0.0F));
+        colour = glm::clamp(colour, 0.0F, 1.0F);
     }
     return colours;
 }

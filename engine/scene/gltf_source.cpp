@@ -122,7 +122,7 @@ GltfBuffer load_file(const GltfSource& source, const std::string& uri, const std
     if (read_files) read_files->push_back(path);
     GltfBuffer buffer;
     try {
-        buffer.owned = read_file(path, MemoryBudget::kDefaultLimit);
+        buffer.owned = read_file(path, MemoryBudget::scene_limit());
     } catch (const Error& error) {
         // The message names the glTF, which is the file that the user named.
         ErrorInfo info = error.info();
@@ -139,6 +139,17 @@ GltfBuffer load_file(const GltfSource& source, const std::string& uri, const std
 
 }  // namespace
 
+std::span<const std::byte> GltfSource::json_text() const {
+    auto text = std::span(bytes).subspan(json_offset, json_size);
+    for (int i = 0; i < 3 && is_glb() && !text.empty() && text.back() == std::byte{0}; ++i)
+        text = text.first(text.size() - 1);
+    return text;
+}
+
+std::uint64_t MemoryBudget::scene_limit() {
+    return memory_limit("ROWLAND_SCENE_MEMORY", 512, 4095);
+}
+
 MemoryBudget::MemoryBudget(std::string file, std::uint64_t limit_bytes)
     : file_(std::move(file)), limit_(limit_bytes), left_(limit_bytes) {}
 
@@ -150,8 +161,7 @@ void MemoryBudget::spend(std::uint64_t count, std::uint64_t element_bytes, const
 void MemoryBudget::require_left(std::uint64_t count, std::uint64_t element_bytes, const std::string& pointer) const {
     if (element_bytes != 0 && count > left_ / element_bytes)
         refuse_input(file_, pointer, fmt::format("{} elements of {} bytes", count, element_bytes),
-                     fmt::format("at most {} bytes in the whole scene", limit_),
-                     "split the scene, or correct the count");
+                     fmt::format("at most {} bytes in the whole scene", limit_), kRemedy);
 }
 
 std::vector<std::byte> glb_beginning(std::string json, std::optional<std::size_t> binary_size, std::size_t other_size,

@@ -15,9 +15,12 @@ namespace rowland::scene {
 /// so a small file cannot ask for gigabytes, neither at once nor by naming the same data a thousand times.
 class MemoryBudget {
  public:
-    static constexpr std::uint64_t kDefaultLimit = 512ULL << 20;
+    /// Of a scene, in bytes: 512 MiB, or what the environment variable ROWLAND_SCENE_MEMORY allows, at most 4095 MiB.
+    static std::uint64_t scene_limit();
+    static constexpr const char* kRemedy =
+        "split the scene, or allow more MiB by the environment variable ROWLAND_SCENE_MEMORY";
 
-    explicit MemoryBudget(std::string file, std::uint64_t limit_bytes = kDefaultLimit);
+    explicit MemoryBudget(std::string file, std::uint64_t limit_bytes = scene_limit());
 
     /// Takes `count` elements of `element_bytes`. Throws Error (input) at `pointer` if that is more than is left.
     void spend(std::uint64_t count, std::uint64_t element_bytes, const std::string& pointer);
@@ -47,7 +50,8 @@ struct GltfSource {
     std::size_t glb_size = 0;       ///< bytes that the header of a GLB counts
 
     bool is_glb() const { return json_offset > 0; }
-    std::span<const std::byte> json_text() const { return std::span(bytes).subspan(json_offset, json_size); }
+    /// Without the zeros that some exporters pad a GLB's chunk with, in place of spaces.
+    std::span<const std::byte> json_text() const;
     std::span<const std::byte> binary() const { return std::span(bytes).subspan(binary_offset, binary_size); }
     /// Of a GLB, behind JSON and BIN.
     std::span<const std::byte> other_chunks() const {

@@ -155,9 +155,11 @@ TEST(FrameBenchmark, WritesTheProgramOfEachDiscAndHowOftenItsLoopsRun) {
     EXPECT_THAT(fragments.at("planar"), testing::HasSubstr("planar_map"));
 }
 
-TEST(FrameBenchmark, RefusesANameThatIsNone) {
+TEST(FrameBenchmark, RefusesANameThatIsNoneAndWhereNothingCanBeWritten) {
     EXPECT_EQ(run({"--only", "arcs"}).code, 2);
     EXPECT_EQ(run({"--rounds", "0"}).code, 2);
+    for (const char* output : {"--json", "--programs", "--output-folder"})
+        EXPECT_EQ(run({"--only", "unlit", output, "/dev/null/x"}).code, 2) << output;
 }
 
 TEST(Microbenchmark, TimesEveryPart) {

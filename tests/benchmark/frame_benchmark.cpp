@@ -145,6 +145,11 @@ int run(int argc, char** argv) {
         for (const FrameVariant& variant : all_variants()) std::printf("%s\n", variant.name.c_str());
         return 0;
     }
+    std::vector<Output> outputs;
+    if (options->json) outputs.push_back({"--json", *options->json});
+    if (options->output_folder) outputs.push_back({"--output-folder", *options->output_folder / "frames.json"});
+    if (options->programs) outputs.push_back({"--programs", *options->programs / "programs.json"});
+    check_outputs({}, outputs);
     const platform::HeadlessContext context({.debug = false});
     FrameReport report = describe_machine(context);
     if (options->require_gpu && report.software)

@@ -1,5 +1,6 @@
 // What AMD's shader compiler makes of each frame of the benchmark, without a GPU.
 #include <CLI/CLI.hpp>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -118,6 +119,7 @@ int check(const std::vector<GenerationCost>& costs, const std::filesystem::path&
 int run(int argc, char** argv) {
     const std::optional<Options> options = parse_options(argc, argv);
     if (!options) return 0;
+    if (options->json) check_outputs({}, std::array{Output{"--json", *options->json}});
     // First, as it may fail, and frames take a minute.
     std::vector<std::unique_ptr<AmdCompiler>> compilers;
     for (const Generation& generation : generations()) compilers.push_back(std::make_unique<AmdCompiler>(generation));

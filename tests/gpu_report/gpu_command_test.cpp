@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "engine/core/file.h"
+#include "tests/support/files.h"
 #include "tests/support/program.h"
 
 namespace rowland::gpu_report {
@@ -48,6 +49,18 @@ TEST_F(GpuCommand, RefusesAnotherOption) {
     const test::Ended ended = test::run({script(), "gpu", "--fast"}, surroundings_);
     EXPECT_EQ(ended.code, 2);
     EXPECT_THAT(ended.err, testing::HasSubstr("--fast"));
+}
+
+TEST(Script, ABuildFolderOfAnotherPlaceIsRefusedWithTheRemedy) {
+    const test::TemporaryFolder folder;
+    std::filesystem::copy_file(script(), folder.path() / "rowland");
+    write_file_atomic(folder.path() / "build/release/CMakeCache.txt",
+                      std::string_view("CMAKE_HOME_DIRECTORY:INTERNAL=/nowhere\n"));
+    const test::Ended ended =
+        test::run({folder.path() / "rowland", "cook"},
+                  {.environment = {{"ROWLAND_PRESET", "release"}, {"ROWLAND_SKIP_INSTALL", "1"}}});
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_THAT(ended.err, testing::AllOf(testing::HasSubstr("/nowhere"), testing::HasSubstr("remove")));
 }
 
 }  // namespace

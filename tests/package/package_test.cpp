@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -209,9 +208,7 @@ TEST_F(PackageTest, PixelsOfTheBareGlExampleAreWhatTheCpuEvaluates) {
 
 TEST_F(PackageTest, EngineExampleDrawsAGltfSceneWithAGratingAndAFilm) {
     install("runtime");
-    install("tools");  // Draco streams are decoded by a program of theirs
     const std::string program = build_example("engine_scene");
-    ::setenv("ROWLAND_HELPER_FOLDER", path("prefix/libexec/rowland").c_str(), 1);
     const glm::ivec3 plain = middle_of_card(program, "{}");
     const glm::ivec3 grating = middle_of_card(program, R"({ "ROWLAND_materials_diffraction": {
         "grating": { "pitch_nm": 1600, "profile": { "type": "slit", "width_nm": 800 } },
@@ -226,9 +223,7 @@ TEST_F(PackageTest, EngineExampleDrawsAGltfSceneWithAGratingAndAFilm) {
 
 TEST_F(PackageTest, AModuleOfAnotherProjectChangesHowLightIsReflected) {
     install("runtime");
-    install("tools");
     const std::string program = build_example("own_module");
-    ::setenv("ROWLAND_HELPER_FOLDER", path("prefix/libexec/rowland").c_str(), 1);
     const glm::ivec3 grey =
         middle_of_card(program, R"({ "EXAMPLE_materials_metal": { "n": [0.18, 0.18, 0.18], "k": [3.4, 3.4, 3.4] } })");
     const glm::ivec3 gold = middle_of_card(
@@ -236,6 +231,34 @@ TEST_F(PackageTest, AModuleOfAnotherProjectChangesHowLightIsReflected) {
     EXPECT_GT(grey.b, grey.r);  // the probe's sky is blue
     EXPECT_LT(gold.b, grey.b - 20);
     EXPECT_LT(std::abs(gold.r - grey.r), std::abs(gold.b - grey.b) / 3);  // of one index at red
+}
+
+/// A shared library of every header, each in a source of its own, and of all that the libraries hold.
+constexpr const char* kSharedLibrary = R"(cmake_minimum_required(VERSION 3.25)
+project(all CXX)
+find_package(Rowland REQUIRED)
+get_target_property(folder Rowland::Core INTERFACE_INCLUDE_DIRECTORIES)
+list(FILTER folder INCLUDE REGEX "/rowland$")
+file(GLOB_RECURSE headers RELATIVE ${folder} ${folder}/*.h)
+foreach(header IN LISTS headers)
+  file(CONFIGURE OUTPUT ${header}.cpp CONTENT "#include <${header}>\n")
+  list(APPEND sources ${CMAKE_BINARY_DIR}/${header}.cpp)
+endforeach()
+get_property(targets DIRECTORY PROPERTY IMPORTED_TARGETS)
+list(FILTER targets INCLUDE REGEX "^Rowland::")
+add_library(all SHARED ${sources})
+list(TRANSFORM targets REPLACE ".+" "$<TARGET_FILE:\\0>" OUTPUT_VARIABLE archives)
+target_link_libraries(all PRIVATE -Wl,--whole-archive ${archives} -Wl,--no-whole-archive ${targets})
+)";
+
+TEST_F(PackageTest, EveryHeaderCompilesByItselfAndSharedLibrariesMayHoldEverything) {
+    write_file_atomic(path("all/CMakeLists.txt"), std::string_view(kSharedLibrary));
+    for (const std::string component : {"library", "runtime"}) {
+        install(component);
+        const auto configured = configure(path("all"));
+        ASSERT_EQ(configured.code, 0) << configured.out << configured.err;
+        run({ROWLAND_TEST_CMAKE, "--build", path("build")});
+    }
 }
 
 TEST_F(PackageTest, ARuntimeThatIsNotInstalledIsSaid) {

@@ -43,9 +43,13 @@ void send(const std::vector<Value>& values) {
     send(values.data(), values.size() * sizeof(Value));
 }
 
+/// Keeps the hard limit, which an unprivileged process may not raise.
 void limit(int resource, rlim_t most) {
-    const rlimit limits{most, RLIM_INFINITY};
-    if (setrlimit(static_cast<__rlimit_resource>(resource), &limits) != 0) std::_Exit(1);
+    const auto kind = static_cast<__rlimit_resource>(resource);
+    rlimit limits{};
+    if (getrlimit(kind, &limits) != 0) std::_Exit(1);
+    limits.rlim_cur = std::min(most, limits.rlim_max);
+    if (setrlimit(kind, &limits) != 0) std::_Exit(1);
 }
 
 std::unique_ptr<draco::Mesh> decode(const DracoRequest& request) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <locale>
 #include <random>
 
 #include "engine/core/file.h"
@@ -116,6 +117,16 @@ TEST_F(DisplayPassTest, ShippedConfigurationIsTheSameOnGpuAndCpu) {
     const OcioConfig config = OcioConfig::shipped();
     for (const std::string& display : config.displays())
         for (const std::string& view : config.views(display)) expect_gpu_as_cpu(config, {display, view});
+}
+
+TEST_F(DisplayPassTest, AnApplicationsDecimalCommaChangesNothing) {
+    struct Comma : std::numpunct<char> {
+        char do_decimal_point() const override { return ','; }
+    };
+    const std::locale before = std::locale::global(std::locale(std::locale(), new Comma));
+    expect_gpu_as_cpu(OcioConfig::shipped(), {"sRGB - Display", "ACES 1.0 - SDR Video"});
+    EXPECT_EQ(std::use_facet<std::numpunct<char>>(std::locale()).decimal_point(), ',') << "the application's";
+    std::locale::global(before);
 }
 
 TEST_F(DisplayPassTest, AcesCgConfigurationIsTheSameOnGpuAndCpu) {

@@ -121,6 +121,7 @@ TEST_F(Attach, NamesThatAreMissingOrNotUniqueAreRefused) {
     EXPECT_THAT(refusal({"--material", "Paint", dvd}),
                 HasSubstr("2 materials called \"Paint\"; expected one of #1, #2"));
     EXPECT_THAT(refusal({"--material", "#3", dvd}), HasSubstr("no material \"#3\""));
+    EXPECT_THAT(refusal({"--material", "#99999999999999999999", dvd}), HasSubstr("no material"));
     EXPECT_THAT(refusal({"--remove", "Gold"}), HasSubstr("rowland-cook list"));
     EXPECT_THAT(refusal({}), HasSubstr("--material, --remove: neither"));
     EXPECT_EQ(attach({"--material", "#1", dvd}).code, 0);

@@ -47,5 +47,14 @@ TEST(CookedContent, MeshHasTheSameBytesEveryTime) {
     expect_same_bytes(test::content_path("meshes/cd.json"));
 }
 
+/// The limits that a shell, a service or a batch system sets bind its children, and cannot be raised again.
+TEST(CookedContent, DracoIsDecodedUnderFiniteHardLimits) {
+    for (const std::string limit : {"ulimit -c 0", "ulimit -v 8000000"}) {
+        const test::Ended ended = test::run({"/bin/sh", "-c", limit + "; exec \"$0\" check \"$1\"", ROWLAND_COOK,
+                                             test::content_path("scenes/films.glb")});
+        EXPECT_EQ(ended.code, 0) << limit << ": " << ended.err;
+    }
+}
+
 }  // namespace
 }  // namespace rowland

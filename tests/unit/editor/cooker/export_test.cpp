@@ -301,6 +301,8 @@ TEST(Export, RefusesWhatItCannotWriteOrMap) {
     };
     EXPECT_THAT(message({"-o", "out.txt"}), HasSubstr(".json"));
     EXPECT_THAT(message({"-o", "out.json", "--planar", "0", "1", "0"}), HasSubstr("no --probe"));
+    EXPECT_THAT(message({"-o", "out.json", "--resolution", "33"}), HasSubstr("33 is odd"));
+    EXPECT_THAT(message({"-o", "out.json", "--planar", "1e300", "0", "0"}), HasSubstr("no number"));
     for (const char* material : {"materials/diffraction_glasses.json", "materials/screen_door.json"}) {
         const test::Ended ended = test::run({ROWLAND_COOK, "export", test::content_path(material), "-o", "out.json"},
                                             {.folder = folder.path()});

@@ -113,6 +113,10 @@ TEST_F(FarmTest, TwoSourcesOfOneOutputAreRefused) {
 TEST_F(FarmTest, ASourceThatIsNotThereIsRefusedByName) {
     const std::vector<std::filesystem::path> sources = {path("nothing.tiles")};
     EXPECT_THAT(test::message_of([&] { plan_jobs(registry_, sources, path("cooked")); }), HasSubstr("nothing.tiles"));
+    std::filesystem::create_symlink("loop", path("loop"));
+    EXPECT_THAT(test::message_of(
+                    [&] { plan_jobs(registry_, std::vector<std::filesystem::path>{path("loop")}, path("cooked")); }),
+                HasSubstr("expected a readable file"));
 }
 
 TEST_F(FarmTest, AJobIsDoneOnceUntilSomethingOfItChanges) {

@@ -47,6 +47,7 @@ TEST_F(FilmsProgram, WritesAPictureAndHowFarOffTheFormulasAre) {
     EXPECT_EQ(run.code, 0) << run.err;
     EXPECT_THAT(run.out, AllOf(HasSubstr("| soap (1.33 on air) | 33.2 % | 24.2 % |"), HasSubstr("titanium")));
     EXPECT_TRUE(std::filesystem::exists(folder_.path() / "swatches.png"));
+    EXPECT_EQ(test::run_trade(folder_.path(), "films swatches.jpg").code, 2);
 }
 
 TEST_F(FilmsProgram, PutsTheMethodsInTheirOrderUnderAProbe) {

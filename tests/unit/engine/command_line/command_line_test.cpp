@@ -38,6 +38,21 @@ TEST(CommandLine, AllOtherNumbersAreRefused) {
             << text;
 }
 
+TEST(CommandLine, EmptyArgumentsAreRefusedByTheirOption) {
+    for (const auto& [option, value] : {std::pair("--number", ""), {"--number=", static_cast<const char*>(nullptr)}})
+        EXPECT_EQ(test::message_of([&] { parse(option, value); }),
+                  "--number: an empty argument; expected a name or a value; see program --help");
+    EXPECT_EQ(test::message_of([&] { parse("", nullptr); }),
+              "program: an empty argument; expected a name or a value; see program --help");
+}
+
+TEST(CommandLine, VersionSaysFromWhichSourcesAndBy) {
+    testing::internal::CaptureStdout();
+    EXPECT_FALSE(parse("--version", nullptr).goes_on);
+    EXPECT_THAT(testing::internal::GetCapturedStdout(),
+                testing::MatchesRegex("program [0-9.]+, commit [0-9a-z-]+, [A-Z].* [0-9.]+ .*\n"));
+}
+
 TEST(CommandLine, HelpIsPrintedAndEndsTheProgram) {
     testing::internal::CaptureStdout();
     EXPECT_FALSE(parse("--help", nullptr).goes_on);

@@ -252,8 +252,20 @@ TEST_F(Outputs, AnExtensionOfAnotherFormatIsRefused) {
 }
 
 TEST_F(Outputs, WhatCannotBeWrittenIsRefused) {
-    const std::vector<std::filesystem::path> names{"/dev/full",           "/proc/nowhere/a.png", "/dev/null/a.png",
-                                                   path("source.json/a"), folder_.path(),        path("new/")};
+    std::filesystem::create_symlink("loop", path("loop"));
+    const std::string long_name(256, 'n');
+    const std::vector<std::filesystem::path> names{"/dev/full",
+                                                   "/proc/nowhere/a.png",
+                                                   "/dev/null/a.png",
+                                                   path("source.json/a"),
+                                                   folder_.path(),
+                                                   path("new/"),
+                                                   "",
+                                                   path("loop"),
+                                                   path("loop/a"),
+                                                   path(long_name),
+                                                   path("new") / long_name,
+                                                   path(std::string(5000, '/') + "a")};
     for (const std::filesystem::path& name : names)
         EXPECT_THAT(refusal({{"--capture", name}}), HasSubstr("--capture")) << name;
 }

@@ -37,6 +37,11 @@ TEST(ParseJson, SyntaxErrorNamesLineAndColumn) {
     EXPECT_THAT(parse_message("{}["), HasSubstr("; expected valid JSON"));
 }
 
+TEST(ParseJson, ANullCharacterIsNotTheEnd) {
+    for (const std::string_view text : {std::string_view("{}\0", 3), std::string_view("{}\0x", 4)})
+        EXPECT_EQ(parse_message(std::string(text)), "a.json: byte 2: a null character; expected valid JSON");
+}
+
 TEST(ParseJson, NestingIsLimitedTo64) {
     EXPECT_EQ(parse_json(nested(64), "a.json").size(), 1u);
     EXPECT_EQ(parse_message(nested(65)), "a.json: byte 64: JSON nested too deep; expected at most 64 levels");

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <glm/geometric.hpp>
@@ -13,6 +14,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/file.h"
+#include "engine/scene/gltf_source.h"
 #include "engine/scene/mesh_recipe.h"
 #include "tests/support/expect.h"
 #include "tests/support/files.h"
@@ -155,6 +157,14 @@ TEST(GltfImport, FileInMemoryMayNameNoFiles) {
     EXPECT_THAT(error_of(file), HasSubstr("an external file \"mesh.bin\""));
 }
 
+TEST(GltfImport, ZerosMayPadTheJsonOfAGlb) {
+    json file = document(5);
+    while (file.dump().size() % 4 != 1) file["asset"]["generator"] = file["asset"].value("generator", "") + "x";
+    std::vector<std::byte> glb = test::glb_of(file);
+    std::fill(glb.end() - 3, glb.end(), std::byte{0});
+    EXPECT_EQ(load_glb(glb, "f.glb").meshes.size(), 1U);
+}
+
 TEST(GltfImport, RangesAreCheckedWithoutOverflow) {
     const auto with = [](const char* array, const char* key, const json& value) {
         json file = document(5);
@@ -223,6 +233,17 @@ TEST(GltfImport, AccessorWithoutDataDoesNotAllocateItsCount) {
     file["accessors"][0]["sparse"] = {
         {"count", 1}, {"indices", {{"bufferView", 0}, {"componentType", 5123}}}, {"values", {{"bufferView", 0}}}};
     EXPECT_THAT(error_of(file), HasSubstr("2000000000 elements of 12 bytes"));
+}
+
+TEST(GltfImport, AVariableRaisesTheMemoryOfAScene) {
+    const auto asked = [] { MemoryBudget("a.glb").require_left(600, 1 << 20, "/meshes/0"); };
+    EXPECT_THAT(rowland::test::message_of(asked),
+                testing::AllOf(HasSubstr("at most 536870912 bytes"), HasSubstr("ROWLAND_SCENE_MEMORY")));
+    setenv("ROWLAND_SCENE_MEMORY", "600", 1);
+    EXPECT_NO_THROW(asked());
+    setenv("ROWLAND_SCENE_MEMORY", "511", 1);
+    EXPECT_THAT(rowland::test::message_of(asked), HasSubstr("expected a number of MiB from 512 to 4095"));
+    unsetenv("ROWLAND_SCENE_MEMORY");
 }
 
 TEST(GltfImport, NamingTheSameDataOftenDoesNotMultiplyMemoryWithoutLimit) {

@@ -25,12 +25,12 @@ json with_colours(const std::string& type, int component_type, std::span<const s
 }
 
 TEST(PrimitiveAttribute, ColoursOfEveryTypeAreRead) {
-    const std::vector<float> floats = {0, 0.5F, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0.25F, 2, 0};
+    const std::vector<float> floats = {0, 0.5F, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0.25F, 3.4e38F, 0};
     Mesh mesh = load(with_colours("VEC3", 5126, std::as_bytes(std::span(floats)), false)).meshes.at(0);
     EXPECT_TRUE(test::is_sane(mesh));
     ASSERT_EQ(mesh.colours.size(), 5U);
     EXPECT_EQ(mesh.colours[0], glm::vec4(0.0F, 0.5F, 1.0F, 1.0F));
-    EXPECT_EQ(mesh.colours[4], glm::vec4(0.25F, 2.0F, 0.0F, 1.0F));
+    EXPECT_EQ(mesh.colours[4], glm::vec4(0.25F, 1.0F, 0.0F, 1.0F));
     std::vector<std::uint8_t> bytes(20, 0);
     bytes[0] = 255;
     bytes[3] = 51;
