@@ -393,18 +393,19 @@ Field quality_field() {
 std::vector<Field> budget_fields() {
     return joined(
         {{quality_field()},
-         shown_for("/quality", "by budget",
-                   {slider(Number, "/quality/max_error", "Error allowed", {0.002, 20.0, "", kLogarithmic}, 0.05,
-                           "Largest error against the reference; above 0.",
-                           "relative RMS: √(Σ|XYZ − XYZ_ref|² / Σ|XYZ_ref|²) over 120 views"),
-                    choice("/quality/measure", "Error is", "relative_rms",
-                           {{"relative RMS", "relative_rms"}, {"ΔE2000", "delta_e"}, {"HDR-FLIP", "hdr_flip"}},
-                           "Relative RMS of XYZ; the 95th percentile of ΔE2000 over the views; or the mean of "
-                           "HDR-FLIP over a picture.",
-                           "Sharma et al. 2005; Andersson et al. 2021"),
-                    choice("/quality/surface", "Measured on", "flat", {{"flat", "flat"}, {"curved", "curved"}},
-                           "The surface of the measurement. flat: a compact disc tilted by 35°. curved: a sphere.",
-                           "120 views each")})});
+         shown_for(
+             "/quality", "by budget",
+             {slider(Number, "/quality/max_error", "Error allowed", {0.002, 20.0, "", kLogarithmic}, 0.05,
+                     "Largest error against the reference; above 0.",
+                     "relative RMS: √(Σ|XYZ − XYZ_ref|² / Σ|XYZ_ref|²) over 30 views"),
+              choice("/quality/measure", "Error is", "relative_rms",
+                     {{"relative RMS", "relative_rms"}, {"ΔE2000", "delta_e"}, {"HDR-FLIP", "hdr_flip"}},
+                     "Relative RMS of XYZ; the 95th percentile of ΔE2000 over the views; or the mean of "
+                     "HDR-FLIP over a picture.",
+                     "Sharma et al. 2005; Andersson et al. 2021"),
+              choice("/quality/surface", "Measured on", "flat", {{"flat", "flat"}, {"curved", "curved"}},
+                     "The surface of the measurement. flat: a compact disc, of a lattice a card. curved: a sphere.",
+                     "240 views in eight parts; the largest error of a part counts")})});
 }
 
 /// Key lights of the representations that do not require them. Without a request, those that hold all light as SH use

@@ -50,14 +50,15 @@ void price_choices(const PriceQuery& query, const std::function<void(const Price
     const std::vector<diffraction::BudgetProbe> probes = {
         {.name = "the inspector's light", .image = query.probe, .key_lights = query.key_lights}};
     const diffraction::ErrorMeasure measure = query.material.quality.measure;
-    const std::vector<diffraction::ShadingPoint> frames = diffraction::measured_points(measure, query.surface);
+    const std::vector<diffraction::MeasuredViews> views = {diffraction::drawn_views(query.material, query.probe)};
     diffraction::SearchQuery search{.material = query.material,
                                     .probes = probes,
-                                    .frames = frames,
-                                    .error = diffraction::error_function(measure, query.surface),
+                                    .views = views,
+                                    .error = diffraction::error_function(measure, query.material.quality.surface),
                                     .settings = {}};
     if (!query.pinned_only)
-        search.settings = diffraction::budget_candidates(query.material.grating, query.surface, query.key_lights);
+        search.settings =
+            diffraction::budget_candidates(query.material.grating, query.material.quality.surface, query.key_lights);
     if (pinned) search.first = query.quality;
     diffraction::search(
         search, [&](const diffraction::SearchState& state) { report(list_of(state, measure, pinned)); }, stop);
@@ -142,7 +143,6 @@ Measurement::Prices::Work Measurement::price_work(bool pinned_only) const {
                        .quality = has_quality ? nlohmann::json(source->json["quality"]) : nlohmann::json(),
                        .probe = light->image,
                        .key_lights = light->key_lights,
-                       .surface = source->material.quality.surface,
                        .pinned_only = pinned_only},
                       report, stop);
         return stop.stop_requested() ? std::nullopt : std::optional(last);

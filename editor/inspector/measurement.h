@@ -43,12 +43,11 @@ struct PriceQuery {
     nlohmann::json quality;  ///< the material's, where it pins a representation
     const lighting::ProbeImage& probe;
     int key_lights = 16;
-    diffraction::SurfaceShape surface = diffraction::SurfaceShape::Flat;
     bool pinned_only = false;  ///< measures only the choice that the material pins
 };
 
 /// Measures the choice that the material pins, then all budget_candidates() sorted by price, by diffraction::search()
-/// over measured_points(), as choose_representation() does. Reports the list after each step. A stop request ends it
+/// over drawn_views(), as choose_representation() does. Reports the list after each step. A stop request ends it
 /// between two settings.
 void price_choices(const PriceQuery& query, const std::function<void(const PriceList&)>& report,
                    const std::stop_token& stop);

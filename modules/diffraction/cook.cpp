@@ -86,12 +86,18 @@ void pin(const nlohmann::json& settings, MaterialSource& source) {
     if (asked.contains("illuminant")) quality["illuminant"] = asked["illuminant"];
 }
 
+std::vector<MeasuredViews> views_under(std::span<const BudgetProbe> probes, const Material& material) {
+    std::vector<MeasuredViews> views;
+    for (const BudgetProbe& probe : probes) views.push_back(drawn_views(material, probe.image));
+    return views;
+}
+
 /// Chooses the cheapest settings within the material's max_error, and pins them.
 CookedMaterial choose(cook::Context& context, MaterialSource& source, const ChoiceRules& rules) {
     const std::string file = context.source().string();
-    const Quality& quality = source.material.quality;
-    BudgetChoice choice = choose_representation(source.material, read_probes(context, quality),
-                                                measured_points(quality.measure, quality.surface), file, rules);
+    const std::vector<BudgetProbe> probes = read_probes(context, source.material.quality);
+    BudgetChoice choice =
+        choose_representation(source.material, probes, views_under(probes, source.material), file, rules);
     pin(choice.settings, source);
     return std::move(choice.cooked);
 }
@@ -126,14 +132,6 @@ std::optional<GroovePitches> pitches_of(const GltfGrating& grating, const cook::
     return groove_pitches(*extension.scene.images[extension.scene.textures[index].image]);
 }
 
-/// The error of a pinned representation informs and decides nothing: every fourth of the frames keeps it cheap.
-std::vector<ShadingPoint> pinned_points(SurfaceShape surface) {
-    const std::vector<ShadingPoint> all = measured_points(ErrorMeasure::RelativeRms, surface);
-    std::vector<ShadingPoint> points;
-    for (std::size_t i = 0; i < all.size(); i += 4) points.push_back(all[i]);
-    return points;
-}
-
 /// A grating of a scene. Its errors are those of its grooves without their texture.
 std::vector<std::byte> cook_extension(cook::Context& context, const cook::SceneExtension& extension) {
     const std::string file = context.source().string();
@@ -150,8 +148,10 @@ std::vector<std::byte> cook_extension(cook::Context& context, const cook::SceneE
     CookedMaterial cooked;
     if (quality.pinned) {
         cooked.material = source.material;
-        cooked.measured =
-            measure_pinned(source.material, read_probes(context, quality), pinned_points(quality.surface));
+        const std::vector<BudgetProbe> probes = read_probes(context, quality);
+        std::vector<MeasuredViews> views = views_under(probes, source.material);
+        for (MeasuredViews& few : views) few.parts.resize(1);  // the error of what is pinned decides nothing
+        cooked.measured = measure_pinned(source.material, probes, views);
     } else {
         ChoiceRules rules{.pointer = extension.pointer, .must_meet_budget = asked.contains("max_error")};
         if (pitches)

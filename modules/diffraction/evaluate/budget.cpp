@@ -19,17 +19,18 @@ namespace rowland::diffraction {
 namespace {
 
 BudgetRecord record_of(const MeasuredChoice& choice, const Material& material, std::span<const BudgetProbe> probes,
-                       std::size_t frames) {
+                       std::span<const MeasuredViews> views) {
     BudgetRecord record{.max_error = material.quality.max_error,
                         .measure = material.quality.measure,
                         .surface = material.quality.surface,
-                        .frames = static_cast<int>(frames),
+                        .frames = static_cast<int>(views.front().points()),
                         .price = choice.price,
                         .probes = {}};
     for (std::size_t i = 0; i < probes.size(); ++i)
-        record.probes.push_back({.probe = probes[i].name,
-                                 .key_lights = std::min(choice.quality.key_lights, probes[i].key_lights),
-                                 .error = choice.errors[i]});
+        record.probes.push_back(
+            {.probe = probes[i].name,
+             .key_lights = std::min(choice.quality.key_lights, probes[i].key_lights),
+             .error = choice.checks.empty() ? choice.errors[i] : std::max(choice.errors[i], choice.checks[i])});
     return record;
 }
 
@@ -69,9 +70,9 @@ std::vector<nlohmann::json> budget_candidates(const Grating& grating, SurfaceSha
 }
 
 BudgetChoice choose_representation(const Material& material, std::span<const BudgetProbe> probes,
-                                   std::span<const ShadingPoint> frames, const std::string& file,
+                                   std::span<const MeasuredViews> views, const std::string& file,
                                    const ChoiceRules& rules) {
-    ROWLAND_CHECK(!probes.empty() && !frames.empty(), "an error needs light and views to be measured on");
+    ROWLAND_CHECK(!probes.empty() && views.size() == probes.size(), "an error needs light and views to be measured on");
     const double max_error = material.quality.max_error;
     const int most = std::ranges::max(probes, {}, &BudgetProbe::key_lights).key_lights;
     std::vector<nlohmann::json> settings = budget_candidates(material.grating, material.quality.surface, most);
@@ -84,7 +85,7 @@ BudgetChoice choose_representation(const Material& material, std::span<const Bud
     std::unique_ptr<Progress> progress;
     const SearchState found = search({.material = material,
                                       .probes = probes,
-                                      .frames = frames,
+                                      .views = views,
                                       .error = error_function(material.quality.measure, material.quality.surface),
                                       .settings = std::move(settings),
                                       .good_enough = max_error},
@@ -106,20 +107,24 @@ BudgetChoice choose_representation(const Material& material, std::span<const Bud
                     max_error, rounded_up(best.error()), best.settings.dump());
     BudgetChoice choice{best.settings, *best.baked};
     choice.cooked.material.quality = best.quality;
-    choice.cooked.measured = record_of(best, material, probes, frames.size());
+    choice.cooked.measured = record_of(best, material, probes, views);
+    if (const double checked = choice.cooked.measured->largest_error();
+        best.error() <= max_error && checked > max_error)
+        log_warning("{}: {}: {:.3g} at views that did not decide, {} asked for: {}", file, pointer, checked, max_error,
+                    best.settings.dump());
     return choice;
 }
 
 std::optional<BudgetRecord> measure_pinned(const Material& material, std::span<const BudgetProbe> probes,
-                                           std::span<const ShadingPoint> frames) {
+                                           std::span<const MeasuredViews> views) {
     const SearchState found = search({.material = material,
                                       .probes = probes,
-                                      .frames = frames,
+                                      .views = views,
                                       .error = error_function(material.quality.measure, material.quality.surface),
                                       .settings = {},
                                       .first = nlohmann::json::object()},
                                      [](const SearchState&) {});
-    BudgetRecord record = record_of(found.measured.front(), material, probes, frames.size());
+    BudgetRecord record = record_of(found.measured.front(), material, probes, views);
     record.max_error = 0.0;
     if (!std::isfinite(record.largest_error())) return std::nullopt;
     return record;

@@ -30,15 +30,15 @@ struct ChoiceRules {
     std::function<bool(const Quality&)> allows = {};
 };
 
-/// The cheapest of budget_candidates() whose error (quality.measure, over `frames`) is within the material's
-/// quality.max_error under every probe, by search(). The material pins nothing. Throws Error (input) naming `file` and
-/// the least error that can be reached, if that is above max_error.
+/// The cheapest of budget_candidates() whose error (quality.measure, over the views of each probe) is within the
+/// material's quality.max_error under every probe, by search(). The material pins nothing. Throws Error (input) naming
+/// `file` and the least error that can be reached, if that is above max_error.
 BudgetChoice choose_representation(const Material& material, std::span<const BudgetProbe> probes,
-                                   std::span<const ShadingPoint> frames, const std::string& file,
+                                   std::span<const MeasuredViews> views, const std::string& file,
                                    const ChoiceRules& rules = {});
 
 /// The errors of the representation that the material pins, under each probe; nullopt where the reference is black.
 std::optional<BudgetRecord> measure_pinned(const Material& material, std::span<const BudgetProbe> probes,
-                                           std::span<const ShadingPoint> frames);
+                                           std::span<const MeasuredViews> views);
 
 }  // namespace rowland::diffraction

@@ -1,14 +1,18 @@
 #include "modules/diffraction/evaluate/error_measure.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 #include <limits>
+#include <numbers>
 #include <optional>
+#include <random>
 #include <string>
 #include <utility>
 
@@ -51,7 +55,7 @@ std::vector<ShadingPoint> measured_frames(SurfaceShape surface) {
 
 namespace {
 
-constexpr int kSide = 32;
+constexpr int kSide = 16;
 constexpr double kEyeDistance = 3.0;      // radii
 constexpr double kHalfExtent = 1.07;      // of the picture, in the plane of the centre; the sphere's outline is 1.061
 constexpr double kInnerRadius = 0.405;    // of a compact disc's grooves, 23.5 of 58 mm
@@ -136,8 +140,118 @@ double high_delta_e(std::span<const glm::dvec3> radiance, std::span<const glm::d
 
 }  // namespace
 
-std::vector<ShadingPoint> measured_points(ErrorMeasure measure, SurfaceShape surface) {
-    return measure == ErrorMeasure::HdrFlip ? measured_picture(surface).points : measured_frames(surface);
+namespace {
+
+constexpr std::size_t kPointsPerPart = 30;
+constexpr std::size_t kAimedOf = 5;  ///< one point of so many has its g toward a bright texel
+
+/// Two gratings with other colours get other views.
+std::uint64_t seed_of(const Grating& grating) {
+    std::uint64_t seed = std::bit_cast<std::uint64_t>(grating.pitch_nm);
+    for (const double nm : {450.0, 550.0, 650.0}) {
+        std::vector<double> efficiencies;
+        if (grating.lattice)
+            efficiencies = lattice_order_efficiencies(grating, nm);
+        else
+            for (const int order : grating.orders) efficiencies.push_back(order_efficiency(grating, order, nm));
+        for (const double efficiency : efficiencies) seed = 31 * seed + std::bit_cast<std::uint64_t>(efficiency);
+    }
+    return seed;
+}
+
+/// Random directions, the same with every compiler.
+class Draw {
+ public:
+    Draw(std::uint64_t seed, const lighting::ProbeImage& probe) : random_(seed), probe_(probe) {
+        const image::Image& image = probe.image();
+        for (int row = 0; row < image.height; ++row)
+            for (int column = 0; column < image.width; ++column) {
+                const glm::dvec3 texel(image.texels[brightness_.size()]);
+                const double brightness = glm::dot(texel, texel) * probe.solid_angle(column, row);
+                brightness_.push_back((brightness_.empty() ? 0.0 : brightness_.back()) + brightness);
+            }
+    }
+
+    double fraction() { return static_cast<double>(random_() >> 11U) * 0x1p-53; }
+    glm::dvec3 direction() {
+        const double z = 2.0 * fraction() - 1.0;
+        const double azimuth = 2.0 * std::numbers::pi * fraction();
+        const double r = std::sqrt(1.0 - z * z);
+        return {r * std::cos(azimuth), r * std::sin(azimuth), z};
+    }
+    /// Perpendicular to n; `aimed`: as near as it can be to a texel drawn by the square of its radiance.
+    glm::dvec3 grating(const glm::dvec3& n, bool aimed) {
+        for (;;) {
+            const glm::dvec3 toward = aimed && brightness_.back() > 0.0 ? bright() : direction();
+            const glm::dvec3 across = toward - glm::dot(toward, n) * n;
+            if (glm::length(across) > 1e-3) return glm::normalize(across);
+            aimed = false;
+        }
+    }
+    /// As much of a surface as the eye sees of it, down to v_n = kLeastViewCosine.
+    glm::dvec3 view(const glm::dvec3& n) {
+        const double cosine = std::sqrt(1.0 - fraction() * (1.0 - kLeastViewCosine * kLeastViewCosine));
+        return cosine * n + std::sqrt(1.0 - cosine * cosine) * grating(n, false);
+    }
+
+ private:
+    glm::dvec3 bright() {
+        const auto found = std::upper_bound(brightness_.begin(), brightness_.end(), fraction() * brightness_.back());
+        const auto texel = static_cast<int>(std::min(found, brightness_.end() - 1) - brightness_.begin());
+        const int width = probe_.image().width;
+        return probe_.direction(texel % width + 0.5, texel / width + 0.5);
+    }
+
+    std::mt19937_64 random_;
+    const lighting::ProbeImage& probe_;
+    std::vector<double> brightness_;  ///< of the texels up to each one
+};
+
+/// Poses come in pairs of opposite normals. A point of a curved object is a pose of its own.
+std::vector<ShadingPoint> drawn_part(GrooveLayout layout, std::size_t points_per_pose, Draw& draw) {
+    std::vector<ShadingPoint> points;
+    glm::dvec3 n(0.0);
+    for (std::size_t i = 0; i < kPointsPerPart; ++i) {
+        const std::size_t pose = i / points_per_pose;
+        const bool starts = i % points_per_pose == 0;
+        if (starts) n = pose % 2 == 0 ? draw.direction() : -n;
+        const bool aimed = (layout == GrooveLayout::FlatUniform ? pose : i) % kAimedOf == 0;
+        const bool same_g = layout == GrooveLayout::FlatUniform && !starts;
+        const glm::dvec3 g = same_g ? points.back().grating : draw.grating(n, aimed);
+        points.push_back({.view = draw.view(n), .normal = n, .grating = g});
+    }
+    return points;
+}
+
+/// The picture with its camera, turned at random.
+std::vector<ShadingPoint> drawn_picture(GrooveLayout layout, std::vector<ShadingPoint> points, Draw& draw) {
+    const glm::dvec3 n = draw.direction();
+    const glm::dvec3 g = draw.grating(n, false);
+    const glm::dmat3 rotation(g, glm::cross(n, g), n);
+    for (ShadingPoint& point : points)
+        point = {.view = rotation * point.view,
+                 .normal = rotation * point.normal,
+                 .grating = layout == GrooveLayout::FlatUniform ? g : rotation * point.grating};
+    return points;
+}
+
+}  // namespace
+
+MeasuredViews drawn_views(const Material& material, const lighting::ProbeImage& probe) {
+    const bool curved = material.quality.surface == SurfaceShape::Curved;
+    const GrooveLayout flat = material.grating.lattice ? GrooveLayout::FlatUniform : GrooveLayout::Flat;
+    MeasuredViews views{.layout = curved ? GrooveLayout::Curved : flat, .parts = {}};
+    // A map of all azimuths and views takes a second.
+    const bool has_volume = views.layout == GrooveLayout::Flat && !sees_v_g_alone(material.grating);
+    const std::size_t points_per_pose = curved ? 1 : has_volume ? 15 : 5;
+    const bool pictures = material.quality.measure == ErrorMeasure::HdrFlip;
+    const std::vector<ShadingPoint> picture =
+        pictures ? measured_picture(material.quality.surface).points : std::vector<ShadingPoint>();
+    Draw draw(seed_of(material.grating), probe);
+    for (std::size_t i = 0; i < kViewParts; ++i)
+        views.parts.push_back(pictures ? drawn_picture(views.layout, picture, draw)
+                                       : drawn_part(views.layout, points_per_pose, draw));
+    return views;
 }
 
 ErrorFunction error_function(ErrorMeasure measure, SurfaceShape surface) {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/lighting/probe_image.h"
 #include "modules/diffraction/asset/material.h"
 #include "modules/diffraction/model/grating.h"
 
@@ -15,8 +16,8 @@ namespace rowland::diffraction {
 /// only the reference is black. The spans have equal lengths, one value per point.
 double relative_rms(std::span<const glm::dvec3> radiance, std::span<const glm::dvec3> reference);
 
-/// The points that errors are measured at, 120 for each shape: a compact disc tilted by 35° for flat surfaces; for
-/// curved ones a sphere with the grooves along its meridians, down to v_n = 0.1.
+/// The named points, 120 for each shape, that tables of errors are measured at: a compact disc tilted by 35° for flat
+/// surfaces; for curved ones a sphere with the grooves along its meridians, down to v_n = 0.1.
 std::vector<ShadingPoint> measured_frames(SurfaceShape surface);
 
 /// The pixels of a picture that see a surface.
@@ -33,7 +34,7 @@ std::vector<glm::dvec3> picture(const PictureLayout& layout, std::span<const glm
 double mean_hdr_flip(const PictureLayout& layout, std::span<const glm::dvec3> radiance,
                      std::span<const glm::dvec3> reference);
 
-/// A picture that errors are measured on, 32 × 32 pixels, and its points: a compact disc tilted by 35° for flat
+/// A picture that errors are measured on, 16 × 16 pixels, and its points: a compact disc tilted by 35° for flat
 /// surfaces; for curved ones a sphere with the grooves along its meridians, down to v_n = 0.1. Eye at three radii.
 struct MeasuredPicture {
     PictureLayout layout;
@@ -41,14 +42,29 @@ struct MeasuredPicture {
 };
 MeasuredPicture measured_picture(SurfaceShape surface);
 
-/// The points that an error is measured at: measured_frames(), for ErrorMeasure::HdrFlip those of measured_picture().
-std::vector<ShadingPoint> measured_points(ErrorMeasure measure, SurfaceShape surface);
+/// The views of an object in several poses, in parts of one size. An error is the largest of its parts' (PHYSICS §6):
+/// one sum over all views would hide those with little light.
+struct MeasuredViews {
+    GrooveLayout layout;
+    std::vector<std::vector<ShadingPoint>> parts;
+
+    std::size_t points() const { return parts.size() * parts.front().size(); }
+};
+
+/// The parts that drawn_views() has. The last one checks a choice that the others made.
+inline constexpr std::size_t kViewParts = 8;
+
+/// Views drawn at random for a material's error under a probe (quality.measure, quality.surface): 30 a part, of both
+/// sides of the object, or for ErrorMeasure::HdrFlip a measured_picture() of it. A fifth of the points has its g as
+/// near as it can be to a bright texel. The same for equal gratings and probes. A flat lattice has one g, a grating
+/// that of a disc.
+MeasuredViews drawn_views(const Material& material, const lighting::ProbeImage& probe);
 
 /// An error of XYZ against the reference, with one value per point in both.
 using ErrorFunction =
     std::function<double(std::span<const glm::dvec3> radiance, std::span<const glm::dvec3> reference)>;
 
-/// The error at measured_points(); all but ErrorMeasure::HdrFlip take any other points as well.
+/// The error at one part of drawn_views(); all but ErrorMeasure::HdrFlip take any other points as well.
 ErrorFunction error_function(ErrorMeasure measure, SurfaceShape surface);
 
 /// Exposure in stops that maps the mean Y of the points that are not black to 0.18.

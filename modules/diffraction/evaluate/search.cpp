@@ -32,9 +32,14 @@ std::vector<glm::dvec3> shade_surfaces(const CookedMaterial& cooked, const Evalu
     return result;
 }
 
+std::vector<ShadingPoint> MeasuredScene::points() const {
+    std::vector<ShadingPoint> all;
+    for (const Surface& surface : surfaces) all.insert(all.end(), surface.begin(), surface.end());
+    return all;
+}
+
 bool MeasuredScene::prepare(const std::stop_token& stop) {
-    std::vector<ShadingPoint> frames;
-    for (const Surface& surface : surfaces) frames.insert(frames.end(), surface.begin(), surface.end());
+    const std::vector<ShadingPoint> frames = points();
     Progress progress("reference, " + name, frames.size() - reference.size());
     while (reference.size() < frames.size()) {
         if (stop.stop_requested()) return false;
@@ -74,13 +79,27 @@ class Search {
         unbaked_.zero_order_xyz = kernel.zero_order_xyz();
         for (const BudgetProbe& probe : query.probes) {
             most_key_lights_ = std::max(most_key_lights_, probe.key_lights);
-            scenes_.push_back({.name = probe.name,
-                               .lights = std::make_shared<ProbeLights>(probe.image, kProjectedBands, probe.key_lights),
-                               .surfaces = {{query.frames.begin(), query.frames.end()}},
-                               .part = kReferencePart,
-                               .by_reference = [this, &probe](std::span<const ShadingPoint> part) {
-                                   return reference_radiance(query_.material.grating, probe.image, spectra_, part);
-                               }});
+            const MeasuredViews& views = query.views[probes_.size()];
+            const std::size_t deciding = std::max<std::size_t>(1, views.parts.size() - 1);
+            const auto parts = [&](std::size_t begin, std::size_t end) {
+                return std::vector<Surface>(views.parts.begin() + static_cast<std::ptrdiff_t>(begin),
+                                            views.parts.begin() + static_cast<std::ptrdiff_t>(end));
+            };
+            const auto lights = std::make_shared<ProbeLights>(probe.image, kProjectedBands, probe.key_lights);
+            const auto scene = [&](std::vector<Surface> surfaces) {
+                return MeasuredScene{.name = probe.name,
+                                     .lights = lights,
+                                     .surfaces = std::move(surfaces),
+                                     .part = kReferencePart,
+                                     .by_reference = [this, &probe](std::span<const ShadingPoint> part) {
+                                         return reference_radiance(query_.material.grating, probe.image, spectra_,
+                                                                   part);
+                                     }};
+            };
+            probes_.push_back({.layout = views.layout,
+                               .first = scene(parts(0, 1)),
+                               .others = scene(parts(1, deciding)),
+                               .last = scene(parts(deciding, views.parts.size()))});
         }
     }
     Search(const Search&) = delete;  // the scenes refer to it
@@ -92,8 +111,6 @@ class Search {
             if (auto quality = as_quality(settings, query_.material))
                 choices.push_back({.settings = settings, .quality = std::move(*quality), .baked = {}});
         state_.total = 2 * choices.size() + (query_.first ? 1 : 0);
-        for (MeasuredScene& scene : scenes_)
-            if (!scene.prepare(stop_)) return std::move(state_);
         if (query_.first) {
             MeasuredChoice first{.settings = *query_.first, .quality = query_.material.quality, .baked = {}};
             bake(first);
@@ -106,10 +123,13 @@ class Search {
         }
         std::ranges::stable_sort(choices, {}, &MeasuredChoice::price);
         for (MeasuredChoice& choice : choices) {
-            if (stop_.stop_requested() || found()) return std::move(state_);
+            if (stop_.stop_requested() || found()) break;
             measure(std::move(choice));
         }
-        if (query_.good_enough && !found()) find_best();
+        if (query_.good_enough && !stop_.stop_requested()) {
+            if (!found()) find_best();
+            check(*std::ranges::min_element(state_.measured, {}, &MeasuredChoice::error));
+        }
         return std::move(state_);
     }
 
@@ -118,6 +138,14 @@ class Search {
         ++state_.done;
         report_(state_);
     }
+
+    /// The views under one probe: a few that reject most settings, the others, and those that check.
+    struct ProbeViews {
+        GrooveLayout layout;
+        MeasuredScene first;
+        MeasuredScene others;
+        MeasuredScene last;
+    };
 
     bool found() const {
         return query_.good_enough && !state_.measured.empty() && state_.measured.back().error() <= *query_.good_enough;
@@ -135,29 +163,56 @@ class Search {
             known = std::make_shared<const CookedMaterial>(std::move(cooked));
         }
         choice.baked = known;
-        choice.price =
-            shading_price(shading_cost(known->tables), std::min(choice.quality.key_lights, most_key_lights_));
+        const auto cost = shading_cost(as_drawn(*known, query_.views.front().layout).tables);
+        choice.price = shading_price(cost, std::min(choice.quality.key_lights, most_key_lights_));
     }
 
-    /// Measures under the probes that follow, until an error is above the limit.
-    void measure_up_to(double limit, MeasuredChoice& choice) {
-        for (std::size_t i = choice.errors.size(); i < scenes_.size() && choice.error() <= limit; ++i) {
-            const int key_lights = std::min(choice.quality.key_lights, query_.probes[i].key_lights);
-            choice.errors.push_back(query_.error(scenes_[i].shaded(*choice.baked, key_lights), scenes_[i].reference));
+    /// The largest error of the scene's parts; nullopt if it was stopped.
+    std::optional<double> largest_error(const MeasuredChoice& choice, std::size_t probe, MeasuredScene& scene) {
+        if (!scene.prepare(stop_)) return std::nullopt;
+        const int key_lights = std::min(choice.quality.key_lights, query_.probes[probe].key_lights);
+        const std::vector<glm::dvec3> shown =
+            evaluate_baked(*choice.baked, scene.lights->split(key_lights), scene.points(), probes_[probe].layout);
+        double largest = 0.0;
+        std::size_t begin = 0;
+        for (const Surface& part : scene.surfaces) {
+            largest = std::max(largest, query_.error(std::span(shown).subspan(begin, part.size()),
+                                                     std::span(scene.reference).subspan(begin, part.size())));
+            begin += part.size();
         }
+        return largest;
+    }
+
+    /// Measures the views and probes that follow, until an error is above the limit. False if it was stopped.
+    bool measure_up_to(double limit, MeasuredChoice& choice) {
+        for (; choice.steps < 2 * probes_.size() && choice.error() <= limit; ++choice.steps) {
+            const std::size_t probe = choice.steps / 2;
+            ProbeViews& views = probes_[probe];
+            const bool is_first = choice.steps % 2 == 0;
+            if (!is_first && views.others.surfaces.empty()) continue;
+            const auto error = largest_error(choice, probe, is_first ? views.first : views.others);
+            if (!error) return false;
+            if (is_first) choice.errors.push_back(0.0);
+            choice.errors.back() = std::max(choice.errors.back(), *error);
+        }
+        return true;
     }
 
     void measure(MeasuredChoice choice) {
-        measure_up_to(query_.good_enough.value_or(std::numeric_limits<double>::infinity()), choice);
+        if (!measure_up_to(query_.good_enough.value_or(std::numeric_limits<double>::infinity()), choice)) return;
         state_.measured.push_back(std::move(choice));
         step();
+    }
+
+    void check(MeasuredChoice& choice) {
+        for (std::size_t i = 0; i < probes_.size() && !probes_[i].last.surfaces.empty(); ++i)
+            choice.checks.push_back(largest_error(choice, i, probes_[i].last).value_or(0.0));
     }
 
     void find_best() {
         double best = std::numeric_limits<double>::infinity();
         for (MeasuredChoice& choice : state_.measured) {
-            if (stop_.stop_requested()) return;
-            measure_up_to(best, choice);
+            if (!measure_up_to(best, choice)) return;
             best = std::min(best, choice.error());
         }
     }
@@ -168,7 +223,7 @@ class Search {
     colour::LightSpectra spectra_;
     CookedMaterial unbaked_;  ///< all but the tables
     int most_key_lights_ = 0;
-    std::vector<MeasuredScene> scenes_;
+    std::vector<ProbeViews> probes_;
     std::map<std::string, std::shared_ptr<const CookedMaterial>> baked_;  ///< by settings without key_lights
     SearchState state_;
 };

@@ -40,6 +40,7 @@ struct MeasuredScene {
     std::function<std::vector<glm::dvec3>(std::span<const ShadingPoint>)> by_reference;
     std::vector<glm::dvec3> reference{};  ///< of all points once it is prepared
 
+    std::vector<ShadingPoint> points() const;  ///< of all surfaces
     /// Computes the reference unless it is known. False if it was stopped; another call continues.
     bool prepare(const std::stop_token& stop = {});
     std::vector<glm::dvec3> shaded(const CookedMaterial& cooked, int key_lights,
@@ -67,6 +68,8 @@ struct MeasuredChoice {
     std::shared_ptr<const CookedMaterial> baked;  ///< shared by settings that differ in key_lights alone
     double price = 0.0;                           ///< shading_price()
     std::vector<double> errors{};                 ///< under each probe that was measured, in order
+    std::vector<double> checks{};                 ///< of the last parts, which did not decide; empty: not measured
+    std::size_t steps = 0;                        ///< of measuring `errors`
 
     /// The largest of the errors.
     double error() const;
@@ -82,17 +85,17 @@ struct SearchState {
 struct SearchQuery {
     const Material& material;
     std::span<const BudgetProbe> probes;
-    std::span<const ShadingPoint> frames;
-    ErrorFunction error = relative_rms;     ///< over the frames
+    std::span<const MeasuredViews> views;   ///< under each probe; of one part, or of several and one that checks
+    ErrorFunction error = relative_rms;     ///< over a part
     std::vector<nlohmann::json> settings;   ///< those that do not suit the grating are left out
     std::optional<nlohmann::json> first{};  ///< the "quality" that the material pins, measured before the others
-    /// The search ends at the first setting whose errors are all at most this. A larger error under one probe skips the
-    /// setting's remaining probes. If no setting is good enough, further probes are measured until the setting with the
-    /// least error() is known.
+    /// The search ends at the first setting whose errors are all at most this, and checks it. A larger error skips the
+    /// setting's remaining views and probes. If no setting is good enough, further probes are measured until the
+    /// setting with the least error() is known.
     std::optional<double> good_enough{};
 };
 
-/// Measures settings, the cheapest first: their errors over the frames against reference_radiance() under the
+/// Measures settings, the cheapest first: their errors over the views against reference_radiance() under the
 /// material's illuminant, with no window on the light. `report` is called after each step. Returns early, between two
 /// steps, when it is asked to stop.
 ///

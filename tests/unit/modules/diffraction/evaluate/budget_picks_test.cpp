@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <glm/geometric.hpp>
 #include <optional>
+#include <random>
 
 #include "engine/core/error.h"
 #include "engine/image/image.h"
@@ -37,26 +39,38 @@ Material paper_disc(double max_error, SurfaceShape surface) {
     return material;
 }
 
-/// Every so many, from one of them on.
-std::vector<ShadingPoint> every(std::size_t step, std::size_t from, const std::vector<ShadingPoint>& all) {
-    std::vector<ShadingPoint> some;
-    for (std::size_t i = from; i < all.size(); i += step) some.push_back(all[i]);
-    return some;
+/// 200 points of an object in 40 poses, drawn apart from those that the budget draws.
+std::vector<ShadingPoint> other_views() {
+    std::mt19937 random(11);
+    std::normal_distribution<double> normal;
+    const auto direction = [&] { return glm::normalize(glm::dvec3(normal(random), normal(random), normal(random))); };
+    std::vector<ShadingPoint> views;
+    glm::dvec3 n = direction();
+    while (views.size() < 200) {
+        const glm::dvec3 across = direction();
+        // On the sphere around n: as much of a surface as the eye sees of it.
+        const glm::dvec3 view = glm::normalize(n + direction());
+        if (glm::dot(view, n) < 0.1) continue;
+        views.push_back({.view = view, .normal = n, .grating = glm::normalize(across - glm::dot(across, n) * n)});
+        if (views.size() % 5 == 0) n = direction();
+    }
+    return views;
 }
 
 /// Asks for less and less error. Every choice is within it at other views too, has at most 64 MB, and with its key
 /// lights is no worse than the same tables without; what is asked for less error is never cheaper.
 void expect_kept_promises(const BudgetProbe& probe, SurfaceShape surface, std::span<const double> budgets) {
-    const std::vector<ShadingPoint> views = every(11, 5, measured_picture(surface).points);
+    const std::vector<ShadingPoint> views = other_views();
     const auto reference =
         reference_radiance(paper_disc(1.0, surface).grating, probe.image, colour::LightSpectra(), views);
-    const std::vector<ShadingPoint> frames = every(2, 0, measured_frames(surface));
     ProbeLights lights(probe.image, 0, probe.key_lights);
     double price = 0.0;
     for (const double max_error : budgets) {
         std::optional<BudgetChoice> choice;
         try {
-            choice = choose_representation(paper_disc(max_error, surface), {&probe, 1}, frames, "cd.json");
+            const Material material = paper_disc(max_error, surface);
+            const std::vector<MeasuredViews> drawn = {drawn_views(material, probe.image)};
+            choice = choose_representation(material, {&probe, 1}, drawn, "cd.json");
         } catch (const Error& error) {
             fmt::print("{:24} {:6} {:4} {}\n", probe.name, surface_shape_name(surface), max_error, error.what());
             continue;
@@ -64,7 +78,10 @@ void expect_kept_promises(const BudgetProbe& probe, SurfaceShape surface, std::s
         const BudgetRecord& record = *choice->cooked.measured;
         const int keys = record.probes[0].key_lights;
         const auto error_with = [&](int count) {
-            return relative_rms(evaluate_baked(choice->cooked, lights.split(count), views), reference);
+            return relative_rms(
+                evaluate_baked(choice->cooked, lights.split(count), views,
+                               surface == SurfaceShape::Flat ? GrooveLayout::Flat : GrooveLayout::Curved),
+                reference);
         };
         const double error = error_with(keys);
         const std::size_t bytes = shading_cost(choice->cooked.tables).table_bytes;

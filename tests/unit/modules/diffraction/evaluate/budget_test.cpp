@@ -38,6 +38,11 @@ std::vector<ShadingPoint> some_frames(SurfaceShape surface, std::size_t step) {
     return some;
 }
 
+/// The same frames under each of so many probes, as one part.
+std::vector<MeasuredViews> one_part(std::size_t probes, const std::vector<ShadingPoint>& frames) {
+    return std::vector(probes, MeasuredViews{.layout = layout_of(frames), .parts = {frames}});
+}
+
 BudgetProbe captured(const std::filesystem::path& path, lighting::Mapping mapping) {
     return {.name = path.filename().string(), .image = {image::load_image(path), mapping, path.string()}};
 }
@@ -73,7 +78,8 @@ TEST(Budget, OfRealProbesPicksDearerSettingsForSmallerErrors) {
     std::set<std::string> settings;
     double price = 0.0;
     for (const double max_error : {0.30, 0.05, 0.02}) {
-        const BudgetChoice choice = choose_representation(with_budget(max_error), probes, frames, "cd.json");
+        const BudgetChoice choice =
+            choose_representation(with_budget(max_error), probes, one_part(probes.size(), frames), "cd.json");
         ASSERT_EQ(choice.cooked.measured->probes.size(), probes.size());
         EXPECT_GE(choice.cooked.measured->price, price) << max_error;
         price = choice.cooked.measured->price;
@@ -92,7 +98,7 @@ TEST(Budget, NothingCheaperWouldHaveDone) {
     const std::vector<BudgetProbe> probes = {made_up()};
     const std::vector<ShadingPoint> frames = some_frames(SurfaceShape::Curved, 12);
     const Material material = with_budget(0.05, SurfaceShape::Curved);
-    const BudgetChoice choice = choose_representation(material, probes, frames, "cd.json");
+    const BudgetChoice choice = choose_representation(material, probes, one_part(probes.size(), frames), "cd.json");
     const auto reference = reference_radiance(material.grating, probes[0].image, colour::LightSpectra(), frames);
     int cheaper = 0;
     for (const nlohmann::json& settings :
@@ -121,7 +127,8 @@ TEST(Budget, OutOfReachIsRefusedWithTheBestThatIsNot) {
     const ChoiceRules rules{
         .allows = [](const Quality& quality) { return std::holds_alternative<ArcSettings>(*quality.pinned); }};
     const auto choose = [&](double max_error) {
-        return choose_representation(with_budget(max_error), probes, frames, "folder/cd.json", rules);
+        return choose_representation(with_budget(max_error), probes, one_part(probes.size(), frames), "folder/cd.json",
+                                     rules);
     };
     const std::string message = rowland::test::message_of([&] { choose(1e-7); });
     EXPECT_THAT(message,
@@ -133,12 +140,37 @@ TEST(Budget, OutOfReachIsRefusedWithTheBestThatIsNot) {
     EXPECT_THROW(choose(0.98 * best), Error);
 }
 
+/// What is recorded is the largest error, also of the part that checks the choice.
+TEST(Budget, RecordsTheLargestErrorOfAllParts) {
+    const std::vector<BudgetProbe> probes = {made_up()};
+    const std::vector<ShadingPoint> frames = some_frames(SurfaceShape::Flat, 10);
+    const Material material = with_budget(0.1);
+    const auto reference = reference_radiance(material.grating, probes[0].image, colour::LightSpectra(), frames);
+    std::vector<double> recorded;
+    for (const bool swapped : {false, true}) {  // so that the largest is once of the part that checks
+        MeasuredViews views{.layout = GrooveLayout::Flat,
+                            .parts = {{frames.begin(), frames.begin() + 6}, {frames.begin() + 6, frames.end()}}};
+        if (swapped) std::swap(views.parts[0], views.parts[1]);
+        const BudgetChoice choice = choose_representation(
+            material, probes, {&views, 1}, "cd.json",
+            {.allows = [](const Quality& quality) { return std::holds_alternative<PlanarSettings>(*quality.pinned); }});
+        recorded.push_back(choice.cooked.measured->probes[0].error);
+        EXPECT_EQ(choice.cooked.measured->frames, 12);
+        const auto of_part = [&](std::size_t begin) {
+            return error_of(choice.cooked, choice.settings, probes[0], std::span(frames).subspan(begin, 6),
+                            std::span(reference).subspan(begin, 6));
+        };
+        EXPECT_NEAR(recorded.back(), std::max(of_part(0), of_part(6)), 1e-12);
+    }
+}
+
 TEST(Budget, ChoiceDoesNotDependOnTheNumberOfThreads) {
     const std::vector<BudgetProbe> probes = {made_up()};
     const std::vector<ShadingPoint> frames = some_frames(SurfaceShape::Flat, 24);
     const auto bytes = [&](unsigned threads) {
         const ThreadLimit limit(threads);
-        const BudgetChoice choice = choose_representation(with_budget(0.03), probes, frames, "cd.json");
+        const BudgetChoice choice =
+            choose_representation(with_budget(0.03), probes, one_part(probes.size(), frames), "cd.json");
         nlohmann::json json = compact_disc();
         json["quality"] = choice.settings;
         return write_cooked_material(json, choice.cooked);
@@ -173,7 +205,7 @@ TEST(Budget, ACurvedLatticeIsDrawnByHarmonics) {
                 .orders = 2};
     const std::vector<BudgetProbe> probes = {made_up()};
     const std::vector<ShadingPoint> frames = some_frames(SurfaceShape::Curved, 40);
-    const BudgetChoice choice = choose_representation(material, probes, frames, "foil.json");
+    const BudgetChoice choice = choose_representation(material, probes, one_part(probes.size(), frames), "foil.json");
     EXPECT_TRUE(find_representation(choice.settings["representation"].get<std::string>())->takes_harmonics);
     const EvaluationLight light(probes[0].image, choice.cooked.measured->probes.front().key_lights,
                                 math::SphericalWindow::None);

@@ -30,6 +30,11 @@ std::vector<ShadingPoint> six_frames() {
     return frames;
 }
 
+/// The six frames under each of two probes, as one part.
+std::vector<MeasuredViews> six_views() {
+    return std::vector(2, MeasuredViews{.layout = GrooveLayout::Flat, .parts = {six_frames()}});
+}
+
 const std::vector<nlohmann::json> kSearched = {
     {{"representation", "arc"}, {"bands", 8}, {"rank", 16}, {"key_lights", 64}},
     {{"representation", "arc"}, {"bands", 3}, {"rank", 4}, {"key_lights", 0}},
@@ -56,8 +61,8 @@ TEST(Search, MeasuresWhatSuitsTheGratingTheCheapestFirst) {
     const Material material = searched_material();
     const std::vector<BudgetProbe> probes = {lamp(100), lamp(200)};
     const std::vector<ShadingPoint> frames = six_frames();
-    const SearchState found =
-        searched({.material = material, .probes = probes, .frames = frames, .settings = kSearched});
+    const std::vector<MeasuredViews> views = six_views();
+    const SearchState found = searched({.material = material, .probes = probes, .views = views, .settings = kSearched});
     ASSERT_EQ(found.measured.size(), 3U);
     EXPECT_EQ(found.done, found.total);
     EXPECT_TRUE(std::ranges::is_sorted(found.measured, {}, &MeasuredChoice::price));
@@ -80,8 +85,8 @@ TEST(Search, MeasuresWhatSuitsTheGratingTheCheapestFirst) {
 TEST(Search, EndsAtTheFirstThatIsGoodEnough) {
     const Material material = searched_material();
     const std::vector<BudgetProbe> probes = {lamp(100), lamp(200)};
-    const std::vector<ShadingPoint> frames = six_frames();
-    SearchQuery query{.material = material, .probes = probes, .frames = frames, .settings = kSearched};
+    const std::vector<MeasuredViews> views = six_views();
+    SearchQuery query{.material = material, .probes = probes, .views = views, .settings = kSearched};
     const SearchState all = searched(query);
     query.good_enough = all.measured[1].error();
     const std::size_t first = all.measured[0].error() <= *query.good_enough ? 0 : 1;
@@ -89,6 +94,9 @@ TEST(Search, EndsAtTheFirstThatIsGoodEnough) {
     ASSERT_EQ(some.measured.size(), first + 1);
     EXPECT_EQ(some.measured.back().settings, all.measured[first].settings);
     EXPECT_EQ(some.measured.back().errors, all.measured[first].errors);
+    // 1 % short of it is not good enough.
+    query.good_enough = 0.99 * all.measured[first].error();
+    EXPECT_GT(searched(query).measured.size(), first + 1);
     // Out of reach: the best of all is certain.
     query.good_enough = 1e-9;
     const SearchState none = searched(query);
@@ -97,11 +105,38 @@ TEST(Search, EndsAtTheFirstThatIsGoodEnough) {
     EXPECT_EQ(best->errors.size(), probes.size());
 }
 
+/// The last part decides nothing; of the others the largest error counts.
+TEST(Search, TheLargestErrorOfThePartsDecidesAndTheLastPartChecks) {
+    const Material material = searched_material();
+    const std::vector<BudgetProbe> probes = {lamp(100)};
+    const std::vector<ShadingPoint> frames = measured_frames(SurfaceShape::Flat);
+    std::vector<MeasuredViews> views = {{.layout = GrooveLayout::Flat, .parts = {}}};
+    for (std::size_t i = 0; i < 4; ++i) views[0].parts.emplace_back(frames.begin() + 4 * i, frames.begin() + 4 * i + 4);
+    const std::vector<nlohmann::json> settings = {kSearched[1], kSearched[3]};
+    const auto error_of = [&](const MeasuredChoice& choice, std::size_t part) {
+        return relative_rms(
+            evaluate_baked(*choice.baked, EvaluationLight(probes[0].image, 0, math::SphericalWindow::None),
+                           views[0].parts[part]),
+            reference_radiance(material.grating, probes[0].image, colour::LightSpectra(), views[0].parts[part]));
+    };
+    SearchQuery query{.material = material, .probes = probes, .views = views, .settings = {kSearched[1]}};
+    const MeasuredChoice all = searched(query).measured[0];
+    const double largest = std::max({error_of(all, 0), error_of(all, 1), error_of(all, 2)});
+    EXPECT_NEAR(all.error(), largest, 1e-12);
+    EXPECT_GT(largest, 1.05 * error_of(all, 0)) << "a part decides that is not the first";
+    EXPECT_TRUE(all.checks.empty());
+    query.good_enough = largest;
+    const SearchState met = searched(query);
+    ASSERT_EQ(met.measured[0].checks.size(), 1U);
+    EXPECT_NEAR(met.measured[0].checks[0], error_of(all, 3), 1e-12);
+    EXPECT_NEAR(met.measured[0].error(), largest, 1e-12);
+}
+
 TEST(Search, StopsBetweenTwoSteps) {
     const Material material = searched_material();
     const std::vector<BudgetProbe> probes = {lamp(100)};
-    const std::vector<ShadingPoint> frames = six_frames();
-    const SearchQuery query{.material = material, .probes = probes, .frames = frames, .settings = kSearched};
+    const std::vector<MeasuredViews> views = six_views();
+    const SearchQuery query{.material = material, .probes = probes, .views = views, .settings = kSearched};
     const SearchState baking = searched(query, 2);
     EXPECT_EQ(baking.done, 2U);
     EXPECT_EQ(baking.total, 6U);
