@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "engine/core/file.h"
 #include "engine/render/surface_textures.h"
 #include "modules/diffraction/asset/groove_pitches.h"
 
@@ -12,11 +13,13 @@ namespace rowland::inspector {
 namespace {
 
 /// The inputs of the tables: everything but the direction of the grooves on the mesh.
-std::string bake_key(Json extension, const diffraction::GrooveMap* grooves) {
+std::string bake_key(Json extension, const diffraction::Material& material, const diffraction::GrooveMap* grooves) {
     extension.erase("grooveRotation");
     extension.erase("grooveTexture");
     std::string key = extension.dump();
     if (grooves != nullptr) key += fmt::format(" {} {}", grooves->pitches().smallest, grooves->pitches().largest);
+    for (const auto& [file, text] : diffraction::named_texts(nlohmann::json(extension), material))
+        key += ' ' + Hasher().text(text).digest().hex();
     return key;
 }
 
@@ -25,14 +28,14 @@ std::string bake_key(Json extension, const diffraction::GrooveMap* grooves) {
 std::shared_ptr<const CookedGrating> GratingCook::cook(const MaterialSource& source) {
     if (!scene_) {
         diffraction::require_baked_grooves(source.material.grating, source.name);
-        return std::make_shared<const CookedGrating>(
-            CookedGrating{.material = baked(source.material, bake_key(source.json, nullptr)), .grooves = nullptr});
+        return std::make_shared<const CookedGrating>(CookedGrating{
+            .material = baked(source.material, bake_key(source.json, source.material, nullptr)), .grooves = nullptr});
     }
     const auto grooves = groove_map(source);
     const diffraction::Material material =
         diffraction::drawable_material(source.gltf, grooves ? &grooves->pitches() : nullptr, source.name, {});
     return std::make_shared<const CookedGrating>(
-        CookedGrating{.material = baked(material, bake_key(source.json, grooves.get())),
+        CookedGrating{.material = baked(material, bake_key(source.json, material, grooves.get())),
                       .grooves = grooves,
                       .groove_rotation = source.gltf.groove_rotation,
                       .has_base = source.gltf.has_base});

@@ -43,7 +43,7 @@ class GratingCook {
 
     std::shared_ptr<const SceneObject> scene_;
     std::mutex lock_;
-    std::map<std::string, std::weak_ptr<const diffraction::CookedMaterial>> baked_;  ///< by the extension's text
+    std::map<std::string, std::weak_ptr<const diffraction::CookedMaterial>> baked_;  ///< by bake_key()
 };
 
 /// The cooked gratings of all materials of a scene. The chosen one is given; the others are cooked here, in the

@@ -42,6 +42,7 @@ class Picture {
     Picture(const post::OcioConfig& config, const std::string& view, glm::ivec2 size);
 
     const glm::dmat3& xyz_to_working() const { return xyz_to_working_; }
+    /// A cut: automatic exposure starts again, as in the first frame.
     void set_probe(const lighting::LightProbe& probe);
     /// Throws Error (input) if the display has no such view.
     void set_view(const post::OcioConfig& config, const std::string& view);

@@ -271,6 +271,11 @@ FrameTime FrameScene::draw() {
     return time;
 }
 
+bool FrameScene::awaits_map() {
+    const auto* state = world_.find<diffraction::SurfaceState>(disc_);
+    return state != nullptr && state->without_map && state->map.is_filling();
+}
+
 void FrameScene::settle() {
     for (int frame = 0; frame < kSettlingFrames; ++frame) draw();
 }

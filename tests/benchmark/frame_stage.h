@@ -66,6 +66,8 @@ class FrameScene {
 
     /// Draws the next frame.
     FrameTime draw();
+    /// Whether the disc was drawn without its map, which is being filled.
+    bool awaits_map();
     /// Draws until no shader is compiled and no map is filled.
     void settle();
     const FrameVariant& variant() const { return variant_; }

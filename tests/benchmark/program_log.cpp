@@ -169,7 +169,9 @@ void write_programs(const std::filesystem::path& folder, const std::vector<Frame
     };
     for (const FrameVariant& variant : variants) {
         const std::size_t known_passes = log.passes().size();
-        FrameScene(variant, stage, software).draw();
+        FrameScene scene(variant, stage, software);
+        do scene.draw();
+        while (scene.awaits_map());
         ROWLAND_CHECK(log.last_mesh().has_value(), "a frame without its disc");
         add(variant.name, log.last_mesh()->program, log.last_mesh()->lengths);
         for (std::size_t i = known_passes; i < log.passes().size() && variant.effect != Effect::None; ++i)

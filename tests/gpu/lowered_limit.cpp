@@ -1,6 +1,7 @@
 #include "tests/gpu/lowered_limit.h"
 
 #include <optional>
+#include <utility>
 
 #include "tests/support/replaced_function.h"
 
@@ -10,28 +11,26 @@ namespace {
 
 std::optional<ReplacedFunction<&epoxy_glGetIntegerv>> integer;
 std::optional<ReplacedFunction<&epoxy_glGetInteger64v>> long_integer;
-GLenum lowered_name = GL_NONE;
-std::int64_t lowered_value = 0;
+std::map<GLenum, std::int64_t> lowered;
 
 void APIENTRY get_integer(GLenum name, GLint* values) {
-    if (name == lowered_name)
-        *values = static_cast<GLint>(lowered_value);
+    if (const auto limit = lowered.find(name); limit != lowered.end())
+        *values = static_cast<GLint>(limit->second);
     else
         integer->driver(name, values);
 }
 
 void APIENTRY get_long_integer(GLenum name, GLint64* values) {
-    if (name == lowered_name)
-        *values = lowered_value;
+    if (const auto limit = lowered.find(name); limit != lowered.end())
+        *values = limit->second;
     else
         long_integer->driver(name, values);
 }
 
 }  // namespace
 
-LoweredLimit::LoweredLimit(GLenum name, std::int64_t value) {
-    lowered_name = name;
-    lowered_value = value;
+LoweredLimit::LoweredLimit(std::map<GLenum, std::int64_t> values) {
+    lowered = std::move(values);
     integer.emplace("glGetIntegerv", get_integer);
     long_integer.emplace("glGetInteger64v", get_long_integer);
 }

@@ -46,8 +46,15 @@ inline std::vector<GratingProgram> grating_programs() {
         {"spikes", 2, spikes},
         {"arc", 3, at_pixels(arc, line, {{"ARC_PRODUCTS", "1"}})},
         {"arc_of_rank_16", 3, at_pixels(arc, of_rank_16, {{"ARC_PRODUCTS", "1"}})},
+        {"arc_of_rank_16_grooves", 3,
+         at_pixels(arc, of_rank_16,
+                   {{"ARC_PRODUCTS", "1"},
+                    {"PITCH_AXIS", "1"},
+                    {"GROOVE_MAP", "uv"},
+                    {"HAS_UV", ""},
+                    {"GROOVES_EVEN", "1"}})},
         {"arc_turns", 3,
-         at_pixels(arc, line,
+         at_pixels(arc, of_rank_16,
                    {{"TURNS", "5"}, {"PITCH_AXIS", "1"}, {"GROOVE_MAP", "uv"}, {"HAS_UV", ""}, {"GROOVES_EVEN", "1"}})},
         {"direct", 2, {{"LOBE_GAUSSIAN", "1"}}},
         {"planar", 3, at_pixels(planar, {})},
@@ -89,7 +96,9 @@ inline const std::vector<Defines>& grating_lights() {
 
 /// The grooves of a texture turn from pixel to pixel, so neither vertices nor tables shade their lights.
 inline bool exists(const GratingProgram& program, const Defines& around) {
-    return program.name != "arc_turns" || std::ranges::none_of(around, [](const gpu::Define& define) {
+    const auto has_grooves = [](const gpu::Define& define) { return define.first == "GROOVE_MAP"; };
+    return std::ranges::none_of(program.defines, has_grooves) ||
+           std::ranges::none_of(around, [](const gpu::Define& define) {
                return define.first == "LIGHTS_AT_VERTICES" || define.second.ends_with("key_light_tables.glsl\"");
            });
 }

@@ -42,7 +42,7 @@ TEST(Es300, EveryRepresentationsProgramsCompileAndLink) {
             EXPECT_EQ(ended.code, 0) << program.name << "\n" << ended.out;
             ++linked;
         }
-    EXPECT_EQ(linked, 53);
+    EXPECT_EQ(linked, 56);
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ std::vector<double> lattice_spectrum(const std::vector<LatticeOrder>&, const std
     return {};
 }
 
-LatticeTerms::LatticeTerms(const Grating&, const colour::LightSpectra&, int bands) : cell_(0.0), bands_(bands) {}
+LatticeTerms::LatticeTerms(const Grating&, const colour::LightSpectra&, int bands) : grid_step_(0.0), bands_(bands) {}
 
 std::vector<glm::dmat3> LatticeTerms::coefficients(const glm::dvec2&) const {
     return {};

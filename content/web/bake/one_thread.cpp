@@ -45,7 +45,7 @@ void Progress::advance(std::size_t) {}
 
 void log_line(LogLevel, std::string_view) {}
 
-std::vector<std::byte> read_file(const std::filesystem::path& path, std::uint64_t) {
+std::vector<std::byte> read_file(const std::filesystem::path& path, std::uint64_t, const std::string&) {
     refuse_input(path.string(), "", "a file beside the material", "a material that names no file");
 }
 

@@ -20,11 +20,10 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// Files that a material names, by their names.
-using NamedTexts = std::map<std::string, std::string>;
-
 /// More than a material can name.
 constexpr std::uint32_t kMostNamedTexts = 16;
+
+}  // namespace
 
 NamedTexts named_texts(const nlohmann::json& json, const Material& material) {
     NamedTexts texts;
@@ -37,6 +36,8 @@ NamedTexts named_texts(const nlohmann::json& json, const Material& material) {
     if (illuminant.name.ends_with(".csv")) texts[illuminant.name] = write_illuminant_csv(illuminant);
     return texts;
 }
+
+namespace {
 
 void write_named(const NamedTexts& texts, ByteWriter& writer) {
     writer.value(static_cast<std::uint32_t>(texts.size()));

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <glm/mat3x3.hpp>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
@@ -50,6 +51,10 @@ CookedMaterial cook_material(const nlohmann::json& json, const std::string& file
 CookedMaterial cook(const nlohmann::json& json, const std::string& file, const Method& method);
 /// Throws Error (input) if cook() would, without baking.
 void check_method(const nlohmann::json& json, const std::string& file, const Method& method);
+
+/// The content of the files that a material names, as written from it, by their names.
+using NamedTexts = std::map<std::string, std::string>;
+NamedTexts named_texts(const nlohmann::json& json, const Material& material);
 
 /// The payload of a cooked material: the source as compact JSON with the chosen representation pinned, the CSV files
 /// that it names, the kernel, the representation's number and tables, those of a sheet's reflected side, and the record

@@ -68,9 +68,31 @@ std::vector<ShadingPoint> lit_points(const Grating& grating, std::span<const Sha
     return points;
 }
 
-/// T(v_n) of a point.
-double seen_through(const std::optional<Cover>& cover, const ShadingPoint& frame) {
-    return cover ? transmittance(cover, glm::dot(glm::normalize(frame.view), glm::normalize(frame.normal))) : 1.0;
+/// Adds key lights, and T(v_n) of what passes the cover toward the eye.
+PointShader with_key_lights(PointShader shader, const CookedMaterial& cooked, const EvaluationLight& light) {
+    return [shader = std::move(shader), key_lights = key_light_shader(cooked, light),
+            &cover = cooked.material.grating.cover](const ShadingPoint& frame) {
+        const glm::dvec3 xyz = shader(frame) + key_lights(frame);
+        return cover ? xyz * transmittance(cover, glm::dot(glm::normalize(frame.view), glm::normalize(frame.normal)))
+                     : xyz;
+    };
+}
+
+/// `parallel`: the shader is for any number of threads.
+std::vector<glm::dvec3> shade(const std::string& title, const PointShader& shader, const Grating& grating,
+                              std::span<const ShadingPoint> frames, bool parallel) {
+    const std::vector<ShadingPoint> points = lit_points(grating, frames);
+    std::vector<glm::dvec3> xyz(points.size());
+    Progress progress(title, points.size());
+    const auto shade_point = [&](std::size_t i) {
+        xyz[i] = shader(points[i]);
+        progress.advance();
+    };
+    if (parallel)
+        parallel_for(points.size(), shade_point);
+    else
+        for (std::size_t i = 0; i < points.size(); ++i) shade_point(i);
+    return xyz;
 }
 
 }  // namespace
@@ -78,16 +100,7 @@ double seen_through(const std::optional<Cover>& cover, const ShadingPoint& frame
 std::vector<glm::dvec3> evaluate_points(const std::string& title, const PointShader& shader,
                                         const CookedMaterial& cooked, const EvaluationLight& light,
                                         std::span<const ShadingPoint> frames) {
-    const PointShader key_lights = key_light_shader(cooked, light);
-    const std::vector<ShadingPoint> points = lit_points(cooked.material.grating, frames);
-    std::vector<glm::dvec3> result(points.size());
-    Progress progress(title, points.size());
-    parallel_for(points.size(), [&](std::size_t i) {
-        result[i] = shader(points[i]) + key_lights(points[i]);
-        result[i] *= seen_through(cooked.material.grating.cover, points[i]);
-        progress.advance();
-    });
-    return result;
+    return shade(title, with_key_lights(shader, cooked, light), cooked.material.grating, frames, true);
 }
 
 PointShader baked_shader(const CookedMaterial& cooked, const EvaluationLight& light) {
@@ -95,30 +108,18 @@ PointShader baked_shader(const CookedMaterial& cooked, const EvaluationLight& li
                                 .pitch_nm = cooked.material.grating.pitch_nm,
                                 .zero_order_xyz = cooked.zero_order_xyz,
                                 .cover = cooked.material.grating.cover};
-    return std::visit([&](const auto& tables) { return point_shader(tables, kernel, light); }, cooked.tables);
+    return with_key_lights(
+        std::visit([&](const auto& tables) { return point_shader(tables, kernel, light); }, cooked.tables), cooked,
+        light);
 }
 
 namespace {
 
 std::vector<glm::dvec3> evaluate_side(const CookedMaterial& cooked, const EvaluationLight& light,
                                       std::span<const ShadingPoint> frames) {
-    const PointShader shader = baked_shader(cooked, light);
-    const std::string title = info(cooked.tables).name;
-    if (!info(cooked.tables).needs_flat_surface) return evaluate_points(title, shader, cooked, light, frames);
     // All cores fill a plane's map, so the points are shaded one after the other.
-    const std::vector<ShadingPoint> points = lit_points(cooked.material.grating, frames);
-    std::vector<glm::dvec3> maps(points.size());
-    Progress progress(title, points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        maps[i] = shader(points[i]);
-        progress.advance();
-    }
-    const PointShader key_lights = key_light_shader(cooked, light);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        maps[i] += key_lights(points[i]);
-        maps[i] *= seen_through(cooked.material.grating.cover, points[i]);
-    }
-    return maps;
+    return shade(info(cooked.tables).name, baked_shader(cooked, light), cooked.material.grating, frames,
+                 !info(cooked.tables).needs_flat_surface);
 }
 
 }  // namespace
@@ -229,7 +230,7 @@ PointComparison PointComparer::compare(const std::shared_ptr<const CookedMateria
     const std::array points{frame};
     const colour::LightSpectra spectra(cooked->material.quality.illuminant);
     PointComparison result;
-    std::vector<glm::dvec3> shown = evaluate_points(info(drawn.tables).name, ready_->shader, drawn, lit, points);
+    std::vector<glm::dvec3> shown{ready_->shader(lit_points(cooked->material.grating, points)[0])};
     add_reflected_side(drawn, lit, points, shown);
     result.shown = shown[0];
     result.reference = reference_radiance(cooked->material.grating, *probe_, spectra, points)[0];

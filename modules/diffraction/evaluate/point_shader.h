@@ -21,7 +21,7 @@ GrooveLayout layout_of(std::span<const ShadingPoint> points);
 /// The material as such an object shows it; only `planar` differs.
 CookedMaterial as_drawn(const CookedMaterial& cooked, GrooveLayout layout);
 
-/// Shades points by a baked material's tables or map, without key lights; both arguments must outlive it. Maps are
+/// Shades points of one side of a baked material as evaluate_baked() does; both arguments must outlive it. Maps are
 /// filled on first use and kept. A sheet that transmits is shaded at lit_from_behind() of its points. `planar` keeps
 /// the map of the last plane, so that its shader is for one thread at a time.
 PointShader baked_shader(const CookedMaterial& cooked, const EvaluationLight& light);
@@ -39,7 +39,7 @@ std::vector<glm::dvec3> evaluate_baked(const CookedMaterial& cooked, const Evalu
 void add_reflected_side(const CookedMaterial& cooked, const EvaluationLight& light,
                         std::span<const ShadingPoint> frames, std::vector<glm::dvec3>& xyz);
 
-/// The same with `shader` instead of the tables, of one side of a sheet.
+/// The same with `shader` instead of the tables, of one side of a sheet; the key lights are added.
 std::vector<glm::dvec3> evaluate_points(const std::string& title, const PointShader& shader,
                                         const CookedMaterial& cooked, const EvaluationLight& light,
                                         std::span<const ShadingPoint> frames);

@@ -2,21 +2,33 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <map>
+#include <memory>
 #include <regex>
 #include <set>
+#include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "engine/render/gpu_mesh.h"
+#include "engine/render/reflections.h"
 #include "engine/render/shader_interface.h"
 #include "engine/render/surface_programs.h"
+#include "engine/render/surface_textures.h"
+#include "engine/scene/light.h"
 #include "modules/diffraction/shaders/shader_files.h"
 #include "tests/gpu/lowered_limit.h"
 #include "tests/gpu/modules/diffraction/grating_picture.h"
 #include "tests/support/expect.h"
 #include "tests/support/files.h"
 #include "tests/support/grating_programs.h"
+#include "tests/support/replaced_function.h"
 
 namespace rowland::diffraction {
 namespace {
@@ -115,6 +127,94 @@ StageUse use_of(const std::string& text) {
             ++use.samplers;
     glDeleteProgram(program);
     return use;
+}
+
+std::vector<std::string> fragment_stages;  ///< of gratings
+void APIENTRY shader_source(GLuint shader, GLsizei count, const GLchar* const* texts, const GLint* lengths) {
+    rowland::test::ReplacedFunction<&epoxy_glShaderSource>::driver(shader, count, texts, lengths);
+    std::string source = rowland::test::whole_source(count, texts, lengths);
+    GLint type = 0;
+    glGetShaderiv(shader, GL_SHADER_TYPE, &type);
+    if (type == GL_FRAGMENT_SHADER && source.find("in vec3 world_grating") != std::string::npos)
+        fragment_stages.push_back(std::move(source));
+}
+
+/// An arc table of rank 16 with a groove texture on a surface with every map, under every effect and kind of light.
+class LargestGrating : public GratingLimits {
+ protected:
+    LargestGrating() {
+        light_ = light_of(smooth_probe(), three_keys());
+        const ecs::Entity sun = world_.create();
+        world_.add(sun, scene::DirectionalLight{
+                            .direction = {0.0F, 0.6F, 0.8F}, .irradiance = glm::vec3(1.0F), .casts_shadow = true});
+        const ecs::Entity lamp = world_.create();
+        world_.add(lamp, scene::Transform{.translation = {0.3F, 0.4F, 1.0F}});
+        world_.add(lamp, scene::PunctualLight{.intensity = glm::vec3(0.5F)});
+        white_->upload(std::span<const glm::vec4>(std::array{glm::vec4(0.5F, 0.5F, 1.0F, 1.0F)}));
+        const ecs::Entity floor = world_.create();
+        world_.add(floor, scene::Transform{.translation = {0.0F, 0.0F, -2.0F}});
+        world_.add(floor, render::make_mesh_instance(flat_triangle()));
+        world_.add(floor, render::StandardMaterial{.base_colour_texture = {.texture = white_, .transform = {}}});
+        world_.add(floor, render::ReflectedTop{.half = {1.0F, 1.0F}});
+    }
+
+    std::vector<glm::vec4> draw_on(scene::Mesh mesh) {
+        mesh.uvs1 = mesh.uvs;
+        mesh.colours.assign(mesh.positions.size(), glm::vec4(0.9F, 0.8F, 0.7F, 1.0F));
+        mesh_ = std::move(mesh);
+        if (renderer_) world_.destroy(entity_);
+        auto picture = std::make_shared<image::ByteImage>();
+        *picture = {.width = 1, .height = 1, .rgba = {20, 128, 0, 255}};
+        scene::ImportedScene pictures;
+        pictures.images = {picture};
+        pictures.textures.resize(1);
+        render::SurfaceTextures textures(pictures);
+        const auto grooves = std::make_shared<const GrooveMap>(GrooveTexture{}, textures, "scene.gltf", "");
+        const nlohmann::json json =
+            nlohmann::json::parse(std::string("{\"grating\": ") + kSlitCd +
+                                  R"(, "cover": {"ior": 1.5}, "quality": {"representation": "arc", "rank": 16}})");
+        show(bake_material(suited_to_grooves(parse_material(json, "test"), grooves->pitches())));
+        world_.add(entity_, DiffractionSurface{material_, 0.3F, grooves});
+        render::StandardMaterial surface = material_->base();
+        for (const render::SurfaceMap& map : render::kSurfaceMaps)
+            surface.*map.texture = {.texture = white_, .uv_set = 1, .transform = {.offset = {0.1F, 0.2F}}};
+        surface.alpha_mode = scene::AlphaMode::Mask;
+        world_.add(entity_, std::move(surface));
+        world_.add(entity_, render::ReflectsObjects{entity_});
+        lighting::LightProbe probe = *light_.probe;
+        probe.environment.layout = {.face_size = 4, .levels = 1};
+        probe.environment.halves.assign(3 * probe.environment.layout.offset(1), 0);
+        renderer_->set_probe(std::move(probe));
+        renderer_->use_key_lights(true);
+        renderer_->set_effects({.ambient_occlusion = render::AmbientOcclusionSettings{},
+                                .soft_shadows = render::SoftShadowSettings{},
+                                .local_reflections = true,
+                                .object_reflections = true,
+                                .rough_reflections = true});
+        return draw();
+    }
+
+    std::shared_ptr<gpu::Texture> white_ = std::make_shared<gpu::Texture>(gpu::TextureDesc{});
+};
+
+/// A driver that allows no more than OpenGL 4.5 guarantees shows the same picture: 16 samplers in a stage and 60
+/// components between two are not exceeded on any other.
+TEST_F(LargestGrating, IsDrawnByWhatOpenGlGuarantees) {
+    const rowland::test::ReplacedFunction<&epoxy_glShaderSource> recorded("glShaderSource", shader_source);
+    const std::vector<glm::vec4> unlimited = draw_on(crooked_triangle());
+    EXPECT_GT(unlimited[DrawnTriangle::kSize * DrawnTriangle::kSize / 2 + DrawnTriangle::kSize / 2].y, 0.01F);
+    fragment_stages.clear();
+    const LoweredLimit limits(std::map<GLenum, std::int64_t>{{GL_MAX_TEXTURE_IMAGE_UNITS, render::kGuaranteedSamplers},
+                                                             {GL_MAX_VARYING_COMPONENTS, 60}});
+    EXPECT_EQ(draw_on(crooked_triangle()), unlimited);
+    draw_on(flat_triangle());
+    ASSERT_GE(fragment_stages.size(), 2U);
+    for (const std::string& stage : fragment_stages) {
+        const StageUse use = use_of(stage);
+        EXPECT_LE(use.samplers, render::kGuaranteedSamplers);
+        EXPECT_GE(use.samplers, 13);
+        EXPECT_LE(use.components, 60);
+    }
 }
 
 class ProgramLimits : public rowland::test::GlTest {};

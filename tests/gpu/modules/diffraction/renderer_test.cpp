@@ -25,6 +25,7 @@
 #include "engine/render/light_maps.h"
 #include "engine/scene/mesh_recipe.h"
 #include "engine/scene/transform.h"
+#include "engine/view/picture.h"
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/module.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
@@ -236,6 +237,21 @@ TEST(Renderer, ReloadedShadersAreUsedAndABrokenOneKeepsTheOld) {
         EXPECT_NE(std::string(error.what()).find("nonsense"), std::string::npos) << error.what();
     }
     EXPECT_EQ(draw(), glm::vec4(7.0F, 8.0F, 9.0F, 1.0F));
+}
+
+/// A probe 16 times as bright is not shown white, nor adapted to in seconds.
+TEST(Picture, ANewProbeIsACutForAutomaticExposure) {
+    const platform::HeadlessContext context({.debug = true});
+    view::Picture picture(post::OcioConfig::choose(std::nullopt), "", {4, 4});
+    picture.post_settings().auto_exposure = post::AutoExposureSettings{};
+    ecs::World world;
+    const auto stops = [&](float radiance) {
+        picture.set_probe(uniform_probe(glm::vec3(radiance)));
+        picture.draw(world, {}, 0.001F);
+        return picture.exposure_stops();
+    };
+    const float first = stops(1.0F);
+    EXPECT_NEAR(stops(16.0F), first - 4.0F, 0.01F);
 }
 
 TEST(BrdfTable, WhiteMirrorKeepsAllLight) {

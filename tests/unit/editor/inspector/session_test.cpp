@@ -94,6 +94,20 @@ class SessionTest : public SmallSession {
     PriceList list_;
 };
 
+TEST(GratingCook, AnEditedTableOfEfficienciesIsBakedAgain) {
+    const test::TemporaryFolder folder;
+    const auto material = Json::parse(R"({"grating": {"pitch_nm": 1600, "orders": [1],
+        "profile": {"type": "table", "file": "t.csv"}}, "quality": {"representation": "direct"}})");
+    GratingCook cook(nullptr);
+    const auto cooked = [&](const char* efficiency) {
+        write_file_atomic(folder.path() / "t.csv", std::string("wavelength_nm,R+1\n550,") + efficiency + "\n");
+        return cook.cook(*accept_material(material, "m.json", folder.path()))->material;
+    };
+    const auto first = cooked("0.1");
+    EXPECT_EQ(cooked("0.1"), first);
+    EXPECT_NE(cooked("0.2"), first);
+}
+
 TEST_F(SessionTest, AllValuesFollowAnEdit) {
     settle();
     EXPECT_TRUE(session_.measurement.point_numbers_are_current());

@@ -140,7 +140,7 @@ TEST(Budget, OutOfReachIsRefusedWithTheBestThatIsNot) {
     EXPECT_THROW(choose(0.98 * best), Error);
 }
 
-/// What is recorded is the largest error, also of the part that checks the choice.
+/// The record holds the largest error, also of the part that checks the choice.
 TEST(Budget, RecordsTheLargestErrorOfAllParts) {
     const std::vector<BudgetProbe> probes = {made_up()};
     const std::vector<ShadingPoint> frames = some_frames(SurfaceShape::Flat, 10);

@@ -162,5 +162,19 @@ TEST_F(PointComparisonTest, AFlatObjectShowsTheMapThatItIsDrawnWith) {
               point_shader(stand_in, MaterialKernel{}, light)(kTilted));
 }
 
+TEST_F(PointComparisonTest, AShaderOfOnePointHasTheKeyLightsAndTheCover) {
+    for (const char* cover : {"", R"(, "cover": {"ior": 1.5})"}) {
+        const auto json = nlohmann::json::parse(
+            std::string(R"({"grating": {"pitch_nm": 1600, "profile": {"type": "slit", "width_nm": 300}})") + cover +
+            R"(, "quality": {"representation": "direct"}})");
+        const CookedMaterial cooked = cook_material(json, "m.json");
+        const EvaluationLight light(probe("sky.hdr"), 4, math::SphericalWindow::None);
+        ASSERT_FALSE(light.key_lights().empty());
+        const glm::dvec3 shown = baked_shader(cooked, light)(kTilted);
+        EXPECT_GT(shown.y, 0.0) << cover;
+        EXPECT_EQ(shown, evaluate_baked(cooked, light, std::array{kTilted})[0]) << cover;
+    }
+}
+
 }  // namespace
 }  // namespace rowland::diffraction
