@@ -9,8 +9,8 @@
 #include "engine/gpu/shader_library.h"
 #include "engine/render/shader_interface.h"
 #include "modules/diffraction/shaders/shader_files.h"
-#include "tests/support/grating_programs.h"
 #include "tests/support/files.h"
+#include "tests/support/grating_programs.h"
 #include "tests/support/program.h"
 
 namespace rowland {
