@@ -98,10 +98,13 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
     return options;
 }
 
-/// Throws Error (input) if the last file of the command line was refused.
+/// Ends the program with what the log has said.
+struct Refused {};
+
+/// Throws Refused if the last file of the command line was refused.
 void require_opened(const Session& session) {
     const std::vector<Message>& messages = session.messages.all();
-    if (!messages.empty() && messages.back().failure) refuse_input({}, {}, messages.back().text, {});
+    if (!messages.empty() && messages.back().failure) throw Refused{};
 }
 
 /// The layout file of the options, overridden by the other options.
@@ -115,7 +118,7 @@ Layout chosen_layout(const Options& options) {
     return layout;
 }
 
-/// Opens the files of the options, else of the layout. Throws Error (input) if a file of the options is refused; a
+/// Opens the files of the options, else of the layout. Throws Refused if a file of the options is refused; a
 /// probe of the layout that no longer exists is ignored.
 void start_session(Session& session, const Options& options, const Layout& layout) {
     session.view.stage = layout.stage;
@@ -205,6 +208,7 @@ void settle(Session& session) {
 
 void require_picture(const Session& session) {
     if (session.view.ready()) return;
+    require_opened(session);
     refuse_input({}, {}, session.messages.all().empty() ? "no light" : session.messages.all().back().text, {},
                  "nothing was written");
 }
@@ -350,7 +354,7 @@ class Program {
     Redraw redraw_;
 };
 
-int run(int argc, char** argv) {
+int run(int argc, char** argv) try {
     const std::optional<Options> options = parse_options(argc, argv);
     if (!options) return 0;
     const post::OcioConfig config = app::open_ocio_config(*options);
@@ -362,6 +366,8 @@ int run(int argc, char** argv) {
     const ThreadLimit one_core_for_frames(std::max(1U, std::thread::hardware_concurrency() - 1));
     Program(*options, config).run();
     return 0;
+} catch (const Refused&) {
+    return 2;
 }
 
 }  // namespace

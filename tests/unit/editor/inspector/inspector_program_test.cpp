@@ -57,6 +57,7 @@ TEST_F(InspectorProgram, WhatCannotBeOpenedIsRefusedByName) {
         const test::Ended refused = inspect(fmt::format("{} '{}' --capture '{}'", option, path(name), path("x.png")));
         EXPECT_EQ(refused.code, 2) << name << ": " << refused.err;
         EXPECT_THAT(refused.err, HasSubstr(name));
+        EXPECT_EQ(refused.err.find("error: "), refused.err.rfind("error: ")) << "once";
         EXPECT_FALSE(std::filesystem::exists(path("x.png")));
     }
 }
