@@ -13,16 +13,9 @@ namespace {
 constexpr int kSweepBands = 5;
 constexpr int kSweepViews = 61;
 
-void mark_front(std::vector<PricedChoice>& choices) {
-    for (PricedChoice& choice : choices)
-        choice.on_front = std::ranges::none_of(choices, [&](const PricedChoice& other) {
-            return other.price <= choice.price && other.error <= choice.error &&
-                   (other.price < choice.price || other.error < choice.error);
-        });
-}
-
 PriceList list_of(const diffraction::SearchState& state, diffraction::ErrorMeasure measure, bool with_pinned) {
     PriceList list{.choices = {}, .done = state.done, .total = state.total, .measure = measure};
+    const auto candidates = std::span(state.measured).subspan(with_pinned && !state.measured.empty() ? 1 : 0);
     for (const diffraction::MeasuredChoice& choice : state.measured) {
         const bool present = with_pinned && list.choices.empty();
         list.choices.push_back({.settings = choice.settings,
@@ -30,9 +23,9 @@ PriceList list_of(const diffraction::SearchState& state, diffraction::ErrorMeasu
                                 .price = choice.price,
                                 .error = choice.error(),
                                 .candidate = !present,
-                                .present = present});
+                                .present = present,
+                                .on_front = !present && diffraction::on_front(choice, candidates)});
     }
-    mark_front(list.choices);
     return list;
 }
 

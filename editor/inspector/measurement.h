@@ -24,10 +24,10 @@ struct PricedChoice {
     nlohmann::json settings;  ///< members of "quality"
     diffraction::ShadingCost cost;
     double price = 0.0;     ///< shading_price()
-    double error = 0.0;     ///< against the reference, by PriceList::measure
+    double error = 0.0;     ///< against the reference, by PriceList::measure; off the front: at least
     bool candidate = true;  ///< one of budget_candidates()
     bool present = false;   ///< the choice that the material pins
-    bool on_front = false;  ///< on the Pareto front of price and error
+    bool on_front = false;  ///< on the candidates' Pareto front of price and error
 };
 
 /// The choices measured so far.

@@ -56,7 +56,8 @@ namespace {
 constexpr double kMultiplyAddsPerFetch = 8.0;
 constexpr double kVerticesPerPixel = 25000.0 / (1280.0 * 720.0 / 2.0);
 constexpr double kFetchesPerMebibyte = 0.25;
-constexpr int kProjectedBands = 16;        ///< the most that a setting takes
+constexpr int kProjectedBands = 16;  ///< the most that a setting takes
+constexpr double kAnyError = std::numeric_limits<double>::infinity();
 constexpr std::size_t kReferencePart = 8;  ///< frames between two looks at the stop token
 
 /// The settings as the material's quality; nullopt if they do not suit its grating.
@@ -110,11 +111,12 @@ class Search {
         for (const nlohmann::json& settings : query_.settings)
             if (auto quality = as_quality(settings, query_.material))
                 choices.push_back({.settings = settings, .quality = std::move(*quality), .baked = {}});
-        state_.total = 2 * choices.size() + (query_.first ? 1 : 0);
+        const std::size_t steps = query_.good_enough ? 2 : 3;
+        state_.total = steps * choices.size() + (query_.first ? 1 : 0);
         if (query_.first) {
             MeasuredChoice first{.settings = *query_.first, .quality = query_.material.quality, .baked = {}};
             bake(first);
-            measure(std::move(first));
+            if (measure_up_to(kAnyError, first)) add(std::move(first));
         }
         for (MeasuredChoice& choice : choices) {
             if (stop_.stop_requested()) return std::move(state_);
@@ -126,6 +128,7 @@ class Search {
             if (stop_.stop_requested() || found()) break;
             measure(std::move(choice));
         }
+        if (!query_.good_enough) measure_front();
         if (query_.good_enough && !stop_.stop_requested()) {
             if (!found()) find_best();
             check(*std::ranges::min_element(state_.measured, {}, &MeasuredChoice::error));
@@ -184,8 +187,9 @@ class Search {
     }
 
     /// Measures the views and probes that follow, until an error is above the limit. False if it was stopped.
-    bool measure_up_to(double limit, MeasuredChoice& choice) {
-        for (; choice.steps < 2 * probes_.size() && choice.error() <= limit; ++choice.steps) {
+    bool measure_up_to(double limit, MeasuredChoice& choice) { return measure_up_to(limit, choice, steps()); }
+    bool measure_up_to(double limit, MeasuredChoice& choice, std::size_t steps) {
+        for (; choice.steps < steps && choice.error() <= limit; ++choice.steps) {
             const std::size_t probe = choice.steps / 2;
             ProbeViews& views = probes_[probe];
             const bool is_first = choice.steps % 2 == 0;
@@ -199,9 +203,30 @@ class Search {
     }
 
     void measure(MeasuredChoice choice) {
-        if (!measure_up_to(query_.good_enough.value_or(std::numeric_limits<double>::infinity()), choice)) return;
+        const bool goes_on =
+            query_.good_enough ? measure_up_to(*query_.good_enough, choice) : measure_up_to(kAnyError, choice, 1);
+        if (goes_on) add(std::move(choice));
+    }
+    void add(MeasuredChoice choice) {
         state_.measured.push_back(std::move(choice));
         step();
+    }
+    std::size_t steps() const { return 2 * probes_.size(); }
+
+    /// An error at more views is no smaller: what is not on the front stays behind it.
+    void measure_front() {
+        const std::span<MeasuredChoice> choices = std::span(state_.measured).subspan(query_.first ? 1 : 0);
+        const auto is_next = [&](const MeasuredChoice& choice) {
+            return choice.steps < steps() && on_front(choice, choices);
+        };
+        for (auto next = std::ranges::find_if(choices, is_next); next != choices.end();
+             next = std::ranges::find_if(choices, is_next)) {
+            if (stop_.stop_requested() || !measure_up_to(kAnyError, *next)) return;
+            step();
+        }
+        if (state_.done == state_.total) return;
+        state_.done = state_.total;
+        report_(state_);
     }
 
     void check(MeasuredChoice& choice) {
@@ -229,6 +254,13 @@ class Search {
 };
 
 }  // namespace
+
+bool on_front(const MeasuredChoice& choice, std::span<const MeasuredChoice> among) {
+    return std::ranges::none_of(among, [&](const MeasuredChoice& other) {
+        return other.price <= choice.price && other.error() <= choice.error() &&
+               (other.price < choice.price || other.error() < choice.error());
+    });
+}
 
 double shading_price(const ShadingCost& cost, int key_lights) {
     const auto work = [](int fetches, int multiply_adds) { return fetches + multiply_adds / kMultiplyAddsPerFetch; };

@@ -67,7 +67,7 @@ struct MeasuredChoice {
     Quality quality;
     std::shared_ptr<const CookedMaterial> baked;  ///< shared by settings that differ in key_lights alone
     double price = 0.0;                           ///< shading_price()
-    std::vector<double> errors{};                 ///< under each probe that was measured, in order
+    std::vector<double> errors{};                 ///< under each probe that was measured, in order; so far, at least
     std::vector<double> checks{};                 ///< of the last parts, which did not decide; empty: not measured
     std::size_t steps = 0;                        ///< of measuring `errors`
 
@@ -75,10 +75,13 @@ struct MeasuredChoice {
     double error() const;
 };
 
+/// Whether none of the choices is as cheap and as accurate, and better in one of both (the Pareto front).
+bool on_front(const MeasuredChoice& choice, std::span<const MeasuredChoice> among);
+
 /// How far a search has come.
 struct SearchState {
     std::vector<MeasuredChoice> measured;  ///< in the order of measurement
-    std::size_t done = 0;                  ///< steps: bakes and measurements
+    std::size_t done = 0;                  ///< steps: of each setting a bake and two measurements, some of them skipped
     std::size_t total = 0;
 };
 
@@ -91,7 +94,8 @@ struct SearchQuery {
     std::optional<nlohmann::json> first{};  ///< the "quality" that the material pins, measured before the others
     /// The search ends at the first setting whose errors are all at most this, and checks it. A larger error skips the
     /// setting's remaining views and probes. If no setting is good enough, further probes are measured until the
-    /// setting with the least error() is known.
+    /// setting with the least error() is known. Without it, all settings are measured at the first views, and those
+    /// that are on_front() at all of them.
     std::optional<double> good_enough{};
 };
 

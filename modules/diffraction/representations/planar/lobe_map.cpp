@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <numbers>
 #include <utility>
 
@@ -201,63 +202,92 @@ glm::vec3 AzimuthPair::value(int part, int view_g, int view_h) const {
     return {at[0], at[1], at[2]};
 }
 
-std::size_t slice_texels(const LobeMap& map) {
-    return static_cast<std::size_t>(map.size.views.g) * static_cast<std::size_t>(map.size.views.h);
+void copy_slice(const AzimuthPair& pair, int part, const LobeMapViews& views, glm::vec3* to) {
+    for (int h = 0; h < views.h; ++h)
+        for (int g = 0; g < views.g; ++g) *to++ = pair.value(part, g, h);
 }
 
-void copy_slice(const AzimuthPair& pair, int part, int slice, LobeMap& map) {
-    glm::vec3* to = map.values.data() + static_cast<std::size_t>(slice) * slice_texels(map);
-    for (int h = 0; h < map.size.views.h; ++h)
-        for (int g = 0; g < map.size.views.g; ++g) *to++ = pair.value(part, g, h);
-}
+/// The radiance of a map's azimuths, slice by slice.
+class LobeSlices {
+ public:
+    LobeSlices(const lighting::LightSamples& texels, const LobeSpectrum& spectrum, const PlaneAxes& axes, int azimuths)
+        : spectrum_(spectrum),
+          disc_(light_on_disc(texels, axes, spectrum.cover(), spectrum.disc_cells())),
+          samples_(texels.size()),
+          azimuths_(azimuths),
+          slices_(static_cast<std::size_t>(spectrum.even() ? azimuths / 2 : azimuths)) {}
 
-void fill_pair(const LightDisc& disc, const LobeSpectrum& spectrum, std::size_t samples, int first, LobeMap& map) {
-    AzimuthPair pair(spectrum, samples);
-    for (int part = 0; part < 2; ++part)
-        pair.add_light(disc, 2.0 * std::numbers::pi * (first + part) / map.size.azimuths, part);
-    pair.correlate();
-    for (int part = 0; part < 2; ++part) copy_slice(pair, part, first + part, map);
-}
-
-/// Lowers values by kBestLinear of their second difference along the azimuth, and adds the half turn's last slice.
-void finish_azimuths(LobeMap& map) {
-    const std::size_t texels = slice_texels(map);
-    const int count = map.half_turn ? map.size.azimuths / 2 : map.size.azimuths;
-    // A half turn further, both axes of the view are reversed.
-    const auto value = [&](int slice, std::size_t texel) {
-        const bool reversed = map.half_turn && (slice < 0 || slice >= count);
-        const auto wrapped = static_cast<std::size_t>((slice + count) % count);
-        return map.values[wrapped * texels + (reversed ? texels - 1 - texel : texel)];
-    };
-    std::vector<glm::vec3> lowered(map.values.size());
-    parallel_for(static_cast<std::size_t>(slices(map.size, map.half_turn)), [&](std::size_t i) {
-        const int slice = static_cast<int>(i);
-        for (std::size_t texel = 0; texel < texels; ++texel) {
-            const glm::vec3 here = value(slice, texel);
-            lowered[i * texels + texel] =
-                here - kBestLinear * (value(slice - 1, texel) - 2.0F * here + value(slice + 1, texel));
+    int pairs() const { return static_cast<int>(slices_.size() / 2); }
+    /// Computes two slices that follow each other, unless they are known.
+    void fill_pair(int pair) {
+        const int first = 2 * pair;
+        if (!slice_at(first).empty()) return;
+        AzimuthPair both(spectrum_, samples_);
+        for (int part = 0; part < 2; ++part)
+            both.add_light(disc_, 2.0 * std::numbers::pi * (first + part) / azimuths_, part);
+        both.correlate();
+        for (int part = 0; part < 2; ++part) {
+            slice_at(first + part).resize(texels());
+            copy_slice(both, part, spectrum_.views(), slice_at(first + part).data());
         }
-    });
-    map.values = std::move(lowered);
+    }
+    /// Computes what value() needs at a slice.
+    void fill_around(int slice) {
+        const int count = static_cast<int>(slices_.size());
+        for (const int near : {slice - 1, slice, slice + 1}) fill_pair((near + count) % count / 2);
+    }
+    /// Lowered by kBestLinear of the second difference along the azimuth.
+    glm::vec3 value(int slice, std::size_t texel) const {
+        const glm::vec3 here = radiance(slice, texel);
+        return here - kBestLinear * (radiance(slice - 1, texel) - 2.0F * here + radiance(slice + 1, texel));
+    }
+    std::size_t texels() const {
+        return static_cast<std::size_t>(spectrum_.views().g) * static_cast<std::size_t>(spectrum_.views().h);
+    }
+
+ private:
+    std::vector<glm::vec3>& slice_at(int slice) { return slices_[static_cast<std::size_t>(slice)]; }
+    /// A half turn further, both axes of the view are reversed.
+    glm::vec3 radiance(int slice, std::size_t texel) const {
+        const int count = static_cast<int>(slices_.size());
+        const bool reversed = spectrum_.even() && (slice < 0 || slice >= count);
+        const auto wrapped = static_cast<std::size_t>((slice + count) % count);
+        return slices_[wrapped][reversed ? texels() - 1 - texel : texel];
+    }
+
+    const LobeSpectrum& spectrum_;
+    LightDisc disc_;
+    std::size_t samples_;
+    int azimuths_;
+    std::vector<std::vector<glm::vec3>> slices_;
+};
+
+LobeMap empty_map(const LobeSpectrum& spectrum, const glm::dvec3& normal, int azimuths) {
+    ROWLAND_CHECK_OP(azimuths, >=, 8);
+    ROWLAND_CHECK_OP(azimuths % 4, ==, 0);
+    return {.size = {.azimuths = azimuths, .views = spectrum.views()},
+            .half_turn = spectrum.even(),
+            .axes = plane_axes(normal),
+            .values = {}};
 }
 
 }  // namespace
 
 LobeMap fill_lobe_map(const lighting::LightSamples& texels, const LobeSpectrum& spectrum, const glm::dvec3& normal,
                       int azimuths, const std::stop_token& stop) {
-    ROWLAND_CHECK_OP(azimuths, >=, 8);
-    ROWLAND_CHECK_OP(azimuths % 4, ==, 0);
-    LobeMap map{.size = {.azimuths = azimuths, .views = spectrum.views()},
-                .half_turn = spectrum.even(),
-                .axes = plane_axes(normal),
-                .values = {}};
-    map.values.resize(static_cast<std::size_t>(slices(map.size, map.half_turn)) * slice_texels(map));
-    const LightDisc disc = light_on_disc(texels, map.axes, spectrum.cover(), spectrum.disc_cells());
-    const int filled = map.half_turn ? azimuths / 2 : azimuths;
-    parallel_for(static_cast<std::size_t>(filled / 2), [&](std::size_t pair) {
-        if (!stop.stop_requested()) fill_pair(disc, spectrum, texels.size(), 2 * static_cast<int>(pair), map);
+    LobeMap map = empty_map(spectrum, normal, azimuths);
+    LobeSlices filled(texels, spectrum, map.axes, azimuths);
+    parallel_for(static_cast<std::size_t>(filled.pairs()), [&](std::size_t pair) {
+        if (!stop.stop_requested()) filled.fill_pair(static_cast<int>(pair));
     });
-    if (!stop.stop_requested()) finish_azimuths(map);
+    if (stop.stop_requested()) return map;
+    const auto count = static_cast<std::size_t>(slices(map.size, map.half_turn));
+    map.values.resize(count * filled.texels());
+    parallel_for(count, [&](std::size_t slice) {
+        glm::vec3* to = map.values.data() + slice * filled.texels();
+        for (std::size_t texel = 0; texel < filled.texels(); ++texel)
+            to[texel] = filled.value(static_cast<int>(slice), texel);
+    });
     return map;
 }
 
@@ -269,15 +299,19 @@ LobeMap fill_lobe_slice(const lighting::LightSamples& texels, const LobeSpectrum
                 .half_turn = false,
                 .axes = {glm::cross(g, n), g, n},
                 .values = {}};
-    map.values.resize(slice_texels(map));
+    map.values.resize(static_cast<std::size_t>(map.size.views.g) * static_cast<std::size_t>(map.size.views.h));
     AzimuthPair one(spectrum, texels.size());
     one.add_light(light_on_disc(texels, map.axes, spectrum.cover(), spectrum.disc_cells()), 0.5 * std::numbers::pi, 0);
     one.correlate();
-    copy_slice(one, 0, 0, map);
+    copy_slice(one, 0, map.size.views, map.values.data());
     return map;
 }
 
-glm::dvec3 sample(const LobeMap& map, const ShadingPoint& frame) {
+namespace {
+
+/// Interpolates between the eight texels around a point: `value(slice, texel)`.
+template <typename Value>
+glm::dvec3 interpolate(const LobeMap& map, const ShadingPoint& frame, const Value& value) {
     const glm::dmat3 to_tangent = world_to_tangent(frame);
     const glm::dvec3 v = to_tangent * glm::normalize(frame.view);
     if (v.z <= 0.0) return glm::dvec3(0.0);
@@ -300,13 +334,33 @@ glm::dvec3 sample(const LobeMap& map, const ShadingPoint& frame) {
             const int node = static_cast<int>(low[axis]) + upper;
             at[axis] = axis == 2 && !map.half_turn ? node % counts.z : std::clamp(node, 0, counts[axis] - 1);
         }
-        const auto index =
-            (static_cast<std::size_t>(at.z) * static_cast<std::size_t>(counts.y) + static_cast<std::size_t>(at.y)) *
-                static_cast<std::size_t>(counts.x) +
-            static_cast<std::size_t>(at.x);
-        sum += weight * glm::dvec3(map.values[index]);
+        const auto texel =
+            static_cast<std::size_t>(at.y) * static_cast<std::size_t>(counts.x) + static_cast<std::size_t>(at.x);
+        sum += weight * glm::dvec3(value(at.z, texel));
     }
     return sum;
+}
+
+}  // namespace
+
+glm::dvec3 sample(const LobeMap& map, const ShadingPoint& frame) {
+    const auto texels = static_cast<std::size_t>(map.size.views.g) * static_cast<std::size_t>(map.size.views.h);
+    return interpolate(map, frame, [&](int slice, std::size_t texel) {
+        return map.values[static_cast<std::size_t>(slice) * texels + texel];
+    });
+}
+
+std::function<glm::dvec3(const ShadingPoint&)> lobe_map_of_points(const lighting::LightSamples& texels,
+                                                                  const LobeSpectrum& spectrum,
+                                                                  const glm::dvec3& normal, int azimuths) {
+    const LobeMap map = empty_map(spectrum, normal, azimuths);
+    const auto filled = std::make_shared<LobeSlices>(texels, spectrum, map.axes, azimuths);
+    return [map, filled](const ShadingPoint& frame) {
+        return interpolate(map, frame, [&](int slice, std::size_t texel) {
+            filled->fill_around(slice);
+            return filled->value(slice, texel);
+        });
+    };
 }
 
 }  // namespace rowland::diffraction

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <stop_token>
 #include <vector>
@@ -55,6 +56,12 @@ struct LobeMap {
 /// early with an unusable map.
 LobeMap fill_lobe_map(const lighting::LightSamples& texels, const LobeSpectrum& spectrum, const glm::dvec3& normal,
                       int azimuths, const std::stop_token& stop = {});
+
+/// sample(fill_lobe_map(...), point) for few points: fills the slices that a point sees. For one thread. The spectrum
+/// outlives it.
+std::function<glm::dvec3(const ShadingPoint&)> lobe_map_of_points(const lighting::LightSamples& texels,
+                                                                  const LobeSpectrum& spectrum,
+                                                                  const glm::dvec3& normal, int azimuths);
 
 /// Fills a map of one azimuth, that of `grating`. Uses one core.
 LobeMap fill_lobe_slice(const lighting::LightSamples& texels, const LobeSpectrum& spectrum, const glm::dvec3& normal,

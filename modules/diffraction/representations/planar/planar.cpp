@@ -47,20 +47,21 @@ std::optional<PlanarLobe> lobe_of(const PlanarSettings& settings) {
                                      0.25 * std::min(finest.step_g(), finest.step_h()))};
 }
 
-/// `fill(normal, g)` gives an object's map; the last one is kept. `one_azimuth`: another g is another object.
-template <typename Map, typename Fill>
-PointShader by_object(bool one_azimuth, Fill fill) {
+/// `shader_of(normal, g)` shades an object; the last one's is kept. `one_azimuth`: another g is another object.
+template <typename ShaderOf>
+PointShader by_object(bool one_azimuth, ShaderOf shader_of) {
     struct Object {
         glm::dvec3 normal{0.0};
         glm::dvec3 grating{0.0};
-        Map map;
+        PointShader shader;
     };
-    return [one_azimuth, fill = std::move(fill), last = std::make_shared<Object>()](const ShadingPoint& frame) {
-        const glm::dvec3 normal = glm::normalize(frame.normal);
-        if (normal != last->normal || (one_azimuth && frame.grating != last->grating))
-            *last = {normal, frame.grating, fill(normal, frame.grating)};
-        return sample(last->map, frame);
-    };
+    return
+        [one_azimuth, shader_of = std::move(shader_of), last = std::make_shared<Object>()](const ShadingPoint& frame) {
+            const glm::dvec3 normal = glm::normalize(frame.normal);
+            if (normal != last->normal || (one_azimuth && frame.grating != last->grating))
+                *last = {normal, frame.grating, shader_of(normal, frame.grating)};
+            return last->shader(frame);
+        };
 }
 
 }  // namespace
@@ -148,21 +149,21 @@ Facts facts(const PlanarTables& tables) {
 
 PointShader point_shader(const PlanarTables& tables, const MaterialKernel& material, const EvaluationLight& light) {
     if (!tables.lobe)
-        return by_object<PlanarMap>(
+        return by_object(
             false, [material, size = tables.size, texels = light.texels()](const glm::dvec3& n, const glm::dvec3&) {
-                return fill_planar_map(texels, material.kernel, material.pitch_nm, n, size, material.zero_order_xyz,
-                                       material.cover);
+                return planar_map_of_points(texels, material.kernel, material.pitch_nm, n, size,
+                                            material.zero_order_xyz, material.cover);
             });
     const LobeMapSize& size = tables.lobe->size;
     const auto spectrum = std::make_shared<const LobeSpectrum>(tables.lobe->pattern, size.views);
-    if (size.azimuths == 1)
-        return by_object<LobeMap>(true, [texels = light.texels(), spectrum](const glm::dvec3& n, const glm::dvec3& g) {
-            return fill_lobe_slice(texels, *spectrum, n, g);
-        });
-    return by_object<LobeMap>(
-        false, [texels = light.texels(), azimuths = size.azimuths, spectrum](const glm::dvec3& n, const glm::dvec3&) {
-            return fill_lobe_map(texels, *spectrum, n, azimuths);
-        });
+    return by_object(size.azimuths == 1,
+                     [texels = light.texels(), azimuths = size.azimuths, spectrum](const glm::dvec3& n,
+                                                                                   const glm::dvec3& g) -> PointShader {
+                         if (azimuths > 1) return lobe_map_of_points(texels, *spectrum, n, azimuths);
+                         return [map = fill_lobe_slice(texels, *spectrum, n, g)](const ShadingPoint& frame) {
+                             return sample(map, frame);
+                         };
+                     });
 }
 
 }  // namespace rowland::diffraction

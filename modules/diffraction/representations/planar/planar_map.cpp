@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <numbers>
 #include <vector>
 
@@ -174,30 +175,80 @@ ArcCells mirrored(const ArcCells& profile) {
     return result;
 }
 
-/// The kernel of each slice of a map.
-std::vector<KernelCells> kernels_of(const PlanarMap& map, const KernelTable& kernel, double pitch_nm,
-                                    const glm::dmat3& zero_order_xyz) {
-    std::vector<KernelCells> kernels;
-    for (int slice = 0; slice < map.slices(); ++slice)
-        kernels.emplace_back(kernel, map.pitch ? pitch_nm * map.pitch->factor_at(slice) : pitch_nm, map.views,
-                             zero_order_xyz);
-    return kernels;
-}
+/// A map whose columns are computed one by one.
+class PlanarMapFill {
+ public:
+    PlanarMapFill(const lighting::LightSamples& texels, const KernelTable& kernel, double pitch_nm,
+                  const glm::dvec3& normal, const PlanarMapSize& size, const glm::dmat3& zero_order_xyz,
+                  const std::optional<Cover>& cover)
+        : map_(empty_map(plane_axes(normal), size)),
+          kernels_(kernels_of(map_, kernel, pitch_nm, zero_order_xyz)),
+          step_(2.0 * pi / size.azimuths),
+          light_(light_on_disc(texels, plane_axes(normal), cover, kernels_[0].cells()), step_),
+          profiles_(static_cast<std::size_t>(size.azimuths) / 2) {}
 
-/// A map's columns from the profiles at their azimuth and at the neighbours'.
-void fill_azimuth(const std::vector<KernelCells>& kernels, ArcCells here, const ArcCells& before, const ArcCells& after,
-                  std::size_t azimuth, PlanarMap& map) {
-    for (std::size_t k = 0; k < here.size(); ++k) here[k] -= kBestAzimuth * (before[k] - 2.0F * here[k] + after[k]);
-    const auto azimuths = static_cast<std::size_t>(map.azimuths);
-    const auto views = static_cast<std::size_t>(map.views);
-    std::vector<float> xyz(views * 4);
-    for (std::size_t slice = 0; slice < kernels.size(); ++slice) {
-        kernels[slice].correlate_rgb(here, xyz);
-        for (std::size_t view = 0; view < views; ++view)
-            map.xyz[(slice * views + view) * azimuths + azimuth] = {xyz[4 * view], xyz[4 * view + 1],
-                                                                    xyz[4 * view + 2]};
+    /// A rotation by π mirrors A: half of the projections suffice.
+    std::size_t projections() const { return profiles_.size(); }
+    /// Computes one of projections(), unless it is known.
+    void project(std::size_t azimuth) {
+        ArcCells& profile = profiles_[azimuth % profiles_.size()];
+        if (profile.empty()) profile = light_.at(step_ * static_cast<double>(azimuth % profiles_.size()));
     }
-}
+    /// Fills a column, once its projection and its neighbours' are known.
+    void fill(std::size_t azimuth) {
+        ArcCells here = profile_at(azimuth);
+        const ArcCells before = profile_at(azimuth + azimuths() - 1);
+        const ArcCells after = profile_at(azimuth + 1);
+        for (std::size_t k = 0; k < here.size(); ++k) here[k] -= kBestAzimuth * (before[k] - 2.0F * here[k] + after[k]);
+        const auto views = static_cast<std::size_t>(map_.views);
+        std::vector<float> xyz(views * 4);
+        for (std::size_t slice = 0; slice < kernels_.size(); ++slice) {
+            kernels_[slice].correlate_rgb(here, xyz);
+            for (std::size_t view = 0; view < views; ++view)
+                map_.xyz[(slice * views + view) * azimuths() + azimuth] = {xyz[4 * view], xyz[4 * view + 1],
+                                                                           xyz[4 * view + 2]};
+        }
+    }
+    std::size_t azimuths() const { return static_cast<std::size_t>(map_.azimuths); }
+    PlanarMap& map() { return map_; }
+
+ private:
+    static PlanarMap empty_map(const PlaneAxes& axes, const PlanarMapSize& size) {
+        ROWLAND_CHECK_OP(size.azimuths, >=, 4);
+        ROWLAND_CHECK_OP(size.azimuths % 2, ==, 0);
+        ROWLAND_CHECK_OP(size.views, >=, 8);
+        PlanarMap map{.azimuths = size.azimuths,
+                      .views = size.views,
+                      .e1 = axes.e1,
+                      .e2 = axes.e2,
+                      .n = axes.n,
+                      .pitch = size.pitch,
+                      .xyz = {}};
+        map.xyz.resize(static_cast<std::size_t>(size.azimuths) * static_cast<std::size_t>(size.views) *
+                           static_cast<std::size_t>(map.slices()),
+                       glm::vec3(0.0F));
+        return map;
+    }
+    /// The kernel of each slice of a map.
+    static std::vector<KernelCells> kernels_of(const PlanarMap& map, const KernelTable& kernel, double pitch_nm,
+                                               const glm::dmat3& zero_order_xyz) {
+        std::vector<KernelCells> kernels;
+        for (int slice = 0; slice < map.slices(); ++slice)
+            kernels.emplace_back(kernel, map.pitch ? pitch_nm * map.pitch->factor_at(slice) : pitch_nm, map.views,
+                                 zero_order_xyz);
+        return kernels;
+    }
+    ArcCells profile_at(std::size_t azimuth) const {
+        const ArcCells& profile = profiles_[azimuth % profiles_.size()];
+        return azimuth / profiles_.size() % 2 == 0 ? profile : mirrored(profile);
+    }
+
+    PlanarMap map_;
+    std::vector<KernelCells> kernels_;
+    double step_;
+    LightProjection light_;
+    std::vector<ArcCells> profiles_;
+};
 
 /// Linear look-up that repeats; `position` ≥ 0, in columns.
 AxisLookup look_up_repeating(double position, std::size_t count) {
@@ -211,45 +262,55 @@ AxisLookup look_up_repeating(double position, std::size_t count) {
 PlanarMap fill_planar_map(const lighting::LightSamples& texels, const KernelTable& kernel, double pitch_nm,
                           const glm::dvec3& normal, const PlanarMapSize& size, const glm::dmat3& zero_order_xyz,
                           const std::optional<Cover>& cover, const std::stop_token& stop) {
-    ROWLAND_CHECK_OP(size.azimuths, >=, 4);
-    ROWLAND_CHECK_OP(size.azimuths % 2, ==, 0);
-    ROWLAND_CHECK_OP(size.views, >=, 8);
-    const PlaneAxes axes = plane_axes(normal);
-    PlanarMap map{.azimuths = size.azimuths,
-                  .views = size.views,
-                  .e1 = axes.e1,
-                  .e2 = axes.e2,
-                  .n = axes.n,
-                  .pitch = size.pitch,
-                  .xyz = {}};
-    map.xyz.resize(static_cast<std::size_t>(size.azimuths) * static_cast<std::size_t>(size.views) *
-                       static_cast<std::size_t>(map.slices()),
-                   glm::vec3(0.0F));
-    const std::vector<KernelCells> kernels = kernels_of(map, kernel, pitch_nm, zero_order_xyz);
-    const double step = 2.0 * pi / size.azimuths;
-    const LightProjection light(light_on_disc(texels, axes, cover, kernels[0].cells()), step);
-    // A rotation by π mirrors A: half of the projections suffice.
-    std::vector<ArcCells> profiles(static_cast<std::size_t>(size.azimuths) / 2);
-    parallel_for(profiles.size(), [&](std::size_t i) {
-        if (!stop.stop_requested()) profiles[i] = light.at(step * static_cast<double>(i));
+    PlanarMapFill fill(texels, kernel, pitch_nm, normal, size, zero_order_xyz, cover);
+    parallel_for(fill.projections(), [&](std::size_t i) {
+        if (!stop.stop_requested()) fill.project(i);
     });
-    if (stop.stop_requested()) return map;
-    const auto profile_at = [&](std::size_t azimuth) {
-        const ArcCells& profile = profiles[azimuth % profiles.size()];
-        return azimuth / profiles.size() % 2 == 0 ? profile : mirrored(profile);
+    if (stop.stop_requested()) return std::move(fill.map());
+    parallel_for(fill.azimuths(), [&](std::size_t i) {
+        if (!stop.stop_requested()) fill.fill(i);
+    });
+    return std::move(fill.map());
+}
+
+namespace {
+
+AxisLookup look_up_azimuth(const PlanarMap& map, double azimuth) {
+    const double turns = azimuth / (2.0 * pi);
+    return look_up_repeating((turns - std::floor(turns)) * map.azimuths, static_cast<std::size_t>(map.azimuths));
+}
+
+/// The azimuth of a point's g.
+double azimuth_of(const PlanarMap& map, const ShadingPoint& frame) {
+    const glm::dmat3 to_tangent = world_to_tangent(frame);
+    const glm::dvec3 g(to_tangent[0][0], to_tangent[1][0], to_tangent[2][0]);
+    return std::atan2(glm::dot(g, map.e2), glm::dot(g, map.e1));
+}
+
+}  // namespace
+
+std::function<glm::dvec3(const ShadingPoint&)> planar_map_of_points(const lighting::LightSamples& texels,
+                                                                    const KernelTable& kernel, double pitch_nm,
+                                                                    const glm::dvec3& normal, const PlanarMapSize& size,
+                                                                    const glm::dmat3& zero_order_xyz,
+                                                                    const std::optional<Cover>& cover) {
+    const auto fill = std::make_shared<PlanarMapFill>(texels, kernel, pitch_nm, normal, size, zero_order_xyz, cover);
+    return [fill, filled = std::vector<bool>(fill->azimuths())](const ShadingPoint& frame) mutable {
+        const AxisLookup columns = look_up_azimuth(fill->map(), azimuth_of(fill->map(), frame));
+        const std::array<std::size_t, 2> seen{columns.first, columns.second};
+        if (!filled[seen[0]] || !filled[seen[1]]) {
+            const std::size_t before = seen[0] + fill->azimuths() - 1;
+            parallel_for(4, [&](std::size_t i) { fill->project(before + i); });
+            parallel_for(2, [&](std::size_t i) { fill->fill(seen[i]); });
+            filled[seen[0]] = filled[seen[1]] = true;
+        }
+        return sample(fill->map(), frame);
     };
-    const auto azimuths = static_cast<std::size_t>(size.azimuths);
-    parallel_for(azimuths, [&](std::size_t i) {
-        if (!stop.stop_requested())
-            fill_azimuth(kernels, profile_at(i), profile_at(i + azimuths - 1), profile_at(i + 1), i, map);
-    });
-    return map;
 }
 
 glm::dvec3 sample(const PlanarMap& map, double azimuth, double v_g, double pitch_factor) {
-    const double turns = azimuth / (2.0 * pi);
     const auto azimuths = static_cast<std::size_t>(map.azimuths);
-    const AxisLookup s = look_up_repeating((turns - std::floor(turns)) * map.azimuths, azimuths);
+    const AxisLookup s = look_up_azimuth(map, azimuth);
     const AxisLookup t = look_up_axis(0.5 * (v_g + 1.0), static_cast<std::size_t>(map.views));
     const auto in_slice = [&](std::size_t slice) {
         const glm::vec3* values = map.xyz.data() + slice * static_cast<std::size_t>(map.views) * azimuths;
@@ -265,11 +326,9 @@ glm::dvec3 sample(const PlanarMap& map, double azimuth, double v_g, double pitch
 }
 
 glm::dvec3 sample(const PlanarMap& map, const ShadingPoint& frame, double pitch_factor) {
-    const glm::dmat3 to_tangent = world_to_tangent(frame);
-    const glm::dvec3 v = to_tangent * glm::normalize(frame.view);
+    const glm::dvec3 v = world_to_tangent(frame) * glm::normalize(frame.view);
     if (v.z <= 0.0) return glm::dvec3(0.0);
-    const glm::dvec3 g(to_tangent[0][0], to_tangent[1][0], to_tangent[2][0]);
-    return sample(map, std::atan2(glm::dot(g, map.e2), glm::dot(g, map.e1)), v.x, pitch_factor);
+    return sample(map, azimuth_of(map, frame), v.x, pitch_factor);
 }
 
 }  // namespace rowland::diffraction

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -80,6 +81,13 @@ PlanarMap fill_planar_map(const lighting::LightSamples& texels, const KernelTabl
                           const glm::dvec3& normal, const PlanarMapSize& size = {},
                           const glm::dmat3& zero_order_xyz = glm::dmat3(0.0),
                           const std::optional<Cover>& cover = std::nullopt, const std::stop_token& stop = {});
+
+/// sample(fill_planar_map(...), point) for few points: fills the columns that a point sees. For one thread.
+std::function<glm::dvec3(const ShadingPoint&)> planar_map_of_points(const lighting::LightSamples& texels,
+                                                                    const KernelTable& kernel, double pitch_nm,
+                                                                    const glm::dvec3& normal, const PlanarMapSize& size,
+                                                                    const glm::dmat3& zero_order_xyz,
+                                                                    const std::optional<Cover>& cover);
 
 /// XYZ at an azimuth (radians, unbounded) and a v_g, as the texture unit interpolates. The pitch factor is for maps
 /// with a pitch axis.

@@ -74,7 +74,7 @@ TEST(Price, TheCheapestWithinAnErrorIsWhatTheCookerChooses) {
     price_choices({.material = document.material(), .quality = nullptr, .probe = probe},
                   [&](const PriceList& list) { last = list; }, {});
     EXPECT_EQ(last.done, last.total);
-    EXPECT_EQ(2 * last.choices.size(), last.total);  // each is baked and measured
+    EXPECT_EQ(3 * last.choices.size(), last.total);  // each is baked and measured at the first views, and at all
     const auto cheapest = cheapest_within(last, 0.1);
     const std::vector<diffraction::BudgetProbe> probes = {{.name = "sky", .image = probe, .key_lights = 16}};
     const std::vector<diffraction::MeasuredViews> views = {diffraction::drawn_views(document.material(), probe)};

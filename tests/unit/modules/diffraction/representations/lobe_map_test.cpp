@@ -137,6 +137,19 @@ TEST(LobeMap, TheHalfTurnIsTheWholeTurn) {
     EXPECT_LT(relative_rms(samples(half, points), samples(whole, points)), 1e-5);
 }
 
+TEST(LobeMap, FillingWhatPointsSeeGivesTheSame) {
+    const lighting::LightSamples texels = EvaluationLight(smooth_light(), math::SphericalWindow::None).texels();
+    DiffractionPattern pattern = diffraction_pattern(with_lobe(PitsLobe{}), colour::LightSpectra());
+    const glm::dvec3 normal(0, 0, 1);
+    for (const bool even : {true, false}) {
+        pattern.even = even;
+        const LobeSpectrum spectrum(pattern, {.g = 16, .h = 24});
+        const LobeMap all = fill_lobe_map(texels, spectrum, normal, 16);
+        const auto of_points = lobe_map_of_points(texels, spectrum, normal, 16);
+        for (const ShadingPoint& point : points_of(normal)) EXPECT_EQ(of_points(point), sample(all, point));
+    }
+}
+
 TEST(LobeMap, AnyNumberOfThreadsGivesTheSameMap) {
     const lighting::LightSamples texels = EvaluationLight(smooth_light(), math::SphericalWindow::None).texels();
     const auto filled = [&](unsigned threads) {
