@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <memory>
 #include <numbers>
@@ -24,6 +25,15 @@ constexpr std::size_t kLightLanes = FourierTransform::kLanes;
 /// Number of nodes that a cubic spline reaches beyond each end of the grid.
 constexpr int kMargin = 1;
 
+/// Half the variance, in squares of a step, by which the distributions blur a map along an axis: the light's cubic
+/// splines (1/3), the pattern's among two nodes (1/6) and the disc's, of cells of half a step (1/24).
+constexpr float kBlur = 13.0F / 48.0F;
+/// Steps of sharpening along an axis of views: more restore finer detail.
+constexpr int kSteps = 3;
+/// The fraction of its light that a node which is darker than its neighbours may give to one of them in a step. Twice
+/// as much amplifies ripples of the light until they show as stripes.
+constexpr float kMayDarken = 0.05F;
+
 /// Weights of the four nodes around a position: the cubic spline, whose centre of weight is the position.
 std::array<float, 4> spline_weights(float t) {
     const float u = 1.0F - t;
@@ -34,14 +44,13 @@ std::array<float, 4> spline_weights(float t) {
 }
 
 /// Factors of the frequencies of one axis that take the light's samples to the bilinear radiance between them: a
-/// texel's hat, whose variance is a sixth of the square of its side, as a normal distribution.
+/// texel's hat, whose variance is a sixth of the square of its side, as steps at random between neighbouring nodes.
 std::vector<float> between_samples(std::size_t samples, std::size_t size, double step) {
     const double variance = 4.0 * std::numbers::pi / (6.0 * static_cast<double>(std::max<std::size_t>(samples, 1)));
     std::vector<float> factors;
     for (std::size_t f = 0; f < size; ++f) {
-        const double angle =
-            2.0 * std::numbers::pi * static_cast<double>(std::min(f, size - f)) / (static_cast<double>(size) * step);
-        factors.push_back(static_cast<float>(std::exp(-0.5 * variance * angle * angle)));
+        const double angle = 2.0 * std::numbers::pi * static_cast<double>(f) / static_cast<double>(size);
+        factors.push_back(static_cast<float>(std::exp(-variance / (step * step) * (1.0 - std::cos(angle)))));
     }
     return factors;
 }
@@ -202,9 +211,57 @@ glm::vec3 AzimuthPair::value(int part, int view_g, int view_h) const {
     return {at[0], at[1], at[2]};
 }
 
+/// The light that moves up a difference of two neighbours, `fraction` of it. The darker one keeps as much as its own
+/// darker neighbour has, or nearly. `before`, `after`: the differences on both sides.
+glm::vec3 light_moved(float fraction, const glm::vec3& low, const glm::vec3& high, const glm::vec3& before,
+                      const glm::vec3& after) {
+    const glm::vec3 none(0.0F);
+    const glm::vec3 up = glm::max(before, none);
+    const glm::vec3 down = glm::max(-after, none);
+    const glm::vec3 moved = fraction * (high - low);
+    return glm::max(glm::min(moved, up + kMayDarken * glm::abs(low - up)),
+                    glm::min(glm::max(moved, -down - kMayDarken * glm::abs(high - down)), none));
+}
+
+/// The middle one of five neighbours, sharpened by `fraction` of the second difference. Light only moves between
+/// neighbours, so that the mean stays, and no node gets darker than black: around lamps there are no rings.
+glm::vec3 sharpened(float fraction, const std::array<glm::vec3, 5>& x) {
+    const glm::vec3 below = x[2] - x[1];
+    const glm::vec3 above = x[3] - x[2];
+    return x[2] + light_moved(fraction, x[1], x[2], x[1] - x[0], above) -
+           light_moved(fraction, x[2], x[3], below, x[4] - x[3]);
+}
+
+/// Sharpens a line of nodes, which continues linearly beyond its ends.
+void sharpen_line(float fraction, glm::vec3* values, std::size_t count, std::size_t stride,
+                  std::vector<glm::vec3>& work) {
+    work.resize(count + 4);
+    for (std::size_t i = 0; i < count; ++i) work[i + 2] = values[i * stride];
+    for (std::size_t i = 2; i > 0; --i) {
+        work[i - 1] = 2.0F * work[i] - work[i + 1];
+        work[count + 4 - i] = 2.0F * work[count + 3 - i] - work[count + 2 - i];
+    }
+    for (std::size_t i = 0; i < count; ++i)
+        values[i * stride] = sharpened(fraction, {work[i], work[i + 1], work[i + 2], work[i + 3], work[i + 4]});
+}
+
+/// Undoes the blur along both axes of views, and lowers values for linear interpolation.
+void sharpen_slice(glm::vec3* values, const LobeMapViews& views) {
+    constexpr float kFraction = (kBlur + kBestLinear) / kSteps;
+    const auto g = static_cast<std::size_t>(views.g);
+    const auto h = static_cast<std::size_t>(views.h);
+    std::vector<glm::vec3> work;
+    for (int step = 0; step < kSteps; ++step) {
+        for (std::size_t i = 0; i < h; ++i) sharpen_line(kFraction, values + i * g, g, 1, work);
+        for (std::size_t i = 0; i < g; ++i) sharpen_line(kFraction, values + i, h, g, work);
+    }
+}
+
 void copy_slice(const AzimuthPair& pair, int part, const LobeMapViews& views, glm::vec3* to) {
+    glm::vec3* next = to;
     for (int h = 0; h < views.h; ++h)
-        for (int g = 0; g < views.g; ++g) *to++ = pair.value(part, g, h);
+        for (int g = 0; g < views.g; ++g) *next++ = pair.value(part, g, h);
+    sharpen_slice(to, views);
 }
 
 /// The radiance of a map's azimuths, slice by slice.
@@ -234,12 +291,12 @@ class LobeSlices {
     /// Computes what value() needs at a slice.
     void fill_around(int slice) {
         const int count = static_cast<int>(slices_.size());
-        for (const int near : {slice - 1, slice, slice + 1}) fill_pair((near + count) % count / 2);
+        for (int near = slice - 2; near <= slice + 2; ++near) fill_pair((near + count) % count / 2);
     }
-    /// Lowered by kBestLinear of the second difference along the azimuth.
+    /// Sharpened by kBestLinear along the azimuth.
     glm::vec3 value(int slice, std::size_t texel) const {
-        const glm::vec3 here = radiance(slice, texel);
-        return here - kBestLinear * (radiance(slice - 1, texel) - 2.0F * here + radiance(slice + 1, texel));
+        return sharpened(kBestLinear, {radiance(slice - 2, texel), radiance(slice - 1, texel), radiance(slice, texel),
+                                       radiance(slice + 1, texel), radiance(slice + 2, texel)});
     }
     std::size_t texels() const {
         return static_cast<std::size_t>(spectrum_.views().g) * static_cast<std::size_t>(spectrum_.views().h);

@@ -11,7 +11,6 @@
 #include "engine/core/check.h"
 #include "engine/core/parallel.h"
 #include "engine/math/fourier_transform.h"
-#include "modules/diffraction/bake/kernel_cells.h"
 
 namespace rowland::diffraction {
 
@@ -20,27 +19,10 @@ namespace {
 using math::FourierTransform;
 constexpr std::size_t kLanes = FourierTransform::kLanes;
 
-/// Largest amplification of a frequency, approximately. More would show single lamps with rings around them, and so
-/// would a limit that sets in at one frequency.
-constexpr double kMostRestored = 3.0;
 /// Pits' lobes are tabulated at this many wavelengths, and linear between.
 constexpr std::size_t kPitWavelengths = 16;
 /// Sample points of a lobe in each step of the grid.
 constexpr int kLobePoints = 16;
-
-double sinc_of(double x) {
-    return x == 0.0 ? 1.0 : std::sin(std::numbers::pi * x) / (std::numbers::pi * x);
-}
-
-/// What the light's cubic splines, the pattern's distribution among two nodes and the disc's among four leave of a
-/// frequency (periods per step) is restored. `disc_step`: a disc's cell in steps of the grid.
-double restored(double frequency, double disc_step) {
-    const double angle = 2.0 * std::numbers::pi * frequency;
-    const double left = std::pow(sinc_of(frequency), 6) * std::exp(-disc_step * disc_step * angle * angle / 12.0);
-    const double limit = 1.0 / kMostRestored;
-    return std::sqrt((1.0 + limit * limit) / (left * left + limit * limit)) *
-           (1.0 + 2.0 * double{kBestLinear} * (1.0 - std::cos(angle)));
-}
 
 std::vector<double> wavelengths_of(const GrooveLobe& lobe) {
     if (!std::holds_alternative<PitsLobe>(lobe)) return {0.5 * (colour::kVisibleMin + colour::kVisibleMax)};
@@ -209,14 +191,9 @@ LobeSpectrum::LobeSpectrum(const DiffractionPattern& pattern, const LobeMapViews
         fill_points(pattern);
 }
 
-double LobeSpectrum::factor(std::size_t g, std::size_t h) const {
+double LobeSpectrum::factor() const {
     // A LightDisc holds half the flux.
-    const double scale = 2.0 / (views_.step_g() * views_.step_h() * static_cast<double>(size_g_ * size_h_));
-    const auto restored_at = [&](std::size_t f, std::size_t size, double step) {
-        const auto frequency = static_cast<double>(std::min(f, size - f)) / static_cast<double>(size);
-        return restored(frequency, 2.0 / (disc_cells() * step));
-    };
-    return scale * restored_at(g, size_g_, views_.step_g()) * restored_at(h, size_h_, views_.step_h());
+    return 2.0 / (views_.step_g() * views_.step_h() * static_cast<double>(size_g_ * size_h_));
 }
 
 void LobeSpectrum::fill_lobe(const DiffractionPattern& pattern) {
@@ -232,7 +209,7 @@ void LobeSpectrum::fill_lobe(const DiffractionPattern& pattern) {
         for (std::size_t g = 0; g < size_g_; ++g) {
             float* to = matrices_.data() + (h * size_g_ + g) * kFloats;
             for (std::size_t r = 0; r < lobes.size(); ++r) {
-                const auto weight = static_cast<float>(factor(g, h) * lobes[r][h]);
+                const auto weight = static_cast<float>(factor() * lobes[r][h]);
                 for (std::size_t c = 0; c < 3; ++c)
                     for (std::size_t o = 0; o < 3; ++o) {
                         to[kLanes * c + o] += weight * orders[r].real[c][kLanes * g + o];
@@ -249,7 +226,7 @@ void LobeSpectrum::fill_points(const DiffractionPattern& pattern) {
     parallel_for(size_h_, [&](std::size_t h) {
         for (std::size_t g = 0; g < size_g_; ++g) {
             float* to = matrices_.data() + (h * size_g_ + g) * kFloats;
-            const auto weight = static_cast<float>(factor(g, h));
+            const auto weight = static_cast<float>(factor());
             for (std::size_t c = 0; c < 3; ++c) points.copy(c, g, h, weight, to + kLanes * c, to + kLanes * (3 + c));
         }
     });

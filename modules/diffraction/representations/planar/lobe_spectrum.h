@@ -20,9 +20,7 @@ struct LobeMapViews {
 };
 
 /// The Fourier transform of a diffraction pattern over a grid of u, as correlation with light on LobeMapViews needs it:
-/// periods of at least 4, the extent of u. It also undoes the blur by the light's distribution among nodes, PHYSICS
-/// (6.4), as far as that amplifies little more than kMostRestored times, and lowers values for linear interpolation
-/// (kBestLinear) along both axes.
+/// periods of at least 4, the extent of u.
 class LobeSpectrum {
  public:
     LobeSpectrum(const DiffractionPattern& pattern, const LobeMapViews& views);
@@ -47,8 +45,8 @@ class LobeSpectrum {
     void fill_lobe(const DiffractionPattern& pattern);
     /// A pattern without a lobe.
     void fill_points(const DiffractionPattern& pattern);
-    /// The factor of a frequency's matrix.
-    double factor(std::size_t g, std::size_t h) const;
+    /// The factor of the matrices.
+    double factor() const;
 
     LobeMapViews views_;
     bool even_;

@@ -3,10 +3,14 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <filesystem>
 #include <glm/geometric.hpp>
+#include <glm/gtx/component_wise.hpp>
 #include <numbers>
 #include <span>
+#include <string>
 #include <variant>
 
 #include "engine/core/parallel.h"
@@ -71,7 +75,7 @@ Grating with_lobe(const GrooveLobe& lobe) {
 }
 
 /// The slow sum is the reference's quadrature. Light without detail: the rest is the map's steps of .03 at the
-/// horizon's edge, .8 % for the lobe that is narrower than they are (measured), .5 % and less for the others.
+/// horizon's edge, 1.1 % for the lobe that is narrower than they are (measured), .4 % and less for the others.
 TEST(LobeMap, EqualsTheReferenceUnderSmoothLight) {
     Grating blazed = with_lobe(GaussianLobe{0.1});
     blazed.profile = BlazedProfile{.depth_nm = 280.0};
@@ -98,11 +102,11 @@ TEST(LobeMap, EqualsTheReferenceUnderSmoothLight) {
         const double error =
             relative_rms(samples(map, points), reference_radiance(one.grating, light, colour::LightSpectra(), points));
         RecordProperty(one.name, fmt::format("{:.3g}", error));
-        EXPECT_LT(error, 1e-2) << one.name;
+        EXPECT_LT(error, 1.2e-2) << one.name;
     }
 }
 
-/// The narrowest lobe under a doorway of a few texels: .9 % measured, 2 % is the goal. The coarse map, which is shown
+/// The narrowest lobe under a doorway of a few texels: .7 % measured, 2 % is the goal. The coarse map, which is shown
 /// for as long as an object turns: 10 % measured.
 TEST(LobeMap, MatchesEnnisThroughANarrowLobe) {
     ROWLAND_TEST_DATA(frames_path, "oracle/frames_tilted_cd.csv");
@@ -241,7 +245,7 @@ std::vector<ShadingPoint> dense_views() {
 }
 
 /// A lamp 10 000 times as bright as the room: around its orders the map shows the room, not rings. Nine of ten views
-/// are within 52 % of the reference with a sharp limit of what is restored, 6 % with today's (measured).
+/// are within 5 % of the reference (measured).
 TEST(LatticeMapUnderALamp, HasNoRings) {
     const lighting::StudioRecipe room{.ceiling = glm::dvec3(0.02),
                                       .wall = glm::dvec3(0.035),
@@ -264,6 +268,110 @@ TEST(LatticeMapUnderALamp, HasNoRings) {
     const double most = errors[errors.size() * 9 / 10];
     RecordProperty("nine_of_ten", fmt::format("{:.3g}", most));
     EXPECT_LT(most, 0.1);
+}
+
+/// How far a map is below 0, and outside of what the reference has within two nodes along both axes: as fractions of
+/// the brightest there.
+struct Deviation {
+    double below_zero = 0.0;
+    double outside = 0.0;
+};
+
+/// Along lines through the brightest lamp's brightest green order, of points half a node apart.
+Deviation deviation_around_a_lamp(const Material& material, const lighting::ProbeImage& probe, const glm::dvec3& normal,
+                                  int points) {
+    const Grating& grating = material.grating;
+    const PlanarLobe lobe = *bake(grating, std::get<PlanarSettings>(representation(material))).lobe;
+    const LobeMapViews views = grating.lattice ? one_azimuth(lobe.size).views : lobe.size.views;
+    const PlaneAxes axes = plane_axes(normal);
+    const glm::dmat3 frame(axes.e1, axes.e2, axes.n);
+    const auto point_at = [&](const glm::dvec2& v) -> ShadingPoint {
+        const glm::dvec3 view(v, std::sqrt(std::max(0.05, 1.0 - glm::dot(v, v))));
+        return {.view = frame * view, .normal = axes.n, .grating = axes.e1};
+    };
+    const bool behind = grating.transmission.has_value();
+    const auto shaded = [&](const ShadingPoint& point) { return behind ? lit_from_behind(point) : point; };
+    const ShadingPoint map_frame = shaded(point_at({0.0, 0.0}));
+    const lighting::LightSamples texels = lighting::light_samples(probe);
+    const LobeMap map = fill_lobe_slice(texels, LobeSpectrum(lobe.pattern, views), map_frame.normal, map_frame.grating);
+    const glm::dmat3 to_tangent = world_to_tangent(map_frame);
+    glm::dvec3 lamp(0.0);
+    double brightest = 0.0;
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+        const glm::dvec3 s = to_tangent * texels.direction(i);
+        if (s.z < 0.15 || texels.green[i] < brightest) continue;
+        brightest = texels.green[i];
+        lamp = s;
+    }
+    const DiffractionPattern::Node* order = nullptr;
+    for (const auto& node : lobe.pattern.nodes)
+        if (std::abs(node.wavelength_nm - 550.0F) < 8.0F && glm::length(glm::dvec2(node.u) - glm::dvec2(lamp)) < 0.7 &&
+            (order == nullptr || node.weight[1][1] > order->weight[1][1]))
+            order = &node;
+    Deviation worst;
+    if (order == nullptr) return worst;
+    const double mirrored = behind ? -1.0 : 1.0;  // of h
+    for (const int axis : {0, 1}) {
+        std::array<std::vector<glm::dvec3>, 5> reference;  // of lines beside each other, a node apart
+        std::vector<glm::dvec3> shown;
+        for (int side = 0; side < 5; ++side) {
+            std::vector<ShadingPoint> line;
+            for (int i = 0; i < points; ++i) {
+                const double along = 0.5 * (i - points / 2);
+                const glm::dvec2 nodes = axis == 0 ? glm::dvec2(along, side - 2) : glm::dvec2(side - 2, along);
+                glm::dvec2 v = glm::dvec2(order->u) - glm::dvec2(lamp);
+                v = glm::dvec2(v.x, mirrored * v.y) + nodes * glm::dvec2(views.step_g(), views.step_h());
+                line.push_back(point_at(v));
+                if (side != 2) continue;
+                const double passed = transmittance(grating.cover, glm::dot(line.back().normal, line.back().view));
+                shown.push_back(passed * sample(map, shaded(line.back())));
+            }
+            reference[static_cast<std::size_t>(side)] =
+                reference_radiance(grating, probe, colour::LightSpectra(), line);
+        }
+        for (std::size_t i = 4; i + 4 < shown.size(); ++i) {
+            double least = 1e30;
+            double most = 0.0;
+            for (const auto& line : reference)
+                for (std::size_t j = i - 4; j <= i + 4; ++j) {
+                    least = std::min(least, line[j].y);
+                    most = std::max(most, line[j].y);
+                }
+            if (most == 0.0) continue;
+            worst.below_zero = std::max(worst.below_zero, -glm::compMin(shown[i]) / most);
+            worst.outside = std::max({worst.outside, (least - shown[i].y) / most, (shown[i].y - most) / most});
+        }
+    }
+    return worst;
+}
+
+/// Captures that Debian's blender-data installs.
+void expect_no_rings(const std::string& capture, const std::vector<const char*>& materials, int points) {
+    const std::filesystem::path path = "/usr/share/blender/datafiles/studiolights/world/" + capture + ".exr";
+    if (!std::filesystem::exists(path)) GTEST_SKIP() << "no captures of light (package blender-data)";
+    const lighting::ProbeImage probe(image::load_image(path), lighting::Mapping::Equirectangular);
+    for (const char* name : materials) {
+        const Material material = load_material(rowland::test::content_path(fmt::format("materials/{}.json", name)));
+        const Deviation found =
+            deviation_around_a_lamp(material, probe, glm::normalize(glm::dvec3(-0.3, 0.3, 0.9)), points);
+        ::testing::Test::RecordProperty(fmt::format("{}_{}", capture, name),
+                                        fmt::format("{:.3g}, {:.3g}", found.below_zero, found.outside));
+        EXPECT_LT(found.below_zero, 0.002) << capture << " " << name;
+        EXPECT_LT(found.outside, 0.05) << capture << " " << name;
+    }
+}
+
+/// Lamps 10 000 times as bright as the room. A map that undid its blur by a filter which ends at one frequency was
+/// below 0 by 8 % and 42 % outside the reference.
+TEST(LobeMapAroundALamp, IsNeverNegativeAndHasNoStripes) {
+    expect_no_rings("interior", {"crossed_foil"}, 41);
+}
+
+TEST(EveryLobeMapAroundALamp, IsNeverNegativeAndHasNoStripes) {
+    for (const char* capture : {"city", "courtyard", "forest", "interior", "night", "studio", "sunrise", "sunset"})
+        expect_no_rings(
+            capture, {"crossed_foil", "butterfly_wing", "phone_screen", "diffraction_glasses", "feather", "cd", "dvd"},
+            41);
 }
 
 struct LatticeProbe {
