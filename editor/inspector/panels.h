@@ -135,7 +135,7 @@ class PreviewPanel {
 class PricePanel {
  public:
     /// `frame_ms`: the median frame time here; 0: unknown.
-    void draw(Measurement& measurement, const OpenDocument& opened, double frame_ms, ControlMap& controls);
+    void draw(Measurement& measurement, const OpenDocument& opened, View& view, double frame_ms, ControlMap& controls);
 
  private:
     float budget_ = 0.05F;

@@ -312,13 +312,20 @@ std::optional<PickedSurface> Preview::pick(const glm::vec2& at) {
         nearest = PickedSurface{.point = *point,
                                 .frame = {},
                                 .material = part.material,
-                                .layout = diffraction::groove_layout(*instance.mesh),
+                                .layout = layout_of(part),
                                 .map_rotation = 0.0,
                                 .stage_rotation_deg = inputs_.stage.rotation_deg,
                                 .mesh = part.name};
     }
     if (nearest) set_grating_vector(*nearest);
     return nearest;
+}
+
+diffraction::GrooveLayout Preview::layout_of(const Drawn& part) {
+    const Gratings& gratings = now_.gratings;
+    const bool grooves = part.material && *part.material < gratings.size() && gratings[*part.material] &&
+                         gratings[*part.material]->grooves;
+    return diffraction::groove_layout(*now_.world.get<render::MeshInstance>(part.entity).mesh, false, grooves);
 }
 
 void Preview::set_grating_vector(PickedSurface& surface) const {

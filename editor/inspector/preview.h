@@ -137,6 +137,7 @@ class Preview {
     };
 
     float aspect() const;
+    diffraction::GrooveLayout layout_of(const Drawn& part);
     void set_grating_vector(PickedSurface& surface) const;
     void draw_grooves();
 

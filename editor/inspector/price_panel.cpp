@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "editor/inspector/panels.h"
+#include "modules/diffraction/asset/quality.h"
 
 namespace rowland::inspector {
 
@@ -44,16 +45,25 @@ std::string byte_count(std::size_t bytes) {
                                   : fmt::format("{:.1f} MiB", size / 1024.0 / 1024.0);
 }
 
-void draw_numbers(const PriceList& list, bool is_current, const OpenDocument& opened, double frame_ms) {
-    const auto cooked = opened.cooked();
-    if (!cooked) return;
-    const diffraction::ShadingCost cost = diffraction::shading_cost(cooked->tables);
+void draw_numbers(const PriceList& list, bool is_current, const OpenDocument& opened, View& view, double frame_ms,
+                  ControlMap& controls) {
+    const DrawnAs* drawn = view.drawn_as();
+    if (drawn == nullptr) return;
+    const diffraction::ShadingCost& cost = drawn->cost;
+    const std::string cooked = info(opened.cooked()->tables).name;
     const auto present = std::ranges::find(list.choices, true, &PricedChoice::present);
     const bool measured = present != list.choices.end() && is_current;
-    const std::string waiting = opened.document().material().quality.pinned ? "measuring…" : "chosen by the cooker";
-    draw_row("Representation", info(cooked->tables).name);
+    const diffraction::Quality& quality = opened.document().material().quality;
+    const std::string waiting = quality.pinned ? "measuring…" : "chosen by the cooker";
+    const std::string name = drawn->representation == cooked
+                                 ? cooked
+                                 : fmt::format("{}: {} needs a flat mesh", drawn->representation, cooked);
+    draw_row("Representation", name.c_str());
+    controls.note("representation", name);
     draw_row("Measured error",
-             measured ? fmt::format("{:.4g} {}", present->error, measure_label(list.measure)) : waiting);
+             measured ? fmt::format("{:.4g} {}, {} on a {} surface", present->error, measure_label(list.measure),
+                                    cooked, diffraction::surface_shape_name(quality.surface))
+                      : waiting);
     draw_row("Price", measured ? fmt::format("{:.4g} fetches per pixel", present->price) : waiting);
     draw_row("Tables", fmt::format("{} ({} B)", byte_count(cost.table_bytes), cost.table_bytes));
     draw_row("Per pixel",
@@ -137,7 +147,8 @@ void draw_slider(Measurement& measurement, const Document& document, const Price
 
 }  // namespace
 
-void PricePanel::draw(Measurement& measurement, const OpenDocument& opened, double frame_ms, ControlMap& controls) {
+void PricePanel::draw(Measurement& measurement, const OpenDocument& opened, View& view, double frame_ms,
+                      ControlMap& controls) {
     const PriceList list = measurement.prices();
     const bool is_current = measurement.prices_are_current();
     const float font = ImGui::GetFontSize();
@@ -165,7 +176,7 @@ void PricePanel::draw(Measurement& measurement, const OpenDocument& opened, doub
         ImGui::Columns(2, "##price", false);
         ImGui::SetColumnWidth(0, 20.0F * font);
     }
-    draw_numbers(list, is_current, opened, frame_ms);
+    draw_numbers(list, is_current, opened, view, frame_ms, controls);
     if (wide) ImGui::NextColumn();
     draw_plot(list, std::max(7.0F * font, ImGui::GetContentRegionAvail().y - 3.6F * font));
     draw_slider(measurement, opened.document(), list, controls);

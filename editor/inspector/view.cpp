@@ -1,7 +1,11 @@
 #include "editor/inspector/view.h"
 
+#include <set>
 #include <utility>
 #include <vector>
+
+#include "modules/diffraction/evaluate/point_shader.h"
+#include "modules/diffraction/runtime/vertex_light.h"
 
 namespace rowland::inspector {
 
@@ -104,6 +108,32 @@ View::ViewedPoint View::point_or_middle() {
     if (point_) return {*point_, surface_->layout};
     const auto surface = find_surface();
     return surface ? ViewedPoint{surface->frame, surface->layout} : ViewedPoint{};
+}
+
+const DrawnAs* View::drawn_as() {
+    const auto grating = document_.grating(false);
+    if (!grating) return nullptr;
+    const DrawnInputs inputs{object_, document_.document().chosen(), grating};
+    if (std::exchange(drawn_inputs_, inputs) == inputs) return &drawn_as_;
+    std::set<diffraction::GrooveLayout> layouts;
+    const auto add = [&](const scene::Mesh& mesh) {
+        // Skins are posed at rest.
+        layouts.insert(diffraction::groove_layout(mesh, false, grating->grooves != nullptr));
+    };
+    if (!object_->scene) add(*object_->parts.meshes.front().mesh);
+    if (object_->scene)
+        for (const scene::ImportedInstance& instance : object_->scene->imported.instances)
+            if (instance.material == document_.document().chosen()) add(*object_->scene->meshes[instance.mesh]);
+    drawn_as_ = {};
+    for (const diffraction::GrooveLayout layout : layouts) {
+        const diffraction::BakedTables tables = as_drawn(*grating->material, layout).tables;
+        const std::string name = info(tables).name;
+        std::string& all = drawn_as_.representation;
+        if (all.empty()) drawn_as_.cost = shading_cost(tables);
+        if (all.find(name) == std::string::npos) all += (all.empty() ? "" : " and ") + name;
+    }
+    if (layouts.contains(diffraction::GrooveLayout::Curved)) drawn_as_.surface = diffraction::SurfaceShape::Curved;
+    return &drawn_as_;
 }
 
 /// Finds a surface of the chosen material of a scene, once, and follows the rotation of its grooves.

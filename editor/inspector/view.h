@@ -4,6 +4,7 @@
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
+#include <string>
 #include <tuple>
 
 #include "editor/inspector/light.h"
@@ -13,6 +14,15 @@
 #include "engine/scene/camera.h"
 
 namespace rowland::inspector {
+
+/// What draws the chosen material on the object in view.
+struct DrawnAs {
+    std::string representation;     ///< "arc"; "arc and planar" where its meshes differ
+    diffraction::ShadingCost cost;  ///< of the first
+    diffraction::SurfaceShape surface = diffraction::SurfaceShape::Flat;  ///< curved if one of the meshes is
+
+    friend bool operator==(const DrawnAs&, const DrawnAs&) = default;
+};
 
 struct PickedPixel {
     glm::vec2 position{0.5F};  ///< from the picture's upper left corner, in [0, 1]
@@ -60,10 +70,15 @@ class View {
         diffraction::GrooveLayout layout = diffraction::GrooveLayout::FlatUniform;
     };
     ViewedPoint point_or_middle();
+    /// Null without a cooked material.
+    const DrawnAs* drawn_as();
 
  private:
     using PixelInputs =
         std::tuple<OpenDocument::Cooked, LightChoice::Light, std::shared_ptr<const diffraction::ShadingPoint>, Stage>;
+
+    using DrawnInputs =
+        std::tuple<std::shared_ptr<const PreviewObject>, std::size_t, std::shared_ptr<const CookedGrating>>;
 
     void forget_point();
     std::optional<PickedSurface> find_surface();
@@ -82,6 +97,8 @@ class View {
     std::shared_ptr<const diffraction::ShadingPoint> point_;
     bool searched_ = false;     ///< for a surface of the chosen material
     PixelInputs pixel_inputs_;  ///< of the colours in picked_
+    DrawnInputs drawn_inputs_;  ///< of drawn_as_
+    DrawnAs drawn_as_;
 };
 
 }  // namespace rowland::inspector

@@ -196,7 +196,18 @@ std::vector<Command> Workbench::commands() {
     return result;
 }
 
-void Workbench::splitter(const char* name, const ImVec2& corner, const ImVec2& size, float& value, float sign) {
+TileSizes tile_sizes(const Layout& layout, glm::vec2 size, float font) {
+    const float preview_width = std::min(28.0F * font, 0.5F * size.x);
+    const float preview_height = std::min(20.0F * font, 0.7F * size.y);
+    const float sides =
+        std::min(1.0F, (size.x - preview_width) / ((layout.material_width + layout.physics_width) * font));
+    return {.left = sides * layout.material_width * font,
+            .right = sides * layout.physics_width * font,
+            .below = std::min(layout.price_height * font, size.y - preview_height)};
+}
+
+void Workbench::splitter(const char* name, const ImVec2& corner, const ImVec2& size, float& value, float shown,
+                         float sign) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0F, 0.0F});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1.0F, 1.0F});
     begin_tile(name, corner, size,
@@ -204,8 +215,10 @@ void Workbench::splitter(const char* name, const ImVec2& corner, const ImVec2& s
     ImGui::InvisibleButton(name, size);
     controls_.mark(name);
     if (ImGui::IsItemActive()) {
-        const ImVec2 moved = ImGui::GetIO().MouseDelta;
-        value += sign * (size.y > size.x ? moved.x : moved.y) / ImGui::GetFontSize();
+        constexpr float kLeast = 4.0F;
+        const ImVec2 delta = ImGui::GetIO().MouseDelta;
+        const float moved = sign * (size.y > size.x ? delta.x : delta.y);
+        if (moved != 0.0F) value = std::max(kLeast, (shown + moved) / ImGui::GetFontSize());
     }
     if (ImGui::IsItemHovered() || ImGui::IsItemActive())
         ImGui::GetWindowDrawList()->AddRectFilled(corner, {corner.x + size.x, corner.y + size.y},
@@ -220,13 +233,7 @@ void Workbench::draw_tiles(const platform::InputState& input, const WorkbenchFra
     const float top = ImGui::GetFrameHeight();
     const float status = 1.9F * font;
     const float height = frame.size.y - top - status;
-    // The preview keeps a third of the window, whatever its size.
-    layout_.material_width = std::clamp(layout_.material_width, 12.0F, 0.32F * frame.size.x / font);
-    layout_.physics_width = std::clamp(layout_.physics_width, 12.0F, 0.34F * frame.size.x / font);
-    layout_.price_height = std::clamp(layout_.price_height, 4.0F, 0.6F * height / font);
-    const float left = layout_.material_width * font;
-    const float right = layout_.physics_width * font;
-    const float below = layout_.price_height * font;
+    const auto [left, right, below] = tile_sizes(layout_, {frame.size.x, height}, font);
     const float middle = frame.size.x - left - right - 2.0F * gap;
 
     if (begin_tile("Material", {0.0F, top}, {left, height})) {
@@ -241,16 +248,18 @@ void Workbench::draw_tiles(const platform::InputState& input, const WorkbenchFra
         draw_if_grating([&] { physics_.draw(session_.opened, session_.view, session_.measurement, controls_); });
     ImGui::End();
     if (begin_tile("Price", {left + gap, top + height - below}, {middle, below}))
-        draw_if_grating([&] { price_.draw(session_.measurement, session_.opened, frame.frame_ms, controls_); });
+        draw_if_grating(
+            [&] { price_.draw(session_.measurement, session_.opened, session_.view, frame.frame_ms, controls_); });
     ImGui::End();
     if (begin_tile("Preview", {left + gap, top}, {middle, height - below - gap},
                    ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse))
         preview_.draw(session_.opened, session_.light, session_.view, input, frame.pixels_per_unit, frame.seconds,
                       controls_);
     ImGui::End();
-    splitter("left splitter", {left, top}, {gap, height}, layout_.material_width, 1.0F);
-    splitter("right splitter", {frame.size.x - right - gap, top}, {gap, height}, layout_.physics_width, -1.0F);
-    splitter("lower splitter", {left + gap, top + height - below - gap}, {middle, gap}, layout_.price_height, -1.0F);
+    splitter("left splitter", {left, top}, {gap, height}, layout_.material_width, left, 1.0F);
+    splitter("right splitter", {frame.size.x - right - gap, top}, {gap, height}, layout_.physics_width, right, -1.0F);
+    splitter("lower splitter", {left + gap, top + height - below - gap}, {middle, gap}, layout_.price_height, below,
+             -1.0F);
     draw_status(top + height, frame.size.x, status, frame.frame_ms);
     // The first Tab goes to the first field. A window takes the focus when it appears.
     if (!std::exchange(focused_, true)) ImGui::SetWindowFocus("Material");

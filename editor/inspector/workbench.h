@@ -38,6 +38,15 @@ struct WorkbenchFrame {
     bool in_window = false;     ///< messages are shown; false for captures
 };
 
+/// Sizes of the tiles beside and below the preview, in the unit of `size`.
+struct TileSizes {
+    float left = 0.0F;
+    float right = 0.0F;
+    float below = 0.0F;
+};
+/// Those of the layout, or less where they would leave the preview too little of a small window of that size.
+TileSizes tile_sizes(const Layout& layout, glm::vec2 size, float font);
+
 /// The inspector's window: a menu, the fields on the left, the preview with its price below, the physics on the right.
 /// Call between Ui::begin_frame() and Ui::draw().
 class Workbench {
@@ -49,6 +58,7 @@ class Workbench {
 
     /// Opens a file; asks first if unsaved edits would be lost.
     void open(const std::filesystem::path& file) { dialogs_.open(file); }
+    void offer_recovery(const std::filesystem::path& unsaved) { dialogs_.offer_recovery(unsaved); }
     /// Closes; asks first if unsaved edits would be lost.
     void ask_to_close() {
         dialogs_.ask_unsaved([this] { closed_ = true; });
@@ -63,7 +73,8 @@ class Workbench {
     std::vector<Command> commands();
     void draw_tiles(const platform::InputState& input, const WorkbenchFrame& frame);
     void draw_status(float top, float width, float height, double frame_ms);
-    void splitter(const char* name, const ImVec2& corner, const ImVec2& size, float& value, float sign);
+    /// Drags `value`, a size in font heights that is shown as `shown`.
+    void splitter(const char* name, const ImVec2& corner, const ImVec2& size, float& value, float shown, float sign);
     void note_facts();
 
     Session& session_;

@@ -14,7 +14,6 @@
 #include "engine/core/file.h"
 #include "engine/core/log.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
-#include "modules/diffraction/runtime/vertex_light.h"
 
 namespace rowland::demo {
 
@@ -159,14 +158,17 @@ std::string Hud::name_of_all(Side side) {
         return reference_picture_.begun() ? fmt::format("reference, {:.0f} %", 100.0 * reference_picture_.progress())
                                           : std::string("reference, once nothing moves");
     }
-    std::optional<Look> common;
-    for (const ecs::Entity grating : comparison.gratings()) {
-        const Look& look = comparison.look(grating, side);
-        if (look.own()) continue;
-        if (common && !(*common == look)) return "several";
-        common = look;
+    std::vector<ecs::Entity> gratings = comparison.gratings();
+    const auto is_own = [&](ecs::Entity grating) { return comparison.look(grating, side).own(); };
+    const bool all_own = std::ranges::all_of(gratings, is_own);
+    if (!all_own) std::erase_if(gratings, is_own);
+    std::optional<std::string> common;
+    for (const ecs::Entity grating : gratings) {
+        const std::string title = comparison.title(grating, side);
+        if (common && *common != title) return all_own ? look_name({}) : "several";
+        common = title;
     }
-    return look_name(common.value_or(Look{}));
+    return common.value_or(look_name({}));
 }
 
 void Hud::measure_pixel() {
@@ -178,8 +180,7 @@ void Hud::measure_pixel() {
     ecs::World& world = session_.play().world();
     const ecs::Entity grating = under_cursor->grating;
     const Side side = side_of_pointer();
-    target_ = PixelTarget{.object = name_of_object(world, grating),
-                          .representation = look_name(comparison.look(grating, side))};
+    target_ = PixelTarget{.object = name_of_object(world, grating), .representation = comparison.title(grating, side)};
     if (world.get<diffraction::DiffractionSurface>(grating).grooves) {
         target_->refusal = "not measured: its grooves vary over the surface";
         return;
@@ -193,7 +194,7 @@ void Hud::measure_pixel() {
     }
     PixelQuery query{.cooked = comparison.shown(grating, side)->cooked(),
                      .frame = *frame,
-                     .layout = diffraction::groove_layout(*placed.mesh),
+                     .layout = comparison.layout(grating),
                      .window = std::nullopt,
                      .probe = probe()};
     if (options_.light_window != "auto") query.window = math::parse_window(options_.light_window);

@@ -10,7 +10,9 @@
 #include "content/demo/hud/windows.h"
 #include "content/demo/play/body.h"
 #include "engine/platform/input.h"
+#include "modules/diffraction/evaluate/point_shader.h"
 #include "modules/diffraction/representations/representation.h"
+#include "modules/diffraction/runtime/vertex_light.h"
 
 namespace rowland::demo {
 
@@ -75,19 +77,12 @@ std::vector<Object> objects_of(ecs::World& world, const std::vector<ecs::Entity>
     return objects;
 }
 
-/// The name of a look; the own look by its representation.
-std::string title_of(Comparison& comparison, ecs::Entity grating, Side side) {
-    const Look& look = comparison.look(grating, side);
-    if (!look.own()) return look_name(look);
-    return std::string(info(comparison.shown(grating, side)->cooked()->tables).name) + " (cooked)";
-}
-
 void look_choice(const Panel& panel, const Object& object, Side side) {
     Comparison& comparison = panel.comparison();
     const ecs::Entity example = object.parts.front();
     ImGui::PushID(static_cast<int>(side));
     ImGui::SetNextItemWidth(-1.0F);
-    if (ImGui::BeginCombo("##look", title_of(comparison, example, side).c_str(), ImGuiComboFlags_HeightLargest)) {
+    if (ImGui::BeginCombo("##look", comparison.title(example, side).c_str(), ImGuiComboFlags_HeightLargest)) {
         const LookSubject subject = comparison.subject(example);
         for (const Detail detail : {Detail::Medium, Detail::Coarse, Detail::Fine})
             for (const Look& look : suitable_looks(subject, detail)) {
@@ -105,15 +100,18 @@ void look_choice(const Panel& panel, const Object& object, Side side) {
 std::size_t bytes_of_tables(Comparison& comparison, const std::vector<ecs::Entity>& gratings) {
     std::vector<const diffraction::GpuMaterial*> counted;
     std::size_t bytes = 0;
-    const auto count = [&](const GpuMaterialPointer& material) {
-        for (const auto* known : counted)
-            if (known == material.get()) return;
+    const auto count = [&](ecs::Entity grating, Side side) {
+        const GpuMaterialPointer material = comparison.shown(grating, side);
+        if (std::ranges::find(counted, material.get()) != counted.end()) return;
         counted.push_back(material.get());
-        bytes += diffraction::shading_cost(material->cooked()->tables).table_bytes;
+        const diffraction::BakedTables& tables = material->cooked()->tables;
+        const auto layout = comparison.layout(grating);
+        const bool own = &diffraction::drawn_info(tables, layout) == &info(tables);
+        bytes += shading_cost(own ? tables : as_drawn(*material->cooked(), layout).tables).table_bytes;
     };
     for (const ecs::Entity grating : gratings) {
-        count(comparison.shown(grating, Side::Left));
-        if (comparison.wiping()) count(comparison.shown(grating, Side::Right));
+        count(grating, Side::Left);
+        if (comparison.wiping()) count(grating, Side::Right);
     }
     return bytes;
 }

@@ -26,7 +26,10 @@ struct Comparison::Looks {
     std::shared_ptr<const gpu::Texture> picture{};
     GpuMaterialPointer picture_own{};
     std::shared_ptr<const scene::Mesh> mesh{};
-    bool flat = false;  ///< `mesh` lies in a plane
+    std::shared_ptr<const diffraction::GrooveMap> grooves{};
+    diffraction::GrooveLayout layout{};  ///< of `mesh` with `grooves`
+
+    bool flat() const { return layout != diffraction::GrooveLayout::Curved; }
     std::optional<ecs::Entity> copy{};
 };
 
@@ -69,13 +72,15 @@ Comparison::Looks& Comparison::looks_of_grating(ecs::Entity grating) {
     if (world_.find<Looks>(grating) == nullptr)
         world_.add(grating, Looks{.left = left_of_all_, .right = right_of_all_});
     Looks& looks = world_.get<Looks>(grating);
-    const GpuMaterialPointer& present = world_.get<DiffractionSurface>(grating).material;
-    if (present != looks.assigned) looks.own = present;
-    looks.assigned = present;
+    const DiffractionSurface& surface = world_.get<DiffractionSurface>(grating);
+    if (surface.material != looks.assigned) looks.own = surface.material;
+    looks.assigned = surface.material;
     const render::MeshInstance& instance = world_.get<render::MeshInstance>(grating);
-    if (looks.mesh != instance.mesh) {
+    if (looks.mesh != instance.mesh || looks.grooves != surface.grooves) {
         looks.mesh = instance.mesh;
-        looks.flat = diffraction::flat_normal(*instance.mesh).has_value();
+        looks.grooves = surface.grooves;
+        const bool skinned = world_.find<scene::Skin>(grating) != nullptr;
+        looks.layout = diffraction::groove_layout(*looks.mesh, skinned, looks.grooves != nullptr);
     }
     return looks;
 }
@@ -98,14 +103,24 @@ void Comparison::set_look_of_all(Side side, const Look& look) {
 
 LookSubject Comparison::subject(ecs::Entity grating) {
     const Looks& looks = looks_of_grating(grating);
-    return {.material = looks.own->cooked()->material,
-            .flat = looks.flat,
-            .grooves = world_.get<DiffractionSurface>(grating).grooves};
+    return {.material = looks.own->cooked()->material, .flat = looks.flat(), .grooves = looks.grooves};
 }
 
 GpuMaterialPointer Comparison::shown(ecs::Entity grating, Side side) {
     const Looks& looks = looks_of_grating(grating);
     return side == Side::Right && looks.right_material ? looks.right_material : looks.assigned;
+}
+
+diffraction::GrooveLayout Comparison::layout(ecs::Entity grating) {
+    return looks_of_grating(grating).layout;
+}
+
+std::string Comparison::title(ecs::Entity grating, Side side) {
+    const diffraction::BakedTables& tables = shown(grating, side)->cooked()->tables;
+    const Look& chosen = look(grating, side);
+    const std::string drawn = drawn_info(tables, layout(grating)).name;
+    if (drawn != info(tables).name) return drawn + " in place of " + info(tables).name;
+    return chosen.own() ? drawn + " (cooked)" : look_name(chosen);
 }
 
 void Comparison::update() {
@@ -120,7 +135,7 @@ void Comparison::update() {
 void Comparison::show(ecs::Entity grating) {
     Looks& looks = looks_of_grating(grating);
     DiffractionSurface& surface = world_.get<DiffractionSurface>(grating);
-    if (const auto wanted = variants_.find(looks.own, surface.grooves, looks.flat, looks.left)) {
+    if (const auto wanted = variants_.find(looks.own, surface.grooves, looks.flat(), looks.left)) {
         surface.material = wanted;
         looks.assigned = wanted;
     }
@@ -130,7 +145,8 @@ GpuMaterialPointer Comparison::material_of_copy(ecs::Entity grating) {
     Looks& looks = looks_of_grating(grating);
     const auto& grooves = world_.get<DiffractionSurface>(grating).grooves;
     if (!looks.right_material) looks.right_material = looks.own;
-    if (const auto wanted = variants_.find(looks.own, grooves, looks.flat, looks.right)) looks.right_material = wanted;
+    if (const auto wanted = variants_.find(looks.own, grooves, looks.flat(), looks.right))
+        looks.right_material = wanted;
     if (!reference_picture_ || grooves) return looks.right_material;
     if (looks.picture != reference_picture_ || looks.picture_own != looks.own) {
         looks.picture = reference_picture_;

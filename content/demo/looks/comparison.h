@@ -40,6 +40,10 @@ class Comparison {
     LookSubject subject(ecs::Entity grating);
     /// The material that an object shows on a side; the last one while a new one is baked.
     GpuMaterialPointer shown(ecs::Entity grating, Side side);
+    diffraction::GrooveLayout layout(ecs::Entity grating);
+    /// Names the representation that draws an object on a side: "arc (cooked)", "spikes, fine", or, where its mesh
+    /// forces another than the material has, "arc in place of planar".
+    std::string title(ecs::Entity grating, Side side);
     GpuMaterialPointer own(ecs::Entity grating);
     /// A picture (as for GpuPicture) that all gratings show right of the line in place of their looks; null: none.
     /// Gratings whose grooves vary keep their looks.

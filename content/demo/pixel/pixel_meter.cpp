@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 #include <variant>
 
 #include "engine/core/error.h"
 #include "modules/diffraction/runtime/surface_light.h"
+#include "modules/diffraction/runtime/vertex_light.h"
 
 namespace rowland::demo {
 
@@ -40,7 +42,8 @@ struct PixelMeter::Lit {
     PixelProbe source;
     std::optional<diffraction::PointComparer> comparer;
     int key_light_limit = 0;
-    std::shared_ptr<const diffraction::CookedMaterial> windowed;  ///< for which `window` was chosen
+    /// For which `window` was chosen.
+    std::pair<std::shared_ptr<const diffraction::CookedMaterial>, diffraction::GrooveLayout> windowed;
     math::SphericalWindow window = math::SphericalWindow::None;
 
     PixelReading measure(const PixelQuery& query) {
@@ -51,16 +54,15 @@ struct PixelMeter::Lit {
             key_light_limit = probe.key_lights;
             comparer.emplace(std::move(probe.image), probe.key_lights);
             source = query.probe;
-            windowed.reset();
+            windowed = {};
         }
         const int key_lights = std::min(query.cooked->material.quality.key_lights, key_light_limit);
         PixelReading reading{.query = query, .key_lights = key_lights, .point = {}};
         if (query.window) {
             reading.window = *query.window;
-        } else if (const int bands = bands_of(query.cooked->tables); bands > 0) {
-            if (windowed != query.cooked)
+        } else if (const int bands = bands_of(as_drawn(*query.cooked, query.layout).tables); bands > 0) {
+            if (std::exchange(windowed, {query.cooked, query.layout}) != std::pair{query.cooked, query.layout})
                 window = diffraction::weakest_window(comparer->harmonics(key_lights, bands), bands);
-            windowed = query.cooked;
             reading.window = window;
         }
         reading.point = comparer->compare(query.cooked, reading.window, query.frame, query.layout);
@@ -81,13 +83,14 @@ void PixelMeter::poll() {
 
 std::string reading_json(const PixelReading& reading) {
     const auto list = [](const glm::dvec3& v) { return nlohmann::json::array({v.x, v.y, v.z}); };
-    const nlohmann::json json = {{"representation", info(reading.query.cooked->tables).name},
-                                 {"probe", reading.query.probe.path.string()},
-                                 {"key_lights", reading.key_lights},
-                                 {"window", math::window_name(reading.window)},
-                                 {"shown_xyz", list(reading.point.shown)},
-                                 {"reference_xyz", list(reading.point.reference)},
-                                 {"relative_error", reading.point.error}};
+    const nlohmann::json json = {
+        {"representation", drawn_info(reading.query.cooked->tables, reading.query.layout).name},
+        {"probe", reading.query.probe.path.string()},
+        {"key_lights", reading.key_lights},
+        {"window", math::window_name(reading.window)},
+        {"shown_xyz", list(reading.point.shown)},
+        {"reference_xyz", list(reading.point.reference)},
+        {"relative_error", reading.point.error}};
     return json.dump(2) + '\n';
 }
 

@@ -187,9 +187,14 @@ std::optional<glm::vec4> common_tangent(const scene::Mesh& mesh) {
     return agree ? std::optional(first) : std::nullopt;
 }
 
-GrooveLayout groove_layout(const scene::Mesh& mesh) {
-    if (!flat_normal(mesh)) return GrooveLayout::Curved;
-    return common_tangent(mesh) ? GrooveLayout::FlatUniform : GrooveLayout::Flat;
+GrooveLayout groove_layout(const scene::Mesh& mesh, bool skinned, bool has_groove_texture) {
+    if (skinned || !flat_normal(mesh)) return GrooveLayout::Curved;
+    return !has_groove_texture && common_tangent(mesh) ? GrooveLayout::FlatUniform : GrooveLayout::Flat;
+}
+
+const RepresentationInfo& drawn_info(const BakedTables& tables, GrooveLayout layout) {
+    const RepresentationInfo& own = info(tables);
+    return own.needs_flat_surface && layout == GrooveLayout::Curved ? ArcSettings::info() : own;
 }
 
 namespace {

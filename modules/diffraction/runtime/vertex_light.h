@@ -10,7 +10,7 @@
 #include "engine/lighting/sh_light.h"
 #include "engine/math/frame_rotation.h"
 #include "engine/scene/mesh.h"
-#include "modules/diffraction/representations/arc/arc_table.h"
+#include "modules/diffraction/representations/representation.h"
 
 namespace rowland::diffraction {
 
@@ -40,8 +40,10 @@ std::optional<glm::dvec3> flat_normal(const scene::Mesh& mesh);
 /// The tangent of a flat mesh with its bitangent's sign, in object axes, if all its tangents agree.
 std::optional<glm::vec4> common_tangent(const scene::Mesh& mesh);
 
-/// Of a mesh without a groove texture and without skin.
-GrooveLayout groove_layout(const scene::Mesh& mesh);
+/// Of an object with that mesh. A skin may bend it.
+GrooveLayout groove_layout(const scene::Mesh& mesh, bool skinned, bool has_groove_texture);
+/// Of what draws such an object: the stand-in of tables that need a flat surface, on others.
+const RepresentationInfo& drawn_info(const BakedTables& tables, GrooveLayout layout);
 
 /// The vertices' part of an arc table, for many vertices: light_products() in every vertex's tangent frame.
 class ArcProducts {

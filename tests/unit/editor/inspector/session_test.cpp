@@ -162,6 +162,21 @@ TEST_F(SessionTest, MeasuredPricesStayWhileOnlyTheChoiceChanges) {
     EXPECT_FALSE(session_.measurement.prices_are_current());
 }
 
+TEST_F(SessionTest, ThePriceIsOfTheRepresentationThatDrawsTheShapeInView) {
+    document().replace_quality({{"representation", "planar"}, {"map_resolution", 32}});
+    draw_until([&] { return !session_.opened.busy() && session_.view.ready(); });
+    const auto bytes_on = [&](PreviewShape shape, const char* representation, diffraction::SurfaceShape surface) {
+        session_.view.choose_shape(shape);
+        EXPECT_EQ(session_.view.drawn_as()->representation, representation);
+        EXPECT_EQ(session_.view.drawn_as()->surface, surface);
+        return session_.view.drawn_as()->cost.table_bytes;
+    };
+    const std::size_t flat = bytes_on(PreviewShape::Disc, "planar", diffraction::SurfaceShape::Flat);
+    EXPECT_NE(bytes_on(PreviewShape::Sphere, "arc", diffraction::SurfaceShape::Curved), flat);
+    bytes_on(PreviewShape::Sheet, "arc", diffraction::SurfaceShape::Curved);
+    EXPECT_EQ(bytes_on(PreviewShape::Card, "planar", diffraction::SurfaceShape::Flat), flat);
+}
+
 TEST_F(SessionTest, APresetOpensOnTheShapeThatShowsItsColours) {
     session_.open_preset("blu_ray");
     EXPECT_EQ(session_.view.shape(), PreviewShape::Sheet);

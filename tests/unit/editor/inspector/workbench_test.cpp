@@ -106,6 +106,21 @@ TEST(InspectorLayout, APathNeedNotBeUtf8) {
     EXPECT_EQ(load_layout(folder.path() / "layout.json").shape, "disc");
 }
 
+TEST(InspectorLayout, ASmallWindowShowsThePreviewAndALargerOneAfterwardsTheLayoutAsItWas) {
+    const Layout layout;
+    for (const float font : {16.0F, 32.0F})
+        for (const glm::vec2 size : {glm::vec2(800.0F, 450.0F), glm::vec2(1280.0F, 700.0F)}) {
+            const TileSizes sizes = tile_sizes(layout, size, font);
+            EXPECT_GE(size.x - sizes.left - sizes.right, std::min(0.4F * size.x, 28.0F * font));
+            EXPECT_GE(size.y - sizes.below, 0.5F * size.y);
+            EXPECT_GT(std::min(sizes.left, sizes.right), 0.2F * size.x);
+        }
+    const TileSizes large = tile_sizes(layout, {1280.0F, 700.0F}, 16.0F);
+    EXPECT_EQ(large.left, 16.0F * layout.material_width);
+    EXPECT_EQ(large.right, 16.0F * layout.physics_width);
+    EXPECT_EQ(large.below, 16.0F * layout.price_height);
+}
+
 TEST(Plot, TicksAreRoundAndWithinTheAxis) {
     EXPECT_EQ(ticks({380.0, 780.0, ""}, 4), (std::vector<double>{400.0, 500.0, 600.0, 700.0}));
     EXPECT_EQ(ticks({-0.1, 0.1, ""}, 2), (std::vector<double>{-0.1, 0.0, 0.1}));

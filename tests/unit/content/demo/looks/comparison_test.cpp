@@ -1,12 +1,22 @@
 // Looks of gratings, drawn without a window.
 #include "content/demo/looks/comparison.h"
 
+#include <gmock/gmock.h>
+
 #include <chrono>
+#include <filesystem>
+#include <map>
 #include <thread>
 
 #include "engine/lighting/probe_image.h"
+#include "engine/render/surface_textures.h"
+#include "engine/scene/animation.h"
+#include "modules/diffraction/asset/groove_pitches.h"
 #include "modules/diffraction/asset/material.h"
+#include "modules/diffraction/asset/quality.h"
+#include "modules/diffraction/evaluate/point_shader.h"
 #include "modules/diffraction/module.h"
+#include "modules/diffraction/runtime/vertex_light.h"
 #include "tests/gpu/render_test.h"
 
 namespace rowland::demo {
@@ -68,9 +78,98 @@ class ComparisonTest : public test::RenderTest {
 
     static Look coarse_spikes() { return {.representation = "spikes", .detail = Detail::Coarse}; }
 
+    /// The folder of the shader that gives an object its light from the probe, once its maps are filled; empty: none.
+    std::string drawn_by(ecs::Entity grating) {
+        do draw();
+        while (diffraction::maps_are_filling(world_));
+        const auto& state = world_.get<diffraction::SurfaceState>(grating);
+        for (const auto& [name, file] : state.material->program(state).defines)
+            if (name == "PROBE_LIGHT" || name == "VERTEX_LIGHT")
+                return std::filesystem::path(file).parent_path().filename().string();
+        return {};
+    }
+    /// Patches of two directions.
+    static std::shared_ptr<const diffraction::GrooveMap> patches() {
+        image::ByteImage image{.width = 2, .height = 1, .rgba = {0, 128, 0, 255, 90, 128, 0, 255}};
+        scene::ImportedScene scene;
+        scene.images = {std::make_shared<const image::ByteImage>(std::move(image))};
+        scene.textures.resize(1);
+        render::SurfaceTextures textures(scene);
+        return std::make_shared<const diffraction::GrooveMap>(diffraction::GrooveTexture{}, textures, "test", "");
+    }
+
     Comparison comparison_{world_, renderer_.xyz_to_working()};
     ecs::Entity grating_;
 };
+
+TEST_F(ComparisonTest, PanelsNameTheRepresentationThatDrawsWhateverTheMeshForces) {
+    const std::string slit = R"({"pitch_nm": 1600, "orders": [1], "profile": {"type": "slit", "width_nm": 300}})";
+    const std::string narrow = R"({"pitch_nm": 1600, "orders": [1], "groove_lobe": {"sigma": 0.1},
+                                   "profile": {"type": "slit", "width_nm": 300}})";
+    const std::string lattice = R"({"lattice": {"a_nm": [1000, 0], "b_nm": [0, 1000]}, "orders": 1,
+        "profile": {"type": "aperture", "width_nm": 500, "height_nm": 500}})";
+    scene::Mesh bent = square();
+    bent.normals[0] = glm::normalize(glm::vec3(0.1F, 0.0F, 1.0F));
+    scene::Mesh skinned = square();
+    skinned.joints.assign(4, glm::u16vec4(0));
+    skinned.weights.assign(4, {1.0F, 0.0F, 0.0F, 0.0F});
+    const ecs::Entity joint = world_.create();
+    world_.add(joint, scene::WorldMatrix{glm::mat4(1.0F)});
+    struct Object {
+        const char* name;
+        std::string grating;
+        scene::Mesh mesh = square();
+        bool skinned = false;
+        std::shared_ptr<const diffraction::GrooveMap> grooves = nullptr;
+        std::string only{};  ///< representation; empty: all
+    };
+    const Object objects[] = {{"flat", slit},
+                              {"curved", slit, bent},
+                              {"skinned", slit, skinned, true},
+                              {"groove texture", slit, square(), false, patches()},
+                              {"flat, a lobe", narrow, square(), false, nullptr, "streak"},
+                              {"curved, a lobe", narrow, bent, false, nullptr, "streak"},
+                              {"flat lattice", lattice},
+                              {"curved lattice", lattice, bent},
+                              {"skinned lattice", lattice, skinned, true}};
+    std::map<std::string, int> cases;
+    for (const Object& object : objects)
+        for (const auto* info : diffraction::representations()) {
+            if (!object.only.empty() && object.only != info->name) continue;
+            SCOPED_TRACE(std::string(info->name) + ", " + object.name);
+            nlohmann::json quality{{"representation", info->name}, {"key_lights", 4}};
+            // Quick to bake: only the program is looked at.
+            for (const auto& [key, value] : {std::pair("bands", 3), {"rank", 4}, {"spikes", 2}, {"map_resolution", 32}})
+                if (info->find(key) != nullptr) quality[key] = value;
+            const auto grating = nlohmann::json::parse(object.grating);
+            diffraction::Material material = diffraction::parse_material({{"grating", grating}}, "test");
+            const auto suited = diffraction::suited_quality(quality, material.grating);
+            if (!std::holds_alternative<diffraction::Quality>(suited)) continue;
+            material.quality = std::get<diffraction::Quality>(suited);
+            if (object.grooves) {
+                if (groove_refusal(material, object.grooves->pitches())) continue;
+                material = suited_to_grooves(material, object.grooves->pitches());
+            }
+            world_.destroy(grating_);
+            const auto cooked = diffraction::bake_material(material);
+            grating_ = add(scene::Mesh(object.mesh), {.base_colour = glm::vec3(0.0F)});
+            world_.add(grating_, surface_of(cooked));
+            world_.get<diffraction::DiffractionSurface>(grating_).grooves = object.grooves;
+            if (object.skinned) world_.add(grating_, scene::Skin{{joint}, {glm::mat4(1.0F)}});
+            comparison_.update();
+            const std::string drawn = drawn_by(grating_);
+            const std::string expected = drawn.empty() ? "direct" : drawn;
+            const auto layout = comparison_.layout(grating_);
+            EXPECT_EQ(comparison_.title(grating_, Side::Left),
+                      expected + (expected == info->name ? " (cooked)" : std::string(" in place of ") + info->name));
+            EXPECT_EQ(diffraction::drawn_info(cooked.tables, layout).name, expected);
+            EXPECT_EQ(diffraction::info(as_drawn(cooked, layout).tables).name, expected) << "measured and priced";
+            ++cases[expected == info->name ? info->name : "another"];
+        }
+    using testing::Pair;
+    EXPECT_THAT(cases, testing::ElementsAre(Pair("another", 4), Pair("arc", 7), Pair("circle", 3), Pair("direct", 7),
+                                            Pair("planar", 3), Pair("spikes", 6), Pair("streak", 2)));
+}
 
 TEST_F(ComparisonTest, AnotherLookShowsOnceItIsBakedAndTheOldOneUntilThen) {
     const Pixels own = settled();
