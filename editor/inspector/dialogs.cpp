@@ -163,15 +163,29 @@ void Dialogs::ask_unsaved(std::function<void()> action) {
     ask(Kind::Unsaved, {});
 }
 
+void Dialogs::offer_recovery(const std::filesystem::path& unsaved) {
+    ask(Kind::Recovery, unsaved.string());
+}
+
 void Dialogs::draw(ControlMap& controls) {
     draw_overwrite(controls);
-    const char* title = kind_ == Kind::Open ? "Open" : kind_ == Kind::SaveAs ? "Save as" : "Unsaved edits";
+    constexpr std::array kTitles = {"Open", "Save as", "Unsaved edits", "Recovery"};
+    const char* title = kTitles.at(static_cast<std::size_t>(kind_));
     if (std::exchange(asked_, false)) ImGui::OpenPopup(title);
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({screen.x / 2.0F, screen.y / 2.0F}, ImGuiCond_Always, {0.5F, 0.5F});
     if (!ImGui::BeginPopupModal(title, nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings))
         return;
-    kind_ == Kind::Unsaved ? draw_unsaved(controls) : draw_file(controls);
+    switch (kind_) {
+        case Kind::Unsaved:
+            draw_unsaved(controls);
+            break;
+        case Kind::Recovery:
+            draw_recovery(controls);
+            break;
+        default:
+            draw_file(controls);
+    }
     ImGui::EndPopup();
 }
 
@@ -294,6 +308,21 @@ void Dialogs::draw_unsaved(ControlMap& controls) {
     auto action = std::exchange(after_, nullptr);
     if (stays) return;
     saves ? save(std::move(action)) : action();
+}
+
+void Dialogs::draw_recovery(ControlMap& controls) {
+    ImGui::TextUnformatted("The last session ended before its edits were saved. They are in:");
+    ImGui::TextUnformatted(path_.c_str());
+    const bool opens = named_button("Open them", controls);
+    ImGui::SameLine();
+    const bool keeps = named_button("Keep the file", controls) || escape_pressed();
+    ImGui::SameLine();
+    const bool removes = named_button("Delete the file", controls);
+    if (!opens && !keeps && !removes) return;
+    ImGui::CloseCurrentPopup();
+    if (opens) open(path_);
+    std::error_code ignored;
+    if (removes) std::filesystem::remove(path_, ignored);
 }
 
 void Dialogs::draw_overwrite(ControlMap& controls) {

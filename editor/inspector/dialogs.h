@@ -41,7 +41,7 @@ std::filesystem::path resolved(const std::string& typed, const std::filesystem::
 /// lower case. Hidden files are listed if that text begins with a dot. A folder that cannot be read gives no files.
 FileList list_files(const std::string& typed, const std::filesystem::path& folder, FileKind kind);
 
-/// The modal dialogs: open, save as, unsaved edits, overwriting the changes of another program.
+/// The modal dialogs: open, save as, unsaved edits, their recovery, overwriting the changes of another program.
 class Dialogs {
  public:
     /// `layout` holds the files that were opened last.
@@ -55,11 +55,13 @@ class Dialogs {
     void save() { save(nullptr); }
     /// Runs an action that replaces the document; asks first whether to save unsaved edits.
     void ask_unsaved(std::function<void()> action);
+    /// Offers to open the edits of a session that ended before they were saved.
+    void offer_recovery(const std::filesystem::path& unsaved);
 
     void draw(ControlMap& controls);
 
  private:
-    enum class Kind { Open, SaveAs, Unsaved };
+    enum class Kind { Open, SaveAs, Unsaved, Recovery };
 
     void ask(Kind kind, std::string path);
     void ask_save_as(std::function<void()> after);
@@ -71,6 +73,7 @@ class Dialogs {
     void draw_recent(ControlMap& controls);
     void choose(const std::filesystem::path& path);
     void draw_unsaved(ControlMap& controls);
+    void draw_recovery(ControlMap& controls);
     void draw_overwrite(ControlMap& controls);
 
     Session& session_;

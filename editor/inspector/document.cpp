@@ -174,6 +174,7 @@ void Document::redo() {
 void Document::set(std::size_t material, const Json& json) {
     chosen_ = material;
     editing_ = nullptr;
+    ++revision_;
     slots_[material].json = json;
     reparse(slots_[material]);
 }
@@ -274,11 +275,12 @@ void Document::write_copy(const std::filesystem::path& path, const std::filesyst
         write_file_atomic(path, format_json(moved(json(), folder_, folder)));
 }
 
-std::optional<std::filesystem::path> Document::rescue() const {
+std::optional<std::filesystem::path> Document::rescue(const std::optional<std::filesystem::path>& earlier) const {
     if (!dirty() || steps_.empty()) return std::nullopt;
     const std::string extension = file_ ? path_.extension().string() : ".json";
     const auto write_into = [&](const std::filesystem::path& folder) {
-        std::filesystem::path file = unsaved_file(folder, name_, extension);
+        std::filesystem::path file =
+            earlier && earlier->parent_path() == folder ? *earlier : unsaved_file(folder, name_, extension);
         write_copy(file, folder);
         return file;
     };
@@ -287,6 +289,30 @@ std::optional<std::filesystem::path> Document::rescue() const {
     } catch (const Error&) {
         return write_into(std::filesystem::temp_directory_path());
     }
+}
+
+bool Autosave::update(const Document& document, std::size_t replacements, Clock::time_point now) {
+    constexpr std::chrono::minutes kDelay(1);
+    const bool had_file = file_.has_value();
+    if (std::exchange(replacements_, replacements) != replacements || !document.dirty() || !document.can_undo()) {
+        discard();
+        return had_file;
+    }
+    if (written_ == document.revision()) return false;
+    if (!due_) due_ = now + kDelay;
+    if (now < *due_) return false;
+    due_.reset();
+    written_ = document.revision();
+    write(document);
+    return !had_file;
+}
+
+void Autosave::discard() {
+    std::error_code ignored;
+    if (file_) std::filesystem::remove(*file_, ignored);
+    file_.reset();
+    due_.reset();
+    written_ = 0;
 }
 
 }  // namespace rowland::inspector

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
@@ -147,8 +148,10 @@ class Document {
     void save_as(const std::filesystem::path& path);
     /// Writes unsaved edits, refused or not, to a new file when the program must end: cd.unsaved.json beside cd.json;
     /// for a new material into the current folder; into the temporary folder if that fails. Returns nullopt if there
-    /// are no edits. Throws Error (system).
-    std::optional<std::filesystem::path> rescue() const;
+    /// are no edits. `earlier`: of an earlier call, which is replaced. Throws Error (system).
+    std::optional<std::filesystem::path> rescue(const std::optional<std::filesystem::path>& earlier = {}) const;
+    /// Another number after each edit, undo or redo.
+    std::size_t revision() const { return revision_; }
 
  private:
     /// A material and its state.
@@ -180,13 +183,36 @@ class Document {
     std::vector<Slot> slots_;
     std::size_t chosen_ = 0;
     std::vector<Step> steps_;
-    std::size_t at_ = 0;              ///< steps that are done; later ones are undone
+    std::size_t at_ = 0;  ///< steps that are done; later ones are undone
+    std::size_t revision_ = 0;
     const Field* editing_ = nullptr;  ///< further edits of this field change the last step
     std::filesystem::path path_;
     std::string name_;
     std::filesystem::path folder_;
     std::optional<scene::EditableGltf> file_;  ///< of a scene, as last saved
     NewTextures new_textures_;
+};
+
+/// Writes unsaved edits to a file of their own, a minute after the first that it does not hold, and removes the file
+/// once nothing is unsaved.
+class Autosave {
+ public:
+    using Clock = std::chrono::steady_clock;
+
+    /// Call it often. `replacements`: how many documents there were before this one. Returns whether file() changed.
+    /// Throws Error (system).
+    bool update(const Document& document, std::size_t replacements, Clock::time_point now);
+    /// Writes the edits at once. Throws Error (system).
+    void write(const Document& document) { file_ = document.rescue(file_); }
+    /// Removes the file.
+    void discard();
+    const std::optional<std::filesystem::path>& file() const { return file_; }
+
+ private:
+    std::optional<std::filesystem::path> file_;
+    std::optional<Clock::time_point> due_;
+    std::size_t replacements_ = 0;
+    std::size_t written_ = 0;  ///< Document::revision()
 };
 
 }  // namespace rowland::inspector

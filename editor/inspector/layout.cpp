@@ -53,6 +53,7 @@ Layout load_layout(const std::filesystem::path& path) {
         layout.stage.lamp = json.value("lamp", false);
         layout.shape = json.value("shape", layout.shape);
         layout.light = json.value("light", layout.light);
+        layout.unsaved = json.value("unsaved", layout.unsaved);
         layout.recent = json.value("recent", layout.recent);
     } catch (const std::exception& error) {
         log_warning("{}: using the default layout: {}", path.string(), error.what());
@@ -61,8 +62,11 @@ Layout load_layout(const std::filesystem::path& path) {
 }
 
 void save_layout(const Layout& layout, const std::filesystem::path& path) {
-    Json json = {
-        {"shape", layout.shape}, {"light", layout.light}, {"recent", layout.recent}, {"lamp", layout.stage.lamp}};
+    Json json = {{"shape", layout.shape},
+                 {"light", layout.light},
+                 {"unsaved", layout.unsaved},
+                 {"recent", layout.recent},
+                 {"lamp", layout.stage.lamp}};
     visit_numbers(layout, [&](const char* key, auto value, auto, auto) { json[key] = value; });
     // A path need not be UTF-8.
     write_file_atomic(path, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");

@@ -20,6 +20,7 @@ struct Layout {
     std::string shape = "disc";
     std::vector<std::string> recent{};  ///< absolute paths of files that were opened or saved, newest first
     std::string light;                  ///< path of the last probe; empty: the first shipped one
+    std::string unsaved{};              ///< path of edits that no other file holds; empty: none
     Stage stage{};
 };
 

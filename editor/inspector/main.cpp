@@ -269,6 +269,9 @@ class Program {
           session_(config, {.content_folder = options.content_folder, .probe_mapping = options.probe_mapping}),
           window_frame_(options, config, session_, layout_) {
         start_session(session_, options, layout_);
+        std::error_code ignored;
+        const std::filesystem::path unsaved = std::exchange(layout_.unsaved, {});
+        if (std::filesystem::is_regular_file(unsaved, ignored)) window_frame_.workbench().offer_recovery(unsaved);
     }
 
     void run() {
@@ -279,6 +282,7 @@ class Program {
             rescue();
             throw;
         }
+        autosave_.discard();
         store_layout();
         report("frames", loop_.times());
         report("frames of drags", drag_times_);
@@ -298,6 +302,7 @@ class Program {
         }
         if (window_frame_.workbench().closed()) return app::Next::End;
         const bool results = session_.update();
+        autosave();
         const bool used = frame.woken || !frame.dropped.empty() || input_.any_down() || frame.pixels != drawn_pixels_ ||
                           std::ranges::any_of(frame.events, is_of_user);
         return redraw_.next(used || results || session_.view.changes() || window_frame_.workbench().due(),
@@ -312,9 +317,18 @@ class Program {
             .show_in_window();
     }
 
-    void rescue() const {
+    void autosave() {
+        session_.messages.attempt([&] {
+            if (autosave_.update(session_.opened.document(), session_.opened.replacements(), Autosave::Clock::now()))
+                store_layout();
+        });
+    }
+
+    void rescue() {
         try {
-            if (const auto file = session_.opened.document().rescue())
+            autosave_.write(session_.opened.document());
+            store_layout();
+            if (const auto& file = autosave_.file())
                 log_warning("{}: holds the edits that were not saved", file->string());
         } catch (const std::exception& error) {
             log_warning("edits are lost: {}", error.what());
@@ -333,6 +347,7 @@ class Program {
         layout_.height = loop_.window().size().y;
         layout_.stage = session_.view.stage;
         layout_.shape = preview_shape_name(session_.view.shape());
+        layout_.unsaved = autosave_.file() ? std::filesystem::absolute(*autosave_.file()).string() : std::string();
         if (const auto light = session_.light.current())
             layout_.light = std::filesystem::absolute(light->path).string();
         try {
@@ -347,6 +362,7 @@ class Program {
     app::WindowLoop loop_;
     Session session_;
     WindowFrame window_frame_;
+    Autosave autosave_;
     platform::InputState input_;
     platform::FrameTimes drag_times_;  ///< with the mouse button down
     bool dragged_ = false;             ///< in the last frame

@@ -125,6 +125,10 @@ void Framebuffer::resolve_to(const Framebuffer& target) const {
 }
 
 void Framebuffer::show_in_window() const {
+    bind_framebuffer(0);
+    // Mesa's software renderer asks for a window's size when a viewport is set while its framebuffer is bound.
+    bound_state().changes(BoundState::Slot::Viewport, 0, {size_.x, size_.y});
+    glViewport(0, 0, size_.x, size_.y);
     glBlitNamedFramebuffer(id(), 0, 0, 0, size_.x, size_.y, 0, 0, size_.x, size_.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 

@@ -1,8 +1,13 @@
 // drop_files WINDOW FILE...
-// Drops files onto the middle of an X11 window as a file manager does: an XDND source, version 5
-// [freedesktop.org, "Drag-and-Drop Protocol for the X Window System"].
+// drop_files --die WINDOW
+// drop_files --pixel WINDOW X Y
+// The second exits in the middle of the drag, before the window can answer; the third prints what the screen shows. The
+// first drops files onto the middle of an
+// X11 window as a file manager does: an XDND source, version 5 [freedesktop.org, "Drag-and-Drop Protocol for the X
+// Window System"].
 #include <X11/Xatom.h>
 #include <X11/Xlib.h>
+#include <X11/Xutil.h>
 #include <poll.h>
 
 #include <array>
@@ -27,10 +32,14 @@ class Source {
         XSetSelectionOwner(display_, atom("XdndSelection"), window_, CurrentTime);
     }
 
-    /// Whether the window took the files.
-    bool drop() {
+    void enter() {
         send("XdndEnter", {source(), kVersion << 24, static_cast<long>(atom("text/uri-list")), 0, 0});
         send("XdndPosition", {source(), 0, middle(), CurrentTime, static_cast<long>(atom("XdndActionCopy"))});
+    }
+
+    /// Whether the window took the files.
+    bool drop() {
+        enter();
         if ((wait_for("XdndStatus").data.l[1] & 1) == 0) return false;
         send("XdndDrop", {source(), 0, CurrentTime, 0, 0});
         return wait_for("XdndFinished").data.l[1] != 0;
@@ -102,9 +111,11 @@ class Source {
 
 int main(int count, char** arguments) {
     if (count < 3) {
-        std::fprintf(stderr, "usage: drop_files WINDOW FILE...\n");
+        std::fprintf(stderr, "usage: drop_files WINDOW FILE... | --die WINDOW | --pixel WINDOW X Y\n");
         return 2;
     }
+    const bool dies = arguments[1] == std::string("--die");
+    const bool looks = count == 5 && arguments[1] == std::string("--pixel");
     std::string uris;
     for (int i = 2; i < count; ++i) uris += "file://" + std::filesystem::absolute(arguments[i]).string() + "\r\n";
     const std::unique_ptr<Display, int (*)(Display*)> display(XOpenDisplay(nullptr), XCloseDisplay);
@@ -112,6 +123,18 @@ int main(int count, char** arguments) {
         std::fprintf(stderr, "drop_files: no display\n");
         return 1;
     }
-    Source source(display.get(), std::strtoul(arguments[1], nullptr, 0), uris);
-    return source.drop() ? 0 : 1;
+    if (looks) {
+        XImage* image = XGetImage(display.get(), std::strtoul(arguments[2], nullptr, 0), std::atoi(arguments[3]),
+                                  std::atoi(arguments[4]), 1, 1, AllPlanes, ZPixmap);
+        std::printf("%06lx", XGetPixel(image, 0, 0) & 0xffffff);
+        XDestroyImage(image);
+        return 0;
+    }
+    Source source(display.get(), std::strtoul(arguments[dies ? 2 : 1], nullptr, 0), uris);
+    if (!dies) return source.drop() ? 0 : 1;
+    // No other client is served before the server has removed what this one leaves.
+    XGrabServer(display.get());
+    source.enter();
+    XSync(display.get(), False);
+    return 0;
 }

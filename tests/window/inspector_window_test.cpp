@@ -236,6 +236,12 @@ TEST_F(InspectorWindow, AFileIsChosenByClicksAndEditsAreSavedOnTheWayAndOutliveA
     EXPECT_EQ(diffraction::load_material(path("folder/first.unsaved.json")).grating.pitch_nm, 800);
     EXPECT_EQ(json::parse(read_text_file(path("folder/first.unsaved.json"), 1 << 20)), typed);
     EXPECT_EQ(read_text_file(path("folder/first.json"), 1 << 20), saved);
+
+    InspectorUser next(folder_.path(), {path("folder/first.json"), "--probe", path("sky.json")});
+    next.facts();  // a dialog finds its position in its first frames
+    next.click("button Open them");
+    next.wait_for("document", "first.unsaved.json");
+    EXPECT_EQ(material(next.facts()), typed);
 }
 
 TEST_F(InspectorWindow, RefusedInputIsSaidNothingIsLostAndAFilmsFiguresFollowItsFields) {

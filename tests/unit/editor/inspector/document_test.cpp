@@ -235,6 +235,33 @@ TEST_F(DocumentTest, EditsAreRescuedToANewFile) {
     EXPECT_EQ(Document::open_as_new(path("cd.json")).rescue(), std::nullopt) << "the start of a new material";
 }
 
+TEST_F(DocumentTest, EditsAreInAFileOfTheirOwnAMinuteLaterAndNotOnceTheyAreSaved) {
+    using namespace std::chrono_literals;
+    Autosave autosave;
+    Document document = opened();
+    Autosave::Clock::time_point now{};
+    EXPECT_FALSE(autosave.update(document, 1, now));
+    const auto pitch_after = [&](int pitch_nm, std::chrono::seconds wait) {
+        document.set_value(pitch(), pitch_nm);
+        autosave.update(document, 1, now);
+        autosave.update(document, 1, now += wait);
+        std::error_code none;
+        if (!std::filesystem::exists(path("cd.unsaved.json"), none)) return 0;
+        return Document::open(path("cd.unsaved.json")).json()["grating"]["pitch_nm"].get<int>();
+    };
+    EXPECT_EQ(pitch_after(900, 59s), 0);
+    EXPECT_EQ(pitch_after(910, 1s), 910) << "a minute after the first edit";
+    EXPECT_EQ(pitch_after(920, 59s), 910);
+    EXPECT_EQ(pitch_after(930, 1s), 930) << "in the same file";
+    EXPECT_FALSE(std::filesystem::exists(path("cd.unsaved-2.json")));
+    document.save();
+    EXPECT_TRUE(autosave.update(document, 1, now));
+    EXPECT_FALSE(std::filesystem::exists(path("cd.unsaved.json")));
+    EXPECT_EQ(pitch_after(940, 60s), 940);
+    EXPECT_TRUE(autosave.update(document, 2, now)) << "another document";
+    EXPECT_FALSE(std::filesystem::exists(path("cd.unsaved.json")));
+}
+
 TEST_F(DocumentTest, EditsAreRescuedIfTheFolderWasRemoved) {
     std::filesystem::create_directory(path("here"));
     std::filesystem::copy_file(kMaterials / "cd.json", path("here/cd.json"));

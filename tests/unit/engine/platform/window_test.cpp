@@ -15,9 +15,11 @@
 #include <thread>
 #include <vector>
 
+#include "engine/gpu/framebuffer.h"
 #include "engine/platform/gl_context.h"
 #include "engine/platform/window.h"
 #include "tests/support/expect.h"
+#include "tests/support/program.h"
 
 // Needs a display (on_virtual_display.cpp) and xdotool, which moves the pointer and the keys as the server's own
 // devices do.
@@ -54,8 +56,26 @@ Pixel cleared_corner(Window& window, float red, float green, float blue) {
     return pixel;
 }
 
+/// The X server's number of a window.
+std::string number_of(const std::string& title) {
+    const std::string found =
+        test::run({"/usr/bin/env", "xdotool", "search", "--sync", "--name", "^" + title + "$"}).out;
+    return found.substr(0, found.find('\n'));
+}
+
 TEST(Window, DisplayIsAvailable) {
     EXPECT_TRUE(display_available());
+}
+
+TEST(Window, OutlivesASourceOfADragThatExitsBeforeItIsAnswered) {
+    Window window({.title = "outlives", .size = {64, 64}});
+    InputState input;
+    window.poll(input);
+    ASSERT_EQ(test::run({ROWLAND_DROP_FILES, "--die", number_of("outlives")}).code, 0);
+    testing::internal::CaptureStderr();
+    window.poll(input);  // answers a window that is gone
+    window.position();   // waits for the server
+    EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("the X server refused request"));
 }
 
 TEST(Window, HasADebugContextOfOpenGl45Core) {
@@ -91,6 +111,32 @@ TEST(Window, ShowsTheClearColourToItsLastCornerBeforeAndAfterResize) {
     window.swap();  // the driver takes over the new size with the next frame
     EXPECT_EQ(cleared_corner(window, 0.0F, 1.0F, 0.4F), (Pixel{0, 255, 102, 255}));
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+}
+
+TEST(Window, APictureFillsItsWindowOnTheScreenAfterEachResize) {
+    Window window({.title = "resized", .size = {200, 120}});
+    window.swap();
+    const std::string number = number_of("resized");
+    const auto pixel = [&](int x, int y) {
+        return test::run({ROWLAND_DROP_FILES, "--pixel", number, std::to_string(x), std::to_string(y)}).out;
+    };
+    for (const glm::ivec2 size : {glm::ivec2(320, 240), {160, 100}}) {
+        window.resize(size);
+        ASSERT_TRUE(poll_until(window, [&] { return window.framebuffer_size() == size; }));
+        const gpu::Framebuffer picture({.width = size.x, .height = size.y, .colours = {gpu::Format::RGBA8}});
+        picture.bind();
+        picture.clear({0.0F, 1.0F, 0.0F, 1.0F});
+        const std::array<std::uint8_t, 4> red{255, 0, 0, 255};
+        glClearTexSubImage(picture.colour().id(), 0, 0, size.y - 1, 0, 1, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, red.data());
+        // The software renderer takes over the new size with a frame.
+        for (int frame = 0; frame < 2; ++frame) {
+            picture.show_in_window();
+            window.swap();
+        }
+        window.position();  // waits for the server
+        EXPECT_EQ(pixel(0, 0), "ff0000") << size.x;
+        EXPECT_EQ(pixel(size.x - 1, size.y - 1), "00ff00") << size.x;
+    }
 }
 
 TEST(Window, FullScreenFillsTheMonitorAndComesBackToItsPlace) {
