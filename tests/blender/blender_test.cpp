@@ -46,7 +46,7 @@ TEST(BlenderAddOn, GratingsSurviveExportAndImportAndAreWhatAttachMakes) {
     ASSERT_EQ(blender.code, 0) << blender.out << blender.err;
 
     const test::Ended checked =
-        test::run({ROWLAND_COOK, "check", path("scene.glb"), path("scene.gltf"), path("again.glb")});
+        test::run({ROWLAND_COOK, "check", path("scene.glb"), path("scene.gltf"), path("again.glb"), path("screen.glb")});
     EXPECT_EQ(checked.code, 0) << checked.err;
     const test::Ended valid = test::run(
         {"/usr/bin/env", "node", test::source_path("tests/unit/engine/scene/validate_gltf.cjs"), path("scene.glb")});

@@ -55,6 +55,82 @@ def gratings():
     return {material.name: material.rowland.object() for material in bpy.data.materials if material.rowland.text}
 
 
+class DrawnLayout:
+    """Reads what a panel shows, as Blender does in each redraw."""
+
+    def __init__(self):
+        self.shown = []
+
+    def prop(self, fields, name):
+        getattr(fields, name)
+        self.shown.append(name)
+
+    def label(self, text):
+        self.shown.append(text)
+
+    def template_ID(self, _fields, name, **_more):
+        self.shown.append(name)
+
+    def row(self):
+        return self
+
+    def operator(self, *_more, **_names):
+        return self
+
+    operator_menu_enum = operator
+
+
+def draw_panel(material):
+    from rowland_diffraction import panel
+
+    drawn = DrawnLayout()
+    with bpy.context.temp_override(material=material):
+        panel.ROWLAND_PT_grating.draw(type("Panel", (), {"layout": drawn}), bpy.context)
+    return drawn.shown
+
+
+def check_lattice(material):
+    give_preset(material, "phone_screen")
+    preset = material.rowland.object()
+    shown = draw_panel(material)
+    expect([name for name in ("Lattice of 50000 x 50000 nm", "width_nm", "orders") if name not in shown], [], "shown")
+    expect([name for name in ("pitch_nm", "profile", "lobe", "groove_image") if name in shown], [], "not of a lattice")
+    expect(material.rowland.object(), preset, "a lattice that was only drawn")
+    material.rowland.width_nm = 20000
+    material.rowland.orders = "8"
+    expect(material.rowland.object()["grating"]["profile"]["width_nm"], 20000, "the opening's width")
+    expect(material.rowland.object()["grating"]["orders"], 8, "a lattice's orders")
+
+
+def check_orders(fields):
+    fields.pitch_nm = 5000
+    expect(fields.object()["grating"]["orders"], "all", "orders that nobody chose")
+    fields.orders = "1, -1"
+    fields.pitch_nm = 900
+    expect(fields.object()["grating"]["orders"], [-1, 1], "orders that were typed")
+    fields.orders = "one"
+    expect(fields.orders, "-1 1", "text that is no order")
+
+
+def check_show():
+    """What the demo gets: the camera, and meshes as their modifiers leave them."""
+    from rowland_diffraction import panel, rowland_folder
+
+    bpy.ops.object.camera_add(location=(0, 0, 5))
+    bpy.ops.mesh.primitive_plane_add()
+    bpy.context.object.modifiers.new("Subdivision", "SUBSURF").levels = 2
+    started = []
+    panel.subprocess.Popen = started.append
+    rowland_folder.find_program = lambda name: name
+    bpy.ops.rowland.show(program="demo")
+    expect(started[0][:2], ["rowland-demo", "--scene"], "the program")
+    data = Path(started[0][2]).read_bytes()
+    gltf = json.loads(data[20:20 + int.from_bytes(data[12:16], "little")])
+    expect(len(gltf.get("cameras", [])), 1, "cameras")
+    most = max(gltf["accessors"][mesh["primitives"][0]["attributes"]["POSITION"]]["count"] for mesh in gltf["meshes"])
+    expect(most > 4, True, "a modifier's vertices")
+
+
 def edit_by_panel(fields):
     """What the panel's fields do to the object."""
     fields.lines_per_mm = 1000
@@ -125,3 +201,13 @@ for name in ("scene.glb", "scene.gltf"):
         bpy.ops.rowland.remove()
     expect("Foil" in gratings(), False, "a grating that was removed")
 export("again.glb")
+
+bpy.ops.wm.read_factory_settings(use_empty=True)
+bpy.ops.preferences.addon_enable(module="rowland_diffraction")
+check_lattice(add_disc("Screen"))
+disc = add_disc("Disc")
+give_preset(disc, "dvd")
+expect("pitch_nm" in draw_panel(disc), True, "a grating of grooves is shown")
+check_orders(disc.rowland)
+export("screen.glb")
+check_show()

@@ -148,6 +148,7 @@ class glTF2ImportUserExtension:
         folder = os.path.dirname(os.path.abspath(gltf.filename))
         grating.move_files(value, lambda name: os.path.normpath(os.path.join(folder, name)))
         fields = blender_material.rowland
+        fields.orders_chosen = grating.value_at(value, ("grating", "orders")) is not None
         if "grooveTexture" in value:
             index = value["grooveTexture"].pop("index")
             fields.groove_image = imported_image(gltf, index)

@@ -83,6 +83,49 @@ def set_value(grating, path, value):
         grating[path[-1]] = value
 
 
+def is_lattice(grating):
+    return value_at(grating, ("grating", "lattice")) is not None
+
+
+def cell_text(grating):
+    """The sides of a lattice's cell."""
+    sides = [math.hypot(*grating["grating"]["lattice"][side]) for side in ("a_nm", "b_nm")]
+    return "Lattice of {:g} x {:g} nm".format(*sides)
+
+
+def lattice_fields(grating):
+    """The numbers of a lattice's profile that the panel shows."""
+    profile = grating["grating"]["profile"]
+    return [name for name in ("width_nm", "height_nm", "depth_nm") if name in profile]
+
+
+def set_pitch(grating, pitch_nm, keeps_orders):
+    """Orders that nobody chose become all that the pitch has."""
+    set_value(grating, ("grating", "pitch_nm"), pitch_nm)
+    if not keeps_orders:
+        grating["grating"]["orders"] = "all"
+
+
+def orders_text(grating):
+    orders = value_at(grating, ("grating", "orders"), [-2, -1, 1, 2])
+    return " ".join(map(str, orders)) if isinstance(orders, list) else str(orders)
+
+
+def set_orders(grating, text):
+    """Text that is neither "all" nor whole numbers changes nothing."""
+    if text.strip() == "all" and not is_lattice(grating):
+        grating["grating"]["orders"] = "all"
+        return
+    try:
+        orders = sorted({int(word) for word in text.replace(",", " ").split()})
+    except ValueError:
+        return
+    if is_lattice(grating):
+        grating["grating"]["orders"] = min(max(orders[-1], 1), 50) if orders else 1
+    elif orders:
+        grating["grating"]["orders"] = orders
+
+
 def lobe_kind(grating):
     lobe = value_at(grating, ("grating", "groove_lobe"), "flat")
     return lobe if isinstance(lobe, str) else next(iter(lobe))
@@ -124,6 +167,8 @@ def viewport_colour(grating):
     metal = METAL_COLOURS.get(grating.get("metal"), (0.95, 0.95, 0.95))
     tint = value_at(grating, ("cover", "tint"), (1, 1, 1))
     pitch = value_at(grating, ("grating", "pitch_nm"), 1600)
+    if is_lattice(grating):
+        pitch = math.hypot(*grating["grating"]["lattice"]["a_nm"])
     order = max(1, round(pitch / 550))
     spectral = spectral_colour(pitch / order) if 380 <= pitch / order <= 780 else (1, 1, 1)
     return tuple(m * t * (1 + s) / 2 for m, t, s in zip(metal, tint, spectral))

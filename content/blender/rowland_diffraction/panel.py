@@ -30,6 +30,7 @@ class ROWLAND_OT_preset(bpy.types.Operator):
         return context.material is not None
 
     def execute(self, context):
+        context.material.rowland.orders_chosen = False
         context.material.rowland.replace(grating.from_preset(self.file))
         return {"FINISHED"}
 
@@ -52,7 +53,7 @@ class ROWLAND_OT_remove(bpy.types.Operator):
 
 
 class ROWLAND_OT_show(bpy.types.Operator):
-    """Export the scene to a temporary GLB and open it in Rowland"""
+    """Export the scene, its modifiers applied, to a temporary GLB and open it in Rowland, seen by its camera"""
 
     bl_idname = "rowland.show"
     bl_label = "Show"
@@ -65,7 +66,8 @@ class ROWLAND_OT_show(bpy.types.Operator):
             self.report({"ERROR"}, f"rowland-{self.program} is not built: run ./rowland in {rowland_folder.FOLDER}")
             return {"CANCELLED"}
         file = Path(tempfile.mkdtemp(prefix="rowland-")) / "scene.glb"
-        bpy.ops.export_scene.gltf(filepath=str(file), export_format="GLB", export_tangents=True)
+        bpy.ops.export_scene.gltf(filepath=str(file), export_format="GLB", export_tangents=True, export_apply=True,
+                                  export_cameras=True)
         subprocess.Popen([program, *(["--scene"] if self.program == "demo" else []), str(file)])
         return {"FINISHED"}
 
@@ -90,16 +92,23 @@ class ROWLAND_PT_grating(bpy.types.Panel):
         row.operator(ROWLAND_OT_remove.bl_idname, text="", icon="X")
         if not fields.text:
             return
-        names = ["pitch_nm", "lines_per_mm", "profile", *grating.PROFILES[fields.profile]]
-        names += ["lobe", *LOBE_FIELDS[fields.lobe], "groove_rotation"]
-        table = fields.profile == "table"
+        value = fields.object()
+        table = False
+        if grating.is_lattice(value):
+            layout.label(text=grating.cell_text(value))
+            names = [*grating.lattice_fields(value), "orders", "groove_rotation"]
+        else:
+            names = ["pitch_nm", "lines_per_mm", "orders", "profile", *grating.PROFILES[fields.profile]]
+            names += ["lobe", *LOBE_FIELDS[fields.lobe], "groove_rotation"]
+            table = fields.profile == "table"
         names += ["transmits"] + (["transmission_ior", "transmission_reflectance"] if fields.transmits else [])
         names += [] if table or fields.transmits else ["metal"]
         names += [] if fields.transmits else ["covered"] + (["cover_ior"] if fields.covered else [])
         names += ["cover_tint"] if fields.covered and not table else []
         for name in names:
             layout.prop(fields, name)
-        layout.template_ID(fields, "groove_image", new="image.new", open="image.open", text="Groove image")
+        if not grating.is_lattice(value):
+            layout.template_ID(fields, "groove_image", new="image.new", open="image.open", text="Groove image")
         row = layout.row()
         for program in ("demo", "inspector"):
             row.operator(ROWLAND_OT_show.bl_idname, text=f"Open in the {program}").program = program

@@ -29,12 +29,12 @@ def limits(schema):
     return known
 
 
-def number(path, name, schema=None, otherwise=0.0, **more):
+def number(path, name, schema=None, otherwise=0.0, change=None, **more):
     known = limits(schema or {})
 
     def set_(self, value):  # Blender does not apply min and max to values that scripts set
         value = min(max(rounded(value), known.get("min", value)), known.get("max", value))
-        self.change(grating.set_value, path, value)
+        change(self, value) if change else self.change(grating.set_value, path, value)
 
     return bpy.props.FloatProperty(
         name=name, get=lambda self: grating.value_at(self.object(), path, otherwise), set=set_, **known, **more)
@@ -71,16 +71,25 @@ class RowlandGrating(bpy.types.PropertyGroup):
         name="Groove image", type=bpy.types.Image, update=update_image,
         description="Red: rotation of the grooves / 180 degrees; green: pitch / 2; 0: no grating")
 
-    pitch_nm: number(("grating", "pitch_nm"), "Pitch (nm)", grating.GROOVES["pitch_nm"], precision=3)
+    orders_chosen: bpy.props.BoolProperty(name="Orders chosen", description="The orders stay when the pitch changes")
+
+    pitch_nm: number(
+        ("grating", "pitch_nm"), "Pitch (nm)", grating.GROOVES["pitch_nm"], precision=3,
+        change=lambda self, value: self.change(grating.set_pitch, value, self.orders_chosen))
     lines_per_mm: bpy.props.FloatProperty(
         name="Lines per mm", min=0.1, max=1e6, precision=3,
         get=lambda self: 1e6 / grating.value_at(self.object(), ("grating", "pitch_nm"), 1600),
-        set=lambda self, value: self.change(grating.set_value, ("grating", "pitch_nm"), rounded(1e6 / value)))
+        set=lambda self, value: self.change(grating.set_pitch, rounded(1e6 / value), self.orders_chosen))
+    orders: bpy.props.StringProperty(
+        name="Orders", description='Whole numbers, or "all"; of a lattice the largest. They follow the pitch until they '
+        "are typed",
+        get=lambda self: grating.orders_text(self.object()), set=lambda self, value: self.choose_orders(value))
     profile: choice(
         "Profile", list(grating.PROFILES), lambda o: grating.value_at(o, ("grating", "profile", "type"), "slit"),
         grating.set_profile_kind)
-    width_nm: number(("grating", "profile", "width_nm"), "Slit width (nm)", MEMBERS["width_nm"])
+    width_nm: number(("grating", "profile", "width_nm"), "Width (nm)", MEMBERS["width_nm"])
     duty: number(("grating", "profile", "duty"), "Duty", MEMBERS["duty"], precision=3)
+    height_nm: number(("grating", "profile", "height_nm"), "Opening's height (nm)", MEMBERS["width_nm"])
     depth_nm: number(("grating", "profile", "depth_nm"), "Depth (nm)", MEMBERS["depth_nm"])
     file: bpy.props.StringProperty(
         name="Efficiencies", subtype="FILE_PATH",
@@ -124,6 +133,10 @@ class RowlandGrating(bpy.types.PropertyGroup):
         changed = self.object()
         function(changed, *arguments)
         self.replace(changed)
+
+    def choose_orders(self, text):
+        self.orders_chosen = True
+        self.change(grating.set_orders, text)
 
     def replace(self, new_object):
         """Sets the object and the viewport's colour. Without nodes that colour would be exported as the surface."""
