@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 
 #include "engine/core/check.h"
 #include "engine/core/json_reader.h"
@@ -230,6 +231,18 @@ Json with_choice(const Json& material, const Field& field, const std::string& na
 
 Json reverted(const Json& material, const Field& field) {
     return with_value(material, field, field.required ? field.default_value : Json());
+}
+
+double shown_number(const Field& field, double stored) {
+    return field.unit == "rad" ? stored * 180.0 / std::numbers::pi : stored;
+}
+
+double stored_number(const Field& field, double shown) {
+    return field.unit == "rad" ? shown * std::numbers::pi / 180.0 : shown;
+}
+
+std::string shown_unit(const Field& field) {
+    return field.unit == "rad" ? "°" : field.unit;
 }
 
 Json parse_orders(std::string_view text) {

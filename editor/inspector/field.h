@@ -97,6 +97,12 @@ Json with_choice(const Json& material, const Field& field, const std::string& na
 /// Sets the field to its default.
 Json reverted(const Json& material, const Field& field);
 
+/// The number that a control shows for one of the file, and its inverse: degrees for radians, others as they are.
+double shown_number(const Field& field, double stored);
+double stored_number(const Field& field, double shown);
+/// "°" for radians, others as they are.
+std::string shown_unit(const Field& field);
+
 /// "-2 -1, 1 2" or "all" as the value of an Orders field; other text is returned unchanged; the parser refuses it.
 Json parse_orders(std::string_view text);
 std::string format_orders(const Json& orders);

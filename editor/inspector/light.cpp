@@ -34,9 +34,12 @@ void LightChoice::choose_mapping(const std::string& mapping) {
 std::vector<std::filesystem::path> LightChoice::shipped() const {
     std::vector<std::filesystem::path> result;
     std::error_code ignored;
-    for (const auto& entry : std::filesystem::directory_iterator(folder_, ignored))
-        if (entry.path().extension() == ".json") result.push_back(entry.path());
-    std::ranges::sort(result);
+    for (const std::filesystem::path& folder : folders_) {
+        const auto before = static_cast<std::ptrdiff_t>(result.size());
+        for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
+            if (entry.path().extension() == ".json") result.push_back(entry.path());
+        std::sort(result.begin() + before, result.end());
+    }
     return result;
 }
 

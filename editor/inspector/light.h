@@ -39,14 +39,14 @@ class LightChoice {
  public:
     using Light = std::shared_ptr<const InspectedLight>;
 
-    /// `folder` holds the shipped probes. `mapping` of images: "auto", "equirect" or "angular".
-    LightChoice(std::filesystem::path folder, std::string mapping, Messages& messages)
-        : folder_(std::move(folder)), mapping_(std::move(mapping)), messages_(messages) {}
+    /// `folders` hold the shipped probes. `mapping` of images: "auto", "equirect" or "angular".
+    LightChoice(std::vector<std::filesystem::path> folders, std::string mapping, Messages& messages)
+        : folders_(std::move(folders)), mapping_(std::move(mapping)), messages_(messages) {}
 
     void choose(const std::filesystem::path& path);
     void choose_mapping(const std::string& mapping);
     const std::string& mapping() const { return mapping_; }
-    /// The shipped probe recipes.
+    /// The shipped probe recipes, folder by folder.
     std::vector<std::filesystem::path> shipped() const;
 
     /// Call it every frame. Returns whether there is a new light or message.
@@ -56,7 +56,7 @@ class LightChoice {
     Light current() const { return light_.value() ? *light_.value() : nullptr; }
 
  private:
-    std::filesystem::path folder_;
+    std::vector<std::filesystem::path> folders_;
     std::string mapping_;
     Messages& messages_;
     std::shared_ptr<const std::filesystem::path> path_;  ///< a new pointer for every choice, also of the same file

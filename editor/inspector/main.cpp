@@ -118,6 +118,26 @@ Layout chosen_layout(const Options& options) {
     return layout;
 }
 
+/// The interior, whose windows and lamps show a grating's colours on every shape, or else the studio.
+std::filesystem::path default_light(const std::vector<std::filesystem::path>& lights) {
+    for (const char* name : {"captured_interior", "studio"})
+        for (const std::filesystem::path& light : lights)
+            if (light.stem() == name) return light;
+    return lights.front();
+}
+
+/// Of the captured probes, in the folder of cooked assets beside this program.
+std::filesystem::path capture_recipes() {
+    return std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() / "cooked" / "recipes";
+}
+
+SessionSettings session_settings(const Options& options, bool still) {
+    return {.content_folder = options.content_folder,
+            .probe_mapping = options.probe_mapping,
+            .captures = capture_recipes(),
+            .still = still};
+}
+
 /// Opens the files of the options, else of the layout. Throws Refused if a file of the options is refused; a
 /// probe of the layout that no longer exists is ignored.
 void start_session(Session& session, const Options& options, const Layout& layout) {
@@ -139,7 +159,7 @@ void start_session(Session& session, const Options& options, const Layout& layou
     else if (!layout.light.empty() && std::filesystem::exists(layout.light, ignored))
         session.light.choose(layout.light);
     else if (const auto lights = session.light.shipped(); !lights.empty())
-        session.light.choose(lights.back());
+        session.light.choose(default_light(lights));
 }
 
 /// Writes the window into the current folder, under a new name.
@@ -243,8 +263,7 @@ void capture_window(Session& session, const Options& options, const post::OcioCo
 void capture(const Options& options, const post::OcioConfig& config) {
     app::render_offscreen(options.gl_debug, [&](const std::string&) {
         const Layout layout = chosen_layout(options);
-        Session session(
-            config, {.content_folder = options.content_folder, .probe_mapping = options.probe_mapping, .still = true});
+        Session session(config, session_settings(options, true));
         start_session(session, options, layout);
         settle(session);
         require_picture(session);
@@ -266,7 +285,7 @@ class Program {
         : layout_file_(options.layout ? options.layout : default_layout_file()),
           layout_(chosen_layout(options)),
           loop_("Rowland: material inspector", {layout_.width, layout_.height}, options.gl_debug),
-          session_(config, {.content_folder = options.content_folder, .probe_mapping = options.probe_mapping}),
+          session_(config, session_settings(options, false)),
           window_frame_(options, config, session_, layout_) {
         start_session(session_, options, layout_);
         std::error_code ignored;

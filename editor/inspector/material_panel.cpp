@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <string>
+#include <utility>
 
 #include "editor/inspector/groove_picture.h"
 #include "editor/inspector/panels.h"
@@ -70,14 +71,23 @@ const char* section_of(const Field& field) {
     return field.pointer.starts_with("/quality") ? "Quality" : "Surface";
 }
 
+/// ImGui takes it for a format.
+std::string without_percent(std::string name) {
+    std::ranges::replace(name, '%', '_');
+    return name;
+}
+
 void draw_number(Document& document, const Field& field) {
     const bool whole = field.kind == FieldKind::Count;
-    double value = number_of(value_of(field, document.json()));
-    const auto step = static_cast<float>(whole ? 0.1 : drag_step(field, value));
-    const std::string format = (whole ? "%.0f" : field.unit.empty() ? "%.4g" : "%.7g ") + field.unit;
+    const double stored = number_of(value_of(field, document.json()));
+    double value = shown_number(field, stored);
+    const auto step = static_cast<float>(whole ? 0.1 : shown_number(field, drag_step(field, stored)));
+    std::string format = (whole ? "%.0f" : field.unit.empty() ? "%.4g" : "%.7g ") + shown_unit(field);
+    if (const auto picture = whole ? document.new_textures().find(static_cast<std::size_t>(value)) : nullptr)
+        format = without_percent(picture->name);
     if (ImGui::DragScalar("##value", ImGuiDataType_Double, &value, step, whole ? &field.minimum : nullptr,
                           whole ? &field.maximum : nullptr, format.c_str()))
-        document.set_value(field, whole ? std::round(value) : value);
+        document.set_value(field, whole ? std::round(value) : stored_number(field, value));
 }
 
 void draw_pair(Document& document, const Field& field) {
@@ -193,9 +203,12 @@ void draw_opening(OpenDocument& opened, ControlMap& controls) {
 void draw_attach(OpenDocument& opened, const char* label, ControlMap& controls) {
     ImGui::SetNextItemWidth(7.0F * ImGui::GetFontSize());
     if (ImGui::BeginCombo("##attach", label, ImGuiComboFlags_HeightLargest)) {
-        for (const char* preset : OpenDocument::presets()) {
-            if (ImGui::Selectable(preset)) opened.open_preset(preset);
-            controls.mark(std::string("attach=") + preset);
+        const char* category = "";
+        for (const Preset& preset : OpenDocument::presets()) {
+            if (std::string_view(std::exchange(category, preset.category)) != preset.category)
+                ImGui::TextDisabled("%s", preset.category);
+            if (ImGui::Selectable(preset.name)) opened.open_preset(preset.file);
+            controls.mark(std::string("attach=") + preset.file);
         }
         ImGui::EndCombo();
     }

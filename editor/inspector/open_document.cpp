@@ -20,8 +20,25 @@ namespace {
 constexpr std::uint64_t kLargestSource = 16 << 20;
 constexpr std::uint64_t kLargestPicture = 64 << 20;
 
-const std::array kPresets = {"cd",         "cd_pressed",       "cd_r", "dvd", "blu_ray", "ruled_600",
-                             "ruled_1200", "holographic_foil", "vinyl"};
+constexpr Preset kPresets[] = {
+    {"cd", "Compact disc, for any mesh", "Discs"},
+    {"cd_pressed", "Compact disc, pressed", "Discs"},
+    {"cd_r", "CD-R", "Discs"},
+    {"dvd", "DVD", "Discs"},
+    {"blu_ray", "Blu-ray disc", "Discs"},
+    {"vinyl", "Vinyl record", "Discs"},
+    {"cd_paper", "Compact disc of Lindsay & Agu 2006", "Discs"},
+    {"ruled_600", "Ruled, 600 lines per mm", "Gratings"},
+    {"ruled_1200", "Ruled, 1200 lines per mm", "Gratings"},
+    {"holographic_foil", "Holographic foil", "Foils"},
+    {"crossed_foil", "Crossed foil", "Foils"},
+    {"diffraction_glasses", "Diffraction glasses", "Sheets and screens"},
+    {"screen_door", "Insect screen", "Sheets and screens"},
+    {"camera_under_display", "Display over a camera", "Sheets and screens"},
+    {"phone_screen", "Phone screen", "Sheets and screens"},
+    {"feather", "Feather", "Nature"},
+    {"butterfly_wing", "Butterfly's wing", "Nature"},
+};
 
 bool has_extension(const std::filesystem::path& path, std::initializer_list<const char*> extensions) {
     return std::ranges::count(extensions, path.extension().string()) > 0;
@@ -84,7 +101,7 @@ bool OpenDocument::open_preset(const std::string& name) {
     return messages_.attempt([&] { use_material(Document::open_as_new(path), path); });
 }
 
-std::span<const char* const> OpenDocument::presets() {
+std::span<const Preset> OpenDocument::presets() {
     return kPresets;
 }
 

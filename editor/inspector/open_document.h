@@ -16,6 +16,13 @@
 
 namespace rowland::inspector {
 
+/// A shipped material.
+struct Preset {
+    const char* file;  ///< "cd"
+    const char* name;
+    const char* category;
+};
+
 /// The document that is edited, its scene, and its cooked gratings. Opens and saves files; cooks in the background what
 /// is edited. Bad input becomes a message and changes nothing else. Needs a current context.
 class OpenDocument {
@@ -47,7 +54,8 @@ class OpenDocument {
     /// Opens a shipped material ("cd") as the start of a new one, or as the grating of the scene's chosen material.
     /// Returns whether it could.
     bool open_preset(const std::string& name);
-    static std::span<const char* const> presets();
+    /// Those of one category are contiguous.
+    static std::span<const Preset> presets();
     /// Whether opening the file would replace the document.
     bool is_replaced_by(const std::filesystem::path& path) const;
     /// Replaces the scene by a new material.

@@ -110,6 +110,9 @@ class PreviewPanel {
     void draw(OpenDocument& opened, LightChoice& light, View& view, const platform::InputState& input,
               float pixels_per_unit, float seconds, ControlMap& controls);
 
+    /// Moves the camera until what has the chosen material fills the picture.
+    void frame(View& view);
+
     bool comparing = false;  ///< the saved version is shown to the left of the dividing line
 
  private:
@@ -124,8 +127,9 @@ class PreviewPanel {
     enum class Drag { None, Line, Lamp, Grooves, Orbit };
 
     scene::OrbitCamera camera_;
-    bool has_saved_ = false;  ///< in this frame: there is a saved version
-    float line_ = 0.5F;       ///< position of the dividing line, as a fraction of the width
+    const SceneObject* scene_ = nullptr;  ///< in the last frame
+    bool has_saved_ = false;              ///< in this frame: there is a saved version
+    float line_ = 0.5F;                   ///< position of the dividing line, as a fraction of the width
     Drag drag_ = Drag::None;
     bool lamp_behind_ = false;  ///< at the start of the drag
 };

@@ -340,6 +340,19 @@ void Preview::set_grating_vector(PickedSurface& surface) const {
     surface.frame = with_grating_rotated(surface.point, rotation);
 }
 
+std::optional<glm::vec4> Preview::sphere_of(std::size_t material) {
+    if (!drawn_) return std::nullopt;
+    std::vector<scene::Bounds> boxes;
+    const glm::mat4 to_user = glm::inverse(stage_rotation(inputs_.stage));
+    for (const Drawn& part : now_.drawn)
+        if (part.material == material)
+            boxes.push_back(render::transformed(now_.world.get<render::MeshInstance>(part.entity).gpu->bounds(),
+                                                to_user * now_.world.get<scene::WorldMatrix>(part.entity).matrix));
+    const auto box = render::united(boxes);
+    if (!box) return std::nullopt;
+    return glm::vec4(0.5F * (box->minimum + box->maximum), 0.5F * glm::length(box->maximum - box->minimum));
+}
+
 std::vector<glm::vec2> Preview::middles_of(std::size_t material) {
     constexpr std::size_t kMost = 8;
     std::vector<glm::vec2> result;

@@ -98,6 +98,8 @@ class Preview {
     std::optional<PickedSurface> pick(const glm::vec2& at);
     /// Points of the last frame, as pick() takes them, where a material may be visible: the middles of its meshes.
     std::vector<glm::vec2> middles_of(std::size_t material);
+    /// Around the parts of a material, with its radius in w, in the axes of PreviewInputs::eye; nullopt: none is drawn.
+    std::optional<glm::vec4> sphere_of(std::size_t material);
     /// From the preview's world to its picture, as pick() takes points.
     glm::vec2 project(const glm::vec3& position) const;
     /// A surface that was picked earlier, under the current rotation of the stage.

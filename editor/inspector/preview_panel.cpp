@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "editor/inspector/panels.h"
 
@@ -99,13 +100,20 @@ void draw_shape_picker(View& view, bool has_scene, ControlMap& controls) {
     controls.mark("shape");
 }
 
+/// "interior (capture)"
+std::string light_name(const std::filesystem::path& path) {
+    constexpr std::string_view kCaptured = "captured_";
+    const std::string name = path.stem().string();
+    return name.starts_with(kCaptured) ? name.substr(kCaptured.size()) + " (capture)" : name;
+}
+
 void draw_light_picker(LightChoice& light, ControlMap& controls) {
-    ImGui::SetNextItemWidth(7.6F * ImGui::GetFontSize());
-    const std::string present = light.current() ? light.current()->path.stem().string() : "loading…";
+    ImGui::SetNextItemWidth(9.0F * ImGui::GetFontSize());
+    const std::string present = light.current() ? light_name(light.current()->path) : "loading…";
     if (ImGui::BeginCombo("##light", present.c_str())) {
         for (const std::filesystem::path& path : light.shipped()) {
             const std::string name = path.stem().string();
-            if (ImGui::Selectable(name.c_str())) light.choose(path);
+            if (ImGui::Selectable(light_name(path).c_str())) light.choose(path);
             controls.mark("light=" + name);
         }
         ImGui::TextDisabled("or drop an .hdr or .exr, of the mapping");
@@ -163,11 +171,23 @@ void draw_knob(const Document& document, const View& view, const ImVec2& corner,
 
 }  // namespace
 
-PreviewPanel::PreviewPanel() : camera_(opening_camera(), {.minimum_distance = 0.08F, .maximum_distance = 5.0F}) {}
+constexpr scene::OrbitSettings kOrbit{.minimum_distance = 0.005F, .maximum_distance = 5.0F};
+
+PreviewPanel::PreviewPanel() : camera_(opening_camera(), kOrbit) {}
+
+void PreviewPanel::frame(View& view) {
+    const auto sphere = view.chosen_sphere();
+    if (!sphere) return;
+    scene::Camera camera = camera_.camera();
+    const glm::vec3 backward = glm::normalize(camera.eye - camera.target);
+    camera.target = glm::vec3(*sphere);
+    camera.eye = camera.target + 1.1F * sphere->w / std::sin(0.5F * camera.vertical_field_of_view) * backward;
+    camera_ = scene::OrbitCamera(camera, kOrbit);
+}
 
 void PreviewPanel::draw_tools(bool has_scene, bool has_saved, LightChoice& light, View& view, ControlMap& controls) {
     draw_shape_picker(view, has_scene, controls);
-    continue_line(7.6F);
+    continue_line(9.0F);
     draw_light_picker(light, controls);
     for (const Slider* slider : {&kRotation, &kExposure}) {
         continue_line(slider->width);
@@ -197,6 +217,7 @@ void PreviewPanel::draw_tools(bool has_scene, bool has_saved, LightChoice& light
 void PreviewPanel::draw(OpenDocument& opened, LightChoice& light, View& view, const platform::InputState& input,
                         float pixels_per_unit, float seconds, ControlMap& controls) {
     has_saved_ = opened.saved() != nullptr;
+    if (std::exchange(scene_, opened.scene()) != opened.scene()) camera_ = scene::OrbitCamera(opening_camera(), kOrbit);
     draw_tools(opened.scene() != nullptr, has_saved_, light, view, controls);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ImVec2 size = ImGui::GetContentRegionAvail();

@@ -55,9 +55,8 @@ void draw_numbers(const PriceList& list, bool is_current, const OpenDocument& op
     const bool measured = present != list.choices.end() && is_current;
     const diffraction::Quality& quality = opened.document().material().quality;
     const std::string waiting = quality.pinned ? "measuring…" : "chosen by the cooker";
-    const std::string name = drawn->representation == cooked
-                                 ? cooked
-                                 : fmt::format("{}: {} needs a flat mesh", drawn->representation, cooked);
+    const std::string name =
+        drawn->representation == cooked ? cooked : fmt::format("{} in place of {}", drawn->representation, cooked);
     draw_row("Representation", name.c_str());
     controls.note("representation", name);
     draw_row("Measured error",

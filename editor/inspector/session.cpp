@@ -17,7 +17,7 @@ PreviewShape shape_of_preset(const std::string& name) {
 }  // namespace
 
 Session::Session(const post::OcioConfig& config, const SessionSettings& settings)
-    : light(settings.content_folder / "probes", settings.probe_mapping, messages),
+    : light({settings.content_folder / "probes", settings.captures}, settings.probe_mapping, messages),
       opened(settings.content_folder / "materials", messages),
       view(config, settings.still, opened, light, messages),
       measurement(opened, light, view, messages) {}
@@ -29,7 +29,9 @@ void Session::open(const std::filesystem::path& path) {
 }
 
 void Session::open_preset(const std::string& name) {
-    if (opened.open_preset(name) && !opened.document().is_scene()) view.choose_shape(shape_of_preset(name));
+    if (!opened.open_preset(name) || opened.document().is_scene()) return;
+    const bool lattice = opened.document().material().grating.lattice.has_value();
+    view.choose_shape(lattice ? PreviewShape::Card : shape_of_preset(name));
 }
 
 bool Session::update() {

@@ -18,6 +18,7 @@ namespace rowland::inspector {
 struct SessionSettings {
     std::filesystem::path content_folder;  ///< holds materials/ and probes/
     std::string probe_mapping = "auto";    ///< of images
+    std::filesystem::path captures{};      ///< folder of the recipes of captured probes; empty: none
     bool still = false;                    ///< for captures: maps are complete in the second frame
 };
 

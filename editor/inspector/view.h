@@ -2,6 +2,7 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <memory>
 #include <optional>
 #include <string>
@@ -70,6 +71,11 @@ class View {
         diffraction::GrooveLayout layout = diffraction::GrooveLayout::FlatUniform;
     };
     ViewedPoint point_or_middle();
+    /// Around the object's parts of the chosen material, with its radius in w, in the axes of the user's camera;
+    /// nullopt before they are drawn.
+    std::optional<glm::vec4> chosen_sphere() {
+        return preview_.sphere_of(object_->scene ? document_.document().chosen() : 0);
+    }
     /// Null without a cooked material.
     const DrawnAs* drawn_as();
 

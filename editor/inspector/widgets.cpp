@@ -111,7 +111,7 @@ Plot::Plot(const char* name, float height, const PlotAxis& x, const PlotAxis& y)
     hovered_ = ImGui::IsItemHovered();
     minimum_ = {corner.x + 3.2F * font, corner.y + 1.5F * font};
     maximum_ = {corner.x + width - 0.6F * font, corner.y + height - 2.5F * font};
-    legend_x_ = minimum_.x + 0.2F * font;
+    legend_x_ = minimum_.x + std::max(0.2F * font, ImGui::CalcTextSize(y.label).x - 2.5F * font);
     draw_axes();
 }
 
@@ -187,7 +187,7 @@ void Plot::legend(const std::string& name, std::size_t series) {
     float done = 0.0F;
     dashed(*draw_, {legend_x_, y}, {legend_x_ + 1.2F * font, y}, series_colour(series), dash_of(series), 2.0F, done);
     draw_->AddText({legend_x_ + 1.5F * font, y - font / 2.0F}, kPlotWords, name.c_str());
-    legend_x_ += 2.1F * font + ImGui::CalcTextSize(name.c_str()).x;
+    legend_x_ += 1.9F * font + ImGui::CalcTextSize(name.c_str()).x;
 }
 
 void Plot::text(double x, double y, const char* words, ImU32 colour) const {

@@ -71,11 +71,12 @@ void draw_menu_bar(std::span<const Command> commands, ControlMap& controls) {
             std::find_if(menu, commands.end(), [&](const Command& other) { return other.menu != menu->menu; });
         if (!menu->menu.empty() && ImGui::BeginMenu(menu->menu.c_str())) {
             for (const Command& command : std::span(menu, end)) {
-                if (command.name.empty()) {
-                    ImGui::Separator();
+                const std::string& title = command.title.empty() ? command.name : command.title;
+                if (!command.run) {
+                    title.empty() ? ImGui::Separator() : ImGui::TextDisabled("%s", title.c_str());
                     continue;
                 }
-                if (ImGui::MenuItem(command.name.c_str(), command.keys.c_str(), command.checked, command.enabled))
+                if (ImGui::MenuItem(title.c_str(), command.keys.c_str(), command.checked, command.enabled))
                     command.run();
                 controls.mark("menu " + command.name);
             }
@@ -165,11 +166,16 @@ std::vector<Command> Workbench::commands() {
         {"Edit", "Undo", "Ctrl+Z", Key::Z, [&document] { document.undo(); }, document.can_undo()},
         {"Edit", "Redo", "Ctrl+Shift+Z", Key::Z, [&document] { document.redo(); }, document.can_redo()},
     };
-    for (const char* preset : OpenDocument::presets())
-        result.push_back({"Presets", preset, {}, {}, [this, preset] {
-                              const auto open = [this, preset] { session_.open_preset(preset); };
-                              session_.opened.document().is_scene() ? open() : dialogs_.ask_unsaved(open);
-                          }});
+    const char* category = "";
+    for (const Preset& preset : OpenDocument::presets()) {
+        if (std::string_view(std::exchange(category, preset.category)) != preset.category)
+            result.push_back({.menu = "Presets", .name = "", .title = preset.category});
+        const auto run = [this, file = preset.file] {
+            const auto open = [this, file] { session_.open_preset(file); };
+            session_.opened.document().is_scene() ? open() : dialogs_.ask_unsaved(open);
+        };
+        result.push_back({.menu = "Presets", .name = preset.file, .run = run, .title = preset.name});
+    }
     for (std::size_t i = 0; i < kPreviewShapes.size(); ++i) {
         const PreviewShape shape = kPreviewShapes[i];
         result.push_back({"View", preview_shape_name(shape), fmt::format("Ctrl+{}", i + 1),
@@ -184,6 +190,7 @@ std::vector<Command> Workbench::commands() {
          session_.opened.saved() != nullptr, preview_.comparing},
         {"View", "Show grooves", "G", Key::G, [this] { session_.view.shows_grooves = !session_.view.shows_grooves; },
          true, session_.view.shows_grooves},
+        {"View", "Frame the selection", "F", Key::F, [this] { preview_.frame(session_.view); }},
         {"View", "Thin film", "F7", Key::F7, [this] { film_.open = !film_.open; }, true, film_.open},
         {"View", "Screenshot", "F12", Key::F12, [this] { screenshot_ = true; }},
         {"View", "Larger text", "Ctrl+=", Key::Equal, scale_by(0.1F)},
@@ -197,7 +204,7 @@ std::vector<Command> Workbench::commands() {
 }
 
 TileSizes tile_sizes(const Layout& layout, glm::vec2 size, float font) {
-    const float preview_width = std::min(28.0F * font, 0.5F * size.x);
+    const float preview_width = std::min(28.0F * font, 0.45F * size.x);
     const float preview_height = std::min(20.0F * font, 0.7F * size.y);
     const float sides =
         std::min(1.0F, (size.x - preview_width) / ((layout.material_width + layout.physics_width) * font));

@@ -28,6 +28,7 @@ struct Command {
     std::function<void()> run{};
     bool enabled = true;
     bool checked = false;
+    std::string title{};  ///< shown instead of the name; without `run`, a heading
 };
 
 struct WorkbenchFrame {

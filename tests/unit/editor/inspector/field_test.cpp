@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <filesystem>
+#include <numbers>
 #include <set>
 #include <string>
 
@@ -230,6 +231,15 @@ TEST(OrderedJson, HostileTextIsRefusedWithItsPlace) {
     EXPECT_THAT(test::message_of([] { parse_ordered(std::string(20000, '['), "m.json"); }),
                 testing::HasSubstr("nested too deep"));
     EXPECT_THAT(test::message_of([] { parse_ordered("{\"a\": \"\xff\"}", "m.json"); }), testing::HasSubstr("m.json"));
+}
+
+TEST(Field, AnglesAreShownInDegreesAndStoredInRadians) {
+    const Field& rotation = field_at("/grooveRotation");
+    EXPECT_NEAR(shown_number(rotation, std::numbers::pi / 3.0), 60.0, 1e-12);
+    EXPECT_NEAR(stored_number(rotation, 60.0), std::numbers::pi / 3.0, 1e-15);
+    EXPECT_EQ(shown_unit(rotation), "°");
+    EXPECT_EQ(shown_number(field_at("/grating/pitch_nm"), 1600.0), 1600.0);
+    EXPECT_EQ(shown_unit(field_at("/grating/pitch_nm")), "nm");
 }
 
 }  // namespace

@@ -177,9 +177,44 @@ TEST_F(SessionTest, ThePriceIsOfTheRepresentationThatDrawsTheShapeInView) {
     EXPECT_EQ(bytes_on(PreviewShape::Card, "planar", diffraction::SurfaceShape::Flat), flat);
 }
 
+TEST_F(SessionTest, EveryShippedMaterialIsAPreset) {
+    std::size_t shipped = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(test::content_path("materials")))
+        shipped += entry.path().extension() == ".json" ? 1U : 0U;
+    EXPECT_EQ(OpenDocument::presets().size(), shipped);
+    for (const Preset& preset : OpenDocument::presets()) {
+        EXPECT_TRUE(session_.opened.open_preset(preset.file)) << preset.file;
+        EXPECT_EQ(document().name(), std::string(preset.file) + ".json");
+    }
+}
+
+TEST_F(SessionTest, CapturesAreListedAfterTheRecipes) {
+    std::filesystem::create_directory(path("captures"));
+    write_file_atomic(path("captures/captured_city.json"), test::small_sky(64));
+    write_file_atomic(path("sky.txt"), "no light");
+    Messages messages;
+    const LightChoice light({path("captures"), folder_.path(), path("missing")}, "auto", messages);
+    EXPECT_THAT(light.shipped(),
+                testing::ElementsAre(path("captures/captured_city.json"), path("m.json"), path("sky.json")));
+}
+
+TEST_F(SessionTest, TheChosenPartIsFramedWhateverTheStagesRotation) {
+    draw_until_cooked(1600.0);
+    session_.view.choose_shape(PreviewShape::Sphere);
+    draw(1);
+    const auto sphere = session_.view.chosen_sphere();
+    ASSERT_TRUE(sphere);
+    EXPECT_NEAR(sphere->w, 0.05F * std::sqrt(3.0F), 1e-3F);
+    session_.view.stage.rotation_deg = 90.0F;
+    draw(1);
+    EXPECT_LT(glm::distance(*session_.view.chosen_sphere(), *sphere), 1e-3F);
+}
+
 TEST_F(SessionTest, APresetOpensOnTheShapeThatShowsItsColours) {
     session_.open_preset("blu_ray");
     EXPECT_EQ(session_.view.shape(), PreviewShape::Sheet);
+    session_.open_preset("phone_screen");
+    EXPECT_EQ(session_.view.shape(), PreviewShape::Card) << "lattices are drawn by planar on flat shapes";
     session_.open_preset("cd");
     EXPECT_EQ(session_.view.shape(), PreviewShape::Disc);
 }
