@@ -37,6 +37,15 @@ scene::Camera flight(const scene::Camera& start, double progress) {
     return camera;
 }
 
+scene::Camera turned(const scene::Camera& start, double progress) {
+    const auto angle = static_cast<float>(2.0 * std::numbers::pi * progress);
+    const glm::vec3 offset = start.eye - start.target;
+    scene::Camera camera = start;
+    camera.eye = start.target + glm::vec3(std::cos(angle) * offset.x + std::sin(angle) * offset.z, offset.y,
+                                          std::cos(angle) * offset.z - std::sin(angle) * offset.x);
+    return camera;
+}
+
 scene::Camera tour(const std::vector<scene::Camera>& views, double progress) {
     ROWLAND_CHECK(!views.empty(), "a tour needs a view");
     if (views.size() == 1) return flight(views.front(), progress);

@@ -12,6 +12,9 @@ namespace rowland::demo {
 /// it comes down to grazing views and rises above the scene.
 scene::Camera flight(const scene::Camera& start, double progress);
 
+/// `start` after a part of a turn about the vertical through its target.
+scene::Camera turned(const scene::Camera& start, double progress);
+
 /// The camera of a smooth flight through all views, of which there must be one. The time between any two is the same.
 /// A single view is flown around.
 scene::Camera tour(const std::vector<scene::Camera>& views, double progress);

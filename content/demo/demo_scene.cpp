@@ -1,5 +1,8 @@
 #include "content/demo/demo_scene.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -11,6 +14,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "content/demo/camera_path.h"
@@ -182,6 +187,33 @@ DemoScene::DemoScene(const Options& options, LiveAssets& assets, render::Rendere
     }
     if (!own_view_) add_surroundings(options, assets);
     set_sun(options.sun);
+    if (options.camera) {
+        const auto& at = *options.camera;
+        camera_.eye = {at[0], at[1], at[2]};
+        camera_.target = {at[3], at[4], at[5]};
+    }
+    if (options.frame_object) frame_object(*options.frame_object);
+    chosen_view_ = options.camera || options.frame_object;
+}
+
+/// Keeps the view's direction.
+void DemoScene::frame_object(const std::string& name) {
+    scene::update_world_matrices(world_);
+    std::vector<scene::Bounds> boxes;
+    std::set<std::string> names;
+    world_.view<render::MeshInstance>().each([&](ecs::Entity entity, const render::MeshInstance& instance) {
+        const std::string object = name_of_object(world_, entity);
+        names.insert(object);
+        if (object == name)
+            boxes.push_back(render::transformed(instance.gpu->bounds(), world_.get<scene::WorldMatrix>(entity).matrix));
+    });
+    const auto box = render::united(boxes);
+    if (!box)
+        refuse_input("--frame-object", "", name, fmt::format("the name of an object: {}", fmt::join(names, ", ")));
+    const glm::vec3 direction = glm::normalize(camera_.eye - camera_.target);
+    const float radius = 0.5F * glm::length(box->maximum - box->minimum);
+    camera_.target = 0.5F * (box->minimum + box->maximum);
+    camera_.eye = camera_.target + 1.1F * radius / std::sin(0.5F * camera_.vertical_field_of_view) * direction;
 }
 
 template <typename T, typename Show>
@@ -351,7 +383,7 @@ const nlohmann::json* DemoScene::sheet() const {
 }
 
 std::vector<scene::Camera> DemoScene::views() const {
-    if (!own_view_) return {camera_};
+    if (!own_view_ || chosen_view_) return {camera_};
     return all_views(*scene_, scene::merge_instances(*scene_));
 }
 

@@ -75,6 +75,7 @@ class DemoScene {
     void show_grating_mesh(scene::Mesh mesh);
     void show_grating_material(const diffraction::CookedMaterial& cooked);
     void pose_stand();
+    void frame_object(const std::string& name);
 
     render::Renderer& renderer_;
     glm::dmat3 xyz_to_working_;
@@ -90,7 +91,8 @@ class DemoScene {
     std::optional<render::SceneInstance> instance_;
     std::vector<std::pair<ecs::Entity, render::MeshInstance>> hidden_floor_;
     bool disc_ = true;
-    bool own_view_ = false;  ///< the scene has a camera
+    bool own_view_ = false;     ///< the scene has a camera
+    bool chosen_view_ = false;  ///< the options say the first view
     bool meshes_changed_ = false;
     double posed_s_ = 0.0;  ///< the play's time at the last pose
     double stand_s_ = 0.0;  ///< for which the stand has moved

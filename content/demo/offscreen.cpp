@@ -42,10 +42,15 @@ void write_frame_captures(Session& session, const Options& options, int frame, i
 }
 
 void write_captures(Session& session, const Options& options) {
-    const int frames = options.frames.value_or(1);
+    const int frames = options.captured_frames();
     for (int frame = 0; frame < frames; ++frame) {
-        if (frame > 0) pass_time(session.play(), kFramesPerSecond);
-        session.draw(1.0F / kFramesPerSecond);
+        if (options.turntable) {
+            session.draw_from(turned(session.play().camera(), static_cast<double>(frame) / frames),
+                              1.0F / kFramesPerSecond);
+        } else {
+            if (frame > 0) pass_time(session.play(), kFramesPerSecond);
+            session.draw(1.0F / kFramesPerSecond);
+        }
         write_frame_captures(session, options, frame, frames);
     }
 }

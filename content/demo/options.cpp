@@ -1,10 +1,14 @@
 #include "content/demo/options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
 
 #include "content/demo/assets.h"
 #include "content/demo/play/action.h"
 #include "engine/command_line/command_line.h"
+#include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/view/picture.h"
 
@@ -22,6 +26,23 @@ constexpr const char* kFooter =
     "While the window is open, the demo reloads shaders, assets and their sources when they are saved. If one is\n"
     "broken, the picture stays and the title says why. Drop a probe onto the window to light the scene with it.\n\n"
     "in the window:\n";
+
+std::array<float, 6> read_camera(const std::string& text) {
+    std::array<float, 6> camera{};
+    const char* rest = text.data();
+    const char* const end = text.data() + text.size();
+    for (std::size_t i = 0; i < camera.size(); ++i) {
+        const auto [next, failure] = std::from_chars(rest, end, camera[i]);
+        const bool last = i + 1 == camera.size();
+        const bool separated = last ? next == end : next != end && *next == ',';
+        if (failure != std::errc() || !separated || !std::isfinite(camera[i]))
+            throw CLI::ValidationError("--camera", "'" + text + "' is no view such as 0,0.2,0.5,0,0,0");
+        rest = last ? next : next + 1;
+    }
+    if (std::equal(camera.begin(), camera.begin() + 3, camera.begin() + 3))
+        throw CLI::ValidationError("--camera", "the eye of '" + text + "' is on its target");
+    return camera;
+}
 
 void add_options(CLI::App& app, Options& options) {
     app::add_common_options(app, options, "Write the picture as PNG");
@@ -58,6 +79,14 @@ void add_options(CLI::App& app, Options& options) {
     app.add_flag("--rough-reflections", options.rough_reflections,
                  "Sum what rough surfaces reflect over four directions, not one");
     app.add_flag("--sun", options.sun, "Add a lamp that casts shadows");
+    app.add_option_function<std::string>(
+        "--camera", [&](const std::string& text) { options.camera = read_camera(text); },
+        "The first view, as x,y,z,tx,ty,tz: eye and target in metres");
+    app.add_option("--frame-object", options.frame_object,
+                   "Point the first view at the object of this name, as the Gratings panel lists it");
+    app.add_option("--turntable", options.turntable, "Write so many captures on a circle around the view's target")
+        ->check(finite(1, 10000))
+        ->excludes("--frames");
     app.add_flag("--list-views", options.list_views, "List the views of the display and stop");
     app.add_option("--capture-linear", options.capture_linear, "Write the scene-linear picture as OpenEXR");
     app.add_option("--benchmark", options.benchmark,
@@ -85,7 +114,7 @@ bool is_numbered(const std::filesystem::path& file, const std::filesystem::path&
 void add_captures(std::vector<Output>& outputs, const Options& options, const char* option,
                   const std::optional<std::filesystem::path>& path, const char* extension) {
     if (!path) return;
-    const bool one = !options.play && options.frames.value_or(1) == 1;
+    const bool one = !options.play && options.captured_frames() == 1;
     const std::filesystem::path first = view::numbered(*path, 0, one ? 1 : 2);
     outputs.push_back({option, first, extension});
     std::error_code ignored;
@@ -105,6 +134,9 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
     options.content_folder = options.shader_folder / "content";
     add_options(app, options);
     if (!parse_command_line(app, argc, argv)) return std::nullopt;
+    if (options.turntable && !options.captures())
+        refuse_input("--turntable", "", "no --capture", "a file that the pictures are named after",
+                     "add --capture turn.png");
     if (options.cooked_folder.empty()) options.cooked_folder = default_cooked_folder();
     if (!options.scene && !options.mesh && !options.material && !options.disc)
         options.scene = options.cooked_folder / "cabinet.scene";

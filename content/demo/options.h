@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -27,9 +28,12 @@ struct Options : app::CommonOptions {
     bool dither = false;
     bool ambient_occlusion = true;  ///< and contact shadows
     bool soft_shadows = true;
-    bool local_reflections = true;   ///< of the table and of objects
-    bool rough_reflections = false;  ///< rough surfaces look the probe up in four directions
-    bool sun = false;                ///< a lamp that casts shadows
+    bool local_reflections = true;               ///< of the table and of objects
+    bool rough_reflections = false;              ///< rough surfaces look the probe up in four directions
+    bool sun = false;                            ///< a lamp that casts shadows
+    std::optional<std::array<float, 6>> camera;  ///< eye and target, metres
+    std::optional<std::string> frame_object;     ///< whose bounds the first view shows
+    std::optional<int> turntable;                ///< pictures once around the view's target
     bool list_views = false;
     std::optional<std::filesystem::path> capture_linear;
     std::optional<std::filesystem::path> benchmark;
@@ -40,6 +44,8 @@ struct Options : app::CommonOptions {
     std::filesystem::path cooked_folder;
     std::filesystem::path shader_folder;
 
+    /// Pictures that a capture writes.
+    int captured_frames() const { return turntable.value_or(frames.value_or(1)); }
     bool captures() const { return capture || capture_linear; }
 };
 

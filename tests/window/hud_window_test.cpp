@@ -25,7 +25,7 @@ using test::DemoUser;
 using test::operator""s;
 using testing::HasSubstr;
 
-constexpr int kWidth = 900;  ///< the least for which panels are open from the start
+constexpr int kWidth = 900;
 constexpr int kHeight = 500;
 /// The check box of the lamp, the last row of the first section.
 constexpr glm::ivec2 kLampBox{30, 150};
@@ -106,6 +106,7 @@ TEST_F(HudWindow, PanelsWipeAndRepresentationsShowAndAreRecorded) {
     {
         DemoUser user(folder_.path(), arguments({"--record", path("play.jsonl")}));
         user.key("space");
+        user.key("F2");
         const image::ByteImage dark = user.shot();
         user.click(kLampBox);
         const image::ByteImage lit = user.shot_unlike(dark, 60s);
@@ -156,6 +157,7 @@ TEST_F(HudWindow, TheMeasuredPixelIsWhatEvaluatePrintsAndFollowsMaterialAndProbe
     write_file_atomic(path("turned.hdr"), turned_sky());
     DemoUser user(folder_.path(), arguments());
     user.key("space");
+    user.key("F2");
     user.point_at(kOnGrating);
     // Waits until the file that was written shows.
     const auto replace = [&](const char* file, const std::string& content) {

@@ -19,8 +19,6 @@ namespace rowland::demo {
 
 namespace {
 
-constexpr glm::ivec2 kRoomForPanels{900, 500};
-
 /// Whether the HUD consumes an event. It consumes no release: a key or button whose press it consumed is up for the
 /// play anyway.
 bool is_for_hud(const PlayEvent& event, bool wants_mouse, bool wants_keys) {
@@ -36,12 +34,7 @@ bool is_for_hud(const PlayEvent& event, bool wants_mouse, bool wants_keys) {
 
 Hud::Hud(const Options& options, Session& session, const platform::FrameTimes& frame_times, glm::ivec2 window,
          float scale)
-    : options_(options),
-      session_(session),
-      frame_times_(frame_times),
-      ui_(scale),
-      window_(window),
-      panels_(window.x >= kRoomForPanels.x && window.y >= kRoomForPanels.y) {}
+    : options_(options), session_(session), frame_times_(frame_times), ui_(scale), window_(window) {}
 
 std::vector<PlayEvent> Hud::begin_frame(std::vector<PlayEvent> events, const ui::UiFrame& frame) {
     input_.begin_frame();
@@ -61,7 +54,7 @@ bool Hud::perform(Action action) {
             help_ = !help_;
             break;
         case Action::Hud:
-            panels_ = !panels_;
+            hints_ = panels_ = !panels_;
             if (!panels_) help_ = times_ = false;
             break;
         case Action::FrameGraph:
@@ -156,7 +149,9 @@ std::string Hud::name_of_all(Side side) {
     if (side == Side::Right && reference_) {
         if (!reference_picture_.failure().empty()) return reference_picture_.failure();
         return reference_picture_.begun() ? fmt::format("reference, {:.0f} %", 100.0 * reference_picture_.progress())
-                                          : std::string("reference, once nothing moves");
+               : session_.play().paused()
+                   ? std::string("reference, once nothing moves")
+                   : "reference: press " + platform::name_of(key_row(Action::Pause).key) + ", it needs a scene at rest";
     }
     std::vector<ecs::Entity> gratings = comparison.gratings();
     const auto is_own = [&](ecs::Entity grating) { return comparison.look(grating, side).own(); };
@@ -256,8 +251,8 @@ void Hud::build() {
         // Help covers the pixel window.
         if (!help_ && pixel_window(target_ ? &*target_ : nullptr, meter_, session_.picture().xyz_to_working()))
             write_pixel();
-        key_hints();
     }
+    if (hints_) key_hints();
     session_.picture().time_passes(times_);
     if (times_) frame_window(frame_times_, session_.picture().pass_times().latest(), times_);
     if (help_) help_window(help_);

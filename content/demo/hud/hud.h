@@ -21,7 +21,7 @@ namespace rowland::demo {
 /// session by events, as keys do, so that recordings contain what panels do.
 class Hud {
  public:
-    /// Panels are open at first in windows that have room for them. A context must be current. `frame_times` must
+    /// Panels are closed at first. A context must be current. `frame_times` must
     /// outlive it.
     Hud(const Options& options, Session& session, const platform::FrameTimes& frame_times, glm::ivec2 window,
         float scale);
@@ -69,7 +69,8 @@ class Hud {
     std::optional<PixelTarget> target_;
     ui::MessageList messages_;
     bool wiped_ = false;  ///< in the last frame
-    bool panels_;
+    bool panels_ = false;
+    bool hints_ = true;  ///< also before the panels were first opened
     bool help_ = false;
     bool times_ = false;
 };

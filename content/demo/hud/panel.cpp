@@ -150,7 +150,7 @@ void light_panel(const Panel& panel) {
     ImGui::SameLine();
     action_button(panel, Action::AddLight, " + ");
     ImGui::SameLine();
-    ImGui::Text("%zu of %zu lights", light_count(play.world()), kMostLights);
+    ImGui::Text("%zu lights added", play.lights().entities().size());
     action_check_box(panel, Action::Lamp, "lamp with shadow", panel.session.scene().sun());
 }
 

@@ -45,6 +45,17 @@ TEST_F(DemoOptions, ANumberThatIsNotFiniteOrOutOfRangeIsRefused) {
     EXPECT_EQ(options.frames, 100000);
 }
 
+TEST_F(DemoOptions, AViewIsSixNumbersAndATurntableNeedsACapture) {
+    EXPECT_EQ(checked({"--camera", "0,0.2,.5,-1,0,1e-1"}).camera, (std::array{0.0F, 0.2F, 0.5F, -1.0F, 0.0F, 0.1F}));
+    for (const char* view :
+         {"", "1,2,3,4,5", "1,2,3,4,5,6,", "1,2,3,4,5,x", "nan,0,0,0,0,1", "1,2,3,1,2,3", "1 2 3 4 5 6"})
+        EXPECT_THAT(refusal({"--camera", view}), HasSubstr("--camera")) << view;
+    EXPECT_THAT(refusal({"--turntable", "8"}), HasSubstr("--capture"));
+    EXPECT_THAT(refusal({"--turntable", "0", "--capture", path("a.png")}), HasSubstr("--turntable"));
+    write_file_atomic(path("a_0003.png"), "");
+    EXPECT_EQ(checked({"--turntable", "8", "--capture", path("a.png")}).captured_frames(), 8);
+}
+
 TEST_F(DemoOptions, ACaptureIsNamedByItsFormatAndHasAFileOfItsOwn) {
     EXPECT_THAT(refusal({"--capture", path("a.jpg")}), HasSubstr(".png"));
     EXPECT_THAT(refusal({"--capture-linear", path("a.png")}), HasSubstr(".exr"));

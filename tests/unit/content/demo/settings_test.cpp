@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <glm/geometric.hpp>
 #include <vector>
 
 #include "content/demo/play/body.h"
@@ -47,6 +48,23 @@ TEST_F(DemoSettings, AStartBakesNothing) {
     session_.reset();
     open();
     EXPECT_EQ(cook::sources_baked(), before);
+}
+
+TEST_F(DemoSettings, TheFirstViewIsOfANamedObjectOrAsGiven) {
+    options_.frame_object = "mirror sphere";
+    open();
+    const auto hit = session_->play().hit_at(0.5 * glm::dvec2(kSize));
+    ASSERT_TRUE(hit);
+    const ecs::Entity seen = session_->play().toys().targets[hit->target].entity;
+    EXPECT_EQ(name_of_object(session_->play().world(), seen), "mirror sphere");
+    options_.frame_object = "no such thing";
+    EXPECT_THAT(test::message_of([&] { open(); }),
+                testing::AllOf(testing::HasSubstr("--frame-object"), testing::HasSubstr("mirror sphere")));
+    options_.frame_object.reset();
+    options_.camera = {0.0F, 0.5F, 0.8F, 0.0F, 0.1F, 0.0F};
+    open();
+    EXPECT_LT(glm::distance(session_->play().camera().eye, glm::vec3(0.0F, 0.5F, 0.8F)), 1e-5F);
+    EXPECT_EQ(session_->play().camera().target, glm::vec3(0.0F, 0.1F, 0.0F));
 }
 
 TEST_F(DemoSettings, NumbersAreTaken) {

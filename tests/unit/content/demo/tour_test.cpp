@@ -36,6 +36,19 @@ TEST(DemoTour, MakesNoJumpsAndNoKinks) {
     }
 }
 
+TEST(DemoTour, ATurntableKeepsHeightAndDistanceAndComesBack) {
+    const scene::Camera start = views()[1];
+    for (const double part : {0.25, 0.5, 1.0}) {
+        const scene::Camera camera = turned(start, part);
+        EXPECT_EQ(camera.target, start.target);
+        EXPECT_EQ(camera.eye.y, start.eye.y);
+        EXPECT_NEAR(glm::distance(camera.eye, camera.target), glm::distance(start.eye, start.target), 1e-5F);
+    }
+    EXPECT_NEAR(glm::distance(turned(start, 0.5).eye, start.eye),
+                2.0F * glm::length(glm::vec2(start.eye.x - start.target.x, start.eye.z - start.target.z)), 1e-5F);
+    EXPECT_NEAR(glm::distance(turned(start, 1.0).eye, start.eye), 0.0F, 1e-5F);
+}
+
 TEST(DemoTour, ASingleViewIsFlownAround) {
     const std::vector<scene::Camera> one{views()[0]};
     EXPECT_NEAR(glm::distance(tour(one, 0.0).eye, one[0].eye), 0.0F, 1e-5F);
