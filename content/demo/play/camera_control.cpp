@@ -24,8 +24,15 @@ float held(const platform::InputState& input, Held negative, Held positive) {
 CameraControl::CameraControl(const scene::Camera& start, const scene::Bounds& room)
     : start_(start), room_(room), orbit_(start) {}
 
-void CameraControl::walk() {
-    walking_.emplace(orbit_.camera(), scene::FlySettings{.speed_m_per_s = walking_speed(start_), .room = room_});
+void CameraControl::walk_from(const scene::Camera& camera) {
+    walking_.emplace(camera, scene::FlySettings{.speed_m_per_s = walking_speed(start_), .room = room_});
+}
+
+void CameraControl::stop_at(const glm::vec3& eye) {
+    scene::Camera camera = walking_->camera();
+    camera.target += eye - camera.eye;
+    camera.eye = eye;
+    walk_from(camera);
 }
 
 void CameraControl::stop_walking(float distance) {

@@ -15,16 +15,19 @@ class CameraControl {
     CameraControl(const scene::Camera& start, const scene::Bounds& room);
 
     bool walking() const { return walking_.has_value(); }
-    void walk();
+    void walk() { walk_from(orbit_.camera()); }
     /// Returns to orbiting, about the point `distance` metres in front of the eye.
     void stop_walking(float distance);
     void reset();
+    /// Puts the walker, who stands still, back to an eye of camera().
+    void stop_at(const glm::vec3& eye);
 
     /// One step of `seconds`. `drags`: dragging moves the camera, not an object.
     void step(const platform::InputState& input, double seconds, bool drags);
     scene::Camera camera() const;
 
  private:
+    void walk_from(const scene::Camera& camera);
     void step_orbit(const platform::InputState& input, double seconds, bool drags);
     void step_walk(const platform::InputState& input, double seconds, bool drags);
 

@@ -104,7 +104,7 @@ void Play::step(std::span<const PlayEvent> events) {
     for (const PlayEvent& event : events) apply(event);
     read_keys();
     const bool hand_drags = move_hand();
-    camera_.step(input_, kStep_s, !hand_drags);
+    step_camera(!hand_drags);
     advance_time();
     update_nodes();
     ++steps_;
@@ -297,6 +297,28 @@ void Play::turn_environment(double radians) {
     turn_ = std::remainder(turn_ + radians, 2.0 * std::numbers::pi);
     // The root turns the other way, objects and camera with it: the picture is that of a turned environment.
     world_.get<scene::Transform>(toys_.root).rotation = glm::quat(glm::angleAxis(-turn_, glm::dvec3(0.0, 1.0, 0.0)));
+}
+
+/// A walker stops before what stands in the way, and slides along the axes that are free.
+void Play::step_camera(bool drags) {
+    const scene::Camera before = camera();
+    camera_.step(input_, kStep_s, drags);
+    const glm::vec3 way = camera().eye - before.eye;
+    const auto is_free = [&](const glm::vec3& from, const glm::vec3& step) {
+        const float length = glm::length(step);
+        if (!(length > 0.0F)) return true;
+        constexpr float kNearPlanes = 2.0F;  // kept between the eye and a surface
+        const auto hit = pick(world_, toys_.targets, {from, step / length});
+        return !hit || hit->triangle.distance >= length + kNearPlanes * before.near_plane;
+    };
+    if (!walking() || is_free(before.eye, way)) return;
+    glm::vec3 eye = before.eye;
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::vec3 step(0.0F);
+        step[axis] = way[axis];
+        if (is_free(eye, step)) eye += step;
+    }
+    camera_.stop_at(glm::conjugate(world_.get<scene::Transform>(toys_.root).rotation) * eye);
 }
 
 void Play::toggle_walking() {

@@ -111,6 +111,7 @@ class Play {
     void add_light();
     void turn_environment(double radians);
     void toggle_walking();
+    void step_camera(bool drags);
     glm::dvec2 pointer() const;
 
     ecs::World& world_;

@@ -39,7 +39,7 @@ gpu::Buffer segment_buffer(const StreakTables& tables, const glm::dmat3& xyz_to_
 
 /// A quarter of the side is filled in a sixteenth of the time; lights are wider then.
 StreakMapSize coarser(StreakMapSize size) {
-    size.side = std::max(4, size.side / 16 * 4);
+    size.side = std::max(8, size.side / 16 * 4);
     return size;
 }
 

@@ -139,7 +139,7 @@ TEST_F(ComparisonTest, PanelsNameTheRepresentationThatDrawsWhateverTheMeshForces
             SCOPED_TRACE(std::string(info->name) + ", " + object.name);
             nlohmann::json quality{{"representation", info->name}, {"key_lights", 4}};
             // Quick to bake: only the program is looked at.
-            for (const auto& [key, value] : {std::pair("bands", 3), {"rank", 4}, {"spikes", 2}, {"map_resolution", 32}})
+            for (const auto& [key, value] : {std::pair("bands", 3), {"rank", 4}, {"spikes", 2}, {"map_resolution", 16}})
                 if (info->find(key) != nullptr) quality[key] = value;
             const auto grating = nlohmann::json::parse(object.grating);
             diffraction::Material material = diffraction::parse_material({{"grating", grating}}, "test");

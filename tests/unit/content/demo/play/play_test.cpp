@@ -279,6 +279,24 @@ TEST(DemoPlay, AWalkerStaysInTheRoomAndEscapeEndsTheWalkFirst) {
     EXPECT_EQ(play.take_commands(), std::vector<Play::Command>{Action::Close});
 }
 
+TEST(DemoPlay, AWalkerStopsBeforeAnObjectAndWalksOnBesideIt) {
+    SmallWorld small;
+    Play play = small.play();
+    tap(play, Key::C);
+    play.step(std::vector{key(Key::D, true)});
+    while (play.camera().eye.x < 0.15F) play.step({});
+    play.step(std::vector{key(Key::D, false)});
+    test::wait(play, 120);
+    play.step(std::vector{key(Key::W, true)});
+    test::wait(play, 600);
+    const float stopped = play.camera().eye.z;
+    EXPECT_GT(stopped, 0.0F);
+    EXPECT_LT(stopped, 0.1F);
+    play.step(std::vector{key(Key::D, true)});
+    test::wait(play, 1200);
+    EXPECT_LT(play.camera().eye.z, 0.0F);
+}
+
 TEST(DemoPlay, TheViewStaysWhereTheWalkEnded) {
     SmallWorld small;
     Play play = small.play();
