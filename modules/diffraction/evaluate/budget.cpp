@@ -54,7 +54,7 @@ std::vector<int> key_light_counts(int most) {
 std::vector<nlohmann::json> budget_candidates(const Grating& grating, SurfaceShape surface, int key_light_limit) {
     std::vector<nlohmann::json> list;
     for (const RepresentationInfo* info : representations())
-        for (const std::string& settings : info->budget(sees_v_g_alone(grating), surface)) {
+        for (const std::string& settings : info->budget(grating, surface)) {
             nlohmann::json quality =
                 parse_method(settings.empty() ? info->name : fmt::format("{}/{}", info->name, settings)).quality;
             if (info->key_lights == KeyLightUse::Always) {

@@ -56,8 +56,8 @@ struct RepresentationInfo {
     KeyLightUse key_lights = KeyLightUse::ByDefault;
     std::vector<SettingInfo> settings{};
     std::vector<ReplacedSetting> replaced{};
-    /// What a budget may try for a lobe and a surface.
-    std::vector<std::string> (*budget)(bool flat_lobe, SurfaceShape surface) = nullptr;
+    /// What a budget may try for a grating and a surface.
+    std::vector<std::string> (*budget)(const Grating& grating, SurfaceShape surface) = nullptr;
 
     const SettingInfo* find(std::string_view key) const;
 };

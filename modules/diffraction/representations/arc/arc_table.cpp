@@ -288,8 +288,8 @@ const RepresentationInfo& ArcSettings::info() {
         .takes_harmonics = true,
         .settings = {bands_setting(), rank_setting(), view_mapping_setting(), view_resolution_setting(),
                      storage_setting(ArcSettings().storage)},
-        .budget = [](bool flat_lobe, SurfaceShape) -> std::vector<std::string> {
-            if (!flat_lobe) return {"bands=5/rank=8", "bands=8/rank=16"};
+        .budget = [](const Grating& grating, SurfaceShape) -> std::vector<std::string> {
+            if (!sees_v_g_alone(grating)) return {"bands=5/rank=8", "bands=8/rank=16"};
             std::vector<std::string> settings;
             for (const int bands : {3, 5, 8, 12, 16})
                 for (const int rank : {4, 8, 12, 16})

@@ -141,8 +141,8 @@ const RepresentationInfo& CircleSettings::info() {
         .is_map = true,
         .settings = {map_resolution_setting(104, 128), angles_setting()},
         // Flat surfaces have a better map; beyond 104 a map takes more than 64 MB.
-        .budget = [](bool flat_lobe, SurfaceShape surface) -> std::vector<std::string> {
-            if (!flat_lobe || surface != SurfaceShape::Curved) return {};
+        .budget = [](const Grating& grating, SurfaceShape surface) -> std::vector<std::string> {
+            if (!sees_v_g_alone(grating) || surface != SurfaceShape::Curved) return {};
             return {"map_resolution=16",  "map_resolution=24",          "map_resolution=32",
                     "map_resolution=48",  "map_resolution=64",          "map_resolution=80",
                     "map_resolution=104", "map_resolution=48/angles=0", "map_resolution=104/angles=0"};

@@ -280,12 +280,13 @@ glm::dvec3 pattern_radiance(std::span<const LightPicture> pictures, const std::o
 }
 
 const RepresentationInfo& DirectSettings::info() {
-    static const RepresentationInfo info{.name = "direct",
-                                         .file_number = 3,
-                                         .summary = "key lights and analytic lights alone",
-                                         .lattices = true,
-                                         .key_lights = KeyLightUse::Always,
-                                         .budget = [](bool, SurfaceShape) { return std::vector<std::string>{""}; }};
+    static const RepresentationInfo info{
+        .name = "direct",
+        .file_number = 3,
+        .summary = "key lights and analytic lights alone",
+        .lattices = true,
+        .key_lights = KeyLightUse::Always,
+        .budget = [](const Grating&, SurfaceShape) { return std::vector<std::string>{""}; }};
     return info;
 }
 

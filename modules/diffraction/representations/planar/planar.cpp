@@ -75,9 +75,10 @@ const RepresentationInfo& PlanarSettings::info() {
         .lattices = true,
         .needs_flat_surface = true,
         .settings = {map_resolution_setting(128, 1024), views_h_setting(), bands_setting(), rank_setting()},
-        .budget = [](bool flat_lobe, SurfaceShape surface) -> std::vector<std::string> {
+        .budget = [](const Grating& grating, SurfaceShape surface) -> std::vector<std::string> {
             if (surface != SurfaceShape::Flat) return {};
-            if (!flat_lobe) return {"map_resolution=32", "map_resolution=64", "map_resolution=128"};
+            if (grating.lattice) return {"map_resolution=64", "map_resolution=128", "map_resolution=256"};
+            if (!sees_v_g_alone(grating)) return {"map_resolution=32", "map_resolution=64", "map_resolution=128"};
             return {"map_resolution=32",  "map_resolution=64",  "map_resolution=128",
                     "map_resolution=192", "map_resolution=256", "map_resolution=512"};
         }};

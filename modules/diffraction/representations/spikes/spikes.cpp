@@ -279,8 +279,8 @@ const RepresentationInfo& SpikeTableSettings::info() {
                      view_mapping_setting(),
                      view_resolution_setting(),
                      storage_setting(SpikeTableSettings().storage)},
-        .budget = [](bool flat_lobe, SurfaceShape) -> std::vector<std::string> {
-            if (!flat_lobe) return {"bands=5/spikes=4"};
+        .budget = [](const Grating& grating, SurfaceShape) -> std::vector<std::string> {
+            if (!sees_v_g_alone(grating)) return {"bands=5/spikes=4"};
             return {"bands=5/spikes=4", "bands=5/spikes=8", "bands=5/spikes=16"};
         }};
     return info;

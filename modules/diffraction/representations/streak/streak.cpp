@@ -301,18 +301,19 @@ Streak read_streak(ByteReader& reader) {
 }
 
 const RepresentationInfo& StreakSurfaceSettings::info() {
-    static const RepresentationInfo info{.name = "streak",
-                                         .file_number = 6,
-                                         .summary = "narrow lobes: the whole probe, mirrored along the grooves",
-                                         .lobes = Lobes::Mirroring,
-                                         .key_lights = KeyLightUse::Always,
-                                         .settings = {map_resolution_setting(StreakSettings().map_resolution, 512),
-                                                      bands_setting(), rank_setting(), view_resolution_setting()},
-                                         .replaced = {{"nodes", "map_resolution"}, {"taps", "map_resolution"}},
-                                         .budget = [](bool flat_lobe, SurfaceShape) -> std::vector<std::string> {
-                                             if (flat_lobe) return {};
-                                             return {"map_resolution=128", "map_resolution=192", "map_resolution=320"};
-                                         }};
+    static const RepresentationInfo info{
+        .name = "streak",
+        .file_number = 6,
+        .summary = "narrow lobes: the whole probe, mirrored along the grooves",
+        .lobes = Lobes::Mirroring,
+        .key_lights = KeyLightUse::Always,
+        .settings = {map_resolution_setting(StreakSettings().map_resolution, 512), bands_setting(), rank_setting(),
+                     view_resolution_setting()},
+        .replaced = {{"nodes", "map_resolution"}, {"taps", "map_resolution"}},
+        .budget = [](const Grating& grating, SurfaceShape) -> std::vector<std::string> {
+            if (sees_v_g_alone(grating)) return {};
+            return {"map_resolution=128", "map_resolution=192", "map_resolution=320"};
+        }};
     return info;
 }
 
