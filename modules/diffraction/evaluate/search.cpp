@@ -128,7 +128,7 @@ class Search {
             if (stop_.stop_requested() || found()) break;
             measure(std::move(choice));
         }
-        if (!query_.good_enough) measure_front();
+        if (!query_.good_enough && !stop_.stop_requested()) measure_front();
         if (query_.good_enough && !stop_.stop_requested()) {
             if (!found()) find_best();
             check(*std::ranges::min_element(state_.measured, {}, &MeasuredChoice::error));

@@ -50,19 +50,16 @@ PricedChoice present_choice(const Document& document, const lighting::ProbeImage
 
 TEST(Price, CountsAreWhatCookInfoPrints) {
     const test::TemporaryFolder folder;
-    const lighting::ProbeImage probe = sky();
-    for (const char* name : {"cd.json", "dvd.json"}) {
-        const Document document = Document::open(kPricedMaterials / name);
-        const PricedChoice choice = present_choice(document, probe);
-        EXPECT_TRUE(choice.present);
-        EXPECT_GT(choice.error, 0.0);
-        const std::string printed = info(kPricedMaterials / name, folder.path());
-        for (const auto& [key, value] :
-             {std::pair{"table_bytes", choice.cost.table_bytes},
-              std::pair{"fetches_per_pixel", std::size_t(choice.cost.fetches_per_pixel)},
-              std::pair{"multiply_adds_per_vertex", std::size_t(choice.cost.multiply_adds_per_vertex)}})
-            EXPECT_THAT(printed, testing::HasSubstr(fmt::format("\n{}: {}\n", key, value))) << name;
-    }
+    const std::filesystem::path material = kPricedMaterials / "cd.json";
+    const PricedChoice choice = present_choice(Document::open(material), sky());
+    EXPECT_TRUE(choice.present);
+    EXPECT_GT(choice.error, 0.0);
+    const std::string printed = info(material, folder.path());
+    for (const auto& [key, value] :
+         {std::pair{"table_bytes", choice.cost.table_bytes},
+          std::pair{"fetches_per_pixel", std::size_t(choice.cost.fetches_per_pixel)},
+          std::pair{"multiply_adds_per_vertex", std::size_t(choice.cost.multiply_adds_per_vertex)}})
+        EXPECT_THAT(printed, testing::HasSubstr(fmt::format("\n{}: {}\n", key, value)));
 }
 
 TEST(Price, TheCheapestWithinAnErrorIsWhatTheCookerChooses) {

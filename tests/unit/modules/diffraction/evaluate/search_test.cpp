@@ -175,6 +175,14 @@ TEST(Search, StopsBetweenTwoSteps) {
     EXPECT_EQ(baking.total, 9U);
     EXPECT_TRUE(baking.measured.empty());
     EXPECT_EQ(searched(query, 4).measured.size(), 1U);
+    // Before the first choice, which is pinned, is measured.
+    SearchQuery pinned{.material = material, .probes = probes, .views = views, .settings = kSearched};
+    pinned.first = kSearched[1];
+    std::stop_source stop;
+    stop.request_stop();
+    EXPECT_TRUE(search(
+                    pinned, [](const SearchState&) {}, stop.get_token())
+                    .measured.empty());
 }
 
 /// Stopped between two parts, it continues where it was.
