@@ -113,7 +113,8 @@ void Measurement::want_point_numbers() {
 }
 
 Measurement::PriceInputs Measurement::price_inputs(bool of_all) const {
-    PriceInputs inputs{document().has_grating() ? document().accepted()->json : Json(), light_.current()};
+    PriceInputs inputs{document().has_grating() ? document().accepted()->json : Json(), light_.current(),
+                       view_.surface_shape()};
     for (const char* of_mesh : {"grooveRotation", "grooveTexture"})
         if (inputs.material.contains(of_mesh)) inputs.material.erase(of_mesh);
     if (of_all && inputs.material.contains("quality")) {
@@ -126,13 +127,15 @@ Measurement::PriceInputs Measurement::price_inputs(bool of_all) const {
 }
 
 Measurement::Prices::Work Measurement::price_work(bool pinned_only) const {
-    return [source = document().accepted(), light = light_.current(), pinned_only](
+    return [source = document().accepted(), light = light_.current(), surface = view_.surface_shape(), pinned_only](
                const std::stop_token& stop, const auto& publish) -> std::optional<PriceList> {
         PriceList last;
         const auto report = [&](const PriceList& list) { publish(last = list); };
         report(last);
         const bool has_quality = source->json.contains("quality");
-        price_choices({.material = source->material,
+        diffraction::Material material = source->material;
+        material.quality.surface = surface;
+        price_choices({.material = std::move(material),
                        .quality = has_quality ? nlohmann::json(source->json["quality"]) : nlohmann::json(),
                        .probe = light->image,
                        .key_lights = light->key_lights,

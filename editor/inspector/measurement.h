@@ -105,6 +105,7 @@ class Measurement {
     struct PriceInputs {
         Json material;
         LightChoice::Light light;
+        diffraction::SurfaceShape surface = diffraction::SurfaceShape::Flat;  ///< of the object in view
 
         friend bool operator==(const PriceInputs&, const PriceInputs&) = default;
     };

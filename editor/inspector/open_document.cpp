@@ -101,6 +101,18 @@ bool OpenDocument::open_preset(const std::string& name) {
     return messages_.attempt([&] { use_material(Document::open_as_new(path), path); });
 }
 
+OpenDocument::~OpenDocument() {
+    std::error_code ignored;
+    if (demo_copy_) std::filesystem::remove(*demo_copy_, ignored);
+}
+
+std::vector<std::string> OpenDocument::demo_arguments() {
+    std::filesystem::path file = document_.folder() / document_.name();
+    if (auto copy = document_.rescue(demo_copy_)) file = *(demo_copy_ = std::move(copy));
+    if (document_.is_scene()) return {"--scene", file.string()};
+    return {"--disc", "--material", file.string()};
+}
+
 std::span<const Preset> OpenDocument::presets() {
     return kPresets;
 }

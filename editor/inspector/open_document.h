@@ -31,6 +31,9 @@ class OpenDocument {
 
     /// Starts with a new material, the preset "cd". `presets`: the folder of the shipped materials.
     OpenDocument(std::filesystem::path presets, Messages& messages);
+    ~OpenDocument();
+    OpenDocument(const OpenDocument&) = delete;
+    OpenDocument& operator=(const OpenDocument&) = delete;
 
     Document& document() { return document_; }
     const Document& document() const { return document_; }
@@ -65,6 +68,10 @@ class OpenDocument {
     void save(bool over_changes = false);
     bool asks_to_overwrite = false;
     void save_as(const std::filesystem::path& path);
+
+    /// The arguments with which the demo shows the document as edited: of unsaved edits a copy, that of an earlier
+    /// call. Throws Error (system).
+    std::vector<std::string> demo_arguments();
 
     /// Sets the grating of the scene's chosen material from JSON text; removes it.
     void paste_grating(const std::string& text);
@@ -112,6 +119,7 @@ class OpenDocument {
     void set_groove_picture(std::vector<std::byte> picture, const std::string& name);
 
     std::filesystem::path presets_;
+    std::optional<std::filesystem::path> demo_copy_;  ///< removed at the end
     Messages& messages_;
     Document document_;
     std::size_t replacements_ = 0;

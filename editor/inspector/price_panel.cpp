@@ -53,15 +53,14 @@ void draw_numbers(const PriceList& list, bool is_current, const OpenDocument& op
     const std::string cooked = info(opened.cooked()->tables).name;
     const auto present = std::ranges::find(list.choices, true, &PricedChoice::present);
     const bool measured = present != list.choices.end() && is_current;
-    const diffraction::Quality& quality = opened.document().material().quality;
-    const std::string waiting = quality.pinned ? "measuring…" : "chosen by the cooker";
+    const std::string waiting = opened.document().material().quality.pinned ? "measuring…" : "chosen by the cooker";
     const std::string name =
         drawn->representation == cooked ? cooked : fmt::format("{} in place of {}", drawn->representation, cooked);
     draw_row("Representation", name.c_str());
     controls.note("representation", name);
     draw_row("Measured error",
-             measured ? fmt::format("{:.4g} {}, {} on a {} surface", present->error, measure_label(list.measure),
-                                    cooked, diffraction::surface_shape_name(quality.surface))
+             measured ? fmt::format("{:.4g} {}, on a {} surface", present->error, measure_label(list.measure),
+                                    diffraction::surface_shape_name(view.surface_shape()))
                       : waiting);
     draw_row("Price", measured ? fmt::format("{:.4g} fetches per pixel", present->price) : waiting);
     draw_row("Tables", fmt::format("{} ({} B)", byte_count(cost.table_bytes), cost.table_bytes));

@@ -1,9 +1,17 @@
 #include "editor/inspector/session.h"
 
+#include <spawn.h>
+#include <unistd.h>
+
+#include <cstring>
 #include <utility>
+#include <vector>
 
 #include "engine/app/drawing_program.h"
+#include "engine/core/error.h"
+#include "engine/core/file.h"
 #include "engine/view/picture.h"
+
 namespace rowland::inspector {
 
 namespace {
@@ -32,6 +40,24 @@ void Session::open_preset(const std::string& name) {
     if (!opened.open_preset(name) || opened.document().is_scene()) return;
     const bool lattice = opened.document().material().grating.lattice.has_value();
     view.choose_shape(lattice ? PreviewShape::Card : shape_of_preset(name));
+}
+
+void Session::open_in_demo() {
+    messages.attempt([&] {
+        std::vector<std::string> arguments = opened.demo_arguments();
+        const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "rowland-demo";
+        arguments.insert(arguments.begin(), program.string());
+        if (light.current())
+            arguments.insert(arguments.end(), {"--probe", std::filesystem::absolute(light.current()->path).string()});
+        std::vector<char*> pointers;
+        for (std::string& argument : arguments) pointers.push_back(argument.data());
+        pointers.push_back(nullptr);
+        pid_t process = -1;
+        const int code = posix_spawn(&process, program.c_str(), nullptr, nullptr, pointers.data(), environ);
+        if (code != 0)
+            fail_system(program.string(), std::strerror(code), "build or install the demo beside this program");
+        messages.say("the demo starts");
+    });
 }
 
 bool Session::update() {

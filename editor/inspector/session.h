@@ -38,6 +38,9 @@ struct Session {
     /// Opens a shipped material ("cd") on the shape that shows its colours, or as the grating of a scene's material.
     void open_preset(const std::string& name);
 
+    /// Starts the demo, which shows the document as edited under the session's light.
+    void open_in_demo();
+
     /// Returns whether there is a new result or message, or background work began or ended.
     bool update();
     /// Whether background work for the picture or the panes is not complete.

@@ -1,6 +1,5 @@
 #include "editor/inspector/view.h"
 
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -110,29 +109,40 @@ View::ViewedPoint View::point_or_middle() {
     return surface ? ViewedPoint{surface->frame, surface->layout} : ViewedPoint{};
 }
 
+std::set<diffraction::GrooveLayout> View::layouts(bool has_groove_texture) const {
+    const std::size_t chosen = document_.document().chosen();
+    std::set<diffraction::GrooveLayout> layouts;
+    const auto add = [&](const scene::Mesh& mesh) {
+        layouts.insert(diffraction::groove_layout(mesh, false, has_groove_texture));  // skins are posed at rest
+    };
+    if (!object_->scene) add(*object_->parts.meshes.front().mesh);
+    if (object_->scene)
+        for (const scene::ImportedInstance& instance : object_->scene->imported.instances)
+            if (instance.material == chosen) add(*object_->scene->meshes[instance.mesh]);
+    return layouts;
+}
+
+diffraction::SurfaceShape View::surface_shape() {
+    const std::pair shaped{object_, document_.document().chosen()};
+    if (std::exchange(shaped_, shaped) != shaped)
+        shape_ = layouts(false).contains(diffraction::GrooveLayout::Curved) ? diffraction::SurfaceShape::Curved
+                                                                            : diffraction::SurfaceShape::Flat;
+    return shape_;
+}
+
 const DrawnAs* View::drawn_as() {
     const auto grating = document_.grating(false);
     if (!grating) return nullptr;
     const DrawnInputs inputs{object_, document_.document().chosen(), grating};
     if (std::exchange(drawn_inputs_, inputs) == inputs) return &drawn_as_;
-    std::set<diffraction::GrooveLayout> layouts;
-    const auto add = [&](const scene::Mesh& mesh) {
-        // Skins are posed at rest.
-        layouts.insert(diffraction::groove_layout(mesh, false, grating->grooves != nullptr));
-    };
-    if (!object_->scene) add(*object_->parts.meshes.front().mesh);
-    if (object_->scene)
-        for (const scene::ImportedInstance& instance : object_->scene->imported.instances)
-            if (instance.material == document_.document().chosen()) add(*object_->scene->meshes[instance.mesh]);
     drawn_as_ = {};
-    for (const diffraction::GrooveLayout layout : layouts) {
+    for (const diffraction::GrooveLayout layout : layouts(grating->grooves != nullptr)) {
         const diffraction::BakedTables tables = as_drawn(*grating->material, layout).tables;
         const std::string name = info(tables).name;
         std::string& all = drawn_as_.representation;
         if (all.empty()) drawn_as_.cost = shading_cost(tables);
         if (all.find(name) == std::string::npos) all += (all.empty() ? "" : " and ") + name;
     }
-    if (layouts.contains(diffraction::GrooveLayout::Curved)) drawn_as_.surface = diffraction::SurfaceShape::Curved;
     return &drawn_as_;
 }
 

@@ -5,8 +5,10 @@
 #include <glm/vec4.hpp>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include "editor/inspector/light.h"
 #include "editor/inspector/open_document.h"
@@ -20,7 +22,6 @@ namespace rowland::inspector {
 struct DrawnAs {
     std::string representation;     ///< "arc"; "arc and planar" where its meshes differ
     diffraction::ShadingCost cost;  ///< of the first
-    diffraction::SurfaceShape surface = diffraction::SurfaceShape::Flat;  ///< curved if one of the meshes is
 
     friend bool operator==(const DrawnAs&, const DrawnAs&) = default;
 };
@@ -76,6 +77,8 @@ class View {
     std::optional<glm::vec4> chosen_sphere() {
         return preview_.sphere_of(object_->scene ? document_.document().chosen() : 0);
     }
+    /// Curved if one of the meshes with the chosen material is.
+    diffraction::SurfaceShape surface_shape();
     /// Null without a cooked material.
     const DrawnAs* drawn_as();
 
@@ -87,6 +90,7 @@ class View {
         std::tuple<std::shared_ptr<const PreviewObject>, std::size_t, std::shared_ptr<const CookedGrating>>;
 
     void forget_point();
+    std::set<diffraction::GrooveLayout> layouts(bool has_groove_texture) const;
     std::optional<PickedSurface> find_surface();
     void update_point();
     void read_picked_pixel();
@@ -101,8 +105,10 @@ class View {
     std::optional<PickedPixel> picked_;
     std::optional<PickedSurface> surface_;
     std::shared_ptr<const diffraction::ShadingPoint> point_;
-    bool searched_ = false;     ///< for a surface of the chosen material
-    PixelInputs pixel_inputs_;  ///< of the colours in picked_
+    bool searched_ = false;                                                ///< for a surface of the chosen material
+    PixelInputs pixel_inputs_;                                             ///< of the colours in picked_
+    std::pair<std::shared_ptr<const PreviewObject>, std::size_t> shaped_;  ///< object and material of shape_
+    diffraction::SurfaceShape shape_ = diffraction::SurfaceShape::Flat;
     DrawnInputs drawn_inputs_;  ///< of drawn_as_
     DrawnAs drawn_as_;
 };

@@ -161,6 +161,7 @@ std::vector<Command> Workbench::commands() {
          {},
          [this] { dialogs_.ask_unsaved([this] { session_.opened.close_scene(); }); },
          session_.opened.document().is_scene()},
+        {"File", "Open in the demo", {}, {}, [this] { session_.open_in_demo(); }},
         {"File", ""},
         {"File", "Quit", "Ctrl+Q", Key::Q, [this] { ask_to_close(); }},
         {"Edit", "Undo", "Ctrl+Z", Key::Z, [&document] { document.undo(); }, document.can_undo()},

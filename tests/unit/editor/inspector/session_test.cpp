@@ -168,46 +168,43 @@ TEST_F(SessionTest, ThePriceIsOfTheRepresentationThatDrawsTheShapeInView) {
     const auto bytes_on = [&](PreviewShape shape, const char* representation, diffraction::SurfaceShape surface) {
         session_.view.choose_shape(shape);
         EXPECT_EQ(session_.view.drawn_as()->representation, representation);
-        EXPECT_EQ(session_.view.drawn_as()->surface, surface);
+        EXPECT_EQ(session_.view.surface_shape(), surface);
         return session_.view.drawn_as()->cost.table_bytes;
     };
     const std::size_t flat = bytes_on(PreviewShape::Disc, "planar", diffraction::SurfaceShape::Flat);
     EXPECT_NE(bytes_on(PreviewShape::Sphere, "arc", diffraction::SurfaceShape::Curved), flat);
-    bytes_on(PreviewShape::Sheet, "arc", diffraction::SurfaceShape::Curved);
     EXPECT_EQ(bytes_on(PreviewShape::Card, "planar", diffraction::SurfaceShape::Flat), flat);
 }
 
-TEST_F(SessionTest, EveryShippedMaterialIsAPreset) {
-    std::size_t shipped = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(test::content_path("materials")))
-        shipped += entry.path().extension() == ".json" ? 1U : 0U;
-    EXPECT_EQ(OpenDocument::presets().size(), shipped);
-    for (const Preset& preset : OpenDocument::presets()) {
-        EXPECT_TRUE(session_.opened.open_preset(preset.file)) << preset.file;
-        EXPECT_EQ(document().name(), std::string(preset.file) + ".json");
-    }
+TEST_F(SessionTest, TheShapeInViewDecidesTheSurfaceThatIsMeasured) {
+    document().replace_quality({{"representation", "planar"}, {"map_resolution", 128}});
+    settle();
+    const double flat = present().error;
+    session_.view.choose_shape(PreviewShape::Sphere);
+    EXPECT_FALSE(session_.measurement.prices_are_current());
+    settle();
+    EXPECT_TRUE(session_.measurement.prices_are_current());
+    EXPECT_GT(present().error, 3.0 * flat) << "of arc, which draws the sphere";
 }
 
-TEST_F(SessionTest, CapturesAreListedAfterTheRecipes) {
-    std::filesystem::create_directory(path("captures"));
-    write_file_atomic(path("captures/captured_city.json"), test::small_sky(64));
-    write_file_atomic(path("sky.txt"), "no light");
-    Messages messages;
-    const LightChoice light({path("captures"), folder_.path(), path("missing")}, "auto", messages);
-    EXPECT_THAT(light.shipped(),
-                testing::ElementsAre(path("captures/captured_city.json"), path("m.json"), path("sky.json")));
+TEST_F(SessionTest, TheDemoIsGivenTheDocumentAsEdited) {
+    EXPECT_THAT(session_.opened.demo_arguments(), testing::ElementsAre("--disc", "--material", path("m.json")));
+    for (const int pitch_nm : {900, 950}) {
+        document().set_value(field_at("/grating/pitch_nm"), pitch_nm);
+        EXPECT_EQ(session_.opened.demo_arguments().back(), path("m.unsaved.json"));
+        EXPECT_EQ(Document::open(path("m.unsaved.json")).json(), document().json());
+    }
 }
 
 TEST_F(SessionTest, TheChosenPartIsFramedWhateverTheStagesRotation) {
     draw_until_cooked(1600.0);
     session_.view.choose_shape(PreviewShape::Sphere);
     draw(1);
-    const auto sphere = session_.view.chosen_sphere();
-    ASSERT_TRUE(sphere);
-    EXPECT_NEAR(sphere->w, 0.05F * std::sqrt(3.0F), 1e-3F);
+    const glm::vec4 sphere = session_.view.chosen_sphere().value();
+    EXPECT_NEAR(sphere.w, 0.05F * std::sqrt(3.0F), 1e-3F);
     session_.view.stage.rotation_deg = 90.0F;
     draw(1);
-    EXPECT_LT(glm::distance(*session_.view.chosen_sphere(), *sphere), 1e-3F);
+    EXPECT_LT(glm::distance(session_.view.chosen_sphere().value(), sphere), 1e-3F);
 }
 
 TEST_F(SessionTest, APresetOpensOnTheShapeThatShowsItsColours) {

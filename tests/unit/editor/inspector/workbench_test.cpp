@@ -5,6 +5,8 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <set>
+#include <string>
 
 #include "editor/inspector/layout.h"
 #include "engine/colour/colour_space.h"
@@ -119,6 +121,27 @@ TEST(InspectorLayout, ASmallWindowShowsThePreviewAndALargerOneAfterwardsTheLayou
     EXPECT_EQ(large.left, 16.0F * layout.material_width);
     EXPECT_EQ(large.right, 16.0F * layout.physics_width);
     EXPECT_EQ(large.below, 16.0F * layout.price_height);
+}
+
+TEST(Presets, AreTheShippedMaterials) {
+    std::set<std::string> shipped;
+    for (const auto& entry : std::filesystem::directory_iterator(test::content_path("materials")))
+        if (entry.path().extension() == ".json") shipped.insert(entry.path().stem().string());
+    std::set<std::string> presets;
+    for (const Preset& preset : OpenDocument::presets()) presets.insert(preset.file);
+    EXPECT_EQ(presets, shipped);
+}
+
+TEST(LightChoice, CapturesAreListedBesideTheRecipes) {
+    const test::TemporaryFolder folder;
+    const auto path = [&](const char* name) { return folder.path() / name; };
+    std::filesystem::create_directories(path("captures"));
+    for (const char* name : {"captures/captured_city.json", "studio.json", "night.json", "sky.txt"})
+        write_file_atomic(path(name), "{}");
+    Messages messages;
+    const LightChoice light({path("captures"), folder.path(), path("missing")}, "auto", messages);
+    EXPECT_THAT(light.shipped(),
+                testing::ElementsAre(path("captures/captured_city.json"), path("night.json"), path("studio.json")));
 }
 
 TEST(Plot, TicksAreRoundAndWithinTheAxis) {
