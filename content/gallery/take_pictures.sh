@@ -40,6 +40,12 @@ for lobe in pits flat; do
         --auto-exposure --width 640 --height 480 --capture "$work/$lobe.png"
     keep "$lobe" "$work/$lobe.png"
 done
+# The README's table of looks: the disc alone.
+for material in cd_pressed holographic_foil ruled_600 butterfly_wing diffraction_glasses; do
+    demo --disc --material "$root/content/materials/$material.json" --bloom 0.03 --width 640 --height 360 \
+        --probe "$root/build/release/cooked/captured_interior.probe" --capture "$work/$material.png"
+    convert "$work/$material.png" -crop 324x300+160+30 +repage -resize 50% -quality 85 "$here/look_$material.jpg"
+done
 mkdir "$work/film"
 demo --disc --material "$root/content/materials/cd_pressed.json" --frames 96 --width 480 --height 300 --bloom 0.04 \
     --probe "$root/build/release/cooked/captured_interior.probe" --capture "$work/film/frame.png"
