@@ -45,8 +45,8 @@ TEST(BlenderAddOn, GratingsSurviveExportAndImportAndAreWhatAttachMakes) {
                                    {"PYTHONDONTWRITEBYTECODE", "1"}}});
     ASSERT_EQ(blender.code, 0) << blender.out << blender.err;
 
-    const test::Ended checked =
-        test::run({ROWLAND_COOK, "check", path("scene.glb"), path("scene.gltf"), path("again.glb"), path("screen.glb")});
+    const test::Ended checked = test::run(
+        {ROWLAND_COOK, "check", path("scene.glb"), path("scene.gltf"), path("again.glb"), path("screen.glb")});
     EXPECT_EQ(checked.code, 0) << checked.err;
     const test::Ended valid = test::run(
         {"/usr/bin/env", "node", test::source_path("tests/unit/engine/scene/validate_gltf.cjs"), path("scene.glb")});

@@ -73,7 +73,7 @@ TEST(Window, OutlivesASourceOfADragThatExitsBeforeItIsAnswered) {
     window.poll(input);
     ASSERT_EQ(test::run({ROWLAND_DROP_FILES, "--die", number_of("outlives")}).code, 0);
     testing::internal::CaptureStderr();
-    window.poll(input);  // answers a window that is gone
+    window.poll(input);  // answers a window that no longer exists
     window.position();   // waits for the server
     EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("the X server refused request"));
 }
