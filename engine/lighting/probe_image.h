@@ -35,13 +35,16 @@ struct InvalidTexelCounts {
     std::uint64_t total() const { return nan + infinite + negative; }
 };
 
+/// The brightest texel of a probe.
+inline constexpr float kLargestRadiance = 1e30F;
+
 /// A light probe at full resolution: an image, its mapping, and the lookup.
 class ProbeImage {
  public:
     /// Replaces NaN, infinite and negative components by 0 (see report()). Resamples an image of
     /// a single texel to a larger one of the same radiance, and an equirectangular one whose texels have an aspect
     /// ratio above 8 (see resampled_size()). Throws Error (input) if the image is empty, not square for an angular map,
-    /// or cannot be recognised (Mapping::Auto); `file` names it in messages.
+    /// brighter than kLargestRadiance, or cannot be recognised (Mapping::Auto); `file` names it in messages.
     ProbeImage(image::Image image, Mapping mapping, const std::string& file = "probe");
 
     const image::Image& image() const { return image_; }

@@ -282,7 +282,7 @@ Deviation deviation_around_a_lamp(const Material& material, const lighting::Prob
                                   int points) {
     const Grating& grating = material.grating;
     const PlanarLobe lobe = *bake(grating, std::get<PlanarSettings>(representation(material))).lobe;
-    const LobeMapViews views = grating.lattice ? one_azimuth(lobe.size).views : lobe.size.views;
+    const LobeMapViews views = one_azimuth(lobe.size).views;
     const PlaneAxes axes = plane_axes(normal);
     const glm::dmat3 frame(axes.e1, axes.e2, axes.n);
     const auto point_at = [&](const glm::dvec2& v) -> ShadingPoint {
