@@ -123,8 +123,6 @@ void MapCache::use(SharedMap& map, bool wait) {
         const auto begin = std::chrono::steady_clock::now();
         coarse_.wait(*map.job, wait_left_);
         wait_left_ -= std::chrono::steady_clock::now() - begin;
-    } else {
-        return;
     }
     take(map);
     upload(map, kAllSlices);
@@ -151,23 +149,22 @@ void MapCache::upload(SharedMap& map, int slices) {
 
 void MapCache::begin_frame() {
     wait_left_ = longest_wait_;
-    std::erase_if(maps_, [&](const auto& map) {
-        if (map->last_use == frame_) return false;
-        if (map->job) std::exchange(map->job, nullptr)->stop.request_stop();
-        if (map.use_count() > 1) return false;
-        if (map->shown == MapDetail::Coarse)
-            for (GpuMap& part : map->parts) spare_.push_back(std::move(part).texture());
-        return true;
-    });
-    if (spare_.size() > kSpareTextures)
-        spare_.erase(spare_.begin(), spare_.end() - static_cast<std::ptrdiff_t>(kSpareTextures));
     for (const auto& map : maps_) {
+        if (map->last_use < frame_ && map->job) std::exchange(map->job, nullptr)->stop.request_stop();
         take(*map);
         upload(*map, kSlicesPerFrame);
         const bool idle = !map->job && map->uploads.empty();
         // Not in the frame that waited for the coarse map: other maps and the driver's compiler need the cores.
         if (idle && map->last_use == frame_ && map->shown == MapDetail::Coarse) begin(*map, MapDetail::Full);
     }
+    std::erase_if(maps_, [&](const auto& map) {
+        if (map.use_count() > 1 || map->last_use == frame_) return false;
+        if (map->shown == MapDetail::Coarse)
+            for (GpuMap& part : map->parts) spare_.push_back(std::move(part).texture());
+        return true;
+    });
+    if (spare_.size() > kSpareTextures)
+        spare_.erase(spare_.begin(), spare_.end() - static_cast<std::ptrdiff_t>(kSpareTextures));
     ++frame_;
 }
 
