@@ -16,6 +16,7 @@
 #include "engine/colour/colour_space.h"
 #include "engine/core/byte_stream.h"
 #include "engine/core/check.h"
+#include "engine/core/error.h"
 #include "engine/lighting/environment_map.h"
 #include "engine/math/spherical_harmonics.h"
 
@@ -280,7 +281,26 @@ glm::dvec3 mean_radiance(const ShLight& light) {
 
 }  // namespace
 
+namespace {
+
+/// Sums over the image are single precision.
+void require_finite_sums(const ProbeImage& probe) {
+    const image::Image& image = probe.image();
+    const auto width = static_cast<std::size_t>(image.width);
+    for (std::size_t i = 0; i < image.texels.size(); ++i) {
+        const glm::vec3& texel = image.texels[i];
+        if (const float largest = std::max({texel.x, texel.y, texel.z}); largest > kLargestRadiance)
+            refuse_input(probe.file(), fmt::format("column {}, row {}", i % width, i / width),
+                         fmt::format("a radiance of {:.3g}", largest),
+                         fmt::format("at most {:.0g}, so that sums over the image are finite", kLargestRadiance),
+                         "scale the image down");
+    }
+}
+
+}  // namespace
+
 LightProbe build_light_probe(const ProbeImage& probe, const LightProbeSettings& settings) {
+    require_finite_sums(probe);
     LightProbe light;
     light.sh = project(probe, settings.bands);
     light.illuminant = settings.illuminant;

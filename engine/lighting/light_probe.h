@@ -70,7 +70,10 @@ struct LightProbe {
 /// Version of serialise()'s layout and of build_light_probe()'s results; part of the cooked header.
 inline constexpr std::uint32_t kLightProbeVersion = 5;
 
-/// Deterministic for any number of threads.
+/// The brightest texel of a light probe.
+inline constexpr float kLargestRadiance = 1e30F;
+
+/// Deterministic for any number of threads. Throws Error (input) if the image is brighter than kLargestRadiance.
 LightProbe build_light_probe(const ProbeImage& probe, const LightProbeSettings& settings = {});
 
 std::vector<std::byte> serialise(const LightProbe& probe);

@@ -101,18 +101,6 @@ InvalidTexelCounts clean(image::Image& image) {
     return report;
 }
 
-void check_range(const image::Image& image, const std::string& file) {
-    for (std::size_t i = 0; i < image.texels.size(); ++i) {
-        const float largest = std::max({image.texels[i].x, image.texels[i].y, image.texels[i].z});
-        const auto width = static_cast<std::size_t>(image.width);
-        if (largest > kLargestRadiance)
-            refuse_input(file, fmt::format("column {}, row {}", i % width, i / width),
-                         fmt::format("a radiance of {:.3g}", largest),
-                         fmt::format("at most {:.0g}, so that sums over the image are finite", kLargestRadiance),
-                         "scale the image down");
-    }
-}
-
 void check_shape(const image::Image& image, Mapping mapping, const std::string& file) {
     ROWLAND_CHECK_OP(image.texels.size(), ==,
                      static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
@@ -289,10 +277,11 @@ glm::ivec2 resampled_size(int width, int height) {
 }
 
 ProbeImage::ProbeImage(image::Image image, Mapping mapping, const std::string& file)
-    : image_(std::move(image)), mapping_(mapping == Mapping::Auto ? detect_mapping(image_, file) : mapping) {
+    : image_(std::move(image)),
+      mapping_(mapping == Mapping::Auto ? detect_mapping(image_, file) : mapping),
+      file_(file) {
     check_shape(image_, mapping_, file);
     report_ = clean(image_);
-    check_range(image_, file);
     if (image_.width == 1 && image_.height == 1) image_ = everywhere(image_.texels[0], mapping_);
     if (mapping_ == Mapping::Equirectangular) resample();
 }

@@ -35,20 +35,18 @@ struct InvalidTexelCounts {
     std::uint64_t total() const { return nan + infinite + negative; }
 };
 
-/// The brightest texel of a probe.
-inline constexpr float kLargestRadiance = 1e30F;
-
 /// A light probe at full resolution: an image, its mapping, and the lookup.
 class ProbeImage {
  public:
     /// Replaces NaN, infinite and negative components by 0 (see report()). Resamples an image of
     /// a single texel to a larger one of the same radiance, and an equirectangular one whose texels have an aspect
     /// ratio above 8 (see resampled_size()). Throws Error (input) if the image is empty, not square for an angular map,
-    /// brighter than kLargestRadiance, or cannot be recognised (Mapping::Auto); `file` names it in messages.
+    /// or cannot be recognised (Mapping::Auto); `file` names it in messages.
     ProbeImage(image::Image image, Mapping mapping, const std::string& file = "probe");
 
     const image::Image& image() const { return image_; }
     Mapping mapping() const { return mapping_; }
+    const std::string& file() const { return file_; }
     const InvalidTexelCounts& report() const { return report_; }
 
     /// Unit vector through a point of the image in texel units: (column + ½, row + ½) is a texel's centre. Unspecified
@@ -68,6 +66,7 @@ class ProbeImage {
 
     image::Image image_;
     Mapping mapping_;
+    std::string file_;
     InvalidTexelCounts report_;
 };
 

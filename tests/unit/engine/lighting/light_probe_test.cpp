@@ -186,6 +186,18 @@ TEST(LightProbe, WrongSizesAndValuesAreRefused) {
                 HasSubstr("environment values that are negative"));
 }
 
+/// Else sums over it overflow, and the program ends at a check.
+TEST(LightProbe, LightWhoseSumsWouldOverflowIsRefused) {
+    image::Image image{2, 1, {{1, 1, 1}, {1, 1, kLargestRadiance}}};
+    LightProbeSettings settings;
+    settings.bands = 3;
+    settings.key_lights = 0;
+    const auto build = [&] { build_light_probe({image, Mapping::Equirectangular, "sun.hdr"}, settings); };
+    EXPECT_NO_THROW(build());
+    image.texels[1].y = 2.0F * kLargestRadiance;
+    EXPECT_THAT(test::message_of(build), testing::StartsWith("sun.hdr: column 1, row 0: a radiance of 2e+30"));
+}
+
 TEST(LightProbe, MoreKeyLightsThanShadersTakeAreRefused) {
     LightProbe probe = small_probe();
     probe.key_lights.assign(kMaximumKeyLights, KeyLight{{0.0, 1.0, 0.0}, glm::dvec3(1.0), 50.0});

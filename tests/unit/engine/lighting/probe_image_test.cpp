@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <string>
 
 #include "engine/core/error.h"
 #include "engine/image/image.h"
@@ -10,7 +9,6 @@
 #include "engine/lighting/light_samples.h"
 #include "engine/lighting/probe_image.h"
 #include "engine/lighting/sh_light.h"
-#include "tests/support/expect.h"
 #include "tests/support/files.h"
 #include "tests/unit/engine/lighting/made_probes.h"
 
@@ -199,15 +197,6 @@ TEST(ProbeImage, AngularSolidAngleIsTheIntegralOverTheTexel) {
                     << size << ": " << column << ", " << row;
             }
     }
-}
-
-/// Else sums over it overflow, and a program that checks them ends.
-TEST(ProbeImage, LightWhoseSumsWouldOverflowIsRefused) {
-    image::Image image{2, 1, {{1, 1, 1}, {1, 1, kLargestRadiance}}};
-    EXPECT_NO_THROW(ProbeImage(image, Mapping::Equirectangular));
-    image.texels[1].y = 2.0F * kLargestRadiance;
-    const std::string message = test::message_of([&] { ProbeImage(image, Mapping::Equirectangular, "sun.hdr"); });
-    EXPECT_EQ(message.find("sun.hdr: column 1, row 0: a radiance of 2e+30"), 0U) << message;
 }
 
 TEST(ProbeImage, TexelsThatAreNoLightAreCountedAndBlack) {
