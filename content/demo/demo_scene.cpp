@@ -210,10 +210,8 @@ void DemoScene::frame_object(const std::string& name) {
     const auto box = render::united(boxes);
     if (!box)
         refuse_input("--frame-object", "", name, fmt::format("the name of an object: {}", fmt::join(names, ", ")));
-    const glm::vec3 direction = glm::normalize(camera_.eye - camera_.target);
-    const float radius = 0.5F * glm::length(box->maximum - box->minimum);
-    camera_.target = 0.5F * (box->minimum + box->maximum);
-    camera_.eye = camera_.target + 1.1F * radius / std::sin(0.5F * camera_.vertical_field_of_view) * direction;
+    camera_ =
+        scene::framed(camera_, 0.5F * (box->minimum + box->maximum), 0.5F * glm::length(box->maximum - box->minimum));
 }
 
 template <typename T, typename Show>

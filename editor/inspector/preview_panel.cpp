@@ -176,13 +176,8 @@ constexpr scene::OrbitSettings kOrbit{.minimum_distance = 0.005F, .maximum_dista
 PreviewPanel::PreviewPanel() : camera_(opening_camera(), kOrbit) {}
 
 void PreviewPanel::frame(View& view) {
-    const auto sphere = view.chosen_sphere();
-    if (!sphere) return;
-    scene::Camera camera = camera_.camera();
-    const glm::vec3 backward = glm::normalize(camera.eye - camera.target);
-    camera.target = glm::vec3(*sphere);
-    camera.eye = camera.target + 1.1F * sphere->w / std::sin(0.5F * camera.vertical_field_of_view) * backward;
-    camera_ = scene::OrbitCamera(camera, kOrbit);
+    if (const auto sphere = view.chosen_sphere())
+        camera_ = scene::OrbitCamera(scene::framed(camera_.camera(), glm::vec3(*sphere), sphere->w), kOrbit);
 }
 
 void PreviewPanel::draw_tools(bool has_scene, bool has_saved, LightChoice& light, View& view, ControlMap& controls) {

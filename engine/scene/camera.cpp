@@ -38,6 +38,14 @@ glm::mat4 Camera::projection(float aspect) const {
     return glm::perspective(vertical_field_of_view, aspect, near_plane, far_plane);
 }
 
+Camera framed(Camera camera, const glm::vec3& target, float radius) {
+    constexpr float kMargin = 1.1F;
+    const glm::vec3 backward = glm::normalize(camera.eye - camera.target);
+    camera.target = target;
+    camera.eye = target + kMargin * radius / std::sin(0.5F * camera.vertical_field_of_view) * backward;
+    return camera;
+}
+
 glm::vec3 direction_of(ViewAngles angles) {
     const double level = std::cos(angles.pitch);
     return glm::vec3(glm::dvec3(level * std::sin(angles.yaw), std::sin(angles.pitch), level * std::cos(angles.yaw)));

@@ -24,6 +24,9 @@ struct Camera {
     glm::mat4 projection(float aspect) const;
 };
 
+/// The camera, moved until a sphere about its new target fills the picture's height; its direction stays.
+Camera framed(Camera camera, const glm::vec3& target, float radius);
+
 /// Steepest pitch of the interactive cameras, 89 degrees: at the poles the up vector +Y gives no orientation.
 constexpr double kMaximumPitch = 89.0 / 180.0 * std::numbers::pi;
 
