@@ -137,7 +137,7 @@ const DrawnAs* View::drawn_as() {
     if (std::exchange(drawn_inputs_, inputs) == inputs) return &drawn_as_;
     drawn_as_ = {};
     for (const diffraction::GrooveLayout layout : layouts(grating->grooves != nullptr)) {
-        const diffraction::BakedTables tables = as_drawn(*grating->material, layout).tables;
+        const diffraction::BakedTables tables = drawn_tables(grating->material->tables, layout);
         const std::string name = info(tables).name;
         std::string& all = drawn_as_.representation;
         if (all.empty()) drawn_as_.cost = shading_cost(tables);

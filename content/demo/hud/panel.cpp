@@ -107,7 +107,7 @@ std::size_t bytes_of_tables(Comparison& comparison, const std::vector<ecs::Entit
         const diffraction::BakedTables& tables = material->cooked()->tables;
         const auto layout = comparison.layout(grating);
         const bool own = &diffraction::drawn_info(tables, layout) == &info(tables);
-        bytes += shading_cost(own ? tables : as_drawn(*material->cooked(), layout).tables).table_bytes;
+        bytes += shading_cost(own ? tables : drawn_tables(tables, layout)).table_bytes;
     };
     for (const ecs::Entity grating : gratings) {
         count(grating, Side::Left);

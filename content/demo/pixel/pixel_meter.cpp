@@ -60,7 +60,7 @@ struct PixelMeter::Lit {
         PixelReading reading{.query = query, .key_lights = key_lights, .point = {}};
         if (query.window) {
             reading.window = *query.window;
-        } else if (const int bands = bands_of(as_drawn(*query.cooked, query.layout).tables); bands > 0) {
+        } else if (const int bands = bands_of(drawn_tables(query.cooked->tables, query.layout)); bands > 0) {
             if (std::exchange(windowed, {query.cooked, query.layout}) != std::pair{query.cooked, query.layout})
                 window = diffraction::weakest_window(comparer->harmonics(key_lights, bands), bands);
             reading.window = window;

@@ -147,13 +147,19 @@ GrooveLayout layout_of(std::span<const ShadingPoint> points) {
     return agree(&ShadingPoint::grating) ? GrooveLayout::FlatUniform : GrooveLayout::Flat;
 }
 
+BakedTables drawn_tables(const BakedTables& tables, GrooveLayout layout) {
+    const auto* planar = std::get_if<PlanarTables>(&tables);
+    if (planar == nullptr) return tables;
+    if (layout == GrooveLayout::Curved) return ArcTable(*planar->stand_in);
+    PlanarTables result = *planar;
+    if (layout == GrooveLayout::FlatUniform && result.lobe && result.lobe->size.azimuths > 1)
+        result.lobe->size = one_azimuth(result.lobe->size);
+    return result;
+}
+
 CookedMaterial as_drawn(const CookedMaterial& cooked, GrooveLayout layout) {
     CookedMaterial result = cooked;
-    if (auto* planar = std::get_if<PlanarTables>(&result.tables)) {
-        if (layout == GrooveLayout::FlatUniform && planar->lobe && planar->lobe->size.azimuths > 1)
-            planar->lobe->size = one_azimuth(planar->lobe->size);
-        if (layout == GrooveLayout::Curved) result.tables = ArcTable(*planar->stand_in);
-    }
+    result.tables = drawn_tables(cooked.tables, layout);
     if (cooked.reflected)
         result.reflected = std::make_shared<const CookedMaterial>(as_drawn(*cooked.reflected, layout));
     return result;

@@ -18,7 +18,8 @@ namespace rowland::diffraction {
 
 /// Of one object's points, at least one.
 GrooveLayout layout_of(std::span<const ShadingPoint> points);
-/// The material as such an object shows it; only `planar` differs.
+/// Tables, and the material, as such an object shows them; only `planar` differs.
+BakedTables drawn_tables(const BakedTables& tables, GrooveLayout layout);
 CookedMaterial as_drawn(const CookedMaterial& cooked, GrooveLayout layout);
 
 /// Shades points of one side of a baked material as evaluate_baked() does; both arguments must outlive it. Maps are

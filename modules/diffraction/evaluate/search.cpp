@@ -166,7 +166,7 @@ class Search {
             known = std::make_shared<const CookedMaterial>(std::move(cooked));
         }
         choice.baked = known;
-        const auto cost = shading_cost(as_drawn(*known, query_.views.front().layout).tables);
+        const auto cost = shading_cost(drawn_tables(known->tables, query_.views.front().layout));
         choice.price = shading_price(cost, std::min(choice.quality.key_lights, most_key_lights_));
     }
 
