@@ -300,7 +300,9 @@ std::function<glm::dvec3(const ShadingPoint&)> planar_map_of_points(const lighti
         const std::array<std::size_t, 2> seen{columns.first, columns.second};
         if (!filled[seen[0]] || !filled[seen[1]]) {
             const std::size_t before = seen[0] + fill->azimuths() - 1;
-            parallel_for(4, [&](std::size_t i) { fill->project(before + i); });
+            // Both columns and their neighbours; a small map has no more than its projections.
+            parallel_for(std::min<std::size_t>(4, fill->projections()),
+                         [&](std::size_t i) { fill->project(before + i); });
             parallel_for(2, [&](std::size_t i) { fill->fill(seen[i]); });
             filled[seen[0]] = filled[seen[1]] = true;
         }

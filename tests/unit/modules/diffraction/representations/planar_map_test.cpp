@@ -241,14 +241,17 @@ TEST(PlanarMap, FillingWhatPointsSeeGivesTheSame) {
     const auto texels = texels_of({.bands = 2, .coefficients = std::vector<glm::dvec3>(4, glm::dvec3(1, 2, 0.5))}, 128);
     const KernelTable kernel = tabulate(ColourKernel(test::compact_disc(), colour::LightSpectra()));
     const PlaneAxes axes = plane_axes({0.2, 0.9, 0.4});
-    const PlanarMap all = fill_planar_map(texels, kernel, 1600.0, axes.n, {32, 32});
-    const auto of_points =
-        planar_map_of_points(texels, kernel, 1600.0, axes.n, {32, 32}, glm::dmat3(0.0), std::nullopt);
-    for (int i = 0; i < 9; ++i) {
-        const ShadingPoint point{.view = axes.n + 0.2 * i * axes.e1,
-                                 .normal = axes.n,
-                                 .grating = std::cos(0.7 * i) * axes.e1 + std::sin(0.7 * i) * axes.e2};
-        EXPECT_EQ(of_points(point), sample(all, point)) << i;
+    for (const int azimuths : {4, 32}) {
+        const PlanarMapSize size{azimuths, 32};
+        const PlanarMap all = fill_planar_map(texels, kernel, 1600.0, axes.n, size);
+        const auto of_points =
+            planar_map_of_points(texels, kernel, 1600.0, axes.n, size, glm::dmat3(0.0), std::nullopt);
+        for (int i = 0; i < 9; ++i) {
+            const ShadingPoint point{.view = axes.n + 0.2 * i * axes.e1,
+                                     .normal = axes.n,
+                                     .grating = std::cos(0.7 * i) * axes.e1 + std::sin(0.7 * i) * axes.e2};
+            EXPECT_EQ(of_points(point), sample(all, point)) << azimuths << ", " << i;
+        }
     }
 }
 
