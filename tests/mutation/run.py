@@ -1,15 +1,17 @@
 #!/usr/bin/env python3
 """Breaks one line of the code at a time and looks whether the quick tests notice.
 
-usage: tests/mutation/run.py [--check] [--first-only] [--work FOLDER] [WORD...]
+usage: tests/mutation/run.py [--check] [--first-only] [--part K/N] [--work FOLDER] [WORD...]
 
   WORD          only faults whose description or file contains one of the words
   --check       only look whether each fault's text and test programs occur in the tree
   --first-only  run the programs that a fault names, and not all quick tests if those pass
+  --part K/N    every Nth fault, from the Kth
   --work FOLDER where the scratch copy is built (build/mutation); a later run continues there
 
-For each fault of faults.txt: a line "killed by TEST", "killed by the build" or "SURVIVED". Exit code 1 if one survived,
-2 if the list does not fit the tree.
+For each fault of faults.txt: a line "killed by SUITE...", "killed by the build" or "SURVIVED". Then a table: of each suite
+of those programs its seconds, under how many faults it ran, how many it killed, and how many no other one did. Exit code
+1 if a fault survived, 2 if the list does not fit the tree.
 """
 import argparse
 import pathlib
@@ -17,6 +19,7 @@ import re
 import shutil
 import subprocess
 import sys
+import xml.etree.ElementTree
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
@@ -102,23 +105,41 @@ class Scratch:
     def builds(self, targets):
         return self.run(["cmake", "--build", str(self.build), "--target", *targets]).returncode == 0
 
-    def first_failure(self, arguments):
-        """The first test that fails, or None."""
-        ended = self.run(["ctest", "--test-dir", str(self.build), "-LE", "^slow$", "--stop-on-failure", "-j", "2",
-                          "--output-on-failure", *arguments])
-        if ended.returncode == 0:
-            return None
-        failed = re.findall(r"^\[  FAILED  \] ([^\s,]+)", ended.stdout, re.MULTILINE)
-        return failed[0] if failed else "a test that ended early"
+    def results(self, arguments):
+        """Of each quick test that ran: its name, its seconds and whether it passed."""
+        record = self.build / "mutation.xml"
+        record.unlink(missing_ok=True)
+        self.run(["ctest", "--test-dir", str(self.build), "-LE", "^slow$", "-j", "2", "--output-junit", str(record), *arguments])
+        if not record.exists():
+            return [("a program that cannot list its tests", 0, False)]
+        cases = xml.etree.ElementTree.parse(record).getroot().iter("testcase")
+        return [(case.get("name"), float(case.get("time")), case.get("status") == "run") for case in cases]
 
-    def verdict(self, fault, first_only):
+    def verdict(self, fault, first_only, suites):
         if not self.builds(fault.programs):
             return "killed by the build"
-        failure = self.first_failure(["-L", "^(" + "|".join(fault.programs) + ")$"])
-        if failure is None and not first_only:
+        results = self.results(["-L", "^(" + "|".join(fault.programs) + ")$"])
+        failed = [name for name, _, passed in results if not passed]
+        for name, seconds, _ in results:
+            suites.setdefault(name, Suite()).count(seconds, name in failed, failed == [name])
+        if not failed and not first_only:
             self.builds(["all"])
-            failure = self.first_failure([])
-        return f"killed by {failure}" if failure else "SURVIVED"
+            failed = [name for name, _, passed in self.results(["--stop-on-failure"]) if not passed]
+        return "killed by " + ", ".join(failed) if failed else "SURVIVED"
+
+
+class Suite:
+    """What one suite has learned."""
+
+    def __init__(self):
+        self.ran = self.killed = self.alone = 0
+        self.seconds = float("inf")
+
+    def count(self, seconds, killed, alone):
+        self.ran += 1
+        self.killed += killed
+        self.alone += alone
+        self.seconds = min(self.seconds, seconds)
 
 
 def main():
@@ -126,9 +147,11 @@ def main():
     parser.add_argument("words", nargs="*")
     parser.add_argument("--check", action="store_true")
     parser.add_argument("--first-only", action="store_true")
+    parser.add_argument("--part", default="1/1")
     parser.add_argument("--work", type=pathlib.Path, default=ROOT / "build" / "mutation")
     options = parser.parse_args()
-    faults = read_faults(options.words)
+    part, parts = map(int, options.part.split("/"))
+    faults = read_faults(options.words)[part - 1::parts]
     wrong = misfits(faults, ROOT)
     for line in wrong:
         print(f"error: {line}", file=sys.stderr)
@@ -139,17 +162,21 @@ def main():
         return 0
     scratch = Scratch(options.work)
     survived = 0
+    suites = {}
     for fault in faults:
         path = fault.find_file(scratch.tree)
         content = path.read_text()
         path.write_text(fault.broken(content))
         try:
-            verdict = scratch.verdict(fault, options.first_only)
+            verdict = scratch.verdict(fault, options.first_only, suites)
         finally:
             path.write_text(content)
         survived += verdict == "SURVIVED"
         print(f"{fault.file}: {fault.description} {verdict}", flush=True)
     print(f"{len(faults) - survived} of {len(faults)} killed")
+    print("suite, seconds, ran, killed, killed alone")
+    for name, suite in sorted(suites.items(), key=lambda item: -item[1].seconds):
+        print(f"{name}, {suite.seconds:.1f}, {suite.ran}, {suite.killed}, {suite.alone}")
     return 1 if survived else 0
 
 
