@@ -319,6 +319,7 @@ void DemoScene::set_sun(bool on) {
     sun_ = add_under(root_);
     world_.add(sun_, scene::DirectionalLight{.direction = glm::normalize(glm::vec3(0.55F, 0.8F, 0.35F)),
                                              .irradiance = glm::vec3(2.5F, 2.4F, 2.2F),
+                                             .angular_radius = scene::kSunAngularRadius,
                                              .casts_shadow = true});
 }
 

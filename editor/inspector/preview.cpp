@@ -224,6 +224,7 @@ void Preview::Side::draw(const PreviewInputs& inputs, float seconds) {
         world.add(lamp, scene::DirectionalLight{
                             .direction = glm::normalize(glm::mat3(stage_rotation(stage)) * lamp_direction(stage)),
                             .irradiance = glm::vec3(stage.lamp_irradiance),
+                            .angular_radius = scene::kSunAngularRadius,
                             .casts_shadow = false});
     } else if (world.alive(lamp)) {
         world.destroy(lamp);

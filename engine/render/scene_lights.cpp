@@ -79,6 +79,7 @@ Light block_light(const scene::PunctualLight& light, const glm::mat4& matrix) {
     Light result = {};
     const float range2 = light.range_m * light.range_m;
     result.position = glm::vec4(glm::vec3(matrix[3]), range2 > 0.0F ? 1.0F / (range2 * range2) : 0.0F);
+    result.strength.w = light.radius_m * light.radius_m;
     result.axis.w = 1.0F;
     if (!light.spot) return result;
     const float scale = 1.0F / std::max(1e-3F, std::cos(light.inner_cone) - std::cos(light.outer_cone));
@@ -107,6 +108,8 @@ SceneLights gather_lights(ecs::World& world, const glm::dmat3& rec709_to_working
         const glm::vec3 direction = world_direction(world, entity, light);
         lights.push_back({});
         lights.back().position = glm::vec4(direction, 0.0F);
+        const float sine = std::sin(light.angular_radius);
+        lights.back().strength.w = sine * sine;
         strengths.push_back(light.irradiance);
         if (!light.casts_shadow || result.shadow_light) return;
         result.shadow_light = direction;
@@ -121,7 +124,7 @@ SceneLights gather_lights(ecs::World& world, const glm::dmat3& rec709_to_working
     constexpr std::size_t kMaximum = ROWLAND_MAXIMUM_LIGHTS;
     const std::size_t kept = std::min(lights.size(), kMaximum);
     for (std::size_t i = 0; i < kept; ++i) {
-        lights[i].strength = glm::vec4(to_working * strengths[i], 0.0F);
+        lights[i].strength = glm::vec4(to_working * strengths[i], lights[i].strength.w);
         result.block.lights[i] = lights[i];
     }
     strengths.resize(kept);

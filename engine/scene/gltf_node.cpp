@@ -9,6 +9,7 @@
 #include <ranges>
 
 #include "engine/core/error.h"
+#include "engine/core/json_reader.h"
 #include "engine/scene/gltf_parts.h"
 #include "engine/scene/transform.h"
 
@@ -77,12 +78,30 @@ std::vector<int> root_nodes(const gltf::Model& model) {
     return roots;
 }
 
-std::variant<DirectionalLight, PunctualLight> light_of(const gltf::Light& from, bool casts_shadow) {
+/// A light's size, which glTF lacks: a number in its node's extras.
+float size_of(const nlohmann::json& extras, const GltfDocument& document, const std::string& node, const char* key,
+              double otherwise, double largest) {
+    if (!extras.is_object()) return static_cast<float>(otherwise);
+    JsonReader reader(extras, document.file, node + "/extras");
+    return static_cast<float>(reader.number_or(key, otherwise, {.minimum = 0.0, .maximum = largest}));
+}
+
+std::variant<DirectionalLight, PunctualLight> light_of(const gltf::Light& from, const nlohmann::json& extras,
+                                                       const GltfDocument& document, const std::string& node) {
     const glm::vec3 strength(vector_or(from.color, glm::dvec3(1.0)) * from.intensity);
     // Along the node's −Z.
-    if (from.type == "directional")
-        return DirectionalLight{.direction = {0.0F, 0.0F, 1.0F}, .irradiance = strength, .casts_shadow = casts_shadow};
-    PunctualLight light{.intensity = strength, .range_m = static_cast<float>(from.range), .spot = from.type == "spot"};
+    if (from.type == "directional") {
+        const float diameter_deg =
+            size_of(extras, document, node, "light_angle", glm::degrees(2.0 * kSunAngularRadius), 90.0);
+        return DirectionalLight{.direction = {0.0F, 0.0F, 1.0F},
+                                .irradiance = strength,
+                                .angular_radius = 0.5F * glm::radians(diameter_deg),
+                                .casts_shadow = is_marked(extras, "casts_shadow")};
+    }
+    PunctualLight light{.intensity = strength,
+                        .radius_m = size_of(extras, document, node, "light_radius", kBulbRadius_m, 1000.0),
+                        .range_m = static_cast<float>(from.range),
+                        .spot = from.type == "spot"};
     if (!light.spot) return light;
     light.inner_cone = static_cast<float>(from.spot.innerConeAngle);
     light.outer_cone = static_cast<float>(from.spot.outerConeAngle);
@@ -144,7 +163,7 @@ class NodeImport {
         if (const auto light = node.extensions.find(kLightExtension); light != node.extensions.end()) {
             const int which = light->second.Get("light").GetNumberAsInt();
             scene_.lights.push_back({at, light_of(document_.model.lights[static_cast<std::size_t>(which)],
-                                                  is_marked(scene_.nodes.back().extras, "casts_shadow"))});
+                                                  scene_.nodes.back().extras, document_, pointer)});
         }
         if (node.camera >= 0)
             if (const gltf::Camera& camera = document_.model.cameras[static_cast<std::size_t>(node.camera)];

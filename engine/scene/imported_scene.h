@@ -101,7 +101,8 @@ struct ImportedSkin {
 };
 
 /// KHR_lights_punctual; shines along its node's −Z. Lux and candela are taken as irradiance, and irradiance at 1 m.
-/// A directional light whose node's extras say `"casts_shadow": true` does so.
+/// Its node's extras state what glTF lacks: `"casts_shadow": true` and `"light_angle"`, the diameter in degrees, of a
+/// directional light; `"light_radius"`, in metres, of the others. Without them it is as large as the sun or a bulb.
 struct ImportedLight {
     std::size_t node = 0;
     std::variant<DirectionalLight, PunctualLight> light;

@@ -114,15 +114,17 @@ class RenderTest : public GlTest {
 };
 
 /// What a GGX surface (height-correlated Smith, Schlick) sends to `v` of unit irradiance on a surface that faces `l`.
+/// The light's angular radius widens the distribution of half vectors by half of it.
 inline glm::dvec3 reflected(const glm::dvec3& l, const glm::dvec3& n, const glm::dvec3& v, const glm::dvec3& base,
-                            double metallic, double roughness) {
+                            double metallic, double roughness, double angular_radius = 0.0) {
     using std::numbers::pi;
     const glm::dvec3 h = glm::normalize(l + v);
     const double n_l = std::max(glm::dot(n, l), 0.0);
     const double n_v = glm::dot(n, v);
     const double n_h = glm::dot(n, h);
     const double a2 = std::pow(roughness, 4.0);
-    const double d = a2 / (pi * std::pow(n_h * n_h * (a2 - 1.0) + 1.0, 2.0));
+    const double seen_a2 = a2 + std::pow(0.5 * std::sin(angular_radius), 2.0);
+    const double d = seen_a2 / (pi * std::pow(n_h * n_h * (seen_a2 - 1.0) + 1.0, 2.0));
     const auto lambda = [&](double c) { return 0.5 * (std::sqrt(1.0 + a2 * (1.0 - c * c) / (c * c)) - 1.0); };
     const double g = n_l > 0.0 ? 1.0 / (1.0 + lambda(n_l) + lambda(n_v)) : 0.0;
     const glm::dvec3 f0 = glm::mix(glm::dvec3(0.04), base, metallic);

@@ -43,6 +43,7 @@ bool PlayerLights::add(ecs::World& world, ecs::Entity parent, const glm::vec3& p
     constexpr float kRangeInReaches = 8.0F;
     world.add(entity, scene::PunctualLight{
                           .intensity = kColours[lights_.size() % kColours.size()] * kIrradiance * reach * reach,
+                          .radius_m = scene::kBulbRadius_m,
                           .range_m = kRangeInReaches * reach});
     lights_.push_back(entity);
     return true;

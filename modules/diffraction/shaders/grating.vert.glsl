@@ -72,7 +72,7 @@ vec3 vertex_lights(mat3 axes, vec3 direction) {
     vec3 first = vec3(0.0);
     float weight = small_light_weight(scale, direction.z);
     PixelU u = PixelU(dot(lights[0].position.xyz, axes[0]) + direction.x, 0.0);
-    add_small_light(scale, 0, weight, lights[0].position.xyz, axes, direction.y, u, 1.0, first);
+    add_small_light(scale, 0, weight, lights[0].position.xyz, lights[0].strength.w, axes, direction.y, u, 1.0, first);
 #ifdef SHADOWED_AT_PIXELS
     shadowed_at_vertex = kernel_to_working(first);
 #else
@@ -81,7 +81,7 @@ vec3 vertex_lights(mat3 axes, vec3 direction) {
 #ifdef SEVERAL_DIRECTIONAL_LIGHTS
     for (int i = 1; i < int(light_counts.x); ++i) {
         u.mean = dot(lights[i].position.xyz, axes[0]) + direction.x;
-        add_small_light(scale, i, weight, lights[i].position.xyz, axes, direction.y, u, 1.0, sum);
+        add_small_light(scale, i, weight, lights[i].position.xyz, lights[i].strength.w, axes, direction.y, u, 1.0, sum);
     }
 #endif
 #endif

@@ -6,7 +6,7 @@
 #if defined(PUNCTUAL_LIGHTS) || (defined(SEPARATE_LIGHTS) && !defined(LIGHTS_AT_VERTICES))
 #define LIGHTS_AT_PIXELS
 #endif
-// Lights without extent.
+// Lights of the scene, which are points or small discs.
 #if (defined(SEPARATE_LIGHTS) && defined(DIRECTIONAL_LIGHTS)) || defined(PUNCTUAL_LIGHTS)
 #define SMALL_LIGHTS
 #endif

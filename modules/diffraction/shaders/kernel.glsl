@@ -135,14 +135,21 @@ uniform mat3 working_to_rec709;
 // Factor of PHYSICS (4.2) on the table's values, ½ of their scale, for a view of this cosine; 0 below the horizon.
 float small_light_weight(KernelScale scale, float v_n) { return v_n > 0.0 ? 0.5 * scale.scale_bias.w : 0.0; }
 
-// Adds lights[i], a light without extent. `weight`: small_light_weight() times irradiance on a surface that faces the
-// light, over its strength; `axes`: columns g, h, n in the world; `v_h`: toward the eye, along h; `u`: of s_g + v_g over
-// the pixel.
-void add_small_light(KernelScale scale, int i, float weight, vec3 l, mat3 axes, float v_h, PixelU u, float pitch_factor,
-                     inout vec3 sum) {
+// Adds lights[i]. `weight`: small_light_weight() times irradiance on a surface that faces the light, over its strength;
+// `square_size`: squared sine of its angular radius; `axes`: columns g, h, n in the world; `v_h`: toward the eye, along h;
+// `u`: of s_g + v_g over the pixel. A disc has the variance square_size/4 across its direction; and as the surface sees
+// its upper half better, and directions are shorter toward its middle, the mean of s_g is smaller.
+void add_small_light(KernelScale scale, int i, float weight, vec3 l, float square_size, mat3 axes, float v_h, PixelU u,
+                     float pitch_factor, inout vec3 sum) {
+    float s_g = dot(l, axes[0]);
+    u.mean -= 0.5 * square_size * s_g;
+    u.square_width += (0.25 / BOX_VARIANCE) * square_size * (1.0 - s_g * s_g);
     float t = kernel_row(scale, pitch_factor * pitch_factor * u.square_width);
     float above = max(dot(l, axes[2]), 0.0);
-    vec3 dimmed = (pitch_factor * weight * above * cover_transmittance(above)) * groove_factor(dot(l, axes[1]) + v_h);
+    float s_h = dot(l, axes[1]);
+    float deviation_h = sqrt(0.25 * square_size * (1.0 - s_h * s_h));
+    vec3 dimmed = (pitch_factor * weight * above * cover_transmittance(above)) *
+                  groove_factor(s_h - 0.5 * square_size * s_h + v_h, deviation_h);
     // One look-up costs less than a branch around it.
     sum += dimmed * light_layer_scale[i].y * kernel_texel(scale, pitch_factor * u.mean, t, light_layer_scale[i].x);
 #ifdef ZERO_ORDER

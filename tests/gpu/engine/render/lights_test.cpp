@@ -45,6 +45,40 @@ class LightsTest : public test::RenderTest {
     static constexpr glm::vec3 kBase{0.5F, 0.3F, 0.1F};
 };
 
+/// A disc's reflection in a glossy metal against the mean over its points, across the highlight.
+TEST_F(LightsTest, ADiscsHighlightIsTheMeanOfItsPoints) {
+    world_ = {};
+    add(square(), {.base_colour = glm::vec3(1.0F), .metallic = 1.0F, .roughness = 0.2F});
+    const glm::dvec3 toward = glm::normalize(glm::dvec3(0.1, 0.0, 1.0));
+    const double radius = 0.1;
+    world_.add(world_.create(), scene::DirectionalLight{.direction = glm::vec3(toward),
+                                                        .irradiance = glm::vec3(1.0F),
+                                                        .angular_radius = static_cast<float>(radius)});
+    const auto pixels = draw();
+    const auto expected = [&](const glm::vec3& position) {
+        const glm::dvec3 v = glm::normalize(glm::dvec3(0.0, 0.0, kEye) - glm::dvec3(position));
+        const glm::dvec3 across = glm::normalize(glm::cross(toward, glm::dvec3(0.0, 1.0, 0.0)));
+        constexpr int kPoints = 400;
+        double sum = 0.0;
+        for (int i = 0; i < kPoints; ++i) {  // a sunflower's seeds
+            const double r = std::sin(radius) * std::sqrt((i + 0.5) / kPoints);
+            const double angle = 2.399963229728653 * i;
+            const glm::dvec3 offset = r * (std::cos(angle) * across + std::sin(angle) * glm::cross(toward, across));
+            const glm::dvec3 l = toward * std::sqrt(1.0 - r * r) + offset;
+            sum += test::reflected(l, {0.0, 0.0, 1.0}, v, glm::dvec3(1.0), 1.0, 0.2).x;
+        }
+        return sum / kPoints;
+    };
+    double brightest = 0.0;
+    double largest = 0.0;
+    for (float x = -0.3F; x < 0.8F; x += 0.05F) {
+        const double value = expected(position_of(x, 0.02F));
+        brightest = std::max(brightest, value);
+        largest = std::max(largest, std::abs(static_cast<double>(at(pixels, x, 0.02F).r) - value));
+    }
+    EXPECT_LT(largest, 0.2 * brightest);  // measured: .16, at the rim
+}
+
 TEST_F(LightsTest, TwoDirectionalLightsAdd) {
     add_directional({1.0F, 0.2F, 0.7F}, {1.0F, 2.0F, 0.5F});
     add_directional({-0.5F, 0.6F, 0.4F}, {3.0F, 0.25F, 1.0F});

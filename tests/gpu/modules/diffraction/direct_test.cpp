@@ -13,18 +13,19 @@ class Direct : public GratingPicture {
  protected:
     /// What the engine's own surface sends of a light with this irradiance (Rec.709) on what faces it.
     static glm::dvec3 base_xyz(const CookedMaterial& cooked, const Point& point, const glm::dvec3& l,
-                               const glm::dvec3& irradiance, const glm::vec3& eye) {
+                               const glm::dvec3& irradiance, const glm::vec3& eye, double angular_radius = 0.0) {
         const glm::dvec3 n = glm::transpose(point.to_tangent)[2];
         const glm::dvec3 v = glm::normalize(glm::dvec3(eye) - point.position);
         const double roughness = static_cast<double>(cooked.material.base.roughness);
         return layer_weights(cooked.material.grating).base *
-               rowland::test::reflected(l, n, v, glm::dvec3(0.0), 0.0, roughness) *
+               rowland::test::reflected(l, n, v, glm::dvec3(0.0), 0.0, roughness, angular_radius) *
                (colour::rec709_to_xyz() * irradiance);
     }
-    /// A light without extent, by the smoothed kernel; `half_pixel`: footprint().
+    /// By the smoothed kernel; `half_pixel`: footprint().
     static glm::dvec3 small_light_xyz(const CookedMaterial& cooked, const Point& point, const glm::dvec3& l,
-                                      const glm::dvec3& irradiance, double half_pixel) {
-        const DirectLight light{.direction = l, .flux = irradiance};
+                                      const glm::dvec3& irradiance, double half_pixel, double angular_radius = 0.0) {
+        const double mean_cosine = std::pow(std::cos(0.5 * angular_radius), 2.0);
+        const DirectLight light{.direction = l, .flux = irradiance / mean_cosine, .angular_radius = angular_radius};
         return direct_radiance(smoothed(cooked), direct_material(cooked), light_spot(light, point.to_tangent),
                                DirectView{point.view.x, point.view.y, half_pixel});
     }
@@ -103,9 +104,7 @@ TEST_F(Direct, LightsAtTheVerticesAreInterpolated) {
 
 TEST_F(Direct, PitsEqualTheCpu) {
     light_ = light_of(smooth_probe(), three_keys());
-    const CookedMaterial cooked = cook(R"({"pitch_nm": 1500, "profile": {"type": "slit", "width_nm": 700},
-                                           "groove_lobe": {"pits": {"length_nm": 850, "coherent": 0.3}}})",
-                                       kDirect);
+    const CookedMaterial cooked = cook(kPits, kDirect);
     show(cooked, 0.1);
     EXPECT_LT(largest_difference(draw(), key_lights(cooked)), kPictureTolerance);
     EXPECT_GT(brightest_, 0.01);
@@ -141,6 +140,30 @@ TEST_F(Direct, DirectionalLightsEqualTheCpu) {
     EXPECT_GT(brightest_, 0.05);
 }
 
+TEST_F(Direct, DiscsEqualTheCpu) {
+    const glm::dvec3 l = glm::normalize(glm::vec3(0.5F, 0.4F, 1.0F));
+    const double radius = 0.06;
+    for (const char* grating : {kSlitCd, kFoil, kPits}) {
+        const CookedMaterial cooked = cook(grating, kDirect);
+        if (!renderer_) {
+            show(cooked, 0.5);
+            world_.add(world_.create(), scene::DirectionalLight{.direction = glm::vec3(l),
+                                                                .irradiance = glm::vec3(1.0F),
+                                                                .angular_radius = static_cast<float>(radius)});
+        }
+        use(cooked);
+        const auto expected = [&](double drawn_radius) {
+            return [&, drawn_radius](const Point& point) {
+                return small_light_xyz(cooked, point, l, glm::dvec3(1.0), footprint(point, l), drawn_radius) +
+                       base_xyz(cooked, point, l, glm::dvec3(1.0), camera_.eye, drawn_radius);
+            };
+        };
+        EXPECT_LT(largest_difference(draw(), expected(radius)), kPictureTolerance) << grating;
+        EXPECT_GT(brightest_, 0.02);
+        EXPECT_GT(largest_difference(draw(), expected(0.0)), 0.05) << grating;
+    }
+}
+
 /// The kernel has a layer for each colour, and is rebuilt when the colours change.
 TEST_F(Direct, LightsOfOtherColoursEqualTheCpu) {
     const CookedMaterial cooked = cook(kSlitCd, kDirect);
@@ -170,6 +193,7 @@ TEST_F(Direct, LightsOfOtherColoursEqualTheCpu) {
 
 /// Points and spots are no part of a probe: every representation shades them one by one.
 TEST_F(Direct, PointLightsShineOnEveryRepresentation) {
+    constexpr float kRadius_m = 0.08F;
     const glm::vec3 position(0.9F, 0.5F, 1.6F);
     const glm::dvec3 intensity(3.0, 2.0, 1.5);
     const char* const qualities[] = {kDirect, R"({"representation": "spikes"})",
@@ -180,15 +204,16 @@ TEST_F(Direct, PointLightsShineOnEveryRepresentation) {
         const CookedMaterial cooked = cook(kSlitCd, quality);
         if (!renderer_) {
             show(cooked, 0.5);
-            add_light({.intensity = glm::vec3(intensity)}, position);
+            add_light({.intensity = glm::vec3(intensity), .radius_m = kRadius_m}, position);
         }
         use(cooked);
         const auto expected = [&](const Point& point) {
             const glm::dvec3 to_light = glm::dvec3(position) - point.position;
             const glm::dvec3 l = glm::normalize(to_light);
             const glm::dvec3 irradiance = intensity / glm::dot(to_light, to_light);
-            return small_light_xyz(cooked, point, l, irradiance, footprint_of_lamp(point, position)) +
-                   base_xyz(cooked, point, l, irradiance, camera_.eye);
+            const double radius = std::asin(static_cast<double>(kRadius_m) / glm::length(to_light));
+            return small_light_xyz(cooked, point, l, irradiance, footprint_of_lamp(point, position), radius) +
+                   base_xyz(cooked, point, l, irradiance, camera_.eye, radius);
         };
         EXPECT_LT(largest_difference(draw(), expected), kPictureTolerance) << quality;
         EXPECT_GT(brightest_, 0.05);

@@ -24,6 +24,8 @@ inline constexpr const char* kBlazed =
     R"({"pitch_nm": 1200, "profile": {"type": "blazed", "depth_nm": 250}, "orders": [-1, 1, 2]})";
 inline constexpr const char* kFoil = R"({"pitch_nm": 1000, "profile": {"type": "sinusoidal", "depth_nm": 150},
                                          "groove_lobe": {"sigma": 0.3}})";
+inline constexpr const char* kPits = R"({"pitch_nm": 1500, "profile": {"type": "slit", "width_nm": 700},
+                                         "groove_lobe": {"pits": {"length_nm": 850, "coherent": 0.3}}})";
 
 /// Of the picture's maximum: 5e-4 of tables in halves, and 1.5e-3 of the kernel, whose table has more columns on the
 /// CPU. Tables of views change little from texel to texel: positions of 8 bits between them (filter_error.h) add 4e-4.

@@ -134,7 +134,7 @@ TEST_F(LatticePicture, KeyLightsEqualTheCpu) {
     }
 }
 
-/// Of two colours: each has a layer of the picture.
+/// Of two colours: each has a layer of the picture. The second is a disc.
 TEST_F(LatticePicture, DirectionalLightsEqualTheCpu) {
     const CookedMaterial cooked = cook(kCrossedFoil, R"({"representation": "direct"})");
     show(cooked, 0.5);
@@ -142,20 +142,22 @@ TEST_F(LatticePicture, DirectionalLightsEqualTheCpu) {
     const glm::dvec3 directions[] = {glm::normalize(glm::vec3(0.5F, 0.4F, 1.0F)),
                                      glm::normalize(glm::vec3(-0.6F, 0.2F, 0.8F))};
     const glm::dvec3 irradiances[] = {glm::dvec3(1.0), glm::dvec3(0.1, 0.3, 2.0)};
+    constexpr double kRadii[] = {0.0, 0.04};
     for (int i = 0; i < 2; ++i)
         world_.add(world_.create(), scene::DirectionalLight{.direction = glm::vec3(directions[i]),
-                                                            .irradiance = glm::vec3(irradiances[i])});
+                                                            .irradiance = glm::vec3(irradiances[i]),
+                                                            .angular_radius = static_cast<float>(kRadii[i])});
     const auto expected = [&](const Point& point) {
         const glm::dvec3 n = glm::transpose(point.to_tangent)[2];
         const glm::dvec3 v = glm::normalize(glm::dvec3(camera_.eye) - point.position);
         glm::dvec3 xyz(0.0);
         for (int i = 0; i < 2; ++i) {
-            const DirectLight light{.direction = directions[i], .flux = irradiances[i]};
+            const DirectLight light{.direction = directions[i], .flux = irradiances[i], .angular_radius = kRadii[i]};
             xyz += pattern_radiance(picture, pattern_light(light, std::nullopt, point.to_tangent),
                                     glm::dvec2(point.view), footprint_in_plane(point, directions[i]));
             xyz += layer_weights(cooked.material.grating).base *
                    rowland::test::reflected(directions[i], n, v, glm::dvec3(0.0), 0.0,
-                                            static_cast<double>(cooked.material.base.roughness)) *
+                                            static_cast<double>(cooked.material.base.roughness), kRadii[i]) *
                    (colour::rec709_to_xyz() * irradiances[i]);
         }
         return xyz;

@@ -11,8 +11,6 @@ namespace rowland::diffraction {
 namespace {
 
 const glm::dmat3 kWorking = glm::transpose(glm::dmat3(1.7, -0.4, -0.2, -0.6, 1.5, 0.1, 0.05, -0.2, 0.9));
-constexpr const char* kPits = R"({"pitch_nm": 1500, "profile": {"type": "slit", "width_nm": 700},
-                                  "groove_lobe": {"pits": {"length_nm": 850, "coherent": 0.3}}})";
 constexpr const char* kNarrow = R"({"pitch_nm": 1300, "profile": {"type": "slit", "width_nm": 600},
                                     "groove_lobe": {"sigma": 0.1}})";
 constexpr const char* kZeroOrder =

@@ -178,6 +178,27 @@ TEST(GltfLight, SpotHasItsCones) {
     EXPECT_FLOAT_EQ(plain.outer_cone, 0.785398163F);
 }
 
+TEST(GltfLight, IsAsLargeAsItsNodesExtrasSay) {
+    const auto sized = [](const char* type, const json& extras) {
+        json file = lit({{"type", type}});
+        if (!extras.is_null()) file["nodes"][0]["extras"] = extras;
+        return file;
+    };
+    const auto angle = [&](const json& extras) {
+        return only_light<DirectionalLight>(load(sized("directional", extras))).angular_radius;
+    };
+    const auto radius = [&](const json& extras) {
+        return only_light<PunctualLight>(load(sized("point", extras))).radius_m;
+    };
+    EXPECT_FLOAT_EQ(angle(nullptr), kSunAngularRadius);
+    EXPECT_FLOAT_EQ(angle({{"light_angle", 10}}), glm::radians(5.0F));
+    EXPECT_FLOAT_EQ(radius("a note"), kBulbRadius_m);
+    EXPECT_EQ(radius({{"light_radius", 0}}), 0.0F);
+    EXPECT_EQ(radius({{"light_radius", 0.25}}), 0.25F);
+    EXPECT_THAT(error_of(sized("point", {{"light_radius", -1}})), HasSubstr("/nodes/0/extras/light_radius"));
+    EXPECT_THAT(error_of(sized("directional", {{"light_angle", "wide"}})), HasSubstr("/nodes/0/extras/light_angle"));
+}
+
 TEST(GltfLight, BadLightsAreRefused) {
     const auto spot = [](double inner, double outer) {
         return error_of(lit({{"type", "spot"}, {"spot", {{"innerConeAngle", inner}, {"outerConeAngle", outer}}}}));
