@@ -234,10 +234,11 @@ TEST(EditableGltf, AGlbTakesImagesIntoItsBinaryChunk) {
         if (has_chunk) {
             EXPECT_EQ(std::memcmp(binary.data(), "12345678", 8), 0);
         }
-        for (const OrderedJson& view : json_of(gltf)["bufferViews"])
+        const OrderedJson document = json_of(gltf);
+        for (const OrderedJson& view : document["bufferViews"])
             EXPECT_LE(view.value("byteOffset", std::size_t{0}) + view["byteLength"].get<std::size_t>(),
-                      json_of(gltf)["buffers"][0]["byteLength"].get<std::size_t>());
-        EXPECT_LE(json_of(gltf)["buffers"][0]["byteLength"], binary.size());
+                      document["buffers"][0]["byteLength"].get<std::size_t>());
+        EXPECT_LE(document["buffers"][0]["byteLength"], binary.size());
     }
 }
 
