@@ -126,7 +126,7 @@ TEST_F(StreakSurface, AMapIsFilledOncePerProbe) {
     const auto first = shown_map().shown();
     transform_.rotation = glm::angleAxis(0.4F, glm::vec3(0.0F, 1.0F, 0.0F));
     ++light_.version;  // another sun
-    EXPECT_LT(largest_difference(draw(), narrow(cooked), narrow_error(cooked)), kPictureTolerance);
+    draw();
     EXPECT_EQ(shown_map().shown(), first);
     light_ = light_of(lamps(), {}, light_.version + 1);
     EXPECT_LT(largest_difference(draw(), narrow(cooked), narrow_error(cooked)), kPictureTolerance);
