@@ -72,6 +72,13 @@ void add_options(CLI::App& app, Options& options) {
     app.add_option("--vignette", options.vignette, "Fraction of the light lost in the corners")
         ->check(finite(0.0, 1.0));
     app.add_flag("--auto-exposure", options.auto_exposure, "Expose for the picture's mean; --exposure is added");
+    app.add_option("--f-number", options.f_number, "Depth of field: the lens' focal length over its aperture")
+        ->check(finite(0.5, 64.0));
+    app.add_option("--focus", options.focus_m,
+                   "Distance in focus, in metres along the view, with --f-number or F6. Default: the view's target")
+        ->check(finite(0.01, 10000.0));
+    app.add_option("--grain", options.grain, "Film grain: the deviation of display values in mid-tones")
+        ->check(finite(0.0, 0.5));
     app.add_flag("--dither", options.dither, "Hide the steps of 8-bit gradients");
     app.add_flag("--no-ambient-occlusion{false}", options.ambient_occlusion, "Do not darken corners and contacts");
     app.add_flag("--no-soft-shadows{false}", options.soft_shadows, "Give shadows sharp edges");

@@ -25,6 +25,9 @@ struct Options : app::CommonOptions {
     std::optional<std::filesystem::path> glare;  ///< a material to look through
     float vignette = 0.0F;  ///< fraction of the light lost in the corners, on top of the lens' own falloff
     bool auto_exposure = false;
+    std::optional<float> f_number;  ///< of the lens; none: everything is in focus
+    std::optional<float> focus_m;   ///< none: the view's target is in focus
+    float grain = 0.0F;             ///< deviation of display values in mid-tones
     bool dither = false;
     bool ambient_occlusion = true;  ///< and contact shadows
     bool soft_shadows = true;

@@ -43,6 +43,9 @@ post::PostSettings post_settings(const Options& options) {
     if (options.auto_exposure) settings.auto_exposure = post::AutoExposureSettings{};
     if (options.vignette > 0.0F)
         settings.vignette = post::VignetteSettings{.vertical_fov = kFieldOfView, .strength = options.vignette};
+    if (options.f_number)
+        settings.depth_of_field = post::DepthOfFieldSettings{.f_number = *options.f_number, .focus_m = options.focus_m};
+    if (options.grain > 0.0F) settings.grain = post::GrainSettings{.strength = options.grain};
     if (options.dither) settings.dither = post::DitherSettings{};
     return settings;
 }
@@ -121,6 +124,12 @@ void Session::set(const SettingEvent& event) {
         case Setting::Vignette:
             if (post.vignette) post.vignette->strength = number();
             break;
+        case Setting::FNumber:
+            if (post.depth_of_field) post.depth_of_field->f_number = number();
+            break;
+        case Setting::Grain:
+            if (post.grain) post.grain->strength = number();
+            break;
         case Setting::Wipe:
             comparison_.set_wiping(number() > 0.0F);
             break;
@@ -186,6 +195,12 @@ bool Session::perform(Action action) {
             break;
         case Action::Dither:
             toggle(post.dither);
+            break;
+        case Action::DepthOfField:
+            toggle(post.depth_of_field, {.focus_m = options_.focus_m});
+            break;
+        case Action::Grain:
+            toggle(post.grain);
             break;
         case Action::Glare:
             if (sheets_.empty())

@@ -124,6 +124,12 @@ void Framebuffer::resolve_to(const Framebuffer& target) const {
     glNamedFramebufferReadBuffer(id(), GL_COLOR_ATTACHMENT0);
 }
 
+void Framebuffer::resolve_depth_to(const Framebuffer& target) const {
+    ROWLAND_CHECK(size_ == target.size_, "a resolve between framebuffers of different size");
+    glBlitNamedFramebuffer(id(), target.id(), 0, 0, size_.x, size_.y, 0, 0, size_.x, size_.y, GL_DEPTH_BUFFER_BIT,
+                           GL_NEAREST);
+}
+
 void Framebuffer::show_in_window() const {
     bind_framebuffer(0);
     // Mesa's software renderer asks for a window's size when a viewport is set while its framebuffer is bound.

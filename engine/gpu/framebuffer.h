@@ -35,6 +35,9 @@ class Framebuffer {
     /// copied.
     void resolve_to(const Framebuffer& target) const;
 
+    /// Takes a sample of every pixel's depth to `target`, of the same size.
+    void resolve_depth_to(const Framebuffer& target) const;
+
     /// Copies the first colour into the window's own framebuffer, pixel by pixel from the lower left.
     void show_in_window() const;
 

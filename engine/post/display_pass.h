@@ -2,7 +2,6 @@
 
 #include <OpenColorIO/OpenColorIO.h>
 
-#include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
 #include <string>
@@ -46,34 +45,6 @@ class DisplayTransform {
     OCIO_NAMESPACE::ConstProcessorRcPtr processor_;
     OCIO_NAMESPACE::ConstCPUProcessorRcPtr cpu_;
 };
-
-/// Noise of at most half a quantisation step, against bands in slow gradients.
-struct DitherSettings {
-    int bits = 8;  ///< of a channel of the target, 1 to 12
-};
-
-/// The last pass: adds noise to display values, the same in all channels so that greys stay grey. It is uniform in the
-/// open interval of ±½ quantisation step, so that the mean of the rounded values is the value. It depends on pixel and
-/// frame alone, on every machine: the fractional parts of an additive recurrence over pixels with the 2D golden ratio
-/// (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences"), which fills small areas as evenly as blue
-/// noise; frames advance by the golden ratio. 0 and 1 round to themselves.
-class DitherPass {
- public:
-    /// `library` must hold post::shader_files().
-    explicit DitherPass(const gpu::ShaderLibrary& library);
-
-    /// Writes display values with noise; alpha is kept. The source must hold more bits than the target: RGBA16 or
-    /// RGBA32F. The target must not be larger than the source.
-    void draw(const gpu::Texture& source, std::uint32_t frame, const DitherSettings& settings,
-              const gpu::Framebuffer& target) const;
-
- private:
-    gpu::Program program_;
-    gpu::FullScreenTriangle triangle_;
-};
-
-/// The size of a step: 1 / (2^bits - 1). A logic error if the settings are out of range.
-float dither_step(const DitherSettings& settings);
 
 /// A DisplayTransform on the GPU. Exposure is a uniform; a program is built only when the transform's code changes.
 class DisplayPass {

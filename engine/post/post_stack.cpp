@@ -30,6 +30,17 @@ const gpu::Framebuffer& sized(std::optional<gpu::Framebuffer>& framebuffer, glm:
 
 }  // namespace
 
+const gpu::Texture& PostStack::with_depth_of_field(const gpu::Texture& picture, const PostSettings& settings,
+                                                   const PostFrame& frame) {
+    if (!settings.depth_of_field) return picture;
+    ROWLAND_CHECK(frame.depth != nullptr, "depth of field needs the frame's depth");
+    const gpu::PassTimes::Scope scope(times_, "depth of field");
+    const gpu::Framebuffer& focused = sized(focused_, picture.size(), picture.desc().format);
+    made(depth_of_field_, *library_).draw(picture, *frame.depth, *settings.depth_of_field, frame.lens, focused);
+    passes_ += DepthOfFieldPass::passes();
+    return focused.colour();
+}
+
 const gpu::Texture& PostStack::with_glare(const gpu::Texture& picture, const PostSettings& settings) {
     if (!settings.glare || !has_effect(*settings.glare)) return picture;
     const gpu::PassTimes::Scope scope(times_, "glare");
@@ -88,38 +99,41 @@ const gpu::Texture& PostStack::with_vignette(const gpu::Texture& picture, const 
 
 void PostStack::draw_display(const gpu::Texture& picture, const DisplayPass& display, const PostSettings& settings,
                              const PostFrame& frame, const gpu::Framebuffer& target) {
-    // For dither sixteen bits, as half floats near 1 are no finer than an eighth of an 8-bit step.
-    const gpu::Framebuffer& displayed =
-        settings.dither ? sized(displayed_, target.size(), gpu::Format::RGBA16) : target;
+    // For noise sixteen bits, as half floats near 1 are no finer than an eighth of an 8-bit step.
+    const bool noisy = settings.grain || settings.dither;
+    const gpu::Framebuffer& displayed = noisy ? sized(displayed_, target.size(), gpu::Format::RGBA16) : target;
     {
         const gpu::PassTimes::Scope scope(times_, "display");
         display.draw(picture, exposure_stops_, displayed);
         ++passes_;
     }
-    if (!settings.dither) return;
-    const gpu::PassTimes::Scope scope(times_, "dither");
-    made(dither_, *library_).draw(displayed.colour(), frame.index, *settings.dither, target);
+    if (!noisy) return;
+    const gpu::PassTimes::Scope scope(times_, "noise");
+    made(noise_, *library_).draw(displayed.colour(), frame.index, settings.dither, settings.grain, target);
     ++passes_;
 }
 
 void PostStack::reload(const gpu::ShaderLibrary& library) {
+    std::optional<DepthOfFieldPass> depth_of_field = rebuilt(depth_of_field_, library);
     std::optional<GlarePass> glare = rebuilt(glare_, library);
     std::optional<BloomPass> bloom = rebuilt(bloom_, library);
     std::optional<AutoExposurePass> auto_exposure = rebuilt(auto_exposure_, library);
     std::optional<VignettePass> vignette = rebuilt(vignette_, library);
-    std::optional<DitherPass> dither = rebuilt(dither_, library);
+    std::optional<NoisePass> noise = rebuilt(noise_, library);
+    depth_of_field_ = std::move(depth_of_field);
     glare_ = std::move(glare);
     bloom_ = std::move(bloom);
     auto_exposure_ = std::move(auto_exposure);
     vignette_ = std::move(vignette);
-    dither_ = std::move(dither);
+    noise_ = std::move(noise);
     library_ = &library;
 }
 
 void PostStack::draw(const gpu::Texture& hdr, const DisplayPass& display, const PostSettings& settings,
                      const PostFrame& frame, const gpu::Framebuffer& target) {
     passes_ = 0;
-    const gpu::Texture& bloomed = with_bloom(with_glare(hdr, settings), settings);
+    const gpu::Texture& focused = with_depth_of_field(hdr, settings, frame);
+    const gpu::Texture& bloomed = with_bloom(with_glare(focused, settings), settings);
     exposure_stops_ = settings.exposure_stops + automatic_stops(bloomed, settings, frame);
     // Exposure is a factor and so is the vignette: the display pass exposes at no extra cost, to the same effect.
     draw_display(with_vignette(bloomed, settings), display, settings, frame, target);

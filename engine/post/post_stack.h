@@ -12,8 +12,10 @@
 #include "engine/gpu/texture.h"
 #include "engine/post/auto_exposure.h"
 #include "engine/post/bloom.h"
+#include "engine/post/depth_of_field.h"
 #include "engine/post/display_pass.h"
 #include "engine/post/glare.h"
+#include "engine/post/noise.h"
 #include "engine/post/vignette.h"
 
 namespace rowland::post {
@@ -23,6 +25,7 @@ std::span<const EmbeddedFile> shader_files();
 
 /// The effects; by default none but the display transform.
 struct PostSettings {
+    std::optional<DepthOfFieldSettings> depth_of_field = {};
     std::optional<GlareSettings> glare = {};
     std::optional<BloomSettings> bloom = {};
     std::optional<AutoExposureSettings> auto_exposure = {};
@@ -31,17 +34,22 @@ struct PostSettings {
     bool wait_for_exposure = false;
     float exposure_stops = 0.0F;  ///< added to the automatic exposure, if that is on
     std::optional<VignetteSettings> vignette = {};
-    std::optional<DitherSettings> dither = {};  ///< clamps values to 0 to 1; turn off for comparisons
+    /// Both clamp values to 0 to 1; turn them off for comparisons.
+    std::optional<GrainSettings> grain = {};
+    std::optional<DitherSettings> dither = {};
 };
 
 struct PostFrame {
-    std::uint32_t index = 0;            ///< of the frame, for dither
-    float seconds = 0.0F;               ///< since the last frame, for automatic exposure
-    glm::vec3 luminance_weights{0.0F};  ///< post::luminance_weights, for automatic exposure
+    std::uint32_t index = 0;              ///< of the frame, for grain and dither
+    float seconds = 0.0F;                 ///< since the last frame, for automatic exposure
+    glm::vec3 luminance_weights{0.0F};    ///< post::luminance_weights, for automatic exposure
+    const gpu::Texture* depth = nullptr;  ///< of the picture, for the depth of field
+    LensView lens = {};                   ///< likewise
 };
 
-/// From a scene-linear picture to a display: glare, bloom, exposure, vignette, display transform, dither, in this
-/// order. An effect that is off, or set so that it changes nothing, runs no pass and compiles no program.
+/// From a scene-linear picture to a display: depth of field, glare, bloom, exposure, vignette, display transform, grain
+/// and dither, in this order. An effect that is off, or set so that it changes nothing, runs no pass and compiles no
+/// program.
 class PostStack {
  public:
     /// `library` must hold post::shader_files() and outlive the stack.
@@ -49,8 +57,8 @@ class PostStack {
 
     /// Draws the scene-linear `hdr` (RGBA16F or RGBA32F, finite or not) as `display` shows it; alpha is kept. The
     /// target must not be larger than `hdr`. It is a logic error if settings are out of range, or if automatic exposure
-    /// is on and the frame has no luminance weights. Nothing waits for the GPU but automatic exposure, in the first
-    /// frame that it is on, after forget_exposure(), and where the settings say so.
+    /// is on and the frame has no luminance weights, or depth of field and no depth. Nothing waits for the GPU but
+    /// automatic exposure, in the first frame that it is on, after forget_exposure(), and where the settings say so.
     void draw(const gpu::Texture& hdr, const DisplayPass& display, const PostSettings& settings, const PostFrame& frame,
               const gpu::Framebuffer& target);
 
@@ -64,10 +72,12 @@ class PostStack {
     /// as they were and its Error (system) is thrown.
     void reload(const gpu::ShaderLibrary& library);
     /// Where the time of each effect that runs is written: "glare", "bloom", "auto exposure", "vignette", "display",
-    /// "dither". Null, the default: nothing is timed. Must outlive the draws.
+    /// "noise", "depth of field". Null, the default: nothing is timed. Must outlive the draws.
     void set_pass_times(gpu::PassTimes* times) { times_ = times; }
 
  private:
+    const gpu::Texture& with_depth_of_field(const gpu::Texture& picture, const PostSettings& settings,
+                                            const PostFrame& frame);
     const gpu::Texture& with_glare(const gpu::Texture& picture, const PostSettings& settings);
     const gpu::Texture& with_bloom(const gpu::Texture& picture, const PostSettings& settings);
     const gpu::Texture& with_vignette(const gpu::Texture& picture, const PostSettings& settings);
@@ -77,11 +87,13 @@ class PostStack {
 
     const gpu::ShaderLibrary* library_;
     gpu::PassTimes* times_ = nullptr;
+    std::optional<DepthOfFieldPass> depth_of_field_;
     std::optional<GlarePass> glare_;
     std::optional<BloomPass> bloom_;
     std::optional<AutoExposurePass> auto_exposure_;
     std::optional<VignettePass> vignette_;
-    std::optional<DitherPass> dither_;
+    std::optional<NoisePass> noise_;
+    std::optional<gpu::Framebuffer> focused_;
     std::optional<gpu::Framebuffer> glared_;
     std::optional<gpu::Framebuffer> bloomed_;
     std::optional<gpu::Framebuffer> vignetted_;

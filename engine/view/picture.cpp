@@ -131,6 +131,17 @@ void Picture::resize(glm::ivec2 size) {
                              gpu::Framebuffer({.width = size.x, .height = size.y, .colours = {gpu::Format::RGBA8}})});
 }
 
+/// Null unless it is needed.
+const gpu::Texture* Picture::resolved_depth() {
+    if (!post_settings_.depth_of_field) return nullptr;
+    std::optional<gpu::Framebuffer>& depth = targets_->depth;
+    if (!depth)
+        depth.emplace(gpu::FramebufferDesc{
+            .width = targets_->linear.size().x, .height = targets_->linear.size().y, .colours = {}, .depth = true});
+    targets_->multisampled.resolve_depth_to(*depth);
+    return &depth->depth();
+}
+
 void Picture::draw(ecs::World& world, const scene::Camera& camera, float seconds) {
     gpu::require_context();
     if (timed_) pass_times_.begin_frame();
@@ -142,7 +153,14 @@ void Picture::draw(ecs::World& world, const scene::Camera& camera, float seconds
     if (post_settings_.glare) post_settings_.glare->vertical_fov = camera.vertical_field_of_view;
     if (post_settings_.vignette) post_settings_.vignette->vertical_fov = camera.vertical_field_of_view;
     post_stack_.draw(targets_->linear.colour(), display_, post_settings_,
-                     {.index = frame_++, .seconds = seconds, .luminance_weights = luminance_weights_},
+                     {.index = frame_++,
+                      .seconds = seconds,
+                      .luminance_weights = luminance_weights_,
+                      .depth = resolved_depth(),
+                      .lens = {.vertical_fov = camera.vertical_field_of_view,
+                               .near_plane = camera.near_plane,
+                               .far_plane = camera.far_plane,
+                               .target_m = glm::length(camera.target - camera.eye)}},
                      targets_->encoded);
 }
 

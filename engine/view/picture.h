@@ -68,10 +68,13 @@ class Picture {
     const gpu::Framebuffer& encoded() const { return targets_->encoded; }
 
  private:
+    const gpu::Texture* resolved_depth();
+
     struct Targets {
         gpu::Framebuffer multisampled;
         gpu::Framebuffer linear;
         gpu::Framebuffer encoded;
+        std::optional<gpu::Framebuffer> depth = std::nullopt;  ///< for depth of field
     };
 
     glm::dmat3 xyz_to_working_;

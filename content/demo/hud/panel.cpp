@@ -49,15 +49,16 @@ void slider(const Panel& panel, Setting setting, const char* label, float value,
         panel.set(setting, static_cast<double>(value));
 }
 
-/// A check box for an effect and, while it is on, a slider for its strength.
+/// A check box for an effect and, while it is on, a slider for one of its settings.
 template <typename Effect>
 void effect_row(const Panel& panel, Action action, Setting setting, const char* label,
-                const std::optional<Effect>& effect) {
+                const std::optional<Effect>& effect, float Effect::*value = &Effect::strength,
+                const char* format = "%.2f") {
     action_check_box(panel, action, label, effect.has_value());
     if (!effect) return;
     ImGui::SameLine(ImGui::GetFontSize() * 7.5F);
     ImGui::SetNextItemWidth(-1.0F);
-    slider(panel, setting, (std::string("##") + label).c_str(), effect->strength, "%.2f");
+    slider(panel, setting, (std::string("##") + label).c_str(), (*effect).*value, format);
 }
 
 /// The gratings of one object, which have its name.
@@ -162,6 +163,9 @@ void picture_panel(const Panel& panel) {
     ImGui::TextDisabled("%+.2f stops in all", static_cast<double>(panel.session.picture().exposure_stops()));
     effect_row(panel, Action::Bloom, Setting::Bloom, "blur", post.bloom);
     effect_row(panel, Action::Vignette, Setting::Vignette, "vignette", post.vignette);
+    effect_row(panel, Action::DepthOfField, Setting::FNumber, "focus", post.depth_of_field,
+               &post::DepthOfFieldSettings::f_number, "f/%.1f");
+    effect_row(panel, Action::Grain, Setting::Grain, "grain", post.grain, &post::GrainSettings::strength, "%.3f");
     const std::string sheet = panel.session.sheet();
     action_check_box(panel, Action::Glare, (sheet.empty() ? "glare###glare" : "glare: " + sheet + "###glare").c_str(),
                      !sheet.empty());

@@ -42,6 +42,8 @@ constexpr std::array kActionKeys{
     ActionKey{Action::Dither, Key::Digit4, "dither", "dither on or off"},
     ActionKey{Action::Glare, Key::Digit5, "glare",
               "look through the next sheet of glasses or screens, or through none"},
+    ActionKey{Action::DepthOfField, Key::F6, "depth of field", "blur what is not in focus, or nothing"},
+    ActionKey{Action::Grain, Key::F7, "grain", "film grain on or off"},
     ActionKey{Action::NextLook, Key::T, "next representation",
               "the next representation of the grating under the cursor, or of all"},
     ActionKey{Action::NextDetail, Key::Y, "next detail", "the same representation coarser or finer"},
@@ -140,10 +142,12 @@ std::string help_text() {
 
 namespace {
 
-constexpr std::array<SettingKind, 9> kKinds{{
+constexpr std::array<SettingKind, 11> kKinds{{
     {Setting::Exposure, "exposure", {{-12.0, 12.0}}},
     {Setting::Bloom, "bloom", {{0.0, 1.0}}},
     {Setting::Vignette, "vignette", {{0.0, 1.0}}},
+    {Setting::FNumber, "f-number", {{0.5, 64.0}}},
+    {Setting::Grain, "grain", {{0.0, 0.5}}},
     {Setting::Wipe, "wipe", {{0.0, 1.0}}},
     {Setting::WipeLine, "wipe line", {{0.0, 1.0}}},
     {Setting::Probe, "probe", std::nullopt},

@@ -17,6 +17,7 @@ enum class Action {
     // clang-format off
     Walk, ResetView, PutBack, Pause, SlowMotion, OneStep, AddLight, RemoveLight, TurnEnvironmentLeft, TurnEnvironmentRight,
     Lamp, NextProbe, NextView, LessExposure, MoreExposure, Bloom, Vignette, AutoExposure, Dither, Glare,
+    DepthOfField, Grain,
     Help, Hud, FrameGraph, NextLook, NextDetail, Wipe, Reference, WritePixel,
     Reload, LinearScreenshot, FullScreen, Screenshot, Close,
     // clang-format on
@@ -63,7 +64,7 @@ std::vector<HelpLine> help_lines();
 std::string help_text();
 
 /// What the user sets to a value, say with a slider; an Action only steps to the next one.
-enum class Setting { Exposure, Bloom, Vignette, Wipe, WipeLine, Probe, View, LeftLook, RightLook };
+enum class Setting { Exposure, Bloom, Vignette, FNumber, Grain, Wipe, WipeLine, Probe, View, LeftLook, RightLook };
 
 /// The name and values of a setting. One without a range is a text.
 struct SettingKind {

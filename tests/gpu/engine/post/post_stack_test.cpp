@@ -89,6 +89,8 @@ TEST_F(PostStackTest, EveryEffectAddsItsPasses) {
     EXPECT_EQ(passes({.auto_exposure = every_effect.auto_exposure}), 1 + 2);  // 40 × 30 → 5 × 4 → 1
     EXPECT_EQ(passes({.vignette = every_effect.vignette}), 1 + 1);
     EXPECT_EQ(passes({.dither = every_effect.dither}), 1 + 1);
+    EXPECT_EQ(passes({.grain = post::GrainSettings{}}), 1 + 1);
+    EXPECT_EQ(passes({.grain = post::GrainSettings{}, .dither = every_effect.dither}), 1 + 1);
     EXPECT_EQ(passes(every_effect), 1 + 6 + 2 + 1 + 1);
     EXPECT_EQ(passes({}), 1);
 }

@@ -34,7 +34,8 @@ class DemoOptions : public testing::Test {
 };
 
 TEST_F(DemoOptions, ANumberThatIsNotFiniteOrOutOfRangeIsRefused) {
-    for (const char* option : {"--width", "--height", "--frames", "--exposure", "--bloom", "--vignette"})
+    for (const char* option :
+         {"--width", "--height", "--frames", "--exposure", "--bloom", "--vignette", "--f-number", "--focus", "--grain"})
         for (const char* value : {"nan", "-nan", "inf", "-inf", "1e300", "-33", "", "1e"})
             EXPECT_THAT(refusal({option, value}), HasSubstr(option)) << value;
     EXPECT_THAT(refusal({"--width", "0"}), HasSubstr("--width"));

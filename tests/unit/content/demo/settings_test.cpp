@@ -81,6 +81,17 @@ TEST_F(DemoSettings, NumbersAreTaken) {
     // Of an effect that is off nothing is set.
     EXPECT_EQ(post().bloom ? post().bloom->strength : 0.75F, 0.75F);
     EXPECT_EQ(post().vignette ? post().vignette->strength : 0.25F, 0.25F);
+    set({Setting::FNumber, 4.0});
+    set({Setting::Grain, 0.1});
+    EXPECT_FALSE(post().depth_of_field);
+    EXPECT_FALSE(post().grain);
+    const std::vector<PlayEvent> lens{ActionEvent{Action::DepthOfField}, ActionEvent{Action::Grain}};
+    session_->play().step(lens);
+    session_->carry_out();
+    set({Setting::FNumber, 4.0});
+    set({Setting::Grain, 0.1});
+    EXPECT_EQ(post().depth_of_field.value().f_number, 4.0F);
+    EXPECT_EQ(post().grain.value().strength, 0.1F);
     set({Setting::Wipe, 1.0});
     set({Setting::WipeLine, 0.3});
     EXPECT_TRUE(session_->comparison().wiping());

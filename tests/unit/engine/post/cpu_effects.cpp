@@ -140,6 +140,43 @@ float dither_offset(glm::ivec2 pixel, std::uint32_t frame) {
     return (static_cast<float>(phase >> 22U) + 0.5F) / 1024.0F - 0.5F;
 }
 
+namespace {
+
+std::uint32_t hashed(std::uint32_t value) {
+    const std::uint32_t state = value * 747796405U + 2891336453U;
+    const std::uint32_t word = ((state >> ((state >> 28U) + 4U)) ^ state) * 277803737U;
+    return (word >> 22U) ^ word;
+}
+
+}  // namespace
+
+float grain_offset(glm::ivec2 pixel, std::uint32_t frame) {
+    constexpr std::array kWeights{1, 2, 1};
+    int sum = 0;
+    for (int y = 0; y < 3; ++y) {
+        for (int x = 0; x < 3; ++x) {
+            const auto column = static_cast<std::uint32_t>(pixel.x + x);
+            const auto row = static_cast<std::uint32_t>(pixel.y + y);
+            std::uint32_t bits = hashed(column + hashed(row + hashed(frame)));
+            int bytes = -510;
+            for (int i = 0; i < 4; ++i, bits >>= 8U) bytes += static_cast<int>(bits & 255U);
+            sum += kWeights[static_cast<std::size_t>(x)] * kWeights[static_cast<std::size_t>(y)] * bytes;
+        }
+    }
+    const double byte_variance = (256.0 * 256.0 - 1.0) / 12.0;
+    return static_cast<float>(sum / std::sqrt(36.0 * 4.0 * byte_variance));
+}
+
+void apply_grain(std::span<glm::vec3> pixels, glm::ivec2 size, std::uint32_t frame, const GrainSettings& settings) {
+    std::size_t i = 0;
+    for (int y = 0; y < size.y; ++y) {
+        for (int x = 0; x < size.x; ++x, ++i) {
+            const float mean = (pixels[i].r + pixels[i].g + pixels[i].b) / 3.0F;
+            pixels[i] += settings.strength * 2.0F * std::sqrt(mean * (1.0F - mean)) * grain_offset({x, y}, frame);
+        }
+    }
+}
+
 void apply_dither(std::span<glm::vec3> pixels, glm::ivec2 size, std::uint32_t frame, const DitherSettings& settings) {
     ROWLAND_CHECK_OP(pixels.size(), ==, static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
     const float step = dither_step(settings);

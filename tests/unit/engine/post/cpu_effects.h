@@ -8,7 +8,7 @@
 
 #include "engine/post/auto_exposure.h"
 #include "engine/post/bloom.h"
-#include "engine/post/display_pass.h"
+#include "engine/post/noise.h"
 #include "engine/post/vignette.h"
 
 // The effects on the CPU, as plainly as they can be written: what the passes on the GPU are compared with. Pictures are
@@ -24,6 +24,10 @@ std::optional<double> mean_log2_luminance(std::span<const glm::vec3> pixels, con
 /// Noise in steps of the target.
 float dither_offset(glm::ivec2 pixel, std::uint32_t frame);
 void apply_dither(std::span<glm::vec3> pixels, glm::ivec2 size, std::uint32_t frame, const DitherSettings& settings);
+
+/// Of mean 0 and variance 1.
+float grain_offset(glm::ivec2 pixel, std::uint32_t frame);
+void apply_grain(std::span<glm::vec3> pixels, glm::ivec2 size, std::uint32_t frame, const GrainSettings& settings);
 
 /// The factor on the light of a pixel.
 float vignette_factor(glm::ivec2 pixel, glm::ivec2 size, const VignetteSettings& settings);

@@ -11,6 +11,8 @@
 
 #include "engine/core/error.h"
 #include "engine/post/display_pass.h"
+
+#include "engine/post/noise.h"
 #include "tests/support/expect.h"
 #include "tests/support/files.h"
 #include "tests/unit/engine/post/config_variant.h"
@@ -198,6 +200,30 @@ TEST(Dither, SameForTheSameFrameAndOtherForAnother) {
 TEST(Dither, StepsFollowTheTargetsBits) {
     EXPECT_FLOAT_EQ(dither_step({}), 1.0F / 255.0F);
     EXPECT_FLOAT_EQ(dither_step({.bits = 10}), 1.0F / 1023.0F);
+}
+
+TEST(Grain, IsOfMeanZeroAndVarianceOneAndOtherInEachFrame) {
+    double sum = 0.0;
+    double squares = 0.0;
+    double with_next_pixel = 0.0;
+    double with_next_frame = 0.0;
+    constexpr int kSide = 200;
+    for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x) {
+            const double here = grain_offset({x, y}, 5);
+            sum += here;
+            squares += here * here;
+            with_next_pixel += here * grain_offset({x + 1, y}, 5);
+            with_next_frame += here * grain_offset({x, y}, 6);
+        }
+    }
+    // Four deviations of means of 40 000 values, of which about 3 x 3 are one.
+    constexpr double kTolerance = 4.0 * 3.0 / kSide;
+    constexpr double kCount = kSide * kSide;
+    EXPECT_NEAR(sum / kCount, 0.0, kTolerance);
+    EXPECT_NEAR(squares / kCount, 1.0, kTolerance);
+    EXPECT_NEAR(with_next_pixel / kCount, 4.0 / 6.0, kTolerance);  // of the weights 1, 2, 1
+    EXPECT_NEAR(with_next_frame / kCount, 0.0, kTolerance);
 }
 
 TEST(DitherDeathTest, BitsOutOfRangeAreALogicError) {
