@@ -36,8 +36,11 @@ std::filesystem::path cache_folder(const Options& options) {
 }  // namespace
 
 LiveAssets open_assets(const Options& options) {
+    std::optional<lighting::CaptureDome> dome;
+    if (options.dome_radius_m > 0.0) dome = {.radius_m = options.dome_radius_m};
     return {modules::asset_types(),
             {.probe_mapping = options.probe_mapping,
+             .dome = dome,
              .watch = options.watch,
              .follow_also = shipped_jobs(options),
              .cache_folder = cache_folder(options)}};

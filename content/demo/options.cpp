@@ -60,6 +60,11 @@ void add_options(CLI::App& app, Options& options) {
                    "Frames to render, 1/30 s apart. Default: 1 for captures, 300 for a benchmark, all of a recording,\n"
                    "12 for the flight, which they divide evenly")
         ->check(finite(1, 100000));
+    app.add_option("--dome", options.dome_radius_m,
+                   "Radius in metres of the room that a probe's image is shown as, captured 1.6 m above its floor;\n"
+                   "0: infinitely far away")
+        ->check(finite(0.0, lighting::kLargestDome_m))
+        ->capture_default_str();
     app.add_option("--light-window", options.light_window,
                    "Window against ringing of the grating's light; auto: the weakest sufficient one")
         ->check(CLI::IsMember({"auto", "none", "lanczos", "hann"}))
@@ -141,6 +146,10 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
     options.content_folder = options.shader_folder / "content";
     add_options(app, options);
     if (!parse_command_line(app, argc, argv)) return std::nullopt;
+    constexpr double kCameraHeight_m = lighting::CaptureDome{}.height_m;
+    if (options.dome_radius_m > 0.0 && options.dome_radius_m <= kCameraHeight_m)
+        refuse_input("--dome", "", fmt::format("{:g}", options.dome_radius_m),
+                     fmt::format("0, or more than the {:g} m of the camera above the floor", kCameraHeight_m));
     if (options.turntable && !options.captures())
         refuse_input("--turntable", "", "no --capture", "a file that the pictures are named after",
                      "add --capture turn.png");

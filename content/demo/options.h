@@ -20,6 +20,7 @@ struct Options : app::CommonOptions {
     int height = 720;
     std::optional<int> frames;  ///< none: 1 for captures, 12 for a flight, 300 for a benchmark, all of a recording
     std::string light_window = "auto";
+    double dome_radius_m = 10.0;  ///< of the room that a probe image is shown as; 0: infinitely far away
     float exposure_stops = 0.0F;
     float bloom = 0.0F;                          ///< fraction of the light that is scattered
     std::optional<std::filesystem::path> glare;  ///< a material to look through

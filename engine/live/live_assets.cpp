@@ -32,25 +32,29 @@ std::filesystem::path default_cache_folder() {
 }
 
 lighting::LightProbe load_probe(const cook::Registry& registry, const std::filesystem::path& path,
-                                const std::string& mapping, std::vector<std::filesystem::path>& read_files) {
+                                const std::string& mapping, std::vector<std::filesystem::path>& read_files,
+                                const std::optional<lighting::CaptureDome>& dome) {
     if (path.extension() == ".json" || path.extension() == ".probe")
         return lighting::deserialise(LiveAssets::payload(registry, path, "probe", read_files), path.string());
     read_files.push_back(path);
-    return lighting::build_light_probe(lighting::load_probe_image(path, lighting::parse_mapping(mapping)));
+    lighting::LightProbeSettings settings;
+    settings.dome = dome;
+    return lighting::build_light_probe(lighting::load_probe_image(path, lighting::parse_mapping(mapping)), settings);
 }
 
 LiveAssets::LiveAssets(std::shared_ptr<const cook::Registry> registry, LiveAssetSettings settings)
     : probe_mapping_(std::move(settings.probe_mapping)),
+      dome_(settings.dome),
       cache_folder_(settings.cache_folder.empty() ? default_cache_folder() : std::move(settings.cache_folder)),
       registry_(std::move(registry)) {
     if (settings.watch) recooker_.emplace(*registry_, std::move(settings.follow_also));
 }
 
 asset::Handle<lighting::LightProbe> LiveAssets::probe(const std::filesystem::path& path) {
-    return store_.load<lighting::LightProbe>(path.string(),
-                                             [registry = registry_, mapping = probe_mapping_, path](Files& files) {
-                                                 return load_probe(*registry, path, mapping, files);
-                                             });
+    return store_.load<lighting::LightProbe>(
+        path.string(), [registry = registry_, mapping = probe_mapping_, dome = dome_, path](Files& files) {
+            return load_probe(*registry, path, mapping, files, dome);
+        });
 }
 
 scene::ImportedScene load_scene(const cook::Registry& registry, const std::filesystem::path& path,

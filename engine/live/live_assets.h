@@ -19,6 +19,7 @@ namespace rowland::live {
 
 struct LiveAssetSettings {
     std::string probe_mapping = "auto";              ///< of probe images
+    std::optional<lighting::CaptureDome> dome{};     ///< of probe images
     bool watch = true;                               ///< cooked assets follow their sources
     std::vector<cook::Recooker::Job> follow_also{};  ///< cooks these when they change, if `watch`
     /// Of scenes that are cooked on loading; empty: default_cache_folder().
@@ -34,8 +35,8 @@ class LiveAssets {
  public:
     LiveAssets(std::shared_ptr<const cook::Registry> registry, LiveAssetSettings settings);
 
-    /// A cooked probe, a probe recipe, or an image with the mapping of the settings. Like all below it throws Error
-    /// (input).
+    /// A cooked probe, a probe recipe, or an image with the mapping and dome of the settings. Like all below it throws
+    /// Error (input).
     asset::Handle<lighting::LightProbe> probe(const std::filesystem::path& path);
     /// A cooked scene, or a glTF file (load_scene()).
     asset::Handle<scene::ImportedScene> scene(const std::filesystem::path& path);
@@ -63,9 +64,11 @@ class LiveAssets {
     static std::vector<std::byte> payload(const cook::Registry& registry, const std::filesystem::path& path,
                                           const std::string& type, Files& files);
     friend lighting::LightProbe load_probe(const cook::Registry& registry, const std::filesystem::path& path,
-                                           const std::string& mapping, Files& read_files);
+                                           const std::string& mapping, Files& read_files,
+                                           const std::optional<lighting::CaptureDome>& dome);
 
     std::string probe_mapping_;
+    std::optional<lighting::CaptureDome> dome_;
     std::filesystem::path cache_folder_;
     std::shared_ptr<const cook::Registry> registry_;
     asset::Store store_;
@@ -75,7 +78,8 @@ class LiveAssets {
 /// What LiveAssets::probe() loads; adds the files it read to `read_files`. May be called from any thread. Throws Error
 /// (input).
 lighting::LightProbe load_probe(const cook::Registry& registry, const std::filesystem::path& path,
-                                const std::string& mapping, std::vector<std::filesystem::path>& read_files);
+                                const std::string& mapping, std::vector<std::filesystem::path>& read_files,
+                                const std::optional<lighting::CaptureDome>& dome = {});
 
 /// What LiveAssets::scene() loads: a cooked .scene, or a .gltf or .glb, which is cooked first unless `cache_folder` has
 /// it cooked from the same content. Adds the files it read, or whose content is in the cooked file, to `read_files`.

@@ -46,6 +46,14 @@ TEST_F(DemoOptions, ANumberThatIsNotFiniteOrOutOfRangeIsRefused) {
     EXPECT_EQ(options.frames, 100000);
 }
 
+TEST_F(DemoOptions, ARoomIsWiderThanItsCameraIsHigh) {
+    EXPECT_EQ(checked({}).dome_radius_m, 10.0);
+    EXPECT_EQ(checked({"--dome", "0"}).dome_radius_m, 0.0);
+    EXPECT_EQ(checked({"--dome", "3.5"}).dome_radius_m, 3.5);
+    for (const char* radius : {"-1", "1.6", "nan", "1e6", "wide"})
+        EXPECT_THAT(refusal({"--dome", radius}), HasSubstr("--dome")) << radius;
+}
+
 TEST_F(DemoOptions, AViewIsSixNumbersAndATurntableNeedsACapture) {
     EXPECT_EQ(checked({"--camera", "0,0.2,.5,-1,0,1e-1"}).camera, (std::array{0.0F, 0.2F, 0.5F, -1.0F, 0.0F, 0.1F}));
     for (const char* view :

@@ -8,6 +8,7 @@
 
 #include "engine/cook/cook_source.h"
 #include "engine/core/file.h"
+#include "engine/image/exr.h"
 #include "engine/scene/cook.h"
 #include "tests/support/expect.h"
 #include "tests/support/files.h"
@@ -74,6 +75,15 @@ TEST_F(LiveAssetsTest, ACookedFileOfAnotherVersionIsRefusedByTheRegistrysVersion
     cook::cook_source(*registry_of(1), source_, cooked_);
     LiveAssets assets(registry_of(2), {.watch = false});
     EXPECT_THAT(test::message_of([&] { load(assets, cooked_); }), HasSubstr("version 1"));
+}
+
+TEST_F(LiveAssetsTest, AnImageIsShownAsTheRoomOfTheSettings) {
+    const std::filesystem::path image = source_.parent_path() / "light.exr";
+    image::write_exr(image, {.width = 8, .height = 4, .texels = std::vector<glm::vec3>(32, glm::vec3(1.0F))});
+    LiveAssets far_away(registry_of(1), {.probe_mapping = "equirect", .watch = false});
+    EXPECT_FALSE(far_away.probe(image)->dome);
+    LiveAssets room(registry_of(1), {.probe_mapping = "equirect", .dome = {{.radius_m = 6.0}}, .watch = false});
+    EXPECT_EQ(room.probe(image)->dome.value().radius_m, 6.0);
 }
 
 TEST_F(LiveAssetsTest, AnAssetFollowsItsSource) {
