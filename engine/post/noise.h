@@ -18,7 +18,7 @@ struct DitherSettings {
     int bits = 8;  ///< of a channel of the target, 1 to 12
 };
 
-/// Film grain: in each frame anew, of mean 0, a pixel and a half wide. At a display value of mean y over the channels
+/// Film grain: another in each frame, of mean 0, a pixel and a half wide. At a display value of mean y over the channels
 /// its standard deviation is strength · 2√(y (1 − y)), so that black and white have none.
 struct GrainSettings {
     float strength = 0.015F;  ///< 0 to 0.5

@@ -57,8 +57,9 @@ TEST(FillQueue, IsAskedAndWaitedForByManyThreads) {
 TEST(FillQueue, LeavesOutWhatNobodyWaitsFor) {
     std::vector<int> filled;
     std::promise<void> begin;
+    const std::shared_future<void> may_begin(begin.get_future());
     FillQueue queue;
-    const auto first = queue.add([&, may_begin = begin.get_future().share()](const std::stop_token&) {
+    const auto first = queue.add([&](const std::stop_token&) {
         may_begin.wait();
         return FilledMap{};
     });
