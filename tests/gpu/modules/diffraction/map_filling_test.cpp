@@ -129,6 +129,25 @@ TEST_F(MapFillingTest, CoarseMapsFollowAnObjectThatTurnsInEveryFrame) {
     EXPECT_EQ(object_.shown()->input.normal.x, normal);
 }
 
+/// If each frame began another map, an object whose frames are shorter than a fill would never get one.
+TEST_F(MapFillingTest, AnObjectThatTurnsInEveryFrameGetsTheMapThatWasBegunFirst) {
+    std::counting_semaphore<> coarse_maps{0};
+    fill_ = std::make_shared<const FillMap>(
+        [&, inner = fill_](const MapInput& input, MapDetail detail, const std::stop_token& stop) {
+            if (detail == MapDetail::Coarse) coarse_maps.acquire();
+            return (*inner)(input, detail, stop);
+        });
+    cache_ = std::make_unique<MapCache>(MapPace::Incremental, 0ms);
+    double normal = 1.0;
+    for (int frame = 0; frame < 5; ++frame) update(normal + frame);
+    EXPECT_EQ(object_.shown(), nullptr);
+    coarse_maps.release(1000);
+    while (!object_.shown()) update(normal += 1.0);
+    EXPECT_EQ(object_.shown()->input.normal.x, 1.0);
+    full_maps_.release(1000);
+    cache_.reset();  // its threads use the semaphore
+}
+
 int textures_created = 0;
 void APIENTRY create_textures(GLenum target, GLsizei count, GLuint* names) {
     textures_created += count;
