@@ -79,7 +79,7 @@ Light block_light(const scene::PunctualLight& light, const glm::mat4& matrix) {
     Light result = {};
     const float range2 = light.range_m * light.range_m;
     result.position = glm::vec4(glm::vec3(matrix[3]), range2 > 0.0F ? 1.0F / (range2 * range2) : 0.0F);
-    result.strength.w = light.radius_m * light.radius_m;
+    result.strength.w = 0.25F * light.radius_m * light.radius_m;
     result.axis.w = 1.0F;
     if (!light.spot) return result;
     const float scale = 1.0F / std::max(1e-3F, std::cos(light.inner_cone) - std::cos(light.outer_cone));
@@ -109,7 +109,7 @@ SceneLights gather_lights(ecs::World& world, const glm::dmat3& rec709_to_working
         lights.push_back({});
         lights.back().position = glm::vec4(direction, 0.0F);
         const float sine = std::sin(light.angular_radius);
-        lights.back().strength.w = sine * sine;
+        lights.back().strength.w = 0.25F * sine * sine;
         strengths.push_back(light.irradiance);
         if (!light.casts_shadow || result.shadow_light) return;
         result.shadow_light = direction;

@@ -46,8 +46,8 @@ ROWLAND_BLOCK(1, ObjectBlock) {
 
 struct Light {
     vec4 position;  // xyz: unit direction toward a directional light, else metres; w: 1 / range^4, or 0 without a range
-    vec4 strength;  // xyz: irradiance, for points and spots at 1 m; working space. w: of a directional light the squared
-                    // sine of its angular radius, else its squared radius, m^2
+    vec4 strength;  // xyz: irradiance, for points and spots at 1 m; working space. w: of a directional light a quarter
+                    // of its angular radius' squared sine, a disc's variance; else of its squared radius, m^2
     // Of a spot: xyz: where it shines, times a scale, and w: an offset, which take the cosine from the axis to 0
     // outside the cone and to 1 in the inner one. Of a point: 0, 0, 0, 1.
     vec4 axis;

@@ -32,27 +32,27 @@ struct LitSurface {
 };
 
 // GGX with height-correlated Smith visibility [Heitz 2014]. `facing`: the view's cosine; `masking`: its Smith's term;
-// `square_size`: squared sine of the light's angular radius. Half vectors turn by half as much as the light, so that a
-// disc's reflection in a mirror has its radiance in the middle.
-float microfacets(float n_h, float n_l, float alpha2, float facing, float masking, float square_size) {
-    float seen_alpha2 = alpha2 + 0.25 * square_size;
-    float d = n_h * n_h * (seen_alpha2 - 1.0) + 1.0;
+// `variance`: of the light's directions across their mean. A disc's is a quarter of its squared radius, and half vectors
+// turn by half as much as the light, so that a disc's reflection in a mirror has its radiance in the middle.
+float microfacets(float n_h, float n_l, float alpha2, float facing, float masking, float variance) {
+    float n_h2 = n_h * n_h;
+    float d = n_h2 * (alpha2 - 1.0) + 1.0 + variance * n_h2;
     float shadowing = n_l * masking + facing * sqrt(n_l * n_l * (1.0 - alpha2) + alpha2);
-    return 0.5 / PI * seen_alpha2 / (d * d * max(shadowing, 1e-6));
+    return 0.5 / PI * (alpha2 + variance) / (d * d * max(shadowing, 1e-6));
 }
 
 // Adds the reflection of a light of this irradiance, measured on a surface that faces it. l and v are unit vectors, so
-// |l + v|² = 2 + 2 l·v. `square_size`: microfacets().
-void add_light(vec3 irradiance, vec3 l, float square_size, inout LitSurface surface) {
+// |l + v|² = 2 + 2 l·v. `variance`: microfacets().
+void add_light(vec3 irradiance, vec3 l, float variance, inout LitSurface surface) {
     float v_l = dot(surface.v, l);
     float inverse_length = inversesqrt(max(2.0 + 2.0 * v_l, 1e-12));
     float n_l = dot(surface.n, l);
     float n_h = clamp((n_l + surface.n_v) * inverse_length, 0.0, 1.0);
     float v_h = clamp((1.0 + v_l) * inverse_length, 0.0, 1.0);
     n_l = max(n_l, 0.0);
-    float density = microfacets(n_h, n_l, surface.alpha2, surface.facing, surface.masking, square_size);
+    float density = microfacets(n_h, n_l, surface.alpha2, surface.facing, surface.masking, variance);
 #ifdef MATERIAL_COAT
-    surface.coat += microfacets(n_h, n_l, surface.coat_alpha2, surface.facing, surface.coat_masking, square_size) *
+    surface.coat += microfacets(n_h, n_l, surface.coat_alpha2, surface.facing, surface.coat_masking, variance) *
                     coat_reflectance(v_h) * n_l * irradiance;
 #endif
 #ifdef MATERIAL_SPECULAR
@@ -97,10 +97,10 @@ vec3 direct_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness, inout 
 #ifdef SHADOWS
         if (i == 0) visibility = shadow_visibility(lights[i].position.xyz);
 #endif
-        float square_size = lights[i].strength.w;
-        add_light(visibility * lights[i].strength.rgb, lights[i].position.xyz, square_size, surface);
+        float variance = lights[i].strength.w;
+        add_light(visibility * lights[i].strength.rgb, lights[i].position.xyz, variance, surface);
 #ifdef MATERIAL_DIRECTIONAL_LIGHTS
-        material_light(i, visibility, lights[i].position.xyz, square_size, added);
+        material_light(i, visibility, lights[i].position.xyz, variance, added);
 #endif
     }
 #endif
@@ -111,10 +111,10 @@ vec3 direct_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness, inout 
         float inverse = inversesqrt(max(distance2, 1e-8));
         vec3 l = to_light * inverse;
         float attenuation = punctual_attenuation(lights[i], distance2, inverse, l);
-        float square_size = min(lights[i].strength.w * inverse * inverse, 1.0);
-        add_light(attenuation * lights[i].strength.rgb, l, square_size, surface);
+        float variance = lights[i].strength.w * inverse * inverse;
+        add_light(attenuation * lights[i].strength.rgb, l, variance, surface);
 #ifdef MATERIAL_PUNCTUAL_LIGHTS
-        material_light(i, attenuation, l, square_size, added);
+        material_light(i, attenuation, l, variance, added);
 #endif
     }
 #endif

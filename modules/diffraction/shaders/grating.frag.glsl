@@ -72,23 +72,23 @@ void prepare_lights(GrooveView view) {
 #endif
 }
 
-void material_light(int i, float attenuation, vec3 l, float square_size, inout vec3 added) {
+void material_light(int i, float attenuation, vec3 l, float variance, inout vec3 added) {
     float weight = lit_weight * attenuation;
     vec3 sum = vec3(0.0);  // XYZ with pits, else working space
 #if defined(LATTICE)
-    add_pattern_light(i, weight, l, square_size, lit_view, sum);
+    add_pattern_light(i, weight, l, variance, lit_view, sum);
 #elif defined(GROOVE_MAP)
     MeshU mesh = mesh_u_of(lit_view, l);
     int parts = groove_parts(lit_view);
     for (int part = 0; part < parts; ++part) {
         GrooveView one = groove_part(lit_view, parts, part);
         if (one.pitch > 0.0)
-            add_small_light(lit_scale, i, one.coverage * weight, l, square_size, one.axes, one.direction.y,
+            add_small_light(lit_scale, i, one.coverage * weight, l, variance, one.axes, one.direction.y,
                             turned_pixel_u(one, mesh), one.pitch, sum);
     }
     sum /= float(parts);
 #else
-    add_small_light(lit_scale, i, weight, l, square_size, lit_view.axes, lit_view.direction.y, pixel_u_of(lit_view, l),
+    add_small_light(lit_scale, i, weight, l, variance, lit_view.axes, lit_view.direction.y, pixel_u_of(lit_view, l),
                     lit_view.pitch, sum);
 #endif
     added += kernel_to_working(sum);

@@ -130,26 +130,43 @@ vec3 pitch_kernel_value(float u, float deviation, vec3 rgb, float pitch_factor) 
 }
 
 #ifdef SMALL_LIGHTS
+// groove_factor() of a light of this variance along h. The incoherent part of pits is too wide to be widened by it.
+#if defined(LOBE_GAUSSIAN) || defined(LOBE_PITS)
+vec3 small_light_factor(float sum_h, float variance_h) {
+    float narrowing = inversesqrt(1.0 + variance_h / (lobe_gaussian.x * lobe_gaussian.x));
+#ifdef LOBE_PITS
+    float z = sum_h * narrowing / lobe_gaussian.x;
+    return pits_factor(vec3(sum_h), vec3(2.0, 0.0, 0.0), 0.0) +
+           2.0 * lobe_gaussian.y * narrowing * exp(-0.5 * z * z);
+#else
+    float z = sum_h * narrowing / lobe_gaussian.x;
+    return vec3(2.0 * lobe_gaussian.y * narrowing * exp(-0.5 * z * z));
+#endif
+}
+#else
+vec3 small_light_factor(float sum_h, float variance_h) { return vec3(1.0); }
+#endif
+
 uniform mat3 working_to_rec709;
 
 // Factor of PHYSICS (4.2) on the table's values, ½ of their scale, for a view of this cosine; 0 below the horizon.
 float small_light_weight(KernelScale scale, float v_n) { return v_n > 0.0 ? 0.5 * scale.scale_bias.w : 0.0; }
 
 // Adds lights[i]. `weight`: small_light_weight() times irradiance on a surface that faces the light, over its strength;
-// `square_size`: squared sine of its angular radius; `axes`: columns g, h, n in the world; `v_h`: toward the eye, along h;
-// `u`: of s_g + v_g over the pixel. A disc has the variance square_size/4 across its direction; and as the surface sees
-// its upper half better, and directions are shorter toward its middle, the mean of s_g is smaller.
-void add_small_light(KernelScale scale, int i, float weight, vec3 l, float square_size, mat3 axes, float v_h, PixelU u,
+// `variance`: of its directions across their mean; `axes`: columns g, h, n in the world; `v_h`: toward the eye, along h;
+// `u`: of s_g + v_g over the pixel. As the surface sees a disc's upper half better, and directions are shorter toward its
+// middle, the mean of s_g is smaller.
+void add_small_light(KernelScale scale, int i, float weight, vec3 l, float variance, mat3 axes, float v_h, PixelU u,
                      float pitch_factor, inout vec3 sum) {
     float s_g = dot(l, axes[0]);
-    u.mean -= 0.5 * square_size * s_g;
-    u.square_width += (0.25 / BOX_VARIANCE) * square_size * (1.0 - s_g * s_g);
+    float shift = variance * s_g;
+    u.mean -= 2.0 * shift;
+    u.square_width += (variance - shift * s_g) / BOX_VARIANCE;
     float t = kernel_row(scale, pitch_factor * pitch_factor * u.square_width);
     float above = max(dot(l, axes[2]), 0.0);
     float s_h = dot(l, axes[1]);
-    float deviation_h = sqrt(0.25 * square_size * (1.0 - s_h * s_h));
     vec3 dimmed = (pitch_factor * weight * above * cover_transmittance(above)) *
-                  groove_factor(s_h - 0.5 * square_size * s_h + v_h, deviation_h);
+                  small_light_factor(s_h - 2.0 * variance * s_h + v_h, variance - variance * s_h * s_h);
     // One look-up costs less than a branch around it.
     sum += dimmed * light_layer_scale[i].y * kernel_texel(scale, pitch_factor * u.mean, t, light_layer_scale[i].x);
 #ifdef ZERO_ORDER

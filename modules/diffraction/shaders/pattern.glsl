@@ -20,13 +20,13 @@ float pixel_variance(vec2 right, vec2 down) { return max(dot(right, right), dot(
 
 #ifdef SMALL_LIGHTS
 // Adds lights[i], as add_small_light(). Uses derivatives: call it in uniform control flow.
-void add_pattern_light(int i, float weight, vec3 l, float square_size, GrooveView view, inout vec3 sum) {
+void add_pattern_light(int i, float weight, vec3 l, float variance, GrooveView view, inout vec3 sum) {
     vec2 centre = vec2(dot(l, view.axes[0]), dot(l, view.axes[1]));
-    vec2 u = centre - 0.5 * square_size * centre + view.direction.xy;
+    vec2 u = centre - 2.0 * variance * centre + view.direction.xy;
     float above = max(dot(l, view.axes[2]), 0.0);
     // In the plane a disc is narrower toward the light than across: the mean of both.
-    float variance = 0.125 * square_size * (1.0 + above * above) + pixel_variance(dFdx(u), dFdy(u));
-    float level = pattern_level(variance);
+    float in_plane = 0.5 * variance * (1.0 + above * above);
+    float level = pattern_level(in_plane + pixel_variance(dFdx(u), dFdy(u)));
     float flux = weight * above * cover_transmittance(above) * light_layer_scale[i].y;
     if (!pattern_reaches(u)) flux = 0.0;
     sum += flux * pattern_scale.z * pattern_texel(u, level, light_layer_scale[i].x - FIRST_COLOUR_LAYER);
