@@ -131,12 +131,14 @@ TEST_F(MapFillingTest, CoarseMapsFollowAnObjectThatTurnsInEveryFrame) {
 
 /// If each frame began another map, an object whose frames are shorter than a fill would never get one.
 TEST_F(MapFillingTest, AnObjectThatTurnsInEveryFrameWaitsForTheMapThatWasBegun) {
+    std::counting_semaphore<> begun{0};
     std::counting_semaphore<> coarse_maps{0};
     std::atomic<int> coarse = 0;
     std::atomic<bool> given_up = false;
     fill_ = std::make_shared<const FillMap>(
         [&, inner = fill_](const MapInput& input, MapDetail detail, const std::stop_token& stop) {
             if (detail == MapDetail::Coarse) {
+                begun.release();
                 coarse_maps.acquire();
                 if (coarse++ == 0) given_up = stop.stop_requested();
             }
@@ -144,6 +146,8 @@ TEST_F(MapFillingTest, AnObjectThatTurnsInEveryFrameWaitsForTheMapThatWasBegun) 
         });
     cache_ = std::make_unique<MapCache>(MapPace::Incremental, 0ms);
     double normal = 1.0;
+    update(normal);
+    begun.acquire();
     for (int frame = 0; frame < 5; ++frame) update(normal += 1.0);
     EXPECT_EQ(object_.shown(), nullptr);
     coarse_maps.release(1 << 20);
