@@ -4,6 +4,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/gpu/buffer.h"
@@ -85,6 +86,11 @@ class Framebuffer {
 
 /// The vertex stage of a full-screen pass: `layout(location = 0) out vec2 uv`, (0,0) at the lower left.
 inline constexpr const char* full_screen_vertex_shader = "engine/gpu/shaders/full_screen_triangle.vert.glsl";
+
+/// The program of a full-screen pass.
+inline ProgramDesc full_screen_pass(std::string fragment, std::vector<Define> defines = {}) {
+    return {.vertex = full_screen_vertex_shader, .fragment = std::move(fragment), .defines = std::move(defines)};
+}
 
 /// One triangle that covers the target.
 class FullScreenTriangle {

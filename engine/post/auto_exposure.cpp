@@ -15,10 +15,8 @@ constexpr int block = 8;
 constexpr unsigned kTotalBinding = 0;
 
 gpu::Program program(const gpu::ShaderLibrary& library, bool is_picture) {
-    return {library,
-            {.vertex = gpu::full_screen_vertex_shader,
-             .fragment = "engine/post/shaders/log_luminance_sum.frag.glsl",
-             .defines = {{"SOURCE_IS_PICTURE", is_picture ? "1" : "0"}}}};
+    return {library, gpu::full_screen_pass("engine/post/shaders/log_luminance_sum.frag.glsl",
+                                           {{"SOURCE_IS_PICTURE", is_picture ? "1" : "0"}})};
 }
 
 }  // namespace

@@ -7,10 +7,7 @@ namespace rowland::post {
 namespace {
 
 gpu::Program program(const gpu::ShaderLibrary& library, const char* fragment, bool is_picture) {
-    return {library,
-            {.vertex = gpu::full_screen_vertex_shader,
-             .fragment = fragment,
-             .defines = {{"FINE_IS_PICTURE", is_picture ? "1" : "0"}}}};
+    return {library, gpu::full_screen_pass(fragment, {{"FINE_IS_PICTURE", is_picture ? "1" : "0"}})};
 }
 
 constexpr const char* down_shader = "engine/post/shaders/bloom_down.frag.glsl";

@@ -25,10 +25,6 @@ Blur blur_of(const DepthOfFieldSettings& settings, const LensView& view) {
     return {0.5F * aperture_m * focal_length_m / (kSensorHeight_m * (focus_m - focal_length_m)), focus_m};
 }
 
-gpu::Program program_of(const gpu::ShaderLibrary& library, const char* fragment) {
-    return {library, {.vertex = gpu::full_screen_vertex_shader, .fragment = fragment}};
-}
-
 }  // namespace
 
 float blur_radius(const DepthOfFieldSettings& settings, const LensView& view, float distance_m) {
@@ -37,9 +33,9 @@ float blur_radius(const DepthOfFieldSettings& settings, const LensView& view, fl
 }
 
 DepthOfFieldPass::DepthOfFieldPass(const gpu::ShaderLibrary& library)
-    : discs_program_(program_of(library, "engine/post/shaders/blur_discs.frag.glsl")),
-      widest_program_(program_of(library, "engine/post/shaders/blur_widest.frag.glsl")),
-      gather_program_(program_of(library, "engine/post/shaders/blur_gather.frag.glsl")) {}
+    : discs_program_(library, gpu::full_screen_pass("engine/post/shaders/blur_discs.frag.glsl")),
+      widest_program_(library, gpu::full_screen_pass("engine/post/shaders/blur_widest.frag.glsl")),
+      gather_program_(library, gpu::full_screen_pass("engine/post/shaders/blur_gather.frag.glsl")) {}
 
 void DepthOfFieldPass::draw(const gpu::Texture& source, const gpu::Texture& depth, const DepthOfFieldSettings& settings,
                             const LensView& view, const gpu::Framebuffer& target) {

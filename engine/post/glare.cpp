@@ -90,10 +90,6 @@ GlareGrid glare_grid(glm::ivec2 picture, glm::vec2 tan_half_fov, glm::vec2 reach
 
 namespace {
 
-gpu::Program full_screen(const gpu::ShaderLibrary& library, const char* fragment) {
-    return {library, {.vertex = gpu::full_screen_vertex_shader, .fragment = fragment}};
-}
-
 gpu::Program fourier(const gpu::ShaderLibrary& library, const char* compute, int length, int channels,
                      bool of_kernel = false) {
     return {library,
@@ -156,8 +152,8 @@ GlarePass::Transform::Transform(const gpu::ShaderLibrary& library, glm::ivec2 si
 
 GlarePass::GlarePass(const gpu::ShaderLibrary& library)
     : library_(&library),
-      bright_(full_screen(library, "engine/post/shaders/glare_bright.frag.glsl")),
-      add_(full_screen(library, "engine/post/shaders/glare_add.frag.glsl")) {}
+      bright_(library, gpu::full_screen_pass("engine/post/shaders/glare_bright.frag.glsl")),
+      add_(library, gpu::full_screen_pass("engine/post/shaders/glare_add.frag.glsl")) {}
 
 void GlarePass::transform_rows(const gpu::Texture& cells) const {
     cells.bind(0);

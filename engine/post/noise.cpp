@@ -5,8 +5,7 @@
 namespace rowland::post {
 
 NoisePass::NoisePass(const gpu::ShaderLibrary& library)
-    : program_(library, {.vertex = gpu::full_screen_vertex_shader, .fragment = "engine/post/shaders/noise.frag.glsl"}) {
-}
+    : program_(library, gpu::full_screen_pass("engine/post/shaders/noise.frag.glsl")) {}
 
 void NoisePass::draw(const gpu::Texture& source, std::uint32_t frame, const std::optional<DitherSettings>& dither,
                      const std::optional<GrainSettings>& grain, const gpu::Framebuffer& target) const {

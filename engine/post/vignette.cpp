@@ -8,8 +8,7 @@
 namespace rowland::post {
 
 VignettePass::VignettePass(const gpu::ShaderLibrary& library)
-    : program_(library,
-               {.vertex = gpu::full_screen_vertex_shader, .fragment = "engine/post/shaders/vignette.frag.glsl"}) {}
+    : program_(library, gpu::full_screen_pass("engine/post/shaders/vignette.frag.glsl")) {}
 
 void VignettePass::draw(const gpu::Texture& source, const VignetteSettings& settings,
                         const gpu::Framebuffer& target) const {

@@ -11,10 +11,6 @@ namespace {
 
 constexpr unsigned kSourceUnit = 0;
 
-gpu::ProgramDesc full_screen(const char* fragment) {
-    return {.vertex = gpu::full_screen_vertex_shader, .fragment = fragment};
-}
-
 }  // namespace
 
 const gpu::Framebuffer& AmbientOcclusion::begin(glm::ivec2 picture) {
@@ -32,7 +28,7 @@ void AmbientOcclusion::draw(ProgramCache& programs, const scene::Camera& camera,
                             const std::optional<glm::vec3>& toward_light, const AmbientOcclusionSettings& settings) {
     ROWLAND_CHECK_OP(settings.radius_m, >, 0.0F);
     const float half_height = std::tan(0.5F * camera.vertical_field_of_view);
-    const gpu::Program& occlusion = programs.get(full_screen("engine/render/shaders/occlusion.frag.glsl"));
+    const gpu::Program& occlusion = programs.get(gpu::full_screen_pass("engine/render/shaders/occlusion.frag.glsl"));
     occlusion.use();
     occlusion.set("extent", glm::vec2(aspect * half_height, half_height));
     occlusion.set("planes", glm::vec2(camera.near_plane, camera.far_plane));
@@ -42,7 +38,7 @@ void AmbientOcclusion::draw(ProgramCache& programs, const scene::Camera& camera,
     targets_->depth.depth().bind(kSourceUnit);
     triangle_.draw(occlusion, targets_->smooth);
 
-    const gpu::Program& mean = programs.get(full_screen("engine/render/shaders/occlusion_mean.frag.glsl"));
+    const gpu::Program& mean = programs.get(gpu::full_screen_pass("engine/render/shaders/occlusion_mean.frag.glsl"));
     mean.use();
     mean.set("axis", glm::ivec2(1, 0));
     targets_->smooth.colour().bind(kSourceUnit);

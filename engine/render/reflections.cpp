@@ -165,8 +165,7 @@ scene::Camera ObjectReflection::camera(int face) const {
 void ObjectReflection::store(ProgramCache& programs, const gpu::FullScreenTriangle& triangle,
                              const gpu::Framebuffer& picture, int face) {
     const scene::Camera seen_by = camera(face);
-    const gpu::Program& program = programs.get(
-        {.vertex = gpu::full_screen_vertex_shader, .fragment = "engine/render/shaders/surroundings.frag.glsl"});
+    const gpu::Program& program = programs.get(gpu::full_screen_pass("engine/render/shaders/surroundings.frag.glsl"));
     program.use();
     program.set("planes", glm::vec2(seen_by.near_plane, seen_by.far_plane));
     picture.colour().bind(0);

@@ -13,7 +13,7 @@ uniform bool into_halves;
 const int MOST_SAMPLES = 96;
 const float PI = 3.14159265358979;
 const float PIXEL = 0.56418958;  // radius of a disc as large as a pixel
-const float SHARP = 0.75;        // a disc of this radius is a pixel: as wide as its box with bilinear weights
+const float SHARP = 0.75;        // up to this radius a disc is seen as a pixel
 
 // Of all discs that may reach the pixel, as none is wider than a tile.
 float widest_nearby(ivec2 pixel) {
