@@ -134,14 +134,12 @@ vec3 pitch_kernel_value(float u, float deviation, vec3 rgb, float pitch_factor) 
 #if defined(LOBE_GAUSSIAN) || defined(LOBE_PITS)
 vec3 small_light_factor(float sum_h, float variance_h) {
     float narrowing = inversesqrt(1.0 + variance_h / (lobe_gaussian.x * lobe_gaussian.x));
+    float z = sum_h * narrowing / lobe_gaussian.x;
+    vec3 factor = vec3(2.0 * lobe_gaussian.y * narrowing * exp(-0.5 * z * z));
 #ifdef LOBE_PITS
-    float z = sum_h * narrowing / lobe_gaussian.x;
-    return pits_factor(vec3(sum_h), vec3(2.0, 0.0, 0.0), 0.0) +
-           2.0 * lobe_gaussian.y * narrowing * exp(-0.5 * z * z);
-#else
-    float z = sum_h * narrowing / lobe_gaussian.x;
-    return vec3(2.0 * lobe_gaussian.y * narrowing * exp(-0.5 * z * z));
+    factor += pits_factor(vec3(sum_h), vec3(2.0, 0.0, 0.0), 0.0);
 #endif
+    return factor;
 }
 #else
 vec3 small_light_factor(float sum_h, float variance_h) { return vec3(1.0); }
