@@ -27,14 +27,12 @@ class DepthOfFieldTest : public test::PostTest {
     }
     std::vector<glm::vec4> draw(const std::vector<glm::vec4>& pixels, const std::vector<float>& distances,
                                 const DepthOfFieldSettings& settings) {
-        gpu::Texture depth({.format = gpu::Format::Depth32F, .width = kSize.x, .height = kSize.y},
-                           {.filter = gpu::Filter::Nearest});
         std::vector<float> values;
         for (const float distance : distances) values.push_back(depth_of(distance));
         const gpu::Framebuffer drawn = target(kSize);
-        gpu::Texture source({.format = gpu::Format::R32F, .width = kSize.x, .height = kSize.y});
-        source.upload(std::span<const float>(values));
-        pass_.draw(picture(pixels, kSize), source, settings, kView, drawn);
+        gpu::Texture depth({.format = gpu::Format::R32F, .width = kSize.x, .height = kSize.y});
+        depth.upload(std::span<const float>(values));
+        pass_.draw(picture(pixels, kSize), depth, settings, kView, drawn);
         return drawn.colour().read();
     }
     static double sum(const std::vector<glm::vec4>& pixels) {
