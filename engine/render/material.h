@@ -47,6 +47,7 @@ struct StandardMaterial {
     bool unlit = false;       ///< shows base colour and emission, independent of light
     float clear_coat = 0.0F;  ///< strength of a dielectric layer on top, 0 to 1; not of a material type's surface
     float clear_coat_roughness = 0.0F;  ///< perceptual
+    SurfaceTexture wear_texture = {};   ///< scene::wear_map()
 };
 
 /// A DirectionalLight of the scene in world axes.

@@ -342,9 +342,8 @@ void Renderer::draw_occlusion(const Frame& frame) {
 }
 
 void Renderer::bind_surface(const Draw& draw) const {
-    for (std::size_t i = 0; i < kSurfaceMaps.size(); ++i)
-        if ((draw.features & kSurfaceMaps[i].bit) != 0)
-            (draw.material->*kSurfaceMaps[i].texture).texture->bind(kFirstMapUnit + static_cast<unsigned>(i));
+    for (const SurfaceMap& map : kSurfaceMaps)
+        if ((draw.features & map.bit) != 0) (draw.material->*map.texture).texture->bind(map.unit);
 }
 
 void Renderer::draw_pass(ecs::World& world, const std::vector<const Draw*>& draws, glm::ivec2 size) {

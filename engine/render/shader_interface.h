@@ -10,7 +10,7 @@ namespace rowland::render {
 inline constexpr unsigned kEnvironmentUnit = 0;
 inline constexpr unsigned kBrdfUnit = 1;
 inline constexpr unsigned kShadowUnit = 2;
-inline constexpr unsigned kFirstMapUnit = 3;  ///< of the five kSurfaceMaps
+inline constexpr unsigned kFirstMapUnit = 3;  ///< of the first five kSurfaceMaps
 inline constexpr unsigned kKeyIrradianceUnit = 15;
 inline constexpr unsigned kVisibilityUnit = 16;
 inline constexpr unsigned kPlaneMapUnit = 17;
@@ -18,6 +18,7 @@ inline constexpr unsigned kMirrorUnit = 18;
 inline constexpr unsigned kSurroundingLightUnit = 19;
 inline constexpr unsigned kSurroundingNearnessUnit = 20;
 inline constexpr unsigned kLobeNodesUnit = 21;
+inline constexpr unsigned kWearUnit = 22;
 
 inline constexpr unsigned kFrameBinding = 0;
 inline constexpr unsigned kObjectBinding = 1;

@@ -11,6 +11,7 @@
 #include "engine/gpu/shader_library.h"
 #include "engine/render/gpu_mesh.h"
 #include "engine/render/material.h"
+#include "engine/render/shader_interface.h"
 
 namespace rowland::render {
 
@@ -25,8 +26,9 @@ inline constexpr SurfaceFeatures kMetallicRoughnessMap = 1U << 3U;
 inline constexpr SurfaceFeatures kNormalMap = 1U << 4U;
 inline constexpr SurfaceFeatures kOcclusionMap = 1U << 5U;
 inline constexpr SurfaceFeatures kEmissiveMap = 1U << 6U;
-inline constexpr SurfaceFeatures kPassesLight = 1U << 7U;
+inline constexpr SurfaceFeatures kWearMap = 1U << 7U;
 inline constexpr SurfaceFeatures kRoughReflections = 1U << 8U;
+inline constexpr SurfaceFeatures kPassesLight = 1U << 9U;
 inline constexpr unsigned kSecondUvShift = 8;  ///< a map's bit shifted left by this: the map uses the second UV set
 inline constexpr SurfaceFeatures kTextureTransformExtension = 1U << 16U;
 inline constexpr SurfaceFeatures kDoubleSided = 1U << 17U;
@@ -50,19 +52,21 @@ inline constexpr SurfaceFeatures kLights =
     kDirectionalLights | kSeveralDirectionalLights | kPunctualLights | kShadows | kKeyLights | kEffects;
 }  // namespace feature
 
-/// A texture of a surface. Its index in kSurfaceMaps is that of its unit from kFirstMapUnit on and of its transform in
-/// ObjectBlock.
+/// A texture of a surface. Its index in kSurfaceMaps is that of its transform in ObjectBlock.
 struct SurfaceMap {
     SurfaceFeatures bit;
     const char* define;
     SurfaceTexture StandardMaterial::*texture;
+    unsigned unit;
 };
-inline constexpr std::array<SurfaceMap, 5> kSurfaceMaps = {
-    {{feature::kBaseColourMap, "BASE_COLOUR_MAP", &StandardMaterial::base_colour_texture},
-     {feature::kMetallicRoughnessMap, "METALLIC_ROUGHNESS_MAP", &StandardMaterial::metallic_roughness_texture},
-     {feature::kNormalMap, "NORMAL_MAP", &StandardMaterial::normal_texture},
-     {feature::kOcclusionMap, "OCCLUSION_MAP", &StandardMaterial::occlusion_texture},
-     {feature::kEmissiveMap, "EMISSIVE_MAP", &StandardMaterial::emissive_texture}}};
+inline constexpr std::array<SurfaceMap, 6> kSurfaceMaps = {
+    {{feature::kBaseColourMap, "BASE_COLOUR_MAP", &StandardMaterial::base_colour_texture, kFirstMapUnit},
+     {feature::kMetallicRoughnessMap, "METALLIC_ROUGHNESS_MAP", &StandardMaterial::metallic_roughness_texture,
+      kFirstMapUnit + 1},
+     {feature::kNormalMap, "NORMAL_MAP", &StandardMaterial::normal_texture, kFirstMapUnit + 2},
+     {feature::kOcclusionMap, "OCCLUSION_MAP", &StandardMaterial::occlusion_texture, kFirstMapUnit + 3},
+     {feature::kEmissiveMap, "EMISSIVE_MAP", &StandardMaterial::emissive_texture, kFirstMapUnit + 4},
+     {feature::kWearMap, "WEAR_MAP", &StandardMaterial::wear_texture, kWearUnit}}};
 
 /// Of a surface on a mesh. `lights`: those of feature::kLights that the frame has.
 SurfaceFeatures features_of(const StandardMaterial& material, const GpuMesh& mesh, bool skinned,

@@ -85,7 +85,8 @@ StandardMaterial make_material(const scene::MaterialDescription* description, Su
             .double_sided = from.double_sided,
             .unlit = from.unlit,
             .clear_coat = from.clear_coat,
-            .clear_coat_roughness = from.clear_coat_roughness};
+            .clear_coat_roughness = from.clear_coat_roughness,
+            .wear_texture = texture(from.wear_texture, TexelMeaning::Linear)};
 }
 
 }  // namespace rowland::render

@@ -23,9 +23,9 @@ namespace {
 using Json = nlohmann::json;
 
 // Quantised attributes are ordinary accessors to us, so that extension needs nothing more.
-constexpr std::array<std::string_view, 7> kSupportedExtensions = {
-    kDracoExtension,       kLightExtension,         "KHR_materials_clearcoat", "KHR_materials_emissive_strength",
-    "KHR_materials_unlit", "KHR_mesh_quantization", kTextureTransformExtension};
+constexpr std::array<std::string_view, 8> kSupportedExtensions = {
+    kDracoExtension,       kLightExtension,         "KHR_materials_clearcoat",  "KHR_materials_emissive_strength",
+    "KHR_materials_unlit", "KHR_mesh_quantization", kTextureTransformExtension, kWearExtension};
 
 /// A member of a glTF object, and what its value must be.
 struct Member {
@@ -95,6 +95,7 @@ constexpr std::int64_t kMaximumCount = std::numeric_limits<std::int32_t>::max();
 constexpr std::int64_t kMaximumUvSet = 1 << 20;
 // Exporters round: what is a little over 1 is clamped.
 constexpr NumberRange kFactor{.minimum = 0.0, .maximum = 1.001};
+constexpr NumberRange kWearSize{.minimum = 0.005, .maximum = 2.0};
 constexpr NumberRange kUnit{.minimum = -1.001, .maximum = 1.001};
 // Far above any real light; the product of two stays finite.
 constexpr NumberRange kEmission{.minimum = 0.0, .maximum = 1e6};
@@ -159,10 +160,17 @@ constexpr std::array kPbr = {numbers("baseColorFactor", 4, kFactor), number("met
                              number("roughnessFactor", kFactor), object("baseColorTexture", kUse),
                              object("metallicRoughnessTexture", kUse)};
 constexpr std::array kCoat = {number("clearcoatFactor", kFactor), number("clearcoatRoughnessFactor", kFactor)};
+constexpr std::array kWear = {number("scratches", kFactor),
+                              number("fingerprints", kFactor),
+                              number("dust", kFactor),
+                              number("size_m", kWearSize),
+                              integer("seed", 0, std::numeric_limits<std::uint32_t>::max()),
+                              integer("texCoord", 0, 1),
+                              object("maskTexture", kUse)};
 constexpr std::array kStrength = {number("emissiveStrength", kEmission)};
 constexpr std::array kMaterialExtensions = {object("KHR_materials_unlit", {}),
                                             object("KHR_materials_emissive_strength", kStrength),
-                                            object("KHR_materials_clearcoat", kCoat)};
+                                            object("KHR_materials_clearcoat", kCoat), object(kWearExtension, kWear)};
 constexpr std::array kMaterial = {text("name"),
                                   object("pbrMetallicRoughness", kPbr),
                                   object("normalTexture", kNormal),

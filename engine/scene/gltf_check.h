@@ -13,6 +13,7 @@ namespace rowland::scene {
 inline constexpr const char* kDracoExtension = "KHR_draco_mesh_compression";
 inline constexpr const char* kLightExtension = "KHR_lights_punctual";
 inline constexpr const char* kTextureTransformExtension = "KHR_texture_transform";
+inline constexpr const char* kWearExtension = "ROWLAND_materials_wear";
 
 /// Adds `text` unless it is already there.
 void warn_once(std::vector<std::string>& warnings, std::string text);

@@ -85,6 +85,19 @@ MaterialDescription import_material(const gltf::Model& model, const gltf::Materi
         to.clear_coat = factor(number_or(found->second, "clearcoatFactor", 0.0));
         to.clear_coat_roughness = factor(number_or(found->second, "clearcoatRoughnessFactor", 0.0));
     }
+    if (const auto found = from.extensions.find(kWearExtension); found != from.extensions.end()) {
+        const gltf::Value& wear = found->second;
+        to.wear = {.scratches = factor(number_or(wear, "scratches", 0.0)),
+                   .fingerprints = factor(number_or(wear, "fingerprints", 0.0)),
+                   .dust = factor(number_or(wear, "dust", 0.0)),
+                   .size_m = static_cast<float>(number_or(wear, "size_m", Wear{}.size_m)),
+                   .seed = static_cast<std::uint32_t>(number_or(wear, "seed", Wear{}.seed))};
+        to.wear_texture = TextureUse{0, static_cast<int>(number_or(wear, "texCoord", 0.0)), {}};
+        if (wear.Has("maskTexture")) {
+            const int texture = wear.Get("maskTexture").Get("index").GetNumberAsInt();
+            if (model.textures[static_cast<std::size_t>(texture)].source >= 0) to.wear_mask = texture;
+        }
+    }
     return to;
 }
 
@@ -98,7 +111,7 @@ void keep_other_extensions(const nlohmann::json& material, MaterialDescription& 
                 if (value.contains(map))
                     warn_once(warnings, fmt::format("a material's {} is not read: its clear coat is even", map));
         if (name != "KHR_materials_clearcoat" && name != "KHR_materials_unlit" &&
-            name != "KHR_materials_emissive_strength")
+            name != "KHR_materials_emissive_strength" && name != kWearExtension)
             to.extensions[name] = value;
     }
 }
@@ -196,6 +209,31 @@ void decode(const std::vector<Encoded>& encoded, const std::string& file, std::v
         if (refusal) std::rethrow_exception(refusal);
 }
 
+/// Adds a texture for each different wear of the materials.
+void draw_wear(const std::string& file, ImportedScene& scene) {
+    constexpr std::size_t kMaximumMaps = 16;
+    std::vector<const MaterialDescription*> drawn;
+    for (MaterialDescription& material : scene.materials) {
+        if (!material.wear) continue;
+        const auto same = std::ranges::find_if(drawn, [&](const MaterialDescription* other) {
+            return other->wear == material.wear && other->wear_mask == material.wear_mask;
+        });
+        if (same != drawn.end()) {
+            material.wear_texture->texture = (*same)->wear_texture->texture;
+            continue;
+        }
+        if (drawn.size() == kMaximumMaps)
+            refuse_input(file, "/materials", fmt::format("more than {} different {}", kMaximumMaps, kWearExtension),
+                         "fewer", "give materials the same wear");
+        image::ByteImage map = wear_map(*material.wear);
+        if (material.wear_mask) mask_wear(*scene.images[scene.textures[*material.wear_mask].image], map);
+        material.wear_texture->texture = scene.textures.size();
+        scene.textures.push_back({.image = scene.images.size()});
+        scene.images.push_back(std::make_shared<const image::ByteImage>(std::move(map)));
+        drawn.push_back(&material);
+    }
+}
+
 }  // namespace
 
 std::vector<MaterialDescription> import_materials(const GltfDocument& document, std::vector<std::string>& warnings) {
@@ -220,6 +258,7 @@ void import_images(const GltfSource& source, const GltfDocument& document, Memor
         warn_once(scene.warnings, "textures that have no PNG or JPEG image are ignored");
         scene.images.push_back(white);
     }
+    draw_wear(document.file, scene);
 }
 
 }  // namespace rowland::scene

@@ -18,6 +18,7 @@
 #include "engine/scene/light.h"
 #include "engine/scene/mesh.h"
 #include "engine/scene/transform.h"
+#include "engine/scene/wear.h"
 
 namespace rowland::scene {
 
@@ -58,9 +59,12 @@ struct MaterialDescription {
     AlphaMode alpha_mode = AlphaMode::Opaque;
     float alpha_cutoff = 0.5F;
     bool double_sided = false;
-    bool unlit = false;                 ///< KHR_materials_unlit
-    float clear_coat = 0.0F;            ///< KHR_materials_clearcoat: its factor, without textures
-    float clear_coat_roughness = 0.0F;  ///< perceptual, likewise
+    bool unlit = false;                      ///< KHR_materials_unlit
+    float clear_coat = 0.0F;                 ///< KHR_materials_clearcoat: its factor, without textures
+    float clear_coat_roughness = 0.0F;       ///< perceptual, likewise
+    std::optional<Wear> wear;                ///< ROWLAND_materials_wear
+    std::optional<std::size_t> wear_mask;    ///< texture whose R multiplies it
+    std::optional<TextureUse> wear_texture;  ///< wear_map(), which the import adds to the textures
     std::map<std::string, nlohmann::json> extensions;
     /// What GltfExtension::cook baked for extensions, by their names; equal tables are shared. Of cooked scenes only.
     std::map<std::string, std::shared_ptr<const std::vector<std::byte>>> tables;

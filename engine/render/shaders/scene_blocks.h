@@ -39,9 +39,9 @@ ROWLAND_BLOCK(1, ObjectBlock) {
                               // roughness of the clear coat
     vec4 map_strength;        // x: normal scale; y: occlusion strength; z: sign of object_to_world's determinant;
                               // w: the object's first joint matrix
-    vec4 uv_linear[5];        // of each map (base colour, metallic-roughness, normal, occlusion, emissive): the 2x2
+    vec4 uv_linear[6];        // of each map (base colour, metallic-roughness, normal, occlusion, emissive, wear): the 2x2
                               // part of its texture transform, column after column
-    vec4 uv_offset[5];        // xy
+    vec4 uv_offset[6];        // xy
 };
 
 struct Light {
@@ -68,7 +68,7 @@ ROWLAND_BLOCK(3, ReflectionBlock) {
     vec4 plane_uv_offset;  // xy
 };
 #ifdef __cplusplus
-static_assert(sizeof(FrameBlock) == 5 * 64 + 13 * 16 && sizeof(ObjectBlock) == 2 * 64 + 14 * 16 &&
+static_assert(sizeof(FrameBlock) == 5 * 64 + 13 * 16 && sizeof(ObjectBlock) == 2 * 64 + 16 * 16 &&
                   sizeof(LightBlock) == 16 + 48 * ROWLAND_MAXIMUM_LIGHTS && sizeof(ReflectionBlock) == 64 + 7 * 16,
               "must equal the std140 layout");
 }  // namespace rowland::render

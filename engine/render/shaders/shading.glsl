@@ -1,6 +1,8 @@
 // The metallic-roughness surface under the scene's lights and the environment, and what the program writes. A material
 // includes surface.glsl and environment.glsl, defines what it changes (engine/MODULES.md, "Write the shaders"), then
 // includes this file and writes its main().
+#include "engine/render/shaders/wear.glsl"
+
 layout(location = 0) out vec4 radiance;
 #ifdef MATERIAL_PASSES_LIGHT
 layout(location = 0, index = 1) out vec4 background;  // what lies behind is multiplied by it
@@ -50,6 +52,9 @@ void add_light(vec3 irradiance, vec3 l, float variance, inout LitSurface surface
     float n_h = clamp((n_l + surface.n_v) * inverse_length, 0.0, 1.0);
     float v_h = clamp((1.0 + v_l) * inverse_length, 0.0, 1.0);
     n_l = max(n_l, 0.0);
+#ifdef WEAR_MAP
+    wear_light(irradiance, n_l, l, surface.v, variance);
+#endif
     float density = microfacets(n_h, n_l, surface.alpha2, surface.facing, surface.masking, variance);
 #ifdef MATERIAL_COAT
     surface.coat += microfacets(n_h, n_l, surface.coat_alpha2, surface.facing, surface.coat_masking, variance) *
@@ -163,12 +168,23 @@ vec3 lobe_reflection(vec3 n, vec3 v, vec3 f0, float n_v, float roughness, vec2 d
 }
 #endif
 
+vec3 diffuse_probe_light(vec3 n) {
+#ifdef AMBIENT_AT_VERTICES
+    return ambient_at_vertex * ambient_visibility();
+#else
+    return ambient_light(n) * ambient_visibility();
+#endif
+}
+
 // The metallic-roughness surface: dfg sum [Karis 2013] over the prefiltered probe, and the lights, whose part of the
 // material's own radiance goes to `added`. `base`: colour and alpha, which becomes the fraction of what lies behind that
 // is hidden.
 vec3 base_radiance(inout vec4 base, vec3 n, vec3 v, inout vec3 added) {
     vec2 factors = surface_metallic_roughness();
     float roughness = factors.y;
+#ifdef WEAR_MAP
+    roughness = mix(roughness, max(roughness, GREASE_ROUGHNESS), wear.grease);
+#endif
     vec3 f0 = mix(vec3(0.04), base.rgb, factors.x);
     vec3 diffuse = base.rgb * (1.0 - factors.x);
     float n_v = max(dot(n, v), 0.0);
@@ -182,14 +198,31 @@ vec3 base_radiance(inout vec4 base, vec3 n, vec3 v, inout vec3 added) {
 #endif
 #endif
     vec3 reflected = lobe_reflection(n, v, f0, n_v, roughness, split_sum_dfg(n_v, roughness));
-#ifdef AMBIENT_AT_VERTICES
-    vec3 from_all_sides = ambient_at_vertex;
-#else
-    vec3 from_all_sides = ambient_light(n);
-#endif
-    vec3 from_probe = (diffuse * from_all_sides * ambient_visibility() + reflected) * surface_occlusion();
+    vec3 from_probe = (diffuse * diffuse_probe_light(n) + reflected) * surface_occlusion();
     return from_probe + direct_light(n, v, diffuse, f0, roughness, added);
 }
+
+#ifdef WEAR_MAP
+// Of white light from the front, by the metallic-roughness base and by the material's own orders or mirror.
+vec3 base_reflectance(vec3 colour, float n_v) {
+    vec3 f0 = mix(vec3(0.04), colour, surface_metallic_roughness().x);
+#ifdef MATERIAL_SPECULAR
+    return reflect_specular(vec3(1.0), f0, n_v);
+#else
+    return schlick_reflectance(f0, n_v);
+#endif
+}
+#ifndef MATERIAL_REFLECTANCE
+vec3 material_reflectance() { return vec3(0.0); }
+#endif
+
+// What grease leaves of the material's own light, and what it scatters of that in place of the material.
+vec3 greased(vec3 added, vec3 n, vec3 v) {
+    if (wear.grease < 0.004) return added;
+    vec3 light = environment_light(lobe_direction(n, v, GREASE_ROUGHNESS), GREASE_ROUGHNESS);
+    return mix(added, material_reflectance() * light, wear.grease);
+}
+#endif
 
 // Writes the surface with what a material adds to and leaves of it: the end of main(), which begins with
 // read_screen_visibility().
@@ -201,16 +234,36 @@ void write_surface(MaterialTerms terms) {
 #else
     vec3 v = to_eye();
     vec3 n = seen_normal(surface_normal(), v);
+#ifdef WEAR_MAP
+    read_wear(n, terms.base_weight * base_reflectance(base.rgb, max(dot(n, v), 0.0)) + material_reflectance());
+#endif
     sum += terms.base_weight * base_radiance(base, n, v, terms.added);
+#ifdef WEAR_MAP
+    sum += greased(terms.added, n, v);
+#else
     sum += terms.added;
+#endif
 #ifdef MATERIAL_HAS_MIRROR
+#ifdef WEAR_MAP
+    terms.mirror_weight *= 1.0 - wear.grease;
+#endif
     sum += terms.mirror_weight * mirrored_light(reflect(-v, n));
+#endif
+#ifdef WEAR_MAP
+    sum = worn(sum, n, v, diffuse_probe_light(n));
+#ifdef ALPHA_BLEND
+    base.a = mix(base.a, 1.0, wear.dust);
+#endif
 #endif
 #endif
     float alpha = base.a;
 #if defined(MATERIAL_PASSES_LIGHT)
     radiance = vec4(sum, 1.0);
+#ifdef WEAR_MAP
+    background = vec4((1.0 - wear.dust) * (1.0 - wear.grease) * background_weight(), 0.0);
+#else
     background = vec4(background_weight(), 0.0);
+#endif
 #elif defined(ALPHA_BLEND) && defined(MATERIAL_TRANSMITTANCE)
     radiance = vec4(sum / max(alpha, 1e-4), alpha);  // blending multiplies by alpha; reflections are whole already
 #elif defined(ALPHA_BLEND)

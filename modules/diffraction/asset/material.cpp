@@ -277,7 +277,7 @@ LayerWeights layer_weights(const Grating& grating, const colour::Illuminant& ill
     const std::optional<Grating> other_side = reflected_side(grating);
     const colour::LightSpectra spectra(illuminant);
     const bool lists_zero = std::find(grating.orders.begin(), grating.orders.end(), 0) != grating.orders.end();
-    LayerWeights weights{.mirror = glm::dvec3(0.0), .base = glm::dvec3(0.0)};
+    LayerWeights weights{.mirror = glm::dvec3(0.0), .base = glm::dvec3(0.0), .reflected = glm::dvec3(0.0)};
     for (int wavelength_nm = colour::kVisibleMin; wavelength_nm <= colour::kVisibleMax; ++wavelength_nm) {
         const bool end = wavelength_nm == colour::kVisibleMin || wavelength_nm == colour::kVisibleMax;
         const glm::dvec3 e = spectra(wavelength_nm);
@@ -285,6 +285,7 @@ LayerWeights layer_weights(const Grating& grating, const colour::Illuminant& ill
         const Efficiencies of_grating = efficiencies(grating, wavelength_nm);
         const Efficiencies of_other = other_side ? efficiencies(*other_side, wavelength_nm) : Efficiencies{};
         const double taken = of_grating.zero + of_grating.listed + (of_other.zero + of_other.listed);
+        if (!grating.transmission) weights.reflected += (of_grating.zero + of_grating.listed) * white;
         if (!lists_zero) weights.mirror += of_grating.zero * white;
         if (!grating.side_reflectance) weights.base += std::max(0.0, 1.0 - taken) * white;
     }

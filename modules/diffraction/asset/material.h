@@ -122,6 +122,7 @@ struct LayerWeights {
                              ///< sheet that transmits sends it straight on
     glm::dvec3 base{1.0};  ///< 1 − Σ listed η − η₀, of both sides of a sheet, at least 0: the light that reaches
                            ///< the base layer. 0 for a sheet's reflected side alone
+    glm::dvec3 reflected{0.0};  ///< Σ listed η + η₀; 0 for a sheet that transmits
 };
 
 /// PHYSICS §2, "Zero order". Each weight is ∫ w(λ) cmf(λ) S(λ) dλ, S the illuminant, of luminance 1.

@@ -66,6 +66,7 @@ GpuMaterial::GpuMaterial(const CookedMaterial& cooked, const glm::dmat3& xyz_to_
     if (cooked.material.grating.lattice) pattern_.emplace(cooked.material, xyz_to_working);
     mirror_weight_ = glm::vec3(xyz_to_working * weights.mirror);
     base_weight_ = glm::vec3(xyz_to_working * weights.base);
+    reflectance_ = glm::vec3(xyz_to_working * weights.reflected);
 }
 
 gpu::ProgramDesc GpuMaterial::program(const SurfaceState& state) const {
@@ -116,6 +117,7 @@ void GpuMaterial::bind(const gpu::Program& program, const SurfaceLight& light, c
     if (state.grooves) state.grooves->bind(even_kernel_, program);
     program.set("mirror_weight", mirror_weight_);
     program.set("base_weight", base_weight_);
+    program.set("reflectance", reflectance_);
     if (const auto& cover = cooked_->material.grating.cover)
         program.set("cover_square", static_cast<float>(cover->ior * cover->ior));
     program.set("groove_turn", glm::vec2(std::cos(state.groove_rotation), std::sin(state.groove_rotation)));

@@ -117,6 +117,7 @@ class GpuMaterial {
     render::StandardMaterial base_;
     glm::vec3 mirror_weight_{0.0F};
     glm::vec3 base_weight_{1.0F};
+    glm::vec3 reflectance_{0.0F};
     MaterialKernel working_material_;
     bool even_kernel_;      ///< k(−x) = k(x)
     int key_lights_;        ///< the most that are shaded light by light

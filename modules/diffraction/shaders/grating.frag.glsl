@@ -100,6 +100,11 @@ void prepare_lights(GrooveView view) {}
 // ---- The layer under the grooves and the cover over them
 uniform vec3 mirror_weight;  // of order 0; working space
 uniform vec3 base_weight;
+#if defined(WEAR_MAP) && !defined(TRANSMISSION)
+#define MATERIAL_REFLECTANCE
+uniform vec3 reflectance;  // of all orders
+vec3 material_reflectance() { return reflectance; }
+#endif
 
 #ifdef COVER  // the coat is the cover's gloss
 float coat_reflectance(float cosine) { return 1.0 - cover_transmittance(cosine); }

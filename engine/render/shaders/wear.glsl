@@ -1,0 +1,88 @@
+// Marks of use: dust covers what lies under it, grease scatters what the surface mirrors, and a scratch diffracts light
+// into the directions of one angle to it, as a single slit does. The map and its coverage: engine/scene/wear.h.
+#ifdef WEAR_MAP
+TEXTURE_UNIT(22) uniform sampler2D wear_map;
+
+const vec3 DUST_ALBEDO = vec3(0.5, 0.48, 0.45);
+const float GREASE_ROUGHNESS = 0.5;
+const float SCRATCH_VARIANCE = 4e-4;    // of the direction cosines along a scratch
+const float SCRATCH_ROUGHNESS = 0.45;   // of the look-ups along its arc
+const int SCRATCH_LOOKUPS = 6;
+const vec3 LAMBDA = vec3(0.61, 0.55, 0.465);  // micrometres, of the working space's primaries
+
+struct Wear {
+    float dust;       // coverage
+    float grease;
+    float scratched;
+    float width;      // of the scratch, micrometres
+    vec3 along;       // unit, the scratch in the surface
+    vec3 across;
+    vec3 reflectance; // of the surface without it
+    vec3 light;       // what it adds of the scene's lights
+};
+Wear wear;
+
+// Call it in uniform control flow.
+void read_wear(vec3 n, vec3 reflectance) {
+    vec2 at = map_coordinates(5, WEAR_MAP);
+    vec4 texel = texture(wear_map, at);
+    vec2 twice = (texel.ba * 255.0 - 128.0) / 127.0;
+    vec2 right = dFdx(at);
+    vec2 up = dFdy(at);
+    float side = right.x * up.y < right.y * up.x ? -1.0 : 1.0;
+    vec3 u_axis = side * (dFdx(world_position) * up.y - dFdy(world_position) * right.y);
+    vec3 v_axis = side * (dFdy(world_position) * right.x - dFdx(world_position) * up.x);
+    float angle = 0.5 * atan(twice.y, twice.x + 1e-6);
+    vec3 along = cos(angle) * normalize(u_axis + 1e-20) + sin(angle) * normalize(v_axis + 1e-20);
+    along = normalize(along - dot(along, n) * n);
+    wear = Wear(texel.r, texel.g, min(length(twice), 1.0), 2.5 + 1.5 * sin(9.0 * angle), along, cross(n, along),
+                reflectance, vec3(0.0));
+}
+
+// A slit's diffraction: density of the light over the direction cosine across it, for each primary.
+vec3 slit_density(float u) {
+    vec3 x = PI * wear.width * u / LAMBDA + 1e-4;
+    vec3 wave = sin(x) / x;
+    return wear.width / LAMBDA * wave * wave;
+}
+
+// Adds a light, as add_light() does. A density over direction cosines is a radiance per irradiance on the surface.
+void wear_light(vec3 irradiance, float n_l, vec3 l, vec3 v, float variance) {
+    wear.light += wear.dust / PI * DUST_ALBEDO * n_l * irradiance;
+    if (wear.scratched < 0.004) return;
+    variance += SCRATCH_VARIANCE;
+    float u = dot(l + v, wear.along);
+    float density = exp(-0.5 * u * u / variance) * inversesqrt(2.0 * PI * variance);
+    wear.light += wear.scratched * n_l * density * slit_density(dot(l + v, wear.across)) * wear.reflectance * irradiance;
+}
+
+// What a scratch shows of the environment: the mean over its arc, weighted by a slit's diffraction without its fringes.
+vec3 scratch_reflection(vec3 n, vec3 v) {
+    float v_t = dot(v, wear.along);
+    float v_h = dot(v, wear.across);
+    float radius = sqrt(max(1.0 - v_t * v_t, 0.0));
+    vec3 sum = vec3(0.0);
+    float weights = 0.0;
+    for (int i = 0; i < SCRATCH_LOOKUPS; ++i) {
+        float t = PI * (float(i) + 0.5) / float(SCRATCH_LOOKUPS);
+        float s_h = radius * cos(t);
+        float weight = sin(t) / (1.0 + 16.0 * (s_h + v_h) * (s_h + v_h));
+        vec3 direction = radius * sin(t) * n + s_h * wear.across - v_t * wear.along;
+        sum += weight * environment_light(direction, SCRATCH_ROUGHNESS);
+        weights += weight;
+    }
+    return sum / weights;
+}
+
+// The surface's radiance with its marks.
+vec3 worn(vec3 radiance, vec3 n, vec3 v, vec3 diffuse_light) {
+    float left = max(1.0 - wear.dust, 0.0);
+    vec3 sum = wear.dust * DUST_ALBEDO * diffuse_light + wear.light;
+    float scratched = left * wear.scratched;
+    if (scratched > 0.004) {
+        sum += scratched * wear.reflectance * scratch_reflection(n, v);
+        left -= scratched;
+    }
+    return sum + left * radiance;
+}
+#endif

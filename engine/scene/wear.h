@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+
+#include "engine/image/byte_image.h"
+
+namespace rowland::scene {
+
+/// Marks of use on a surface, the members of the glTF material extension ROWLAND_materials_wear. The densities go from
+/// 0, none, to 1: 170 000 scratches, 400 fingerprints and 400 000 specks of dust per square metre.
+struct Wear {
+    float scratches = 0.0F;
+    float fingerprints = 0.0F;
+    float dust = 0.0F;
+    float size_m = 0.12F;  ///< width and height of the surface on which u and v go from 0 to 1; 0.005 to 2
+    std::uint32_t seed = 1;
+
+    friend bool operator==(const Wear&, const Wear&) = default;
+};
+
+inline constexpr int kWearTexels = 1024;  ///< along each side of wear_map()
+
+/// Draws the marks as coverage, which repeats from 0 to 1 in u and v. R: dust; G: grease; B and A: of scratches times
+/// the cosine and the sine of twice their angle from u to v, 128 + 127 x, so that opposite directions are one and the
+/// mean of directions is no direction. Equal arguments give equal bytes.
+image::ByteImage wear_map(const Wear& wear);
+
+/// Multiplies the coverage by the mask's red channel, bilinear, both from 0 to 1 in u and v.
+void mask_wear(const image::ByteImage& mask, image::ByteImage& map);
+
+}  // namespace rowland::scene
