@@ -18,8 +18,8 @@ namespace {
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kScratchesPerArea = 170'000.0F;
 constexpr float kPrintsPerArea = 400.0F;
-constexpr float kSpecksPerArea = 400'000.0F;
-constexpr float kFibresPerArea = 1'500.0F;
+constexpr float kSpecksPerArea = 3e6F;
+constexpr float kFibresPerArea = 6'000.0F;
 
 /// The distributions of the standard library are not the same everywhere.
 class Random {
@@ -116,12 +116,27 @@ void draw_scratches(float count, Random& random, Canvas& canvas) {
     }
 }
 
+void draw_disc(const glm::vec2& middle, float radius, const glm::vec4& coverage, Canvas& canvas) {
+    const auto reach = static_cast<int>(radius + 1.5F);
+    const glm::vec2 nearest = glm::round(middle);
+    for (int row = -reach; row <= reach; ++row)
+        for (int column = -reach; column <= reach; ++column) {
+            const glm::vec2 texel = nearest + glm::vec2(column, row);
+            const float covered = glm::clamp(radius - glm::distance(texel, middle) + 0.5F, 0.0F, 1.0F);
+            canvas.at(static_cast<int>(texel.x), static_cast<int>(texel.y)) += covered * coverage;
+        }
+}
+
 void draw_dust(float area, float density, Random& random, Canvas& canvas) {
     constexpr glm::vec4 kDust(1.0F, 0.0F, 0.0F, 0.0F);
     for (auto left = static_cast<int>(kSpecksPerArea * area * density); left > 0; --left) {
-        // Few are large: radii of 10 to 90 micrometres, a density of their cubes.
-        const float radius = 10e-6F / std::sqrt(1.0F - 0.988F * random()) / canvas.texel_m();
-        canvas.splat(static_cast<float>(kWearTexels) * glm::vec2(random(), random()), kPi * radius * radius * kDust);
+        // Few are large: radii from 15 to 137 micrometres, whose density falls with their cube.
+        const float radius = 15e-6F / std::sqrt(1.0F - 0.988F * random()) / canvas.texel_m();
+        const glm::vec2 middle = static_cast<float>(kWearTexels) * glm::vec2(random(), random());
+        if (radius < 0.6F)
+            canvas.splat(middle, kPi * radius * radius * kDust);
+        else
+            draw_disc(middle, radius, kDust, canvas);
     }
     for (auto left = static_cast<int>(kFibresPerArea * area * density); left > 0; --left) {
         const Line fibre{.angle = random.between(0.0F, 2.0F * kPi),

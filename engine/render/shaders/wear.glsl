@@ -22,6 +22,9 @@ struct Wear {
 };
 Wear wear;
 
+// 0 for a vector of 0, as where texture coordinates do not change.
+vec3 unit_or_zero(vec3 a) { return a * inversesqrt(max(dot(a, a), 1e-30)); }
+
 // Call it in uniform control flow.
 void read_wear(vec3 n, vec3 reflectance) {
     vec2 at = map_coordinates(5, WEAR_MAP);
@@ -33,8 +36,8 @@ void read_wear(vec3 n, vec3 reflectance) {
     vec3 u_axis = side * (dFdx(world_position) * up.y - dFdy(world_position) * right.y);
     vec3 v_axis = side * (dFdy(world_position) * right.x - dFdx(world_position) * up.x);
     float angle = 0.5 * atan(twice.y, twice.x + 1e-6);
-    vec3 along = cos(angle) * normalize(u_axis + 1e-20) + sin(angle) * normalize(v_axis + 1e-20);
-    along = normalize(along - dot(along, n) * n);
+    vec3 along = cos(angle) * unit_or_zero(u_axis) + sin(angle) * unit_or_zero(v_axis);
+    along = unit_or_zero(along - dot(along, n) * n);
     wear = Wear(texel.r, texel.g, min(length(twice), 1.0), 2.5 + 1.5 * sin(9.0 * angle), along, cross(n, along),
                 reflectance, vec3(0.0));
 }

@@ -71,6 +71,32 @@ TEST_F(Surface, ATurnOfTheGroovesIsATurnOfTheTangents) {
     EXPECT_LT(difference, 1e-4F * largest);  // float, turned before or after the vertices' interpolation
 }
 
+/// Under light from everywhere grease shows what all orders reflect, wherever they go.
+TEST_F(Surface, GreaseScattersWhatTheGratingReflects) {
+    mesh_ = flat_triangle();
+    mesh_.uvs.assign(3, glm::vec2(0.0F));
+    const CookedMaterial cooked = cook(kSlitCd, R"({"representation": "arc"})");
+    show(cooked);
+    render::StandardMaterial surface = material_->base();
+    surface.base_colour = glm::vec3(0.0F);
+    const auto map = std::make_shared<gpu::Texture>(gpu::TextureDesc{});
+    map->upload(std::span<const glm::vec4>(std::array{glm::vec4(0.0F, 1.0F, glm::vec2(128.0F / 255.0F))}));
+    surface.wear_texture = {.texture = map, .uv_set = 0, .transform = {}};
+    world_.add(entity_, std::move(surface));
+    const glm::dvec3 reflected = layer_weights(cooked.material.grating).reflected;
+    const std::size_t middle = DrawnTriangle::kSize * DrawnTriangle::kSize / 2 + DrawnTriangle::kSize / 2;
+    EXPECT_GT(reflected.y, 0.4);
+    for (const double light : {0.25, 1.0}) {
+        lighting::LightProbe probe = *light_.probe;
+        probe.environment.layout = {.face_size = 4, .levels = 1};
+        probe.environment.scale = static_cast<float>(light);
+        probe.environment.halves.assign(3 * probe.environment.layout.offset(1), 0x3C00);
+        renderer_->set_probe(std::move(probe));
+        // A dielectric base adds 4 % of what reaches it.
+        EXPECT_NEAR(draw()[middle].y, (reflected.y + 0.04 * (1.0 - reflected.y)) * light, 0.01 * light) << light;
+    }
+}
+
 TEST_F(Surface, ViewsFromBelowAreBlack) {
     light_ = light_of(smooth_probe(), three_keys());
     mesh_ = flat_triangle();

@@ -223,8 +223,8 @@ class ProgramLimits : public rowland::test::GlTest {};
 /// and 60 components between two.
 TEST_F(ProgramLimits, TheLargestProgramsKeepToWhatOpenGlGuarantees) {
     using namespace render::feature;
-    constexpr render::SurfaceFeatures kAllMaps =
-        kBaseColourMap | kMetallicRoughnessMap | kOcclusionMap | kEmissiveMap | (kEmissiveMap << kSecondUvShift);
+    constexpr render::SurfaceFeatures kAllMaps = kBaseColourMap | kMetallicRoughnessMap | kOcclusionMap | kEmissiveMap |
+                                                 kWearMap | (kEmissiveMap << kSecondUvShift);
     constexpr render::SurfaceFeatures kAll = kAllMaps | kColours | kTextureTransformExtension | kAlphaMask | kLights;
     gpu::ShaderLibrary library;
     library.add_embedded(render::shader_files());
