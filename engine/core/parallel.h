@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -31,24 +32,30 @@ template <typename T>
 class Lazy {
  public:
     Lazy(T value) : shared_(std::make_shared<Shared>()) {  // NOLINT(google-explicit-constructor): a T serves as one
-        std::call_once(shared_->once, [&] { shared_->value = std::move(value); });
+        shared_->value = std::move(value);
+        shared_->computed = true;
     }
     explicit Lazy(std::function<T()> compute) : shared_(std::make_shared<Shared>()) {
         shared_->compute = std::move(compute);
     }
 
     const T& operator*() const {
-        std::call_once(shared_->once, [&] { shared_->value = shared_->compute(); });
+        if (!shared_->computed) {
+            const std::lock_guard lock(shared_->mutex);
+            if (!shared_->computed) shared_->value = shared_->compute();
+            shared_->computed = true;
+        }
         return *shared_->value;
     }
     const T* operator->() const { return &**this; }
 
-    /// Not while another thread may compute it.
-    bool is_computed() const { return shared_->value.has_value(); }
+    bool is_computed() const { return shared_->computed; }
 
  private:
+    // Not std::call_once, after whose exception ThreadSanitizer waits for ever.
     struct Shared {
-        std::once_flag once;
+        std::mutex mutex;
+        std::atomic<bool> computed = false;
         std::function<T()> compute;
         std::optional<T> value;
     };
