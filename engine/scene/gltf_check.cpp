@@ -90,7 +90,7 @@ constexpr Member map(const char* key, const char* target) {
     return {.key = key, .kind = Kind::Map, .most = std::numeric_limits<std::int32_t>::max(), .target = target};
 }
 
-constexpr std::int64_t kMaximumBytes = std::numeric_limits<std::uint32_t>::max();
+constexpr std::int64_t kMaximumBytes = std::numeric_limits<std::int32_t>::max();
 constexpr std::int64_t kMaximumCount = std::numeric_limits<std::int32_t>::max();
 constexpr std::int64_t kMaximumUvSet = 1 << 20;
 // Exporters round: what is a little over 1 is clamped.
@@ -164,7 +164,7 @@ constexpr std::array kWear = {number("scratches", kFactor),
                               number("fingerprints", kFactor),
                               number("dust", kFactor),
                               number("size_m", kWearSize),
-                              integer("seed", 0, std::numeric_limits<std::uint32_t>::max()),
+                              integer("seed", 0, std::numeric_limits<std::int32_t>::max()),
                               integer("texCoord", 0, 1),
                               object("maskTexture", kUse)};
 constexpr std::array kStrength = {number("emissiveStrength", kEmission)};

@@ -183,6 +183,13 @@ foil.sampler = json.dumps({"magFilter": 9728, "wrapS": 33071})
 value = foil.object()
 value["grooveTexture"] = {"sparkle": True, "extensions": {"KHR_texture_transform": {"scale": [2, 3]}}}
 foil.replace(value)
+wear = bpy.data.materials["Foil"].rowland_wear
+wear.dust = 0.3
+wear.size_m = 0.085
+wear.seed = 2147483647
+wear.mask = grooves("worn", 2)
+expect(bpy.data.materials["DVD"].rowland_wear.object(), {}, "a new disc's wear")
+worn = wear.object()
 before = gratings()
 expect(sorted(before), ["DVD", "Foil", "Vinyl"], "materials with gratings")
 export("scene.glb")
@@ -197,6 +204,9 @@ for name in ("scene.glb", "scene.gltf"):
     expect(pixels(fields.groove_image), [v for i in range(16) for v in (i, 128, 0, 255)], f"the image of {name}")
     expect(json.loads(fields.sampler), {"magFilter": 9728, "wrapS": 33071}, f"the sampler of {name}")
     expect(bpy.data.materials["Plain"].rowland.text, "", "a material without a grating")
+    expect(bpy.data.materials["Foil"].rowland_wear.object(), worn, f"the wear of {name}")
+    expect(pixels(bpy.data.materials["Foil"].rowland_wear.mask)[:2], [0, 128], f"the wear's mask in {name}")
+    expect(bpy.data.materials["Plain"].rowland_wear.object(), {}, "a material without wear")
     with bpy.context.temp_override(material=bpy.data.materials["Foil"]):
         bpy.ops.rowland.remove()
     expect("Foil" in gratings(), False, "a grating that was removed")

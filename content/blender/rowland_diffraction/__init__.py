@@ -1,10 +1,12 @@
-"""Diffraction gratings on Blender's materials, for Rowland (glTF extension ROWLAND_materials_diffraction)."""
+"""Diffraction gratings and wear on Blender's materials, for Rowland (glTF extensions ROWLAND_materials_diffraction and
+ROWLAND_materials_wear)."""
 
 import bpy
 
 from .gltf import glTF2ExportUserExtension, glTF2ImportUserExtension  # noqa: F401: the glTF add-on looks for them here
 from .panel import CLASSES
 from .properties import RowlandGrating
+from .wear import ROWLAND_PT_wear, RowlandWear
 
 bl_info = {
     "name": "Rowland diffraction",
@@ -19,13 +21,17 @@ bl_info = {
 
 def register():
     bpy.utils.register_class(RowlandGrating)
+    bpy.utils.register_class(RowlandWear)
     bpy.types.Material.rowland = bpy.props.PointerProperty(type=RowlandGrating)
-    for one in CLASSES:
+    bpy.types.Material.rowland_wear = bpy.props.PointerProperty(type=RowlandWear)
+    for one in (*CLASSES, ROWLAND_PT_wear):
         bpy.utils.register_class(one)
 
 
 def unregister():
-    for one in reversed(CLASSES):
+    for one in reversed((*CLASSES, ROWLAND_PT_wear)):
         bpy.utils.unregister_class(one)
+    del bpy.types.Material.rowland_wear
     del bpy.types.Material.rowland
+    bpy.utils.unregister_class(RowlandWear)
     bpy.utils.unregister_class(RowlandGrating)

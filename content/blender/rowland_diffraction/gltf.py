@@ -1,4 +1,4 @@
-"""Writes and reads the grating with Blender's own glTF exporter and importer, which call these classes."""
+"""Writes and reads gratings and wear with Blender's own glTF exporter and importer, which call these classes."""
 
 import importlib
 import json
@@ -9,7 +9,7 @@ import urllib.parse
 import bpy
 import numpy
 
-from . import grating
+from . import grating, wear
 
 # Debian 12's Blender imports no mesh without it: its glTF importer asks for a name that its NumPy has dropped.
 if "bool" not in numpy.__dict__:
@@ -62,14 +62,13 @@ class glTF2ExportUserExtension:
         self.Extension = Extension
         self.textures = {}
 
-    def texture(self, fields, export_settings):
-        """The exporter's texture of the groove image; materials with the same image and sampler share one."""
+    def texture(self, image, sampler_text, export_settings):
+        """The exporter's texture of an image; materials with the same image and sampler share one."""
         from io_scene_gltf2.io.com import gltf2_io
 
         BinaryData = exporter_module("binary_data").BinaryData
         ImageData = exporter_module("image_data").ImageData
-        image = fields.groove_image
-        key = (image.name, fields.sampler)
+        key = (image.name, sampler_text)
         if key not in self.textures:
             data = image_bytes(image)
             media_type = "image/png" if data.startswith(b"\x89PNG") else "image/jpeg"
@@ -77,7 +76,7 @@ class glTF2ExportUserExtension:
             source = gltf2_io.Image(
                 buffer_view=None if separate else BinaryData(data), extensions=None, extras=None, mime_type=media_type,
                 name=image.name, uri=ImageData(data, media_type, image.name) if separate else None)
-            sampler = json.loads(fields.sampler) if fields.sampler else {}
+            sampler = json.loads(sampler_text) if sampler_text else {}
             members = {name: sampler.get(member) for name, member in SAMPLER_MEMBERS.items()}
             self.textures[key] = gltf2_io.Texture(
                 extensions=None, extras=None, name=image.name, source=source,
@@ -85,9 +84,20 @@ class glTF2ExportUserExtension:
         return self.textures[key]
 
     def gather_material_hook(self, gltf2_material, blender_material, export_settings):
-        fields = blender_material.rowland
-        if not fields.text:
-            return
+        if blender_material.rowland.text:
+            self.add(grating.EXTENSION, self.grating(blender_material.rowland, export_settings), gltf2_material)
+        fields = blender_material.rowland_wear
+        if value := fields.object():
+            if fields.mask:
+                value["maskTexture"] = {"index": self.texture(fields.mask, "", export_settings)}
+            self.add(wear.EXTENSION, value, gltf2_material)
+
+    def add(self, name, value, gltf2_material):
+        if gltf2_material.extensions is None:
+            gltf2_material.extensions = {}
+        gltf2_material.extensions[name] = self.Extension(name=name, extension=value, required=False)
+
+    def grating(self, fields, export_settings):
         value = fields.object()
         folder = os.path.dirname(os.path.abspath(export_settings["gltf_filepath"]))
         grating.move_files(value, grating.relative_to(folder))
@@ -99,11 +109,9 @@ class glTF2ExportUserExtension:
                     name: self.Extension(name=name, extension=member, required=False)
                     for name, member in transform.items()
                 }
-            value["grooveTexture"] = {**texture, "index": self.texture(fields, export_settings)}
-        if gltf2_material.extensions is None:
-            gltf2_material.extensions = {}
-        gltf2_material.extensions[grating.EXTENSION] = self.Extension(
-            name=grating.EXTENSION, extension=value, required=False)
+            index = self.texture(fields.groove_image, fields.sampler, export_settings)
+            value["grooveTexture"] = {**texture, "index": index}
+        return value
 
 
 def imported_image(gltf, index):
@@ -138,13 +146,18 @@ class glTF2ImportUserExtension:
     def __init__(self):
         from io_scene_gltf2.io.com.gltf2_io_extensions import Extension
 
-        self.extensions = [Extension(name=grating.EXTENSION, extension={}, required=False)]
+        names = (grating.EXTENSION, wear.EXTENSION)
+        self.extensions = [Extension(name=name, extension={}, required=False) for name in names]
 
     def gather_import_material_after_hook(self, gltf_material, _vertex_color, blender_material, gltf):
-        value = (gltf_material.extensions or {}).get(grating.EXTENSION)
+        extensions = json.loads(json.dumps(gltf_material.extensions or {}))
+        if value := extensions.get(wear.EXTENSION):
+            blender_material.rowland_wear.replace(value)
+            if "maskTexture" in value:
+                blender_material.rowland_wear.mask = imported_image(gltf, value["maskTexture"]["index"])
+        value = extensions.get(grating.EXTENSION)
         if value is None:
             return
-        value = json.loads(json.dumps(value))
         folder = os.path.dirname(os.path.abspath(gltf.filename))
         grating.move_files(value, lambda name: os.path.normpath(os.path.join(folder, name)))
         fields = blender_material.rowland

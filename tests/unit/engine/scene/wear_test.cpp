@@ -106,12 +106,12 @@ TEST(GltfWear, EqualWearIsOneTexture) {
                                                 {"fingerprints", 0.5},
                                                 {"dust", 0.125},
                                                 {"size_m", 0.3},
-                                                {"seed", 4294967295},
+                                                {"seed", 2147483647},
                                                 {"texCoord", 1}}));
     EXPECT_TRUE(scene.warnings.empty());
     ASSERT_EQ(scene.textures.size(), 2U);
     EXPECT_TRUE(scene.materials[0].extensions.empty());
-    EXPECT_EQ(scene.materials[0].wear, (Wear{0.25F, 0.5F, 0.125F, 0.3F, 4294967295U}));
+    EXPECT_EQ(scene.materials[0].wear, (Wear{0.25F, 0.5F, 0.125F, 0.3F, 2147483647U}));
     for (const MaterialDescription& material : scene.materials) {
         ASSERT_TRUE(material.wear_texture);
         EXPECT_EQ(material.wear_texture->texture, 1U);
