@@ -23,6 +23,7 @@
 #include "engine/scene/light.h"
 #include "engine/scene/mesh_recipe.h"
 #include "engine/scene/transform.h"
+#include "engine/scene/wear.h"
 #include "modules/diffraction/asset/material.h"
 #include "modules/diffraction/module.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
@@ -197,6 +198,7 @@ FrameScene::FrameScene(FrameVariant variant, FrameStage& stage, bool software)
                    diffraction::DiffractionSurface{.material = stage.material(variant_),
                                                    .grooves = variant_.groove_map ? stage.groove_map() : nullptr});
     if (variant_.shader == Shader::Film) add_film();
+    if (variant_.worn) add_wear();
     if (variant_.lighting == Lighting::LampsInScene) {
         std::vector<render::DistantLight> distant;
         for (const scene::DirectionalLight& lamp : lamps(variant_.lamps)) {
@@ -230,6 +232,16 @@ void FrameScene::add_film() {
     auto& surface = world_.get<thin_film::FilmSurface>(disc_);
     surface.minimum_thickness_nm = 100.0F;
     surface.thickness_texture.texture = std::move(map);
+}
+
+void FrameScene::add_wear() {
+    const image::ByteImage marks = scene::wear_map({.scratches = 0.3F, .fingerprints = 0.5F, .dust = 0.3F});
+    auto map = std::make_shared<gpu::Texture>(
+        gpu::TextureDesc{.format = gpu::Format::RGBA8, .width = marks.width, .height = marks.height, .levels = 0},
+        gpu::Sampling{.filter = gpu::Filter::Trilinear});
+    map->upload(std::span<const std::uint8_t>(marks.rgba));
+    map->generate_levels();
+    world_.get<render::StandardMaterial>(disc_).wear_texture.texture = std::move(map);
 }
 
 /// Above the camera, so that it is not in the picture; its top faces down.

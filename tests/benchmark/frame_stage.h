@@ -74,6 +74,7 @@ class FrameScene {
 
  private:
     void add_film();
+    void add_wear();
     void add_reflected_plane();
     void shade_in_a_loop(const std::vector<render::DistantLight>& lights);
 

@@ -44,6 +44,7 @@ struct FrameVariant {
     Effect effect = Effect::None;
     bool groove_map = false;     ///< a texture varies the grooves' direction and pitch
     bool thickness_map = false;  ///< a texture varies the film's thickness from 100 nm to its own
+    bool worn = false;           ///< scratches, fingerprints and dust
 };
 
 /// All frames that are timed, each baseline before the variants that are compared with it.

@@ -7,7 +7,6 @@ const vec3 DUST_ALBEDO = vec3(0.5, 0.48, 0.45);
 const float GREASE_ROUGHNESS = 0.5;
 const float SCRATCH_VARIANCE = 4e-4;    // of the direction cosines along a scratch
 const float SCRATCH_ROUGHNESS = 0.45;   // of the look-ups along its arc
-const int SCRATCH_LOOKUPS = 6;
 const vec3 LAMBDA = vec3(0.61, 0.55, 0.465);  // micrometres, of the working space's primaries
 
 struct Wear {
@@ -59,22 +58,24 @@ void wear_light(vec3 irradiance, float n_l, vec3 l, vec3 v, float variance) {
     wear.light += wear.scratched * n_l * density * slit_density(dot(l + v, wear.across)) * wear.reflectance * irradiance;
 }
 
-// What a scratch shows of the environment: the mean over its arc, weighted by a slit's diffraction without its fringes.
+// What a scratch shows of the environment: at the mirror's direction and at both sides of it on the scratch's arc,
+// weighted by a slit's diffraction without its fringes.
 vec3 scratch_reflection(vec3 n, vec3 v) {
     float v_t = dot(v, wear.along);
     float v_h = dot(v, wear.across);
-    float radius = sqrt(max(1.0 - v_t * v_t, 0.0));
     vec3 sum = vec3(0.0);
     float weights = 0.0;
-    for (int i = 0; i < SCRATCH_LOOKUPS; ++i) {
-        float t = PI * (float(i) + 0.5) / float(SCRATCH_LOOKUPS);
-        float s_h = radius * cos(t);
-        float weight = sin(t) / (1.0 + 16.0 * (s_h + v_h) * (s_h + v_h));
-        vec3 direction = radius * sin(t) * n + s_h * wear.across - v_t * wear.along;
+    for (int i = -1; i <= 1; ++i) {
+        float u = 0.35 * float(i);
+        float s_h = u - v_h;
+        float s_n2 = 1.0 - v_t * v_t - s_h * s_h;
+        if (s_n2 <= 0.0) continue;
+        float weight = 1.0 / (1.0 + 16.0 * u * u);
+        vec3 direction = sqrt(s_n2) * n + s_h * wear.across - v_t * wear.along;
         sum += weight * environment_light(direction, SCRATCH_ROUGHNESS);
         weights += weight;
     }
-    return sum / weights;
+    return sum / max(weights, 1e-6);
 }
 
 // The surface's radiance with its marks.

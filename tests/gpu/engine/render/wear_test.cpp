@@ -8,7 +8,7 @@ namespace rowland::render {
 namespace {
 
 constexpr double kPi = 3.14159265358979;
-// Six look-ups of one radiance, and the reflectance of the split-sum table.
+// Three look-ups of one radiance, and the reflectance of the split-sum table.
 constexpr float kLobeError = 5e-3F;
 
 class WearTest : public test::RenderTest {

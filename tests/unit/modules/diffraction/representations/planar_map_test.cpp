@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <glm/geometric.hpp>
+#include <glm/gtx/component_wise.hpp>
 #include <numbers>
 
 #include "engine/core/parallel.h"
 #include "engine/math/spherical_harmonics.h"
+#include "modules/diffraction/asset/material.h"
 #include "modules/diffraction/model/lobe.h"
+#include "modules/diffraction/reference/reference.h"
 #include "modules/diffraction/representations/planar/planar_map.h"
 #include "tests/support/csv.h"
 #include "tests/support/files.h"
@@ -264,6 +268,65 @@ TEST(PlanarMap, AnyNumberOfThreadsGivesTheSameMap) {
         return fill_planar_map(texels, kernel, 1600.0, n, {32, 32});
     };
     EXPECT_EQ(filled(1).xyz, filled(2).xyz);
+}
+
+/// Lines of half nodes along v_g and along the azimuth, through the brightest lamp's first order at 550 nm: how far a
+/// map is below 0, and outside of what the reference has within two nodes, as fractions of the brightest there.
+TEST(FlatMapAroundALamp, IsNeverNegativeAndHasNoStripes) {
+    const Material material = load_material(rowland::test::content_path("materials/ruled_600.json"));
+    const ColourKernel kernel(material.grating, colour::LightSpectra());
+    const PlaneAxes axes = plane_axes(glm::normalize(glm::dvec3(-0.3, 0.3, 0.9)));
+    const PlanarMapSize size = planar_map_size(256);
+    constexpr int kPoints = 41;
+    for (const char* capture : {"interior", "night", "studio", "sunset"}) {
+        const std::string path = fmt::format("/usr/share/blender/datafiles/studiolights/world/{}.exr", capture);
+        if (!std::filesystem::exists(path)) GTEST_SKIP() << "no captures of light (package blender-data)";
+        const lighting::ProbeImage probe(image::load_image(path), lighting::Mapping::Equirectangular);
+        const lighting::LightSamples texels = lighting::light_samples(probe);
+        const PlanarMap map =
+            fill_planar_map(texels, tabulate(kernel), material.grating.pitch_nm, axes.n, size, kernel.zero_order_xyz());
+        glm::dvec3 lamp(0.0);
+        double brightest = 0.0;
+        for (std::size_t i = 0; i < texels.size(); ++i)
+            if (glm::dot(texels.direction(i), axes.n) > 0.15 && texels.green[i] > brightest) {
+                brightest = texels.green[i];
+                lamp = texels.direction(i);
+            }
+        const double azimuth = std::atan2(glm::dot(lamp, axes.e2), glm::dot(lamp, axes.e1));
+        const double s_g = std::sqrt(1.0 - std::pow(glm::dot(lamp, axes.n), 2.0));
+        for (const bool along_azimuth : {false, true}) {
+            std::vector<ShadingPoint> line;
+            std::vector<glm::dvec3> shown;
+            for (int i = 0; i < kPoints; ++i) {
+                const double nodes = 0.5 * (i - kPoints / 2);
+                const double turn = azimuth + (along_azimuth ? nodes * 2.0 * std::numbers::pi / size.azimuths : 0.0);
+                const double v_g =
+                    550.0 / material.grating.pitch_nm - s_g + (along_azimuth ? 0.0 : nodes * 2.0 / (size.views - 1));
+                const glm::dvec3 g = std::cos(turn) * axes.e1 + std::sin(turn) * axes.e2;
+                line.push_back({.view = v_g * g + std::sqrt(1.0 - v_g * v_g) * axes.n, .normal = axes.n, .grating = g});
+                shown.push_back(sample(map, line.back()));
+            }
+            const std::vector<glm::dvec3> reference =
+                reference_radiance(material.grating, probe, colour::LightSpectra(), line);
+            double below_zero = 0.0;
+            double outside = 0.0;
+            for (std::size_t i = 4; i + 4 < kPoints; ++i) {
+                double least = 1e30;
+                double most = 0.0;
+                for (std::size_t j = i - 4; j <= i + 4; ++j) {
+                    least = std::min(least, reference[j].y);
+                    most = std::max(most, reference[j].y);
+                }
+                ASSERT_GT(most, 0.0);
+                below_zero = std::max(below_zero, -glm::compMin(shown[i]) / most);
+                outside = std::max({outside, (least - shown[i].y) / most, (shown[i].y - most) / most});
+            }
+            RecordProperty(fmt::format("{}_{}", capture, along_azimuth),
+                           fmt::format("{:.3g}, {:.3g}", below_zero, outside));
+            EXPECT_LT(below_zero, 0.002) << capture << along_azimuth;
+            EXPECT_LT(outside, 0.02) << capture << along_azimuth;
+        }
+    }
 }
 
 /// Lamps all around, at the horizon and just above it: their cells are the outermost.
